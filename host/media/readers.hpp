@@ -39,7 +39,7 @@ inline constexpr Reader kVideo{
     "colour: RGB of 8 bits, or over 16, by matrix and range; grey: as stored, white by its bits",
     "display matrix, by quarter turns", "left out, with a note", "as shown"};
 inline constexpr Reader kRawVideo{
-    "raw video", {}, {}, "`--raw`", "Photron's header beside it", "that header", "as of a video", "none",
+    "raw video", {}, {}, "your description", "Photron's header beside it", "that header", "as of a video", "none",
     "left out, with a note", "as stored"};
 inline constexpr Reader kPng{
     "PNG", {"\x89PNG\r\n\x1a\n"}, " .png ", {}, "none", "none", "as stored, white 255, or 65535 with a note",
