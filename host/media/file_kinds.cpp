@@ -115,10 +115,9 @@ bool is_png_of_several(std::string_view bytes) {
 // Segments: FF, a marker, and where this has data, their length; behind those of a scan comes its code, in which FF is
 // followed by 0 or a marker of restarts. A camera's further pictures (MPF) are others of the same moment.
 bool is_jpeg_of_several(std::string_view bytes) {
-  for (std::size_t at = 2; at + 4 <= bytes.size();) {
+  for (std::size_t at = 2; (at = bytes.find('\xFF', at)) < bytes.size() && at + 4 <= bytes.size();) {
     const auto marker = static_cast<unsigned char>(bytes[at + 1]);
-    const bool is_code = bytes[at] != '\xFF' || marker == 0 || marker == 0xFF || (marker >= 0xD0 && marker <= 0xD7);
-    if (is_code) {
+    if (marker == 0 || marker == 0xFF || (marker >= 0xD0 && marker <= 0xD7)) {
       ++at;
       continue;
     }

@@ -31,11 +31,11 @@ class OutputFile {
   enum class Lasting { yes, recoverable, no };
 
   // Creates the temporary file. It has no name until it is whole (O_TMPFILE) unless it is to be recoverable or the file
-  // system has no such files; then, or for the moment of commit(), it is `.<name>.nutik-<16 random digits>.part`; of a
-  // name that has no room for this, only the
-  // beginning. No file that is there is opened, so none can be lost, whatever it is called. A link's target is
-  // written, whether there is one or not, unless the link is another user's in a folder that all may write to. Throws
-  // OutputError where the folder is absent or not writable, or where it cannot be told what stands under `path`.
+  // system has no such files; then, or for the moment of commit(), it is `.<name>.nutik-<16 random digits>.part`, with
+  // only the beginning of a name that has no room for this. No file that is there is opened, so none can be lost,
+  // whatever it is called. A link's target is written, whether there is one or not, unless the link is another user's in
+  // a folder that all may write to. Throws OutputError where the folder is absent or not writable, or where it cannot be
+  // told what stands under `path`.
   explicit OutputFile(std::filesystem::path path, Lasting lasting = Lasting::yes);
   // Removes the temporary file unless commit() was called.
   ~OutputFile();

@@ -24,15 +24,16 @@ import numpy as np
 
 from pictures import read_pfm
 
+sys.path[:0] = [str(Path(__file__).resolve().parent.parent / "tools")]
+from words import over  # noqa: E402
+
 HALF_CODE = 0.5 / 65535
 # Of a PFM's single precision and of the arithmetic, whose bound `auto` keeps within a share of a code of 16 bits.
 ARITHMETIC = 1e-6
 
 
 def run(program, *words, folder, fails=False):
-    if words[0] != "info" and "--overwrite" not in words:
-        words += ("--overwrite",)
-    result = subprocess.run([program, *map(str, words)], cwd=folder, capture_output=True, text=True)
+    result = subprocess.run([program, *map(str, over(words))], cwd=folder, capture_output=True, text=True)
     if (result.returncode != 0) != fails:
         sys.exit(f"{' '.join(map(str, words))}: {result.returncode}\n{result.stderr}")
     return result.stdout + result.stderr
@@ -249,7 +250,7 @@ def peak_bytes(program, *words, folder):
     """The most that the program ever held: the least of some runs, for what libraries take varies."""
     peaks = []
     for _ in range(5):
-        line = [sys.executable, "-I", "-S", "-c", STARTER, program, *map(str, words), "-q"]
+        line = [sys.executable, "-I", "-S", "-c", STARTER, program, *map(str, over(words)), "-q"]
         told = subprocess.run(line, cwd=folder, check=True, stdout=subprocess.PIPE, text=True).stdout
         status, peak_kb, starter_kb = map(int, told.split())
         if status != 0:
@@ -274,9 +275,9 @@ def memory(program, work):
     """What a thousand changes in a million ticks take beside a capture of the same size in which one pixel changes twice."""
     (work / "still.dat").write_bytes(dat(64, 64, *(np.array(n) for n in ([0, 999_999], [5, 5], [5, 5], [True, False]))))
     half = ("--start", "0s", "--exposure", "500ms")
-    lines = {"encode": lambda name: ("encode", "--overwrite", f"{name}.dat", f"{name}-m.tik"),
-             "expose": lambda name: ("expose", "--overwrite", f"{name}.tik", *half, f"{name}.pfm"),
-             "expose, reference": lambda name: ("expose", "--overwrite", "--renderer", "reference", f"{name}.tik", *half, f"{name}.pfm")}
+    lines = {"encode": lambda name: ("encode", f"{name}.dat", f"{name}-m.tik"),
+             "expose": lambda name: ("expose", f"{name}.tik", *half, f"{name}.pfm"),
+             "expose, reference": lambda name: ("expose", "--renderer", "reference", f"{name}.tik", *half, f"{name}.pfm")}
     run(program, "encode", "still.dat", "still.tik", "--codec", "none", folder=work)
     for what, words in lines.items():
         more = peak_bytes(program, *words("wide"), folder=work) - peak_bytes(program, *words("still"), folder=work)
@@ -291,11 +292,11 @@ def memory(program, work):
 
 def little_memory(program, work):
     """With the least memory that the program asks for, samples in which little changes are still not written whole."""
-    words = ["encode", "--overwrite", "wide.dat", "little.tik", "--codec", "none", "--memory", "1MB"]
+    words = ["encode", "wide.dat", "little.tik", "--codec", "none", "--memory", "1MB"]
     for _ in range(2):  # what reading the recording takes is known before what its blocks do
         told = run(program, *words, folder=work, fails=True)
         words[-1] = re.search(r"allow more: --memory ([0-9]+MB)", told)[1]
-        if subprocess.run([program, *words], cwd=work, capture_output=True).returncode == 0:
+        if subprocess.run([program, *over(words)], cwd=work, capture_output=True).returncode == 0:
             break
     else:
         sys.exit(f"{words[-1]} is too little, too")

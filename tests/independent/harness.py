@@ -7,6 +7,7 @@ within the same bound of a rounding edge either code is right, and such pixels a
 
 import shlex
 import subprocess
+import sys
 from collections import namedtuple
 from pathlib import Path
 
@@ -14,6 +15,9 @@ import numpy as np
 
 import light as transfers
 import pictures
+
+sys.path[:0] = [str(Path(__file__).resolve().parent.parent / "tools")]
+from words import over  # noqa: E402
 
 TOLERANCE = 1e-5  # of S
 SECONDS = 120  # longest that one run of the program may take
@@ -46,9 +50,7 @@ class Checks:
     def run(self, folder, *arguments, wanted=0):
         """Run the program in a folder: a Run. An exit status other than `wanted` is a failure; None
         wants any."""
-        arguments = [str(argument) for argument in arguments]
-        if arguments[0] not in ("check", "validate"):
-            arguments.append("--overwrite")
+        arguments = over([str(argument) for argument in arguments])
         command = f"cd {shlex.quote(str(folder))} && {shlex.join([self.program] + arguments)}"
         try:
             done = subprocess.run([self.program] + arguments, cwd=folder, capture_output=True,

@@ -184,8 +184,6 @@ int worst_code(const Picture& picture, const std::filesystem::path& path) {
   return worst;
 }
 
-// At quality 100 each of the 64 coefficients of a block is a whole number, off by a half at most: their orthonormal
-// transform moves a code by 64 · 1/2 / 8 = 4 at the very most. Full colour resolution keeps that of smooth colour.
 // It is no clip, and what its refusal advises makes it one.
 TEST(OpenExr, IsRefusedAsAClipWithAWayOut) {
   NEEDS_FFMPEG();
@@ -213,6 +211,8 @@ TEST(OpenExr, IsRefusedAsAClipWithAWayOut) {
   }
 }
 
+// At quality 100 each of the 64 coefficients of a block is a whole number, off by a half at most: their orthonormal
+// transform moves a code by 64 · 1/2 / 8 = 4 at the very most. Full colour resolution keeps that of smooth colour.
 TEST(Jpeg, IsThePictureAsNearAsItsQuality) {
   const Scratch scratch;
   for (const Shape& shape : {Shape{16, 8, 1}, Shape{97, 55, 1}, Shape{97, 55, 3}}) {
