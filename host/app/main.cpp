@@ -10,7 +10,7 @@
 #include "app/command_line/command_line.hpp"
 #include "app/output/console.hpp"
 #include "app/output/output_name.hpp"
-#include "app/text/message_text.hpp"
+#include "session/schema/option.hpp"
 #include "session/below/error.hpp"
 #include "session/devices.hpp"
 #include "system/interruption.hpp"
@@ -22,7 +22,7 @@ namespace {
 enum ExitStatus { kOk = 0, kOther = 1, kUsage = 2, kInput = 3, kDevice = 4, kOutput = 5, kMemory = 6, kSignal = 128 };
 
 int fail(const std::exception& error, ExitStatus status) {
-  nutik::app::print_error(nutik::app::message_text(error));
+  nutik::app::print_error(nutik::message_text(error, nutik::Dialect::command_line));
   return status;
 }
 

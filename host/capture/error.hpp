@@ -47,15 +47,27 @@ enum class Setting {
   tick
 };
 
+// What ends a message that says more than the names of settings: `; take a part of the clip (`from`, `to`)`. Options
+// stand in it between backquotes, by their names in the schema (session/schema), each with its value if it has one.
+struct Advice {
+  std::string text;
+};
+
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message, std::vector<Setting> settings = {})
       : std::runtime_error(message), settings_(std::move(settings)) {}
+  Error(const std::string& message, Advice advice)
+      : std::runtime_error(message), advice_(std::move(advice.text)) {}
+  // All of the message speaks of options.
+  explicit Error(const Advice& advice) : std::runtime_error(advice.text), advice_(advice.text) {}
 
   [[nodiscard]] const std::vector<Setting>& settings() const { return settings_; }
+  [[nodiscard]] const std::string& advice() const { return advice_; }
 
  private:
   std::vector<Setting> settings_;
+  std::string advice_;
 };
 
 // What a person should know although nothing failed, whole sentences; and the settings that would change it.

@@ -54,6 +54,8 @@ std::uint64_t MemoryNeeds::rest_of(std::uint64_t allowed) const {
 }
 
 MemoryTooLittle::MemoryTooLittle(std::uint64_t allowed, MemoryNeeds least)
-    : UsageError(text_of(allowed, least)), needs(std::move(least)) {}
+    : UsageError(text_of(allowed, least),
+                 Advice{format("; allow more: `memory {}MB`", least.bytes() / 1'000'000 + 1)}),
+      needs(std::move(least)) {}
 
 }  // namespace nutik

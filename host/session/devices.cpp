@@ -8,15 +8,33 @@
 #include "opencl/cache_folder.hpp"
 #include "opencl/device_team.hpp"
 #include "render/reference_renderer.hpp"
+#include "session/text/suggestion.hpp"
 
 namespace nutik {
 namespace {
+
+// Of the devices' and platforms' names, in small letters: what might have been meant.
+std::vector<std::string> words_of(const std::vector<DeviceInfo>& devices) {
+  std::vector<std::string> words;
+  for (const DeviceInfo& device : devices) {
+    std::string word;
+    for (const char c : device.name + " " + device.platform + " ") {
+      if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
+        word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      } else if (!word.empty()) {
+        words.push_back(std::exchange(word, {}));
+      }
+    }
+  }
+  return words;
+}
 
 std::vector<std::size_t> chosen(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
   try {
     return choose_devices(devices, wanted);
   } catch (const DeviceError& error) {
-    throw DeviceNotFound(error, wanted, devices);
+    const std::string meant = wanted.size() < 3 ? "" : did_you_mean(lower_case(wanted), words_of(devices));
+    throw DeviceError(error.what(), Advice{meant.empty() ? "" : "\n" + meant.substr(2)});
   }
 }
 
@@ -48,21 +66,6 @@ ComputingRequest ComputingRequest::of_environment() {
   return request;
 }
 
-std::vector<std::string> DeviceNotFound::words() const {
-  std::vector<std::string> words;
-  for (const DeviceInfo& device : devices) {
-    std::string word;
-    for (const char c : device.name + " " + device.platform + " ") {
-      if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
-        word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      } else if (!word.empty()) {
-        words.push_back(std::exchange(word, {}));
-      }
-    }
-  }
-  return words;
-}
-
 std::map<Precision, Verdict> known_verdicts(std::size_t device) {
   const std::filesystem::path folder = default_cache_folder();
   return flaw_of_cache(folder).empty() ? kept_verdicts(device, folder) : std::map<Precision, Verdict>{};
@@ -83,7 +86,7 @@ Renderer& Devices::renderer() {
 
 OpenClRenderer& Devices::opencl() {
   if (auto* renderer = dynamic_cast<OpenClRenderer*>(&this->renderer())) return *renderer;
-  if (has_several()) throw SeveralDevices();
+  if (has_several()) throw UsageError("several devices were asked for, and each is validated alone; name one of them", Advice{": `device 0`"});
   throw UsageError("the reference is no OpenCL device");
 }
 

@@ -47,23 +47,6 @@ struct ComputingRequest {
   friend bool operator==(const ComputingRequest&, const ComputingRequest&) = default;
 };
 
-// The stated name fits no device, or several; what() lists those found.
-struct DeviceNotFound : DeviceError {
-  std::string wanted;
-  std::vector<DeviceInfo> devices;
-
-  DeviceNotFound(const DeviceError& error, std::string stated, std::vector<DeviceInfo> found)
-      : DeviceError(error), wanted(std::move(stated)), devices(std::move(found)) {}
-
-  // Of the devices' and platforms' names, in small letters: what might have been meant.
-  [[nodiscard]] std::vector<std::string> words() const;
-};
-
-// What one device alone can do was asked of several.
-struct SeveralDevices : UsageError {
-  SeveralDevices() : UsageError("several devices were asked for, and each is validated alone; name one of them") {}
-};
-
 // For each arithmetic that was tested on a device, its worst verdict (opencl/self_test.hpp).
 [[nodiscard]] std::map<Precision, Verdict> known_verdicts(std::size_t device);
 
@@ -79,8 +62,8 @@ class Devices {
 
   [[nodiscard]] const ComputingRequest& request() const { return request_; }
 
-  // Wait until the renderer has started. Throw DeviceNotFound, or DeviceError if the device cannot do what is asked;
-  // opencl() throws UsageError if the reference was asked for, SeveralDevices if they are.
+  // Wait until the renderer has started. Throw DeviceError where none has the stated name or it cannot do what is asked;
+  // opencl() throws UsageError if the reference or several were asked for.
   [[nodiscard]] Renderer& renderer();
   [[nodiscard]] OpenClRenderer& opencl();
   // How many devices pictures are shared out among (opencl/device_team.hpp). Waits only where the request may mean

@@ -7,12 +7,6 @@
 #include "session/text/size_text.hpp"
 
 namespace nutik {
-BlocksTooLong::BlocksTooLong(std::uint64_t bytes, std::uint32_t block_samples, std::uint64_t sample_bytes,
-                             std::uint64_t most)
-    : UsageError(format(
-          "blocks of {} samples take {} each, and several are held: more than the {} of memory allowed",
-          block_samples, bytes_text(block_samples * sample_bytes), bytes_text(bytes))),
-      max_samples(most) {}
 
 MemoryBudget MemoryBudget::of_machine() {
   return {static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *

@@ -40,12 +40,4 @@ using NeedsOfFormat = std::function<MemoryNeeds(const CaptureFormat& capture)>;
 [[nodiscard]] MemoryNeeds rendering_needs(const CaptureFormat& capture, ValueType type,
                                           std::uint64_t function_count, std::uint64_t block_samples);
 
-// Blocks of the stated length do not fit the budget.
-struct BlocksTooLong : UsageError {
-  std::uint64_t max_samples;  // that fit
-
-  BlocksTooLong(std::uint64_t bytes, std::uint32_t block_samples, std::uint64_t sample_bytes,
-                std::uint64_t max_samples);
-};
-
 }  // namespace nutik

@@ -148,7 +148,8 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
     }
   }
   if (kind == OutputKind::tik && output.extension() != ".tik") {
-    throw WrongOutputName(kind, format("{} is no name for a capture", name));
+    throw UsageError(format("{} is no name for a capture", name),
+                     Advice{": encode writes .tik files (nutik-cl CLIP CAPTURE.tik)"});
   }
   if (kind == OutputKind::noise && (output.extension() == ".tik" || is_picture_name(output))) {
     throw UsageError(format("{} is no name for a text: a camera's noise is written as .noise", name));
@@ -160,7 +161,7 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
     throw UsageError(format("{}: pictures are written as {}", name, picture_extensions()));
   }
   if (kind == OutputKind::table && output.extension() != ".csv") {
-    throw WrongOutputName(kind, format("{}: tables are written as .csv", name));
+    throw UsageError(format("{}: tables are written as .csv", name), Advice{", or as - to standard output"});
   }
   std::error_code error;
   if (is_absent(output)) return;
@@ -173,7 +174,8 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
   }
   if (replacing == Replacing::all || !std::filesystem::is_regular_file(output, error)) return;
   if (std::filesystem::file_size(output, error) == 0 || carries_recipe(output)) return;
-  throw OutputIsThere(format("{} is there already and is not replaced", name));
+  throw UsageError(format("{} is there already and is not replaced", name),
+                   Advice{"; choose another name, or replace it with `overwrite`"});
 }
 
 void note_later(std::vector<std::string>& notes, const std::function<std::filesystem::path(std::uint64_t)>& picture,

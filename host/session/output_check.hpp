@@ -14,17 +14,6 @@ namespace nutik {
 
 enum class OutputKind { tik, picture, mask, table, video, noise, functions };
 
-// The name is one of another kind.
-struct WrongOutputName : UsageError {
-  WrongOutputName(OutputKind wanted, const std::string& message) : UsageError(message), kind(wanted) {}
-  OutputKind kind;
-};
-
-// What is there is not replaced unless asked.
-struct OutputIsThere : UsageError {
-  using UsageError::UsageError;
-};
-
 // What an output may take the place of: nothing but an empty file and a picture that carries its recipe, and so can be
 // made again, or all of its kind.
 enum class Replacing { made_by_recipe, all };

@@ -13,6 +13,8 @@
 #include "session/clips/encoding.hpp"
 #include "session/making/capture_figures.hpp"
 #include "session/making/joining.hpp"
+#include "session/schema/option.hpp"
+#include "session/schema/requests.hpp"
 #include "working.hpp"
 
 namespace nutik::python {
@@ -51,7 +53,7 @@ std::shared_ptr<OpenCapture> opened(const Terms& terms, const py::object& progre
 // A capture, what is doubtful about it, and what a person should know of the clip.
 py::tuple told_of(std::shared_ptr<OpenCapture> capture, std::vector<std::string> warnings,
                   const std::vector<Note>& notes) {
-  return py::make_tuple(std::move(capture), std::move(warnings), note_texts(notes));
+  return py::make_tuple(std::move(capture), std::move(warnings), note_texts(notes, Dialect::python));
 }
 
 py::tuple opened_and_told(const Terms& terms, const py::object& progress) {
@@ -78,14 +80,14 @@ py::tuple encoded(const Terms& terms, const std::optional<std::string>& output, 
 
 py::tuple open(const std::string& path, const Settings& settings, const Settings& computing,
                const py::object& progress) {
-  return opened_and_told({source_request(path, settings), devices_for(computing_request(computing)), {}}, progress);
+  return opened_and_told({clip_request(options_of(CommandId::encode, settings), path), devices_for(computing_request(options_of(CommandId::expose, computing))), {}}, progress);
 }
 
 py::tuple encode_clip(const std::string& path, const std::optional<std::string>& output,
                       const std::string& codec, const Settings& settings, const Settings& computing,
                       const py::object& progress) {
   if (is_tik(path)) throw UsageError(format("{} is a capture already; nutik.open() opens it", path));
-  return encoded({source_request(path, settings), devices_for(computing_request(computing)), {}}, output,
+  return encoded({clip_request(options_of(CommandId::encode, settings), path), devices_for(computing_request(options_of(CommandId::expose, computing))), {}}, output,
                  codec, progress);
 }
 
@@ -96,7 +98,7 @@ py::tuple joined(const std::vector<std::string>& captures, const std::string& ou
       without_lock([&](const Stopping& stopping) { return join(request, stopping.progress()); }, progress);
   Terms of_file;
   of_file.source.path = output;
-  of_file.devices = devices_for(computing_request(computing));
+  of_file.devices = devices_for(computing_request(options_of(CommandId::expose, computing)));
   return told_of(opened(of_file, py::none()), {}, made.notes);
 }
 
@@ -115,7 +117,7 @@ py::tuple encode_pictures(const py::object& pictures, const py::array& first, co
   notes.timing.starts_ns = starts_ns;
   for (const auto& [start_ns, end_ns] : exposures_ns) notes.timing.exposures.push_back({start_ns, end_ns});
   notes.timing.exposed_ns = exposed_ns;
-  Terms terms{source_request(name, settings), devices_for(computing_request(computing)), {}};
+  Terms terms{clip_request(options_of(CommandId::encode, settings), name), devices_for(computing_request(options_of(CommandId::expose, computing))), {}};
   if (py::isinstance<py::array>(pictures)) {
     const auto array = pictures.cast<py::array>();
     notes.sample_count = static_cast<std::uint64_t>(array.shape(0));

@@ -72,8 +72,7 @@ template <typename Value>
 struct AskedExposure {
   std::optional<HeldFunctions> functions;
   std::optional<HeldMask> mask;
-  Settings settings;
-  std::optional<DelayRequest> delay;
+  Options options;
 };
 [[nodiscard]] ExposureRequest exposure_request(const AskedExposure& asked);
 // How values are stored: `dtype`, `transfer`, `negative`.

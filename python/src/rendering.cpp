@@ -7,27 +7,12 @@
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/requests/output_request.hpp"
+#include "session/schema/option.hpp"
+#include "session/schema/requests.hpp"
 #include "working.hpp"
 
 namespace nutik::python {
 namespace {
-
-std::string stated(const Settings& settings, const std::string& name, const std::string& otherwise) {
-  const auto found = settings.find(name);
-  return found == settings.end() ? otherwise : found->second;
-}
-
-double number(const Settings& settings, const std::string& name, double otherwise) {
-  const auto found = settings.find(name);
-  return found == settings.end() ? otherwise : std::stod(found->second);
-}
-
-NegativeLight negative_light(const std::string& text) {
-  if (text == "saturate") return NegativeLight::saturate;
-  if (text == "offset") return NegativeLight::offset;
-  if (text == "abs") return NegativeLight::absolute;
-  throw UsageError(format("negative='{}' is not known; choose 'saturate', 'offset' or 'abs'", text));
-}
 
 ValueType value_type(const std::string& name) {
   if (name == "uint8") return ValueType::code8;
@@ -76,63 +61,47 @@ HeldPicture render(const OpenCapture& capture, const AskedExposure& asked, const
   return {std::move(exposed.picture), std::move(figures)};
 }
 
-// In words, or the time of each pixel in nanoseconds, [height, width].
+// The time of each pixel in nanoseconds, [height, width].
 using DelayTimes = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
-std::optional<DelayRequest> delay_of(const std::optional<DelayTimes>& times_ns, const Settings& settings) {
-  if (times_ns) {
-    if (times_ns->ndim() != 2 || times_ns->size() == 0) {
-      throw UsageError(
-          "delay= is an array of two axes, the picture's height and its width, none of them empty");
-    }
-    return DelayRequest::of_times(static_cast<std::uint32_t>(times_ns->shape(1)),
-                                  static_cast<std::uint32_t>(times_ns->shape(0)),
-                                  {times_ns->data(), static_cast<std::size_t>(times_ns->size())});
-  }
-  const auto stated = settings.find("delay");
-  if (stated == settings.end()) return std::nullopt;
-  DelayRequest request = DelayRequest::parse(stated->second, "delay");
-  request.read();
-  return request;
+DelayRequest delay_of(const DelayTimes& times_ns) {
+  if (times_ns.ndim() != 2 || times_ns.size() == 0)
+    throw UsageError("delay= is an array of two axes, the picture's height and its width, none of them empty");
+  return DelayRequest::of_times(static_cast<std::uint32_t>(times_ns.shape(1)),
+                                static_cast<std::uint32_t>(times_ns.shape(0)),
+                                {times_ns.data(), static_cast<std::size_t>(times_ns.size())});
 }
 
 }  // namespace
 
 ExposureRequest exposure_request(const AskedExposure& asked) {
-  const Settings& settings = asked.settings;
-  ExposureRequest request;
-  request.start = StatedTime::parse(stated(settings, "start", "0s"), "start");
-  request.normalization = Normalization::parse(stated(settings, "normalize", "support"));
-  request.gain = number(settings, "gain", 1.0);
-  if (!std::isfinite(request.gain) || request.gain == 0.0)
-    throw UsageError(format("gain={} makes a picture of nothing; choose a number nearer to 1", request.gain));
-  request.unmapped_is_zero = settings.contains("unmapped");
+  ExposureRequest request = weighed_exposure(asked.options);
+  request.start = asked.options.start.value_or(StatedTime());
   if (asked.functions) {
     request.gains = Shared(set_of(*asked.functions));
   } else {
-    const double error = number(settings, "shutter_error", ShutterShape::kDefaultError);
-    if (!(error >= ShutterShape::kMinError && error < 1.0))
-      throw UsageError(format("shutter_error={} is no share from {} to 1", error, ShutterShape::kMinError));
-    request.gains = PlainInterval{StatedTime::parse(stated(settings, "exposure", ""), "exposure"),
-                                  Shutter(ShutterShape::parse(stated(settings, "shutter", "box")), error)};
+    request.gains = PlainInterval{asked.options.exposure.value(), stated_shutter(asked.options)};
   }
   if (asked.mask) request.mask = Shared(MaskWithRegions(*asked.mask->mask));
-  request.delay = asked.delay;
   return request;
 }
 
 OutputFormat output_of(const Settings& settings, const CaptureFormat& capture) {
-  const ValueType type = value_type(stated(settings, "dtype", "float32"));
-  OutputRequest request;
+  const ValueType type = value_type(settings.at("dtype"));
+  Options options;
+  for (const auto& [argument, option] : {std::pair("transfer", "out-transfer"), std::pair("negative", "negative")}) {
+    if (const auto stated = settings.find(argument); stated != settings.end())
+      option_of(CommandId::expose, option)->state(options, argument, {stated->second});
+  }
+  OutputRequest request = options.picture;
+  if (request.negative && !holds_codes(type))
+    throw UsageError(Advice{"`negative` says what codes make of light below 0, and an array of light keeps it; leave it out"});
   request.depth = type == ValueType::code8    ? Depth::bits8
                   : type == ValueType::code16 ? Depth::bits16
                                               : Depth::floating;
-  if (settings.contains("transfer")) request.transfer = parse_out_transfer(settings.at("transfer"));
+  const auto negative = std::exchange(request.negative, std::nullopt);
   OutputFormat format = output_format(request, capture);
   format.type = type;
-  if (settings.contains("negative")) {
-    if (!holds_codes(type)) throw LightIsKept("the array");
-    format.negative = negative_light(settings.at("negative"));
-  }
+  format.negative = negative.value_or(format.negative);
   return format;
 }
 
@@ -171,10 +140,10 @@ py::dict figures_of(const ExposedPicture& exposed) {
 void bind_rendering(py::module_& module) {
   py::class_<AskedExposure>(module, "Exposure")
       .def(py::init([](std::optional<HeldFunctions> functions, std::optional<HeldMask> mask,
-                       Settings settings, const std::optional<DelayTimes>& delays_ns) {
-             auto delay = delay_of(delays_ns, settings);
-             return AskedExposure{std::move(functions), std::move(mask), std::move(settings),
-                                  std::move(delay)};
+                       const Settings& settings, const std::optional<DelayTimes>& delays_ns) {
+             Options options = options_of(CommandId::expose, settings);
+             if (delays_ns) options.delay = delay_of(*delays_ns);
+             return AskedExposure{std::move(functions), std::move(mask), std::move(options)};
            }),
            py::arg("functions"), py::arg("mask"), py::arg("settings"), py::arg("delays_ns"));
   module.def("render", &render, py::arg("capture"), py::arg("exposure"), py::arg("output"), py::arg("region"),

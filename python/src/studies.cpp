@@ -18,49 +18,13 @@
 namespace nutik::python {
 namespace {
 
-template <typename Value>
-Value named(const std::string& word, const char* argument,
-            const std::vector<std::pair<std::string, Value>>& values) {
-  std::string known;
-  for (const auto& [name, value] : values) {
-    if (word == name) return value;
-    known += (known.empty() ? "'" : ", '") + name + "'";
-  }
-  throw UsageError(format("{}='{}' is unknown; there are {}", argument, word, known));
-}
-
-StudyStyle style_of(const std::string& word) {
-  return named<StudyStyle>(word, "style",
-                           {{"trail", StudyStyle::trail},
-                            {"strobe", StudyStyle::strobe},
-                            {"rear-curtain", StudyStyle::rear_curtain},
-                            {"frozen", StudyStyle::frozen},
-                            {"clean", StudyStyle::clean},
-                            {"slit", StudyStyle::slit}});
-}
-
 StudyRequest study_request(const Settings& settings,
                            const std::variant<std::uint32_t, std::vector<std::string>>& moments,
                            const std::vector<std::array<std::uint32_t, 4>>& regions) {
-  StudyRequest request;
-  request.style = style_of(settings.at("style"));
-  request.spacing =
-      named<MomentSpacing>(settings.at("spacing"), "spacing",
-                           {{"time", MomentSpacing::time}, {"distance", MomentSpacing::distance}});
-  if (settings.contains("trail")) {
-    request.trail = named<TrailShape>(settings.at("trail"), "trail",
-                                      {{"even", TrailShape::even},
-                                       {"fade", TrailShape::fade},
-                                       {"ramp", TrailShape::ramp},
-                                       {"none", TrailShape::none}});
-  }
-  request.slit_from = named<SlitFrom>(settings.at("slit_from"), "slit_from",
-                                      {{"left", SlitFrom::left},
-                                       {"right", SlitFrom::right},
-                                       {"top", SlitFrom::top},
-                                       {"bottom", SlitFrom::bottom}});
-  if (settings.contains("by")) request.by_codes = static_cast<std::uint32_t>(std::stoul(settings.at("by")));
-  if (settings.contains("feather")) request.feather = Feather::parse(settings.at("feather"));
+  const Options options = options_of(CommandId::study, settings);
+  StudyRequest request = options.study;
+  request.by_codes = options.by;
+  request.feather = options.feather;
   if (const auto* count = std::get_if<std::uint32_t>(&moments)) {
     request.moments = *count;
   } else {
@@ -170,7 +134,7 @@ py::dict activity(const OpenCapture& capture, const std::optional<HeldMask>& mas
   told["redrawn"] = array_of(measured.redrawn);
   told["busiest"] = stretch_of(measured.timeline, measured.moments, false);
   told["quietest"] = stretch_of(measured.timeline, measured.moments, true);
-  told["notes"] = note_texts(measured.notes());
+  told["notes"] = note_texts(measured.notes(), Dialect::python);
   return told;
 }
 

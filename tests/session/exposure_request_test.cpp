@@ -103,11 +103,11 @@ TEST(SeriesRequest, SaysHowManyWouldFit) {
   try {
     static_cast<void>(starts_of({time("2f"), 9}, plain("1f", "1f"), kTimeline));
     FAIL() << "more exposures than the capture has room for";
-  } catch (const SeriesBehindEnd& error) {
-    EXPECT_EQ(error.possible_count, 5u);
+  } catch (const UsageError& error) {
+    EXPECT_EQ(error.advice(), "; `count 5` at most");
   }
   EXPECT_THROW(static_cast<void>(starts_of({time("2f"), {}}, plain("0s", "1s"), kTimeline)),
-               NothingInCapture);
+               UsageError);
 }
 
 TEST(FramesRequest, CountsFramesThatEndWithinTheCapture) {

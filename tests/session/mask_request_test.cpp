@@ -61,7 +61,7 @@ TEST(MaskMaking, TakesThePicturesSizeWhereNothingElseIsKnown) {
   MaskRequest unsized;
   unsized.steps = {step(select::Threshold{grey("a.png", {10, 200, 30}), 100, 255, false}, 5)};
   EXPECT_EQ(make_mask(unsized, nullptr, "").mask, (Mask{3, 1, {0, 5, 0}}));
-  EXPECT_THROW(static_cast<void>(make_mask(MaskRequest{}, nullptr, "")), NoMaskSize);
+  EXPECT_THROW(static_cast<void>(make_mask(MaskRequest{}, nullptr, "")), UsageError);
   unsized.size = NamedSize{{"--size"}, {4, 1}};
   EXPECT_THROW(static_cast<void>(make_mask(unsized, nullptr, "")), InputError);
 }

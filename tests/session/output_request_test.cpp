@@ -78,7 +78,7 @@ TEST(OutputRequest, SaysHowCodesDifferFromTheCaptures) {
 TEST(OutputRequest, AsksWhatBecomesOfLightBelowZeroOfCodesOnly) {
   const OutputRequest offset{{}, NegativeLight::offset};
   EXPECT_EQ(output_format(offset, "picture.png", twelve_bits()).negative, NegativeLight::offset);
-  EXPECT_THROW(static_cast<void>(output_format(offset, "picture.pfm", twelve_bits())), LightIsKept);
+  EXPECT_THROW(static_cast<void>(output_format(offset, "picture.pfm", twelve_bits())), UsageError);
 }
 
 }  // namespace

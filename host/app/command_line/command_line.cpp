@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "app/command_line/help.hpp"
-#include "app/command_line/suggestion.hpp"
+#include "session/text/suggestion.hpp"
 #include "app/command_line/words.hpp"
-#include "app/text/text_table.hpp"
+#include "session/text/text_table.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/text/shell_text.hpp"
@@ -28,7 +28,7 @@ void fail_misspelt_command(const std::string& word) {
 
 // Whether an option says what is exposed, which encoding has no use for.
 bool implies_exposure(const Given& given) {
-  const Option* option = option_of(command(CommandId::expose), given.option->long_name);
+  const Option* option = option_of(CommandId::expose, given.option->long_name);
   return option != nullptr && !option->is_of(CommandId::encode) &&
          (option->scope == Scope::exposure || option->scope == Scope::series);
 }
@@ -60,7 +60,7 @@ const Command& shorthand(const Words& words) {
 [[noreturn]] void fail_other_command(const Option& option, const Command& command) {
   std::vector<std::string> takers;
   for (const Command& other : commands()) {
-    if (option_of(other, option.long_name) != nullptr) takers.emplace_back(other.name);
+    if (option_of(other.id, option.long_name) != nullptr) takers.emplace_back(other.name);
   }
   throw UsageError(format("{} does not go with {}; it is an option of: {}", option.display_name(),
                           command.name, joined(takers)));
@@ -70,15 +70,9 @@ Options options_for(const Command& command, Words words) {
   Options options;
   options.operands = std::move(words.operands);
   for (Given& given : words.given) {
-    const Option* option = option_of(command, given.option->long_name);
+    const Option* option = option_of(command.id, given.option->long_name);
     if (option == nullptr) fail_other_command(*given.option, command);
-    if (const auto* flag = std::get_if<bool Options::*>(&option->member)) {
-      options.** flag = true;
-    } else if (const auto* value = std::get_if<Options::Value Options::*>(&option->member)) {
-      if (options.**value) throw UsageError(format("{} is given twice", option->display_name()));
-      options.** value = given.words.front();
-    }
-    options.said.push_back({option->long_name, std::move(given.words)});
+    option->state(options, option->name(), std::move(given.words));
   }
   return options;
 }
@@ -116,7 +110,7 @@ ParsedCommandLine parse_command_line(std::span<const std::string> words) {
 
 bool reads_standard_input(const Options& options) {
   const Option* first = nullptr;
-  for (const Option& option : app::options()) {
+  for (const Option& option : schema()) {
     const std::string* name = option.reads_standard_input() ? option.stated(options) : nullptr;
     if (name == nullptr || !is_standard_input(*name)) continue;
     if (first != nullptr) {

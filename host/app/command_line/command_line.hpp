@@ -4,8 +4,9 @@
 #include <span>
 #include <string>
 
-#include "app/command_line/option_table.hpp"
-#include "app/command_line/options.hpp"
+#include "app/command_line/command_table.hpp"
+#include "session/schema/option.hpp"
+#include "session/schema/options.hpp"
 
 namespace nutik::app {
 

@@ -1,42 +1,14 @@
 // The commands: what each is called, what it takes and what it does.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "app/commands/commands.hpp"
+#include "session/schema/command_id.hpp"
 
 namespace nutik::app {
-
-enum class CommandId {
-  encode,
-  expose,
-  info,
-  devices,
-  recover,
-  retime,
-  join,
-  batch,
-  check,
-  trace,
-  mask,
-  contact,
-  activity,
-  sweep,
-  video,
-  noise,
-  shutter,
-  again,
-  validate,
-  plate,
-  study,
-  solve,
-  thumbnail,
-  completion,
-  man
-};
 
 // Where help lists a command.
 inline constexpr std::string_view kCaptures = "Captures", kPictures = "Pictures and videos",
@@ -56,15 +28,6 @@ struct Command {
 
 // The commands of the paper's forms, which need no name.
 inline constexpr CommandId kShorthand[] = {CommandId::encode, CommandId::expose, CommandId::info};
-
-// Commands that an option belongs to, as bits.
-using CommandSet = std::uint32_t;
-[[nodiscard]] constexpr CommandSet bit(CommandId id) { return 1u << static_cast<unsigned>(id); }
-
-template <typename... Ids>
-[[nodiscard]] constexpr CommandSet set_of(Ids... ids) {
-  return (bit(ids) | ...);
-}
 
 [[nodiscard]] std::span<const Command> commands();
 // The same, group by group.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "app/command_line/command_table.hpp"
 #include "app/command_line/help.hpp"
 #include "app/command_line/words.hpp"
 #include "app/output/console.hpp"
@@ -106,7 +107,7 @@ std::string option_lines(const Command* command) {
   std::string lines = described("--help", "show what it takes");
   if (command == nullptr) lines += described("--version", "show the version");
   std::set<std::string_view> met;  // what several commands call by one name completes alike
-  for (const Option& option : options()) {
+  for (const Option& option : schema()) {
     const bool is_taken =
         command != nullptr ? option.is_of(command->id)
                            : std::ranges::any_of(kShorthand, [&](CommandId id) { return option.is_of(id); });
@@ -162,7 +163,7 @@ std::string completions(std::span<const std::string> words) {
   try {
     const Words before = Words::of(words.first(words.size() - 1));
     const auto row = [&](const Option& named) {
-      const Option* own = before.command != nullptr ? option_of(*before.command, named.long_name) : nullptr;
+      const Option* own = before.command != nullptr ? option_of(before.command->id, named.long_name) : nullptr;
       return value_lines(own != nullptr ? *own : named);
     };
     if (before.unfinished) return row(*before.given.back().option);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "app/output/console.hpp"
-#include "app/text/text_table.hpp"
+#include "session/text/text_table.hpp"
 #include "session/below/format.hpp"
 
 namespace nutik::app {
@@ -114,7 +114,7 @@ void print_command_help(const Command& command) {
       format("nutik-cl {} [OPTIONS]{}{}\n\n{}\n", command.name, command.operands.empty() ? "" : " ",
              command.operands, wrapped(command.summary, 0));
   std::string_view heading;
-  for (const Option* option : options_of(command)) {
+  for (const Option* option : options_of(command.id)) {
     if (option->heading != heading) text += format("\n{}:\n", heading = option->heading);
     text += option_lines(*option);
   }

@@ -4,7 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "app/command_line/option_table.hpp"
+#include "app/command_line/command_table.hpp"
+#include "session/schema/option.hpp"
 
 #ifndef NUTIK_VERSION
 #error "NUTIK_VERSION is not set"

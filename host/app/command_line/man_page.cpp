@@ -6,7 +6,7 @@
 
 #include "app/command_line/help.hpp"
 #include "app/output/console.hpp"
-#include "app/text/text_table.hpp"
+#include "session/text/text_table.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 
@@ -82,7 +82,7 @@ std::string options_section() {
   std::string text = section("OPTIONS");
   text += escaped("Brackets hold the commands that take an option.") + "\n";
   std::string_view group;
-  for (const Option& option : options()) {
+  for (const Option& option : schema()) {
     if (option.heading != group) text += format(".SS {}\n", escaped(group = option.heading));
     text += item(option_term(option), format("{} [{}]", option.help, takers_of(option)));
   }

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "app/command_line/suggestion.hpp"
-#include "app/text/text_table.hpp"
+#include "session/text/suggestion.hpp"
+#include "session/text/text_table.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "system/is_absent.hpp"

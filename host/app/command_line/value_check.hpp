@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/command_line/option_table.hpp"
+#include "session/schema/option.hpp"
 
 namespace nutik::app {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "app/command_line/suggestion.hpp"
+#include "session/text/suggestion.hpp"
 #include "app/command_line/value_check.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
@@ -24,7 +24,7 @@ namespace {
     meant = {&command(CommandId::expose), &command(CommandId::encode), &command(CommandId::info)};
   }
   for (const Command* each : meant) {
-    for (const Option* option : options_of(*each)) known.push_back(option->name());
+    for (const Option* option : options_of(each->id)) known.push_back(option->name());
   }
   throw UsageError(format("there is no option {}{}; see nutik-cl {}--help", shown(name),
                           did_you_mean(name, known), named != words.end() ? *named + " " : ""));

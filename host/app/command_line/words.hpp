@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "app/command_line/option_table.hpp"
+#include "app/command_line/command_table.hpp"
+#include "session/schema/option.hpp"
 
 namespace nutik::app {
 

@@ -6,9 +6,9 @@
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "app/text/message_text.hpp"
-#include "app/text/number_text.hpp"
-#include "app/text/text_table.hpp"
+#include "session/schema/option.hpp"
+#include "session/text/number_text.hpp"
+#include "session/text/text_table.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/below/pictures.hpp"
@@ -54,13 +54,12 @@ ActivityOutputs outputs_of(const Options& options) {
 
 ActivityRequest activity_request(const Options& options) {
   ActivityRequest request;
-  if (options.tag && !options.mask) throw UsageError("--tag is one of a mask; add -m mask.pgm");
+  if (options.has("tag") && !options.mask) throw UsageError("--tag is one of a mask; add -m mask.pgm");
   if (options.mask) request.mask = *options.mask;
-  request.each_tag = options.tag == "all";
-  if (options.tag && !request.each_tag)
-    request.tag = static_cast<std::uint8_t>(parse_whole_number(*options.tag, "tag", 0, 255));
+  request.each_tag = options.each_tag;
+  request.tag = options.tag;
   request.counts_redrawn = options.counts_redrawn;
-  if (options.by) request.ignored_codes = parse_whole_number(*options.by, "--by", 0, 65'535);
+  request.ignored_codes = options.by.value_or(request.ignored_codes);
   return request;
 }
 
@@ -168,7 +167,7 @@ int run_activity(const Options& options) {
     report_text(name, measured);
   }
   answer.tell_source(session);
-  for (std::string& note : note_texts(measured.notes())) answer.notes.push_back(std::move(note));
+  for (std::string& note : note_texts(measured.notes(), Dialect::command_line)) answer.notes.push_back(std::move(note));
   if (measured.moments && measured.mean_share() > 0.5) {
     answer.notes.emplace_back(
         "most pixels change at every sample, as noise does; --by CODES counts larger changes only");

@@ -5,7 +5,7 @@
 #include "app/commands/commands.hpp"
 #include "app/output/console.hpp"
 #include "app/requests/requests.hpp"
-#include "app/text/message_text.hpp"
+#include "session/schema/option.hpp"
 #include "session/below/capture.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
@@ -38,7 +38,7 @@ class RecipeFiles {
         if (!is_there(path)) continue;
         if (checksum(path.string()) == input.checksum) return path;
       } catch (const InputError& error) {
-        print_warning(message_text(error));
+        print_warning(message_text(error, Dialect::command_line));
         continue;
       }
       if (!other_folder) other_folder = folder;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "app/command_line/command_line.hpp"
-#include "app/command_line/option_table.hpp"
+#include "session/schema/option.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
@@ -14,7 +14,7 @@
 #include "app/output/report.hpp"
 #include "app/output/skipping.hpp"
 #include "app/requests/requests.hpp"
-#include "app/text/message_text.hpp"
+#include "session/schema/option.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/making/listed_pictures.hpp"
@@ -57,19 +57,20 @@ Options line_options(const std::string& text, const Options& batch, const std::o
   words.insert(words.begin(), "expose");
   Options options = parse_command_line(words).options;
   if (options.frames) throw UsageError("--frames chooses lines of the list: nutik-cl batch --frames 1-100 …");
-  const bool stated_transfer = options.transfer.has_value();
-  for (const Option& option : app::options()) {
+  const bool stated_transfer = options.has("transfer");
+  for (const Option& option : schema()) {
     if (option.is_shared_by_batch() && option.is_in(options)) {
       const std::string* value = option.stated(options);
       throw UsageError(format("{0} holds for all exposures: nutik-cl batch {0}{1} …", option.name(),
                               value != nullptr ? " " + *value : ""));
     }
     // What a line leaves open.
-    if (option.is_of(CommandId::batch) && !option.is_in(options)) option.copy(options, batch);
+    if (option.is_in(batch) && !option.is_in(options))
+      option.state(options, option.name(), batch.find(option.long_name)->words);
   }
   if (stated_transfer && batch.noise) {
     throw UsageError(format("--transfer holds for all exposures where --noise does, whose light it tells: "
-                            "nutik-cl batch --transfer {} …", *options.transfer));
+                            "nutik-cl batch --transfer {} …", options.text("transfer")));
   }
   if (options.every || options.count) {
     throw UsageError("--every and --count make a series; a line of a batch is one picture");
@@ -133,7 +134,7 @@ class Batch {
         }
       }
       Session& session = session_of(line.operands.front());
-      listed_->add(request, output_format(output_request(line), output, session.format()),
+      listed_->add(request, output_format(line.picture, output, session.format()),
                    [this, number = listed.line, line, output](const ListedPictures::Take& take) {
                      reported(number, [&] { write(number, line, output, take()); });
                    });
@@ -165,7 +166,7 @@ class Batch {
       print_warning(format("{}:{}: {}", list_title_, number, warning));
     if (options_.verbose && !options_.json) print_line(format("{}: {}", output.string(), tally_.report()));
     pictures_.push(number, output, std::move(exposed.picture), recipe_text(line, tally_.precision()),
-                   file_wishes(output_request(line)));
+                   file_wishes(line.picture));
   }
 
   std::string recipe_text(const Options& line, const std::string& precision) {
@@ -203,7 +204,7 @@ class Batch {
     const std::lock_guard lock(reporting_);
     failed_lines_.insert(line);
     failed_to_write_ |= dynamic_cast<const OutputError*>(&error) != nullptr;
-    print_error(format("{}:{}: {}", list_title_, line, message_text(error)));
+    print_error(format("{}:{}: {}", list_title_, line, message_text(error, Dialect::command_line)));
   }
 
   const Options& options_;
@@ -236,7 +237,7 @@ int run_batch(const Options& options) {
   std::vector<ListedExposure> exposures = read_list(list);
   if (exposures.empty()) throw InputError(format("{} lists no exposure", list));
   if (options.frames) {
-    const FrameRanges lines = FrameRanges::parse(*options.frames, "--frames");
+    const FrameRanges& lines = *options.frames;
     const std::vector<std::uint64_t> chosen = lines.below(exposures.back().line + 1);
     std::erase_if(exposures, [&](const ListedExposure& each) {
       return !std::ranges::binary_search(chosen, static_cast<std::uint64_t>(each.line));

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/command_line/options.hpp"
+#include "session/schema/options.hpp"
 #include "app/output/report.hpp"
 #include "session/clips/camera_record.hpp"
 

@@ -8,8 +8,8 @@
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "app/text/findings.hpp"
-#include "app/text/message_text.hpp"
-#include "app/text/text_table.hpp"
+#include "session/schema/option.hpp"
+#include "session/text/text_table.hpp"
 #include "session/below/capture.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
@@ -126,7 +126,7 @@ void attempt(InputCheck& check, const std::string& name, const std::string& kind
   try {
     read();
   } catch (const InputError& error) {
-    std::string message = message_text(error);
+    std::string message = message_text(error, Dialect::command_line);
     // Findings start with the file's name anyway.
     for (const char* behind : {": ", " "}) {
       if (message.starts_with(name + behind)) message.erase(0, message.find(' ', name.size()) + 1);
@@ -170,7 +170,7 @@ void read_capture(InputCheck& check, const std::string& name, const Options& opt
 
 InputCheck checked_inputs(const Options& options) {
   InputCheck check;
-  check.set_weight(Normalization::parse(options.normalize.value_or("support")), brightening(options));
+  check.set_weight(options.normalization, brightening(options));
   if (options.functions) {
     const std::string name = input_title(*options.functions);
     attempt(check, name, "function_file",
@@ -185,7 +185,7 @@ InputCheck checked_inputs(const Options& options) {
     attempt(check, name, "mask_file", [&] {
       Mask mask =
           options.mask_to ? exposure_mask(options, first) : read_layered_mask_input(*options.mask, first);
-      if (options.feather && !options.mask_to) static_cast<void>(feathered(mask, Feather::parse(*options.feather)));
+      if (options.feather && !options.mask_to) static_cast<void>(feathered(mask, *options.feather));
       check.add_mask(exposure_mask_name(options), std::move(mask));
     });
   }
@@ -194,13 +194,13 @@ InputCheck checked_inputs(const Options& options) {
     attempt(check, input_title(name), "capture", [&] { read_capture(check, name, options); });
   }
   if (options.delay) {
-    DelayRequest delay = DelayRequest::parse(*options.delay, "--delay");
+    DelayRequest delay = *options.delay;
     attempt(check, delay.file.empty() ? "delays" : delay.file, "delay_map", [&] {
       delay.read();
       check.add_delay(std::move(delay));
     });
   }
-  check.finish(options.unmapped.has_value());
+  check.finish(options.unmapped_is_zero);
   return check;
 }
 
@@ -222,10 +222,6 @@ int run_check(const Options& options) {
   if (options.operands.empty() && !options.functions && !options.mask) {
     throw UsageError(
         "what should be checked? nutik-cl check -m mask.pgm -k functions.fn clip.tik, each optional");
-  }
-  if (options.unmapped && *options.unmapped != "zero") {
-    throw UsageError(
-        format("--unmapped {} is not known; the only choice is --unmapped zero", *options.unmapped));
   }
   const InputCheck check = checked_inputs(options);
   Answer answer{check_json(check)};

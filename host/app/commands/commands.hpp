@@ -1,7 +1,7 @@
 // The commands. Each returns the exit status; errors are thrown.
 #pragma once
 
-#include "app/command_line/options.hpp"
+#include "session/schema/options.hpp"
 
 namespace nutik::app {
 

@@ -21,7 +21,6 @@ int run_encode(const Options& options) {
   const std::filesystem::path output = output_name(options, "encode", ".tik");
   const std::string& input = options.operands.front();
   const SourceRequest source = clip_request(options, input);
-  const tik::Codec codec = tik::Codec::parse(options.codec.value_or("rice"));
   if (!is_absent(input) && is_tik(input)) {
     throw UsageError(
         format("{} is a capture already; to expose a picture from it: nutik-cl --start 0s "
@@ -32,7 +31,7 @@ int run_encode(const Options& options) {
   const CameraFiles camera_files(options, output, input_files(options));
 
   const EncodedCapture encoded =
-      encode(source, {output, codec}, memory_budget(options), progress_bar("encoding", options.quiet, progress_lines(options)));
+      encode(source, {output, options.codec}, memory_budget(options), progress_bar("encoding", options.quiet, progress_lines(options)));
   print_warnings(encoded.warnings);
   const Shape& shape = encoded.capture.shape;
   const Timeline& timeline = encoded.timeline;

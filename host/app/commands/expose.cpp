@@ -33,11 +33,11 @@ int run_expose(const Options& options) {
   }
   Session session = open_session(options, {.reading = Reading::forward});
   const ExposedPicture exposed =
-      session.render(request, output_format(output_request(options), output, session.format()));
+      session.render(request, output_format(options.picture, output, session.format()));
   tally.add(exposed);
   print_warnings(exposure_warnings(exposed));
   write_picture(output, exposed.picture, recipe.text(tally.precision()),
-                file_wishes(output_request(options)));
+                file_wishes(options.picture));
 
   const ExposureFigures& figures = exposed.figures;
   const Shape& shape = figures.capture.shape;

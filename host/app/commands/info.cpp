@@ -4,7 +4,7 @@
 #include "app/commands/commands.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
-#include "app/text/message_text.hpp"
+#include "session/schema/option.hpp"
 #include "session/below/activity.hpp"
 #include "session/below/capture.hpp"
 #include "session/below/error.hpp"
@@ -72,7 +72,7 @@ int run_info(const Options& options) {
   }
 
   const CaptureFigures figures = figures_of(reader);
-  for (const InputError& damage : figures.damage) print_warning(message_text(damage));
+  for (const InputError& damage : figures.damage) print_warning(message_text(damage, Dialect::command_line));
   const int status = figures.damage.empty() ? 0 : 3;  // as any command that meets damaged input
   const auto& [still, rows, dense, records] = figures.tiles;
   const std::uint64_t raw_bytes = figures.raw_bytes;

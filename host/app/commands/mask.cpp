@@ -66,7 +66,7 @@ MaskJob job_of(const Options& options) {
     for (const NamedPicture* picture : step.pictures()) inputs.push_back(picture->name.text);
   }
   if (options.feather) {
-    job.feather = Feather::parse(*options.feather);
+    job.feather = *options.feather;
     job.layers.emplace(job.output).check(inputs, replacing(options));
   } else {
     check_mask_output(job.output, inputs, replacing(options));
@@ -81,8 +81,8 @@ MaskJob job_of(const Options& options) {
   if ((options.start || options.exposure) && !job.capture) {
     throw UsageError("--start and --exposure need a capture: nutik-cl mask … clip.tik");
   }
-  if (options.start) job.backdrop.start = StatedTime::parse(*options.start, "--start");
-  if (options.exposure) job.backdrop.length = StatedTime::parse(*options.exposure, "--exposure");
+  if (options.start) job.backdrop.start = *options.start;
+  job.backdrop.length = options.exposure;
   read_inputs(job.request, options);
   return job;
 }

@@ -1,13 +1,65 @@
 #include "app/commands/opened_session.hpp"
 
+#include <malloc.h>
+
 #include <utility>
 
 #include "app/output/console.hpp"
 #include "app/output/progress.hpp"
 #include "app/requests/requests.hpp"
+#include "session/below/error.hpp"
 #include "session/below/format.hpp"
+#include "session/clips/clip_source.hpp"
+#include "session/schema/option.hpp"
+#include "session/schema/requests.hpp"
+#include "system/input_bytes.hpp"
 
 namespace nutik::app {
+namespace {
+
+// A .tik was described when it was made.
+void refuse_source_options(const Options& options, const std::string& capture) {
+  for (const Option& option : schema()) {
+    if (!option.describes_clip() || !option.is_in(options)) continue;
+    throw UsageError(format("{} describes a clip that is encoded; {} was encoded already. {}", option.name(),
+                            capture,
+                            option.is_of(CommandId::retime)
+                                ? format("To correct it: nutik-cl retime {} … {} NEW.tik", option.name(), capture)
+                                : "Encode the clip again with it"));
+  }
+}
+
+}  // namespace
+
+SourceRequest source_request(const Options& options, const std::string& name) {
+  // Standard input is looked at by the session, once all else that may be wrong is known.
+  if (is_standard_input(name) || !is_tik(name)) return clip_request(options, name);
+  refuse_source_options(options, name);
+  SourceRequest request;
+  request.path = name;
+  request.clip.transfer = options.source.clip.transfer;
+  return request;
+}
+
+MemoryBudget memory_budget(const Options& options) {
+#ifdef __GLIBC__
+  // Freed memory goes back to the system soon, which is slower than keeping it for the next time, for all of the process.
+  // Blocks from this size on are mapped, each for itself, and unmapped when they are freed. Otherwise the limit grows
+  // to 32 MiB with what is freed, and pictures leave holes in heaps.
+  constexpr int kMappedFrom = 1 << 20;
+  if (options.memory) {
+    mallopt(M_MMAP_THRESHOLD, kMappedFrom);
+    mallopt(M_TRIM_THRESHOLD, 2 * kMappedFrom);
+  }
+#endif
+  return options.memory.value_or(MemoryBudget::of_machine());
+}
+
+std::shared_ptr<Devices> make_devices(const Options& options) {
+  static_cast<void>(memory_budget(options));
+  return std::make_shared<Devices>(computing_request(options),
+                                   options.quiet ? Devices::Announce() : Devices::Announce(print_note));
+}
 
 Session open_session(const Options& options, Session::Terms terms) {
   const std::shared_ptr<Devices> devices = make_devices(options);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/command_line/options.hpp"
+#include "session/schema/options.hpp"
 #include "session/clips/camera_check.hpp"
 #include "session/session.hpp"
 

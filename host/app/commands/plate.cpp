@@ -6,7 +6,7 @@
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "app/text/number_text.hpp"
+#include "session/text/number_text.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/below/pictures.hpp"
@@ -33,13 +33,13 @@ int run_plate(const Options& options) {
     check_mask_output(*options.uncertain, inputs, replacing(options));
   }
   PlateRequest request;
-  if (options.by) request.by_codes = parse_whole_number(*options.by, "--by", 0, 65'535);
+  request.by_codes = options.by;
 
   Session session = open_session(options, {.besides = plate_needs, .renders = false});
   const CaptureFormat& capture = session.format();
   const MadePlate made =
       make_plate(session.capture(), options.operands.front(), request,
-                 output_format(output_request(options), output, capture), session.devices().request().memory,
+                 output_format(options.picture, output, capture), session.devices().request().memory,
                  progress_bar("reading", options.quiet));
   if (!made.is_noise_known) {
     print_warning(
@@ -48,7 +48,7 @@ int run_plate(const Options& options) {
   }
   // Before anything is written: what cannot be looked at is an error.
   const auto moved = moved_camera(session.capture());
-  write_picture(output, made.picture, {}, file_wishes(output_request(options)));
+  write_picture(output, made.picture, {}, file_wishes(options.picture));
   if (options.uncertain) {
     Mask mask = Mask::uniform(capture.shape.width, capture.shape.height, 0);
     paint(mask, made.uncertain, 255);

@@ -25,11 +25,11 @@ int run_retime(const Options& options) {
   RetimeRequest request;
   request.capture = options.operands.front();
   request.output = output.value_or(request.capture);
-  if (options.fps) request.rate = Rational::parse(*options.fps, "frame rate");
-  if (options.shutter_angle) request.shutter_angle = Rational::parse(*options.shutter_angle, "shutter angle");
-  if (options.transfer) request.transfer = Transfer::parse(*options.transfer);
-  if (options.primaries) request.primaries = parse_primaries(*options.primaries);
-  if (options.pixel_aspect) request.pixel_aspect = parse_pixel_aspect(*options.pixel_aspect);
+  request.rate = options.source.clip.rate;
+  request.shutter_angle = options.source.shutter_angle;
+  request.transfer = options.source.clip.transfer;
+  request.primaries = options.source.clip.primaries;
+  request.pixel_aspect = options.source.clip.pixel_aspect;
   if (output)
     check_output(*output, OutputKind::tik, std::array{request.capture.string()}, replacing(options));
 

@@ -25,7 +25,7 @@ int run_series(const Options& options) {
   check_output(names[0], OutputKind::picture, inputs, replacing(options));  // before a clip is read
   if (options.skip_existing) require_recipes(options, names[0]);
   PictureRecipe recipe(recipe_sources(options));
-  const OutputRequest wishes = output_request(options);
+  const OutputRequest wishes = options.picture;
   Session session = open_session(options, {.besides = PictureQueue::needs([&](const CaptureFormat& capture) {
                                              return output_format(wishes, names[0], capture).type;
                                            })});

@@ -35,7 +35,7 @@ class SheetJob {
         of_(of),
         output_(output_name(options, to_text(of), behind)),
         inputs_(input_files(options)),
-        codes_(output_request(options)) {
+        codes_(options.picture) {
     check_picture_output(output_, /*channels=*/3, inputs_, replacing(options));
     check_quality(codes_, output_);
   }
@@ -52,7 +52,7 @@ class SheetJob {
   int run(Session& session, SheetRequest request, const std::string& counted_as, std::string_view key,
           Json exposures, const Each& each = {}) {
     request.codes = codes_;
-    if (options_.transfer) request.plan.transfer = Transfer::parse(*options_.transfer);
+    request.plan.transfer = options_.source.clip.transfer;
     PictureRecipe recipe(recipe_sources(options_, {}, of_));
     const Sheet sheet = [&] {
       WarningsAtEnd warnings;
@@ -64,7 +64,7 @@ class SheetJob {
                         });
     }();
     // With `auto` each of its pictures has an arithmetic of its own.
-    write_picture(output_, sheet.picture, recipe.text(options_.precision.value_or("auto")),
+    write_picture(output_, sheet.picture, recipe.text(options_.text("precision", "auto")),
                   file_wishes(codes_));
     const auto columns = sheet.layout.columns, rows = sheet.layout.rows;
     Answer answer{{{"sheet", output_.string()}, {"columns", columns}, {"rows", rows}}};
@@ -126,7 +126,7 @@ int run_contact(const Options& options) {
   const std::vector<Exposure> exposures = exposures_of(contact, timeline);
   const std::vector<std::string> labels = labels_of(exposures, timeline);
   const std::string what =
-      format("{} of {}", counted(exposures.size(), "exposure"), options.exposure.value_or("one picture"));
+      format("{} of {}", counted(exposures.size(), "exposure"), options.text("exposure", "one picture"));
   request.heading = job.heading(what);
   request.mask = Mask::uniform(session.format().shape.width, session.format().shape.height, 0);
   request.plan.function_name = "the exposure";

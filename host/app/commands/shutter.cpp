@@ -1,11 +1,11 @@
 #include <algorithm>
 
-#include "app/command_line/option_table.hpp"
+#include "session/schema/option.hpp"
 #include "app/command_line/value_check.hpp"
 #include "app/commands/commands.hpp"
 #include "app/output/console.hpp"
 #include "app/requests/requests.hpp"
-#include "app/text/number_text.hpp"
+#include "session/text/number_text.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/below/functions.hpp"
@@ -22,11 +22,10 @@ Timeline timeline_for(const Options& options, const StatedTime& start, const Sta
   if (options.operands.size() == 2) {
     return known_timeline(source_request(options, options.operands[1]), memory_budget(options));
   }
-  if (options.raw) throw UsageError("--raw says what the bytes of a clip are; name the clip");
-  const Rational angle = options.shutter_angle ? Rational::parse(*options.shutter_angle, "shutter angle")
-                                               : Timeline::kFullShutter;
-  if (options.fps) {
-    const Rational rate = Rational::parse(*options.fps, "frame rate");
+  if (options.source.clip.raw) throw UsageError("--raw says what the bytes of a clip are; name the clip");
+  const Rational angle = options.source.shutter_angle.value_or(Timeline::kFullShutter);
+  if (options.source.clip.rate) {
+    const Rational rate = *options.source.clip.rate;
     return Timeline::constant(rate, angle,
                               static_cast<std::uint64_t>(std::max(1.0, rate.value() * kLongestSeconds)));
   }
@@ -56,10 +55,11 @@ int run_shutter(const Options& options) {
   }
   check_choice("shutter", options.operands.front(), *find_option("shutter"));
   if (!options.exposure) throw UsageError("how long is the exposure? Add --exposure 10ms");
-  const Shutter shutter = parse_shutter(options.operands.front(), options.shutter_error);
-  const StatedTime start = StatedTime::parse(options.start.value_or("0s"), "start");
-  const StatedTime length = StatedTime::parse(*options.exposure, "exposure");
-  const auto tag = static_cast<std::uint8_t>(parse_whole_number(options.tag.value_or("0"), "tag", 0, 255));
+  const Shutter shutter{ShutterShape::parse(options.operands.front()),
+                        options.shutter_error.value_or(ShutterShape::kDefaultError)};
+  const StatedTime start = options.start.value_or(StatedTime());
+  const StatedTime& length = *options.exposure;
+  const auto tag = options.tag.value_or(0);
   const Exposure interval = plain_interval(start, length, timeline_for(options, start, length));
   const double gain = brightening(options);
   const GainFunction function = shutter.function({interval.start_ns, interval.end_ns});

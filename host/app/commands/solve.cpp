@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "app/command_line/option_table.hpp"
+#include "session/schema/option.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "app/text/text_table.hpp"
+#include "session/text/text_table.hpp"
 #include "session/below/format.hpp"
 #include "session/text/shell_text.hpp"
 #include "session/text/size_text.hpp"
@@ -90,7 +90,7 @@ Json json_of(const std::filesystem::path& output, const SolveRequest& request, c
 // The command that exposes with what was found.
 std::string next_command(const Options& options, const std::filesystem::path& output) {
   std::string words;
-  for (const Option& option : app::options()) {
+  for (const Option& option : schema()) {
     if (!option.is_of(CommandId::expose) || !option.makes_picture() || option.long_name == "functions")
       continue;
     const std::string* const value = option.stated(options);

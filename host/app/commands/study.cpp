@@ -9,7 +9,7 @@
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "app/text/message_text.hpp"
+#include "session/schema/option.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/below/functions.hpp"
@@ -34,10 +34,13 @@ std::string functions_text(const FunctionSet& functions) {
 // The exposure by hand.
 Options exposing(const Options& options, const StudyFiles& files, StudyStyle style) {
   Options by_hand = options;
-  by_hand.mask = not_an_option(files.mask.string());
-  by_hand.functions = not_an_option(files.functions.string());
-  if (style != StudyStyle::slit && !options.feather) by_hand.feather = format("{}px", kStudyFeather / 100);
-  by_hand.normalize = "integral";
+  const auto state = [&](std::string_view option, std::string word) {
+    option_of(CommandId::expose, option)->restate(by_hand, {std::move(word)});
+  };
+  state("mask", not_an_option(files.mask.string()));
+  state("functions", not_an_option(files.functions.string()));
+  if (style != StudyStyle::slit && !options.feather) state("feather", format("{}px", kStudyFeather / 100));
+  state("normalize", "integral");
   return by_hand;
 }
 
@@ -105,7 +108,7 @@ void add_notes(Answer& answer, const PlannedStudy& planned) {
   answer.tell_source(planned.session);
   std::ranges::move(camera_notes(planned.moved), std::back_inserter(answer.notes));
   std::ranges::copy(planned.study.notes, std::back_inserter(answer.notes));
-  std::ranges::move(note_texts(planned.notes), std::back_inserter(answer.notes));
+  std::ranges::move(note_texts(planned.notes, Dialect::command_line), std::back_inserter(answer.notes));
 }
 
 // `options` get what the clip is read with beside what was stated.
@@ -113,17 +116,20 @@ PlannedStudy planned_study(Options& options, const StudyRequest& request) {
   const std::shared_ptr<Devices> devices = make_devices(options);
   devices->start();
   PlannedStudy planned = plan_study(source_request(options, options.operands.front()), request,
-                                    {devices, output_request(options), [&](std::string what) {
+                                    {devices, options.picture, [&](std::string what) {
                                        return progress_bar(std::move(what), options.quiet);
                                      }});
   print_warnings(planned.session.warnings());
+  const auto state = [&](std::string_view option, std::string word) {
+    option_of(CommandId::study, option)->restate(options, {std::move(word)});
+  };
   if (planned.shot) {
-    options.clip_from = format("{}f", planned.shot->first);
-    options.clip_to = format("{}f", planned.shot->last);
+    state("from", format("{}f", planned.shot->first));
+    state("to", format("{}f", planned.shot->last));
   }
   if (planned.aligned_to) {
-    options.align = to_text(kStudyMotion);
-    if (*planned.aligned_to > 0) options.align_to = format("{}f", *planned.aligned_to);
+    state("align", std::string(to_text(kStudyMotion)));
+    if (*planned.aligned_to > 0) state("align-to", format("{}f", *planned.aligned_to));
   }
   return planned;
 }
@@ -139,16 +145,16 @@ int run_study(const Options& stated) {
 
   const std::string capture_name = options.operands.front();
   // A camera that corrects its exposure changes the whole scene, and nothing of it rests.
-  options.deflicker |= !is_tik(capture_name);
+  if (!is_tik(capture_name)) option_of(CommandId::study, "deflicker")->restate(options, {});
   PlannedStudy planned = planned_study(options, request);
   Session& session = planned.session;
   Study& study = planned.study;
   if (request.style == StudyStyle::clean) {
     const MadePlate plate =
         make_plate(session.capture(), capture_name, {},
-                   output_format(output_request(options), files.picture, session.format()),
+                   output_format(options.picture, files.picture, session.format()),
                    session.devices().request().memory, progress_bar("reading", options.quiet));
-    write_picture(files.picture, plate.picture, {}, file_wishes(output_request(options)));
+    write_picture(files.picture, plate.picture, {}, file_wishes(options.picture));
     Answer answer{{{"picture", files.picture.string()}}};
     answer.line = format("{}: {}, the scene without moving things", files.picture.string(),
                          shape_text(plate.picture.shape));
@@ -163,7 +169,7 @@ int run_study(const Options& stated) {
   const MadeMask made = make_regions(study, session.capture(), capture_name);
   const ExposedPicture exposed =
       session.render(study_exposure(study, request, made.mask),
-                     output_format(output_request(options), files.picture, session.format()));
+                     output_format(options.picture, files.picture, session.format()));
   tally.add(exposed);
   print_warnings(exposure_warnings(exposed));
   std::string recipe;  // names the files, where there are some
@@ -171,7 +177,7 @@ int run_study(const Options& stated) {
     files.write_regions(made.mask.to_picture(), functions_text(study.functions));
     recipe = PictureRecipe(recipe_sources(exposing(options, files, request.style))).text(tally.precision());
   }
-  write_picture(files.picture, exposed.picture, recipe, file_wishes(output_request(options)));
+  write_picture(files.picture, exposed.picture, recipe, file_wishes(options.picture));
 
   Answer answer{{{"picture", files.picture.string()}}};
   if (!files.is_alone()) {

@@ -3,7 +3,7 @@
 #include "app/commands/commands.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
-#include "app/text/number_text.hpp"
+#include "session/text/number_text.hpp"
 #include "session/below/capture.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
@@ -16,7 +16,7 @@ namespace nutik::app {
 
 int run_thumbnail(const Options& options) {
   const std::filesystem::path output = output_name(options, "thumbnail", "-thumbnail.png");
-  const std::uint32_t side = options.width ? parse_whole_number(*options.width, "--width", 1, 4096) : 256;
+  const std::uint32_t side = options.width.value_or(256);
   const std::string& name = options.operands.front();
   check_picture_output(output, /*channels=*/3, std::array{name}, replacing(options));
   const CaptureFormat capture = tik::Reader(name).format();  // refuses a clip, which would be read to its end

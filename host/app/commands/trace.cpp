@@ -11,8 +11,8 @@
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "app/text/number_text.hpp"
-#include "app/text/text_table.hpp"
+#include "session/text/number_text.hpp"
+#include "session/text/text_table.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/below/pictures.hpp"
@@ -204,14 +204,10 @@ struct Traced {
     Traced traced;
     if (options.tag) {
       if (!options.mask) throw UsageError("--tag is a value of a mask; add -m mask.pgm");
-      traced.tag = static_cast<std::uint8_t>(parse_whole_number(*options.tag, "tag", 0, 255));
+      traced.tag = *options.tag;
       return traced;
     }
-    constexpr std::uint32_t kLast = 65'535;
-    traced.pixel =
-        parse_pair(*options.pixel, ',', {"pixel column", 0, kLast}, {"pixel row", 0, kLast},
-                   format("pixel '{}' is no place; write its column and row from 0 on: --pixel 320,180",
-                          *options.pixel));
+    traced.pixel = options.pixel;
     return traced;
   }
 
@@ -303,7 +299,7 @@ int run_trace(const Options& options) {
   if (!options.quiet && !options.json) {
     const std::string place = (output ? output->string() + ": " : "") + title;
     const std::string codes = traced_codes(traces, exposure.figures.capture,
-                                           output_format(output_request(options), session.format()));
+                                           output_format(options.picture, session.format()));
     if (is_mixed) {
       print_line(
           format("{}: light {}, code {}, of {} functions", place, light_text(traces), codes, traces.size()));

@@ -22,7 +22,7 @@ int run_video(const Options& options) {
   std::string rate = request.rate.text();
   std::ranges::replace(rate, '/', '_');
   const VideoOutput output(output_name(options, "video", format("-{}fps.mp4", rate)), request.rate,
-                           options.video_codec, output_request(options));
+                           options.video_codec, options.picture);
   const std::vector<std::string> inputs = input_files(options);
   if (options.skip_existing) require_recipes(options, output.writes_stills() ? output.still(0) : output.path());
   output.check({}, inputs, replacing(options));  // a container's name, before the clip is read

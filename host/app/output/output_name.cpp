@@ -1,6 +1,6 @@
 #include "app/output/output_name.hpp"
 
-#include "app/command_line/option_table.hpp"
+#include "session/schema/option.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/requests/delay_request.hpp"
@@ -10,7 +10,7 @@
 namespace nutik::app {
 
 std::optional<std::filesystem::path> stated_output(const Options& options, std::string_view command) {
-  const Options::Value& option = options.output;
+  const Options::Text& option = options.output;
   const std::vector<std::string>& operands = options.operands;
   if (operands.empty()) throw UsageError(format("an input is missing; see nutik-cl {} --help", command));
   if (operands.size() > 2) {
@@ -57,7 +57,7 @@ PictureNames::PictureNames(const std::filesystem::path& pattern, std::string_vie
 std::vector<std::string> input_files(const Options& options) {
   std::vector<std::string> inputs(options.operands.begin(),
                                   options.operands.begin() + !options.operands.empty());
-  if (!inputs.empty() && !options.raw) {
+  if (!inputs.empty() && !options.source.clip.raw) {
     // Each still of a sequence is an input that the picture must not replace.
     for (const auto& still : list_stills(inputs.front()).value_or(std::vector<std::filesystem::path>{})) {
       inputs.push_back(still.string());
@@ -67,17 +67,14 @@ std::vector<std::string> input_files(const Options& options) {
     inputs.push_back(name);
     for (const auto& [tag, layer] : layer_files(name)) inputs.push_back(layer.string());
   };
-  for (const Option& option : app::options()) {
+  for (const Option& option : schema()) {
     const std::string* name = option.reads_file() ? option.stated(options) : nullptr;
     if (name != nullptr && !is_standard_input(*name) && !option.knows(*name)) add(*name);
   }
   for (const Said& said : options.said) {  // key frames
     if (said.option == "key" || said.option == "mask-key") add(said.words.back());
   }
-  if (options.delay) {
-    const std::string map = DelayRequest::parse(*options.delay, "--delay").file;
-    if (!map.empty()) inputs.push_back(map);
-  }
+  if (options.delay && !options.delay->file.empty()) inputs.push_back(options.delay->file);
   return inputs;
 }
 

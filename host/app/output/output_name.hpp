@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/command_line/options.hpp"
+#include "session/schema/options.hpp"
 #include "session/below/pictures.hpp"
 #include "session/output_check.hpp"
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "app/command_line/options.hpp"
+#include "session/schema/options.hpp"
 #include "session/reported_progress.hpp"
 
 namespace nutik::app {

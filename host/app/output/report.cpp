@@ -4,8 +4,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "app/text/message_text.hpp"
-#include "app/text/text_table.hpp"
+#include "session/schema/option.hpp"
+#include "session/text/text_table.hpp"
 #include "app/text/timing_text.hpp"
 #include "session/below/format.hpp"
 #include "session/below/functions.hpp"
@@ -48,7 +48,7 @@ Json facts_json(const std::vector<std::string>& lines) {
   Json facts = Json::array();
   for (const std::string& line : lines) {
     facts.push_back({{"fact", line}});
-    if (const auto setting = correction_of(line)) facts.back()["option"] = option_of(*setting);
+    if (const auto setting = correction_of(line)) facts.back()["option"] = written(*setting, Dialect::command_line);
   }
   return facts;
 }
@@ -56,9 +56,9 @@ Json facts_json(const std::vector<std::string>& lines) {
 void Answer::tell_source(const std::vector<Fact>& facts, const std::vector<Note>& more) {
   source = fact_lines(facts);
   for (const Fact& fact : facts)
-    json["facts"].push_back({{"fact", fact.line()}, {"option", option_of(fact.setting)}});
+    json["facts"].push_back({{"fact", fact.line()}, {"option", written(fact.setting, Dialect::command_line)}});
   for (const Note& note : more) {
-    std::string text = note_texts({note}).front();
+    std::string text = note_texts({note}, Dialect::command_line).front();
     if (note.is_warning) {
       print_warning(text);
       json["warnings"].push_back(text);

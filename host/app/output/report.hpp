@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "app/command_line/options.hpp"
+#include "session/schema/options.hpp"
 #include "app/output/console.hpp"
 #include "session/session.hpp"
 #include "session/text/shared_warnings.hpp"

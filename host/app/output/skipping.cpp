@@ -22,7 +22,7 @@ void require_recipes(const Options& options, const std::filesystem::path& pictur
 }
 
 std::optional<std::string> stated_precision(const Options& options) {
-  return options.precision == "auto" ? std::nullopt : options.precision;
+  return options.precision ? std::optional(to_text(*options.precision)) : std::nullopt;
 }
 
 int tell_all_made(const Options& options, const std::filesystem::path& output, std::size_t count,

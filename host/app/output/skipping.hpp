@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/command_line/options.hpp"
+#include "session/schema/options.hpp"
 
 namespace nutik::app {
 

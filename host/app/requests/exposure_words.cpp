@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "app/output/console.hpp"
-#include "app/text/number_text.hpp"
+#include "session/text/number_text.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/below/functions.hpp"
@@ -16,75 +16,32 @@
 namespace nutik::app {
 namespace {
 
-constexpr const char* kFilmRate = "24";
-constexpr const char* kFilmAngle = "180";
-
 Shared<FunctionSet> read_functions_of(const std::string& name) {
   FunctionInput input = read_function_input(name);
   if (!input.warnings.empty()) print_note(input.warnings);
   return std::move(input.functions);
 }
 
-// How far it is from one exposure to the next.
-StatedTime step_of(const Options& options) {
-  const StatedTime every = StatedTime::parse(*options.every, "--every");
-  if (every.number.numerator <= 0)
-    throw UsageError(format("--every '{}' is not longer than nothing", *options.every));
-  if (every.counts_samples() && every.number.denominator != 1)
-    throw UsageError(format("--every '{}' is not a whole number of pictures", *options.every));
-  return every;
-}
-
-NegativeLight parse_negative_light(const std::string& text) {
-  if (text == "saturate") return NegativeLight::saturate;
-  if (text == "offset") return NegativeLight::offset;
-  if (text == "abs") return NegativeLight::absolute;
-  throw UsageError(format("--negative {} is not known; choose saturate, offset or abs", text));
-}
-
-// The one value that an option with one value may have.
-bool parse_only(const std::optional<std::string>& text, std::string_view option, std::string_view only) {
-  if (!text) return false;
-  if (*text == only) return true;
-  throw UsageError(format("{} {} is not known; the only choice is {} {}", option, *text, option, only));
-}
-
-double parse_signed_number(std::string_view text, std::string_view option) {
-  const auto value = parse_number(text.substr(text.starts_with('+') ? 1 : 0));
-  if (!value) throw UsageError(format("{} {} is no number", option, text));
-  return *value;
-}
-
 // All but when it is exposed. Functions are read unless they are known.
 ExposureRequest timeless_request(const Options& options,
                                  const std::optional<Shared<FunctionSet>>& known = {}) {
-  ExposureRequest request;
-  request.unmapped_is_zero = parse_only(options.unmapped, "--unmapped", "zero");
-  request.live_all = parse_only(options.live, "--live", "all");
-  if (options.transfer) request.transfer = Transfer::parse(*options.transfer);
-  request.normalization = Normalization::parse(options.normalize.value_or("support"));
   if (options.feather && !options.mask) {
     throw UsageError(
         "--feather blends functions along the edges of a mask; add -m mask.pgm and -k functions.fn");
   }
-  if (options.mask_share && !options.mask_to)
+  if (options.mask_way && !options.mask_to)
     throw UsageError("--mask-share says how far it is to a second mask: add --mask-to");
-  request.gain = brightening(options);
-  request.delay = delay_request(options);
-  if (request.delay) request.delay->read();
+  ExposureRequest request = weighed_exposure(options);
   if (!options.functions) {
     if (options.mask || options.mask_to)
       throw UsageError("a mask goes with gain functions (-k), not with a plain interval");
-    request.gains = PlainInterval{{}, parse_shutter(options.shutter.value_or("box"), options.shutter_error)};
+    request.gains = PlainInterval{{}, stated_shutter(options)};
     return request;
   }
-  const auto refuse = [&](const std::optional<std::string>& option, std::string_view name) {
-    if (option)
-      throw UsageError(format("{} describes a plain interval, -k a file of functions; use one", name));
-  };
-  refuse(options.exposure, "--exposure");
-  refuse(options.shutter, "--shutter");
-  refuse(options.shutter_error, "--shutter-error");
+  for (const char* name : {"exposure", "shutter", "shutter-error"}) {
+    if (options.has(name))
+      throw UsageError(format("--{} describes a plain interval, -k a file of functions; use one", name));
+  }
   const Shared<FunctionSet> functions = known ? *known : read_functions_of(*options.functions);
   if (!options.mask && functions->size() > 1) {
     throw UsageError(format("{} holds {} functions; a mask says where each applies: -m mask.pgm",
@@ -112,19 +69,11 @@ void check_mapped(const FramesRequest& request) {
 
 // How far it is to the second mask, of kWholeWay.
 std::uint32_t mask_way(const Options& options) {
-  if (!options.mask_share) throw UsageError("how far is it to --mask-to? Add --mask-share 1/2, 0 to 1");
-  const Rational share = Rational::parse(*options.mask_share, "--mask-share");
-  if (share.numerator < 0 || share.numerator > share.denominator)
-    throw UsageError(format("--mask-share {} is no share of 0 to 1", *options.mask_share));
-  return static_cast<std::uint32_t>(round_half_up(int128{share.numerator} * kWholeWay, share.denominator));
+  if (!options.mask_way) throw UsageError("how far is it to --mask-to? Add --mask-share 1/2, 0 to 1");
+  return *options.mask_way;
 }
 
 }  // namespace
-
-std::optional<DelayRequest> delay_request(const Options& options) {
-  if (!options.delay) return std::nullopt;
-  return DelayRequest::parse(*options.delay, "--delay");
-}
 
 Mask unfeathered_mask(const Options& options, const std::string& name, std::uint8_t rest) {
   const auto capture = options.operands.empty() ? std::nullopt : std::optional(options.operands.front());
@@ -143,35 +92,10 @@ std::string exposure_mask_name(const Options& options) {
 
 Mask exposure_mask(const Options& options, std::uint8_t rest) {
   const Mask mask = unfeathered_mask(options, *options.mask, rest);
-  const auto feather = options.feather ? std::optional(Feather::parse(*options.feather)) : std::nullopt;
-  if (!options.mask_to) return feather ? feathered(mask, *feather) : mask;
+  if (!options.mask_to) return options.feather ? feathered(mask, *options.feather) : mask;
   const std::uint32_t way = mask_way(options);
   return blended_mask(mask, *options.mask, unfeathered_mask(options, *options.mask_to, rest), *options.mask_to,
-                      mask_blend(options), way, feather);
-}
-
-double brightening(const Options& options) {
-  double gain = 1.0;
-  if (options.gain) gain = parse_signed_number(*options.gain, "--gain");
-  if (options.ev) gain *= std::exp2(parse_signed_number(*options.ev, "--ev"));
-  if (!std::isfinite(gain) || gain == 0.0) {
-    throw UsageError(format("{}{} makes a picture of nothing but {}; choose a number nearer to {}",
-                            options.gain ? "--gain " + *options.gain : "",
-                            options.ev ? " --ev " + *options.ev : "",
-                            gain == 0.0 ? "black" : "infinite light", options.gain ? "1" : "0"));
-  }
-  return gain;
-}
-
-Shutter parse_shutter(const std::string& shape, const std::optional<std::string>& error_text) {
-  double error = ShutterShape::kDefaultError;
-  if (error_text) {
-    error = parse_signed_number(*error_text, "--shutter-error");
-    if (!(error >= ShutterShape::kMinError && error < 1.0))
-      throw UsageError(
-          format("--shutter-error {} is no share from {} to 1", *error_text, ShutterShape::kMinError));
-  }
-  return {ShutterShape::parse(shape), error};
+                      options.mask_blend.value_or(MaskBlend::distance), way, options.feather);
 }
 
 ExposureRequest exposure_request(const Options& options, const Shared<FunctionSet>& functions) {
@@ -190,10 +114,10 @@ ExposureRequest exposure_request(const Options& options) {
         "gain functions (-k functions.fn)");
   }
   ExposureRequest request = timeless_request(options);
-  request.start = StatedTime::parse(options.start.value_or("0s"), "--start");
+  request.start = options.start.value_or(StatedTime());
   if (auto* plain = std::get_if<PlainInterval>(&request.gains)) {
     if (!options.exposure) throw UsageError("how long is the exposure? Add --exposure 10ms");
-    plain->length = StatedTime::parse(*options.exposure, "--exposure");
+    plain->length = *options.exposure;
   }
   return request;
 }
@@ -203,59 +127,34 @@ std::string exposure_label(const Options& options) {
   if (options.functions) {
     label = is_standard_input(*options.functions) ? "standard-input"
                                                   : std::filesystem::path(*options.functions).stem().string();
-    if (options.start) label += "-" + *options.start;
+    if (options.start) label += "-" + options.text("start");
   } else {
-    label = format("{}-{}", options.start.value_or("0s"), options.exposure.value_or(""));
+    label = format("{}-{}", options.text("start", "0s"), options.text("exposure"));
   }
   std::ranges::replace(label, '/', '_');
   return label;
 }
 
-OutputRequest output_request(const Options& options) {
-  OutputRequest request;
-  if (options.depth) request.depth = parse_depth(*options.depth);
-  if (options.quality)
-    request.quality = static_cast<int>(parse_whole_number(*options.quality, "--quality", 1, 100));
-  if (options.negative) request.negative = parse_negative_light(*options.negative);
-  if (options.out_transfer) request.transfer = parse_out_transfer(*options.out_transfer);
-  return request;
-}
-
-SeriesRequest series_request(const Options& options) {
-  SeriesRequest series{step_of(options), {}, {}};
-  if (options.frames) series.numbers = FrameRanges::parse(*options.frames, "--frames");
-  if (options.count)
-    series.count = parse_whole_number(*options.count, "--count", 1, SeriesRequest::kMaxExposures);
-  return series;
-}
+SeriesRequest series_request(const Options& options) { return {*options.every, options.count, options.frames}; }
 
 ContactRequest contact_request(const Options& options) {
-  ContactRequest request;
-  if (options.start) request.start = StatedTime::parse(*options.start, "--start");
-  if (options.every) request.every = step_of(options);
-  if (options.exposure) request.length = StatedTime::parse(*options.exposure, "--exposure");
-  return request;
+  return {options.start.value_or(StatedTime()), options.every, options.exposure};
 }
 
 sheet::SheetWishes sheet_wishes(const Options& options) {
   sheet::SheetWishes wishes;
-  if (options.columns) wishes.columns = parse_whole_number(*options.columns, "--columns", 1, 1000);
-  if (options.width) wishes.width = parse_whole_number(*options.width, "--width", 100, plot::kLargestSide);
+  wishes.columns = options.columns;
+  wishes.width = options.width;
   return wishes;
 }
 
 FramesRequest frames_request(const Options& options) {
-  FramesRequest request;
-  request.rate = Rational::parse(options.out_fps.value_or(kFilmRate), "--out-fps");
-  request.speed = Rational::parse(options.speed.value_or("1"), "--speed");
-  request.angle = Rational::parse(options.out_angle.value_or(kFilmAngle), "--out-angle");
-  if (options.from) request.from = StatedTime::parse(*options.from, "--from");
-  if (options.to) request.to = StatedTime::parse(*options.to, "--to");
+  FramesRequest request = options.film;
   // Before anything is opened.
   static_cast<void>(FrameTimes({}, request.rate, request.speed, request.angle));
   request.keys.functions = function_keys(options, request);
   const bool has_functions = options.functions || !request.keys.functions.empty();
-  if (has_functions && options.out_angle) {
+  if (has_functions && options.has("out-angle")) {
     throw UsageError(
         "--out-angle describes plain exposures; with -k the functions say how each frame is exposed, from "
         "its start on. Use one");
@@ -276,7 +175,7 @@ FramesRequest frames_request(const Options& options) {
   request.keys.check();
   check_mapped(request);
   request.curve = film_curve(options, request);
-  if (options.frames) request.numbers = FrameRanges::parse(*options.frames, "--frames");
+  request.numbers = options.frames;
   return request;
 }
 

@@ -55,30 +55,22 @@ std::optional<std::string> first_mask_key(const Options& options) {
   return std::nullopt;
 }
 
-MaskBlend mask_blend(const Options& options) {
-  const std::string how = options.mask_blend.value_or("distance");
-  if (how == "distance") return MaskBlend::distance;
-  if (how == "alpha") return MaskBlend::alpha;
-  throw UsageError(format("--mask-blend {} is not known; choose distance or alpha", how));
-}
-
 void read_mask_keys(FramesRequest& request, const Options& options, std::uint8_t rest) {
   KeyFrames& keys = request.keys;
-  keys.blend = mask_blend(options);
+  keys.blend = options.mask_blend.value_or(MaskBlend::distance);
   for (StatedKey& stated : stated_keys(options, "mask-key", request)) {
     Mask mask = unfeathered_mask(options, stated.file, rest);
     std::string checksum = mask_checksum(stated.file);
     keys.masks.push_back({stated.film_ns, std::move(stated.file), std::move(checksum), Shared(std::move(mask))});
   }
-  if (!keys.masks.empty() && options.feather) keys.feather = Feather::parse(*options.feather);
+  if (!keys.masks.empty() && options.feather) keys.feather = options.feather;
 }
 
 std::optional<FilmCurve> film_curve(const Options& options, const FramesRequest& request) {
   if (!options.curve) return std::nullopt;
-  for (const auto& [stated, name] : {std::pair(&options.from, "--from"), std::pair(&options.to, "--to"),
-                                     std::pair(&options.speed, "--speed")}) {
-    if (!*stated) continue;
-    throw UsageError(format("{} says what of the capture the film shows, and so does --curve; use one", name));
+  for (const char* name : {"from", "to", "speed"}) {
+    if (options.has(name))
+      throw UsageError(format("--{} says what of the capture the film shows, and so does --curve; use one", name));
   }
   return FilmCurve::parse(InputBytes(*options.curve).text(), input_title(*options.curve), request.film_times());
 }

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "app/text/number_text.hpp"
+#include "session/text/number_text.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/requests/function_input.hpp"
@@ -15,7 +15,6 @@
 namespace nutik::app {
 namespace {
 
-constexpr std::uint32_t kLargestSide = 1u << 20;
 constexpr double kLargestRadius = 10'000.0;
 
 // The numbers of a list, as many as `count`, each of which `names` has a letter for.
@@ -209,18 +208,12 @@ std::vector<MaskStep> steps_of(const Options& options) {
   return steps;
 }
 
-MaskSize parse_mask_size(const std::string& text) {
-  const auto [width, height] = parse_pair(text, 'x', {"width", 1, kLargestSide}, {"height", 1, kLargestSide},
-                                          format("size '{}' is none; write WIDTHxHEIGHT: 640x360", text));
-  return {width, height};
-}
-
 }  // namespace
 
 MaskRequest mask_request(const Options& options) {
   MaskRequest request;
   request.steps = steps_of(options);
-  if (options.size) request.size = NamedSize{{"--size"}, parse_mask_size(*options.size)};
+  if (options.size) request.size = NamedSize{{"--size"}, *options.size};
   return request;
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/command_line/option_table.hpp"
+#include "session/schema/option.hpp"
 #include "session/below/format.hpp"
 #include "session/below/pictures.hpp"
 #include "session/requests/function_input.hpp"
@@ -30,7 +30,7 @@ Recipe::Text whole_text(const std::string& name, const char* extension) {
 }  // namespace
 
 bool is_recipe_option(std::string_view long_name, std::string_view value, RecipeOf of) {
-  return std::ranges::any_of(app::options(), [&](const Option& option) {
+  return std::ranges::any_of(schema(), [&](const Option& option) {
     return option.long_name == long_name && is_stated(option, value, of);
   });
 }
@@ -50,13 +50,13 @@ std::optional<RecipeSources> recipe_sources(const Options& options,
   if (options.mask_to) {
     recipe.mask_to = Recipe::Input{input_name(*options.mask_to), mask_checksum(*options.mask_to)};
   }
-  for (const Option& option : app::options()) {
+  for (const Option& option : schema()) {
     static const std::string kFlag;
     const std::string* value = option.is_flag() && option.is_in(options) ? &kFlag : option.stated(options);
     if (value != nullptr && is_stated(option, *value, of))
       recipe.options.emplace_back(option.long_name, *value);
   }
-  if (const auto delay = delay_request(options); delay && !delay->file.empty()) {
+  if (const auto& delay = options.delay; delay && !delay->file.empty()) {
     recipe.delay_map = Recipe::Input{input_name(delay->file), input_checksum(delay->file)};
     std::ranges::find(recipe.options, "delay", &std::pair<std::string, std::string>::first)->second =
         delay->range_text();
@@ -65,7 +65,7 @@ std::optional<RecipeSources> recipe_sources(const Options& options,
     const auto said = std::ranges::find(options.said, option.first, &Said::option);
     return std::pair(of == RecipeOf::expose ? 0 : said - options.said.begin(), option.first);
   });
-  recipe.renderer = options.renderer.value_or("opencl");
+  recipe.renderer = options.text("renderer", "opencl");
   return sources;
 }
 

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "app/command_line/command_table.hpp"
-#include "app/command_line/options.hpp"
+#include "session/schema/options.hpp"
 #include "session/below/sheets.hpp"
 #include "session/devices.hpp"
 #include "session/making/picture_recipe.hpp"
@@ -26,18 +26,12 @@
 #include "session/requests/series_request.hpp"
 #include "session/requests/source_request.hpp"
 #include "session/requests/sweep_request.hpp"
+#include "session/schema/requests.hpp"
 
 namespace nutik::app {
 
-// Stated for --noise: measured on the clip itself.
-inline constexpr std::string_view kAutomaticNoise = "auto";
-
 // How the clip or capture of this name is to be read. What describes a clip is refused for a .tik.
 [[nodiscard]] SourceRequest source_request(const Options& options, const std::string& name);
-// The same of a clip, whatever its name.
-[[nodiscard]] SourceRequest clip_request(const Options& options, const std::string& name);
-// How its pictures are moved so that the camera stands still; nothing where that is not asked for.
-[[nodiscard]] std::optional<AlignRequest> align_request(const Options& options);
 
 // What was stated, as 500MB, 2GB or 1GiB; else half of the machine's memory.
 [[nodiscard]] MemoryBudget memory_budget(const Options& options);
@@ -47,20 +41,12 @@ inline constexpr std::string_view kAutomaticNoise = "auto";
 [[nodiscard]] ExposureRequest exposure_request(const Options& options);
 // With functions that -k only names.
 [[nodiscard]] ExposureRequest exposure_request(const Options& options, const Shared<FunctionSet>& functions);
-// What --delay says; its picture is not read.
-[[nodiscard]] std::optional<DelayRequest> delay_request(const Options& options);
 // For naming the picture: `FnFile`, `0.4s-10ms`.
 [[nodiscard]] std::string exposure_label(const Options& options);
-// The shutter of that name, and what --gain and --ev multiply light with.
-[[nodiscard]] Shutter parse_shutter(const std::string& shape, const std::optional<std::string>& error);
-[[nodiscard]] double brightening(const Options& options);
-// What --depth, --negative and --out-transfer ask of a picture.
-[[nodiscard]] OutputRequest output_request(const Options& options);
 
-// Many exposures: a series, a sheet of moments, a sheet of variations (in the order of the command line), a video.
+// Many exposures: a series, a sheet of moments, a video.
 [[nodiscard]] SeriesRequest series_request(const Options& options);
 [[nodiscard]] ContactRequest contact_request(const Options& options);
-[[nodiscard]] SweepRequest sweep_request(const Options& options);
 [[nodiscard]] FramesRequest frames_request(const Options& options);
 
 // What changes along a film: functions, masks (of their first key the name alone), and when the capture is shown.
@@ -76,13 +62,10 @@ void read_mask_keys(FramesRequest& request, const Options& options, std::uint8_t
 [[nodiscard]] std::string exposure_mask_name(const Options& options);
 // One mask by its name.
 [[nodiscard]] Mask unfeathered_mask(const Options& options, const std::string& name, std::uint8_t rest);
-[[nodiscard]] MaskBlend mask_blend(const Options& options);
 
 // What --columns and --width ask for.
 [[nodiscard]] sheet::SheetWishes sheet_wishes(const Options& options);
 
-// Which moments of what moves are shown, and what between them.
-[[nodiscard]] StudyRequest study_request(const Options& options);
 // What was stated of the clip and of the picture, as far as another command knows it: as words of that.
 [[nodiscard]] std::string stated_words(const Options& options, CommandId command);
 

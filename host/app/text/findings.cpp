@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "app/text/message_text.hpp"
+#include "session/schema/option.hpp"
 #include "session/below/format.hpp"
 #include "session/text/size_text.hpp"
 
@@ -20,7 +20,7 @@ std::string text_of(const Finding& finding) {
     return Diagnostic{finding.severity, *finding.place, finding.message, finding.excerpt}.text(finding.file);
   }
   return format("{}: {}{}{}", finding.file, finding.severity == Severity::warning ? "warning: " : "",
-                finding.message, options_text(finding.settings));
+                finding.message, written(finding.settings, Dialect::command_line));
 }
 
 Json details_json(const std::vector<BlendedValue>& blended) {
@@ -47,7 +47,7 @@ Json json_of(const Finding& finding) {
   Json json{{"severity", finding.severity == Severity::warning ? "warning" : "error"},
             {"kind", finding.kind},
             {"file", finding.file},
-            {"message", finding.message + options_text(finding.settings)}};
+            {"message", finding.message + written(finding.settings, Dialect::command_line)}};
   if (finding.place) {
     json["line"] = finding.place->line;
     json["column"] = finding.place->column;

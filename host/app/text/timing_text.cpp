@@ -1,6 +1,6 @@
 #include "app/text/timing_text.hpp"
 
-#include "app/text/message_text.hpp"
+#include "session/schema/option.hpp"
 #include "session/below/format.hpp"
 
 namespace nutik::app {
@@ -31,7 +31,7 @@ std::string facts_text(std::span<const Fact> facts, About subject) {
   for (const Fact& fact : facts) {
     if (subject_of(fact) != subject) continue;
     const std::string who = fact.origin == Origin::file     ? format(" (from {}", fact.source)
-                            : fact.origin == Origin::stated ? options_text({fact.setting})
+                            : fact.origin == Origin::stated ? written(std::vector{fact.setting}, Dialect::command_line)
                                                             : std::string(" (assumed");
     text += format("{}{}{}", text.empty() ? "" : ", ", fact.text, who);
     if (fact.origin != Origin::stated) text += format("{}{})", fact.remark.empty() ? "" : ": ", fact.remark);
@@ -55,7 +55,7 @@ std::vector<std::string> fact_lines(std::span<const Fact> facts) {
   if (const std::string events = facts_text(facts, About::events); !events.empty())
     lines.push_back("events: " + events);
   if (const std::string colours = facts_text(facts, About::colour); !colours.empty()) {
-    const std::string others = options_text(assumed);
+    const std::string others = written(assumed, Dialect::command_line);
     lines.push_back(
         format("colour: {}{}", colours, others.empty() ? "" : "; what is assumed can be stated" + others));
   }

@@ -34,15 +34,18 @@ std::vector<std::byte> reference_raster(const ClipToAlign& clip) {
   return raster;
 }
 
+const Advice kOtherReference{"; try another picture to align to (`align-to`), or a part of the clip (`from`, `to`)"};
+
 CannotAlign not_alike(const ClipToAlign& clip, CameraMotion motion, std::uint64_t picture,
                       const Registered& found) {
-  return {
+  return CannotAlign(
       format("{}: picture {} cannot be aligned to picture {}: of what is seen in both {:.1f} % follow one "
              "{} motion, and half must. The camera moved too far or too fast, there is a cut between them, "
              "or what moves by itself fills most of the picture",
              clip.name, picture, clip.reference, 100 * found.agreeing, to_text(motion)),
-      motion == CameraMotion::homography ? CannotAlign::WayOut::other_part_or_reference
-                                         : CannotAlign::WayOut::homography};
+      motion == CameraMotion::homography
+          ? kOtherReference
+          : Advice{"; try `align homography`, another picture to align to (`align-to`), or a part of the clip (`from`, `to`)"});
 }
 
 class AlignedClip final : public Clip {
@@ -116,7 +119,7 @@ CameraPath find_camera_path(const ClipToAlign& clip, CameraMotion motion, const 
   } catch (const TooLittleTexture& error) {
     throw CannotAlign(
         format("{}: no picture can be aligned to picture {}: {}", clip.name, clip.reference, error.what()),
-        CannotAlign::WayOut::other_part_or_reference);
+        kOtherReference);
   }
   CameraPath path{motion, clip.format.shape, clip.reference, {}};
   Warp guess;
@@ -151,7 +154,7 @@ Rectangle shown_area(const std::string& name, const CameraPath& path, Unseen uns
       format("{}: no place was seen by all of its {} pictures: in picture {} the camera looks "
              "{:.0f} pixels to the side and {:.0f} up or down from where it did in picture {}",
              name, path.pictures.size(), path.furthest(), std::abs(step.x), std::abs(step.y), path.reference),
-      CannotAlign::WayOut::hold);
+      Advice{"; take a part of the clip (`from`, `to`), or keep the picture's size (`unseen hold`)"});
 }
 
 std::unique_ptr<Clip> open_aligned(const ClipToAlign& clip, const Shared<CameraPath>& path, Unseen unseen) {

@@ -22,13 +22,7 @@ namespace nutik {
 
 // A clip's pictures do not lie on each other, whatever is tried.
 struct CannotAlign : InputError {
-  enum class WayOut {
-    other_part_or_reference,
-    homography,  // or that
-    hold
-  };
-  CannotAlign(const std::string& message, WayOut way) : InputError(message), way_out(way) {}
-  WayOut way_out;
+  using InputError::InputError;
 };
 
 // Opens the clip from its start, as often as it is asked.

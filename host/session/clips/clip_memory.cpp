@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <thread>
 
+#include "capture/error.hpp"
+#include "capture/format.hpp"
 #include "imev/expected_values.hpp"
+#include "session/text/size_text.hpp"
 
 namespace nutik {
 namespace {
@@ -39,8 +42,10 @@ void check_stated(const MemoryBudget& budget, const ClipToRead& clip, std::uint6
   const std::uint64_t sample_bytes = clip.capture.sample_bytes();
   if (!clip.block_samples || *clip.block_samples <= 1) return;
   if (*clip.block_samples * sample_bytes <= closing_bytes) return;
-  throw BlocksTooLong(budget.bytes, *clip.block_samples, sample_bytes,
-                      std::max<std::uint64_t>(1, closing_bytes / sample_bytes));
+  throw UsageError(
+      format("blocks of {} samples take {} each, and several are held: more than the {} of memory allowed",
+             *clip.block_samples, bytes_text(*clip.block_samples * sample_bytes), bytes_text(budget.bytes)),
+      Advice{format(" (`memory`); use fewer samples a block (`block-samples {}`)", std::max<std::uint64_t>(1, closing_bytes / sample_bytes))});
 }
 
 std::uint32_t announced(const ClipToRead& clip, std::uint32_t samples) {

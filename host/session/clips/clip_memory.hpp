@@ -33,7 +33,7 @@ struct ClipToRead {
 };
 
 // For encoding. `rendering` is what a later render will need; blocks stay small enough to fit beside it.
-// Throws MemoryTooLittle, BlocksTooLong.
+// Throws MemoryTooLittle, UsageError where blocks of the stated length do not fit.
 [[nodiscard]] ClipMemory memory_for_encoding(const MemoryBudget& budget, const ClipToRead& clip,
                                              const MemoryNeeds& rendering = {});
 

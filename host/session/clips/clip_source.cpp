@@ -145,9 +145,6 @@ void align(ClipSource& source, OpenClip& open, const MemoryBudget& memory, const
 
 }  // namespace
 
-ExposuresAreListed::ExposuresAreListed(const std::string& name)
-    : UsageError(format("{} says how long each picture was exposed", name)) {}
-
 bool is_tik(const std::filesystem::path& path) {
   const std::string start = first_bytes(is_standard_input(path.string()) ? standard_input_file() : path);
   return tik::looks_like_tik(std::as_bytes(std::span(start))) || path.extension() == ".tik";
@@ -254,7 +251,8 @@ ClipSource open_clip_source(const SourceRequest& request, const OpenClip& open_w
   OpenClip open = open_whole;
   source.clip = open();
   if (request.shutter_angle && !request.clip.rate && !source.clip->info().timing.exposures.empty()) {
-    throw ExposuresAreListed(source.name());
+    throw UsageError(source.name() + " says how long each picture was exposed",
+                     Advice{"; leave `shutter-angle` out, or the exposure_ns column empty"});
   }
   source.capture = clip_format(*source.clip, request.clip);
   source.notes = source.clip->info().notes;

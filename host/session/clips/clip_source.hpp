@@ -57,7 +57,7 @@ struct ClipSource {
   [[nodiscard]] ClipToRead clip_to_read() const;
 };
 
-// Throws InputError where the clip cannot be read, UsageError where the request does not fit it: ExposuresAreListed;
+// Throws InputError where the clip cannot be read, UsageError where the request does not fit it;
 // MemoryTooLittle where its own noise cannot be measured in the memory; what find_camera_path() throws. `progress` counts
 // pictures while that reads the clip; the source's own request knows the path then.
 [[nodiscard]] ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory,
@@ -73,10 +73,5 @@ struct ClipSource {
 // When the pictures of a .tik or a clip were exposed, as far as that is known before one is decoded. Throws InputError
 // where nothing tells how many there are or how fast they were taken, and what open_clip_source() throws.
 [[nodiscard]] Timeline known_timeline(const SourceRequest& request, const MemoryBudget& memory);
-
-// A shutter angle was stated for pictures whose exposures are listed.
-struct ExposuresAreListed : UsageError {
-  explicit ExposuresAreListed(const std::string& name);
-};
 
 }  // namespace nutik

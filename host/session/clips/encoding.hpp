@@ -37,7 +37,7 @@ struct EncodedCapture {
 [[nodiscard]] EncodedCapture encode(ClipSource source, const EncodeRequest& request, const ClipMemory& memory,
                                     const ReportedProgress& progress = {}, std::stop_token stop = {});
 
-// Opens the clip first: throws what open_clip_source() does, MemoryTooLittle and BlocksTooLong, too; UsageError if the
+// Opens the clip first: throws what open_clip_source() and memory_for_encoding() do, too; UsageError if the
 // output is the clip, or no name of a .tik.
 [[nodiscard]] EncodedCapture encode(const SourceRequest& source, const EncodeRequest& request,
                                     const MemoryBudget& memory, const ReportedProgress& progress = {},

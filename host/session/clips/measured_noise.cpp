@@ -102,17 +102,17 @@ std::optional<Note> check_stillness(const Stillness& stillness, const SourceRequ
   const char* cause = stillness.is_brightness
                           ? "the brightness of the whole picture drifts or flickers"
                           : "the camera or the scene moves, or a codec holds what it thinks is still";
-  FootageMoves::WayOut way_out = FootageMoves::WayOut::part;
-  if (stillness.is_brightness && !request.deflickered) way_out = FootageMoves::WayOut::deflicker;
-  if (!stillness.is_brightness && !request.align) way_out = FootageMoves::WayOut::align;
+  const char* first = "";
+  if (stillness.is_brightness && !request.deflickered) first = "evened brightness (`deflicker`), ";
+  if (!stillness.is_brightness && !request.align) first = "an aligned camera (`align rigid`), ";
   if (stillness.stray > stillness.limit) {
-    throw FootageMoves(
+    throw InputError(
         format("{}: no noise can be measured on it: where pixels seem to stand still their light strays by "
                "{:.2f} standard deviations of the noise around what would be held for it, and may by {:.2f} "
                "(most at {}, by {:.2f}, and in {}): {}. {}",
                input_title(request.path.string()), stillness.stray, stillness.limit, where,
                stillness.max_stray, when, cause, kNoiseElsewhere),
-        way_out);
+        Advice{format("; or {}a part that stands still (`crop`, `from`, `to`)", first)});
   }
   if (stillness.max_stray <= stillness.max_limit) return std::nullopt;
   return Note(format("in {:.0f} % of the picture light changes by less than its noise: what is held there is "

@@ -44,15 +44,7 @@ struct ClipTold {
                                           std::uint64_t max_samples, const MemoryBudget& memory,
                                           ClipTold& told);
 
-// A clip whose own noise was asked for does not stand still, or its brightness does not.
-struct FootageMoves : InputError {
-  enum class WayOut { align, deflicker, part };  // beside those that the message says; part: only of the clip
-  WayOut way_out;
-
-  FootageMoves(const std::string& message, WayOut way) : InputError(message), way_out(way) {}
-};
-
-// Throws FootageMoves where light strays by more than its noise lets it be known: a capture with that noise would hold
+// Throws InputError where the clip does not stand still, or its brightness does not: where light strays by more than its noise lets it be known: a capture with that noise would hold
 // light that was not there. Returns a note where only some regions of the picture stray so.
 [[nodiscard]] std::optional<Note> check_stillness(const Stillness& stillness, const SourceRequest& request);
 

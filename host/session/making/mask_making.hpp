@@ -27,11 +27,6 @@ struct StepReport {
   std::vector<std::uint8_t> covered_tags;  // its tags that later steps left on no pixel
 };
 
-// Neither capture nor picture nor anything else says how large the mask is.
-struct NoMaskSize : UsageError {
-  using UsageError::UsageError;
-};
-
 struct MadeMask {
   Mask mask;
   std::vector<StepReport> steps;
@@ -43,7 +38,7 @@ struct MadeMask {
 
 // Of the size that everything stated agrees on. `capture` is null where no step reads one; `capture_name` is for
 // messages; `plate` makes the capture's plate in codes of the capture, and is asked once where a step needs it. Throws
-// NoMaskSize, UsageError where a step lacks its capture or plate, sizes differ or a time lies outside the capture,
+// UsageError where nothing tells a size, a step lacks its capture or plate, sizes differ or a time lies outside the capture,
 // InputError where a picture has another size than the mask, or the capture is damaged.
 [[nodiscard]] MadeMask make_mask(const MaskRequest& request, CaptureSource* capture,
                                  const std::string& capture_name, const std::function<Picture()>& plate = {});

@@ -49,8 +49,9 @@ std::string PictureRecipe::text(const std::string& precision, const OwnRecipe& o
   if (!own.options.empty()) std::ranges::sort(recipe.options);
   std::string text = recipe.text();
   if (text.size() >= kMaxPictureTextBytes) {
-    throw RecipeTooLong(format("the recipe has {} bytes and a picture carries {} MiB at most", text.size(),
-                               kMaxPictureTextBytes >> 20));
+    throw InputError(format("the recipe has {} bytes and a picture carries {} MiB at most", text.size(),
+                               kMaxPictureTextBytes >> 20),
+                     Advice{"; leave it out: `no-recipe`"});
   }
   return text;
 }

@@ -29,11 +29,6 @@ struct OwnRecipe {
 // Of the single picture that a frame of a video is: when it was exposed, of functions their time 0.
 [[nodiscard]] OwnRecipe own_recipe(const Exposure& exposure, bool is_plain);
 
-// The text is longer than a picture carries (kMaxPictureTextBytes).
-struct RecipeTooLong : InputError {
-  using InputError::InputError;
-};
-
 class PictureRecipe {
  public:
   // Reads the capture's checksum beside whatever the caller does next. Without sources there are no recipes.
@@ -41,7 +36,7 @@ class PictureRecipe {
 
   // The recipe's text, for a picture that was computed in this precision; empty without sources. Of many pictures, each
   // one's is that of a single picture, with what is its own. Throws InputError where the capture cannot be read,
-  // RecipeTooLong.
+  // InputError.
   [[nodiscard]] std::string text(const std::string& precision, const OwnRecipe& own = {});
 
  private:

@@ -56,7 +56,8 @@ struct StudyRequest {
 
 // There is no scene that rests.
 struct EverythingMoves : InputError {
-  using InputError::InputError;
+  explicit EverythingMoves(const std::string& message)
+      : InputError(message, Advice{". A camera that moved stands still with `align rigid`"}) {}
 };
 
 // What moves makes no study.

@@ -80,7 +80,7 @@ void DelayRequest::read() {
   try {
     picture = Shared(read_picture(file));
   } catch (const InputError& error) {
-    if (dynamic_cast<const NoSinglePicture*>(&error) == nullptr && file.find('.') != std::string::npos) throw;
+    if (file.find('.') != std::string::npos) throw;
     throw UsageError(format("{}; or, without a picture, rows:, columns: or radial:", error.what()));
   }
 }

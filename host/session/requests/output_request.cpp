@@ -26,9 +26,6 @@ OutputFormat format_of(const OutputRequest& request, ValueType type, const Captu
 
 }  // namespace
 
-LightIsKept::LightIsKept(const std::filesystem::path& file)
-    : UsageError(format("{} holds floating point, which keeps light below 0", file.string())), output(file) {}
-
 std::variant<Transfer, SourceCodes> parse_out_transfer(std::string_view text) {
   if (text == "source") return SourceCodes{};
   const std::string choices = "choose srgb, bt709, linear, gamma:G (as in gamma:2.2) or source";
@@ -57,7 +54,10 @@ OutputFormat output_format(const OutputRequest& request, const std::filesystem::
                            const CaptureFormat& capture) {
   check_quality(request, output);
   OutputFormat chosen = format_of(request, type, capture);
-  if (request.negative && !holds_codes(type)) throw LightIsKept(output);
+  if (request.negative && !holds_codes(type)) {
+    throw UsageError(Advice{format("`negative` says what codes make of light below 0, and {} holds floating point, which "
+                                   "keeps it; leave it out", output.string())});
+  }
   chosen.negative = request.negative.value_or(NegativeLight::saturate);
   return chosen;
 }

@@ -28,12 +28,6 @@ struct OutputRequest {
   friend bool operator==(const OutputRequest&, const OutputRequest&) = default;
 };
 
-// Codes were to show light below 0, and the file holds floating point, which keeps it.
-struct LightIsKept : UsageError {
-  explicit LightIsKept(const std::filesystem::path& file);
-  std::filesystem::path output;
-};
-
 // `source`, or what Transfer::parse() knows, but for functions that go beyond a screen's white. Throws UsageError.
 [[nodiscard]] std::variant<Transfer, SourceCodes> parse_out_transfer(std::string_view text);
 
@@ -43,7 +37,7 @@ struct LightIsKept : UsageError {
 // Throws UsageError where a quality was asked for and a file of this name has none.
 void check_quality(const OutputRequest& request, const std::filesystem::path& output);
 
-// For a file of this name. Throws UsageError where it cannot hold what was asked for, LightIsKept.
+// For a file of this name. Throws UsageError where it cannot hold what was asked for.
 [[nodiscard]] OutputFormat output_format(const OutputRequest& request, const std::filesystem::path& output,
                                          const CaptureFormat& capture);
 

@@ -15,8 +15,9 @@ Picture read_picture(const std::string& name) {
   }
   const auto stills = list_stills(name);
   if (!stills || stills->size() != 1) {
-    throw NoSinglePicture(format("{} is {}; a picture is needed (PNG, TIFF, PGM, PPM, JPEG)", name,
-                                 stills ? format("a sequence of {}", stills->size()) : "no picture"));
+    throw UsageError(format("{} is {}; a picture is needed (PNG, TIFF, PGM, PPM, JPEG)", name,
+                                 stills ? format("a sequence of {}", stills->size()) : "no picture"),
+                          Advice{", or a time of the capture: 0.3s, 12f"});
   }
   const auto clip = open_clip(name, {});
   const CaptureFormat& kind = clip->info().format;

@@ -3,17 +3,11 @@
 
 #include <string>
 
-#include "capture/error.hpp"
 #include "capture/picture.hpp"
 
 namespace nutik {
 
-// It is no picture, or many.
-struct NoSinglePicture : UsageError {
-  using UsageError::UsageError;
-};
-
-// Throws NoSinglePicture, InputError where it cannot be read.
+// Throws UsageError where it is no picture, or many; InputError where it cannot be read.
 [[nodiscard]] Picture read_picture(const std::string& name);
 
 }  // namespace nutik

@@ -59,20 +59,22 @@ std::vector<StatedTime> starts_of(const SeriesRequest& series, const ExposureReq
     if (!series.count && !ends_within(request, next, timeline)) break;
     if (series.count && !starts_within(next, timeline)) {
       const bool counts = next.counts_samples();
-      throw SeriesBehindEnd(
+      throw UsageError(
           format("exposure {} of the series would start at {}, behind the end of the capture{}", k,
                  counts ? next.text() : duration_text(next.nanoseconds()),
                  counts ? format(", which has {} pictures", timeline.sample_count())
                         : format(" at {}", duration_text(timeline.duration_ns()))),
-          k);
+          Advice{format("; `count {}` at most", k)});
     }
     if (k == SeriesRequest::kMaxExposures)
-      throw SeriesTooLong(format("the series has more than {} exposures", SeriesRequest::kMaxExposures));
+      throw UsageError(format("the series has more than {} exposures", SeriesRequest::kMaxExposures),
+                       Advice{"; say how many with `count`"});
     starts.push_back(next);
   }
   if (starts.empty()) {
-    throw NothingInCapture(format("not one exposure of the series ends within the capture, which lasts {}",
-                                  duration_text(timeline.duration_ns())));
+    throw UsageError(format("not one exposure of the series ends within the capture, which lasts {}",
+                                  duration_text(timeline.duration_ns())),
+                     Advice{"; `count 1` makes one that goes on behind its end"});
   }
   return starts;
 }

@@ -22,24 +22,9 @@ struct SeriesRequest {
   friend bool operator==(const SeriesRequest&, const SeriesRequest&) = default;
 };
 
-// More exposures than kMaxExposures fit in the capture, and no count was stated.
-struct SeriesTooLong : UsageError {
-  using UsageError::UsageError;
-};
-// An exposure of those that were counted would start behind the capture's end.
-struct SeriesBehindEnd : UsageError {
-  SeriesBehindEnd(const std::string& message, std::uint64_t possible)
-      : UsageError(message), possible_count(possible) {}
-  std::uint64_t possible_count;
-};
-// Not one exposure ends within the capture.
-struct NothingInCapture : UsageError {
-  using UsageError::UsageError;
-};
-
 // The start of each exposure, exactly start + k · every: no drift, and what is added to it is rounded once with it.
-// Counted in pictures where both are, else in time. Throws the errors above, or UsageError where the first
-// starts behind the capture's end.
+// Counted in pictures where both are, else in time. Throws UsageError where one starts behind the capture's end,
+// none ends within it, or more than kMaxExposures would and no count was stated.
 [[nodiscard]] std::vector<StatedTime> starts_of(const SeriesRequest& series, const ExposureRequest& request,
                                                 const Timeline& timeline);
 

@@ -1,10 +1,13 @@
 #include "session/requests/sweep_request.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
+#include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "exposure/gain_function.hpp"
+#include "session/requests/stated_time.hpp"
 #include "session/text/time_text.hpp"
 
 namespace nutik {
@@ -63,7 +66,82 @@ FunctionSet with_value(const FunctionSet& functions, const SweepRange& range, st
   return each([&](const GainFunction& function) { return function.stretched(value, fixed_ns); });
 }
 
+struct RangeText {
+  std::string from, to, step;
+};
+
+RangeText split(SweepParameter parameter, const std::string& text, std::string_view what) {
+  const auto dots = text.find("..");
+  // The last slash: times may be written as fractions, 1/50s.
+  const auto slash = text.rfind('/');
+  if (dots == std::string::npos || slash == std::string::npos || slash < dots + 3) {
+    throw UsageError(format("{} '{}' is no range; write FROM..TO/STEP: {}", what, text,
+                            parameter == SweepParameter::shift ? "0..1s/0.1s" : "0.5..2/0.25"));
+  }
+  return {text.substr(0, dots), text.substr(dots + 2, slash - dots - 2), text.substr(slash + 1)};
+}
+
+// So that sums of them and products with times fit 128 bits.
+void require_modest(const std::string& text, std::string_view what,
+                    std::initializer_list<Rational> numbers) {
+  for (const Rational& number : numbers) {
+    if (std::abs(number.numerator) <= 1'000'000'000 && number.denominator <= 1'000'000) continue;
+    throw UsageError(format("{} '{}': {} has too many digits; write up to nine, six of them after the point",
+                            what, text, number.text()));
+  }
+}
+
+// Times in one unit: nanoseconds, or pictures of the clip. A bare 0 is of any.
+SweepRange shift_range(const std::string& text, std::string_view what) {
+  const RangeText parts = split(SweepParameter::shift, text, what);
+  SweepRange range;
+  const StatedTime step = StatedTime::parse(parts.step, std::string(what) + "'s step");
+  const auto parse = [&](const std::string& part) {
+    if (part == "0") return Rational{0, 1};
+    const StatedTime time = StatedTime::parse(part, what);
+    if (time.counts_samples() != step.counts_samples())
+      throw UsageError(format("{} '{}' mixes times and pictures; use one of them", what, text));
+    return time.counts_samples() ? time.number : time.modest_nanoseconds();
+  };
+  range.counts_pictures = step.counts_samples();
+  range.step = step.counts_samples() ? step.number : step.modest_nanoseconds();
+  range.from = parse(parts.from);
+  range.to = parse(parts.to);
+  if (!range.counts_pictures) return range;
+  require_modest(text, what, {range.from, range.to, range.step});
+  for (const Rational& pictures : {range.from, range.to, range.step}) {
+    if (pictures.denominator == 1) continue;
+    throw UsageError(format("{} '{}': {}f is not a whole number of pictures", what, text, pictures.text()));
+  }
+  return range;
+}
+
+SweepRange factor_range(SweepParameter parameter, const std::string& text, std::string_view what) {
+  const RangeText parts = split(parameter, text, what);
+  SweepRange range;
+  range.parameter = parameter;
+  range.from = Rational::parse(parts.from, what);
+  range.to = Rational::parse(parts.to, what);
+  range.step = Rational::parse(parts.step, what);
+  require_modest(text, what, {range.from, range.to, range.step});
+  if (parameter == SweepParameter::stretch && range.from.numerator <= 0) {
+    throw UsageError(format("{} '{}': a function cannot be made {} times as long; begin above 0", what, text,
+                            range.from.text()));
+  }
+  return range;
+}
+
 }  // namespace
+
+SweepRange SweepRange::parse(SweepParameter parameter, const std::string& text, std::string_view what) {
+  const SweepRange range =
+      parameter == SweepParameter::shift ? shift_range(text, what) : factor_range(parameter, text, what);
+  const bool is_backwards = static_cast<int128>(range.to.numerator) * range.from.denominator <
+                            static_cast<int128>(range.from.numerator) * range.to.denominator;
+  if (range.step.numerator <= 0 || is_backwards)
+    throw UsageError(format("{} '{}' is empty; FROM must not be above TO, STEP must be above 0", what, text));
+  return range;
+}
 
 std::uint64_t SweepRange::count() const {
   // floor((to - from) / step) + 1

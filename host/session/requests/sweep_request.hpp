@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "capture/rational.hpp"
@@ -22,6 +23,8 @@ struct SweepRange {
   Rational step{1, 1};
   bool counts_pictures = false;  // of shifts; else nanoseconds
 
+  // `0..1s/0.1s`, `-5f..5f/1f`; of factors `0.5..2/0.25`. Throws UsageError naming `what`.
+  static SweepRange parse(SweepParameter parameter, const std::string& text, std::string_view what);
   [[nodiscard]] std::uint64_t count() const;
   // The value with a number of 0 … count() - 1, exactly.
   [[nodiscard]] Rational value(std::uint64_t number) const;

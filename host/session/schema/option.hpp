@@ -1,16 +1,19 @@
-// The one table of options: what a command line is parsed with, what help shows, and what holds for which option.
+// The schema of requests, a row for each option: what is stated is parsed with it, on the command line and in Python,
+// and help, manual, completion, recipes and the advice of messages are written from it.
 #pragma once
 
+#include <exception>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
-#include "app/command_line/command_table.hpp"
-#include "app/command_line/options.hpp"
+#include "capture/error.hpp"
+#include "session/schema/command_id.hpp"
+#include "session/schema/options.hpp"
 
-namespace nutik::app {
+namespace nutik {
 
 // What an option is about. What holds for some options and not for others follows from it, and is asked of
 // the row: nowhere else is there a list of options.
@@ -26,20 +29,27 @@ enum class Scope {
   answer,     // what scripts read
 };
 
+// Sets the field of Options that a value is kept in. Throws UsageError naming `what` where the word makes no sense.
+using Take = void (*)(Options& options, std::string_view what, const std::string& word);
+
+// How options are written: `--shutter-angle`, or `shutter_angle=`.
+enum class Dialect { command_line, python };
+
 struct Option {
   char short_name = 0;  // 0: none
   std::string_view long_name = {};
   std::string_view value = {};  // as in help, a word for each that is needed; empty: a flag
   Scope scope = {};
   CommandSet commands = 0;
-  // What of Options holds it. Nothing: the option may be given again and again, and what it says stands in
-  // Options::said alone.
-  std::variant<std::monostate, Options::Value Options::*, bool Options::*> member = {};
+  // Null: the option may be given again and again, and what it says stands in Options::said alone.
+  Take take = nullptr;
   std::string_view help = {};
   // The values it knows, with blanks between; one that ends with `:` goes on as a person likes, `gamma:2.2`. Empty:
   // told by `value`.
   std::string_view choice_list = {};
-  std::string_view heading = {};  // in help
+  std::optional<Setting> setting = {};  // that errors and notes know it as
+  std::string_view python = {};         // its argument's name there, where that is not the long name
+  std::string_view heading = {};        // in help
 
   // `--fps`
   [[nodiscard]] std::string name() const { return "--" + std::string(long_name); }
@@ -76,19 +86,37 @@ struct Option {
   [[nodiscard]] const std::string* stated(const Options& options) const;
   // Whether a flag is set, or a value stated.
   [[nodiscard]] bool is_in(const Options& options) const;
-  // Takes over what `other` says of it, be it nothing.
-  void copy(Options& options, const Options& other) const;
+  // States it, by the name that messages have for it. Throws UsageError where it is stated already, and what take() does.
+  void state(Options& options, std::string_view what, std::vector<std::string> words) const;
+  // The same in place of what was stated.
+  void restate(Options& options, std::vector<std::string> words) const;
+  // `--fps`, `rate=`; with a value `--unseen hold`, `unseen='hold'`.
+  [[nodiscard]] std::string written(Dialect dialect, std::string_view value = {}) const;
 };
 
 // Heading by heading, as help shows them.
-[[nodiscard]] std::span<const Option> options();
+[[nodiscard]] std::span<const Option> schema();
 // By `--fps` or `-f` without its dashes; null where there is none. Several rows may share a name, for commands
 // that mean different things by it: as many words belong to it in each.
 [[nodiscard]] const Option* find_option(std::string_view long_name);
 [[nodiscard]] const Option* find_option(char short_name);
 // The row of that name for this command.
-[[nodiscard]] const Option* option_of(const Command& command, std::string_view long_name);
+[[nodiscard]] const Option* option_of(CommandId command, std::string_view long_name);
 // Those of a command.
-[[nodiscard]] std::vector<const Option*> options_of(const Command& command);
+[[nodiscard]] std::vector<const Option*> options_of(CommandId command);
 
-}  // namespace nutik::app
+// That of a Python argument.
+[[nodiscard]] const Option* option_of_argument(CommandId command, std::string_view name);
+
+// What was said, without the options of a scope.
+[[nodiscard]] Options without(const Options& options, Scope scope);
+
+// `--crop`, `noise='auto'`
+[[nodiscard]] std::string written(Setting setting, Dialect dialect);
+// ` (--depth, --renderer)`: what settings are called; empty if there are none.
+[[nodiscard]] std::string written(const std::vector<Setting>& settings, Dialect dialect);
+// An error's message with its advice, a note with what would change it.
+[[nodiscard]] std::string message_text(const std::exception& error, Dialect dialect);
+[[nodiscard]] std::vector<std::string> note_texts(const std::vector<Note>& notes, Dialect dialect);
+
+}  // namespace nutik

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace nutik::app {
+namespace nutik {
 
 // `; did you mean --exposure?` for the known words that `word` is the beginning of (at most four), else the
 // nearest one where it is near enough, else nothing.
@@ -14,4 +14,4 @@ namespace nutik::app {
 // Of letters of ASCII, for what is known in small ones.
 [[nodiscard]] std::string lower_case(std::string text);
 
-}  // namespace nutik::app
+}  // namespace nutik

@@ -1,4 +1,4 @@
-#include "app/command_line/suggestion.hpp"
+#include "session/text/suggestion.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -7,7 +7,7 @@
 
 #include "session/below/format.hpp"
 
-namespace nutik::app {
+namespace nutik {
 namespace {
 
 // Letters to insert, delete, change or swap with their neighbour (optimal string alignment).
@@ -73,4 +73,4 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-}  // namespace nutik::app
+}  // namespace nutik

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace nutik::app {
+namespace nutik {
 
 // A whole number of low … high. Throws UsageError naming `what`.
 [[nodiscard]] std::uint32_t parse_whole_number(std::string_view text, std::string_view what,
@@ -35,4 +35,4 @@ struct WholeNumber {
 // Numbers between commas: `10,20.5,-3`. Throws UsageError naming `what` and the part that is none.
 [[nodiscard]] std::vector<double> parse_numbers(std::string_view text, std::string_view what);
 
-}  // namespace nutik::app
+}  // namespace nutik

@@ -1,8 +1,8 @@
-#include "app/text/text_table.hpp"
+#include "session/text/text_table.hpp"
 
 #include <algorithm>
 
-namespace nutik::app {
+namespace nutik {
 
 std::size_t columns(std::string_view text) {
   std::size_t count = 0;
@@ -45,4 +45,4 @@ std::string table_text(const std::vector<std::vector<std::string>>& rows, std::s
   return joined(lines, "\n");
 }
 
-}  // namespace nutik::app
+}  // namespace nutik

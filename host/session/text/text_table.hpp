@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace nutik::app {
+namespace nutik {
 
 // How many columns of a terminal a text takes: bytes that continue a UTF-8 character take none.
 [[nodiscard]] std::size_t columns(std::string_view text);
@@ -20,4 +20,4 @@ namespace nutik::app {
 [[nodiscard]] std::string table_text(const std::vector<std::vector<std::string>>& rows,
                                      std::string_view alignment);
 
-}  // namespace nutik::app
+}  // namespace nutik

@@ -1,14 +1,14 @@
-#include "app/text/number_text.hpp"
+#include "session/text/number_text.hpp"
 
 #include <cctype>
 #include <charconv>
 #include <cmath>
 
-#include "app/text/text_table.hpp"
+#include "session/text/text_table.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 
-namespace nutik::app {
+namespace nutik {
 
 std::uint32_t parse_whole_number(std::string_view text, std::string_view what, std::uint32_t low,
                                  std::uint32_t high) {
@@ -76,4 +76,4 @@ std::vector<double> parse_numbers(std::string_view text, std::string_view what) 
   return numbers;
 }
 
-}  // namespace nutik::app
+}  // namespace nutik
