@@ -10,7 +10,6 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/extension.hpp"
-#include "media/readers.hpp"
 #include "system/input_bytes.hpp"
 #include "system/mapped_file.hpp"
 
@@ -164,13 +163,15 @@ void refuse_text(const std::filesystem::path& file) {
              input_title(file.string()), "If it lists events, convert it to EVT 3.0 or DAT, with faery for one"));
 }
 
-bool begins_as_tiff(const std::filesystem::path& file) {
-  return readers::kTiff.begins(first_bytes(file));
-}
-
-bool begins_as_still(const std::filesystem::path& file) {
+const readers::Reader* still_kind(const std::filesystem::path& file) {
   const std::string start = first_bytes(file);
-  return std::ranges::any_of(readers::kStills, [&](const readers::Reader* reader) { return reader->begins(start); });
+  // A DNG is a TIFF, and only its name or its tags say which.
+  if (readers::kTiff.begins(start)) return readers::kDng.is_named(file) ? &readers::kDng : &readers::kTiff;
+  for (const readers::Reader* reader : readers::kStills) {
+    if (reader->begins(start)) return reader;
+  }
+  const auto* named = std::ranges::find_if(readers::kStills, [&](const auto* reader) { return reader->is_named(file); });
+  return named == std::end(readers::kStills) ? nullptr : *named;
 }
 
 bool holds_several_pictures(const std::filesystem::path& file) {

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "media/readers.hpp"
+
 namespace nutik {
 
 // What a file is and what can be done about it, as a sentence that begins with its name. Empty where readers may look at
@@ -18,11 +20,8 @@ void refuse_unread_kind(const std::filesystem::path& file);
 // Throws InputError where a file holds nothing but text, which some video readers would draw as a screen of letters.
 void refuse_text(const std::filesystem::path& file);
 
-// Whether it begins as a TIFF, of either order of bytes and size of offsets.
-[[nodiscard]] bool begins_as_tiff(const std::filesystem::path& file);
-
-// Whether it begins as a TIFF, PNG or JPEG, whatever its name ends with.
-[[nodiscard]] bool begins_as_still(const std::filesystem::path& file);
+// The kind of still that a file is: by its first bytes, else by its name. Null if neither tells one.
+[[nodiscard]] const readers::Reader* still_kind(const std::filesystem::path& file);
 
 // Whether PNGs or JPEGs stand in it one behind the other, or an animated PNG: a video, whatever its name ends with.
 [[nodiscard]] bool holds_several_pictures(const std::filesystem::path& file);

@@ -162,7 +162,8 @@ Picture read_8_bit_png(std::span<const std::byte> file, const std::string& name,
     throw InputError(
         format("{} is a PNG of {} bits, {}; it must be 8 bits, grey", name, bits, colour_name(colour)));
   }
-  const bool has_alpha = (colour & PNG_COLOR_MASK_ALPHA) != 0;
+  const bool has_alpha =
+      (colour & PNG_COLOR_MASK_ALPHA) != 0 || png_get_valid(read.png, read.info, PNG_INFO_tRNS) != 0;
   const Shape shape{png_get_image_width(read.png, read.info), png_get_image_height(read.png, read.info),
                     (colour & PNG_COLOR_MASK_COLOR) != 0 ? 3u : 1u};
   if (check_size) check_size(shape.width, shape.height);
@@ -171,6 +172,7 @@ Picture read_8_bit_png(std::span<const std::byte> file, const std::string& name,
         format("{} cannot be read: it states {} x {} pixels, which its {} bytes do not hold; it is damaged",
                name, shape.width, shape.height, file.size()));
   }
+  png_set_tRNS_to_alpha(read.png);  // of which one code is transparent
   const int passes = png_set_interlace_handling(read.png);
   png_read_update_info(read.png, read.info);
   Picture picture(shape, ValueType::code8, 255);

@@ -19,13 +19,18 @@ struct Reader {
   std::string_view extensions, otherwise;
   // For people. `none`: nothing in such files tells it.
   std::string_view times, shutter, codes, orientation, alpha, order;
+  std::string_view behind_start = {};  // one of these characters follows it; empty: whatever
 
   [[nodiscard]] constexpr bool begins(std::string_view bytes) const {
     for (const std::string_view start : starts) {
-      if (!start.empty() && bytes.starts_with(start)) return true;
+      if (start.empty() || !bytes.starts_with(start)) continue;
+      const std::string_view next = bytes.substr(start.size(), 1);
+      if (behind_start.empty() || (!next.empty() && behind_start.find(next) != next.npos)) return true;
     }
     return false;
   }
+  // Modules have rows of their own, whose addresses differ.
+  [[nodiscard]] friend constexpr bool operator==(const Reader& a, const Reader& b) { return a.name == b.name; }
   [[nodiscard]] bool is_named(const std::filesystem::path& file) const {
     const std::string extension = extension_of(file);
     return !extension.empty() && extensions.find(" " + extension + " ") != extensions.npos;
@@ -43,20 +48,20 @@ inline constexpr Reader kRawVideo{
     "left out, with a note", "as stored"};
 inline constexpr Reader kPng{
     "PNG", {"\x89PNG\r\n\x1a\n"}, " .png ", {}, "none", "none", "as stored, white 255, or 65535 with a note",
-    "EXIF", "refused; a grey one's `tRNS` is left out", "one picture"};
+    "EXIF", "refused", "one picture"};
 inline constexpr Reader kJpeg{
     "JPEG", {"\xFF\xD8\xFF"}, " .jpg .jpeg ", {}, "EXIF, in a table", "EXIF, in a table", "as stored, white 255",
     "EXIF", "none", "one picture"};
 inline constexpr Reader kTiff{
     "TIFF", {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv}, " .tif .tiff ", {}, "ImageJ's or OME's description", "none",
     "as stored, white by its bits; of 16 `MaxSampleValue` if all ones, else 65535 with a note",
-    "refused, if not upright", "refused", "its pages"};
+    "`Orientation`", "refused", "its pages"};
 inline constexpr Reader kDng{
-    "DNG", {}, " .dng ", {}, "the first one's `FrameRate`; EXIF, in a table", "`ExposureTime`, if alike; EXIF, in a table",
+    "DNG", {}, " .dng ", "a TIFF's `DNGVersion`", "the first one's `FrameRate`; EXIF, in a table", "`ExposureTime`, if alike; EXIF, in a table",
     "developed by the first one's black, white and colours: RGB over 16 bits, linear", "`Orientation`", "none", "one picture"};
 inline constexpr Reader kNetpbm{
-    "Netpbm", {}, " .pgm .ppm .pnm ", {}, "none", "none", "as stored, white is its maximum", "none", "none",
-    "one behind the other"};
+    "Netpbm", {"P2", "P3", "P5", "P6"}, " .pgm .ppm .pnm ", {}, "none", "none", "as stored, white is its maximum", "none",
+    "none", "one behind the other", " \t\r\n"};
 inline constexpr Reader kSequence{
     "several stills", {}, {}, "a folder, `'frames/*.png'`, `frame%04d.tif`", "the first one's, else a folder's only Photron header",
     "as the times", "alike in all", "each one's", "as of one", "as a person counts, 2 before 10"};

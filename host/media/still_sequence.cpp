@@ -234,7 +234,7 @@ std::optional<std::vector<fs::path>> list_stills(const fs::path& path) {
   }
   if (!is_absent(path)) {
     if (holds_several_pictures(path)) return std::nullopt;
-    if (!still_kind_of(path).empty() || begins_as_still(path)) return std::vector<fs::path>{path};
+    if (still_kind(path) != nullptr) return std::vector<fs::path>{path};
     return std::nullopt;
   }
   if (const auto numbered = NumberedName::parse(path.filename().string())) {

@@ -48,6 +48,7 @@ class PageReader {
     }
     page.resolution = resolution();
     page.profile = profile();
+    page.orientation = orientation();
     return page;
   }
 
@@ -94,11 +95,6 @@ class PageReader {
     if (is_grey() && shape_.channels == 3) {
       fail("its 3 samples a pixel are channels of grey, not colour (photometric interpretation MinIsBlack); save one of them, or all as RGB");
     }
-    const auto orientation = field<std::uint16_t>(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
-    if (orientation != ORIENTATION_TOPLEFT) {
-      fail(format("its orientation is {}; only upright pictures (1) are read. Turn it upright first",
-                  orientation));
-    }
   }
 
   // Whether the values are codes as they stand, rather than indices of a palette, YCbCr or single
@@ -109,6 +105,11 @@ class PageReader {
   }
   [[nodiscard]] bool is_grey() const {
     return photometric_ == PHOTOMETRIC_MINISBLACK || photometric_ == PHOTOMETRIC_MINISWHITE;
+  }
+
+  [[nodiscard]] std::uint16_t orientation() const {
+    const auto stated = field<std::uint16_t>(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
+    return stated >= ORIENTATION_TOPLEFT && stated <= ORIENTATION_LEFTBOT ? stated : ORIENTATION_TOPLEFT;
   }
 
   [[nodiscard]] std::optional<std::pair<double, double>> resolution() const {
@@ -232,8 +233,8 @@ class PageReader {
                   bits_));
     }
     std::vector<std::uint32_t> pixels(shape_.pixel_count());
-    if (TIFFReadRGBAImageOriented(file_, shape_.width, shape_.height, pixels.data(), ORIENTATION_TOPLEFT,
-                                  1) == 0) {
+    // As it is stored, as all other kinds are.
+    if (TIFFReadRGBAImageOriented(file_, shape_.width, shape_.height, pixels.data(), orientation(), 1) == 0) {
       fail("it is damaged or was cut off");
     }
     const bool grey = photometric_ == PHOTOMETRIC_MINISBLACK || photometric_ == PHOTOMETRIC_MINISWHITE;
@@ -327,6 +328,11 @@ TiffReader::TiffReader(const std::filesystem::path& path)
   follow_story();
 }
 TiffReader::~TiffReader() = default;
+
+bool TiffReader::is_dng() const {
+  std::uint8_t* version = nullptr;
+  return TIFFGetField(file_->handle.get(), TIFFTAG_DNGVERSION, &version) == 1;
+}
 
 void TiffReader::follow_story() {
   TIFF* const handle = file_->handle.get();

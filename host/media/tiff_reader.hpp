@@ -26,6 +26,7 @@ struct TiffPage {
   // has a resolution.
   std::optional<std::pair<double, double>> resolution;
   std::vector<std::byte> profile;  // ICC; empty where it has none
+  unsigned orientation = 1;        // as it lies, by TIFF's numbers, which are EXIF's
 };
 
 class TiffReader {
@@ -37,6 +38,8 @@ class TiffReader {
 
   // Of these one directory may stand for many, whose codes lie one behind the other, as the description says.
   [[nodiscard]] std::uint64_t page_count() const { return page_count_; }
+  // Whether it says that it is a DNG.
+  [[nodiscard]] bool is_dng() const;
   // What the first page's description says.
   [[nodiscard]] const TiffStory& story() const { return story_; }
 

@@ -31,6 +31,7 @@ PngTags read_png_tags(const std::filesystem::path& file) {
     const std::string_view name = bytes.substr(at + 4, 4), data = bytes.substr(at + kData, length);
     if (data.size() < length) break;
     if (name == "eXIf") tags.orientation = exif_orientation(data);
+    if (name == "tRNS") tags.has_clear_code = true;
     if (name == "cICP" && length == 4) {
       has_coding_points = true;
       tags.primaries = primaries_of_coding_point(static_cast<unsigned char>(data[0]));
