@@ -17,7 +17,7 @@
 #include "capture/picture.hpp"
 #include "capture/pixel_change.hpp"
 #include "capture/timeline.hpp"
-#include "media/event_options.hpp"
+#include "media/events/event_options.hpp"
 
 namespace nutik {
 
@@ -151,9 +151,9 @@ class Clip {
   [[nodiscard]] virtual bool makes_codes() const { return false; }
 };
 
-// Opens a video (`-` is one from standard input), a sequence of stills (media/still_sequence.hpp), a table of stills
-// (media/stills_table.hpp), a Photron camera's pictures (media/photron_clip.hpp), or a recording without pictures
-// (media/event_clip.hpp). Their times do not count where a rate is stated. Throws InputError where there is
+// Opens a video (`-` is one from standard input), a sequence of stills (media/stills/still_sequence.hpp), a table of stills
+// (media/stills/stills_table.hpp), a Photron camera's pictures (media/cameras/photron_clip.hpp), or a recording without pictures
+// (media/events/event_clip.hpp). Their times do not count where a rate is stated. Throws InputError where there is
 // none, or none that can be read.
 [[nodiscard]] std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOptions& options);
 

@@ -5,9 +5,9 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/photron_clip.hpp"
-#include "media/still_sequence.hpp"
-#include "media/stills_table.hpp"
+#include "media/cameras/photron_clip.hpp"
+#include "media/stills/still_sequence.hpp"
+#include "media/stills/stills_table.hpp"
 #include "system/checksum.hpp"
 #include "system/input_bytes.hpp"
 #include "system/is_absent.hpp"

@@ -3,7 +3,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "capture/error.hpp"
-#include "media/mask_reader.hpp"
+#include "media/stills/mask_reader.hpp"
 #include "support/ffmpeg.hpp"
 #include "support/hostile.hpp"
 #include "support/messages.hpp"

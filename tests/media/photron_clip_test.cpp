@@ -4,7 +4,7 @@
 
 #include "capture/error.hpp"
 #include "media/input_checksum.hpp"
-#include "media/photron_clip.hpp"
+#include "media/cameras/photron_clip.hpp"
 #include "support/clips.hpp"
 #include "support/messages.hpp"
 #include "support/scratch.hpp"

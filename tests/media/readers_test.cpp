@@ -1,5 +1,5 @@
 // The table of readers, and the page that shows it.
-#include "media/readers.hpp"
+#include "media/formats/readers.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <sstream>
 #include <vector>
 
-#include "media/file_kinds.hpp"
+#include "media/formats/file_kinds.hpp"
 #include "support/scratch.hpp"
 
 namespace nutik {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "capture/rational.hpp"
-#include "media/file_kinds.hpp"
+#include "media/formats/file_kinds.hpp"
 #include "media/stills/raw_file.hpp"
 #include "media/stills/stills.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "capture/format.hpp"
-#include "media/coding_points.hpp"
+#include "media/formats/coding_points.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::stills {

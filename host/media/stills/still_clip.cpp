@@ -9,16 +9,16 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/colour_profile.hpp"
-#include "media/file_kinds.hpp"
-#include "media/jpeg_file.hpp"
-#include "media/netpbm.hpp"
-#include "media/png_file.hpp"
-#include "media/readers.hpp"
+#include "media/formats/colour_profile.hpp"
+#include "media/formats/file_kinds.hpp"
+#include "media/stills/jpeg_file.hpp"
+#include "media/stills/netpbm.hpp"
+#include "media/stills/png_file.hpp"
+#include "media/formats/readers.hpp"
 #include "media/settled_fact.hpp"
 #include "media/stills/raw_file.hpp"
 #include "media/stills/stills.hpp"
-#include "media/tiff_reader.hpp"
+#include "media/stills/tiff_reader.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::stills {

@@ -12,7 +12,7 @@
 #include "capture/primaries.hpp"
 #include "capture/transfer.hpp"
 #include "media/clip.hpp"
-#include "media/stills_table.hpp"
+#include "media/stills/stills_table.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::stills {

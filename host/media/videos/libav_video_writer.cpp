@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "media/coding_points.hpp"
+#include "media/formats/coding_points.hpp"
 #include "media/videos/libav.hpp"
 #include "media/videos/pixels.hpp"
 #include "media/videos/videos.hpp"

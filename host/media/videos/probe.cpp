@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "media/coding_points.hpp"
+#include "media/formats/coding_points.hpp"
 #include "media/videos/capture_rate.hpp"
 #include "media/videos/cine_header.hpp"
 #include "media/videos/libav.hpp"

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "media/clip.hpp"
-#include "media/video_writer.hpp"
+#include "media/writers/video_writer.hpp"
 #include "media/videos/probe.hpp"
 
 namespace nutik::videos {

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "media/input_checksum.hpp"
-#include "media/mask_reader.hpp"
-#include "media/netpbm.hpp"
-#include "media/numbered_name.hpp"
-#include "media/picture_text.hpp"
-#include "media/picture_writer.hpp"
-#include "media/recipe.hpp"
-#include "media/still_sequence.hpp"
+#include "media/stills/mask_reader.hpp"
+#include "media/stills/netpbm.hpp"
+#include "media/formats/numbered_name.hpp"
+#include "media/stills/picture_text.hpp"
+#include "media/writers/picture_writer.hpp"
+#include "media/writers/recipe.hpp"
+#include "media/stills/still_sequence.hpp"

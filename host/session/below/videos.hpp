@@ -2,4 +2,4 @@
 #pragma once
 
 #include "media/frame_queue.hpp"
-#include "media/video_writer.hpp"
+#include "media/writers/video_writer.hpp"

@@ -1,8 +1,8 @@
 #include "session/making/made_already.hpp"
 
 #include "capture/error.hpp"
-#include "media/picture_text.hpp"
-#include "media/recipe.hpp"
+#include "media/stills/picture_text.hpp"
+#include "media/writers/recipe.hpp"
 
 namespace nutik {
 

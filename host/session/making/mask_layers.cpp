@@ -3,7 +3,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "mask/layers.hpp"
-#include "media/picture_writer.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "session/requests/function_input.hpp"
 
 namespace nutik {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "exposure/mask.hpp"
-#include "media/numbered_name.hpp"
+#include "media/formats/numbered_name.hpp"
 #include "session/output_check.hpp"
 
 namespace nutik {

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "capture/format.hpp"
-#include "media/numbered_name.hpp"
+#include "media/formats/numbered_name.hpp"
 #include "system/is_absent.hpp"
 
 namespace nutik {

@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "media/video_writer.hpp"
+#include "media/writers/video_writer.hpp"
 #include "session/output_check.hpp"
 #include "session/requests/output_request.hpp"
 

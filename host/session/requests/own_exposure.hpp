@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "capture/timeline.hpp"
-#include "media/recipe.hpp"
+#include "media/writers/recipe.hpp"
 #include "render/render_plan.hpp"
 #include "session/requests/exposure_request.hpp"
 

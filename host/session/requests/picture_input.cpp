@@ -4,7 +4,7 @@
 
 #include "capture/format.hpp"
 #include "media/clip.hpp"
-#include "media/still_sequence.hpp"
+#include "media/stills/still_sequence.hpp"
 #include "system/is_absent.hpp"
 
 namespace nutik {
