@@ -1,4 +1,5 @@
-#include "media/cameras/photron_clip.hpp"
+// Photron's recordings: a .mraw of pictures one behind the other, and beside it the header that says what they are
+// (photron_header.hpp).
 
 #include <cstring>
 #include <string>
@@ -8,6 +9,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/cameras/photron_header.hpp"
+#include "media/clip_formats.hpp"
 #include "media/formats/readers.hpp"
 #include "media/settled_fact.hpp"
 #include "system/is_absent.hpp"
@@ -284,11 +286,8 @@ class PhotronClip final : public Clip {
 
 }  // namespace
 
-bool is_photron_clip(const fs::path& path) {
-  return readers::kPhotron.is_named(path);
-}
-
-std::vector<fs::path> photron_files(const fs::path& path) {
+std::optional<Files> photron_files(const fs::path& path) {
+  if (!readers::kPhotron.is_named(path) || is_absent(path)) return std::nullopt;
   std::vector<fs::path> files{pictures_of(path)};
   if (is_photron_header(path)) files.push_back(path);
   std::error_code error;
@@ -300,7 +299,7 @@ std::vector<fs::path> photron_files(const fs::path& path) {
   return files;
 }
 
-std::unique_ptr<Clip> open_photron_clip(const fs::path& path, const ClipOptions& options) {
+std::unique_ptr<Clip> open_photron_clip(const fs::path& path, const Files&, const ClipOptions& options) {
   return std::make_unique<PhotronClip>(path, options);
 }
 

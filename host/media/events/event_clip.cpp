@@ -58,6 +58,7 @@ class EventClip final : public Clip {
 
 bool is_event_recording(const std::filesystem::path& path) {
   const std::string start = first_bytes(is_standard_input(path.string()) ? standard_input_file() : path);
+  if (readers::kPhotron.is_named(path)) return false;
   return readers::kProphesee.begins(start) || readers::kAdder.begins(start);
 }
 

@@ -22,7 +22,6 @@
 
 #include "capture/format.hpp"
 #include "media/events/event_light.hpp"
-#include "media/events/prophesee_header.hpp"
 
 namespace nutik {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,5 +33,22 @@ struct CameraEvents {
 // memory for them. Throws InputError if it is of another kind, or holds no event; MemoryTooLittle.
 [[nodiscard]] CameraEvents read_prophesee_events(std::span<const std::byte> file, const std::string& name,
                                                  const ClipOptions& options);
+
+// The lines of text that files of Prophesee's cameras begin with: `% keyword value`, until a line that does not begin
+// like this or says `% end`.
+struct PropheseeHeader {
+  std::map<std::string, std::string> values;  // by keyword in small letters; `format`'s own, `height=720`, too
+  std::size_t bytes = 0;                      // where the events begin
+
+  [[nodiscard]] const std::string& of(const std::string& keyword) const {
+    static const std::string kNone;
+    const auto at = values.find(keyword);
+    return at == values.end() ? kNone : at->second;
+  }
+  // 0 if it is missing, or no number of pixels.
+  [[nodiscard]] std::uint32_t pixels(const std::string& keyword) const;
+};
+
+[[nodiscard]] PropheseeHeader read_prophesee_header(std::span<const std::byte> file);
 
 }  // namespace nutik

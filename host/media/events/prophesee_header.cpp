@@ -1,4 +1,4 @@
-#include "media/events/prophesee_header.hpp"
+#include "media/events/prophesee_events.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -94,18 +94,11 @@ bool begins_with(std::string_view bytes, std::string_view start) {
          std::equal(start.begin(), start.end(), bytes.begin(), [](char want, char got) { return want == '?' || want == got; });
 }
 
-// Most significant byte first.
-std::size_t number_at(std::string_view bytes, std::size_t at, std::size_t count) {
-  std::size_t number = 0;
-  for (std::size_t i = at; i < at + count; ++i) number = number << 8 | static_cast<unsigned char>(bytes[i]);
-  return number;
-}
-
 // Chunks: their length, four letters, so many bytes, a checksum. acTL stands before the first picture of an animation.
 bool is_png_of_several(std::string_view bytes) {
-  for (std::size_t at = kPng.starts[0].size(); at + 12 <= bytes.size(); at += 12 + number_at(bytes, at, 4)) {
+  for (std::size_t at = kPng.starts[0].size(); at + 12 <= bytes.size(); at += 12 + big_endian(bytes, at, 4)) {
     const std::string_view name = bytes.substr(at + 4, 4);
-    if (name == "acTL" && at + 16 <= bytes.size() && number_at(bytes, at + 8, 4) > 1) return true;
+    if (name == "acTL" && at + 16 <= bytes.size() && big_endian(bytes, at + 8, 4) > 1) return true;
     if (name == "IEND") return kPng.begins(bytes.substr(at + 12));
   }
   return false;
@@ -122,18 +115,26 @@ bool is_jpeg_of_several(std::string_view bytes) {
     }
     if (marker == 0xD9) return kJpeg.begins(bytes.substr(at + 2));
     if (marker == 0xE2 && bytes.substr(at + 4).starts_with("MPF\0"sv)) return false;
-    at += 2 + number_at(bytes, at + 2, 2);
+    at += 2 + big_endian(bytes, at + 2, 2);
   }
   return false;
 }
 
 }  // namespace
 
+std::uint64_t big_endian(std::string_view bytes, std::size_t at, std::size_t count) {
+  if (at > bytes.size() || bytes.size() - at < count) return 0;
+  std::uint64_t number = 0;
+  for (const char byte : bytes.substr(at, count)) number = number << 8 | static_cast<unsigned char>(byte);
+  return number;
+}
+
 std::optional<std::string> unread_kind_text(const std::filesystem::path& file) {
   const std::string start = first_bytes(file), title = input_title(file.string());
   if (begins_as_capture(start)) {
     return format("{} is a capture (.tik) already, not a picture or a clip; pictures are exposed from it alone", title);
   }
+  if (readers::kPhotron.is_named(file)) return std::nullopt;
   for (const Kind& kind : kKinds) {
     const bool is_it = kind.extension.empty() ? begins_with(start, kind.start)
                                               : !start.empty() && extension_of(file) == kind.extension;
@@ -164,6 +165,7 @@ void refuse_text(const std::filesystem::path& file) {
 }
 
 const readers::Reader* still_kind(const std::filesystem::path& file) {
+  if (readers::kPhotron.is_named(file)) return nullptr;
   const std::string start = first_bytes(file);
   // A DNG is a TIFF, and only its name or its tags say which.
   if (readers::kTiff.begins(start)) return readers::kDng.is_named(file) ? &readers::kDng : &readers::kTiff;

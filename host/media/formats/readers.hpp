@@ -68,6 +68,7 @@ inline constexpr Reader kSequence{
 inline constexpr Reader kTable{
     "table of stills", {}, " .csv ", {}, "its column, else EXIF", "its column, else EXIF", "alike in all", "each one's",
     "as of one", "its rows"};
+// Pixels without a header in front may begin as any other file does: its name goes before all bytes.
 inline constexpr Reader kPhotron{
     "Photron", {}, " .mraw .cih .cihx ", {}, "the header", "the header",
     "as stored, linear, white by the header's bits", "none", "none", "as stored"};

@@ -1,4 +1,4 @@
-#include "media/motion/grey_pyramid.hpp"
+#include "media/motion/registration.hpp"
 
 #include <cmath>
 #include <cstdint>

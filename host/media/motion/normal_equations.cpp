@@ -1,4 +1,4 @@
-#include "media/motion/normal_equations.hpp"
+#include "media/motion/registration.hpp"
 
 #include <algorithm>
 #include <opencv2/core.hpp>

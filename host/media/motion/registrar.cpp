@@ -2,7 +2,7 @@
 // with the motion of most loses its weight (Tukey's biweight). The gradients are the reference's, so that they are
 // taken once (Baker and Matthews, "Lucas-Kanade 20 Years On", the inverse compositional algorithm). Where the fit fails
 // from the place that was guessed, matched features tell another.
-#include "media/motion/registrar.hpp"
+#include "align/registrar.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,10 +17,8 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/motion/feature_start.hpp"
-#include "media/motion/grey_pyramid.hpp"
-#include "media/motion/normal_equations.hpp"
-#include "media/motion/texture.hpp"
+#include "media/module.hpp"
+#include "media/motion/registration.hpp"
 
 namespace nutik::motion {
 namespace {
@@ -386,11 +384,16 @@ class RobustRegistrar final : public Registrar {
   std::mutex pyramids_mutex_;
 };
 
-}  // namespace
-
 std::unique_ptr<Registrar> open_registrar(const CaptureFormat& format, CameraMotion motion,
                                           std::span<const std::byte> reference) {
   return std::make_unique<RobustRegistrar>(format, motion, reference);
 }
 
+}  // namespace
 }  // namespace nutik::motion
+
+// What nutik-motion.so gives the program (media/module.hpp).
+extern "C" __attribute__((visibility("default")))
+const nutik::MotionModule nutik_motion_module{nutik::use_shared_state, nutik::motion::open_registrar};
+
+extern "C" __attribute__((visibility("default"))) const char nutik_module_version[] = NUTIK_VERSION;

@@ -1,11 +1,9 @@
-#include "media/motion/texture.hpp"
+#include "media/motion/registration.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-
-#include "media/motion/grey_pyramid.hpp"
 
 namespace nutik::motion {
 namespace {

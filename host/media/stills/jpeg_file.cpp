@@ -1,4 +1,4 @@
-#include "media/stills/jpeg_file.hpp"
+#include "media/stills/picture_files.hpp"
 
 #include <cstdio>  // which jpeglib.h needs and does not include
 

@@ -5,7 +5,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/stills/netpbm.hpp"
-#include "media/stills/png_file.hpp"
+#include "media/stills/picture_files.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik {

@@ -2,10 +2,8 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/stills/jpeg_file.hpp"
+#include "media/stills/picture_files.hpp"
 #include "media/module.hpp"
-#include "media/stills/png_file.hpp"
-#include "media/stills/tiff_file.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik {

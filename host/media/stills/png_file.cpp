@@ -1,4 +1,4 @@
-#include "media/stills/png_file.hpp"
+#include "media/stills/picture_files.hpp"
 
 #include <png.h>
 

@@ -11,10 +11,10 @@
 #include "capture/format.hpp"
 #include "media/formats/colour_profile.hpp"
 #include "media/formats/file_kinds.hpp"
-#include "media/stills/jpeg_file.hpp"
+#include "media/stills/picture_files.hpp"
 #include "media/stills/netpbm.hpp"
-#include "media/stills/png_file.hpp"
 #include "media/formats/readers.hpp"
+#include "media/module.hpp"
 #include "media/settled_fact.hpp"
 #include "media/stills/raw_file.hpp"
 #include "media/stills/stills.hpp"
@@ -85,25 +85,23 @@ bool is_cut_off_jpeg(const std::filesystem::path& file) {
   return bytes.starts_with("\xFF\xD8") && (scan == bytes.npos || end == bytes.npos || end < scan);
 }
 
-std::uint32_t big_endian(std::string_view bytes, std::size_t at, std::size_t count) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < count; ++i) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return value;
+std::uint32_t number_at(std::string_view bytes, std::size_t at, std::size_t count) {
+  return static_cast<std::uint32_t>(big_endian(bytes, at, count));
 }
 
 // Width and height that a PNG or JPEG states; nothing where there are none to be found.
 std::optional<Shape> stated_size(std::string_view bytes) {
   constexpr std::size_t kIhdrEnd = 26;
   if (bytes.size() >= kIhdrEnd && bytes.substr(1, 3) == "PNG") {
-    return Shape{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4), 1};
+    return Shape{number_at(bytes, 16, 4), number_at(bytes, 20, 4), 1};
   }
   // The segments of a JPEG up to its frame header: FF, marker, length, data.
   for (std::size_t at = 2; bytes.starts_with("\xFF\xD8") && at + 9 <= bytes.size() && bytes[at] == '\xFF';) {
-    const std::uint32_t marker = big_endian(bytes, at + 1, 1);
+    const std::uint32_t marker = number_at(bytes, at + 1, 1);
     const bool is_frame =
         marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
-    if (is_frame) return Shape{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2), 1};
-    at += marker == 0xFF ? 1 : 2 + big_endian(bytes, at + 2, 2);
+    if (is_frame) return Shape{number_at(bytes, at + 7, 2), number_at(bytes, at + 5, 2), 1};
+    at += marker == 0xFF ? 1 : 2 + number_at(bytes, at + 2, 2);
   }
   return std::nullopt;
 }
@@ -115,7 +113,7 @@ std::optional<Rational> jpeg_pixel_aspect(std::string_view bytes) {
   constexpr std::size_t kName = 6, kAcross = 14, kDown = 16, kEnd = 18;
   if (!bytes.starts_with(kApp0) || bytes.size() < kEnd || bytes.substr(kName, 4) != "JFIF")
     return std::nullopt;
-  return aspect_of(big_endian(bytes, kAcross, 2), big_endian(bytes, kDown, 2));
+  return aspect_of(number_at(bytes, kAcross, 2), number_at(bytes, kDown, 2));
 }
 
 void follow_profile(Still& still, std::span<const std::byte> profile) {
@@ -436,11 +434,17 @@ class StillClip final : public Clip {
   ClipInfo info_;
 };
 
-}  // namespace
-
 std::unique_ptr<Clip> open_still_files(std::span<const std::filesystem::path> files, const ClipTiming& timing,
                                        const ClipOptions& options) {
   return std::make_unique<StillClip>(files, timing, options);
 }
 
+}  // namespace
 }  // namespace nutik::stills
+
+// What nutik-stills.so gives the program (media/module.hpp).
+extern "C" __attribute__((visibility("default"))) const nutik::StillModule nutik_still_module{
+    nutik::use_shared_state, nutik::stills::open_still_files, nutik::stills::read_exif_times,
+    nutik::stills::write_exr, nutik::stills::read_exr_text};
+
+extern "C" __attribute__((visibility("default"))) const char nutik_module_version[] = NUTIK_VERSION;

@@ -31,9 +31,6 @@ struct PngTags {
 // Nothing of what is no PNG.
 [[nodiscard]] PngTags read_png_tags(const std::filesystem::path& file);
 
-[[nodiscard]] std::unique_ptr<Clip> open_still_files(std::span<const std::filesystem::path> files,
-                                                     const ClipTiming& timing, const ClipOptions& options);
-
 [[nodiscard]] StillTimes read_exif_times(const std::filesystem::path& file);
 
 // How a picture lies, by EXIF data without the name in front of it, or by those in a JPEG: 1 … 8, and 1 where they do not

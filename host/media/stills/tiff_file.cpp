@@ -1,4 +1,4 @@
-#include "media/stills/tiff_file.hpp"
+#include "media/stills/picture_files.hpp"
 
 #include <tiffio.h>
 

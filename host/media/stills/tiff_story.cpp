@@ -1,4 +1,4 @@
-#include "media/stills/tiff_story.hpp"
+#include "media/stills/tiff_reader.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -6,11 +6,9 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/formats/extension.hpp"
-#include "media/stills/jpeg_file.hpp"
+#include "media/stills/picture_files.hpp"
 #include "media/module.hpp"
 #include "media/stills/netpbm.hpp"
-#include "media/stills/png_file.hpp"
-#include "media/stills/tiff_file.hpp"
 #include "system/output_file.hpp"
 #include "system/temporary_folder.hpp"
 

@@ -1,7 +1,7 @@
-// PNG through libpng.
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
@@ -12,6 +12,8 @@
 #include "system/output_file.hpp"
 
 namespace nutik {
+
+// PNG through libpng.
 
 [[nodiscard]] bool is_png(std::span<const std::byte> file);
 
@@ -34,5 +36,32 @@ namespace nutik {
 // cICP has no number for; pixels that are
 // not square in pHYs. `text` is kept as picture_text.hpp says; none where it is empty.
 void write_png(OutputFile& file, const Picture& picture, const std::string& text);
+
+// JPEG, through libjpeg.
+
+// 8-bit codes in full colour resolution, quality 1 … 100. What they stand for is in an ICC profile, their pixel aspect
+// in the density of the JFIF header, `text` in comments.
+void write_jpeg(OutputFile& file, const Picture& picture, const std::string& text, int quality);
+
+[[nodiscard]] bool is_jpeg(std::span<const std::byte> file);
+
+// The comments before the picture, one behind the other; nothing where there is none. Throws InputError.
+[[nodiscard]] std::optional<std::string> read_jpeg_comments(std::span<const std::byte> file,
+                                                            const std::string& name);
+
+// The ICC profile; empty where there is none, or not all of it. Throws InputError.
+[[nodiscard]] std::vector<std::byte> read_jpeg_profile(std::span<const std::byte> file,
+                                                       const std::string& name);
+
+// TIFF through libtiff.
+
+// Writes codes (8 or 16 bits) or light (32-bit floating point), uncompressed, so that every program
+// reads it bit for bit; what values mean as an ICC profile, pixels that are not square as resolution. `text` becomes
+// the ImageDescription; none where it is empty. Throws OutputError.
+void write_tiff(const std::filesystem::path& path, const Picture& picture, const std::string& text);
+
+// The ImageDescription of the first picture; nothing where there is none. Throws InputError where the file is no
+// TIFF.
+[[nodiscard]] std::optional<std::string> read_tiff_description(const std::filesystem::path& path);
 
 }  // namespace nutik
