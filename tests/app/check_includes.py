@@ -1,47 +1,57 @@
 #!/usr/bin/python3
-"""The programs are clients of the session: host/app and host/studio include the session's headers, the system's and
-their own. What writes the outputs of host/app knows nothing of its requests. What lies below names no option of a command line.
+"""Which way includes go in host/: a room includes itself and the rooms that its CMakeLists.txt uses, and the folders of a
+room include each other one way. Only the command line and the schema name an option with its dashes.
 
-    check_includes.py --app FOLDER
+    check_includes.py --host FOLDER
 """
 
 import argparse
 import re
 import sys
 from collections import defaultdict
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
-ROOMS = {"app", "session", "system"}
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
+from house import reached_from, uses_of_rooms  # noqa: E402
+
 OPTION = re.compile(r'"(?:[^"\\\n]|\\.)*--[a-z](?:[^"\\\n]|\\.)*"')  # within a text
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
+PROGRAMS = {"app": "nutik-cl", "studio": "nutik-studio"}
+
+
+def folder_of(place):
+    """The folder within a room; of a file that lies in none, nothing."""
+    parts = Path(place).parts
+    return parts[1] if len(parts) > 2 else ""
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--app", type=Path, required=True)
-    app = parser.parse_args().app
-    mistakes = []
-    arrows = defaultdict(set)
-    files = sorted(path for path in app.rglob("*") if path.suffix in (".hpp", ".cpp"))
+    parser.add_argument("--host", type=Path, required=True)
+    host = parser.parse_args().host
+    uses = uses_of_rooms()
+    mistakes, arrows = [], defaultdict(lambda: defaultdict(set))
+    files = [path for path in sorted(host.glob("*/**/*.[ch]pp")) if path.parent.name != "nutik"]
     if not files:
-        sys.exit(f"{app} holds no source")
+        sys.exit(f"{host} holds no source")
     for path in files:
-        place = path.relative_to(app)
-        for name in INCLUDE.findall(path.read_text(encoding="utf-8")):
-            room, *rest = name.split("/")
-            if room not in ROOMS:
-                mistakes.append(f"{place} includes {name}, which is neither the session's, the system's nor the program's")
-            if room == "app" and len(place.parts) > 1 and len(rest) > 1 and rest[0] != place.parts[0]:
-                arrows[place.parts[0]].add(rest[0])
-    if "requests" in arrows["output"]:
-        mistakes.append("output includes requests")
-    for path in sorted((app.parent / "studio").rglob("*.[ch]pp")):
-        mistakes += [f"{path.relative_to(app.parent)} includes {name}, which is neither the session's, the system's nor the studio's"
-                     for name in INCLUDE.findall(path.read_text(encoding="utf-8"))
-                     if name.split("/")[0] not in {"studio", "session", "system"}]
-    for path in sorted(app.parent.rglob("*.[ch]pp")):
-        if app not in path.parents:
-            mistakes += [f"{path.relative_to(app.parent)} says {text}" for text in OPTION.findall(path.read_text(encoding="utf-8"))]
+        place = path.relative_to(host)
+        room, text = place.parts[0], path.read_text(encoding="utf-8")
+        known = reached_from(uses, PROGRAMS.get(room, room))
+        for name in INCLUDE.findall(text):
+            other = name.split("/")[0]
+            if other == room:
+                arrows[room][folder_of(place)].add(folder_of(name))
+            elif other not in known and "/" in name:
+                mistakes.append(f"{place} includes {name}: {room} does not use {other}")
+        if room != "app" and place.parent != Path("features/schema"):
+            mistakes += [f"{place} says {option}" for option in OPTION.findall(text)]
+    for room, within in arrows.items():
+        try:
+            TopologicalSorter({folder: others - {folder, ""} for folder, others in within.items() if folder}).prepare()
+        except CycleError as error:
+            mistakes.append(f"{room}: folders include each other in a circle: {' <- '.join(error.args[1])}")
     for mistake in mistakes:
         print(mistake)
     print(f"{len(files)} files, {len(mistakes)} mistakes")

@@ -1,5 +1,6 @@
 #include "session/requests/function_input.hpp"
 
+#include <filesystem>
 #include <vector>
 
 #include "capture/error.hpp"
@@ -7,11 +8,12 @@
 #include "exposure/function_file.hpp"
 #include "exposure/mask_check.hpp"
 #include "mask/layers.hpp"
+#include "media/clip.hpp"
 #include "media/input_checksum.hpp"
 #include "media/stills/mask_reader.hpp"
 #include "media/formats/numbered_name.hpp"
-#include "session/clips/clip_source.hpp"
-#include "session/requests/picture_input.hpp"
+#include "media/stills/still_sequence.hpp"
+#include "session/requests/source_request.hpp"
 #include "system/input_bytes.hpp"
 #include "system/is_absent.hpp"
 
@@ -94,6 +96,30 @@ std::string mask_checksum(const std::string& name) {
   std::vector<std::filesystem::path> files;
   for (const auto& [tag, file] : layer_files(name)) files.push_back(file);
   return files_checksum(files);
+}
+
+Picture read_picture(const std::string& name) {
+  if (is_absent(name)) {
+    throw InputError(format("{} cannot be read: no such file", name));
+  }
+  const auto stills = list_stills(name);
+  if (!stills || stills->size() != 1) {
+    throw UsageError(format("{} is {}; a picture is needed (PNG, TIFF, PGM, PPM, JPEG)", name,
+                                 stills ? format("a sequence of {}", stills->size()) : "no picture"),
+                          Advice{", or a time of the capture: 0.3s, 12f"});
+  }
+  const auto clip = open_clip(name, {});
+  const CaptureFormat& kind = clip->info().format;
+  Picture picture(kind.shape, code_type(kind), kind.white_code);
+  if (!clip->read(picture.bytes)) throw InputError(format("{} has no picture", name));
+  const std::uint32_t largest = largest_code(picture.bytes, kind.code_bytes);
+  if (largest > picture.white_code) {
+    throw InputError(
+        format("{} cannot be read: it has a code of {}, above the {} that it states as its largest; write it "
+               "again with the right one",
+               name, largest, picture.white_code));
+  }
+  return picture;
 }
 
 }  // namespace nutik
