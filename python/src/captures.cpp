@@ -9,7 +9,7 @@
 #include "parts.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
-#include "session/clips/camera_check.hpp"
+#include "align/alignment.hpp"
 #include "session/clips/encoding.hpp"
 #include "session/making/capture_figures.hpp"
 #include "session/making/joining.hpp"

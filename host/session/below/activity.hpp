@@ -2,4 +2,4 @@
 #pragma once
 
 #include "session/making/activity_request.hpp"
-#include "sheet/activity_chart.hpp"
+#include "sheet/drawings.hpp"

@@ -3,7 +3,5 @@
 
 #include "plot/canvas.hpp"
 #include "plot/graph.hpp"
-#include "plot/ticks.hpp"
 #include "sheet/contact_sheet.hpp"
-#include "sheet/mask_overlay.hpp"
-#include "sheet/thumbnail.hpp"
+#include "sheet/drawings.hpp"

@@ -10,7 +10,7 @@
 #include "imev/each_block.hpp"
 #include "mask/code_span.hpp"
 #include "mask/distance.hpp"
-#include "scene/plate_edges.hpp"
+#include "scene/clean_plate.hpp"
 
 namespace nutik {
 namespace {

@@ -6,15 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "align/alignment.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "imev/each_block.hpp"
 #include "imev/sample_cursor.hpp"
 #include "noise/noise_estimator.hpp"
 #include "render/code_scale.hpp"
-#include "scene/plate.hpp"
-#include "scene/thin_raster.hpp"
-#include "session/clips/camera_check.hpp"
+#include "scene/clean_plate.hpp"
+#include "scene/shots.hpp"
 #include "session/making/mask_making.hpp"
 
 namespace nutik {

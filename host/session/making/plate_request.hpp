@@ -10,8 +10,8 @@
 #include "mask/region.hpp"
 #include "render/output_format.hpp"
 #include "session/memory_budget.hpp"
-#include "session/reported_progress.hpp"
 #include "session/requests/mask_request.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 

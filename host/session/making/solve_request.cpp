@@ -9,7 +9,6 @@
 #include "capture/source_text.hpp"
 #include "imev/each_block.hpp"
 #include "render/code_scale.hpp"
-#include "session/clips/camera_check.hpp"
 #include "session/making/candidate_times.hpp"
 #include "session/making/plate_request.hpp"
 #include "session/requests/function_input.hpp"

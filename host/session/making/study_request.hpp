@@ -20,10 +20,10 @@
 #include "scene/subject.hpp"
 #include "session/making/mask_making.hpp"
 #include "session/memory_budget.hpp"
-#include "session/reported_progress.hpp"
 #include "session/requests/exposure_request.hpp"
 #include "session/requests/mask_request.hpp"
 #include "session/requests/stated_time.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 

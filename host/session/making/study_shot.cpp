@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "align/alignment.hpp"
 #include "capture/format.hpp"
 #include "imev/each_block.hpp"
-#include "session/clips/alignment.hpp"
 #include "session/making/mask_making.hpp"
 #include "session/making/plate_request.hpp"
 

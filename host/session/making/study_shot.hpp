@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "align/alignment.hpp"
 #include "capture/error.hpp"
-#include "session/clips/camera_check.hpp"
 #include "session/making/study_request.hpp"
 #include "session/requests/output_request.hpp"
 #include "session/requests/source_request.hpp"

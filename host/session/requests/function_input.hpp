@@ -10,7 +10,7 @@
 
 #include "exposure/mask.hpp"
 #include "render/render_plan.hpp"
-#include "session/shared.hpp"
+#include "system/shared.hpp"
 
 namespace nutik {
 

@@ -7,7 +7,7 @@
 
 #include "session/below/regions.hpp"
 #include "session/requests/exposure_request.hpp"
-#include "session/shared.hpp"
+#include "system/shared.hpp"
 
 namespace nutik::studio {
 

@@ -2,8 +2,6 @@
 // with the motion of most loses its weight (Tukey's biweight). The gradients are the reference's, so that they are
 // taken once (Baker and Matthews, "Lucas-Kanade 20 Years On", the inverse compositional algorithm). Where the fit fails
 // from the place that was guessed, matched features tell another.
-#include "media/motion/registrar.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,12 +13,12 @@
 #include <utility>
 #include <vector>
 
+#include "align/motion/feature_start.hpp"
+#include "align/motion/grey_pyramid.hpp"
+#include "align/motion/normal_equations.hpp"
+#include "align/registrar.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/motion/feature_start.hpp"
-#include "media/motion/grey_pyramid.hpp"
-#include "media/motion/normal_equations.hpp"
-#include "media/motion/texture.hpp"
 
 namespace nutik::motion {
 namespace {
@@ -386,11 +384,15 @@ class RobustRegistrar final : public Registrar {
   std::mutex pyramids_mutex_;
 };
 
-}  // namespace
-
-std::unique_ptr<Registrar> open_registrar(const CaptureFormat& format, CameraMotion motion,
-                                          std::span<const std::byte> reference) {
+std::unique_ptr<Registrar> open_robust_registrar(const CaptureFormat& format, CameraMotion motion,
+                                                 std::span<const std::byte> reference) {
   return std::make_unique<RobustRegistrar>(format, motion, reference);
 }
 
+}  // namespace
 }  // namespace nutik::motion
+
+extern "C" __attribute__((visibility("default"))) const nutik::MotionModule nutik_motion_module{
+    nutik::use_shared_state, nutik::motion::open_robust_registrar};
+
+extern "C" __attribute__((visibility("default"))) const char nutik_module_version[] = NUTIK_VERSION;

@@ -1,4 +1,4 @@
-#include "sheet/thumbnail.hpp"
+#include "sheet/drawings.hpp"
 
 #include <algorithm>
 #include <cmath>

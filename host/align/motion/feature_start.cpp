@@ -1,4 +1,4 @@
-#include "media/motion/feature_start.hpp"
+#include "align/motion/feature_start.hpp"
 
 #include <cmath>
 #include <opencv2/calib3d.hpp>

@@ -1,4 +1,4 @@
-#include "sheet/camera_chart.hpp"
+#include "align/camera_path.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -7,7 +7,7 @@
 #include "capture/format.hpp"
 #include "plot/graph.hpp"
 
-namespace nutik::sheet {
+namespace nutik {
 namespace {
 
 constexpr std::uint32_t kPathWidth = 1200, kPathHeight = 640;
@@ -63,4 +63,4 @@ Picture camera_chart(const std::string& heading, const CameraPath& path, const T
   return canvas.finished();
 }
 
-}  // namespace nutik::sheet
+}  // namespace nutik

@@ -1,6 +1,8 @@
-// A picture as a registrar looks at it: grey, a little blurred, and smaller and smaller.
+// A picture as a registrar looks at it: grey, a little blurred, smaller and smaller; and its places that can be
+// recognized in another.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <opencv2/core.hpp>
 #include <span>
@@ -16,7 +18,7 @@ struct GreyPyramid {
   // In the memory of the picture before: pages that are new to a process cost as much as what is done with them.
   void take(const CaptureFormat& format, std::span<const std::byte> raster);
 
-  // Of 8 bits, for features, and how many of the picture's pixels are one of its.
+  // The picture in 8 bits, for features, and how many of the picture's pixels are one of its.
   [[nodiscard]] cv::Mat of_features() const;
   [[nodiscard]] double feature_scale() const;
 
@@ -26,5 +28,18 @@ struct GreyPyramid {
  private:
   std::vector<cv::Mat> greys_;  // before they are blurred, the picture itself first
 };
+
+struct Point {
+  float x, y;  // of the level
+  float grey;
+  float gradient_x, gradient_y;
+};
+
+[[nodiscard]] inline double gradient_of(const Point& point) {
+  return std::hypot(point.gradient_x, point.gradient_y);
+}
+
+// The strongest edges of each part of a picture in grey, some `count` from all over it.
+[[nodiscard]] std::vector<Point> textured_points(const cv::Mat& grey, std::size_t count);
 
 }  // namespace nutik::motion

@@ -1,15 +1,17 @@
-#include "session/clips/alignment.hpp"
+#include "align/alignment.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "align/light_warp.hpp"
-#include "align/seen_area.hpp"
+#include "align/registrar.hpp"
 #include "capture/format.hpp"
-#include "media/module.hpp"
+#include "imev/each_block.hpp"
 #include "media/read_ahead.hpp"
 #include "system/interruption.hpp"
 #include "system/parallel.hpp"
@@ -101,21 +103,21 @@ class AlignedClip final : public Clip {
 
 }  // namespace
 
-CameraPath find_camera_path(const ClipToAlign& clip, CameraMotion motion, const MemoryBudget& memory,
+CameraPath find_camera_path(const ClipToAlign& clip, CameraMotion motion, std::uint64_t memory_bytes,
                             const ReportedProgress& progress, const std::stop_token& stop) {
   const std::uint64_t sample_bytes = clip.format.sample_bytes();
   MemoryNeeds needs{{"pictures within the decoder", clip.decoder_bytes},
                     {"pictures decoded ahead", 2 * sample_bytes},
                     {"the picture that others are aligned to", sample_bytes}};
   needs.add(registrar_needs(clip.format, Reach::anywhere));
-  const std::uint64_t spare = needs.rest_of(memory.bytes);
+  const std::uint64_t spare = needs.rest_of(memory_bytes);
   const std::uint64_t at_once = spare / (kPicturesAtOnce - 1) >= 2 * sample_bytes + registered_bytes(clip.format)
                                     ? kPicturesAtOnce
                                     : 1;
 
   std::unique_ptr<Registrar> registrar;
   try {
-    registrar = motion_module().open(clip.format, motion, reference_raster(clip));
+    registrar = open_registrar(clip.format, motion, reference_raster(clip));
   } catch (const TooLittleTexture& error) {
     throw CannotAlign(
         format("{}: no picture can be aligned to picture {}: {}", clip.name, clip.reference, error.what()),
@@ -166,13 +168,6 @@ std::unique_ptr<Clip> open_aligned(const ClipToAlign& clip, const Shared<CameraP
   return std::make_unique<AlignedClip>(clip, path, shown_area(clip.name, *path, unseen), unseen);
 }
 
-TwofoldProgress::TwofoldProgress(const SourceRequest& source, const ReportedProgress& progress)
-    : reading(progress) {
-  if (!progress || !source.align || source.align->path) return;
-  finding = [progress](std::uint64_t done, std::uint64_t total) { progress(done, 2 * total); };
-  reading = [progress](std::uint64_t done, std::uint64_t total) { progress(total + done, 2 * total); };
-}
-
 std::string alignment_text(const CameraPath& path, const Rectangle& area, Unseen unseen) {
   const std::string shown =
       unseen == Unseen::held
@@ -203,6 +198,72 @@ std::string alignment_text(const tik::Alignment& aligned) {
       "{}",
       aligned.reference, aligned.motion, aligned.moved_pixels, turned,
       aligned.holds_unseen ? "holds what was seen before" : "was cut away");
+}
+
+namespace {
+
+constexpr std::uint64_t kLooks = 9;
+// Less is not told from what compression and rolling shutters do.
+constexpr double kMinPixels = 1.0;
+
+// How far the corner that moves furthest does.
+double furthest_corner(const Warp& warp, const Shape& shape) {
+  double most = 0;
+  for (const double x : {0.0, shape.width - 1.0}) {
+    for (const double y : {0.0, shape.height - 1.0}) {
+      const Place place = warp.at(x, y);
+      most = std::max(most, std::hypot(place.x - x, place.y - y));
+    }
+  }
+  return most;
+}
+
+}  // namespace
+
+std::string MovedCamera::text() const {
+  return format(
+      "the camera moved: at sample {} its picture lies up to {:.1f} pixels from where it lay at first, "
+      "turned by {:.2f} degrees, and still things are not still",
+      sample, pixels, degrees);
+}
+
+MemoryNeeds camera_check_needs(const CaptureFormat& capture) {
+  MemoryNeeds needs = registrar_needs(capture, Reach::near);
+  needs.add("a picture of the capture", capture.sample_bytes());
+  return needs;
+}
+
+std::optional<MovedCamera> moved_camera(tik::Reader& capture) {
+  if (capture.header().alignment) return std::nullopt;
+  const CaptureFormat& format = capture.format();
+  const std::uint64_t count = capture.timeline().sample_count();
+  std::vector<std::byte> raster(format.sample_bytes());
+  std::unique_ptr<Registrar> registrar;
+  std::optional<MovedCamera> moved;
+  double most = kMinPixels;
+  for (std::uint64_t look = 0; look < std::min(count, kLooks); ++look) {
+    const std::uint64_t sample = count <= kLooks ? look : look * (count - 1) / (kLooks - 1);
+    for_each_block(capture, {sample, sample + 1}, [&](const BlockView& block) {
+      block.read_sample(static_cast<std::uint32_t>(sample - block.extent().first_sample), raster);
+    });
+    if (!registrar) {
+      try {
+        registrar = open_registrar(format, CameraMotion::rigid, raster);
+      } catch (const TooLittleTexture&) {
+        return std::nullopt;
+      }
+      continue;
+    }
+    // From where it lay at first: what stands still is found there.
+    const Registered found = registrar->find(raster, Warp(), Reach::near);
+    const double corner = furthest_corner(found.warp, format.shape);
+    if (!is_sure(found) || corner < most) continue;
+    most = corner;
+    const double degrees =
+        found.warp.degrees_at((format.shape.width - 1) / 2.0, (format.shape.height - 1) / 2.0);
+    moved = {corner, std::abs(degrees), sample};
+  }
+  return moved;
 }
 
 }  // namespace nutik

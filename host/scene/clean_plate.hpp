@@ -37,4 +37,11 @@ struct Plate {
                                std::uint64_t max_samples = ~std::uint64_t{0},
                                const std::function<void(std::uint64_t, std::uint64_t)>& progress = {});
 
+// The share of the region's border along which the plate has an edge and the picture none: about 0 for a thing, 1 for a
+// hole, and in between for a thing of which the plate shows a part. An edge differs by more than `by_codes`. The region
+// reaches `margin` pixels over what differs. Both pictures hold codes of one type, and have the region's size. 0 for a
+// region that is too small to tell.
+[[nodiscard]] double plate_edge_share(const Picture& picture, const Picture& plate, const Region& region,
+                                      std::uint32_t by_codes, std::uint32_t margin);
+
 }  // namespace nutik

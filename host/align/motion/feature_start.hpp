@@ -14,7 +14,7 @@ class FeatureStart {
   // `scale` of the picture's own pixels are one of these.
   FeatureStart(const cv::Mat& reference, double scale);
 
-  // Of a picture of the same size: moved and turned, not scaled. Nothing where too few features agree.
+  // Finds a picture of the same size that was moved and turned, not scaled. Nothing where too few features agree.
   [[nodiscard]] std::optional<Warp> find(const cv::Mat& picture);
 
  private:

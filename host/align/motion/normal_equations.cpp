@@ -1,4 +1,4 @@
-#include "media/motion/normal_equations.hpp"
+#include "align/motion/normal_equations.hpp"
 
 #include <algorithm>
 #include <opencv2/core.hpp>

@@ -5,18 +5,19 @@
 //   always:  pictures are moved in light (align/light_warp.hpp), by what was found of each alone: nothing drifts
 #pragma once
 
-#include <functional>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 
 #include "align/camera_path.hpp"
 #include "capture/error.hpp"
+#include "capture/memory_needs.hpp"
 #include "media/clip.hpp"
-#include "session/memory_budget.hpp"
-#include "session/reported_progress.hpp"
-#include "session/requests/source_request.hpp"
+#include "system/interruption.hpp"
+#include "system/shared.hpp"
 #include "tik/header.hpp"
+#include "tik/reader.hpp"
 
 namespace nutik {
 
@@ -24,9 +25,6 @@ namespace nutik {
 struct CannotAlign : InputError {
   using InputError::InputError;
 };
-
-// Opens the clip from its start, as often as it is asked.
-using OpenClip = std::function<std::unique_ptr<Clip>()>;
 
 struct ClipToAlign {
   std::string name;
@@ -40,7 +38,7 @@ struct ClipToAlign {
 // Reads all of the clip; `progress` counts its pictures. Throws CannotAlign, MemoryTooLittle, Cancelled, InputError where
 // the clip ends before the reference.
 [[nodiscard]] CameraPath find_camera_path(const ClipToAlign& clip, CameraMotion motion,
-                                          const MemoryBudget& memory, const ReportedProgress& progress,
+                                          std::uint64_t memory_bytes, const ReportedProgress& progress,
                                           const std::stop_token& stop);
 
 // What of the reference the aligned pictures show. Throws CannotAlign where nothing is left.
@@ -51,17 +49,27 @@ struct ClipToAlign {
 [[nodiscard]] std::unique_ptr<Clip> open_aligned(const ClipToAlign& clip, const Shared<CameraPath>& path,
                                                  Unseen unseen);
 
-// Of a clip that is read twice, once for its camera's path: both times in one.
-struct TwofoldProgress {
-  TwofoldProgress(const SourceRequest& source, const ReportedProgress& progress);
-  ReportedProgress finding, reading;
-};
-
 // `aligned to picture 0 (rigid), from which others are …`, how well that holds, and what is left of the pictures.
 [[nodiscard]] std::string alignment_text(const CameraPath& path, const Rectangle& area, Unseen unseen);
 
 // The same as a capture keeps it, and in words.
 [[nodiscard]] tik::Alignment kept_alignment(const CameraPath& path, Unseen unseen);
 [[nodiscard]] std::string alignment_text(const tik::Alignment& aligned);
+
+// How the camera of a capture moved that was taken for a resting one.
+struct MovedCamera {
+  double pixels = 0;  // of the place that moved furthest
+  double degrees = 0;
+  std::uint64_t sample = 0;  // at which, from the first sample
+  // `the camera moved: …`
+  [[nodiscard]] std::string text() const;
+};
+
+// What a look takes, beside blocks of the capture.
+[[nodiscard]] MemoryNeeds camera_check_needs(const CaptureFormat& capture);
+
+// Looks at a few samples. Nothing of a capture whose pictures were aligned, nor where it stands still, nor where most of
+// the picture follows no motion of a camera. Throws InputError where the capture is damaged.
+[[nodiscard]] std::optional<MovedCamera> moved_camera(tik::Reader& capture);
 
 }  // namespace nutik
