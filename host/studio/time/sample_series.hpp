@@ -23,7 +23,7 @@ class Series {
 
   [[nodiscard]] std::span<const double> values() const { return values_; }
   [[nodiscard]] bool empty() const { return values_.empty(); }
-  // Of values [first, last), at least one.
+  // The range of values [first, last), at least one.
   [[nodiscard]] Range over(std::size_t first, std::size_t last) const;
 
  private:

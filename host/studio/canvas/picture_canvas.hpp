@@ -88,7 +88,7 @@ class Canvas : public QWidget {
   ~Canvas() override;
 
   void show_picture(const ShownPicture& picture);
-  // Of a clip that is being opened, until there is a picture of the document. No tool works on it.
+  // Shows a clip that is being opened, until there is a picture of the document. No tool works on it.
   void show_first_look(const QImage& image);
   [[nodiscard]] bool shows_first_look() const { return is_first_look_; }
   void clear();

@@ -1,4 +1,4 @@
-#include "studio/window/starting_points.hpp"
+#include "studio/window/started_work.hpp"
 
 #include <span>
 
@@ -7,7 +7,9 @@
 #include "session/making/plate_request.hpp"
 #include "session/output_check.hpp"
 #include "session/requests/output_request.hpp"
+#include "session/text/size_text.hpp"
 #include "session/text/time_text.hpp"
+#include "studio/live/live_view.hpp"
 
 namespace nutik::studio {
 namespace {
@@ -59,8 +61,7 @@ std::span<const StartingPoint> starting_points() {
   return kAll;
 }
 
-Jobs::Work studying(Document& document, std::shared_ptr<Session> session, StudyStyle style,
-                    std::function<void(const QString&)> told) {
+Jobs::Work studying(Document& document, std::shared_ptr<Session> session, StudyStyle style, Told told) {
   return [&document, session = std::move(session), style, told = std::move(told),
           path = document.facts()->path](const Job& job) -> Jobs::Finish {
     StudyRequest request;
@@ -77,8 +78,7 @@ Jobs::Work studying(Document& document, std::shared_ptr<Session> session, StudyS
   };
 }
 
-Jobs::Work writing_plate(std::shared_ptr<Session> session, const QString& picture,
-                         std::function<void(const QString&)> told) {
+Jobs::Work writing_plate(std::shared_ptr<Session> session, const QString& picture, Told told) {
   const std::filesystem::path path = picture.toStdString();
   const std::string name = session->source().path.string();
   check_output(path, OutputKind::picture, std::vector{name});
@@ -89,6 +89,35 @@ Jobs::Work writing_plate(std::shared_ptr<Session> session, const QString& pictur
     write_picture(path, plate.picture);
     const QString line =
         Document::tr("%1: the scene without what moves").arg(QString::fromStdString(path.string()));
+    return [told, line] { told(line); };
+  };
+}
+
+Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session, const CommandFiles& files,
+                     const QString& picture, Told told) {
+  const std::filesystem::path path = picture.toStdString();
+  std::vector<std::string> inputs{document.facts()->path.toStdString()};
+  if (document.mode() == ExposureMode::functions) {
+    inputs.push_back(files.functions.toStdString());
+    if (document.state().mask) inputs.push_back(files.mask.toStdString());
+  }
+  check_output(path, OutputKind::picture, inputs);
+  return [state = document.state(), sources = recipe_sources(document, files), session = std::move(session),
+          path, told = std::move(told)](const Job& job) -> Jobs::Finish {
+    const auto mask = state.mask && state.mode == ExposureMode::functions
+                          ? std::optional(LiveView::feathered_mask(state))
+                          : std::nullopt;
+    RenderControl control;
+    control.stop = job.stop;
+    PictureRecipe recipe(sources);
+    const ExposedPicture exposed =
+        session->render(exposure_of(state, mask), output_format({}, path, session->format()), control);
+    write_picture(path, exposed.picture, recipe.text(std::string(to_text(exposed.precision))),
+                  file_wishes({}));
+    const QString line = Jobs::tr("%1: %2, %3")
+                             .arg(QString::fromStdString(path.string()),
+                                  QString::fromStdString(shape_text(exposed.picture.shape)),
+                                  QString::fromStdString(saturated_text(exposed.saturation)));
     return [told, line] { told(line); };
   };
 }

@@ -1,4 +1,5 @@
-// Times and gains as a person types and reads them, exactly.
+// Times and gains as a person types and reads them, exactly; and the times at which a camera's exposures begin and
+// end, as places to go to and to snap to.
 #pragma once
 
 #include <QString>
@@ -28,5 +29,12 @@ struct Typed {
 // As many digits as it takes to read the same number back.
 [[nodiscard]] QString gain_text(double gain);
 [[nodiscard]] Typed<double> read_typed_gain(const QString& text);
+
+// The begin or end of an exposure that is nearest to a time, or the capture's end.
+[[nodiscard]] std::int64_t nearest_sample_edge(std::int64_t time_ns, const Timeline& timeline);
+
+// The time that lies as far behind the start of a sample as `time_ns` behind the start of its own, `steps` samples later
+// or earlier; beyond the capture samples go on at its mean rate.
+[[nodiscard]] std::int64_t samples_later(std::int64_t time_ns, std::int64_t steps, const Timeline& timeline);
 
 }  // namespace nutik::studio

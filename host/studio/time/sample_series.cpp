@@ -1,4 +1,4 @@
-#include "studio/time/series.hpp"
+#include "studio/time/sample_series.hpp"
 
 #include <algorithm>
 

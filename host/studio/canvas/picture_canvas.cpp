@@ -1,4 +1,4 @@
-#include "studio/canvas/canvas.hpp"
+#include "studio/canvas/picture_canvas.hpp"
 
 #include <QPaintEvent>
 #include <QPainter>
