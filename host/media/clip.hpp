@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -181,6 +182,9 @@ class Clip {
 
 // The files that it would read: a table before its stills, Photron's pictures before their header.
 [[nodiscard]] std::vector<std::filesystem::path> files_of_clip(const std::filesystem::path& path);
+
+// Opens a clip from its start, as often as it is asked.
+using OpenClip = std::function<std::unique_ptr<Clip>()>;
 
 // What files say of codes that are read as they are stored, and what transfer function is usual for such.
 struct StoredCodes {
