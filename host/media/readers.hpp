@@ -3,6 +3,7 @@
 // file_kinds.cpp, and of FFmpeg's containers in videos/containers.hpp.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <string>
@@ -21,14 +22,11 @@ struct Reader {
   std::string_view times, shutter, codes, orientation, alpha, order;
 
   [[nodiscard]] constexpr bool begins(std::string_view bytes) const {
-    for (const std::string_view start : starts) {
-      if (!start.empty() && bytes.starts_with(start)) return true;
-    }
-    return false;
+    return std::ranges::any_of(starts, [&](auto start) { return !start.empty() && bytes.starts_with(start); });
   }
   [[nodiscard]] bool is_named(const std::filesystem::path& file) const {
     const std::string extension = extension_of(file);
-    return !extension.empty() && extensions.find(" " + extension + " ") != extensions.npos;
+    return !extension.empty() && extensions.find(" " + extension + " ") != std::string_view::npos;
   }
 };
 
