@@ -415,6 +415,8 @@ constexpr Option kRows[] = {
      "them sRGB"},
     {0, "width", "PIXELS", output, bit(Id::thumbnail), take_whole<In<&Options::width>, 1, 4096>,
      "of the longer side (default: 256); no picture is enlarged"},
+    {0, "points", "", answer, bit(Id::check), take<In<&Options::points>>,
+     "print nothing but the control points of -k, a line for each: mask value, nanoseconds, gain"},
     {0, "json", "", answer, kAll & ~kOnlyPrints, take<In<&Options::json>>, "answer with one JSON object, for scripts"},
     {0, "no-recipe", "", output, kExposes & ~bit(Id::mask), take<In<&Options::no_recipe>>,
      "do not keep in the picture how it was made: names, functions and options (see nutik-cl again)"},
