@@ -7,7 +7,7 @@
             from then on; somebody else makes the input shorter right before the output gets its name, or right after
             that
     device  the n-th call of OpenCL of a kind fails, once or from then on, in every command that uses a device
-    kills   SIGKILL, SIGTERM or SIGINT at a random moment
+    kills   SIGKILL, SIGTERM or SIGINT at a random moment, or once a temporary file is seen
 
 Whatever happens, there is the old output or the whole new one; a video that SIGTERM or SIGINT ends has its frames so
 far. A call that failed is told in a sentence, with an exit status above 0, and leaves no temporary file; or the program
@@ -142,6 +142,11 @@ class Bench:
 
     def parts(self):
         return sorted(str(path.relative_to(self.folder)) for path in self.folder.rglob("*.part"))
+
+    def wait_for_parts(self, process):
+        """Until there is a temporary file, or the process has ended."""
+        while process.poll() is None and not self.parts():
+            pass
 
     def clear_parts(self):
         for path in self.folder.rglob("*.part"):
@@ -292,11 +297,15 @@ def check_kills(report, bench, kills):
         whole = time.monotonic() - began
         wrong, finished = [], 0
         each = -(-kills // len(COMMANDS))
-        for _ in range(each):
+        for at in range(each):
             output.write_bytes(old)
             process = bench.start(words, {})
-            time.sleep(draw.random() * whole)
             kind = draw.choice(list(SIGNALS))
+            if at % 2:
+                # Writing is so short a part of the work that a random moment seldom falls into it.
+                bench.wait_for_parts(process)
+            else:
+                time.sleep(draw.random() * whole)
             process.send_signal(kind)
             _, said = process.communicate(timeout=60)
             status, found, parts = process.returncode, output.read_bytes(), bench.parts()

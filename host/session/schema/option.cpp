@@ -50,7 +50,7 @@ const std::string* Option::stated(const Options& options) const {
 
 bool Option::is_in(const Options& options) const {
   const Said* const said = take != nullptr ? options.find(long_name) : nullptr;
-  return said != nullptr && said->row == this;
+  return said != nullptr && said->row->take == take;
 }
 
 void Option::state(Options& options, std::string_view what, std::vector<std::string> words) const {

@@ -84,7 +84,7 @@ struct Option {
 
   // What is stated for it; null where nothing is, and for flags and repeatable options.
   [[nodiscard]] const std::string* stated(const Options& options) const;
-  // Whether a flag is set, or a value stated.
+  // Whether a flag is set, or a value stated; by the row of another command, too, that sets the same field.
   [[nodiscard]] bool is_in(const Options& options) const;
   // States it, by the name that messages have for it. Throws UsageError where it is stated already, and what take() does.
   void state(Options& options, std::string_view what, std::vector<std::string> words) const;

@@ -165,10 +165,10 @@ std::uint32_t parse_share(std::string_view word, std::string_view what) {
 bool parse_zero(std::string_view word, std::string_view what) { return parse_only(word, what, "zero"); }
 bool parse_all(std::string_view word, std::string_view what) { return parse_only(word, what, "all"); }
 
-std::pair<std::uint32_t, std::uint32_t> parse_pixel(std::string_view word, std::string_view) {
+std::pair<std::uint32_t, std::uint32_t> parse_pixel(std::string_view word, std::string_view what) {
   constexpr std::uint32_t kLast = 65'535;
   return parse_pair(word, ',', {"pixel column", 0, kLast}, {"pixel row", 0, kLast},
-                    format("pixel '{}' is no place; write its column and row from 0 on: 320,180", word));
+                    format("{0} '{1}' is no place; write its column and row from 0 on: {0} 320,180", what, word));
 }
 
 double parse_shutter_error(std::string_view word, std::string_view what) {
