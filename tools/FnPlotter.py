@@ -11,7 +11,7 @@ from pathlib import Path
 # Installed, the parts lie in share/nutik beside bin; in the source tree beside this file, where Python looks first.
 sys.path.append(str(Path(__file__).resolve().parent.parent / "share" / "nutik"))
 
-from fnplot.errors import InputError, PlotterError, UsageError  # noqa: E402
+from fnplot.errors import InputError, UsageError, status_of  # noqa: E402
 from fnplot.input import STANDARD_INPUT, title_of  # noqa: E402
 from fnplot.mask import ranges_text, read_mask  # noqa: E402
 from fnplot.output import check_output, missing_matplotlib, put_out  # noqa: E402
@@ -174,15 +174,5 @@ def plot(options):
     put_out(page_drawings(functions, pixels, options), options.output)
 
 
-def main():
-    options = command_line().parse_args()
-    try:
-        plot(options)
-    except PlotterError as error:
-        print(f"FnPlotter.py: {error}", file=sys.stderr)
-        return error.status
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of("FnPlotter.py", plot, command_line().parse_args()))

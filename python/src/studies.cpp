@@ -7,6 +7,7 @@
 #include "errors.hpp"
 #include "parts.hpp"
 #include "session/below/activity.hpp"
+#include "session/making/activity_request.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/making/plate_request.hpp"

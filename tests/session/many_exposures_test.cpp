@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "session/below/activity.hpp"
+#include "session/making/activity_request.hpp"
 #include "session/below/pictures.hpp"
 #include "session/making/picture_queue.hpp"
 #include "session/making/series_making.hpp"

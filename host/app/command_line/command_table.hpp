@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/commands/commands.hpp"
+#include "app/command_line/commands.hpp"
 #include "session/schema/command_id.hpp"
 
 namespace nutik::app {

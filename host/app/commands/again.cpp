@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <span>
 
-#include "app/commands/commands.hpp"
+#include "app/command_line/commands.hpp"
 #include "app/output/console.hpp"
 #include "app/requests/requests.hpp"
 #include "session/schema/option.hpp"

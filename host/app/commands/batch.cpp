@@ -7,7 +7,7 @@
 
 #include "app/command_line/command_line.hpp"
 #include "session/schema/option.hpp"
-#include "app/commands/commands.hpp"
+#include "app/command_line/commands.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"

@@ -4,10 +4,10 @@
 #include <string>
 #include <utility>
 
-#include "app/commands/commands.hpp"
+#include "app/command_line/commands.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "app/text/findings.hpp"
+#include "app/output/findings.hpp"
 #include "session/schema/option.hpp"
 #include "session/text/text_table.hpp"
 #include "session/below/capture.hpp"

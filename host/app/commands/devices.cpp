@@ -1,6 +1,6 @@
 #include "session/devices.hpp"
 
-#include "app/commands/commands.hpp"
+#include "app/command_line/commands.hpp"
 #include "app/output/report.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"

@@ -1,12 +1,12 @@
 #include <utility>
 
 #include "app/commands/camera_files.hpp"
-#include "app/commands/commands.hpp"
+#include "app/command_line/commands.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "app/text/timing_text.hpp"
+#include "app/output/timing_text.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"
 #include "session/clips/encoding.hpp"

@@ -2,7 +2,7 @@
 #include <iterator>
 #include <utility>
 
-#include "app/commands/commands.hpp"
+#include "app/command_line/commands.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"

@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <array>
 
-#include "app/commands/commands.hpp"
+#include "app/command_line/commands.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
 #include "session/schema/option.hpp"
 #include "session/below/activity.hpp"
+#include "session/making/activity_request.hpp"
 #include "session/below/capture.hpp"
 #include "session/below/error.hpp"
 #include "session/below/format.hpp"

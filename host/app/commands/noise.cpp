@@ -1,4 +1,4 @@
-#include "app/commands/commands.hpp"
+#include "app/command_line/commands.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"

@@ -1,6 +1,6 @@
 #include <array>
 
-#include "app/commands/commands.hpp"
+#include "app/command_line/commands.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
 #include "session/below/capture.hpp"

@@ -2,7 +2,7 @@
 #include <optional>
 #include <string>
 
-#include "app/commands/commands.hpp"
+#include "app/command_line/commands.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "app/commands/commands.hpp"
+#include "app/command_line/commands.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"

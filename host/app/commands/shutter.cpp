@@ -2,7 +2,7 @@
 
 #include "session/schema/option.hpp"
 #include "app/command_line/value_check.hpp"
-#include "app/commands/commands.hpp"
+#include "app/command_line/commands.hpp"
 #include "app/output/console.hpp"
 #include "app/requests/requests.hpp"
 #include "session/text/number_text.hpp"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "app/commands/commands.hpp"
+#include "app/command_line/commands.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/commands/study_files.hpp"
 #include "app/output/console.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/commands/commands.hpp"
+#include "app/command_line/commands.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "session/schema/option.hpp"
-#include "app/commands/commands.hpp"
+#include "app/command_line/commands.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"

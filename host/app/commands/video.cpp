@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "app/commands/commands.hpp"
+#include "app/command_line/commands.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"

@@ -6,7 +6,7 @@
 
 #include "session/schema/option.hpp"
 #include "session/text/text_table.hpp"
-#include "app/text/timing_text.hpp"
+#include "app/output/timing_text.hpp"
 #include "session/below/format.hpp"
 #include "session/below/functions.hpp"
 #include "session/making/retiming.hpp"

@@ -1,5 +1,4 @@
 // What changes in a capture, when and where.
 #pragma once
 
-#include "session/making/activity_request.hpp"
 #include "sheet/activity_chart.hpp"

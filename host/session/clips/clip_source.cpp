@@ -9,7 +9,6 @@
 #include "session/clips/measured_noise.hpp"
 #include "session/text/time_text.hpp"
 #include "system/mapped_file.hpp"
-#include "tik/header.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik {
@@ -144,21 +143,6 @@ void align(ClipSource& source, OpenClip& open, const MemoryBudget& memory, const
 }
 
 }  // namespace
-
-bool is_tik(const std::filesystem::path& path) {
-  const std::string start = first_bytes(is_standard_input(path.string()) ? standard_input_file() : path);
-  return tik::looks_like_tik(std::as_bytes(std::span(start))) || path.extension() == ".tik";
-}
-
-std::optional<Shape> known_shape(const std::filesystem::path& path) {
-  if (is_standard_input(path.string()) || !is_tik(path)) return std::nullopt;
-  try {
-    const MappedFile file(path);
-    return tik::parse_header(file.bytes(), path.string()).header.capture.shape;
-  } catch (const InputError&) {  // it is said when it is opened
-    return std::nullopt;
-  }
-}
 
 CaptureFormat clip_format(const Clip& clip, const ClipOptions& options) {
   CaptureFormat capture = clip.info().format;

@@ -22,13 +22,6 @@
 
 namespace nutik {
 
-// Whether a file is read as a .tik: told from its content, else from its name. Of standard input it is told once all of
-// it is there.
-[[nodiscard]] bool is_tik(const std::filesystem::path& path);
-
-// The size of a .tik's pictures, from its first bytes; none of a clip, a damaged file or standard input.
-[[nodiscard]] std::optional<Shape> known_shape(const std::filesystem::path& path);
-
 // A clip's format, with what was stated in place of what its files say, without noise. Throws UsageError if the stated
 // white code does not fit its codes.
 [[nodiscard]] CaptureFormat clip_format(const Clip& clip, const ClipOptions& options);

@@ -10,16 +10,29 @@
 #include "media/input_checksum.hpp"
 #include "media/mask_reader.hpp"
 #include "media/numbered_name.hpp"
-#include "session/clips/clip_source.hpp"
 #include "session/requests/picture_input.hpp"
+#include "session/requests/source_request.hpp"
 #include "system/input_bytes.hpp"
 #include "system/is_absent.hpp"
+#include "system/mapped_file.hpp"
+#include "tik/header.hpp"
 
 namespace nutik {
 namespace {
 
 // Of a mask that comes through a pipe: one of 32767 x 32767 pixels.
 constexpr std::size_t kMaxPipedMask = std::size_t{1} << 30;
+
+// The size of a .tik's pictures, from its first bytes; none of a clip, a damaged file or standard input.
+std::optional<Shape> known_shape(const std::filesystem::path& path) {
+  if (is_standard_input(path.string()) || !is_tik(path)) return std::nullopt;
+  try {
+    const MappedFile file(path);
+    return tik::parse_header(file.bytes(), path.string()).header.capture.shape;
+  } catch (const InputError&) {  // it is said when it is opened
+    return std::nullopt;
+  }
+}
 
 }  // namespace
 

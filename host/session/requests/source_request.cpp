@@ -1,9 +1,19 @@
 #include "session/requests/source_request.hpp"
 
+#include <span>
+
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "system/input_bytes.hpp"
+#include "system/mapped_file.hpp"
+#include "tik/header.hpp"
 
 namespace nutik {
+
+bool is_tik(const std::filesystem::path& path) {
+  const std::string start = first_bytes(is_standard_input(path.string()) ? standard_input_file() : path);
+  return tik::looks_like_tik(std::as_bytes(std::span(start))) || path.extension() == ".tik";
+}
 
 ClipMoment clip_moment(const StatedTime& time, std::string_view what) {
   if (!time.counts_samples()) return {time.nanoseconds(), false};

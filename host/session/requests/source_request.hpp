@@ -19,6 +19,10 @@
 
 namespace nutik {
 
+// Whether a file is read as a .tik: told from its content, else from its name. Of standard input it is told once all of
+// it is there.
+[[nodiscard]] bool is_tik(const std::filesystem::path& path);
+
 // The length of a tick. Throws UsageError naming `what` if it is a number of pictures, or shorter than 1 ns.
 [[nodiscard]] std::int64_t tick_ns(const StatedTime& time, std::string_view what);
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "session/text/text_table.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
 
 namespace nutik {
 

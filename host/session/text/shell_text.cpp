@@ -1,8 +1,8 @@
 #include "session/text/shell_text.hpp"
 
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
-#include "session/below/functions.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "capture/source_text.hpp"
 
 namespace nutik {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "session/below/format.hpp"
+#include "capture/format.hpp"
 
 namespace nutik {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/text/findings.hpp"
+#include "app/output/findings.hpp"
 
 #include <algorithm>
 #include <map>

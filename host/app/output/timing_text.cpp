@@ -1,4 +1,4 @@
-#include "app/text/timing_text.hpp"
+#include "app/output/timing_text.hpp"
 
 #include "session/schema/option.hpp"
 #include "session/below/format.hpp"
