@@ -1,7 +1,7 @@
-# nutik_room(<name> SOURCES … HEADERS … [USES …] [LINKS …] [PRIVATE_LINKS …])
+# nutik_room(<name> SOURCES … [HEADERS …] [USES …] [LINKS …] [PRIVATE_LINKS …])
 #
 # A room of the house: the library nutik::<name> from host/<name>/. HEADERS are those that other projects
-# may include, and those that these include: they are installed, and each compiles on its own there. USES
+# may include, and those that these include (without the word, all): they are installed, and each compiles on its own there. USES
 # names the rooms it knows of; LINKS and PRIVATE_LINKS what else it needs, in its headers or only inside.
 # What a room newly links to, nutik-config.cmake.in has to find.
 
@@ -59,6 +59,10 @@ function(nutik_room name)
   target_link_libraries(nutik_${name} PUBLIC ${ROOM_USES} ${ROOM_LINKS}
                                       PRIVATE ${ROOM_PRIVATE_LINKS} $<BUILD_INTERFACE:nutik_warnings>)
   install(TARGETS nutik_${name} EXPORT nutik-targets COMPONENT development)
+  if(NOT ROOM_HEADERS)
+    install(DIRECTORY ./ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nutik/${name} COMPONENT development
+            FILES_MATCHING PATTERN "*.hpp")
+  endif()
   foreach(header IN LISTS ROOM_HEADERS)
     cmake_path(GET header PARENT_PATH folder)
     install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nutik/${name}/${folder} COMPONENT development)

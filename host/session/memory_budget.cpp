@@ -4,7 +4,7 @@
 
 #include "capture/format.hpp"
 #include "render/picture_memory.hpp"
-#include "session/text/size_text.hpp"
+#include "session/text/number_text.hpp"
 
 namespace nutik {
 

@@ -17,7 +17,6 @@
 #include "session/clips/clip_source.hpp"
 #include "session/clips/forward_clip.hpp"
 #include "session/clips/scratch_capture.hpp"
-#include "session/making/retiming.hpp"
 #include "session/preloading.hpp"
 
 namespace nutik {

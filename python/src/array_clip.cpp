@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
 
 namespace nutik::python {
 

@@ -5,16 +5,16 @@
 #include <mutex>
 
 #include "array_clip.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
 #include "errors.hpp"
+#include "features/captures/capture_figures.hpp"
+#include "features/captures/joining.hpp"
+#include "features/schema/option.hpp"
+#include "features/schema/requests.hpp"
 #include "parts.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
 #include "session/clips/camera_check.hpp"
 #include "session/clips/encoding.hpp"
-#include "session/making/capture_figures.hpp"
-#include "session/making/joining.hpp"
-#include "session/schema/option.hpp"
-#include "session/schema/requests.hpp"
 #include "working.hpp"
 
 namespace nutik::python {

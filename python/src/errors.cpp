@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <new>
 
+#include "capture/error.hpp"
 #include "capture/memory_needs.hpp"
-#include "session/below/error.hpp"
-#include "session/schema/option.hpp"
+#include "features/schema/option.hpp"
 #include "system/interruption.hpp"
 
 namespace nutik::python {

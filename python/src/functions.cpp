@@ -3,9 +3,11 @@
 
 #include <cmath>
 
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "exposure/corridor_fit.hpp"
+#include "exposure/function_text.hpp"
 #include "parts.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
 #include "session/requests/function_input.hpp"
 #include "system/output_file.hpp"
 

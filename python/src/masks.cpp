@@ -3,9 +3,10 @@
 
 #include <algorithm>
 
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "mask/layers.hpp"
 #include "parts.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
 #include "session/requests/function_input.hpp"
 #include "working.hpp"
 

@@ -11,7 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "session/below/functions.hpp"
+#include "exposure/mask.hpp"
+#include "render/render_plan.hpp"
 #include "session/session.hpp"
 #include "settings.hpp"
 

@@ -1,10 +1,9 @@
 // Pictures, which NumPy looks at where they lie.
-#include "session/below/pictures.hpp"
+#include "media/picture_writer.hpp"
 
 #include <pybind11/stl.h>
 
 #include "parts.hpp"
-#include "session/below/error.hpp"
 #include "session/output_check.hpp"
 #include "session/requests/output_request.hpp"
 

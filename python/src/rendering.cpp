@@ -3,12 +3,12 @@
 
 #include <cmath>
 
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "features/schema/option.hpp"
+#include "features/schema/requests.hpp"
 #include "parts.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
 #include "session/requests/output_request.hpp"
-#include "session/schema/option.hpp"
-#include "session/schema/requests.hpp"
 #include "working.hpp"
 
 namespace nutik::python {

@@ -1,7 +1,7 @@
 #include "settings.hpp"
 
-#include "session/below/error.hpp"
-#include "session/schema/option.hpp"
+#include "capture/error.hpp"
+#include "features/schema/option.hpp"
 
 namespace nutik::python {
 

@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
-#include "session/schema/command_id.hpp"
-#include "session/schema/options.hpp"
+#include "features/schema/command_id.hpp"
+#include "features/schema/options.hpp"
 
 namespace nutik::python {
 

@@ -4,15 +4,14 @@
 
 #include <algorithm>
 
+#include "capture/error.hpp"
+#include "capture/format.hpp"
 #include "errors.hpp"
+#include "features/activity/activity.hpp"
+#include "features/plate/plate.hpp"
+#include "features/solve/solving.hpp"
+#include "features/study/study.hpp"
 #include "parts.hpp"
-#include "session/below/activity.hpp"
-#include "session/making/activity_request.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
-#include "session/making/plate_request.hpp"
-#include "session/making/solve_request.hpp"
-#include "session/making/study_request.hpp"
 #include "session/requests/output_request.hpp"
 #include "working.hpp"
 

@@ -2,7 +2,6 @@
 #include <pybind11/stl.h>
 
 #include "parts.hpp"
-#include "session/below/error.hpp"
 #include "working.hpp"
 
 namespace nutik::python {

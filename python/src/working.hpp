@@ -18,7 +18,7 @@
 #include <stop_token>
 #include <utility>
 
-#include "session/below/error.hpp"
+#include "capture/error.hpp"
 #include "session/reported_progress.hpp"
 #include "system/mapped_file.hpp"
 

@@ -1,56 +1,61 @@
 #!/usr/bin/python3
-"""Arrows between the rooms of host/, and between the folders of a room, run one way, as real includes have them.
+"""Which way includes go in host/: a room includes itself and the rooms that its CMakeLists.txt uses, and the folders of a
+room include each other one way. Only the command line and the schema name an option with its dashes.
 
     check_includes.py --host FOLDER
-
-A room includes those that its CMakeLists.txt names, and those that these name. The programs are clients of the session:
-host/app and host/studio include the session's headers, the system's and their own. Options of the
-command line are named in host/app and in the schema alone.
 """
 
 import argparse
 import re
 import sys
 from collections import defaultdict
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
 from house import reached_from, uses_of_rooms  # noqa: E402
 
-CLIENTS = {"app": {"session", "system"}, "studio": {"session", "system"}}
 OPTION = re.compile(r'"(?:[^"\\\n]|\\.)*--[a-z](?:[^"\\\n]|\\.)*"')  # within a text
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
+PROGRAMS = {"app": "nutik-cl", "studio": "nutik-studio"}
+
+
+def folder_of(place):
+    """The folder within a room; of a file that lies in none, nothing."""
+    parts = Path(place).parts
+    return parts[1] if len(parts) > 2 else ""
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--host", type=Path, required=True)
-    host = parser.parse_args().host.resolve()
-    uses = uses_of_rooms() | CLIENTS
-    may_include = {room: rooms if room in CLIENTS else reached_from(uses, room) for room, rooms in uses.items()}
-    mistakes = [f"the rooms {room} and {other} use each other" for room in uses for other in uses
-                if room < other and other in reached_from(uses, room) and room in reached_from(uses, other)]
-    arrows, examples = defaultdict(set), {}
-    files = sorted(path.relative_to(host) for path in host.rglob("*") if path.suffix in (".cpp", ".hpp", ".inl"))
-    for file in files:
-        text = (host / file).read_text(encoding="utf-8")
-        room, folder = file.parts[0], str(file.parent)
-        for name in map(Path, INCLUDE.findall(text)):
-            if not (host / name).exists():
-                continue  # generated
-            if name.parts[0] != room:
-                if name.parts[0] not in may_include.get(room, {"session"}):
-                    mistakes.append(f"{file} includes {name}, and {room} does not use that room")
-            elif str(name.parent) != folder and room not in (folder, str(name.parent)):  # not the room's own files
-                arrows[folder].add(str(name.parent))
-                examples.setdefault((folder, str(name.parent)), f"{file} includes {name}")
-        if room != "app" and folder != "session/schema":
-            mistakes += [f"{file} says {said}" for said in OPTION.findall(text)]
-    for folder in sorted(arrows):
-        mistakes += [f"arrows run both ways: {examples[folder, other]}" for other in sorted(arrows[folder])
-                     if folder in reached_from(arrows, other)]
-    print(*mistakes, f"{len(files)} files, {len(mistakes)} mistakes", sep="\n")
-    return 1 if mistakes or not files else 0
+    host = parser.parse_args().host
+    uses = uses_of_rooms()
+    mistakes, arrows = [], defaultdict(lambda: defaultdict(set))
+    files = [path for path in sorted(host.glob("*/**/*.[ch]pp")) if path.parent.name != "nutik"]
+    if not files:
+        sys.exit(f"{host} holds no source")
+    for path in files:
+        place = path.relative_to(host)
+        room, text = place.parts[0], path.read_text(encoding="utf-8")
+        known = reached_from(uses, PROGRAMS.get(room, room))
+        for name in INCLUDE.findall(text):
+            other = name.split("/")[0]
+            if other == room:
+                arrows[room][folder_of(place)].add(folder_of(name))
+            elif other not in known and "/" in name:
+                mistakes.append(f"{place} includes {name}: {room} does not use {other}")
+        if room != "app" and place.parent != Path("features/schema"):
+            mistakes += [f"{place} says {option}" for option in OPTION.findall(text)]
+    for room, within in arrows.items():
+        try:
+            TopologicalSorter({folder: others - {folder, ""} for folder, others in within.items() if folder}).prepare()
+        except CycleError as error:
+            mistakes.append(f"{room}: folders include each other in a circle: {' <- '.join(error.args[1])}")
+    for mistake in mistakes:
+        print(mistake)
+    print(f"{len(files)} files, {len(mistakes)} mistakes")
+    return 1 if mistakes else 0
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "capture/error.hpp"
-#include "session/making/picture_line.hpp"
+#include "features/series/picture_queue.hpp"
 
 namespace nutik {
 namespace {

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "capture/error.hpp"
-#include "session/requests/frames_request.hpp"
+#include "features/film/film_request.hpp"
+#include "features/series/series_request.hpp"
 #include "session/requests/function_input.hpp"
-#include "session/requests/series_request.hpp"
 
 namespace nutik {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "capture/error.hpp"
 #include "exposure/function_text.hpp"
-#include "session/requests/frames_request.hpp"
+#include "features/film/film_request.hpp"
 #include "session/requests/function_input.hpp"
 #include "support/messages.hpp"
 

@@ -1,4 +1,4 @@
-#include "session/making/input_check.hpp"
+#include "features/check/input_check.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // Parts of a clip that were encoded by themselves and joined are the capture that was encoded in one go.
-#include "session/making/joining.hpp"
+#include "features/captures/joining.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "features/captures/retiming.hpp"
 #include "imev/sample_cursor.hpp"
 #include "session/clips/encoding.hpp"
-#include "session/making/retiming.hpp"
 #include "support/clips.hpp"
 #include "support/messages.hpp"
 #include "support/still_clip.hpp"

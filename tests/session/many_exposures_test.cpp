@@ -4,13 +4,14 @@
 #include <cstdlib>
 #include <thread>
 
-#include "session/below/activity.hpp"
-#include "session/making/activity_request.hpp"
-#include "session/below/pictures.hpp"
-#include "session/making/picture_queue.hpp"
-#include "session/making/series_making.hpp"
-#include "session/making/sheet_making.hpp"
-#include "session/making/video_making.hpp"
+#include "features/activity/activity.hpp"
+#include "features/film/film_making.hpp"
+#include "features/series/picture_queue.hpp"
+#include "features/series/series_making.hpp"
+#include "features/sheets/sheet_making.hpp"
+#include "media/numbered_name.hpp"
+#include "media/picture_writer.hpp"
+#include "media/recipe.hpp"
 #include "session/text/shared_warnings.hpp"
 #include "support/messages.hpp"
 #include "support/scratch.hpp"

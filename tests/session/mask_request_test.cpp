@@ -1,4 +1,4 @@
-#include "session/making/mask_making.hpp"
+#include "features/masks/mask_making.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // A capture that is corrected is, but for what was corrected, the capture it was.
-#include "session/making/retiming.hpp"
+#include "features/captures/retiming.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "features/series/series_request.hpp"
 #include "session/clips/encoding.hpp"
-#include "session/requests/series_request.hpp"
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"

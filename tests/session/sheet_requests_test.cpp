@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "session/requests/contact_request.hpp"
-#include "session/requests/sweep_request.hpp"
+#include "features/sheets/sheet_request.hpp"
 
 namespace nutik {
 namespace {

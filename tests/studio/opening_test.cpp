@@ -4,7 +4,7 @@
 #include <QSettings>
 #include <QToolButton>
 
-#include "session/below/error.hpp"
+#include "capture/error.hpp"
 #include "studio/live/opening.hpp"
 #include "studio/regions/region_edits.hpp"
 #include "studio/window/project_file.hpp"

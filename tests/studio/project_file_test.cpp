@@ -6,8 +6,8 @@
 #include <QFile>
 #include <set>
 
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
 #include "studio/regions/region_edits.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"

@@ -3,6 +3,7 @@
 #include <QSignalSpy>
 #include <QTreeWidget>
 
+#include "mask/distance.hpp"
 #include "studio/regions/region_edits.hpp"
 #include "studio/window/project_file.hpp"
 #include "studio_test.hpp"

@@ -4,12 +4,12 @@
 #include <filesystem>
 
 #include "app/command_line/help.hpp"
-#include "session/text/suggestion.hpp"
 #include "app/command_line/words.hpp"
-#include "session/text/text_table.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
 #include "session/text/shell_text.hpp"
+#include "session/text/suggestion.hpp"
+#include "session/text/text_table.hpp"
 #include "system/input_bytes.hpp"
 #include "system/is_absent.hpp"
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "app/command_line/command_table.hpp"
-#include "session/schema/option.hpp"
-#include "session/schema/options.hpp"
+#include "features/schema/option.hpp"
+#include "features/schema/options.hpp"
 
 namespace nutik::app {
 

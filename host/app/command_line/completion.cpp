@@ -8,8 +8,8 @@
 #include "app/command_line/help.hpp"
 #include "app/command_line/words.hpp"
 #include "app/output/console.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
 
 namespace nutik::app {
 namespace {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "app/output/console.hpp"
+#include "capture/format.hpp"
 #include "session/text/text_table.hpp"
-#include "session/below/format.hpp"
 
 namespace nutik::app {
 namespace {

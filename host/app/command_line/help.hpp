@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "app/command_line/command_table.hpp"
-#include "session/schema/option.hpp"
+#include "features/schema/option.hpp"
 
 #ifndef NUTIK_VERSION
 #error "NUTIK_VERSION is not set"

@@ -6,9 +6,9 @@
 
 #include "app/command_line/help.hpp"
 #include "app/output/console.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
 #include "session/text/text_table.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
 
 namespace nutik::app {
 namespace {

@@ -2,19 +2,26 @@
 #include <filesystem>
 #include <span>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_table.hpp"
 #include "app/output/console.hpp"
 #include "app/requests/requests.hpp"
-#include "session/schema/option.hpp"
-#include "session/below/capture.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
-#include "session/below/functions.hpp"
-#include "session/below/pictures.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "capture/noise_file.hpp"
+#include "capture/picture.hpp"
+#include "capture/source_text.hpp"
+#include "exposure/function_check.hpp"
+#include "exposure/mask.hpp"
+#include "features/schema/option.hpp"
+#include "imev/expected_values.hpp"
+#include "media/input_checksum.hpp"
+#include "media/recipe.hpp"
+#include "media/still_sequence.hpp"
 #include "session/requests/function_input.hpp"
 #include "session/text/shell_text.hpp"
 #include "system/mapped_file.hpp"
 #include "system/output_file.hpp"
+#include "tik/reader.hpp"
 
 namespace nutik::app {
 namespace {

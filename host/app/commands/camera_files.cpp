@@ -1,7 +1,8 @@
 #include "app/commands/camera_files.hpp"
 
 #include "app/output/output_name.hpp"
-#include "session/below/pictures.hpp"
+#include "media/picture_writer.hpp"
+#include "media/recipe.hpp"
 #include "session/clips/camera_record.hpp"
 #include "system/output_file.hpp"
 

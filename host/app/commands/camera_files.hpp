@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "session/schema/options.hpp"
 #include "app/output/report.hpp"
+#include "features/schema/options.hpp"
 #include "session/clips/camera_record.hpp"
 
 namespace nutik::app {

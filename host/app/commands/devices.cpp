@@ -1,10 +1,10 @@
 #include "session/devices.hpp"
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_table.hpp"
 #include "app/output/report.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
-#include "session/text/size_text.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "session/text/number_text.hpp"
 
 namespace nutik::app {
 namespace {

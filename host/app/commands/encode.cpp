@@ -1,17 +1,17 @@
 #include <utility>
 
 #include "app/commands/camera_files.hpp"
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_table.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "app/output/timing_text.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
 #include "session/clips/encoding.hpp"
+#include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"
-#include "session/text/size_text.hpp"
 #include "system/is_absent.hpp"
 
 namespace nutik::app {

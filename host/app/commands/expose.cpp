@@ -2,17 +2,16 @@
 #include <iterator>
 #include <utility>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
-#include "app/output/skipping.hpp"
 #include "app/requests/requests.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
-#include "session/below/pictures.hpp"
-#include "session/making/made_already.hpp"
-#include "session/text/size_text.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "features/series/series_making.hpp"
+#include "media/picture_writer.hpp"
+#include "session/text/number_text.hpp"
 
 namespace nutik::app {
 

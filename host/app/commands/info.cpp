@@ -1,21 +1,25 @@
 #include <algorithm>
 #include <array>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_table.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
-#include "session/schema/option.hpp"
-#include "session/below/activity.hpp"
-#include "session/making/activity_request.hpp"
-#include "session/below/capture.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
-#include "session/below/pictures.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "capture/picture.hpp"
+#include "capture/timeline.hpp"
+#include "features/activity/activity.hpp"
+#include "features/captures/capture_figures.hpp"
+#include "features/schema/option.hpp"
+#include "imev/expected_values.hpp"
+#include "media/picture_writer.hpp"
+#include "media/recipe.hpp"
 #include "session/clips/alignment.hpp"
-#include "session/making/capture_figures.hpp"
+#include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"
-#include "session/text/size_text.hpp"
-#include "session/text/time_text.hpp"
+#include "sheet/activity_chart.hpp"
+#include "tik/header.hpp"
+#include "tik/reader.hpp"
 
 namespace nutik::app {
 namespace {

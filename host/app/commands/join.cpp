@@ -1,12 +1,11 @@
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_table.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
-#include "session/making/joining.hpp"
-#include "session/text/size_text.hpp"
-#include "session/text/time_text.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "features/captures/joining.hpp"
+#include "session/text/number_text.hpp"
 
 namespace nutik::app {
 

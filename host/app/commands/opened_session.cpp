@@ -7,11 +7,11 @@
 #include "app/output/console.hpp"
 #include "app/output/progress.hpp"
 #include "app/requests/requests.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "features/schema/option.hpp"
+#include "features/schema/requests.hpp"
 #include "session/clips/clip_source.hpp"
-#include "session/schema/option.hpp"
-#include "session/schema/requests.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik::app {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "session/schema/options.hpp"
+#include "features/schema/options.hpp"
 #include "session/clips/camera_check.hpp"
 #include "session/session.hpp"
 

@@ -1,16 +1,14 @@
-#include "session/making/plate_request.hpp"
+#include "features/plate/plate.hpp"
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
+#include "capture/format.hpp"
+#include "media/picture_writer.hpp"
 #include "session/text/number_text.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
-#include "session/below/pictures.hpp"
-#include "session/text/size_text.hpp"
 
 namespace nutik::app {
 namespace {

@@ -1,13 +1,13 @@
 #include <array>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_table.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
-#include "session/below/capture.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"
-#include "session/text/size_text.hpp"
+#include "tik/reader.hpp"
 
 namespace nutik::app {
 

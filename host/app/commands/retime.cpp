@@ -1,14 +1,13 @@
 #include <array>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_table.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
-#include "session/below/format.hpp"
+#include "capture/format.hpp"
+#include "features/captures/retiming.hpp"
 #include "session/clips/clip_source.hpp"
-#include "session/making/retiming.hpp"
+#include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"
-#include "session/text/size_text.hpp"
-#include "session/text/time_text.hpp"
 
 namespace nutik::app {
 

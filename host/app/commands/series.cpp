@@ -2,18 +2,16 @@
 #include <optional>
 #include <string>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
-#include "app/output/skipping.hpp"
 #include "app/requests/requests.hpp"
-#include "session/below/format.hpp"
-#include "session/making/made_already.hpp"
-#include "session/making/picture_queue.hpp"
-#include "session/making/series_making.hpp"
-#include "session/text/size_text.hpp"
+#include "capture/format.hpp"
+#include "features/series/picture_queue.hpp"
+#include "features/series/series_making.hpp"
+#include "session/text/number_text.hpp"
 
 namespace nutik::app {
 int run_series(const Options& options) {

@@ -4,17 +4,18 @@
 #include <functional>
 #include <optional>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
-#include "session/below/pictures.hpp"
-#include "session/making/sheet_making.hpp"
-#include "session/text/size_text.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "features/sheets/sheet_making.hpp"
+#include "media/picture_writer.hpp"
+#include "media/recipe.hpp"
+#include "session/text/number_text.hpp"
 
 namespace nutik::app {
 namespace {

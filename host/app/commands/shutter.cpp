@@ -1,16 +1,19 @@
 #include <algorithm>
 
-#include "session/schema/option.hpp"
-#include "app/command_line/value_check.hpp"
-#include "app/command_line/commands.hpp"
+#include "app/command_line/words.hpp"
+#include "app/command_line/command_table.hpp"
 #include "app/output/console.hpp"
 #include "app/requests/requests.hpp"
-#include "session/text/number_text.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
-#include "session/below/functions.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "exposure/function_diagnostics.hpp"
+#include "exposure/function_text.hpp"
+#include "exposure/normalization.hpp"
+#include "exposure/shutter_shape.hpp"
+#include "features/schema/option.hpp"
 #include "session/clips/clip_source.hpp"
 #include "session/requests/stated_time.hpp"
+#include "session/text/number_text.hpp"
 
 namespace nutik::app {
 namespace {

@@ -1,19 +1,18 @@
-#include "session/making/solve_request.hpp"
+#include "features/solve/solving.hpp"
 
 #include <algorithm>
 
-#include "session/schema/option.hpp"
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "session/text/text_table.hpp"
-#include "session/below/format.hpp"
+#include "capture/format.hpp"
+#include "features/schema/option.hpp"
+#include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"
-#include "session/text/size_text.hpp"
-#include "session/text/time_text.hpp"
+#include "session/text/text_table.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {

@@ -4,9 +4,10 @@
 #include <set>
 #include <utility>
 
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
-#include "session/below/pictures.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/netpbm.hpp"
+#include "media/picture_writer.hpp"
 #include "session/text/shell_text.hpp"
 #include "system/checksum.hpp"
 #include "system/input_bytes.hpp"

@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "session/below/pictures.hpp"
 #include "session/output_check.hpp"
 
 namespace nutik::app {

@@ -1,16 +1,17 @@
 #include <array>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_table.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
-#include "session/text/number_text.hpp"
-#include "session/below/capture.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
-#include "session/below/pictures.hpp"
-#include "session/below/sheets.hpp"
+#include "capture/format.hpp"
+#include "capture/picture.hpp"
+#include "media/picture_writer.hpp"
+#include "plot/canvas.hpp"
+#include "plot/graph.hpp"
 #include "session/session.hpp"
-#include "session/text/size_text.hpp"
+#include "session/text/number_text.hpp"
+#include "sheet/thumbnail.hpp"
+#include "tik/reader.hpp"
 
 namespace nutik::app {
 

@@ -6,18 +6,18 @@
 #include <utility>
 #include <vector>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/picture_writer.hpp"
+#include "media/recipe.hpp"
+#include "session/session.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/text_table.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
-#include "session/below/pictures.hpp"
-#include "session/session.hpp"
-#include "session/text/time_text.hpp"
 #include "session/text/trace_picture.hpp"
 #include "system/output_file.hpp"
 

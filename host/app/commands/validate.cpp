@@ -1,20 +1,19 @@
 #include <cmath>
 #include <string>
 
-#include "session/schema/option.hpp"
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "session/text/number_text.hpp"
-#include "session/text/text_table.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "features/schema/option.hpp"
 #include "session/clips/clip_source.hpp"
 #include "session/clips/source_check.hpp"
 #include "session/session.hpp"
-#include "session/text/size_text.hpp"
+#include "session/text/number_text.hpp"
+#include "session/text/text_table.hpp"
 
 namespace nutik::app {
 namespace {

@@ -1,17 +1,15 @@
 #include <algorithm>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
-#include "app/output/skipping.hpp"
 #include "app/requests/requests.hpp"
-#include "session/below/format.hpp"
-#include "session/making/made_already.hpp"
-#include "session/making/video_making.hpp"
-#include "session/text/size_text.hpp"
-#include "session/text/time_text.hpp"
+#include "capture/format.hpp"
+#include "features/film/film_making.hpp"
+#include "features/series/series_making.hpp"
+#include "session/text/number_text.hpp"
 
 namespace nutik::app {
 

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "session/below/error.hpp"
-#include "session/below/functions.hpp"
+#include "capture/error.hpp"
+#include "capture/source_text.hpp"
 
 namespace nutik::app {
 namespace {

@@ -1,10 +1,17 @@
 #include "app/output/output_name.hpp"
 
-#include "session/schema/option.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
+#include "app/output/report.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "features/schema/option.hpp"
+#include "media/numbered_name.hpp"
+#include "media/picture_writer.hpp"
+#include "media/recipe.hpp"
+#include "media/still_sequence.hpp"
+#include "session/output_check.hpp"
 #include "session/requests/delay_request.hpp"
 #include "session/requests/function_input.hpp"
+#include "session/text/number_text.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik::app {
@@ -76,6 +83,29 @@ std::vector<std::string> input_files(const Options& options) {
   }
   if (options.delay && !options.delay->file.empty()) inputs.push_back(options.delay->file);
   return inputs;
+}
+
+void require_recipes(const Options& options, const std::filesystem::path& picture) {
+  if (options.no_recipe) {
+    throw UsageError("--skip-existing knows pictures by their recipes, and --no-recipe makes them without; use one");
+  }
+  if (names_standard_output(picture) || !is_picture_name(picture) || picture.extension() == ".pfm") {
+    throw UsageError(
+        format("--skip-existing knows pictures by their recipes, and {} has no place for one; write pictures, for a "
+               "video numbered ones: frame-%05d.png, .tif, .exr, …",
+               picture.string()));
+  }
+}
+
+std::optional<std::string> stated_precision(const Options& options) {
+  return options.precision ? std::optional(to_text(*options.precision)) : std::nullopt;
+}
+
+int tell_all_made(const Options& options, const std::filesystem::path& output, std::size_t count,
+                  std::string_view thing) {
+  Answer answer{{{"picture", output.string()}, {"skipped", count}}};
+  answer.line = format("{}: {}, there already", output.string(), counted(count, std::string(thing)));
+  return tell(options, output, answer);
 }
 
 }  // namespace nutik::app

@@ -1,6 +1,7 @@
 // Where a command writes.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -8,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "session/schema/options.hpp"
-#include "session/below/pictures.hpp"
+#include "features/schema/options.hpp"
+#include "media/numbered_name.hpp"
 #include "session/output_check.hpp"
 
 namespace nutik::app {
@@ -46,5 +47,17 @@ class PictureNames {
 // The files that a command reads, each still of a sequence among them: no output may replace one. Its first operand is
 // one of them, where it has any.
 [[nodiscard]] std::vector<std::string> input_files(const Options& options);
+
+// What --skip-existing needs, and says.
+
+// Throws UsageError where a picture of that name would carry no recipe to be known by.
+void require_recipes(const Options& options, const std::filesystem::path& picture);
+
+// The arithmetic that was asked for; none for `auto`.
+[[nodiscard]] std::optional<std::string> stated_precision(const Options& options);
+
+// That all of so many `things` are there. Returns the exit status.
+int tell_all_made(const Options& options, const std::filesystem::path& output, std::size_t count,
+                  std::string_view thing);
 
 }  // namespace nutik::app

@@ -1,5 +1,7 @@
 #include "app/output/progress.hpp"
 
+#include "capture/format.hpp"
+
 #include <unistd.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <memory>
 #include <utility>
 
-#include "session/below/format.hpp"
 
 namespace nutik::app {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "session/schema/options.hpp"
+#include "features/schema/options.hpp"
 #include "session/reported_progress.hpp"
 
 namespace nutik::app {

@@ -4,14 +4,19 @@
 #include <cmath>
 #include <iterator>
 
-#include "session/schema/option.hpp"
-#include "session/text/text_table.hpp"
 #include "app/output/timing_text.hpp"
-#include "session/below/format.hpp"
-#include "session/below/functions.hpp"
-#include "session/making/retiming.hpp"
-#include "session/text/size_text.hpp"
-#include "session/text/time_text.hpp"
+#include "capture/format.hpp"
+#include "capture/source_text.hpp"
+#include "exposure/function_check.hpp"
+#include "exposure/function_diagnostics.hpp"
+#include "exposure/mask.hpp"
+#include "exposure/shutter_shape.hpp"
+#include "features/captures/retiming.hpp"
+#include "features/schema/option.hpp"
+#include "mask/feather.hpp"
+#include "render/render_plan.hpp"
+#include "session/text/number_text.hpp"
+#include "session/text/text_table.hpp"
 
 namespace nutik::app {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "session/schema/options.hpp"
 #include "app/output/console.hpp"
+#include "features/schema/options.hpp"
 #include "session/session.hpp"
 #include "session/text/shared_warnings.hpp"
 

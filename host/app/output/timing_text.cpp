@@ -1,7 +1,7 @@
 #include "app/output/timing_text.hpp"
 
-#include "session/schema/option.hpp"
-#include "session/below/format.hpp"
+#include "capture/format.hpp"
+#include "features/schema/option.hpp"
 
 namespace nutik::app {
 namespace {

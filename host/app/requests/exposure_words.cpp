@@ -5,11 +5,14 @@
 #include <filesystem>
 
 #include "app/output/console.hpp"
-#include "session/text/number_text.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
-#include "session/below/functions.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "exposure/function_diagnostics.hpp"
+#include "exposure/mask.hpp"
+#include "mask/feather.hpp"
+#include "render/render_plan.hpp"
 #include "session/requests/function_input.hpp"
+#include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"
 #include "system/input_bytes.hpp"
 

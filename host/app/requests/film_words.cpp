@@ -1,7 +1,7 @@
 #include "app/output/console.hpp"
 #include "app/requests/requests.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
 #include "session/requests/function_input.hpp"
 #include "system/input_bytes.hpp"
 

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <utility>
 
-#include "session/text/number_text.hpp"
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
 #include "session/requests/function_input.hpp"
+#include "session/text/number_text.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik::app {

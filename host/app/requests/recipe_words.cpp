@@ -2,9 +2,10 @@
 
 #include <algorithm>
 
-#include "session/schema/option.hpp"
-#include "session/below/format.hpp"
-#include "session/below/pictures.hpp"
+#include "capture/format.hpp"
+#include "features/schema/option.hpp"
+#include "media/input_checksum.hpp"
+#include "media/recipe.hpp"
 #include "session/requests/function_input.hpp"
 #include "system/input_bytes.hpp"
 

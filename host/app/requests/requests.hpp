@@ -11,22 +11,21 @@
 #include <string_view>
 
 #include "app/command_line/command_table.hpp"
-#include "session/schema/options.hpp"
-#include "session/below/sheets.hpp"
+#include "features/film/film_request.hpp"
+#include "features/masks/mask_request.hpp"
+#include "features/recipe/picture_recipe.hpp"
+#include "features/schema/options.hpp"
+#include "features/schema/requests.hpp"
+#include "features/series/series_request.hpp"
+#include "features/sheets/sheet_request.hpp"
+#include "features/solve/solving.hpp"
+#include "features/study/study.hpp"
+#include "plot/canvas.hpp"
 #include "session/devices.hpp"
-#include "session/making/picture_recipe.hpp"
-#include "session/making/solve_request.hpp"
-#include "session/making/study_request.hpp"
-#include "session/requests/contact_request.hpp"
 #include "session/requests/exposure_request.hpp"
-#include "session/requests/frames_request.hpp"
-#include "session/requests/mask_request.hpp"
 #include "session/requests/output_request.hpp"
-#include "session/requests/own_exposure.hpp"
-#include "session/requests/series_request.hpp"
 #include "session/requests/source_request.hpp"
-#include "session/requests/sweep_request.hpp"
-#include "session/schema/requests.hpp"
+#include "sheet/contact_sheet.hpp"
 
 namespace nutik::app {
 

@@ -1,5 +1,5 @@
 #include "app/requests/requests.hpp"
-#include "session/schema/option.hpp"
+#include "features/schema/option.hpp"
 #include "session/text/shell_text.hpp"
 
 namespace nutik::app {

@@ -6,7 +6,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "imev/expected_values.hpp"
-#include "session/text/size_text.hpp"
+#include "session/text/number_text.hpp"
 
 namespace nutik {
 namespace {

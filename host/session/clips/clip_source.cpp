@@ -7,8 +7,9 @@
 #include "media/event_clip.hpp"
 #include "session/clips/evened_times.hpp"
 #include "session/clips/measured_noise.hpp"
-#include "session/text/time_text.hpp"
+#include "session/text/number_text.hpp"
 #include "system/mapped_file.hpp"
+#include "tik/header.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik {

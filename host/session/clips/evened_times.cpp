@@ -4,7 +4,7 @@
 #include <span>
 
 #include "capture/format.hpp"
-#include "session/text/time_text.hpp"
+#include "session/text/number_text.hpp"
 
 namespace nutik {
 

@@ -7,7 +7,7 @@
 #include "imev/each_block.hpp"
 #include "imev/expected_values.hpp"
 #include "session/clips/clip_source.hpp"
-#include "session/text/size_text.hpp"
+#include "session/text/number_text.hpp"
 
 namespace nutik {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "session/requests/picture_input.hpp"
+#include "session/requests/function_input.hpp"
 
 namespace nutik {
 namespace {

@@ -5,7 +5,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "exposure/gain_function.hpp"
-#include "session/text/time_text.hpp"
+#include "session/text/number_text.hpp"
 
 namespace nutik {
 namespace {

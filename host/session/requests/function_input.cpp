@@ -1,5 +1,6 @@
 #include "session/requests/function_input.hpp"
 
+#include <filesystem>
 #include <vector>
 
 #include "capture/error.hpp"
@@ -7,32 +8,20 @@
 #include "exposure/function_file.hpp"
 #include "exposure/mask_check.hpp"
 #include "mask/layers.hpp"
+#include "media/clip.hpp"
 #include "media/input_checksum.hpp"
 #include "media/mask_reader.hpp"
 #include "media/numbered_name.hpp"
-#include "session/requests/picture_input.hpp"
+#include "media/still_sequence.hpp"
 #include "session/requests/source_request.hpp"
 #include "system/input_bytes.hpp"
 #include "system/is_absent.hpp"
-#include "system/mapped_file.hpp"
-#include "tik/header.hpp"
 
 namespace nutik {
 namespace {
 
 // Of a mask that comes through a pipe: one of 32767 x 32767 pixels.
 constexpr std::size_t kMaxPipedMask = std::size_t{1} << 30;
-
-// The size of a .tik's pictures, from its first bytes; none of a clip, a damaged file or standard input.
-std::optional<Shape> known_shape(const std::filesystem::path& path) {
-  if (is_standard_input(path.string()) || !is_tik(path)) return std::nullopt;
-  try {
-    const MappedFile file(path);
-    return tik::parse_header(file.bytes(), path.string()).header.capture.shape;
-  } catch (const InputError&) {  // it is said when it is opened
-    return std::nullopt;
-  }
-}
 
 }  // namespace
 
@@ -107,6 +96,30 @@ std::string mask_checksum(const std::string& name) {
   std::vector<std::filesystem::path> files;
   for (const auto& [tag, file] : layer_files(name)) files.push_back(file);
   return files_checksum(files);
+}
+
+Picture read_picture(const std::string& name) {
+  if (is_absent(name)) {
+    throw InputError(format("{} cannot be read: no such file", name));
+  }
+  const auto stills = list_stills(name);
+  if (!stills || stills->size() != 1) {
+    throw UsageError(format("{} is {}; a picture is needed (PNG, TIFF, PGM, PPM, JPEG)", name,
+                                 stills ? format("a sequence of {}", stills->size()) : "no picture"),
+                          Advice{", or a time of the capture: 0.3s, 12f"});
+  }
+  const auto clip = open_clip(name, {});
+  const CaptureFormat& kind = clip->info().format;
+  Picture picture(kind.shape, code_type(kind), kind.white_code);
+  if (!clip->read(picture.bytes)) throw InputError(format("{} has no picture", name));
+  const std::uint32_t largest = largest_code(picture.bytes, kind.code_bytes);
+  if (largest > picture.white_code) {
+    throw InputError(
+        format("{} cannot be read: it has a code of {}, above the {} that it states as its largest; write it "
+               "again with the right one",
+               name, largest, picture.white_code));
+  }
+  return picture;
 }
 
 }  // namespace nutik

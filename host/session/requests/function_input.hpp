@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "capture/picture.hpp"
 #include "exposure/mask.hpp"
 #include "render/render_plan.hpp"
 #include "session/shared.hpp"
@@ -36,5 +37,10 @@ struct FunctionInput {
                                            const std::optional<std::string>& capture = {});
 // A mask, hard or layered, is known by that of its files.
 [[nodiscard]] std::string mask_checksum(const std::string& name);
+
+// A picture file, codes as they stand.
+
+// Throws UsageError where it is no picture, or many; InputError where it cannot be read.
+[[nodiscard]] Picture read_picture(const std::string& name);
 
 }  // namespace nutik

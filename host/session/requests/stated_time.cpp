@@ -9,7 +9,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "session/text/time_text.hpp"
+#include "session/text/number_text.hpp"
 
 namespace nutik {
 namespace {

@@ -8,6 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "capture/picture.hpp"
+#include "capture/rational.hpp"
+#include "capture/timeline.hpp"
+#include "render/output_format.hpp"
+
 namespace nutik {
 
 // A whole number of low … high. Throws UsageError naming `what`.
@@ -34,5 +39,30 @@ struct WholeNumber {
 
 // Numbers between commas: `10,20.5,-3`. Throws UsageError naming `what` and the part that is none.
 [[nodiscard]] std::vector<double> parse_numbers(std::string_view text, std::string_view what);
+
+// Sizes for people.
+
+[[nodiscard]] std::string counted(std::uint64_t count, std::string_view name);  // `1 block`, `2 blocks`
+// `12 pixels saturated below 0 and 3 above 1`, `no pixel saturated`.
+[[nodiscard]] std::string saturated_text(const Saturation& saturation);
+[[nodiscard]] std::string bytes_text(std::uint64_t bytes);  // `94 kB`, `1.49 GB`
+[[nodiscard]] std::string shape_text(const Shape& shape);   // `640 x 480 colour`
+
+// `32:27`
+[[nodiscard]] std::string aspect_text(const Rational& aspect);
+
+// Lengths of time for people.
+
+// `12.5 ms`, `1.25 s`, `36 h`, `800 days`, `30 years`: a length, with up to four digits.
+[[nodiscard]] std::string duration_text(std::int64_t nanoseconds);
+
+// `300 samples a second`, `a sample every 3600 s`: `name` is what they are.
+[[nodiscard]] std::string rate_text(const Rational& rate, std::string_view name);
+
+// `960 pictures a second`; of times that follow no rate `irregular times, 384.6 pictures a second on average`.
+[[nodiscard]] std::string rate_text(const Timeline& timeline);
+
+// `750 ms`, `-1.01 s`, `42 days`: a time, or the integral of a gain over time, with up to six digits.
+[[nodiscard]] std::string integral_text(double nanoseconds);
 
 }  // namespace nutik

@@ -9,7 +9,7 @@
 #include "capture/format.hpp"
 #include "plot/graph.hpp"
 #include "render/code_scale.hpp"
-#include "session/text/time_text.hpp"
+#include "session/text/number_text.hpp"
 
 namespace nutik {
 namespace {

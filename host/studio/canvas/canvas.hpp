@@ -19,7 +19,9 @@
 #include <memory>
 #include <optional>
 
-#include "session/below/functions.hpp"
+#include "capture/source_text.hpp"
+#include "exposure/mask.hpp"
+#include "exposure/shutter_shape.hpp"
 #include "studio/document/document.hpp"
 #include "studio/live/live_view.hpp"
 

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "session/below/sheets.hpp"
+#include "plot/canvas.hpp"
+#include "plot/graph.hpp"
+#include "plot/ticks.hpp"
+#include "sheet/contact_sheet.hpp"
 
 namespace nutik::studio {
 namespace {

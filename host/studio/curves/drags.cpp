@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "session/below/format.hpp"
+#include "capture/format.hpp"
 #include "session/requests/stated_time.hpp"
 #include "studio/time/sample_times.hpp"
 #include "studio/time/typed_numbers.hpp"

@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "render/render_plan.hpp"
 #include "studio/curves/handles.hpp"
 #include "studio/curves/points.hpp"
 

@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-#include "session/below/functions.hpp"
+#include "exposure/shutter_shape.hpp"
 #include "studio/curves/points.hpp"
 #include "studio/time/time_axis.hpp"
 

@@ -7,8 +7,7 @@
 #include <QFrame>
 #include <optional>
 
-#include "session/below/capture.hpp"
-#include "session/below/functions.hpp"
+#include "capture/timeline.hpp"
 
 class QLabel;
 class QLineEdit;

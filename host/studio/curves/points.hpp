@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "session/below/functions.hpp"
+#include "exposure/shutter_shape.hpp"
 
 namespace nutik::studio {
 

@@ -1,11 +1,14 @@
 #include "studio/document/document.hpp"
 
+#include "capture/format.hpp"
+#include "exposure/function_numbers.hpp"
+#include "exposure/function_text.hpp"
+
 #include <QUndoCommand>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "session/below/format.hpp"
 
 namespace nutik::studio {
 

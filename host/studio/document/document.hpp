@@ -23,9 +23,13 @@
 #include <string>
 #include <vector>
 
-#include "session/below/capture.hpp"
-#include "session/below/functions.hpp"
-#include "session/below/regions.hpp"
+#include "capture/picture.hpp"
+#include "capture/timeline.hpp"
+#include "exposure/normalization.hpp"
+#include "exposure/shutter_shape.hpp"
+#include "mask/feather.hpp"
+#include "mask/region.hpp"
+#include "render/render_plan.hpp"
 #include "session/requests/exposure_request.hpp"
 #include "session/shared.hpp"
 

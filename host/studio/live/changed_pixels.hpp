@@ -5,7 +5,6 @@
 #include <map>
 #include <optional>
 
-#include "session/below/regions.hpp"
 #include "session/requests/exposure_request.hpp"
 #include "session/shared.hpp"
 

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <utility>
 
-#include "session/below/error.hpp"
+#include "capture/error.hpp"
 
 namespace nutik::studio {
 namespace {

@@ -2,7 +2,10 @@
 
 #include <utility>
 
-#include "session/below/functions.hpp"
+#include "exposure/function_check.hpp"
+#include "exposure/mask.hpp"
+#include "exposure/shutter_shape.hpp"
+#include "mask/feather.hpp"
 #include "studio/live/exposure_of.hpp"
 #include "studio/live/picture_image.hpp"
 

@@ -4,9 +4,9 @@
 #include <limits>
 #include <utility>
 
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
-#include "session/text/size_text.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "session/text/number_text.hpp"
 #include "studio/live/picture_image.hpp"
 #include "system/temporary_folder.hpp"
 

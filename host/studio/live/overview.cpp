@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "session/making/activity_request.hpp"
+#include "features/activity/activity.hpp"
 #include "studio/live/picture_image.hpp"
 
 namespace nutik::studio {

@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <map>
 
-#include "session/below/regions.hpp"
+#include "mask/region.hpp"
 #include "studio/document/document.hpp"
 
 namespace nutik::studio {

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "session/making/mask_making.hpp"
+#include "features/masks/mask_making.hpp"
 #include "studio/regions/region_edits.hpp"
 #include "studio/time/typed_numbers.hpp"
 

@@ -12,7 +12,7 @@
 #include <memory>
 #include <optional>
 
-#include "session/below/capture.hpp"
+#include "capture/timeline.hpp"
 #include "session/session.hpp"
 #include "studio/document/document.hpp"
 #include "studio/live/jobs.hpp"

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "session/below/regions.hpp"
+#include "mask/region.hpp"
 #include "studio/canvas/canvas.hpp"
 #include "studio/document/document.hpp"
 

@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "exposure/function_text.hpp"
+#include "mask/distance.hpp"
 #include "studio/regions/covering.hpp"
 
 namespace nutik::studio {

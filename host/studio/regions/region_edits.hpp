@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "session/below/regions.hpp"
+#include "mask/region.hpp"
 #include "studio/document/document.hpp"
 
 namespace nutik::studio {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "session/below/functions.hpp"
+#include "exposure/gain_function.hpp"
 #include "session/requests/stated_time.hpp"
 
 namespace nutik::studio {

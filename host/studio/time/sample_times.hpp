@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "session/below/capture.hpp"
+#include "capture/timeline.hpp"
 
 namespace nutik::studio {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "session/below/capture.hpp"
+#include "capture/timeline.hpp"
 #include "studio/time/time_axis.hpp"
 
 namespace nutik::studio {

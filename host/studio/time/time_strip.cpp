@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "session/below/sheets.hpp"
+#include "plot/canvas.hpp"
+#include "plot/graph.hpp"
+#include "plot/ticks.hpp"
 #include "session/requests/stated_time.hpp"
+#include "sheet/thumbnail.hpp"
 #include "studio/time/typed_numbers.hpp"
 
 namespace nutik::studio {

@@ -4,9 +4,11 @@
 #include <cstdlib>
 #include <string>
 
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
-#include "session/below/functions.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "exposure/function_numbers.hpp"
+#include "exposure/normalization.hpp"
+#include "exposure/shutter_shape.hpp"
 #include "session/requests/stated_time.hpp"
 
 namespace nutik::studio {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "session/below/capture.hpp"
+#include "capture/timeline.hpp"
 
 namespace nutik::studio {
 

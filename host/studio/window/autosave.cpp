@@ -12,8 +12,8 @@
 #include <QUuid>
 #include <cerrno>
 
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
 #include "studio/window/project_file.hpp"
 
 namespace nutik::studio {

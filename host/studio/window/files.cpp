@@ -9,8 +9,9 @@
 #include <QMessageBox>
 #include <QSettings>
 
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "exposure/function_text.hpp"
 #include "session/output_check.hpp"
 #include "studio/document/document.hpp"
 #include "studio/window/main_window.hpp"

@@ -10,7 +10,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "session/below/error.hpp"
+#include "capture/error.hpp"
 #include "session/live/reduced_session.hpp"
 #include "studio/curves/curve_editor.hpp"
 #include "studio/live/overview.hpp"

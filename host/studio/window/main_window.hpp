@@ -10,7 +10,7 @@
 #include <map>
 #include <memory>
 
-#include "session/making/study_request.hpp"
+#include "features/study/study.hpp"
 #include "studio/canvas/canvas.hpp"
 #include "studio/document/document.hpp"
 #include "studio/live/jobs.hpp"

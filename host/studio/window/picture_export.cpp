@@ -1,9 +1,10 @@
 #include "studio/window/picture_export.hpp"
 
-#include "session/below/pictures.hpp"
+#include "media/picture_writer.hpp"
+#include "media/recipe.hpp"
 #include "session/output_check.hpp"
 #include "session/requests/output_request.hpp"
-#include "session/text/size_text.hpp"
+#include "session/text/number_text.hpp"
 #include "studio/live/exposure_of.hpp"
 #include "studio/live/live_view.hpp"
 

@@ -13,9 +13,11 @@
 #include <utility>
 #include <vector>
 
-#include "session/below/error.hpp"
-#include "session/below/format.hpp"
-#include "session/below/pictures.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/numbered_name.hpp"
+#include "media/picture_writer.hpp"
+#include "media/recipe.hpp"
 #include "session/requests/function_input.hpp"
 #include "session/text/shell_text.hpp"
 #include "studio/regions/covering.hpp"

@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-#include "session/making/picture_recipe.hpp"
+#include "features/recipe/picture_recipe.hpp"
 #include "studio/document/document.hpp"
 
 namespace nutik::studio {

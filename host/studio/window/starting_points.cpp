@@ -2,12 +2,15 @@
 
 #include <span>
 
-#include "session/below/pictures.hpp"
-#include "session/making/mask_making.hpp"
-#include "session/making/plate_request.hpp"
+#include "exposure/function_text.hpp"
+#include "features/masks/mask_making.hpp"
+#include "features/plate/plate.hpp"
+#include "media/numbered_name.hpp"
+#include "media/picture_writer.hpp"
+#include "media/recipe.hpp"
 #include "session/output_check.hpp"
 #include "session/requests/output_request.hpp"
-#include "session/text/time_text.hpp"
+#include "session/text/number_text.hpp"
 
 namespace nutik::studio {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-#include "session/making/study_request.hpp"
+#include "features/study/study.hpp"
 #include "session/session.hpp"
 #include "studio/document/document.hpp"
 #include "studio/live/jobs.hpp"

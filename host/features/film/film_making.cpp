@@ -1,0 +1,155 @@
+#include "features/film/film_making.hpp"
+
+#include <utility>
+
+#include "capture/format.hpp"
+#include "exposure/function_text.hpp"
+#include "features/series/picture_queue.hpp"
+#include "media/frame_queue.hpp"
+#include "media/input_checksum.hpp"
+#include "media/numbered_name.hpp"
+#include "system/is_absent.hpp"
+
+namespace nutik {
+
+OwnRecipe frame_recipe(const FramesRequest& request, const Frames& frames, std::uint64_t frame,
+                       const std::string& functions_name) {
+  OwnRecipe own = own_recipe(frames.exposure(frame), request.exposure.is_plain());
+  if (request.keys.empty()) return own;
+  const std::int64_t film_ns = frames.film->start_ns(frame);
+  if (!request.keys.functions.empty()) {
+    std::string text;
+    for (const auto& [tag, function] : request.keys.functions_at(film_ns))
+      text += function_text(tag, function) + "\n";
+    own.functions = Recipe::Text{functions_name, std::move(text)};
+  }
+  if (request.keys.masks.empty()) return own;
+  const auto input = [&](std::size_t key) {
+    const MaskKey& mask = request.keys.masks[key];
+    return Recipe::Input{input_name(mask.name), mask.checksum};
+  };
+  const auto [key, way] = request.keys.mask_moment(film_ns);
+  own.mask = input(key);
+  own.options["mask-blend"] = {};  // says nothing of one mask
+  if (way == 0) return own;
+  own.mask_to = input(key + 1);
+  own.options["mask-share"] = Rational::of(way, kWholeWay).text();
+  own.options["mask-blend"] = request.keys.blend == MaskBlend::alpha ? "alpha" : "distance";
+  return own;
+}
+
+MadeVideo make_video(Session& session, const FramesRequest& request, const Frames& frames,
+                     const VideoOutput& output, const ReportedProgress& progress,
+                     const std::function<std::string(std::uint64_t frame, const Exposure& exposure,
+                                                     const ExposedPicture& exposed)>& add) {
+  CaptureFormat capture = session.format();
+  const PlanOptions plan = plan_options_of(request.exposure, capture.shape);
+  const bool mask_changes = !request.keys.masks.empty();
+  const Mask mask = mask_changes ? Mask() : mask_of(exposure_of(request, frames, 0), capture.shape);
+  const OutputFormat frame_format = output.frame_format(capture);
+  capture.transfer = plan.transfer.value_or(capture.transfer);
+
+  MadeVideo made;
+  const TimeToEnd is_kept;  // the frames so far, whatever a frame takes
+  FrameQueue queue([&] { return output.open(capture, frame_format); },
+                   session.waiting_pictures(frame_format.type));
+  const std::size_t count = frames.numbers.size();
+  PictureLine<ExposedPicture> line(session.pictures_at_once(frame_format.type, count));
+  std::size_t asked = 0;
+  const auto expose = [&](std::uint64_t frame, const RenderControl& control) {
+    const ExposureRequest wanted = exposure_of(request, frames, frame);
+    const FunctionSet functions = functions_of(wanted, frames.exposure(frame), session.timeline());
+    return session.render(functions, mask_changes ? mask_of(wanted, capture.shape) : mask, plan, frame_format,
+                          control);
+  };
+  try {
+    for (; made.frames < count; ++made.frames) {
+      check_interruption();
+      if (progress) progress(made.frames, count);
+      for (; asked < count && !line.is_full(); ++asked) {
+        line.add([&expose, frame = frames.numbers[asked]](const RenderControl& control) {
+          return expose(frame, control);
+        });
+      }
+      const std::uint64_t frame = frames.numbers[made.frames];
+      ExposedPicture exposed = line.take();
+      std::string text = add ? add(frame, frames.exposure(frame), exposed) : std::string();
+      if (!queue.push(std::move(exposed.picture), std::move(text), frame)) break;
+    }
+  } catch (const Interrupted& caught) {
+    // Of a film that is there a part is no better one.
+    if (made.frames == 0 || (!output.writes_stills() && !is_absent(output.path()))) throw;
+    made.interruption = caught;
+    clear_interruption();  // what was exposed is still to be written
+  }
+  queue.finish();
+  made.notes = queue.notes();
+  return made;
+}
+
+VideoOutput::VideoOutput(std::filesystem::path path, Rational rate, const std::optional<std::string>& codec,
+                         const OutputRequest& request)
+    : path_(std::move(path)), rate_(rate), request_(request) {
+  if (names_standard_output(path_)) {
+    throw UsageError(
+        format("{} is standard output, and a video is written to a file: what makes it goes back in it",
+               path_.string()));
+  }
+  const bool is_numbered = NumberedName::parse(path_.filename().string()).has_value();
+  if (is_picture_name(path_) && is_numbered) {
+    if (codec) {
+      throw UsageError(format("a video's codec goes with a video in one file; {} are stills", path_.string()),
+                       {Setting::video_codec});
+    }
+    return;
+  }
+  if (is_picture_name(path_)) {
+    throw UsageError(format("{} is one picture and a video has many; number them: {}-%05d{}", path_.string(),
+                            (path_.parent_path() / path_.stem()).string(), path_.extension().string()));
+  }
+  codec_ = &video_codec_for(path_, codec);
+  if (const double largest = largest_rate_for(path_); rate.value() > largest) {
+    throw UsageError(
+        format("{}: a {} file tells at most {:.0f} frames a second apart, and {} are asked for; write {}",
+               path_.string(), path_.extension().string(), largest, rate.text(),
+               largest < 100'000 ? "a .mp4 or .mov, or numbered stills" : "numbered stills"));
+  }
+}
+
+OutputFormat VideoOutput::frame_format(const CaptureFormat& capture) const {
+  if (codec_ == nullptr) return output_format(request_, path_, capture);
+  OutputFormat output =
+      output_format(request_, path_, video_value_type(*codec_, request_.depth, code_type(capture)), capture);
+  output.white_code = output.type == ValueType::code8 ? 255 : 65'535;  // what players take for white
+  return output;
+}
+
+void VideoOutput::check(std::span<const std::uint64_t> frames, std::span<const std::string> inputs,
+                        Replacing replacing) const {
+  if (codec_ != nullptr) {
+    check_output(path_, OutputKind::video, inputs, replacing);
+    return;
+  }
+  for (const std::uint64_t frame : frames) {
+    // What is not there yet can be no input.
+    if (!is_absent(still(frame))) check_output(still(frame), OutputKind::picture, inputs, replacing);
+  }
+}
+
+std::filesystem::path VideoOutput::still(std::uint64_t frame) const {
+  return path_.parent_path() / NumberedName::parse(path_.filename().string()).value().with(frame);
+}
+
+std::unique_ptr<VideoWriter> VideoOutput::open(const CaptureFormat& capture,
+                                               const OutputFormat& format) const {
+  if (codec_ == nullptr) return open_still_writer(path_, file_wishes(request_));
+  const CodeMaking making = CodeMaking::of(capture, format);
+  return open_video_writer(path_,
+                           {capture.shape, format.type, format.white_code, making.transfer, rate_,
+                            making.primaries, capture.pixel_aspect},
+                           *codec_);
+}
+
+std::string VideoOutput::kind() const { return writes_stills() ? "stills" : std::string(codec_->name); }
+
+}  // namespace nutik

@@ -1,0 +1,251 @@
+#include "features/film/film_request.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "exposure/between.hpp"
+#include "session/text/number_text.hpp"
+
+namespace nutik {
+namespace {
+
+std::string_view without_blanks(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+FilmCurve::Point parse_point(std::string_view line, const FrameTimes& film) {
+  const auto comma = line.find(',');
+  if (comma == std::string_view::npos || line.find(',', comma + 1) != std::string_view::npos) {
+    throw UsageError(
+        format("'{}' is no point; write a time of the film and one of the capture: 1.5s,0.4s", line));
+  }
+  const auto film_time = StatedTime::parse(without_blanks(line.substr(0, comma)), "the film's time");
+  return {film_moment_ns(film_time, "the film's time", film),
+          StatedTime::parse(without_blanks(line.substr(comma + 1)), "the capture's time")};
+}
+
+void check_order(const std::vector<FilmCurve::Point>& points) {
+  const std::int64_t last_ns = points.back().film_ns;
+  if (points.size() == 1) {
+    if (last_ns == 0) return;
+    throw UsageError(format("the first point is at {} of the film; a curve begins at 0s", duration_text(last_ns)));
+  }
+  const std::int64_t before_ns = points[points.size() - 2].film_ns;
+  if (last_ns > before_ns) return;
+  throw UsageError(format("the film's time {} is not after {}; points are in order of the film's time",
+                          duration_text(last_ns), duration_text(before_ns)));
+}
+
+// Smooth shutters have some tens of control points, which need room.
+constexpr std::int64_t kMinShapedNs = 1'000;
+constexpr std::uint64_t kMaxCurveFrames = 100'000'000;
+
+// How long a frame is exposed at least where a curve stands still.
+std::int64_t min_ns(const FramesRequest& request) {
+  const auto* plain = std::get_if<PlainInterval>(&request.exposure.gains);
+  return plain == nullptr || plain->shutter == Shutter() ? 1 : kMinShapedNs;
+}
+
+// From the start of a frame to the last time that its functions gather light.
+std::int64_t functions_end_ns(const FramesRequest& request) {
+  if (request.keys.functions.empty()) return functions_end_ns(request.exposure);
+  std::int64_t end_ns = 0;
+  ExposureRequest key = request.exposure;
+  for (const FunctionKey& functions : request.keys.functions) {
+    key.gains = functions.functions;
+    end_ns = std::max(end_ns, functions_end_ns(key));
+  }
+  return end_ns;
+}
+
+std::string outside_text(const Frames& frames, const std::string& name, const Timeline& timeline) {
+  std::vector<std::uint64_t> outside;
+  for (const std::uint64_t k : frames.numbers) {
+    if (frames.curve->leaves(frames.film->exposure(k))) outside.push_back(k);
+  }
+  if (outside.empty()) return {};
+  return format("{} leaves the capture, which lasts {}, in frame{} {}; there the film shows what is left within "
+                "it, or stands still at its first or last moment",
+                name, duration_text(timeline.duration_ns()), outside.size() > 1 ? "s" : "",
+                ranges_text(outside));
+}
+
+// The frames whose shutter is closed, or with functions whose moment has come, before the curve ends.
+void put_on_curve(Frames& frames, const FramesRequest& request, const Timeline& timeline) {
+  frames.curve.emplace(*request.curve, timeline, min_ns(request));
+  const std::int64_t end_ns = frames.curve->film_end_ns();
+  frames.count = request.exposure.is_plain() ? frames.film->count_ending_by(end_ns)
+                                             : frames.film->count_starting_by(end_ns - 1);
+  if (frames.count == 0 || frames.count > kMaxCurveFrames) {
+    throw UsageError(format("{} lasts {}, which are {} frames of {} a second; a film by a curve has 1 to {}",
+                            request.curve->name, duration_text(end_ns), frames.count, request.rate.text(),
+                            kMaxCurveFrames));
+  }
+}
+
+void put_evenly(Frames& frames, const FramesRequest& request, const Timeline& timeline) {
+  const std::int64_t start_ns = frames.times.start_ns(0);
+  std::int64_t end_ns = timeline.duration_ns();
+  if (request.to) {
+    const ExactTime to = exact_time(*request.to, "the video's end", timeline);
+    const std::int64_t to_ns = round_half_up(to.numerator, to.denominator);
+    if (to_ns > end_ns) {
+      frames.warning =
+          format("the video's end {} lies after the capture's end at {}; the video ends with the capture",
+                 request.to->text(), duration_text(end_ns));
+    }
+    end_ns = std::min(end_ns, to_ns);
+  }
+  if (start_ns < 0 || start_ns >= timeline.duration_ns()) {
+    throw UsageError(format("the video's start {} lies outside the capture, which lasts {}",
+                            request.from.text(), duration_text(timeline.duration_ns())));
+  }
+  const bool is_plain = request.exposure.is_plain();
+  const std::int64_t length_ns = is_plain ? frames.times.end_ns(0) - start_ns : functions_end_ns(request);
+  frames.count = is_plain ? frames.times.count_ending_by(end_ns)
+                          // A frame that starts at the very end sees nothing.
+                          : frames.times.count_starting_by(end_ns - std::max<std::int64_t>(length_ns, 1));
+  if (frames.count == 0) {
+    throw UsageError(
+        format("no frame fits: {} is exposed for {}, and between the video's start and end are {}",
+               is_plain ? "each" : "the longest", duration_text(length_ns), duration_text(std::max<std::int64_t>(end_ns - start_ns, 0))));
+  }
+}
+
+}  // namespace
+
+FilmCurve FilmCurve::parse(std::string_view text, const std::string& title, const FrameTimes& film) {
+  if (text.find('\0') != std::string_view::npos) {
+    throw InputError(format("{} holds a zero byte: this is no text file, or one in UTF-16; save it as UTF-8", title));
+  }
+  if (constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF"; text.starts_with(kByteOrderMark)) {
+    text.remove_prefix(kByteOrderMark.size());  // spreadsheets write it
+  }
+  FilmCurve curve{title, {}};
+  std::size_t number = 0;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view whole = text.substr(begin, end - begin);
+    const std::string_view line = without_blanks(whole.substr(0, whole.find('#')));
+    begin = end + 1;
+    ++number;
+    if (line.empty()) continue;
+    try {
+      curve.points.push_back(parse_point(line, film));
+      check_order(curve.points);
+    } catch (const UsageError& error) {
+      throw InputError(format("{}:{}: {}", title, number, error.what()));
+    }
+  }
+  if (curve.points.size() < 2) {
+    throw InputError(
+        format("{} is too short, with {} of the points that a curve has: two or more, a line each: 0s,0.2s and 2s,0.7s show half a second "
+               "of the capture in two of the film",
+               title, curve.points.size()));
+  }
+  return curve;
+}
+
+CapturedCurve::CapturedCurve(const FilmCurve& curve, const Timeline& timeline, std::int64_t min_ns)
+    : duration_ns_(timeline.duration_ns()), min_ns_(std::min(min_ns, timeline.duration_ns())) {
+  for (const FilmCurve::Point& point : curve.points) {
+    try {
+      const ExactTime time = exact_time(point.capture, "the capture's time", timeline);
+      points_.push_back({point.film_ns, round_half_up(time.numerator, time.denominator)});
+    } catch (const UsageError& error) {
+      throw UsageError(format("{}: {}", curve.name, error.what()));
+    }
+  }
+}
+
+std::int64_t CapturedCurve::time_ns(std::int64_t film_ns) const {
+  const auto next = std::ranges::upper_bound(points_, film_ns, {}, &Point::film_ns);
+  if (next == points_.begin()) return points_.front().capture_ns;
+  const auto before = next - 1;
+  if (next == points_.end()) return before->capture_ns;
+  return time_between(before->capture_ns, next->capture_ns,
+                      {film_ns - before->film_ns, next->film_ns - before->film_ns});
+}
+
+Exposure CapturedCurve::passed(const Exposure& film) const {
+  const std::int64_t first = time_ns(film.start_ns), last = time_ns(film.end_ns);
+  Exposure passed{std::min(first, last), std::max(first, last)};
+  for (const Point& point : points_) {  // it may turn round meanwhile
+    if (point.film_ns <= film.start_ns || point.film_ns >= film.end_ns) continue;
+    passed.start_ns = std::min(passed.start_ns, point.capture_ns);
+    passed.end_ns = std::max(passed.end_ns, point.capture_ns);
+  }
+  return passed;
+}
+
+Exposure CapturedCurve::exposure(const Exposure& film) const {
+  Exposure exposure = passed(film);
+  exposure.start_ns = std::clamp<std::int64_t>(exposure.start_ns, 0, duration_ns_);
+  exposure.end_ns = std::clamp<std::int64_t>(exposure.end_ns, 0, duration_ns_);
+  if (exposure.end_ns - exposure.start_ns >= min_ns_) return exposure;
+  const std::int64_t start_ns = std::min(exposure.start_ns, duration_ns_ - min_ns_);
+  return {start_ns, start_ns + min_ns_};
+}
+
+bool CapturedCurve::leaves(const Exposure& film) const {
+  const Exposure range = passed(film);
+  return range.start_ns < 0 || range.end_ns > duration_ns_;
+}
+
+std::string FramesRequest::text() const {
+  std::string text = format("{} frames a second", rate.text());
+  if (exposure.is_plain()) text += format(", {} degrees", angle.text());
+  if (curve) text += format(", by {}", curve->name);
+  if (speed != Rational{1, 1}) text += format(", speed {}", speed.text());
+  if (!keys.functions.empty()) text += format(", {} keys of functions", keys.functions.size());
+  if (!keys.masks.empty()) text += format(", {} keys of masks", keys.masks.size());
+  return text;
+}
+
+Exposure Frames::span() const {
+  Exposure span = exposure(numbers.front());
+  for (const std::uint64_t k : numbers) {
+    const Exposure one = exposure(k);
+    span = {std::min(span.start_ns, one.start_ns), std::max(span.end_ns, one.end_ns)};
+  }
+  return span;
+}
+
+Frames frames_of(const FramesRequest& request, const Timeline& timeline) {
+  Frames frames{FrameTimes(exact_time(request.from, "the video's start", timeline), request.rate,
+                           request.speed, request.angle),
+                0,
+                {},
+                {}};
+  if (request.curve || !request.keys.empty()) frames.film = request.film_times();
+  if (request.curve) {
+    put_on_curve(frames, request, timeline);
+  } else {
+    put_evenly(frames, request, timeline);
+  }
+  frames.numbers = chosen_numbers(request.numbers, frames.count, "frames", "film");
+  if (request.curve) frames.warning = outside_text(frames, request.curve->name, timeline);
+  return frames;
+}
+
+ExposureRequest exposure_of(const FramesRequest& request, const Frames& frames, std::uint64_t frame) {
+  if (request.keys.empty()) return request.exposure;
+  return request.keys.exposure_at(frames.film->start_ns(frame), request.exposure);
+}
+
+NeedsOfFormat video_needs(std::uint32_t encoder_frames,
+                          const std::function<ValueType(const CaptureFormat&)>& type_of) {
+  return [encoder_frames, type_of](const CaptureFormat& capture) {
+    const std::uint64_t bytes = capture.shape.value_count() * value_bytes(type_of(capture));
+    const std::uint64_t encoded = capture.shape.pixel_count() * 3 / 2;
+    return MemoryNeeds{{"frames that wait", (waiting_pictures(bytes) + 3) * bytes},
+                       {"frames within the encoder", encoder_frames * encoded}};
+  };
+}
+
+}  // namespace nutik

@@ -1,0 +1,116 @@
+#include "features/schema/option.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "capture/format.hpp"
+#include "session/text/text_table.hpp"
+
+namespace nutik {
+namespace {
+
+template <typename Wanted>
+const Option* first_option(Wanted wanted) {
+  const auto found = std::ranges::find_if(schema(), wanted);
+  return found == schema().end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::string Option::display_name() const { return short_name != 0 ? std::string{'-', short_name} : name(); }
+
+std::size_t Option::word_count() const {
+  return value.empty() ? 0 : 1 + static_cast<std::size_t>(std::ranges::count(value, ' '));
+}
+
+std::vector<std::string> Option::choices() const { return parts_of(choice_list, ' '); }
+
+bool Option::knows(std::string_view stated) const {
+  return std::ranges::any_of(choices(), [&](const std::string& choice) {
+    return stated == choice || (choice.ends_with(':') && stated.starts_with(choice));
+  });
+}
+
+std::string_view Option::file_extension() const {
+  const auto dot = value.rfind('.');
+  if (dot == std::string_view::npos || dot + 1 == value.size()) return {};
+  const std::string_view extension = value.substr(dot + 1);
+  const bool is_extension = std::ranges::all_of(extension, [](char c) { return c >= 'a' && c <= 'z'; });
+  return is_extension ? extension : std::string_view();
+}
+
+bool Option::takes_file() const {
+  return value.starts_with("FILE") || value.starts_with("CLIP") || value.starts_with("PICTURE") ||
+         !file_extension().empty();
+}
+
+const std::string* Option::stated(const Options& options) const {
+  return is_in(options) && !is_flag() ? &options.find(long_name)->words.front() : nullptr;
+}
+
+bool Option::is_in(const Options& options) const {
+  const Said* const said = take != nullptr ? options.find(long_name) : nullptr;
+  return said != nullptr && said->row->take == take;
+}
+
+void Option::state(Options& options, std::string_view what, std::vector<std::string> words) const {
+  if (take != nullptr) {
+    if (!is_flag() && options.has(long_name)) throw UsageError(display_name() + " is given twice");
+    static const std::string kFlag;
+    take(options, what, is_flag() ? kFlag : words.front());
+  }
+  options.said.push_back({long_name, std::move(words), this});
+}
+
+void Option::restate(Options& options, std::vector<std::string> words) const {
+  std::erase_if(options.said, [&](const Said& said) { return said.option == long_name; });
+  state(options, name(), std::move(words));
+}
+
+std::string Option::written(Dialect dialect, std::string_view word) const {
+  if (dialect == Dialect::command_line) return name() + (word.empty() ? "" : " ") + std::string(word);
+  std::string argument(python.empty() ? long_name : python);
+  std::ranges::replace(argument, '-', '_');
+  if (!word.empty()) return format("{}='{}'", argument, word);
+  return argument + (is_flag() ? "=True" : "=");
+}
+
+const Option* find_option(std::string_view long_name) {
+  return first_option([&](const Option& option) { return option.long_name == long_name; });
+}
+
+const Option* find_option(char short_name) {
+  return first_option(
+      [&](const Option& option) { return option.short_name != 0 && option.short_name == short_name; });
+}
+
+const Option* option_of(CommandId command, std::string_view long_name) {
+  return first_option([&](const Option& option) { return option.long_name == long_name && option.is_of(command); });
+}
+
+const Option* option_of_argument(CommandId command, std::string_view name) {
+  return first_option([&](const Option& option) {
+    const std::string written = option.written(Dialect::python);
+    return option.is_of(command) && written.substr(0, written.find('=')) == name;
+  });
+}
+
+std::vector<const Option*> options_of(CommandId command) {
+  std::vector<const Option*> found;
+  for (const Option& option : schema()) {
+    if (option.is_of(command)) found.push_back(&option);
+  }
+  return found;
+}
+
+Options without(const Options& options, Scope scope) {
+  Options others;
+  others.program = options.program;
+  others.operands = options.operands;
+  for (const Said& said : options.said) {
+    if (said.row->scope != scope) said.row->state(others, said.row->name(), said.words);
+  }
+  return others;
+}
+
+}  // namespace nutik

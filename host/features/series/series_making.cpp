@@ -1,0 +1,82 @@
+#include "features/series/series_making.hpp"
+
+#include <atomic>
+#include <exception>
+#include <utility>
+
+#include "capture/error.hpp"
+#include "features/series/picture_queue.hpp"
+#include "media/picture_text.hpp"
+#include "media/recipe.hpp"
+
+namespace nutik {
+
+void make_series(Session& session, ExposureRequest exposure, const std::vector<SeriesPicture>& pictures,
+                 const OutputFormat& output, const FileWishes& file, const ReportedProgress& progress,
+                 const std::function<std::string(std::uint64_t number, ExposedPicture& exposed)>& add) {
+  std::atomic<bool> has_failed = false;
+  std::exception_ptr failure;
+  PictureQueue queue([&](std::size_t, const Error&) {
+    if (!has_failed) failure = std::current_exception();
+    has_failed = true;
+  });
+  PictureLine<ExposedPicture> line(session.pictures_at_once(output.type, pictures.size()));
+  std::size_t asked = 0;
+  for (std::uint64_t k = 0; k < pictures.size() && !has_failed; ++k) {
+    if (progress) progress(k, pictures.size());
+    for (; asked < pictures.size() && !line.is_full(); ++asked) {
+      exposure.start = pictures[asked].start;
+      line.add([&, exposure](const RenderControl& control) { return session.render(exposure, output, control); });
+    }
+    ExposedPicture exposed = line.take();
+    std::string text = add ? add(k, exposed) : std::string();
+    queue.push(k, pictures[k].path, std::move(exposed.picture), std::move(text), file);
+  }
+  queue.finish();
+  if (failure) std::rethrow_exception(failure);
+}
+
+void ListedPictures::add(const ExposureRequest& request, const OutputFormat& output, Done done) {
+  done_.push_back(std::move(done));
+  line_.add([this, request, output](const RenderControl& control) -> Made {
+    try {
+      return {session_.render(request, output, control), {}};
+    } catch (const UsageError&) {
+      return {std::nullopt, std::current_exception()};
+    } catch (const InputError&) {
+      return {std::nullopt, std::current_exception()};
+    }
+  });
+  if (line_.is_full()) hand_on();
+}
+
+void ListedPictures::finish() {
+  while (!line_.is_empty()) hand_on();
+}
+
+void ListedPictures::hand_on() {
+  const Done done = std::move(done_.front());
+  done_.pop_front();
+  Made made = line_.take();
+  done([&made] {
+    if (made.error) std::rethrow_exception(made.error);
+    return std::move(*made.exposed);
+  });
+}
+
+bool is_made(const std::filesystem::path& picture, const std::optional<std::string>& precision,
+             const std::function<std::string(const std::string& precision)>& recipe_of) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(picture, error)) return false;
+  try {
+    const auto text = read_picture_text(picture);
+    if (!text) return false;
+    const Recipe recipe = Recipe::parse(*text, picture.string());
+    if (precision && recipe.precision != *precision) return false;
+    return recipe_of(recipe.precision) == *text;
+  } catch (const InputError&) {
+    return false;  // cut off, or no picture at all: whether it may be replaced is for check_output() to say
+  }
+}
+
+}  // namespace nutik

@@ -1,0 +1,102 @@
+// A motion study: which moments of a subject a picture shows, and what between them; found in the capture.
+//
+//   in:      a style, how many moments or which
+//   out:     what a mask, gain functions and an exposure are asked for: requests as a person would state them, so that
+//            each can be changed by hand
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "features/masks/mask_making.hpp"
+#include "features/masks/mask_request.hpp"
+#include "imev/capture_source.hpp"
+#include "mask/feather.hpp"
+#include "render/render_plan.hpp"
+#include "scene/moments.hpp"
+#include "scene/shots.hpp"
+#include "scene/subject.hpp"
+#include "session/memory_budget.hpp"
+#include "session/reported_progress.hpp"
+#include "session/requests/exposure_request.hpp"
+#include "session/requests/stated_time.hpp"
+
+namespace nutik {
+
+enum class StudyStyle {
+  trail,         // sharp moments over the trail of the whole way
+  strobe,        // sharp moments, and nothing between them
+  rear_curtain,  // the last moment, and a trail that grows towards it
+  frozen,        // one moment in a scene that is exposed for all of the time
+  clean,         // the scene without what moves: its plate
+  slit           // strips side by side, each at a moment of its own
+};
+// Where a slit's first moment lies: its strips are columns, or rows.
+enum class SlitFrom { left, right, top, bottom };
+enum class TrailShape { even, fade, ramp, none };
+
+struct StudyRequest {
+  StudyStyle style = StudyStyle::trail;
+  std::variant<std::uint32_t, std::vector<StatedTime>> moments = std::uint32_t{5};
+  MomentSpacing spacing = MomentSpacing::time;
+  std::optional<TrailShape> trail;  // none: what the style has
+  SlitFrom slit_from = SlitFrom::left;
+  std::vector<Rectangle>
+      regions;  // each with a subject of its own, in pixels; none: one in all of the picture
+  std::optional<std::uint32_t>
+      by_codes;  // only larger differences from the plate are the subject; none: than 1/16 of white, or than the noise
+  std::optional<Feather> feather;  // none: kStudyFeather, and none of a slit's strips
+
+  friend bool operator==(const StudyRequest&, const StudyRequest&) = default;
+};
+
+// There is no scene that rests.
+struct EverythingMoves : InputError {
+  explicit EverythingMoves(const std::string& message)
+      : InputError(message, Advice{". A camera that moved stands still with `align rigid`"}) {}
+};
+
+// What moves makes no study.
+struct NoSubject : InputError {
+  using InputError::InputError;
+};
+
+struct Study {
+  // Samples, of one subject after another: of tags 1, 2, …; what is left has tag 0. Of a slit's strips: of tags 0, 1, …
+  std::vector<std::uint64_t> moments;
+  std::vector<std::size_t> subjects;  // whose each of them is: of which region, from 0. None of a slit
+  std::vector<bool> may_be_in_plate;  // each subject, for it is at some place for much of the time
+  bool are_moments_found = false;     // not stated
+  MaskRequest mask;
+  FunctionSet functions;      // as a function file has them, to be normalized by their integrals
+  double trail_strength = 1;  // how many times as strong the trail is as in a plain exposure
+  SampleRange empty;          // at which nothing is there: taken away again from where the trail is stronger
+  Picture plate;              // in codes of the capture
+  std::vector<std::string> notes;
+};
+
+// Throws UsageError where what is stated does not go together, whatever the capture is.
+void check_study(const StudyRequest& request);
+
+// Looks at all of the capture. Throws UsageError where moments are stated that do not go together; InputError where
+// nothing moves or everything does, with what was found; MemoryTooLittle.
+[[nodiscard]] Study plan_study(CaptureSource& capture, const std::string& capture_name,
+                               const StudyRequest& request, const MemoryBudget& memory,
+                               const ReportedProgress& progress = {});
+
+// The regions of its moments, of the capture that it was planned for; takes its plate. Throws NoSubject where moments that
+// were found cover one another.
+[[nodiscard]] MadeMask make_regions(Study& study, CaptureSource& capture, const std::string& capture_name);
+
+// How far the subject's border is blended with what lies around it, in hundredths of a pixel: usually, and at most.
+inline constexpr std::int32_t kStudyFeather = 200, kMaxStudyFeather = 3200;
+
+// What exposes the study's picture through these regions.
+[[nodiscard]] ExposureRequest study_exposure(const Study& study, const StudyRequest& request,
+                                             const Mask& regions);
+
+}  // namespace nutik

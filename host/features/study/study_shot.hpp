@@ -1,0 +1,43 @@
+// What of a clip a study shows: one shot, its pictures moved back where the camera moved.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "features/study/study.hpp"
+#include "session/clips/camera_check.hpp"
+#include "session/requests/output_request.hpp"
+#include "session/requests/source_request.hpp"
+#include "session/session.hpp"
+
+namespace nutik {
+
+struct StudyTerms {
+  std::shared_ptr<Devices> devices;
+  OutputRequest output;  // of the picture in the end: what that takes is there before the work begins
+  std::function<ReportedProgress(std::string what)> progress;  // of each step; empty: it is not told
+};
+
+struct PlannedStudy {
+  Session session;
+  Study study;
+  std::optional<MovedCamera> moved;  // by little, so that the pictures are as they were filmed
+  std::vector<Note> notes = {};
+  // What a clip is read with beside what was stated.
+  std::optional<SampleRange> shot = {};          // pictures that were taken of it
+  std::optional<std::uint64_t> aligned_to = {};  // the picture of them that the others were moved onto
+};
+
+// How pictures are moved where nobody stated that.
+inline constexpr CameraMotion kStudyMotion = CameraMotion::homography;
+
+// Throws InputError where no shot makes a study, and what Session and plan_study() of a capture throw.
+[[nodiscard]] PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request,
+                                      const StudyTerms& terms);
+
+}  // namespace nutik

@@ -1,0 +1,198 @@
+#include "features/study/study_trail.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "capture/format.hpp"
+#include "exposure/function_text.hpp"
+#include "exposure/gain_function.hpp"
+
+namespace nutik {
+namespace {
+
+// A gain function that is put together from pieces.
+
+// Gains of pieces of a function, each of its own interval. In time order.
+class GainPieces {
+ public:
+  void add(Interval interval, double begin_gain, double end_gain) {
+    if (!points_.empty() && points_.back().time_ns == interval.begin_ns) {
+      points_.pop_back();  // it goes on from the piece before it
+      if (points_.back().gain == begin_gain) points_.pop_back();
+    } else {
+      points_.push_back({interval.begin_ns, 0.0});
+    }
+    if (points_.empty() || points_.back().gain != begin_gain)
+      points_.push_back({interval.begin_ns, begin_gain});
+    points_.push_back({interval.end_ns, end_gain});
+    points_.push_back({interval.end_ns, 0.0});
+  }
+  [[nodiscard]] GainFunction function() const { return with_steps(GainFunction(points_)); }
+
+ private:
+  std::vector<ControlPoint> points_;
+};
+
+// Of a subject that covers a place of its way for a share of the time, the trail shows so much there.
+constexpr double kTrailOpacity = 0.5;
+constexpr double kMaxStrength = 8;  // more shows the noise of the empty scene
+constexpr std::uint64_t kMinEmptySamples = 4;
+
+TrailShape default_trail(StudyStyle style) {
+  switch (style) {
+    case StudyStyle::trail: return TrailShape::even;
+    case StudyStyle::rear_curtain: return TrailShape::ramp;
+    case StudyStyle::strobe: return TrailShape::none;
+    case StudyStyle::frozen: return TrailShape::even;
+    case StudyStyle::clean:
+    case StudyStyle::slit: break;
+  }
+  return TrailShape::none;
+}
+
+class StudyFunctions {
+ public:
+  StudyFunctions(const StudyRequest& request, const Timeline& timeline,
+                 const std::vector<SubjectTrack>& tracks)
+      : request_(request),
+        timeline_(timeline),
+        tracks_(tracks),
+        shape_(request.trail.value_or(default_trail(request.style))) {}
+
+  void add_to(Study& study) const {
+    for (std::size_t i = 0; i < study.moments.size(); ++i) {
+      GainPieces moment;
+      moment.add(interval_of({study.moments[i], study.moments[i] + 1}), 1, 1);
+      study.functions.emplace(static_cast<std::uint8_t>(i + 1), moment.function());
+    }
+    study.empty = tracks_.front().empty;  // of all the picture, and so of all subjects
+    if (study.empty.size() < kMinEmptySamples) study.empty = {};
+    study.functions.emplace(std::uint8_t{0}, shape_ == TrailShape::none ? background(study) : trail(study));
+  }
+
+ private:
+  [[nodiscard]] Interval interval_of(SampleRange samples) const {
+    return {timeline_.start_ns(samples.first), timeline_.end_ns(samples.last - 1)};
+  }
+
+  // The scene between the moments: when nothing is there; else the moments together, in each of which most of it is
+  // seen. Several subjects may have a moment in common.
+  [[nodiscard]] GainFunction background(const Study& study) const {
+    GainPieces pieces;
+    if (!study.empty.empty()) {
+      pieces.add(interval_of(study.empty), 1, 1);
+    } else {
+      for (const std::uint64_t sample : std::set(study.moments.begin(), study.moments.end())) {
+        pieces.add(interval_of({sample, sample + 1}), 1, 1);
+      }
+    }
+    return pieces.function();
+  }
+
+  // The whole way of the subject, or of all of them. Where nothing is there for a while, that is taken away again, so
+  // that the way may be as much stronger.
+  [[nodiscard]] GainFunction trail(Study& study) const {
+    std::uint64_t first = tracks_.front().places.front().sample, last = 0;
+    double covered = 0;
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+      first = std::min(first, tracks_[i].places.front().sample);
+      last = std::max(last, request_.style == StudyStyle::rear_curtain ? study.moments[i]
+                                                                       : tracks_[i].places.back().sample);
+      covered = std::max(covered, tracks_[i].covered_share());
+    }
+    const Interval way = interval_of({std::min(first, last), last + 1});
+    const double begin = shape_ == TrailShape::ramp ? 0.0 : 1.0, end = shape_ == TrailShape::fade ? 0.0 : 1.0;
+    GainPieces pieces;
+    const Interval without = study.empty.empty() ? way : interval_of(study.empty);
+    const bool is_apart = without.end_ns <= way.begin_ns || without.begin_ns >= way.end_ns;
+    double way_ns = 0;  // each time as strong as it is
+    std::vector<std::pair<Interval, std::pair<double, double>>> moving;
+    for (const Interval& part : without_rests(way)) {
+      const auto gain = [&](std::int64_t time_ns) {
+        return begin + (end - begin) * static_cast<double>(time_ns - way.begin_ns) /
+                           static_cast<double>(way.end_ns - way.begin_ns);
+      };
+      const double first_gain = gain(part.begin_ns), last_gain = gain(part.end_ns);
+      way_ns += static_cast<double>(part.end_ns - part.begin_ns) * (first_gain + last_gain) / 2;
+      moving.push_back({part, {first_gain, last_gain}});
+    }
+    const auto add_way = [&] {
+      for (const auto& [part, gains] : moving) pieces.add(part, gains.first, gains.second);
+    };
+    if (!is_apart || request_.style == StudyStyle::frozen) {
+      add_way();
+      return pieces.function();
+    }
+    const double wanted = kTrailOpacity / covered;
+    study.trail_strength = std::round(10 * std::clamp(wanted, 1.0, kMaxStrength)) / 10;
+    const double taken =
+        -(1 - 1 / study.trail_strength) * way_ns / static_cast<double>(without.end_ns - without.begin_ns);
+    const double rounded = std::round(1000 * taken) / 1000;
+    const bool is_before = without.begin_ns < way.begin_ns;
+    if (is_before) pieces.add(without, rounded, rounded);
+    add_way();
+    if (!is_before) pieces.add(without, rounded, rounded);
+    return pieces.function();
+  }
+
+  // Parts of the way in which a single subject goes on; all of it for several, or for a scene that is exposed for all of
+  // the time.
+  [[nodiscard]] std::vector<Interval> without_rests(const Interval& way) const {
+    std::vector<Interval> parts{way};
+    if (request_.style == StudyStyle::frozen || tracks_.size() > 1) return parts;
+    for (const SampleRange& rest : tracks_.front().rests) {
+      const Interval resting = interval_of(rest);
+      if (parts.empty() || resting.begin_ns >= way.end_ns) break;
+      const Interval part = parts.back();
+      parts.pop_back();
+      if (part.begin_ns < resting.begin_ns) parts.push_back({part.begin_ns, resting.begin_ns});
+      if (resting.end_ns < part.end_ns) parts.push_back({resting.end_ns, part.end_ns});
+    }
+    return parts.empty() ? std::vector<Interval>{way} : parts;
+  }
+
+  const StudyRequest& request_;
+  const Timeline& timeline_;
+  const std::vector<SubjectTrack>& tracks_;
+  TrailShape shape_;
+};
+
+}  // namespace
+
+Study slit_study(CaptureSource& capture, const std::string& name, std::uint32_t wanted, SlitFrom from) {
+  const std::uint64_t samples = capture.timeline().sample_count();
+  const Shape& shape = capture.format().shape;
+  const bool are_columns = from == SlitFrom::left || from == SlitFrom::right;
+  const bool are_reversed = from == SlitFrom::right || from == SlitFrom::bottom;
+  const auto strips = static_cast<std::uint32_t>(
+      std::min<std::uint64_t>({wanted, samples, are_columns ? shape.width : shape.height}));
+  const char* const strip = are_columns ? "column" : "row";
+  if (strips < 2) throw InputError(format("{}: a single {} shows nothing of the time", name, strip));
+  Study study;
+  for (std::uint32_t i = 0; i < strips; ++i) {
+    const std::uint64_t moment = are_reversed ? strips - 1 - i : i;
+    const std::uint64_t sample = moment * (samples - 1) / (strips - 1);
+    GainPieces pieces;
+    pieces.add({capture.timeline().start_ns(sample), capture.timeline().end_ns(sample)}, 1, 1);
+    study.moments.push_back(sample);
+    study.functions.emplace(static_cast<std::uint8_t>(i), pieces.function());
+  }
+  const select::Grid grid{are_columns ? strips : 1, are_columns ? 1 : strips};
+  study.mask.steps.push_back({{"slits"}, 0, grid, std::nullopt, {}});
+  if (strips < wanted) {
+    study.notes.push_back(format("{} {}s, not {}: there are no more {}", strips, strip, wanted,
+                                 strips == samples ? "pictures"
+                                 : are_columns     ? "pixels in a row"
+                                                   : "pixels in a column"));
+  }
+  return study;
+}
+
+void add_functions(Study& study, const StudyRequest& request, const Timeline& timeline,
+                   const std::vector<SubjectTrack>& tracks) {
+  StudyFunctions(request, timeline, tracks).add_to(study);
+}
+
+}  // namespace nutik

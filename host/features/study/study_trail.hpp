@@ -1,0 +1,26 @@
+// The gain functions of a study: one for each moment, and what is shown where the subject is at none of them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "capture/timeline.hpp"
+#include "features/study/study.hpp"
+#include "imev/capture_source.hpp"
+#include "scene/subject.hpp"
+
+namespace nutik {
+
+// A slit-scan: strips of a picture side by side, each exposed later than the one before it.
+
+// As many strips as are wanted, as pictures, or as pixels from side to side, whichever is least, at moments spread over all
+// of the time. Throws InputError where that is a single one.
+[[nodiscard]] Study slit_study(CaptureSource& capture, const std::string& name, std::uint32_t wanted,
+                               SlitFrom from);
+
+// Of the moments that were chosen. Sets the study's functions, how strong its trail is and when nothing is there.
+void add_functions(Study& study, const StudyRequest& request, const Timeline& timeline,
+                   const std::vector<SubjectTrack>& tracks);
+
+}  // namespace nutik

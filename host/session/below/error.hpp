@@ -1,4 +1,0 @@
-// What the engine throws.
-#pragma once
-
-#include "capture/error.hpp"

@@ -1,4 +1,0 @@
-// format(), as the standard library has it.
-#pragma once
-
-#include "capture/format.hpp"
