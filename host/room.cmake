@@ -68,3 +68,20 @@ function(nutik_room name)
     install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nutik/${name}/${folder} COMPONENT development)
   endforeach()
 endfunction()
+
+# nutik_module(<name> SOURCES … ENTRY … LINKS …)
+#
+# The library nutik-<name>.so, which is loaded when it is first needed (host/media/module.hpp). ENTRY is the source that
+# says what it gives, and of which version it is.
+function(nutik_module name)
+  cmake_parse_arguments(MODULE "" "" "SOURCES;ENTRY;LINKS" ${ARGN})
+  add_library(nutik_${name} MODULE ${MODULE_SOURCES})
+  # Alone, as no other file need be compiled again for another version.
+  set_source_files_properties(${MODULE_ENTRY} PROPERTIES COMPILE_DEFINITIONS NUTIK_VERSION="${PROJECT_VERSION}")
+  set_target_properties(nutik_${name} PROPERTIES PREFIX "" OUTPUT_NAME nutik-${name} SUFFIX .so NO_SONAME ON
+                                                 CXX_VISIBILITY_PRESET hidden)
+  target_link_libraries(nutik_${name} PRIVATE ${MODULE_LINKS} nutik_warnings)
+  # One whose libraries lack something is refused when it is loaded.
+  target_link_options(nutik_${name} PRIVATE LINKER:-z,now)
+  install(TARGETS nutik_${name} DESTINATION ${CMAKE_INSTALL_LIBDIR}/nutik COMPONENT modules)
+endfunction()

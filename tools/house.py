@@ -16,8 +16,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 PICTURE = ROOT / "docs" / "images" / "house.svg"
 KEYWORDS = "SOURCES|HEADERS|USES|LINKS|PRIVATE_LINKS"
-# What only one room calls.
-LIBRARIES = {"opencl": "OpenCL", "media": "OpenCV, FFmpeg", "plot": "Cairo", "solve": "Eigen", "tik": "zstd, LZ4"}
+# What rooms call.
+LIBRARIES = {"opencl": "OpenCL", "align": "OpenCV", "media": "OpenCV, FFmpeg", "plot": "Cairo", "solve": "Eigen", "tik": "zstd, LZ4"}
 
 
 def uses_of_rooms():

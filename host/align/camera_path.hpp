@@ -1,14 +1,22 @@
-// How a camera moved in the course of a clip.
+// How a camera moved in the course of a clip, and what of the reference's picture the others saw.
+//
+// A picture saw a place if it lies between the middles of its border's pixels: nothing is made up.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "align/registrar.hpp"
+#include "capture/picture.hpp"
+#include "capture/timeline.hpp"
 
 namespace nutik {
+
+// Places that not every aligned picture saw are cut away, or hold what was seen there before.
+enum class Unseen { cropped, held };
 
 struct CameraPath {
   CameraMotion motion = CameraMotion::rigid;
@@ -41,5 +49,28 @@ struct CameraPath {
 [[nodiscard]] std::string camera_path_text(const CameraPath& path);
 // Throws InputError naming `name` and the line.
 [[nodiscard]] CameraPath parse_camera_path(std::string_view text, const std::string& name);
+
+// From `first` on, before `end`; empty where they are equal.
+struct PixelSpan {
+  std::uint32_t first = 0, end = 0;
+};
+
+// In pixels: what lies no further beyond a picture's outermost ones counts as seen. Registering tells no less, and a
+// camera that rests saw its whole picture.
+inline constexpr double kSeenBeyond = 0.05;
+
+// The pixels of a row of the reference that a picture saw. They are neighbours, for a picture is convex.
+[[nodiscard]] PixelSpan seen_span(const Warp& warp, const Shape& shape, std::uint32_t row);
+
+// The largest rectangle that every picture saw; nothing where there is none.
+[[nodiscard]] std::optional<Rectangle> seen_by_all(const CameraPath& path);
+
+// How many pictures saw each pixel, as a grey picture: 255 where all did.
+[[nodiscard]] Picture coverage_of(const CameraPath& path);
+
+// Two graphs over time: how far to the right and down the scene lies from where it lay in the reference, in pixels; and
+// how far it is turned. The timeline has the path's pictures.
+[[nodiscard]] Picture camera_chart(const std::string& heading, const CameraPath& path,
+                                   const Timeline& timeline);
 
 }  // namespace nutik

@@ -6,14 +6,14 @@
 #include <cmath>
 #include <limits>
 
-#include "align/seen_area.hpp"
+#include "align/camera_path.hpp"
 #include "system/parallel.hpp"
 #include "system/simd_clones.hpp"
 
 namespace nutik {
 namespace {
 
-// Of light, for each code: few steps have two that begin within them, of 8 bits. Tables for 16 bits stay small.
+// Steps of light for each code: with 8 bits, two codes rarely begin within one step. Tables for 16 bits stay small.
 constexpr std::uint32_t kStepsPerCode = 16;
 constexpr std::uint32_t kMaxSteps = 1 << 16;
 
@@ -102,7 +102,7 @@ NUTIK_SIMD_CLONES void set_taps(Warp warp, std::uint32_t x, std::uint32_t y, std
     const auto right = static_cast<std::int32_t>(px + 1), down = static_cast<std::int32_t>(py + 1);
     set_cubic(taps.x, i, px - (right - 1));
     set_cubic(taps.y, i, py - (down - 1));
-    // Of the tap at -1, right - 2, in a plane that begins at -kBorder.
+    // The tap at -1 is right - 2, in a plane that begins at -kBorder.
     taps.first[i] = static_cast<std::uint32_t>(down) * stride + static_cast<std::uint32_t>(right);
   }
 }

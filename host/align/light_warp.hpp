@@ -30,8 +30,8 @@ class LightTables {
  public:
   LightTables(const Transfer& transfer, std::uint32_t white_code);
 
-  // Of every `stride`-th code, as many as there is room for, one at least. Throws CodeAboveWhite, for one between them,
-  // too.
+  // Takes every `stride`-th code, as many as there is room for, at least one. Throws CodeAboveWhite, also for a code
+  // between them.
   void lights_of(const std::uint8_t* codes, std::size_t stride, std::span<float> lights) const;
   void lights_of(const std::uint16_t* codes, std::size_t stride, std::span<float> lights) const;
 
@@ -47,7 +47,7 @@ class LightTables {
 
 class LightWarp {
  public:
-  // Of rasters of this format; `area` is what the new picture shows of the places that warps start from.
+  // Moves rasters of this format; `area` is what the new picture shows of the places that warps start from.
   LightWarp(const CaptureFormat& format, const Rectangle& area);
 
   // On all cores. Throws CodeAboveWhite.

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -16,6 +17,7 @@
 #include "align/warp.hpp"
 #include "capture/memory_needs.hpp"
 #include "capture/picture.hpp"
+#include "system/shared_state.hpp"
 
 namespace nutik {
 
@@ -51,10 +53,25 @@ class Registrar {
  public:
   virtual ~Registrar() = default;
 
-  // Of a raster of the same format, which is expected to lie about where `guess` says. The best that was found, be it
-  // good or not: is_sure(). Several threads may ask at once.
+  // Registers a raster of the same format, expected to lie about where `guess` says. Returns the best that was found,
+  // good or not: ask is_sure(). Several threads may ask at once.
   [[nodiscard]] virtual Registered find(std::span<const std::byte> raster, const Warp& guess,
                                         Reach reach = Reach::anywhere) = 0;
+};
+
+// Registers other pictures to `reference`, a raster of that format. Throws TooLittleTexture, InputError where
+// nutik-motion.so is not found (media/module.hpp).
+[[nodiscard]] std::unique_ptr<Registrar> open_registrar(const CaptureFormat& format, CameraMotion motion,
+                                                        std::span<const std::byte> reference);
+
+// What nutik-motion.so gives the program.
+struct MotionModule {
+  static constexpr const char* kFile = "nutik-motion.so";
+  static constexpr const char* kSymbol = "nutik_motion_module";
+  static constexpr const char* kWithout = "no camera's motion can be found";
+
+  void (*use_shared_state)(SharedState& of_program);  // first
+  decltype(&open_registrar) open;
 };
 
 // Whether most of the texture follows it.

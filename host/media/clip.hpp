@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -156,6 +157,9 @@ class Clip {
 // (media/event_clip.hpp). Their times do not count where a rate is stated. Throws InputError where there is
 // none, or none that can be read.
 [[nodiscard]] std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOptions& options);
+
+// Opens a clip from its start, as often as it is asked.
+using OpenClip = std::function<std::unique_ptr<Clip>()>;
 
 // What files say of codes that are read as they are stored, and what transfer function is usual for such.
 struct StoredCodes {

@@ -45,7 +45,8 @@ std::vector<std::filesystem::path> module_folders() {
   return folders;
 }
 
-// The entry points of the module in `name`, which stand behind its `symbol`; `without` says what lacks without it.
+}  // namespace
+
 const void* load_module(const char* name, const char* symbol, const char* without) {
   std::string tried;
   for (const std::filesystem::path& folder : module_folders()) {
@@ -75,22 +76,5 @@ const void* load_module(const char* name, const char* symbol, const char* withou
              "Looked for:{}",
              without, name, tried));
 }
-
-template <typename Module>
-const Module& module() {
-  static const Module* const loaded = [] {
-    const auto* found =
-        static_cast<const Module*>(load_module(Module::kFile, Module::kSymbol, Module::kWithout));
-    found->use_shared_state(shared_state());
-    return found;
-  }();
-  return *loaded;
-}
-
-}  // namespace
-
-const VideoModule& video_module() { return module<VideoModule>(); }
-const StillModule& still_module() { return module<StillModule>(); }
-const MotionModule& motion_module() { return module<MotionModule>(); }
 
 }  // namespace nutik

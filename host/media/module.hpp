@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 
-#include "align/registrar.hpp"
 #include "media/clip.hpp"
 #include "media/stills_table.hpp"
 #include "media/video_writer.hpp"
@@ -47,23 +46,24 @@ struct StillModule {
   std::optional<std::string> (*read_exr_text)(const std::filesystem::path& file, const char* keyword);
 };
 
-// What nutik-motion.so gives the program.
-struct MotionModule {
-  static constexpr const char* kFile = "nutik-motion.so";
-  static constexpr const char* kSymbol = "nutik_motion_module";
-  static constexpr const char* kWithout = "no camera's motion can be found";
+// The entry points that stand behind `symbol` in the library `file`; `without` says what lacks without it. It is looked
+// for in the folder that NUTIK_MODULES names, beside the program or library that this code is part of, in the installed
+// place seen from there, and where the loader looks. Throws InputError naming all of these.
+[[nodiscard]] const void* load_module(const char* file, const char* symbol, const char* without);
 
-  void (*use_shared_state)(SharedState& of_program);  // first
-  // Of other pictures to `reference`, a raster of that format. Throws TooLittleTexture.
-  std::unique_ptr<Registrar> (*open)(const CaptureFormat& format, CameraMotion motion,
-                                     std::span<const std::byte> reference);
-};
+// A module, loaded by its first use.
+template <typename Module>
+[[nodiscard]] const Module& module() {
+  static const Module* const loaded = [] {
+    const auto* found =
+        static_cast<const Module*>(load_module(Module::kFile, Module::kSymbol, Module::kWithout));
+    found->use_shared_state(shared_state());
+    return found;
+  }();
+  return *loaded;
+}
 
-// These look for their module in the folder that NUTIK_MODULES names, beside the program or library that this code
-// is part of, in the installed place seen from there, and where the loader looks. They throw InputError naming all
-// of these.
-[[nodiscard]] const VideoModule& video_module();
-[[nodiscard]] const StillModule& still_module();
-[[nodiscard]] const MotionModule& motion_module();
+[[nodiscard]] inline const VideoModule& video_module() { return module<VideoModule>(); }
+[[nodiscard]] inline const StillModule& still_module() { return module<StillModule>(); }
 
 }  // namespace nutik

@@ -46,11 +46,11 @@ struct NoiseEstimate {
   struct Channel {
     double misfit = 0;       // of the sensor's curve: SensorFit::misfit
     double still_share = 0;  // of the pixels, over all windows: those that points were measured on
-    // Of what these stray by, the share that a pixel kNeighbourPixels beside or below strays by, too: of light on a
-    // sensor nearly nothing, of what moves, or of what a codec left, much.
+    // The share of their straying that a pixel kNeighbourPixels beside or below has, too: nearly none for light on a
+    // sensor, much for what moves or what a codec left.
     double shared = 0;
-    // Of the codes at which pixels stray by a code and more, the share at which some stray more than others, by a
-    // quarter and more: noise of a sensor is a code's, what moves is that of edges.
+    // Among the codes at which pixels stray by a code or more, the share at which some pixels stray a quarter more than
+    // others: a sensor's noise depends on the code, motion on edges.
     double uneven = 0;
   };
 

@@ -138,7 +138,7 @@ std::vector<PixelNoise> StillWindow::measure(std::uint32_t channel) const {
   return noise;
 }
 
-// Of n second differences the squares' sum has the variance 2 (36 n + 2 · 16 (n - 1) + 2 · (n - 2)), in units of
+// The sum of the squares of n second differences has the variance 2 (36 n + 2 · 16 (n - 1) + 2 · (n - 2)), in units of
 // the noise's own squared: neighbours share two samples of three. A chi-squared sum of the same mean and variance
 // has as many degrees of freedom as this.
 double StillWindow::degrees_of_freedom(std::uint32_t samples) {

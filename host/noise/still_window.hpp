@@ -30,8 +30,8 @@ struct PixelNoise {
   // Covariances with the pixel that lies kNeighbourPixels to the right, and below: 0 where there is none.
   float beside = 0;
   float below = 0;
-  // Of its row's and its column's number the last bit: what is interpolated of a mosaic strays less than what was
-  // measured beside it.
+  // The last bits of its row's and its column's number: a sensor's mosaic leaves interpolated values, which stray less
+  // than the measured ones beside them.
   std::uint32_t place = 0;
 };
 inline constexpr std::size_t kMosaicPlaces = 4;
@@ -55,7 +55,7 @@ class StillWindow {
   // One entry for every pixel of a channel. At least kMinWindowSamples samples are there.
   [[nodiscard]] std::vector<PixelNoise> measure(std::uint32_t channel) const;
 
-  // Of a variance that was measured on so many samples.
+  // The degrees of freedom of a variance that was measured on so many samples.
   [[nodiscard]] static double degrees_of_freedom(std::uint32_t samples);
 
   void clear() { samples_ = 0; }

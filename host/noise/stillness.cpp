@@ -26,7 +26,7 @@ struct Halves {
   std::size_t within;  // the halves of which these are one, as an index; the first are their own
 
   [[nodiscard]] bool are_single() const { return end - begin == 2; }
-  // Of the difference of their means, where each sample's is 1.
+  // The variance of the difference of their means, where each sample's is 1.
   [[nodiscard]] double variance() const { return 1.0 / (middle - begin) + 1.0 / (end - middle); }
 };
 
@@ -206,8 +206,8 @@ class StillnessWatch::Stretch {
     for (std::size_t i = 0; i < pixels_; ++i) {
       if (!is_told_[i]) continue;
       auto& ways = regions[watch_.region_[i]].ways;
-      // Of noise alone the squares of all differences are the same on average; what the long ones have more of is not
-      // noise. That of single samples is thus the measure, whatever the model says.
+      // With noise alone the squares of all differences are the same on average; the excess of the long ones is not
+      // noise. So single samples are the measure, whatever the model says.
       const float of_noise = single_count[i] > 0 ? longer_count[i] * single[i] / single_count[i] : 0;
       ways[0].add((longer[i] - of_noise) * of_all);
       const auto add_neighbour = [&](Mean& to, std::uint32_t neighbour, float product) {

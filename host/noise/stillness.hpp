@@ -49,7 +49,7 @@ class StillnessWatch {
   // Adds a sample of CaptureFormat::sample_bytes(); those beyond `max_samples` are left out.
   void add(std::span<const std::byte> raster);
 
-  // Of at least three samples; noise as it was measured on them.
+  // Needs at least three samples, and the noise that was measured on them.
   [[nodiscard]] Stillness judge(const CameraNoise& noise) const;
 
  private:

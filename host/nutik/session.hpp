@@ -8,6 +8,7 @@
 //   nutik::write_picture("picture.png", session.render(request, {}).picture);
 #pragma once
 
+#include "align/alignment.hpp"
 #include "features/activity/activity.hpp"
 #include "features/captures/capture_figures.hpp"
 #include "features/captures/retiming.hpp"
@@ -26,9 +27,6 @@
 #include "features/solve/solving.hpp"
 #include "features/solve/wish.hpp"
 #include "features/study/study.hpp"
-#include "session/clips/alignment.hpp"
-#include "session/clips/camera_check.hpp"
-#include "session/clips/camera_record.hpp"
 #include "session/clips/encoding.hpp"
 #include "session/clips/measured_noise.hpp"
 #include "session/devices.hpp"

@@ -16,13 +16,13 @@ struct DifferingCells {
   std::vector<float> contrast;
 };
 
-// Of one look after another: only where something changed since the one before is it looked at again.
+// Follows one look after another: places are looked at again only if something changed there since the look before.
 class Difference {
  public:
   // A pixel differs where a channel does by more than `by_codes`.
   Difference(const CaptureFormat& capture, const Picture& plate, std::uint32_t by_codes);
 
-  // Of a cell, in pixels.
+  // The side of a cell, in pixels.
   [[nodiscard]] static std::uint32_t side(const Shape& shape);
 
   const DifferingCells& at(const Look& look);

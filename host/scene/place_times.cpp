@@ -8,7 +8,7 @@
 namespace nutik {
 namespace {
 
-// Of every code that may be held: damaged files have some above white.
+// Counts every code that may be held: damaged files have some above white.
 std::size_t code_count(const CaptureFormat& capture) { return std::size_t{1} << 8 * capture.code_bytes; }
 
 constexpr std::uint32_t kCellsToASide = 48;

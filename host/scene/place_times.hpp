@@ -36,7 +36,7 @@ class CodeBand {
   [[nodiscard]] std::uint32_t bin(std::uint32_t channel, std::uint32_t code) const {
     return bins_[channel][code];
   }
-  // Of bins that stand for the same light.
+  // How many bins stand for the same light.
   [[nodiscard]] std::uint32_t window() const { return window_; }
   // How many there are, over all channels.
   [[nodiscard]] std::uint32_t bin_count() const;

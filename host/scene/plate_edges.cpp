@@ -1,4 +1,4 @@
-#include "scene/plate_edges.hpp"
+#include "scene/clean_plate.hpp"
 
 #include <algorithm>
 #include <cstddef>

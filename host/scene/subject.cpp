@@ -10,7 +10,7 @@
 
 #include "scene/differing_cells.hpp"
 #include "scene/looks.hpp"
-#include "scene/telling_places.hpp"
+#include "scene/moments.hpp"
 
 namespace nutik {
 namespace {
@@ -22,7 +22,7 @@ struct Field {
   std::size_t left, top, right, bottom;
 };
 
-// Of a box, in pixels.
+// The border of a box, in pixels.
 std::uint32_t border_of(std::uint32_t cell_side) { return 2 * cell_side + 2; }
 
 // A median over places; 0 where there are none.
@@ -205,7 +205,7 @@ class Follower {
     ++look_;
   }
 
-  // Of what goes furthest; and of what goes its way beside that for half of its own time, half as far or more, and as one
+  // The places of what goes furthest; and of what goes beside it for half of its own time, half as far or more, as one
   // whole thing.
   [[nodiscard]] std::pair<std::vector<SubjectPlace>, std::vector<SubjectPlace>> subject_and_other() && {
     std::vector<std::pair<double, Followed*>> by_weight;

@@ -20,15 +20,15 @@
 #include <string>
 #include <vector>
 
+#include "align/alignment.hpp"
 #include "opencl/validation.hpp"
 #include "render/trace.hpp"
-#include "session/clips/alignment.hpp"
 #include "session/clips/source_check.hpp"
 #include "session/devices.hpp"
 #include "session/exposed_picture.hpp"
-#include "session/reported_progress.hpp"
 #include "session/requests/exposure_request.hpp"
 #include "session/requests/source_request.hpp"
+#include "system/interruption.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik {

@@ -1,4 +1,4 @@
-#include "sheet/activity_chart.hpp"
+#include "sheet/drawings.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "plot/canvas.hpp"
-#include "sheet/thumbnail.hpp"
+#include "sheet/drawings.hpp"
 
 namespace nutik::sheet {
 namespace {

@@ -1,4 +1,4 @@
-#include "sheet/mask_overlay.hpp"
+#include "sheet/drawings.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,6 @@
 #include "mask/distance.hpp"
 #include "mask/region.hpp"
 #include "plot/canvas.hpp"
-#include "sheet/thumbnail.hpp"
 
 namespace nutik::sheet {
 namespace {

@@ -12,7 +12,7 @@ namespace {
 
 using Column = Eigen::Index;
 
-// Of a decomposition's largest pivot: what is smaller is taken for 0.
+// As a share of a decomposition's largest pivot: smaller pivots are taken for 0.
 constexpr double kMinPivot = 1e-9;
 // A gradient this much smaller than its parts is none.
 constexpr double kMinGradient = 1e-12;
@@ -94,7 +94,7 @@ class ActiveSet {
     return true;
   }
 
-  // Of the x that bounds hold the one that would lessen the squares most within them.
+  // Among the x that bounds hold, the one that would lessen the squares most within them.
   [[nodiscard]] std::optional<std::size_t> max_wanted_within() const {
     const Eigen::VectorXd left = b_ - a_ * x_;
     std::optional<std::size_t> best;

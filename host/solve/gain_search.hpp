@@ -35,7 +35,7 @@ struct LightWish {
   Kind kind = Kind::equal;
   double factor = 1.0;  // of the target
   Target target = 1.0;
-  // Of `gone`: the still light, by the mask value of the function that exposes it.
+  // For `gone`: the still light, by the mask value of the function that exposes it.
   std::map<std::uint8_t, ChannelLight> still = {};
   double weight = 1.0;
 };
@@ -70,8 +70,8 @@ class GainSearch {
   // within the bounds it begins.
   [[nodiscard]] std::optional<FoundGains> find(const std::vector<std::int64_t>& times_ns);
 
-  // Of the gains that find() found last: those that no wish depends on, and how many of the others the wishes leave
-  // open, being fewer than they. None, either, where a function can hardly be normalized with them.
+  // The gains of the last find() that no wish depends on, and how many of the others the wishes leave open, because
+  // there are fewer wishes than gains. None, either, where a function can hardly be normalized with them.
   [[nodiscard]] std::vector<std::size_t> untold() const;
   [[nodiscard]] std::size_t open_count() const;
 

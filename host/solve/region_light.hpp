@@ -98,7 +98,7 @@ class RegionPixels {
                                              const Mask* marks, const std::vector<LightRegion>& regions,
                                              SampleRange samples);
 
-// Of `samples`, which must not be none. `plate`, light64 of the same shape, may be null. Throws InputError for a damaged
+// Measures `samples`, of which there must be some. `plate`, light64 of the same shape, may be null. Throws InputError for a damaged
 // block; progress counts blocks.
 [[nodiscard]] std::vector<RegionLight> measure_regions(
     CaptureSource& capture, const Transfer& transfer, const Mask& mask, const Mask* marks,

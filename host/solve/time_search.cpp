@@ -12,7 +12,7 @@
 namespace nutik {
 namespace {
 
-// Of the best candidates so many are followed between candidates.
+// So many of the best candidates are followed between candidates.
 constexpr std::size_t kFollowed = 6;
 
 struct Tried {

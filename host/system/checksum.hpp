@@ -17,13 +17,13 @@ namespace nutik {
 [[nodiscard]] std::uint64_t checksum(std::span<const std::byte> bytes);
 [[nodiscard]] std::uint64_t checksum(std::string_view text);
 
-// Of a structure's bytes before its own checksum.
+// The checksum of a structure's bytes before its own checksum.
 template <typename Struct>
 [[nodiscard]] std::uint64_t checksum_of(const Struct& structure, std::size_t bytes) {
   return checksum({reinterpret_cast<const std::byte*>(&structure), bytes});
 }
 
-// Of parts that come one after the other.
+// The checksum of parts that come one after the other.
 class Checksum {
  public:
   Checksum();

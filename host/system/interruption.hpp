@@ -1,14 +1,21 @@
-// Ending at a signal in good order: SIGINT (Ctrl-C), SIGTERM and SIGHUP set a flag, long loops look at it
-// and throw, and what is thrown passes destructors that remove temporary files.
+// Long work: it tells how far it is, and ends at a signal in good order. SIGINT (Ctrl-C), SIGTERM and SIGHUP set a
+// flag, long loops look at it and throw, and what is thrown passes destructors that remove temporary files.
 //
 //   in:      a program's wishes to be interruptible and to leave nothing where it meets a limit, once, at its start
 //   always:  without these wishes nothing here has any effect; a second signal ends the program at once. So does the first
 //            where nobody looks for a while, inside a library for example; temporary files are removed all the same
 #pragma once
 
+#include <cstdint>
+#include <functional>
+
 #include "capture/error.hpp"
 
 namespace nutik {
+
+// Called with how many steps are done of how many, 0 where that is not known, on the thread that does the work. May
+// be empty. What it throws ends the work and comes back to the caller.
+using ReportedProgress = std::function<void(std::uint64_t done, std::uint64_t total)>;
 
 struct Interrupted : Error {
   explicit Interrupted(int number);

@@ -8,7 +8,7 @@
 
 #include <pybind11/numpy.h>
 
-#include "session/clips/alignment.hpp"
+#include "align/alignment.hpp"
 
 namespace nutik::python {
 

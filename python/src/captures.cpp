@@ -4,6 +4,7 @@
 #include <deque>
 #include <mutex>
 
+#include "align/alignment.hpp"
 #include "array_clip.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -13,7 +14,6 @@
 #include "features/schema/option.hpp"
 #include "features/schema/requests.hpp"
 #include "parts.hpp"
-#include "session/clips/camera_check.hpp"
 #include "session/clips/encoding.hpp"
 #include "working.hpp"
 

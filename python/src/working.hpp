@@ -19,7 +19,7 @@
 #include <utility>
 
 #include "capture/error.hpp"
-#include "session/reported_progress.hpp"
+#include "system/interruption.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::python {

@@ -10,7 +10,6 @@
 #include <numbers>
 #include <random>
 
-#include "media/module.hpp"
 #include "support/clips.hpp"
 #include "system/parallel.hpp"
 
@@ -64,7 +63,7 @@ CaptureFormat format_of(const Look& look) {
 std::unique_ptr<Registrar> registrar_of(const CaptureFormat& format, CameraMotion motion,
                                         std::span<const std::byte> reference) {
   test::use_modules();
-  return motion_module().open(format, motion, reference);
+  return open_registrar(format, motion, reference);
 }
 
 // A scene before which a disc, a fifth of the picture, moves by itself: eleven pixels a picture, turning.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "align/seen_area.hpp"
 #include "fuzz/target.hpp"
 
 namespace nutik::fuzz {

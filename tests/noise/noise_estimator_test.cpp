@@ -181,7 +181,7 @@ TEST(NoiseEstimator, TellsTremblingFromNoise) {
   }
 }
 
-// Of n independent pairs a covariance strays by the variance / sqrt(n): here by less than 0.2 %, and shares of a scene
+// The covariance of n independent pairs strays by the variance / sqrt(n): here by less than 0.2 %, and shares of a scene
 // with a moving ball by a little more.
 TEST(NoiseEstimator, SharesNothingInNoise) {
   for (const std::uint32_t channels : {1u, 3u}) {

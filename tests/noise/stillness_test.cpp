@@ -162,8 +162,8 @@ TEST(Stillness, IsMissedWhereTheCameraPans) {
   }
 }
 
-// Of light at which noise is the same everywhere what is found is what was put in, in standard deviations: a share of
-// the frames' of one brightness, or of a drift by the root of 12. Noise lets it stray by less than 0.01.
+// Where noise is the same at all light, the result is what was put in, in standard deviations: a share of the frames'
+// deviations at one brightness, or a drift's divided by the root of 12. Noise lets it stray by less than 0.01.
 TEST(Stillness, IsMissedByAsMuchAsBrightnessStrays) {
   NoisyCamera camera = deep_camera();
   camera.shot = 0;

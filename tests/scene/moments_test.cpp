@@ -50,7 +50,7 @@ TEST(Moments, DoNotTouch) {
   EXPECT_EQ(samples_of(choose_moments(track, 5, MomentSpacing::time, 2 * kGap)), (Samples{0, 30}));
 }
 
-// Of a subject of four cells the border leaves one, two and three.
+// The border leaves one, two and three cells of a subject of four.
 TEST(Moments, ShowAtLeastHalfOfTheSubject) {
   SubjectTrack track = track_of({{0, 0}, {10, 80}, {20, 240}, {30, 400}, {40, 640}});
   const std::vector<std::size_t> cells = {1, 4, 4, 4, 2};

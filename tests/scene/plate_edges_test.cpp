@@ -1,5 +1,5 @@
 // A thing before the plate, the hole that it left, and a thing of which the plate shows a part.
-#include "scene/plate_edges.hpp"
+#include "scene/clean_plate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kSide = 60, kThing = 24, kTop = 18, kMargin = 2, kByCodes = 15;
 
-// Of a bright thing so far from the left; of the empty ground without. It ripples by a few codes.
+// A bright thing so far from the left, or the empty ground. It ripples by a few codes.
 template <typename Code>
 Picture picture_of(ValueType type, std::uint32_t unit, std::optional<std::uint32_t> left) {
   Picture picture({kSide, kSide, 1}, type, 255 * unit);

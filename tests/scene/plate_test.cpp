@@ -1,4 +1,4 @@
-#include "scene/plate.hpp"
+#include "scene/clean_plate.hpp"
 
 #include <gtest/gtest.h>
 

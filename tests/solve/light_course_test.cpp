@@ -50,7 +50,7 @@ TEST(LightCourse, OfAPieceIsTheSumOfItsParts) {
     }
     const ChannelLight expected = course.integral_ns(parts), found = integral(course, {whole});
     for (std::size_t channel = 0; channel < 3; ++channel) {
-      // Of some 400 products of up to 1 · 2 · 10^6 ns.
+      // Some 400 products of up to 1 · 2 · 10^6 ns.
       ASSERT_NEAR(found[channel], expected[channel], 400 * 2e6 * 0x1p-48) << repetition;
     }
   }

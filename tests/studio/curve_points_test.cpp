@@ -6,8 +6,7 @@
 #include "studio/curves/drags.hpp"
 #include "studio/curves/handles.hpp"
 #include "studio/curves/points.hpp"
-#include "studio/time/sample_times.hpp"
-#include "studio/time/typed_numbers.hpp"
+#include "studio/time/times.hpp"
 
 namespace nutik::studio {
 namespace {

@@ -1,4 +1,4 @@
-// Of what is seen previews expose what a change may have changed.
+// Previews expose those pixels in sight that a change may have changed.
 #include "studio/live/live_view.hpp"
 
 #include <QPainter>

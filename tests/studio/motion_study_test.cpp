@@ -51,7 +51,7 @@ class MotionStudyTest : public StudioTest {
         (seconds * kSecond - static_cast<double>(start_ns)) * held.width() / static_cast<double>(length_ns);
     drag(strip, held.center().toPoint(), (held.center() + QPointF(way, 0)).toPoint());
   }
-  // Of the selected function.
+  // Drags a point of the selected function.
   void drag_point(std::size_t which, double seconds) {
     auto& curves = child<CurveEditor>("curves");
     const ControlPoint point = document().points(document().selected_tag()).at(which);

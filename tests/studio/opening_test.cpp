@@ -65,7 +65,7 @@ class OpeningTest : public StudioTest {
         ASSERT_EQ(shown_at(seen, at(x + 0.5, y + 0.5)), image.pixelColor(x, y)) << x << ", " << y;
   }
 
-  // Of what is chosen in the menu of recent files, once it was filled.
+  // The menu of recent files, once it was filled.
   [[nodiscard]] QMenu& recent() {
     for (QAction* action : window_.menuBar()->actions().front()->menu()->actions()) {
       if (action->menu() == nullptr) continue;

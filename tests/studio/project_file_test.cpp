@@ -41,7 +41,7 @@ class ProjectFile : public testing::Test {
   [[nodiscard]] QString path(const std::string& name) const {
     return QString::fromStdString((scratch_ / name).string());
   }
-  // Of what is saved as `name`.
+  // The state that is saved as `name`.
   DocumentState save(const std::string& name, int number, const CommandFiles& files) {
     Document document;
     document.start(small_facts(path("clip.tik")));

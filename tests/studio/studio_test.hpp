@@ -19,7 +19,7 @@
 #include <QToolBar>
 #include <functional>
 
-#include "studio/live/exposure_of.hpp"
+#include "studio/live/live_view.hpp"
 #include "studio/live/picture_image.hpp"
 #include "studio/window/main_window.hpp"
 #include "support/moving_square.hpp"
@@ -147,7 +147,7 @@ class StudioTest : public ::testing::Test {
     return image_of(session.render(exposure_of(state, mask), screen_format()).picture);
   }
 
-  // Of what a widget shows the colour at one of its places, whatever the screen's scale.
+  // The colour that a widget shows at one of its places, whatever the screen's scale.
   [[nodiscard]] static QColor shown_at(const QImage& grabbed, QPointF place) {
     return grabbed.pixelColor((place * grabbed.devicePixelRatio()).toPoint());
   }

@@ -34,7 +34,7 @@ class WindowTest : public StudioTest {
     window.autosave().keep();
     return window.document().state();
   }
-  // Of a window whose changes are given up.
+  // Gives up the window's changes.
   void open_again_without_asking(MainWindow& window) {
     window.document().undo_stack().setClean();
     open_in(window);

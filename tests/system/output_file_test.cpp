@@ -20,7 +20,7 @@ namespace {
 using test::Scratch;
 namespace fs = std::filesystem;
 
-// Of earlier versions and of this one: what stands under such a name is somebody else's, or can still be recovered.
+// Names of earlier versions and of this one: such a file is somebody else's, or can still be recovered.
 TEST(OutputFile, LeavesFilesAloneThatAreCalledAsTemporaryFilesAre) {
   const Scratch scratch;
   scratch.write("victim", "precious");
@@ -38,7 +38,7 @@ TEST(OutputFile, LeavesFilesAloneThatAreCalledAsTemporaryFilesAre) {
   EXPECT_TRUE(fs::is_symlink(scratch / ".a.nutik-120.part"));
 }
 
-// Of whoever is writing the same file at the same time: both are whole, and the later one stays.
+// Another process writes the same file at the same time: both are whole, and the later one stays.
 TEST(OutputFile, LeavesAnothersTemporaryFileAlone) {
   const Scratch scratch;
   OutputFile first(scratch / "a");

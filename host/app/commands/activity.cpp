@@ -1,5 +1,5 @@
 #include "features/activity/activity.hpp"
-#include "sheet/activity_chart.hpp"
+#include "sheet/drawings.hpp"
 
 #include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"

@@ -3,7 +3,6 @@
 #include "app/output/output_name.hpp"
 #include "media/picture_writer.hpp"
 #include "media/recipe.hpp"
-#include "session/clips/camera_record.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {
@@ -23,7 +22,7 @@ void CameraFiles::write(const CameraPath& path, const Timeline& timeline, const 
                         Answer& answer) const {
   const std::string named[] = {table_.value_or(""), plot_.value_or(""), coverage_.value_or("")};
   if (table_) write_text(*table_, camera_path_text(path));
-  if (plot_) write_picture(*plot_, sheet::camera_chart(heading, path, timeline));
+  if (plot_) write_picture(*plot_, camera_chart(heading, path, timeline));
   if (coverage_) write_picture(*coverage_, coverage_of(path));
   const CameraPath::Step furthest = path.step(path.furthest());
   answer.json["camera"] = {{"motion", to_text(path.motion)},

@@ -8,7 +8,7 @@
 
 #include "app/output/report.hpp"
 #include "features/schema/options.hpp"
-#include "session/clips/camera_record.hpp"
+#include "session/clips/clip_source.hpp"
 
 namespace nutik::app {
 

@@ -21,7 +21,6 @@
 #include "imev/each_block.hpp"
 #include "imev/expected_values.hpp"
 #include "mask/feather.hpp"
-#include "session/clips/camera_check.hpp"
 #include "session/clips/clip_source.hpp"
 #include "session/requests/function_input.hpp"
 #include "session/text/number_text.hpp"

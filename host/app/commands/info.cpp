@@ -14,10 +14,10 @@
 #include "imev/expected_values.hpp"
 #include "media/picture_writer.hpp"
 #include "media/recipe.hpp"
-#include "session/clips/alignment.hpp"
+#include "session/clips/clip_source.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"
-#include "sheet/activity_chart.hpp"
+#include "sheet/drawings.hpp"
 #include "tik/header.hpp"
 #include "tik/reader.hpp"
 

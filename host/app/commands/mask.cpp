@@ -21,7 +21,7 @@
 #include "session/requests/stated_time.hpp"
 #include "session/text/number_text.hpp"
 #include "sheet/contact_sheet.hpp"
-#include "sheet/mask_overlay.hpp"
+#include "sheet/drawings.hpp"
 #include "system/is_absent.hpp"
 
 namespace nutik::app {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "features/schema/options.hpp"
-#include "session/clips/camera_check.hpp"
 #include "session/session.hpp"
 
 namespace nutik::app {

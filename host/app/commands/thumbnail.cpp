@@ -10,7 +10,7 @@
 #include "plot/graph.hpp"
 #include "session/session.hpp"
 #include "session/text/number_text.hpp"
-#include "sheet/thumbnail.hpp"
+#include "sheet/drawings.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik::app {

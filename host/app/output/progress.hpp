@@ -7,7 +7,7 @@
 #include <string>
 
 #include "features/schema/options.hpp"
-#include "session/reported_progress.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik::app {
 

@@ -10,9 +10,9 @@
 #include "capture/timeline.hpp"
 #include "imev/activity.hpp"
 #include "imev/capture_source.hpp"
-#include "session/reported_progress.hpp"
 #include "session/session.hpp"
-#include "session/shared.hpp"
+#include "system/interruption.hpp"
+#include "system/shared.hpp"
 
 namespace nutik {
 

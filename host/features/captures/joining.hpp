@@ -13,7 +13,7 @@
 #include "capture/error.hpp"
 #include "capture/picture.hpp"
 #include "capture/timeline.hpp"
-#include "session/reported_progress.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 

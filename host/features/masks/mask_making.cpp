@@ -12,7 +12,7 @@
 #include "mask/distance.hpp"
 #include "mask/layers.hpp"
 #include "media/picture_writer.hpp"
-#include "scene/plate_edges.hpp"
+#include "scene/clean_plate.hpp"
 #include "session/requests/function_input.hpp"
 #include "session/requests/output_request.hpp"
 

@@ -12,7 +12,7 @@
 #include "capture/picture.hpp"
 #include "mask/region.hpp"
 #include "session/requests/stated_time.hpp"
-#include "session/shared.hpp"
+#include "system/shared.hpp"
 
 namespace nutik {
 

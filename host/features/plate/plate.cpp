@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "align/alignment.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/masks/mask_making.hpp"
@@ -13,9 +14,8 @@
 #include "imev/sample_cursor.hpp"
 #include "noise/noise_estimator.hpp"
 #include "render/code_scale.hpp"
-#include "scene/plate.hpp"
-#include "scene/thin_raster.hpp"
-#include "session/clips/camera_check.hpp"
+#include "scene/clean_plate.hpp"
+#include "scene/shots.hpp"
 
 namespace nutik {
 namespace {

@@ -11,7 +11,7 @@
 #include "mask/region.hpp"
 #include "render/output_format.hpp"
 #include "session/memory_budget.hpp"
-#include "session/reported_progress.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 

@@ -11,7 +11,6 @@
 #include "features/solve/wish.hpp"
 #include "imev/each_block.hpp"
 #include "render/code_scale.hpp"
-#include "session/clips/camera_check.hpp"
 #include "session/requests/function_input.hpp"
 #include "session/text/number_text.hpp"
 #include "solve/time_search.hpp"

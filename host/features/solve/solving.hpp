@@ -14,13 +14,13 @@
 #include <string_view>
 #include <vector>
 
+#include "align/alignment.hpp"
 #include "capture/memory_needs.hpp"
 #include "features/solve/wish.hpp"
 #include "render/output_format.hpp"
-#include "session/clips/camera_check.hpp"
-#include "session/reported_progress.hpp"
 #include "session/requests/exposure_request.hpp"
 #include "session/session.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 

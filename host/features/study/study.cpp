@@ -10,8 +10,8 @@
 #include "features/plate/plate.hpp"
 #include "features/study/study_trail.hpp"
 #include "mask/feather.hpp"
+#include "scene/moments.hpp"
 #include "scene/place_times.hpp"
-#include "scene/telling_places.hpp"
 #include "session/text/number_text.hpp"
 
 namespace nutik {

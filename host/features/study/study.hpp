@@ -21,9 +21,9 @@
 #include "scene/shots.hpp"
 #include "scene/subject.hpp"
 #include "session/memory_budget.hpp"
-#include "session/reported_progress.hpp"
 #include "session/requests/exposure_request.hpp"
 #include "session/requests/stated_time.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 

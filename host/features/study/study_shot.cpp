@@ -4,11 +4,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "align/alignment.hpp"
 #include "capture/format.hpp"
 #include "features/masks/mask_making.hpp"
 #include "features/plate/plate.hpp"
 #include "imev/each_block.hpp"
-#include "session/clips/alignment.hpp"
 
 namespace nutik {
 namespace {

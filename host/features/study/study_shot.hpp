@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "align/alignment.hpp"
 #include "capture/error.hpp"
 #include "features/study/study.hpp"
-#include "session/clips/camera_check.hpp"
 #include "session/requests/output_request.hpp"
 #include "session/requests/source_request.hpp"
 #include "session/session.hpp"

@@ -132,7 +132,7 @@ void align(ClipSource& source, OpenClip& open, const MemoryBudget& memory, const
                          open};
   source.clip.reset();
   if (!request.path) {
-    request.path.emplace(find_camera_path(clip, request.motion, memory, progress, stop));
+    request.path.emplace(find_camera_path(clip, request.motion, memory.bytes, progress, stop));
   }
   source.camera = request.path;
   open = [clip, path = *request.path, unseen = request.unseen] { return open_aligned(clip, path, unseen); };
@@ -255,6 +255,13 @@ ClipSource open_clip_source(const SourceRequest& request, const OpenClip& open_w
   }
   source.capture.noise = noise_model(source, open, memory);
   return source;
+}
+
+TwofoldProgress::TwofoldProgress(const SourceRequest& source, const ReportedProgress& progress)
+    : reading(progress) {
+  if (!progress || !source.align || source.align->path) return;
+  finding = [progress](std::uint64_t done, std::uint64_t total) { progress(done, 2 * total); };
+  reading = [progress](std::uint64_t done, std::uint64_t total) { progress(total + done, 2 * total); };
 }
 
 Timeline known_timeline(const SourceRequest& request, const MemoryBudget& memory) {

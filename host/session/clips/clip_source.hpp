@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
+#include "align/alignment.hpp"
 #include "capture/error.hpp"
 #include "media/clip.hpp"
-#include "session/clips/alignment.hpp"
 #include "session/clips/clip_memory.hpp"
 #include "session/requests/source_request.hpp"
 #include "system/input_bytes.hpp"
@@ -62,6 +62,12 @@ struct ClipSource {
 [[nodiscard]] ClipSource open_clip_source(const SourceRequest& request, const OpenClip& open,
                                           const MemoryBudget& memory, const ReportedProgress& progress = {},
                                           const std::stop_token& stop = {});
+
+// The progress of a clip that is read twice, once for its camera's path: both times in one.
+struct TwofoldProgress {
+  TwofoldProgress(const SourceRequest& source, const ReportedProgress& progress);
+  ReportedProgress finding, reading;
+};
 
 // When the pictures of a .tik or a clip were exposed, as far as that is known before one is decoded. Throws InputError
 // where nothing tells how many there are or how fast they were taken, and what open_clip_source() throws.

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "session/clips/clip_source.hpp"
-#include "session/reported_progress.hpp"
+#include "system/interruption.hpp"
 #include "system/output_file.hpp"
 #include "tik/codec.hpp"
 

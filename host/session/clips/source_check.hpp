@@ -5,8 +5,8 @@
 
 #include "imev/source_comparison.hpp"
 #include "session/memory_budget.hpp"
-#include "session/reported_progress.hpp"
 #include "session/requests/source_request.hpp"
+#include "system/interruption.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik {

@@ -40,7 +40,7 @@ struct LiveAnswer {
   std::uint64_t request = 0;  // as ask() numbered it
   bool is_preview = false;
   Rectangle rectangle;  // that was asked for
-  // Of that; the bytes of a full one are those of Session::render(). Or what that threw.
+  // Its picture: a full one has the bytes of Session::render(). Or what that threw.
   std::optional<ExposedPicture> exposed;
   std::exception_ptr error;
 };

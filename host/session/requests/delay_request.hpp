@@ -15,7 +15,7 @@
 #include "capture/picture.hpp"
 #include "exposure/delay_map.hpp"
 #include "session/requests/stated_time.hpp"
-#include "session/shared.hpp"
+#include "system/shared.hpp"
 
 namespace nutik {
 

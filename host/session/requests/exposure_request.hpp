@@ -21,7 +21,7 @@
 #include "render/render_plan.hpp"
 #include "session/requests/delay_request.hpp"
 #include "session/requests/stated_time.hpp"
-#include "session/shared.hpp"
+#include "system/shared.hpp"
 
 namespace nutik {
 

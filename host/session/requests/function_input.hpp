@@ -11,7 +11,7 @@
 #include "capture/picture.hpp"
 #include "exposure/mask.hpp"
 #include "render/render_plan.hpp"
-#include "session/shared.hpp"
+#include "system/shared.hpp"
 
 namespace nutik {
 

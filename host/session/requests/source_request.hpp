@@ -15,8 +15,8 @@
 #include "imev/tile_cost.hpp"
 #include "media/clip.hpp"
 #include "session/requests/stated_time.hpp"
+#include "system/shared.hpp"
 #include "tik/header.hpp"
-#include "session/shared.hpp"
 
 namespace nutik {
 
@@ -38,9 +38,6 @@ struct StatedNoise {
 
 // A moment of a clip, as it was stated. Throws UsageError naming `what` if it is a fraction of a picture.
 [[nodiscard]] ClipMoment clip_moment(const StatedTime& time, std::string_view what);
-
-// Places that not every aligned picture saw are cut away, or hold what was seen there before.
-enum class Unseen { cropped, held };
 
 // Moves each picture onto one of them, as if the camera had stood still.
 struct AlignRequest {

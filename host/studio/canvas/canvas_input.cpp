@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studio/canvas/canvas.hpp"
+#include "studio/canvas/picture_canvas.hpp"
 
 namespace nutik::studio {
 namespace {

@@ -1,1 +1,1 @@
-set(files canvas.cpp canvas.hpp canvas_input.cpp)
+set(files canvas_input.cpp picture_canvas.cpp picture_canvas.hpp)

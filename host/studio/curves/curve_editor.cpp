@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "studio/curves/number_editor.hpp"
-#include "studio/time/typed_numbers.hpp"
+#include "studio/time/times.hpp"
 
 namespace nutik::studio {
 namespace {
@@ -19,9 +19,7 @@ Points points_of(const GainFunction& function) {
 }  // namespace
 
 CurveEditor::CurveEditor(Document& document, TimeAxis& axis, QWidget* parent)
-    : QWidget(parent), document_(document), axis_(axis), numbers_(new NumberEditor(this)) {
-  setFocusPolicy(Qt::StrongFocus);
-  setMouseTracking(true);
+    : TimeView(document, axis, parent), numbers_(new NumberEditor(this)) {
   setAccessibleName("Gain curve");
   setObjectName("curves");
   connect(&document_, &Document::capture_changed, this, [this] {
@@ -36,16 +34,10 @@ CurveEditor::CurveEditor(Document& document, TimeAxis& axis, QWidget* parent)
   });
   connect(&document_, &Document::selection_changed, this, &CurveEditor::follow_selection);
   connect(&document_, &Document::released, this, &CurveEditor::follow_document);
-  connect(&document_, &Document::overview_changed, this, [this] {
-    activity_ = Series(document_.overview().changed_share);
-    refresh_backdrop();
-  });
   connect(&document_, &Document::probe_changed, this, [this] {
     waveform_ = document_.waveform() ? Series(document_.waveform()->light) : Series();
     refresh_backdrop();
   });
-  connect(&axis_, &TimeAxis::changed, this, &CurveEditor::refresh_backdrop);
-  connect(&axis_, &TimeAxis::marks_changed, this, qOverload<>(&QWidget::update));
   connect(numbers_, &NumberEditor::closed, this, [this] { setFocus(Qt::OtherFocusReason); });
   connect(numbers_, &NumberEditor::entered, this, [this](const ControlPoint& typed) {
     if (!current_ || *current_ >= points_.size()) return numbers_->close_editor();
@@ -62,7 +54,6 @@ CurveEditor::CurveEditor(Document& document, TimeAxis& axis, QWidget* parent)
     numbers_->close_editor();
     use(*set, "Set point");
   });
-  activity_ = Series(document_.overview().changed_share);
   follow_document();
 }
 
@@ -116,11 +107,6 @@ void CurveEditor::follow_selection() {
   follow_document();
 }
 
-void CurveEditor::refresh_backdrop() {
-  is_backdrop_stale_ = true;
-  update();
-}
-
 void CurveEditor::refresh_findings() {
   findings_.clear();
   const auto found = document_.functions().find(document_.selected_tag());
@@ -172,46 +158,34 @@ std::optional<TransformBox> CurveEditor::box() const {
   return TransformBox::round(frame(), points_, selected());
 }
 
-void CurveEditor::resizeEvent(QResizeEvent*) {
+void CurveEditor::resizeEvent(QResizeEvent* event) {
   numbers_->close_editor();
-  refresh_backdrop();
+  TimeView::resizeEvent(event);
 }
 
-void CurveEditor::changeEvent(QEvent* event) {
-  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) refresh_backdrop();
-  QWidget::changeEvent(event);
+void CurveEditor::paint_backdrop(QPainter& painter, const TimeColours& colours) {
+  const CaptureFacts* facts = document_.facts();
+  Backdrop made;
+  made.axis = &axis_;
+  made.timeline = facts == nullptr ? nullptr : &facts->timeline;
+  made.activity = &activity_;
+  made.waveform = &waveform_;
+  for (const auto& [tag, function] : document_.functions()) {
+    const auto look = document_.state().looks.find(tag);
+    const bool is_shown = look == document_.state().looks.end() || look->second.is_visible;
+    if (tag != document_.selected_tag() && is_shown)
+      made.others.push_back({points_of(function), colours.line(document_.colour(tag))});
+  }
+  drawn_functions_ = document_.functions();
+  studio::paint_backdrop(painter, frame(), colours, made, width());
 }
 
 void CurveEditor::paintEvent(QPaintEvent*) {
   const TimeColours colours = TimeColours::of(palette());
   const PlotFrame frame = this->frame();
   const CaptureFacts* facts = document_.facts();
-  const qreal ratio = devicePixelRatioF();
-  const QSize device = size() * ratio;
-  if (is_backdrop_stale_ || backdrop_.size() != device) {
-    is_backdrop_stale_ = false;
-    backdrop_ = QPixmap(device);
-    backdrop_.setDevicePixelRatio(ratio);
-    backdrop_.fill(palette().color(QPalette::Window));
-    Backdrop made;
-    made.axis = &axis_;
-    made.timeline = facts == nullptr ? nullptr : &facts->timeline;
-    made.activity = &activity_;
-    made.waveform = &waveform_;
-    for (const auto& [tag, function] : document_.functions()) {
-      const auto look = document_.state().looks.find(tag);
-      const bool is_shown = look == document_.state().looks.end() || look->second.is_visible;
-      if (tag != document_.selected_tag() && is_shown)
-        made.others.push_back({points_of(function), colours.line(document_.colour(tag))});
-    }
-    drawn_functions_ = document_.functions();
-    QPainter painter(&backdrop_);
-    painter.setFont(font());
-    paint_backdrop(painter, frame, colours, made, width());
-  }
-
   QPainter painter(this);
-  painter.drawPixmap(0, 0, backdrop_);
+  draw_backdrop(painter, colours);
   paint_header(painter, colours);
   if (facts != nullptr && document_.mode() == ExposureMode::boxcar) {
     const Boxcar& boxcar = document_.boxcar();

@@ -10,20 +10,17 @@
 //   always:  edits go through the document, a drag as one step; Escape takes a drag back
 #pragma once
 
-#include <QPixmap>
-#include <QWidget>
 #include <memory>
 #include <optional>
 
 #include "studio/curves/curve_paint.hpp"
 #include "studio/curves/drags.hpp"
-#include "studio/document/document.hpp"
 
 namespace nutik::studio {
 
 class NumberEditor;
 
-class CurveEditor : public QWidget {
+class CurveEditor : public TimeView {
   Q_OBJECT
 
  public:
@@ -38,14 +35,13 @@ class CurveEditor : public QWidget {
   [[nodiscard]] double lane_top() const;
   // What check says of the selected function.
   [[nodiscard]] const std::vector<FunctionFinding>& findings() const { return findings_; }
-  // What is said of what lies at a place; empty of empty ground.
-  [[nodiscard]] QString text_at(QPointF at) const;
+  [[nodiscard]] QString text_at(QPointF at) const override;
 
  protected:
+  [[nodiscard]] bool is_own_key(const QKeyEvent& event) const override;
+  void paint_backdrop(QPainter& painter, const TimeColours& colours) override;
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
-  void changeEvent(QEvent* event) override;
-  bool event(QEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
@@ -53,9 +49,7 @@ class CurveEditor : public QWidget {
   void leaveEvent(QEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
-  void keyReleaseEvent(QKeyEvent* event) override;
   void focusInEvent(QFocusEvent* event) override;
-  void focusOutEvent(QFocusEvent* event) override;
   bool focusNextPrevChild(bool next) override;
 
  private:
@@ -77,7 +71,6 @@ class CurveEditor : public QWidget {
 
   void follow_document();
   void follow_selection();
-  void refresh_backdrop();
   void refresh_findings();
   void describe();  // to screen readers
   void use(const Points& points, const QString& name);
@@ -105,8 +98,6 @@ class CurveEditor : public QWidget {
   void insert_point();
   void type_numbers();
   void step_to(std::size_t point);
-  void begin_key_edit(const QKeyEvent& event);
-  void end_key_edit();
   bool edit_by_key(const QKeyEvent& event);
   bool look_by_key(const QKeyEvent& event);
 
@@ -114,8 +105,6 @@ class CurveEditor : public QWidget {
   void paint_header(QPainter& painter, const TimeColours& colours) const;
   void paint_drag(QPainter& painter, const PlotFrame& frame, const TimeColours& colours) const;
 
-  Document& document_;
-  TimeAxis& axis_;
   GainAxis gains_;
   Points points_;  // of the selected function
   std::vector<GainBoxcar> boxcars_;
@@ -124,14 +113,11 @@ class CurveEditor : public QWidget {
   std::optional<Press> press_;
   std::optional<Dragged> dragged_;
   std::optional<QPointF> hovered_;
-  bool is_key_edit_ = false;
   QString message_;  // why nothing happened; until the next edit
   NumberEditor* numbers_ = nullptr;
 
-  QPixmap backdrop_;
-  bool is_backdrop_stale_ = true;
   FunctionSet drawn_functions_;  // that the backdrop was made for
-  Series activity_, waveform_;
+  Series waveform_;
 };
 
 }  // namespace nutik::studio

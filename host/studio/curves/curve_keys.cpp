@@ -6,22 +6,10 @@
 
 #include "studio/curves/curve_editor.hpp"
 #include "studio/curves/number_editor.hpp"
-#include "studio/time/sample_times.hpp"
-#include "studio/time/view_events.hpp"
+#include "studio/time/times.hpp"
 
 namespace nutik::studio {
 namespace {
-
-// Keys that belong to the curve while it has the focus, whatever they are shortcuts of elsewhere.
-bool is_key_of_curve(const QKeyEvent& event) {
-  constexpr std::array kKeys{Qt::Key_Left,   Qt::Key_Right,  Qt::Key_Up,    Qt::Key_Down, Qt::Key_Home,
-                             Qt::Key_End,    Qt::Key_Delete, Qt::Key_Enter, Qt::Key_Plus, Qt::Key_Backspace,
-                             Qt::Key_Insert, Qt::Key_Return, Qt::Key_Minus, Qt::Key_F};
-  if (event.key() == Qt::Key_A) return event.modifiers() == Qt::ControlModifier;
-  const auto allowed = Qt::ShiftModifier | Qt::ControlModifier | Qt::KeypadModifier;
-  return (event.modifiers() & ~allowed) == 0 &&
-         std::find(kKeys.begin(), kKeys.end(), event.key()) != kKeys.end();
-}
 
 // Without the last digits that sums of decimal fractions leave.
 double tidy(double gain) {
@@ -30,6 +18,16 @@ double tidy(double gain) {
 }
 
 }  // namespace
+
+bool CurveEditor::is_own_key(const QKeyEvent& event) const {
+  constexpr std::array kKeys{Qt::Key_Left,   Qt::Key_Right,  Qt::Key_Up,    Qt::Key_Down, Qt::Key_Home,
+                             Qt::Key_End,    Qt::Key_Delete, Qt::Key_Enter, Qt::Key_Plus, Qt::Key_Backspace,
+                             Qt::Key_Insert, Qt::Key_Return, Qt::Key_Minus, Qt::Key_F};
+  if (event.key() == Qt::Key_A) return event.modifiers() == Qt::ControlModifier;
+  const auto allowed = Qt::ShiftModifier | Qt::ControlModifier | Qt::KeypadModifier;
+  return (event.modifiers() & ~allowed) == 0 &&
+         std::find(kKeys.begin(), kKeys.end(), event.key()) != kKeys.end();
+}
 
 void CurveEditor::keyPressEvent(QKeyEvent* event) {
   if (event->key() == Qt::Key_Escape) {
@@ -75,7 +73,9 @@ bool CurveEditor::edit_by_key(const QKeyEvent& event) {
              is_fine = event.modifiers() & Qt::ControlModifier;
   const std::int64_t samples = is_fine ? 0 : is_ten ? 10 : 1, ns = is_fine ? (is_ten ? 10 : 1) : 0;
   const double gain = (is_fine ? 0.01 : 0.1) * (is_ten ? 10 : 1);
-  begin_key_edit(event);
+  const bool is_arrow = event.key() == Qt::Key_Left || event.key() == Qt::Key_Right ||
+                        event.key() == Qt::Key_Up || event.key() == Qt::Key_Down;
+  if (is_arrow && !selected().empty()) begin_key_edit(event);
   switch (event.key()) {
     case Qt::Key_Left: nudge(-samples, -ns); return true;
     case Qt::Key_Right: nudge(samples, ns); return true;
@@ -90,37 +90,11 @@ bool CurveEditor::edit_by_key(const QKeyEvent& event) {
   }
 }
 
-// As long as an arrow is held it makes one step of undo, and the full picture follows when it is let go.
-void CurveEditor::begin_key_edit(const QKeyEvent& event) {
-  const bool is_arrow = event.key() == Qt::Key_Left || event.key() == Qt::Key_Right ||
-                        event.key() == Qt::Key_Up || event.key() == Qt::Key_Down;
-  if (!is_arrow || event.isAutoRepeat() || is_key_edit_ || selected().empty()) return;
-  is_key_edit_ = true;
-  document_.begin_drag();
-}
-
-void CurveEditor::end_key_edit() {
-  if (!is_key_edit_) return;
-  is_key_edit_ = false;
-  document_.end_drag();
-}
-
-void CurveEditor::keyReleaseEvent(QKeyEvent* event) {
-  if (!event->isAutoRepeat()) end_key_edit();
-  QWidget::keyReleaseEvent(event);
-}
-
 void CurveEditor::focusInEvent(QFocusEvent* event) {
   // Tab leads to the first point, Shift+Tab to the last.
   if (!current_ && !points_.empty() && event->reason() == Qt::TabFocusReason) step_to(0);
   if (!current_ && !points_.empty() && event->reason() == Qt::BacktabFocusReason) step_to(points_.size() - 1);
   QWidget::focusInEvent(event);
-  update();
-}
-
-void CurveEditor::focusOutEvent(QFocusEvent* event) {
-  end_key_edit();
-  QWidget::focusOutEvent(event);
   update();
 }
 
@@ -192,10 +166,6 @@ void CurveEditor::insert_point() {
 void CurveEditor::type_numbers() {
   if (!current_ || *current_ >= points_.size()) return;
   numbers_->open(points_[*current_], &document_.facts()->timeline, frame().place(points_[*current_]));
-}
-
-bool CurveEditor::event(QEvent* event) {
-  return answers_event(*this, *event, is_key_of_curve) || QWidget::event(event);
 }
 
 QString CurveEditor::text_at(QPointF at) const {

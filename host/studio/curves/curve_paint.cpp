@@ -6,7 +6,6 @@
 
 #include "plot/canvas.hpp"
 #include "plot/graph.hpp"
-#include "plot/ticks.hpp"
 #include "sheet/contact_sheet.hpp"
 
 namespace nutik::studio {
@@ -172,7 +171,7 @@ QPolygonF visible_curve(const PlotFrame& frame, const Points& points) {
   if (static_cast<double>(last - first) <= 4 * box.width()) {
     for (auto point = first; point != last; ++point) add(point->time_ns, point->gain);
   } else {
-    // Of each pixel's points the first, the lowest, the highest and the last look like all of them.
+    // A pixel's first, lowest, highest and last points look like all of its points.
     for (auto point = first; point != last;) {
       const double column = std::floor(frame.x_of(point->time_ns));
       auto low = point, high = point, next = point;

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "studio/curves/handles.hpp"
-#include "studio/time/colours.hpp"
-#include "studio/time/series.hpp"
+#include "studio/time/time_view.hpp"
 
 namespace nutik::studio {
 

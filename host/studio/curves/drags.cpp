@@ -5,13 +5,12 @@
 
 #include "capture/format.hpp"
 #include "session/requests/stated_time.hpp"
-#include "studio/time/sample_times.hpp"
-#include "studio/time/typed_numbers.hpp"
+#include "studio/time/times.hpp"
 
 namespace nutik::studio {
 namespace {
 
-// Of a function of more points the first ones are snapped to: nobody aligns with one of a million by eye.
+// A function with more points is snapped to at its first ones: nobody aligns with one of a million by eye.
 constexpr std::size_t kMaxPoints = 10'000;
 
 bool is_earlier(const TimeSnap& a, const TimeSnap& b) { return a.time_ns < b.time_ns; }
@@ -187,7 +186,7 @@ class BoxcarDrag : public Drag {
   }
 
  private:
-  // Of a whole boxcar either end, the nearer one. Changes the shift.
+  // A whole boxcar snaps with its nearer end. Changes the shift.
   std::optional<TimeSnap> snap(std::int64_t& by_ns, double reach_ns) const {
     std::optional<TimeSnap> begin, end;
     const std::int64_t begin_ns = hit_.boxcar.begin_ns, end_ns = hit_.boxcar.end_ns;

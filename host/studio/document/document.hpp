@@ -31,13 +31,13 @@
 #include "mask/region.hpp"
 #include "render/render_plan.hpp"
 #include "session/requests/exposure_request.hpp"
-#include "session/shared.hpp"
+#include "system/shared.hpp"
 
 namespace nutik::studio {
 
 // What the window knows of the capture that is open. Values: read once by the engine's threads, then only looked at.
 
-// Of an opened capture: its shape, codes and times. timeline.rate() is its sample rate.
+// An opened capture's shape, codes and times. timeline.rate() is its sample rate.
 struct CaptureFacts {
   QString path;  // as the person gave it: a .tik or a clip
   CaptureFormat format;
@@ -189,7 +189,7 @@ class Document : public QObject {
   std::optional<Waveform> waveform_;
 };
 
-// Of the regions that the mask has: others have no edges.
+// The feather of regions that the mask has: others have no edges.
 [[nodiscard]] Feather feather_of(const DocumentState& state);
 
 // The colour that the region with a tag begins with: calm ones, told apart on dark and light.

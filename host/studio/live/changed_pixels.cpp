@@ -8,7 +8,7 @@
 namespace nutik::studio {
 namespace {
 
-// Of exposures by functions.
+// For exposures by functions.
 std::vector<std::uint8_t> changed_functions(const ExposureRequest& before, const ExposureRequest& now) {
   const FunctionSet &a = *std::get<Shared<FunctionSet>>(before.gains),
                     &b = *std::get<Shared<FunctionSet>>(now.gains);
@@ -82,7 +82,7 @@ QRect OutdatedPixels::since_last(const ExposureRequest& request, const QRect& se
 QRect OutdatedPixels::to_expose(const ExposureRequest& request, const QRect& seen, bool is_reduced,
                                 bool is_shown) {
   const QRect changed = since_last(request, seen, is_reduced);
-  // Of several requests that wait the last one alone is answered.
+  // Only the last of several waiting requests is answered.
   outdated_ = is_shown ? changed : outdated_ | changed;
   last_ = Last{request, seen, is_reduced};
   const QRect asked = outdated_ & seen;

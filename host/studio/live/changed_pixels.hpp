@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "session/requests/exposure_request.hpp"
-#include "session/shared.hpp"
+#include "system/shared.hpp"
 
 namespace nutik::studio {
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <thread>
 
-#include "session/reported_progress.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik::studio {
 
@@ -64,6 +64,9 @@ class Jobs : public QObject {
 
   std::jthread worker_;  // last: it uses everything else
 };
+
+// Gets a line, or several, about what came of a job, on the window's thread.
+using Told = std::function<void(const QString&)>;
 
 // With a capital letter.
 [[nodiscard]] QString sentence(const std::string& text);

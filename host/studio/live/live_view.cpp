@@ -1,18 +1,19 @@
 #include "studio/live/live_view.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "exposure/function_check.hpp"
 #include "exposure/mask.hpp"
 #include "exposure/shutter_shape.hpp"
 #include "mask/feather.hpp"
-#include "studio/live/exposure_of.hpp"
+#include "render/render_plan.hpp"
 #include "studio/live/picture_image.hpp"
 
 namespace nutik::studio {
 namespace {
 
-// Of each square the tag in its middle.
+// Takes the tag in the middle of each square.
 Mask reduced(const Mask& mask, const Shape& shape, std::uint32_t divisor) {
   Mask tags = Mask::uniform(shape.width, shape.height, 0);
   auto tag = tags.tags.begin();
@@ -197,6 +198,20 @@ void LiveView::take() {
     outdated_.forget();
     Q_EMIT failed(found->error);
   }
+}
+
+ExposureRequest exposure_of(const DocumentState& state, const std::optional<Shared<MaskWithRegions>>& mask) {
+  ExposureRequest request;
+  request.gain = std::exp2(state.brightness_ev);
+  request.normalization = state.normalization;
+  if (state.mode == ExposureMode::boxcar) {
+    request.start = StatedTime::of_nanoseconds(state.boxcar.start_ns);
+    request.gains = PlainInterval{StatedTime::of_nanoseconds(state.boxcar.length_ns), Shutter()};
+    return request;
+  }
+  request.gains = Shared(FunctionSet(state.functions));
+  request.mask = mask;
+  return request;
 }
 
 }  // namespace nutik::studio

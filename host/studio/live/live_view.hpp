@@ -16,6 +16,7 @@
 #include <optional>
 
 #include "session/live/live_pictures.hpp"
+#include "session/requests/exposure_request.hpp"
 #include "studio/document/document.hpp"
 #include "studio/live/changed_pixels.hpp"
 #include "studio/live/jobs.hpp"
@@ -26,7 +27,7 @@ namespace nutik::studio {
 
 class ReducedCapture {
  public:
-  // Of a session with one pixel for so many of the capture's to a side.
+  // The session has one pixel for so many of the capture's to a side.
   ReducedCapture(std::shared_ptr<Session> session, int divisor);
 
   [[nodiscard]] int divisor() const { return divisor_; }
@@ -118,5 +119,10 @@ class LiveView : public QObject {
   std::optional<ReducedCapture> reduced_;
   std::unique_ptr<LivePictures> pictures_;  // last: it delivers into what is above
 };
+
+// What a document asks the engine for: `mask` stands in place of the document's: the same, feathered. command_line()
+// (window/project_file.hpp) asks nutik-cl for the same exposure.
+[[nodiscard]] ExposureRequest exposure_of(const DocumentState& state,
+                                          const std::optional<Shared<MaskWithRegions>>& mask);
 
 }  // namespace nutik::studio

@@ -1,4 +1,5 @@
-// Opens a capture or a clip, which is encoded into a temporary capture, as part of a job.
+// Parts of jobs: a capture is opened, or a clip, which is encoded into a temporary capture; then comes what is shown
+// beside its picture: when it changes, small pictures of it, the light of one pixel.
 #pragma once
 
 #include <QImage>
@@ -42,9 +43,15 @@ struct Opened {
   QStringList notes;  // what a person should know of the clip, whole sentences
 };
 
-// `rate`, pictures a second, is stated of a clip unless it is empty. `first_look` is told a clip's first picture, on the job's thread, before the clip is read whole. Throws what Session
-// does.
+// `rate`, pictures a second, is stated of a clip unless it is empty. `first_look` is told a clip's first picture, on
+// the job's thread, before the clip is read whole. Throws what Session does.
 [[nodiscard]] Opened open_capture(const QString& path, const QString& rate, std::shared_ptr<Devices> devices,
                                   const Job& job, const std::function<void(QImage)>& first_look);
+
+// Small pictures at evenly spaced times.
+[[nodiscard]] CaptureOverview thumbnails_of(Session& session, const Job& job);
+// By sample.
+[[nodiscard]] std::vector<double> changed_shares_of(Session& session, const Job& job);
+[[nodiscard]] Waveform waveform_of(Session& session, QPoint pixel);
 
 }  // namespace nutik::studio

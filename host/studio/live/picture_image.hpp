@@ -7,7 +7,7 @@
 
 namespace nutik::studio {
 
-// Of 8-bit codes, one channel or three; Format_RGB32.
+// For 8-bit codes, one channel or three; Format_RGB32.
 [[nodiscard]] QImage image_of(const Picture& picture);
 
 // How pictures on the screen are stored: 8-bit sRGB.

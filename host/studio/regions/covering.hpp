@@ -21,7 +21,7 @@ namespace nutik::studio {
 
 class Covering {
  public:
-  // Of an open document. Without a mask all is background.
+  // Begins with an open document's state. Without a mask all is background.
   explicit Covering(const Document& document);
 
   // What the region has, covered or not.
@@ -48,7 +48,7 @@ class Covering {
   std::array<int, kMaskValues> rank_{};
 };
 
-// Of what a file brought: covered pixels that the mask shows, or that nothing covers, are none.
+// Tidies what a file brought: covered pixels that the mask shows, or that nothing covers, are dropped.
 void tidy_covered(DocumentState& state);
 
 }  // namespace nutik::studio

@@ -12,7 +12,7 @@
 
 #include "features/masks/mask_making.hpp"
 #include "studio/regions/region_edits.hpp"
-#include "studio/time/typed_numbers.hpp"
+#include "studio/time/times.hpp"
 
 namespace nutik::studio {
 namespace {
@@ -22,7 +22,7 @@ constexpr std::uint8_t kInside = 255;  // of the mask that is made
 
 // `what` names it for undo; `found` begins what is said of it: "12 pixels …".
 Jobs::Work selecting(Document& document, std::shared_ptr<Session> session, MaskStep step, const QString& what,
-                     const QString& found, ToldSelection told) {
+                     const QString& found, Told told) {
   step.name.text = what.toStdString();
   step.tag = kInside;
   step.changes.push_back({RegionChange::Kind::smooth, kSmooth, {}});
@@ -47,7 +47,7 @@ Jobs::Work selecting(Document& document, std::shared_ptr<Session> session, MaskS
 
 }  // namespace
 
-Jobs::Work selecting_motion(Document& document, std::shared_ptr<Session> session, ToldSelection told) {
+Jobs::Work selecting_motion(Document& document, std::shared_ptr<Session> session, Told told) {
   MaskStep step;
   step.selection = select::Motion();
   return selecting(document, std::move(session), std::move(step), Document::tr("Select what moves"),
@@ -55,7 +55,7 @@ Jobs::Work selecting_motion(Document& document, std::shared_ptr<Session> session
 }
 
 Jobs::Work selecting_difference(Document& document, std::shared_ptr<Session> session,
-                                const Difference& difference, ToldSelection told) {
+                                const Difference& difference, Told told) {
   MaskStep step;
   step.selection = select::Difference{StatedTime::of_nanoseconds(difference.from_ns),
                                       StatedTime::of_nanoseconds(difference.to_ns)};

@@ -33,14 +33,11 @@ struct Difference {
   bool is_largest_part = false;           // without the others
 };
 
-// What was found, and how many pixels: nothing is painted where there are none.
-using ToldSelection = std::function<void(const QString&)>;
-
-// Each is one step: paints the region that is selected at the start, which is not the background.
-[[nodiscard]] Jobs::Work selecting_motion(Document& document, std::shared_ptr<Session> session,
-                                          ToldSelection told);
+// Each is one step: paints the region that is selected at the start, which is not the background. `told` gets what was
+// found, and how many pixels: nothing is painted where there are none.
+[[nodiscard]] Jobs::Work selecting_motion(Document& document, std::shared_ptr<Session> session, Told told);
 [[nodiscard]] Jobs::Work selecting_difference(Document& document, std::shared_ptr<Session> session,
-                                              const Difference& difference, ToldSelection told);
+                                              const Difference& difference, Told told);
 
 class DifferenceDialog : public QDialog {
   Q_OBJECT

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "mask/region.hpp"
-#include "studio/canvas/canvas.hpp"
+#include "studio/canvas/picture_canvas.hpp"
 #include "studio/document/document.hpp"
 
 namespace nutik::studio {

@@ -37,7 +37,7 @@ void erase_region(Document& document, const Region& region, std::uint8_t tag, co
 // By so many pixels; less than 0: it shrinks.
 void grow_region(Document& document, std::uint8_t tag, double radius);
 void smooth_region(Document& document, std::uint8_t tag, double radius);
-// Of all edges, in hundredths of a pixel; of a region's own, which is none's: as all.
+// Softens all edges, in hundredths of a pixel; or a region's own, where none means as all.
 void set_feather(Document& document, int feather);
 void set_feather_of(Document& document, std::uint8_t tag, std::optional<int> feather);
 

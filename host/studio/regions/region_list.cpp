@@ -22,7 +22,7 @@ constexpr int kTagRole = Qt::UserRole;
 constexpr double kMaxRadius = 100, kMaxFeather = 100;  // pixels
 constexpr double kAsAll = 0.5;                         // less than none: a region has no feather of its own
 
-// Of columns that tell what cannot be edited there.
+// For columns that tell what cannot be edited there.
 class NoEditor : public QStyledItemDelegate {
  public:
   using QStyledItemDelegate::QStyledItemDelegate;
@@ -212,9 +212,7 @@ void RegionList::follow_selection() {
   const bool can_change = is_open && tag != kBackground;
   const auto& own = document_.state().feather.of_tag;
   own_feather_->setValue(own.contains(tag) ? own.at(tag) / 100.0 : own_feather_->minimum());
-  for (QWidget* widget :
-       {static_cast<QWidget*>(add_), static_cast<QWidget*>(colour_), static_cast<QWidget*>(over_interval_),
-        static_cast<QWidget*>(feather_), static_cast<QWidget*>(own_feather_)})
+  for (QWidget* widget : std::initializer_list<QWidget*>{add_, colour_, over_interval_, feather_, own_feather_})
     widget->setEnabled(is_open);
   for (QPushButton* button : {remove_, grow_, shrink_, smooth_}) button->setEnabled(can_change);
   const std::vector<std::uint8_t>& order = document_.state().order;

@@ -21,7 +21,7 @@ class RegionList : public QWidget {
  public:
   explicit RegionList(Document& document, QWidget* parent = nullptr);
 
-  // Of a full picture, whose pixels at the last code are told beside each region.
+  // Tells beside each region how many of its pixels a full picture has at the last code.
   void count_white(const ShownPicture& picture);
 
  private:

@@ -6,10 +6,8 @@
 #include <cmath>
 
 #include "session/requests/stated_time.hpp"
-#include "studio/time/sample_times.hpp"
+#include "studio/time/times.hpp"
 #include "studio/time/time_strip.hpp"
-#include "studio/time/typed_numbers.hpp"
-#include "studio/time/view_events.hpp"
 
 namespace nutik::studio {
 namespace {
@@ -17,7 +15,9 @@ namespace {
 constexpr double kReach = 6;
 constexpr double kFineSpeed = 0.1;
 
-bool is_key_of_strip(const QKeyEvent& event) {
+}  // namespace
+
+bool TimeStrip::is_own_key(const QKeyEvent& event) const {
   constexpr std::array kKeys{Qt::Key_Left, Qt::Key_Right, Qt::Key_Up,    Qt::Key_Down, Qt::Key_Home,
                              Qt::Key_End,  Qt::Key_Plus,  Qt::Key_Minus, Qt::Key_I,    Qt::Key_O,
                              Qt::Key_X,    Qt::Key_Z,     Qt::Key_F};
@@ -27,8 +27,6 @@ bool is_key_of_strip(const QKeyEvent& event) {
   return (event.modifiers() & ~allowed) == 0 &&
          std::find(kKeys.begin(), kKeys.end(), event.key()) != kKeys.end();
 }
-
-}  // namespace
 
 TimeStrip::Part TimeStrip::part_at(QPointF at) const {
   const QRectF track = this->track();
@@ -199,10 +197,7 @@ bool TimeStrip::move_by_key(const QKeyEvent& event) {
   boxcar.length_ns = std::min(boxcar.length_ns,
                               std::max(document_.duration_ns() - boxcar.start_ns, end_ns - boxcar.start_ns));
   if (boxcar.length_ns < 1) return true;
-  if (!event.isAutoRepeat() && !is_key_edit_) {
-    is_key_edit_ = true;
-    document_.begin_drag();
-  }
+  begin_key_edit(event);
   use(boxcar);
   return true;
 }
@@ -233,26 +228,6 @@ bool TimeStrip::look_by_key(const QKeyEvent& event) {
     case Qt::Key_Minus: axis_.zoom(1 / kZoom, boxcar_area().center().x(), width()); return true;
     default: return false;
   }
-}
-
-void TimeStrip::end_key_edit() {
-  if (!is_key_edit_) return;
-  is_key_edit_ = false;
-  document_.end_drag();
-}
-
-void TimeStrip::keyReleaseEvent(QKeyEvent* event) {
-  if (!event->isAutoRepeat()) end_key_edit();
-  QWidget::keyReleaseEvent(event);
-}
-
-void TimeStrip::focusOutEvent(QFocusEvent* event) {
-  end_key_edit();
-  QWidget::focusOutEvent(event);
-}
-
-bool TimeStrip::event(QEvent* event) {
-  return answers_event(*this, *event, is_key_of_strip) || QWidget::event(event);
 }
 
 QString TimeStrip::text_at(QPointF at) const {

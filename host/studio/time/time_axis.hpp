@@ -21,7 +21,7 @@ class TimeAxis : public QObject {
 
   explicit TimeAxis(QObject* parent = nullptr) : QObject(parent) {}
 
-  // Of a new capture: shows all of it.
+  // A new capture's duration: all of it is shown.
   void set_duration(std::int64_t duration_ns);
   [[nodiscard]] std::int64_t duration_ns() const { return duration_ns_; }
 

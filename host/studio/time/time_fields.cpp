@@ -5,9 +5,9 @@
 #include <QLabel>
 #include <QLineEdit>
 
-#include "studio/time/colours.hpp"
+#include "studio/time/time_view.hpp"
 #include "studio/time/time_strip.hpp"
-#include "studio/time/typed_numbers.hpp"
+#include "studio/time/times.hpp"
 
 namespace nutik::studio {
 namespace {

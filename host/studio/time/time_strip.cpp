@@ -1,16 +1,14 @@
 #include "studio/time/time_strip.hpp"
 
-#include <QEvent>
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
 
 #include "plot/canvas.hpp"
 #include "plot/graph.hpp"
-#include "plot/ticks.hpp"
 #include "session/requests/stated_time.hpp"
-#include "sheet/thumbnail.hpp"
-#include "studio/time/typed_numbers.hpp"
+#include "sheet/drawings.hpp"
+#include "studio/time/times.hpp"
 
 namespace nutik::studio {
 namespace {
@@ -30,10 +28,8 @@ QString interval_text(const Boxcar& boxcar, const Timeline& timeline) {
 }
 
 TimeStrip::TimeStrip(Document& document, TimeAxis& axis, QWidget* parent)
-    : QWidget(parent), document_(document), axis_(axis), activity_(document.overview().changed_share) {
-  setFocusPolicy(Qt::StrongFocus);
+    : TimeView(document, axis, parent) {
   setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
-  setMouseTracking(true);
   setAccessibleName("Time");
   setObjectName("time");
   connect(&document_, &Document::capture_changed, this, [this] {
@@ -45,12 +41,6 @@ TimeStrip::TimeStrip(Document& document, TimeAxis& axis, QWidget* parent)
   connect(&document_, &Document::changed, this, [this](Change what) {
     if (what != Change::mask) follow_document();
   });
-  connect(&document_, &Document::overview_changed, this, [this] {
-    activity_ = Series(document_.overview().changed_share);
-    refresh_backdrop();
-  });
-  connect(&axis_, &TimeAxis::changed, this, &TimeStrip::refresh_backdrop);
-  connect(&axis_, &TimeAxis::marks_changed, this, qOverload<>(&QWidget::update));
   follow_document();
 }
 
@@ -75,33 +65,10 @@ void TimeStrip::follow_document() {
   update();
 }
 
-void TimeStrip::refresh_backdrop() {
-  is_backdrop_stale_ = true;
-  update();
-}
-
-void TimeStrip::resizeEvent(QResizeEvent*) { refresh_backdrop(); }
-
-void TimeStrip::changeEvent(QEvent* event) {
-  if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) refresh_backdrop();
-  QWidget::changeEvent(event);
-}
-
 void TimeStrip::paintEvent(QPaintEvent*) {
   const TimeColours colours = TimeColours::of(palette());
-  const qreal ratio = devicePixelRatioF();
-  const QSize device = size() * ratio;
-  if (is_backdrop_stale_ || backdrop_.size() != device) {
-    is_backdrop_stale_ = false;
-    backdrop_ = QPixmap(device);
-    backdrop_.setDevicePixelRatio(ratio);
-    backdrop_.fill(palette().color(QPalette::Window));
-    QPainter painter(&backdrop_);
-    painter.setFont(font());
-    paint_backdrop(painter, colours);
-  }
   QPainter painter(this);
-  painter.drawPixmap(0, 0, backdrop_);
+  draw_backdrop(painter, colours);
   if (document_.facts() == nullptr) return;
   paint_boxcar(painter, colours);
   paint_marks(painter, colours);
@@ -110,7 +77,7 @@ void TimeStrip::paintEvent(QPaintEvent*) {
   painter.drawRect(track().adjusted(-0.5, -0.5, 0.5, 0.5));
 }
 
-void TimeStrip::paint_backdrop(QPainter& painter, const TimeColours& colours) const {
+void TimeStrip::paint_backdrop(QPainter& painter, const TimeColours& colours) {
   const QRectF track = this->track();
   painter.fillRect(track, colours.ground);
   const CaptureFacts* facts = document_.facts();

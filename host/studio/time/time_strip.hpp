@@ -12,18 +12,13 @@
 //   always:  a drag of the boxcar is one step of undo; Escape takes it back
 #pragma once
 
-#include <QPixmap>
-#include <QWidget>
 #include <optional>
 
-#include "studio/document/document.hpp"
-#include "studio/time/colours.hpp"
-#include "studio/time/series.hpp"
-#include "studio/time/time_axis.hpp"
+#include "studio/time/time_view.hpp"
 
 namespace nutik::studio {
 
-class TimeStrip : public QWidget {
+class TimeStrip : public TimeView {
   Q_OBJECT
 
  public:
@@ -36,21 +31,17 @@ class TimeStrip : public QWidget {
   [[nodiscard]] QRectF track() const;
   [[nodiscard]] QRectF boxcar_area() const;
   [[nodiscard]] QPointF mark_place(std::int64_t time_ns) const;
-  // What is said of what lies at a place.
-  [[nodiscard]] QString text_at(QPointF at) const;
+  [[nodiscard]] QString text_at(QPointF at) const override;
 
  protected:
+  [[nodiscard]] bool is_own_key(const QKeyEvent& event) const override;
+  void paint_backdrop(QPainter& painter, const TimeColours& colours) override;
   void paintEvent(QPaintEvent* event) override;
-  void resizeEvent(QResizeEvent* event) override;
-  void changeEvent(QEvent* event) override;
-  bool event(QEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
-  void keyReleaseEvent(QKeyEvent* event) override;
-  void focusOutEvent(QFocusEvent* event) override;
 
  private:
   enum class Part { none, whole, begin, end, mark_in, mark_out, pan };
@@ -69,23 +60,14 @@ class TimeStrip : public QWidget {
   void drag_to(QPointF at, Qt::KeyboardModifiers modifiers);
   void use(const Boxcar& boxcar);
   void cancel_press();
-  void end_key_edit();
   bool move_by_key(const QKeyEvent& event);
   bool look_by_key(const QKeyEvent& event);
   void follow_document();
-  void refresh_backdrop();
-  void paint_backdrop(QPainter& painter, const TimeColours& colours) const;
   void paint_thumbnails(QPainter& painter, const QRectF& row) const;
   void paint_boxcar(QPainter& painter, const TimeColours& colours) const;
   void paint_marks(QPainter& painter, const TimeColours& colours) const;
 
-  Document& document_;
-  TimeAxis& axis_;
-  Series activity_;
   std::optional<Press> press_;
-  bool is_key_edit_ = false;
-  QPixmap backdrop_;
-  bool is_backdrop_stale_ = true;
 };
 
 // `100 ms to 110 ms, samples 100 to 109`: an interval, for people.

@@ -23,7 +23,7 @@ class KeptProject {
  public:
   // A new one.
   KeptProject();
-  // Of a window that is gone. Throws InputError where there is none any more, or another window has it.
+  // Takes over that of a window that is gone. Throws InputError if it is there no more, or another window has it.
   explicit KeptProject(QString path);
   ~KeptProject();
   KeptProject(const KeptProject&) = delete;

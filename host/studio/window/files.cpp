@@ -16,7 +16,7 @@
 #include "studio/document/document.hpp"
 #include "studio/window/main_window.hpp"
 #include "studio/window/project_file.hpp"
-#include "studio/window/starting_points.hpp"
+#include "studio/window/started_work.hpp"
 
 namespace nutik::studio {
 namespace {
@@ -292,11 +292,7 @@ void MainWindow::choose_plate() {
   const QString path = QFileDialog::getSaveFileName(
       this, tr("Write the empty scene"), suggested("-empty.png"), tr("Pictures (*.png *.tif *.jpg *.exr)"));
   if (path.isEmpty()) return;
-  try_to([&] {
-    jobs_.start(tr("Looking for the empty scene"), writing_plate(session_, path, [this](const QString& line) {
-                  notice_->say(Notice::Kind::note, line);
-                }));
-  });
+  try_to([&] { jobs_.start(tr("Looking for the empty scene"), writing_plate(session_, path, told())); });
 }
 
 // Beside the project, else beside the capture.

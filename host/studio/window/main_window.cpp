@@ -13,15 +13,14 @@
 #include "capture/error.hpp"
 #include "session/live/reduced_session.hpp"
 #include "studio/curves/curve_editor.hpp"
-#include "studio/live/overview.hpp"
+#include "studio/live/opening.hpp"
 #include "studio/regions/difference_dialog.hpp"
 #include "studio/regions/region_edits.hpp"
 #include "studio/regions/region_list.hpp"
 #include "studio/time/time_fields.hpp"
 #include "studio/time/time_strip.hpp"
-#include "studio/window/picture_export.hpp"
 #include "studio/window/project_file.hpp"
-#include "studio/window/starting_points.hpp"
+#include "studio/window/started_work.hpp"
 
 namespace nutik::studio {
 
@@ -289,17 +288,14 @@ void MainWindow::export_picture(const QString& path) {
                         tr("Save the project first: the picture's recipe names its files."));
   try_to([&] {
     writing_.start(tr("Writing %1").arg(QFileInfo(path).fileName()),
-                   exporting(document_, session_, files_, path,
-                             [this](const QString& line) { notice_->say(Notice::Kind::note, line); }));
+                   exporting(document_, session_, files_, path, told()));
   });
 }
 
 void MainWindow::start_study(StudyStyle style) {
   if (!session_) return;
   notice_->clear();
-  jobs_.start(tr("Looking for a subject"), studying(document_, session_, style, [this](const QString& notes) {
-                notice_->say(Notice::Kind::note, notes);
-              }));
+  jobs_.start(tr("Looking for a subject"), studying(document_, session_, style, told()));
 }
 
 bool MainWindow::has_region() {
@@ -311,8 +307,7 @@ bool MainWindow::has_region() {
 
 void MainWindow::select_motion() {
   if (!session_ || !has_region()) return;
-  const auto told = [this](const QString& line) { notice_->say(Notice::Kind::note, line); };
-  jobs_.start(tr("Looking for what moves"), selecting_motion(document_, session_, told));
+  jobs_.start(tr("Looking for what moves"), selecting_motion(document_, session_, told()));
 }
 
 void MainWindow::choose_difference() {
@@ -321,9 +316,8 @@ void MainWindow::choose_difference() {
                                       document_.boxcar().start_ns, this);
   connect(dialog, &QDialog::accepted, this, [this, dialog, session = session_] {
     if (session != session_) return;
-    const auto told = [this](const QString& line) { notice_->say(Notice::Kind::note, line); };
     jobs_.start(tr("Looking for what differs"),
-                selecting_difference(document_, session_, dialog->chosen(), told));
+                selecting_difference(document_, session_, dialog->chosen(), told()));
   });
   dialog->open();
 }

@@ -11,7 +11,7 @@
 #include <memory>
 
 #include "features/study/study.hpp"
-#include "studio/canvas/canvas.hpp"
+#include "studio/canvas/picture_canvas.hpp"
 #include "studio/document/document.hpp"
 #include "studio/live/jobs.hpp"
 #include "studio/live/live_view.hpp"
@@ -57,7 +57,7 @@ class MainWindow : public QMainWindow {
   void open(const QString& path, const QString& rate = {});
   // False: it failed, and why is said above the picture.
   bool save_project(const QString& path);
-  // Of an open capture; why a file is refused is said above the picture.
+  // For an open capture. The reason why a file is refused is said above the picture.
   void use_functions(const QString& path);
   void use_mask(const QString& path);
   // Into files of their own, which the project does not name; why that fails is said above the picture.
@@ -141,6 +141,9 @@ class MainWindow : public QMainWindow {
   void remove_unsaved();
   [[nodiscard]] QString suggested(const QString& ending) const;
   bool try_to(const std::function<void()>& what);
+  [[nodiscard]] Told told() {
+    return [this](const QString& line) { notice_->say(Notice::Kind::note, line); };
+  }
 
   Document document_;
   // What a person waits for and may cancel; what is there in no time; pictures on their way to files, which opening

@@ -12,7 +12,7 @@
 #include "studio/regions/region_edits.hpp"
 #include "studio/window/appearance.hpp"
 #include "studio/window/main_window.hpp"
-#include "studio/window/starting_points.hpp"
+#include "studio/window/started_work.hpp"
 
 namespace nutik::studio {
 namespace {
@@ -236,9 +236,7 @@ void MainWindow::build_exposure_bar(QToolBar& bar) {
     state.brightness_ev = stops;
     document_.apply(std::move(state), tr("Brightness"));
   });
-  for (QWidget* widget : {static_cast<QWidget*>(mode_), static_cast<QWidget*>(normalization_),
-                          static_cast<QWidget*>(brightness_)})
-    bar.addWidget(widget);
+  for (QWidget* widget : std::initializer_list<QWidget*>{mode_, normalization_, brightness_}) bar.addWidget(widget);
 }
 
 void MainWindow::follow_exposure() {
@@ -248,8 +246,7 @@ void MainWindow::follow_exposure() {
   for (int index = 0; index < static_cast<int>(std::size(kNormalizations)); ++index)
     if (state.normalization.text() == kNormalizations[index]) normalization_->setCurrentIndex(index);
   brightness_->setValue(state.brightness_ev);
-  for (QWidget* widget : {static_cast<QWidget*>(mode_), static_cast<QWidget*>(normalization_),
-                          static_cast<QWidget*>(brightness_)})
+  for (QWidget* widget : std::initializer_list<QWidget*>{mode_, normalization_, brightness_})
     widget->setEnabled(document_.facts() != nullptr);
 }
 

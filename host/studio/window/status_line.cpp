@@ -80,9 +80,7 @@ StatusLine::StatusLine(Jobs& jobs, QWidget* parent)
   addPermanentWidget(arithmetic_);
   addPermanentWidget(milliseconds_);
   const auto show_work = [this](bool is_shown) {
-    for (QWidget* widget :
-         {static_cast<QWidget*>(work_), static_cast<QWidget*>(progress_), static_cast<QWidget*>(cancel_)})
-      widget->setVisible(is_shown);
+    for (QWidget* widget : std::initializer_list<QWidget*>{work_, progress_, cancel_}) widget->setVisible(is_shown);
   };
   show_work(false);
   connect(&jobs, &Jobs::progressed, this,

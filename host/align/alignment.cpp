@@ -1,0 +1,269 @@
+#include "align/alignment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "align/light_warp.hpp"
+#include "align/registrar.hpp"
+#include "capture/format.hpp"
+#include "imev/each_block.hpp"
+#include "media/read_ahead.hpp"
+#include "system/interruption.hpp"
+#include "system/parallel.hpp"
+
+namespace nutik {
+namespace {
+
+// Up to so many pictures are searched for at once, if memory allows it. All of a group start from where the last picture
+// of the group before was found, so that the path depends on neither memory nor threads.
+constexpr std::uint64_t kPicturesAtOnce = 4;
+
+// The raster of the picture that the others are moved onto.
+std::vector<std::byte> reference_raster(const ClipToAlign& clip) {
+  const std::unique_ptr<Clip> pictures = clip.open();
+  std::vector<std::byte> raster(clip.format.sample_bytes());
+  for (std::uint64_t picture = 0; picture <= clip.reference; ++picture) {
+    check_interruption();
+    if (pictures->read(raster)) continue;
+    throw InputError(format("{} has {} pictures: there is no picture {} to align them to", clip.name, picture,
+                            clip.reference));
+  }
+  return raster;
+}
+
+const Advice kOtherReference{"; try another picture to align to (`align-to`), or a part of the clip (`from`, `to`)"};
+
+CannotAlign not_alike(const ClipToAlign& clip, CameraMotion motion, std::uint64_t picture,
+                      const Registered& found) {
+  return CannotAlign(
+      format("{}: picture {} cannot be aligned to picture {}: of what is seen in both {:.1f} % follow one "
+             "{} motion, and half must. The camera moved too far or too fast, there is a cut between them, "
+             "or what moves by itself fills most of the picture",
+             clip.name, picture, clip.reference, 100 * found.agreeing, to_text(motion)),
+      motion == CameraMotion::homography
+          ? kOtherReference
+          : Advice{"; try `align homography`, another picture to align to (`align-to`), or a part of the clip (`from`, `to`)"});
+}
+
+class AlignedClip final : public Clip {
+ public:
+  AlignedClip(const ClipToAlign& clip, Shared<CameraPath> path, const Rectangle& area, Unseen unseen)
+      : name_(clip.name),
+        path_(std::move(path)),
+        warp_(clip.format, area),
+        held_(unseen == Unseen::held ? reference_raster(clip) : std::vector<std::byte>()),
+        clip_(clip.open()),
+        info_(clip_->info()),
+        raster_(clip.format.sample_bytes()) {
+    info_.format.shape.width = area.width;
+    info_.format.shape.height = area.height;
+    info_.decoder_bytes += raster_.size() + held_.size() + LightWarp::bytes(clip.format);
+  }
+
+  [[nodiscard]] const ClipInfo& info() const override { return info_; }
+
+  bool read(std::span<std::byte> raster) override {
+    const bool goes_on = clip_->read(raster_);
+    const std::uint64_t picture = next_++, count = path_->pictures.size();
+    if (goes_on != (picture < count)) {
+      throw InputError(format("the camera's path is that of {} pictures, and {} has {}", count, name_,
+                              goes_on ? "more" : std::to_string(picture)));
+    }
+    if (!goes_on) return false;
+    try {
+      // What was not seen holds.
+      warp_.take(raster_, path_->pictures[picture].warp, held_.empty() ? raster : std::span(held_));
+    } catch (const CodeAboveWhite& error) {
+      throw InputError(
+          format("{}: picture {} has the code {}, which is above white", name_, picture, error.code),
+          {Setting::white_code});
+    }
+    if (!held_.empty()) std::memcpy(raster.data(), held_.data(), held_.size());
+    return true;
+  }
+
+  [[nodiscard]] std::optional<std::string> ended_early() const override { return clip_->ended_early(); }
+  [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
+
+ private:
+  std::string name_;
+  Shared<CameraPath> path_;
+  LightWarp warp_;
+  std::vector<std::byte> held_;  // before the clip, so that one decoder at a time is open
+  std::unique_ptr<Clip> clip_;
+  ClipInfo info_;
+  std::vector<std::byte> raster_;
+  std::uint64_t next_ = 0;
+};
+
+}  // namespace
+
+CameraPath find_camera_path(const ClipToAlign& clip, CameraMotion motion, std::uint64_t memory_bytes,
+                            const ReportedProgress& progress, const std::stop_token& stop) {
+  const std::uint64_t sample_bytes = clip.format.sample_bytes();
+  MemoryNeeds needs{{"pictures within the decoder", clip.decoder_bytes},
+                    {"pictures decoded ahead", 2 * sample_bytes},
+                    {"the picture that others are aligned to", sample_bytes}};
+  needs.add(registrar_needs(clip.format, Reach::anywhere));
+  const std::uint64_t spare = needs.rest_of(memory_bytes);
+  const std::uint64_t at_once = spare / (kPicturesAtOnce - 1) >= 2 * sample_bytes + registered_bytes(clip.format)
+                                    ? kPicturesAtOnce
+                                    : 1;
+
+  std::unique_ptr<Registrar> registrar;
+  try {
+    registrar = open_registrar(clip.format, motion, reference_raster(clip));
+  } catch (const TooLittleTexture& error) {
+    throw CannotAlign(
+        format("{}: no picture can be aligned to picture {}: {}", clip.name, clip.reference, error.what()),
+        kOtherReference);
+  }
+  CameraPath path{motion, clip.format.shape, clip.reference, {}};
+  Warp guess;
+  const std::unique_ptr<Clip> pictures = clip.open();
+  ReadAhead ahead(*pictures, 2 * at_once * sample_bytes);
+  std::vector<Registered> found;
+  for (auto rasters = ahead.next(at_once); !rasters.empty(); rasters = ahead.next(at_once)) {
+    check_interruption();
+    if (stop.stop_requested()) throw Cancelled();
+    if (progress) progress(path.pictures.size(), clip.announced_samples);
+    found.resize(rasters.size());
+    parallel_for(rasters.size(), [&](std::uint64_t i) { found[i] = registrar->find(rasters[i], guess); });
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      Registered& picture = found[i];
+      const std::uint64_t number = path.pictures.size();
+      // A fast camera is nearer to where it was just before.
+      if (!is_sure(picture) && number > 0) picture = registrar->find(rasters[i], path.pictures.back().warp);
+      if (!is_sure(picture)) throw not_alike(clip, motion, number, picture);
+      if ((number + 1) % kPicturesAtOnce == 0) guess = picture.warp;
+      if (number == clip.reference) picture.warp = Warp();  // itself
+      path.pictures.push_back(picture);
+    }
+  }
+  return path;
+}
+
+Rectangle shown_area(const std::string& name, const CameraPath& path, Unseen unseen) {
+  if (unseen == Unseen::held) return Rectangle::whole(path.shape);
+  if (const auto area = seen_by_all(path)) return *area;
+  const CameraPath::Step step = path.step(path.furthest());
+  throw CannotAlign(
+      format("{}: no place was seen by all of its {} pictures: in picture {} the camera looks "
+             "{:.0f} pixels to the side and {:.0f} up or down from where it did in picture {}",
+             name, path.pictures.size(), path.furthest(), std::abs(step.x), std::abs(step.y), path.reference),
+      Advice{"; take a part of the clip (`from`, `to`), or keep the picture's size (`unseen hold`)"});
+}
+
+std::unique_ptr<Clip> open_aligned(const ClipToAlign& clip, const Shared<CameraPath>& path, Unseen unseen) {
+  const Shape& shape = clip.format.shape;
+  if (path->shape.width != shape.width || path->shape.height != shape.height) {
+    throw InputError(format("the camera's path is that of pictures of {} x {}, and {} has {} x {}",
+                            path->shape.width, path->shape.height, clip.name, shape.width, shape.height));
+  }
+  return std::make_unique<AlignedClip>(clip, path, shown_area(clip.name, *path, unseen), unseen);
+}
+
+std::string alignment_text(const CameraPath& path, const Rectangle& area, Unseen unseen) {
+  const std::string shown =
+      unseen == Unseen::held
+          ? "what a picture did not see holds what was seen there before"
+          : format("all of them saw {} x {} pixels from {},{} on", area.width, area.height, area.x, area.y);
+  return format(
+      "aligned to picture {} ({}), from which others are {}; half of the texture lies within {:.2f} "
+      "pixels of that; {}",
+      path.reference, to_text(path.motion), path.summary(), path.residual_pixels(), shown);
+}
+
+tik::Alignment kept_alignment(const CameraPath& path, Unseen unseen) {
+  const CameraPath::Step furthest = path.step(path.furthest());
+  return {std::string(to_text(path.motion)),
+          path.reference,
+          unseen == Unseen::held,
+          std::hypot(furthest.x, furthest.y),
+          std::abs(path.step(path.max_turned()).degrees),
+          path.residual_pixels()};
+}
+
+std::string alignment_text(const tik::Alignment& aligned) {
+  const std::string turned = aligned.turned_degrees == 0
+                                 ? std::string()
+                                 : format(" and turned by up to {:.3f} degrees", aligned.turned_degrees);
+  return format(
+      "to sample {} ({}), from which others were moved by up to {:.2f} pixels{}; what a sample did not see "
+      "{}",
+      aligned.reference, aligned.motion, aligned.moved_pixels, turned,
+      aligned.holds_unseen ? "holds what was seen before" : "was cut away");
+}
+
+namespace {
+
+constexpr std::uint64_t kLooks = 9;
+// Less is not told from what compression and rolling shutters do.
+constexpr double kMinPixels = 1.0;
+
+// How far the corner that moves furthest does.
+double furthest_corner(const Warp& warp, const Shape& shape) {
+  double most = 0;
+  for (const double x : {0.0, shape.width - 1.0}) {
+    for (const double y : {0.0, shape.height - 1.0}) {
+      const Place place = warp.at(x, y);
+      most = std::max(most, std::hypot(place.x - x, place.y - y));
+    }
+  }
+  return most;
+}
+
+}  // namespace
+
+std::string MovedCamera::text() const {
+  return format(
+      "the camera moved: at sample {} its picture lies up to {:.1f} pixels from where it lay at first, "
+      "turned by {:.2f} degrees, and still things are not still",
+      sample, pixels, degrees);
+}
+
+MemoryNeeds camera_check_needs(const CaptureFormat& capture) {
+  MemoryNeeds needs = registrar_needs(capture, Reach::near);
+  needs.add("a picture of the capture", capture.sample_bytes());
+  return needs;
+}
+
+std::optional<MovedCamera> moved_camera(tik::Reader& capture) {
+  if (capture.header().alignment) return std::nullopt;
+  const CaptureFormat& format = capture.format();
+  const std::uint64_t count = capture.timeline().sample_count();
+  std::vector<std::byte> raster(format.sample_bytes());
+  std::unique_ptr<Registrar> registrar;
+  std::optional<MovedCamera> moved;
+  double most = kMinPixels;
+  for (std::uint64_t look = 0; look < std::min(count, kLooks); ++look) {
+    const std::uint64_t sample = count <= kLooks ? look : look * (count - 1) / (kLooks - 1);
+    for_each_block(capture, {sample, sample + 1}, [&](const BlockView& block) {
+      block.read_sample(static_cast<std::uint32_t>(sample - block.extent().first_sample), raster);
+    });
+    if (!registrar) {
+      try {
+        registrar = open_registrar(format, CameraMotion::rigid, raster);
+      } catch (const TooLittleTexture&) {
+        return std::nullopt;
+      }
+      continue;
+    }
+    // From where it lay at first: what stands still is found there.
+    const Registered found = registrar->find(raster, Warp(), Reach::near);
+    const double corner = furthest_corner(found.warp, format.shape);
+    if (!is_sure(found) || corner < most) continue;
+    most = corner;
+    const double degrees =
+        found.warp.degrees_at((format.shape.width - 1) / 2.0, (format.shape.height - 1) / 2.0);
+    moved = {corner, std::abs(degrees), sample};
+  }
+  return moved;
+}
+
+}  // namespace nutik

@@ -1,0 +1,117 @@
+#include "align/motion/grey_pyramid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <opencv2/imgproc.hpp>
+
+namespace nutik::motion {
+namespace {
+
+constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 21;  // of the finest level: 1080p as it is
+constexpr int kMinSide = 24;
+// So that a cubic between pixels goes through what it is fitted to, and noise counts less.
+constexpr double kBlurPixels = 1.0;
+constexpr int kFeatureSide = 480;
+
+template <typename Code>
+void write_grey(const CaptureFormat& format, const Code* codes, cv::Mat& grey) {
+  const auto [width, height, channels] = format.shape;
+  const auto scale = static_cast<float>(kGreyWhite / format.white_code);
+  grey.create(static_cast<int>(height), static_cast<int>(width), CV_32F);
+  for (int y = 0; y < grey.rows; ++y) {
+    auto* const row = grey.ptr<float>(y);
+    for (int x = 0; x < grey.cols; ++x, codes += channels) {
+      row[x] = scale * (channels == 1 ? static_cast<float>(codes[0])
+                                      : static_cast<float>(kLuma[0]) * static_cast<float>(codes[0]) +
+                                            static_cast<float>(kLuma[1]) * static_cast<float>(codes[1]) +
+                                            static_cast<float>(kLuma[2]) * static_cast<float>(codes[2]));
+    }
+  }
+}
+
+}  // namespace
+
+void GreyPyramid::take(const CaptureFormat& format, std::span<const std::byte> raster) {
+  std::size_t smallest = 0;
+  const auto grey_at = [&](std::size_t size) -> cv::Mat& {
+    if (size == greys_.size()) greys_.emplace_back();
+    return greys_[size];
+  };
+  const auto halve = [&] {
+    cv::Mat& half = grey_at(smallest + 1);
+    cv::pyrDown(greys_[smallest++], half);
+  };
+  format.code_bytes == 1
+      ? write_grey(format, reinterpret_cast<const std::uint8_t*>(raster.data()), grey_at(0))
+      : write_grey(format, reinterpret_cast<const std::uint16_t*>(raster.data()), grey_at(0));
+  while (greys_[smallest].total() > kMaxPixels) halve();
+  finest = static_cast<int>(smallest);
+  for (std::size_t level = 0;; ++level) {
+    const cv::Mat& grey = greys_[smallest];
+    if (level == levels.size()) levels.emplace_back();
+    cv::GaussianBlur(grey, levels[level], {}, kBlurPixels);
+    if (std::min(grey.cols, grey.rows) < 2 * kMinSide) return;
+    halve();
+  }
+}
+
+double GreyPyramid::feature_scale() const {
+  std::size_t level = 0;
+  while (level + 1 < levels.size() && std::max(levels[level].cols, levels[level].rows) > kFeatureSide)
+    ++level;
+  return std::ldexp(1.0, finest + static_cast<int>(level));
+}
+
+cv::Mat GreyPyramid::of_features() const {
+  const auto level = static_cast<std::size_t>(std::ilogb(feature_scale()) - finest);
+  cv::Mat bytes;
+  levels[level].convertTo(bytes, CV_8U);
+  return bytes;
+}
+
+namespace {
+
+constexpr std::uint32_t kCells = 32;  // along the longer side: the texture is taken from all over the picture
+constexpr double kMinGradient = kGreyWhite / 256;  // a pixel
+constexpr double kWeakGradient = 0.05;             // of the strongest: mostly noise
+constexpr float kMargin = 4;
+
+}  // namespace
+
+std::vector<Point> textured_points(const cv::Mat& grey, std::size_t count) {
+  const int side = std::max(8, std::max(grey.cols, grey.rows) / static_cast<int>(kCells));
+  const int columns = (grey.cols - 1) / side + 1, rows = (grey.rows - 1) / side + 1;
+  std::vector<std::vector<Point>> cells(static_cast<std::size_t>(columns * rows));
+  const std::size_t most = std::max<std::size_t>(1, count / cells.size());
+  const auto keep_strongest = [most](std::vector<Point>& cell) {
+    if (cell.size() <= most) return;
+    std::ranges::nth_element(cell, cell.begin() + static_cast<std::ptrdiff_t>(most), std::greater(),
+                             gradient_of);
+    cell.resize(most);
+  };
+  for (int y = static_cast<int>(kMargin); y < grey.rows - static_cast<int>(kMargin); ++y) {
+    const auto *above = grey.ptr<float>(y - 1), *row = grey.ptr<float>(y), *below = grey.ptr<float>(y + 1);
+    for (int x = static_cast<int>(kMargin); x < grey.cols - static_cast<int>(kMargin); ++x) {
+      const Point point{static_cast<float>(x), static_cast<float>(y), row[x], (row[x + 1] - row[x - 1]) / 2,
+                        (below[x] - above[x]) / 2};
+      if (gradient_of(point) < kMinGradient) continue;
+      std::vector<Point>& cell = cells[static_cast<std::size_t>(y / side * columns + x / side)];
+      cell.push_back(point);
+      if (cell.size() >= 4 * most) keep_strongest(cell);
+    }
+  }
+  std::vector<Point> points;
+  for (std::vector<Point>& cell : cells) {
+    keep_strongest(cell);
+    points.insert(points.end(), cell.begin(), cell.end());
+  }
+  if (points.empty()) return points;
+  const double weak = kWeakGradient * gradient_of(*std::ranges::max_element(points, {}, gradient_of));
+  std::erase_if(points, [&](const Point& point) { return gradient_of(point) < weak; });
+  return points;
+}
+
+}  // namespace nutik::motion

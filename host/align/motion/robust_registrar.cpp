@@ -1,0 +1,398 @@
+// A robust fit of all texture at once, coarse to fine: Gauss and Newton's steps on a pyramid, where what does not agree
+// with the motion of most loses its weight (Tukey's biweight). The gradients are the reference's, so that they are
+// taken once (Baker and Matthews, "Lucas-Kanade 20 Years On", the inverse compositional algorithm). Where the fit fails
+// from the place that was guessed, matched features tell another.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "align/motion/feature_start.hpp"
+#include "align/motion/grey_pyramid.hpp"
+#include "align/motion/normal_equations.hpp"
+#include "align/registrar.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+
+namespace nutik::motion {
+namespace {
+
+constexpr std::size_t kMinPoints = 60;
+constexpr std::size_t kPoints = 20000;        // of the finest level
+constexpr std::size_t kLeadingPoints = 8000;  // of one that leads to a finer one
+constexpr std::size_t kPointsAhead = 8;       // whose surroundings are fetched while others are looked at
+constexpr double kMinSeen = 0.2;              // of the points
+constexpr double kMinAcross = 0.01;           // of the texture's strength along its main direction
+constexpr std::size_t kFineLevels = 3;        // that a start from close by needs
+constexpr double kClearlyBetter = 2;          // of residuals
+constexpr double kClearlyMost = 0.7;          // of the texture
+constexpr std::size_t kPartsToASide = 8;
+constexpr std::size_t kMinOfPart = 8;  // places of texture: fewer tell little
+constexpr double kTukey = 4.685;       // 95 % as efficient as least squares where all errors are normal
+constexpr double kMinSigma = 0.3;      // codes
+constexpr int kFirstSteps = 3;  // of a fit, in which nothing is excluded yet; a finer level has one of them
+constexpr int kMaxSteps = 25;
+constexpr double kSettledPixels = 0.002;
+constexpr double kRoughlySettled = 0.05;  // pixels of a level that a finer one follows
+
+struct Level {
+  int number = 0;  // its pixels are 2^number of the picture's
+  cv::Size size;
+  std::vector<Point> points;
+  [[nodiscard]] double scale() const { return std::ldexp(1.0, number); }
+};
+
+// Catmull and Rom's cubic; the place lies two pixels from the border or further.
+float cubic_at(const cv::Mat& grey, double x, double y) {
+  const int left = static_cast<int>(x), top = static_cast<int>(y);
+  const auto u = static_cast<float>(x - left), v = static_cast<float>(y - top);
+  const auto between = [](float a, float b, float c, float d, float t) {
+    return b + 0.5f * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
+  };
+  float rows[4];
+  for (int j = 0; j < 4; ++j) {
+    const float* const row = grey.ptr<float>(top + j - 1) + left - 1;
+    rows[j] = between(row[0], row[1], row[2], row[3], u);
+  }
+  return between(rows[0], rows[1], rows[2], rows[3], v);
+}
+
+// Points lie too far from each other for their surroundings to be in a cache by themselves.
+void fetch_ahead(const cv::Mat& grey, double x, double y) {
+  const int left = static_cast<int>(x), top = static_cast<int>(y);
+  for (int j = 0; j < 4; ++j) __builtin_prefetch(grey.ptr<float>(top + j - 1) + left - 1);
+}
+
+// What is fitted: the motion's numbers, in a frame that reaches to about 1 at the picture's corners; brightness last.
+class Frame {
+ public:
+  Frame(const Shape& shape, CameraMotion motion)
+      : x_((shape.width - 1) / 2.0),
+        y_((shape.height - 1) / 2.0),
+        radius_(std::max(1.0, std::hypot(x_, y_))),
+        motion_(motion) {}
+
+  [[nodiscard]] std::size_t count() const {
+    return motion_ == CameraMotion::translation ? 2 : motion_ == CameraMotion::rigid ? 3 : 8;
+  }
+  [[nodiscard]] double radius() const { return radius_; }
+
+  // How the grey at a place, in pixels of the picture, changes with each; the gradient is per `radius`.
+  void slopes(double x, double y, double gx, double gy, double* slope) const {
+    const double u = (x - x_) / radius_, v = (y - y_) / radius_;
+    slope[0] = gx;
+    slope[1] = gy;
+    if (motion_ == CameraMotion::rigid) slope[2] = gy * u - gx * v;
+    if (motion_ != CameraMotion::homography) return;
+    const double out = gx * u + gy * v;
+    slope[2] = gx * u;
+    slope[3] = gx * v;
+    slope[4] = gy * u;
+    slope[5] = gy * v;
+    slope[6] = out * u;
+    slope[7] = out * v;
+  }
+
+  // The warp of these numbers, near the identity.
+  [[nodiscard]] Warp warp(const double* p) const {
+    Warp small;
+    if (motion_ == CameraMotion::translation) {
+      small.m = {1, 0, p[0], 0, 1, p[1], 0, 0, 1};
+    } else if (motion_ == CameraMotion::rigid) {
+      const double c = std::cos(p[2]), s = std::sin(p[2]);
+      small.m = {c, -s, p[0], s, c, p[1], 0, 0, 1};
+    } else {
+      small.m = {1 + p[2], p[3], p[0], p[4], 1 + p[5], p[1], -p[6], -p[7], 1};
+    }
+    const Warp into{{1 / radius_, 0, -x_ / radius_, 0, 1 / radius_, -y_ / radius_, 0, 0, 1}};
+    const Warp back{{radius_, 0, x_, 0, radius_, y_, 0, 0, 1}};
+    return chained(chained(into, small), back);
+  }
+
+ private:
+  double x_, y_, radius_;
+  CameraMotion motion_;
+};
+
+// Brightness of a picture by the reference's: gain * grey + offset.
+struct Fit {
+  Warp warp;
+  double gain = 1, offset = 0;
+};
+
+struct Sampled {
+  const Point* point;
+  double x, y;    // of the picture
+  double px, py;  // where the warp says, of the level
+  double grey;    // of the picture that is registered, there
+};
+
+using Parts = std::array<std::vector<double>, kPartsToASide * kPartsToASide>;
+
+class RobustRegistrar final : public Registrar {
+ public:
+  RobustRegistrar(const CaptureFormat& format, CameraMotion motion, std::span<const std::byte> reference)
+      : format_(format), frame_(format.shape, motion), coarse_(format.shape, coarse_motion(motion)) {
+    GreyPyramid pyramid;
+    pyramid.take(format, reference);
+    for (std::size_t i = 0; i < pyramid.levels.size(); ++i) {
+      const cv::Mat& grey = pyramid.levels[i];
+      Level level{pyramid.finest + static_cast<int>(i), grey.size(),
+                  textured_points(grey, i == 0 ? kPoints : kLeadingPoints)};
+      if (i > 0 && level.points.size() < kMinPoints) break;
+      if (i == 0) check_texture(level.points);
+      levels_.push_back(std::move(level));
+    }
+    reference_ = pyramid.of_features();
+  }
+
+  Registered find(std::span<const std::byte> raster, const Warp& guess, Reach reach) override {
+    std::unique_ptr<GreyPyramid> pyramid = spare_pyramid();
+    pyramid->take(format_, raster);
+    const Registered found = found_in(*pyramid, guess, reach);
+    const std::scoped_lock lock(pyramids_mutex_);
+    pyramids_.push_back(std::move(pyramid));
+    return found;
+  }
+
+ private:
+  // As many come to be as searches run at the same time.
+  [[nodiscard]] std::unique_ptr<GreyPyramid> spare_pyramid() {
+    const std::scoped_lock lock(pyramids_mutex_);
+    if (pyramids_.empty()) return std::make_unique<GreyPyramid>();
+    std::unique_ptr<GreyPyramid> pyramid = std::move(pyramids_.back());
+    pyramids_.pop_back();
+    return pyramid;
+  }
+
+  [[nodiscard]] Registered found_in(const GreyPyramid& pyramid, const Warp& guess, Reach reach) {
+    Registered best = fit(pyramid, guess, levels_.size());
+    const auto try_from = [&](const Warp& start, std::size_t levels = kFineLevels) {
+      const Registered other = fit(pyramid, start, levels);
+      if (other.agreeing > best.agreeing) best = other;
+    };
+    if (!is_sure(best)) try_from(guess);
+    // Fine texture is seen on no coarser level, where what moves may be all there is.
+    if (!is_sure(best)) try_from(guess, 1);
+    if (reach == Reach::near) return unless_it_rests(pyramid.levels.front(), guess, best);
+    if (is_sure(best)) return best;
+    const std::scoped_lock lock(features_mutex_);
+    if (!features_) features_.emplace(reference_, pyramid.feature_scale());
+    if (const auto start = features_->find(pyramid.of_features())) try_from(*start);
+    return best;
+  }
+
+  // Away from the finest levels there is too little to tell a homography from.
+  static CameraMotion coarse_motion(CameraMotion motion) {
+    return motion == CameraMotion::homography ? CameraMotion::rigid : motion;
+  }
+
+  static void check_texture(const std::vector<Point>& points) {
+    if (points.size() < kMinPoints) {
+      throw TooLittleTexture(
+          format("it has {} pixels whose surroundings can be recognized, and {} are needed", points.size(),
+                 kMinPoints));
+    }
+    double xx = 0, xy = 0, yy = 0;
+    for (const Point& point : points) {
+      xx += point.gradient_x * point.gradient_x;
+      xy += point.gradient_x * point.gradient_y;
+      yy += point.gradient_y * point.gradient_y;
+    }
+    const double middle = (xx + yy) / 2, spread = std::hypot((xx - yy) / 2, xy);
+    if (middle - spread < kMinAcross * (middle + spread)) {
+      throw TooLittleTexture(
+          "all its edges run in one direction, along which nothing tells where a picture lies");
+    }
+  }
+
+  [[nodiscard]] Registered fit(const GreyPyramid& pyramid, const Warp& guess, std::size_t levels) const {
+    Fit fit{guess, 1, 0};
+    bool is_first = true;
+    for (std::size_t i = std::min(levels, levels_.size()); i-- > 0;) {
+      const bool is_fine =
+          i == 0 || (i == 1 && levels_[i].size.height >= 100 && levels_[i].size.width >= 100);
+      Fit settled = fit;
+      const double enough = i == 0 ? kSettledPixels : kRoughlySettled * levels_[i].scale();
+      if (settle(levels_[i], pyramid.levels[i], is_fine ? frame_ : coarse_, is_first ? kFirstSteps : 1,
+                 enough, settled)) {
+        fit = settled;
+        is_first = false;
+      } else if (i == 0) {
+        return {guess, 0, 0};
+      }
+    }
+    return judged(levels_.front(), pyramid.levels.front(), fit);
+  }
+
+  // Near by, most pictures lie just where they are expected: that stands unless another place is clearly better, by
+  // texture from much of the picture. A thing that moves over a bare wall is no camera's motion.
+  [[nodiscard]] Registered unless_it_rests(const cv::Mat& grey, const Warp& guess,
+                                           const Registered& best) const {
+    const Level& level = levels_.front();
+    const std::vector<Sampled> seen = sampled(level, grey, guess);
+    if (seen.empty()) return best;
+    const Registered rests = judged(level, grey, {guess, 1, brighter_by(seen)});
+    if (rests.residual_pixels <= kClearlyBetter * best.residual_pixels) return rests;
+    const bool is_clear = best.agreeing >= kClearlyMost && is_spread(level, grey, guess, best.warp);
+    return is_clear ? best : Registered{guess, 0, rests.residual_pixels};
+  }
+
+  // Whether a quarter of the picture's parts or more follow a warp, and clearly not what is expected: noise over a dark
+  // wall is as near to any place.
+  [[nodiscard]] static bool is_spread(const Level& level, const cv::Mat& grey, const Warp& guess,
+                                      const Warp& warp) {
+    Parts expected = parts_of(level, grey, guess), followed = parts_of(level, grey, warp);
+    std::size_t parts = 0;
+    for (std::size_t i = 0; i < followed.size(); ++i) {
+      if (std::min(expected[i].size(), followed[i].size()) < kMinOfPart) continue;
+      const double away = median(followed[i]);
+      parts += away <= 1 && median(expected[i]) > kClearlyBetter * away ? 1 : 0;
+    }
+    return 4 * parts >= followed.size();
+  }
+
+  // How far texture lies from where a warp says, in pixels of the level, for each part of the picture.
+  [[nodiscard]] static Parts parts_of(const Level& level, const cv::Mat& grey, const Warp& warp) {
+    Parts parts;
+    const std::vector<Sampled> seen = sampled(level, grey, warp);
+    if (seen.empty()) return parts;
+    const Fit fit{warp, 1, brighter_by(seen)};
+    for (const Sampled& sample : seen) {
+      const auto column = static_cast<std::size_t>(sample.point->x) * kPartsToASide /
+                          static_cast<std::size_t>(level.size.width);
+      const auto row = static_cast<std::size_t>(sample.point->y) * kPartsToASide /
+                       static_cast<std::size_t>(level.size.height);
+      parts[row * kPartsToASide + column].push_back(std::abs(residual(sample, fit)) /
+                                                    gradient_of(*sample.point));
+    }
+    return parts;
+  }
+
+  // The points that the picture shows, too. Empty where these are few.
+  [[nodiscard]] static std::vector<Sampled> sampled(const Level& level, const cv::Mat& grey,
+                                                    const Warp& warp) {
+    std::vector<Sampled> seen;
+    seen.reserve(level.points.size());
+    const double scale = level.scale();
+    for (const Point& point : level.points) {
+      const double x = scale * point.x, y = scale * point.y;
+      const Place there = warp.at(x, y);
+      const double px = there.x / scale, py = there.y / scale;
+      if (!(px >= 2 && py >= 2 && px < grey.cols - 3 && py < grey.rows - 3)) continue;
+      seen.push_back({&point, x, y, px, py, 0});
+    }
+    if (static_cast<double>(seen.size()) < kMinSeen * static_cast<double>(level.points.size())) seen.clear();
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (i + kPointsAhead < seen.size())
+        fetch_ahead(grey, seen[i + kPointsAhead].px, seen[i + kPointsAhead].py);
+      seen[i].grey = double{cubic_at(grey, seen[i].px, seen[i].py)};
+    }
+    return seen;
+  }
+
+  [[nodiscard]] static double residual(const Sampled& sample, const Fit& fit) {
+    return sample.grey - fit.gain * sample.point->grey - fit.offset;
+  }
+
+  [[nodiscard]] static double median(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+  }
+
+  // How much brighter most of them are than the reference.
+  [[nodiscard]] static double brighter_by(const std::vector<Sampled>& seen) {
+    std::vector<double> brighter;
+    for (const Sampled& sample : seen) brighter.push_back(sample.grey - sample.point->grey);
+    return median(brighter);
+  }
+
+  // Until a step moves the corners by no more than `enough` pixels of the picture. False where the picture shows too
+  // little of the reference, or the fit leads nowhere.
+  static bool settle(const Level& level, const cv::Mat& grey, const Frame& frame, int first_steps,
+                     double enough, Fit& fit) {
+    const std::size_t motion = frame.count(), count = motion + 2;  // brightness has two numbers
+    const double per_radius = frame.radius() / level.scale();
+    std::vector<double> sizes;
+    for (int step = 0; step < kMaxSteps; ++step) {
+      const std::vector<Sampled> seen = sampled(level, grey, fit.warp);
+      if (seen.empty()) return false;
+      sizes.clear();
+      for (const Sampled& sample : seen) sizes.push_back(std::abs(residual(sample, fit)));
+      const double limit = kTukey * std::max(kMinSigma, 1.4826 * median(sizes));
+      NormalEquations equations(count);
+      NormalEquations::Row slopes{};
+      for (const Sampled& sample : seen) {
+        const double share = residual(sample, fit) / limit;
+        double weight = 1 / (1 + 9 * share * share);  // Cauchy's, which excludes nothing
+        if (step >= first_steps) {
+          if (std::abs(share) >= 1) continue;
+          weight = (1 - share * share) * (1 - share * share);
+        }
+        const Point& point = *sample.point;
+        frame.slopes(sample.x, sample.y, per_radius * point.gradient_x, per_radius * point.gradient_y,
+                     slopes.data());
+        slopes[motion] = point.grey / kGreyWhite;
+        slopes[motion + 1] = 1;
+        equations.add(slopes, weight, sample.grey);
+      }
+      std::array<double, NormalEquations::kMaxNumbers> numbers;
+      if (!equations.solve(numbers)) return false;
+      fit.gain = numbers[motion] / kGreyWhite;
+      fit.offset = numbers[motion + 1];
+      if (!(fit.gain > 0.2 && fit.gain < 5)) return false;
+      double square = 0;
+      for (std::size_t i = 0; i < motion; ++i) {
+        numbers[i] /= fit.gain;
+        square += numbers[i] * numbers[i];
+      }
+      const double moved = std::sqrt(square) * frame.radius();
+      if (!(moved < frame.radius())) return false;
+      fit.warp = chained(inverse(frame.warp(numbers.data())), fit.warp);
+      if (moved < enough && step > first_steps) break;
+    }
+    return true;
+  }
+
+  [[nodiscard]] static Registered judged(const Level& level, const cv::Mat& grey, const Fit& fit) {
+    const std::vector<Sampled> seen = sampled(level, grey, fit.warp);
+    if (seen.empty()) return {fit.warp, 0, 0};
+    std::vector<double> away;
+    std::size_t agreeing = 0;
+    for (const Sampled& sample : seen) {
+      away.push_back(std::abs(residual(sample, fit)) / (fit.gain * gradient_of(*sample.point)));
+      agreeing += away.back() <= 1 ? 1 : 0;
+    }
+    const double share = static_cast<double>(agreeing) / static_cast<double>(seen.size());
+    return {fit.warp, share, level.scale() * median(away)};
+  }
+
+  CaptureFormat format_;
+  Frame frame_, coarse_;
+  std::vector<Level> levels_;  // the finest first
+  cv::Mat reference_;          // for features, which are looked for when they are first needed
+  std::optional<FeatureStart> features_;
+  std::mutex features_mutex_;
+  std::vector<std::unique_ptr<GreyPyramid>> pyramids_;  // that no search uses now
+  std::mutex pyramids_mutex_;
+};
+
+std::unique_ptr<Registrar> open_robust_registrar(const CaptureFormat& format, CameraMotion motion,
+                                                 std::span<const std::byte> reference) {
+  return std::make_unique<RobustRegistrar>(format, motion, reference);
+}
+
+}  // namespace
+}  // namespace nutik::motion
+
+extern "C" __attribute__((visibility("default"))) const nutik::MotionModule nutik_motion_module{
+    nutik::use_shared_state, nutik::motion::open_robust_registrar};
+
+extern "C" __attribute__((visibility("default"))) const char nutik_module_version[] = NUTIK_VERSION;

@@ -1,0 +1,120 @@
+#include "studio/time/times.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <string>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "exposure/gain_function.hpp"
+#include "exposure/function_numbers.hpp"
+#include "exposure/normalization.hpp"
+#include "exposure/shutter_shape.hpp"
+#include "session/requests/stated_time.hpp"
+
+namespace nutik::studio {
+namespace {
+
+QString text_of(const std::string& text) { return QString::fromStdString(text); }
+
+std::string without_blanks(QString text) {
+  return text.remove(QChar::Space).remove(QChar::Tabulation).remove(QChar::Nbsp).toStdString();
+}
+
+Typed<std::int64_t> within_reach(std::int64_t time_ns, const QString& what) {
+  if (std::abs(time_ns) <= kLargestTimeNs) return {time_ns, {}};
+  return {std::nullopt, QString("%1 lies further than 126 years from the start of the capture").arg(what)};
+}
+
+}  // namespace
+
+QString exact_time_text(std::int64_t time_ns) {
+  struct Unit {
+    const char* name;
+    std::int64_t ns;
+    int decimals;
+  };
+  constexpr std::array<Unit, 4> kUnits{
+      {{"s", 1'000'000'000, 9}, {"ms", 1'000'000, 6}, {"µs", 1'000, 3}, {"ns", 1, 0}}};
+  const std::int64_t magnitude = std::abs(time_ns);
+  if (magnitude == 0) return "0 s";
+  const Unit* unit = kUnits.data();
+  while (magnitude < unit->ns) ++unit;
+  std::string digits = format("{}{}", time_ns < 0 ? "-" : "", magnitude / unit->ns);
+  if (magnitude % unit->ns != 0) {
+    digits += format(".{:0{}}", magnitude % unit->ns, unit->decimals);
+    digits.erase(digits.find_last_not_of('0') + 1);
+  }
+  return text_of(digits + " " + unit->name);
+}
+
+Typed<std::int64_t> read_typed_time(const QString& text, const QString& what, const Timeline& timeline) {
+  try {
+    const StatedTime time = StatedTime::parse(without_blanks(text), what.toStdString());
+    return within_reach(moment_ns(time, timeline), what);
+  } catch (const UsageError& error) {
+    return {std::nullopt, text_of(error.what())};
+  }
+}
+
+Typed<std::int64_t> read_typed_length(const QString& text, const QString& what, const Timeline& timeline) {
+  try {
+    const StatedTime time = StatedTime::parse(without_blanks(text), what.toStdString());
+    const Exposure interval = plain_interval(StatedTime::of_nanoseconds(0), time, timeline);
+    return within_reach(interval.end_ns - interval.start_ns, what);
+  } catch (const UsageError& error) {
+    return {std::nullopt, text_of(error.what())};
+  }
+}
+
+QString gain_text(double gain) { return text_of(format("{}", gain)); }
+
+Typed<double> read_typed_gain(const QString& text) {
+  const auto read = read_gain(without_blanks(text));
+  if (!read.mistake.empty()) return {std::nullopt, text_of(read.mistake)};
+  return {read.value, {}};
+}
+
+namespace {
+
+// The start of a sample that may lie outside the capture.
+std::int64_t start_of(std::int64_t sample, const Timeline& timeline) {
+  const auto count = static_cast<std::int64_t>(timeline.sample_count());
+  const std::int64_t period_ns = std::max<std::int64_t>(timeline.duration_ns() / count, 1);
+  // No further than times go.
+  const std::int64_t most = kLargestTimeNs / period_ns;
+  if (sample < 0) return std::max(sample, -most) * period_ns;
+  if (sample < count) return timeline.start_ns(static_cast<std::uint64_t>(sample));
+  const std::int64_t beyond = std::min(sample - count, most) * period_ns;
+  return std::min(timeline.duration_ns(), kLargestTimeNs - beyond) + beyond;
+}
+
+}  // namespace
+
+std::int64_t nearest_sample_edge(std::int64_t time_ns, const Timeline& timeline) {
+  const std::uint64_t sample = sample_at(time_ns, timeline);
+  const SampleTimes times = timeline.times(sample);
+  const std::array<std::int64_t, 4> edges{times.before_ns, times.start_ns, times.end_ns, times.after_ns};
+  return *std::min_element(edges.begin(), edges.end(), [&](std::int64_t a, std::int64_t b) {
+    return std::abs(a - time_ns) < std::abs(b - time_ns);
+  });
+}
+
+std::int64_t samples_later(std::int64_t time_ns, std::int64_t steps, const Timeline& timeline) {
+  const auto sample = static_cast<std::int64_t>(sample_at(time_ns, timeline));
+  // Behind the end the first sample beyond it is stepped from, so that steps there and back agree.
+  const auto count = static_cast<std::int64_t>(timeline.sample_count());
+  std::int64_t from = sample;
+  if (time_ns >= timeline.duration_ns()) {
+    const std::int64_t period_ns = std::max<std::int64_t>(timeline.duration_ns() / count, 1);
+    from = count + (time_ns - timeline.duration_ns()) / period_ns;
+  } else if (time_ns < 0) {
+    const std::int64_t period_ns = std::max<std::int64_t>(timeline.duration_ns() / count, 1);
+    from = -1 - (-1 - time_ns) / period_ns;
+  }
+  const std::int64_t later = start_of(from + steps, timeline) + (time_ns - start_of(from, timeline));
+  return std::clamp(later, -kLargestTimeNs, kLargestTimeNs);
+}
+
+}  // namespace nutik::studio

@@ -1,0 +1,40 @@
+// Times and gains as a person types and reads them, exactly; and the times at which a camera's exposures begin and
+// end, as places to go to and to snap to.
+#pragma once
+
+#include <QString>
+#include <cstdint>
+#include <optional>
+
+#include "capture/timeline.hpp"
+
+namespace nutik::studio {
+
+template <typename Number>
+struct Typed {
+  std::optional<Number> value;
+  QString mistake;  // what is wrong and what would be right; empty where there is a value
+};
+
+// `400.000001 ms`, `1.5 s`: no digit is lost, and read_typed_time() reads it back.
+[[nodiscard]] QString exact_time_text(std::int64_t time_ns);
+// As times are stated everywhere (session/requests/stated_time.hpp), blanks between number and unit allowed; `37f` is
+// the start of picture 37. `what` names it in the mistake.
+[[nodiscard]] Typed<std::int64_t> read_typed_time(const QString& text, const QString& what,
+                                                  const Timeline& timeline);
+// The same of a length, which is at least 1 ns; `3f` are three mean periods.
+[[nodiscard]] Typed<std::int64_t> read_typed_length(const QString& text, const QString& what,
+                                                    const Timeline& timeline);
+
+// As many digits as it takes to read the same number back.
+[[nodiscard]] QString gain_text(double gain);
+[[nodiscard]] Typed<double> read_typed_gain(const QString& text);
+
+// The begin or end of an exposure that is nearest to a time, or the capture's end.
+[[nodiscard]] std::int64_t nearest_sample_edge(std::int64_t time_ns, const Timeline& timeline);
+
+// The time that lies as far behind the start of a sample as `time_ns` behind the start of its own, `steps` samples later
+// or earlier; beyond the capture samples go on at its mean rate.
+[[nodiscard]] std::int64_t samples_later(std::int64_t time_ns, std::int64_t steps, const Timeline& timeline);
+
+}  // namespace nutik::studio

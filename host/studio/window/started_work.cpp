@@ -1,0 +1,127 @@
+#include "studio/window/started_work.hpp"
+
+#include <span>
+
+#include "exposure/function_text.hpp"
+#include "features/masks/mask_making.hpp"
+#include "features/plate/plate.hpp"
+#include "media/numbered_name.hpp"
+#include "media/picture_writer.hpp"
+#include "media/recipe.hpp"
+#include "session/output_check.hpp"
+#include "session/requests/output_request.hpp"
+#include "session/text/number_text.hpp"
+#include "studio/live/live_view.hpp"
+
+namespace nutik::studio {
+namespace {
+
+QString text_of(std::span<const std::string> lines) {
+  QStringList texts;
+  for (const std::string& line : lines) texts += QString::fromStdString(line);
+  return texts.join('\n');
+}
+
+DocumentState state_of(const DocumentState& before, const Study& study, Mask mask, const Timeline& timeline,
+                       StudyStyle style) {
+  DocumentState state = before;
+  state.looks.clear();
+  state.functions.clear();
+  for (const auto& [tag, function] : study.functions) state.functions.emplace(tag, with_steps(function));
+  const bool is_slit = style == StudyStyle::slit;
+  for (const auto& [tag, function] : state.functions) {
+    const std::size_t moment = is_slit ? tag : tag - std::size_t{1};
+    if (moment >= study.moments.size()) continue;  // what is left around the subject
+    const std::string time = duration_text(timeline.start_ns(study.moments[moment]));
+    state.looks[tag] = {(is_slit ? Document::tr("Strip at %1") : Document::tr("Subject at %1"))
+                            .arg(QString::fromStdString(time)),
+                        first_colour(tag), true};
+  }
+  state.mask = Shared(MaskWithRegions(std::move(mask)));
+  state.mode = ExposureMode::functions;
+  state.normalization = Normalization::parse("integral");
+  state.order.clear();
+  state.covered.clear();
+  state.feather = {is_slit ? 0 : kStudyFeather, {}};
+  return state;
+}
+
+}  // namespace
+
+std::span<const StartingPoint> starting_points() {
+  static constexpr StartingPoint kAll[] = {
+      {StudyStyle::trail, QT_TRANSLATE_NOOP("Document", "&Motion study"),
+       QT_TRANSLATE_NOOP("Document", "Sharp moments over the trail of the whole way")},
+      {StudyStyle::strobe, QT_TRANSLATE_NOOP("Document", "&Strobe"),
+       QT_TRANSLATE_NOOP("Document", "Sharp moments, and nothing between them")},
+      {StudyStyle::rear_curtain, QT_TRANSLATE_NOOP("Document", "&Rear curtain"),
+       QT_TRANSLATE_NOOP("Document", "The last moment, and a trail that grows towards it")},
+      {StudyStyle::frozen, QT_TRANSLATE_NOOP("Document", "&Frozen subject"),
+       QT_TRANSLATE_NOOP("Document", "One moment in a scene that is exposed for all of the time")},
+      {StudyStyle::slit, QT_TRANSLATE_NOOP("Document", "S&lit-scan"),
+       QT_TRANSLATE_NOOP("Document", "Strips side by side, each at a moment of its own")}};
+  return kAll;
+}
+
+Jobs::Work studying(Document& document, std::shared_ptr<Session> session, StudyStyle style, Told told) {
+  return [&document, session = std::move(session), style, told = std::move(told),
+          path = document.facts()->path](const Job& job) -> Jobs::Finish {
+    StudyRequest request;
+    request.style = style;
+    const std::string name = path.toStdString();
+    const MemoryBudget& memory = session->devices().request().memory;
+    auto study = std::make_shared<Study>(plan_study(session->capture(), name, request, memory, job.progress));
+    auto made = std::make_shared<MadeMask>(make_regions(*study, session->capture(), name));
+    return [&document, session, study, made, style, told] {
+      document.apply(state_of(document.state(), *study, std::move(made->mask), session->timeline(), style),
+                     Document::tr("Starting point"));
+      told(text_of(study->notes));
+    };
+  };
+}
+
+Jobs::Work writing_plate(std::shared_ptr<Session> session, const QString& picture, Told told) {
+  const std::filesystem::path path = picture.toStdString();
+  const std::string name = session->source().path.string();
+  check_output(path, OutputKind::picture, std::vector{name});
+  return [session = std::move(session), path, name, told = std::move(told)](const Job& job) -> Jobs::Finish {
+    const MadePlate plate =
+        make_plate(session->capture(), name, {}, output_format({}, path, session->format()),
+                   session->devices().request().memory, job.progress);
+    write_picture(path, plate.picture);
+    const QString line =
+        Document::tr("%1: the scene without what moves").arg(QString::fromStdString(path.string()));
+    return [told, line] { told(line); };
+  };
+}
+
+Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session, const CommandFiles& files,
+                     const QString& picture, Told told) {
+  const std::filesystem::path path = picture.toStdString();
+  std::vector<std::string> inputs{document.facts()->path.toStdString()};
+  if (document.mode() == ExposureMode::functions) {
+    inputs.push_back(files.functions.toStdString());
+    if (document.state().mask) inputs.push_back(files.mask.toStdString());
+  }
+  check_output(path, OutputKind::picture, inputs);
+  return [state = document.state(), sources = recipe_sources(document, files), session = std::move(session),
+          path, told = std::move(told)](const Job& job) -> Jobs::Finish {
+    const auto mask = state.mask && state.mode == ExposureMode::functions
+                          ? std::optional(LiveView::feathered_mask(state))
+                          : std::nullopt;
+    RenderControl control;
+    control.stop = job.stop;
+    PictureRecipe recipe(sources);
+    const ExposedPicture exposed =
+        session->render(exposure_of(state, mask), output_format({}, path, session->format()), control);
+    write_picture(path, exposed.picture, recipe.text(std::string(to_text(exposed.precision))),
+                  file_wishes({}));
+    const QString line = Jobs::tr("%1: %2, %3")
+                             .arg(QString::fromStdString(path.string()),
+                                  QString::fromStdString(shape_text(exposed.picture.shape)),
+                                  QString::fromStdString(saturated_text(exposed.saturation)));
+    return [told, line] { told(line); };
+  };
+}
+
+}  // namespace nutik::studio
