@@ -36,8 +36,9 @@ constexpr CommandSet kExposesFreely = set_of(Id::expose, Id::contact, Id::sweep,
 // Those that make many pictures, each in a file of its own.
 constexpr CommandSet kMakesMany = set_of(Id::expose, Id::batch, Id::video);
 // Those that write files.
-constexpr CommandSet kWrites = (kReadsClips & ~set_of(Id::check, Id::validate)) |
-                               set_of(Id::recover, Id::noise, Id::retime, Id::join, Id::info, Id::thumbnail);
+constexpr CommandSet kWrites =
+    (kReadsClips & ~set_of(Id::check, Id::validate)) |
+    set_of(Id::recover, Id::noise, Id::retime, Id::join, Id::info, Id::thumbnail);
 // Those that lay pictures out on a sheet.
 constexpr CommandSet kMakesSheets = set_of(Id::contact, Id::sweep);
 // Those that have nothing to tell a script, or tell what is a file itself.
@@ -57,94 +58,75 @@ constexpr Option known(Setting setting, std::string_view python, Option row) {
 }
 
 // A step of a mask, or of another command's: as often as is liked, in the order of the command line.
-constexpr Option step(std::string_view name, std::string_view value, std::string_view help,
-                      Id of = Id::mask) {
+constexpr Option step(std::string_view name, std::string_view value, std::string_view help, Id of = Id::mask) {
   return {0, name, value, subject, bit(of), {}, help};
 }
 
 constexpr Option kRows[] = {
     heading("The source clip"),
-    known(Setting::frame_rate, "rate",
-          {'f', "fps", "RATE", timing, kReadsClips | set_of(Id::shutter, Id::retime),
-           take<InClip<&ClipOptions::rate>>,
-           "pictures a second that the clip was filmed with: 120, 29.97, 30000/1001 (default: what the file "
-           "says)"}),
-    known(Setting::shutter_angle,
-          {'a', "shutter-angle", "DEGREES", timing, kReadsClips | set_of(Id::shutter, Id::retime),
-           take<InSource<&SourceRequest::shutter_angle>>,
-           "share of the time between pictures that the shutter was open, 360 being all of it (default: what "
-           "the "
-           "file says, else 360)"}),
-    known(
-        Setting::white_code,
-        {0, "white", "CODE", decoding, kDecodesClips, take_whole<InClip<&ClipOptions::white_code>, 1, 65'535>,
-         "the code that stands for white: 255, 4095 for 12 bits, … (default: what the file says)"}),
+    known(Setting::frame_rate, "rate", {'f', "fps", "RATE", timing, kReadsClips | set_of(Id::shutter, Id::retime),
+     take<InClip<&ClipOptions::rate>>,
+     "pictures a second that the clip was filmed with: 120, 29.97, 30000/1001 (default: what the file says)"}),
+    known(Setting::shutter_angle, {'a', "shutter-angle", "DEGREES", timing, kReadsClips | set_of(Id::shutter,
+     Id::retime),
+     take<InSource<&SourceRequest::shutter_angle>>,
+     "share of the time between pictures that the shutter was open, 360 being all of it (default: what the "
+     "file says, else 360)"}),
+    known(Setting::white_code, {0, "white", "CODE", decoding, kDecodesClips,
+     take_whole<InClip<&ClipOptions::white_code>, 1, 65'535>,
+     "the code that stands for white: 255, 4095 for 12 bits, … (default: what the file says)"}),
     // A capture has one too, which a picture may be exposed without: so it is none of what only a clip has.
     known(Setting::transfer, {0, "transfer", "NAME", exposure, kDecodesClips | bit(Id::retime),
-                              take<InClip<&ClipOptions::transfer>>,
-                              "how codes stand for light: srgb, bt709, linear, gamma:G, hlg or pq (default: "
-                              "srgb; linear for stills "
-                              "and grey video of more than 8 bits and for 16-bit colour; what a file names, "
-                              "but for bt709 in 8-bit "
-                              "video; a .tik's own)",
-                              "srgb bt709 linear gamma: hlg pq"}),
+     take<InClip<&ClipOptions::transfer>>,
+     "how codes stand for light: srgb, bt709, linear, gamma:G, hlg or pq (default: srgb; linear for stills "
+     "and grey video of more than 8 bits and for 16-bit colour; what a file names, but for bt709 in 8-bit "
+     "video; a .tik's own)",
+     "srgb bt709 linear gamma: hlg pq"}),
     known(Setting::matrix, {0, "matrix", "NAME", decoding, kDecodesClips, take<InClip<&ClipOptions::matrix>>,
-                            "how a video's YUV becomes RGB: bt601, bt709, bt2020 or ycgco (default: what the "
-                            "file says; else bt709 from "
-                            "720 lines on, bt601 below)",
-                            "bt601 bt709 bt2020 ycgco"}),
+     "how a video's YUV becomes RGB: bt601, bt709, bt2020 or ycgco (default: what the file says; else bt709 from "
+     "720 lines on, bt601 below)",
+     "bt601 bt709 bt2020 ycgco"}),
     known(Setting::range, {0, "range", "NAME", decoding, kDecodesClips, take<InClip<&ClipOptions::range>>,
-                           "which codes of YUV are black and white: limited or full (default: what the file "
-                           "says, else limited)",
-                           "limited full"}),
-    known(Setting::chroma_place,
-          {0, "chroma-at", "PLACE", decoding, kDecodesClips, take<InClip<&ClipOptions::chroma_at>>,
-           "where samples of chroma lie that pixels of deep video share: left, center, topleft, top, "
-           "bottomleft or "
-           "bottom (default: what the file says, else left)",
-           "left center topleft top bottomleft bottom"}),
+     "which codes of YUV are black and white: limited or full (default: what the file says, else limited)",
+     "limited full"}),
+    known(Setting::chroma_place, {0, "chroma-at", "PLACE", decoding, kDecodesClips,
+     take<InClip<&ClipOptions::chroma_at>>,
+     "where samples of chroma lie that pixels of deep video share: left, center, topleft, top, bottomleft or "
+     "bottom (default: what the file says, else left)",
+     "left center topleft top bottomleft bottom"}),
     known(Setting::primaries, {0, "primaries", "NAME", decoding, kDecodesClips | bit(Id::retime),
-                               take<InClip<&ClipOptions::primaries>>,
-                               "the colours of red, green and blue: bt709, bt2020 or p3 (default: what the "
-                               "file says; else bt2020 if "
-                               "the matrix is, and bt709)",
-                               "bt709 bt2020 p3"}),
-    known(Setting::pixel_aspect,
-          {0, "pixel-aspect", "W:H", decoding, kDecodesClips | bit(Id::retime),
-           take_by<InClip<&ClipOptions::pixel_aspect>, parse_pixel_aspect>,
-           "how much wider than high a pixel is shown, as in 32:27 (default: what the file says, else 1:1)"}),
-    known(
-        Setting::raw_layout,
-        {0, "raw", "WxH:FORMAT", decoding, kDecodesClips | bit(Id::shutter), take<InClip<&ClipOptions::raw>>,
-         "a video without a header: its size and FFmpeg's name of its pixels, 480x270:yuv420p10le"}),
-    known(
-        Setting::from, "begin",
-        {0, "from", "TIME", decoding, kDecodesClips & ~bit(Id::video), take<InClip<&ClipOptions::from>>,
-         "take pictures of the clip that start here or later, which is then time 0: 1.5s, 32f (default: the "
-         "first)"}),
-    known(Setting::to, "end",
-          {0, "to", "TIME", decoding, kDecodesClips & ~bit(Id::video), take<InClip<&ClipOptions::to>>,
-           "take pictures that start earlier: 2s, 48f (default: all)"}),
-    known(Setting::crop,
-          {0, "crop", "WxH+X+Y", decoding, kDecodesClips, take<InClip<&ClipOptions::crop>>,
-           "take a rectangle of the clip's pictures: its size, and the place of its top left pixel"}),
-    known(Setting::scale,
-          {0, "scale", "SCALE", decoding, kDecodesClips, take<InClip<&ClipOptions::scale>>,
-           "make pictures smaller, each pixel the mean of the light it covers: 1/2, 1/3, …, or 640x360"}),
-    known(Setting::deinterlace,
-          {0, "deinterlace", "HOW", decoding, kDecodesClips, take<InClip<&ClipOptions::interlaced>>,
-           "of interlaced video: frames (a picture from each frame), fields (one from each field, twice as "
-           "many), "
-           "or no (it only says that it is) (default: it is refused)",
-           "frames fields no"}),
-    known(Setting::deflicker,
-          {0, "deflicker", "", decoding, kReadsClips, take<InSource<&SourceRequest::deflickered>>,
-           "expose all pictures as the first one: undo a camera's automatic exposure and white balance"}),
-    known(Setting::end_at_damage,
-          {0, "as-far-as-it-goes", "", decoding, kDecodesClips, take<InClip<&ClipOptions::ends_at_damage>>,
-           "take a damaged clip's pictures up to the first that cannot be read, with a warning"}),
-    {0, "tolerance", "CODES", encoding, kEncodesClips,
-     take_whole<InSource<&SourceRequest::tolerance>, 0, 65'535>,
+     take<InClip<&ClipOptions::primaries>>,
+     "the colours of red, green and blue: bt709, bt2020 or p3 (default: what the file says; else bt2020 if "
+     "the matrix is, and bt709)",
+     "bt709 bt2020 p3"}),
+    known(Setting::pixel_aspect, {0, "pixel-aspect", "W:H", decoding, kDecodesClips | bit(Id::retime),
+     take_by<InClip<&ClipOptions::pixel_aspect>, parse_pixel_aspect>,
+     "how much wider than high a pixel is shown, as in 32:27 (default: what the file says, else 1:1)"}),
+    known(Setting::raw_layout, {0, "raw", "WxH:FORMAT", decoding, kDecodesClips | bit(Id::shutter),
+     take<InClip<&ClipOptions::raw>>,
+     "a video without a header: its size and FFmpeg's name of its pixels, 480x270:yuv420p10le"}),
+    known(Setting::from, "begin", {0, "from", "TIME", decoding, kDecodesClips & ~bit(Id::video),
+     take<InClip<&ClipOptions::from>>,
+     "take pictures of the clip that start here or later, which is then time 0: 1.5s, 32f (default: the "
+     "first)"}),
+    known(Setting::to, "end", {0, "to", "TIME", decoding, kDecodesClips & ~bit(Id::video),
+     take<InClip<&ClipOptions::to>>,
+     "take pictures that start earlier: 2s, 48f (default: all)"}),
+    known(Setting::crop, {0, "crop", "WxH+X+Y", decoding, kDecodesClips, take<InClip<&ClipOptions::crop>>,
+     "take a rectangle of the clip's pictures: its size, and the place of its top left pixel"}),
+    known(Setting::scale, {0, "scale", "SCALE", decoding, kDecodesClips, take<InClip<&ClipOptions::scale>>,
+     "make pictures smaller, each pixel the mean of the light it covers: 1/2, 1/3, …, or 640x360"}),
+    known(Setting::deinterlace, {0, "deinterlace", "HOW", decoding, kDecodesClips,
+     take<InClip<&ClipOptions::interlaced>>,
+     "of interlaced video: frames (a picture from each frame), fields (one from each field, twice as many), "
+     "or no (it only says that it is) (default: it is refused)",
+     "frames fields no"}),
+    known(Setting::deflicker, {0, "deflicker", "", decoding, kReadsClips, take<InSource<&SourceRequest::deflickered>>,
+     "expose all pictures as the first one: undo a camera's automatic exposure and white balance"}),
+    known(Setting::end_at_damage, {0, "as-far-as-it-goes", "", decoding, kDecodesClips,
+     take<InClip<&ClipOptions::ends_at_damage>>,
+     "take a damaged clip's pictures up to the first that cannot be read, with a warning"}),
+    {0, "tolerance", "CODES", encoding, kEncodesClips, take_whole<InSource<&SourceRequest::tolerance>, 0, 65'535>,
      "differences up to this many codes are no change; 0 keeps every one (default: 0)"},
     {0, "noise", "FILE|auto", encoding, kReadsClips, take<In<&Options::noise>>,
      "the camera's noise, as nutik-cl noise measures it, or auto: measured on the clip itself. What is "
@@ -154,20 +136,16 @@ constexpr Option kRows[] = {
      "with --noise: how many standard deviations from the held light are no change (default: 3)"},
 
     heading("A recording of events"),
-    known(Setting::contrast,
-          {0, "contrast", "STEP", decoding, kDecodesClips, take<InEvents<&EventOptions::contrast>>,
-           "of an event camera: by how much the natural logarithm of light changes with an event, 0.2, or up "
-           "and down apart, "
-           "0.3:0.17 (default: 0.2)"}),
-    known(Setting::start_picture,
-          {0, "start-picture", "FILE|LIGHT", decoding, bit(Id::encode), take<InEvents<&EventOptions::start>>,
-           "light before the first event: a picture's of the same pixels, or the same everywhere, 1 being "
-           "white (default: "
-           "0.18)"}),
-    known(Setting::tick,
-          {0, "tick", "TIME", decoding, kDecodesClips, take_by<InEvents<&EventOptions::tick_ns>, parse_tick>,
-           "changes count at the start of the tick that they are in, 100us: fewer samples (default: the "
-           "file's own times)"}),
+    known(Setting::contrast, {0, "contrast", "STEP", decoding, kDecodesClips, take<InEvents<&EventOptions::contrast>>,
+     "of an event camera: by how much the natural logarithm of light changes with an event, 0.2, or up and down apart, "
+     "0.3:0.17 (default: 0.2)"}),
+    known(Setting::start_picture, {0, "start-picture", "FILE|LIGHT", decoding, bit(Id::encode),
+     take<InEvents<&EventOptions::start>>,
+     "light before the first event: a picture's of the same pixels, or the same everywhere, 1 being white (default: "
+     "0.18)"}),
+    known(Setting::tick, {0, "tick", "TIME", decoding, kDecodesClips,
+     take_by<InEvents<&EventOptions::tick_ns>, parse_tick>,
+     "changes count at the start of the tick that they are in, 100us: fewer samples (default: the file's own times)"}),
 
     heading("A camera that moved"),
     {0, "align", "MOTION", encoding, kEncodesClips, take<In<&Options::align>>,
@@ -200,8 +178,7 @@ constexpr Option kRows[] = {
      "blend the mask's functions along its edges, so far to either side: 6px; M255=6px for one mask value; "
      "several with commas between: 2px,M255=6px"},
     {0, "delay", "WHERE:TIMES", exposure, kShapesExposures | bit(Id::check), take<In<&Options::delay>>,
-     "expose each pixel later: rows:15ms (from the first row to the last), columns:0s..0.5s, "
-     "radial:-20ms..20ms "
+     "expose each pixel later: rows:15ms (from the first row to the last), columns:0s..0.5s, radial:-20ms..20ms "
      "(from the centre to the corners), map.tif:0s..1s (from black to white of a grey picture)",
      "rows: columns: radial:"},
     {0, "mask-to", "FILE.pgm", exposure, kBlendsMasks, take<In<&Options::mask_to>>,
@@ -215,12 +192,11 @@ constexpr Option kRows[] = {
      "expose a plain interval from here on: 0.4s, 400ms, 2/5s, 37f for pictures of the clip; with -k the "
      "functions' time 0 (default: 0s)"},
     {0, "exposure", "TIME", exposure, kTakesIntervals, take<In<&Options::exposure>>,
-     "length of the plain interval: 10ms, 1/100s, 250us, or 3f: to the end of the third picture where "
-     "--start "
+     "length of the plain interval: 10ms, 1/100s, 250us, or 3f: to the end of the third picture where --start "
      "counts pictures, too, else three periods"},
     known(Setting::unmapped, {0, "unmapped", "zero", exposure, kTakesFunctions,
-                              take_by<In<&Options::unmapped_is_zero>, parse_zero>,
-                              "expose mask values without a function to black (default: an error)", "zero"}),
+     take_by<In<&Options::unmapped_is_zero>, parse_zero>,
+     "expose mask values without a function to black (default: an error)", "zero"}),
     {0, "live", "all", exposure, kShapesExposures, take_by<In<&Options::live_all>, parse_all>,
      "visit every sample, also if no gain needs it (the picture is the same)", "all"},
     {0, "pixel", "X,Y", subject, bit(Id::trace), take_by<In<&Options::pixel>, parse_pixel>,
@@ -234,23 +210,20 @@ constexpr Option kRows[] = {
     {0, "shutter-error", "E", exposure, kShapesExposures | bit(Id::shutter),
      take_by<In<&Options::shutter_error>, parse_shutter_error>,
      "how far a smooth shape may be from its true gains, as a share of the largest (default: 0.001)"},
-    known(Setting::normalization,
-          {0, "normalize", "BY", exposure, kTakesFunctions, take<In<&Options::normalization>>,
-           "divide by the time with a gain (support), by its integral (integral: a still scene keeps its "
-           "brightness), by that of its magnitude (absolute), or by seconds:S (default: support)",
-           "support integral absolute seconds:"}),
+    known(Setting::normalization, {0, "normalize", "BY", exposure, kTakesFunctions, take<In<&Options::normalization>>,
+     "divide by the time with a gain (support), by its integral (integral: a still scene keeps its "
+     "brightness), by that of its magnitude (absolute), or by seconds:S (default: support)",
+     "support integral absolute seconds:"}),
     {0, "gain", "G", exposure, kTakesFunctions | bit(Id::shutter), take_by<In<&Options::gain>, parse_signed>,
      "make the light G times as much (default: 1)"},
     {0, "ev", "E", exposure, kTakesFunctions | bit(Id::shutter), take_by<In<&Options::ev>, parse_signed>,
      "make the light 2^E times as much: 1 is one stop brighter (default: 0)"},
     {0, "every", "TIME", series, bit(Id::expose), take_by<In<&Options::every>, parse_step>,
      "expose a series, each picture this much later than the one before: 40ms, 2f; name it out-%03d.png"},
-    {0, "count", "N", series, bit(Id::expose),
-     take_whole<In<&Options::count>, 1, SeriesRequest::kMaxExposures>,
+    {0, "count", "N", series, bit(Id::expose), take_whole<In<&Options::count>, 1, SeriesRequest::kMaxExposures>,
      "pictures in the series (default: as many as fit in the capture)"},
     {0, "frames", "RANGES", series, kMakesMany, take<In<&Options::frames>>,
-     "only these frames of a video or pictures of a series, numbered from 0, or these lines of a batch: 7, "
-     "0-99, "
+     "only these frames of a video or pictures of a series, numbered from 0, or these lines of a batch: 7, 0-99, "
      "1-100x2, several with commas between; names keep their numbers (default: all)"},
     {0, "tag", "VALUE", subject, bit(Id::shutter), take_whole<In<&Options::tag>, 0, 255>,
      "the mask value that the function belongs to: 0 … 255 (default: 0)"},
@@ -268,31 +241,17 @@ constexpr Option kRows[] = {
     {0, "speed", "FACTOR", series, bit(Id::video), take<InFilm<&FramesRequest::speed>>,
      "seconds of the capture in a second of the video: 0.25 is four times slower than life (default: 1)"},
     {0, "curve", "FILE.csv", series, bit(Id::video), take<In<&Options::curve>>,
-     "in place of --from, --to and --speed: which time of the capture each time of the video shows, a line "
-     "for "
+     "in place of --from, --to and --speed: which time of the capture each time of the video shows, a line for "
      "each point, 1.5s,0.4s; also backwards and standing still"},
-    {0,
-     "key",
-     "TIME FILE.fn",
-     series,
-     bit(Id::video),
-     {},
-     "in place of -k, several times: the functions at this time of the video (2s, or 48f for frame 48), "
-     "which "
+    {0, "key", "TIME FILE.fn", series, bit(Id::video), {},
+     "in place of -k, several times: the functions at this time of the video (2s, or 48f for frame 48), which "
      "change from key to key"},
-    {0,
-     "mask-key",
-     "TIME FILE.pgm",
-     series,
-     bit(Id::video),
-     {},
+    {0, "mask-key", "TIME FILE.pgm", series, bit(Id::video), {},
      "in place of -m, several times: the mask at this time of the video"},
-    known(Setting::video_codec,
-          {0, "video-codec", "NAME", output, bit(Id::video), take<In<&Options::video_codec>>,
-           "ffv1 (lossless; .mkv, .avi), h264, h265 (.mp4, .mov, .mkv), vp9 (.webm, .mkv), prores (.mov, "
-           ".mkv) or "
-           "mjpeg (.avi, .mov, .mkv) (default: h264, in .mkv and .avi ffv1, in .webm vp9)",
-           "ffv1 h264 h265 vp9 prores mjpeg"}),
+    known(Setting::video_codec, {0, "video-codec", "NAME", output, bit(Id::video), take<In<&Options::video_codec>>,
+     "ffv1 (lossless; .mkv, .avi), h264, h265 (.mp4, .mov, .mkv), vp9 (.webm, .mkv), prores (.mov, .mkv) or "
+     "mjpeg (.avi, .mov, .mkv) (default: h264, in .mkv and .avi ffv1, in .webm vp9)",
+     "ffv1 h264 h265 vp9 prores mjpeg"}),
 
     heading("Regions, in this order: later ones lie over earlier ones"),
     step("tag", "N", "the tag of the regions after it, 0 … 255 (default: 255)"),
@@ -347,26 +306,23 @@ constexpr Option kRows[] = {
     heading("The sheet"),
     {0, "every", "TIME", series, bit(Id::contact), take_by<In<&Options::every>, parse_step>,
      "from the start of one exposure to the next: 0.2s, 5f (default: so that 24 fit)"},
-    known(Setting::columns,
-          {0, "columns", "N", series, kMakesSheets, take_whole<In<&Options::columns>, 1, 1000>,
-           "pictures beside each other (default: as many as look well)"}),
+    known(Setting::columns, {0, "columns", "N", series, kMakesSheets, take_whole<In<&Options::columns>, 1, 1000>,
+     "pictures beside each other (default: as many as look well)"}),
     known(Setting::width, {0, "width", "PIXELS", series, kMakesSheets,
-                           take_whole<In<&Options::width>, 100, plot::kLargestSide>,
-                           "of the whole sheet (default: up to 1600, no picture enlarged)"}),
+     take_whole<In<&Options::width>, 100, plot::kLargestSide>,
+     "of the whole sheet (default: up to 1600, no picture enlarged)"}),
     {0, "each", "NAME%02d.png", output, bit(Id::sweep), take<In<&Options::each>>,
      "also write every picture in full size, numbered from 0"},
 
     heading("Changes over time"),
     {0, "tag", "N", subject, bit(Id::activity), take_activity_tag,
-     "count only pixels that have this value in the mask; all: those with each value for themselves, too",
-     "all"},
+     "count only pixels that have this value in the mask; all: those with each value for themselves, too", "all"},
     {0, "by", "CODES", subject, bit(Id::activity), take_whole<In<&Options::by>, 0, 65'535>,
      "count codes that differ by more than this at a sample (default: 0)"},
-    known(Setting::count_redrawn,
-          {0, "count-redrawn", "", subject, bit(Id::activity), take<In<&Options::counts_redrawn>>,
-           "also count changes at samples at which the whole picture changed a little at once: its codec "
-           "drew it anew, as at "
-           "key frames, or the camera changed its exposure (default: they count as those beside them)"}),
+    known(Setting::count_redrawn, {0, "count-redrawn", "", subject, bit(Id::activity),
+     take<In<&Options::counts_redrawn>>,
+     "also count changes at samples at which the whole picture changed a little at once: its codec drew it anew, as at "
+     "key frames, or the camera changed its exposure (default: they count as those beside them)"}),
     {0, "moment", "quietest|busiest", subject, bit(Id::activity), take<In<&Options::moment>>,
      "print nothing but that stretch, as options for another command: --start 12f --exposure 9f"},
     {0, "csv", "FILE.csv", output, bit(Id::activity), take<In<&Options::csv>>,
@@ -381,8 +337,7 @@ constexpr Option kRows[] = {
      "scene without moving things) or slit (strips, each later than the one before it) (default: trail)",
      "trail strobe rear-curtain frozen clean slit"},
     {0, "moments", "N|TIMES", subject, bit(Id::study), take<In<&Options::moments>>,
-     "how many moments, up to 50, or which: 7, or 0.36s,0.75s,1.27s (default: 5; of rear-curtain and frozen "
-     "1); "
+     "how many moments, up to 50, or which: 7, or 0.36s,0.75s,1.27s (default: 5; of rear-curtain and frozen 1); "
      "of slit how many strips, up to 256 (default: 256)"},
     step("region", "X,Y,W,H",
          "look for a subject in this rectangle only; several times for as many subjects, each in its own",
@@ -390,30 +345,24 @@ constexpr Option kRows[] = {
     {0, "spacing", "time|distance", subject, bit(Id::study), take<InStudy<&StudyRequest::spacing>>,
      "moments are evenly apart in time, or along the way (default: time)", "time distance"},
     {0, "trail", "SHAPE", subject, bit(Id::study), take<InStudy<&StudyRequest::trail>>,
-     "even, fade (ends at nothing), ramp (begins at nothing) or none (default: even of trail and frozen, "
-     "ramp of "
+     "even, fade (ends at nothing), ramp (begins at nothing) or none (default: even of trail and frozen, ramp of "
      "rear-curtain, none of strobe)",
      "even fade ramp none"},
     {0, "by", "CODES", subject, bit(Id::study), take_whole<In<&Options::by>, 1, 65'535>,
-     "the largest difference from the empty scene that is not the subject, in codes: fewer find what hardly "
-     "stands out, "
-     "more leave out shadows (default: 1/16 of white; twice the noise, if that is more, for the subject's "
-     "outline)"},
+     "the largest difference from the empty scene that is not the subject, in codes: fewer find what hardly stands out,
+     "
+     "more leave out shadows (default: 1/16 of white; twice the noise, if that is more, for the subject's outline)"},
     {0, "feather", "PIXELS", exposure, bit(Id::study), take<In<&Options::feather>>,
-     "blend the subject's region, or slit's strips, over so many pixels: 6px, at most 32px (default: 2px; "
-     "strips: 0px)"},
+     "blend the subject's region, or slit's strips, over so many pixels: 6px,
+     at most 32px (default: 2px; strips: 0px)"},
     {0, "slit-from", "SIDE", subject, bit(Id::study), take<InStudy<&StudyRequest::slit_from>>,
-     "where slit begins: left, right (columns), top or bottom (rows) (default: left)",
-     "left right top bottom"},
+     "where slit begins: left, right (columns), top or bottom (rows) (default: left)", "left right top bottom"},
 
     heading("What is solved for"),
     step("wish", "WISH",
-         "what the picture should have, as often as there are wishes: 'M0 = plate', 'R1 gone', 'M64 like "
-         "0.8s', "
-         "'500,120,80,60 <= 0.5'. A region (all, M64, R1, X,Y,WIDTH,HEIGHT, M64 within X,Y,WIDTH,HEIGHT), "
-         "then "
-         "gone, or =, <=, >=, like and light: a number, plate, a time, a region, also 1.5 times it: 1.5 * "
-         "plate",
+         "what the picture should have, as often as there are wishes: 'M0 = plate', 'R1 gone', 'M64 like 0.8s', "
+         "'500,120,80,60 <= 0.5'. A region (all, M64, R1, X,Y,WIDTH,HEIGHT, M64 within X,Y,WIDTH,HEIGHT), then "
+         "gone, or =, <=, >=, like and light: a number, plate, a time, a region, also 1.5 times it: 1.5 * plate",
          Id::solve),
     step("free", "NAME=FROM..TO",
          "bounds of a gain, rest=-100..0 (default: none), or when a time may be, when=0.6s..0.8s, in steps "
@@ -430,19 +379,16 @@ constexpr Option kRows[] = {
      "also write as tag 255 the pixels that hold their light for less than half of the time"},
 
     heading("Computing"),
-    known(Setting::renderer,
-          {0, "renderer", "NAME", computing, kExposes, take<In<&Options::renderer>>,
-           "opencl, or reference: plain double precision on the processor, slow (default: opencl)",
-           "opencl reference"}),
+    known(Setting::renderer, {0, "renderer", "NAME", computing, kExposes, take<In<&Options::renderer>>,
+     "opencl, or reference: plain double precision on the processor, slow (default: opencl)",
+     "opencl reference"}),
     {0, "device", "NAME", computing, kExposes | bit(Id::validate), take<In<&Options::device>>,
      "OpenCL device by number or part of its name; several that make each picture together: 0,1, or all; "
      "NUTIK_DEVICE does the same (default: the first GPU, else the first device)"},
-    known(
-        Setting::precision,
-        {0, "precision", "NAME", computing, kExposes, take<In<&Options::precision>>,
-         "single, compensated, double, fixed (the same bytes on every device), or auto: the fastest that is "
-         "sure to be right to half a code, or to half a float's step (default: auto; see -v)",
-         "auto single compensated double fixed"}),
+    known(Setting::precision, {0, "precision", "NAME", computing, kExposes, take<In<&Options::precision>>,
+     "single, compensated, double, fixed (the same bytes on every device), or auto: the fastest that is "
+     "sure to be right to half a code, or to half a float's step (default: auto; see -v)",
+     "auto single compensated double fixed"}),
     {0, "memory", "SIZE", computing, kDecodesClips | kExposes, take<In<&Options::memory>>,
      "the most that may be held: 500MB, 2GB, 1GiB; libraries and drivers come on top (default: half of the "
      "machine's)"},
@@ -454,51 +400,47 @@ constexpr Option kRows[] = {
      "renders that are timed in each arithmetic, in turns (default: 5)"},
 
     heading("Output"),
-    {'o', "output", "FILE", output, kWrites & ~set_of(Id::batch, Id::info, Id::thumbnail),
-     take<In<&Options::output>>,
+    {'o', "output", "FILE", output,
+     kWrites & ~set_of(Id::batch, Id::info, Id::thumbnail), take<In<&Options::output>>,
      "where to write; without it the last operand, or a name made from the inputs. A picture goes to "
      "standard output as -, a PNG, or as exr:-, tif:-, …"},
-    known(Setting::depth, "dtype",
-          {0, "depth", "BITS", exposure, set_of(Id::expose, Id::video, Id::validate, Id::plate, Id::study),
-           take<InPicture<&OutputRequest::depth>>,
-           "8, 16, float or half (.exr): light as it is, with negatives (default: the capture's own, 8 for "
-           ".jpg, "
-           "float for .exr and .pfm)",
-           "8 16 half float"}),
+    known(Setting::depth, "dtype", {0, "depth", "BITS", exposure, set_of(Id::expose, Id::video, Id::validate,
+     Id::plate, Id::study),
+     take<InPicture<&OutputRequest::depth>>,
+     "8, 16, float or half (.exr): light as it is, with negatives (default: the capture's own, 8 for .jpg, "
+     "float for .exr and .pfm)",
+     "8 16 half float"}),
     known(Setting::quality, {0, "quality", "N", exposure, kExposesFreely | set_of(Id::plate, Id::study),
-                             take_whole<InPicture<&OutputRequest::quality>, 1, 100>,
-                             "of .jpg pictures, 1 … 100 (default: 90)"}),
+     take_whole<InPicture<&OutputRequest::quality>, 1, 100>,
+     "of .jpg pictures, 1 … 100 (default: 90)"}),
     {0, "negative", "HOW", exposure, kExposesFreely, take<InPicture<&OutputRequest::negative>>,
      "what codes make of light below 0: saturate (black), offset (light 0 is mid-grey, light below it "
      "darker), abs (as bright as light above it) (default: saturate)",
      "saturate offset abs"},
-    known(Setting::out_transfer, "transfer",
-          {0, "out-transfer", "NAME", exposure,
-           set_of(Id::expose, Id::video, Id::sweep, Id::trace, Id::validate, Id::plate, Id::study),
-           take_by<InPicture<&OutputRequest::transfer>, parse_out_transfer>,
-           "how the picture's codes stand for light: srgb, bt709, linear, gamma:G, or source: as in the "
-           "capture, "
-           "with its own white code (default: srgb, white being the largest code)",
-           "srgb source linear bt709 gamma:"}),
+    known(Setting::out_transfer, "transfer", {0, "out-transfer", "NAME", exposure,
+     set_of(Id::expose, Id::video, Id::sweep, Id::trace, Id::validate, Id::plate, Id::study),
+     take_by<InPicture<&OutputRequest::transfer>, parse_out_transfer>,
+     "how the picture's codes stand for light: srgb, bt709, linear, gamma:G, or source: as in the capture, "
+     "with its own white code (default: srgb, white being the largest code)",
+     "srgb source linear bt709 gamma:"}),
     {0, "codec", "NAME", encoding, bit(Id::encode), take<In<&Options::codec>>,
-     "pack blocks with none (large, quickest to expose), rice (quick to pack and unpack), lz4, zstd (small) "
-     "or "
+     "pack blocks with none (large, quickest to expose), rice (quick to pack and unpack), lz4, zstd (small) or "
      "zstd:1 … zstd:19 (smaller, slower) (default: rice)",
      "none rice lz4 zstd zstd:"},
     {0, "tiles", "KIND", encoding, kEncodesClips, take<InSource<&SourceRequest::tiles>>,
      "auto, or all tiles as dense, rows or records, for experiments (default: auto)",
      "auto dense rows records"},
-    known(Setting::block_samples,
-          {0, "block-samples", "N", encoding, kEncodesClips,
-           take_whole<InSource<&SourceRequest::block_samples>, 1, kLargestBlockSamples>,
-           "samples in a block (default: 64, fewer where much of a large picture changes)"}),
+    known(Setting::block_samples, {0, "block-samples", "N", encoding, kEncodesClips,
+     take_whole<InSource<&SourceRequest::block_samples>, 1, kLargestBlockSamples>,
+     "samples in a block (default: 64, fewer where much of a large picture changes)"}),
     {0, "activity", "MAP.png", output, bit(Id::info), take<In<&Options::activity>>,
      "also write how often each pixel changes, as a grey picture: black never, white most often, between "
      "them sRGB"},
     {0, "width", "PIXELS", output, bit(Id::thumbnail), take_whole<In<&Options::width>, 1, 4096>,
      "of the longer side (default: 256); no picture is enlarged"},
-    {0, "json", "", answer, kAll & ~kOnlyPrints, take<In<&Options::json>>,
-     "answer with one JSON object, for scripts"},
+    {0, "points", "", answer, bit(Id::check), take<In<&Options::points>>,
+     "print nothing but the control points of -k, a line for each: mask value, nanoseconds, gain"},
+    {0, "json", "", answer, kAll & ~kOnlyPrints, take<In<&Options::json>>, "answer with one JSON object, for scripts"},
     {0, "no-recipe", "", output, kExposes & ~bit(Id::mask), take<In<&Options::no_recipe>>,
      "do not keep in the picture how it was made: names, functions and options (see nutik-cl again)"},
     {0, "skip-existing", "", output, kMakesMany, take<In<&Options::skip_existing>>,
