@@ -8,7 +8,7 @@
 #include "session/below/format.hpp"
 #include "session/making/activity_request.hpp"
 #include "session/text/size_text.hpp"
-#include "studio/live/picture_image.hpp"
+#include "studio/live/live_view.hpp"
 #include "system/temporary_folder.hpp"
 
 namespace nutik::studio {
