@@ -1,7 +1,12 @@
 // nutik._nutik: the engine's session for Python. What its users see is the package around it, python/nutik.
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <string>
+#include <vector>
 
 #include "errors.hpp"
+#include "features/schema/option.hpp"
 #include "parts.hpp"
 #include "system/mapped_file.hpp"
 
@@ -10,6 +15,17 @@ PYBIND11_MODULE(_nutik, module) {
   module.attr("__version__") = NUTIK_VERSION;
   // A capture that somebody cuts off must not end the interpreter.
   nutik::watch_mapped_files();
+  module.def(
+      "clip_arguments",
+      [] {
+        std::vector<std::string> names;
+        for (const nutik::Option* const option : nutik::options_of(nutik::CommandId::encode)) {
+          const std::string written = option->written(nutik::Dialect::python);
+          if (option->makes_picture()) names.push_back(written.substr(0, written.find('=')));
+        }
+        return names;
+      },
+      "What may be stated of a clip, by the schema.");
   nutik::python::bind_errors(module);
   nutik::python::bind_functions(module);
   nutik::python::bind_masks(module);
