@@ -66,8 +66,7 @@ endif()
 nutik_package(plotters NAME nutik-plotters ANY_ARCHITECTURE SCRIPTS postinst prerm
   SUMMARY "plots of nutik's gain functions and noise files"
   TEXT "FnPlotter.py draws the functions of a function file, NoisePlotter.py what\nnutik-cl measured of a camera's noise."
-  DEPENDS "python3:any, python3-matplotlib"
-  RECOMMENDS "nutik-cl")
+  DEPENDS "nutik-cl (>= ${PROJECT_VERSION}), python3:any, python3-matplotlib")
 if(TARGET nutik_python)
   math(EXPR next_python "${Python_VERSION_MINOR} + 1")
   set(python "${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}")

@@ -11,11 +11,11 @@ from pathlib import Path
 # Installed, the parts lie in share/nutik beside bin; in the source tree beside this file, where Python looks first.
 sys.path.append(str(Path(__file__).resolve().parent.parent / "share" / "nutik"))
 
-from fnplot.errors import InputError, PlotterError, UsageError  # noqa: E402
-from fnplot.function_file import parse_functions  # noqa: E402
-from fnplot.input import STANDARD_INPUT, read_input, title_of  # noqa: E402
+from fnplot.errors import InputError, UsageError, status_of  # noqa: E402
+from fnplot.input import STANDARD_INPUT, title_of  # noqa: E402
 from fnplot.mask import ranges_text, read_mask  # noqa: E402
 from fnplot.output import check_output, missing_matplotlib, put_out  # noqa: E402
+from fnplot.program import read_functions  # noqa: E402
 from fnplot.times import parse_time  # noqa: E402
 
 LONGEST_TITLE = 50  # characters
@@ -58,7 +58,7 @@ def command_line():
     parser.add_argument("--duration", metavar="TIME", help="the capture's duration: 3s, 250ms, 1/100s")
     capture_help = "a capture: draw its samples and how much changes, count what counts in it"
     parser.add_argument("--capture", metavar="CLIP.tik", help=capture_help)
-    program_help = "nutik-cl, which --capture asks (default: the one in PATH, else in build/)"
+    program_help = "nutik-cl, which reads files (default: the one beside this, in PATH, else in build/)"
     parser.add_argument("--program", metavar="PATH", help=program_help)
     parser.add_argument("--mask", metavar="MASK", help="a mask (PGM or PNG): draw only the functions it uses")
     parser.add_argument("--zoom", metavar="FROM..TO", help="the time to draw; before 0: --zoom=-1ms..5ms")
@@ -94,22 +94,11 @@ def find_program():
     """nutik-cl where a user has it: beside this file, in PATH, or built beside these tools."""
     here = Path(__file__).resolve().parent
     beside, built = here / "nutik-cl", here.parent / "build" / "nutik-cl"
-    return next((path for path in (beside, shutil.which("nutik-cl"), built) if path and Path(path).exists()), "nutik-cl")
+    return str(next((path for path in (beside, shutil.which("nutik-cl"), built) if path and Path(path).exists()), "nutik-cl"))
 
 
 def warn(message):
     print(f"warning: {message}", file=sys.stderr)
-
-
-def read_functions(name):
-    """The functions of a file by mask value; prints its warnings, or all its mistakes as the error."""
-    file = parse_functions(read_input(name))
-    report = file.diagnostics.report(title_of(name))
-    if file.has_errors:
-        raise InputError(f"{title_of(name)} has mistakes:\n{report}")
-    if report:
-        print(report, file=sys.stderr)
-    return file.functions
 
 
 def functions_in_use(functions, pixels, file_name, mask_name):
@@ -148,7 +137,7 @@ def page_drawings(functions, pixels, options):
 
     used = functions_in_use(functions, pixels, title_of(options.file), options.mask) if pixels else functions
     share = {tag: count / sum(pixels.values()) for tag, count in pixels.items()} if pixels else {}
-    capture = read_capture(options.capture, options.program or find_program()) if options.capture else None
+    capture = read_capture(options.capture, options.program) if options.capture else None
     duration_ns = capture.duration_ns if capture else options.duration
     view = make_view(functions.values(), duration_ns, options.zoom)
     behind = [backdrops.OutsideCapture()]
@@ -169,8 +158,6 @@ def page_drawings(functions, pixels, options):
 def plot(options):
     if options.duration and options.capture:
         raise UsageError("--duration and --capture both say how long the capture is; use one")
-    if options.program and not options.capture:
-        raise UsageError("--program is for --capture, which is missing")
     options.duration = parse_duration(options.duration) if options.duration else None
     options.zoom = parse_zoom(options.zoom) if options.zoom else None
     options.per_page = parse_per_page(options.per_page)
@@ -179,20 +166,13 @@ def plot(options):
         check_output(options.output, (options.file, options.mask, options.capture))
     if STANDARD_INPUT in (options.mask, options.capture):
         raise UsageError("only the function file is read from standard input; name a file")
-    functions = read_functions(options.file)
+    options.program = options.program or find_program()
+    functions, warnings = read_functions(options.file, options.program)
+    if warnings:
+        print(warnings, file=sys.stderr)
     pixels = read_mask(options.mask) if options.mask else None
     put_out(page_drawings(functions, pixels, options), options.output)
 
 
-def main():
-    options = command_line().parse_args()
-    try:
-        plot(options)
-    except PlotterError as error:
-        print(f"FnPlotter.py: {error}", file=sys.stderr)
-        return error.status
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of("FnPlotter.py", plot, command_line().parse_args()))

@@ -9,7 +9,7 @@ from pathlib import Path
 # Installed, the parts lie in share/nutik beside bin; in the source tree beside this file, where Python looks first.
 sys.path.append(str(Path(__file__).resolve().parent.parent / "share" / "nutik"))
 
-from fnplot.errors import PlotterError  # noqa: E402
+from fnplot.errors import status_of  # noqa: E402
 from fnplot.input import title_of  # noqa: E402
 from fnplot.output import check_output, put_out  # noqa: E402
 from noiseplot.noise_file import read_noise  # noqa: E402
@@ -45,15 +45,5 @@ def plot(options):
     put_out([partial(draw, noise=read_noise(options.file), title=title)], output)
 
 
-def main():
-    options = command_line().parse_args()
-    try:
-        plot(options)
-    except PlotterError as error:
-        print(f"NoisePlotter.py: {error}", file=sys.stderr)
-        return error.status
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(status_of("NoisePlotter.py", plot, command_line().parse_args()))

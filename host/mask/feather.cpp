@@ -120,6 +120,7 @@ using MixedRow = std::vector<std::pair<std::uint64_t, std::vector<Share>>>;
 MixedRow feathered_row(const Mask& mask, const Feather& feather, const std::vector<Tent>& tents,
                        std::int64_t y) {
   std::vector<RowUnderTent> rows;
+  rows.reserve(tents.size());
   for (const Tent& tent : tents) rows.emplace_back(mask, tent, y);
   MixedRow mixed;
   for (std::int64_t x = 0; x < mask.width; ++x) {
@@ -221,6 +222,7 @@ Mask feathered(const Mask& mask, const Feather& feather) {
     if (counts[tag] > 0) reaches.insert(feather.of(static_cast<std::uint8_t>(tag)));
   }
   std::vector<Tent> tents;
+  tents.reserve(reaches.size());
   for (const std::int32_t reach : reaches) tents.emplace_back(reach);
   std::vector<MixedRow> rows(mask.height);
   parallel_for(mask.height, [&](std::uint64_t y) {

@@ -49,6 +49,7 @@ double place_within(const Bounds& bounds, double share) {
 
 std::vector<ControlPoint> with_gains(const std::vector<TemplatePoint>& points, const auto& gain_of) {
   std::vector<ControlPoint> control;
+  control.reserve(points.size());
   for (const TemplatePoint& point : points)
     control.push_back({point.time_ns, point.gain_name ? gain_of(*point.gain_name) : point.gain});
   return control;

@@ -1,32 +1,24 @@
 // Pictures carry how they were made, and can be made again from that.
 #include <gtest/gtest.h>
 
-#include "support/program.hpp"
-#include "support/scratch.hpp"
+#include "support/app_test.hpp"
 #include "support/still_clip.hpp"
 
 namespace nutik {
 namespace {
 
-using test::Scratch;
-
-class Again : public testing::Test {
+class Again : public test::AppTest {
  protected:
   void SetUp() override {
     test::write_still_clip(scratch_.folder(), 24, 40);
-    run({"-f", "40", "frames", "clip.tik"});
+    run("-f 40 frames clip.tik");
     scratch_.write("it's f.fn",
                    "M0 [0:1], [50000000:0] # caf\xe9\nM9 [10000000:0], [60000000:2], [90000000:0]\n");
     std::string mask = "P2 24 24 255\n";
     for (int i = 0; i < 24 * 24; ++i) mask += i % 5 == 0 ? "9 " : "0 ";
     scratch_.write("mask.pgm", mask);
   }
-  test::ProgramResult run(const std::vector<std::string>& words) const {
-    test::ProgramResult result = test::run_program(words, scratch_.folder());
-    EXPECT_EQ(result.status, 0) << result.err;
-    return result;
-  }
-  [[nodiscard]] std::string file(const std::string& name) const { return test::read_file(scratch_ / name); }
+  test::ProgramResult run(const test::Words& words) const { return make(words); }
 
   // Runs the command that again prints, which names the program as it was run.
   void expect_same_bytes(const std::string& picture, const std::string& made_by = "expose") const {
@@ -40,7 +32,6 @@ class Again : public testing::Test {
     EXPECT_EQ(made.status, 0) << command << made.err;
     EXPECT_TRUE(file(picture) == before) << command;
   }
-  Scratch scratch_;
 };
 
 TEST_F(Again, MakesTheSameBytes) {
@@ -62,12 +53,12 @@ TEST_F(Again, MakesTheSameBytes) {
       expect_same_bytes(picture);
     }
   }
-  run({"--exposure", "50ms", "--depth", "float", "clip.tik", "light.tif"});
+  run("--exposure 50ms --depth float clip.tik light.tif");
   expect_same_bytes("light.tif");
 }
 
 TEST_F(Again, NamesTheProgramAsItWasRun) {
-  run({"--exposure", "50ms", "clip.tik", "a.png"});
+  run("--exposure 50ms clip.tik a.png");
   const std::filesystem::path program = NUTIK_TEST_PROGRAM;
   std::filesystem::create_directory(scratch_ / "my tools");
   std::filesystem::create_symlink(program, scratch_ / "my tools/nutik-cl");
@@ -81,15 +72,15 @@ TEST_F(Again, NamesTheProgramAsItWasRun) {
 
 TEST_F(Again, MakesOnePictureOfASeries) {
   run({"-k", "it's f.fn", "-m", "mask.pgm", "--every", "1/7s", "--count", "3", "clip.tik", "s-%d.png"});
-  EXPECT_NE(run({"again", "s-2.png"}).out.find(" --start 2/7s "), std::string::npos);
+  expect_says(run("again s-2.png").out, " --start 2/7s ");
   expect_same_bytes("s-2.png");
-  run({"-f", "40", "--exposure", "20ms", "--every", "10f", "--start", "1f", "frames", "t-%d.png"});
+  run("-f 40 --exposure 20ms --every 10f --start 1f frames t-%d.png");
   expect_same_bytes("t-3.png");
 }
 
 // As plain intervals where they are such, else from functions that the pictures carry.
 TEST_F(Again, MakesOnePictureOfASweep) {
-  const auto sweep = [&](std::vector<std::string> words) {
+  const auto sweep = [&](test::Words words) {
     words.insert(words.begin(), "sweep");
     words.insert(words.end(), {"clip.tik", "sheet.png"});
     return run(words).err;
@@ -97,7 +88,7 @@ TEST_F(Again, MakesOnePictureOfASweep) {
   EXPECT_EQ(sweep({"--start", "1f", "--exposure", "3f", "--shift", "-1f..5f/3f", "--scale-gain",
                    "0.3..1/0.35", "--ev", "0.5", "--normalize", "integral", "--each", "box-%d.png"}),
             "");
-  const std::string box = run({"again", "box-4.png"}).out;
+  const std::string box = run("again box-4.png").out;
   for (const char* part : {" --start 75ms ", " --exposure 75ms ", " --gain 0.9"})
     EXPECT_NE(box.find(part), std::string::npos) << box;
   EXPECT_EQ(sweep({"--exposure", "0.1s", "--shutter", "strobe:3", "--shift", "0..0.2s/0.1s", "--stretch",
@@ -105,8 +96,7 @@ TEST_F(Again, MakesOnePictureOfASweep) {
             "");
   sweep({"-k", "it's f.fn", "-m", "mask.pgm", "--start", "20ms", "--shift", "-60ms..0.1s/80ms", "--stretch",
          "0.7..2/1", "--each", "file-%d.pgm"});
-  EXPECT_NE(run({"again", "file-5.pgm"}).err.find("file-5.fn is not there; the functions"),
-            std::string::npos);
+  expect_says(run("again file-5.pgm").err, "file-5.fn is not there; the functions");
   EXPECT_EQ(
       sweep({"--exposure", "0.1s", "--shutter", "hann", "--stretch", "0.5..2/0.5", "--each", "hann-%d.png"}),
       "");
@@ -116,39 +106,37 @@ TEST_F(Again, MakesOnePictureOfASweep) {
   }
 
   // expose refuses what lies outside the capture.
-  EXPECT_NE(sweep({"--start", "0.9s", "--exposure", "0.1s", "--shift", "0..0.1s/0.1s", "--each", "no-%d.png"})
-                .find("warning: no-1.png: it carries no recipe: "),
-            std::string::npos);
+  expect_says(
+      sweep({"--start", "0.9s", "--exposure", "0.1s", "--shift", "0..0.1s/0.1s", "--each", "no-%d.png"}),
+      "warning: no-1.png: it carries no recipe: ");
   expect_same_bytes("no-0.png");
-  EXPECT_EQ(test::run_program({"again", "no-1.png"}, scratch_.folder()).status, 3);
+  EXPECT_EQ(test::run_here({"again", "no-1.png"}, scratch_.folder()).status, 3);
 }
 
 // A sheet is made anew by the command that made it, with all that lies on it and how it lies.
 TEST_F(Again, MakesSheets) {
-  run({"contact", "--start", "0.1s", "--every", "1/7s", "--exposure", "2f", "--columns", "2", "--width",
-       "300", "--negative", "abs", "--transfer", "gamma:2", "clip.tik", "contact.png"});
+  run("contact --start 0.1s --every 1/7s --exposure 2f --columns 2 --width 300 --negative abs --transfer "
+      "gamma:2 clip.tik contact.png");
   run({"contact", "-f", "40", "-a", "90", "--tolerance", "2", "frames", "-o", "whole clip.tif"});
   run({"sweep", "-k", "it's f.fn", "-m", "mask.pgm", "--shift", "-1f..3f/2f", "--scale-gain", "0.5..1/0.25",
        "--width", "500", "--precision", "fixed", "clip.tik", "sweep.jpg"});
-  run({"sweep", "--exposure", "0.1s", "--shutter", "hann", "--stretch", "0.5..2/0.5", "--columns", "1",
-       "--out-transfer", "linear", "--renderer", "reference", "--each", "one-%d.png", "clip.tik", "one.png"});
+  run("sweep --exposure 0.1s --shutter hann --stretch 0.5..2/0.5 --columns 1 --out-transfer linear "
+      "--renderer reference --each one-%d.png clip.tik one.png");
   expect_same_bytes("contact.png", "contact");
   expect_same_bytes("whole clip.tif", "contact");
   expect_same_bytes("sweep.jpg", "sweep");
   expect_same_bytes("one.png", "sweep");
   expect_same_bytes("one-2.png");
 
-  run({"contact", "--no-recipe", "clip.tik", "silent.png"});
-  const auto none = test::run_program({"again", "silent.png"}, scratch_.folder());
+  run("contact --no-recipe clip.tik silent.png");
+  const auto none = test::run_here({"again", "silent.png"}, scratch_.folder());
   EXPECT_EQ(none.status, 3);
-  EXPECT_NE(none.err.find("silent.png carries no recipe. Exposures, sheets and a video's stills do"),
-            std::string::npos)
-      << none.err;
+  expect_says(none.err, "silent.png carries no recipe. Exposures, sheets and a video's stills do");
 }
 
 // Whatever a stranger's sheet says, what is printed makes a sheet or a picture.
 TEST_F(Again, RefusesCommandsThatLeaveNoRecipes) {
-  run({"contact", "clip.tik", "a.ppm"});
+  run("contact clip.tik a.ppm");
   std::string sheet = file("a.ppm");
   const auto replace = [&](const std::string& what, const std::string& by) {
     const auto at = sheet.find(what);
@@ -157,7 +145,7 @@ TEST_F(Again, RefusesCommandsThatLeaveNoRecipes) {
     scratch_.write("a.ppm", sheet);
   };
   const auto refused = [&](const std::string& why) {
-    const auto result = test::run_program({"again", "a.ppm"}, scratch_.folder());
+    const auto result = test::run_here({"again", "a.ppm"}, scratch_.folder());
     EXPECT_EQ(result.status, 3);
     EXPECT_EQ(result.out, "");
     EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
@@ -174,35 +162,32 @@ TEST_F(Again, LooksForTheFilesItNeeds) {
   const std::string picture = file("a.png");
   std::filesystem::create_directory(scratch_ / "kept");
   std::filesystem::rename(scratch_ / "clip.tik", scratch_ / "kept/clip.tik");
-  auto result = test::run_program({"again", "a.png"}, scratch_.folder());
+  auto result = test::run_here({"again", "a.png"}, scratch_.folder());
   EXPECT_EQ(result.status, 3);
   EXPECT_EQ(result.err,
             "warning: the capture clip.tik is not in the current folder; name its folder: nutik-cl again "
             "PICTURE FOLDER\n");
-  EXPECT_NE(run({"again", "a.png", "kept"}).out.find(" kept/clip.tik -o a.png"), std::string::npos);
+  expect_says(run("again a.png kept").out, " kept/clip.tik -o a.png");
 
   // Another capture of the same name is not taken for it.
-  run({"-f", "41", "frames", "clip.tik"});
-  EXPECT_NE(run({"again", "a.png", "kept"}).out.find(" kept/clip.tik "), std::string::npos);
-  result = test::run_program({"again", "a.png"}, scratch_.folder());
+  run("-f 41 frames clip.tik");
+  expect_says(run("again a.png kept").out, " kept/clip.tik ");
+  result = test::run_here({"again", "a.png"}, scratch_.folder());
   EXPECT_EQ(result.status, 3);
-  EXPECT_NE(
-      result.err.find("clip.tik is not the capture that the picture was made from: its checksum differs"),
-      std::string::npos)
-      << result.err;
+  expect_says(result.err, "clip.tik is not the capture that the picture was made from: its checksum differs");
   std::filesystem::rename(scratch_ / "kept/clip.tik", scratch_ / "clip.tik");
 
   scratch_.write("mask.pgm", "P2 24 24 255\n" + std::string(24 * 24 * 2, ' '));
-  result = test::run_program({"again", "a.png"}, scratch_.folder());
+  result = test::run_here({"again", "a.png"}, scratch_.folder());
   EXPECT_EQ(result.status, 3);
-  EXPECT_NE(result.err.find("mask.pgm is not the mask that"), std::string::npos) << result.err;
+  expect_says(result.err, "mask.pgm is not the mask that");
 }
 
 TEST_F(Again, WritesFunctionsThatAreGoneOrChanged) {
   run({"-k", "it's f.fn", "-m", "mask.pgm", "clip.tik", "a.png"});
   const std::string functions = file("it's f.fn");
   scratch_.write("it's f.fn", "M0 [0:0]\n");
-  auto result = run({"again", "a.png"});
+  auto result = run("again a.png");
   EXPECT_EQ(
       result.err,
       "warning: it's f.fn was changed since; the functions that the picture was made with were written to "
@@ -211,52 +196,49 @@ TEST_F(Again, WritesFunctionsThatAreGoneOrChanged) {
   expect_same_bytes("a.png");
   std::filesystem::remove(scratch_ / "it's f.fn");
   std::filesystem::remove(scratch_ / "a-again/it's f.fn");
-  EXPECT_NE(run({"again", "a.png"}).err.find("is not there; the functions"), std::string::npos);
+  expect_says(run("again a.png").err, "is not there; the functions");
   expect_same_bytes("a.png");
   scratch_.write("a-again/it's f.fn", "notes of mine");
-  result = test::run_program({"again", "a.png"}, scratch_.folder());
+  result = test::run_here({"again", "a.png"}, scratch_.folder());
   EXPECT_EQ(result.status, 5);
   EXPECT_EQ(file("a-again/it's f.fn"), "notes of mine");
 }
 
 // A video's still is an exposure like another.
 TEST_F(Again, MakesAVideosStills) {
-  run({"video", "--out-fps", "30000/1001", "--from", "1/7s", "--speed", "0.3", "--shutter", "hann", "--ev",
-       "1", "--out-transfer", "linear", "clip.tik", "plain-%02d.png"});
+  run("video --out-fps 30000/1001 --from 1/7s --speed 0.3 --shutter hann --ev 1 --out-transfer linear "
+      "clip.tik plain-%02d.png");
   for (const std::string name : {"plain-00.png", "plain-07.png"}) expect_same_bytes(name);
   run({"video", "-k", "it's f.fn", "-m", "mask.pgm", "--depth", "16", "--to", "0.5s", "clip.tik",
        "f-%d.tif"});
   for (const std::string name : {"f-0.tif", "f-3.tif"}) expect_same_bytes(name);
-  run({"video", "--no-recipe", "--to", "0.2s", "clip.tik", "bare-%d.png"});
+  run("video --no-recipe --to 0.2s clip.tik bare-%d.png");
   EXPECT_EQ(file("bare-0.png").find("nutik"), std::string::npos);
 }
 
 TEST_F(Again, SaysWhereThereIsNoRecipe) {
-  run({"--exposure", "33ms", "clip.tik", "private.png", "--no-recipe"});
+  run("--exposure 33ms clip.tik private.png --no-recipe");
   EXPECT_EQ(file("private.png").find("nutik"), std::string::npos);
   EXPECT_EQ(file("private.png").find("clip.tik"), std::string::npos);
-  auto result = test::run_program({"again", "private.png"}, scratch_.folder());
+  auto result = test::run_here({"again", "private.png"}, scratch_.folder());
   EXPECT_EQ(result.status, 3);
-  EXPECT_NE(result.err.find("private.png carries no recipe"), std::string::npos) << result.err;
-  run({"activity", "clip.tik", "chart.png"});
-  result = test::run_program({"again", "chart.png"}, scratch_.folder());
+  expect_says(result.err, "private.png carries no recipe");
+  run("activity clip.tik chart.png");
+  result = test::run_here({"again", "chart.png"}, scratch_.folder());
   EXPECT_EQ(result.status, 3);
-  EXPECT_NE(result.err.find("not charts, traces, masks"), std::string::npos) << result.err;
-  result = test::run_program({"again", "private.png", "clip.tik"}, scratch_.folder());
+  expect_says(result.err, "not charts, traces, masks");
+  result = test::run_here({"again", "private.png", "clip.tik"}, scratch_.folder());
   EXPECT_EQ(result.status, 2);
-  EXPECT_NE(result.err.find("clip.tik is no folder"), std::string::npos) << result.err;
-  EXPECT_EQ(test::run_program({"again"}, scratch_.folder()).status, 2);
-  EXPECT_EQ(test::run_program({"again", "clip.tik"}, scratch_.folder()).status, 3);
+  expect_says(result.err, "clip.tik is no folder");
+  EXPECT_EQ(test::run_here({"again"}, scratch_.folder()).status, 2);
+  EXPECT_EQ(test::run_here({"again", "clip.tik"}, scratch_.folder()).status, 3);
 }
 
 // A picture may come from anyone, and what is printed may be run.
 TEST_F(Again, TakesNoOrdersFromAPicture) {
-  const auto expect_refused = [&](const std::string& recipe, const std::string& message) {
+  const auto expect_no_order = [&](const std::string& recipe, const std::string& message) {
     scratch_.write("evil.pgm", "P5\n# " + recipe + "\n1 1\n255\nx");
-    const auto result = test::run_program({"again", "evil.pgm"}, scratch_.folder());
-    EXPECT_EQ(result.status, 3) << recipe << result.out;
-    EXPECT_EQ(result.out, "") << recipe;
-    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+    expect_refused("again evil.pgm", 3, message);
   };
   const auto recipe = [](const std::string& capture, const std::string& functions,
                          const std::string& options) {
@@ -267,21 +249,21 @@ TEST_F(Again, TakesNoOrdersFromAPicture) {
   for (const char* option :
        {R"("ev 1; touch pwned; #":"1")", R"("output":"clip.tik")", R"("rectangle":"1,1,1,1")",
         R"("mask":"m.pgm")", R"("noise":"camera.noise")", R"("no-recipe":"")"}) {
-    expect_refused(recipe("clip.tik", "f.fn", option), "its recipe states '--");
+    expect_no_order(recipe("clip.tik", "f.fn", option), "its recipe states '--");
   }
   const std::string beside = scratch_.folder().filename().string() + "-pwned.sh";
   for (const std::string& name : {"../" + beside, (scratch_ / "pwned.sh").string(), std::string(".."),
                                   std::string(), std::string("a/b.fn"), std::string(".")}) {
-    expect_refused(recipe("clip.tik", name, ""), "its recipe names '");
+    expect_no_order(recipe("clip.tik", name, ""), "its recipe names '");
     EXPECT_FALSE(std::filesystem::exists(scratch_.folder().parent_path() / beside));
     EXPECT_FALSE(std::filesystem::exists(scratch_ / "pwned.sh"));
   }
   for (const char* name : {"../clip.tik", "/clip.tik", "a/b/clip.tik", "a/", "..", ""}) {
-    expect_refused(recipe(name, "f.fn", ""), "its recipe names '");
+    expect_no_order(recipe(name, "f.fn", ""), "its recipe names '");
   }
   // What may be shown does not write to the terminal by itself.
   scratch_.write("sly.pgm", "P5\n# " + recipe("\\u001b[2Jclip.tik", "f.fn", "") + "\n1 1\n255\nx");
-  const auto result = test::run_program({"again", "sly.pgm"}, scratch_.folder());
+  const auto result = test::run_here({"again", "sly.pgm"}, scratch_.folder());
   EXPECT_EQ(result.err.find('\x1b'), std::string::npos) << result.err;
 }
 
@@ -296,21 +278,21 @@ TEST_F(Again, WritesOnlyWhatItReadsAndOnlyIntoItsOwnFolder) {
 1 1
 255
 x)");
-    return test::run_program({"again", "sent.pgm"}, scratch_.folder());
+    return test::run_here({"again", "sent.pgm"}, scratch_.folder());
   };
   const std::filesystem::path elsewhere = scratch_ / "elsewhere", folder = scratch_ / "sent-again";
   std::filesystem::create_directory(elsewhere);
 
   auto result = again("cron", "* * * * * touch pwned");
   EXPECT_EQ(result.status, 3) << result.err;
-  EXPECT_NE(result.err.find("cron in the recipe of sent.pgm has mistakes"), std::string::npos) << result.err;
+  expect_says(result.err, "cron in the recipe of sent.pgm has mistakes");
   EXPECT_EQ(result.out, "");
   EXPECT_FALSE(std::filesystem::exists(folder));
 
   std::filesystem::create_directory_symlink("elsewhere", folder);
   result = again("f.fn", "M0 [0:1]");
   EXPECT_EQ(result.status, 5) << result.err;
-  EXPECT_NE(result.err.find("sent-again is a link, or no folder of yours"), std::string::npos) << result.err;
+  expect_says(result.err, "sent-again is a link, or no folder of yours");
   EXPECT_TRUE(std::filesystem::is_empty(elsewhere));
 
   std::filesystem::remove(folder);
@@ -319,13 +301,13 @@ x)");
     std::filesystem::create_symlink(target, folder / "f.fn");
     result = again("f.fn", "M0 [0:1]");
     EXPECT_EQ(result.status, 5) << result.err;
-    EXPECT_NE(result.err.find("sent-again/f.fn exists and is another file"), std::string::npos) << result.err;
+    expect_says(result.err, "sent-again/f.fn exists and is another file");
     std::filesystem::remove(folder / "f.fn");
   }
   EXPECT_TRUE(std::filesystem::is_empty(elsewhere));
 
   result = again(".profile", "M0 [0:1]");
-  EXPECT_NE(result.out.find(" -k sent-again/.profile.fn "), std::string::npos) << result.out << result.err;
+  expect_says(result.out, " -k sent-again/.profile.fn ");
   EXPECT_EQ(file("sent-again/.profile.fn"), "M0 [0:1]");
   EXPECT_FALSE(std::filesystem::exists(folder / ".profile"));
 }
@@ -335,30 +317,28 @@ TEST_F(Again, KeepsTheNoiseOfAClip) {
       "nutik noise 0\nwhite 255\ntransfer srgb\nchannel grey\nread 0.002\nshot 0.0001\n"
       "curve sensor\npoint 10 1.5 100\npoint 20.5 2 50\n";
   scratch_.write("camera.noise", noise);
-  const auto exposed = test::run_program(
+  const auto exposed = test::run_here(
       {"-f", "40", "--noise", "camera.noise", "--exposure", "0.2s", "frames", "n.png"}, scratch_.folder());
   ASSERT_EQ(exposed.status, 0) << exposed.err;
   expect_same_bytes("n.png");
   scratch_.write("camera.noise", "another");
-  EXPECT_NE(run({"again", "n.png"}).err.find("camera.noise was changed since; the noise values"),
-            std::string::npos);
+  expect_says(run("again n.png").err, "camera.noise was changed since; the noise values");
   EXPECT_EQ(file("n-again/camera.noise"), noise);
   expect_same_bytes("n.png");
-  run({"-f", "40", "--noise", "auto", "--exposure", "0.2s", "frames", "m.png"});
+  run("-f 40 --noise auto --exposure 0.2s frames m.png");
   expect_same_bytes("m.png");
 }
 
 // Each picture of a batch has what its line states and what the batch does.
 TEST_F(Again, MakesOnePictureOfABatch) {
-  run({"noise", "frames", "-o", "camera.noise"});
+  run("noise frames -o camera.noise");
   for (const std::string noise : {"auto", "camera.noise"}) {
     scratch_.write("list", "--exposure 0.2s a.png\n-k \"it's f.fn\" -m mask.pgm b.png\n");
     run({"batch", "-f", "40", "--noise", noise, "--sigmas", "1.5", "--block-samples", "16", "--transfer",
          "gamma:2", "list", "frames"});
     for (const char* picture : {"a.png", "b.png"}) {
       const std::string command = run({"again", picture}).out;
-      EXPECT_NE(command.find(" --noise "), std::string::npos) << command;
-      EXPECT_NE(command.find(" --sigmas 1.5 "), std::string::npos) << command;
+      expect_says(command, {" --noise ", " --sigmas 1.5 "});
       expect_same_bytes(picture);
     }
   }
@@ -369,7 +349,7 @@ TEST_F(Again, KeepsFoldersToItself) {
   run({"--exposure", "33ms", (scratch_ / "clip.tik").string(), (scratch_ / "a.png").string()});
   const std::string folder = scratch_.folder().filename().string();
   EXPECT_EQ(file("a.png").find(folder), std::string::npos);
-  run({"--exposure", "33ms", "clip.tik", "b.png"});
+  run("--exposure 33ms clip.tik b.png");
   EXPECT_TRUE(file("a.png") == file("b.png"));
 }
 

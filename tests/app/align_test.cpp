@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "support/program_test.hpp"
+#include "support/app_test.hpp"
 
 namespace nutik {
 namespace {
@@ -50,7 +50,7 @@ cv::Mat drawn(const Shift& shift, int picture, bool has_subject) {
   return drawn;
 }
 
-class Aligning : public test::ProgramTest {
+class Aligning : public test::AppTest {
  protected:
   void SetUp() override { write("frames", hand); }
 
@@ -63,33 +63,23 @@ class Aligning : public test::ProgramTest {
     }
   }
 
-  [[nodiscard]] std::string bytes(const std::string& name) const { return test::read_file(scratch_ / name); }
-
-  [[nodiscard]] json answered(std::vector<std::string> words) const {
-    words.emplace_back("--json");
-    const auto result = run(words);
-    EXPECT_EQ(result.status, 0) << result.err;
-    return json::parse(result.out);
-  }
-
   // What the capture shows at a picture, as the codes it holds.
   [[nodiscard]] cv::Mat shown(const std::string& capture, int picture) const {
-    const auto result = run({"--start", std::to_string(picture) + "f", "--exposure", "1f", "--out-transfer",
-                             "source", capture, "-o", "shown.pgm"});
-    EXPECT_EQ(result.status, 0) << result.err;
+    const auto result = make({"--start", std::to_string(picture) + "f", "--exposure", "1f", "--out-transfer",
+                              "source", capture, "-o", "shown.pgm"});
     return cv::imread((scratch_ / "shown.pgm").string(), cv::IMREAD_UNCHANGED);
   }
 };
 
-const std::vector<std::string> kEncode{"encode", "-f", "100"};
+const test::Words kEncode("encode -f 100");
 
-std::vector<std::string> encoding(std::vector<std::string> words) {
+std::vector<std::string> encoding(test::Words words) {
   words.insert(words.begin(), kEncode.begin(), kEncode.end());
   return words;
 }
 
 TEST_F(Aligning, HoldsStillThingsStillAndCropsToWhatEveryPictureSaw) {
-  const json encoded = answered(encoding({"--align", "translation", "frames", "a.tik"}));
+  const json encoded = answer(encoding("--align translation frames a.tik"));
   double left = 0, right = 0, up = 0, down = 0;
   for (int picture = 0; picture < kPictures; ++picture) {
     left = std::max(left, -hand(picture).x);
@@ -124,20 +114,20 @@ TEST_F(Aligning, HoldsStillThingsStillAndCropsToWhatEveryPictureSaw) {
 }
 
 TEST_F(Aligning, WritesThePathThatMakesTheSameAgain) {
-  const json encoded = answered(encoding(
-      {"--align", "rigid", "--camera-path", "path.csv", "--camera-plot", "plot.png", "frames", "a.tik"}));
+  const json encoded =
+      answer(encoding("--align rigid --camera-path path.csv --camera-plot plot.png frames a.tik"));
   EXPECT_EQ(encoded["camera"]["path"], "path.csv");
   const cv::Mat plot = cv::imread((scratch_ / "plot.png").string());
   EXPECT_EQ(plot.cols, 1200);
-  ASSERT_EQ(run(encoding({"--align", "rigid", "frames", "b.tik"})).status, 0);
-  ASSERT_EQ(run(encoding({"--align-along", "path.csv", "frames", "c.tik"})).status, 0);
-  EXPECT_EQ(bytes("a.tik"), bytes("b.tik"));
-  EXPECT_EQ(bytes("a.tik"), bytes("c.tik"));
+  make(encoding("--align rigid frames b.tik"));
+  make(encoding("--align-along path.csv frames c.tik"));
+  EXPECT_EQ(file("a.tik"), file("b.tik"));
+  EXPECT_EQ(file("a.tik"), file("c.tik"));
 }
 
 TEST_F(Aligning, KeepsThePictureAndSaysWhatWasSeenWhenAskedTo) {
-  const json encoded = answered(encoding({"--align", "translation", "--align-to", "60ms", "--unseen", "hold",
-                                          "--coverage", "seen.png", "frames", "a.tik"}));
+  const json encoded =
+      answer(encoding("--align translation --align-to 60ms --unseen hold --coverage seen.png frames a.tik"));
   EXPECT_EQ(encoded["width"], kWidth);
   EXPECT_EQ(encoded["camera"]["reference"], 6);
   const cv::Mat seen = cv::imread((scratch_ / "seen.png").string(), cv::IMREAD_UNCHANGED);
@@ -162,50 +152,43 @@ TEST_F(Aligning, TellsWhatWasDoneToPicturesBefore) {
     cv::imwrite(file, cv::imread(file, cv::IMREAD_UNCHANGED) * 0.7);
   }
   for (const char* unseen : {"crop", "hold"}) {
-    const auto result =
-        run(test::over(encoding({"--deflicker", "--align", "rigid", "--unseen", unseen, "dimmed", "a.tik"})));
-    EXPECT_EQ(result.status, 0) << result.err;
-    EXPECT_NE(result.err.find("the exposure of 2 of 12 pictures was corrected"), std::string::npos)
-        << result.err;
+    const auto result = make(
+        test::over(encoding({"--deflicker", "--align", "rigid", "--unseen", unseen, "dimmed", "a.tik"})));
+    expect_says(result.err, "the exposure of 2 of 12 pictures was corrected");
   }
 }
 
 TEST_F(Aligning, IsToldByInfo) {
-  ASSERT_EQ(run(encoding({"--align", "rigid", "frames", "a.tik"})).status, 0);
-  ASSERT_EQ(run(encoding({"frames", "plain.tik"})).status, 0);
-  const json aligned = answered({"info", "a.tik"});
+  make(encoding("--align rigid frames a.tik"));
+  make(encoding("frames plain.tik"));
+  const json aligned = answer("info a.tik");
   EXPECT_EQ(aligned["alignment"]["motion"], "rigid");
   EXPECT_EQ(aligned["alignment"]["reference_sample"], 0);
   EXPECT_FALSE(aligned["alignment"]["holds_unseen"]);
   EXPECT_NEAR(aligned["alignment"]["moved_pixels"], 4.1, 0.3);
-  EXPECT_NE(run({"info", "a.tik"}).out.find("  aligned     to sample 0 (rigid)"), std::string::npos);
-  EXPECT_TRUE(answered({"info", "plain.tik"})["alignment"].is_null());
+  expect_says(run("info a.tik").out, "  aligned     to sample 0 (rigid)");
+  EXPECT_TRUE(answer("info plain.tik")["alignment"].is_null());
   // It stays when the capture is written again.
-  ASSERT_EQ(run({"retime", "-f", "50", "a.tik", "b.tik"}).status, 0);
-  EXPECT_EQ(answered({"info", "b.tik"})["alignment"], aligned["alignment"]);
+  make("retime -f 50 a.tik b.tik");
+  EXPECT_EQ(answer("info b.tik")["alignment"], aligned["alignment"]);
 }
 
 TEST_F(Aligning, IsDoneToTheClipThatACaptureIsComparedWith) {
-  ASSERT_EQ(
-      run(encoding({"--align", "rigid", "--align-to", "2f", "--unseen", "hold", "frames", "a.tik"})).status,
-      0);
-  const auto result =
-      run({"validate", "--start", "0f", "--exposure", "2f", "--runs", "1", "--source", "frames", "a.tik"});
-  EXPECT_EQ(result.status, 0) << result.out << result.err;
+  ASSERT_EQ(run(encoding("--align rigid --align-to 2f --unseen hold frames a.tik")).status, 0);
+  const auto result = make("validate --start 0f --exposure 2f --runs 1 --source frames a.tik");
 }
 
 TEST_F(Aligning, IsMissedWhereTheCameraMoved) {
-  ASSERT_EQ(run(encoding({"frames", "plain.tik"})).status, 0);
-  ASSERT_EQ(run(encoding({"--align", "rigid", "frames", "a.tik"})).status, 0);
+  make(encoding("frames plain.tik"));
+  make(encoding("--align rigid frames a.tik"));
   write("still", [](int) { return Shift(); });
-  ASSERT_EQ(run(encoding({"still", "still.tik"})).status, 0);
+  make(encoding("still still.tik"));
   const std::string told = "the camera moved: at sample";
-  const auto says = [&](const std::vector<std::string>& words) {
-    const auto result = run(words.front() == "check" ? words : test::over(words));
-    EXPECT_EQ(result.status, 0) << result.err;
+  const auto says = [&](const test::Words& words) {
+    const auto result = make(words.front() == "check" ? words : test::Words(test::over(words)));
     return (result.out + result.err).find(told) != std::string::npos;
   };
-  EXPECT_EQ(answered({"check", "plain.tik"})["findings"][0]["kind"], "camera_moved");
+  EXPECT_EQ(answer("check plain.tik")["findings"][0]["kind"], "camera_moved");
   for (const char* capture : {"a.tik", "still.tik"}) {
     EXPECT_FALSE(says({"check", capture})) << capture;
     EXPECT_FALSE(says({"mask", "--moving", capture, "-o", "m.pgm"})) << capture;
@@ -216,23 +199,25 @@ TEST_F(Aligning, IsMissedWhereTheCameraMoved) {
   EXPECT_FALSE(says({"plate", "a.tik", "p.png"}));
   scratch_.write("all.fn", "M0{[0:all]}\n");
   EXPECT_TRUE(says({"solve", "-k", "all.fn", "--wish", "all = plate", "plain.tik", "-o", "s.fn"}));
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"mask", "--rectangle", "1,1,9,9", "plain.tik", "-o", "m.pgm"},
-                                                {"solve", "-k", "all.fn", "--wish", "all = 0.2", "plain.tik", "-o", "s.fn"}})
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"mask", "--rectangle", "1,1,9,9", "plain.tik", "-o", "m.pgm"},
+        {"solve", "-k", "all.fn", "--wish", "all = 0.2", "plain.tik", "-o", "s.fn"}})
     EXPECT_FALSE(says(words)) << words[0] << ": the camera does not matter";
   write("far", [](int picture) { return Shift{2 * hand(picture).x, 2 * hand(picture).y}; });
   // A clip is read again; a capture cannot be.
   EXPECT_FALSE(says({"study", "-f", "100", "far", "-o", "s2.png"}));
-  EXPECT_NE(bytes("s2.txt").find(" --align homography "), std::string::npos) << bytes("s2.txt");
+  expect_says(file("s2.txt"), " --align homography ");
   EXPECT_FALSE(says({"study", "-f", "100", "--align", "rigid", "far", "-o", "s2.png"}));
-  EXPECT_NE(bytes("s2.txt").find(" --align rigid "), std::string::npos) << bytes("s2.txt");
-  ASSERT_EQ(run(encoding({"far", "far.tik"})).status, 0);
-  expect_refused({"study", "far.tik", "-o", "s3.png"}, 3,
-                 "A study needs pictures that lie on each other: encode the clip again. A camera that moved stands "
-                 "still with --align rigid");
+  expect_says(file("s2.txt"), " --align rigid ");
+  make(encoding("far far.tik"));
+  expect_refused(
+      "study far.tik -o s3.png", 3,
+      "A study needs pictures that lie on each other: encode the clip again. A camera that moved stands "
+      "still with --align rigid");
 }
 
 TEST_F(Aligning, IsNotLookedForWithoutItsModule) {
-  ASSERT_EQ(run(encoding({"frames", "plain.tik"})).status, 0);
+  make(encoding("frames plain.tik"));
   std::filesystem::copy_file(NUTIK_TEST_PROGRAM, scratch_ / "alone");  // beside no modules
   const auto without = [&](const std::string& words) {
     return test::run_shell("env -u NUTIK_MODULES ./alone " + words, scratch_.folder());
@@ -248,8 +233,8 @@ TEST_F(Aligning, IsNotLookedForWithoutItsModule) {
 }
 
 TEST_F(Aligning, RefusesAModuleOfAnotherVersion) {
-  ASSERT_EQ(run(encoding({"frames", "plain.tik"})).status, 0);
-  const std::string told = run({"--version"}).out;
+  make(encoding("frames plain.tik"));
+  const std::string told = run("--version").out;
   const std::size_t begin = told.find_first_of("0123456789");
   const std::string version = told.substr(begin, told.find_last_of("0123456789") + 1 - begin);
   std::string module = test::read_file(std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path() / "nutik-motion.so");
@@ -269,71 +254,63 @@ TEST_F(Aligning, RefusesAModuleOfAnotherVersion) {
 }
 
 TEST_F(Aligning, IsPartOfARecipe) {
-  ASSERT_EQ(
-      run({"-f", "100", "--align", "rigid", "--start", "0f", "--exposure", "12f", "frames", "-o", "mean.png"})
-          .status,
-      0);
-  ASSERT_EQ(run({"-f", "100", "--start", "0f", "--exposure", "12f", "frames", "-o", "blurred.png"}).status,
-            0);
+  ASSERT_EQ(run("-f 100 --align rigid --start 0f --exposure 12f frames -o mean.png").status, 0);
+  ASSERT_EQ(run("-f 100 --start 0f --exposure 12f frames -o blurred.png").status, 0);
   const cv::Mat mean = cv::imread((scratch_ / "mean.png").string()),
                 blurred = cv::imread((scratch_ / "blurred.png").string());
   EXPECT_LT(mean.cols, blurred.cols);
-  EXPECT_NE(run({"again", "mean.png"}).out.find(" --align rigid "), std::string::npos);
+  expect_says(run("again mean.png").out, " --align rigid ");
 }
 
 TEST_F(Aligning, SaysWhatDoesNotGoTogether) {
-  expect_refused(encoding({"--align", "affine", "frames", "a.tik"}), 2, "affine");
-  expect_refused(encoding({"--unseen", "hold", "frames", "a.tik"}), 2,
-                 "--unseen is said of pictures that are aligned: add --align rigid");
-  expect_refused(encoding({"--coverage", "c.png", "frames", "a.tik"}), 2, "--coverage is said of pictures");
-  expect_refused(encoding({"--align", "rigid", "--align-to", "99f", "frames", "a.tik"}), 2,
-                 "picture 99 is outside the capture, which has 12");
-  expect_refused(encoding({"--align", "rigid", "--camera-path", "path.txt", "frames", "a.tik"}), 2,
-                 "tables are written as .csv");
-  ASSERT_EQ(run(encoding({"frames", "plain.tik"})).status, 0);
-  expect_refused({"--align", "rigid", "--start", "0s", "--exposure", "1f", "plain.tik", "-o", "p.png"}, 2,
+  expect_refused(
+      2, {{encoding("--align affine frames a.tik"), "affine"},
+          {encoding("--unseen hold frames a.tik"),
+           "--unseen is said of pictures that are aligned: add --align rigid"},
+          {encoding("--coverage c.png frames a.tik"), "--coverage is said of pictures"},
+          {encoding("--align rigid --align-to 99f frames a.tik"),
+           "picture 99 is outside the capture, which has 12"},
+          {encoding("--align rigid --camera-path path.txt frames a.tik"), "tables are written as .csv"}});
+  make(encoding("frames plain.tik"));
+  expect_refused("--align rigid --start 0s --exposure 1f plain.tik -o p.png", 2,
                  "plain.tik was encoded already");
-  ASSERT_EQ(run(encoding({"--align", "rigid", "--camera-path", "path.csv", "frames", "a.tik"})).status, 0);
-  expect_refused(encoding({"--align", "rigid", "--align-along", "path.csv", "frames", "b.tik"}), 2,
-                 "leave --align out");
-  expect_refused(encoding({"--align-along", "path.csv", "--crop", "80x60+0+0", "frames", "b.tik"}), 3,
-                 "the camera's path is that of pictures of 160 x 120");
-  expect_refused(encoding({"--align-along", "path.csv", "--to", "3f", "frames", "b.tik"}), 3,
-                 "the camera's path");
+  make(encoding("--align rigid --camera-path path.csv frames a.tik"));
+  expect_refused(encoding("--align rigid --align-along path.csv frames b.tik"), 2, "leave --align out");
+  expect_refused(3, {{encoding("--align-along path.csv --crop 80x60+0+0 frames b.tik"),
+                      "the camera's path is that of pictures of 160 x 120"},
+                     {encoding("--align-along path.csv --to 3f frames b.tik"), "the camera's path"}});
 }
 
 TEST_F(Aligning, SaysWhichPictureCannotBeAlignedAndWhy) {
   write("cut", [](int picture) { return picture < 5 ? hand(picture) : Shift{3000, 5000}; });
-  expect_refused(encoding({"--align", "rigid", "cut", "a.tik"}), 3,
+  expect_refused(encoding("--align rigid cut a.tik"), 3,
                  "picture 5 cannot be aligned to picture 0: of what is seen in both ");
   const std::string others = "try another picture to align to";
-  expect_refused(encoding({"--align", "rigid", "cut", "a.tik"}), 3,
-                 "try --align homography, another picture");
-  expect_refused(encoding({"--align", "homography", "cut", "a.tik"}), 3, others);
-  EXPECT_EQ(run(encoding({"--align", "rigid", "--to", "5f", "cut", "a.tik"})).status, 0);
+  expect_refused(encoding("--align rigid cut a.tik"), 3, "try --align homography, another picture");
+  expect_refused(encoding("--align homography cut a.tik"), 3, others);
+  make(encoding("--align rigid --to 5f cut a.tik"));
   std::filesystem::create_directory(scratch_ / "blank");
   for (const char* name : {"blank/0.pgm", "blank/1.pgm"}) {
     cv::imwrite((scratch_ / name).string(), cv::Mat(kHeight, kWidth, CV_8U, 90));
   }
   expect_refused(
-      encoding({"--align", "rigid", "blank", "b.tik"}), 3,
+      encoding("--align rigid blank b.tik"), 3,
       "no picture can be aligned to picture 0: it has 0 pixels whose surroundings can be recognized");
-  expect_refused(encoding({"--align", "rigid", "blank", "b.tik"}), 3, others);
+  expect_refused(encoding("--align rigid blank b.tik"), 3, others);
   // A path by hand that leaves nothing.
   std::ofstream(scratch_ / "far.csv")
       << "# nutik camera path,translation,0,160,120\n"
          "picture,x,y,degrees,residual_pixels,agreeing,m0,m1,m2,m3,m4,m5,m6,m7,m8\n"
          "0,0,0,0,0,1,1,0,0,0,1,0,0,0,1\n1,0,0,0,0,1,1,0,200,0,1,0,0,0,1\n";
   expect_refused(
-      encoding({"--align-along", "far.csv", "--to", "2f", "frames", "c.tik"}), 3,
-      "no place was seen by all of its 2 pictures: in picture 1 the camera looks 200 pixels to the side");
-  expect_refused(encoding({"--align-along", "far.csv", "--to", "2f", "frames", "c.tik"}), 3, "--unseen hold");
+      3,
+      {{encoding("--align-along far.csv --to 2f frames c.tik"),
+        "no place was seen by all of its 2 pictures: in picture 1 the camera looks 200 pixels to the side"},
+       {encoding("--align-along far.csv --to 2f frames c.tik"), "--unseen hold"}});
 }
 
 TEST_F(Aligning, SaysWhatMemoryItTakes) {
-  const auto refused = run(encoding({"--memory", "1MB", "--align", "rigid", "frames", "a.tik"}));
-  EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("a picture that is registered"), std::string::npos) << refused.err;
+  expect_refused(encoding("--memory 1MB --align rigid frames a.tik"), 2, "a picture that is registered");
 }
 
 }  // namespace

@@ -1,27 +1,20 @@
 // Many exposures by one command.
 #include <gtest/gtest.h>
 
-#include "support/program_test.hpp"
+#include "support/app_test.hpp"
 
 namespace nutik {
 namespace {
 
 using test::ProgramResult;
 using test::read_file;
-using test::Scratch;
 
-class Batch : public test::ProgramTest {
+class Batch : public test::AppTest {
  protected:
   void SetUp() override {
-    for (int k = 0; k < 6; ++k) {
-      std::string still = "P5\n9 7\n255\n";
-      for (int i = 0; i < 9 * 7; ++i) still += static_cast<char>(40 + 20 * k + i);
-      scratch_.write("still" + std::to_string(k) + ".pgm", still);
-    }
-    ASSERT_EQ(run({"-f", "100", "still%d.pgm", "scene.tik"}).status, 0);
+    make_scene();
     scratch_.write("trail.fn", "M0 [0:0], [10000000:1], [40000000:0]\n");
   }
-  std::string picture(const std::string& name) { return read_file(scratch_ / name); }
 };
 
 TEST_F(Batch, GivesThePicturesOfSingleCommands) {
@@ -32,17 +25,16 @@ TEST_F(Batch, GivesThePicturesOfSingleCommands) {
                  "-k trail.fn scene.tik 'a trail.pfm'\n"
                  "   -k trail.fn --depth 16 scene.tik -o trail.tif\n");
   // Singly first: a program that is new on a machine says that it builds kernels.
-  ASSERT_EQ(run({"--start", "1f", "--exposure", "2f", "scene.tik", "single.png"}).status, 0);
-  ASSERT_EQ(run({"-k", "trail.fn", "scene.tik", "single.pfm"}).status, 0);
-  ASSERT_EQ(run({"-k", "trail.fn", "--depth", "16", "scene.tik", "single.tif"}).status, 0);
-  const ProgramResult batch = run({"batch", "list.txt"});
-  ASSERT_EQ(batch.status, 0) << batch.err;
+  make("--start 1f --exposure 2f scene.tik single.png");
+  make("-k trail.fn scene.tik single.pfm");
+  make("-k trail.fn --depth 16 scene.tik single.tif");
+  const ProgramResult batch = make("batch list.txt");
   EXPECT_TRUE(batch.out.starts_with("3 of 3 pictures, ")) << batch.out;
-  EXPECT_NE(batch.out.find(" exposures a second on "), std::string::npos) << batch.out;
+  expect_says(batch.out, " exposures a second on ");
   EXPECT_EQ(batch.err, "");
-  EXPECT_EQ(picture("moment.png"), picture("single.png"));
-  EXPECT_EQ(picture("a trail.pfm"), picture("single.pfm"));
-  EXPECT_EQ(picture("trail.tif"), picture("single.tif"));
+  EXPECT_EQ(file("moment.png"), file("single.png"));
+  EXPECT_EQ(file("a trail.pfm"), file("single.pfm"));
+  EXPECT_EQ(file("trail.tif"), file("single.tif"));
 }
 
 // Boxcars over many blocks, whose sums are kept from one picture to the next: the first, the last and each by itself have
@@ -53,7 +45,7 @@ TEST_F(Batch, GivesThePicturesOfSingleCommandsWhereSumsAreKept) {
     for (int i = 0; i < 9 * 7; ++i) still += static_cast<char>((k * k * 7 + i * 31 + k * i) % 256);
     scratch_.write("long" + std::to_string(k) + ".pgm", still);
   }
-  ASSERT_EQ(run({"encode", "-f", "100", "--block-samples", "16", "long%d.pgm", "long.tik"}).status, 0);
+  make("encode -f 100 --block-samples 16 long%d.pgm long.tik");
   std::string lines;
   for (int k = 0; k < 6; ++k) {
     for (const char* type : {"png", "pfm"}) {
@@ -62,9 +54,8 @@ TEST_F(Batch, GivesThePicturesOfSingleCommandsWhereSumsAreKept) {
     }
   }
   scratch_.write("list.txt", lines);
-  const ProgramResult batch = run({"batch", "-v", "list.txt", "long.tik"});
-  ASSERT_EQ(batch.status, 0) << batch.err;
-  EXPECT_NE(batch.out.find(" sums of others kept, "), std::string::npos) << batch.out;
+  const ProgramResult batch = make("batch -v list.txt long.tik");
+  expect_says(batch.out, " sums of others kept, ");
   for (int k = 0; k < 6; ++k) {
     for (const std::string type : {".png", ".pfm"}) {
       const std::string one = "one" + type, many = "many" + std::to_string(k) + type;
@@ -72,7 +63,7 @@ TEST_F(Batch, GivesThePicturesOfSingleCommandsWhereSumsAreKept) {
                      "--overwrite"})
                     .status,
                 0);
-      EXPECT_EQ(picture(many), picture(one)) << many;
+      EXPECT_EQ(file(many), file(one)) << many;
     }
   }
 }
@@ -82,10 +73,10 @@ TEST_F(Batch, CountsSaturatedPixelsOfThePicturesThatHoldCodes) {
   scratch_.write("list.txt",
                  "--start 5f --exposure 1f --ev 2 codes.png\n"
                  "--start 5f --exposure 1f --ev 2 light.pfm\n");
-  const ProgramResult mixed = run({"batch", "list.txt", "scene.tik"});
-  EXPECT_NE(mixed.out.find(", 63 pixels saturated above 1, "), std::string::npos) << mixed.out << mixed.err;
+  const ProgramResult mixed = run("batch list.txt scene.tik");
+  expect_says(mixed.out, ", 63 pixels saturated above 1, ");
   scratch_.write("list.txt", "--start 5f --exposure 1f --ev 2 light.pfm\n");
-  const ProgramResult light = run({"batch", "list.txt", "scene.tik"});
+  const ProgramResult light = run("batch list.txt scene.tik");
   EXPECT_EQ(light.out.find("saturated"), std::string::npos) << light.out;
 }
 
@@ -96,8 +87,8 @@ TEST_F(Batch, LeavesTheCaptureToTheCommandAndReadsFromStandardInput) {
       scratch_.folder());
   ASSERT_EQ(batch.status, 0) << batch.err;
   EXPECT_TRUE(batch.out.starts_with("2 of 2 pictures, ")) << batch.out;
-  ASSERT_EQ(run({"-f", "100", "-k", "trail.fn", "still%d.pgm", "single.png"}).status, 0);
-  EXPECT_EQ(picture("b.png"), picture("single.png"));
+  make("-f 100 -k trail.fn still%d.pgm single.png");
+  EXPECT_EQ(file("b.png"), file("single.png"));
 }
 
 TEST_F(Batch, TakesWordsAsAShellDoes) {
@@ -107,24 +98,23 @@ TEST_F(Batch, TakesWordsAsAShellDoes) {
                  "\t--functions=\"it's a.fn\" 'c d'.png\n"
                  "-kit\\'s\\ a.fn e\\ f.png\n"
                  "-k 'trail.fn g.png\n");
-  const ProgramResult batch = run({"batch", "list", "scene.tik"});
+  const ProgramResult batch = run("batch list scene.tik");
   EXPECT_EQ(batch.status, 1);
   EXPECT_TRUE(batch.out.starts_with("3 of 4 pictures, ")) << batch.out << batch.err;
-  EXPECT_NE(batch.err.find("list:4: the quote ' is not closed: -k 'trail.fn g.png"), std::string::npos)
-      << batch.err;
-  const std::string first = picture("a \"b\".png");
+  expect_says(batch.err, "list:4: the quote ' is not closed: -k 'trail.fn g.png");
+  const std::string first = file("a \"b\".png");
   EXPECT_FALSE(first.empty());
-  EXPECT_EQ(first, picture("c d.png"));
-  EXPECT_EQ(first, picture("e f.png"));
+  EXPECT_EQ(first, file("c d.png"));
+  EXPECT_EQ(first, file("e f.png"));
 }
 
 TEST_F(Batch, KeepsNoRecipesWhereNoneAreWanted) {
   scratch_.write("list", "-k trail.fn a.png\n-k trail.fn --no-recipe b.png\n");
-  ASSERT_EQ(run({"batch", "list", "scene.tik"}).status, 0);
-  EXPECT_EQ(run({"again", "a.png"}).status, 0);
-  EXPECT_EQ(run({"again", "b.png"}).status, 3);
-  ASSERT_EQ(run({"batch", "--no-recipe", "--overwrite", "list", "scene.tik"}).status, 0);
-  EXPECT_EQ(run({"again", "a.png"}).status, 3);
+  make("batch list scene.tik");
+  make("again a.png");
+  EXPECT_EQ(run("again b.png").status, 3);
+  make("batch --no-recipe --overwrite list scene.tik");
+  EXPECT_EQ(run("again a.png").status, 3);
 }
 
 TEST_F(Batch, SharesWhatDescribesTheClip) {
@@ -132,32 +122,27 @@ TEST_F(Batch, SharesWhatDescribesTheClip) {
        {"--fps 100", "-a 90", "--white 200", "--raw 9x7:gray", "--tolerance 1", "--noise auto", "--sigmas 2",
         "--tiles dense", "--block-samples 2", "--device 0", "--memory 1GB", "--json"}) {
     scratch_.write("list", std::string(shared) + " --start 0f --exposure 1f a.png\n");
-    const ProgramResult batch = run({"batch", "-f", "100", "list", "still%d.pgm"});
+    const ProgramResult batch = run("batch -f 100 list still%d.pgm");
     EXPECT_EQ(batch.status, 1) << shared;
-    EXPECT_NE(batch.err.find(" holds for all exposures: nutik-cl batch --"), std::string::npos) << batch.err;
+    expect_says(batch.err, " holds for all exposures: nutik-cl batch --");
   }
 }
 
 TEST_F(Batch, ReadsLightAnewInEachLineUnlessNoiseWasToldByIt) {
-  ASSERT_EQ(run({"-f", "100", "-k", "trail.fn", "--transfer", "gamma:2", "still%d.pgm", "single.png"}).status,
-            0);
+  ASSERT_EQ(run("-f 100 -k trail.fn --transfer gamma:2 still%d.pgm single.png").status, 0);
   scratch_.write("list", "-k trail.fn --transfer gamma:2 a.png\n");
-  ASSERT_EQ(run({"batch", "-f", "100", "--transfer", "linear", "list", "still%d.pgm"}).status, 0);
-  EXPECT_EQ(picture("a.png"), picture("single.png"));
-  const ProgramResult batch = run({"batch", "-f", "100", "--noise", "auto", "list", "still%d.pgm"});
+  make("batch -f 100 --transfer linear list still%d.pgm");
+  EXPECT_EQ(file("a.png"), file("single.png"));
+  const ProgramResult batch = run("batch -f 100 --noise auto list still%d.pgm");
   EXPECT_EQ(batch.status, 1);
-  EXPECT_NE(batch.err.find("list:1: --transfer holds for all exposures where --noise does"),
-            std::string::npos)
-      << batch.err;
+  expect_says(batch.err, "list:1: --transfer holds for all exposures where --noise does");
 }
 
 TEST_F(Batch, LeavesSeriesToExpose) {
   scratch_.write("list", "--exposure 10ms --every 10ms s-%d.png\n");
-  const ProgramResult batch = run({"batch", "list", "scene.tik"});
+  const ProgramResult batch = run("batch list scene.tik");
   EXPECT_EQ(batch.status, 1);
-  EXPECT_NE(batch.err.find("list:1: --every and --count make a series; a line of a batch is one picture"),
-            std::string::npos)
-      << batch.err;
+  expect_says(batch.err, "list:1: --every and --count make a series; a line of a batch is one picture");
 }
 
 TEST_F(Batch, ReportsBadLinesAndGoesOn) {
@@ -172,7 +157,7 @@ TEST_F(Batch, ReportsBadLinesAndGoesOn) {
                  "--start 0f --exposure 1f absent/e.png\n"
                  "--start 0f --exposure 1f scene.tik f.png\n"
                  "--start 1f --exposure 1f g.png\n");
-  const ProgramResult batch = run({"batch", "list.txt", "scene.tik"});
+  const ProgramResult batch = run("batch list.txt scene.tik");
   EXPECT_EQ(batch.status, 5) << "one picture could not be written";
   EXPECT_TRUE(batch.out.starts_with("2 of 10 pictures, ")) << batch.out;
   for (const char* message :
@@ -184,8 +169,8 @@ TEST_F(Batch, ReportsBadLinesAndGoesOn) {
         "list.txt:8: absent/e.png cannot be created: ", "list.txt:9: 'f.png' is one file too many"}) {
     EXPECT_NE(batch.err.find(message), std::string::npos) << message << "\n" << batch.err;
   }
-  EXPECT_FALSE(picture("a.png").empty());
-  EXPECT_FALSE(picture("g.png").empty());
+  EXPECT_FALSE(file("a.png").empty());
+  EXPECT_FALSE(file("g.png").empty());
 }
 
 // Also where another line reads it, and where its name is one of several.
@@ -203,7 +188,7 @@ TEST_F(Batch, ReplacesNoInputAndNoPictureOfAnotherLine) {
                  "--start 1f --exposure 1f d2/x.png\n"
                  "--start 2f --exposure 1f d3/x.png\n"
                  "-k trail.fn -m d3/../late.pgm b.png\n");
-  const ProgramResult batch = run({"batch", "--overwrite", "list.txt", "scene.tik"});
+  const ProgramResult batch = run("batch --overwrite list.txt scene.tik");
   EXPECT_EQ(batch.status, 1);
   for (const char* message : {"list.txt:2: d1/../late.pgm is an input of line 7; choose another name",
                               "list.txt:3: early.pgm is an input of line 1;",
@@ -212,17 +197,17 @@ TEST_F(Batch, ReplacesNoInputAndNoPictureOfAnotherLine) {
     EXPECT_NE(batch.err.find(message), std::string::npos) << message << "\n" << batch.err;
   }
   EXPECT_TRUE(batch.out.starts_with("3 of 7 pictures, ")) << batch.out;
-  for (const char* name : {"early.pgm", "late.pgm"}) EXPECT_EQ(picture(name), mask) << name;
+  for (const char* name : {"early.pgm", "late.pgm"}) EXPECT_EQ(file(name), mask) << name;
   EXPECT_TRUE(std::filesystem::is_symlink(scratch_ / "d2/x.png"));
 }
 
 TEST_F(Batch, RefusesListsThatListNothing) {
-  EXPECT_EQ(run({"batch"}).status, 2);
-  EXPECT_EQ(run({"batch", "absent.txt"}).status, 3);
+  EXPECT_EQ(run("batch").status, 2);
+  EXPECT_EQ(run("batch absent.txt").status, 3);
   scratch_.write("empty.txt", "# nothing\n");
-  const ProgramResult batch = run({"batch", "empty.txt"});
+  const ProgramResult batch = run("batch empty.txt");
   EXPECT_EQ(batch.status, 3);
-  EXPECT_NE(batch.err.find("empty.txt lists no exposure"), std::string::npos) << batch.err;
+  expect_says(batch.err, "empty.txt lists no exposure");
 }
 
 }  // namespace

@@ -7,21 +7,19 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "support/program.hpp"
-#include "support/scratch.hpp"
+#include "support/app_test.hpp"
 
 namespace nutik {
 namespace {
 
 using nlohmann::json;
 using test::ProgramResult;
-using test::Scratch;
 
 constexpr int kClipWidth = 120;
 constexpr int kClipHeight = 80;
 
 // A capture of 30 pictures of 120 × 80 pixels at 10 a second, 3 s, and a mask of three regions.
-class Check : public testing::Test {
+class Check : public test::AppTest {
  protected:
   void SetUp() override {
     std::filesystem::create_directory(scratch_ / "frames");
@@ -29,7 +27,7 @@ class Check : public testing::Test {
       const std::string name = "frames/" + std::to_string(100 + k) + ".pgm";
       cv::imwrite((scratch_ / name).string(), cv::Mat(kClipHeight, kClipWidth, CV_8UC1, cv::Scalar::all(8 * k)));
     }
-    ASSERT_EQ(run({"-f", "10", "frames", "clip.tik"}).status, 0);
+    make("-f 10 frames clip.tik");
     mask_ = cv::Mat::zeros(kClipHeight, kClipWidth, CV_8UC1);
     cv::rectangle(mask_, {10, 10}, {39, 59}, cv::Scalar::all(128), cv::FILLED);
     cv::circle(mask_, {80, 40}, 25, cv::Scalar::all(255), cv::FILLED);
@@ -40,47 +38,40 @@ class Check : public testing::Test {
                    "M255 [999999999:0], [1000000000:0.5], [1200000000:0.5], [1200000001:0]\n");
   }
 
-  [[nodiscard]] double still_gain(const std::vector<std::string>& inputs) const {
-    std::vector<std::string> words{"check", "--json"};
-    words.insert(words.end(), inputs.begin(), inputs.end());
+  [[nodiscard]] double still_gain(const test::Words& inputs) const {
+    test::Words words = "check --json" + inputs;
     return json::parse(run(words).out).at("functions").at(0).at("still_gain");
   }
   void save_mask() const { cv::imwrite((scratch_ / "mask.pgm").string(), mask_); }
-  ProgramResult run(const std::vector<std::string>& words) const {
-    return test::run_program(words, scratch_.folder());
-  }
-  json findings(const std::vector<std::string>& inputs, int status) const {
-    std::vector<std::string> words{"check", "--json"};
-    words.insert(words.end(), inputs.begin(), inputs.end());
+  json findings(const test::Words& inputs, int status) const {
+    test::Words words = "check --json" + inputs;
     const ProgramResult result = run(words);
     EXPECT_EQ(result.status, status) << result.out << result.err;
     EXPECT_EQ(result.err, "");
     return json::parse(result.out).at("findings");
   }
   // The kinds of what was found, in order.
-  std::vector<std::string> kinds(const std::vector<std::string>& inputs, int status) const {
+  std::vector<std::string> kinds(const test::Words& inputs, int status) const {
     std::vector<std::string> kinds;
     for (const json& finding : findings(inputs, status)) kinds.push_back(finding.at("kind"));
     return kinds;
   }
 
   using Kinds = std::vector<std::string>;
-  const std::vector<std::string> all_{"-m", "mask.pgm", "-k", "good.fn", "clip.tik"};
-  Scratch scratch_;
+  const test::Words all_ = "-m mask.pgm -k good.fn clip.tik";
   cv::Mat mask_;
 };
 
 // Figures are those of the exposure that is meant.
 TEST_F(Check, TellsTheFiguresOfNormalizedFunctions) {
   scratch_.write("ramp.fn", "M0 [0:0], [1000000000:1], [1000000001:0]\n");
-  EXPECT_NEAR(still_gain({"-k", "ramp.fn", "clip.tik"}), 0.5, 1e-6);
-  EXPECT_NEAR(still_gain({"-k", "ramp.fn", "--normalize", "integral", "clip.tik"}), 1.0, 1e-6);
-  EXPECT_NEAR(still_gain({"-k", "ramp.fn", "--normalize", "seconds:1e-1", "--ev", "1", "clip.tik"}), 10.0,
-              1e-4);
-  EXPECT_EQ(kinds({"-k", "ramp.fn", "--normalize", "seconds:1e-1", "clip.tik"}, 0),
+  EXPECT_NEAR(still_gain("-k ramp.fn clip.tik"), 0.5, 1e-6);
+  EXPECT_NEAR(still_gain("-k ramp.fn --normalize integral clip.tik"), 1.0, 1e-6);
+  EXPECT_NEAR(still_gain("-k ramp.fn --normalize seconds:1e-1 --ev 1 clip.tik"), 10.0, 1e-4);
+  EXPECT_EQ(kinds("-k ramp.fn --normalize seconds:1e-1 clip.tik", 0),
             std::vector<std::string>{"still_gain_saturates"});
   scratch_.write("cancels.fn", "M0 [0:1], [100000000:1], [100000001:-1], [200000000:-1], [200000001:0]\n");
-  const json found = findings({"-k", "cancels.fn", "--normalize", "integral", "clip.tik"}, 3);
+  const json found = findings("-k cancels.fn --normalize integral clip.tik", 3);
   EXPECT_EQ(found.at(0).at("kind"), "not_normalizable");
   EXPECT_EQ(found.at(0).at("line"), 1);
   EXPECT_EQ(found.at(0).at("message").get<std::string>().substr(0, 33), "M0: the positive and negative par");
@@ -89,29 +80,23 @@ TEST_F(Check, TellsTheFiguresOfNormalizedFunctions) {
 // Steps of 1 ns stand for jumps: a picture that ends with the capture is one picture, and nothing is lost of it.
 TEST_F(Check, CountsNoStepAsASample) {
   scratch_.write("last.fn", "M0 [2899999999:0], [2900000000:1], [3000000000:1], [3000000001:0]\n");
-  EXPECT_TRUE(findings({"-k", "last.fn", "clip.tik"}, 0).empty());
-  const json answer = json::parse(run({"check", "--json", "-k", "last.fn", "clip.tik"}).out);
+  EXPECT_TRUE(findings("-k last.fn clip.tik", 0).empty());
+  const json answer = json::parse(run("check --json -k last.fn clip.tik").out);
   EXPECT_EQ(answer.at("functions").at(0).at("samples"), 1);
-  const ProgramResult exposed = run({"-k", "last.fn", "clip.tik", "p.png"});
-  EXPECT_NE(exposed.out.find("1 of 30 samples"), std::string::npos) << exposed.out;
+  const ProgramResult exposed = run("-k last.fn clip.tik p.png");
+  expect_says(exposed.out, "1 of 30 samples");
   EXPECT_EQ(exposed.err, "");
 }
 
 TEST_F(Check, SaysWhatFunctionsComeTo) {
-  const ProgramResult result = run({"check", "-m", "mask.pgm", "-k", "good.fn", "clip.tik"});
-  EXPECT_EQ(result.status, 0) << result.err;
+  const ProgramResult result = make("check -m mask.pgm -k good.fn clip.tik");
   EXPECT_EQ(result.err, "");
-  EXPECT_NE(
-      result.out.find("good.fn: 3 functions; mask.pgm: 120 x 80; clip.tik: 120 x 80 grey, 30 samples, 3 s\n"),
-      std::string::npos)
-      << result.out;
-  EXPECT_NE(
-      result.out.find("M128        1500  400 ms … 410 ms   10 ms   10 ms           1      0        1\n"),
-      std::string::npos)
-      << result.out;
-  EXPECT_NE(result.out.find("\nnothing wrong\n"), std::string::npos);
+  expect_says(result.out,
+              "good.fn: 3 functions; mask.pgm: 120 x 80; clip.tik: 120 x 80 grey, 30 samples, 3 s\n");
+  expect_says(result.out, "M128        1500  400 ms … 410 ms   10 ms   10 ms           1      0        1\n");
+  expect_says(result.out, "\nnothing wrong\n");
 
-  const ProgramResult script = run({"check", "--json", "-m", "mask.pgm", "-k", "good.fn", "clip.tik"});
+  const ProgramResult script = run("check --json -m mask.pgm -k good.fn clip.tik");
   const json figures = json::parse(script.out).at("functions").at(2);
   EXPECT_EQ(figures.at("mask_value"), 255);
   EXPECT_EQ(figures.at("pixels"), cv::countNonZero(mask_ == 255));
@@ -134,7 +119,7 @@ TEST_F(Check, SaysEverythingThatIsWrongAtOnce) {
   // In the first picture.
   capture[capture.size() / 2] ^= 0x55;
   scratch_.write("damaged.tik", capture);
-  const ProgramResult result = run({"check", "-m", "small.pgm", "-k", "bad.fn", "damaged.tik"});
+  const ProgramResult result = run("check -m small.pgm -k bad.fn damaged.tik");
   EXPECT_EQ(result.status, 3);
   for (const char* part :
        {"bad.fn:1:12: time 5 stands twice", "\n    M0 [5:1], [5:0]\n               ^\n",
@@ -154,45 +139,39 @@ TEST_F(Check, ADamagedBlockIsNamedAndTheRestIsChecked) {
     std::string damaged = capture;
     damaged[offset] = static_cast<char>(damaged[offset] ^ 0x55);
     scratch_.write("damaged.tik", damaged);
-    const ProgramResult result = run({"check", "--json", "-m", "mask.pgm", "-k", "good.fn", "damaged.tik"});
+    const ProgramResult result = run("check --json -m mask.pgm -k good.fn damaged.tik");
     if (result.status != 3) continue;
     const json found = json::parse(result.out);
     if (found.at("findings").at(0).at("kind") != "capture_block") continue;
     is_found = true;
-    EXPECT_NE(
-        found.at("findings").at(0).at("message").get<std::string>().find("the block of samples 0 to 29"),
-        std::string::npos);
+    expect_says(found.at("findings").at(0).at("message").get<std::string>(), "the block of samples 0 to 29");
     EXPECT_EQ(found.at("functions").at(0).at("samples"), 10);
   }
   EXPECT_TRUE(is_found);
 }
 
 TEST_F(Check, EachInputIsOptional) {
-  EXPECT_EQ(kinds({"-k", "good.fn"}, 0), Kinds{});
-  EXPECT_EQ(kinds({"-m", "mask.pgm"}, 0), Kinds{});
-  EXPECT_EQ(kinds({"clip.tik"}, 0), Kinds{});
-  EXPECT_EQ(kinds({"-k", "good.fn", "-f", "10", "frames"}, 0), Kinds{});
-  const ProgramResult alone = run({"check", "-k", "good.fn"});
-  EXPECT_NE(alone.out.find("good.fn: 3 functions; figures are for 0 … 1.2 s, not for a capture\n"),
-            std::string::npos)
-      << alone.out;
+  EXPECT_EQ(kinds("-k good.fn", 0), Kinds{});
+  EXPECT_EQ(kinds("-m mask.pgm", 0), Kinds{});
+  EXPECT_EQ(kinds("clip.tik", 0), Kinds{});
+  EXPECT_EQ(kinds("-k good.fn -f 10 frames", 0), Kinds{});
+  const ProgramResult alone = run("check -k good.fn");
+  expect_says(alone.out, "good.fn: 3 functions; figures are for 0 … 1.2 s, not for a capture\n");
   EXPECT_EQ(alone.out.find("pixels"), std::string::npos);
   EXPECT_EQ(alone.out.find("samples"), std::string::npos);
-  const ProgramResult none = run({"check"});
-  EXPECT_EQ(none.status, 2);
-  EXPECT_NE(none.err.find("what should be checked?"), std::string::npos);
-  const ProgramResult quiet = run({"check", "-q", "-k", "good.fn"});
+  expect_refused("check", 2, "what should be checked?");
+  const ProgramResult quiet = run("check -q -k good.fn");
   EXPECT_EQ(quiet.out, "");
 }
 
 TEST_F(Check, WhatCannotBeReadIsOneFindingAmongOthers) {
-  EXPECT_EQ(kinds({"-m", "absent.pgm", "-k", "absent.fn", "absent.tik"}, 3),
+  EXPECT_EQ(kinds("-m absent.pgm -k absent.fn absent.tik", 3),
             (Kinds{"function_file", "mask_file", "capture"}));
-  const ProgramResult result = run({"check", "-m", "good.fn", "clip.tik"});
+  const ProgramResult result = run("check -m good.fn clip.tik");
   EXPECT_EQ(result.status, 3);
-  EXPECT_NE(result.out.find("good.fn: is neither a PGM nor a PNG"), std::string::npos) << result.out;
+  expect_says(result.out, "good.fn: is neither a PGM nor a PNG");
   scratch_.write("deep.pgm", "P2 2 1 4095\n0 4095\n");
-  EXPECT_NE(run({"check", "-m", "deep.pgm"}).out.find("16 bits"), std::string::npos);
+  expect_says(run("check -m deep.pgm").out, "16 bits");
 }
 
 TEST_F(Check, AFunctionThatNoPixelUses) {
@@ -210,29 +189,26 @@ TEST_F(Check, MaskValuesWithoutAFunction) {
   mask_.setTo(9, mask_ == 128);
   save_mask();
   EXPECT_EQ(kinds(all_, 3), (Kinds{"unused_function", "unmapped_mask_values"}));
-  std::vector<std::string> mapped = all_;
-  mapped.insert(mapped.end(), {"--unmapped", "zero"});
+  test::Words mapped = all_ + "--unmapped zero";
   EXPECT_EQ(kinds(mapped, 0), Kinds{"unused_function"});
   // A function with a mistake is there all the same.
   scratch_.write("broken.fn", test::read_file(scratch_ / "good.fn") + "M9 [0:x]\n");
-  EXPECT_EQ(kinds({"-m", "mask.pgm", "-k", "broken.fn", "clip.tik"}, 3),
-            (Kinds{"function_file", "unused_function"}));
+  EXPECT_EQ(kinds("-m mask.pgm -k broken.fn clip.tik", 3), (Kinds{"function_file", "unused_function"}));
 }
 
 TEST_F(Check, MasksOfOtherSizes) {
   const auto message = [&](const cv::Mat& mask) {
     cv::imwrite((scratch_ / "other.pgm").string(), mask);
-    const json found = findings({"-m", "other.pgm", "-k", "good.fn", "clip.tik"}, 3);
+    const json found = findings("-m other.pgm -k good.fn clip.tik", 3);
     EXPECT_EQ(found.at(0).at("kind"), "mask_size");
     return found.at(0).at("message").get<std::string>();
   };
   cv::Mat turned, scaled;
   cv::transpose(mask_, turned);
   cv::resize(mask_, scaled, {}, 2, 2, cv::INTER_NEAREST);
-  EXPECT_NE(message(turned).find("80 x 120 pixels, the capture 120 x 80; turn it by 90 degrees"),
-            std::string::npos);
-  EXPECT_NE(message(scaled).find("; scale it to 120 x 80 without smoothing"), std::string::npos);
-  EXPECT_NE(message(mask_.colRange(0, 100)).find("; both must have the same size"), std::string::npos);
+  expect_says(message(turned), "80 x 120 pixels, the capture 120 x 80; turn it by 90 degrees");
+  expect_says(message(scaled), "; scale it to 120 x 80 without smoothing");
+  expect_says(message(mask_.colRange(0, 100)), "; both must have the same size");
 }
 
 TEST_F(Check, SpecksOfTheBrush) {
@@ -244,7 +220,7 @@ TEST_F(Check, SpecksOfTheBrush) {
   EXPECT_EQ(found[0].at("kind"), "mask_specks");
   EXPECT_EQ(found[0].at("mask_value"), 128);
   EXPECT_EQ(found[0].at("specks"), json::parse(R"([{"x": 60, "y": 5, "pixels": 2}])"));
-  EXPECT_NE(found[0].at("message").get<std::string>().find("at 60,5 (2 pixels)"), std::string::npos);
+  expect_says(found[0].at("message").get<std::string>(), "at 60,5 (2 pixels)");
 }
 
 TEST_F(Check, MasksThatWereSmoothedOrKeptAsJpeg) {
@@ -289,12 +265,10 @@ TEST_F(Check, ManyFindingsOfOneKindAreCounted) {
   std::string text;
   for (int tag = 0; tag < 30; ++tag) text += "M" + std::to_string(tag) + " [0:1], [5:0], [6:1]\n";
   scratch_.write("many.fn", text);
-  const ProgramResult result = run({"check", "-k", "many.fn"});
-  EXPECT_NE(result.out.find("many.fn: and 10 more like these (held_gain); --json lists all"),
-            std::string::npos)
-      << result.out;
-  EXPECT_NE(result.out.find("\n30 warnings\n"), std::string::npos);
-  EXPECT_EQ(kinds({"-k", "many.fn"}, 0).size(), 30u);
+  const ProgramResult result = run("check -k many.fn");
+  expect_says(result.out,
+              {"many.fn: and 10 more like these (held_gain); --json lists all", "\n30 warnings\n"});
+  EXPECT_EQ(kinds("-k many.fn", 0).size(), 30u);
 }
 
 TEST_F(Check, RefusesWhatMakesNoSense) {

@@ -3,14 +3,14 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "support/app_test.hpp"
 #include "support/ffmpeg.hpp"
-#include "support/program_test.hpp"
 #include "support/stills.hpp"
 
 namespace nutik {
 namespace {
 
-class PartOfAClip : public test::ProgramTest {
+class PartOfAClip : public test::AppTest {
  protected:
   static constexpr Shape kShape{40, 24, 3};
   static constexpr int kStills = 6;
@@ -24,11 +24,10 @@ class PartOfAClip : public test::ProgramTest {
     }
   }
 
-  void expose(const std::vector<std::string>& words, const std::string& picture) const {
-    std::vector<std::string> all{"expose", "--renderer", "reference", "-f", "100", "frames", "-o", picture};
-    all.insert(all.end(), words.begin(), words.end());
-    const auto result = run(all);
-    ASSERT_EQ(result.status, 0) << result.err;
+  void expose(const test::Words& words, const std::string& picture) const {
+    test::Words all =
+        test::Words{"expose", "--renderer", "reference", "-f", "100", "frames", "-o", picture} + words;
+    const auto result = make(all);
   }
 
   [[nodiscard]] cv::Mat light(const std::string& picture) const {
@@ -37,9 +36,8 @@ class PartOfAClip : public test::ProgramTest {
 };
 
 TEST_F(PartOfAClip, IsExposedAsThatPartOfTheWhole) {
-  expose({"--start", "2f", "--exposure", "3f"}, "whole.pfm");
-  expose({"--start", "1f", "--exposure", "3f", "--from", "1f", "--to", "5f", "--crop", "30x20+4+3"},
-         "part.pfm");
+  expose("--start 2f --exposure 3f", "whole.pfm");
+  expose("--start 1f --exposure 3f --from 1f --to 5f --crop 30x20+4+3", "part.pfm");
   const cv::Mat whole = light("whole.pfm")(cv::Rect(4, 3, 30, 20)), part = light("part.pfm");
   ASSERT_EQ(part.size(), whole.size());
   EXPECT_EQ(cv::norm(whole, part, cv::NORM_INF), 0.0);
@@ -48,10 +46,9 @@ TEST_F(PartOfAClip, IsExposedAsThatPartOfTheWhole) {
 // Light adds up whichever comes first. A mean is off by half a code of 65535 at most, in every picture and so in what is
 // exposed; beside it stand the roundings of a float.
 TEST_F(PartOfAClip, IsAsBrightScaledBeforeAsAfter) {
-  const std::vector<std::string> exposure{"--start", "0s", "--exposure", "60ms"};
+  const test::Words exposure("--start 0s --exposure 60ms");
   expose(exposure, "whole.pfm");
-  std::vector<std::string> scaled = exposure;
-  scaled.insert(scaled.end(), {"--scale", "1/4"});
+  test::Words scaled = exposure + "--scale 1/4";
   expose(scaled, "scaled.pfm");
   const cv::Mat whole = light("whole.pfm"), part = light("scaled.pfm");
   ASSERT_EQ(part.size(), cv::Size(10, 6));
@@ -66,40 +63,32 @@ TEST_F(PartOfAClip, IsAsBrightScaledBeforeAsAfter) {
 }
 
 TEST_F(PartOfAClip, IsToldAndCheckedAndStatedInRecipes) {
-  const auto encoded = run({"encode", "-f", "100", "--from", "20ms", "--scale", "1/2", "frames", "part.tik"});
-  EXPECT_EQ(encoded.status, 0) << encoded.err;
-  EXPECT_NE(encoded.out.find("part: pictures 2 … 5 of 6, whose time 0 is 0.02 s after the clip's (--from), "
-                             "20 x 12 as means of light (--scale)"),
-            std::string::npos)
-      << encoded.out;
-  const auto info = run({"info", "part.tik"});
-  EXPECT_NE(info.out.find("pictures 2 … 5 of 6"), std::string::npos) << info.out;
-  const std::vector<std::string> validate{"validate", "--source", "frames", "--start", "0s",  "--exposure",
-                                          "10ms",     "--runs",   "1",      "--scale", "1/2", "part.tik"};
+  const auto encoded = make("encode -f 100 --from 20ms --scale 1/2 frames part.tik");
+  expect_says(encoded.out,
+              "part: pictures 2 … 5 of 6, whose time 0 is 0.02 s after the clip's (--from), "
+              "20 x 12 as means of light (--scale)");
+  const auto info = run("info part.tik");
+  expect_says(info.out, "pictures 2 … 5 of 6");
+  const test::Words validate(
+      "validate --source frames --start 0s --exposure 10ms --runs 1 --scale 1/2 part.tik");
   std::vector<std::string> same = validate, other = validate;
   same.insert(same.end(), {"--from", "2f"});
   other.insert(other.end(), {"--from", "1f"});
-  EXPECT_EQ(run(same).status, 0) << run(same).err;
+  make(same);
   EXPECT_NE(run(other).status, 0);
-  expose({"--start", "0f", "--exposure", "1f", "--from", "1f", "--crop", "8x8+0+0", "--as-far-as-it-goes"},
-         "p.png");
-  const auto again = run({"again", "p.png"});
-  EXPECT_NE(again.out.find("--as-far-as-it-goes --crop 8x8+0+0"), std::string::npos)
-      << again.out << again.err;
-  EXPECT_NE(again.out.find("--from 1f"), std::string::npos) << again.out;
-  expect_refused({"expose", "--from", "1f", "--exposure", "1f", "part.tik"}, 2, "--from describes a clip");
-  expect_refused({"encode", "-f", "100", "--from", "6f", "frames", "x.tik"}, 2,
-                 "which has 6 pictures (0f … 5f) (--from)");
-  expect_refused({"encode", "-f", "100", "--from", "1/3f", "frames", "x.tik"}, 2,
-                 "is not a whole number of pictures");
+  expose("--start 0f --exposure 1f --from 1f --crop 8x8+0+0 --as-far-as-it-goes", "p.png");
+  const auto again = run("again p.png");
+  expect_says(again.out, {"--as-far-as-it-goes --crop 8x8+0+0", "--from 1f"});
+  expect_refused(2, {{"expose --from 1f --exposure 1f part.tik", "--from describes a clip"},
+                     {"encode -f 100 --from 6f frames x.tik", "which has 6 pictures (0f … 5f) (--from)"},
+                     {"encode -f 100 --from 1/3f frames x.tik", "is not a whole number of pictures"}});
 }
 
 // Of a video --from and --to are where it starts and ends in the capture: frames, not what is read.
 TEST_F(PartOfAClip, OfAVideosSourceIsCropped) {
-  const auto made =
-      run({"video", "-f", "100", "--crop", "16x8+2+2", "--from", "1f", "--to", "5f", "--out-fps", "100",
-           "--out-angle", "360", "--renderer", "reference", "frames", "v-%02d.png"});
-  EXPECT_EQ(made.status, 0) << made.err;
+  const auto made = make(
+      "video -f 100 --crop 16x8+2+2 --from 1f --to 5f --out-fps 100 --out-angle 360 --renderer reference "
+      "frames v-%02d.png");
   EXPECT_EQ(light("v-00.png").size(), cv::Size(16, 8));
 }
 
@@ -130,7 +119,7 @@ TEST_F(PartOfAClip, ComesThroughAPipe) {
   const auto capture =
       shell("cat a.y4m | " + program + " encode - && " + program + " info standard-input.tik");
   EXPECT_EQ(capture.status, 0) << capture.err;
-  EXPECT_NE(capture.out.find("12 samples"), std::string::npos) << capture.out;
+  expect_says(capture.out, "12 samples");
   const auto short_form = shell("cat a.y4m | " + program + " - short.tik");
   EXPECT_EQ(short_form.status, 0) << short_form.err;
   EXPECT_TRUE(test::read_file(scratch_ / "short.tik") == test::read_file(scratch_ / "standard-input.tik"));
@@ -138,21 +127,19 @@ TEST_F(PartOfAClip, ComesThroughAPipe) {
   scratch_.write("f.fn", "M0 [0:1], [10000000:0]\n");
   const auto twice = shell("cat f.fn | " + program + " expose -k - - -o x.png");
   EXPECT_EQ(twice.status, 2);
-  EXPECT_NE(twice.err.find("the clip - and -k - would both read standard input"), std::string::npos)
-      << twice.err;
+  expect_says(twice.err, "the clip - and -k - would both read standard input");
   const auto empty = shell(program + " expose --exposure 1f - -o x.png < /dev/null | cat");
-  EXPECT_NE(empty.err.find("standard input is empty"), std::string::npos) << empty.err;
+  expect_says(empty.err, "standard input is empty");
   const auto senseless = shell("echo nonsense | " + program + " expose --exposure 1f - -o x.png");
   EXPECT_EQ(senseless.status, 3);
-  EXPECT_NE(senseless.err.find("nutik-cl: standard input is a text, and no clip"), std::string::npos) << senseless.err;
+  expect_says(senseless.err, "nutik-cl: standard input is a text, and no clip");
   const auto behind = shell("cat a.y4m | " + program + " encode --from 9s - x.tik");
-  EXPECT_NE(behind.err.find("no picture begins there in standard input, which has 12"), std::string::npos)
-      << behind.err;
+  expect_says(behind.err, "no picture begins there in standard input, which has 12");
   const auto cut = shell("head -c 40000 a.y4m | " + program + " encode - cut.tik");
   EXPECT_EQ(cut.status, 0) << cut.err;
-  EXPECT_NE(cut.err.find("warning: it was cut off within picture "), std::string::npos) << cut.err;
+  expect_says(cut.err, "warning: it was cut off within picture ");
   const auto quiet = shell("head -c 40000 a.y4m | " + program + " encode -q - quiet.tik");
-  EXPECT_NE(quiet.err.find("warning: it was cut off within picture "), std::string::npos) << quiet.err;
+  expect_says(quiet.err, "warning: it was cut off within picture ");
   EXPECT_EQ(cut.err.find("/dev/stdin"), std::string::npos) << cut.err;
 }
 
@@ -163,25 +150,20 @@ TEST_F(PartOfAClip, EndsAtItsDamageWhereThatIsAsked) {
   std::string bytes = test::read_file(scratch_ / "a.mkv");
   bytes[bytes.size() * 2 / 3] = static_cast<char>(bytes[bytes.size() * 2 / 3] ^ 8);
   scratch_.write("a.mkv", bytes);
-  expect_refused({"encode", "a.mkv", "a.tik"}, 3, "pictures before it can be taken (--as-far-as-it-goes)");
-  const auto encoded = run({"encode", "--as-far-as-it-goes", "a.mkv", "a.tik"});
-  EXPECT_EQ(encoded.status, 0) << encoded.err;
-  EXPECT_NE(encoded.err.find("warning: a.mkv is taken as far as it goes, "), std::string::npos)
-      << encoded.err;
-  EXPECT_NE(encoded.err.find(" of 30 pictures: "), std::string::npos) << encoded.err;
+  expect_refused("encode a.mkv a.tik", 3, "pictures before it can be taken (--as-far-as-it-goes)");
+  const auto encoded = make("encode --as-far-as-it-goes a.mkv a.tik");
+  expect_says(encoded.err, {"warning: a.mkv is taken as far as it goes, ", " of 30 pictures: "});
   // Straight from the clip it is the same picture, with the same warning; one before the damage has none.
-  const std::vector<std::string> all{"--start",    "0s",        "--exposure", "5s",
-                                     "--renderer", "reference", "--no-recipe"};
-  const auto exposed = [&](std::vector<std::string> words, const std::string& output) {
+  const test::Words all("--start 0s --exposure 5s --renderer reference --no-recipe");
+  const auto exposed = [&](test::Words words, const std::string& output) {
     words.insert(words.begin(), "expose");
     words.insert(words.end(), {"-o", output});
     return run(words);
   };
-  std::vector<std::string> words{"--as-far-as-it-goes", "a.mkv"};
-  words.insert(words.end(), all.begin(), all.end());
+  test::Words words = "--as-far-as-it-goes a.mkv" + all;
   const auto straight = exposed(words, "clip.png");
   EXPECT_EQ(straight.status, 0) << straight.err;
-  EXPECT_NE(straight.err.find("is taken as far as it goes"), std::string::npos) << straight.err;
+  expect_says(straight.err, "is taken as far as it goes");
   words = {"a.tik"};
   words.insert(words.end(), all.begin(), all.end());
   EXPECT_EQ(exposed(words, "capture.png").status, 0);

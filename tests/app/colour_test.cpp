@@ -9,8 +9,8 @@
 #include <opencv2/videoio.hpp>
 
 #include "capture/transfer.hpp"
+#include "support/app_test.hpp"
 #include "support/ffmpeg.hpp"
-#include "support/program_test.hpp"
 #include "support/stills.hpp"
 
 namespace nutik {
@@ -18,12 +18,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-class Colour : public test::ProgramTest {
+class Colour : public test::AppTest {
  protected:
-  void succeed(const std::vector<std::string>& words) const {
-    const auto result = run(test::over(words));
-    ASSERT_EQ(result.status, 0) << result.err;
-  }
+  void succeed(const test::Words& words) const { const auto result = make(test::over(words)); }
 
   // A still scene of a linear 12-bit camera: even fields of 64 x 64 pixels, from light 0.01 to 1.
   void write_scene() const {
@@ -45,12 +42,11 @@ class Colour : public test::ProgramTest {
 
 TEST_F(Colour, OfALinearCaptureIsTheSameInPictureSheetAndVideo) {
   write_scene();
-  succeed({"-q", "-f", "30", "scene", "scene.tik"});
-  succeed({"--start", "0s", "--exposure", "0.1s", "scene.tik", "picture.png"});
-  succeed({"contact", "--every", "4f", "--columns", "1", "--width", "280", "scene.tik", "sheet.png"});
-  succeed({"sweep", "--start", "0s", "--exposure", "0.05s", "--shift", "0..1f/1f", "--each", "each-%d.png",
-           "scene.tik", "sweep.png"});
-  succeed({"video", "--out-fps", "10", "--out-angle", "360", "scene.tik", "video.mkv"});
+  succeed("-q -f 30 scene scene.tik");
+  succeed("--start 0s --exposure 0.1s scene.tik picture.png");
+  succeed("contact --every 4f --columns 1 --width 280 scene.tik sheet.png");
+  succeed("sweep --start 0s --exposure 0.05s --shift 0..1f/1f --each each-%d.png scene.tik sweep.png");
+  succeed("video --out-fps 10 --out-angle 360 scene.tik video.mkv");
   const cv::Mat picture = cv::imread((scratch_ / "picture.png").string(), cv::IMREAD_UNCHANGED);
   const cv::Mat each = cv::imread((scratch_ / "each-1.png").string(), cv::IMREAD_UNCHANGED);
   const cv::Mat sheet = cv::imread((scratch_ / "sheet.png").string(), cv::IMREAD_COLOR);
@@ -70,29 +66,23 @@ TEST_F(Colour, OfALinearCaptureIsTheSameInPictureSheetAndVideo) {
 
 TEST_F(Colour, OfTheSourceIsKeptWhereThatIsAskedFor) {
   write_scene();
-  const auto result = run({"--start", "0s", "--exposure", "1f", "-f", "30", "scene", "shown.png"});
-  EXPECT_NE(result.out.find("codes srgb with white 65535 (the capture's: linear with white 4095)"),
-            std::string::npos)
-      << result.out;
-  succeed(
-      {"--start", "0s", "--exposure", "1f", "-f", "30", "--out-transfer", "source", "scene", "codes.png"});
+  const auto result = run("--start 0s --exposure 1f -f 30 scene shown.png");
+  expect_says(result.out, "codes srgb with white 65535 (the capture's: linear with white 4095)");
+  succeed("--start 0s --exposure 1f -f 30 --out-transfer source scene codes.png");
   const cv::Mat codes = cv::imread((scratch_ / "codes.png").string(), cv::IMREAD_UNCHANGED);
   for (std::size_t field = 0; field < 4; ++field) {
     EXPECT_EQ(codes.at<std::uint16_t>(32, static_cast<int>(field) * 64 + 32), kCodes[field]);
   }
-  const auto again = run({"again", "codes.png"});
-  EXPECT_NE(again.out.find("--out-transfer source"), std::string::npos) << again.out << again.err;
-  expect_refused(
-      {"--start", "0s", "--exposure", "1f", "-f", "30", "--out-transfer", "srgb", "scene", "x.pfm"}, 2,
-      "(--out-transfer)");
+  const auto again = run("again codes.png");
+  expect_says(again.out, "--out-transfer source");
+  expect_refused("--start 0s --exposure 1f -f 30 --out-transfer srgb scene x.pfm", 2, "(--out-transfer)");
 }
 
 // A .tik whose codes are said to stand for other light is exposed so.
 TEST_F(Colour, OfACaptureFollowsAStatedTransfer) {
   write_scene();
-  succeed({"-q", "-f", "30", "scene", "scene.tik"});
-  succeed(
-      {"--start", "0s", "--exposure", "1f", "--transfer", "srgb", "--depth", "8", "scene.tik", "srgb.png"});
+  succeed("-q -f 30 scene scene.tik");
+  succeed("--start 0s --exposure 1f --transfer srgb --depth 8 scene.tik srgb.png");
   const cv::Mat codes = cv::imread((scratch_ / "srgb.png").string(), cv::IMREAD_UNCHANGED);
   for (std::size_t field = 0; field < 4; ++field) {
     EXPECT_EQ(codes.at<std::uint8_t>(32, static_cast<int>(field) * 64 + 32),
@@ -103,13 +93,12 @@ TEST_F(Colour, OfACaptureFollowsAStatedTransfer) {
 // HLG's and PQ's codes go on behind white. What codes to be seen cut off is counted and said, with what keeps it.
 TEST_F(Colour, AboveWhiteIsNotCutOffInSilence) {
   write_scene();
-  const std::vector<std::string> exposing{"--start", "0s", "--exposure", "1f", "-f", "30", "scene"};
-  const auto told = [&](const std::string& transfer, const std::vector<std::string>& more) {
+  const test::Words exposing("--start 0s --exposure 1f -f 30 scene");
+  const auto told = [&](const std::string& transfer, const test::Words& more) {
     std::vector<std::string> words = exposing;
     words.insert(words.end(), {"--transfer", transfer});
     words.insert(words.end(), more.begin(), more.end());
-    const auto result = run(words);
-    EXPECT_EQ(result.status, 0) << result.err;
+    const auto result = make(words);
     return result.out + result.err;
   };
   constexpr const char* kSaid = "brighter come out white";
@@ -124,23 +113,20 @@ TEST_F(Colour, AboveWhiteIsNotCutOffInSilence) {
         << said;
     const std::string all = told(transfer, {"--ev", stops, "x.png"});
     EXPECT_EQ(all.find(kSaid), std::string::npos) << all;
-    EXPECT_NE(all.find("no pixel saturated"), std::string::npos) << all;
+    expect_says(all, "no pixel saturated");
     EXPECT_EQ(told(transfer, {"x.exr"}).find(kSaid), std::string::npos);
     EXPECT_EQ(told(transfer, {"--out-transfer", "source", "x.png"}).find(kSaid), std::string::npos);
     EXPECT_NE(told(transfer, {"--json", "x.png"}).find(kSaid), std::string::npos);
   }
   EXPECT_EQ(told("srgb", {"x.png"}).find(kSaid), std::string::npos);
   scratch_.write("list", "--start 0s --exposure 1f a.png\n--start 1f --exposure 1f b.png\n");
-  const auto plate = run({"plate", "-f", "30", "--transfer", "hlg", "scene", "plate.png"});
-  EXPECT_NE(plate.err.find("4096 pixels hold more light than white and come out white; an .exr"),
-            std::string::npos)
-      << plate.err;
+  const auto plate = run("plate -f 30 --transfer hlg scene plate.png");
+  expect_says(plate.err, "4096 pixels hold more light than white and come out white; an .exr");
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"batch", "-f", "30", "--transfer", "hlg", "list", "scene"},
         {"contact", "-f", "30", "--transfer", "hlg", "--every", "1f", "scene", "sheet.png"},
         {"video", "-f", "30", "--transfer", "hlg", "--out-fps", "30", "scene", "x.mkv"}}) {
-    const auto result = run(words);
-    EXPECT_EQ(result.status, 0);
+    const auto result = make(words);
     EXPECT_NE((result.out + result.err).find(kSaid), std::string::npos)
         << words[0] << result.out << result.err;
   }
@@ -156,8 +142,8 @@ TEST_F(Colour, OfMeansOfLightStaysWhatItIs) {
       "nutik noise 0\nwhite 1023\ntransfer linear\nchannel grey\nread 0.002\nshot 0.0001\n"
       "curve sensor\n";
   scratch_.write("camera.noise", camera);
-  const std::vector<std::string> exposing{"--start", "0s", "--exposure", "3f"};
-  const auto with = [](std::vector<std::string> words, const std::vector<std::string>& more) {
+  const test::Words exposing("--start 0s --exposure 3f");
+  const auto with = [](test::Words words, const test::Words& more) {
     words.insert(words.end(), more.begin(), more.end());
     return words;
   };
@@ -167,16 +153,14 @@ TEST_F(Colour, OfMeansOfLightStaysWhatItIs) {
     succeed(with({"encode", "-q", "clip.mkv", "means.tik"}, options));
     const std::string said = "means.tik holds codes that are means of light by linear: " + reason;
     expect_refused(with({"--transfer", "srgb", "means.tik", "x.png"}, exposing), 2, said);
-    expect_refused({"contact", "--transfer", "srgb", "means.tik", "x.png"}, 2, said);
-    expect_refused(
-        {"trace", "--pixel", "1,1", "--transfer", "srgb", "means.tik", "--start", "0s", "--exposure", "3f"},
-        2, said);
-    expect_refused({"retime", "--transfer", "srgb", "means.tik", "x.tik"}, 2, said);
+    expect_refused("contact --transfer srgb means.tik x.png", 2, said);
+    expect_refused("trace --pixel 1,1 --transfer srgb means.tik --start 0s --exposure 3f", 2, said);
+    expect_refused("retime --transfer srgb means.tik x.tik", 2, said);
     EXPECT_FALSE(std::filesystem::exists(scratch_ / "x.tik"));
     succeed(with({"--transfer", "linear", "means.tik", "x.png"}, exposing));
     // A corrected capture still knows.
-    succeed({"retime", "-f", "50", "means.tik", "fast.tik"});
-    expect_refused({"retime", "--transfer", "srgb", "fast.tik", "x.tik"}, 2, reason);
+    succeed("retime -f 50 means.tik fast.tik");
+    expect_refused("retime --transfer srgb fast.tik x.tik", 2, reason);
     // The clip itself is read by any.
     succeed(with(with({"--transfer", "srgb", "clip.mkv", "x.png"}, exposing), options));
   }
@@ -229,20 +213,20 @@ TEST_F(Colour, StandsInTheFile) {
   EXPECT_EQ(gamma.count("cICP"), 0u);
   EXPECT_EQ(gamma["gAMA"], std::string("\x00\x00\xD9\x04", 4));  // 1 / 1.8
 
-  succeed({"-q", "clip.mkv", "clip.tik"});
-  const Json info = Json::parse(run({"info", "--json", "clip.tik"}).out);
+  succeed("-q clip.mkv clip.tik");
+  const Json info = Json::parse(run("info --json clip.tik").out);
   EXPECT_EQ(info["pixel_aspect"], "32:27");
   EXPECT_EQ(info["primaries"], "bt2020");
   EXPECT_EQ(info["transfer"], "hlg");
   EXPECT_EQ(info["version"], 1);
-  succeed({"video", "--out-fps", "25", "clip.tik", "video.mp4"});
+  succeed("video --out-fps 25 clip.tik video.mp4");
   const auto probed = test::run_shell("ffprobe -v error -of json -show_streams video.mp4", scratch_.folder());
   const Json stream = Json::parse(probed.out)["streams"][0];
   EXPECT_EQ(stream["sample_aspect_ratio"], "32:27");
   EXPECT_EQ(stream["color_transfer"], "iec61966-2-1");
   EXPECT_EQ(stream["color_primaries"], "bt709");
   // Round things look round on a sheet.
-  succeed({"contact", "--every", "1f", "--columns", "1", "clip.tik", "sheet.png"});
+  succeed("contact --every 1f --columns 1 clip.tik sheet.png");
   const cv::Mat sheet = cv::imread((scratch_ / "sheet.png").string());
   EXPECT_EQ(sheet.cols, 2 * 12 + std::max(96, static_cast<int>(std::lround(64 * 32.0 / 27))));
 }
@@ -253,7 +237,7 @@ TEST_F(Colour, ThatIsCutOffAtWhiteIsNotedWithWhatShowsIt) {
   test::make(scratch_,
              "-f lavfi -i color=white:s=64x48:d=0.2:r=10 -pix_fmt yuv420p10le -color_trc smpte2084 "
              "-color_primaries bt2020 -colorspace bt2020nc -c:v ffv1 clip.mkv");
-  const auto told = run({"contact", "clip.mkv", "sheet.png"});
+  const auto told = run("contact clip.mkv sheet.png");
   const std::string start = "come out white; nutik-cl ";
   const auto at = told.err.find(start);
   ASSERT_NE(at, std::string::npos) << told.err;
@@ -262,30 +246,29 @@ TEST_F(Colour, ThatIsCutOffAtWhiteIsNotedWithWhatShowsIt) {
   for (std::string& word : words) advice >> word;
   words.insert(words.end(), {"--start", "0f", "--exposure", "1f", "clip.mkv", "shown.png"});
   const auto shown = run(words);
-  EXPECT_NE(shown.out.find("no pixel saturated"), std::string::npos) << shown.out << shown.err;
+  expect_says(shown.out, "no pixel saturated");
 }
 
 TEST_F(Colour, OfACaptureIsCorrectedWithoutItsClip) {
   NEEDS_FFMPEG();
   test::make(scratch_, "-f lavfi -i testsrc2=s=64x48:d=1:r=30 -c:v ffv1 -pix_fmt yuv420p clip.mkv");
-  succeed({"-q", "clip.mkv", "clip.tik"});
-  const auto told = run({"retime", "clip.tik", "-f", "960", "-a", "180", "--transfer", "linear", "--in-place"});
-  EXPECT_EQ(told.status, 0) << told.err;
-  EXPECT_NE(told.out.find("960 pictures a second, shutter 180 degrees, transfer linear"), std::string::npos)
-      << told.out;
-  succeed({"-q", "-f", "960", "-a", "180", "--transfer", "linear", "clip.mkv", "anew.tik"});
+  succeed("-q clip.mkv clip.tik");
+  const auto told = make("retime clip.tik -f 960 -a 180 --transfer linear --in-place");
+  expect_says(told.out, "960 pictures a second, shutter 180 degrees, transfer linear");
+  succeed("-q -f 960 -a 180 --transfer linear clip.mkv anew.tik");
   for (const char* name : {"clip", "anew"}) {
     succeed({"--start", "3f", "--exposure", "20ms", std::string(name) + ".tik", std::string(name) + ".pfm"});
   }
   EXPECT_EQ(test::read_file(scratch_ / "clip.pfm"), test::read_file(scratch_ / "anew.pfm"));
-  expect_refused({"retime", "clip.tik", "--in-place"}, 2, "what is to be corrected?");
-  expect_refused({"retime", "clip.tik", "-f", "9"}, 2, "say where to write: nutik-cl retime … clip.tik NEW.tik");
-  expect_refused({"retime", "clip.tik", "-f", "9", "new.tik", "--in-place"}, 2, "two outputs: new.tik and the capture itself");
-  expect_refused({"retime", "clip.mkv", "-f", "9", "--in-place"}, 3,
-                 "clip.mkv is no .tik capture, and only those are corrected: state a clip's rate");
-  expect_refused({"retime", "clip.mkv", "--in-place"}, 3, "(--fps, --shutter-angle, --transfer)");
-  expect_refused({"info", "clip.mkv"}, 3,
-                 "clip.mkv is no .tik capture; a clip becomes one when it is encoded");
+  expect_refused(
+      2, {{"retime clip.tik --in-place", "what is to be corrected?"},
+          {"retime clip.tik -f 9", "say where to write: nutik-cl retime … clip.tik NEW.tik"},
+          {"retime clip.tik -f 9 new.tik --in-place", "two outputs: new.tik and the capture itself"}});
+  expect_refused(3,
+                 {{"retime clip.mkv -f 9 --in-place",
+                   "clip.mkv is no .tik capture, and only those are corrected: state a clip's rate"},
+                  {"retime clip.mkv --in-place", "(--fps, --shutter-angle, --transfer)"},
+                  {"info clip.mkv", "clip.mkv is no .tik capture; a clip becomes one when it is encoded"}});
 }
 
 }  // namespace

@@ -5,8 +5,7 @@
 #include <cstring>
 #include <opencv2/imgcodecs.hpp>
 
-#include "support/program.hpp"
-#include "support/scratch.hpp"
+#include "support/app_test.hpp"
 #include "support/stills.hpp"
 
 namespace nutik {
@@ -15,20 +14,12 @@ namespace {
 using test::difference;
 using test::netpbm_file;
 using test::ProgramResult;
-using test::Scratch;
 using test::tiff_file;
 
-class DeepInput : public testing::Test {
+class DeepInput : public test::AppTest {
  protected:
-  [[nodiscard]] ProgramResult run(const std::vector<std::string>& words) const {
-    return test::run_program(words, scratch_.folder());
-  }
-  void succeed(const std::vector<std::string>& words) const {
-    const ProgramResult result = run(test::over(words));
-    EXPECT_EQ(result.status, 0) << result.err;
-  }
-  void expect_refused(const std::vector<std::string>& words, int status,
-                      const std::vector<std::string>& parts) const {
+  void succeed(const test::Words& words) const { const ProgramResult result = make(test::over(words)); }
+  void expect_refused(const test::Words& words, int status, const std::vector<std::string>& parts) const {
     const ProgramResult result = run(words);
     EXPECT_EQ(result.status, status) << result.err;
     for (const std::string& part : parts) EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
@@ -61,8 +52,6 @@ class DeepInput : public testing::Test {
     }
     EXPECT_EQ(difference(codes, want), "");
   }
-
-  Scratch scratch_;
 };
 
 TEST_F(DeepInput, OneSampleIsTheSourceCodeForCode) {
@@ -79,8 +68,7 @@ TEST_F(DeepInput, OneSampleIsTheSourceCodeForCode) {
         for (const char* renderer : {"opencl", "reference"}) {
           const std::vector<std::string> words{"--start",    "3f",     "--exposure", "1f",
                                                "--renderer", renderer, "x.tik",      "x.png"};
-          std::vector<std::string> of_source = words;
-          of_source.insert(of_source.end(), {"--out-transfer", "source"});
+          test::Words of_source = test::Words(words) + "--out-transfer source";
           succeed(of_source);
           expect_codes(scratch_ / "x.png", stills[3]);
           if (transfer != "srgb" || (white != 255 && white != 65'535)) continue;
@@ -102,14 +90,14 @@ TEST_F(DeepInput, EveryCodecAndNoneGiveTheSamePicture) {
     std::string first;
     for (const std::string codec : {"none", "rice", "lz4", "zstd", "zstd:19"}) {
       succeed({"encode", "-q", "-f", "100", "-a", "200", "--codec", codec, "frames", "x.tik"});
-      succeed({"-k", "f.fn", "x.tik", "x.pfm"});
+      succeed("-k f.fn x.tik x.pfm");
       const std::string picture = test::read_file(scratch_ / "x.pfm");
       EXPECT_GT(picture.size(), 70u * 41 * channels * 4);
       if (first.empty()) first = picture;
       EXPECT_EQ(picture == first, true) << codec << ", white " << white;
     }
     // Straight from the stills, with no capture between.
-    succeed({"-f", "100", "-a", "200", "-k", "f.fn", "frames", "x.pfm"});
+    succeed("-f 100 -a 200 -k f.fn frames x.pfm");
     EXPECT_EQ(test::read_file(scratch_ / "x.pfm") == first, true) << "from the stills";
     std::filesystem::remove_all(scratch_ / "frames");
   }
@@ -130,38 +118,35 @@ TEST_F(DeepInput, EveryNameOfASequenceGivesTheSameCapture) {
 
 TEST_F(DeepInput, SaysWhatItTookForWhite) {
   write_netpbm("twelve", test::random_stills({17, 9, 1}, 4095, 2, 1));
-  expect_said(run({"encode", "-f", "10", "twelve"}), "twelve.tik: 17 x 9 grey, 2 samples");
-  expect_said(run({"info", "twelve.tik"}), "17 x 9 grey, 16 bits, white code 4095, transfer linear");
+  expect_said(run("encode -f 10 twelve"), "twelve.tik: 17 x 9 grey, 2 samples");
+  expect_said(run("info twelve.tik"), "17 x 9 grey, 16 bits, white code 4095, transfer linear");
   scratch_.write("stack.tif", tiff_file(test::random_stills({17, 9, 1}, 4095, 2, 1), {}));
-  expect_said(run({"-f", "10", "stack.tif", "x.tik"}),
+  expect_said(run("-f 10 stack.tif x.tik"),
               "white is taken to be 65535; state another, 4095 for 12 bits (--white)");
-  expect_said(run({"-f", "10", "--start", "0f", "--exposure", "1f", "stack.tif", "x.png"}),
-              "white is taken to be 65535");
-  expect_said(run({"-f", "10", "--white", "4095", "--overwrite", "stack.tif", "x.tik"}), "2 samples");
-  expect_said(run({"info", "x.tik"}), "white code 4095, transfer linear");
-  expect_refused({"-f", "10", "--white", "1000", "stack.tif", "y.tik"}, 3,
+  expect_said(run("-f 10 --start 0f --exposure 1f stack.tif x.png"), "white is taken to be 65535");
+  expect_said(run("-f 10 --white 4095 --overwrite stack.tif x.tik"), "2 samples");
+  expect_said(run("info x.tik"), "white code 4095, transfer linear");
+  expect_refused("-f 10 --white 1000 stack.tif y.tik", 3,
                  {"sample 0 has a code of 4095, above the white code 1000"});
 }
 
 TEST_F(DeepInput, RefusesWithTheFileBothValuesAndTheWayOut) {
   const auto stills = test::random_stills({17, 9, 1}, 4095, 3, 1);
   write_netpbm("frames", stills);
-  expect_refused({"frames", "x.tik"}, 3,
-                 {"frames does not say how fast it was taken; state the rate (--fps)"});
-  expect_refused({"-f", "10", "absent/*.png", "x.tik"}, 3, {"absent/*.png: no file matches"});
-  expect_refused({"-f", "10", "frames/f%d.pgm", "x.tik"}, 3,
-                 {"f002.pgm is there: its zeros are written %03d"});
+  expect_refused("frames x.tik", 3, {"frames does not say how fast it was taken; state the rate (--fps)"});
+  expect_refused("-f 10 absent/*.png x.tik", 3, {"absent/*.png: no file matches"});
+  expect_refused("-f 10 frames/f%d.pgm x.tik", 3, {"f002.pgm is there: its zeros are written %03d"});
   std::filesystem::remove(scratch_ / "frames/f001.pgm");
-  expect_refused({"-f", "10", "frames/f%03d.pgm", "x.tik"}, 3,
+  expect_refused("-f 10 frames/f%03d.pgm x.tik", 3,
                  {"f001.pgm is missing between f000.pgm and f002.pgm", "'frames/f*.pgm'"});
   scratch_.write("frames/f003.pgm", netpbm_file(test::random_stills({16, 9, 1}, 4095, 1, 1)[0], false));
-  expect_refused({"-f", "10", "frames", "x.tik"}, 3,
+  expect_refused("-f 10 frames x.tik", 3,
                  {"frames/f003.pgm is 16 x 9 grey", "frames/f000.pgm, is 17 x 9 grey"});
   scratch_.write("frames/f003.pgm", "P5 17 9 4095\nshort");
   expect_refused(
-      {"-f", "10", "frames", "x.tik"}, 3,
+      "-f 10 frames x.tik", 3,
       {"frames/f003.pgm cannot be read: it was cut off: 17 x 9 pixels need 306 bytes, 5 are left"});
-  expect_refused({"-f", "10", "frames/f000.pgm", "frames/f002.pgm", "x.tik"}, 2,
+  expect_refused("-f 10 frames/f000.pgm frames/f002.pgm x.tik", 2,
                  {"'x.tik' is one file too many", "a pattern in quotes"});
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "x.tik"));
 }
@@ -183,18 +168,18 @@ TEST_F(DeepInput, NamesOutputsAfterTheSequence) {
     expect_said(run({"encode", "-f", "10", "--overwrite", source}), "frames.tik: ");
     std::filesystem::remove(scratch_ / "frames.tik");
   }
-  expect_said(run({"-f", "10", "--start", "0f", "--exposure", "1f", "frames/f%03d.pgm"}), "f-0f-1f.png: ");
+  expect_said(run("-f 10 --start 0f --exposure 1f frames/f%03d.pgm"), "f-0f-1f.png: ");
 }
 
 // The camera files that people send, where the folder of clips is there.
 TEST_F(DeepInput, ReadsTheRecordedFiles) {
   const std::filesystem::path media = NUTIK_TEST_MEDIA;
   if (!std::filesystem::exists(media / "stuck.tif")) GTEST_SKIP() << "no clips in " << media;
-  const auto info = [&](std::vector<std::string> words, const std::string& said) {
+  const auto info = [&](test::Words words, const std::string& said) {
     words.insert(words.begin(), {"encode", "-q"});
     words.push_back("x.tik");
     succeed(words);
-    expect_said(run({"info", "x.tik"}), said);
+    expect_said(run("info x.tik"), said);
   };
   info({"-f", "30000", "--white", "4095", (media / "ball_12bit_png").string()},
        "384 x 384 grey, 16 bits, white code 4095, transfer linear");

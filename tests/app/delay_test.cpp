@@ -4,8 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "support/program.hpp"
-#include "support/scratch.hpp"
+#include "support/app_test.hpp"
 #include "support/tik_files.hpp"
 
 namespace nutik {
@@ -15,7 +14,7 @@ using nlohmann::json;
 using test::ProgramResult;
 
 // Eight pictures at 100 a second of linear light, picture k of code 10 k, 6 x 4 pixels.
-class DelayCommand : public testing::Test {
+class DelayCommand : public test::AppTest {
  protected:
   void SetUp() override {
     std::filesystem::create_directory(scratch_ / "frames");
@@ -23,7 +22,7 @@ class DelayCommand : public testing::Test {
       const cv::Mat picture(4, 6, CV_8UC1, cv::Scalar::all(10 * k));
       cv::imwrite((scratch_ / ("frames/" + std::to_string(k) + ".pgm")).string(), picture);
     }
-    done({"-f", "100", "--transfer", "linear", "frames", "clip.tik"});
+    make("-f 100 --transfer linear frames clip.tik");
     cv::Mat map(4, 6, CV_16UC1);
     for (int y = 0; y < 4; ++y) {
       for (int x = 0; x < 6; ++x)
@@ -32,19 +31,6 @@ class DelayCommand : public testing::Test {
     cv::imwrite((scratch_ / "map.tif").string(), map);
   }
 
-  ProgramResult run(const std::vector<std::string>& words) const {
-    return test::run_program(words, scratch_.folder());
-  }
-  ProgramResult done(const std::vector<std::string>& words) const {
-    const ProgramResult result = run(words);
-    EXPECT_EQ(result.status, 0) << result.err;
-    return result;
-  }
-  void expect_refused(const std::vector<std::string>& words, int status, std::string_view part) const {
-    const ProgramResult result = run(words);
-    EXPECT_EQ(result.status, status) << result.err;
-    EXPECT_NE(result.err.find(part), std::string::npos) << "no '" << part << "' in: " << result.err;
-  }
   // One picture's time from 0 s on, with these delays, and what stands behind.
   static std::vector<std::string> exposing(const std::string& delay, const std::vector<std::string>& behind) {
     std::vector<std::string> words{"--start",        "0s",     "--exposure", "10ms",
@@ -67,8 +53,6 @@ class DelayCommand : public testing::Test {
     for (int x = 0; x < read.cols; ++x) codes.push_back(read.at<std::uint8_t>(1, x));
     return codes;
   }
-
-  test::Scratch scratch_;
 };
 
 // A mask value has few of a map's delays: 16 values and 4096 delays make 4096 tables, and not 65,536 of 200 MB.
@@ -97,24 +81,24 @@ TEST_F(DelayCommand, TakesMemoryForThePairsThatOccur) {
         "sixteen.fn", "-m",  "sixteen.png", "--delay", "each.tif:0s..70ms", name,   "o.pfm"};
   };
   expect_refused(exposed("squares", "8MB"), 2, "gain tables of a block");
-  done(exposed("squares", "60MB"));
+  make(exposed("squares", "60MB"));
 }
 
 TEST_F(DelayCommand, SweepsThroughTheCaptureInEveryArithmetic) {
   for (const char* precision : {"auto", "single", "compensated", "double", "fixed"}) {
-    done(exposing("rows:60ms", {"--precision", precision, "clip.tik", "out.pgm"}));
+    make(exposing("rows:60ms", {"--precision", precision, "clip.tik", "out.pgm"}));
     EXPECT_EQ(column("out.pgm"), (std::vector<int>{0, 20, 40, 60})) << precision;
   }
-  done(exposing("rows:60ms", {"--renderer", "reference", "clip.tik", "out.pgm"}));
+  make(exposing("rows:60ms", {"--renderer", "reference", "clip.tik", "out.pgm"}));
   EXPECT_EQ(column("out.pgm"), (std::vector<int>{0, 20, 40, 60}));
-  done(exposing("columns:50ms..0s", {"clip.tik", "out.pgm"}));
+  make(exposing("columns:50ms..0s", {"clip.tik", "out.pgm"}));
   EXPECT_EQ(row("out.pgm"), (std::vector<int>{50, 40, 30, 20, 10, 0}));
-  done(exposing("map.tif:20ms..70ms", {"clip.tik", "out.pgm"}));
+  make(exposing("map.tif:20ms..70ms", {"clip.tik", "out.pgm"}));
   EXPECT_EQ(row("out.pgm"), (std::vector<int>{20, 30, 40, 50, 60, 70}));
 }
 
 TEST_F(DelayCommand, ReadsAClipForward) {
-  done(exposing("rows:60ms", {"-f", "100", "--transfer", "linear", "frames", "out.pgm"}));
+  make(exposing("rows:60ms", {"-f", "100", "--transfer", "linear", "frames", "out.pgm"}));
   EXPECT_EQ(column("out.pgm"), (std::vector<int>{0, 20, 40, 60}));
 }
 
@@ -125,50 +109,50 @@ TEST_F(DelayCommand, GoesWithMasksSoftOnesToo) {
   scratch_.write(
       "f.fn",
       "M0 [0:1], [9999999:1], [10000000:0]\nM9 [9999999:0], [10000000:1], [19999999:1], [20000000:0]\n");
-  const std::vector<std::string> words{"-k",        "f.fn",           "-m",    "mask.pgm", "--delay",
-                                       "rows:30ms", "--out-transfer", "source"};
-  const auto with = [&](std::vector<std::string> more) {
+  const test::Words words("-k f.fn -m mask.pgm --delay rows:30ms --out-transfer source");
+  const auto with = [&](test::Words more) {
     more.insert(more.begin(), words.begin(), words.end());
     return more;
   };
-  done(with({"clip.tik", "out.pgm"}));
+  make(with({"clip.tik", "out.pgm"}));
   EXPECT_EQ(row("out.pgm"), (std::vector<int>{10, 10, 10, 20, 20, 20}));
-  done(with({"--feather", "2px", "clip.tik", "soft.pgm"}));
-  done(with({"--feather", "2px", "--renderer", "reference", "clip.tik", "reference.pgm"}));
+  make(with({"--feather", "2px", "clip.tik", "soft.pgm"}));
+  make(with({"--feather", "2px", "--renderer", "reference", "clip.tik", "reference.pgm"}));
   EXPECT_EQ(row("soft.pgm"), (std::vector<int>{10, 11, 13, 17, 19, 20}));
   EXPECT_EQ(row("soft.pgm"), row("reference.pgm"));
 }
 
 TEST_F(DelayCommand, IsMadeAgainFromItsRecipe) {
   for (const std::string delay : {"rows:60ms", "radial:-5ms..20ms", "map.tif:20ms..70ms"}) {
-    done(exposing(delay, {"--ev", "1", "clip.tik", "out.png"}));
+    make(exposing(delay, {"--ev", "1", "clip.tik", "out.png"}));
     const std::string before = test::read_file(scratch_ / "out.png");
-    const std::string command = done({"again", "out.png"}).out;
+    const std::string command = make("again out.png").out;
     std::filesystem::remove(scratch_ / "out.png");
     EXPECT_EQ(test::run_shell(command, scratch_.folder()).status, 0) << command;
     EXPECT_TRUE(test::read_file(scratch_ / "out.png") == before) << command;
   }
   cv::imwrite((scratch_ / "map.tif").string(), cv::Mat(4, 6, CV_16UC1, cv::Scalar::all(7)));
-  expect_refused({"again", "out.png"}, 3, "map.tif is not the map of delays that the picture was made from");
+  expect_says(make("again out.png", 3).err, "map.tif is not the map of delays that the picture was made from");
 }
 
 TEST_F(DelayCommand, GoesWithSeriesSweepsAndVideos) {
-  done(exposing("rows:30ms", {"--every", "10ms", "--count", "3", "clip.tik", "s%d.pgm"}));
+  make(exposing("rows:30ms", {"--every", "10ms", "--count", "3", "clip.tik", "s%d.pgm"}));
   EXPECT_EQ(column("s2.pgm"), (std::vector<int>{20, 30, 40, 50}));
   std::vector<std::string> sweep =
       exposing("rows:30ms", {"--shift", "0ms..20ms/10ms", "--each", "w%d.pgm", "clip.tik", "sheet.png"});
   sweep.insert(sweep.begin(), "sweep");
-  done(sweep);
+  make(sweep);
   EXPECT_EQ(column("w2.pgm"), (std::vector<int>{20, 30, 40, 50}));
-  done({"video", "--delay", "rows:30ms", "--out-fps", "100", "--out-angle", "360", "--to", "50ms",
-        "--out-transfer", "source", "clip.tik", "v%d.pgm"});
+  make(
+      "video --delay rows:30ms --out-fps 100 --out-angle 360 --to 50ms --out-transfer source clip.tik "
+      "v%d.pgm");
   EXPECT_EQ(column("v2.pgm"), (std::vector<int>{20, 30, 40, 50}));
 }
 
 TEST_F(DelayCommand, WeighsFunctionsByTheirWholeCourse) {
   scratch_.write("f.fn", "M0 [-20000000:0], [-19999999:2], [19999999:2], [20000000:0]\n");
   for (const std::string normalization : {"support", "integral"}) {
-    done({"-k", "f.fn", "--delay", "rows:20ms..50ms", "--normalize", normalization, "--out-transfer",
+    make({"-k", "f.fn", "--delay", "rows:20ms..50ms", "--normalize", normalization, "--out-transfer",
           "source", "clip.tik", "out.pgm"});
     // The mean of four pictures, and twice that.
     const int factor = normalization == "support" ? 2 : 1;
@@ -178,62 +162,54 @@ TEST_F(DelayCommand, WeighsFunctionsByTheirWholeCourse) {
 }
 
 TEST_F(DelayCommand, WarnsOfPixelsThatLeaveTheCapture) {
-  const ProgramResult out = done(exposing("rows:-30ms..60ms", {"clip.tik", "out.pgm"}));
-  EXPECT_NE(out.err.find("of 6 of 24 pixels the delay moves the whole function outside of the capture"),
-            std::string::npos)
-      << out.err;
-  EXPECT_EQ(done(exposing("rows:60ms", {"clip.tik", "out.pgm"})).err.find("warning"), std::string::npos);
+  const ProgramResult out = make(exposing("rows:-30ms..60ms", {"clip.tik", "out.pgm"}));
+  expect_says(out.err, "of 6 of 24 pixels the delay moves the whole function outside of the capture");
+  EXPECT_EQ(make(exposing("rows:60ms", {"clip.tik", "out.pgm"})).err.find("warning"), std::string::npos);
 }
 
 TEST_F(DelayCommand, IsTracedAndChecked) {
   std::vector<std::string> words = exposing("rows:60ms", {"--pixel", "2,3", "--json", "clip.tik"});
   words.insert(words.begin(), "trace");
-  const json trace = json::parse(done(words).out);
+  const json trace = json::parse(make(words).out);
   EXPECT_NEAR(trace["light"][0].get<double>() * 255, 60, 1e-9);
   EXPECT_EQ(trace["nonzero_ns"], 10'000'000);
   words = exposing("rows:60ms", {"clip.tik"});
   words.insert(words.begin(), "validate");
-  done(words);
+  make(words);
 
   scratch_.write("f.fn", "M0 [0:0], [1:1], [9999999:1], [10000000:0]\n");
-  EXPECT_EQ(done({"check", "-k", "f.fn", "--delay", "rows:60ms", "clip.tik"}).out.find("delay"),
-            std::string::npos);
-  const ProgramResult check = done({"check", "-k", "f.fn", "--delay", "rows:90ms", "clip.tik"});
-  EXPECT_NE(check.out.find("of 6 of 24 pixels the delay moves the whole function outside"), std::string::npos)
-      << check.out;
+  EXPECT_EQ(make("check -k f.fn --delay rows:60ms clip.tik").out.find("delay"), std::string::npos);
+  const ProgramResult check = make("check -k f.fn --delay rows:90ms clip.tik");
+  expect_says(check.out, "of 6 of 24 pixels the delay moves the whole function outside");
 }
 
 TEST_F(DelayCommand, SaysWhatIsWrong) {
-  expect_refused(exposing("rows", {"clip.tik", "o.pgm"}), 2,
-                 "--delay rows is not known; did you mean rows:?");
-  expect_refused(exposing("15ms", {"clip.tik", "o.pgm"}), 2,
-                 "--delay '15ms' does not say where and by how much");
-  expect_refused(exposing("rows:15", {"clip.tik", "o.pgm"}), 2, "--delay '15' is no time");
-  expect_refused(exposing("rows:0s..x", {"clip.tik", "o.pgm"}), 2, "--delay 'x' is no time");
-  expect_refused(exposing("rows:3f", {"clip.tik", "o.pgm"}), 2,
-                 "counts pictures, which are no length of time");
+  expect_refused(
+      2, {{exposing("rows", {"clip.tik", "o.pgm"}), "--delay rows is not known; did you mean rows:?"},
+          {exposing("15ms", {"clip.tik", "o.pgm"}), "--delay '15ms' does not say where and by how much"},
+          {exposing("rows:15", {"clip.tik", "o.pgm"}), "--delay '15' is no time"},
+          {exposing("rows:0s..x", {"clip.tik", "o.pgm"}), "--delay 'x' is no time"},
+          {exposing("rows:3f", {"clip.tik", "o.pgm"}), "counts pictures, which are no length of time"}});
   expect_refused(exposing("gone.tif:1s", {"clip.tik", "o.pgm"}), 3, "gone.tif cannot be read: no such file");
-  expect_refused(exposing("clip.tik:1s", {"clip.tik", "o.pgm"}), 2, "clip.tik is no picture");
-  expect_refused(exposing("frames:1s", {"clip.tik", "o.pgm"}), 2, "frames is a sequence of 8");
+  expect_refused(2, {{exposing("clip.tik:1s", {"clip.tik", "o.pgm"}), "clip.tik is no picture"},
+                     {exposing("frames:1s", {"clip.tik", "o.pgm"}), "frames is a sequence of 8"}});
   cv::imwrite((scratch_ / "small.png").string(), cv::Mat(3, 6, CV_8UC1, cv::Scalar::all(0)));
   expect_refused(exposing("small.png:1s", {"clip.tik", "o.pgm"}), 3,
                  "small.png is 6 x 3 pixels and the pictures are 6 x 4; a map of delays needs their size");
   cv::imwrite((scratch_ / "colour.png").string(), cv::Mat(4, 6, CV_8UC3, cv::Scalar(1, 2, 3)));
   expect_refused(exposing("colour.png:1s", {"clip.tik", "o.pgm"}), 3, "colour.png is a colour picture");
-  const ProgramResult check = run({"check", "--delay", "small.png:1s", "clip.tik"});
+  const ProgramResult check = run("check --delay small.png:1s clip.tik");
   EXPECT_EQ(check.status, 3);
-  EXPECT_NE(check.out.find("a map of delays needs their size"), std::string::npos) << check.out;
+  expect_says(check.out, "a map of delays needs their size");
 
   scratch_.write("six.pgm", "P5 6 4 255\n" + std::string(24, '\0'));
   scratch_.write("one.fn", "M0 [0:1], [10000000:1], [10000001:0]\n");
-  const ProgramResult by_mask = run({"check", "-k", "one.fn", "-m", "six.pgm", "--delay", "small.png:1s"});
+  const ProgramResult by_mask = run("check -k one.fn -m six.pgm --delay small.png:1s");
   EXPECT_EQ(by_mask.status, 3) << by_mask.out << by_mask.err;
-  EXPECT_NE(by_mask.out.find("a map of delays needs their size"), std::string::npos) << by_mask.out;
-  const ProgramResult alone = run({"check", "-k", "one.fn", "--delay", "rows:1s"});
-  EXPECT_EQ(alone.status, 0) << alone.out << alone.err;
-  EXPECT_NE(alone.out.find("without a capture it is not known which delays leave it"), std::string::npos) << alone.out;
-  expect_refused({"trace", "--tag", "0", "-k", "f.fn", "-m", "mask.pgm", "--delay", "rows:1ms", "clip.tik"},
-                 3, "f.fn");
+  expect_says(by_mask.out, "a map of delays needs their size");
+  const ProgramResult alone = make("check -k one.fn --delay rows:1s");
+  expect_says(alone.out, "without a capture it is not known which delays leave it");
+  expect_refused("trace --tag 0 -k f.fn -m mask.pgm --delay rows:1ms clip.tik", 3, "f.fn");
   expect_refused(exposing("map.tif:1s", {"clip.tik", "map.tif"}), 2, "map.tif");
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "o.pgm"));
 }

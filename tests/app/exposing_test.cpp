@@ -5,9 +5,8 @@
 #include <opencv2/videoio.hpp>
 
 #include "capture/transfer.hpp"
-#include "support/program.hpp"
+#include "support/app_test.hpp"
 #include "support/random_case.hpp"
-#include "support/scratch.hpp"
 
 namespace nutik {
 namespace {
@@ -48,14 +47,9 @@ struct Size {
   int width, height, count;
 };
 
-class Exposing : public testing::TestWithParam<Size> {
+class Exposing : public test::AppTest, public testing::WithParamInterface<Size> {
  protected:
-  test::ProgramResult run(const std::vector<std::string>& words) const {
-    const test::ProgramResult result = test::run_program(test::over(words), scratch_.folder());
-    EXPECT_EQ(result.status, 0) << result.err;
-    return result;
-  }
-  Scratch scratch_;
+  test::ProgramResult run(const test::Words& words) const { return make(test::over(words)); }
 };
 
 TEST_P(Exposing, OneSampleGivesItsCodesBack) {
@@ -63,7 +57,7 @@ TEST_P(Exposing, OneSampleGivesItsCodesBack) {
   write_clip(scratch_ / "clip.mkv", size.width, size.height, size.count);
   const auto pictures = read_clip(scratch_ / "clip.mkv");
   ASSERT_EQ(pictures.size(), static_cast<std::size_t>(size.count));
-  run({"-f", "100", "clip.mkv", "clip.tik"});
+  run("-f 100 clip.mkv clip.tik");
   const int sample = size.count / 2;
   const std::string start = std::to_string(sample) + "f";
   for (const std::string source : {"clip.tik", "clip.mkv"}) {
@@ -82,10 +76,10 @@ TEST_P(Exposing, AClipGivesThePictureOfItsCapture) {
   scratch_.write("f.fn", "M0 [0:0], [20000000:1], [90000000:-0.25], [130000000:0]\n");
   for (const char* tolerance : {"0", "5"}) {
     run({"-a", "180", "--tolerance", tolerance, "clip.mkv", "clip.tik"});
-    run({"-k", "f.fn", "clip.tik", "a.png", "--no-recipe"});
+    run("-k f.fn clip.tik a.png --no-recipe");
     run({"-a", "180", "--tolerance", tolerance, "-k", "f.fn", "clip.mkv", "b.png", "--no-recipe"});
     EXPECT_EQ(test::read_file(scratch_ / "a.png"), test::read_file(scratch_ / "b.png")) << tolerance;
-    run({"-k", "f.fn", "clip.tik", "c.png", "--renderer", "reference", "--no-recipe"});
+    run("-k f.fn clip.tik c.png --renderer reference --no-recipe");
     EXPECT_EQ(test::read_file(scratch_ / "a.png"), test::read_file(scratch_ / "c.png")) << tolerance;
   }
 }
@@ -93,12 +87,12 @@ TEST_P(Exposing, AClipGivesThePictureOfItsCapture) {
 TEST_P(Exposing, EveryFormatHoldsTheSameLight) {
   const Size size = GetParam();
   write_clip(scratch_ / "clip.mkv", size.width, size.height, size.count);
-  run({"clip.mkv", "clip.tik"});
+  run("clip.mkv clip.tik");
   scratch_.write("f.fn", "M0 [0:1.5], [70000000:-0.5], [70000001:0]\n");
-  run({"-k", "f.fn", "clip.tik", "light.pfm"});
-  run({"-k", "f.fn", "clip.tik", "light.tif", "--depth", "float"});
-  run({"-k", "f.fn", "clip.tik", "codes.png"});
-  run({"-k", "f.fn", "clip.tik", "deep.png", "--depth", "16"});
+  run("-k f.fn clip.tik light.pfm");
+  run("-k f.fn clip.tik light.tif --depth float");
+  run("-k f.fn clip.tik codes.png");
+  run("-k f.fn clip.tik deep.png --depth 16");
   const cv::Mat light = cv::imread((scratch_ / "light.pfm").string(), cv::IMREAD_UNCHANGED);
   const cv::Mat tiff = cv::imread((scratch_ / "light.tif").string(), cv::IMREAD_UNCHANGED);
   const cv::Mat codes = cv::imread((scratch_ / "codes.png").string(), cv::IMREAD_UNCHANGED);

@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-#include "support/program_test.hpp"
+#include "support/app_test.hpp"
 
 namespace nutik {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-class Facts : public test::ProgramTest {
+class Facts : public test::AppTest {
  protected:
   // The first pictures of a clip: what the summary says, then what the capture keeps of it.
   struct Told {
@@ -23,13 +23,11 @@ class Facts : public test::ProgramTest {
     std::map<std::string, std::string> facts;  // by what they are of, each with who said it
   };
 
-  Told told(const fs::path& clip, const std::vector<std::string>& options) const {
-    std::vector<std::string> words{"encode", "--overwrite", "--to", "3f", clip.string(), "part.tik"};
-    words.insert(words.end(), options.begin(), options.end());
-    const auto encoded = run(words);
-    EXPECT_EQ(encoded.status, 0) << clip << encoded.err;
-    const auto info = run({"info", "part.tik"});
-    EXPECT_EQ(info.status, 0) << clip << info.err;
+  Told told(const fs::path& clip, const test::Words& options) const {
+    test::Words words =
+        test::Words{"encode", "--overwrite", "--to", "3f", clip.string(), "part.tik"} + options;
+    const auto encoded = make(words);
+    const auto info = make("info part.tik");
     Told result{encoded.out + encoded.err, {}};
     std::istringstream lines(info.out);
     constexpr std::string_view kStart = "  taken for   ";
@@ -223,11 +221,11 @@ TEST_F(Facts, OfAClipAreToldToScriptsByEveryCommandThatReadsIt) {
     for (const Json& fact : source["facts"]) options[fact["fact"]] = fact["option"];
     EXPECT_EQ(options["transfer srgb, assumed"], "--transfer");
     EXPECT_EQ(options["matrix bt601, assumed"], "--matrix");
-    EXPECT_NE(told.out.find("\"notes\": ["), std::string::npos);
+    expect_says(told.out, "\"notes\": [");
     if (command.front() == "noise") continue;  // which needs no times
     EXPECT_EQ(options["shutter 360 degrees, assumed"], "--shutter-angle");
     EXPECT_EQ(options["30 pictures a second, from the file"], "--fps");
-    EXPECT_NE(told.out.find("slow-motion files state their playback rate"), std::string::npos);
+    expect_says(told.out, "slow-motion files state their playback rate");
     EXPECT_EQ(told.err.find("note:"), std::string::npos) << "told twice";
   }
 }
@@ -239,10 +237,9 @@ TEST_F(Facts, OfACaptureAreToldToScriptsWithWhatCorrectsThem) {
       "-pix_fmt yuv420p -c:v ffv1 clip.mkv",
       scratch_.folder());
   if (made.status != 0) GTEST_SKIP() << "ffmpeg cannot make the clip: " << made.err;
-  ASSERT_EQ(run({"encode", "clip.mkv", "clip.tik"}).status, 0);
-  const auto options_of = [&](const std::vector<std::string>& words) {
-    const auto told = run(words);
-    EXPECT_EQ(told.status, 0) << told.err;
+  make("encode clip.mkv clip.tik");
+  const auto options_of = [&](const test::Words& words) {
+    const auto told = make(words);
     std::map<std::string, std::string> options;
     const Json json = Json::parse(told.out);
     for (const Json& fact : json["facts"]) options[fact["fact"]] = fact.value("option", "none");
@@ -258,10 +255,8 @@ TEST_F(Facts, OfACaptureAreToldToScriptsWithWhatCorrectsThem) {
   EXPECT_EQ(retimed.size(), 7u);
   EXPECT_EQ(retimed[rate], "--fps");
   EXPECT_EQ(retimed["shutter 180 degrees, as stated"], "--shutter-angle");
-  const auto told = run({"retime", "--in-place", "-a", "90", "clip.tik"});
-  EXPECT_NE(told.out.find("samples, irregular times, 27.94 pictures a second on average, shutter 90 degrees"),
-            std::string::npos)
-      << told.out;
+  const auto told = run("retime --in-place -a 90 clip.tik");
+  expect_says(told.out, "samples, irregular times, 27.94 pictures a second on average, shutter 90 degrees");
 }
 
 // A check of a clip lists them, too.
@@ -270,13 +265,10 @@ TEST_F(Facts, OfAClipAreToldByACheck) {
       "ffmpeg -v error -y -f lavfi -i testsrc=s=64x48:r=30:d=0.5 -pix_fmt yuv420p -c:v ffv1 clip.mkv",
       scratch_.folder());
   if (made.status != 0) GTEST_SKIP() << "ffmpeg cannot make the clip: " << made.err;
-  const auto told = run({"check", "clip.mkv"});
-  EXPECT_EQ(told.status, 0);
-  EXPECT_NE(told.err.find("transfer srgb (assumed)"), std::string::npos) << told.err;
-  EXPECT_NE(told.err.find("what is assumed can be stated (--shutter-angle, --transfer"), std::string::npos)
-      << told.err;
-  EXPECT_NE(told.err.find("note: the rate of 30 a second comes from the file"), std::string::npos)
-      << told.err;
+  const auto told = make("check clip.mkv");
+  expect_says(told.err,
+              {"transfer srgb (assumed)", "what is assumed can be stated (--shutter-angle, --transfer",
+               "note: the rate of 30 a second comes from the file"});
 }
 
 }  // namespace

@@ -2,19 +2,16 @@
 // are made again from their recipes.
 #include <gtest/gtest.h>
 
+#include "support/app_test.hpp"
 #include "support/clips.hpp"
-#include "support/program.hpp"
-#include "support/scratch.hpp"
 
 namespace nutik {
 namespace {
 
-using test::Scratch;
-
 constexpr int kFilmWidth = 8, kFilmHeight = 8, kFilmSamples = 10;
 
 // Ten pictures, a tenth of a second each; picture k has the linear code 10 (k + 1) everywhere.
-class Film : public testing::Test {
+class Film : public test::AppTest {
  protected:
   void SetUp() override {
     std::filesystem::create_directory(scratch_ / "frames");
@@ -22,23 +19,17 @@ class Film : public testing::Test {
       scratch_.write("frames/" + std::to_string(k) + ".pgm",
                      "P5 8 8 255\n" + std::string(kFilmWidth * kFilmHeight, static_cast<char>(10 * (k + 1))));
     }
-    run({"-f", "10", "--transfer", "linear", "frames", "c.tik", "-q"});
-  }
-
-  test::ProgramResult run(const std::vector<std::string>& words, int status = 0) const {
-    const test::ProgramResult result = test::run_program(words, scratch_.folder());
-    EXPECT_EQ(result.status, status) << result.err;
-    return result;
+    make("-f 10 --transfer linear frames c.tik -q");
   }
 
   // The codes of the first row of every frame, as the capture has them.
-  std::vector<std::vector<int>> rows(std::vector<std::string> options) const {
+  std::vector<std::vector<int>> rows(test::Words options) const {
     std::filesystem::remove_all(scratch_ / "out");
     std::filesystem::create_directory(scratch_ / "out");
     options.insert(options.begin(), "video");
     options.insert(options.end(),
                    {"--out-fps", "10", "--out-transfer", "source", "-q", "c.tik", "out/%02d.pgm"});
-    run(options);
+    make(options);
     std::vector<std::vector<int>> rows;
     for (const auto& raster : test::read_all(*test::open_test_clip(scratch_ / "out/%02d.pgm"))) {
       rows.emplace_back();
@@ -46,7 +37,7 @@ class Film : public testing::Test {
     }
     return rows;
   }
-  std::vector<int> codes(std::vector<std::string> options) const {
+  std::vector<int> codes(test::Words options) const {
     std::vector<int> codes;
     for (const auto& row : rows(std::move(options))) {
       EXPECT_EQ(row, std::vector<int>(kFilmWidth, row[0]));
@@ -55,7 +46,6 @@ class Film : public testing::Test {
     return codes;
   }
 
-  [[nodiscard]] std::string file(const std::string& name) const { return test::read_file(scratch_ / name); }
   // The columns left of `edge` have mask value 255.
   void write_mask(const std::string& name, int edge) const {
     std::string mask = "P5 8 8 255\n";
@@ -81,7 +71,7 @@ class Film : public testing::Test {
       const std::string name = pattern + std::to_string(k) + ".png";
       const std::string before = file(name);
       EXPECT_FALSE(before.empty()) << name;
-      command = run({"again", name}).out;
+      command = make({"again", name}).out;
       std::filesystem::remove(scratch_ / name);
       scratch_.write("again.sh", command);
       EXPECT_EQ(test::run_shell("sh again.sh", scratch_.folder()).status, 0) << command;
@@ -89,28 +79,22 @@ class Film : public testing::Test {
     }
     return command;
   }
-
-  Scratch scratch_;
 };
 
 TEST_F(Film, FollowsACurveOfSpeed) {
   scratch_.write("ramp.csv", "# film, capture\n0s,0s\n0.5s,1s\n1s,1s\n1.5s,0s\n");
-  EXPECT_EQ(codes({"--curve", "ramp.csv", "--out-angle", "360"}),
-            (std::vector<int>{15, 35, 55, 75, 95,          // twice as fast: the mean of two pictures
-                              100, 100, 100, 100, 100,     // still, at the end
-                              95, 75, 55, 35, 15}));       // backwards
+  EXPECT_EQ(codes("--curve ramp.csv --out-angle 360"),
+            (std::vector<int>{15, 35, 55, 75, 95,       // twice as fast: the mean of two pictures
+                              100, 100, 100, 100, 100,  // still, at the end
+                              95, 75, 55, 35, 15}));    // backwards
   scratch_.write("slow.csv", "0f,2f\n4f,4f\n");
-  EXPECT_EQ(codes({"--curve", "slow.csv"}), (std::vector<int>{30, 30, 40, 40}));
+  EXPECT_EQ(codes("--curve slow.csv"), (std::vector<int>{30, 30, 40, 40}));
   scratch_.write("out.csv", "0s,0.8s\n0.4s,1.2s\n");
-  const test::ProgramResult outside =
-      run({"video", "--curve", "out.csv", "--out-fps", "10", "c.tik", "o-%d.png"});
-  EXPECT_NE(outside.err.find("warning: out.csv leaves the capture, which lasts 1 s, in frames 2-3; there the film "
-                             "shows what is left within it, or stands still"),
-            std::string::npos)
-      << outside.err;
-  EXPECT_NE(outside.out.find("4 frames (10 frames a second, 180 degrees, by out.csv), from 800 ms to 1 s"),
-            std::string::npos)
-      << outside.out;
+  const test::ProgramResult outside = make("video --curve out.csv --out-fps 10 c.tik o-%d.png");
+  expect_says(outside.err,
+              "warning: out.csv leaves the capture, which lasts 1 s, in frames 2-3; there the film "
+              "shows what is left within it, or stands still");
+  expect_says(outside.out, "4 frames (10 frames a second, 180 degrees, by out.csv), from 800 ms to 1 s");
   expect_made_again("o-", 4);
 }
 
@@ -121,69 +105,60 @@ TEST_F(Film, ChangesFunctionsFromKeyToKey) {
   const std::vector<int> expected{10, 23,  // 70 / 3
                                   35, 48,  // 40, 50 and half of 60, over 2.5
                                   60, 70, 80};
-  EXPECT_EQ(codes({"--key", "0s", "a.fn", "--key", "0.4s", "b.fn"}), expected);
-  EXPECT_EQ(codes({"--key", "0f", "a.fn", "--key", "4f", "b.fn"}), expected);
-  run({"video", "--key", "0s", "a.fn", "--key", "4f", "b.fn", "--out-fps", "10", "--normalize", "integral",
-       "c.tik", "k-%d.png", "-q"});
-  EXPECT_NE(expect_made_again("k-", 7).find(" -k k-6-again/k-6.fn "), std::string::npos);
+  EXPECT_EQ(codes("--key 0s a.fn --key 0.4s b.fn"), expected);
+  EXPECT_EQ(codes("--key 0f a.fn --key 4f b.fn"), expected);
+  make("video --key 0s a.fn --key 4f b.fn --out-fps 10 --normalize integral c.tik k-%d.png -q");
+  expect_says(expect_made_again("k-", 7), " -k k-6-again/k-6.fn ");
   EXPECT_EQ(file("k-1-again/k-1.fn"), "M0 [-1:0], [0:1], [150000000:1], [150000001:0]\n");
 }
 
 TEST_F(Film, MovesTheEdgesOfAMask) {
   write_two_masks_and_functions();
-  const auto got = rows({"--mask-key", "0s", "a.pgm", "--mask-key", "0.4s", "b.pgm", "-k", "f.fn"});
+  const auto got = rows("--mask-key 0s a.pgm --mask-key 0.4s b.pgm -k f.fn");
   ASSERT_EQ(got.size(), 8u);
   for (int k = 0; k < 8; ++k) {
     std::vector<int> expected(kFilmWidth, 10 * (k + 1));
     for (int x = 0; x < std::min(2 + k, 6); ++x) expected[static_cast<std::size_t>(x)] = 10 * (k + 2);
     EXPECT_EQ(got[static_cast<std::size_t>(k)], expected) << k;
   }
-  run({"video", "--mask-key", "0s", "a.pgm", "--mask-key", "4f", "b.pgm", "--feather", "1px", "-k", "f.fn",
-       "--out-fps", "10", "c.tik", "m-%d.png", "-q"});
+  make("video --mask-key 0s a.pgm --mask-key 4f b.pgm --feather 1px -k f.fn --out-fps 10 c.tik m-%d.png -q");
   expect_made_again("m-", 8);
-  const std::string between = run({"again", "m-1.png"}).out;
-  EXPECT_NE(between.find(" -m a.pgm --mask-to b.pgm "), std::string::npos) << between;
-  EXPECT_NE(between.find(" --mask-blend distance --mask-share 0.25 "), std::string::npos) << between;
-  const std::string at_key = run({"again", "m-4.png"}).out;
-  EXPECT_NE(at_key.find(" -m b.pgm "), std::string::npos) << at_key;
+  const std::string between = make("again m-1.png").out;
+  expect_says(between, {" -m a.pgm --mask-to b.pgm ", " --mask-blend distance --mask-share 0.25 "});
+  const std::string at_key = make("again m-4.png").out;
+  expect_says(at_key, " -m b.pgm ");
   EXPECT_EQ(at_key.find("--mask-"), std::string::npos) << at_key;
 }
 
 TEST_F(Film, FadesOneMaskIntoTheOther) {
   write_two_masks_and_functions();
-  const auto got = rows({"--mask-key", "0s", "a.pgm", "--mask-key", "0.4s", "b.pgm", "--mask-blend", "alpha", "-k",
-                         "f.fn"});
+  const auto got = rows("--mask-key 0s a.pgm --mask-key 0.4s b.pgm --mask-blend alpha -k f.fn");
   // Of frame 2 the columns 2 to 5 have halves of both functions: 30 and 40.
   ASSERT_EQ(got.size(), 8u);
   EXPECT_EQ(got[2], (std::vector<int>{40, 40, 35, 35, 35, 35, 30, 30}));
-  run({"video", "--mask-key", "0s", "a.pgm", "--mask-key", "4f", "b.pgm", "--mask-blend", "alpha", "--feather",
-       "1px", "-k", "f.fn", "--out-fps", "10", "c.tik", "m-%d.png", "-q"});
+  make("video --mask-key 0s a.pgm --mask-key 4f b.pgm --mask-blend alpha --feather 1px -k f.fn --out-fps 10 "
+      "c.tik m-%d.png -q");
   expect_made_again("m-", 8);
 }
 
 // What a frame's recipe says, validate, check and trace take too.
 TEST_F(Film, FramesAreExposuresForOtherCommands) {
   write_two_masks_and_functions();
-  const std::vector<std::string> between{"-m", "a.pgm", "--mask-to", "b.pgm", "--mask-share", "0.25",
-                                         "-k", "f.fn"};
-  const auto with = [&](std::vector<std::string> words) {
+  const test::Words between("-m a.pgm --mask-to b.pgm --mask-share 0.25 -k f.fn");
+  const auto with = [&](test::Words words) {
     words.insert(words.end(), between.begin(), between.end());
     return words;
   };
-  const test::ProgramResult valid = run(with({"validate", "--runs", "1", "--start", "0.1s", "c.tik"}));
-  EXPECT_NE(valid.out.find("fixed"), std::string::npos) << valid.out;
-  EXPECT_NE(run(with({"trace", "--pixel", "2,0", "c.tik"})).out.find("M255"), std::string::npos);
-  EXPECT_EQ(run(with({"check", "c.tik"})).status, 0);
+  const test::ProgramResult valid = make(with({"validate", "--runs", "1", "--start", "0.1s", "c.tik"}));
+  expect_says(valid.out, "fixed");
+  expect_says(make(with({"trace", "--pixel", "2,0", "c.tik"})).out, "M255");
+  make(with({"check", "c.tik"}));
   write_mask("none.pgm", 0);
   const test::ProgramResult missing =
-      run({"check", "-m", "a.pgm", "--mask-to", "none.pgm", "--mask-share", "1/2", "-k", "f.fn", "c.tik"}, 3);
-  EXPECT_NE((missing.out + missing.err).find("mask value 255 is in a.pgm and not in none.pgm"), std::string::npos)
-      << missing.out << missing.err;
-  const auto refusal_of = [&](const char* share) {
-    return run({"--mask-share", share, "--start", "0s", "--exposure", "1f", "c.tik", "p.png"}, 2).err;
-  };
-  EXPECT_NE(refusal_of("0.5").find("add --mask-to"), std::string::npos);
-  EXPECT_NE(refusal_of("nan").find("--mask-share 'nan'"), std::string::npos);
+      make("check -m a.pgm --mask-to none.pgm --mask-share 1/2 -k f.fn c.tik", 3);
+  expect_says((missing.out + missing.err), "mask value 255 is in a.pgm and not in none.pgm");
+  expect_refused(2, {{"--mask-share 0.5 --start 0s --exposure 1f c.tik p.png", "add --mask-to"},
+                     {"--mask-share nan --start 0s --exposure 1f c.tik p.png", "--mask-share 'nan'"}});
 }
 
 // At either end of the way it is one of both masks that is exposed, and of that alone it may be said that a value is not
@@ -192,7 +167,7 @@ TEST_F(Film, CheckNamesTheMaskThatIsExposed) {
   write_two_masks_and_functions();
   write_mask("none.pgm", 0);
   const auto checked = [&](const std::string& share, const std::string& blend) {
-    return run({"check", "-m", "a.pgm", "--mask-to", "none.pgm", "--mask-share", share, "--mask-blend", blend, "-k",
+    return make({"check", "-m", "a.pgm", "--mask-to", "none.pgm", "--mask-share", share, "--mask-blend", blend, "-k",
                 "f.fn", "c.tik"})
         .out;
   };
@@ -201,14 +176,11 @@ TEST_F(Film, CheckNamesTheMaskThatIsExposed) {
     EXPECT_EQ(out.find("has the value 255"), std::string::npos) << out;
   }
   const std::string at_end = checked("1", "alpha");
-  EXPECT_NE(at_end.find("M255: no pixel of none.pgm has the value 255"), std::string::npos) << at_end;
-  EXPECT_NE(at_end.find("none.pgm: 8 x "), std::string::npos) << at_end;
+  expect_says(at_end, {"M255: no pixel of none.pgm has the value 255", "none.pgm: 8 x "});
 
   scratch_.write("three.fn", "M0 [0:1], [10:1], [11:0]\nM7 [0:1], [10:1], [11:0]\nM255 [0:1], [10:1], [11:0]\n");
-  const std::string between = run({"check", "-m", "a.pgm", "--mask-to", "b.pgm", "--mask-share", "1/2", "-k",
-                                   "three.fn", "c.tik"})
-                                  .out;
-  EXPECT_NE(between.find("no pixel of a.pgm on its way to b.pgm has the value 7"), std::string::npos) << between;
+  const std::string between = make("check -m a.pgm --mask-to b.pgm --mask-share 1/2 -k three.fn c.tik").out;
+  expect_says(between, "no pixel of a.pgm on its way to b.pgm has the value 7");
 }
 
 TEST_F(Film, MadeInPartsHasTheFramesOfTheWhole) {
@@ -216,18 +188,17 @@ TEST_F(Film, MadeInPartsHasTheFramesOfTheWhole) {
   scratch_.write("a.fn", boxcar("M0", 0, 1) + boxcar("M255", 1, 1));
   scratch_.write("b.fn", boxcar("M0", 0, 2) + boxcar("M255", 0, 1));
   scratch_.write("ramp.csv", "0s,0s\n0.5s,0.7s\n0.8s,0.1s\n");
-  const std::vector<std::string> film{"video",    "--key",     "0s",  "a.fn",     "--key", "0.6s",   "b.fn",
-                                      "--mask-key", "0s",      "a.pgm", "--mask-key", "7f",  "b.pgm",  "--curve",
-                                      "ramp.csv", "--out-fps", "10",  "-q",       "c.tik"};
-  const auto make = [&](const std::string& folder, const std::string& frames) {
+  const test::Words film(
+      "video --key 0s a.fn --key 0.6s b.fn --mask-key 0s a.pgm --mask-key 7f b.pgm --curve ramp.csv "
+      "--out-fps 10 -q c.tik");
+  const auto make_frames = [&](const std::string& folder, const std::string& frames) {
     std::filesystem::create_directory(scratch_ / folder);
-    std::vector<std::string> words = film;
-    words.push_back(folder + "/%02d.png");
+    test::Words words = film + (folder + "/%02d.png");
     if (!frames.empty()) words.insert(words.end(), {"--frames", frames});
-    run(words);
+    make(words);
   };
-  make("whole", "");
-  for (const char* frames : {"6", "0-2", "4-5 7", "3,5-100x2"}) make("parts", frames);
+  make_frames("whole", "");
+  for (const char* frames : {"6", "0-2", "4-5 7", "3,5-100x2"}) make_frames("parts", frames);
   for (int k = 0; k < 8; ++k) {
     const std::string name = "/0" + std::to_string(k) + ".png";
     ASSERT_FALSE(file("whole" + name).empty()) << k;
@@ -236,9 +207,8 @@ TEST_F(Film, MadeInPartsHasTheFramesOfTheWhole) {
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "whole/08.png"));
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "parts/09.png"));
   // A container has the frames alone.
-  std::vector<std::string> words = film;
-  words.insert(words.end(), {"part.mkv", "--frames", "2-4"});
-  run(words);
+  test::Words words = film + "part.mkv --frames 2-4";
+  make(words);
   const auto part = test::read_all(*test::open_test_clip(scratch_ / "part.mkv"));
   ASSERT_EQ(part.size(), 3u);
   const auto whole = test::read_all(*test::open_test_clip(scratch_ / "whole/%02d.png"));
@@ -294,32 +264,26 @@ TEST_F(Film, SaysWhatMakesNoSense) {
   for (const Case& tested : cases) {
     std::vector<std::string> words{"video", "c.tik", "v-%d.png"};
     words.insert(words.end(), tested.words.begin(), tested.words.end());
-    const test::ProgramResult result = test::run_program(words, scratch_.folder());
+    const test::ProgramResult result = test::run_here(words, scratch_.folder());
     EXPECT_EQ(result.status, tested.status) << tested.part << "\n" << result.err;
     EXPECT_NE(result.err.find(tested.part), std::string::npos) << tested.part << "\n" << result.err;
     EXPECT_FALSE(std::filesystem::exists(scratch_ / "v-0.png"));
   }
-  const auto expose = [&](std::vector<std::string> words) {
+  const auto expose = [&](test::Words words) {
     words.insert(words.end(), {"c.tik", "e.png"});
-    return run(words, 2).err;
+    return make(words, 2).err;
   };
-  EXPECT_NE(expose({"-m", "a.pgm", "--mask-to", "b.pgm", "-k", "f.fn"}).find("Add --mask-share 1/2"),
-            std::string::npos);
-  EXPECT_NE(expose({"-m", "a.pgm", "--mask-to", "b.pgm", "--mask-share", "1.5", "-k", "f.fn"})
-                .find("--mask-share 1.5 is no share of 0 to 1"),
-            std::string::npos);
-  EXPECT_NE(expose({"-m", "a.pgm", "--mask-share", "1", "-k", "f.fn"}).find("add --mask-to"), std::string::npos);
-  EXPECT_NE(expose({"--mask-to", "b.pgm", "--mask-share", "1", "-k", "one.fn"}).find("add the first: -m"),
-            std::string::npos);
+  expect_says(expose({"-m", "a.pgm", "--mask-to", "b.pgm", "-k", "f.fn"}), "Add --mask-share 1/2");
+  expect_says(expose({"-m", "a.pgm", "--mask-to", "b.pgm", "--mask-share", "1.5", "-k", "f.fn"}),
+              "--mask-share 1.5 is no share of 0 to 1");
+  expect_says(expose({"-m", "a.pgm", "--mask-share", "1", "-k", "f.fn"}), "add --mask-to");
+  expect_says(expose({"--mask-to", "b.pgm", "--mask-share", "1", "-k", "one.fn"}), "add the first: -m");
   // An input that a still would replace.
-  const auto replaced = run({"video", "--mask-key", "0s", "a.pgm", "--mask-key", "1s", "b.pgm", "-k", "f.fn",
-                             "c.tik", "--frames", "0", "-o", "%d.pgm"});
+  const auto replaced =
+      make("video --mask-key 0s a.pgm --mask-key 1s b.pgm -k f.fn c.tik --frames 0 -o %d.pgm");
   scratch_.write("1.pgm", file("b.pgm"));
-  EXPECT_NE(run({"video", "--mask-key", "0s", "a.pgm", "--mask-key", "1s", "1.pgm", "-k", "f.fn", "c.tik", "-o",
-                 "%d.pgm"},
-                2)
-                .err.find("the output 1.pgm is also an input"),
-            std::string::npos);
+  expect_says(make("video --mask-key 0s a.pgm --mask-key 1s 1.pgm -k f.fn c.tik -o %d.pgm", 2).err,
+              "the output 1.pgm is also an input");
 }
 
 }  // namespace

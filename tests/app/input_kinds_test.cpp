@@ -1,20 +1,20 @@
 // What a file is read as is told by its bytes, whichever way it comes in; what is not read is refused by its kind.
 #include <string>
 
-#include "support/program_test.hpp"
+#include "support/app_test.hpp"
 
 namespace nutik {
 namespace {
 
 using namespace std::string_literals;
 
-class InputKinds : public test::ProgramTest {
+class InputKinds : public test::AppTest {
  protected:
   void SetUp() override {
     for (int i = 0; i < 3; ++i) {
       scratch_.write("frame" + std::to_string(i) + ".pgm", "P5 4 3 255\n" + std::string(12, static_cast<char>(60 * i)));
     }
-    ASSERT_EQ(run({"encode", "-q", "-f", "10", "frame%d.pgm", "clip.tik"}).status, 0);
+    make("encode -q -f 10 frame%d.pgm clip.tik");
   }
 
   [[nodiscard]] test::ProgramResult shell(const std::string& command) const {
@@ -36,7 +36,7 @@ TEST_F(InputKinds, ACaptureIsOneThroughAPipe) {
     EXPECT_EQ(shell("rm -f file.pgm; " + command).status, 0) << command;
     EXPECT_TRUE(test::read_file(scratch_ / "file.pgm").ends_with(std::string(12, 60))) << command;
   }
-  EXPECT_NE(shell("cat clip.tik | " + program_ + " info -").out.find("3 in 1 block"), std::string::npos);
+  expect_says(shell("cat clip.tik | " + program_ + " info -").out, "3 in 1 block");
   expect_shell_refused("cat clip.tik | " + program_ + " encode -f 10 - x.tik", "standard input is a capture (.tik)");
   EXPECT_EQ(shell("cat clip.tik | " + program_ + wanted + "-f 10 - x.pgm").status, 2);
   expect_shell_refused("mkfifo pipe; cat clip.tik > pipe & " + program_ + wanted + "pipe x.pgm; status=$?; kill %1; exit $status",
@@ -82,14 +82,14 @@ TEST_F(InputKinds, WhatIsNotReadIsNamed) {
   expect_named("a.hdf5", bytes("\x89HDF\r\n\x1a\n"), "an HDF5 file, which is not read; if it holds events, convert");
   expect_named("a.aedat", bytes("#!AER-DAT4.0\r\n"), "an AEDAT file");
   scratch_.write("events.txt", "0.003811 96 133 0\n0.003820 96 133 1\n");
-  expect_refused({"encode", "-f", "10", "events.txt", "x.tik"}, 3, "events.txt is a text, and no clip");
+  expect_refused("encode -f 10 events.txt x.tik", 3, "events.txt is a text, and no clip");
   scratch_.write("events.csv", "t,x,y,on\n0,3,4,1\n");
-  expect_refused({"encode", "-f", "10", "events.csv", "x.tik"}, 3, "4 columns, and a table of stills has three");
+  expect_refused("encode -f 10 events.csv x.tik", 3, "4 columns, and a table of stills has three");
 }
 
 TEST_F(InputKinds, AFolderOfWhatIsNotReadNamesIt) {
   ASSERT_EQ(shell("mkdir frames && printf 'BM\\1\\2\\3\\4\\0\\0\\0\\0' > frames/1.bmp").status, 0);
-  expect_refused({"encode", "-f", "10", "frames", "x.tik"}, 3, "frames/1.bmp is a BMP picture");
+  expect_refused("encode -f 10 frames x.tik", 3, "frames/1.bmp is a BMP picture");
 }
 
 }  // namespace

@@ -3,27 +3,23 @@
 
 #include <nlohmann/json.hpp>
 
-#include "support/program_test.hpp"
+#include "support/app_test.hpp"
 #include "support/still_clip.hpp"
 
 namespace nutik {
 namespace {
 
-class Join : public test::ProgramTest {
+class Join : public test::AppTest {
  protected:
   static constexpr int kStills = 101;
 
   void SetUp() override { test::write_still_clip(scratch_.folder(), 12, kStills); }
 
-  void done(const std::vector<std::string>& words) const {
-    const auto result = run(test::over(words));
-    ASSERT_EQ(result.status, 0) << result.err;
-  }
+  void done(const test::Words& words) const { const auto result = make(test::over(words)); }
   void encode(const std::string& from, const std::string& to, const std::string& output,
-              const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> words{"encode", "-q", "-f",     "100", "--from", from,
-                                   "--to",   to,   "frames", "-o",  output};
-    words.insert(words.end(), more.begin(), more.end());
+              const test::Words& more = {}) const {
+    test::Words words =
+        test::Words{"encode", "-q", "-f", "100", "--from", from, "--to", to, "frames", "-o", output} + more;
     done(words);
   }
   [[nodiscard]] std::string exposed(const std::string& capture, std::vector<std::string> words) const {
@@ -35,66 +31,57 @@ class Join : public test::ProgramTest {
 };
 
 TEST_F(Join, ExposesWhatTheCaptureInOneGoDoes) {
-  done({"encode", "-q", "-f", "100", "-a", "180", "frames", "whole.tik"});
+  done("encode -q -f 100 -a 180 frames whole.tik");
   // Half a second and so on: neither whole blocks nor parts of one length.
   encode("0s", "0.64s", "a.tik", {"-a", "180"});
   encode("0.64s", "0.65s", "b.tik", {"-a", "180"});
   encode("0.65s", "9s", "c.tik", {"-a", "180"});
-  const auto joined = run({"join", "b.tik", "c.tik", "a.tik", "-o", "joined.tik"});
-  EXPECT_EQ(joined.status, 0) << joined.err;
+  const auto joined = make("join b.tik c.tik a.tik -o joined.tik");
   EXPECT_TRUE(joined.out.starts_with("joined.tik: 12 x 12 grey, 101 samples of 3 captures, 1.01 s, "))
       << joined.out;
   EXPECT_EQ(joined.err, "");
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"--start", "0s", "--exposure", "1s"},
-        {"--start", "0.62s", "--exposure", "50ms"},
-        {"--start", "642ms", "--exposure", "3ms"},
-        {"--start", "0.3s", "--exposure", "0.6s", "--shutter", "hann"}}) {
-    std::vector<std::string> fixed = words;
-    fixed.insert(fixed.end(), {"--precision", "fixed"});
+  for (const test::Words words : {"--start 0s --exposure 1s", "--start 0.62s --exposure 50ms",
+                                  "--start 642ms --exposure 3ms", "--start 0.3s --exposure 0.6s --shutter hann"}) {
+    const test::Words fixed = words + "--precision fixed";
     EXPECT_TRUE(exposed("joined.tik", fixed) == exposed("whole.tik", fixed)) << words[1];
   }
   // Seams between blocks leave the same blocks, and so the same bytes in any arithmetic.
   encode("64f", "101f", "bc.tik", {"-a", "180"});
-  done({"join", "-q", "a.tik", "bc.tik", "-o", "blocks.tik"});
-  const std::vector<std::string> all{"--start", "0s", "--exposure", "1s"};
+  done("join -q a.tik bc.tik -o blocks.tik");
+  const test::Words all("--start 0s --exposure 1s");
   EXPECT_TRUE(exposed("blocks.tik", all) == exposed("whole.tik", all));
 }
 
 TEST_F(Join, TellsWhatWasJoined) {
   encode("0f", "64f", "a.tik");
   encode("64f", "101f", "b.tik");
-  const auto answer = run({"join", "--json", "a.tik", "b.tik", "-o", "w.tik"});
-  ASSERT_EQ(answer.status, 0) << answer.err;
-  const auto json = nlohmann::json::parse(answer.out);
+  const auto json = answer("join a.tik b.tik -o w.tik");
   EXPECT_EQ(json["samples"], 101);
   EXPECT_EQ(json["parts"][1]["capture"], "b.tik");
   EXPECT_EQ(json["parts"][1]["first_sample"], 64);
   EXPECT_EQ(json["duration_ns"], 1'010'000'000);
-  const auto info = run({"info", "w.tik"});
-  EXPECT_NE(info.out.find("joined of 2 captures, a.tik … b.tik"), std::string::npos) << info.out;
-  const auto part = nlohmann::json::parse(run({"info", "--json", "b.tik"}).out)["part"];
+  const auto info = run("info w.tik");
+  expect_says(info.out, "joined of 2 captures, a.tik … b.tik");
+  const auto part = nlohmann::json::parse(run("info --json b.tik").out)["part"];
   EXPECT_EQ(part["clip"], "frames");
   EXPECT_EQ(part["first_picture"], 64);
   EXPECT_EQ(part["start_ns"], 640'000'000);
   EXPECT_EQ(part["pictures"], 101);
-  EXPECT_EQ(run({"join", "-q", "--overwrite", "a.tik", "b.tik", "-o", "w.tik"}).out, "");
-  const auto lines = run({"join", "--progress", "--overwrite", "a.tik", "b.tik", "-o", "w.tik"});
+  EXPECT_EQ(run("join -q --overwrite a.tik b.tik -o w.tik").out, "");
+  const auto lines = run("join --progress --overwrite a.tik b.tik -o w.tik");
   EXPECT_TRUE(lines.err.starts_with("Progress: ")) << lines.err;
 }
 
 // Every sample is checked against the clip, within what is no change.
 TEST_F(Join, IsWithinWhatIsNoChange) {
-  done({"noise", "-q", "--crop", "12x3+0+9", "frames", "-o", "camera.noise"});
+  done("noise -q --crop 12x3+0+9 frames -o camera.noise");
   for (const std::vector<std::string>& change :
        {std::vector<std::string>{"--tolerance", "7"}, {"--noise", "camera.noise"}}) {
     encode("0f", "37f", "a.tik", change);
     encode("37f", "38f", "b.tik", change);
     encode("38f", "101f", "c.tik", change);
-    done({"join", "-q", "a.tik", "b.tik", "c.tik", "-o", "w.tik"});
-    const auto checked = run({"validate", "-q", "--source", "frames", "--start", "0s", "--exposure", "10ms",
-                              "--runs", "1", "w.tik"});
-    EXPECT_EQ(checked.status, 0) << change[0] << checked.out << checked.err;
+    done("join -q a.tik b.tik c.tik -o w.tik");
+    const auto checked = make("validate -q --source frames --start 0s --exposure 10ms --runs 1 w.tik");
   }
 }
 
@@ -103,17 +90,15 @@ TEST_F(Join, IsRefused) {
   encode("65f", "101f", "b.tik");
   encode("64f", "101f", "c.tik", {"--tolerance", "2"});
   const std::string way = "nutik-cl join a.tik b.tik -o whole.tik";
-  expect_refused({"join"}, 2, way);
-  expect_refused({"join", "a.tik", "-o", "w.tik"}, 2, way);
-  expect_refused({"join", "a.tik", "b.tik"}, 2, way);
-  expect_refused({"join", "a.tik", "b.tik", "-o", "b.tik"}, 2, "b.tik");
-  expect_refused({"join", "a.tik", "b.tik", "-o", "w.png"}, 2, ".tik");
-  expect_refused({"join", "a.tik", "b.tik", "-o", "w.tik"}, 3,
-                 "encode them, and join all parts (--from, --to)");
-  expect_refused({"join", "a.tik", "c.tik", "-o", "w.tik"}, 3, "a tolerance of 0 codes, and c.tik has");
-  expect_refused({"join", "a.tik", "frames/000.pgm", "-o", "w.tik"}, 3, "frames/000.pgm");
-  expect_refused({"join", "a.tik", "absent.tik", "-o", "w.tik"}, 3, "absent.tik");
-  expect_refused({"join", "a.tik", "c.tik", "-o", "absent/w.tik"}, 3, "tolerance");
+  expect_refused("join", 2, way);
+  expect_refused("join a.tik -o w.tik", 2, way);
+  expect_refused("join a.tik b.tik", 2, way);
+  expect_refused(2, {{"join a.tik b.tik -o b.tik", "b.tik"}, {"join a.tik b.tik -o w.png", ".tik"}});
+  expect_refused(3, {{"join a.tik b.tik -o w.tik", "encode them, and join all parts (--from, --to)"},
+                     {"join a.tik c.tik -o w.tik", "a tolerance of 0 codes, and c.tik has"},
+                     {"join a.tik frames/000.pgm -o w.tik", "frames/000.pgm"},
+                     {"join a.tik absent.tik -o w.tik", "absent.tik"},
+                     {"join a.tik c.tik -o absent/w.tik", "tolerance"}});
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "w.tik"));
 }
 

@@ -3,33 +3,26 @@
 #include <gtest/gtest.h>
 
 #include "capture/format.hpp"
-#include "support/program_test.hpp"
+#include "support/app_test.hpp"
 #include "support/still_clip.hpp"
 
 namespace nutik {
 namespace {
 
 // 25 blocks, of which a long exposure holds a group of 16 and more.
-class KeptSumsInFiles : public test::ProgramTest {
+class KeptSumsInFiles : public test::AppTest {
  protected:
   void SetUp() override {
     test::write_still_clip(scratch_.folder(), 24, 400);
-    done({"-q", "-f", "1000", "--block-samples", "16", "frames", "clip.tik"});
+    make("-q -f 1000 --block-samples 16 frames clip.tik");
   }
-  test::ProgramResult done(const std::vector<std::string>& words) const {
-    test::ProgramResult result = run(words);
-    EXPECT_EQ(result.status, 0) << result.err;
-    return result;
+  void takes_sums_over(const test::Words& words) const {
+    expect_says(make(words).out, " sums of others kept");
   }
-  void takes_sums_over(const std::vector<std::string>& words) const {
-    const std::string said = done(words).out;
-    EXPECT_NE(said.find(" sums of others kept"), std::string::npos) << said;
-  }
-  [[nodiscard]] std::string file(const std::string& name) const { return test::read_file(scratch_ / name); }
   void expect_same_again(const std::string& picture) const {
     const std::string before = file(picture);
     ASSERT_FALSE(before.empty()) << picture;
-    scratch_.write("again.sh", done({"again", picture}).out);
+    scratch_.write("again.sh", make({"again", picture}).out);
     std::filesystem::remove(scratch_ / picture);
     EXPECT_EQ(test::run_shell("sh again.sh", scratch_.folder()).status, 0);
     EXPECT_TRUE(file(picture) == before) << picture;
@@ -46,7 +39,7 @@ TEST_F(KeptSumsInFiles, OfAFilmAreThoseOfItsParts) {
   for (const char* frames : {"7-12", "0", "1-6"}) {
     std::vector<std::string> part = film("parts");
     part.insert(part.end(), {"--frames", frames});
-    done(part);
+    make(part);
   }
   for (int k = 0; k <= 12; ++k) {
     const std::string name = format("/f-{:02}.png", k);
@@ -57,12 +50,12 @@ TEST_F(KeptSumsInFiles, OfAFilmAreThoseOfItsParts) {
 }
 
 TEST_F(KeptSumsInFiles, OfSeriesSweepsAndBatchesAreThoseOfOnePicture) {
-  takes_sums_over({"-v", "--exposure", "0.31s", "--every", "7ms", "--count", "9", "clip.tik", "s-%d.tif"});
+  takes_sums_over("-v --exposure 0.31s --every 7ms --count 9 clip.tik s-%d.tif");
   scratch_.write("list.txt",
                  "--start 49ms --exposure 0.31s b-0.tif\n--start 56ms --exposure 0.31s b-1.tif\n");
-  takes_sums_over({"batch", "-v", "list.txt", "clip.tik"});
-  done({"--start", "49ms", "--exposure", "0.31s", "clip.tik", "alone-7.tif"});
-  done({"--start", "56ms", "--exposure", "0.31s", "clip.tik", "alone-8.tif"});
+  takes_sums_over("batch -v list.txt clip.tik");
+  make("--start 49ms --exposure 0.31s clip.tik alone-7.tif");
+  make("--start 56ms --exposure 0.31s clip.tik alone-8.tif");
   for (const auto& [alone, others] : {std::pair("alone-7.tif", std::vector{"s-7.tif", "b-0.tif"}),
                                       std::pair("alone-8.tif", std::vector{"s-8.tif", "b-1.tif"})}) {
     for (const char* other : others) EXPECT_TRUE(file(alone) == file(other)) << other;
@@ -70,16 +63,16 @@ TEST_F(KeptSumsInFiles, OfSeriesSweepsAndBatchesAreThoseOfOnePicture) {
   for (const char* picture : {"s-8.tif", "b-1.tif"}) expect_same_again(picture);
 
   // A sweep states times in other words: without them, too.
-  const auto sweep = [&](const std::string& name, const std::vector<std::string>& more) {
-    std::vector<std::string> words{"sweep",    "--exposure",  "0.31s",  "--shift",       "0ms..56ms/7ms",
-                                   "clip.tik", name + ".png", "--each", name + "-%d.tif"};
-    words.insert(words.end(), more.begin(), more.end());
-    done(words);
+  const auto sweep = [&](const std::string& name, const test::Words& more) {
+    test::Words words = test::Words{"sweep",    "--exposure",  "0.31s",  "--shift",       "0ms..56ms/7ms",
+                                    "clip.tik", name + ".png", "--each", name + "-%d.tif"} +
+                        more;
+    make(words);
   };
   sweep("w", {});
   expect_same_again("w-8.tif");
   sweep("n", {"--no-recipe"});
-  done({"--start", "56ms", "--exposure", "0.31s", "--no-recipe", "clip.tik", "plain.tif"});
+  make("--start 56ms --exposure 0.31s --no-recipe clip.tik plain.tif");
   EXPECT_TRUE(file("n-8.tif") == file("plain.tif"));
 }
 

@@ -17,11 +17,10 @@ using test::ProgramResult;
 class MaskCommand : public test::MovingSquareTest {
  protected:
   // The tags that `nutik-cl mask` with these words gives, for a mask of the capture's size.
-  std::vector<std::uint8_t> tags(std::vector<std::string> words) const {
+  std::vector<std::uint8_t> tags(test::Words words) const {
     words.insert(words.begin(), {"mask", "-q", "--overwrite"});
     words.insert(words.end(), {"-o", "made.pgm"});
-    const ProgramResult result = run(words);
-    EXPECT_EQ(result.status, 0) << result.err;
+    const ProgramResult result = make(words);
     if (result.status != 0) return {};
     const Picture mask = read_mask(scratch_ / "made.pgm");
     EXPECT_EQ(mask.shape, (Shape{MovingSquare::kWidth, MovingSquare::kHeight, 1}));
@@ -52,27 +51,26 @@ TEST_F(MaskCommand, RefusesAPictureWithCodesAboveItsOwnWhite) {
   test::TiffOptions options;
   options.max_sample_value = 1023;
   scratch_.write("above.tif", test::tiff_file(stills, options));
-  expect_refused({"mask", "--threshold", "above.tif", "0..500", "-o", "m.pgm", "--preview", "p.png"}, 3,
+  expect_refused("mask --threshold above.tif 0..500 -o m.pgm --preview p.png", 3,
                  "above the 1023 that it states");
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "m.pgm"));
 }
 
 // The square's way, and the rest.
 TEST_F(MaskCommand, KnowsWhatMoves) {
-  EXPECT_EQ(tags({"--moving", "clip.tik"}), boxes({{4, 20, 32, 8, 255}}));
-  EXPECT_EQ(tags({"--still", "clip.tik"}), boxes({{0, 0, 96, 48, 255}, {4, 20, 32, 8, 0}}));
-  EXPECT_EQ(tags({"--tag", "9", "--still", "--tag", "7", "--moving", "clip.tik"}),
-            boxes({{0, 0, 96, 48, 9}, {4, 20, 32, 8, 7}}));
+  EXPECT_EQ(tags("--moving clip.tik"), boxes({{4, 20, 32, 8, 255}}));
+  EXPECT_EQ(tags("--still clip.tik"), boxes({{0, 0, 96, 48, 255}, {4, 20, 32, 8, 0}}));
+  EXPECT_EQ(tags("--tag 9 --still --tag 7 --moving clip.tik"), boxes({{0, 0, 96, 48, 9}, {4, 20, 32, 8, 7}}));
   // Samples 5 to 10: the square from 14 to 32.
-  EXPECT_EQ(tags({"--changed-between", "5f", "10f", "clip.tik"}), boxes({{14, 20, 18, 8, 255}}));
-  EXPECT_EQ(tags({"clip.tik", "--changed-between", "0.05s", "104ms"}), boxes({{14, 20, 18, 8, 255}}));
-  EXPECT_EQ(tags({"--changed-between=5f", "10f", "clip.tik"}), boxes({{14, 20, 18, 8, 255}}));
+  EXPECT_EQ(tags("--changed-between 5f 10f clip.tik"), boxes({{14, 20, 18, 8, 255}}));
+  EXPECT_EQ(tags("clip.tik --changed-between 0.05s 104ms"), boxes({{14, 20, 18, 8, 255}}));
+  EXPECT_EQ(tags("--changed-between=5f 10f clip.tik"), boxes({{14, 20, 18, 8, 255}}));
   // What moved before and rests now.
-  EXPECT_EQ(tags({"--changed-between", "13f", "19f", "clip.tik"}), boxes({}));
+  EXPECT_EQ(tags("--changed-between 13f 19f clip.tik"), boxes({}));
 }
 
 TEST_F(MaskCommand, TakesAClipAsWell) {
-  EXPECT_EQ(tags({"-f", "100", "--moving", "frames"}), boxes({{4, 20, 32, 8, 255}}));
+  EXPECT_EQ(tags("-f 100 --moving frames"), boxes({{4, 20, 32, 8, 255}}));
 }
 
 TEST_F(MaskCommand, SaysWhatCountsAsAChange) {
@@ -84,61 +82,54 @@ TEST_F(MaskCommand, SaysWhatCountsAsAChange) {
   EXPECT_EQ(more("4"), 32 * 8);
   EXPECT_GT(more("2"), 32 * 8 + 1000);
   EXPECT_EQ(more("144"), 0);
-  EXPECT_NE(
-      run({"mask", "--moving", "--by", "144", "clip.tik"}).err.find("--moving for M255 selects no pixel"),
-      std::string::npos);
+  expect_says(run("mask --moving --by 144 clip.tik").err, "--moving for M255 selects no pixel");
 }
 
 TEST_F(MaskCommand, ComparesPicturesAndTimes) {
   const auto two_squares = boxes({{4, 20, 8, 8, 255}, {28, 20, 8, 8, 255}});
-  EXPECT_EQ(tags({"--difference", "0f", "19f", "clip.tik"}), two_squares);
-  EXPECT_EQ(tags({"--difference", "frames/00.pgm", "frames/19.pgm"}), two_squares);
-  EXPECT_EQ(tags({"--difference", "frames/00.pgm", "0.195s", "clip.tik"}), two_squares);
-  EXPECT_EQ(tags({"--threshold", "0f", "150..255", "clip.tik"}), boxes({{4, 20, 8, 8, 255}}));
-  EXPECT_EQ(tags({"--threshold", "frames/19.pgm", "60%"}), boxes({{28, 20, 8, 8, 255}}));
-  EXPECT_EQ(tags({"--threshold", "frames/19.pgm", "0..150"}),
-            boxes({{0, 0, 96, 48, 255}, {28, 20, 8, 8, 0}}));
+  EXPECT_EQ(tags("--difference 0f 19f clip.tik"), two_squares);
+  EXPECT_EQ(tags("--difference frames/00.pgm frames/19.pgm"), two_squares);
+  EXPECT_EQ(tags("--difference frames/00.pgm 0.195s clip.tik"), two_squares);
+  EXPECT_EQ(tags("--threshold 0f 150..255 clip.tik"), boxes({{4, 20, 8, 8, 255}}));
+  EXPECT_EQ(tags("--threshold frames/19.pgm 60%"), boxes({{28, 20, 8, 8, 255}}));
+  EXPECT_EQ(tags("--threshold frames/19.pgm 0..150"), boxes({{0, 0, 96, 48, 255}, {28, 20, 8, 8, 0}}));
 }
 
 TEST_F(MaskCommand, ChangesTheRegionBefore) {
-  EXPECT_EQ(tags({"--difference", "0f", "19f", "--largest", "clip.tik"}), boxes({{4, 20, 8, 8, 255}}));
-  EXPECT_EQ(tags({"--moving", "--within", "10,0,10,48", "clip.tik"}), boxes({{10, 20, 10, 8, 255}}));
-  EXPECT_EQ(tags({"--moving", "--shrink", "2", "clip.tik"}), boxes({{6, 22, 28, 4, 255}}));
-  EXPECT_EQ(tags({"--moving", "--grow", "1", "clip.tik"}),
+  EXPECT_EQ(tags("--difference 0f 19f --largest clip.tik"), boxes({{4, 20, 8, 8, 255}}));
+  EXPECT_EQ(tags("--moving --within 10,0,10,48 clip.tik"), boxes({{10, 20, 10, 8, 255}}));
+  EXPECT_EQ(tags("--moving --shrink 2 clip.tik"), boxes({{6, 22, 28, 4, 255}}));
+  EXPECT_EQ(tags("--moving --grow 1 clip.tik"),
             boxes({{3, 20, 34, 8, 255}, {4, 19, 32, 10, 255}}));  // a disc: no corners
-  EXPECT_EQ(tags({"--moving", "--invert", "clip.tik"}), tags({"--still", "clip.tik"}));
-  EXPECT_EQ(tags({"--moving", "--by", "2", "--smooth", "3", "clip.tik"})[20 * 96 + 20], 255);
+  EXPECT_EQ(tags("--moving --invert clip.tik"), tags("--still clip.tik"));
+  EXPECT_EQ(tags("--moving --by 2 --smooth 3 clip.tik")[20 * 96 + 20], 255);
   // In the order in which they are said.
-  EXPECT_EQ(tags({"--moving", "--within", "10,0,10,48", "--invert", "clip.tik"}),
+  EXPECT_EQ(tags("--moving --within 10,0,10,48 --invert clip.tik"),
             boxes({{0, 0, 96, 48, 255}, {10, 20, 10, 8, 0}}));
-  EXPECT_EQ(tags({"--moving", "--invert", "--within", "10,0,10,48", "clip.tik"}),
+  EXPECT_EQ(tags("--moving --invert --within 10,0,10,48 clip.tik"),
             boxes({{10, 0, 10, 48, 255}, {10, 20, 10, 8, 0}}));
 }
 
 TEST_F(MaskCommand, LaysLaterRegionsOverEarlierOnes) {
-  EXPECT_EQ(tags({"--size", "96x48", "--tag", "3", "--rectangle", "10,10,20,20", "--tag", "4", "--rectangle",
-                  "20,20,20,20"}),
+  EXPECT_EQ(tags("--size 96x48 --tag 3 --rectangle 10,10,20,20 --tag 4 --rectangle 20,20,20,20"),
             boxes({{10, 10, 20, 20, 3}, {20, 20, 20, 20, 4}}));
-  EXPECT_EQ(tags({"--size", "96x48", "--tag", "4", "--rectangle", "20,20,20,20", "--tag", "3", "--rectangle",
-                  "10,10,20,20"}),
+  EXPECT_EQ(tags("--size 96x48 --tag 4 --rectangle 20,20,20,20 --tag 3 --rectangle 10,10,20,20"),
             boxes({{20, 20, 20, 20, 4}, {10, 10, 20, 20, 3}}));
-  EXPECT_EQ(tags({"--size", "96x48", "--fill", "--tag", "0", "--polygon", "10,10,30,10,30,20,10,20"}),
+  EXPECT_EQ(tags("--size 96x48 --fill --tag 0 --polygon 10,10,30,10,30,20,10,20"),
             boxes({{0, 0, 96, 48, 255}, {10, 10, 20, 10, 0}}));
-  EXPECT_EQ(tags({"--size", "96x48", "--ellipse", "50.5,20.5,0.9,0.9"}), boxes({{50, 20, 1, 1, 255}}));
-  EXPECT_EQ(
-      run({"mask", "--size", "96x48", "--tag", "3", "--rectangle", "10,10,20,20", "-o", "base.png"}).status,
-      0);
-  EXPECT_EQ(tags({"--base", "base.png", "--tag", "4", "--moving", "clip.tik"}),
+  EXPECT_EQ(tags("--size 96x48 --ellipse 50.5,20.5,0.9,0.9"), boxes({{50, 20, 1, 1, 255}}));
+  EXPECT_EQ(run("mask --size 96x48 --tag 3 --rectangle 10,10,20,20 -o base.png").status, 0);
+  EXPECT_EQ(tags("--base base.png --tag 4 --moving clip.tik"),
             boxes({{10, 10, 20, 20, 3}, {4, 20, 32, 8, 4}}));
-  EXPECT_EQ(tags({"--base", "base.png"}), boxes({{10, 10, 20, 20, 3}}));
+  EXPECT_EQ(tags("--base base.png"), boxes({{10, 10, 20, 20, 3}}));
 }
 
 TEST_F(MaskCommand, WritesEveryTagExactly) {
   std::string plain = "P2 96 48 255\n";
   for (int i = 0; i < 96 * 48; ++i) plain += std::to_string(i % 256) + "\n";
   scratch_.write("all.pgm", plain);
-  ASSERT_EQ(run({"mask", "--base", "all.pgm", "-o", "a.pgm"}).status, 0);
-  ASSERT_EQ(run({"mask", "--base", "a.pgm", "-o", "b.png"}).status, 0);
+  make("mask --base all.pgm -o a.pgm");
+  make("mask --base a.pgm -o b.png");
   const std::string raw = test::read_file(scratch_ / "a.pgm");
   EXPECT_TRUE(raw.starts_with("P5\n96 48\n255\n"));
   EXPECT_EQ(read_mask(scratch_ / "a.pgm").bytes, read_mask(scratch_ / "all.pgm").bytes);
@@ -146,20 +137,17 @@ TEST_F(MaskCommand, WritesEveryTagExactly) {
 }
 
 TEST_F(MaskCommand, ExposesWithWhatItMade) {
-  ASSERT_EQ(run({"mask", "--moving", "clip.tik", "mask.pgm"}).status, 0);
+  make("mask --moving clip.tik mask.pgm");
   scratch_.write("two.fn", "M0 [0:1], [200000000:1]\nM255 [0:1], [10000000:1], [10000001:0]\n");
-  EXPECT_EQ(run({"-m", "mask.pgm", "-k", "two.fn", "clip.tik", "out.png"}).status, 0);
+  make("-m mask.pgm -k two.fn clip.tik out.png");
 }
 
 TEST_F(MaskCommand, ReportsAndShows) {
-  const ProgramResult text = run({"mask", "--tag", "128", "--moving", "clip.tik", "--preview", "seen.png"});
-  EXPECT_EQ(text.status, 0) << text.err;
-  EXPECT_NE(text.out.find("clip-mask.pgm: 96 x 48, 2 tags"), std::string::npos) << text.out;
-  EXPECT_NE(text.out.find("256 pixels   5.56 %, by more than 15 codes"), std::string::npos) << text.out;
+  const ProgramResult text = make("mask --tag 128 --moving clip.tik --preview seen.png");
+  expect_says(text.out, {"clip-mask.pgm: 96 x 48, 2 tags", "256 pixels   5.56 %, by more than 15 codes"});
   EXPECT_TRUE(test::read_file(scratch_ / "seen.png").starts_with("\x89PNG"));
-  EXPECT_EQ(run({"mask", "-q", "--overwrite", "--moving", "clip.tik"}).out, "clip-mask.pgm\n");
-  const auto json =
-      nlohmann::json::parse(run({"mask", "--json", "--moving", "--grow", "0", "clip.tik", "m.png"}).out);
+  EXPECT_EQ(run("mask -q --overwrite --moving clip.tik").out, "clip-mask.pgm\n");
+  const auto json = nlohmann::json::parse(run("mask --json --moving --grow 0 clip.tik m.png").out);
   EXPECT_EQ(json["mask"], "m.png");
   EXPECT_EQ(json["steps"][0]["more_than_codes"], 15);
   EXPECT_EQ(json["tags"],
@@ -168,12 +156,11 @@ TEST_F(MaskCommand, ReportsAndShows) {
        {std::vector<std::string>{"--start", "3f"}, {"--start", "30ms", "--exposure", "10ms"}}) {
     std::vector<std::string> words{"mask", "--overwrite", "--moving", "clip.tik", "m.png", "--preview", when[1] + ".png"};
     words.insert(words.end(), when.begin(), when.end());
-    EXPECT_EQ(run(words).status, 0);
+    make(words);
   }
   // Picture 3 was exposed from 30 to 40 ms.
   EXPECT_EQ(test::read_file(scratch_ / "3f.png"), test::read_file(scratch_ / "30ms.png"));
-  EXPECT_NE(run({"mask", "--fill", "clip.tik", "one.png"}).out.find("one.png: 96 x 48, 1 tag\n"),
-            std::string::npos);
+  expect_says(run("mask --fill clip.tik one.png").out, "one.png: 96 x 48, 1 tag\n");
 }
 
 TEST_F(MaskCommand, WarnsOfAPreviewBeyondTheCapture) {
@@ -191,24 +178,24 @@ TEST_F(MaskCommand, WarnsOfAPreviewBeyondTheCapture) {
 // An exposure of the same name carries how it was made; a mask does not.
 TEST_F(MaskCommand, ReplacesMasksAndNoExposures) {
   for (const std::string name : {"same.png", "same.pgm"}) {
-    ASSERT_EQ(run({"--start", "0s", "--exposure", "50ms", "clip.tik", name}).status, 0);
+    make({"--start", "0s", "--exposure", "50ms", "clip.tik", name});
     const std::string exposure = test::read_file(scratch_ / name);
     expect_refused({"mask", "--moving", "clip.tik", name}, 2,
                    name + " exists and is no mask; it is not replaced");
     EXPECT_EQ(test::read_file(scratch_ / name), exposure);
   }
-  ASSERT_EQ(run({"contact", "clip.tik", "colour.png"}).status, 0);
-  expect_refused({"mask", "--moving", "clip.tik", "colour.png"}, 2, "colour.png exists and is no mask");
+  make("contact clip.tik colour.png");
+  expect_refused("mask --moving clip.tik colour.png", 2, "colour.png exists and is no mask");
   for (const char* name : {"again.png", "again.pgm"}) {
-    EXPECT_EQ(run({"mask", "--moving", "clip.tik", name}).status, 0);
+    make({"mask", "--moving", "clip.tik", name});
     expect_refused({"mask", "--still", "clip.tik", name}, 2, "is there already and is not replaced");
-    EXPECT_EQ(run({"mask", "--still", "--overwrite", "clip.tik", name}).status, 0);
+    make({"mask", "--still", "--overwrite", "clip.tik", name});
   }
 }
 
 // A tag that was asked for and that no pixel has in the end.
 TEST_F(MaskCommand, WarnsOfTagsThatLaterStepsCover) {
-  const auto warned = [&](std::vector<std::string> words) {
+  const auto warned = [&](test::Words words) {
     words.insert(words.begin(), {"mask", "--overwrite"});
     words.insert(words.end(), {"clip.tik", "covered.pgm"});
     return run(words).err;
@@ -225,60 +212,47 @@ TEST_F(MaskCommand, WarnsOfTagsThatLaterStepsCover) {
 }
 
 TEST_F(MaskCommand, RefusesWhatMakesNoSense) {
-  expect_refused({"mask", "clip.tik"}, 2, "what is the mask made of? Add a step: --moving");
-  expect_refused({"mask", "--moving"}, 2, "the output is missing: nutik-cl mask --moving clip.tik mask.pgm");
-  expect_refused({"mask", "--moving", "-o", "x.pgm"}, 2, "--moving needs a capture or a clip");
-  expect_refused({"mask", "--rectangle", "1,1,2,2", "-o", "x.pgm"}, 2, "say --size 640x360");
-  expect_refused({"mask", "--rectangle", "1,1,2,2", "x.pgm"}, 2, "to write it: -o x.pgm");
-  expect_refused({"mask", "--rectangle", "1,1,2", "clip.tik"}, 2,
-                 "--rectangle needs 4 numbers, X,Y,WIDTH,HEIGHT");
-  expect_refused({"mask", "--rectangle", "1,1,2,0", "clip.tik"}, 2, "width and height must be above 0");
-  expect_refused({"mask", "--ellipse", "1,1,two,2", "clip.tik"}, 2, "'two' is no number");
-  expect_refused({"mask", "--polygon", "1,1,2,2", "clip.tik"}, 2, "--polygon needs three corners or more");
-  expect_refused({"mask", "--tag", "256", "--moving", "clip.tik"}, 2,
-                 "tag '256' is no whole number of 0 … 255");
-  expect_refused({"mask", "--grow", "2", "clip.tik"}, 2,
-                 "--grow changes the region before it: first select one");
-  expect_refused({"mask", "--moving", "--tag", "3", "clip.tik"}, 2,
-                 "--tag 3 is of the regions behind it, and there is none: write --tag 3 before --moving");
-  expect_refused({"mask", "--moving", "--tag", "2", "--grow", "2", "clip.tik"}, 2,
-                 "after --tag there is none yet");
-  expect_refused({"mask", "--moving", "--grow", "-1", "clip.tik"}, 2, "--grow '-1' is no number of pixels");
-  expect_refused({"mask", "--fill", "--by", "3", "clip.tik"}, 2,
-                 "--by says how much codes must change; --fill");
-  expect_refused({"mask", "--moving", "--by", "255", "clip.tik"}, 2,
-                 "--moving: no codes differ by more than 255, for white is 255");
-  expect_refused({"mask", "--moving", "clip.tik", "m.pgm", "--preview", "p.pfm"}, 2,
-                 "p.pfm holds floating point only");
-  expect_refused({"mask", "--moving", "clip.tik", "m.pgm", "--preview", "p.pgm"}, 2,
-                 "p.pgm holds grey pictures only");
-  expect_refused({"mask", "--moving", "--by", "0", "clip.tik"}, 2, "--by '0' is no whole number of 1");
-  expect_refused({"mask", "--threshold", "0f", "9..1", "clip.tik"}, 2, "'9..1' is no range of codes");
-  expect_refused({"mask", "--threshold", "0f", "40%..60", "clip.tik"}, 2, "is no range of codes");
-  expect_refused({"mask", "--changed-between", "0.3", "0.5s", "clip.tik"}, 2, "'0.3' is no time");
-  expect_refused({"mask", "--changed-between", "9f", "3f", "clip.tik"}, 2, "write the earlier first");
-  expect_refused({"mask", "--changed-between", "0s", "9s", "clip.tik"}, 2,
-                 "outside the capture, which lasts 200 ms");
-  expect_refused({"mask", "--changed-between", "0f", "20f", "clip.tik"}, 2,
-                 "picture 20 is outside the capture");
-  expect_refused({"mask", "--moving", "clip.tik", "m.jpg"}, 2, "masks are written as .pgm or .png");
-  expect_refused({"mask", "--moving", "clip.tik", "-o", "clip.tik"}, 2,
-                 "clip.tik: masks are written as .pgm");
-  expect_refused({"mask", "--moving", "--size", "9x9", "clip.tik"}, 2,
-                 "--size is 9 x 9, clip.tik is 96 x 48");
-  expect_refused({"mask", "--moving", "--size", "9", "clip.tik"}, 2, "size '9' is none; write WIDTHxHEIGHT");
-  expect_refused({"mask", "--moving", "--start", "1f", "clip.tik"}, 2, "add --preview picture.png");
-  expect_refused({"mask", "--moving", "clip.tik", "m.pgm", "--preview", "m.pgm"}, 2, "is also an input");
-  expect_refused({"mask", "--threshold", "absent.png", "1..2", "clip.tik"}, 3, "absent.png");
-  expect_refused({"mask", "--threshold", "frames", "1..2", "clip.tik"}, 2, "frames is a sequence of 20");
+  expect_refused(
+      2, {{"mask clip.tik", "what is the mask made of? Add a step: --moving"},
+          {"mask --moving", "the output is missing: nutik-cl mask --moving clip.tik mask.pgm"},
+          {"mask --moving -o x.pgm", "--moving needs a capture or a clip"},
+          {"mask --rectangle 1,1,2,2 -o x.pgm", "say --size 640x360"},
+          {"mask --rectangle 1,1,2,2 x.pgm", "to write it: -o x.pgm"},
+          {"mask --rectangle 1,1,2 clip.tik", "--rectangle needs 4 numbers, X,Y,WIDTH,HEIGHT"},
+          {"mask --rectangle 1,1,2,0 clip.tik", "width and height must be above 0"},
+          {"mask --ellipse 1,1,two,2 clip.tik", "'two' is no number"},
+          {"mask --polygon 1,1,2,2 clip.tik", "--polygon needs three corners or more"},
+          {"mask --tag 256 --moving clip.tik", "tag '256' is no whole number of 0 … 255"},
+          {"mask --grow 2 clip.tik", "--grow changes the region before it: first select one"},
+          {"mask --moving --tag 3 clip.tik",
+           "--tag 3 is of the regions behind it, and there is none: write --tag 3 before --moving"},
+          {"mask --moving --tag 2 --grow 2 clip.tik", "after --tag there is none yet"},
+          {"mask --moving --grow -1 clip.tik", "--grow '-1' is no number of pixels"},
+          {"mask --fill --by 3 clip.tik", "--by says how much codes must change; --fill"},
+          {"mask --moving --by 255 clip.tik", "--moving: no codes differ by more than 255, for white is 255"},
+          {"mask --moving clip.tik m.pgm --preview p.pfm", "p.pfm holds floating point only"},
+          {"mask --moving clip.tik m.pgm --preview p.pgm", "p.pgm holds grey pictures only"},
+          {"mask --moving --by 0 clip.tik", "--by '0' is no whole number of 1"},
+          {"mask --threshold 0f 9..1 clip.tik", "'9..1' is no range of codes"},
+          {"mask --threshold 0f 40%..60 clip.tik", "is no range of codes"},
+          {"mask --changed-between 0.3 0.5s clip.tik", "'0.3' is no time"},
+          {"mask --changed-between 9f 3f clip.tik", "write the earlier first"},
+          {"mask --changed-between 0s 9s clip.tik", "outside the capture, which lasts 200 ms"},
+          {"mask --changed-between 0f 20f clip.tik", "picture 20 is outside the capture"},
+          {"mask --moving clip.tik m.jpg", "masks are written as .pgm or .png"},
+          {"mask --moving clip.tik -o clip.tik", "clip.tik: masks are written as .pgm"},
+          {"mask --moving --size 9x9 clip.tik", "--size is 9 x 9, clip.tik is 96 x 48"},
+          {"mask --moving --size 9 clip.tik", "size '9' is none; write WIDTHxHEIGHT"},
+          {"mask --moving --start 1f clip.tik", "add --preview picture.png"},
+          {"mask --moving clip.tik m.pgm --preview m.pgm", "is also an input"}});
+  expect_refused("mask --threshold absent.png 1..2 clip.tik", 3, "absent.png");
+  expect_refused("mask --threshold frames 1..2 clip.tik", 2, "frames is a sequence of 20");
   scratch_.write("small.pgm", "P2 2 1 255 0 1");
-  expect_refused({"mask", "--threshold", "small.pgm", "1..2", "clip.tik"}, 3,
-                 "the picture is 2 x 1, the mask 96 x 48");
-  expect_refused({"mask", "--base", "small.pgm", "--moving", "clip.tik"}, 2, "the sizes must agree");
-  expect_refused({"mask", "--threshold", "small.pgm", "1..2", "-o", "small.pgm"}, 2, "is also an input");
+  expect_refused("mask --threshold small.pgm 1..2 clip.tik", 3, "the picture is 2 x 1, the mask 96 x 48");
+  expect_refused(2, {{"mask --base small.pgm --moving clip.tik", "the sizes must agree"},
+                     {"mask --threshold small.pgm 1..2 -o small.pgm", "is also an input"}});
   EXPECT_EQ(test::read_file(scratch_ / "small.pgm"), "P2 2 1 255 0 1");
-  expect_refused({"expose", "--moving", "clip.tik"}, 2,
-                 "--moving does not go with expose; it is an option of: mask");
+  expect_refused("expose --moving clip.tik", 2, "--moving does not go with expose; it is an option of: mask");
 }
 
 TEST_F(MaskCommand, CutsThePictureIntoAGrid) {
@@ -286,16 +260,15 @@ TEST_F(MaskCommand, CutsThePictureIntoAGrid) {
   const int rest =
       MovingSquare::kWidth - half;  // of an odd width the middle pixel's centre lies on the line: right
   const std::vector<std::uint8_t> halves = boxes({{half, 0, rest, height, 1}});
-  EXPECT_EQ(tags({"--grid", "2x1", "clip.tik"}), halves);
-  EXPECT_EQ(tags({"--tag", "7", "--grid", "2x1", "--within", "0,0,3,2", "clip.tik"}),
-            boxes({{0, 0, 3, 2, 7}}));
+  EXPECT_EQ(tags("--grid 2x1 clip.tik"), halves);
+  EXPECT_EQ(tags("--tag 7 --grid 2x1 --within 0,0,3,2 clip.tik"), boxes({{0, 0, 3, 2, 7}}));
   const auto columns = tags({"--grid", format("{}x1", MovingSquare::kWidth), "clip.tik"});
   for (int x = 0; x < MovingSquare::kWidth; ++x) EXPECT_EQ(columns[static_cast<std::size_t>(x)], x);
-  expect_refused({"mask", "--grid", "4", "clip.tik", "a.pgm"}, 2, "write COLUMNSxROWS: 16x9");
-  expect_refused({"mask", "--grid", "0x4", "clip.tik", "a.pgm"}, 2, "1 … 256");
-  expect_refused({"mask", "--tag", "1", "--grid", "16x16", "clip.tik", "a.pgm"}, 2,
-                 "has 256 cells, tagged from 1 on: tags end at 255");
-  expect_refused({"mask", "--grid", "256x1", "clip.tik", "a.pgm"}, 3, "more cells than pixels along a side");
+  expect_refused(
+      2, {{"mask --grid 4 clip.tik a.pgm", "write COLUMNSxROWS: 16x9"},
+          {"mask --grid 0x4 clip.tik a.pgm", "1 … 256"},
+          {"mask --tag 1 --grid 16x16 clip.tik a.pgm", "has 256 cells, tagged from 1 on: tags end at 255"}});
+  expect_refused("mask --grid 256x1 clip.tik a.pgm", 3, "more cells than pixels along a side");
 }
 
 }  // namespace

@@ -14,16 +14,9 @@ using test::ProgramResult;
 
 class Moment : public test::MovingSquareTest {
  protected:
-  nlohmann::json json_of(std::vector<std::string> words) const {
-    words.push_back("--json");
-    const ProgramResult result = run(words);
-    EXPECT_EQ(result.status, 0) << result.err;
-    return nlohmann::json::parse(result.out);
-  }
   [[nodiscard]] cv::Mat picture(std::string_view name) const {
     return cv::imread((scratch_ / name).string(), cv::IMREAD_UNCHANGED);
   }
-  [[nodiscard]] std::string file(std::string_view name) const { return test::read_file(scratch_ / name); }
 
   // Pixels that differ between two neighbouring pictures by more than `ignored` codes.
   [[nodiscard]] int changed_pixels(std::size_t sample, int ignored) const {
@@ -36,7 +29,7 @@ class Moment : public test::MovingSquareTest {
 };
 
 TEST_F(Moment, ContactSheetShowsEveryPictureOfAShortCapture) {
-  const auto json = json_of({"contact", "clip.tik"});
+  const auto json = answer("contact clip.tik");
   EXPECT_EQ(json["sheet"], "clip-contact.png");
   ASSERT_EQ(json["exposures"].size(), 20u);
   for (const char* key : {"saturated_above_pixels", "precision", "renderer", "seconds"}) {
@@ -60,55 +53,51 @@ TEST_F(Moment, ContactSheetShowsEveryPictureOfAShortCapture) {
 }
 
 TEST_F(Moment, ContactSheetTakesTimesOfAnyKind) {
-  EXPECT_EQ(json_of({"contact", "--every", "0.04s", "--exposure", "10ms", "clip.tik"})["exposures"],
-            json_of({"contact", "--every", "4f", "clip.tik"})["exposures"]);
-  const auto thirds =
-      json_of({"contact", "--every", "1/30s", "--exposure", "1ms", "--start", "50ms", "clip.tik"});
+  EXPECT_EQ(answer("contact --every 0.04s --exposure 10ms clip.tik")["exposures"],
+            answer("contact --every 4f clip.tik")["exposures"]);
+  const auto thirds = answer("contact --every 1/30s --exposure 1ms --start 50ms clip.tik");
   ASSERT_EQ(thirds["exposures"].size(), 5u);
   EXPECT_EQ(thirds["exposures"][1]["start_ns"], 83'333'333);
   EXPECT_EQ(thirds["exposures"][4]["end_ns"], 184'333'333);
   // The last is cut at the capture's end.
-  EXPECT_EQ(
-      json_of({"contact", "--every", "0.15s", "--exposure", "1s", "clip.tik"})["exposures"][1]["end_ns"],
-      200'000'000);
-  EXPECT_EQ(run({"contact", "--every", "50ms", "--exposure", "51ms", "clip.tik"}).err,
+  EXPECT_EQ(answer("contact --every 0.15s --exposure 1s clip.tik")["exposures"][1]["end_ns"], 200'000'000);
+  EXPECT_EQ(run("contact --every 50ms --exposure 51ms clip.tik").err,
             "warning: 150 ms   15f: the exposure: parts that are not zero lie after the capture's end at "
             "0.2 s and do not count\n");
-  EXPECT_EQ(run({"contact", "--every", "50ms", "--exposure", "50ms", "clip.tik"}).err, "");
-  const ProgramResult pictures = run({"contact", "--every", "5f", "--exposure", "7f", "clip.tik"});
+  EXPECT_EQ(run("contact --every 50ms --exposure 50ms clip.tik").err, "");
+  const ProgramResult pictures = run("contact --every 5f --exposure 7f clip.tik");
   EXPECT_TRUE(pictures.err.starts_with("warning: 150 ms   15f: the exposure: parts")) << pictures.err;
-  EXPECT_EQ(json_of({"contact", "--every", "5f", "--exposure", "7f", "clip.tik"})["exposures"],
-            json_of({"contact", "--every", "5f", "--exposure", "70ms", "clip.tik"})["exposures"]);
-  const auto later =
-      json_of({"contact", "--start", "10f", "--every", "5f", "--columns", "1", "clip.tik", "x.ppm"});
+  EXPECT_EQ(answer("contact --every 5f --exposure 7f clip.tik")["exposures"],
+            answer("contact --every 5f --exposure 70ms clip.tik")["exposures"]);
+  const auto later = answer("contact --start 10f --every 5f --columns 1 clip.tik x.ppm");
   EXPECT_EQ(later["exposures"].size(), 2u);
   EXPECT_EQ(later["rows"], 2);
   EXPECT_EQ(picture("x.ppm").rows, 2 * 12 + 26 + 2 * (48 + 20) + 8);
 }
 
 TEST_F(Moment, ContactSheetRefusesWhatMakesNoSense) {
-  expect_refused({"contact"}, 2, "an input is missing");
-  expect_refused({"contact", "--every", "1us", "clip.tik"}, 2,
-                 "makes 200000 pictures and a sheet holds 400; take --every 500us or more");
-  expect_refused({"contact", "--every", "0s", "clip.tik"}, 2, "--every '0s' is not longer than nothing");
-  expect_refused({"contact", "--every", "1.5f", "clip.tik"}, 2, "is not a whole number of pictures");
-  expect_refused({"contact", "--exposure", "1.5f", "clip.tik"}, 2, "is not a whole number of pictures");
-  expect_refused({"contact", "--exposure", "30.5f", "clip.tik"}, 2, "is not a whole number of pictures");
-  expect_refused({"contact", "--every", "often", "clip.tik"}, 2, "--every 'often' is no time");
-  expect_refused({"contact", "--start", "3s", "clip.tik"}, 2, "outside the capture, which lasts 200 ms");
-  expect_refused({"contact", "--columns", "0", "clip.tik"}, 2, "--columns '0' is no whole number");
-  expect_refused({"contact", "--columns", "20", "--width", "300", "clip.tik"}, 2,
-                 "choose fewer columns or a larger width (--columns, --width)");
-  expect_refused({"contact", "clip.tik", "sheet.pgm"}, 2, "sheet.pgm holds grey pictures only");
-  expect_refused({"contact", "clip.tik", "sheet.pfm"}, 2, "sheet.pfm holds floating point only");
-  expect_refused({"contact", "clip.tik", "clip.tik"}, 2, "is also an input");
-  expect_refused({"contact", "-f", "100", "clip.tik"}, 2, "--fps describes a clip");
+  expect_refused(2, {{"contact", "an input is missing"},
+                     {"contact --every 1us clip.tik",
+                      "makes 200000 pictures and a sheet holds 400; take --every 500us or more"},
+                     {"contact --every 0s clip.tik", "--every '0s' is not longer than nothing"},
+                     {"contact --every 1.5f clip.tik", "is not a whole number of pictures"},
+                     {"contact --exposure 1.5f clip.tik", "is not a whole number of pictures"},
+                     {"contact --exposure 30.5f clip.tik", "is not a whole number of pictures"},
+                     {"contact --every often clip.tik", "--every 'often' is no time"},
+                     {"contact --start 3s clip.tik", "outside the capture, which lasts 200 ms"},
+                     {"contact --columns 0 clip.tik", "--columns '0' is no whole number"},
+                     {"contact --columns 20 --width 300 clip.tik",
+                      "choose fewer columns or a larger width (--columns, --width)"},
+                     {"contact clip.tik sheet.pgm", "sheet.pgm holds grey pictures only"},
+                     {"contact clip.tik sheet.pfm", "sheet.pfm holds floating point only"},
+                     {"contact clip.tik clip.tik", "is also an input"},
+                     {"contact -f 100 clip.tik", "--fps describes a clip"}});
 }
 
 TEST_F(Moment, ActivityCountsChangesAtEachSample) {
   for (const int ignored : {0, 8}) {
-    const ProgramResult result = run({"activity", "--csv", "-", "--by", std::to_string(ignored), "clip.tik"});
-    ASSERT_EQ(result.status, 0) << result.err;
+    const ProgramResult result =
+        make({"activity", "--csv", "-", "--by", std::to_string(ignored), "clip.tik"});
     std::istringstream lines(result.out);
     std::string line;
     std::getline(lines, line);
@@ -140,8 +129,7 @@ TEST_F(Moment, ActivityIsThatOfTheSceneNotOfTheCodec) {
       "key.mp4",
       scratch_.folder());
   if (made.status != 0) GTEST_SKIP() << "ffmpeg cannot make the clip: " << made.err;
-  const auto scene = json_of({"activity", "key.mp4"}),
-             all = json_of({"activity", "--count-redrawn", "key.mp4"});
+  const auto scene = answer("activity key.mp4"), all = answer("activity --count-redrawn key.mp4");
   for (std::size_t k = 1; k < 60; ++k) {
     const double share = scene["samples"][k]["changed_share"];
     EXPECT_EQ(scene["samples"][k]["redrawn"], k % 12 == 0) << k;
@@ -156,9 +144,8 @@ TEST_F(Moment, ActivityIsThatOfTheSceneNotOfTheCodec) {
                           2;
     EXPECT_NEAR(share, beside, 1.0 / (320 * 180)) << k;
   }
-  const std::string said = run({"activity", "key.mp4"}).err;
-  EXPECT_NE(said.find("at 4 samples (12f … 48f) the whole picture changed a little at once"), std::string::npos)
-      << said;
+  const std::string said = run("activity key.mp4").err;
+  expect_says(said, "at 4 samples (12f … 48f) the whole picture changed a little at once");
 }
 
 // A camera that closes its aperture a little, while a square moves on.
@@ -169,24 +156,22 @@ TEST_F(Moment, ActivityTakesAStepOfTheExposureForNoMotion) {
     frame(cv::Rect(4 + 6 * k, 20, 8, 8)) = 250;
     cv::imwrite((scratch_ / ("steps/" + std::to_string(10 + k) + ".png")).string(), frame);
   }
-  const auto json = json_of({"activity", "-f", "100", "steps"});
+  const auto json = answer("activity -f 100 steps");
   for (std::size_t k = 1; k < 12; ++k) {
     EXPECT_EQ(json["samples"][k]["redrawn"], k == 7) << k;
     EXPECT_EQ(json["samples"][k]["changed_pixels"], 2 * 6 * 8) << k;
   }
-  EXPECT_NE(run({"activity", "-f", "100", "steps"}).err.find("as where a codec draws it anew or a camera changes its "
-                                                             "exposure"),
-            std::string::npos);
-  const std::string help = run({"activity", "--help"}).out;
-  EXPECT_NE(help.find("or the camera changed"), std::string::npos) << help;
+  expect_says(run("activity -f 100 steps").err,
+              "as where a codec draws it anew or a camera changes its "
+              "exposure");
+  const std::string help = run("activity --help").out;
+  expect_says(help, "or the camera changed");
 }
 
 TEST_F(Moment, ActivityCountsEachTagForItself) {
-  ASSERT_EQ(run({"mask", "--grid", "4x2", "clip.tik", "grid.pgm"}).status, 0);
-  const ProgramResult lines =
-      run({"activity", "--by", "8", "-m", "grid.pgm", "--tag", "all", "--moment", "quietest", "clip.tik"});
-  ASSERT_EQ(lines.status, 0) << lines.err;
-  const auto json = json_of({"activity", "--by", "8", "-m", "grid.pgm", "--tag", "all", "clip.tik"});
+  make("mask --grid 4x2 clip.tik grid.pgm");
+  const ProgramResult lines = make("activity --by 8 -m grid.pgm --tag all --moment quietest clip.tik");
+  const auto json = answer("activity --by 8 -m grid.pgm --tag all clip.tik");
   ASSERT_EQ(json["tags"].size(), 8u);
   EXPECT_EQ(json["counted_pixels"], 96 * 48) << "all of them, as without a mask";
   std::string expected;
@@ -194,7 +179,7 @@ TEST_F(Moment, ActivityCountsEachTagForItself) {
   for (int tag = 0; tag < 8; ++tag) {
     const std::string name = std::to_string(tag);
     // What one tag alone has.
-    const auto alone = json_of({"activity", "--by", "8", "-m", "grid.pgm", "--tag", name, "clip.tik"});
+    const auto alone = answer({"activity", "--by", "8", "-m", "grid.pgm", "--tag", name, "clip.tik"});
     const auto& each = json["tags"][static_cast<std::size_t>(tag)];
     EXPECT_EQ(each["tag"], tag);
     EXPECT_EQ(each["counted_pixels"], 24 * 24);
@@ -211,13 +196,11 @@ TEST_F(Moment, ActivityCountsEachTagForItself) {
   }
   EXPECT_EQ(lines.out, expected);
   EXPECT_TRUE(differs) << "the square is not everywhere at once";
-  const ProgramResult busiest =
-      run({"activity", "--by", "8", "-m", "grid.pgm", "--tag", "all", "--moment", "busiest", "clip.tik"});
+  const ProgramResult busiest = run("activity --by 8 -m grid.pgm --tag all --moment busiest clip.tik");
   EXPECT_EQ(busiest.status, 3) << "of a tag in which nothing moves";
-  EXPECT_NE(busiest.err.find("clip.tik has no busiest moment where the mask is "), std::string::npos)
-      << busiest.err;
-  const std::string text = run({"activity", "--by", "8", "-m", "grid.pgm", "--tag", "all", "clip.tik"}).out;
-  EXPECT_NE(text.find("  M7: 576 pixels, quietest "), std::string::npos) << text;
+  expect_says(busiest.err, "clip.tik has no busiest moment where the mask is ");
+  const std::string text = run("activity --by 8 -m grid.pgm --tag all clip.tik").out;
+  expect_says(text, "  M7: 576 pixels, quietest ");
 }
 
 TEST_F(Moment, ActivityCountsTheMemoryOfEachTag) {
@@ -230,29 +213,25 @@ TEST_F(Moment, ActivityCountsTheMemoryOfEachTag) {
   EXPECT_EQ(with_tag("3").status, 0) << with_tag("3").err;
   const ProgramResult refused = with_tag("all");
   EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("changes of samples 0.0829 MB"), std::string::npos) << refused.err;
+  expect_says(refused.err, "changes of samples 0.0829 MB");
 }
 
 TEST_F(Moment, ActivitySaysWhereItIsQuiet) {
-  const auto json = json_of({"activity", "--by", "8", "clip.tik"});
+  const auto json = answer("activity --by 8 clip.tik");
   EXPECT_EQ(json["busiest"]["first_sample"], 1);
   EXPECT_EQ(json["quietest"]["first_sample"], 13);
   EXPECT_EQ(json["quietest"]["mean_changed_share"], 0.0);
   EXPECT_EQ(json["samples"].size(), 20u);
   EXPECT_EQ(json["samples"][5]["changed_pixels"], 32);
-  const ProgramResult text = run({"activity", "--by", "8", "clip.tik"});
-  EXPECT_NE(text.out.find("quietest      130 ms to 140 ms (13f to 13f), 0 % of pixels"), std::string::npos)
-      << text.out;
-  EXPECT_NE(text.out.find("try: nutik-cl --start 13f --exposure 1f clip.tik quiet.png"), std::string::npos)
-      << text.out;
+  const ProgramResult text = run("activity --by 8 clip.tik");
+  expect_says(text.out, {"quietest      130 ms to 140 ms (13f to 13f), 0 % of pixels",
+                         "try: nutik-cl --start 13f --exposure 1f clip.tik quiet.png"});
   std::filesystem::copy(scratch_ / "clip.tik", scratch_ / "my clip.tik");
   const std::string spaced = run({"activity", "my clip.tik"}).out;
-  EXPECT_NE(spaced.find("try: nutik-cl --start 13f --exposure 1f 'my clip.tik' quiet.png"), std::string::npos)
-      << spaced;
+  expect_says(spaced, "try: nutik-cl --start 13f --exposure 1f 'my clip.tik' quiet.png");
   EXPECT_EQ(text.err, "");
-  EXPECT_NE(run({"activity", "clip.tik"}).err.find("--by CODES counts larger changes only"),
-            std::string::npos);
-  EXPECT_NE(run({"activity", "--by", "200", "clip.tik"}).out.find("nothing changes"), std::string::npos);
+  expect_says(run("activity clip.tik").err, "--by CODES counts larger changes only");
+  expect_says(run("activity --by 200 clip.tik").out, "nothing changes");
 }
 
 TEST_F(Moment, ActivityNamesAMomentForAnotherCommand) {
@@ -262,45 +241,42 @@ TEST_F(Moment, ActivityNamesAMomentForAnotherCommand) {
   EXPECT_EQ(moment("quietest", "8"), "--start 13f --exposure 1f\n");
   EXPECT_EQ(moment("busiest", "8"), "--start 1f --exposure 1f\n");
   EXPECT_EQ(moment("quietest", "200"), "--start 0f --exposure 20f\n");  // nothing changes by that much
-  expect_refused({"activity", "--by", "200", "--moment", "busiest", "clip.tik"}, 3, "nothing changes");
-  expect_refused({"activity", "--moment", "calmest", "clip.tik"}, 2, "neither quietest nor busiest");
-  expect_refused({"activity", "--moment", "busiest", "--json", "clip.tik"}, 2, "prints nothing else");
+  expect_refused("activity --by 200 --moment busiest clip.tik", 3, "nothing changes");
+  expect_refused(2, {{"activity --moment calmest clip.tik", "neither quietest nor busiest"},
+                     {"activity --moment busiest --json clip.tik", "prints nothing else"}});
 }
 
 TEST_F(Moment, ActivityOfARegion) {
-  ASSERT_EQ(run({"mask", "--tag", "7", "--rectangle", "0,20,20,8", "--tag", "9", "--rectangle", "40,0,10,10",
-                 "clip.tik", "mask.pgm"})
-                .status,
+  ASSERT_EQ(run("mask --tag 7 --rectangle 0,20,20,8 --tag 9 --rectangle 40,0,10,10 clip.tik mask.pgm").status,
             0);
-  const auto region = json_of({"activity", "--by", "8", "-m", "mask.pgm", "--tag", "7", "clip.tik"});
+  const auto region = answer("activity --by 8 -m mask.pgm --tag 7 clip.tik");
   EXPECT_EQ(region["counted_pixels"], 160);
   EXPECT_EQ(region["samples"][1]["changed_pixels"], 32);  // from 4 to 14
   EXPECT_EQ(region["samples"][8]["changed_pixels"], 16);  // only its tail, from 18 to 20
   EXPECT_EQ(region["samples"][11]["changed_pixels"], 0);
-  EXPECT_EQ(json_of({"activity", "-m", "mask.pgm", "clip.tik"})["counted_pixels"], 260);  // every tag but 0
-  expect_refused({"activity", "-m", "mask.pgm", "--tag", "8", "clip.tik"}, 3,
-                 "mask.pgm has no pixel with tag 8");
-  expect_refused({"activity", "--tag", "8", "clip.tik"}, 2, "add -m mask.pgm");
+  EXPECT_EQ(answer("activity -m mask.pgm clip.tik")["counted_pixels"], 260);  // every tag but 0
+  expect_refused("activity -m mask.pgm --tag 8 clip.tik", 3, "mask.pgm has no pixel with tag 8");
+  expect_refused("activity --tag 8 clip.tik", 2, "add -m mask.pgm");
 }
 
 TEST_F(Moment, ActivityWritesTableChartAndMap) {
-  ASSERT_EQ(run({"activity", "--csv", "a.csv", "--map", "map.png", "clip.tik", "chart.png"}).status, 0);
-  EXPECT_EQ(file("a.csv"), run({"activity", "--csv", "-", "clip.tik"}).out);
+  make("activity --csv a.csv --map map.png clip.tik chart.png");
+  EXPECT_EQ(file("a.csv"), run("activity --csv - clip.tik").out);
   EXPECT_EQ(picture("chart.png").cols, 1200);
-  ASSERT_EQ(run({"info", "--activity", "same.png", "clip.tik"}).status, 0);
+  make("info --activity same.png clip.tik");
   EXPECT_EQ(file("map.png"), file("same.png"));
-  EXPECT_EQ(run({"activity", "--csv", "a.csv", "--overwrite", "clip.tik"}).status, 0);  // its own kind
+  make("activity --csv a.csv --overwrite clip.tik");  // its own kind
   scratch_.write("notes.csv", "my notes");
-  expect_refused({"activity", "--csv", "notes.csv", "clip.tik"}, 2, "notes.csv exists and is no table");
-  expect_refused({"activity", "--csv", "a.txt", "clip.tik"}, 2, "tables are written as .csv");
-  expect_refused({"activity", "--csv", "-", "--json", "clip.tik"}, 2, "both go to standard output");
-  expect_refused({"activity", "--map", "x.png", "clip.tik", "x.png"}, 2, "is also an input");
-  expect_refused({"activity", "--by", "few", "clip.tik"}, 2, "--by 'few' is no whole number");
+  expect_refused(2, {{"activity --csv notes.csv clip.tik", "notes.csv exists and is no table"},
+                     {"activity --csv a.txt clip.tik", "tables are written as .csv"},
+                     {"activity --csv - --json clip.tik", "both go to standard output"},
+                     {"activity --map x.png clip.tik x.png", "is also an input"},
+                     {"activity --by few clip.tik", "--by 'few' is no whole number"}});
 }
 
 TEST_F(Moment, SweepExposesEachShift) {
-  const auto json = json_of({"sweep", "--start", "0s", "--exposure", "10ms", "--shift", "0..50ms/10ms",
-                             "--each", "s%d.png", "--no-recipe", "clip.tik"});
+  const auto json =
+      answer("sweep --start 0s --exposure 10ms --shift 0..50ms/10ms --each s%d.png --no-recipe clip.tik");
   ASSERT_EQ(json["pictures"].size(), 6u);
   EXPECT_EQ(json["pictures"][3], nlohmann::json::parse(R"({"shift_ns":30000000,"file":"s3.png"})"));
   for (const int k : {0, 3, 5}) {
@@ -312,17 +288,18 @@ TEST_F(Moment, SweepExposesEachShift) {
   }
   EXPECT_EQ(json["sheet"], "clip-0s-10ms-sweep.png");
   EXPECT_FALSE(picture("clip-0s-10ms-sweep.png").empty());
-  const auto pictures = json_of({"sweep", "--start", "9f", "--exposure", "1f", "--shift", "-5f..5f/5f",
-                                 "--each", "p%d.png", "--no-recipe", "clip.tik"});
+  const auto pictures =
+      answer("sweep --start 9f --exposure 1f --shift -5f..5f/5f --each p%d.png --no-recipe clip.tik");
   EXPECT_EQ(pictures["pictures"][0]["shift_samples"], -5);
-  ASSERT_EQ(run({"--start", "4f", "--exposure", "1f", "--no-recipe", "--overwrite", "clip.tik", "alone.png"}).status, 0);
+  make("--start 4f --exposure 1f --no-recipe --overwrite clip.tik alone.png");
   EXPECT_EQ(file("p0.png"), file("alone.png"));
 }
 
 TEST_F(Moment, SweepVariesGainAndLength) {
   scratch_.write("f.fn", "M0 [0:0], [20000000:0], [40000000:1], [40000001:0]\n");
-  const auto json = json_of({"sweep", "-k", "f.fn", "--scale-gain", "0.5..1.5/0.5", "--stretch", "1..2/1",
-                             "--each", "v%02d.png", "--no-recipe", "clip.tik", "sheet.png"});
+  const auto json = answer(
+      "sweep -k f.fn --scale-gain 0.5..1.5/0.5 --stretch 1..2/1 --each v%02d.png --no-recipe clip.tik "
+      "sheet.png");
   EXPECT_EQ(json["columns"], 3);
   EXPECT_EQ(json["rows"], 2);
   ASSERT_EQ(json["pictures"].size(), 6u);
@@ -330,34 +307,29 @@ TEST_F(Moment, SweepVariesGainAndLength) {
             nlohmann::json::parse(R"({"gain_factor":1.5,"stretch_factor":2.0,"file":"v05.png"})"));
   // It begins to expose at 20 ms, which stays.
   scratch_.write("last.fn", "M0 [-20000000:0], [20000000:0], [60000000:1.5], [60000002:0]\n");
-  ASSERT_EQ(run({"-k", "last.fn", "--no-recipe", "clip.tik", "alone.png"}).status, 0);
+  make("-k last.fn --no-recipe clip.tik alone.png");
   EXPECT_EQ(file("v05.png"), file("alone.png"));
-  ASSERT_EQ(run({"-k", "f.fn", "--no-recipe", "--overwrite", "clip.tik", "alone.png"}).status, 0);
+  make("-k f.fn --no-recipe --overwrite clip.tik alone.png");
   EXPECT_EQ(file("v01.png"), file("alone.png"));
 }
 
 TEST_F(Moment, SweepWarnsOnceOfWhatLiesOutside) {
-  const ProgramResult result =
-      run({"sweep", "--start", "0.15s", "--exposure", "40ms", "--shift", "0..0.1s/20ms", "clip.tik"});
-  EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.err.find("warning: +20 ms and 4 more: "), std::string::npos) << result.err;
+  const ProgramResult result = make("sweep --start 0.15s --exposure 40ms --shift 0..0.1s/20ms clip.tik");
+  expect_says(result.err, "warning: +20 ms and 4 more: ");
 }
 
 // As expose warns of each of them.
 TEST_F(Moment, SweepWarnsOfPicturesThatComeOutBlack) {
   scratch_.write("negative.fn", "M0 [0:-1], [10000000:-1], [10000001:0]\n");
-  const ProgramResult result =
-      run({"sweep", "-k", "negative.fn", "--shift", "0..20ms/10ms", "clip.tik", "sheet.png"});
-  EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.err.find("warning: as it is and 2 more: M0: the still gain is -1: whatever does not move "
-                            "comes out black; --negative offset shows light below 0"),
-            std::string::npos)
-      << result.err;
+  const ProgramResult result = make("sweep -k negative.fn --shift 0..20ms/10ms clip.tik sheet.png");
+  expect_says(result.err,
+              "warning: as it is and 2 more: M0: the still gain is -1: whatever does not move "
+              "comes out black; --negative offset shows light below 0");
 }
 
 TEST_F(Moment, SweepRefusesWhatMakesNoSense) {
-  const std::vector<std::string> exposure{"sweep", "--start", "0s", "--exposure", "1f", "clip.tik"};
-  const auto refused = [&](std::vector<std::string> more, std::string_view part) {
+  const test::Words exposure("sweep --start 0s --exposure 1f clip.tik");
+  const auto refused = [&](test::Words more, std::string_view part) {
     more.insert(more.begin(), exposure.begin(), exposure.end());
     expect_refused(more, 2, part);
   };
@@ -380,20 +352,20 @@ TEST_F(Moment, SweepRefusesWhatMakesNoSense) {
           "--each needs a number in its pictures' name, as in same-%03d.png");
   refused({"--shift", "0..1f/1f", "--each", "x%d.gif"}, "pictures are written as .png");
   refused({"--shift", "0..1f/1f", "--each", "x%d.pfm"}, "x0.pfm holds floating point only; write a .png");
-  expect_refused({"sweep", "--shift", "0..1f/1f", "clip.tik"}, 2, "an exposure needs a plain interval");
-  expect_refused({"sweep", "--shift", "0..1f/1f"}, 2, "an input is missing");
+  expect_refused(2, {{"sweep --shift 0..1f/1f clip.tik", "an exposure needs a plain interval"},
+                     {"sweep --shift 0..1f/1f", "an input is missing"}});
 }
 
 TEST_F(Moment, ThumbnailShowsTheFirstSample) {
-  ASSERT_EQ(run({"thumbnail", "clip.tik"}).status, 0);
+  make("thumbnail clip.tik");
   const cv::Mat small = picture("clip-thumbnail.png");
   ASSERT_EQ(small.size(), cv::Size(96, 48)) << "no picture is enlarged";
   for (int i = 0; i < 96 * 48; ++i) ASSERT_EQ(small.data[i], scene_.pictures[0][std::size_t(i)]) << i;
-  EXPECT_EQ(json_of({"thumbnail", "--width", "24", "clip.tik", "small.png"})["height"], 12);
+  EXPECT_EQ(answer("thumbnail --width 24 clip.tik small.png")["height"], 12);
   EXPECT_EQ(picture("small.png").size(), cv::Size(24, 12));
-  expect_refused({"thumbnail", "frames/00.pgm", "t.png"}, 3, "is a Netpbm picture, not a .tik file");
-  expect_refused({"thumbnail", "clip.tik", "clip.tik"}, 2, "clip.tik");
-  expect_refused({"thumbnail", "--width", "0", "clip.tik", "t.png"}, 2, "--width");
+  expect_refused("thumbnail frames/00.pgm t.png", 3, "is a Netpbm picture, not a .tik file");
+  expect_refused(
+      2, {{"thumbnail clip.tik clip.tik", "clip.tik"}, {"thumbnail --width 0 clip.tik t.png", "--width"}});
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "t.png"));
 }
 

@@ -7,8 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 
-#include "support/program.hpp"
-#include "support/scratch.hpp"
+#include "support/app_test.hpp"
 
 namespace nutik {
 namespace {
@@ -25,7 +24,7 @@ double fraction_of(double light) {
 }
 
 // Two pictures of 8 pixels; the function takes the second from the first.
-class Negative : public testing::TestWithParam<const char*> {
+class Negative : public test::AppTest, public testing::WithParamInterface<const char*> {
  protected:
   void SetUp() override {
     std::filesystem::create_directory(scratch_ / "frames");
@@ -35,12 +34,9 @@ class Negative : public testing::TestWithParam<const char*> {
       scratch_.write("frames/" + std::to_string(k) + ".pgm", text);
     }
     scratch_.write("difference.fn", "M0 [0:1], [39999999:1], [40000000:-1], [79999999:-1], [80000000:0]\n");
-    ASSERT_EQ(run({"-f", "25", "frames", "clip.tik"}).status, 0);
+    make("-f 25 frames clip.tik");
   }
 
-  ProgramResult run(const std::vector<std::string>& words) const {
-    return test::run_program(words, scratch_.folder());
-  }
   ProgramResult expose(const std::string& output, std::vector<std::string> more) const {
     more.insert(more.end(),
                 {"--renderer", GetParam(), "--gain", "4", "-k", "difference.fn", "clip.tik", "-o", output});
@@ -60,7 +56,6 @@ class Negative : public testing::TestWithParam<const char*> {
 
   static constexpr int kCodes[2][8] = {{0, 255, 128, 50, 10, 200, 0, 255},
                                        {255, 0, 128, 60, 10, 100, 0, 255}};
-  test::Scratch scratch_;
 };
 
 TEST_P(Negative, SaturatesToBlackByItself) {
@@ -118,7 +113,7 @@ TEST_P(Negative, IsRefusedWhereLightIsKept) {
 
 TEST_P(Negative, SumsOverSeriesVideosBatchesAndSheets) {
   const std::string renderer = GetParam();
-  const auto expect = [&](const std::vector<std::string>& words, const char* part) {
+  const auto expect = [&](const test::Words& words, const char* part) {
     std::vector<std::string> all = words;
     all.insert(all.end(), {"--renderer", renderer});
     const ProgramResult result = run(all);
@@ -141,7 +136,7 @@ TEST_P(Negative, SumsOverSeriesVideosBatchesAndSheets) {
 
 TEST_P(Negative, IsInTheRecipe) {
   ASSERT_EQ(expose("a.png", {"--negative", "offset"}).status, 0);
-  const ProgramResult again = run({"again", "a.png"});
+  const ProgramResult again = run("again a.png");
   EXPECT_NE(again.out.find(" --negative offset "), std::string::npos) << again.out;
 }
 

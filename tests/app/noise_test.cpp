@@ -5,18 +5,15 @@
 #include <filesystem>
 
 #include "capture/noise_file.hpp"
+#include "support/app_test.hpp"
 #include "support/noisy_scene.hpp"
-#include "support/program.hpp"
-#include "support/scratch.hpp"
 #include "support/stills.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik {
 namespace {
 
-using test::Scratch;
-
-class Noise : public testing::Test {
+class Noise : public test::AppTest {
  protected:
   // Writes stills of a wedge, brighter or darker, into a folder.
   void film(const std::string& folder, double brightest, std::uint64_t seed, std::uint64_t count = 40,
@@ -35,48 +32,37 @@ class Noise : public testing::Test {
     }
   }
 
-  test::ProgramResult run(const std::vector<std::string>& words) const {
+  test::ProgramResult run(const test::Words& words) const {
     const bool writes = words.front() != "info";
-    const test::ProgramResult result =
-        test::run_program(writes ? test::over(words) : words, scratch_.folder());
-    EXPECT_EQ(result.status, 0) << result.err;
-    return result;
-  }
-
-  void expect_refused(const std::vector<std::string>& words, int status, const std::string& said) const {
-    const test::ProgramResult result = test::run_program(words, scratch_.folder());
-    EXPECT_EQ(result.status, status) << result.out << result.err;
-    EXPECT_NE(result.err.find(said), std::string::npos) << result.err;
+    return make(writes ? test::Words(test::over(words)) : words);
   }
 
   [[nodiscard]] CameraNoise noise_in(const std::string& name) const {
     return parse_noise(test::read_file(scratch_ / name), name);
   }
-
-  Scratch scratch_;
 };
 
 TEST_F(Noise, IsMeasuredOnSeveralExposures) {
   film("dark", 0.2, 1);
   film("bright", 0.8, 2);
-  const auto result = run({"noise", "dark", "bright", "-o", "camera.noise"});
-  EXPECT_NE(result.out.find("camera.noise: measured on 80 samples"), std::string::npos) << result.out;
+  const auto result = run("noise dark bright -o camera.noise");
+  expect_says(result.out, "camera.noise: measured on 80 samples");
   const CameraNoise noise = noise_in("camera.noise");
   const test::NoisyCamera camera;
   for (const ChannelNoise& channel : noise.channels) {
     EXPECT_NEAR(channel.read, camera.read, 0.06 * camera.read);
     EXPECT_NEAR(channel.shot, camera.shot, 0.06 * camera.shot);
   }
-  EXPECT_NE(test::read_file(scratch_ / "camera.noise").find("# measured on bright\n"), std::string::npos);
+  expect_says(test::read_file(scratch_ / "camera.noise"), "# measured on bright\n");
 }
 
 TEST_F(Noise, GivesTheSamePictureFromAClipAndFromItsCapture) {
   film("clip", 0.8, 3);
-  run({"noise", "clip", "-o", "camera.noise"});
+  run("noise clip -o camera.noise");
   for (const char* noise : {"camera.noise", "auto"}) {
     const std::vector<std::string> source{"-f",       "100", "--noise",         noise,
                                           "--sigmas", "2.5", "--block-samples", "16"};
-    const auto with = [&](std::vector<std::string> words) {
+    const auto with = [&](test::Words words) {
       words.insert(words.end(), source.begin(), source.end());
       return words;
     };
@@ -100,8 +86,8 @@ TEST_F(Noise, GivesTheSamePictureFromAClipAndFromItsCapture) {
 
 TEST_F(Noise, InfoTellsWhatIsHeld) {
   film("clip", 0.8, 4);
-  run({"encode", "-f", "100", "--noise", "auto", "clip", "-o", "clip.tik"});
-  const std::string info = run({"info", "clip.tik"}).out;
+  run("encode -f 100 --noise auto clip -o clip.tik");
+  const std::string info = run("info clip.tik").out;
   for (const char* said :
        {"16 bits, white code 65535", "means of the source's, whose white code is 255, times 257",
         "beyond 3 sigmas of the noise", "codes of the source at a tenth of white", "% of 922 kB raw"}) {
@@ -115,21 +101,19 @@ TEST_F(Noise, InfoTellsWhatIsHeld) {
 
 TEST_F(Noise, SaysThatItsTransferIsAnother) {
   film("clip", 0.8, 6);
-  run({"noise", "-q", "clip", "-o", "camera.noise"});
+  run("noise -q clip -o camera.noise");
   const auto said = [&](const std::string& file, const std::string& transfer) {
     return run({"encode", "-f", "100", "clip", "-o", "clip.tik", "--noise", file, "--transfer", transfer})
         .err;
   };
   EXPECT_EQ(said("camera.noise", "srgb"), "");
-  EXPECT_NE(said("camera.noise", "linear")
-                .find("note: camera.noise says transfer srgb and the clip's is linear: "
-                      "read and shot noise are in light, and come to other codes"),
-            std::string::npos);
+  expect_says(said("camera.noise", "linear"),
+              "note: camera.noise says transfer srgb and the clip's is linear: "
+              "read and shot noise are in light, and come to other codes");
   std::string edited = test::read_file(scratch_ / "camera.noise");
   edited.replace(edited.find("transfer srgb"), 13, "transfer bt709");
   scratch_.write("edited.noise", edited);
-  EXPECT_NE(said("edited.noise", "srgb").find("edited.noise says transfer bt709 and the clip's is srgb"),
-            std::string::npos);
+  expect_says(said("edited.noise", "srgb"), "edited.noise says transfer bt709 and the clip's is srgb");
   // Points are in codes already.
   scratch_.write("points.noise",
                  "nutik noise 0\nwhite 255\ntransfer linear\nchannel red\ncurve points\npoint 9 2 1\n"
@@ -143,11 +127,11 @@ TEST_F(Noise, IsNotMeasuredOnWhatMoves) {
     const auto x = static_cast<double>(value / 3 % 120), y = static_cast<double>(value / 360);
     return 0.4 + 0.1 * std::sin(0.2 * x + 0.1 * y + 2.1 * static_cast<double>(sample));
   });
-  expect_refused({"encode", "-f", "100", "--noise", "auto", "pour", "a.tik"}, 3,
+  expect_refused("encode -f 100 --noise auto pour a.tik", 3,
                  "pour: no noise can be measured on it: pixels 4 apart stray alike");
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "a.tik"));
-  const auto measured = run({"noise", "pour", "-o", "pour.noise"});
-  EXPECT_NE(measured.err.find("note: pixels 4 apart stray alike"), std::string::npos) << measured.err;
+  const auto measured = run("noise pour -o pour.noise");
+  expect_says(measured.err, "note: pixels 4 apart stray alike");
 }
 
 // Waves that stand still, or whose light does not: by less than noise, so that no pixel is seen to change.
@@ -179,19 +163,19 @@ TEST_F(Noise, IsNotMeasuredOnWhatMovesWithinIt) {
   refused("flickers", "the brightness of the whole picture drifts or flickers. Take");
   refused("flickers",
           "; or evened brightness (--deflicker), a part that stands still (--crop, --from, --to)");
-  run({"encode", "-q", "-f", "100", "--noise", "auto", "--deflicker", "flickers", "-o", "evened.tik"});
+  run("encode -q -f 100 --noise auto --deflicker flickers -o evened.tik");
   waves("poured", 0, 0, 0.03);
   refused("poured", "standard deviations of the noise around what would be held for it, and may by 0.2");
-  run({"encode", "-q", "-f", "100", "--noise", "auto", "--crop", "56x64+0+0", "poured", "-o", "left.tik"});
+  run("encode -q -f 100 --noise auto --crop 56x64+0+0 poured -o left.tik");
   // So little of it that the rest is worth it.
   waves("dripped", 0, 0, 0.012);
   EXPECT_NE(
-      run({"encode", "-f", "100", "--noise", "auto", "dripped", "-o", "dripped.tik"})
+      run("encode -f 100 --noise auto dripped -o dripped.tik")
           .err.find(
               "% of the picture light changes by less than its noise: what is held there is off by up to 0."),
       std::string::npos);
   waves("still", 0, 0, 0);
-  EXPECT_EQ(run({"encode", "-f", "100", "--noise", "auto", "still", "-o", "still.tik"}).err, "");
+  EXPECT_EQ(run("encode -f 100 --noise auto still -o still.tik").err, "");
 }
 
 // A camera that is held by hand, two drops that merge; a beam whose lamps flicker; particles that stand still.
@@ -211,31 +195,31 @@ TEST_F(Noise, SaysWhatCannotBe) {
   film("clip", 0.8, 5, 4);
   film("short", 0.8, 5, 2);
   film("deep", 0.8, 5, 4, 4095);
-  run({"noise", "-q", "clip", "-o", "camera.noise"});
-  run({"encode", "-q", "-f", "100", "clip", "-o", "clip.tik"});
-  expect_refused({"noise"}, 2, "a clip of a still scene is missing");
-  expect_refused({"noise", "clip.tik"}, 2, "clip.tik is a capture");
-  expect_refused({"noise", "absent.mp4"}, 3, "absent.mp4");
-  expect_refused({"noise", "short", "-o", "a.noise"}, 3, "2 pictures of a still scene");
-  expect_refused({"noise", "clip", "deep", "-o", "a.noise"}, 3,
-                 "deep is of another kind than clip: 120 x 64 pixels, 3 channels, 16 bits, white code 4095");
-  expect_refused({"noise", "clip", "-o", "clip.tik"}, 2, "clip.tik is no name for a text");
-  const std::vector<std::string> encode{"encode", "-f", "100", "clip", "-o", "b.tik"};
+  run("noise -q clip -o camera.noise");
+  run("encode -q -f 100 clip -o clip.tik");
+  expect_refused(
+      2, {{"noise", "a clip of a still scene is missing"}, {"noise clip.tik", "clip.tik is a capture"}});
+  expect_refused(
+      3, {{"noise absent.mp4", "absent.mp4"},
+          {"noise short -o a.noise", "2 pictures of a still scene"},
+          {"noise clip deep -o a.noise",
+           "deep is of another kind than clip: 120 x 64 pixels, 3 channels, 16 bits, white code 4095"}});
+  expect_refused("noise clip -o clip.tik", 2, "clip.tik is no name for a text");
+  const test::Words encode("encode -f 100 clip -o b.tik");
   const auto with = [&](std::initializer_list<std::string> more) {
     std::vector<std::string> words = encode;
     words.insert(words.end(), more);
     return words;
   };
-  expect_refused(with({"--noise", "camera.noise", "--tolerance", "2"}), 2, "leave one out");
-  expect_refused(with({"--sigmas", "2"}), 2, "--sigmas counts standard deviations of a camera's noise");
-  expect_refused(with({"--noise", "auto", "--sigmas", "0"}), 2, "--sigmas '0' is no number of 0.1 … 100");
+  expect_refused(2, {{with({"--noise", "camera.noise", "--tolerance", "2"}), "leave one out"},
+                     {with({"--sigmas", "2"}), "--sigmas counts standard deviations of a camera's noise"},
+                     {with({"--noise", "auto", "--sigmas", "0"}), "--sigmas '0' is no number of 0.1 … 100"}});
   expect_refused(with({"--noise", "absent.noise"}), 3, "absent.noise");
   scratch_.write("wrong.noise", "nutik noise 0\nwhite 255\ntransfer srbg\n");
   expect_refused(with({"--noise", "wrong.noise"}), 3, "wrong.noise:3:10: transfer 'srbg' is not known");
-  expect_refused({"encode", "-f", "100", "deep", "-o", "b.tik", "--noise", "camera.noise"}, 2,
-                 "the noise was measured with white code 255 and the clip's is 4095");
-  expect_refused({"--start", "0f", "--exposure", "1f", "--noise", "auto", "clip.tik"}, 2,
-                 "--noise describes a clip");
+  expect_refused(2, {{"encode -f 100 deep -o b.tik --noise camera.noise",
+                      "the noise was measured with white code 255 and the clip's is 4095"},
+                     {"--start 0f --exposure 1f --noise auto clip.tik", "--noise describes a clip"}});
   for (const char* name : {"a.noise", "b.tik"})
     EXPECT_FALSE(std::filesystem::exists(scratch_ / name)) << name;
 }

@@ -3,15 +3,12 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "support/program.hpp"
-#include "support/scratch.hpp"
+#include "support/app_test.hpp"
 
 namespace nutik {
 namespace {
 
-using test::Scratch;
-
-class Outputs : public testing::Test {
+class Outputs : public test::AppTest {
  protected:
   void SetUp() override {
     std::filesystem::create_directory(scratch_ / "frames");
@@ -20,7 +17,6 @@ class Outputs : public testing::Test {
       cv::imwrite((scratch_ / ("frames/" + std::to_string(k) + ".png")).string(), picture);
     }
   }
-  Scratch scratch_;
 };
 
 TEST_F(Outputs, ReplaceNoStillOfTheClip) {
@@ -33,28 +29,26 @@ TEST_F(Outputs, ReplaceNoStillOfTheClip) {
       {"trace", "--pixel", "1,1", "--start", "0s", "--exposure", "1f"},
       {"activity"},
       {"activity", "--map", "frames/1.png"}};
-  for (std::vector<std::string> words : commands) {
+  for (test::Words words : commands) {
     words.insert(words.end(), {"-f", "100", "frames", "-o"});
     words.emplace_back(words[1] == "--map" ? "chart.png" : "frames/1.png");
-    const auto result = test::run_program(words, scratch_.folder());
+    const auto result = test::run_here(words, scratch_.folder());
     EXPECT_EQ(result.status, 2) << words.front();
-    EXPECT_NE(result.err.find("the output frames/1.png is also an input"), std::string::npos)
-        << words.front() << ": " << result.err;
+    expect_says(result.err, "the output frames/1.png is also an input");
     EXPECT_TRUE(test::read_file(scratch_ / "frames/1.png") == still) << words.front();
   }
 }
 
 // Of what was there before a command only a picture with a recipe is replaced, unless it is asked to.
 TEST_F(Outputs, ReplaceWhatIsThereOnlyIfAsked) {
-  const auto run = [&](const std::vector<std::string>& words) {
-    return test::run_program(words, scratch_.folder());
-  };
-  ASSERT_EQ(run({"-f", "100", "--block-samples", "2", "frames", "clip.tik"}).status, 0);
+  const auto run = [&](const test::Words& words) { return test::run_here(words, scratch_.folder()); };
+  make("-f 100 --block-samples 2 frames clip.tik");
   const std::string capture = test::read_file(scratch_ / "clip.tik");
   scratch_.write("cut.tik", capture.substr(0, capture.size() - 10));
   for (const std::string part : {"0", "2"}) {
     const std::string end = part == "0" ? "2f" : "4f";
-    ASSERT_EQ(run({"encode", "-f", "100", "--block-samples", "2", "--from", part + "f", "--to", end, "frames", part + ".tik"}).status, 0);
+    make({"encode", "-f", "100", "--block-samples", "2", "--from", part + "f", "--to", end, "frames",
+          part + ".tik"});
   }
   scratch_.write("named.fn", "M0 [0:a], [20000000:a], [20000001:0]");
   struct Case {
@@ -84,8 +78,7 @@ TEST_F(Outputs, ReplaceWhatIsThereOnlyIfAsked) {
       {{"solve", "-k", "named.fn", "--wish", "all = 0.1", "clip.tik", "o.fn"}, "o.fn"}};
   for (const auto& [words, file, has_recipe] : cases) {
     SCOPED_TRACE(words.front() + " " + file);
-    const auto first = run(test::over(words));
-    ASSERT_EQ(first.status, 0) << first.err;
+    const auto first = make(test::over(words));
     const std::string made = test::read_file(scratch_ / file);
     std::filesystem::last_write_time(scratch_ / file, std::filesystem::file_time_type());
     const auto time = [&] { return std::filesystem::last_write_time(scratch_ / file); };
@@ -96,7 +89,7 @@ TEST_F(Outputs, ReplaceWhatIsThereOnlyIfAsked) {
       EXPECT_EQ(second.err, "nutik-cl: " + file + " is there already and is not replaced; choose another name, or "
                                                   "replace it with --overwrite\n");
     }
-    ASSERT_EQ(run(test::over(words)).status, 0);
+    make(test::over(words));
     EXPECT_NE(time(), std::filesystem::file_time_type());
     EXPECT_EQ(test::read_file(scratch_ / file).size(), made.size());
     // An empty file, as mktemp makes, holds nothing.
@@ -142,14 +135,14 @@ TEST_F(Outputs, ATerminalTakesNoPicture) {
                                         " expose -f 100 --exposure 1f frames -o -' /dev/null",
                                         scratch_.folder());
   EXPECT_EQ(terminal.status, 2);
-  EXPECT_NE(terminal.out.find("which is a terminal"), std::string::npos) << terminal.out << terminal.err;
+  expect_says(terminal.out, "which is a terminal");
 }
 
 TEST_F(Outputs, ThatStandardOutputCannotTakeAreRefused) {
-  const auto refused = [&](const std::vector<std::string>& words, const std::string& part) {
+  const auto refused = [&](const test::Words& words, const std::string& part) {
     std::vector<std::string> all{words};
     all.insert(all.end(), {"-f", "100", "frames"});
-    const auto result = test::run_program(all, scratch_.folder());
+    const auto result = test::run_here(all, scratch_.folder());
     EXPECT_EQ(result.status, 2) << result.err;
     EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
     EXPECT_EQ(result.out, "");
@@ -159,8 +152,8 @@ TEST_F(Outputs, ThatStandardOutputCannotTakeAreRefused) {
   refused({"encode", "-o", "-"}, "- is no name for a capture");
   refused({"video", "-o", "-"}, "a video is written to a file");
   scratch_.write("list.txt", "--exposure 1f -o -\n");
-  const auto batch = test::run_program({"batch", "-f", "100", "list.txt", "frames"}, scratch_.folder());
-  EXPECT_NE(batch.err.find("standard output takes one picture"), std::string::npos) << batch.err;
+  const auto batch = test::run_here({"batch", "-f", "100", "list.txt", "frames"}, scratch_.folder());
+  expect_says(batch.err, "standard output takes one picture");
   // Nothing stays in the temporary folder.
   std::filesystem::create_directory(scratch_ / "tmp");
   const auto full = test::run_program({"expose", "-f", "100", "--exposure", "1f", "frames", "-o", "-"},
@@ -170,8 +163,7 @@ TEST_F(Outputs, ThatStandardOutputCannotTakeAreRefused) {
   const auto nowhere = test::run_program({"expose", "-f", "100", "--exposure", "1f", "frames", "-o", "-"},
                                          scratch_.folder(), {"TMPDIR=absent"});
   EXPECT_EQ(nowhere.status, 5);
-  EXPECT_NE(nowhere.err.find("there is no folder absent for temporary files"), std::string::npos)
-      << nowhere.err;
+  expect_says(nowhere.err, "there is no folder absent for temporary files");
 }
 
 // The temporary capture's name cannot be foreseen, and what somebody put in its place is not written to.

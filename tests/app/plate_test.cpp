@@ -19,9 +19,7 @@ class Plates : public test::MovingSquareTest {
 };
 
 TEST_F(Plates, HoldWhatEachPixelHoldsMostOften) {
-  const auto result = run({"plate", "clip.tik", "--by", "0", "--json", "--uncertain", "unsure.pgm"});
-  ASSERT_EQ(result.status, 0) << result.err;
-  const auto json = nlohmann::json::parse(result.out);
+  const auto json = answer("plate clip.tik --by 0 --uncertain unsure.pgm");
   EXPECT_EQ(json["picture"], "clip-plate.png");
   const cv::Mat plate = picture("clip-plate.png"), unsure = picture("unsure.pgm");
   const std::size_t count = scene_.pictures.size();
@@ -44,29 +42,22 @@ TEST_F(Plates, HoldWhatEachPixelHoldsMostOften) {
 }
 
 TEST_F(Plates, AreTheSameOfAClipAPackedCaptureAndWithLittleMemory) {
-  ASSERT_EQ(run({"plate", "clip.tik", "-o", "a.pfm"}).status, 0);
-  ASSERT_EQ(run({"plate", "-f", "100", "frames", "-o", "b.pfm"}).status, 0);
-  ASSERT_EQ(run({"encode", "-f", "100", "--codec", "none", "frames", "-o", "plain.tik"}).status, 0);
-  ASSERT_EQ(run({"plate", "plain.tik", "-o", "c.pfm"}).status, 0);
+  make("plate clip.tik -o a.pfm");
+  make("plate -f 100 frames -o b.pfm");
+  make("encode -f 100 --codec none frames -o plain.tik");
+  make("plate plain.tik -o c.pfm");
   EXPECT_EQ(test::read_file(scratch_ / "a.pfm"), test::read_file(scratch_ / "b.pfm"));
   EXPECT_EQ(test::read_file(scratch_ / "a.pfm"), test::read_file(scratch_ / "c.pfm"));
-  expect_refused({"plate", "--by", "255", "clip.tik", "-o", "d.pfm"}, 2,
-                 "no codes of clip.tik differ by more than 255, for white is 255");
-  const auto refused = run({"plate", "--memory", "1kB", "clip.tik", "-o", "d.pfm"});
-  EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("uncertain places"), std::string::npos) << refused.err;
+  expect_refused(2, {{"plate --by 255 clip.tik -o d.pfm",
+                      "no codes of clip.tik differ by more than 255, for white is 255"},
+                     {"plate --memory 1kB clip.tik -o d.pfm", "uncertain places"}});
 }
 
 TEST_F(Plates, SayWhatTheyCannotBeMadeOf) {
-  ASSERT_EQ(run({"-f", "100", "frames/00.pgm", "one.tik"}).status, 0) << "a single picture";
-  const auto single = run({"plate", "one.tik"});
-  EXPECT_EQ(single.status, 3);
-  EXPECT_NE(single.err.find("one.tik: a single sample does not tell what moves"), std::string::npos)
-      << single.err;
-  EXPECT_EQ(run({"plate", "clip.tik", "--uncertain", "clip-plate.png"}).status, 2) << "both of one name";
-  const auto lossy = run({"plate", "clip.tik", "--uncertain", "unsure.jpg"});
-  EXPECT_EQ(lossy.status, 2);
-  EXPECT_NE(lossy.err.find("masks are written as .pgm or .png"), std::string::npos) << lossy.err;
+  make("-f 100 frames/00.pgm one.tik");
+  expect_refused("plate one.tik", 3, "one.tik: a single sample does not tell what moves");
+  EXPECT_EQ(run("plate clip.tik --uncertain clip-plate.png").status, 2) << "both of one name";
+  expect_refused("plate clip.tik --uncertain unsure.jpg", 2, "masks are written as .pgm or .png");
 }
 
 }  // namespace

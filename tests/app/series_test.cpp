@@ -1,39 +1,25 @@
 // Series of exposures through the program.
 #include <gtest/gtest.h>
 
-#include "support/program.hpp"
-#include "support/scratch.hpp"
+#include "support/app_test.hpp"
 #include "support/still_clip.hpp"
 
 namespace nutik {
 namespace {
 
-using test::Scratch;
-
-class Series : public testing::Test {
+class Series : public test::AppTest {
  protected:
   void SetUp() override {
     test::write_still_clip(scratch_.folder(), 24, 40);
-    run({"-f", "40", "-a", "180", "frames", "clip.tik"});
+    run("-f 40 -a 180 frames clip.tik");
   }
-  test::ProgramResult run(const std::vector<std::string>& words) const {
-    test::ProgramResult result = test::run_program(test::over(words), scratch_.folder());
-    EXPECT_EQ(result.status, 0) << result.err;
-    return result;
-  }
-  void expect_refused(const std::vector<std::string>& words, const std::string& message) const {
-    const test::ProgramResult result = test::run_program(words, scratch_.folder());
-    EXPECT_EQ(result.status, 2);
-    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
-  }
-  [[nodiscard]] std::string file(const std::string& name) const { return test::read_file(scratch_ / name); }
+  test::ProgramResult run(const test::Words& words) const { return make(test::over(words)); }
   // How many of name-0, name-1, … there are.
   [[nodiscard]] int written(const std::string& name) const {
     int count = 0;
     while (std::filesystem::exists(scratch_ / (name + "-" + std::to_string(count) + ".pfm"))) ++count;
     return count;
   }
-  Scratch scratch_;
 };
 
 TEST_F(Series, IsTheSinglePictures) {
@@ -42,7 +28,7 @@ TEST_F(Series, IsTheSinglePictures) {
       std::vector<std::string> common{"--exposure", "60ms",   "--shutter", "hann",
                                       "--renderer", renderer, input};
       if (input == "frames") common.insert(common.end(), {"-f", "40", "-a", "180"});
-      std::vector<std::string> words{"--start", "0.01s", "--every", "1/3s", "--count", "3", "-o", "s-%d.pfm"};
+      test::Words words("--start 0.01s --every 1/3s --count 3 -o s-%d.pfm");
       words.insert(words.end(), common.begin(), common.end());
       run(words);
       const char* starts[] = {"10ms", "343333333ns", "676666667ns"};
@@ -66,12 +52,12 @@ TEST_F(Series, MovesFunctionsAndKeepsTheMask) {
   std::string mask = "P2 24 24 255\n";
   for (int i = 0; i < 24 * 24; ++i) mask += i % 5 == 0 ? "9 " : "0 ";
   scratch_.write("mask.pgm", mask);
-  run({"-k", "f.fn", "-m", "mask.pgm", "--every", "125ms", "clip.tik", "k-%d.pfm"});
+  run("-k f.fn -m mask.pgm --every 125ms clip.tik k-%d.pfm");
   EXPECT_EQ(written("k"), 8);  // the last one's last point lies at 875 + 90 ms
-  run({"-k", "f.fn", "-m", "mask.pgm", "--start", "250ms", "clip.tik", "single.pfm"});
+  run("-k f.fn -m mask.pgm --start 250ms clip.tik single.pfm");
   EXPECT_EQ(file("single.pfm"), file("k-2.pfm"));
   // A function that is held at 1 before its first point is held there, too, when it has moved.
-  run({"-k", "moved.fn", "-m", "mask.pgm", "clip.tik", "moved.pfm"});
+  run("-k moved.fn -m mask.pgm clip.tik moved.pfm");
   const auto moved = test::read_pfm(scratch_ / "moved.pfm"), second = test::read_pfm(scratch_ / "k-2.pfm");
   int alike = 0, pixels = 0;
   for (int i = 0; i < 24 * 24; ++i) {
@@ -85,17 +71,17 @@ TEST_F(Series, MovesFunctionsAndKeepsTheMask) {
 
 // 1/300 s + 1001/90000 s = 14455555.56 ns; the two rounded first would be 14455555 ns.
 TEST_F(Series, RoundsEachStartOnce) {
-  const auto answer = run({"--start", "1/300s", "--exposure", "1ms", "--every", "1001/90000s", "--count", "3",
-                           "--json", "clip.tik", "r-%d.pfm"});
+  const auto answer =
+      run("--start 1/300s --exposure 1ms --every 1001/90000s --count 3 --json clip.tik r-%d.pfm");
   for (const char* start : {"1/300s", "1301/90000s", "1151/45000s"})
     EXPECT_NE(answer.out.find('"' + std::string(start) + '"'), std::string::npos)
         << start << " in " << answer.out;
-  const auto rounded = run({"--start", "14455556ns", "--exposure", "1ms", "clip.tik", "rounded.pfm"});
+  const auto rounded = run("--start 14455556ns --exposure 1ms clip.tik rounded.pfm");
   EXPECT_EQ(file("rounded.pfm"), file("r-1.pfm")) << "14455555.56 ns to 15455555.56 ns";
 }
 
 TEST_F(Series, CountsInPicturesOfTheClip) {
-  run({"--start", "3f", "--exposure", "1f", "--every", "10f", "clip.tik", "f-%d.pfm"});
+  run("--start 3f --exposure 1f --every 10f clip.tik f-%d.pfm");
   EXPECT_EQ(written("f"), 4);
   for (int k = 0; k < 4; ++k) {
     run({"--start", std::to_string(3 + 10 * k) + "f", "--exposure", "1f", "clip.tik", "single.pfm"});
@@ -104,20 +90,17 @@ TEST_F(Series, CountsInPicturesOfTheClip) {
 }
 
 TEST_F(Series, HasAsManyAsFit) {
-  run({"--exposure", "25ms", "--every", "25ms", "clip.tik", "a-%d.pfm"});
+  run("--exposure 25ms --every 25ms clip.tik a-%d.pfm");
   EXPECT_EQ(written("a"), 40);
-  run({"--exposure", "26ms", "--every", "25ms", "clip.tik", "b-%d.pfm"});
+  run("--exposure 26ms --every 25ms clip.tik b-%d.pfm");
   EXPECT_EQ(written("b"), 39);
-  const auto result = run({"--exposure", "100ms", "--every", "300ms", "clip.tik"});
+  const auto result = run("--exposure 100ms --every 300ms clip.tik");
   for (const char* name : {"clip-0s-100ms-0000.png", "clip-0s-100ms-0003.png"}) {
     EXPECT_TRUE(std::filesystem::exists(scratch_ / name)) << name;
   }
-  EXPECT_NE(result.out.find("clip-0s-100ms-0000.png … clip-0s-100ms-0003.png: 4 exposures every 300ms"),
-            std::string::npos)
-      << result.out;
+  expect_says(result.out, "clip-0s-100ms-0000.png … clip-0s-100ms-0003.png: 4 exposures every 300ms");
   // --count may go on behind the end: that is said, once.
-  const auto over = run(
-      {"--start", "0.9s", "--exposure", "200ms", "--every", "50ms", "--count", "2", "clip.tik", "c-%d.pfm"});
+  const auto over = run("--start 0.9s --exposure 200ms --every 50ms --count 2 clip.tik c-%d.pfm");
   EXPECT_EQ(over.err,
             "warning: c-0.pfm and 1 more: the exposure: parts that are not zero lie after the capture's end "
             "at 1 s and do "
@@ -126,8 +109,8 @@ TEST_F(Series, HasAsManyAsFit) {
 
 // Who reads a folder's numbers on would take them for this series.
 TEST_F(Series, TellsOfOlderPicturesBehindItsLast) {
-  EXPECT_EQ(run({"--every", "4f", "--count", "6", "--exposure", "1f", "clip.tik", "s-%d.pfm"}).err, "");
-  const auto shorter = [&](std::vector<std::string> words) {
+  EXPECT_EQ(run("--every 4f --count 6 --exposure 1f clip.tik s-%d.pfm").err, "");
+  const auto shorter = [&](test::Words words) {
     words.insert(words.end(), {"clip.tik", "s-%d.pfm"});
     return run(words).err;
   };
@@ -142,54 +125,53 @@ TEST_F(Series, TellsOfOlderPicturesBehindItsLast) {
 TEST_F(Series, RefusesNamesThatAreTooLong) {
   for (const char* name : {"s-%300d.pfm", "s-%0300d.pfm", "s-%99999999999999999999d.pfm"}) {
     const auto result =
-        test::run_program({"--every", "4f", "--exposure", "1f", "clip.tik", name}, scratch_.folder());
+        test::run_here({"--every", "4f", "--exposure", "1f", "clip.tik", name}, scratch_.folder());
     EXPECT_EQ(result.status, 5) << result.err;
-    EXPECT_NE(result.err.find("File name too long"), std::string::npos) << result.err;
+    expect_says(result.err, "File name too long");
   }
 }
 
 TEST_F(Series, TellsItsWarningsAlsoWhereItEndsInAnError) {
-  run({"-f", "40", "--block-samples", "10", "--codec", "none", "frames", "blocks.tik"});
+  run("-f 40 --block-samples 10 --codec none frames blocks.tik");
   std::string capture = file("blocks.tik");
   capture[capture.size() * 8 / 10] ^= 0x55;  // in one of the later blocks
   scratch_.write("blocks.tik", capture);
   scratch_.write("held.fn", "M0 [0:1], [20000000:1], [20000001:0]\n");
-  const test::ProgramResult result = test::run_program(
-      {"-k", "held.fn", "--every", "4f", "blocks.tik", "-o", "d-%d.pfm"}, scratch_.folder());
+  const test::ProgramResult result =
+      test::run_here({"-k", "held.fn", "--every", "4f", "blocks.tik", "-o", "d-%d.pfm"}, scratch_.folder());
   EXPECT_EQ(result.status, 3) << result.err;
   EXPECT_GT(written("d"), 1);
-  EXPECT_NE(result.err.find("warning: d-1.pfm"), std::string::npos) << result.err;
+  expect_says(result.err, "warning: d-1.pfm");
   EXPECT_LT(result.err.find("warning: d-1.pfm"), result.err.find("is damaged")) << result.err;
 }
 
 TEST_F(Series, SaysWhatIsWrongBeforeItWrites) {
-  const std::vector<std::string> plain{"--exposure", "25ms", "clip.tik"};
-  const auto with = [&](std::vector<std::string> words) {
+  const test::Words plain("--exposure 25ms clip.tik");
+  const auto with = [&](test::Words words) {
     words.insert(words.end(), plain.begin(), plain.end());
     return words;
   };
-  expect_refused(with({"--every", "1s", "-o", "out.pfm"}),
-                 "needs a number in its pictures' name, as in out-%03d.pfm");
-  expect_refused(with({"--every", "0s", "-o", "o%d.pfm"}), "every '0s' is not longer than nothing");
-  expect_refused(with({"--every", "1.5f", "-o", "o%d.pfm"}), "is not a whole number of pictures");
-  expect_refused(with({"--every", "40", "-o", "o%d.pfm"}), "every '40' is no time");
-  expect_refused(with({"--every", "1s", "--count", "0", "-o", "o%d.pfm"}),
-                 "--count '0' is no whole number of 1 … 1000000");
-  expect_refused(with({"--count", "3", "-o", "o%d.pfm"}), "--count goes with --every");
-  expect_refused(with({"--every", "300ms", "--count", "5", "-o", "o%d.pfm"}),
-                 "exposure 4 of the series would start at 1.2 s, behind the end of the capture at 1 s; "
-                 "--count 4 at most");
-  expect_refused(with({"--start", "2s", "--every", "1s", "-o", "o%d.pfm"}),
-                 "the series starts at 2 s, behind the end");
-  expect_refused({"--exposure", "2s", "--every", "1s", "clip.tik", "o%d.pfm"},
-                 "not one exposure of the series ends within the capture");
+  expect_refused(2, {{with({"--every", "1s", "-o", "out.pfm"}),
+                      "needs a number in its pictures' name, as in out-%03d.pfm"},
+                     {with({"--every", "0s", "-o", "o%d.pfm"}), "every '0s' is not longer than nothing"},
+                     {with({"--every", "1.5f", "-o", "o%d.pfm"}), "is not a whole number of pictures"},
+                     {with({"--every", "40", "-o", "o%d.pfm"}), "every '40' is no time"},
+                     {with({"--every", "1s", "--count", "0", "-o", "o%d.pfm"}),
+                      "--count '0' is no whole number of 1 … 1000000"},
+                     {with({"--count", "3", "-o", "o%d.pfm"}), "--count goes with --every"},
+                     {with({"--every", "300ms", "--count", "5", "-o", "o%d.pfm"}),
+                      "exposure 4 of the series would start at 1.2 s, behind the end of the capture at 1 s; "
+                      "--count 4 at most"},
+                     {with({"--start", "2s", "--every", "1s", "-o", "o%d.pfm"}),
+                      "the series starts at 2 s, behind the end"},
+                     {"--exposure 2s --every 1s clip.tik o%d.pfm",
+                      "not one exposure of the series ends within the capture"}});
   scratch_.write("o3.pfm", "notes of mine");
-  expect_refused(with({"--every", "100ms", "-o", "o%d.pfm"}),
+  expect_refused(with({"--every", "100ms", "-o", "o%d.pfm"}), 2,
                  "o3.pfm exists and is no picture; it is not replaced");
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "o0.pfm"));
   EXPECT_EQ(file("o3.pfm"), "notes of mine");
-  expect_refused({"-f", "40", "--exposure", "25ms", "--every", "100ms", "frames", "-o", "frames/%03d.pgm"},
-                 "is also an input");
+  expect_refused("-f 40 --exposure 25ms --every 100ms frames -o frames/%03d.pgm", 2, "is also an input");
 }
 
 }  // namespace

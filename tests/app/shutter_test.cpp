@@ -3,42 +3,29 @@
 
 #include <sstream>
 
+#include "support/app_test.hpp"
 #include "support/clips.hpp"
-#include "support/program.hpp"
-#include "support/scratch.hpp"
 #include "support/still_clip.hpp"
 
 namespace nutik {
 namespace {
 
-using test::Scratch;
-
-class ShutterCommand : public testing::Test {
+class ShutterCommand : public test::AppTest {
  protected:
-  std::string out(const std::vector<std::string>& words) const {
+  std::string out(const test::Words& words) const {
     const bool writes = words.front() != "shutter";
-    const test::ProgramResult result =
-        test::run_program(writes ? test::over(words) : words, scratch_.folder());
-    EXPECT_EQ(result.status, 0) << result.err;
-    return result.out;
+    return make(writes ? test::Words(test::over(words)) : words).out;
   }
-  void expect_refused(const std::vector<std::string>& words, const std::string& message) const {
-    const test::ProgramResult result = test::run_program(words, scratch_.folder());
-    EXPECT_EQ(result.status, 2);
-    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
-  }
-  Scratch scratch_;
 };
 
 TEST_F(ShutterCommand, WritesALineForAFunctionFile) {
-  EXPECT_EQ(out({"shutter", "box", "--start", "0.4s", "--exposure", "10ms", "--tag", "128"}),
+  EXPECT_EQ(out("shutter box --start 0.4s --exposure 10ms --tag 128"),
             "# box from 400ms for 10ms\nM128 [399999999:0], [400000000:1], [410000000:1], [410000001:0]\n");
-  EXPECT_EQ(out({"shutter", "triangle", "--exposure", "1/3s", "--ev", "-1"}),
+  EXPECT_EQ(out("shutter triangle --exposure 1/3s --ev -1"),
             "# triangle from 0s for 1000000000/3ns\nM0 [0:0], [166666667:0.5], [333333333:0]\n");
   // Pictures of a clip with a half open shutter: from the start of one to the end of another.
-  EXPECT_EQ(
-      out({"shutter", "box", "--start", "2f", "--exposure", "3f", "-f", "1000", "-a", "180", "--gain", "3"}),
-      "# box from 2f for 3f\nM0 [1999999:0], [2000000:3], [4500000:3], [4500001:0]\n");
+  EXPECT_EQ(out("shutter box --start 2f --exposure 3f -f 1000 -a 180 --gain 3"),
+            "# box from 2f for 3f\nM0 [1999999:0], [2000000:3], [4500000:3], [4500001:0]\n");
 }
 
 // Pictures of a capture are counted on its own times, which need not be regular.
@@ -51,8 +38,8 @@ TEST_F(ShutterCommand, CountsThePicturesOfACapture) {
     table += name + "," + std::to_string(starts_ms[k] * 1'000'000) + ",10000000\n";
   }
   scratch_.write("stills.csv", table);
-  out({"stills.csv", "clip.tik"});
-  const std::vector<std::string> box{"shutter", "box", "--start", "3f", "--exposure", "1f"};
+  out("stills.csv clip.tik");
+  const test::Words box("shutter box --start 3f --exposure 1f");
   const auto function_of = [&](const std::vector<std::string>& source) {
     std::vector<std::string> words = box;
     words.insert(words.end(), source.begin(), source.end());
@@ -66,37 +53,36 @@ TEST_F(ShutterCommand, CountsThePicturesOfACapture) {
             "# box from 3f for 1f\nM0 [59999999:0], [60000000:1], [80000000:1], [80000001:0]\n");
   // It exposes just that picture, with what a search for a moment prints.
   scratch_.write("f.fn", want);
-  out({"-k", "f.fn", "clip.tik", "a.pgm"});
-  out({"--start", "3f", "--exposure", "1f", "clip.tik", "b.pgm"});
+  out("-k f.fn clip.tik a.pgm");
+  out("--start 3f --exposure 1f clip.tik b.pgm");
   EXPECT_EQ(test::read_all(*test::open_test_clip(scratch_ / "a.pgm")),
             test::read_all(*test::open_test_clip(scratch_ / "b.pgm")));
-  std::istringstream moment(out({"activity", "--moment", "quietest", "clip.tik"}));
+  std::istringstream moment(out("activity --moment quietest clip.tik"));
   std::vector<std::string> counted{"shutter", "box", "clip.tik"};
   for (std::string word; moment >> word;) counted.push_back(word);
   EXPECT_EQ(out(counted).substr(0, 11), "# box from ");
-  expect_refused({"shutter", "box", "-f", "50", "--start", "3f", "--exposure", "1f", "clip.tik"},
-                 "--fps describes a clip that is encoded");
-  expect_refused({"shutter", "box", "--start", "5f", "--exposure", "1f", "clip.tik"},
-                 "picture 5 is outside the capture, which has 5");
+  expect_refused(
+      2,
+      {{"shutter box -f 50 --start 3f --exposure 1f clip.tik", "--fps describes a clip that is encoded"},
+       {"shutter box --start 5f --exposure 1f clip.tik", "picture 5 is outside the capture, which has 5"}});
 }
 
 TEST_F(ShutterCommand, SaysWhatIsWrong) {
-  expect_refused({"shutter"}, "shutter takes one shape");
-  expect_refused({"shutter", "hann"}, "how long is the exposure? Add --exposure 10ms");
-  expect_refused({"shutter", "hat", "--exposure", "1s"}, "shutter 'hat' is not known; choose box");
-  expect_refused({"shutter", "hann", "--exposure", "3f"},
-                 "name the capture behind the shape, add --fps where its rate is constant, or write times");
-  expect_refused({"shutter", "hann", "--exposure", "3s", "--tag", "256"},
-                 "tag '256' is no whole number of 0 … 255");
-  expect_refused({"shutter", "hann", "--exposure", "3s", "--shutter-error", "0"},
-                 "--shutter-error 0 is no share from 1e-06 to 1");
-  expect_refused({"shutter", "hann", "--exposure", "50ns"}, "too short for the shutter hann");
+  expect_refused(
+      2, {{"shutter", "shutter takes one shape"},
+          {"shutter hann", "how long is the exposure? Add --exposure 10ms"},
+          {"shutter hat --exposure 1s", "shutter 'hat' is not known; choose box"},
+          {"shutter hann --exposure 3f",
+           "name the capture behind the shape, add --fps where its rate is constant, or write times"},
+          {"shutter hann --exposure 3s --tag 256", "tag '256' is no whole number of 0 … 255"},
+          {"shutter hann --exposure 3s --shutter-error 0", "--shutter-error 0 is no share from 1e-06 to 1"},
+          {"shutter hann --exposure 50ns", "too short for the shutter hann"}});
 }
 
 // The shape as an option, and its text as a function file: the same light but for the steps of 1 ns.
 TEST_F(ShutterCommand, GivesTheExposureThatTheOptionGives) {
   test::write_still_clip(scratch_.folder(), 24, 40);
-  out({"-f", "40", "frames", "clip.tik"});
+  out("-f 40 frames clip.tik");
   for (const std::string shape : {"box", "hann", "gaussian", "strobe:3", "spline:0=0,0.2=1,1=-0.5"}) {
     scratch_.write("f.fn", out({"shutter", shape, "--start", "0.1s", "--exposure", "0.4s"}));
     for (const std::string by : {"support", "integral", "absolute", "seconds:0.3"}) {
@@ -117,12 +103,12 @@ TEST_F(ShutterCommand, NormalizesAsItSays) {
   for (int k = 0; k < 10; ++k) {
     scratch_.write("frames/" + std::to_string(k) + ".pgm", "P2 2 1 255\n51 102\n");
   }
-  out({"-f", "10", "--transfer", "linear", "frames", "clip.tik"});
+  out("-f 10 --transfer linear frames clip.tik");
   struct Case {
     std::vector<std::string> words;
     float light;  // of code 51, 0.2 in light
   };
-  const std::vector<std::string> triangle{"--start", "0.2s", "--exposure", "0.4s", "--shutter", "triangle"};
+  const test::Words triangle("--start 0.2s --exposure 0.4s --shutter triangle");
   for (const Case& wanted :
        {Case{{}, 0.1f}, Case{{"--normalize", "support"}, 0.1f}, Case{{"--normalize", "integral"}, 0.2f},
         Case{{"--normalize", "absolute"}, 0.2f}, Case{{"--normalize", "seconds:1"}, 0.04f},
@@ -144,16 +130,15 @@ TEST_F(ShutterCommand, NormalizesAsItSays) {
                  "M0 [0:1], [100000000:1], [100000001:-1], [200000000:-1], [200000001:0]\n"
                  "M1 [0:-3], [100000000:-3], [100000001:0]\n");
   scratch_.write("mask.pgm", "P2 2 1 255\n1 1\n");
-  out({"-k", "f.fn", "-m", "mask.pgm", "--normalize", "integral", "clip.tik", "a.pfm"});
+  out("-k f.fn -m mask.pgm --normalize integral clip.tik a.pfm");
   EXPECT_FLOAT_EQ(test::read_pfm(scratch_ / "a.pfm")[0], 0.2f);
-  out({"-k", "f.fn", "-m", "mask.pgm", "--normalize", "absolute", "clip.tik", "a.pfm"});
+  out("-k f.fn -m mask.pgm --normalize absolute clip.tik a.pfm");
   EXPECT_FLOAT_EQ(test::read_pfm(scratch_ / "a.pfm")[0], -0.2f);
   scratch_.write("mask.pgm", "P2 2 1 255\n0 1\n");
-  const test::ProgramResult refused = test::run_program(
+  const test::ProgramResult refused = test::run_here(
       {"-k", "f.fn", "-m", "mask.pgm", "--normalize", "integral", "clip.tik", "b.pfm"}, scratch_.folder());
   EXPECT_EQ(refused.status, 3);
-  EXPECT_NE(refused.err.find("M0: the positive and negative parts of its gains cancel"), std::string::npos)
-      << refused.err;
+  expect_says(refused.err, "M0: the positive and negative parts of its gains cancel");
 }
 
 }  // namespace

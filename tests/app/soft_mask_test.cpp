@@ -4,8 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "support/program.hpp"
-#include "support/scratch.hpp"
+#include "support/app_test.hpp"
 #include "support/tik_files.hpp"
 
 namespace nutik {
@@ -15,7 +14,7 @@ using nlohmann::json;
 using test::ProgramResult;
 
 // Two pictures of linear light, codes 51 and 204. M0 exposes the first, M9 the second; M9 is the right half.
-class SoftMaskCommand : public testing::Test {
+class SoftMaskCommand : public test::AppTest {
  protected:
   void SetUp() override {
     std::filesystem::create_directory(scratch_ / "frames");
@@ -23,7 +22,7 @@ class SoftMaskCommand : public testing::Test {
       const cv::Mat picture(1, 6, CV_8UC1, cv::Scalar::all(k == 0 ? 51 : 204));
       cv::imwrite((scratch_ / ("frames/" + std::to_string(k) + ".pgm")).string(), picture);
     }
-    done({"-f", "100", "--transfer", "linear", "frames", "clip.tik"});
+    make("-f 100 --transfer linear frames clip.tik");
     cv::Mat mask(1, 6, CV_8UC1, cv::Scalar::all(0));
     mask.colRange(3, 6) = 9;
     cv::imwrite((scratch_ / "mask.pgm").string(), mask);
@@ -31,19 +30,6 @@ class SoftMaskCommand : public testing::Test {
                    "M0 [0:1], [9999999:1], [10000000:0]\nM9 [9999999:0], [10000000:1], [20000000:1]\n");
   }
 
-  ProgramResult run(const std::vector<std::string>& words) const {
-    return test::run_program(words, scratch_.folder());
-  }
-  ProgramResult done(const std::vector<std::string>& words) const {
-    const ProgramResult result = run(words);
-    EXPECT_EQ(result.status, 0) << result.err;
-    return result;
-  }
-  void expect_refused(const std::vector<std::string>& words, int status, std::string_view part) const {
-    const ProgramResult result = run(words);
-    EXPECT_EQ(result.status, status) << result.err;
-    EXPECT_NE(result.err.find(part), std::string::npos) << "no '" << part << "' in: " << result.err;
-  }
   // An exposure's words: feathered by 2 pixels, unless others are wanted, and what stands behind them.
   static std::vector<std::string> exposing(std::vector<std::string> behind,
                                            const std::string& mask = "mask.pgm",
@@ -65,33 +51,31 @@ class SoftMaskCommand : public testing::Test {
       layer.at<std::uint8_t>(0, static_cast<int>(x)) = static_cast<std::uint8_t>(codes[x]);
     cv::imwrite((scratch_ / name).string(), layer);
   }
-
-  test::Scratch scratch_;
 };
 
 // 51 + 153 α, α being 0, 1/8, 1/3, 2/3, 7/8, 1.
 TEST_F(SoftMaskCommand, FeathersEdgesInLight) {
   const std::vector<int> wanted{51, 70, 102, 153, 185, 204};
   for (const char* precision : {"auto", "single", "compensated", "double", "fixed"}) {
-    done(exposing({"--precision", precision, "clip.tik", "out.pgm"}));
+    make(exposing({"--precision", precision, "clip.tik", "out.pgm"}));
     EXPECT_EQ(codes("out.pgm"), wanted) << precision;
   }
-  done(exposing({"--renderer", "reference", "clip.tik", "out.pgm"}));
+  make(exposing({"--renderer", "reference", "clip.tik", "out.pgm"}));
   EXPECT_EQ(codes("out.pgm"), wanted);
-  done(exposing({"clip.tik", "hard.pgm"}, "mask.pgm", ""));
+  make(exposing({"clip.tik", "hard.pgm"}, "mask.pgm", ""));
   EXPECT_EQ(codes("hard.pgm"), (std::vector<int>{51, 51, 51, 204, 204, 204}));
 }
 
 TEST_F(SoftMaskCommand, ReadsLayers) {
   write_layer("half-9.png", {0, 51, 102, 255, 255, 0});
-  done(exposing({"clip.tik", "out.pgm"}, "half-%d.png", ""));
+  make(exposing({"clip.tik", "out.pgm"}, "half-%d.png", ""));
   EXPECT_EQ(codes("out.pgm"), (std::vector<int>{51, 82, 112, 204, 204, 51}));  // 51 + 153 · 0.2, · 0.4
   // Another layer, and a mask value without a function.
   write_layer("half-0.png", {255, 204, 153, 0, 0, 255});
-  done(exposing({"clip.tik", "again.pgm"}, "half-%d.png", ""));
+  make(exposing({"clip.tik", "again.pgm"}, "half-%d.png", ""));
   EXPECT_EQ(codes("again.pgm"), codes("out.pgm"));
   write_layer("half-7.png", {0, 0, 0, 0, 0, 0});
-  done(exposing({"clip.tik", "again.pgm"}, "half-%d.png", ""));
+  make(exposing({"clip.tik", "again.pgm"}, "half-%d.png", ""));
   write_layer("half-7.png", {0, 0, 0, 255, 9, 0});
   expect_refused(
       exposing({"clip.tik", "no.pgm"}, "half-%d.png", ""), 3,
@@ -101,30 +85,28 @@ TEST_F(SoftMaskCommand, ReadsLayers) {
 }
 
 TEST_F(SoftMaskCommand, MakesLayersThatGiveTheSamePicture) {
-  const ProgramResult made =
-      done({"mask", "--size", "6x1", "--tag", "9", "--rectangle", "3,0,3,1", "--feather", "2px", "-o",
-            "soft-%d.png", "--preview", "preview.png", "--json"});
+  const ProgramResult made = make(
+      "mask --size 6x1 --tag 9 --rectangle 3,0,3,1 --feather 2px -o soft-%d.png --preview preview.png "
+      "--json");
   const json answer = json::parse(made.out);
   EXPECT_EQ(answer["mixed_pixel_count"], 4);
   EXPECT_EQ(answer["tags"][1]["layer"], "soft-9.png");
   EXPECT_EQ(cv::imread((scratch_ / "soft-9.png").string(), cv::IMREAD_UNCHANGED).at<std::uint16_t>(0, 2),
             21'845);
-  done(exposing({"clip.tik", "feathered.pgm"}));
-  done(exposing({"clip.tik", "layered.pgm"}, "soft-%d.png", ""));
+  make(exposing({"clip.tik", "feathered.pgm"}));
+  make(exposing({"clip.tik", "layered.pgm"}, "soft-%d.png", ""));
   EXPECT_EQ(codes("layered.pgm"), codes("feathered.pgm"));
 
-  expect_refused({"mask", "--overwrite", "--size", "6x1", "--tag", "7", "--rectangle", "3,0,3,1", "--feather", "2px", "-o",
-                  "soft-%d.png"},
-                 5, "soft-9.png is there, and M9 has no pixel in this mask");
-  expect_refused({"mask", "--size", "6x1", "--fill", "--feather", "2px", "-o", "soft.png"}, 2,
-                 "as in soft-%d.png");
+  expect_refused("mask --overwrite --size 6x1 --tag 7 --rectangle 3,0,3,1 --feather 2px -o soft-%d.png", 5,
+                 "soft-9.png is there, and M9 has no pixel in this mask");
+  expect_refused("mask --size 6x1 --fill --feather 2px -o soft.png", 2, "as in soft-%d.png");
 }
 
 TEST_F(SoftMaskCommand, CarriesItsRecipe) {
   for (const std::string& mask : {std::string("mask.pgm"), std::string("soft-%d.png")}) {
     write_layer("soft-9.png", {0, 51, 102, 255, 255, 0});
-    done(exposing({"clip.tik", "first.png"}, mask, mask == "mask.pgm" ? "1px,M9=2.5px" : ""));
-    const ProgramResult again = done({"again", "first.png"});
+    make(exposing({"clip.tik", "first.png"}, mask, mask == "mask.pgm" ? "1px,M9=2.5px" : ""));
+    const ProgramResult again = make("again first.png");
     EXPECT_NE(again.out.find(mask), std::string::npos) << again.out;
     const std::string bytes = test::read_file(scratch_ / "first.png");
     std::filesystem::remove(scratch_ / "first.png");
@@ -133,63 +115,56 @@ TEST_F(SoftMaskCommand, CarriesItsRecipe) {
     // A layer that was changed since is another mask.
     if (mask == "mask.pgm") continue;
     write_layer("soft-9.png", {0, 51, 103, 255, 255, 0});
-    EXPECT_EQ(run({"again", "first.png"}).status, 3);
+    EXPECT_EQ(run("again first.png").status, 3);
   }
 }
 
 TEST_F(SoftMaskCommand, TracesAPixelThroughAllItsFunctions) {
-  const ProgramResult trace = done({"trace", "--pixel", "2,0", "-k", "f.fn", "-m", "mask.pgm", "--feather",
-                                    "2px", "--out-transfer", "source", "clip.tik"});
-  EXPECT_NE(trace.out.find("clip.tik, pixel 2,0: light 0.4, code 102, of 2 functions\n"
-                           "  M0 (66.67 %): light 0.2;"),
-            std::string::npos)
-      << trace.out;
-  const json answer = json::parse(done({"trace", "--json", "--pixel", "2,0", "-k", "f.fn", "-m", "mask.pgm",
-                                        "--feather", "2px", "clip.tik"})
-                                      .out);
+  const ProgramResult trace =
+      make("trace --pixel 2,0 -k f.fn -m mask.pgm --feather 2px --out-transfer source clip.tik");
+  expect_says(trace.out,
+              "clip.tik, pixel 2,0: light 0.4, code 102, of 2 functions\n"
+              "  M0 (66.67 %): light 0.2;");
+  const json answer =
+      json::parse(make("trace --json --pixel 2,0 -k f.fn -m mask.pgm --feather 2px clip.tik").out);
   EXPECT_NEAR(answer["light"][0], 0.4, 1e-7);  // gains change over a nanosecond
   EXPECT_EQ(answer["functions"][1]["mask_value"], 9);
   EXPECT_NEAR(answer["functions"][1]["share"], 1.0 / 3, 1e-12);
-  done({"trace", "--pixel", "2,0", "-k", "f.fn", "-m", "mask.pgm", "--feather", "2px", "clip.tik",
-        "trace.csv"});
+  make("trace --pixel 2,0 -k f.fn -m mask.pgm --feather 2px clip.tik trace.csv");
   EXPECT_TRUE(test::read_file(scratch_ / "trace.csv").starts_with("mask_value,share,begin_ns,"));
-  done(
-      {"trace", "--pixel", "2,0", "-k", "f.fn", "-m", "mask.pgm", "--feather", "2px", "clip.tik", "one.png"});
-  done({"trace", "--pixel", "0,0", "-k", "f.fn", "-m", "mask.pgm", "--feather", "2px", "clip.tik",
-        "other.png"});
+  make("trace --pixel 2,0 -k f.fn -m mask.pgm --feather 2px clip.tik one.png");
+  make("trace --pixel 0,0 -k f.fn -m mask.pgm --feather 2px clip.tik other.png");
   EXPECT_EQ(cv::imread((scratch_ / "one.png").string()).rows,
             2 * cv::imread((scratch_ / "other.png").string()).rows);
 }
 
 TEST_F(SoftMaskCommand, IsKnownToOtherCommands) {
-  const std::vector<std::string> soft{"-k", "f.fn", "-m", "mask.pgm", "--feather", "2px"};
+  const test::Words soft("-k f.fn -m mask.pgm --feather 2px");
   const auto with = [&](std::vector<std::string> before, const std::vector<std::string>& behind) {
     before.insert(before.end(), soft.begin(), soft.end());
     before.insert(before.end(), behind.begin(), behind.end());
     return before;
   };
-  done(with({"check"}, {"clip.tik"}));
-  done(with({"validate", "--runs", "1"}, {"clip.tik"}));
-  done(with({"sweep", "--scale-gain", "1..2/1", "--each", "each-%d.pgm", "--out-transfer", "source"},
+  make(with({"check"}, {"clip.tik"}));
+  make(with({"validate", "--runs", "1"}, {"clip.tik"}));
+  make(with({"sweep", "--scale-gain", "1..2/1", "--each", "each-%d.pgm", "--out-transfer", "source"},
             {"clip.tik", "sheet.png"}));
   EXPECT_EQ(codes("each-0.pgm"), (std::vector<int>{51, 70, 102, 153, 185, 204}));
-  done(with({"video", "--out-fps", "50", "--out-transfer", "source"}, {"clip.tik", "filmed-%d.pgm"}));
+  make(with({"video", "--out-fps", "50", "--out-transfer", "source"}, {"clip.tik", "filmed-%d.pgm"}));
   EXPECT_EQ(codes("filmed-0.pgm"), codes("each-0.pgm"));
   scratch_.write("list.txt", "-k f.fn -m mask.pgm --feather 2px --out-transfer source listed.pgm\n");
-  done({"batch", "list.txt", "clip.tik"});
+  make("batch list.txt clip.tik");
   EXPECT_EQ(codes("listed.pgm"), codes("each-0.pgm"));
   write_layer("soft-9.png", {0, 51, 102, 255, 255, 0});
-  const ProgramResult check = done({"check", "-k", "f.fn", "-m", "soft-%d.png", "clip.tik"});
+  const ProgramResult check = make("check -k f.fn -m soft-%d.png clip.tik");
   EXPECT_EQ(check.err, "");
 }
 
 TEST_F(SoftMaskCommand, SaysWhatIsWrong) {
-  expect_refused(exposing({"clip.tik", "no.pgm"}, "mask.pgm", "2"), 2,
-                 "the feather '2' is no width of an edge");
-  expect_refused(exposing({"clip.tik", "no.pgm"}, "mask.pgm", "M4=2px"), 2,
-                 "no pixel of the mask has the value 4");
-  expect_refused({"--start", "0s", "--exposure", "1f", "--feather", "2px", "clip.tik", "no.pgm"}, 2,
-                 "add -m mask.pgm");
+  expect_refused(
+      2, {{exposing({"clip.tik", "no.pgm"}, "mask.pgm", "2"), "the feather '2' is no width of an edge"},
+          {exposing({"clip.tik", "no.pgm"}, "mask.pgm", "M4=2px"), "no pixel of the mask has the value 4"},
+          {"--start 0s --exposure 1f --feather 2px clip.tik no.pgm", "add -m mask.pgm"}});
   expect_refused(
       exposing({"clip.tik", "no.pgm"}, "none-%d.png", ""), 3,
       "none-%d.png cannot be read: there is no layer of any mask value, none-0.png to none-255.png");

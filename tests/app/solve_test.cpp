@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "support/program_test.hpp"
+#include "support/app_test.hpp"
 
 namespace nutik {
 namespace {
@@ -20,7 +20,7 @@ constexpr const char* kFigure14 =
 
 // 1.2 s at 100 pictures a second: a ball (a square) that goes from left to right for 0.75 s and then rests at
 // kRest, where nothing was before: 0.25 s of the second that the trail is exposed for.
-class Solve : public test::ProgramTest {
+class Solve : public test::AppTest {
  protected:
   static constexpr int kRest = 70, kTop = 20, kSide = 10;
   static constexpr const char* kAtRest = "72,22,6,6";
@@ -36,14 +36,13 @@ class Solve : public test::ProgramTest {
       frame(cv::Rect(k < 75 ? 2 + 3 * k / 4 : kRest, kTop, kSide, kSide)) = 210;
       cv::imwrite((scratch_ / ("frames/" + std::to_string(1000 + k) + ".pgm")).string(), frame);
     }
-    ASSERT_EQ(run({"-f", "100", "frames", "clip.tik"}).status, 0);
+    make("-f 100 frames clip.tik");
     scratch_.write("figure14.fn", kFigure14);
   }
 
-  [[nodiscard]] json solved(std::vector<std::string> words) const {
+  [[nodiscard]] json solved(test::Words words) const {
     words.insert(words.begin(), {"solve", "--json", "--overwrite"});
-    const auto result = run(words);
-    EXPECT_EQ(result.status, 0) << result.err;
+    const auto result = make(words);
     return result.status == 0 ? json::parse(result.out) : json();
   }
   // What the first wish got.
@@ -69,8 +68,8 @@ TEST_F(Solve, FindsThePapersGainForTheBallAtRest) {
   EXPECT_TRUE(from_nothing["kept"]) << from_nothing;
 
   // The ball is gone from the picture: there it has what the same functions make of the empty scene.
-  ASSERT_EQ(run({"-k", "solved.fn", "clip.tik", "picture.pfm"}).status, 0);
-  ASSERT_EQ(run({"--start", "0s", "--exposure", "1f", "clip.tik", "empty.pfm"}).status, 0);
+  make("-k solved.fn clip.tik picture.pfm");
+  make("--start 0s --exposure 1f clip.tik empty.pfm");
   const cv::Rect rest(kRest, kTop, kSide, kSide), beside(kRest, 0, kSide, kSide);
   const double still_gain = mean("picture.pfm", beside) / mean("empty.pfm", beside);
   EXPECT_NEAR(still_gain, 0.742574, 1e-5) << "the paper's";
@@ -83,8 +82,8 @@ TEST_F(Solve, ReachesConstructedWishes) {
   // What a known exposure has is wished for; regions with different courses of light.
   scratch_.write("known.fn", "M0{[0:0.3], [300000000:1.7], [800000000:-0.6], [1200000000:0.25]}");
   scratch_.write("named.fn", "M0{[0:a], [300000000:b], [800000000:c], [1200000000:d]}");
-  ASSERT_EQ(run({"-k", "known.fn", "clip.tik", "known.pfm"}).status, 0);
-  std::vector<std::string> words{"-k", "named.fn", "clip.tik", "-o", "solved.fn"};
+  make("-k known.fn clip.tik known.pfm");
+  test::Words words("-k named.fn clip.tik -o solved.fn");
   std::vector<double> wanted;
   for (const int x : {0, 12, 30, 50, 71}) {
     wanted.push_back(mean("known.pfm", {x, kTop, 8, 8}));
@@ -94,22 +93,20 @@ TEST_F(Solve, ReachesConstructedWishes) {
   const double tolerance = 1e-6;  // of which to_string() takes the half
   for (std::size_t i = 0; i < wanted.size(); ++i)
     EXPECT_NEAR(answer["wishes"][i]["reached"][0].get<double>(), wanted[i], tolerance) << i;
-  ASSERT_EQ(run({"-k", "solved.fn", "clip.tik", "solved.pfm"}).status, 0);
+  make("-k solved.fn clip.tik solved.pfm");
   EXPECT_NEAR(mean("solved.pfm", {50, kTop, 8, 8}), wanted[3], tolerance);
 }
 
 TEST_F(Solve, ExposesRegionsAsTheyAreWished) {
-  ASSERT_EQ(
-      run({"mask", "--size", "96x48", "--tag", "5", "--rectangle", "0,0,48,48", "-o", "mask.pgm"}).status, 0);
-  ASSERT_EQ(
-      run({"mask", "--size", "96x48", "--tag", "9", "--ellipse", "75,25,4,4", "-o", "marks.pgm"}).status, 0);
+  ASSERT_EQ(run("mask --size 96x48 --tag 5 --rectangle 0,0,48,48 -o mask.pgm").status, 0);
+  ASSERT_EQ(run("mask --size 96x48 --tag 9 --ellipse 75,25,4,4 -o marks.pgm").status, 0);
   scratch_.write("two.fn",
                  "M0{[0:0], [1:a], [500000000:a], [500000001:0]}\nM5{[0:b], [1000000000:b], [1000000001:0]}");
   const json answer =
       solved({"-k", "two.fn", "-m", "mask.pgm", "--regions", "marks.pgm", "--wish", "R9 = 0.25", "--wish",
               "M5 within 0,0,40,10 = 2 * M0 within 60,0,20,10", "clip.tik", "-o", "s.fn"});
   EXPECT_TRUE(answer["kept"]) << answer;
-  ASSERT_EQ(run({"-k", "s.fn", "-m", "mask.pgm", "clip.tik", "s.pfm"}).status, 0);
+  make("-k s.fn -m mask.pgm clip.tik s.pfm");
   EXPECT_NEAR(mean("s.pfm", {0, 0, 40, 10}), 2 * mean("s.pfm", {60, 0, 20, 10}), 1e-6);
   EXPECT_NEAR(answer["wishes"][0]["reached"][0].get<double>(), 0.25, 1e-6);
 }
@@ -120,30 +117,26 @@ TEST_F(Solve, SaysWhatIsSaturated) {
                 "solved.fn"})
         .out;
   };
-  EXPECT_NE(said("0.9").find("\nthe picture: no pixel saturated\n"), std::string::npos) << said("0.9");
-  EXPECT_NE(said("1.5").find("\nthe picture: 100 pixels saturated above 1\n"), std::string::npos)
-      << said("1.5");
+  expect_says(said("0.9"), "\nthe picture: no pixel saturated\n");
+  expect_says(said("1.5"), "\nthe picture: 100 pixels saturated above 1\n");
   const auto black =
       run({"solve", "--overwrite", "-k", "figure14.fn", "--wish", "72,22,6,6 = -1", "clip.tik", "-o", "solved.fn"});
-  EXPECT_NE(black.err.find("pixels come out below 0, which is black: bound the gains"), std::string::npos)
-      << black.err;
+  expect_says(black.err, "pixels come out below 0, which is black: bound the gains");
 }
 
 TEST_F(Solve, ComparesWithAnIntervalUpToTheCapturesEnd) {
   const json answer =
       solved({"-k", "figure14.fn", "--wish", "72,22,6,6 like 0.9s..1.2s", "clip.tik", "-o", "solved.fn"});
-  ASSERT_EQ(run({"--start", "0.9s", "--exposure", "0.3s", "clip.tik", "rest.pfm"}).status, 0);
+  make("--start 0.9s --exposure 0.3s clip.tik rest.pfm");
   EXPECT_NEAR(mean_light(answer), mean("rest.pfm", {72, 22, 6, 6}), 1e-6);
 }
 
 TEST_F(Solve, LooksForTimes) {
   // When 10 ms show the ball within its place at rest, and not elsewhere.
   scratch_.write("moved.fn", "M0{[when-1:0], [when:1], [when+10000000:1], [when+10000001:0]}");
-  const std::vector<std::string> words{
-      "-k",       "moved.fn", "--wish", "70,20,10,10 like 0.9s", "--wish", "10,20,10,10 like 0s..0.02s",
-      "clip.tik", "-o",       "s.fn"};
-  std::vector<std::string> by_picture = words;
-  by_picture.insert(by_picture.end(), {"--free", "when=0f..110f/1f"});
+  const test::Words words{"-k",       "moved.fn", "--wish", "70,20,10,10 like 0.9s", "--wish", "10,20,10,10 like 0s..0.02s",
+                          "clip.tik", "-o",       "s.fn"};
+  test::Words by_picture = words + "--free when=0f..110f/1f";
   const json steps = solved(by_picture);
   EXPECT_EQ(steps["tried_exposures"], 111);
   EXPECT_GE(steps["times_ns"]["when"], 750'000'000);
@@ -151,7 +144,7 @@ TEST_F(Solve, LooksForTimes) {
 
   // Half of the ball's light: half of the exposure lies behind the moment at which it comes to rest.
   const double rest = mean_light(steps);
-  ASSERT_EQ(run({"--start", "0s", "--exposure", "1f", "clip.tik", "empty.pfm"}).status, 0);
+  make("--start 0s --exposure 1f clip.tik empty.pfm");
   const double half = (rest + mean("empty.pfm", {kRest, kTop, kSide, kSide})) / 2;
   const json between = solved({"-k", "moved.fn", "--free", "when=0.5s..1s", "--wish",
                                "70,20,10,10 = " + std::to_string(half), "clip.tik", "-o", "s.fn"});
@@ -161,24 +154,17 @@ TEST_F(Solve, LooksForTimes) {
 
 TEST_F(Solve, TellsWhatCannotBeKept) {
   const auto result =
-      run({"solve", "-k", "figure14.fn", "--free", "rest=-20..0", "--wish", "72,22,6,6 gone", "clip.tik"});
-  ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.err.find("not all wishes could be kept"), std::string::npos) << result.err;
-  EXPECT_NE(
-      result.err.find("; rest came to an end of its range (--free): what lies beyond may come nearer"),
-      std::string::npos)
-      << result.err;
-  EXPECT_NE(result.out.find("figure14-solved.fn: rest = -20;"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("try: nutik-cl -k figure14-solved.fn clip.tik picture.png"), std::string::npos)
-      << result.out;
+      make({"solve", "-k", "figure14.fn", "--free", "rest=-20..0", "--wish", "72,22,6,6 gone", "clip.tik"});
+  expect_says(result.err, "not all wishes could be kept");
+  expect_says(result.err, "; rest came to an end of its range (--free): what lies beyond may come nearer");
+  expect_says(result.out, {"figure14-solved.fn: rest = -20;",
+                           "try: nutik-cl -k figure14-solved.fn clip.tik picture.png"});
 
   scratch_.write("more.fn",
                  "M0{[0:0], [1:1], [1000000000:1], [1000000002:rest], [1010000000:rest], [1010000001:0],\n"
                  "   [1500000000:0], [2000000000:late], [3000000000:0]}");
-  const auto untold = run({"solve", "-k", "more.fn", "--wish", "72,22,6,6 gone", "clip.tik"});
-  EXPECT_EQ(untold.status, 0) << untold.err;
-  EXPECT_NE(untold.err.find("no wish depends on late; it stays where it began, at 1"), std::string::npos)
-      << untold.err;
+  const auto untold = make({"solve", "-k", "more.fn", "--wish", "72,22,6,6 gone", "clip.tik"});
+  expect_says(untold.err, "no wish depends on late; it stays where it began, at 1");
 }
 
 TEST_F(Solve, NamesTheTimesThatCameToAnEndOfTheirRange) {
@@ -196,7 +182,7 @@ TEST_F(Solve, SaysWhatMakesNoSense) {
   scratch_.write("bad.fn", "M0 [0:a.b], [5:0]");
   scratch_.write("moved.fn", "M0{[when:1], [when+10000000:1], [when+10000001:0]}");
   const std::string clip = "clip.tik";
-  const auto refused = [&](std::vector<std::string> words, int status, std::string_view part) {
+  const auto refused = [&](test::Words words, int status, std::string_view part) {
     words.insert(words.begin(), "solve");
     words.push_back(clip);
     expect_refused(words, status, part);

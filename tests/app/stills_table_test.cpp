@@ -2,41 +2,32 @@
 #include <gtest/gtest.h>
 
 #include "support/clips.hpp"
-#include "support/program.hpp"
-#include "support/scratch.hpp"
+#include "support/app_test.hpp"
 #include "support/stills.hpp"
 
 namespace nutik {
 namespace {
 
-using test::Scratch;
+class StillsTableProgram : public test::AppTest {};
 
-TEST(StillsTableProgram, KeepsTheListedExposures) {
-  const Scratch scratch;
-  const auto run = [&](const std::vector<std::string>& words) {
-    const test::ProgramResult result = test::run_program(words, scratch.folder());
-    EXPECT_EQ(result.status, 0) << result.err;
-    return result;
-  };
+TEST_F(StillsTableProgram, KeepsTheListedExposures) {
   // One dark and one bright picture; 10 ms each, and a gap of 30 ms between them.
   const auto flat = [](std::uint8_t code) {
     Picture picture({8, 8, 1}, ValueType::code8, 255);
     for (auto& value : picture.values<std::uint8_t>()) value = code;
     return test::netpbm_file(picture, false);
   };
-  scratch.write("dark.pgm", flat(50));
-  scratch.write("bright.pgm", flat(150));
-  scratch.write("stills.csv",
+  scratch_.write("dark.pgm", flat(50));
+  scratch_.write("bright.pgm", flat(150));
+  scratch_.write("stills.csv",
                 "file,start_ns,exposure_ns\ndark.pgm,7,10000000\nbright.pgm,40000007,10000000\n");
-  const test::ProgramResult encoded = run({"--transfer", "linear", "stills.csv", "c.tik"});
-  EXPECT_NE(encoded.out.find("shutter 144 degrees (from the mean of the listed exposures)"),
-            std::string::npos)
-      << encoded.out;
-  EXPECT_NE(run({"info", "c.tik"}).out.find("(irregular), shutter 144 degrees"), std::string::npos);
-  const auto code_of = [&](std::vector<std::string> words) {
+  const test::ProgramResult encoded = make("--transfer linear stills.csv c.tik");
+  expect_says(encoded.out, "shutter 144 degrees (from the mean of the listed exposures)");
+  expect_says(make("info c.tik").out, "(irregular), shutter 144 degrees");
+  const auto code_of = [&](test::Words words) {
     words.insert(words.end(), {"-q", "--out-transfer", "source", "p.pgm"});
-    run(words);
-    return static_cast<int>(test::read_all(*test::open_test_clip(scratch / "p.pgm")).front().front());
+    make(words);
+    return static_cast<int>(test::read_all(*test::open_test_clip(scratch_ / "p.pgm")).front().front());
   };
   EXPECT_EQ(code_of({"--start", "0f", "--exposure", "1f", "c.tik"}), 50);
   EXPECT_EQ(code_of({"--start", "1f", "--exposure", "1f", "c.tik"}), 150);
@@ -44,20 +35,19 @@ TEST(StillsTableProgram, KeepsTheListedExposures) {
   EXPECT_EQ(code_of({"--start", "30ms", "--exposure", "10ms", "c.tik"}), 133);
   EXPECT_EQ(code_of({"--transfer", "linear", "--start", "30ms", "--exposure", "10ms", "stills.csv"}), 133);
   // Frames of a video, too: 10 ms of every 10 ms, five in all.
-  run({"video", "--out-fps", "100", "--out-angle", "360", "c.tik", "v-%d.pgm", "-q", "--out-transfer",
-       "source"});
-  const auto frames = test::read_all(*test::open_test_clip(scratch / "v-%d.pgm"));
+  make("video --out-fps 100 --out-angle 360 c.tik v-%d.pgm -q --out-transfer source");
+  const auto frames = test::read_all(*test::open_test_clip(scratch_ / "v-%d.pgm"));
   ASSERT_EQ(frames.size(), 5u);
   const int expected[] = {50, 67, 100, 133, 150};  // 50 + 100 · (1/6, 3/6, 5/6), rounded
   for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(static_cast<int>(frames[k].front()), expected[k]) << k;
 
-  const auto refused = test::run_program({"-a", "180", "stills.csv", "d.tik"}, scratch.folder());
+  const auto refused = test::run_program({"-a", "180", "stills.csv", "d.tik"}, scratch_.folder());
   EXPECT_EQ(refused.status, 2);
   EXPECT_NE(refused.err.find("stills.csv says how long each picture was exposed"), std::string::npos)
       << refused.err;
   // What the table lists is an input, which no output replaces.
   const auto replaced =
-      test::run_program({"--start", "0s", "--exposure", "1ms", "stills.csv", "dark.pgm"}, scratch.folder());
+      test::run_program({"--start", "0s", "--exposure", "1ms", "stills.csv", "dark.pgm"}, scratch_.folder());
   EXPECT_EQ(replaced.status, 2);
   EXPECT_NE(replaced.err.find("the output dark.pgm is also an input"), std::string::npos) << replaced.err;
 }

@@ -14,7 +14,6 @@ class StudyFiles : public test::MovingSquareTest {
   [[nodiscard]] test::ProgramResult study(const char* output, const char* style = "trail") const {
     return run({"study", "clip.tik", "--style", style, "-o", output});
   }
-  [[nodiscard]] std::string content(std::string_view name) const { return test::read_file(scratch_ / name); }
 };
 
 TEST_F(StudyFiles, AreReplacedWhereNobodyChangedThem) {
@@ -27,7 +26,7 @@ TEST_F(StudyFiles, AreReplacedWhereNobodyChangedThem) {
 TEST_F(StudyFiles, AreKeptAsTheyWereChangedByHand) {
   ASSERT_EQ(study("mine.png").status, 0);
   for (const char* name : {"mine.fn", "mine.pgm", "mine.txt"}) {
-    const std::string written = content(name);
+    const std::string written = file(name);
     std::string changed = written;
     changed[changed.size() / 2] ^= 1;
     scratch_.write(name, changed);
@@ -37,7 +36,7 @@ TEST_F(StudyFiles, AreKeptAsTheyWereChangedByHand) {
         refused.err.find(std::string(name) + " was changed since its study was made; it is not replaced"),
         std::string::npos)
         << refused.err;
-    EXPECT_EQ(content(name), changed);
+    EXPECT_EQ(file(name), changed);
     scratch_.write(name, written);
   }
   EXPECT_EQ(study("mine.png", "strobe").status, 0);
@@ -50,13 +49,13 @@ TEST_F(StudyFiles, ReplaceNoneThatIsOfNoStudy) {
   for (const auto& [picture, name] :
        {std::pair("other.png", "other.pgm"), std::pair("notes.png", "notes.txt"),
         std::pair("light.png", "light.fn")}) {
-    const std::string before = content(name);
+    const std::string before = file(name);
     const auto refused = study(picture);
     EXPECT_EQ(refused.status, 2);
     EXPECT_NE(refused.err.find(std::string(name) + " exists and is of no study; it is not replaced"),
               std::string::npos)
         << refused.err;
-    EXPECT_EQ(content(name), before);
+    EXPECT_EQ(file(name), before);
     EXPECT_FALSE(std::filesystem::exists(scratch_ / picture));
   }
 }
@@ -66,9 +65,7 @@ TEST_F(StudyFiles, ReplaceNoneOfAnotherPicture) {
   ASSERT_EQ(study("one.png").status, 0);
   const auto refused = study("one.jpg");
   EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("one.pgm, one.fn and one.txt are those of one.png; they are not replaced"),
-            std::string::npos)
-      << refused.err;
+  expect_says(refused.err, "one.pgm, one.fn and one.txt are those of one.png; they are not replaced");
   std::filesystem::remove(scratch_ / "one.png");
   EXPECT_EQ(study("one.jpg").status, 0);
 }
@@ -98,15 +95,15 @@ TEST_F(StudyFiles, AreReplacedByTheNextStudyWhereverOneEnds) {
         if (faulty(call, at, error, "strobe") == 0) break;
         ++ended;
         if (std::filesystem::exists(scratch_ / "s.pgm")) {
-          const std::string written = content("s.pgm");
+          const std::string written = file("s.pgm");
           scratch_.write("s.pgm", written + "mine");
           EXPECT_EQ(study("s.png", "strobe").status, 2);
           scratch_.write("s.pgm", written);
         }
         const auto again = study("s.png", "strobe");
         EXPECT_EQ(again.status, 0) << call << " " << at << " " << error << ": " << again.err;
-        EXPECT_TRUE(content("s.fn") == content("right.fn") && content("s.pgm") == content("right.pgm"));
-        EXPECT_EQ(content("s.txt").find("not finished"), std::string::npos);
+        EXPECT_TRUE(file("s.fn") == file("right.fn") && file("s.pgm") == file("right.pgm"));
+        EXPECT_EQ(file("s.txt").find("not finished"), std::string::npos);
       }
       EXPECT_GE(ended, 4) << call << " " << error;
     }
@@ -115,15 +112,14 @@ TEST_F(StudyFiles, AreReplacedByTheNextStudyWhereverOneEnds) {
 
 TEST_F(StudyFiles, HaveCommandsThatRunWhateverTheClipIsCalled) {
   std::filesystem::copy_file(scratch_ / "clip.tik", scratch_ / "-clip.tik");
-  const auto result = run({"study", "--", "-clip.tik"});
-  ASSERT_EQ(result.status, 0) << result.err;
-  const std::string picture = content("-clip-study.png");
+  const auto result = make("study -- -clip.tik");
+  const std::string picture = file("-clip-study.png");
   std::filesystem::remove(scratch_ / "-clip-study.png");
   const std::string folder = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path().string();
   const std::string command = "cd '" + scratch_.folder().string() + "' && PATH='" + folder +
                               "':$PATH sh -e ./-clip-study.txt > log 2>&1";
-  ASSERT_EQ(std::system(command.c_str()), 0) << content("log");
-  EXPECT_TRUE(content("-clip-study.png") == picture);
+  ASSERT_EQ(std::system(command.c_str()), 0) << file("log");
+  EXPECT_TRUE(file("-clip-study.png") == picture);
 }
 
 TEST_F(StudyFiles, AreNoneBesideStandardOutput) {

@@ -33,10 +33,9 @@ class StudyStyles : public test::StudyTest {
   static int left(int picture) { return 4 + 7 * (picture - kEmpty); }
 
   // By how much the study differs from the scene without the square.
-  [[nodiscard]] cv::Mat difference(std::vector<std::string> words) const {
+  [[nodiscard]] cv::Mat difference(test::Words words) const {
     words.insert(words.begin(), {"study", "-f", "100", "way", "-o", "styled.png"});
-    const auto result = run(words);
-    EXPECT_EQ(result.status, 0) << result.err;
+    const auto result = make(words);
     cv::Mat difference;
     cv::subtract(picture("styled.png"), ground_of(7), difference, {}, CV_16S);
     return difference;
@@ -78,15 +77,15 @@ TEST_F(StudyStyles, HaveNoStepAlongRegionsEdges) {
 }
 
 TEST_F(StudyStyles, ShowWhatTheirNamesSay) {
-  const cv::Mat strobe = difference({"--style", "strobe", "--moments", "8f,22f"});
+  const cv::Mat strobe = difference("--style strobe --moments 8f,22f");
   EXPECT_TRUE(shows_square(strobe, 8) && shows_square(strobe, 22));
   EXPECT_NEAR(trail(strobe, 50, 100), 0, 1) << "nothing between the moments";
 
-  const cv::Mat curtain = difference({"--style", "rear-curtain"});
+  const cv::Mat curtain = difference("--style rear-curtain");
   EXPECT_TRUE(shows_square(curtain, kEmpty + kMoving - 1));
   EXPECT_GT(trail(curtain, 90, 120), 2 * trail(curtain, 20, 50)) << "the trail grows towards it";
 
-  const cv::Mat frozen = difference({"--style", "frozen", "--moments", "15f"});
+  const cv::Mat frozen = difference("--style frozen --moments 15f");
   EXPECT_TRUE(shows_square(frozen, 15));
   EXPECT_GT(trail(frozen, 20, 50), 5);
   EXPECT_NEAR(trail(frozen, 20, 50), trail(frozen, 90, 120), 0.2 * trail(frozen, 20, 50)) << "and goes on";
@@ -127,21 +126,16 @@ TEST_F(StudyStyles, AreBlendedAsFarAsIsStated) {
   EXPECT_NEAR(wide, narrow / 2, narrow / 10);
   for (const auto& [style, feather] : {std::pair("trail", "6px"), std::pair("trail", "0px"),
                                        std::pair("trail", "3.51px"), std::pair("slit", "M1=4px")}) {
-    const auto result = run({"study", "-f", "100", "way", "--moments", "2", "--style", style, "--feather",
-                             feather, "-o", "study.png"});
-    ASSERT_EQ(result.status, 0) << result.err;
+    const auto result = make({"study", "-f", "100", "way", "--moments", "2", "--style", style, "--feather",
+                              feather, "-o", "study.png"});
     expect_the_same_by_hand(std::string(style) + " " + feather);
   }
   for (const auto& [words, why] :
-       {std::pair(std::vector<std::string>{"--feather", "33px"},
-                  "the feather of a study reaches 32 pixels at most"),
-        std::pair(std::vector<std::string>{"--feather", "M1=6px"}, "the feather of a study is one width"),
-        std::pair(std::vector<std::string>{"--style", "clean", "--feather", "6px"},
-                  "--feather says nothing to --style clean"),
-        std::pair(std::vector<std::string>{"--style", "slit", "--by", "6"},
-                  "--by says nothing to --style slit")}) {
-    std::vector<std::string> all{"study", "-f", "100", "way", "-o", "no.png"};
-    all.insert(all.end(), words.begin(), words.end());
+       {std::pair("--feather 33px", "the feather of a study reaches 32 pixels at most"),
+        std::pair("--feather M1=6px", "the feather of a study is one width"),
+        std::pair("--style clean --feather 6px", "--feather says nothing to --style clean"),
+        std::pair("--style slit --by 6", "--by says nothing to --style slit")}) {
+    const test::Words all = "study -f 100 way -o no.png" + test::Words(words);
     const auto refused = run(all);
     EXPECT_EQ(refused.status, 2) << why;
     EXPECT_NE(refused.err.find(why), std::string::npos) << refused.err;
@@ -157,7 +151,7 @@ TEST_F(StudyChoices, FindsWhatDiffersByAsMuchAsIsStated) {
     frame(square) += 10;
     clip.add(frame);
   }
-  const auto study = [&](std::vector<std::string> words) {
+  const auto study = [&](test::Words words) {
     words.insert(words.begin(), {"study", "-f", "100", "faint", "-o", "study.png"});
     return run(words);
   };
@@ -175,12 +169,10 @@ TEST_F(StudyChoices, FindsWhatDiffersByAsMuchAsIsStated) {
   expect_the_same_by_hand("--by 6");
   const auto none = study({"--by", "255"});
   EXPECT_EQ(none.status, 2);
-  EXPECT_NE(none.err.find("faint: no codes differ by more than 255, for white is 255; state fewer codes"),
-            std::string::npos)
-      << none.err;
+  expect_says(none.err, "faint: no codes differ by more than 255, for white is 255; state fewer codes");
   const auto zero = study({"--by", "0"});
   EXPECT_EQ(zero.status, 2);
-  EXPECT_NE(zero.err.find("--by '0'"), std::string::npos) << zero.err;
+  expect_says(zero.err, "--by '0'");
 }
 
 }  // namespace

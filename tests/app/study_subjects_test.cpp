@@ -7,8 +7,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "support/app_test.hpp"
 #include "support/drawn_clip.hpp"
-#include "support/program_test.hpp"
 
 namespace nutik {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 using test::DrawnClip;
 using test::ground_of;
 
-class StudySubjects : public test::ProgramTest {
+class StudySubjects : public test::AppTest {
  protected:
   void draw(const char* clip, int count, const std::function<void(cv::Mat&, int)>& add) const {
     DrawnClip drawn(scratch_ / clip);
@@ -43,7 +43,7 @@ class StudySubjects : public test::ProgramTest {
   static cv::Rect upper(int k) { return {4 + 7 * k, 20, 12, 12}; }
   static cv::Rect lower(int k) { return {140 - 7 * k, 64, 12, 12}; }
 
-  static std::vector<std::string> in_both(std::vector<std::string> words) {
+  static std::vector<std::string> in_both(test::Words words) {
     words.insert(words.end(), {"--region", "0,0,160,48", "--region", "0,48,160,48"});
     return words;
   }
@@ -69,12 +69,10 @@ TEST_F(StudySubjects, MayShareTheirMoments) {
 
 TEST_F(StudySubjects, AreNamedWithTheirMoments) {
   draw_two();
-  const auto told = study("two", in_both({"--moments", "1f,17f"}));
+  const auto told = study("two", in_both("--moments 1f,17f"));
   ASSERT_EQ(told.status, 0) << told.err;
-  EXPECT_NE(told.out.find("subject 1 at 10 ms (1f), 170 ms (17f); subject 2 at 10 ms (1f), 170 ms (17f)"),
-            std::string::npos)
-      << told.out;
-  const auto result = study("two", in_both({"--moments", "1f,17f", "--json"}));
+  expect_says(told.out, "subject 1 at 10 ms (1f), 170 ms (17f); subject 2 at 10 ms (1f), 170 ms (17f)");
+  const auto result = study("two", in_both("--moments 1f,17f --json"));
   const auto moments = nlohmann::json::parse(result.out)["moments"];
   ASSERT_EQ(moments.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -82,7 +80,7 @@ TEST_F(StudySubjects, AreNamedWithTheirMoments) {
     EXPECT_EQ(moments[i]["subject"], i / 2 + 1);
     EXPECT_EQ(moments[i]["sample"], i % 2 == 0 ? 1 : 17);
   }
-  const auto few = study("two", in_both({"--moments", "13"}));
+  const auto few = study("two", in_both("--moments 13"));
   ASSERT_EQ(few.status, 0) << few.err;
   for (const char* each : {"subject 1: ", "subject 2: "}) {
     EXPECT_NE(few.err.find(std::string("note: ") + each), std::string::npos) << few.err;
@@ -93,17 +91,14 @@ TEST_F(StudySubjects, AreTwoThingsNotOne) {
   draw("one", 20, [](cv::Mat& frame, int k) { frame(upper(k)) = 250; });
   const auto refused = study("one", {"--region", "0,0,100,96", "--region", "40,0,120,96"});
   EXPECT_EQ(refused.status, 3);
-  EXPECT_NE(refused.err.find("region 0,0,100,96 and region 40,0,120,96 overlap, and hold the same subject"),
-            std::string::npos)
-      << refused.err;
+  expect_says(refused.err, "region 0,0,100,96 and region 40,0,120,96 overlap, and hold the same subject");
 }
 
 TEST_F(StudySubjects, LeaveNoOtherUnmentioned) {
   draw_two();
   const auto two = study("two", {"--moments", "3"});
   ASSERT_EQ(two.status, 0) << two.err;
-  EXPECT_NE(two.err.find("another thing goes its way at the same time, within "), std::string::npos)
-      << two.err;
+  expect_says(two.err, "another thing goes its way at the same time, within ");
   draw("one", 20, [](cv::Mat& frame, int k) { frame(upper(k)) = 250; });
   const auto one = study("one", {"--moments", "3"});
   ASSERT_EQ(one.status, 0) << one.err;
@@ -151,9 +146,7 @@ TEST_F(StudySubjects, MayBeShownStillWhereTheyGoNowhere) {
   EXPECT_EQ(picture().at<std::uint8_t>(42, 52), 250);
   const auto refused = study("comes", {});
   EXPECT_EQ(refused.status, 3);
-  EXPECT_NE(refused.err.find("It comes and goes in its place: a single moment can be shown"),
-            std::string::npos)
-      << refused.err;
+  expect_says(refused.err, "It comes and goes in its place: a single moment can be shown");
 }
 
 // It goes behind something: of 16 columns 10 are seen at 18, and 4 at the last.

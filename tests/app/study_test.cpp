@@ -22,10 +22,7 @@ using Study = test::StudyTest;
 
 TEST_F(Study, ShowsTheSubjectAsItWasAtEachMoment) {
   // Without the end, where it rests for so long that the plate shows it.
-  const auto result = run(
-      {"study", "-f", "100", "--to", "12f", "frames", "--moments", "2", "--json", "-o", "clip-study.png"});
-  ASSERT_EQ(result.status, 0) << result.err;
-  const auto json = nlohmann::json::parse(result.out);
+  const auto json = answer("study -f 100 --to 12f frames --moments 2 -o clip-study.png");
   ASSERT_EQ(json["moments"].size(), 2u);
   const cv::Mat study = picture("clip-study.png"), mask = picture("clip-study.pgm");
   ASSERT_EQ(study.size(), mask.size());
@@ -55,7 +52,7 @@ TEST_F(Study, WritesTheCommandsThatMakeTheSame) {
     const std::string name(all.substr(0, all.find(' ')));
     std::vector<std::string> words{"study", "clip.tik", "--style", name, "--depth", "16", "-o", "study.png"};
     if (name != style) words.insert(words.end(), {"--slit-from", "bottom"});
-    ASSERT_EQ(run(words).status, 0) << style;
+    make(words);
     ASSERT_EQ(std::filesystem::exists(scratch_ / "study.pgm"), std::string_view(style) != "clean") << style;
     expect_the_same_by_hand(style);
   }
@@ -79,17 +76,11 @@ TEST_F(Study, SaysTheLeastMemoryThatWorks) {
 }
 
 TEST_F(Study, TakesTheMomentsThatAreNamed) {
-  const auto named = run({"study", "clip.tik", "--moments", "2f,0.08s", "--json"});
-  ASSERT_EQ(named.status, 0) << named.err;
-  const auto json = nlohmann::json::parse(named.out);
+  const auto json = answer("study clip.tik --moments 2f,0.08s");
   EXPECT_EQ(json["moments"][0]["sample"], 2);
   EXPECT_EQ(json["moments"][1]["sample"], 8);
-  const auto backwards = run({"study", "clip.tik", "--moments", "8f,2f"});
-  EXPECT_EQ(backwards.status, 2);
-  EXPECT_NE(backwards.err.find("state moments in the order of time"), std::string::npos) << backwards.err;
-  const auto several = run({"study", "clip.tik", "--style", "frozen", "--moments", "3"});
-  EXPECT_EQ(several.status, 2);
-  EXPECT_NE(several.err.find("shows a single moment"), std::string::npos) << several.err;
+  expect_refused(2, {{"study clip.tik --moments 8f,2f", "state moments in the order of time"},
+                     {"study clip.tik --style frozen --moments 3", "shows a single moment"}});
 }
 
 // A square crosses the picture, is gone, and another thing stands there for a while.
@@ -101,12 +92,9 @@ TEST_F(Study, ShowsWhatDiffersAtANamedMomentAtWhichTheSubjectIsNotSeen) {
     if (k >= 28 && k < 32) frame(cv::Rect(8, 30, 20, 12)) = 200;
     cv::imwrite((scratch_ / "h" / (std::to_string(1000 + k) + ".pgm")).string(), frame);
   }
-  const auto result = run({"study", "-f", "100", "h", "--moments", "10f,24f,30f", "-o", "h.png"});
-  ASSERT_EQ(result.status, 0) << result.err;
+  const auto result = make("study -f 100 h --moments 10f,24f,30f -o h.png");
   EXPECT_EQ(result.err.find("at 100 ms (10f)"), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find("at 240 ms (24f) the subject that was followed is not seen"), std::string::npos)
-      << result.err;
-  EXPECT_NE(result.err.find("at 300 ms (30f)"), std::string::npos) << result.err;
+  expect_says(result.err, {"at 240 ms (24f) the subject that was followed is not seen", "at 300 ms (30f)"});
   const cv::Mat mask = cv::imread((scratch_ / "h.pgm").string(), cv::IMREAD_UNCHANGED);
   EXPECT_EQ(mask.at<std::uint8_t>(24, 48), 1);
   EXPECT_EQ(cv::countNonZero(mask == 2), 0);
@@ -116,7 +104,7 @@ TEST_F(Study, ShowsWhatDiffersAtANamedMomentAtWhichTheSubjectIsNotSeen) {
 
 TEST_F(Study, TakesMomentsThatFollowEachOther) {
   for (const char* style : {"trail", "strobe"}) {
-    EXPECT_EQ(run({"study", "clip.tik", "--style", style, "--moments", "2f,3f,9f", "-o", "s.png"}).status, 0);
+    make({"study", "clip.tik", "--style", style, "--moments", "2f,3f,9f", "-o", "s.png"});
   }
 }
 
@@ -132,8 +120,7 @@ TEST_F(Study, TakesTheEmptySceneAwayWhereItLiesApart) {
       cv::imwrite((scratch_ / folder / (std::to_string(1000 + k) + ".pgm")).string(), frame);
     }
     const auto result =
-        run({"study", "-f", "100", folder.c_str(), "--moments", "3", "--json", "-o", "g.png"});
-    ASSERT_EQ(result.status, 0) << result.err;
+        make({"study", "-f", "100", folder.c_str(), "--moments", "3", "--json", "-o", "g.png"});
     const double strength = nlohmann::json::parse(result.out)["trail_strength"];
     EXPECT_EQ(strength > 1, empty_from == 0) << strength;
   }
@@ -156,8 +143,7 @@ TEST_F(Study, UndoesWhatTheCameraDidToItsExposure) {
   }
   for (const char* clip : {"steady", "dim"}) {
     const auto result =
-        run({"study", "-f", "100", clip, "--moments", "3", "-o", (std::string(clip) + ".png").c_str()});
-    ASSERT_EQ(result.status, 0) << result.err;
+        make({"study", "-f", "100", clip, "--moments", "3", "-o", (std::string(clip) + ".png").c_str()});
     EXPECT_EQ(result.err.find("the exposure of 12 of 18 pictures was corrected") != std::string::npos,
               clip == std::string("dim"))
         << result.err;
@@ -177,9 +163,8 @@ TEST_F(Study, SpreadsMomentsOverTimeOrOverTheWay) {
     clip.add(frame);
   }
   const auto middle = [&](const char* spacing) {
-    const auto result = run({"study", "-f", "100", "faster", "--moments", "3", "--spacing", spacing, "--json",
-                             "-o", "faster.png"});
-    EXPECT_EQ(result.status, 0) << result.err;
+    const auto result = make({"study", "-f", "100", "faster", "--moments", "3", "--spacing", spacing,
+                              "--json", "-o", "faster.png"});
     const auto json = nlohmann::json::parse(result.out);
     EXPECT_EQ(json["moments"].size(), 3u);
     const int first = json["moments"][0]["sample"], second = json["moments"][1]["sample"],
@@ -194,9 +179,7 @@ TEST_F(Study, SpreadsMomentsOverTimeOrOverTheWay) {
 TEST_F(Study, RefusesASceneThatNeverRests) {
   DrawnClip clip(scratch_ / "leaves");
   for (int k = 0; k < 16; ++k) clip.add(ground_of(k));
-  const auto result = run({"study", "-f", "100", "leaves", "-o", "leaves.png"});
-  EXPECT_EQ(result.status, 3);
-  EXPECT_NE(result.err.find("everything moves"), std::string::npos) << result.err;
+  expect_refused("study -f 100 leaves -o leaves.png", 3, "everything moves");
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "leaves.png"));
 }
 
@@ -208,27 +191,21 @@ TEST_F(Study, ShowsOneShotOfAClipWithCuts) {
     frame(cv::Rect(4 + 7 * k, 40, 12, 12)) = 250;
     clip.add(frame);
   }
-  const auto result = run({"study", "-f", "100", "shots", "-o", "shots.png"});
-  ASSERT_EQ(result.status, 0) << result.err;
+  const auto result = make("study -f 100 shots -o shots.png");
   EXPECT_NE(result.err.find(
                 "the clip has 3 shots, which begin at pictures 0, 12, 24: of the longest that makes a study, "
                 "pictures 24 … 43 were taken"),
             std::string::npos)
       << result.err;
-  EXPECT_NE(test::read_file(scratch_ / "shots.txt").find("--from 24f --to 44f"), std::string::npos);
+  expect_says(test::read_file(scratch_ / "shots.txt"), "--from 24f --to 44f");
   clip.add(cv::Mat(96, 160, CV_8UC1, cv::Scalar::all(252)));  // as some cameras end a recording
-  const auto ended = run({"study", "-f", "100", "shots", "-o", "shots.png"});
-  ASSERT_EQ(ended.status, 0) << ended.err;
-  EXPECT_NE(ended.err.find("the clip has 4 shots, which begin at pictures 0, 12, 24, 44 (a single one): of the "
-                           "longest that makes a study, pictures 24 … 43 were taken"),
-            std::string::npos)
-      << ended.err;
+  const auto ended = make("study -f 100 shots -o shots.png");
+  expect_says(ended.err,
+              "the clip has 4 shots, which begin at pictures 0, 12, 24, 44 (a single one): of the "
+              "longest that makes a study, pictures 24 … 43 were taken");
   std::filesystem::remove(scratch_ / "shots" / "1044.png");
-  ASSERT_EQ(run({"encode", "-f", "100", "shots", "shots.tik"}).status, 0);
-  const auto refused = run({"study", "shots.tik", "-o", "none.png"});
-  EXPECT_EQ(refused.status, 3);
-  EXPECT_NE(refused.err.find("it has 3 shots, which begin at pictures 0, 12, 24"), std::string::npos)
-      << refused.err;
+  make("encode -f 100 shots shots.tik");
+  expect_refused("study shots.tik -o none.png", 3, "it has 3 shots, which begin at pictures 0, 12, 24");
 }
 
 TEST_F(Study, RefusesWhatGoesLessThanItsOwnSize) {
@@ -238,14 +215,14 @@ TEST_F(Study, RefusesWhatGoesLessThanItsOwnSize) {
     if (k >= 12) frame(cv::Rect(40 + 3 * (k - 12), 20, 60, 60)) = 250;
     clip.add(frame);
   }
-  const auto result = run({"study", "-f", "100", "stirs", "-o", "stirs.png"});
+  const auto result = run("study -f 100 stirs -o stirs.png");
   EXPECT_EQ(result.status, 3);
   EXPECT_NE(result.err.find(
                 "goes 21 pixels, and is 60 pixels large: at no two moments does it lie apart from itself"),
             std::string::npos)
       << result.err;
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "stirs.png"));
-  EXPECT_EQ(run({"study", "-f", "100", "stirs", "--style", "frozen", "-o", "stirs.png"}).status, 0);
+  make("study -f 100 stirs --style frozen -o stirs.png");
 }
 
 // A ball of 126 pixels that falls by 18 before and after the middle of the clip: it is in the plate, and its edges alone
@@ -258,7 +235,7 @@ TEST_F(Study, SaysOfAThingThatNeverLeavesItsPlaceThatItCannotBeShownTwice) {
   const std::regex cause(
       "Its box is [0-9]{2} pixels long and goes [0-9]{2}: a thing that goes less than its own size shows its edges only");
   EXPECT_TRUE(std::regex_search(result.err, cause)) << result.err;
-  EXPECT_NE(result.err.find("Take a clip in which it goes further"), std::string::npos) << result.err;
+  expect_says(result.err, "Take a clip in which it goes further");
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "falls.png"));
 }
 
@@ -270,9 +247,8 @@ TEST_F(Study, RefusesWhatFlickersHereAndThere) {
     frame(cv::Rect(50 + random.uniform(0, 30), 30 + random.uniform(0, 30), 12, 12)) = 250;
     clip.add(frame);
   }
-  const auto result = run({"study", "-f", "100", "flickers", "-o", "flickers.png"});
-  EXPECT_EQ(result.status, 3);
-  EXPECT_NE(result.err.find("nothing moves as one whole thing. What differs from the scene at rest flickers"), std::string::npos) << result.err;
+  expect_refused("study -f 100 flickers -o flickers.png", 3,
+                 "nothing moves as one whole thing. What differs from the scene at rest flickers");
 }
 
 // A pot plant by a window, filmed by somebody who walks round it.
@@ -281,8 +257,7 @@ TEST_F(Study, RefusesTheParallaxOfAMovingCamera) {
   if (!std::filesystem::exists(clip)) GTEST_SKIP() << clip << " is not there";
   const auto result = run({"study", clip.c_str(), "-o", "parallax.png"});
   EXPECT_EQ(result.status, 3);
-  EXPECT_NE(result.err.find("one motion of the camera does not explain the pictures"), std::string::npos)
-      << result.err;
+  expect_says(result.err, "one motion of the camera does not explain the pictures");
   EXPECT_EQ(result.err.find("The camera may have moved"), std::string::npos) << result.err;
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "parallax.png"));
 }
@@ -297,14 +272,14 @@ TEST_F(Study, RefusesThinScrapsOfWhatMoves) {
       cv::line(frame, {4 + 5 * k, 10}, {34 + 5 * k, 40}, cv::Scalar(250), 2);
       clip.add(frame);
     }
-    const auto result = run({"study", "-f", "100", "thin", "--moments", "2", "-o", "thin.png"});
+    const auto result = run("study -f 100 thin --moments 2 -o thin.png");
     EXPECT_EQ(result.status, has_lights ? 3 : 0) << result.err;
     const std::regex refusal(
         "nothing moves as one whole thing. What goes furthest fills [0-9]+ % of its box, and is [0-9]+ % of what differs"
         ".* A thing that shakes, grows or shines shows its edges only");
     EXPECT_EQ(std::regex_search(result.err, refusal), has_lights) << result.err;
   }
-  EXPECT_EQ(run({"study", "-f", "100", "thin", "--moments", "4f,16f", "-o", "named.png"}).status, 0);
+  make("study -f 100 thin --moments 4f,16f -o named.png");
 }
 
 // A square that comes, rests for four fifths of its time, and goes on.
@@ -317,7 +292,7 @@ TEST_F(Study, LeavesRestsOutOfTheTrail) {
     if (along != 10 || k % 2 == 0) clip.add(frame);
     if (along == 10 && k % 2 != 0) clip.add(ground_of(7));  // so that the plate is sure
   }
-  ASSERT_EQ(run({"study", "-f", "100", "rests", "--moments", "2f,98f", "-o", "rests.png"}).status, 0);
+  make("study -f 100 rests --moments 2f,98f -o rests.png");
   // Beside the way the picture is the ground; where it rested, no more than a pass of it is left.
   const cv::Mat study = picture("rests.png"), ground = ground_of(7);
   EXPECT_NEAR(study.at<std::uint8_t>(10, 10), ground.at<std::uint8_t>(10, 10), 1);
@@ -344,10 +319,7 @@ TEST_F(Study, FollowsASubjectInEachRegion) {
     frame(lower(k)) = 5;
     clip.add(frame);
   }
-  const auto result = run({"study", "-f", "100", "two", "--region", "0,0,160,48", "--region", "0,48,160,48",
-                           "--moments", "3", "--json", "-o", "two.png"});
-  ASSERT_EQ(result.status, 0) << result.err;
-  const auto json = nlohmann::json::parse(result.out);
+  const auto json = answer("study -f 100 two --region 0,0,160,48 --region 0,48,160,48 --moments 3 -o two.png");
   ASSERT_EQ(json["moments"].size(), 6u);
   const cv::Mat mask = picture("two.pgm"), study = picture("two.png");
   for (int tag = 1; tag <= 6; ++tag) {
@@ -357,26 +329,19 @@ TEST_F(Study, FollowsASubjectInEachRegion) {
     EXPECT_EQ(mask.at<std::uint8_t>(y, x), tag);
     EXPECT_NEAR(study.at<std::uint8_t>(y, x), tag <= 3 ? 250 : 5, 1);
   }
-  const auto outside = run({"study", "-f", "100", "two", "--region", "100,0,80,48", "-o", "no.png"});
-  EXPECT_EQ(outside.status, 2);
-  EXPECT_NE(outside.err.find("region 100,0,80,48 does not lie in the 160 x 96 pixels of two"),
-            std::string::npos)
-      << outside.err;
-  const auto none = run({"study", "-f", "100", "two", "--region", "1,2,3", "-o", "no.png"});
-  EXPECT_EQ(none.status, 2);
-  EXPECT_NE(none.err.find("--region '1,2,3' is no rectangle; write whole pixels"), std::string::npos) << none.err;
-  const auto empty = run({"study", "-f", "100", "two", "--region", "0,84,160,12", "-o", "no.png"});
-  EXPECT_EQ(empty.status, 3);
-  EXPECT_NE(empty.err.find("two, region 0,84,160,12: nothing moves"), std::string::npos) << empty.err;
+  expect_refused(2, {{"study -f 100 two --region 100,0,80,48 -o no.png",
+                      "region 100,0,80,48 does not lie in the 160 x 96 pixels of two"},
+                     {"study -f 100 two --region 1,2,3 -o no.png",
+                      "--region '1,2,3' is no rectangle; write whole pixels"}});
+  expect_refused("study -f 100 two --region 0,84,160,12 -o no.png", 3,
+                 "two, region 0,84,160,12: nothing moves");
 }
 
 TEST_F(Study, ShowsEachStripOfASlitAtItsOwnMoment) {
   for (const std::string from : {"", "left", "right", "top", "bottom"}) {
-    std::vector<std::string> words{"study", "clip.tik", "--style", "slit",    "--moments",
-                                   "4",     "--json",   "-o",      "slit.png"};
+    test::Words words("study clip.tik --style slit --moments 4 --json -o slit.png");
     if (!from.empty()) words.insert(words.end(), {"--slit-from", from});
-    const auto result = run(words);
-    ASSERT_EQ(result.status, 0) << result.err;
+    const auto result = make(words);
     const auto json = nlohmann::json::parse(result.out);
     ASSERT_EQ(json["moments"].size(), 4u);
     std::vector<std::size_t> samples;
@@ -394,34 +359,27 @@ TEST_F(Study, ShowsEachStripOfASlitAtItsOwnMoment) {
       }
     }
   }
-  const auto side = run({"study", "clip.tik", "--style", "slit", "--slit-from", "above"});
-  EXPECT_EQ(side.status, 2);
-  EXPECT_NE(side.err.find("--slit-from 'above' is unknown; there are left, right, top, bottom"),
-            std::string::npos)
-      << side.err;
-  const auto none = run({"study", "clip.tik", "--slit-from", "top"});
-  EXPECT_EQ(none.status, 2);
-  EXPECT_NE(none.err.find("--slit-from goes with --style slit only; leave it out"), std::string::npos)
-      << none.err;
-  const auto which = run({"study", "clip.tik", "--style", "slit", "--moments", "1f,3f"});
-  EXPECT_EQ(which.status, 2);
-  EXPECT_NE(which.err.find("how many there are, not which"), std::string::npos) << which.err;
-  const auto trail = run({"study", "clip.tik", "--style", "clean", "--trail", "fade"});
+  expect_refused(2,
+                 {{"study clip.tik --style slit --slit-from above",
+                   "--slit-from 'above' is unknown; there are left, right, top, bottom"},
+                  {"study clip.tik --slit-from top", "--slit-from goes with --style slit only; leave it out"},
+                  {"study clip.tik --style slit --moments 1f,3f", "how many there are, not which"}});
+  const auto trail = run("study clip.tik --style clean --trail fade");
   EXPECT_EQ(trail.status, 2);
-  EXPECT_NE(trail.err.find("--trail says nothing to --style clean"), std::string::npos) << trail.err;
+  expect_says(trail.err, "--trail says nothing to --style clean");
 }
 
 TEST_F(Study, SaysWhyThereIsNone) {
-  const auto still = run({"study", "-f", "100", "still", "-o", "study.png"});
+  const auto still = run("study -f 100 still -o study.png");
   EXPECT_EQ(still.status, 3) << "no such folder";
   std::filesystem::create_directory(scratch_ / "rest");
   for (int k = 13; k < 20; ++k) {  // it rests from then on
     const std::string name = std::to_string(k) + ".pgm";
     std::filesystem::copy_file(scratch_ / "frames" / name, scratch_ / "rest" / name);
   }
-  const auto rest = run({"study", "-f", "100", "rest", "-o", "study.png"});
+  const auto rest = run("study -f 100 rest -o study.png");
   EXPECT_EQ(rest.status, 3);
-  EXPECT_NE(rest.err.find("nothing moves"), std::string::npos) << rest.err;
+  expect_says(rest.err, "nothing moves");
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "study.png"));
 }
 

@@ -1,13 +1,13 @@
 // What the program says of a clip's times: one thing, and whatever becomes of them.
 #include <gtest/gtest.h>
 
+#include "support/app_test.hpp"
 #include "support/ffmpeg.hpp"
-#include "support/program_test.hpp"
 
 namespace nutik {
 namespace {
 
-class Times : public test::ProgramTest {
+class Times : public test::AppTest {
  protected:
   // Two seconds at 30 pictures a second without those of these numbers.
   void make_uneven(const std::string& left_out, const std::string& words) const {
@@ -16,11 +16,10 @@ class Times : public test::ProgramTest {
   }
 
   // What is said on standard error of a clip that is encoded.
-  [[nodiscard]] std::string said(std::vector<std::string> words) const {
+  [[nodiscard]] std::string said(test::Words words) const {
     words.insert(words.begin(), {"encode", "--overwrite"});
     words.insert(words.end(), {"-o", "clip.tik"});
-    const auto encoded = run(words);
-    EXPECT_EQ(encoded.status, 0) << encoded.err;
+    const auto encoded = make(words);
     return encoded.err;
   }
 };
@@ -29,16 +28,16 @@ TEST_F(Times, ThatAStatedRateMakesEvenAreSaid) {
   NEEDS_FFMPEG();
   make_uneven("eq(n,5)+eq(n,12)+eq(n,13)", "-metadata com.android.capture.fps=240");
   const std::string evened = "steps from one picture to the next last";
-  EXPECT_EQ(said({"clip.mp4"}).find(evened), std::string::npos);
-  EXPECT_EQ(said({"-f", "240", "clip.mp4"}),
+  EXPECT_EQ(said("clip.mp4").find(evened), std::string::npos);
+  EXPECT_EQ(said("-f 240 clip.mp4"),
             "note: 2 of the clip's 56 steps from one picture to the next last 8.333 ms to 12.5 ms, and the "
             "others about "
             "4.167 ms: at the stated rate all last alike (--fps)\n")
       << "what the file says of its rate is settled";
-  EXPECT_EQ(said({"clip.mp4"}).find(evened), std::string::npos);
-  const auto retimed = run({"retime", "--in-place", "clip.tik", "-f", "240"});
-  EXPECT_NE(retimed.err.find("note: 2 of the clip's 56 steps"), std::string::npos) << retimed.err;
-  EXPECT_EQ(run({"retime", "--in-place", "clip.tik", "-f", "120"}).err, "") << "they are even now";
+  EXPECT_EQ(said("clip.mp4").find(evened), std::string::npos);
+  const auto retimed = run("retime --in-place clip.tik -f 240");
+  expect_says(retimed.err, "note: 2 of the clip's 56 steps");
+  EXPECT_EQ(run("retime --in-place clip.tik -f 120").err, "") << "they are even now";
 }
 
 // A file that says how fast it was filmed, rightly or not, is not told to be one that does not.
@@ -47,7 +46,7 @@ TEST_F(Times, HaveOneNoteOnTheirRate) {
   const auto said_of = [&](const std::string& stated) {
     test::make(scratch_, "-f lavfi -i testsrc2=s=32x32:d=1:r=15 -c:v mpeg4 -movflags use_metadata_tags " +
                              stated + " clip.mp4");
-    return said({"clip.mp4"});
+    return said("clip.mp4");
   };
   const std::string usual = "slow-motion files state their playback rate";
   EXPECT_NE(said_of("").find(usual), std::string::npos);
@@ -56,7 +55,7 @@ TEST_F(Times, HaveOneNoteOnTheirRate) {
     const std::string notes = said_of("-metadata com.android.capture.fps=" + std::string(rate));
     EXPECT_EQ(notes.find(usual), std::string::npos) << notes;
     EXPECT_EQ(notes.find("--fps"), notes.rfind("--fps")) << notes;
-    EXPECT_NE(notes.find("--fps"), std::string::npos) << notes;
+    expect_says(notes, "--fps");
   }
 }
 
@@ -67,21 +66,21 @@ TEST_F(Times, WithGapsAreSaid) {
   const std::string note =
       "steps from one picture to the next are longer than the usual 33.33 ms, up to 100 ms, as where "
       "pictures are missing: a picture before such a step counts as exposed for ";
-  EXPECT_NE(said({"clip.mp4"}).find("2 of the clip's 56 " + note + "360 of 360 degrees"), std::string::npos)
-      << said({"clip.mp4"});
-  EXPECT_NE(said({"-a", "90", "clip.mp4"}).find(note + "90 of 360 degrees"), std::string::npos);
-  EXPECT_EQ(said({"-f", "30", "clip.mp4"}).find(note), std::string::npos);
+  EXPECT_NE(said("clip.mp4").find("2 of the clip's 56 " + note + "360 of 360 degrees"), std::string::npos)
+      << said("clip.mp4");
+  EXPECT_NE(said("-a 90 clip.mp4").find(note + "90 of 360 degrees"), std::string::npos);
+  EXPECT_EQ(said("-f 30 clip.mp4").find(note), std::string::npos);
   for (const char* name : {"a.pgm", "b.pgm", "c.pgm", "d.pgm"})
     scratch_.write(name, "P5\n2 2\n255\n" + std::string(4, name[0]));
   scratch_.write("listed.csv", "a.pgm,0,1000\nb.pgm,2000,1000\nc.pgm,9000,1000\nd.pgm,11000,1000\n");
-  EXPECT_EQ(said({"listed.csv"}).find("longer than the usual"), std::string::npos);
+  EXPECT_EQ(said("listed.csv").find("longer than the usual"), std::string::npos);
 }
 
 TEST_F(Times, OfATableThatAStatedRateMakesEvenAreSaid) {
   for (const char* name : {"a.pgm", "b.pgm", "c.pgm", "d.pgm"})
     scratch_.write(name, "P5\n2 2\n255\n" + std::string(4, name[0]));
   scratch_.write("stills.csv", "a.pgm,0,1000\nb.pgm,2000,1000\nc.pgm,9000,1000\nd.pgm,11000,1000\n");
-  EXPECT_EQ(said({"-f", "100", "stills.csv"}),
+  EXPECT_EQ(said("-f 100 stills.csv"),
             "note: 1 of the clip's 3 steps from one picture to the next lasts 7 us, and the others about 2 "
             "us: at the "
             "stated rate all last alike (--fps)\n");

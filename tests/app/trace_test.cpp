@@ -5,18 +5,16 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "support/program.hpp"
-#include "support/scratch.hpp"
+#include "support/app_test.hpp"
 
 namespace nutik {
 namespace {
 
 using nlohmann::json;
 using test::ProgramResult;
-using test::Scratch;
 
 // Four pictures of 10 ms each. The left half has light 0.2, 0.4, 0.4, 0.8, the right one 0.6 at all times.
-class TraceCommand : public testing::Test {
+class TraceCommand : public test::AppTest {
  protected:
   void SetUp() override {
     std::filesystem::create_directory(scratch_ / "frames");
@@ -26,33 +24,16 @@ class TraceCommand : public testing::Test {
       picture.colRange(4, 8) = 153;
       cv::imwrite((scratch_ / ("frames/" + std::to_string(k) + ".pgm")).string(), picture);
     }
-    ASSERT_EQ(run({"-f", "100", "--transfer", "linear", "frames", "clip.tik"}).status, 0);
+    make("-f 100 --transfer linear frames clip.tik");
     cv::Mat mask(6, 8, CV_8UC1, cv::Scalar::all(0));
     mask.colRange(2, 6) = 9;  // half of it over each half of the picture
     cv::imwrite((scratch_ / "mask.pgm").string(), mask);
     scratch_.write("f.fn", "M0 [0:1], [10000000:0]\nM9 [0:1], [40000000:1]\n");
   }
-
-  ProgramResult run(const std::vector<std::string>& words) const {
-    return test::run_program(words, scratch_.folder());
-  }
-  ProgramResult done(const std::vector<std::string>& words) const {
-    const ProgramResult result = run(words);
-    EXPECT_EQ(result.status, 0) << result.err;
-    return result;
-  }
-  void expect_refused(const std::vector<std::string>& words, int status, std::string_view part) const {
-    const ProgramResult result = run(words);
-    EXPECT_EQ(result.status, status) << result.err;
-    EXPECT_NE(result.err.find(part), std::string::npos) << "no '" << part << "' in: " << result.err;
-  }
-
-  Scratch scratch_;
 };
 
 TEST_F(TraceCommand, ByHand) {
-  const ProgramResult result =
-      done({"trace", "--pixel", "3,2", "--start", "5ms", "--exposure", "20ms", "clip.tik"});
+  const ProgramResult result = make("trace --pixel 3,2 --start 5ms --exposure 20ms clip.tik");
   EXPECT_EQ(result.err, "");
   EXPECT_EQ(result.out,
             " from ns     to ns  gain  light      adds  sum\n"
@@ -64,7 +45,7 @@ TEST_F(TraceCommand, ByHand) {
 }
 
 TEST_F(TraceCommand, ATableOfTheIntegrals) {
-  done({"trace", "--pixel", "3,2", "--start", "5ms", "--exposure", "20ms", "clip.tik", "trace.csv"});
+  make("trace --pixel 3,2 --start 5ms --exposure 20ms clip.tik trace.csv");
   std::istringstream table(test::read_file(scratch_ / "trace.csv"));
   std::string line;
   std::getline(table, line);
@@ -89,9 +70,7 @@ TEST_F(TraceCommand, ATableOfTheIntegrals) {
 }
 
 TEST_F(TraceCommand, ARegionsMeanAsJson) {
-  const ProgramResult result =
-      done({"trace", "--json", "--tag", "9", "-m", "mask.pgm", "-k", "f.fn", "clip.tik"});
-  const json trace = json::parse(result.out);
+  const json trace = answer("trace --tag 9 -m mask.pgm -k f.fn clip.tik");
   EXPECT_EQ(trace.at("pixels"), 24);
   EXPECT_EQ(trace.at("mask_value"), 9);
   // The mean of 0.2, 0.4, 0.4, 0.8 and 0.6: 0.4, 0.5, 0.5, 0.7.
@@ -104,12 +83,12 @@ TEST_F(TraceCommand, ARegionsMeanAsJson) {
 }
 
 TEST_F(TraceCommand, ItsLightIsTheReferencesPixel) {
-  done({"--renderer", "reference", "-m", "mask.pgm", "-k", "f.fn", "clip.tik", "reference.pfm"});
+  make("--renderer reference -m mask.pgm -k f.fn clip.tik reference.pfm");
   const cv::Mat picture = cv::imread((scratch_ / "reference.pfm").string(), cv::IMREAD_UNCHANGED);
   ASSERT_EQ(picture.type(), CV_32FC1);
   for (const auto& [x, y] : {std::pair{0, 0}, {3, 2}, {5, 5}, {7, 1}}) {
     const ProgramResult result =
-        done({"trace", "--json", "--pixel", std::to_string(x) + "," + std::to_string(y), "-m", "mask.pgm",
+        make({"trace", "--json", "--pixel", std::to_string(x) + "," + std::to_string(y), "-m", "mask.pgm",
               "-k", "f.fn", "clip.tik"});
     const json trace = json::parse(result.out);
     EXPECT_EQ(trace.at("x"), x);
@@ -118,10 +97,9 @@ TEST_F(TraceCommand, ItsLightIsTheReferencesPixel) {
 }
 
 TEST_F(TraceCommand, AClipIsTracedAsItsCapture) {
-  const std::vector<std::string> what{"--pixel", "3,2", "--start", "5ms", "--exposure", "20ms"};
-  std::vector<std::string> words{"trace", "-f", "100", "--transfer", "linear", "frames"};
-  words.insert(words.end(), what.begin(), what.end());
-  EXPECT_NE(done(words).out.find("frames, pixel 3,2, the exposure: light 0.35,"), std::string::npos);
+  const test::Words what("--pixel 3,2 --start 5ms --exposure 20ms");
+  test::Words words = "trace -f 100 --transfer linear frames" + what;
+  expect_says(make(words).out, "frames, pixel 3,2, the exposure: light 0.35,");
 }
 
 TEST_F(TraceCommand, LongRunsAreFoldedUnlessAllIsWanted) {
@@ -130,25 +108,21 @@ TEST_F(TraceCommand, LongRunsAreFoldedUnlessAllIsWanted) {
     cv::imwrite((scratch_ / ("long/" + std::to_string(100 + k) + ".pgm")).string(),
                 cv::Mat(2, 2, CV_8UC1, cv::Scalar::all(5 * k)));
   }
-  done({"-f", "100", "long", "long.tik"});
-  const std::vector<std::string> words{"trace", "--pixel",    "0,0",   "--start",
-                                       "0s",    "--exposure", "400ms", "long.tik"};
-  const std::string folded = done(words).out;
-  EXPECT_NE(folded.find("(36 steps)"), std::string::npos) << folded;  // of 40, without two at each end
-  EXPECT_NE(folded.find("(10 steps)"), std::string::npos) << folded;  // where the gain is 0
+  make("-f 100 long long.tik");
+  const test::Words words("trace --pixel 0,0 --start 0s --exposure 400ms long.tik");
+  const std::string folded = make(words).out;
+  expect_says(folded, "(36 steps)");  // of 40, without two at each end
+  expect_says(folded, "(10 steps)");  // where the gain is 0
   EXPECT_EQ(std::count(folded.begin(), folded.end(), '\n'), 1 + 5 + 1 + 1);
   std::vector<std::string> all = words;
   all.push_back("-v");
-  const std::string whole = done(all).out;
+  const std::string whole = make(all).out;
   EXPECT_EQ(std::count(whole.begin(), whole.end(), '\n'), 1 + 50 + 1);
 }
 
 TEST_F(TraceCommand, APicture) {
-  const ProgramResult result =
-      done({"trace", "--tag", "9", "-m", "mask.pgm", "-k", "f.fn", "clip.tik", "trace.png"});
-  EXPECT_NE(result.out.find("trace.png: clip.tik, mean of 24 pixels with mask value 9, M9: light 0.525,"),
-            std::string::npos)
-      << result.out;
+  const ProgramResult result = make("trace --tag 9 -m mask.pgm -k f.fn clip.tik trace.png");
+  expect_says(result.out, "trace.png: clip.tik, mean of 24 pixels with mask value 9, M9: light 0.525,");
   const cv::Mat picture = cv::imread((scratch_ / "trace.png").string(), cv::IMREAD_COLOR);
   ASSERT_FALSE(picture.empty());
   // Gains are above 0 everywhere: blue areas, no orange ones.
@@ -160,25 +134,20 @@ TEST_F(TraceCommand, APicture) {
 }
 
 TEST_F(TraceCommand, RefusesWhatMakesNoSense) {
-  expect_refused({"trace", "-k", "f.fn", "-m", "mask.pgm", "clip.tik"}, 2,
-                 "Either --pixel X,Y or --tag VALUE");
-  expect_refused({"trace", "--pixel", "1,1", "--tag", "0", "-k", "f.fn", "-m", "mask.pgm", "clip.tik"}, 2,
-                 "Either --pixel X,Y or --tag VALUE");
-  expect_refused({"trace", "--tag", "0", "--exposure", "1ms", "clip.tik"}, 2, "--tag is a value of a mask");
-  expect_refused({"trace", "--tag", "5", "-k", "f.fn", "-m", "mask.pgm", "clip.tik"}, 2,
-                 "no pixel of the mask has the value 5");
-  expect_refused({"trace", "--pixel", "8,0", "--exposure", "1ms", "clip.tik"}, 2,
-                 "there is no pixel 8,0: the picture has 0,0 … 7,5");
-  expect_refused({"trace", "--pixel", "3", "--exposure", "1ms", "clip.tik"}, 2, "--pixel 320,180");
-  expect_refused({"trace", "--pixel", "3,x", "--exposure", "1ms", "clip.tik"}, 2,
-                 "pixel row 'x' is no whole number");
-  expect_refused({"trace", "--pixel", "0,0", "clip.tik"}, 2, "an exposure needs");
-  expect_refused({"trace", "--pixel", "0,0"}, 2, "an input is missing");
-  expect_refused({"trace", "--pixel", "0,0", "--exposure", "1ms", "clip.tik", "x.txt"}, 2,
-                 "traces are written as a table, .csv, or as a picture");
-  expect_refused({"trace", "--pixel", "0,0", "--exposure", "1ms", "clip.tik", "x.pfm"}, 2, "x.pfm");
-  expect_refused({"trace", "--pixel", "0,0", "-k", "f.fn", "-m", "mask.pgm", "clip.tik", "-o", "mask.pgm"}, 2,
-                 "is also an input");
+  expect_refused(
+      2, {{"trace -k f.fn -m mask.pgm clip.tik", "Either --pixel X,Y or --tag VALUE"},
+          {"trace --pixel 1,1 --tag 0 -k f.fn -m mask.pgm clip.tik", "Either --pixel X,Y or --tag VALUE"},
+          {"trace --tag 0 --exposure 1ms clip.tik", "--tag is a value of a mask"},
+          {"trace --tag 5 -k f.fn -m mask.pgm clip.tik", "no pixel of the mask has the value 5"},
+          {"trace --pixel 8,0 --exposure 1ms clip.tik", "there is no pixel 8,0: the picture has 0,0 … 7,5"},
+          {"trace --pixel 3 --exposure 1ms clip.tik", "--pixel 320,180"},
+          {"trace --pixel 3,x --exposure 1ms clip.tik", "pixel row 'x' is no whole number"},
+          {"trace --pixel 0,0 clip.tik", "an exposure needs"},
+          {"trace --pixel 0,0", "an input is missing"},
+          {"trace --pixel 0,0 --exposure 1ms clip.tik x.txt",
+           "traces are written as a table, .csv, or as a picture"},
+          {"trace --pixel 0,0 --exposure 1ms clip.tik x.pfm", "x.pfm"},
+          {"trace --pixel 0,0 -k f.fn -m mask.pgm clip.tik -o mask.pgm", "is also an input"}});
 }
 
 }  // namespace

@@ -3,21 +3,18 @@
 #include <gtest/gtest.h>
 
 #include "capture/transfer.hpp"
+#include "support/app_test.hpp"
 #include "support/clips.hpp"
-#include "support/program.hpp"
-#include "support/scratch.hpp"
 #include "support/stills.hpp"
 
 namespace nutik {
 namespace {
 
-using test::Scratch;
-
 constexpr Shape kShape{19, 11, 3};
 constexpr int kCount = 70;  // more than a block
 
 // A folder of stills, and a capture of them.
-class Video : public testing::Test {
+class Video : public test::AppTest {
  protected:
   void make_capture(const std::string& rate, const std::string& angle) {
     stills_ = test::random_stills(kShape, 255, kCount, 11);
@@ -30,14 +27,10 @@ class Video : public testing::Test {
     run({"-f", rate, "-a", angle, "frames", "c.tik", "-q"});
   }
 
-  test::ProgramResult run(const std::vector<std::string>& words) const {
-    const test::ProgramResult result = test::run_program(test::over(words), scratch_.folder());
-    EXPECT_EQ(result.status, 0) << result.err;
-    return result;
-  }
+  test::ProgramResult run(const test::Words& words) const { return make(test::over(words)); }
 
   // The frames of `video OPTIONS INPUT`, as stills.
-  std::vector<std::vector<std::byte>> frames(std::vector<std::string> options, bool from_clip = false) {
+  std::vector<std::vector<std::byte>> frames(test::Words options, bool from_clip = false) {
     std::filesystem::remove_all(scratch_ / "out");
     std::filesystem::create_directory(scratch_ / "out");
     options.insert(options.begin(), "video");
@@ -65,8 +58,6 @@ class Video : public testing::Test {
           << "sample " << shares.front().first << ", value " << i;
     }
   }
-
-  Scratch scratch_;
   std::vector<Picture> stills_;
   std::vector<std::string> source_;
 };
@@ -90,10 +81,8 @@ TEST_F(Video, OfTheSourcesRateAndAngleIsTheSource) {
     ASSERT_EQ(part.size(), 7u);
     for (std::size_t k = 0; k < part.size(); ++k) ASSERT_EQ(test::difference(part[k], stills_[13 + k]), "");
     // An end behind the capture's own changes nothing, and is told.
-    const test::ProgramResult beyond = run({"video", "--to", "9s", "c.tik", "v.mkv"});
-    EXPECT_NE(beyond.err.find("warning: the video's end 9s lies after the capture's end at "),
-              std::string::npos)
-        << beyond.err;
+    const test::ProgramResult beyond = run("video --to 9s c.tik v.mkv");
+    expect_says(beyond.err, "warning: the video's end 9s lies after the capture's end at ");
     EXPECT_EQ(run({"video", "--to", std::to_string(kCount) + "f", "c.tik", "v.mkv"}).err, "");
   }
 }
@@ -112,25 +101,25 @@ TEST_F(Video, OfHalfTheRateIsTheMeanInLightOfEachPair) {
 TEST_F(Video, TakesAnyRateAngleAndSpeed) {
   make_capture("100", "360");
   // Faster than the source: each sample four times.
-  const auto fast = frames({"--out-fps", "400", "--out-angle", "360"});
+  const auto fast = frames("--out-fps 400 --out-angle 360");
   ASSERT_EQ(fast.size(), 4u * kCount);
   for (std::size_t k = 0; k < fast.size(); ++k) ASSERT_EQ(test::difference(fast[k], stills_[k / 4]), "") << k;
   // Slow motion and time-lapse: a tenth of a second takes a second, or two samples a frame at 25 a second.
-  const auto slow = frames({"--out-fps", "10", "--out-angle", "90", "--speed", "0.1"});
+  const auto slow = frames("--out-fps 10 --out-angle 90 --speed 0.1");
   ASSERT_EQ(slow.size(), static_cast<std::size_t>(kCount));
   for (std::size_t k = 0; k < slow.size(); ++k) ASSERT_EQ(test::difference(slow[k], stills_[k]), "") << k;
-  const auto lapse = frames({"--out-fps", "25", "--out-angle", "360", "--speed", "1/2"});
+  const auto lapse = frames("--out-fps 25 --out-angle 360 --speed 1/2");
   ASSERT_EQ(lapse.size(), kCount / 2u);
   expect_mean(lapse[3], {{6, 0.5}, {7, 0.5}});
   // Exposures that overlap: the last frame that is whole starts a sample earlier.
-  const auto overlapping = frames({"--out-fps", "100", "--out-angle", "720"});
+  const auto overlapping = frames("--out-fps 100 --out-angle 720");
   ASSERT_EQ(overlapping.size(), kCount - 1u);
   expect_mean(overlapping[30], {{30, 0.5}, {31, 0.5}});
   // An interval that cuts samples: [0.0025 s, 0.0175 s] · n.
-  const auto cut = frames({"--out-fps", "50", "--out-angle", "270", "--from", "2.5ms"});
+  const auto cut = frames("--out-fps 50 --out-angle 270 --from 2.5ms");
   expect_mean(cut[0], {{0, 0.5}, {1, 0.5}});
   EXPECT_EQ(cut.size(), kCount / 2u);
-  const auto uneven = frames({"--out-fps", "50", "--out-angle", "180", "--from", "7.5ms"});
+  const auto uneven = frames("--out-fps 50 --out-angle 180 --from 7.5ms");
   expect_mean(uneven[4], {{8, 0.25}, {9, 0.75}});
 }
 
@@ -152,12 +141,12 @@ TEST_F(Video, ExposesEachFrameWithFunctionsFromItsStartOn) {
     return text.replace(0, 3, "M0 [" + std::to_string(at - 1) + ":0], ");
   };
   scratch_.write("f.fn", anchored(0));
-  const auto got = frames({"-m", "m.pgm", "-k", "f.fn", "--out-fps", "40", "--from", "5ms"});
+  const auto got = frames("-m m.pgm -k f.fn --out-fps 40 --from 5ms");
   // 0.7 s are 27.6 starts from 5 ms on, and the last that leaves 25 ms and 1 ns is number 26.
   ASSERT_EQ(got.size(), 27u);
   for (const int k : {0, 1, 13, 26}) {
     scratch_.write("k.fn", anchored(5'000'000 + k * 25'000'000ll));
-    run({"-m", "m.pgm", "-k", "k.fn", "c.tik", "one.ppm", "-q"});
+    run("-m m.pgm -k k.fn c.tik one.ppm -q");
     const auto one = test::read_all(*test::open_test_clip(scratch_ / "one.ppm"));
     EXPECT_EQ(got[static_cast<std::size_t>(k)], one.front()) << k;
   }
@@ -165,16 +154,15 @@ TEST_F(Video, ExposesEachFrameWithFunctionsFromItsStartOn) {
 
 TEST_F(Video, ShapesAndBrightensEachFrame) {
   make_capture("100", "360");
-  const std::vector<std::string> bright{"--shutter", "hann", "--normalize", "integral", "--ev", "-1"};
-  std::vector<std::string> options{"--out-fps", "20", "--out-angle", "270", "--from", "12ms"};
-  options.insert(options.end(), bright.begin(), bright.end());
+  const test::Words bright("--shutter hann --normalize integral --ev -1");
+  test::Words options = "--out-fps 20 --out-angle 270 --from 12ms" + bright;
   const auto got = frames(options);
   ASSERT_EQ(got.size(), 14u);  // the last ends at 12 + 13 · 50 + 37.5 ms, of 700
   for (const int k : {0, 7, 13}) {
-    std::vector<std::string> words{"expose",     "--start", std::to_string(12 + k * 50) + "ms",
-                                   "--exposure", "37.5ms",  "c.tik",
-                                   "one.ppm",    "-q"};
-    words.insert(words.end(), bright.begin(), bright.end());
+    test::Words words =
+        test::Words{"expose",  "--start", std::to_string(12 + k * 50) + "ms", "--exposure", "37.5ms", "c.tik",
+                    "one.ppm", "-q"} +
+        bright;
     run(words);
     const auto one = test::read_all(*test::open_test_clip(scratch_ / "one.ppm"));
     EXPECT_EQ(got[static_cast<std::size_t>(k)], one.front()) << k;
@@ -183,23 +171,20 @@ TEST_F(Video, ShapesAndBrightensEachFrame) {
 
 TEST_F(Video, GoesIntoContainers) {
   make_capture("960", "360");
-  const test::ProgramResult result =
-      run({"video", "--out-fps", "30000/1001", "--speed", "0.5", "c.tik", "v.mkv"});
-  EXPECT_NE(
-      result.out.find("v.mkv: 19 x 11 colour, 4 frames (30000/1001 frames a second, 180 degrees, speed 0.5), "
-                      "from 0 ns to 58.39 ms of the capture, ffv1"),
-      std::string::npos)
-      << result.out;
-  const auto stills = frames({"--out-fps", "30000/1001", "--speed", "0.5"});
+  const test::ProgramResult result = run("video --out-fps 30000/1001 --speed 0.5 c.tik v.mkv");
+  expect_says(result.out,
+              "v.mkv: 19 x 11 colour, 4 frames (30000/1001 frames a second, 180 degrees, speed 0.5), "
+              "from 0 ns to 58.39 ms of the capture, ffv1");
+  const auto stills = frames("--out-fps 30000/1001 --speed 0.5");
   const auto clip = test::open_test_clip(scratch_ / "v.mkv");
   EXPECT_EQ(clip->info().timing.rate, (Rational{30000, 1001}));
   EXPECT_EQ(test::read_all(*clip), stills);
   // Without a name, and with a codec for pairs of pixels.
-  const test::ProgramResult named = run({"video", "c.tik"});
-  EXPECT_NE(named.out.find("c-24fps.mp4: "), std::string::npos) << named.out;
-  EXPECT_NE(named.err.find("19 x 11 became 20 x 12"), std::string::npos) << named.err;
+  const test::ProgramResult named = run("video c.tik");
+  expect_says(named.out, "c-24fps.mp4: ");
+  expect_says(named.err, "19 x 11 became 20 x 12");
   EXPECT_EQ(test::open_test_clip(scratch_ / "c-24fps.mp4")->info().format.shape, (Shape{20, 12, 3}));
-  run({"video", "--depth", "float", "c.tik", "light-%d.pfm", "-q"});
+  run("video --depth float c.tik light-%d.pfm -q");
   EXPECT_TRUE(std::filesystem::exists(scratch_ / "light-0.pfm"));
 }
 
@@ -237,16 +222,15 @@ TEST_F(Video, SaysWhatMakesNoSense) {
   for (const Case& tested : cases) {
     std::vector<std::string> words{"video", "c.tik"};
     words.insert(words.end(), tested.words.begin(), tested.words.end());
-    const test::ProgramResult result = test::run_program(words, scratch_.folder());
+    const test::ProgramResult result = test::run_here(words, scratch_.folder());
     EXPECT_EQ(result.status, tested.status) << tested.part << "\n" << result.err;
     EXPECT_NE(result.err.find(tested.part), std::string::npos) << tested.part << "\n" << result.err;
   }
   EXPECT_EQ(test::read_file(scratch_ / "v.mov"), "no video");
   // A still that is an input is not replaced.
-  const auto replaced =
-      test::run_program({"video", "-f", "100", "frames", "frames/%d.ppm"}, scratch_.folder());
+  const auto replaced = test::run_here({"video", "-f", "100", "frames", "frames/%d.ppm"}, scratch_.folder());
   EXPECT_EQ(replaced.status, 2);
-  EXPECT_NE(replaced.err.find("the output frames/0.ppm is also an input"), std::string::npos) << replaced.err;
+  expect_says(replaced.err, "the output frames/0.ppm is also an input");
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // The shared corpus of function files, tests/corpus/functions: what expected.json says of each file
-// is what the program reads from it, down to the words of its messages. FnPlotter.py's own parser
-// is held to the same corpus.
+// is what the program reads from it, down to the words of its messages.
 #include <gtest/gtest.h>
 
 #include <cstdint>

@@ -35,7 +35,7 @@ NEEDS = {
     "nutik-cl": (r"nutik-modules \(= [\d.]+\)", DRIVER, "libc6 ", "ocl-icd-libopencl1|libopencl1"),
     "nutik-modules": ("libavcodec", "libopencv-core"),
     "nutik-studio": (r"nutik-modules \(= [\d.]+\)", DRIVER, "libqt6widgets6"),
-    "nutik-plotters": ("python3:any", "python3-matplotlib"),
+    "nutik-plotters": (r"nutik-cl \(>= [\d.]+\)", "python3:any", "python3-matplotlib"),
     "python3-nutik": (r"python3 \(>= 3", r"python3 \(<< 3", "python3-numpy", DRIVER, "libavcodec"),
     "libnutik-dev": (r"nutik-modules \(= [\d.]+\)", "ocl-icd-opencl-dev", "opencl-clhpp-headers", "libfmt-dev"),
 }

@@ -3,11 +3,11 @@
 #pragma once
 
 #include "support/moving_square.hpp"
-#include "support/program_test.hpp"
+#include "support/app_test.hpp"
 
 namespace nutik::test {
 
-class MovingSquareTest : public ProgramTest {
+class MovingSquareTest : public AppTest {
  protected:
   void SetUp() override {
     scene_.write(scratch_);

@@ -17,15 +17,14 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-// Whichever test comes first is told that kernels are built. What the others expect does not hang on that.
+}  // namespace
+
 std::string without_building(std::string err) {
   constexpr std::string_view kBuilding = "building and testing kernels for ";
   const std::size_t line = err.find(kBuilding);
   if (line == std::string::npos || (line > 0 && err[line - 1] != '\n')) return err;
   return err.erase(line, err.find('\n', line) + 1 - line);
 }
-
-}  // namespace
 
 ProgramResult run_shell(const std::string& command, const std::filesystem::path& folder) {
   const Scratch streams;

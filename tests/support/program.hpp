@@ -18,6 +18,13 @@ struct ProgramResult {
                                         const std::filesystem::path& folder,
                                         const std::vector<std::string>& environment = {});
 
+// The same in this process, which saves its start; there may be a state that an earlier run left. For tests that are
+// linked to the program.
+[[nodiscard]] ProgramResult run_here(const std::vector<std::string>& words, const std::filesystem::path& folder);
+
+// What the program said, without that it built kernels: whichever test comes first is told so.
+[[nodiscard]] std::string without_building(std::string err);
+
 // A command's words where the files of an earlier one may be replaced.
 [[nodiscard]] inline std::vector<std::string> over(std::vector<std::string> words) {
   words.emplace_back("--overwrite");

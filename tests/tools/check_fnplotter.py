@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Holds FnPlotter.py to the shared corpus of function files, and its plots to what they must show.
+"""Holds FnPlotter.py to what it must show of function files.
 
     check_fnplotter.py --plotter tools/FnPlotter.py --corpus tests/corpus/functions --work FOLDER
                        --program build/nutik-cl [--only plots]
 
-Plots are left in FOLDER. Without Matplotlib only the parser is checked, and the other tests are skipped.
+Plots are left in FOLDER. Without Matplotlib most tests are skipped.
 """
 
 import argparse
@@ -15,7 +15,7 @@ from pathlib import Path
 
 from fnplotter.setting import paths
 
-TESTS = ("parser", "plots", "layout", "capture", "masks", "messages")
+TESTS = ("figures", "plots", "layout", "capture", "masks", "messages")
 
 
 def main():

@@ -6,13 +6,13 @@ The file's footer (docs/reference/tik-format.md) says how long the capture is. A
 
 import csv
 import struct
-import subprocess
 from dataclasses import dataclass
 
 import numpy as np
 
-from fnplot.errors import InputError, OutputError, PlotterError
+from fnplot.errors import InputError
 from fnplot.gain_function import LARGEST_TIME_NS
+from fnplot.program import failure_of, run_program
 
 FOOTER = struct.Struct("<4Qq80x8s")  # samples, blocks, two offsets, end of the capture in ns; magic
 FOOTER_MAGIC = b"TIKend 0"
@@ -66,16 +66,10 @@ def read_footer(path):
 
 
 def run_activity(path, program):
-    """What the program prints of a capture; its own words and exit status where it fails."""
-    try:
-        command = [str(program), "activity", "--csv", "-", str(path)]
-        run = subprocess.run(command, capture_output=True, encoding="utf-8", errors="replace", check=False)
-    except OSError as error:
-        way_out = "say where nutik-cl is: --program build/nutik-cl"
-        raise OutputError(f"{program} cannot be run ({error.strerror}); {way_out}") from None
+    """What the program prints of a capture."""
+    run = run_program(program, "activity", "--csv", "-", str(path))
     if run.returncode != 0:
-        reason = run.stderr.strip() or f"exit status {run.returncode}"
-        raise PlotterError(f"{program} activity {path} failed: {reason}", run.returncode)
+        raise failure_of(run, f"{program} activity {path}")
     return run.stdout
 
 

@@ -1,5 +1,7 @@
 """Errors that end the program with a message and an exit status."""
 
+import sys
+
 
 class PlotterError(Exception):
     """A message for people, and the exit status that the program ends with."""
@@ -27,3 +29,13 @@ class OutputError(PlotterError):
     """The plot cannot be drawn or written."""
 
     status = 5
+
+
+def status_of(name, plot, options):
+    """The exit status of the plotter of this name, whose errors are printed."""
+    try:
+        plot(options)
+    except PlotterError as error:
+        print(f"{name}: {error}", file=sys.stderr)
+        return error.status
+    return 0

@@ -72,7 +72,8 @@ constexpr Command kCommands[] = {
      "figures.",
      "nutik-cl check -k regions.fn\n"
      "nutik-cl check -m regions.pgm -k regions.fn clip.tik\n"
-     "nutik-cl check --json -m regions.pgm -k regions.fn clip.tik",
+     "nutik-cl check --json -m regions.pgm -k regions.fn clip.tik\n"
+     "nutik-cl check --points -k regions.fn",
      run_check, kUnderstanding},
     {Id::trace, "trace", "CAPTURE.tik|CLIP [TRACE.csv|TRACE.png]",
      "Follow one pixel, or the mean of a region, through an exposure: its light, the gain, and what they add "

@@ -219,9 +219,30 @@ void print_check(const InputCheck& check, bool quiet) {
   print_line(verdict(check.findings()));
 }
 
+// The control points of a function file as a table, for programs that draw or change them.
+void print_points(const Options& options) {
+  if (!options.functions) throw UsageError("--points prints those of a function file; add -k functions.fn");
+  if (!options.operands.empty() || options.mask || options.json) {
+    throw UsageError("--points prints nothing else; leave the capture, -m and --json away");
+  }
+  const FunctionInput input = read_function_input(*options.functions);
+  if (!input.warnings.empty()) print_note(input.warnings);
+  std::string table = "mask_value,time_ns,gain\n";
+  for (const auto& [tag, function] : *input.functions) {
+    for (const ControlPoint& point : function.points()) {
+      table += format("{},{},{}\n", tag, point.time_ns, point.gain);
+    }
+  }
+  print_text(table);
+}
+
 }  // namespace
 
 int run_check(const Options& options) {
+  if (options.points) {
+    print_points(options);
+    return 0;
+  }
   if (options.operands.size() > 1) {
     throw UsageError(format("'{}' is one file too many: check looks at one capture", options.operands[1]));
   }

@@ -57,7 +57,7 @@ void print_notes(const std::vector<std::string>& texts) {
   for (const std::string& text : texts) print_note("note: " + text);
 }
 
-void keep_lines_from_output() { line_stream = stderr; }
+void keep_lines_from_output(bool keep) { line_stream = keep ? stderr : stdout; }
 
 void flush_output() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)

@@ -15,8 +15,8 @@ void print_note(const std::string& text);     // to stderr
 void print_warnings(const std::vector<std::string>& texts);
 void print_notes(const std::vector<std::string>& texts);  // each behind "note:"
 
-// From now on lines go to stderr: standard output is for the result itself.
-void keep_lines_from_output();
+// Whether lines go to stderr from now on: standard output is for the result itself.
+void keep_lines_from_output(bool keep);
 
 // Throws OutputError where standard output could not be written, to a full disk for example.
 void flush_output();

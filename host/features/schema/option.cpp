@@ -67,11 +67,11 @@ void Option::restate(Options& options, std::vector<std::string> words) const {
   state(options, name(), std::move(words));
 }
 
-std::string Option::written(Dialect dialect, std::string_view value) const {
-  if (dialect == Dialect::command_line) return name() + (value.empty() ? "" : " ") + std::string(value);
+std::string Option::written(Dialect dialect, std::string_view word) const {
+  if (dialect == Dialect::command_line) return name() + (word.empty() ? "" : " ") + std::string(word);
   std::string argument(python.empty() ? long_name : python);
   std::ranges::replace(argument, '-', '_');
-  if (!value.empty()) return format("{}='{}'", argument, value);
+  if (!word.empty()) return format("{}='{}'", argument, word);
   return argument + (is_flag() ? "=True" : "=");
 }
 
@@ -85,7 +85,8 @@ const Option* find_option(char short_name) {
 }
 
 const Option* option_of(CommandId command, std::string_view long_name) {
-  return first_option([&](const Option& option) { return option.long_name == long_name && option.is_of(command); });
+  return first_option(
+      [&](const Option& option) { return option.long_name == long_name && option.is_of(command); });
 }
 
 const Option* option_of_argument(CommandId command, std::string_view name) {

@@ -91,7 +91,7 @@ struct Option {
   // The same in place of what was stated.
   void restate(Options& options, std::vector<std::string> words) const;
   // `--fps`, `rate=`; with a value `--unseen hold`, `unseen='hold'`.
-  [[nodiscard]] std::string written(Dialect dialect, std::string_view value = {}) const;
+  [[nodiscard]] std::string written(Dialect dialect, std::string_view word = {}) const;
 };
 
 // Heading by heading, as help shows them.

@@ -101,6 +101,7 @@ struct Options {
   // What is written.
   Text output, activity;
   OutputRequest picture;
+  bool points = false;  // of a function file, printed
   bool json = false, no_recipe = false, quiet = false, verbose = false;
   bool progress = false, skip_existing = false, overwrite = false, in_place = false;
 

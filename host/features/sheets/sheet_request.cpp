@@ -107,6 +107,7 @@ std::vector<std::string> labels_of(const std::vector<Exposure>& exposures, const
       static_cast<int>(std::clamp(1.0 - std::floor(std::log10(std::max(step, 1.0) / unit.nanoseconds)), 0.0,
                                   std::log10(unit.nanoseconds)));
   std::vector<std::string> labels;
+  labels.reserve(exposures.size());
   for (const Exposure& exposure : exposures) {
     labels.push_back(format("{:.{}f} {}   {}f", static_cast<double>(exposure.start_ns) / unit.nanoseconds,
                             decimals, unit.name, sample_at(exposure.start_ns, timeline)));

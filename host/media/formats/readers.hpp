@@ -3,6 +3,7 @@
 // file_kinds.cpp, and of FFmpeg's containers in videos/containers.hpp.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <string>
@@ -33,7 +34,7 @@ struct Reader {
   [[nodiscard]] friend constexpr bool operator==(const Reader& a, const Reader& b) { return a.name == b.name; }
   [[nodiscard]] bool is_named(const std::filesystem::path& file) const {
     const std::string extension = extension_of(file);
-    return !extension.empty() && extensions.find(" " + extension + " ") != extensions.npos;
+    return !extension.empty() && extensions.find(" " + extension + " ") != std::string_view::npos;
   }
 };
 

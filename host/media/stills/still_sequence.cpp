@@ -86,9 +86,9 @@ std::optional<CountedName> counted_name(const fs::path& file) {
   constexpr std::size_t kMaxDigits = 18;
   const std::string stem = file.stem().string();
   const auto last = stem.find_last_of(kDigits);
-  if (last == stem.npos) return std::nullopt;
+  if (last == std::string::npos) return std::nullopt;
   const auto other = stem.find_last_not_of(kDigits, last);
-  const std::size_t first = other == stem.npos ? 0 : other + 1;
+  const std::size_t first = other == std::string::npos ? 0 : other + 1;
   if (last + 1 - first > kMaxDigits) return std::nullopt;
   CountedName name{stem.substr(0, first), stem.substr(first, last + 1 - first),
                    stem.substr(last + 1) + file.extension().string()};

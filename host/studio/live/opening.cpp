@@ -36,7 +36,7 @@ QImage first_picture(const SourceRequest& source, const std::shared_ptr<Devices>
 
 }  // namespace
 
-RoomWatch::RoomWatch(std::filesystem::path folder)
+RoomWatch::RoomWatch(const std::filesystem::path& folder)
     : RoomWatch(folder, [folder] { return left_in(folder); }) {}
 
 RoomWatch::RoomWatch(std::filesystem::path folder, Left left)

@@ -26,7 +26,7 @@ class RoomWatch {
  public:
   using Left = std::function<std::uint64_t()>;
 
-  explicit RoomWatch(std::filesystem::path folder);
+  explicit RoomWatch(const std::filesystem::path& folder);
   RoomWatch(std::filesystem::path folder, Left left);
 
   void look(std::uint64_t done, std::uint64_t total) const;

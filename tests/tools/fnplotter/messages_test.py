@@ -64,7 +64,6 @@ class Mistakes(unittest.TestCase):
         for per_page in ("0", "33", "x", "²"):
             self.check([figure, "--per-page", per_page], 2, f"'{per_page}' is no whole number 1 … 32")
         self.check([figure, "--duration", "3s", "--capture", "c.tik"], 2, "both say how long")
-        self.check([figure, "--program", "nutik-cl"], 2, "--program is for --capture")
 
     def test_output_over_the_input(self):
         mask = write("both.png", b"a mask")
@@ -82,8 +81,15 @@ class Mistakes(unittest.TestCase):
         self.assertIn("standard input:1:9: a comma", result.stderr)
         self.check(["-", "--mask", "-"], 2, "only the function file is read from standard input")
 
+    def test_a_program_that_is_missing_or_another(self):
+        figure = paths.corpus / "figure04.fn"
+        self.check([figure, "--program", paths.work / "none"], 5, "say where nutik-cl is: --program")
+        self.check([figure, "--program", "/bin/true"], 3, "/bin/true says nothing of the functions of")
+        self.check([figure, "--program", "/bin/false"], 1, "/bin/false check")
+        self.check([figure, "--program", "/bin/echo"], 3, "/bin/echo says nothing of the functions of")
+
     def test_missing_file(self):
-        self.check([paths.work / "none.fn", "-o", paths.work / "none.png"], 3, "none.fn: No such file")
+        self.check([paths.work / "none.fn", "-o", paths.work / "none.png"], 3, "none.fn cannot be read: No such file")
 
     @needs_matplotlib
     def test_missing_folder(self):

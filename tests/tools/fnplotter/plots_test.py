@@ -4,7 +4,7 @@ import io
 import re
 import unittest
 
-from fnplotter.setting import colour_count, expectations, many_functions, needs_matplotlib, parsed, paths
+from fnplotter.setting import colour_count, expectations, functions_of, many_functions, needs_matplotlib, paths
 from fnplotter.setting import pdf_contents, run, write
 
 FIGURES = ("figure04", "figure07", "figure14", "figure14-restored", "figure16")
@@ -53,7 +53,7 @@ class Plots(unittest.TestCase):
                 self.assertIn("stroke: #0072b2", text)
                 self.assertEqual("stroke: #d55e00" in text, name in FIGURES_WITH_NEGATIVE_PARTS)
                 self.assertIn("<!-- time (s) -->", text)
-                for tag in parsed(f"{name}.fn").functions:
+                for tag in functions_of(f"{name}.fn"):
                     self.assertIn(f"<!-- M{tag} -->", text)
 
     def test_figures_as_pdf(self):
@@ -134,7 +134,7 @@ class Plots(unittest.TestCase):
         for name in filter(wanted.match, expectations()):
             for duration_ns in (None, 5):
                 with self.subTest(name, duration_ns=duration_ns):
-                    functions = parsed(name).functions
+                    functions = functions_of(name)
                     drawn = [graphs.Graph(tag, function) for tag, function in functions.items()]
                     view = make_view(functions.values(), duration_ns)
                     figure = Figure()

@@ -21,6 +21,7 @@ def run(*arguments, stdin=None, **environment):
     """FnPlotter.py with arguments, as a user would run it, without a display."""
     displays = ("DISPLAY", "WAYLAND_DISPLAY")
     variables = {name: value for name, value in os.environ.items() if name not in displays}
+    variables["PATH"] = f"{paths.program.parent}{os.pathsep}{os.environ['PATH']}"
     variables |= {"MPLCONFIGDIR": str(paths.work / "matplotlib"), "PYTHONIOENCODING": "utf-8"} | environment
     command = [sys.executable, str(paths.plotter), *map(str, arguments)]
     how = {"capture_output": True, "encoding": "utf-8", "timeout": 300, "check": False, "input": stdin}
@@ -42,10 +43,11 @@ def expectations():
     return json.loads((paths.corpus / "expected.json").read_text(encoding="utf-8"))
 
 
-def parsed(name):
-    from fnplot.function_file import parse_functions
+def functions_of(name):
+    """Those of a file of the corpus, by mask value."""
+    from fnplot.program import read_functions
 
-    return parse_functions((paths.corpus / name).read_bytes())
+    return read_functions(str(paths.corpus / name), str(paths.program))[0]
 
 
 def colour_count(path, colour):

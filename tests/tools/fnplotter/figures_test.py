@@ -1,12 +1,12 @@
-"""The parser agrees with the shared corpus, and functions come to what they must."""
+"""Functions are read as they are, and come to what they must."""
 
 import unittest
 from fractions import Fraction
 
-from fnplot.function_file import parse_functions
+from fnplot.errors import InputError
 from fnplot.gain_function import GainFunction
 
-from fnplotter.setting import CAPTURE_NS, expectations, needs_matplotlib, parsed, paths
+from fnplotter.setting import CAPTURE_NS, expectations, functions_of, needs_matplotlib
 
 # Over 3 s, worked out by hand: file, mask value, integral of g in ns, D in ns.
 FIGURE_SUMMARIES = (
@@ -20,68 +20,18 @@ FIGURE_SUMMARIES = (
 )
 
 
-def findings(file, is_warning):
-    shown = file.diagnostics.shown
-    return [[found.line, found.column, found.message] for found in shown if found.is_warning == is_warning]
-
-
-class Parser(unittest.TestCase):
-    """The plotter's parser agrees with expected.json on every file."""
-
-    def test_every_file_has_its_expectations(self):
-        self.assertEqual({path.name for path in paths.corpus.glob("*.fn")}, set(expectations()))
+class Functions(unittest.TestCase):
+    """They are what the program reads, to the last digit."""
 
     def test_files_give_their_functions(self):
         for name, expected in expectations().items():
             with self.subTest(name, shows=expected["shows"]):
-                file = parsed(name)
-                points = {str(tag): list(map(list, f.points)) for tag, f in file.functions.items()}
-                self.assertEqual(file.has_errors, not expected["valid"])
-                self.assertEqual(points, expected.get("functions", {}))
-
-    def test_mistakes_and_warnings_are_reported_at_their_places_in_the_expected_words(self):
-        for name, expected in expectations().items():
-            with self.subTest(name, shows=expected["shows"]):
-                file = parsed(name)
-                errors, warnings = findings(file, is_warning=False), findings(file, is_warning=True)
-                self.assertEqual(errors, expected.get("errors", []))
-                self.assertEqual(warnings, expected.get("warnings", []))
-                more = {"mistake": len(errors) + expected.get("more_errors", 0)}
-                more["warning"] = len(warnings) + expected.get("more_warnings", 0)
-                self.assertEqual(file.diagnostics.counts, more)
-
-    def test_messages_can_be_read_whatever_the_file_is_made_of(self):
-        for name in expectations():
-            with self.subTest(name):
-                for line in parsed(name).diagnostics.report(name).splitlines():
-                    self.assertTrue(line.replace("\t", " ").isprintable(), line)
-
-    def test_long_numbers_are_read_to_their_last_digit(self):
-        zeros = "0" * 10_000
-        file = parse_functions(f"M{zeros}7 [-{zeros}5:1], [{zeros}5:0.5{zeros}]".encode())
-        self.assertFalse(file.has_errors)
-        self.assertEqual(file.functions[7].points, [(-5, 1.0), (5, 0.5)])
-
-    def test_points_in_runs_are_those_that_are_read_one_by_one(self):
-        count = 10_000  # more than two runs
-        points = [(7 * i - 500, (i % 13 - 6) / 4) for i in range(count)]
-        plain = ",\n".join(f"[{time}:{gain}]" for time, gain in points)
-        # A gain that starts with its point is not what runs are made of.
-        odd = "[-501:.5]," + plain.replace(":0.25]", ":.25]")
-        for text in (f"M0{{{odd}}}", f"M0 {odd}".replace("\n", " ")):
-            self.assertEqual(parse_functions(text.encode()).functions[0].points, [(-501, 0.5), *points])
-
-    def test_times_out_of_order_are_found_in_runs(self):
-        points = [f"[{time}:1]" for time in (*range(5000), 4990, *range(5000, 9000), 8999, 9000)]
-        file = parse_functions(("M0 " + ",".join(points)).encode())
-        words = [found.message for found in file.diagnostics.shown]
-        self.assertEqual(
-            words,
-            [
-                "time 4990 is not after 4999; control points must be in time order",
-                "time 8999 stands twice; a jump takes 1 ns: write 9000 for the second",
-            ],
-        )
+                if expected["valid"]:
+                    points = {str(tag): list(map(list, f.points)) for tag, f in functions_of(name).items()}
+                    self.assertEqual(points, expected["functions"])
+                else:
+                    with self.assertRaises(InputError):
+                        functions_of(name)
 
 
 @needs_matplotlib
@@ -96,7 +46,7 @@ class Figures(unittest.TestCase):
     def test_summaries(self):
         for name, tag, integral_ns, support_ns in FIGURE_SUMMARIES:
             with self.subTest(name, tag=tag):
-                summary = self.summary(parsed(f"{name}.fn").functions[tag], 0, CAPTURE_NS)
+                summary = self.summary(functions_of(f"{name}.fn")[tag], 0, CAPTURE_NS)
                 self.assertEqual(summary.integral_ns, integral_ns)
                 self.assertEqual(summary.support_ns, support_ns)
                 self.assertEqual(summary.still_gain, integral_ns / support_ns)

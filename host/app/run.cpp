@@ -1,0 +1,73 @@
+#include "app/run.hpp"
+
+#include <exception>
+#include <new>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "app/command_line/command_line.hpp"
+#include "app/output/console.hpp"
+#include "app/output/output_name.hpp"
+#include "capture/error.hpp"
+#include "features/schema/option.hpp"
+#include "system/interruption.hpp"
+#include "system/mapped_file.hpp"
+#include "system/output_file.hpp"
+
+namespace nutik::app {
+namespace {
+
+int fail(const std::exception& error, int status) {
+  print_error(message_text(error, Dialect::command_line));
+  return status;
+}
+
+// What seems damaged may be a file that changed under our hands.
+int fail_input(const InputError& error) {
+  try {
+    check_mapped_files();
+  } catch (const InputError& lost) {
+    return fail(lost, ExitStatus::input);
+  }
+  return fail(error, ExitStatus::input);
+}
+
+}  // namespace
+
+int run(std::span<const char* const> words) {
+  try {
+    ParsedCommandLine parsed = parse_command_line(std::vector<std::string>(words.begin() + 1, words.end()));
+    parsed.options.program = words.front();
+    keep_lines_from_output(writes_to_standard_output(parsed.options));
+    const int status = parsed.command == nullptr ? ExitStatus::ok : parsed.command->run(parsed.options);
+    // A file was looked at before it got its name. Text that was printed is told to be wrong now.
+    if (!has_kept_output()) check_mapped_files();
+    flush_output();
+    return status;
+  } catch (const UsageError& error) {
+    return fail(error, ExitStatus::usage);
+  } catch (const InputError& error) {
+    return fail_input(error);
+  } catch (const DeviceError& error) {
+    return fail(error, ExitStatus::device);
+  } catch (const OutputError& error) {
+    return fail(error, ExitStatus::output);
+  } catch (const Interrupted& interruption) {
+    print_error(interruption.what());
+    return ExitStatus::signal + interruption.signal;
+  } catch (const std::bad_alloc&) {
+    print_error("out of memory");
+    return ExitStatus::memory;
+  } catch (const std::system_error& error) {
+    if (error.code() != std::errc::resource_unavailable_try_again) return fail(error, ExitStatus::other);
+    print_error(
+        "the system starts no more threads; raise the limit of processes (ulimit -u, or that of the "
+        "container), or end other programs");
+    return ExitStatus::memory;
+  } catch (const std::exception& error) {
+    return fail(error, ExitStatus::other);
+  }
+}
+
+}  // namespace nutik::app
