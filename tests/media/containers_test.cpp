@@ -4,6 +4,7 @@
 #include <set>
 #include <sstream>
 
+#include "align/registrar.hpp"
 #include "media/module.hpp"
 #include "media/videos/containers.hpp"
 #include "support/ffmpeg.hpp"

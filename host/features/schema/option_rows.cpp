@@ -349,12 +349,10 @@ constexpr Option kRows[] = {
      "rear-curtain, none of strobe)",
      "even fade ramp none"},
     {0, "by", "CODES", subject, bit(Id::study), take_whole<In<&Options::by>, 1, 65'535>,
-     "the largest difference from the empty scene that is not the subject, in codes: fewer find what hardly stands out,
-     "
+     "the largest difference from the empty scene that is not the subject, in codes: fewer find what hardly stands out, "
      "more leave out shadows (default: 1/16 of white; twice the noise, if that is more, for the subject's outline)"},
     {0, "feather", "PIXELS", exposure, bit(Id::study), take<In<&Options::feather>>,
-     "blend the subject's region, or slit's strips, over so many pixels: 6px,
-     at most 32px (default: 2px; strips: 0px)"},
+     "blend the subject's region, or slit's strips, over so many pixels: 6px, at most 32px (default: 2px; strips: 0px)"},
     {0, "slit-from", "SIDE", subject, bit(Id::study), take<InStudy<&StudyRequest::slit_from>>,
      "where slit begins: left, right (columns), top or bottom (rows) (default: left)", "left right top bottom"},
 
