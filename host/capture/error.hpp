@@ -48,7 +48,7 @@ enum class Setting {
 };
 
 // What ends a message that says more than the names of settings: `; take a part of the clip (`from`, `to`)`. Options
-// stand in it between backquotes, by their names in the schema (session/schema), each with its value if it has one.
+// stand in it between backquotes, by their names in the schema (features/schema), each with its value if it has one.
 struct Advice {
   std::string text;
 };

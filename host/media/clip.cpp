@@ -1,185 +1,15 @@
 #include "media/clip.hpp"
 
 #include <algorithm>
-#include <atomic>
+#include <charconv>
 #include <cmath>
-#include <system_error>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/seconds_text.hpp"
-#include "media/clip_part.hpp"
-#include "media/event_clip.hpp"
-#include "media/file_kinds.hpp"
-#include "media/module.hpp"
-#include "media/photron_clip.hpp"
-#include "media/photron_header.hpp"
 #include "media/settled_fact.hpp"
-#include "media/still_sequence.hpp"
-#include "media/stills_table.hpp"
-#include "system/input_bytes.hpp"
-#include "system/is_absent.hpp"
-#include "system/mapped_file.hpp"
 
 namespace nutik {
-
-namespace {
-
-std::unique_ptr<Clip> open_table(const std::filesystem::path& path, const ClipOptions& options) {
-  const StillModule& module = still_module();
-  const std::vector<ListedStill> stills = read_stills_table(path);
-  std::vector<std::filesystem::path> files;
-  std::vector<StillTimes> exif;
-  ClipTiming listed;  // for whoever wants to know what a stated rate replaces
-  for (const ListedStill& still : stills) {
-    files.push_back(still.file);
-    if (still.times.start_ns) listed.starts_ns.push_back(*still.times.start_ns);
-    const bool is_timed = still.times.start_ns && still.times.exposure_ns;
-    exif.push_back(is_timed || options.rate ? StillTimes{} : module.read_exif_times(still.file));
-  }
-  if (listed.starts_ns.size() < stills.size()) listed.starts_ns.clear();
-  return module.open(files, options.rate ? listed : timing_of(path, stills, exif), options);
-}
-
-// A clip of which there is more to tell than its module knows.
-class DescribedClip final : public Clip {
- public:
-  DescribedClip(std::unique_ptr<Clip> clip, ClipInfo info) : clip_(std::move(clip)), info_(std::move(info)) {}
-
-  [[nodiscard]] const ClipInfo& info() const override { return info_; }
-  bool read(std::span<std::byte> raster) override { return clip_->read(raster); }
-  bool skip(std::span<std::byte> room) override { return clip_->skip(room); }
-  [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
-
- private:
-  std::unique_ptr<Clip> clip_;
-  ClipInfo info_;
-};
-
-// A clip with a picture that cannot be read: that is its end, or an error which says that it could be.
-class PerhapsDamaged final : public Clip {
- public:
-  PerhapsDamaged(std::unique_ptr<Clip> clip, const std::filesystem::path& path, bool ends_at_damage)
-      : clip_(std::move(clip)), name_(input_title(path.string())), ends_at_damage_(ends_at_damage) {}
-
-  [[nodiscard]] const ClipInfo& info() const override { return clip_->info(); }
-
-  bool read(std::span<std::byte> raster) override {
-    return take([&] { return clip_->read(raster); });
-  }
-  bool skip(std::span<std::byte> room) override {
-    return take([&] { return clip_->skip(room); });
-  }
-
-  [[nodiscard]] bool tells_changes() const override { return clip_->tells_changes(); }
-  [[nodiscard]] bool makes_codes() const override { return clip_->makes_codes(); }
-  std::optional<std::span<const PixelChange>> read_changes() override { return clip_->read_changes(); }
-
-  [[nodiscard]] std::optional<std::string> ended_early() const override {
-    return has_ended_ ? std::optional(reason_) : std::nullopt;
-  }
-  [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
-
- private:
-  template <typename Take>
-  bool take(Take take_next) {
-    if (has_ended_) return false;
-    try {
-      if (!take_next()) return false;
-      ++samples_read_;
-      return true;
-    } catch (const InputError& error) {
-      // What has settings of its own is no damage.
-      if (samples_read_ == 0 || (!ends_at_damage_ && !error.settings().empty())) throw;
-      if (!ends_at_damage_) {
-        throw InputError(format("{}; the {} before it can be taken", error.what(),
-                                samples_read_ == 1 ? "picture" : format("{} pictures", samples_read_)),
-                         {Setting::end_at_damage});
-      }
-      reason_ = format("{} is taken as far as it goes, {} of {} pictures: {}", name_, samples_read_,
-                       clip_->info().sample_count, error.what());
-      has_ended_ = true;
-      return false;
-    }
-  }
-
-  std::unique_ptr<Clip> clip_;
-  std::string name_;
-  bool ends_at_damage_;
-  std::uint64_t samples_read_ = 0;
-  std::string reason_;
-  std::atomic<bool> has_ended_ = false;  // asked for while another thread reads; `reason_` stays from then on
-};
-
-// Pictures that tell no times themselves have those of the camera's header beside them.
-void add_photron_header(ClipInfo& info, const std::filesystem::path& pictures) {
-  if (info.timing.is_known()) return;
-  const auto header = photron_header_of(pictures);
-  if (!header) return;
-  info.timing.rate = header->rate;
-  info.timing.exposed_ns = header->exposed_ns;
-  info.timing.rate_from = header->file.filename().string();
-}
-
-std::unique_ptr<Clip> open_stills(const std::filesystem::path& path,
-                                  const std::vector<std::filesystem::path>& stills,
-                                  const ClipOptions& options) {
-  std::unique_ptr<Clip> clip = still_module().open(stills, {}, options);
-  std::error_code error;
-  if (!std::filesystem::is_directory(path, error)) return clip;
-  ClipInfo info = clip->info();
-  for (auto note : {missing_still_note(path, stills), left_out_note(path, stills)}) {
-    if (note) info.notes.emplace_back(std::move(*note));
-  }
-  add_photron_header(info, path);
-  return std::make_unique<DescribedClip>(std::move(clip), std::move(info));
-}
-
-std::unique_ptr<Clip> open_raw(const std::filesystem::path& path, const ClipOptions& options) {
-  std::unique_ptr<Clip> clip = video_module().open(path, options);
-  ClipInfo info = clip->info();
-  add_photron_header(info, path);
-  return std::make_unique<DescribedClip>(std::move(clip), std::move(info));
-}
-
-void refuse_event_options(const std::filesystem::path& path, const EventOptions& events) {
-  std::vector<Setting> stated;
-  if (events.contrast) stated.push_back(Setting::contrast);
-  if (events.start) stated.push_back(Setting::start_picture);
-  if (events.tick_ns) stated.push_back(Setting::tick);
-  if (stated.empty()) return;
-  throw UsageError(format("{} holds pictures, of which nothing is said by events; leave that out",
-                          input_title(path.string())),
-                   std::move(stated));
-}
-
-// All of it, as its files have it.
-std::unique_ptr<Clip> open_whole(const std::filesystem::path& path, const ClipOptions& options) {
-  if (!options.raw) refuse_unread_kind(path);
-  const bool holds_events = !options.raw && is_event_recording(path);
-  if (holds_events) return open_event_clip(path, options);
-  refuse_event_options(path, options.events);
-  if (!options.raw) {
-    if (is_stills_table(path)) return open_table(path, options);
-    if (const auto stills = list_stills(path)) return open_stills(path, *stills, options);
-  }
-  if (is_absent(path)) {
-    throw InputError(format("{} cannot be read: no such file", input_title(path.string())));
-  }
-  if (options.raw) return open_raw(path, options);
-  if (is_photron_clip(path)) return open_photron_clip(path, options);
-  refuse_text(path);
-  return video_module().open(path, options);
-}
-
-}  // namespace
-
-std::unique_ptr<Clip> open_clip(const std::filesystem::path& name, const ClipOptions& options) {
-  const std::filesystem::path& path = is_standard_input(name.string()) ? standard_input_file() : name;
-  std::unique_ptr<Clip> clip = open_whole(path, options);
-  return take_part(std::make_unique<PerhapsDamaged>(std::move(clip), path, options.ends_at_damage), path,
-                   options);
-}
 
 void refuse_yuv_options(const ClipOptions& options) {
   if (!options.matrix && !options.range && !options.chroma_at) return;
@@ -207,6 +37,45 @@ void describe_stored_codes(ClipInfo& info, const ClipOptions& options, const Sto
   }
   capture.pixel_aspect = settle(info.facts, options.pixel_aspect, codes.pixel_aspect, Rational{1, 1},
                                 Setting::pixel_aspect, pixel_aspect_text);
+}
+
+namespace {
+
+// A number that is all of the text.
+std::optional<double> number_of(std::string_view text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+constexpr double kMinContrast = 0.001, kMaxContrast = 10;
+constexpr double kMinStart = 0.0001;
+
+}  // namespace
+
+Contrast parse_contrast(std::string_view text) {
+  const auto colon = text.find(':');
+  const auto up = number_of(text.substr(0, colon));
+  const auto down = colon == text.npos ? up : number_of(text.substr(colon + 1));
+  const auto is_possible = [](std::optional<double> step) {
+    return step && *step >= kMinContrast && *step <= kMaxContrast;
+  };
+  if (!is_possible(up) || !is_possible(down)) {
+    throw UsageError(
+        format("contrast '{}' is no step of log light; write 0.2, or one for up and one for down, 0.3:0.17, "
+               "each from {} to {}",
+               text, kMinContrast, kMaxContrast));
+  }
+  return {*up, *down};
+}
+
+StartLight parse_start_light(std::string_view text) {
+  const auto light = number_of(text);
+  if (!light) return std::filesystem::path(text);
+  if (*light >= kMinStart && *light <= 1) return *light;
+  throw UsageError(
+      format("light {} at the start is outside {} … 1, of which 1 is white", text, kMinStart));
 }
 
 Interlaced parse_deinterlacing(std::string_view text) {

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "capture/error.hpp"
@@ -18,7 +19,6 @@
 #include "capture/picture.hpp"
 #include "capture/pixel_change.hpp"
 #include "capture/timeline.hpp"
-#include "media/event_options.hpp"
 
 namespace nutik {
 
@@ -96,6 +96,28 @@ enum class Interlaced { refused, frames, fields, ignored };
 // `frames`, `fields` or `no`. Throws UsageError.
 [[nodiscard]] Interlaced parse_deinterlacing(std::string_view text);
 
+// What can be stated of recordings whose pixels keep their own time (media/events/event_clip.hpp).
+// By how much the natural logarithm of light changes with an event: up, and down.
+struct Contrast {
+  double up = 0, down = 0;
+  friend bool operator==(const Contrast&, const Contrast&) = default;
+};
+
+// Light before the first event: everywhere the same, or a picture's.
+using StartLight = std::variant<double, std::filesystem::path>;
+
+struct EventOptions {
+  std::optional<Contrast> contrast = std::nullopt;
+  std::optional<StartLight> start = std::nullopt;
+  std::optional<std::int64_t> tick_ns = std::nullopt;  // changes count at the start of the tick that they are in
+  friend bool operator==(const EventOptions&, const EventOptions&) = default;
+};
+
+// `0.2`, or `0.3:0.17`: up, and down; each from 0.001 to 10. Throws UsageError.
+[[nodiscard]] Contrast parse_contrast(std::string_view text);
+// `0.18`, from 0.0001 to 1, else the name of a picture. Throws UsageError.
+[[nodiscard]] StartLight parse_start_light(std::string_view text);
+
 // What is stated about a clip; it goes before what the files say.
 struct ClipOptions {
   std::optional<Rational> rate;
@@ -152,11 +174,14 @@ class Clip {
   [[nodiscard]] virtual bool makes_codes() const { return false; }
 };
 
-// Opens a video (`-` is one from standard input), a sequence of stills (media/still_sequence.hpp), a table of stills
-// (media/stills_table.hpp), a Photron camera's pictures (media/photron_clip.hpp), or a recording without pictures
-// (media/event_clip.hpp). Their times do not count where a rate is stated. Throws InputError where there is
+// Opens a video (`-` is one from standard input), a sequence of stills (media/stills/still_sequence.hpp), a table of stills
+// (media/stills/stills_table.hpp), a Photron camera's pictures (media/clip_formats.hpp), or a recording without pictures
+// (media/events/event_clip.hpp). Their times do not count where a rate is stated. Throws InputError where there is
 // none, or none that can be read.
 [[nodiscard]] std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOptions& options);
+
+// The files that it would read: a table before its stills, Photron's pictures before their header.
+[[nodiscard]] std::vector<std::filesystem::path> files_of_clip(const std::filesystem::path& path);
 
 // Opens a clip from its start, as often as it is asked.
 using OpenClip = std::function<std::unique_ptr<Clip>()>;

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "media/video_writer.hpp"
+#include "media/writers/video_writer.hpp"
 #include "system/channel.hpp"
 
 namespace nutik {

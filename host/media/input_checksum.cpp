@@ -5,9 +5,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/photron_clip.hpp"
-#include "media/still_sequence.hpp"
-#include "media/stills_table.hpp"
+#include "media/clip.hpp"
 #include "system/checksum.hpp"
 #include "system/input_bytes.hpp"
 #include "system/is_absent.hpp"
@@ -39,10 +37,7 @@ std::uint64_t size_of(const fs::path& file) {
 
 std::string input_checksum(const fs::path& name) {
   const fs::path& path = is_standard_input(name.string()) ? standard_input_file() : name;
-  std::vector<fs::path> files = list_stills(path).value_or(std::vector<fs::path>{path});
-  if (is_stills_table(path)) files.insert(files.begin(), path);  // the times of its stills
-  if (is_photron_clip(path)) files = photron_files(path);
-  return files_checksum(files);
+  return files_checksum(files_of_clip(path));
 }
 
 std::string files_checksum(std::span<const fs::path> files) {

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "media/clip.hpp"
-#include "media/stills_table.hpp"
-#include "media/video_writer.hpp"
+#include "media/stills/stills_table.hpp"
+#include "media/writers/video_writer.hpp"
 #include "system/output_file.hpp"
 #include "system/shared_state.hpp"
 
@@ -41,7 +41,7 @@ struct StillModule {
   // When a still was taken and for how long, as far as its EXIF data tell (JPEG, DNG): DateTimeOriginal with
   // SubSecTimeOriginal, and ExposureTime. Nothing for a file without them.
   StillTimes (*read_exif_times)(const std::filesystem::path& file);
-  // Light as OpenEXR has it (media/picture_writer.hpp), and the text that such a file carries.
+  // Light as OpenEXR has it (media/writers/picture_writer.hpp), and the text that such a file carries.
   void (*write_exr)(OutputFile& file, const Picture& picture, const std::string& text, bool as_half);
   std::optional<std::string> (*read_exr_text)(const std::filesystem::path& file, const char* keyword);
 };

@@ -101,7 +101,9 @@ BlockFeed::Chunk BlockFeed::next() {
 
 BlockFeed::Chunk BlockFeed::next_chunk() {
   while (ends_slice()) ++slice_;
-  return resident_place(plan_->blocks[next_]) != nullptr ? resident_chunk() : filled_chunk();
+  Chunk chunk = resident_place(plan_->blocks[next_]) != nullptr ? resident_chunk() : filled_chunk();
+  chunk.stays |= next_ >= plan_->blocks.size();  // nothing follows that is read over the last one
+  return chunk;
 }
 
 void BlockFeed::advance() {

@@ -298,7 +298,7 @@ MemoryNeeds plate_needs(const CaptureFormat& capture) {
 
 Plate make_plate(CaptureSource& capture, const CodeBand& band, std::uint64_t memory_bytes,
                  std::uint64_t max_samples,
-                 const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
+                 const ReportedProgress& progress) {
   const std::uint32_t rows = TileGrid(capture.format().shape).rows();
   std::uint64_t unpacked_bytes = 0;
   for (std::uint64_t block = 0; block < capture.block_count(); ++block) {

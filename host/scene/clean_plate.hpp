@@ -1,24 +1,24 @@
 // The plate: what a scene looks like without what moves in it.
 //
 //   in:      a capture, and how far codes of the same light may lie apart
-//   out:     for each pixel the light that it holds longest; and the pixels of which nobody can be sure, because
-//            what they hold longest they hold for less than half of the time
-//   always:  a pixel is told from its own records. Whatever moves may rest, but nowhere as long as what is behind it
-//            is seen there
+//   out:     for each pixel the light that it holds longest; and the uncertain pixels, which hold theirs for less than
+//            half of the time
+//   always:  each pixel follows from its own records. A thing that moves may rest, but nowhere for as long as the
+//            background is seen there
 //
-// Channels are looked at one after another, green first: of the times at which a pixel held its most frequent green,
-// those at which it held its most frequent red, and so on. The light is the mean over the times that are left, so that
-// noise is averaged out.
+// Channels are taken one after another, green first: among the times at which a pixel held its most frequent green,
+// those at which it held its most frequent red, then blue. The light is the mean over the times that are left, which
+// averages noise out.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 
 #include "capture/memory_needs.hpp"
 #include "capture/picture.hpp"
 #include "imev/capture_source.hpp"
 #include "mask/region.hpp"
 #include "scene/place_times.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 
@@ -30,12 +30,11 @@ struct Plate {
 // What a plate takes, beside blocks of the capture.
 [[nodiscard]] MemoryNeeds plate_needs(const CaptureFormat& capture);
 
-// Looks at every sample, or at so many evenly in time, on all cores; `progress(done, all)`, which may be empty, counts
-// strips. Packed blocks are unpacked strip by strip, so that they and the plate stay within `memory_bytes`. Throws
-// MemoryTooLittle, InputError where the capture is damaged.
+// Looks at every sample, or at so many evenly in time, on all cores; `progress` counts strips. Packed blocks are
+// unpacked strip by strip, so that they and the plate stay within `memory_bytes`. Throws MemoryTooLittle, InputError where the
+// capture is damaged.
 [[nodiscard]] Plate make_plate(CaptureSource& capture, const CodeBand& band, std::uint64_t memory_bytes,
-                               std::uint64_t max_samples = ~std::uint64_t{0},
-                               const std::function<void(std::uint64_t, std::uint64_t)>& progress = {});
+                               std::uint64_t max_samples = ~std::uint64_t{0}, const ReportedProgress& progress = {});
 
 // The share of the region's border along which the plate has an edge and the picture none: about 0 for a thing, 1 for a
 // hole, and in between for a thing of which the plate shows a part. An edge differs by more than `by_codes`. The region

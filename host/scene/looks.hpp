@@ -14,7 +14,7 @@ class Looks {
  public:
   static constexpr std::uint64_t kMax = 256, kFew = 128;
 
-  // All of few samples, every other one of more.
+  // All samples if there are few, else every other one, up to kMax.
   explicit Looks(std::uint64_t sample_count)
       : Looks(sample_count, std::clamp(sample_count / 2, kFew, kMax)) {}
   Looks(std::uint64_t sample_count, std::uint64_t most)

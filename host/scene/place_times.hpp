@@ -1,10 +1,10 @@
 // When places of a picture show what they hold longest as a whole.
 //
 //   in:      a capture, which of its pixels are uncertain, how far codes of the same light may lie apart
-//   out:     clocks, one for each place: uncertain pixels that hang together. They run while most of the place looks as
-//            it does for longest; always, where that is for less than an eighth of the time
-//   always:  a subject that hardly stirs holds many of its pixels for longer than what is behind it, but not all at once
-//            for as long as that
+//   out:     a clock for each place, which is a group of connected uncertain pixels. It runs while most of the place
+//            has its most frequent look; always, if it has that for less than an eighth of the time
+//   always:  a subject that hardly stirs holds many of its pixels longer than the background does, but not all of them
+//            at once for that long
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,13 @@
 
 namespace nutik {
 
-// How far codes may lie apart that stand for one and the same light: a camera's noise, or so many codes.
+// How far apart codes of the same light may lie: by a camera's noise, or by so many codes.
 //
-// Codes are sorted into bins. Light is the same where bins lie within a window, which is twice as wide as codes may
+// Codes are sorted into bins. Light is the same if the bins lie within a window, which is twice as wide as codes may
 // stray to either side.
 class CodeBand {
  public:
-  // Codes stray at least so far, in shares of white: compression and a camera that corrects its exposure see to that.
+  // Codes stray at least so far, in shares of white: by compression, and by cameras that correct their exposure.
   static constexpr double kMinShare = 1.0 / 32;
 
   // Codes stray by up to `codes` to either side.
@@ -54,7 +54,7 @@ class PlaceTimes {
   // For how long the clock at an uncertain pixel ran until a sample began; sample_count() is the capture's end.
   [[nodiscard]] std::int64_t clock_ns(std::uint32_t x, std::uint32_t y, std::uint64_t sample) const;
 
-  // Whether the place of an uncertain pixel looks alike for long enough to be told by that: else its clock always runs.
+  // Whether the place of an uncertain pixel has one look for long enough; otherwise its clock always runs.
   [[nodiscard]] bool has_look(std::uint32_t x, std::uint32_t y) const {
     return clock_of(x, y).before_ns.back() < timeline_.duration_ns();
   }

@@ -365,7 +365,7 @@ double SubjectTrack::most_covered_share() const {
 
 std::vector<SubjectTrack> track_subjects(CaptureSource& capture, const Picture& plate, std::uint32_t by_codes,
                                          const std::vector<Rectangle>& regions,
-                                         const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
+                                         const ReportedProgress& progress) {
   const CaptureFormat& format = capture.format();
   const Looks looks(capture.timeline().sample_count());
   Difference difference(format, plate, by_codes);

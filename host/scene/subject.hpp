@@ -7,12 +7,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "capture/picture.hpp"
 #include "imev/capture_source.hpp"
 #include "mask/region.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 
@@ -47,14 +47,14 @@ struct SubjectTrack {
   [[nodiscard]] double size() const;
   // In pixels: the longer side of the least box that usually holds it; less at the picture's border.
   [[nodiscard]] double length() const;
-  // Less than half of its boxes, and less than half of what differs: most of what is seen there is the plate, and most of
-  // what moves is elsewhere. So are edges of something that shakes or grows.
+  // It fills less than half of its boxes and is less than half of what differs: most that is seen there is the plate,
+  // and most that moves is elsewhere. Edges of something that shakes or grows are like that.
   [[nodiscard]] bool is_scraps() const { return fill < 0.5 && share < 0.5; }
-  // For how much of the time from the first place to the last, without rests, a cell that is covered at all is covered,
-  // on average.
+  // The average share of the time from the first place to the last, without rests, for which a cell is covered that is
+  // covered at all.
   [[nodiscard]] double covered_share() const;
-  // For how much of all the time the cell is covered that is most. Of what is at a place for half of the time the plate
-  // shows some there, and its cells are found when it is elsewhere.
+  // The share of all the time for which the cell is covered that is covered longest. A thing that is somewhere for half
+  // of the time is in the plate there, and its cells are found while it is elsewhere.
   [[nodiscard]] double most_covered_share() const;
 };
 
@@ -62,13 +62,11 @@ struct SubjectTrack {
 // along their edges differs.
 [[nodiscard]] double min_misplaced_pixels(const Shape& shape);
 
-// One in each region, of the pixels there. A pixel is not the plate's where a channel differs from it by more than
-// `by_codes`. What hangs together at a sample is taken for the same as what lay nearest where that went at the samples
-// before; of all that was followed so, the subject is what goes furthest for its size. `progress(done, all)` may be
-// empty. Throws InputError where the capture is damaged.
+// Finds a subject in each region. A pixel differs from the plate if one of its channels does by more than `by_codes`.
+// Connected cells of one sample are taken for the thing that was nearest to where they would be by its way so far; the
+// subject is the thing that goes furthest for its size. Throws InputError where the capture is damaged.
 [[nodiscard]] std::vector<SubjectTrack> track_subjects(
-    CaptureSource& capture, const Picture& plate, std::uint32_t by_codes,
-    const std::vector<Rectangle>& regions,
-    const std::function<void(std::uint64_t, std::uint64_t)>& progress = {});
+    CaptureSource& capture, const Picture& plate, std::uint32_t by_codes, const std::vector<Rectangle>& regions,
+    const ReportedProgress& progress = {});
 
 }  // namespace nutik

@@ -23,9 +23,8 @@ class TileHistory {
   using Codes = std::array<Code, 3 * kTilePixels>;  // [channel][lane]
   using Light = std::array<double, 3 * kTilePixels>;
 
-  // Until a sample begins `starts_ns` have passed, and until the capture's end the last of them: of samples that nobody
-  // looks at, no time. Blocks are all of the capture's, in time order.
-  // What is handed over must outlive this.
+  // `starts_ns` tells when each sample begins, and last when the capture ends; samples that are not looked at take no
+  // time. `blocks` are all of the capture's, in time order. Both must outlive this.
   TileHistory(const std::vector<BlockView>& blocks, std::span<const std::int64_t> starts_ns)
       : blocks_(blocks), starts_ns_(starts_ns) {}
 

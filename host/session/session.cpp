@@ -10,7 +10,7 @@
 #include "capture/format.hpp"
 #include "imev/each_block.hpp"
 #include "imev/expected_values.hpp"
-#include "media/event_clip.hpp"
+#include "media/events/event_clip.hpp"
 #include "render/picture_memory.hpp"
 #include "render/plan_cache.hpp"
 #include "session/clips/clip_memory.hpp"

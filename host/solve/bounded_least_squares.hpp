@@ -1,8 +1,8 @@
 // Least squares with bounds.
 //
 //   in:      rows a · x = b, bounds of each x, and an x to begin with
-//   out:     the x within the bounds with the least Σ (a · x − b)²; of several the one that steps from the beginning
-//            come to, each the shortest there is. Without bounds in the way that is the nearest one
+//   out:     the x within the bounds with the least Σ (a · x − b)²; among several the one that the shortest steps from
+//            the beginning lead to: the nearest one, if no bound is in the way
 //   always:  an active set on an orthogonal decomposition of the rows, never of their squares: about as many digits are
 //            lost as the rows' condition number has
 #pragma once
@@ -28,7 +28,7 @@ struct LeastSquaresRow {
 [[nodiscard]] std::vector<double> least_squares(const std::vector<LeastSquaresRow>& rows,
                                                 const std::vector<Bounds>& bounds, std::vector<double> begin);
 
-// How many x the rows tell: where there are more of them, some are told by the beginning alone.
+// How many x the rows determine: any others keep what the beginning says.
 [[nodiscard]] std::size_t rank_of(const std::vector<LeastSquaresRow>& rows);
 
 }  // namespace nutik

@@ -1,10 +1,10 @@
-// The gains that come nearest to wishes about light, of gain functions whose times are known.
+// The gains that come nearest to wishes about light, for gain functions whose times are known.
 //
 //   in:      functions with names in place of gains, courses of light of regions, wishes
-//   out:     the gains with the least Σ weight · (what is missed)², within bounds; what no wish tells stays where it
-//            began
-//   always:  light is a straight function of the gains where the divisor does not depend on them: then this is one
-//            bounded least squares. Another divisor (∫g) is followed step by step (Gauss and Newton)
+//   out:     the gains within bounds with the least Σ weight · miss²; a gain that no wish depends on keeps its first
+//            value
+//   always:  where the divisor does not depend on the gains, light is linear in them: one bounded least squares.
+//            Another divisor (∫g) is followed step by step (Gauss and Newton)
 #pragma once
 
 #include <cstdint>
@@ -26,9 +26,9 @@ struct LightWish {
     at_most,   // brightness
     at_least,  // brightness
     like,      // every channel
-    gone  // every channel: what moves adds nothing. As like, of the still light exposed with the same functions
+    gone  // every channel: what moves adds nothing, so it is like the still light under the same functions
   };
-  // A number, of brightness; light that rests; the light that another region is exposed to.
+  // A brightness; light that rests; or another region, by its number.
   using Target = std::variant<double, ChannelLight, std::size_t>;
 
   std::size_t region = 0;
@@ -57,7 +57,7 @@ struct FoundGains {
   double cost = 0.0;  // Σ weight · missed²
 };
 
-// What is wanted of a wish's region and what it has; of wishes about brightness in the first alone.
+// The light that a wish wants and the light that its region has; wishes about brightness use the first channel alone.
 struct WishedLight {
   ChannelLight wanted{}, reached{};
 };
@@ -66,8 +66,8 @@ class GainSearch {
  public:
   explicit GainSearch(WishedExposure exposure);
 
-  // None where times are out of order in a function. Throws InputError where a function cannot be normalized, wherever
-  // within the bounds it begins.
+  // Nothing if a function's times are out of order. Throws InputError if a function cannot be normalized from any
+  // beginning within the bounds.
   [[nodiscard]] std::optional<FoundGains> find(const std::vector<std::int64_t>& times_ns);
 
   // The gains of the last find() that no wish depends on, and how many of the others the wishes leave open, because
@@ -77,15 +77,15 @@ class GainSearch {
 
   // What each wish asks for and gets with them, where regions have such light.
   [[nodiscard]] std::vector<WishedLight> wished(const std::vector<ChannelLight>& region_light) const;
-  // The light of regions by the reckoning that find() goes by.
+  // The light of regions as find() computes it.
   [[nodiscard]] std::vector<ChannelLight> region_light() const { return light_of(gains_).regions; }
 
   [[nodiscard]] const WishedExposure& exposure() const { return exposure_; }
-  // What is missed of a wish, by channel or as brightness, signed; 0 where it is kept.
+  // By how much a wish is missed, by channel or in brightness, signed; 0 if it is kept.
   [[nodiscard]] std::vector<double> missed(const LightWish& wish, const WishedLight& light) const;
 
  private:
-  // Integrals of a function's parts: of what is known of it, then of each named gain as if it were 1.
+  // Integrals of a function's parts: of its known gains, then of each named gain as if it were 1.
   struct Parts {
     std::vector<TemplatePoint> points;  // with their times
     bool is_timeless = false;           // none of them is named
@@ -105,9 +105,9 @@ class GainSearch {
   [[nodiscard]] double scale_of(std::uint8_t tag, const std::vector<double>& gains) const;
   [[nodiscard]] Light light_of(const std::vector<double>& gains) const;
   [[nodiscard]] Light change_of(const std::vector<double>& gains, std::size_t gain) const;
-  // What wishes want and have of light; of a change of light how both change.
+  // What wishes want and have in this light; for a change of light, how both change.
   [[nodiscard]] std::vector<WishedLight> wished(const Light& light, bool is_change) const;
-  // What is missed of all wishes, those that are kept included, row by row, times the roots of their weights.
+  // The misses of all wishes, kept ones included, row by row, times the roots of their weights.
   [[nodiscard]] std::vector<double> differences(const std::vector<WishedLight>& wished) const;
   [[nodiscard]] std::vector<double> differences(const std::vector<double>& gains) const;
   [[nodiscard]] double cost_of(const std::vector<double>& differences) const;
@@ -115,7 +115,7 @@ class GainSearch {
   [[nodiscard]] double cost_at(const std::vector<double>& gains) const;
   // How differences change with the gains.
   [[nodiscard]] std::vector<LeastSquaresRow> changes(const std::vector<double>& gains) const;
-  // The same of the gains that were found; none where a function cannot be normalized right beside them.
+  // The same for the gains that were found; none if a function cannot be normalized right beside them.
   [[nodiscard]] std::vector<LeastSquaresRow> changes_of_found() const;
   void descend_from_several();
   void descend();

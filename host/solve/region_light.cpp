@@ -238,7 +238,7 @@ MemoryNeeds region_light_needs(const CaptureSource& capture, const Mask& mask, c
 std::vector<RegionLight> measure_regions(CaptureSource& capture, const Transfer& transfer, const Mask& mask,
                                          const Mask* marks, const std::vector<LightRegion>& regions,
                                          const Picture* plate, SampleRange samples,
-                                         const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
+                                         const ReportedProgress& progress) {
   const CaptureFormat& format = capture.format();
   const Timeline& timeline = capture.timeline();
   const std::uint32_t channels = format.shape.channels;

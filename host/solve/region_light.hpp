@@ -1,14 +1,13 @@
 // The mean light of regions over time, from one look at a capture.
 //
 //   in:      a capture, the mask that it is exposed with, regions of the picture
-//   out:     for each region and each function that exposes any of it a course of light, so that the region's light in a
+//   out:     a course of light for each region and each function that exposes a part of it: the region's light in a
 //            picture is Σ_m ∫ g_m · course_m / X_m
 //   always:  each block is read once, however many regions there are
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -22,11 +21,12 @@
 #include "exposure/gain_function.hpp"
 #include "exposure/mask.hpp"
 #include "imev/capture_source.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 
-// How the light of a region goes over time, and the integral of that times a gain: what every candidate exposure is
-// told from, without another look at the capture.
+// The light of a region over time, and its integral times a gain: every candidate exposure follows from that, without
+// another look at the capture.
 //
 //   units:   time in nanoseconds, light of white is 1
 //   always:  light holds while a sample is exposed and runs straight across gaps (docs/explanation/model.md).
@@ -61,7 +61,7 @@ class LightCourse {
   std::vector<Run> runs_;               // of kRun stretches each; those that are left over have none
 };
 
-// Which pixels, all conditions together; without any all of them.
+// The pixels that meet all conditions; without conditions all of them.
 struct LightRegion {
   std::optional<std::uint8_t> tag;   // of the exposure's mask: each pixel by the share that it has
   std::optional<std::uint8_t> mark;  // of a second mask
@@ -93,16 +93,16 @@ class RegionPixels {
 [[nodiscard]] ChannelLight mean_light(const Picture& light, const RegionPixels& pixels,
                                       const LightRegion& region);
 
-// What measure_regions() holds, beside a block and a plate, of the same.
+// The memory that measure_regions() takes for the same, beside a block and a plate.
 [[nodiscard]] MemoryNeeds region_light_needs(const CaptureSource& capture, const Mask& mask,
                                              const Mask* marks, const std::vector<LightRegion>& regions,
                                              SampleRange samples);
 
-// Measures `samples`, of which there must be some. `plate`, light64 of the same shape, may be null. Throws InputError for a damaged
-// block; progress counts blocks.
+// Measures `samples`, of which there must be some. `plate`, light64 of the same shape, may be null. Throws InputError
+// for a damaged block; `progress` counts blocks.
 [[nodiscard]] std::vector<RegionLight> measure_regions(
     CaptureSource& capture, const Transfer& transfer, const Mask& mask, const Mask* marks,
     const std::vector<LightRegion>& regions, const Picture* plate, SampleRange samples,
-    const std::function<void(std::uint64_t, std::uint64_t)>& progress = {});
+    const ReportedProgress& progress = {});
 
 }  // namespace nutik

@@ -88,7 +88,7 @@ class Follower {
 }  // namespace
 
 std::optional<FoundTimes> find_times(GainSearch& search, const std::vector<CandidateTimes>& candidates,
-                                     const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
+                                     const ReportedProgress& progress) {
   std::uint64_t combinations = 1, tried = 0;
   for (const CandidateTimes& each : candidates) combinations *= each.times_ns.size();
   std::vector<Tried> best;  // the cheapest first

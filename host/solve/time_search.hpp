@@ -1,12 +1,11 @@
-// The times at which gains come nearest to wishes: every candidate is tried, and round the best ones it goes on to the
-// nanosecond. No candidate takes another look at the capture.
+// The times at which gains come nearest to wishes: every candidate is tried, and the search goes on round the best
+// ones, down to the nanosecond. No candidate takes another look at the capture.
 //
-//   in:      for each named time its candidates, and how far apart they are where times between them count too
-//   out:     the times and gains with the least cost; of several the earliest
+//   in:      candidates for each named time, and their distance where times between them count too
+//   out:     the times and gains with the least cost; the earliest among equals
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -16,7 +15,7 @@ namespace nutik {
 
 struct CandidateTimes {
   std::vector<std::int64_t> times_ns;  // increasing
-  std::int64_t step_ns = 0;  // where times between them count too, how far it is from one to the next; else 0
+  std::int64_t step_ns = 0;            // from one to the next where times between them count too; else 0
 };
 
 struct FoundTimes {
@@ -25,11 +24,10 @@ struct FoundTimes {
   std::uint64_t tried = 0;  // exposures
 };
 
-// None where no candidates have the times of every function in order. Throws InputError where a function cannot be
-// normalized with any that have. `search` is left at what was found. Progress
-// counts combinations of candidates.
+// Nothing if no candidates put the times of every function in order. Throws InputError if a function cannot be
+// normalized with any that do. `search` is left at what was found; `progress` counts combinations of candidates.
 [[nodiscard]] std::optional<FoundTimes> find_times(
     GainSearch& search, const std::vector<CandidateTimes>& candidates,
-    const std::function<void(std::uint64_t, std::uint64_t)>& progress = {});
+    const ReportedProgress& progress = {});
 
 }  // namespace nutik

@@ -1,8 +1,10 @@
 // nutik-studio: a window in which functions and masks are drawn while the picture follows.
 #include <QApplication>
 #include <QCommandLineParser>
+#include <string>
 
 #include "session/devices.hpp"
+#include "features/schema/option.hpp"
 #include "studio/window/appearance.hpp"
 #include "studio/window/main_window.hpp"
 #include "system/mapped_file.hpp"
@@ -19,8 +21,9 @@ int main(int count, char** words) {
   parser.setApplicationDescription("Draw gain functions and masks while the picture follows.");
   parser.addHelpOption();
   parser.addVersionOption();
-  const QCommandLineOption rate({"f", "fps"},
-                                "Pictures a second that the clip was filmed with: 120, 30000/1001.", "RATE");
+  const nutik::Option& fps = *nutik::option_of(nutik::CommandId::expose, "fps");
+  const auto text = [](std::string_view words) { return QString::fromStdString(std::string(words)); };
+  const QCommandLineOption rate({QChar(fps.short_name), text(fps.long_name)}, text(fps.help), text(fps.value));
   parser.addOption(rate);
   parser.addPositionalArgument("file", "A clip, a capture (.tik) or a project (.nutik).",
                                "[CAPTURE.tik|CLIP|PROJECT.nutik]");

@@ -1,5 +1,5 @@
 // Pictures, which NumPy looks at where they lie.
-#include "media/picture_writer.hpp"
+#include "media/writers/picture_writer.hpp"
 
 #include <pybind11/stl.h>
 

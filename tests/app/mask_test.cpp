@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capture/format.hpp"
-#include "media/mask_reader.hpp"
+#include "media/stills/mask_reader.hpp"
 #include "support/moving_square_test.hpp"
 #include "support/stills.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "app/command_line/command_line.hpp"
 #include "fuzz/target.hpp"
-#include "media/still_sequence.hpp"
+#include "media/stills/still_sequence.hpp"
 #include "session/text/shell_text.hpp"
 #include "system/input_bytes.hpp"
 

@@ -1,6 +1,6 @@
 // Masks: PGM in both forms, and PNG.
 #include "fuzz/target.hpp"
-#include "media/mask_reader.hpp"
+#include "media/stills/mask_reader.hpp"
 
 namespace nutik::fuzz {
 namespace {

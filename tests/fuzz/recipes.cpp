@@ -1,7 +1,7 @@
 // Recipes: their text, and the pictures that carry it.
 #include "capture/error.hpp"
 #include "fuzz/target.hpp"
-#include "media/recipe.hpp"
+#include "media/writers/recipe.hpp"
 
 namespace nutik::fuzz {
 namespace {

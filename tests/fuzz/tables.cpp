@@ -1,6 +1,6 @@
 // Tables of stills, whose files all exist.
 #include "fuzz/target.hpp"
-#include "media/stills_table.hpp"
+#include "media/stills/stills_table.hpp"
 
 namespace nutik::fuzz {
 namespace {

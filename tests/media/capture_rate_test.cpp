@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "media/photron_header.hpp"
+#include "media/cameras/photron_header.hpp"
 #include "support/clips.hpp"
 #include "support/ffmpeg.hpp"
 #include "support/scratch.hpp"

@@ -10,7 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "capture/error.hpp"
-#include "media/picture_writer.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "support/clips.hpp"
 #include "support/scratch.hpp"
 #include "support/stills.hpp"

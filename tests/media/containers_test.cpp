@@ -281,6 +281,42 @@ TEST(Containers, ThatWereCutOffWarn) {
   }
 }
 
+// An index ends what ffmpeg writes, and others' files have none: only a picture that is not all there is left out.
+TEST(Containers, WithoutAnIndexAreReadToTheirEnd) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 20 -c:v mjpeg -write_index 0 a.nut");
+  const auto pictures = read_all(*open_test_clip(scratch / "a.nut"));
+  EXPECT_EQ(pictures.size(), 20u);
+  EXPECT_TRUE(open_test_clip(scratch / "a.nut")->info().notes.empty());
+  const std::string whole = test::read_file(scratch / "a.nut");
+  for (const std::size_t missing : {1u, 2u, 10u, 100u}) {
+    const auto cut = open_test_clip(scratch.write("cut.nut", whole.substr(0, whole.size() - missing)));
+    ASSERT_EQ(cut->info().notes.size(), 1u) << missing;
+    EXPECT_TRUE(cut->info().notes[0].is_warning);
+    EXPECT_EQ(read_all(*cut), std::vector(pictures.begin(), pictures.end() - 1)) << missing;
+  }
+}
+
+// A stream tells no length: only where it was cut between two pictures nothing shows it.
+TEST(Containers, ThatWereStreamedAndCutOffWarn) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 20 -c:v libx264 -live 1 a.mkv");
+  const std::string whole = test::read_file(scratch / "a.mkv");
+  EXPECT_TRUE(open_test_clip(scratch / "a.mkv")->info().notes.empty());
+  constexpr std::size_t kBytes = 300;
+  std::size_t silent = 0, pictures = 20;
+  for (std::size_t missing = 1; missing < kBytes; ++missing) {
+    const auto cut = open_test_clip(scratch.write("cut.mkv", whole.substr(0, whole.size() - missing)));
+    if (std::ranges::any_of(cut->info().notes, &Note::is_warning)) continue;
+    ++silent;
+    EXPECT_LT(cut->info().sample_count, pictures) << missing;  // one less at each
+    pictures = cut->info().sample_count;
+  }
+  EXPECT_LT(silent, 20u);
+}
+
 // As of a capture: what was made of a file that changed meanwhile is not used.
 TEST(Containers, ThatAreMadeShorterWhileTheyAreReadAreNoticed) {
   NEEDS_FFMPEG();

@@ -7,7 +7,7 @@
 
 #include "capture/error.hpp"
 #include "capture/memory_needs.hpp"
-#include "media/event_clip.hpp"
+#include "media/events/event_clip.hpp"
 #include "media/event_files.hpp"
 #include "support/clips.hpp"
 #include "support/messages.hpp"

@@ -15,8 +15,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "capture/error.hpp"
-#include "media/picture_text.hpp"
-#include "media/picture_writer.hpp"
+#include "media/stills/picture_text.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "support/clips.hpp"
 #include "support/ffmpeg.hpp"
 #include "support/messages.hpp"

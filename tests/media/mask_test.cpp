@@ -3,8 +3,10 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "capture/error.hpp"
-#include "media/mask_reader.hpp"
+#include "media/stills/mask_reader.hpp"
 #include "support/ffmpeg.hpp"
+#include "support/hostile.hpp"
+#include "support/messages.hpp"
 #include "support/scratch.hpp"
 
 namespace nutik {
@@ -72,6 +74,18 @@ TEST(Mask, ReadsGreyPicturesThatAreOpaque) {
   scratch.write("raw", "\x07\xFF\xC8\xFF\x01\xFF");
   test::make(scratch, "-f rawvideo -pix_fmt ya8 -s 3x1 -i raw mask.png");
   EXPECT_EQ(tags_of(read_mask(scratch / "mask.png")), (std::vector<int>{7, 200, 1}));
+}
+
+// A code that is clear is one only where a pixel has it.
+TEST(Mask, IsOpaqueWhereNoPixelHasTheClearCode) {
+  const Scratch scratch;
+  cv::imwrite((scratch / "mask.png").string(), cv::Mat(1, 3, CV_8UC1, cv::Scalar(7)));
+  const std::string png = test::read_file(scratch / "mask.png");
+  scratch.write("mask.png", test::with_chunk(png, "tRNS", std::string("\0\x08", 2)));
+  EXPECT_EQ(tags_of(read_mask(scratch / "mask.png")), (std::vector<int>{7, 7, 7}));
+  scratch.write("mask.png", test::with_chunk(png, "tRNS", std::string("\0\x07", 2)));
+  EXPECT_NE(test::message_of<InputError>([&] { static_cast<void>(read_mask(scratch / "mask.png")); }).find("its pixel 0,0 has alpha 0 of 255"),
+            std::string::npos);
 }
 
 std::string message_of(const std::filesystem::path& path) {

@@ -2,9 +2,12 @@
 // header does not say, or cannot mean, is refused.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <span>
+
 #include "capture/error.hpp"
 #include "media/input_checksum.hpp"
-#include "media/photron_clip.hpp"
+#include "media/clip_formats.hpp"
 #include "support/clips.hpp"
 #include "support/messages.hpp"
 #include "support/scratch.hpp"
@@ -130,6 +133,18 @@ TEST(PhotronClip, GivesTheCodesOfEveryLayoutBack) {
         for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(test::difference(rasters[k], stills[k]), "") << k;
       }
     }
+  }
+}
+
+// Pixels may begin as any file does.
+TEST(PhotronClip, IsOneByItsNameWhateverItsPixelsAre) {
+  for (const std::string start : {"% ", "P5\n", "\xFF\xD8\xFF", "\xFF\x0A", "BM", "adder", "\x1F\x8B"}) {
+    const Scratch scratch;
+    auto stills = test::random_stills(kPhotronGrey, 255, 1, 7);
+    std::ranges::copy(std::as_bytes(std::span(start)), stills[0].bytes.begin());
+    const auto pictures = scratch.write("ball.mraw", packed(stills, 8));
+    scratch.write("ball.cih", Header{kPhotronGrey, "Mono", 8, 8, "Lower", "1"}.text());
+    EXPECT_EQ(test::difference(read_all(*open_test_clip(pictures)).at(0), stills[0]), "") << start;
   }
 }
 

@@ -5,7 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "capture/error.hpp"
-#include "media/picture_writer.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 

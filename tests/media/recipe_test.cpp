@@ -1,4 +1,4 @@
-#include "media/recipe.hpp"
+#include "media/writers/recipe.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 
 #include "capture/error.hpp"
 #include "media/input_checksum.hpp"
-#include "media/netpbm.hpp"
-#include "media/picture_text.hpp"
-#include "media/picture_writer.hpp"
+#include "media/stills/netpbm.hpp"
+#include "media/stills/picture_text.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "support/messages.hpp"
 #include "support/scratch.hpp"
 #include "support/stills.hpp"

@@ -1,6 +1,6 @@
 // Which files a folder, a pattern or a numbered name stands for, and what is said where it stands
 // for none.
-#include "media/still_sequence.hpp"
+#include "media/stills/still_sequence.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tables of stills: real exposure times, gaps and all, from the table or from EXIF data.
-#include "media/stills_table.hpp"
+#include "media/stills/stills_table.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Kinds of TIFF that other programs write: tiles, a plane for each channel, palettes. libtiff writes them here.
-#include "media/tiff_reader.hpp"
+#include "media/stills/tiff_reader.hpp"
 
 #include <gtest/gtest.h>
 #include <tiffio.h>

@@ -1,5 +1,5 @@
 // Videos that were written give their frames back, at their rate.
-#include "media/video_writer.hpp"
+#include "media/writers/video_writer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -66,8 +66,8 @@ std::vector<std::byte> render(OpenClRenderer& renderer, const RenderPlan& plan, 
 TEST(BlockFeed, ReadsBlocksOfAResidentCaptureOnce) {
   Scene scene;
   CountingCapture counted(*scene.capture);
-  OpenClRenderer plain(test::renderer_options(Precision::double_));
-  OpenClRenderer holding(test::renderer_options(Precision::double_));
+  OpenClRenderer plain(test::renderer_options(test::precise()));
+  OpenClRenderer holding(test::renderer_options(test::precise()));
   holding.keep_resident(&counted);
   const auto expect_same = [&](std::int64_t first, std::int64_t last, std::uint64_t reads) {
     const RenderPlan plan = scene.plan(first, last);
@@ -92,14 +92,14 @@ TEST(BlockFeed, KeepsNoMoreThanItsMemory) {
   Scene scene;
   CountingCapture counted(*scene.capture);
   const RenderPlan plan = scene.plan(0, 90);
-  OpenClRenderer plain(test::renderer_options(Precision::double_));
+  OpenClRenderer plain(test::renderer_options(test::precise()));
   const std::vector<std::byte> expected = render(plain, plan, *scene.capture);
   std::size_t block_bytes = 0;
   for (std::uint64_t block = 0; block < counted.block_count(); ++block) {
     block_bytes = std::max(block_bytes, scene.capture->view(block).payload().size());
   }
   for (const std::uint64_t resident_blocks : {0u, 1u, 5u, 22u}) {
-    OpenClOptions options = test::renderer_options(Precision::double_);
+    OpenClOptions options = test::renderer_options(test::precise());
     options.chunk_bytes = 1;  // a block each
     options.memory_bytes = std::max<std::uint64_t>(2 * resident_blocks * (block_bytes + 64), 1);
     OpenClRenderer renderer(options);
@@ -122,10 +122,10 @@ TEST(BlockFeed, KeepsWhatWasNeededLast) {
   for (std::uint64_t block = 0; block < counted.block_count(); ++block) {
     block_bytes = std::max(block_bytes, scene.capture->view(block).payload().size());
   }
-  OpenClOptions options = test::renderer_options(Precision::double_);
+  OpenClOptions options = test::renderer_options(test::precise());
   options.chunk_bytes = 1;  // a block each
   options.memory_bytes = 2 * 6 * (align_up(block_bytes, 4096));
-  OpenClRenderer renderer(options), plain(test::renderer_options(Precision::double_));
+  OpenClRenderer renderer(options), plain(test::renderer_options(test::precise()));
   renderer.keep_resident(&counted);
   const auto reads = [&](std::int64_t first, std::int64_t last) {
     const RenderPlan plan = scene.plan(first, last);
@@ -145,11 +145,11 @@ TEST(BlockFeed, KeepsWhatWasNeededLast) {
 TEST(BlockFeed, ReadsInChunksOfAnySize) {
   Scene scene;
   const RenderPlan plan = scene.plan(3, 88);
-  OpenClRenderer plain(test::renderer_options(Precision::double_));
+  OpenClRenderer plain(test::renderer_options(test::precise()));
   const std::vector<std::byte> expected = render(plain, plan, *scene.capture);
   std::uint64_t launches = plan.blocks.size() + 1;
   for (const std::uint64_t chunk_bytes : {1u, 8'000u, 30'000u, 1'000'000u}) {
-    OpenClOptions options = test::renderer_options(Precision::double_);
+    OpenClOptions options = test::renderer_options(test::precise());
     options.chunk_bytes = chunk_bytes;
     OpenClRenderer renderer(options);
     const Rendered rendered = renderer.render(plan, *scene.capture, kLight);
@@ -187,9 +187,9 @@ TEST(BlockFeed, GivesTheSameFixedPictureWhereverBlocksAreCut) {
 TEST(BlockFeed, RecoversFromADamagedBlock) {
   Scene scene;
   CountingCapture counted(*scene.capture);
-  OpenClRenderer plain(test::renderer_options(Precision::double_));
+  OpenClRenderer plain(test::renderer_options(test::precise()));
   for (const bool holds : {false, true}) {
-    OpenClOptions options = test::renderer_options(Precision::double_);
+    OpenClOptions options = test::renderer_options(test::precise());
     options.chunk_bytes = 1;
     OpenClRenderer renderer(options);
     for (const std::uint64_t damaged : {0u, 1u, 7u, 22u}) {

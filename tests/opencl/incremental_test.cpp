@@ -13,11 +13,9 @@ namespace {
 constexpr std::uint32_t kWidth = 64, kHeight = 64, kSamples = 50, kBlockSamples = 10;
 
 // 64 functions, each in its own tile, and pixels of all of them in the first one.
-class Incremental : public testing::TestWithParam<Precision> {
+class Incremental : public test::OfPrecision {
  protected:
-  void SetUp() override {
-    const auto has = precisions_of(list_devices().front());
-    if (std::ranges::find(has, GetParam()) == has.end()) GTEST_SKIP() << "the device has no double";
+  Incremental() {
     test::Random random(1);
     CaptureFormat format;
     format.shape = {kWidth, kHeight, 3};
@@ -44,7 +42,7 @@ class Incremental : public testing::TestWithParam<Precision> {
     const OutputFormat output{ValueType::light64, 0};
     const Rendered rendered =
         renderer_.render(cache_.plan(*capture_, functions_, mask_, {}), *capture_, output);
-    OpenClRenderer fresh(test::renderer_options(GetParam()));
+    OpenClRenderer fresh(options());
     const RenderPlan plan = make_plan(*capture_, functions_, mask_, {});
     EXPECT_EQ(rendered.picture.bytes, fresh.render(plan, *capture_, output).picture.bytes);
     return rendered.statistics;
@@ -58,10 +56,10 @@ class Incremental : public testing::TestWithParam<Precision> {
   Mask mask_;
   FunctionSet functions_;
   PlanCache cache_;
-  OpenClRenderer renderer_{test::renderer_options(GetParam())};
+  OpenClRenderer renderer_{options()};
 
   static std::uint32_t table_rows() {
-    return work_shape(test::renderer_options(GetParam()), GetParam(), list_devices().front()).table_rows();
+    return work_shape(options(), GetParam(), list_devices().front()).table_rows();
   }
   static constexpr std::uint64_t kRows = kSamples + kSamples / kBlockSamples;
   // Of one function: a row for each sample and one more for each block, of boundaries and, in whole groups of rows, of
@@ -125,7 +123,7 @@ TEST(IncrementalInLittleMemory, RendersTheSame) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const test::RandomCase random(seed, {3, 1, 255, Transfer::srgb()});
     MemoryCapture capture = random.encode(4, TilePolicy::automatic);
-    OpenClOptions options = test::renderer_options(Precision::double_);
+    OpenClOptions options = test::renderer_options(test::precise());
     OpenClRenderer plain(options);
     options.memory_bytes = 40'000;
     OpenClRenderer small(options);

@@ -100,14 +100,10 @@ bool has_halves(const RenderPlan& plan) {
   });
 }
 
-class KeptSumsOf : public testing::TestWithParam<Precision> {
+class KeptSumsOf : public test::OfPrecision {
  protected:
-  void SetUp() override {
-    const auto has = precisions_of(list_devices().front());
-    if (std::ranges::find(has, GetParam()) == has.end()) GTEST_SKIP() << "the device has no double";
-  }
-  OpenClRenderer fresh_{test::renderer_options(GetParam())};
-  OpenClRenderer renderer_{test::renderer_options(GetParam())};
+  OpenClRenderer fresh_{options()};
+  OpenClRenderer renderer_{options()};
 };
 
 // NUTIK_TEST_CASES=10000 is the full run.

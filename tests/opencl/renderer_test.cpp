@@ -31,7 +31,7 @@ TEST(OpenClRenderer, DoesNotDependOnHowTheWorkIsCut) {
   const test::CodeFormat formats[] = {{3, 1, 255, Transfer::srgb()}, {1, 2, 4095, Transfer::linear()}};
   ReferenceRenderer reference;
   for (const Cut& cut : cuts) {
-    OpenClOptions options = test::renderer_options(Precision::double_);
+    OpenClOptions options = test::renderer_options(test::precise());
     options.item_pixels = cut.item_pixels;
     options.item_tiles = cut.item_tiles;
     options.lanes = cut.lanes;
@@ -43,7 +43,7 @@ TEST(OpenClRenderer, DoesNotDependOnHowTheWorkIsCut) {
       MemoryCapture capture = random.encode();
       const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
       const Difference difference = test::share_of_bound(
-          plan, Precision::double_, renderer.render(plan, capture, {ValueType::light64, 0}).picture,
+          plan, test::precise(), renderer.render(plan, capture, {ValueType::light64, 0}).picture,
           reference.render(plan, capture, {ValueType::light64, 0}).picture);
       ASSERT_LE(difference.worst, 1.0)
           << random.text() << ", " << cut.item_pixels << " pixels of " << cut.item_tiles
@@ -54,7 +54,7 @@ TEST(OpenClRenderer, DoesNotDependOnHowTheWorkIsCut) {
 
 // Every kind of tile and length of block holds the same capture.
 TEST(OpenClRenderer, DoesNotDependOnTilesOrBlocks) {
-  OpenClRenderer renderer(test::renderer_options(Precision::double_));
+  OpenClRenderer renderer(test::renderer_options(test::precise()));
   for (std::uint64_t seed = 2000; seed < 2020; ++seed) {
     const RandomCase random(seed);
     MemoryCapture plain = random.encode(64, TilePolicy::dense);
@@ -77,7 +77,7 @@ TEST(OpenClRenderer, DoesNotDependOnTilesOrBlocks) {
 // Blocks of more than 255 samples index them with 16 bits.
 TEST(OpenClRenderer, ReadsBlocksOfAnyLength) {
   constexpr std::uint64_t kSamples = 600;
-  OpenClRenderer renderer(test::renderer_options(Precision::double_));
+  OpenClRenderer renderer(test::renderer_options(test::precise()));
   ReferenceRenderer reference;
   test::Random random(3000);
   CaptureFormat format;
@@ -96,7 +96,7 @@ TEST(OpenClRenderer, ReadsBlocksOfAnyLength) {
       }
       const RenderPlan plan = make_plan(capture, functions, mask, {});
       const Difference difference = test::share_of_bound(
-          plan, Precision::double_, renderer.render(plan, capture, {ValueType::light64, 0}).picture,
+          plan, test::precise(), renderer.render(plan, capture, {ValueType::light64, 0}).picture,
           reference.render(plan, capture, {ValueType::light64, 0}).picture);
       ASSERT_LE(difference.worst, 1.0)
           << "blocks of " << block_samples << ", tiles " << to_text(policy) << ", value " << difference.value;
@@ -110,7 +110,7 @@ TEST(OpenClRenderer, NothingLiveIsBlack) {
   const FunctionSet zero{{0, GainFunction({{0, 0.0}})}};
   const Mask mask = Mask::uniform(random.capture.shape.width, random.capture.shape.height, 0);
   const RenderPlan plan = make_plan(capture, zero, mask, {});
-  OpenClRenderer renderer(test::renderer_options(Precision::double_));
+  OpenClRenderer renderer(test::renderer_options(test::precise()));
   const Rendered rendered = renderer.render(plan, capture, {ValueType::code8, 255});
   for (const std::uint8_t code : rendered.picture.values<std::uint8_t>()) ASSERT_EQ(code, 0);
   EXPECT_EQ(rendered.statistics.launches, 0u);
@@ -123,7 +123,7 @@ TEST(OpenClRenderer, ReadsOnlyTheBlocksOfThePlan) {
   MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100), rasters, 10);
   const FunctionSet functions{{0, GainFunction::boxcar(250'000'000, 260'000'000)}};
   const RenderPlan plan = make_plan(capture, functions, Mask::uniform(16, 16, 0), {});
-  OpenClRenderer renderer(test::renderer_options(Precision::double_));
+  OpenClRenderer renderer(test::renderer_options(test::precise()));
   const Rendered rendered = renderer.render(plan, capture, {ValueType::code8, 255});
   EXPECT_EQ(rendered.statistics.blocks, 1u);
   EXPECT_EQ(rendered.statistics.payload_bytes,

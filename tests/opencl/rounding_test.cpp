@@ -76,8 +76,6 @@ OpenClRenderer renderer_of(Precision precision, bool fuses) {
   return OpenClRenderer(options);
 }
 
-bool has(Precision precision) { return precision != Precision::double_ || list_devices().front().has_double; }
-
 // The signed error of a sequence's light, in its bound.
 double share_of_bound(const Sequence& sequence, Precision precision, bool fuses,
                       std::uint32_t block_samples) {
@@ -120,7 +118,7 @@ Sequence piled_on(double first, const std::vector<double>& pattern) {
 // Each term is just less than half of the sum's last place, and lost; or just more, and taken for all of it.
 TEST(Roundings, OfSumsInFloatsAndDoublesReachTheBound) {
   for (const auto& [precision, u] : {std::pair{Precision::single_, 0x1p-24}, {Precision::double_, 0x1p-53}}) {
-    if (!has(precision)) continue;
+    if (!test::has(precision)) continue;
     expect_near_bound(piled_on(1.0, {0.98 * u}), precision, -1, "terms that are lost");
     expect_near_bound(piled_on(1.0, {1.02 * u}), precision, +1, "terms that count double");
   }
@@ -210,7 +208,7 @@ TEST(Roundings, OfProductsAreThoseThatAreWritten) {
 }
 
 // Weights and light of so few digits that no sum of them has more than an arithmetic holds.
-class ExactSums : public testing::TestWithParam<Precision> {
+class ExactSums : public test::OfPrecision {
  protected:
   static constexpr std::size_t kSamples = 64;
   static constexpr std::uint32_t kWhite = 128;
@@ -237,7 +235,6 @@ class ExactSums : public testing::TestWithParam<Precision> {
 };
 
 TEST_P(ExactSums, ComeOutExactly) {
-  if (!has(GetParam())) GTEST_SKIP() << "the device has no double";
   test::Random random(3);
   const test::Rasters rasters = test::random_rasters(random, format(), kSamples);
   // Whole numbers in units of the last digit, 128 · 64 of the largest of which fill all digits.

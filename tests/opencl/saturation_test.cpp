@@ -10,13 +10,7 @@
 namespace nutik {
 namespace {
 
-class SaturationOf : public testing::TestWithParam<Precision> {
- protected:
-  void SetUp() override {
-    const auto has = precisions_of(list_devices().front());
-    if (std::ranges::find(has, GetParam()) == has.end()) GTEST_SKIP() << "the device has no double";
-  }
-};
+using SaturationOf = test::OfPrecision;
 
 // The pixels of a rectangle that have a channel of which `is_out` holds.
 template <typename IsOut>

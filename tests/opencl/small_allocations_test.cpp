@@ -97,15 +97,10 @@ struct Pictures {
   }
 };
 
-class SmallAllocations : public testing::TestWithParam<Precision> {
+class SmallAllocations : public test::OfPrecision {
  protected:
-  void SetUp() override {
-    const auto has = precisions_of(list_devices().front());
-    if (std::ranges::find(has, GetParam()) == has.end()) GTEST_SKIP() << "the device has no double";
-  }
-
   [[nodiscard]] static OpenClOptions options(std::uint64_t allocation_bytes = 0) {
-    OpenClOptions options = test::renderer_options(GetParam());
+    OpenClOptions options = OfPrecision::options();
     options.allocation_bytes = allocation_bytes;
     return options;
   }

@@ -1,5 +1,5 @@
 // A capture with fewer pixels has the samples and times of the whole one.
-#include "session/live/reduced_session.hpp"
+#include "session/live/live_pictures.hpp"
 
 #include <gtest/gtest.h>
 

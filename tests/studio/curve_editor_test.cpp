@@ -8,6 +8,7 @@
 #include <QTest>
 #include <QWheelEvent>
 
+#include "hand.hpp"
 #include "studio/curves/curve_editor.hpp"
 
 namespace nutik::studio {
@@ -47,16 +48,9 @@ class CurveEditorTest : public testing::Test {
   void release(QPoint at, Qt::KeyboardModifiers keys = {}) {
     QTest::mouseRelease(&editor_, Qt::LeftButton, keys, at);
   }
-  // With a button down, which QTest::mouseMove() does not say.
-  void move(QPoint to, Qt::KeyboardModifiers keys = {}) {
-    QMouseEvent event(QEvent::MouseMove, to, editor_.mapToGlobal(to), Qt::NoButton, Qt::LeftButton, keys);
-    QCoreApplication::sendEvent(&editor_, &event);
-  }
+  void move(QPoint to, Qt::KeyboardModifiers keys = {}) { move_pressed(editor_, to, keys); }
   void drag(QPoint from, QPoint to, Qt::KeyboardModifiers keys = {}) {
-    press(from, keys);
-    constexpr int kSteps = 10;
-    for (int i = 1; i <= kSteps; ++i) move(from + (to - from) * i / kSteps, keys);
-    release(to, keys);
+    studio::drag(editor_, from, to, keys, 10);
   }
   void key(Qt::Key key, Qt::KeyboardModifiers keys = {}) { QTest::keyClick(&editor_, key, keys); }
 

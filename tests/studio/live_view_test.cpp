@@ -3,7 +3,6 @@
 
 #include <QPainter>
 
-#include "session/live/reduced_session.hpp"
 #include "studio/live/changed_pixels.hpp"
 #include "studio/regions/region_edits.hpp"
 #include "studio_test.hpp"

@@ -68,9 +68,7 @@ TEST_F(PaintingTest, APartIsPaintedAsWithEverything) {
     QTest::mousePress(&canvas(), Qt::LeftButton, {}, at(34, 22));
     ASSERT_TRUE(settles());
     QCoreApplication::processEvents();
-    QMouseEvent move(QEvent::MouseMove, at(38, 25), canvas().mapToGlobal(at(38, 25)), Qt::NoButton,
-                     Qt::LeftButton, Qt::KeyboardModifiers());
-    QApplication::sendEvent(&canvas(), &move);
+    move_pressed(canvas(), at(38, 25));
     expect_part_to_be_enough("it was drawn" + at_zoom);
     QTest::mouseRelease(&canvas(), Qt::LeftButton, {}, at(38, 25));
     ASSERT_TRUE(settles());

@@ -11,7 +11,6 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
-#include <QMouseEvent>
 #include <QPushButton>
 #include <QStandardPaths>
 #include <QTest>
@@ -19,8 +18,8 @@
 #include <QToolBar>
 #include <functional>
 
+#include "hand.hpp"
 #include "studio/live/live_view.hpp"
-#include "studio/live/picture_image.hpp"
 #include "studio/window/main_window.hpp"
 #include "support/moving_square.hpp"
 #include "support/program.hpp"
@@ -64,16 +63,6 @@ class StudioTest : public ::testing::Test {
 
   // Where a pixel's middle lies on the canvas.
   [[nodiscard]] QPoint at(double x, double y) { return canvas().view().to_widget({x, y}).toPoint(); }
-  static void drag(QWidget& widget, QPoint from, QPoint to, Qt::KeyboardModifiers keys = {}) {
-    QTest::mousePress(&widget, Qt::LeftButton, keys, from);
-    for (const QPoint place : {(from + to) / 2, to}) {
-      // With button and keys down, which QTest::mouseMove() does not say.
-      QMouseEvent move(QEvent::MouseMove, place, widget.mapToGlobal(place), Qt::NoButton, Qt::LeftButton,
-                       keys);
-      QApplication::sendEvent(&widget, &move);
-    }
-    QTest::mouseRelease(&widget, Qt::LeftButton, keys, to);
-  }
   void click_tool(const char* name) {
     auto& bar = child<QToolBar>("tools");
     QTest::mouseClick(bar.widgetForAction(&child<QAction>(name)), Qt::LeftButton);

@@ -7,6 +7,7 @@
 #include <QTest>
 #include <QWheelEvent>
 
+#include "hand.hpp"
 #include "studio/time/time_fields.hpp"
 #include "studio/time/time_strip.hpp"
 
@@ -27,7 +28,8 @@ class TimeStripTest : public testing::Test {
     document_.undo_stack().clear();
     strip_.resize(1000, 112);
     fields_.resize(1000, 32);
-    for (QWidget* widget : {static_cast<QWidget*>(&strip_), static_cast<QWidget*>(&fields_)}) widget->show();
+    strip_.show();
+    fields_.show();
     strip_.setFocus();
   }
 
@@ -38,16 +40,8 @@ class TimeStripTest : public testing::Test {
     QTest::mousePress(&strip_, Qt::LeftButton, keys, at);
   }
   void release(QPoint at) { QTest::mouseRelease(&strip_, Qt::LeftButton, {}, at); }
-  void move(QPoint to, Qt::KeyboardModifiers keys = {}) {
-    QMouseEvent event(QEvent::MouseMove, to, strip_.mapToGlobal(to), Qt::NoButton, Qt::LeftButton, keys);
-    QCoreApplication::sendEvent(&strip_, &event);
-  }
-  void drag(QPoint from, QPoint to, Qt::KeyboardModifiers keys = {}) {
-    press(from, keys);
-    constexpr int kSteps = 10;
-    for (int i = 1; i <= kSteps; ++i) move(from + (to - from) * i / kSteps, keys);
-    release(to);
-  }
+  void move(QPoint to, Qt::KeyboardModifiers keys = {}) { move_pressed(strip_, to, keys); }
+  void drag(QPoint from, QPoint to, Qt::KeyboardModifiers keys = {}) { studio::drag(strip_, from, to, keys, 10); }
   void key(Qt::Key key, Qt::KeyboardModifiers keys = {}) { QTest::keyClick(&strip_, key, keys); }
   void type(const char* name, const QString& text) {
     auto* field = fields_.findChild<QLineEdit*>(name);

@@ -3,13 +3,12 @@
 // over what other regions have.
 #include <time.h>
 
-#include <QApplication>
 #include <QElapsedTimer>
-#include <QTest>
 #include <algorithm>
 #include <cstdio>
 #include <vector>
 
+#include "hand.hpp"
 #include "opencl/device.hpp"
 #include "studio/curves/curve_editor.hpp"
 #include "studio/regions/region_edits.hpp"
@@ -45,9 +44,7 @@ void drag(MainWindow& window, QWidget& widget, QPoint from, const char* what, in
     QElapsedTimer timer;
     timer.start();
     const double begin = thread_ms();
-    QMouseEvent move(QEvent::MouseMove, to, widget.mapToGlobal(to), Qt::NoButton, Qt::LeftButton,
-                     Qt::ControlModifier);
-    QApplication::sendEvent(&widget, &move);
+    move_pressed(widget, to, Qt::ControlModifier);
     while (!window.is_settled()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
     QCoreApplication::processEvents();
     own.push_back(thread_ms() - begin);

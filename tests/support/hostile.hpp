@@ -8,19 +8,27 @@
 
 namespace nutik::test {
 
+// Four bytes, the highest first.
+inline std::string png_number(std::uint32_t value) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xFF);
+  return bytes;
+}
+
+inline std::string png_chunk(const std::string& type, const std::string& data) {
+  const std::string summed = type + data;
+  const auto sum = crc32(0, reinterpret_cast<const Bytef*>(summed.data()), static_cast<uInt>(summed.size()));
+  return png_number(static_cast<std::uint32_t>(data.size())) + summed + png_number(static_cast<std::uint32_t>(sum));
+}
+
+// With a chunk behind the first, which tells the size.
+inline std::string with_chunk(const std::string& png, const std::string& name, const std::string& data) {
+  constexpr std::size_t kFirstEnd = 33;
+  return png.substr(0, kFirstEnd) + png_chunk(name, data) + png.substr(kFirstEnd);
+}
+
 // A grey PNG of 8 bits that states this size, and has so many rows of it, all black.
 inline std::string black_png(std::uint32_t width, std::uint32_t height, std::uint32_t rows) {
-  const auto number = [](std::uint32_t value) {
-    std::string bytes;
-    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xFF);
-    return bytes;
-  };
-  const auto chunk = [&](const std::string& type, const std::string& data) {
-    const std::string summed = type + data;
-    const auto sum =
-        crc32(0, reinterpret_cast<const Bytef*>(summed.data()), static_cast<uInt>(summed.size()));
-    return number(static_cast<std::uint32_t>(data.size())) + summed + number(static_cast<std::uint32_t>(sum));
-  };
   std::string packed;
   z_stream stream{};
   deflateInit(&stream, 9);
@@ -36,8 +44,8 @@ inline std::string black_png(std::uint32_t width, std::uint32_t height, std::uin
     } while (stream.avail_out == 0);
   }
   deflateEnd(&stream);
-  const std::string header = number(width) + number(height) + std::string("\x08\0\0\0\0", 5);
-  return "\x89PNG\r\n\x1a\n" + chunk("IHDR", header) + chunk("IDAT", packed) + chunk("IEND", "");
+  const std::string header = png_number(width) + png_number(height) + std::string("\x08\0\0\0\0", 5);
+  return "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) + png_chunk("IDAT", packed) + png_chunk("IEND", "");
 }
 
 // A grey TIFF of 16 bits, packed by `compression` (5 LZW, 8 Deflate, 32773 PackBits, 1 not at all), with a few bytes

@@ -2,6 +2,8 @@
 // apart two pictures are.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -20,7 +22,7 @@
 namespace nutik::test {
 
 // NUTIK_TEST_SHAPE=pixels,tiles,lanes,group cuts the work another way than suits the device (OpenClOptions): GPUs'
-// way on a CPU, say. NUTIK_TEST_ALLOCATION=bytes makes the device allocate no more at a time.
+// way on a CPU, say. NUTIK_TEST_DEVICE makes the device another one (support/device_traits.cpp).
 inline OpenClOptions renderer_options(std::optional<Precision> precision) {
   OpenClOptions options;
   if (const char* shape = std::getenv("NUTIK_TEST_SHAPE")) {
@@ -29,12 +31,32 @@ inline OpenClOptions renderer_options(std::optional<Precision> precision) {
       throw UsageError(std::string("NUTIK_TEST_SHAPE is not pixels,tiles,lanes,group: ") + shape);
     }
   }
-  if (const char* bytes = std::getenv("NUTIK_TEST_ALLOCATION")) options.allocation_bytes = std::stoull(bytes);
   options.precision = precision;
   options.tests_itself = false;  // these tests are stricter
   options.cache_folder = std::filesystem::temp_directory_path() / "nutik-test-kernels";
   return options;
 }
+
+[[nodiscard]] inline bool has(Precision precision) {
+  return std::ranges::count(precisions_of(list_devices().front()), precision) > 0;
+}
+
+// Double, or pairs of floats on a device without it: where a test is about something else than arithmetic.
+[[nodiscard]] inline Precision precise() {
+  return has(Precision::double_) ? Precision::double_ : Precision::compensated;
+}
+
+// Tests of an arithmetic, where the device has it.
+class OfPrecision : public testing::TestWithParam<Precision> {
+ protected:
+  void SetUp() override {
+    if (!has(GetParam())) GTEST_SKIP() << "the device has no " << to_text(GetParam());
+  }
+  // Members are made before a test is skipped.
+  [[nodiscard]] static OpenClOptions options() {
+    return renderer_options(has(GetParam()) ? GetParam() : Precision::single_);
+  }
+};
 
 // A device of which no more is known than what it allocates at a time.
 inline DeviceInfo device_allocating(std::uint64_t bytes) {

@@ -140,7 +140,7 @@ std::string tiff_file(const std::vector<Picture>& pages, const TiffOptions& opti
         list(std::vector<std::uint32_t>(channels, static_cast<std::uint32_t>(options.bits)), 2);
     if (file.size() % 2 != 0) file.add(0, 1);
     file.set(link, static_cast<std::uint32_t>(file.size()));
-    const std::uint32_t entries = options.max_sample_value != 0 ? 12 : 11;
+    const std::uint32_t entries = 11 + (options.max_sample_value != 0) + (options.orientation != 0);
     file.add(entries, 2);
     const auto entry = [&](std::uint32_t tag, std::uint32_t type, std::uint32_t count, std::uint32_t value) {
       file.add(tag, 2);
@@ -158,6 +158,7 @@ std::string tiff_file(const std::vector<Picture>& pages, const TiffOptions& opti
     entry(259, kShort, 1, 1);  // not compressed
     entry(262, kShort, 1, channels == 3 ? 2 : options.inverted ? 0 : 1);
     entry(273, kLong, planes, alone(planes, offsets[0], offset_list));
+    if (options.orientation != 0) entry(274, kShort, 1, static_cast<std::uint32_t>(options.orientation));
     entry(277, kShort, 1, channels);
     entry(278, kLong, 1, page.shape.height);
     entry(279, kLong, planes, alone(planes, sizes[0], size_list));

@@ -28,6 +28,7 @@ struct TiffOptions {
   bool planar = false;       // one channel behind the other
   int max_sample_value = 0;  // 0: no such tag
   int sample_format = 1;     // 1 without sign, 2 signed, 3 floating point
+  int orientation = 0;       // 0: no such tag
 };
 [[nodiscard]] std::string tiff_file(const std::vector<Picture>& pages, const TiffOptions& options);
 

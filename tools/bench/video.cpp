@@ -15,7 +15,7 @@
 #include "capture/frame_times.hpp"
 #include "harness.hpp"
 #include "media/frame_queue.hpp"
-#include "media/picture_writer.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "opencl/device.hpp"
 #include "opencl/opencl_renderer.hpp"
 #include "tik/reader.hpp"

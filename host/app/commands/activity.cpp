@@ -10,7 +10,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/schema/option.hpp"
-#include "media/picture_writer.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"
 #include "session/text/text_table.hpp"

@@ -1,8 +1,8 @@
 #include "app/commands/camera_files.hpp"
 
 #include "app/output/output_name.hpp"
-#include "media/picture_writer.hpp"
-#include "media/recipe.hpp"
+#include "media/writers/picture_writer.hpp"
+#include "media/writers/recipe.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {

@@ -10,7 +10,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/series/series_making.hpp"
-#include "media/picture_writer.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "session/text/number_text.hpp"
 
 namespace nutik::app {

@@ -15,7 +15,7 @@
 #include "features/masks/mask_making.hpp"
 #include "features/plate/plate.hpp"
 #include "mask/feather.hpp"
-#include "media/picture_writer.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "plot/canvas.hpp"
 #include "plot/graph.hpp"
 #include "session/requests/stated_time.hpp"

@@ -4,7 +4,7 @@
 #include "app/requests/requests.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/still_sequence.hpp"
+#include "media/stills/still_sequence.hpp"
 #include "session/clips/clip_source.hpp"
 #include "session/clips/measured_noise.hpp"
 #include "system/output_file.hpp"

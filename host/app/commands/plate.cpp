@@ -7,7 +7,7 @@
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "capture/format.hpp"
-#include "media/picture_writer.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "session/text/number_text.hpp"
 
 namespace nutik::app {

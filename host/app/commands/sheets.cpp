@@ -13,8 +13,8 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/sheets/sheet_making.hpp"
-#include "media/picture_writer.hpp"
-#include "media/recipe.hpp"
+#include "media/writers/picture_writer.hpp"
+#include "media/writers/recipe.hpp"
 #include "session/text/number_text.hpp"
 
 namespace nutik::app {

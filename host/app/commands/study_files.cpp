@@ -6,8 +6,8 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/netpbm.hpp"
-#include "media/picture_writer.hpp"
+#include "media/stills/netpbm.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "session/text/shell_text.hpp"
 #include "system/checksum.hpp"
 #include "system/input_bytes.hpp"

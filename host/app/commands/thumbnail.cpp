@@ -5,7 +5,7 @@
 #include "app/output/report.hpp"
 #include "capture/format.hpp"
 #include "capture/picture.hpp"
-#include "media/picture_writer.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "plot/canvas.hpp"
 #include "plot/graph.hpp"
 #include "session/session.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "features/schema/options.hpp"
-#include "media/numbered_name.hpp"
+#include "media/formats/numbered_name.hpp"
 #include "session/output_check.hpp"
 
 namespace nutik::app {

@@ -5,7 +5,7 @@
 #include "capture/format.hpp"
 #include "features/schema/option.hpp"
 #include "media/input_checksum.hpp"
-#include "media/recipe.hpp"
+#include "media/writers/recipe.hpp"
 #include "session/requests/function_input.hpp"
 #include "system/input_bytes.hpp"
 

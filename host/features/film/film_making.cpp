@@ -7,7 +7,7 @@
 #include "features/series/picture_queue.hpp"
 #include "media/frame_queue.hpp"
 #include "media/input_checksum.hpp"
-#include "media/numbered_name.hpp"
+#include "media/formats/numbered_name.hpp"
 #include "system/is_absent.hpp"
 
 namespace nutik {

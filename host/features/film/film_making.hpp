@@ -14,7 +14,7 @@
 
 #include "features/film/film_request.hpp"
 #include "features/recipe/picture_recipe.hpp"
-#include "media/video_writer.hpp"
+#include "media/writers/video_writer.hpp"
 #include "session/output_check.hpp"
 #include "session/requests/output_request.hpp"
 #include "session/session.hpp"

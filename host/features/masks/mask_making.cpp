@@ -11,7 +11,7 @@
 #include "mask/code_span.hpp"
 #include "mask/distance.hpp"
 #include "mask/layers.hpp"
-#include "media/picture_writer.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "scene/clean_plate.hpp"
 #include "session/requests/function_input.hpp"
 #include "session/requests/output_request.hpp"

@@ -14,7 +14,7 @@
 #include "exposure/mask.hpp"
 #include "features/masks/mask_request.hpp"
 #include "imev/capture_source.hpp"
-#include "media/numbered_name.hpp"
+#include "media/formats/numbered_name.hpp"
 #include "session/exposed_picture.hpp"
 #include "session/output_check.hpp"
 #include "session/session.hpp"

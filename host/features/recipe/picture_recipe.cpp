@@ -4,7 +4,7 @@
 
 #include "capture/format.hpp"
 #include "media/input_checksum.hpp"
-#include "media/picture_text.hpp"
+#include "media/stills/picture_text.hpp"
 #include "session/clips/clip_source.hpp"
 #include "session/requests/stated_time.hpp"
 #include "tik/reader.hpp"

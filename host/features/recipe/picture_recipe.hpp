@@ -8,7 +8,7 @@
 
 #include "capture/error.hpp"
 #include "capture/timeline.hpp"
-#include "media/recipe.hpp"
+#include "media/writers/recipe.hpp"
 
 namespace nutik {
 

@@ -10,20 +10,26 @@
 namespace nutik {
 namespace {
 
-// `unseen hold`: an option by its long name, and its value.
+// `unseen hold`: an option by its long name, and its value. Empty where there is no such option.
 std::string written(std::string_view stated, Dialect dialect) {
   const std::size_t blank = std::min(stated.find(' '), stated.size());
-  return find_option(stated.substr(0, blank))->written(dialect, stated.substr(std::min(blank + 1, stated.size())));
+  const Option* const option = find_option(stated.substr(0, blank));
+  return option == nullptr || option->long_name.empty()
+             ? ""
+             : option->written(dialect, stated.substr(std::min(blank + 1, stated.size())));
 }
 
-// Advice, with the options that stand in it between backquotes.
+// Advice, with the options that stand in it between backquotes. A backquote may also be part of a file's name.
 std::string in_words(std::string_view advice, Dialect dialect) {
   std::string text;
-  for (bool is_option = false;; is_option = !is_option) {
-    const std::string_view part = advice.substr(0, advice.find('`'));
-    text += is_option ? written(part, dialect) : std::string(part);
-    if (part.size() == advice.size()) return text;
-    advice.remove_prefix(part.size() + 1);
+  while (true) {
+    const std::size_t begin = advice.find('`');
+    const std::size_t end = begin == advice.npos ? advice.npos : advice.find('`', begin + 1);
+    if (end == advice.npos) return text + std::string(advice);
+    const std::string option = written(advice.substr(begin + 1, end - begin - 1), dialect);
+    const std::size_t taken = option.empty() ? begin + 1 : end + 1;
+    text += option.empty() ? advice.substr(0, taken) : std::string(advice.substr(0, begin)) + option;
+    advice.remove_prefix(taken);
   }
 }
 
@@ -51,7 +57,8 @@ std::string message_text(const std::exception& error, Dialect dialect) {
   }
   const auto* known = dynamic_cast<const Error*>(&error);
   if (known == nullptr) return message;
-  return (message == known->advice() ? "" : message) + in_words(known->advice(), dialect) + written(known->settings(), dialect);
+  return (message == known->advice() ? "" : message) + in_words(known->advice(), dialect) +
+         written(known->settings(), dialect);
 }
 
 std::vector<std::string> note_texts(const std::vector<Note>& notes, Dialect dialect) {

@@ -85,7 +85,8 @@ const Option* find_option(char short_name) {
 }
 
 const Option* option_of(CommandId command, std::string_view long_name) {
-  return first_option([&](const Option& option) { return option.long_name == long_name && option.is_of(command); });
+  return first_option(
+      [&](const Option& option) { return option.long_name == long_name && option.is_of(command); });
 }
 
 const Option* option_of_argument(CommandId command, std::string_view name) {

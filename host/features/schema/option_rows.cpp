@@ -64,16 +64,20 @@ constexpr Option step(std::string_view name, std::string_view value, std::string
 
 constexpr Option kRows[] = {
     heading("The source clip"),
-    known(Setting::frame_rate, "rate", {'f', "fps", "RATE", timing, kReadsClips | set_of(Id::shutter, Id::retime), take<InClip<&ClipOptions::rate>>,
+    known(Setting::frame_rate, "rate", {'f', "fps", "RATE", timing, kReadsClips | set_of(Id::shutter, Id::retime),
+     take<InClip<&ClipOptions::rate>>,
      "pictures a second that the clip was filmed with: 120, 29.97, 30000/1001 (default: what the file says)"}),
-    known(Setting::shutter_angle, {'a', "shutter-angle", "DEGREES", timing, kReadsClips | set_of(Id::shutter, Id::retime),
+    known(Setting::shutter_angle, {'a', "shutter-angle", "DEGREES", timing, kReadsClips | set_of(Id::shutter,
+     Id::retime),
      take<InSource<&SourceRequest::shutter_angle>>,
      "share of the time between pictures that the shutter was open, 360 being all of it (default: what the "
      "file says, else 360)"}),
-    known(Setting::white_code, {0, "white", "CODE", decoding, kDecodesClips, take_whole<InClip<&ClipOptions::white_code>, 1, 65'535>,
+    known(Setting::white_code, {0, "white", "CODE", decoding, kDecodesClips,
+     take_whole<InClip<&ClipOptions::white_code>, 1, 65'535>,
      "the code that stands for white: 255, 4095 for 12 bits, … (default: what the file says)"}),
     // A capture has one too, which a picture may be exposed without: so it is none of what only a clip has.
-    known(Setting::transfer, {0, "transfer", "NAME", exposure, kDecodesClips | bit(Id::retime), take<InClip<&ClipOptions::transfer>>,
+    known(Setting::transfer, {0, "transfer", "NAME", exposure, kDecodesClips | bit(Id::retime),
+     take<InClip<&ClipOptions::transfer>>,
      "how codes stand for light: srgb, bt709, linear, gamma:G, hlg or pq (default: srgb; linear for stills "
      "and grey video of more than 8 bits and for 16-bit colour; what a file names, but for bt709 in 8-bit "
      "video; a .tik's own)",
@@ -85,34 +89,42 @@ constexpr Option kRows[] = {
     known(Setting::range, {0, "range", "NAME", decoding, kDecodesClips, take<InClip<&ClipOptions::range>>,
      "which codes of YUV are black and white: limited or full (default: what the file says, else limited)",
      "limited full"}),
-    known(Setting::chroma_place, {0, "chroma-at", "PLACE", decoding, kDecodesClips, take<InClip<&ClipOptions::chroma_at>>,
+    known(Setting::chroma_place, {0, "chroma-at", "PLACE", decoding, kDecodesClips,
+     take<InClip<&ClipOptions::chroma_at>>,
      "where samples of chroma lie that pixels of deep video share: left, center, topleft, top, bottomleft or "
      "bottom (default: what the file says, else left)",
      "left center topleft top bottomleft bottom"}),
-    known(Setting::primaries, {0, "primaries", "NAME", decoding, kDecodesClips | bit(Id::retime), take<InClip<&ClipOptions::primaries>>,
+    known(Setting::primaries, {0, "primaries", "NAME", decoding, kDecodesClips | bit(Id::retime),
+     take<InClip<&ClipOptions::primaries>>,
      "the colours of red, green and blue: bt709, bt2020 or p3 (default: what the file says; else bt2020 if "
      "the matrix is, and bt709)",
      "bt709 bt2020 p3"}),
-    known(Setting::pixel_aspect, {0, "pixel-aspect", "W:H", decoding, kDecodesClips | bit(Id::retime), take_by<InClip<&ClipOptions::pixel_aspect>, parse_pixel_aspect>,
+    known(Setting::pixel_aspect, {0, "pixel-aspect", "W:H", decoding, kDecodesClips | bit(Id::retime),
+     take_by<InClip<&ClipOptions::pixel_aspect>, parse_pixel_aspect>,
      "how much wider than high a pixel is shown, as in 32:27 (default: what the file says, else 1:1)"}),
-    known(Setting::raw_layout, {0, "raw", "WxH:FORMAT", decoding, kDecodesClips | bit(Id::shutter), take<InClip<&ClipOptions::raw>>,
+    known(Setting::raw_layout, {0, "raw", "WxH:FORMAT", decoding, kDecodesClips | bit(Id::shutter),
+     take<InClip<&ClipOptions::raw>>,
      "a video without a header: its size and FFmpeg's name of its pixels, 480x270:yuv420p10le"}),
-    known(Setting::from, "begin", {0, "from", "TIME", decoding, kDecodesClips & ~bit(Id::video), take<InClip<&ClipOptions::from>>,
+    known(Setting::from, "begin", {0, "from", "TIME", decoding, kDecodesClips & ~bit(Id::video),
+     take<InClip<&ClipOptions::from>>,
      "take pictures of the clip that start here or later, which is then time 0: 1.5s, 32f (default: the "
      "first)"}),
-    known(Setting::to, "end", {0, "to", "TIME", decoding, kDecodesClips & ~bit(Id::video), take<InClip<&ClipOptions::to>>,
+    known(Setting::to, "end", {0, "to", "TIME", decoding, kDecodesClips & ~bit(Id::video),
+     take<InClip<&ClipOptions::to>>,
      "take pictures that start earlier: 2s, 48f (default: all)"}),
     known(Setting::crop, {0, "crop", "WxH+X+Y", decoding, kDecodesClips, take<InClip<&ClipOptions::crop>>,
      "take a rectangle of the clip's pictures: its size, and the place of its top left pixel"}),
     known(Setting::scale, {0, "scale", "SCALE", decoding, kDecodesClips, take<InClip<&ClipOptions::scale>>,
      "make pictures smaller, each pixel the mean of the light it covers: 1/2, 1/3, …, or 640x360"}),
-    known(Setting::deinterlace, {0, "deinterlace", "HOW", decoding, kDecodesClips, take<InClip<&ClipOptions::interlaced>>,
+    known(Setting::deinterlace, {0, "deinterlace", "HOW", decoding, kDecodesClips,
+     take<InClip<&ClipOptions::interlaced>>,
      "of interlaced video: frames (a picture from each frame), fields (one from each field, twice as many), "
      "or no (it only says that it is) (default: it is refused)",
      "frames fields no"}),
     known(Setting::deflicker, {0, "deflicker", "", decoding, kReadsClips, take<InSource<&SourceRequest::deflickered>>,
      "expose all pictures as the first one: undo a camera's automatic exposure and white balance"}),
-    known(Setting::end_at_damage, {0, "as-far-as-it-goes", "", decoding, kDecodesClips, take<InClip<&ClipOptions::ends_at_damage>>,
+    known(Setting::end_at_damage, {0, "as-far-as-it-goes", "", decoding, kDecodesClips,
+     take<InClip<&ClipOptions::ends_at_damage>>,
      "take a damaged clip's pictures up to the first that cannot be read, with a warning"}),
     {0, "tolerance", "CODES", encoding, kEncodesClips, take_whole<InSource<&SourceRequest::tolerance>, 0, 65'535>,
      "differences up to this many codes are no change; 0 keeps every one (default: 0)"},
@@ -127,10 +139,12 @@ constexpr Option kRows[] = {
     known(Setting::contrast, {0, "contrast", "STEP", decoding, kDecodesClips, take<InEvents<&EventOptions::contrast>>,
      "of an event camera: by how much the natural logarithm of light changes with an event, 0.2, or up and down apart, "
      "0.3:0.17 (default: 0.2)"}),
-    known(Setting::start_picture, {0, "start-picture", "FILE|LIGHT", decoding, bit(Id::encode), take<InEvents<&EventOptions::start>>,
+    known(Setting::start_picture, {0, "start-picture", "FILE|LIGHT", decoding, bit(Id::encode),
+     take<InEvents<&EventOptions::start>>,
      "light before the first event: a picture's of the same pixels, or the same everywhere, 1 being white (default: "
      "0.18)"}),
-    known(Setting::tick, {0, "tick", "TIME", decoding, kDecodesClips, take_by<InEvents<&EventOptions::tick_ns>, parse_tick>,
+    known(Setting::tick, {0, "tick", "TIME", decoding, kDecodesClips,
+     take_by<InEvents<&EventOptions::tick_ns>, parse_tick>,
      "changes count at the start of the tick that they are in, 100us: fewer samples (default: the file's own times)"}),
 
     heading("A camera that moved"),
@@ -180,7 +194,8 @@ constexpr Option kRows[] = {
     {0, "exposure", "TIME", exposure, kTakesIntervals, take<In<&Options::exposure>>,
      "length of the plain interval: 10ms, 1/100s, 250us, or 3f: to the end of the third picture where --start "
      "counts pictures, too, else three periods"},
-    known(Setting::unmapped, {0, "unmapped", "zero", exposure, kTakesFunctions, take_by<In<&Options::unmapped_is_zero>, parse_zero>,
+    known(Setting::unmapped, {0, "unmapped", "zero", exposure, kTakesFunctions,
+     take_by<In<&Options::unmapped_is_zero>, parse_zero>,
      "expose mask values without a function to black (default: an error)", "zero"}),
     {0, "live", "all", exposure, kShapesExposures, take_by<In<&Options::live_all>, parse_all>,
      "visit every sample, also if no gain needs it (the picture is the same)", "all"},
@@ -192,7 +207,8 @@ constexpr Option kRows[] = {
      "how far the shutter is open in the course of the plain interval: box, trapezoid:R, triangle, "
      "gaussian, hann, strobe:N[,R] or spline:0=G,…,1=G (default: box)",
      "box trapezoid: triangle gaussian hann strobe: spline:"},
-    {0, "shutter-error", "E", exposure, kShapesExposures | bit(Id::shutter), take_by<In<&Options::shutter_error>, parse_shutter_error>,
+    {0, "shutter-error", "E", exposure, kShapesExposures | bit(Id::shutter),
+     take_by<In<&Options::shutter_error>, parse_shutter_error>,
      "how far a smooth shape may be from its true gains, as a share of the largest (default: 0.001)"},
     known(Setting::normalization, {0, "normalize", "BY", exposure, kTakesFunctions, take<In<&Options::normalization>>,
      "divide by the time with a gain (support), by its integral (integral: a still scene keeps its "
@@ -292,7 +308,8 @@ constexpr Option kRows[] = {
      "from the start of one exposure to the next: 0.2s, 5f (default: so that 24 fit)"},
     known(Setting::columns, {0, "columns", "N", series, kMakesSheets, take_whole<In<&Options::columns>, 1, 1000>,
      "pictures beside each other (default: as many as look well)"}),
-    known(Setting::width, {0, "width", "PIXELS", series, kMakesSheets, take_whole<In<&Options::width>, 100, plot::kLargestSide>,
+    known(Setting::width, {0, "width", "PIXELS", series, kMakesSheets,
+     take_whole<In<&Options::width>, 100, plot::kLargestSide>,
      "of the whole sheet (default: up to 1600, no picture enlarged)"}),
     {0, "each", "NAME%02d.png", output, bit(Id::sweep), take<In<&Options::each>>,
      "also write every picture in full size, numbered from 0"},
@@ -302,7 +319,8 @@ constexpr Option kRows[] = {
      "count only pixels that have this value in the mask; all: those with each value for themselves, too", "all"},
     {0, "by", "CODES", subject, bit(Id::activity), take_whole<In<&Options::by>, 0, 65'535>,
      "count codes that differ by more than this at a sample (default: 0)"},
-    known(Setting::count_redrawn, {0, "count-redrawn", "", subject, bit(Id::activity), take<In<&Options::counts_redrawn>>,
+    known(Setting::count_redrawn, {0, "count-redrawn", "", subject, bit(Id::activity),
+     take<In<&Options::counts_redrawn>>,
      "also count changes at samples at which the whole picture changed a little at once: its codec drew it anew, as at "
      "key frames, or the camera changed its exposure (default: they count as those beside them)"}),
     {0, "moment", "quietest|busiest", subject, bit(Id::activity), take<In<&Options::moment>>,
@@ -331,10 +349,12 @@ constexpr Option kRows[] = {
      "rear-curtain, none of strobe)",
      "even fade ramp none"},
     {0, "by", "CODES", subject, bit(Id::study), take_whole<In<&Options::by>, 1, 65'535>,
-     "the largest difference from the empty scene that is not the subject, in codes: fewer find what hardly stands out, "
+     "the largest difference from the empty scene that is not the subject, in codes: fewer find what hardly stands out,
+     "
      "more leave out shadows (default: 1/16 of white; twice the noise, if that is more, for the subject's outline)"},
     {0, "feather", "PIXELS", exposure, bit(Id::study), take<In<&Options::feather>>,
-     "blend the subject's region, or slit's strips, over so many pixels: 6px, at most 32px (default: 2px; strips: 0px)"},
+     "blend the subject's region, or slit's strips, over so many pixels: 6px,
+     at most 32px (default: 2px; strips: 0px)"},
     {0, "slit-from", "SIDE", subject, bit(Id::study), take<InStudy<&StudyRequest::slit_from>>,
      "where slit begins: left, right (columns), top or bottom (rows) (default: left)", "left right top bottom"},
 
@@ -384,12 +404,14 @@ constexpr Option kRows[] = {
      kWrites & ~set_of(Id::batch, Id::info, Id::thumbnail), take<In<&Options::output>>,
      "where to write; without it the last operand, or a name made from the inputs. A picture goes to "
      "standard output as -, a PNG, or as exr:-, tif:-, …"},
-    known(Setting::depth, "dtype", {0, "depth", "BITS", exposure, set_of(Id::expose, Id::video, Id::validate, Id::plate, Id::study),
+    known(Setting::depth, "dtype", {0, "depth", "BITS", exposure, set_of(Id::expose, Id::video, Id::validate,
+     Id::plate, Id::study),
      take<InPicture<&OutputRequest::depth>>,
      "8, 16, float or half (.exr): light as it is, with negatives (default: the capture's own, 8 for .jpg, "
      "float for .exr and .pfm)",
      "8 16 half float"}),
-    known(Setting::quality, {0, "quality", "N", exposure, kExposesFreely | set_of(Id::plate, Id::study), take_whole<InPicture<&OutputRequest::quality>, 1, 100>,
+    known(Setting::quality, {0, "quality", "N", exposure, kExposesFreely | set_of(Id::plate, Id::study),
+     take_whole<InPicture<&OutputRequest::quality>, 1, 100>,
      "of .jpg pictures, 1 … 100 (default: 90)"}),
     {0, "negative", "HOW", exposure, kExposesFreely, take<InPicture<&OutputRequest::negative>>,
      "what codes make of light below 0: saturate (black), offset (light 0 is mid-grey, light below it "
@@ -408,7 +430,8 @@ constexpr Option kRows[] = {
     {0, "tiles", "KIND", encoding, kEncodesClips, take<InSource<&SourceRequest::tiles>>,
      "auto, or all tiles as dense, rows or records, for experiments (default: auto)",
      "auto dense rows records"},
-    known(Setting::block_samples, {0, "block-samples", "N", encoding, kEncodesClips, take_whole<InSource<&SourceRequest::block_samples>, 1, kLargestBlockSamples>,
+    known(Setting::block_samples, {0, "block-samples", "N", encoding, kEncodesClips,
+     take_whole<InSource<&SourceRequest::block_samples>, 1, kLargestBlockSamples>,
      "samples in a block (default: 64, fewer where much of a large picture changes)"}),
     {0, "activity", "MAP.png", output, bit(Id::info), take<In<&Options::activity>>,
      "also write how often each pixel changes, as a grey picture: black never, white most often, between "

@@ -32,7 +32,8 @@ std::optional<AlignRequest> align_request(const Options& options) {
       throw UsageError(Advice{format("`align-along` says motion and reference already; leave `{}` out",
                                      options.align ? "align" : "align-to")});
     }
-    request.path.emplace(parse_camera_path(InputBytes(*options.align_along).text(), input_title(*options.align_along)));
+    request.path.emplace(
+        parse_camera_path(InputBytes(*options.align_along).text(), input_title(*options.align_along)));
   } else {
     request.motion = *options.align;
   }
@@ -45,7 +46,8 @@ void read_noise(SourceRequest& request, const Options& options) {
   if (options.noise && options.has("tolerance"))
     throw UsageError(Advice{"`noise` and `tolerance` both say what is no change; leave one out"});
   if (options.has("sigmas") && !options.noise) {
-    throw UsageError(Advice{"`sigmas` counts standard deviations of a camera's noise: it needs `noise FILE` or `noise auto`"});
+    throw UsageError(Advice{
+        "`sigmas` counts standard deviations of a camera's noise: it needs `noise FILE` or `noise auto`"});
   }
   if (options.noise == kAutomaticNoise) {
     request.noise = NoiseOfClip{};
@@ -57,14 +59,16 @@ void read_noise(SourceRequest& request, const Options& options) {
 constexpr std::uint32_t kMaxMoments = 50;
 constexpr std::uint32_t kMaxStrips = 256;  // of a slit: a mask has no more values
 
-std::variant<std::uint32_t, std::vector<StatedTime>> parse_moments(const std::string& text, StudyStyle style) {
+std::variant<std::uint32_t, std::vector<StatedTime>> parse_moments(const std::string& text,
+                                                                   StudyStyle style) {
   constexpr std::string_view kWhat = "--moments";
   if (text.find_first_not_of("0123456789") == std::string::npos) {
     return style == StudyStyle::slit ? parse_whole_number(text, kWhat, 2, kMaxStrips)
                                      : parse_whole_number(text, kWhat, 1, kMaxMoments);
   }
   if (style == StudyStyle::slit) {
-    throw UsageError(Advice{"`style slit` shows a moment in each strip; say with `moments` how many there are, not which"});
+    throw UsageError(Advice{
+        "`style slit` shows a moment in each strip; say with `moments` how many there are, not which"});
   }
   std::vector<StatedTime> times;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -73,7 +77,8 @@ std::variant<std::uint32_t, std::vector<StatedTime>> parse_moments(const std::st
     begin = end + 1;
   }
   if (times.size() > kMaxMoments)
-    throw UsageError(Advice{format("`moments` names {} times; a study has {} at most", times.size(), kMaxMoments)});
+    throw UsageError(
+        Advice{format("`moments` names {} times; a study has {} at most", times.size(), kMaxMoments)});
   return times;
 }
 
@@ -81,7 +86,8 @@ Rectangle region_of(const std::string& text) {
   const std::vector<double> n = parse_numbers(text, "--region");
   const auto is_whole = [](double each) { return each >= 0 && each <= 65'535 && each == std::floor(each); };
   if (n.size() != 4 || !std::ranges::all_of(n, is_whole) || n[2] == 0 || n[3] == 0) {
-    throw UsageError(Advice{format("`region` '{}' is no rectangle; write whole pixels: X,Y,WIDTH,HEIGHT", text)});
+    throw UsageError(
+        Advice{format("`region` '{}' is no rectangle; write whole pixels: X,Y,WIDTH,HEIGHT", text)});
   }
   const auto pixels = [&](std::size_t i) { return static_cast<std::uint32_t>(n[i]); };
   return {pixels(0), pixels(1), pixels(2), pixels(3)};
@@ -91,7 +97,8 @@ Rectangle region_of(const std::string& text) {
 void refuse_for_style(const Options& options, StudyStyle style) {
   const bool is_slit = style == StudyStyle::slit;
   const auto fail = [&](std::string_view name, std::string_view why) {
-    throw UsageError(Advice{format("`{}` says nothing to `style {}`, which {}; leave it out", name, options.text("style"), why)});
+    throw UsageError(Advice{
+        format("`{}` says nothing to `style {}`, which {}; leave it out", name, options.text("style"), why)});
   };
   for (const char* name : {"moments", "feather", "by", "spacing", "trail"}) {
     const bool is_of_strips = name == std::string_view("moments") || name == std::string_view("feather");
@@ -118,7 +125,8 @@ ComputingRequest computing_request(const Options& options) {
   ComputingRequest request = ComputingRequest::of_environment();
   if (options.memory) request.memory = *options.memory;
   if (options.renderer == RendererKind::reference) {
-    if (options.device) throw UsageError(Advice{"`device` chooses an OpenCL device; the reference uses none"});
+    if (options.device)
+      throw UsageError(Advice{"`device` chooses an OpenCL device; the reference uses none"});
     if (options.has("precision"))
       throw UsageError(Advice{"`precision` goes with OpenCL; the reference uses double"});
     request.device.clear();
@@ -143,7 +151,8 @@ ExposureRequest weighed_exposure(const Options& options) {
 }
 
 Shutter stated_shutter(const Options& options) {
-  return {options.shutter.value_or(ShutterShape()), options.shutter_error.value_or(ShutterShape::kDefaultError)};
+  return {options.shutter.value_or(ShutterShape()),
+          options.shutter_error.value_or(ShutterShape::kDefaultError)};
 }
 
 double brightening(const Options& options) {
@@ -163,8 +172,8 @@ double brightening(const Options& options) {
 SweepRequest sweep_request(const Options& options) {
   const std::vector<SweepRange>& ranges = options.sweep;
   if (ranges.empty()) {
-    throw UsageError(Advice{
-        "what is varied? Add `shift 0..1s/0.1s`, `scale-gain 0.5..2/0.25` or `stretch 0.5..2/0.5`"});
+    throw UsageError(
+        Advice{"what is varied? Add `shift 0..1s/0.1s`, `scale-gain 0.5..2/0.25` or `stretch 0.5..2/0.5`"});
   }
   if (ranges.size() > 2)
     throw UsageError("three parameters do not fit a sheet; vary one, or two as rows and columns");

@@ -29,28 +29,54 @@ bool parse_only(std::string_view word, std::string_view what, std::string_view o
 }  // namespace
 
 void read_word(std::string_view word, std::string_view, std::string& value) { value = word; }
-void read_word(std::string_view word, std::string_view what, Rational& value) { value = Rational::parse(word, what); }
-void read_word(std::string_view word, std::string_view what, StatedTime& value) { value = StatedTime::parse(word, what); }
-void read_word(std::string_view word, std::string_view, std::optional<Transfer>& value) { value = Transfer::parse(word); }
+void read_word(std::string_view word, std::string_view what, Rational& value) {
+  value = Rational::parse(word, what);
+}
+void read_word(std::string_view word, std::string_view what, StatedTime& value) {
+  value = StatedTime::parse(word, what);
+}
+void read_word(std::string_view word, std::string_view, std::optional<Transfer>& value) {
+  value = Transfer::parse(word);
+}
 void read_word(std::string_view word, std::string_view, YuvMatrix& value) { value = parse_yuv_matrix(word); }
 void read_word(std::string_view word, std::string_view, CodeRange& value) { value = parse_code_range(word); }
-void read_word(std::string_view word, std::string_view, ChromaPlace& value) { value = parse_chroma_place(word); }
+void read_word(std::string_view word, std::string_view, ChromaPlace& value) {
+  value = parse_chroma_place(word);
+}
 void read_word(std::string_view word, std::string_view, Primaries& value) { value = parse_primaries(word); }
 void read_word(std::string_view word, std::string_view what, ClipMoment& value) {
   value = clip_moment(StatedTime::parse(word, what), what);
 }
 void read_word(std::string_view word, std::string_view, Rectangle& value) { value = parse_crop(word); }
 void read_word(std::string_view word, std::string_view, ClipScale& value) { value = parse_scale(word); }
-void read_word(std::string_view word, std::string_view, Interlaced& value) { value = parse_deinterlacing(word); }
+void read_word(std::string_view word, std::string_view, Interlaced& value) {
+  value = parse_deinterlacing(word);
+}
 void read_word(std::string_view word, std::string_view, Contrast& value) { value = parse_contrast(word); }
-void read_word(std::string_view word, std::string_view, StartLight& value) { value = parse_start_light(word); }
-void read_word(std::string_view word, std::string_view, TilePolicy& value) { value = parse_tile_policy(word); }
-void read_word(std::string_view word, std::string_view, tik::Codec& value) { value = tik::Codec::parse(word); }
-void read_word(std::string_view word, std::string_view, Feather& value) { value = Feather::parse(std::string(word)); }
-void read_word(std::string_view word, std::string_view what, DelayRequest& value) { value = DelayRequest::parse(word, what); }
-void read_word(std::string_view word, std::string_view, ShutterShape& value) { value = ShutterShape::parse(word); }
-void read_word(std::string_view word, std::string_view, Normalization& value) { value = Normalization::parse(word); }
-void read_word(std::string_view word, std::string_view what, FrameRanges& value) { value = FrameRanges::parse(word, what); }
+void read_word(std::string_view word, std::string_view, StartLight& value) {
+  value = parse_start_light(word);
+}
+void read_word(std::string_view word, std::string_view, TilePolicy& value) {
+  value = parse_tile_policy(word);
+}
+void read_word(std::string_view word, std::string_view, tik::Codec& value) {
+  value = tik::Codec::parse(word);
+}
+void read_word(std::string_view word, std::string_view, Feather& value) {
+  value = Feather::parse(std::string(word));
+}
+void read_word(std::string_view word, std::string_view what, DelayRequest& value) {
+  value = DelayRequest::parse(word, what);
+}
+void read_word(std::string_view word, std::string_view, ShutterShape& value) {
+  value = ShutterShape::parse(word);
+}
+void read_word(std::string_view word, std::string_view, Normalization& value) {
+  value = Normalization::parse(word);
+}
+void read_word(std::string_view word, std::string_view what, FrameRanges& value) {
+  value = FrameRanges::parse(word, what);
+}
 void read_word(std::string_view word, std::string_view, Depth& value) { value = parse_depth(word); }
 
 void read_word(std::string_view word, std::string_view, RawVideo& value) {
@@ -67,12 +93,14 @@ void read_word(std::string_view word, std::string_view, RawVideo& value) {
 
 void read_word(std::string_view word, std::string_view what, CameraMotion& value) {
   const auto motion = camera_motion_of(word);
-  if (!motion) throw UsageError(format("{} '{}' is no motion; choose translation, rigid or homography", what, word));
+  if (!motion)
+    throw UsageError(format("{} '{}' is no motion; choose translation, rigid or homography", what, word));
   value = *motion;
 }
 
 void read_word(std::string_view word, std::string_view what, Unseen& value) {
-  if (word != "hold" && word != "crop") throw UsageError(format("{} '{}' is neither crop nor hold", what, word));
+  if (word != "hold" && word != "crop")
+    throw UsageError(format("{} '{}' is neither crop nor hold", what, word));
   value = word == "hold" ? Unseen::held : Unseen::cropped;
 }
 
@@ -101,7 +129,8 @@ void read_word(std::string_view word, std::string_view, std::optional<Precision>
 
 void read_word(std::string_view word, std::string_view what, MemoryBudget& value) {
   const std::optional<std::uint64_t> bytes = parse_bytes(word);
-  if (!bytes || *bytes == 0) throw UsageError(format("{} '{}' is no size; write 500MB, 2GB or 1GiB", what, word));
+  if (!bytes || *bytes == 0)
+    throw UsageError(format("{} '{}' is no size; write 500MB, 2GB or 1GiB", what, word));
   value = {*bytes};
 }
 
@@ -128,7 +157,8 @@ void read_word(std::string_view word, std::string_view what, StudyStyle& value) 
 }
 
 void read_word(std::string_view word, std::string_view what, MomentSpacing& value) {
-  value = named<MomentSpacing>(word, what, {{"time", MomentSpacing::time}, {"distance", MomentSpacing::distance}});
+  value = named<MomentSpacing>(word, what,
+                               {{"time", MomentSpacing::time}, {"distance", MomentSpacing::distance}});
 }
 
 void read_word(std::string_view word, std::string_view what, TrailShape& value) {
@@ -167,8 +197,9 @@ bool parse_all(std::string_view word, std::string_view what) { return parse_only
 
 std::pair<std::uint32_t, std::uint32_t> parse_pixel(std::string_view word, std::string_view what) {
   constexpr std::uint32_t kLast = 65'535;
-  return parse_pair(word, ',', {"pixel column", 0, kLast}, {"pixel row", 0, kLast},
-                    format("{0} '{1}' is no place; write its column and row from 0 on: {0} 320,180", what, word));
+  return parse_pair(
+      word, ',', {"pixel column", 0, kLast}, {"pixel row", 0, kLast},
+      format("{0} '{1}' is no place; write its column and row from 0 on: {0} 320,180", what, word));
 }
 
 double parse_shutter_error(std::string_view word, std::string_view what) {
@@ -192,7 +223,8 @@ StatedTime parse_step(std::string_view word, std::string_view what) {
   return step;
 }
 
-std::uint32_t parse_whole(std::string_view word, std::string_view what, std::uint32_t low, std::uint32_t high) {
+std::uint32_t parse_whole(std::string_view word, std::string_view what, std::uint32_t low,
+                          std::uint32_t high) {
   return parse_whole_number(word, what, low, high);
 }
 

@@ -58,19 +58,21 @@ void read_word(std::string_view word, std::string_view what, std::optional<Value
 [[nodiscard]] std::int64_t parse_tick(std::string_view word, std::string_view what);
 [[nodiscard]] double parse_sigmas(std::string_view word, std::string_view what);
 [[nodiscard]] std::uint32_t parse_share(std::string_view word, std::string_view what);  // of kWholeWay
-[[nodiscard]] bool parse_zero(std::string_view word, std::string_view what);            // the only word there is
+[[nodiscard]] bool parse_zero(std::string_view word, std::string_view what);  // the only word there is
 [[nodiscard]] bool parse_all(std::string_view word, std::string_view what);
-[[nodiscard]] std::pair<std::uint32_t, std::uint32_t> parse_pixel(std::string_view word, std::string_view what);
+[[nodiscard]] std::pair<std::uint32_t, std::uint32_t> parse_pixel(std::string_view word,
+                                                                  std::string_view what);
 [[nodiscard]] double parse_shutter_error(std::string_view word, std::string_view what);
 [[nodiscard]] double parse_signed(std::string_view word, std::string_view what);
 [[nodiscard]] StatedTime parse_step(std::string_view word, std::string_view what);  // longer than nothing
 // A whole number of low … high.
-[[nodiscard]] std::uint32_t parse_whole(std::string_view word, std::string_view what, std::uint32_t low, std::uint32_t high);
+[[nodiscard]] std::uint32_t parse_whole(std::string_view word, std::string_view what, std::uint32_t low,
+                                        std::uint32_t high);
 
 // A field of Options, or of what stands in it.
 template <auto... path>
 struct In {
-  static auto& of(Options& options) { return (options.* ... .*path); }
+  static auto& of(Options& options) { return (options.*....*path); }
 };
 template <auto member>
 using InSource = In<&Options::source, member>;

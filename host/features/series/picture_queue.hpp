@@ -15,7 +15,7 @@
 #include "capture/error.hpp"
 #include "capture/memory_needs.hpp"
 #include "capture/picture.hpp"
-#include "media/picture_writer.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "render/renderer.hpp"
 #include "session/memory_budget.hpp"
 #include "system/channel.hpp"
@@ -42,7 +42,7 @@ class PictureQueue {
   }
 
   // Waits while too many pictures wait already. Throws what ended the writing thread, as finish() does. `number` tells the caller which one failed; `text` goes into
-  // the picture (media/picture_writer.hpp).
+  // the picture (media/writers/picture_writer.hpp).
   void push(std::size_t number, std::filesystem::path path, Picture picture, std::string text,
             const FileWishes& wishes);
   // Waits until everything is written. Nothing can be pushed any more.

@@ -6,8 +6,8 @@
 
 #include "capture/error.hpp"
 #include "features/series/picture_queue.hpp"
-#include "media/picture_text.hpp"
-#include "media/recipe.hpp"
+#include "media/stills/picture_text.hpp"
+#include "media/writers/recipe.hpp"
 
 namespace nutik {
 

@@ -11,7 +11,7 @@
 #include "capture/error.hpp"
 #include "capture/rational.hpp"
 #include "capture/timeline.hpp"
-#include "media/recipe.hpp"
+#include "media/writers/recipe.hpp"
 #include "render/render_plan.hpp"
 #include "session/requests/exposure_request.hpp"
 #include "session/requests/stated_time.hpp"

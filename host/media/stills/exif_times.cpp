@@ -8,7 +8,7 @@
 #include <string>
 
 #include "capture/rational.hpp"
-#include "media/readers.hpp"
+#include "media/formats/file_kinds.hpp"
 #include "media/stills/raw_file.hpp"
 #include "media/stills/stills.hpp"
 
@@ -21,6 +21,15 @@ struct FreeExif {
 
 ExifEntry* entry_of(const ExifData& data, ExifTag tag) {
   return exif_content_get_entry(data.ifd[EXIF_IFD_EXIF], tag);
+}
+
+using Exif = std::unique_ptr<ExifData, FreeExif>;
+
+unsigned orientation_of(const Exif& data) {
+  const ExifEntry* entry = data ? exif_content_get_entry(data->ifd[EXIF_IFD_0], EXIF_TAG_ORIENTATION) : nullptr;
+  if (entry == nullptr || entry->format != EXIF_FORMAT_SHORT || entry->size < 2) return 1;
+  const unsigned orientation = exif_get_short(entry->data, exif_data_get_byte_order(data.get()));
+  return orientation >= 1 && orientation <= 8 ? orientation : 1;
 }
 
 std::string text_of(const ExifData& data, ExifTag tag) {
@@ -64,22 +73,22 @@ std::int64_t fraction_ns(const std::string& digits) {
 unsigned exif_orientation(std::string_view exif) {
   std::string named("Exif\0\0", 6);
   named += exif;
-  const std::unique_ptr<ExifData, FreeExif> data(exif_data_new_from_data(
-      reinterpret_cast<const unsigned char*>(named.data()), static_cast<unsigned>(named.size())));
-  const ExifEntry* entry = data ? exif_content_get_entry(data->ifd[EXIF_IFD_0], EXIF_TAG_ORIENTATION) : nullptr;
-  if (entry == nullptr || entry->format != EXIF_FORMAT_SHORT || entry->size < 2) return 1;
-  const unsigned orientation = exif_get_short(entry->data, exif_data_get_byte_order(data.get()));
-  return orientation <= 8 ? orientation : 1;
+  return orientation_of(Exif(exif_data_new_from_data(reinterpret_cast<const unsigned char*>(named.data()),
+                                                     static_cast<unsigned>(named.size()))));
+}
+
+unsigned exif_orientation(const std::filesystem::path& jpeg) {
+  return orientation_of(Exif(exif_data_new_from_file(jpeg.c_str())));
 }
 
 StillTimes read_exif_times(const std::filesystem::path& file) {
-  if (readers::kDng.is_named(file)) {
+  if (const auto* kind = still_kind(file); kind != nullptr && *kind == readers::kDng) {
     const RawTags tags = read_raw_tags(file);
     StillTimes times{date_ns(tags.date), tags.exposure_ns};
     if (times.start_ns) *times.start_ns += fraction_ns(tags.fraction);
     return times;
   }
-  const std::unique_ptr<ExifData, FreeExif> data(exif_data_new_from_file(file.c_str()));
+  const Exif data(exif_data_new_from_file(file.c_str()));
   StillTimes times;
   if (!data) return times;
   times.start_ns = date_ns(text_of(*data, EXIF_TAG_DATE_TIME_ORIGINAL));

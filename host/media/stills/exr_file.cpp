@@ -18,7 +18,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/picture_text.hpp"
+#include "media/stills/picture_text.hpp"
 #include "media/stills/stills.hpp"
 #include "system/mapped_file.hpp"
 

@@ -3,20 +3,11 @@
 #include <algorithm>
 
 #include "capture/format.hpp"
-#include "media/coding_points.hpp"
+#include "media/formats/coding_points.hpp"
+#include "media/formats/file_kinds.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::stills {
-namespace {
-
-std::uint32_t big_endian(std::string_view bytes) {
-  std::uint32_t value = 0;
-  for (const char byte : bytes.substr(0, 4)) value = value << 8 | static_cast<unsigned char>(byte);
-  return value;
-}
-
-}  // namespace
-
 // Chunks: u32 length, four letters, so many bytes, a checksum.
 PngTags read_png_tags(const std::filesystem::path& file) {
   constexpr std::size_t kSignature = 8, kFrame = 12, kData = 8;
@@ -27,10 +18,11 @@ PngTags read_png_tags(const std::filesystem::path& file) {
   if (!bytes.starts_with("\x89PNG")) return tags;
   bool has_coding_points = false;
   for (std::size_t at = kSignature; at + kFrame <= bytes.size();) {
-    const std::uint32_t length = big_endian(bytes.substr(at));
+    const auto length = static_cast<std::uint32_t>(big_endian(bytes, at, 4));
     const std::string_view name = bytes.substr(at + 4, 4), data = bytes.substr(at + kData, length);
     if (data.size() < length) break;
     if (name == "eXIf") tags.orientation = exif_orientation(data);
+    if (name == "tRNS") tags.has_clear_code = true;
     if (name == "cICP" && length == 4) {
       has_coding_points = true;
       tags.primaries = primaries_of_coding_point(static_cast<unsigned char>(data[0]));
@@ -39,11 +31,11 @@ PngTags read_png_tags(const std::filesystem::path& file) {
       tags.transfer = Transfer::srgb();
       tags.primaries = Primaries::bt709;
     } else if (name == "gAMA" && length == 4) {
-      tags.unread_transfer = format("gamma {:.4g}", kGammaParts / std::max(big_endian(data), 1u));
+      tags.unread_transfer = format("gamma {:.4g}", kGammaParts / static_cast<double>(std::max<std::uint64_t>(big_endian(data, 0, 4), 1)));
     } else if (name == "iCCP") {
       tags.has_profile = true;
     } else if (name == "pHYs" && length >= 8) {
-      tags.density = {big_endian(data), big_endian(data.substr(4))};
+      tags.density = {big_endian(data, 0, 4), big_endian(data, 4, 4)};
     }
     at += kFrame + length;
   }

@@ -15,6 +15,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "media/formats/file_kinds.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::stills {
@@ -49,29 +50,36 @@ void open_dng(LibRaw& raw, const std::filesystem::path& file) {
              file.string(), sizes.raw_width, sizes.raw_height, bytes));
 }
 
-std::uint64_t number_at(std::span<const std::byte> bytes, std::uint64_t at, std::size_t count, bool big_end_first) {
-  if (at > bytes.size() || bytes.size() - at < count) return 0;
-  std::uint64_t number = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    number = number << 8 | std::to_integer<std::uint64_t>(bytes[at + (big_end_first ? i : count - 1 - i)]);
-  }
-  return number;
+std::string_view text_of(const MappedFile& file) {
+  return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
 }
 
-// Samples that a lossless JPEG announces that begins there; 0 where none does.
-std::uint64_t jpeg_samples(std::span<const std::byte> bytes, std::uint64_t at) {
-  constexpr std::uint64_t kStart = 0xFFD8, kFrame = 0xFFC3, kTables = 0xFFC4, kScan = 0xFFDA;
-  const auto number = [&](std::uint64_t from, std::size_t count) { return number_at(bytes, from, count, true); };
-  if (number(at, 2) != kStart) return 0;
-  std::uint64_t samples = 0;
-  bool has_tables = false;
-  for (at += 2; number(at, 1) == 0xFF; at += 2 + number(at + 2, 2)) {
-    const std::uint64_t marker = number(at, 2);
-    if (marker == kScan) return has_tables ? samples : 0;
-    if (marker == kFrame) samples = number(at + 5, 2) * number(at + 7, 2) * number(at + 9, 1);
-    if (marker == kTables) has_tables = true;
+// What a JPEG that begins there announces before its first scan; nothing where none begins.
+struct JpegFront {
+  std::uint64_t samples = 0;  // of a frame without loss
+  bool is_lossy = false;
+};
+JpegFront jpeg_front(std::string_view bytes, std::uint64_t at) {
+  constexpr std::uint64_t kStart = 0xFFD8, kFirstFrame = 0xFFC0, kLastLossy = 0xFFC2, kFrame = 0xFFC3, kTables = 0xFFC4,
+                          kScan = 0xFFDA;
+  if (big_endian(bytes, at, 2) != kStart) return {};
+  JpegFront front;
+  bool has_tables = false, has_scan = false;
+  for (at += 2; !has_scan && big_endian(bytes, at, 1) == 0xFF; at += 2 + big_endian(bytes, at + 2, 2)) {
+    const std::uint64_t marker = big_endian(bytes, at, 2);
+    has_scan = marker == kScan;
+    has_tables |= marker == kTables;
+    if (marker >= kFirstFrame && marker <= kLastLossy) return {0, true};
+    if (marker == kFrame) front.samples = big_endian(bytes, at + 5, 2) * big_endian(bytes, at + 7, 2) * big_endian(bytes, at + 9, 1);
   }
-  return 0;
+  if (!has_scan || !has_tables) front.samples = 0;
+  return front;
+}
+
+// Where tile `number` begins, as offsets that stand there tell.
+std::uint64_t tile_at(std::string_view bytes, std::uint64_t offsets, std::uint64_t number, bool big_end_first) {
+  const std::uint64_t at = big_endian(bytes, offsets + 4 * number, 4);
+  return big_end_first ? at : __builtin_bswap32(static_cast<std::uint32_t>(at));
 }
 
 // Where a JPEG does not begin, LibRaw leaves its part of the picture black and says nothing; where rows have another
@@ -88,15 +96,15 @@ bool lacks_a_jpeg(LibRaw& raw, const std::filesystem::path& file) {
   const MappedFile mapped(file);
   const auto begin = static_cast<std::uint64_t>(unpacker.data_offset);
   if (unpacker.tile_length >= std::numeric_limits<int>::max()) {
-    return !is_of_size(jpeg_samples(mapped.bytes(), begin), sizes.raw_width, sizes.raw_height);
+    return !is_of_size(jpeg_front(text_of(mapped), begin).samples, sizes.raw_width, sizes.raw_height);
   }
   if (unpacker.tile_width == 0 || unpacker.tile_length == 0) return true;
   const std::uint64_t across = (sizes.raw_width - 1) / unpacker.tile_width + 1;
   const std::uint64_t tiles = across * ((sizes.raw_height - 1) / unpacker.tile_length + 1);
   for (std::uint64_t tile = 0; tile < tiles; ++tile) {
     const bool big_end_first = static_cast<unsigned short>(unpacker.order) == kBigEnd;
-    const std::uint64_t at = number_at(mapped.bytes(), begin + 4 * tile, 4, big_end_first);
-    if (!is_of_size(jpeg_samples(mapped.bytes(), at), unpacker.tile_width, unpacker.tile_length)) return true;
+    const std::uint64_t at = tile_at(text_of(mapped), begin, tile, big_end_first);
+    if (!is_of_size(jpeg_front(text_of(mapped), at).samples, unpacker.tile_width, unpacker.tile_length)) return true;
   }
   return false;
 }
@@ -109,17 +117,10 @@ bool is_lossy(LibRaw& raw, const std::filesystem::path& file) {
   if (unpacker.tiff_compress != kJpeg) return false;
   const MappedFile mapped(file);
   auto at = static_cast<std::uint64_t>(unpacker.data_offset);
-  const auto number = [&](std::uint64_t from, std::size_t count) { return number_at(mapped.bytes(), from, count, true); };
   if (unpacker.tile_length < std::numeric_limits<int>::max()) {
-    at = number_at(mapped.bytes(), at, 4, static_cast<unsigned short>(unpacker.order) == kBigEnd);
+    at = tile_at(text_of(mapped), at, 0, static_cast<unsigned short>(unpacker.order) == kBigEnd);
   }
-  if (number(at, 2) != 0xFFD8) return false;
-  for (at += 2; number(at, 1) == 0xFF; at += 2 + number(at + 2, 2)) {
-    const std::uint64_t marker = number(at, 2);
-    if (marker >= 0xFFC0 && marker <= 0xFFC2) return true;
-    if (marker == 0xFFC3 || marker == 0xFFDA) return false;
-  }
-  return false;
+  return jpeg_front(text_of(mapped), at).is_lossy;
 }
 
 // A number of four bytes; 0 where the file ends before.

@@ -1,5 +1,6 @@
 // Sequences of stills: PNG and JPEG through OpenCV; Netpbm and TIFF through our own readers, which
 // keep the maximum, and read the pages of a TIFF in one go.
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <opencv2/core/utils/logger.hpp>
@@ -8,16 +9,16 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/colour_profile.hpp"
-#include "media/file_kinds.hpp"
-#include "media/jpeg_file.hpp"
-#include "media/netpbm.hpp"
-#include "media/png_file.hpp"
-#include "media/readers.hpp"
+#include "media/formats/colour_profile.hpp"
+#include "media/formats/file_kinds.hpp"
+#include "media/stills/picture_files.hpp"
+#include "media/stills/netpbm.hpp"
+#include "media/formats/readers.hpp"
+#include "media/module.hpp"
 #include "media/settled_fact.hpp"
 #include "media/stills/raw_file.hpp"
 #include "media/stills/stills.hpp"
-#include "media/tiff_reader.hpp"
+#include "media/stills/tiff_reader.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::stills {
@@ -26,6 +27,7 @@ namespace {
 // One picture of a file.
 struct Page {
   std::filesystem::path file;
+  const readers::Reader* kind = nullptr;
   std::uint64_t number = 1;
   std::uint64_t count = 1;  // of the file's pages
   std::size_t begin = 0;    // of a Netpbm file's, in bytes
@@ -83,25 +85,23 @@ bool is_cut_off_jpeg(const std::filesystem::path& file) {
   return bytes.starts_with("\xFF\xD8") && (scan == bytes.npos || end == bytes.npos || end < scan);
 }
 
-std::uint32_t big_endian(std::string_view bytes, std::size_t at, std::size_t count) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < count; ++i) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return value;
+std::uint32_t number_at(std::string_view bytes, std::size_t at, std::size_t count) {
+  return static_cast<std::uint32_t>(big_endian(bytes, at, count));
 }
 
 // Width and height that a PNG or JPEG states; nothing where there are none to be found.
 std::optional<Shape> stated_size(std::string_view bytes) {
   constexpr std::size_t kIhdrEnd = 26;
   if (bytes.size() >= kIhdrEnd && bytes.substr(1, 3) == "PNG") {
-    return Shape{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4), 1};
+    return Shape{number_at(bytes, 16, 4), number_at(bytes, 20, 4), 1};
   }
   // The segments of a JPEG up to its frame header: FF, marker, length, data.
   for (std::size_t at = 2; bytes.starts_with("\xFF\xD8") && at + 9 <= bytes.size() && bytes[at] == '\xFF';) {
-    const std::uint32_t marker = big_endian(bytes, at + 1, 1);
+    const std::uint32_t marker = number_at(bytes, at + 1, 1);
     const bool is_frame =
         marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
-    if (is_frame) return Shape{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2), 1};
-    at += marker == 0xFF ? 1 : 2 + big_endian(bytes, at + 2, 2);
+    if (is_frame) return Shape{number_at(bytes, at + 7, 2), number_at(bytes, at + 5, 2), 1};
+    at += marker == 0xFF ? 1 : 2 + number_at(bytes, at + 2, 2);
   }
   return std::nullopt;
 }
@@ -113,7 +113,7 @@ std::optional<Rational> jpeg_pixel_aspect(std::string_view bytes) {
   constexpr std::size_t kName = 6, kAcross = 14, kDown = 16, kEnd = 18;
   if (!bytes.starts_with(kApp0) || bytes.size() < kEnd || bytes.substr(kName, 4) != "JFIF")
     return std::nullopt;
-  return aspect_of(big_endian(bytes, kAcross, 2), big_endian(bytes, kDown, 2));
+  return aspect_of(number_at(bytes, kAcross, 2), number_at(bytes, kDown, 2));
 }
 
 void follow_profile(Still& still, std::span<const std::byte> profile) {
@@ -125,24 +125,24 @@ void follow_profile(Still& still, std::span<const std::byte> profile) {
   if (!colours.primaries) still.unread_primaries = colours.name;
 }
 
-// Orientations of EXIF above that have rows where a picture shows columns.
-constexpr unsigned kLastUnturned = 4;
-
-// What OpenCV does to JPEGs alone: it leaves a PNG as it lies.
-void turn_upright(cv::Mat& picture, unsigned orientation) {
-  switch (orientation) {
-    case 2: return cv::flip(picture, picture, 1);
-    case 3: return cv::rotate(picture, picture, cv::ROTATE_180);
-    case 4: return cv::flip(picture, picture, 0);
-    case 5: return cv::transpose(picture, picture);
-    case 6: return cv::rotate(picture, picture, cv::ROTATE_90_CLOCKWISE);
-    case 7: {
-      cv::transpose(picture, picture);
-      return cv::rotate(picture, picture, cv::ROTATE_180);
-    }
-    case 8: return cv::rotate(picture, picture, cv::ROTATE_90_COUNTERCLOCKWISE);
-    default: return;
+// From how a picture lies, as EXIF and TIFF number it.
+void turn_upright(Still& still, unsigned orientation) {
+  if (orientation <= 1) return;
+  const int type = CV_MAKETYPE(still.code_bytes == 1 ? CV_8U : CV_16U, static_cast<int>(still.shape.channels));
+  cv::Mat picture(static_cast<int>(still.shape.height), static_cast<int>(still.shape.width), type, still.codes.data());
+  picture = picture.clone();
+  // From 5 on, rows are what a picture shows as columns.
+  if (orientation >= 5) {
+    cv::transpose(picture, picture);
+    std::swap(still.shape.width, still.shape.height);
+    if (still.pixel_aspect)
+      still.pixel_aspect = Rational::of(still.pixel_aspect->denominator, still.pixel_aspect->numerator);
   }
+  constexpr int kUpsideDown = 0, kMirrored = 1, kBoth = -1;
+  constexpr std::array<std::optional<int>, 9> kFlips{
+      {{}, {}, kMirrored, kBoth, kUpsideDown, {}, kMirrored, kBoth, kUpsideDown}};
+  if (const auto flip = kFlips[orientation]) cv::flip(picture, picture, *flip);
+  std::memcpy(still.codes.data(), picture.data, still.codes.size());
 }
 
 // What a PNG or JPEG says of its codes and pixels.
@@ -150,20 +150,12 @@ void add_tags(const std::filesystem::path& file, const PngTags& tags, Still& sti
   still.transfer = tags.transfer;
   still.primaries = tags.primaries;
   if (!tags.transfer) still.unread_transfer = tags.unread_transfer;
-  if (tags.density) {
-    const bool is_turned = tags.orientation > kLastUnturned;
-    still.pixel_aspect = is_turned ? aspect_of(tags.density->second, tags.density->first)
-                                   : aspect_of(tags.density->first, tags.density->second);
-  }
+  if (tags.density) still.pixel_aspect = aspect_of(tags.density->first, tags.density->second);
   const MappedFile mapped(file);
   const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
   if (tags.has_profile) follow_profile(still, read_png_profile(mapped.bytes(), file.string()));
   if (!bytes.starts_with("\xFF\xD8")) return;
   still.pixel_aspect = jpeg_pixel_aspect(bytes);
-  const std::optional<Shape> stored = stated_size(bytes);
-  const bool is_turned = stored && stored->width == still.shape.height && stored->width != stored->height;
-  if (is_turned && still.pixel_aspect)
-    still.pixel_aspect = Rational::of(still.pixel_aspect->denominator, still.pixel_aspect->numerator);
   const std::vector<std::byte> profile = read_jpeg_profile(mapped.bytes(), file.string());
   if (!profile.empty()) follow_profile(still, profile);
 }
@@ -195,16 +187,13 @@ void check_front(const std::filesystem::path& file) {
 cv::Mat decoded_by_opencv(const std::filesystem::path& file) {
   check_front(file);
   try {
-    // A JPEG is turned upright as its EXIF says; OpenCV does not do that to pictures that it leaves as they are.
-    return cv::imread(file.string(), readers::kJpeg.begins(first_bytes(file))
-                                         ? cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH
-                                         : cv::IMREAD_UNCHANGED);
+    return cv::imread(file.string(), cv::IMREAD_UNCHANGED);  // as it lies
   } catch (const cv::Exception& error) {  // larger than it takes, or than there is memory for
     throw InputError(format("{} cannot be read: OpenCV says: {}", file.string(), error.err));
   }
 }
 
-Still read_with_opencv(const std::filesystem::path& file) {
+Still read_with_opencv(const std::filesystem::path& file, bool is_jpeg) {
   cv::Mat picture = decoded_by_opencv(file);
   const std::string name = file.string();
   const PngTags tags = read_png_tags(file);
@@ -218,11 +207,11 @@ Still read_with_opencv(const std::filesystem::path& file) {
     throw InputError(
         format("{} holds neither 8- nor 16-bit values; save it as a PNG or TIFF with one of these", name));
   }
-  if (picture.channels() != 1 && picture.channels() != 3) {
+  const bool is_clear_grey = picture.channels() == 1 && tags.has_clear_code;  // OpenCV adds alpha to colour alone
+  if (is_clear_grey || (picture.channels() != 1 && picture.channels() != 3)) {
     throw InputError(format("{} has {} channels; grey (1) and colour (3) are read, transparency is not", name,
-                            picture.channels()));
+                            picture.channels() + is_clear_grey));
   }
-  turn_upright(picture, tags.orientation);
   if (picture.channels() == 3) cv::cvtColor(picture, picture, cv::COLOR_BGR2RGB);
   if (!picture.isContinuous()) picture = picture.clone();
   Still still;
@@ -232,6 +221,7 @@ Still read_with_opencv(const std::filesystem::path& file) {
   const auto* bytes = reinterpret_cast<const std::byte*>(picture.data);
   still.codes.assign(bytes, bytes + picture.total() * picture.elemSize());
   add_tags(file, tags, still);
+  turn_upright(still, is_jpeg ? exif_orientation(file) : tags.orientation);
   return still;
 }
 
@@ -242,13 +232,19 @@ class StillClip final : public Clip {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     for (const std::filesystem::path& file : files) {
       refuse_unread_kind(file);
+      const readers::Reader* kind = still_kind(file);
+      if (kind == nullptr) kind = &readers::kPng;  // which says that it is none
       std::uint64_t count = 1;
       std::vector<std::size_t> starts{0};  // of the pictures of a Netpbm file
-      if (is_tiff(file)) {
+      if (*kind == readers::kTiff) {
         const TiffReader tiff(file);
-        count = tiff.page_count();
-        if (pages_.empty()) story_ = tiff.story();
-      } else if (is_netpbm(file)) {
+        if (tiff.is_dng()) {  // whose pages show one picture
+          kind = &readers::kDng;
+        } else {
+          count = tiff.page_count();
+          if (pages_.empty()) story_ = tiff.story();
+        }
+      } else if (*kind == readers::kNetpbm) {
         starts = netpbm_starts(MappedFile(file).bytes(), file.string());
         count = starts.size();
       }
@@ -257,7 +253,7 @@ class StillClip final : public Clip {
                                 file.string(), count));
       }
       for (std::uint64_t number = 1; number <= count; ++number) {
-        pages_.push_back({file, number, count, starts[starts.size() > 1 ? number - 1 : 0]});
+        pages_.push_back({file, kind, number, count, starts[starts.size() > 1 ? number - 1 : 0]});
       }
     }
     first_ = read_page(pages_.front());
@@ -271,7 +267,7 @@ class StillClip final : public Clip {
     } else {
       capture.white_code = settle_white(info_, options.white_code, first_.maximum);
     }
-    const bool is_developed = is_raw(pages_.front().file);
+    const bool is_developed = *pages_.front().kind == readers::kDng;
     describe_stored_codes(info_, options,
                           {default_transfer(first_), first_.transfer, first_.primaries, first_.colours_from,
                            first_.unread_transfer, first_.unread_primaries, first_.pixel_aspect});
@@ -309,12 +305,6 @@ class StillClip final : public Clip {
   }
 
  private:
-  static bool is_netpbm(const std::filesystem::path& file) { return readers::kNetpbm.is_named(file); }
-  static bool is_raw(const std::filesystem::path& file) { return readers::kDng.is_named(file); }
-  static bool is_tiff(const std::filesystem::path& file) {
-    return readers::kTiff.is_named(file) || (!is_raw(file) && begins_as_tiff(file));
-  }
-
   // A profile was made for these codes: what it says and is not known here would be right.
   void add_unread_colours(const ClipOptions& options) {
     const bool is_colour = first_.shape.channels > 1;
@@ -368,20 +358,21 @@ class StillClip final : public Clip {
   }
 
   Still read_page(const Page& page) {
-    if (is_raw(page.file)) {
+    if (*page.kind == readers::kDng) {
       Still still = still_of(raws_.develop(page.file), 65'535);
       still.transfer = Transfer::linear();
       still.primaries = Primaries::bt709;
       return still;
     }
-    if (is_netpbm(page.file)) return read_netpbm_still(page);
-    if (!is_tiff(page.file)) return read_with_opencv(page.file);
+    if (*page.kind == readers::kNetpbm) return read_netpbm_still(page);
+    if (*page.kind != readers::kTiff) return read_with_opencv(page.file, *page.kind == readers::kJpeg);
     if (page.number == 1) tiff_.emplace(page.file);
     std::optional<TiffPage> read = tiff_->next();
     if (!read) throw InputError(format("{} cannot be read: the file was cut off", page.name()));
     Still still = still_of(std::move(read->picture), read->maximum);
     if (!read->profile.empty()) follow_profile(still, read->profile);
     if (read->resolution) still.pixel_aspect = aspect_of(read->resolution->first, read->resolution->second);
+    turn_upright(still, read->orientation);
     return still;
   }
 
@@ -443,11 +434,17 @@ class StillClip final : public Clip {
   ClipInfo info_;
 };
 
-}  // namespace
-
 std::unique_ptr<Clip> open_still_files(std::span<const std::filesystem::path> files, const ClipTiming& timing,
                                        const ClipOptions& options) {
   return std::make_unique<StillClip>(files, timing, options);
 }
 
+}  // namespace
 }  // namespace nutik::stills
+
+// What nutik-stills.so gives the program (media/module.hpp).
+extern "C" __attribute__((visibility("default"))) const nutik::StillModule nutik_still_module{
+    nutik::use_shared_state, nutik::stills::open_still_files, nutik::stills::read_exif_times,
+    nutik::stills::write_exr, nutik::stills::read_exr_text};
+
+extern "C" __attribute__((visibility("default"))) const char nutik_module_version[] = NUTIK_VERSION;

@@ -12,7 +12,7 @@
 #include "capture/primaries.hpp"
 #include "capture/transfer.hpp"
 #include "media/clip.hpp"
-#include "media/stills_table.hpp"
+#include "media/stills/stills_table.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::stills {
@@ -23,6 +23,7 @@ struct PngTags {
   std::optional<Primaries> primaries;                // likewise
   bool has_profile = false;                          // iCCP, which goes before sRGB and not before cICP
   unsigned orientation = 1;                          // of eXIf, as EXIF numbers them
+  bool has_clear_code = false;                       // tRNS
   std::string unread_transfer;                       // gAMA alone, which programs write without being asked
   std::optional<std::pair<double, double>> density;  // pixels on a length, across and down
 };
@@ -30,13 +31,12 @@ struct PngTags {
 // Nothing of what is no PNG.
 [[nodiscard]] PngTags read_png_tags(const std::filesystem::path& file);
 
-[[nodiscard]] std::unique_ptr<Clip> open_still_files(std::span<const std::filesystem::path> files,
-                                                     const ClipTiming& timing, const ClipOptions& options);
-
 [[nodiscard]] StillTimes read_exif_times(const std::filesystem::path& file);
 
-// How a picture lies, by EXIF data without the name in front of it: 1 … 8, and 1 where it does not say.
+// How a picture lies, by EXIF data without the name in front of it, or by those in a JPEG: 1 … 8, and 1 where they do not
+// say.
 [[nodiscard]] unsigned exif_orientation(std::string_view exif);
+[[nodiscard]] unsigned exif_orientation(const std::filesystem::path& jpeg);
 
 void write_exr(OutputFile& file, const Picture& picture, const std::string& text, bool as_half);
 [[nodiscard]] std::optional<std::string> read_exr_text(const std::filesystem::path& file,

@@ -18,7 +18,7 @@
 #include <string_view>
 
 #include "capture/rational.hpp"
-#include "media/readers.hpp"
+#include "media/formats/readers.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::videos {

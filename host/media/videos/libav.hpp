@@ -31,6 +31,7 @@ extern "C" {
 #include "capture/format.hpp"
 #include "media/clip.hpp"
 #include "media/videos/damage_log.hpp"
+#include "media/writers/video_writer.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik::videos {
@@ -122,5 +123,9 @@ inline std::string url_of(const std::filesystem::path& path) { return "file:" + 
 
 // Opens that file and nothing else. Throws InputError where it is none that is read (media/videos/containers.hpp).
 [[nodiscard]] OpenedVideo open_video(const std::filesystem::path& path, const std::optional<RawVideo>& raw);
+
+// Writes into containers.
+[[nodiscard]] std::unique_ptr<VideoWriter> open_libav_writer(const std::filesystem::path& path, const VideoFormat& format,
+                                                             const VideoCodec& codec);
 
 }  // namespace nutik::videos

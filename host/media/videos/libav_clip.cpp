@@ -3,6 +3,7 @@
 #include <string>
 #include <thread>
 
+#include "media/module.hpp"
 #include "media/clip.hpp"
 #include "media/settled_fact.hpp"
 #include "media/videos/deinterlacer.hpp"
@@ -11,7 +12,6 @@
 #include "media/videos/picture_decoder.hpp"
 #include "media/videos/pixels.hpp"
 #include "media/videos/probe.hpp"
-#include "media/videos/videos.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::videos {
@@ -309,13 +309,19 @@ class LibavClip final : public Clip {
   bool has_ended_ = false;  // the decoder
 };
 
-}  // namespace
-
-std::unique_ptr<Clip> open_with_libav(const std::filesystem::path& path, const Probe& probe,
-                                      const ClipOptions& options) {
+std::unique_ptr<Clip> open_video_clip(const std::filesystem::path& path, const ClipOptions& options) {
+  listen_to_ffmpeg();
+  const Probe probed = probe(path, options.raw);
   OpenedVideo opened = open_video(path, options.raw);
   const int threads = decoder_threads(opened, options);
-  return std::make_unique<LibavClip>(std::move(opened), threads, path, probe, options);
+  return std::make_unique<LibavClip>(std::move(opened), threads, path, probed, options);
 }
 
+}  // namespace
 }  // namespace nutik::videos
+
+// What nutik-videos.so gives the program (media/module.hpp).
+extern "C" __attribute__((visibility("default"))) const nutik::VideoModule nutik_video_module{
+    nutik::use_shared_state, nutik::videos::open_video_clip, nutik::videos::open_libav_writer};
+
+extern "C" __attribute__((visibility("default"))) const char nutik_module_version[] = NUTIK_VERSION;

@@ -7,10 +7,9 @@
 #include <algorithm>
 #include <cstring>
 
-#include "media/coding_points.hpp"
+#include "media/formats/coding_points.hpp"
 #include "media/videos/libav.hpp"
 #include "media/videos/pixels.hpp"
-#include "media/videos/videos.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::videos {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "media/file_kinds.hpp"
+#include "media/formats/file_kinds.hpp"
 #include "media/videos/capture_rate.hpp"
 #include "media/videos/containers.hpp"
 #include "media/videos/libav.hpp"

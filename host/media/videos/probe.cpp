@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <span>
 #include <utility>
 
-#include "media/coding_points.hpp"
+#include "media/formats/coding_points.hpp"
 #include "media/videos/capture_rate.hpp"
 #include "media/videos/cine_header.hpp"
 #include "media/videos/libav.hpp"
@@ -152,22 +153,68 @@ std::optional<std::string> missing_part_note(const AVFormatContext& file, const 
       *announced, found);
 }
 
-// How long a Matroska file says that it is: a header and the segment with all the rest, each after its name of four bytes
-// a length whose leading zero bits tell how many bytes it has. 0 where it does not say it, as one that was streamed.
-std::uint64_t matroska_bytes(std::span<const std::byte> bytes) {
+// What a Matroska file lacks by what it says of its elements: each has a name and a length, of as many bytes as the zero
+// bits in front of them tell, and so many bytes. One that was streamed does not tell the length of its segment, nor of a
+// cluster: what is in them follows as if it were beside them.
+std::optional<std::string> matroska_cut_note(std::span<const std::byte> bytes) {
+  constexpr std::uint64_t kSegment = 0x18538067, kCluster = 0x1F43B675;
   std::uint64_t at = 0;
-  for (int element = 0; element < 2; ++element) {
-    at += 4;
-    if (at >= bytes.size()) return 0;
+  const auto take_number = [&](bool with_mark) -> std::optional<std::uint64_t> {
+    if (at >= bytes.size()) return {};
     const auto first = std::to_integer<unsigned char>(bytes[at]);
     const auto count = static_cast<std::uint64_t>(std::countl_zero(first)) + 1;
-    if (count > 8 || at + count > bytes.size()) return 0;
-    std::uint64_t length = first & (0xFFu >> count);
-    for (std::uint64_t i = 1; i < count; ++i) length = length << 8 | std::to_integer<std::uint64_t>(bytes[at + i]);
-    if (length == (std::uint64_t{1} << (7 * count)) - 1) return 0;
-    at += count + length;
+    if (count > 8 || at + count > bytes.size()) return {};
+    std::uint64_t number = with_mark ? first : first & (0xFFu >> count);
+    for (std::uint64_t i = 1; i < count; ++i) number = number << 8 | std::to_integer<std::uint64_t>(bytes[at + i]);
+    at += count;
+    return !with_mark && number == (std::uint64_t{1} << (7 * count)) - 1 ? UINT64_MAX : number;
+  };
+  while (at < bytes.size()) {
+    const std::uint64_t start = at;
+    const auto name = take_number(true), length = take_number(false);
+    const bool is_open = length == UINT64_MAX && (name == kSegment || name == kCluster);
+    if (is_open) continue;
+    if (name == kSegment && length) {
+      if (at + *length <= bytes.size()) return {};
+      return format("the file was cut off: {} of its {} bytes are there", bytes.size(), at + *length);
+    }
+    if (!name || !length || *length > bytes.size() - at)
+      return format("the file was cut off or damaged behind its first {} bytes", start);
+    at += *length;
   }
-  return at;
+  return {};
+}
+
+// Whether a NUT file without an index, whose last picture ends with the file, has all of that picture: what reads more than
+// there is would take a byte that is added to it.
+bool has_all_of_last(const AVInputFormat& kind, std::span<const std::byte> bytes) {
+  struct Longer {
+    std::span<const std::byte> bytes;
+    std::size_t at = 0;
+  } longer{bytes};
+  const auto read = [](void* user, std::uint8_t* to, int most) {
+    auto& [all, at] = *static_cast<Longer*>(user);
+    if (at > all.size()) return AVERROR_EOF;
+    const std::size_t count = std::min(static_cast<std::size_t>(most), all.size() - at);
+    std::memcpy(to, all.data() + at, count);
+    if (count == 0) *to = 0;
+    at += std::max<std::size_t>(count, 1);
+    return static_cast<int>(std::max<std::size_t>(count, 1));
+  };
+  constexpr int kBufferBytes = 1 << 16;
+  auto* buffer = static_cast<unsigned char*>(allocated(av_malloc(kBufferBytes)));
+  AVFormatContext* context = allocated(avformat_alloc_context());
+  context->pb = allocated(avio_alloc_context(buffer, kBufferBytes, 0, &longer, read, nullptr, nullptr));
+  AVIOContext* bytes_of = context->pb;
+  std::int64_t end = 0;
+  if (avformat_open_input(&context, "", &kind, nullptr) == 0) {
+    const PacketPointer packet(allocated(av_packet_alloc()));
+    for (; av_read_frame(context, packet.get()) >= 0; av_packet_unref(packet.get())) end = packet->pos + packet->size;
+    avformat_close_input(&context);
+  }
+  av_freep(&bytes_of->buffer);
+  avio_context_free(&bytes_of);
+  return end == static_cast<std::int64_t>(bytes.size());
 }
 
 // A video without an index is read as far as there are whole pictures: what it lacks is told by its last bytes.
@@ -181,11 +228,7 @@ std::optional<std::string> cut_picture_note(const AVFormatContext& file, std::sp
   }
   if (kind == "gif" && !bytes.empty() && bytes.back() != std::byte{0x3B})
     return "the file was cut off: a GIF's last byte is missing, and pictures may be";
-  if (kind == "matroska,webm") {
-    const std::uint64_t announced = matroska_bytes(bytes);
-    if (announced > bytes.size())
-      return format("the file was cut off: {} of its {} bytes are there", size, announced);
-  }
+  if (kind == "matroska,webm") return matroska_cut_note(bytes);
   // Of discs, with a clock before each, and with a checksum behind each.
   const bool is_whole = size % 188 == 0 || size % 192 == 0 || size % 204 == 0;
   if (kind == "mpegts" && !is_whole)
@@ -199,8 +242,7 @@ bool is_whole(const AVFormatContext& file, const AVPacket& packet, std::int64_t 
   const std::string_view kind = file.iformat->name;
   // Each of a tape's pictures has as many bytes, and what is missing of the last would be the one before it.
   if (kind == "dv") return packet.pos + packet.size <= file_bytes;
-  // An index ends it.
-  if (kind == "nut") return packet.pos + packet.size < file_bytes;
+  if (kind == "nut") return packet.pos + packet.size < file_bytes;  // which ends with an index
   return (packet.flags & AV_PKT_FLAG_CORRUPT) == 0;
 }
 
@@ -372,6 +414,8 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
     result.notes.push_back(warning_of(
         format("the file is damaged or was cut off behind picture {}: {}", packets.size(), error_text(code))));
   }
+  if (!is_last_whole && opened.format->iformat == av_find_input_format("nut"))
+    is_last_whole = has_all_of_last(*opened.format->iformat, MappedFile(path).bytes());
   if (!is_last_whole && packets.size() == 1)
     throw InputError(format("{} was cut off within its first picture", input_title(path.string())));
   if (!is_last_whole && !packets.empty()) {

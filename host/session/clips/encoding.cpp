@@ -17,7 +17,7 @@
 #include "imev/block_builder.hpp"
 #include "imev/expected_values.hpp"
 #include "media/read_ahead.hpp"
-#include "media/still_sequence.hpp"
+#include "media/stills/still_sequence.hpp"
 #include "session/output_check.hpp"
 #include "system/channel.hpp"
 #include "system/interruption.hpp"

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <stop_token>
@@ -92,5 +93,13 @@ class LivePictures {
 
   std::jthread worker_;  // last: it uses everything else
 };
+
+// A capture with fewer pixels, for previews that are zoomed out: one for each square of `divisor`; what is left over at
+// the right and at the bottom is dropped. It has devices of its own, with a quarter of the memory besides, so that
+// exposures of the whole capture lose nothing that is kept for them. `whole` was read whole, and is needed until this
+// returns. Throws as Session's constructor does.
+[[nodiscard]] std::shared_ptr<Session> reduced_session(Session& whole, std::uint32_t divisor,
+                                                       const ReportedProgress& progress = {},
+                                                       std::stop_token stop = {});
 
 }  // namespace nutik

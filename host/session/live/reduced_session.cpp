@@ -1,4 +1,4 @@
-#include "session/live/reduced_session.hpp"
+#include "session/live/live_pictures.hpp"
 
 #include <optional>
 #include <utility>

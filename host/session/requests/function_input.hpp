@@ -29,7 +29,7 @@ struct FunctionInput {
 // of a name of one file.
 [[nodiscard]] std::map<std::uint8_t, std::filesystem::path> layer_files(const std::string& name);
 
-// A hard mask. Throws InputError that says what was found and what is needed (media/mask_reader.hpp).
+// A hard mask. Throws InputError that says what was found and what is needed (media/stills/mask_reader.hpp).
 // Where it is for a `capture` whose size costs nothing to know, a .tik, another size is refused before it is read.
 [[nodiscard]] Mask read_mask_input(const std::string& name, const std::optional<std::string>& capture = {});
 // The same, or one that is made of layers (mask/layers.hpp), of which the tag `rest` gets what they leave.

@@ -8,7 +8,7 @@
 
 #include "capture/error.hpp"
 #include "capture/picture.hpp"
-#include "media/picture_writer.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "render/renderer.hpp"
 
 namespace nutik {

@@ -1,2 +1,2 @@
 set(files changed_pixels.cpp changed_pixels.hpp jobs.cpp jobs.hpp live_view.cpp live_view.hpp
-    opening.cpp opening.hpp picture_image.cpp picture_image.hpp)
+    opening.cpp opening.hpp)

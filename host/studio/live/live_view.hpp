@@ -17,6 +17,7 @@
 
 #include "session/live/live_pictures.hpp"
 #include "session/requests/exposure_request.hpp"
+#include "session/session.hpp"
 #include "studio/document/document.hpp"
 #include "studio/live/changed_pixels.hpp"
 #include "studio/live/jobs.hpp"
@@ -120,9 +121,19 @@ class LiveView : public QObject {
   std::unique_ptr<LivePictures> pictures_;  // last: it delivers into what is above
 };
 
-// What a document asks the engine for: `mask` stands in place of the document's: the same, feathered. command_line()
+// What a document asks the engine for. `mask` stands in place of the document's: the same, feathered. command_line()
 // (window/project_file.hpp) asks nutik-cl for the same exposure.
 [[nodiscard]] ExposureRequest exposure_of(const DocumentState& state,
                                           const std::optional<Shared<MaskWithRegions>>& mask);
+
+// The engine's picture as Qt draws it: from 8-bit codes, one channel or three, to Format_RGB32.
+[[nodiscard]] QImage image_of(const Picture& picture);
+
+// How pictures on the screen are stored: 8-bit sRGB.
+[[nodiscard]] OutputFormat screen_format();
+
+[[nodiscard]] QRect rectangle_of(const Rectangle& rectangle);
+// The part of it that a picture of this shape has.
+[[nodiscard]] Rectangle rectangle_of(const QRect& rectangle, const Shape& shape);
 
 }  // namespace nutik::studio

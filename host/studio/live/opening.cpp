@@ -8,7 +8,7 @@
 #include "capture/format.hpp"
 #include "features/activity/activity.hpp"
 #include "session/text/number_text.hpp"
-#include "studio/live/picture_image.hpp"
+#include "studio/live/live_view.hpp"
 #include "system/temporary_folder.hpp"
 
 namespace nutik::studio {

@@ -43,13 +43,14 @@ bool MainWindow::try_to(const std::function<void()>& what) {
   }
 }
 
-void MainWindow::choose_capture() {
-  if (!may_leave()) return;
-  const QString path =
-      QFileDialog::getOpenFileName(this, tr("Open"), {},
-                                   tr("Clips, captures and projects (*.tik *.nutik *.mp4 *.mov *.mkv *.avi "
-                                      "*.cine *.cihx *.csv);;All files (*)"));
-  if (!path.isEmpty()) open(path);
+void MainWindow::ask_for_file(const QString& title, const QString& filter, const Use& use) {
+  const QString path = QFileDialog::getOpenFileName(this, title, {}, filter);
+  if (!path.isEmpty()) use(path);
+}
+
+void MainWindow::ask_for_name(const QString& title, const QString& ending, const QString& filter, const Use& use) {
+  const QString path = QFileDialog::getSaveFileName(this, title, suggested(ending), filter);
+  if (!path.isEmpty()) use(path);
 }
 
 bool MainWindow::save_project(const QString& path) {
@@ -190,24 +191,11 @@ QString MainWindow::command_for(const QString& picture) const {
   return command_line(document_, files_, picture);
 }
 
-void MainWindow::choose_export() {
-  if (!ensure_files()) return;
-  const QString path = QFileDialog::getSaveFileName(this, tr("Export the picture"), suggested(".png"),
-                                                    tr("Pictures (*.png *.tif *.jpg *.exr *.pfm *.ppm)"));
-  if (!path.isEmpty()) export_picture(path);
-}
-
 void MainWindow::copy_command() {
   if (!ensure_files()) return;
   const QString line = command_for(suggested(".png"));
   QGuiApplication::clipboard()->setText(line);
   notice_->say(Notice::Kind::note, tr("Copied: %1").arg(line));
-}
-
-void MainWindow::choose_functions() {
-  const QString path = QFileDialog::getOpenFileName(this, tr("Load functions"), {},
-                                                    tr("Function files (*.fn);;All files (*)"));
-  if (!path.isEmpty()) use_functions(path);
 }
 
 void MainWindow::use_functions(const QString& path) {
@@ -223,12 +211,6 @@ void MainWindow::use_functions(const QString& path) {
     state.mode = ExposureMode::functions;
     document_.apply(std::move(state), tr("Load functions"));
   });
-}
-
-void MainWindow::choose_mask() {
-  const QString path =
-      QFileDialog::getOpenFileName(this, tr("Load mask"), {}, tr("Masks (*.pgm *.png);;All files (*)"));
-  if (!path.isEmpty()) use_mask(path);
 }
 
 void MainWindow::use_mask(const QString& path) {
@@ -276,22 +258,7 @@ void MainWindow::write_mask(const QString& path) {
   });
 }
 
-void MainWindow::save_functions_as() {
-  const QString path = QFileDialog::getSaveFileName(this, tr("Save the functions"), suggested(".fn"),
-                                                    tr("Function files (*.fn)"));
-  if (!path.isEmpty()) write_functions(path);
-}
-
-void MainWindow::save_mask_as() {
-  const QString path =
-      QFileDialog::getSaveFileName(this, tr("Save the mask"), suggested(".pgm"), tr("Masks (*.pgm *.png)"));
-  if (!path.isEmpty()) write_mask(path);
-}
-
-void MainWindow::choose_plate() {
-  const QString path = QFileDialog::getSaveFileName(
-      this, tr("Write the empty scene"), suggested("-empty.png"), tr("Pictures (*.png *.tif *.jpg *.exr)"));
-  if (path.isEmpty()) return;
+void MainWindow::write_plate(const QString& path) {
   try_to([&] { jobs_.start(tr("Looking for the empty scene"), writing_plate(session_, path, told())); });
 }
 

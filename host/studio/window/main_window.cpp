@@ -11,7 +11,7 @@
 #include <algorithm>
 
 #include "capture/error.hpp"
-#include "session/live/reduced_session.hpp"
+#include "session/live/live_pictures.hpp"
 #include "studio/curves/curve_editor.hpp"
 #include "studio/live/opening.hpp"
 #include "studio/regions/difference_dialog.hpp"

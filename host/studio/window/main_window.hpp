@@ -120,7 +120,9 @@ class MainWindow : public QMainWindow {
   void follow_exposure();
 
   // files.cpp
-  void choose_capture();
+  using Use = std::function<void(const QString& path)>;
+  void ask_for_file(const QString& title, const QString& filter, const Use& use);
+  void ask_for_name(const QString& title, const QString& ending, const QString& filter, const Use& use);
   bool save();  // asks for a name where there is none
   bool save_as();
   bool may_leave();  // asks where something is not saved
@@ -128,13 +130,8 @@ class MainWindow : public QMainWindow {
   void note_capture();
   [[nodiscard]] QStringList changed_outside() const;
   void tell_changes();
-  void choose_export();
   void copy_command();
-  void choose_functions();
-  void choose_mask();
-  void save_functions_as();
-  void save_mask_as();
-  void choose_plate();
+  void write_plate(const QString& path);
   void remember(const QString& path);
   void fill_recent(QMenu& menu);
   void fill_unsaved(QMenu& menu);

@@ -77,7 +77,13 @@ void MainWindow::build_menus() {
 
 void MainWindow::build_file_menu() {
   QMenu& menu = *menuBar()->addMenu(tr("&File"));
-  add_action(menu, tr("&Open…"), QKeySequence::Open, [this] { choose_capture(); });
+  add_action(menu, tr("&Open…"), QKeySequence::Open, [this] {
+    if (may_leave())
+      ask_for_file(tr("Open"),
+                   tr("Clips, captures and projects (*.tik *.nutik *.mp4 *.mov *.mkv *.avi "
+                      "*.cine *.cihx *.csv);;All files (*)"),
+                   [this](const QString& path) { open(path); });
+  });
   QMenu& recent = *menu.addMenu(tr("Open &recent"));
   connect(&recent, &QMenu::aboutToShow, this, [this, &recent] { fill_recent(recent); });
   QMenu& unsaved = *menu.addMenu(tr("Reco&ver unsaved work"));
@@ -95,13 +101,28 @@ void MainWindow::build_file_menu() {
   needs_capture_ += add_action(menu, tr("&Save project"), QKeySequence::Save, [this] { save(); });
   needs_capture_ +=
       add_action(menu, tr("Save project &as…"), Qt::CTRL | Qt::SHIFT | Qt::Key_S, [this] { save_as(); });
-  needs_capture_ += add_action(menu, tr("Load &functions…"), {}, [this] { choose_functions(); });
-  needs_capture_ += add_action(menu, tr("Load &mask…"), {}, [this] { choose_mask(); });
-  needs_capture_ += add_action(menu, tr("Save f&unctions as…"), {}, [this] { save_functions_as(); });
-  needs_capture_ += add_action(menu, tr("Save mas&k as…"), {}, [this] { save_mask_as(); });
+  needs_capture_ += add_action(menu, tr("Load &functions…"), {}, [this] {
+    ask_for_file(tr("Load functions"), tr("Function files (*.fn);;All files (*)"),
+                 [this](const QString& path) { use_functions(path); });
+  });
+  needs_capture_ += add_action(menu, tr("Load &mask…"), {}, [this] {
+    ask_for_file(tr("Load mask"), tr("Masks (*.pgm *.png);;All files (*)"),
+                 [this](const QString& path) { use_mask(path); });
+  });
+  needs_capture_ += add_action(menu, tr("Save f&unctions as…"), {}, [this] {
+    ask_for_name(tr("Save the functions"), ".fn", tr("Function files (*.fn)"),
+                 [this](const QString& path) { write_functions(path); });
+  });
+  needs_capture_ += add_action(menu, tr("Save mas&k as…"), {}, [this] {
+    ask_for_name(tr("Save the mask"), ".pgm", tr("Masks (*.pgm *.png)"),
+                 [this](const QString& path) { write_mask(path); });
+  });
   menu.addSeparator();
-  needs_capture_ +=
-      add_action(menu, tr("&Export picture…"), Qt::CTRL | Qt::Key_E, [this] { choose_export(); });
+  needs_capture_ += add_action(menu, tr("&Export picture…"), Qt::CTRL | Qt::Key_E, [this] {
+    if (!ensure_files()) return;
+    ask_for_name(tr("Export the picture"), ".png", tr("Pictures (*.png *.tif *.jpg *.exr *.pfm *.ppm)"),
+                 [this](const QString& path) { export_picture(path); });
+  });
   needs_capture_ +=
       add_action(menu, tr("&Copy as command"), Qt::CTRL | Qt::SHIFT | Qt::Key_C, [this] { copy_command(); });
   menu.addSeparator();
@@ -137,7 +158,10 @@ void MainWindow::build_start_menu() {
     needs_capture_ += action;
   }
   menu.addSeparator();
-  needs_capture_ += add_action(menu, tr("&Empty scene, as a picture…"), {}, [this] { choose_plate(); });
+  needs_capture_ += add_action(menu, tr("&Empty scene, as a picture…"), {}, [this] {
+    ask_for_name(tr("Write the empty scene"), "-empty.png", tr("Pictures (*.png *.tif *.jpg *.exr)"),
+                 [this](const QString& path) { write_plate(path); });
+  });
 }
 
 void MainWindow::build_view_menu() {

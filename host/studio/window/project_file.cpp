@@ -15,9 +15,9 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/numbered_name.hpp"
-#include "media/picture_writer.hpp"
-#include "media/recipe.hpp"
+#include "media/formats/numbered_name.hpp"
+#include "media/writers/picture_writer.hpp"
+#include "media/writers/recipe.hpp"
 #include "session/requests/function_input.hpp"
 #include "session/text/shell_text.hpp"
 #include "studio/regions/covering.hpp"

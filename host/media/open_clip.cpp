@@ -1,0 +1,211 @@
+#include <atomic>
+#include <system_error>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/cameras/photron_header.hpp"
+#include "media/clip_formats.hpp"
+#include "media/clip_part.hpp"
+#include "media/events/event_clip.hpp"
+#include "media/formats/file_kinds.hpp"
+#include "media/module.hpp"
+#include "media/stills/still_sequence.hpp"
+#include "media/stills/stills_table.hpp"
+#include "system/input_bytes.hpp"
+#include "system/is_absent.hpp"
+
+namespace nutik {
+namespace {
+
+std::unique_ptr<Clip> open_table(const std::filesystem::path& path, const Files& files, const ClipOptions& options) {
+  const StillModule& module = still_module();
+  const std::vector<ListedStill> stills = read_stills_table(path);
+  std::vector<StillTimes> exif;
+  ClipTiming listed;  // for whoever wants to know what a stated rate replaces
+  for (const ListedStill& still : stills) {
+    if (still.times.start_ns) listed.starts_ns.push_back(*still.times.start_ns);
+    const bool is_timed = still.times.start_ns && still.times.exposure_ns;
+    exif.push_back(is_timed || options.rate ? StillTimes{} : module.read_exif_times(still.file));
+  }
+  if (listed.starts_ns.size() < stills.size()) listed.starts_ns.clear();
+  // The table itself is the first of its files.
+  return module.open(std::span(files).subspan(1), options.rate ? listed : timing_of(path, stills, exif), options);
+}
+
+// A clip of which there is more to tell than its module knows.
+class DescribedClip final : public Clip {
+ public:
+  DescribedClip(std::unique_ptr<Clip> clip, ClipInfo info) : clip_(std::move(clip)), info_(std::move(info)) {}
+
+  [[nodiscard]] const ClipInfo& info() const override { return info_; }
+  bool read(std::span<std::byte> raster) override { return clip_->read(raster); }
+  bool skip(std::span<std::byte> room) override { return clip_->skip(room); }
+  [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
+
+ private:
+  std::unique_ptr<Clip> clip_;
+  ClipInfo info_;
+};
+
+// A clip with a picture that cannot be read: that is its end, or an error which says that it could be.
+class PerhapsDamaged final : public Clip {
+ public:
+  PerhapsDamaged(std::unique_ptr<Clip> clip, const std::filesystem::path& path, bool ends_at_damage)
+      : clip_(std::move(clip)), name_(input_title(path.string())), ends_at_damage_(ends_at_damage) {}
+
+  [[nodiscard]] const ClipInfo& info() const override { return clip_->info(); }
+
+  bool read(std::span<std::byte> raster) override {
+    return take([&] { return clip_->read(raster); });
+  }
+  bool skip(std::span<std::byte> room) override {
+    return take([&] { return clip_->skip(room); });
+  }
+
+  [[nodiscard]] bool tells_changes() const override { return clip_->tells_changes(); }
+  [[nodiscard]] bool makes_codes() const override { return clip_->makes_codes(); }
+  std::optional<std::span<const PixelChange>> read_changes() override { return clip_->read_changes(); }
+
+  [[nodiscard]] std::optional<std::string> ended_early() const override {
+    return has_ended_ ? std::optional(reason_) : std::nullopt;
+  }
+  [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
+
+ private:
+  template <typename Take>
+  bool take(Take take_next) {
+    if (has_ended_) return false;
+    try {
+      if (!take_next()) return false;
+      ++samples_read_;
+      return true;
+    } catch (const InputError& error) {
+      // What has settings of its own is no damage.
+      if (samples_read_ == 0 || (!ends_at_damage_ && !error.settings().empty())) throw;
+      if (!ends_at_damage_) {
+        throw InputError(format("{}; the {} before it can be taken", error.what(),
+                                samples_read_ == 1 ? "picture" : format("{} pictures", samples_read_)),
+                         {Setting::end_at_damage});
+      }
+      reason_ = format("{} is taken as far as it goes, {} of {} pictures: {}", name_, samples_read_,
+                       clip_->info().sample_count, error.what());
+      has_ended_ = true;
+      return false;
+    }
+  }
+
+  std::unique_ptr<Clip> clip_;
+  std::string name_;
+  bool ends_at_damage_;
+  std::uint64_t samples_read_ = 0;
+  std::string reason_;
+  std::atomic<bool> has_ended_ = false;  // asked for while another thread reads; `reason_` stays from then on
+};
+
+// Pictures that tell no times themselves have those of the camera's header beside them.
+void add_photron_header(ClipInfo& info, const std::filesystem::path& pictures) {
+  if (info.timing.is_known()) return;
+  const auto header = photron_header_of(pictures);
+  if (!header) return;
+  info.timing.rate = header->rate;
+  info.timing.exposed_ns = header->exposed_ns;
+  info.timing.rate_from = header->file.filename().string();
+}
+
+std::unique_ptr<Clip> open_stills(const std::filesystem::path& path, const Files& stills, const ClipOptions& options) {
+  std::unique_ptr<Clip> clip = still_module().open(stills, {}, options);
+  std::error_code error;
+  if (!std::filesystem::is_directory(path, error)) return clip;
+  ClipInfo info = clip->info();
+  for (auto note : {missing_still_note(path, stills), left_out_note(path, stills)}) {
+    if (note) info.notes.emplace_back(std::move(*note));
+  }
+  add_photron_header(info, path);
+  return std::make_unique<DescribedClip>(std::move(clip), std::move(info));
+}
+
+void refuse_absent(const std::filesystem::path& path) {
+  if (is_absent(path)) throw InputError(format("{} cannot be read: no such file", input_title(path.string())));
+}
+
+std::unique_ptr<Clip> open_raw(const std::filesystem::path& path, const Files&, const ClipOptions& options) {
+  refuse_absent(path);
+  std::unique_ptr<Clip> clip = video_module().open(path, options);
+  ClipInfo info = clip->info();
+  add_photron_header(info, path);
+  return std::make_unique<DescribedClip>(std::move(clip), std::move(info));
+}
+
+void refuse_event_options(const std::filesystem::path& path, const EventOptions& events) {
+  std::vector<Setting> stated;
+  if (events.contrast) stated.push_back(Setting::contrast);
+  if (events.start) stated.push_back(Setting::start_picture);
+  if (events.tick_ns) stated.push_back(Setting::tick);
+  if (stated.empty()) return;
+  throw UsageError(format("{} holds pictures, of which nothing is said by events; leave that out",
+                          input_title(path.string())),
+                   std::move(stated));
+}
+
+std::optional<Files> files_of_table(const std::filesystem::path& path) {
+  if (!is_stills_table(path)) return std::nullopt;
+  Files files{path};  // the times of its stills
+  for (const ListedStill& still : read_stills_table(path)) files.push_back(still.file);
+  return files;
+}
+
+std::optional<Files> files_of_events(const std::filesystem::path& path) {
+  return is_event_recording(path) ? std::optional(Files{path}) : std::nullopt;
+}
+
+std::unique_ptr<Clip> open_events(const std::filesystem::path& path, const Files&, const ClipOptions& options) {
+  return open_event_clip(path, options);
+}
+
+std::unique_ptr<Clip> open_video(const std::filesystem::path& path, const Files&, const ClipOptions& options) {
+  refuse_absent(path);
+  refuse_text(path);
+  return video_module().open(path, options);
+}
+
+// The first that takes a name has it; what nothing takes is perhaps a video.
+constexpr ClipFormat kFormats[] = {
+    {&readers::kPhotron, photron_files, open_photron_clip},
+    {&readers::kProphesee, files_of_events, open_events},
+    {&readers::kTable, files_of_table, open_table},
+    {&readers::kSequence, list_stills, open_stills},
+};
+constexpr ClipFormat kVideos{&readers::kVideo, nullptr, open_video}, kDescribed{&readers::kRawVideo, nullptr, open_raw};
+
+struct FormatOf {
+  const ClipFormat& format;
+  Files files;
+};
+
+FormatOf format_of(const std::filesystem::path& path) {
+  for (const ClipFormat& format : kFormats) {
+    if (auto files = format.files(path)) return {format, std::move(*files)};
+  }
+  return {kVideos, {path}};
+}
+
+// All of it, as its files have it.
+std::unique_ptr<Clip> open_whole(const std::filesystem::path& path, const ClipOptions& options) {
+  if (!options.raw) refuse_unread_kind(path);
+  const auto [format, files] = options.raw ? FormatOf{kDescribed, {path}} : format_of(path);
+  if (*format.reader != readers::kProphesee) refuse_event_options(path, options.events);
+  return format.open(path, files, options);
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> files_of_clip(const std::filesystem::path& path) { return format_of(path).files; }
+
+std::unique_ptr<Clip> open_clip(const std::filesystem::path& name, const ClipOptions& options) {
+  const std::filesystem::path& path = is_standard_input(name.string()) ? standard_input_file() : name;
+  std::unique_ptr<Clip> clip = open_whole(path, options);
+  return take_part(std::make_unique<PerhapsDamaged>(std::move(clip), path, options.ends_at_damage), path,
+                   options);
+}
+
+}  // namespace nutik

@@ -1,0 +1,181 @@
+#include "media/stills/picture_files.hpp"
+
+#include <cstdio>  // which jpeglib.h needs and does not include
+
+#include <jpeglib.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/formats/colour_profile.hpp"
+
+namespace nutik {
+namespace {
+
+// Of a segment: its length, which counts its own two bytes, has 16 bits.
+constexpr std::size_t kMaxCommentBytes = 65'533;
+
+std::string message_of(j_common_ptr jpeg) {
+  std::array<char, JMSG_LENGTH_MAX> text{};
+  jpeg->err->format_message(jpeg, text.data());
+  return text.data();
+}
+
+// libjpeg reports errors through a callback that must not return. Its C frames hold nothing that the structure does
+// not own, so that an exception may pass through them.
+template <typename Failure>
+jpeg_error_mgr* errors_as(jpeg_error_mgr& manager) {
+  jpeg_std_error(&manager);
+  manager.error_exit = [](j_common_ptr jpeg) {
+    throw Failure(format("{}: {}", *static_cast<const std::string*>(jpeg->client_data), message_of(jpeg)));
+  };
+  manager.output_message = [](j_common_ptr) {};
+  return &manager;
+}
+
+// Hands what libjpeg has coded to a file.
+struct FileDestination : jpeg_destination_mgr {
+  explicit FileDestination(OutputFile& output) : file(output) {
+    init_destination = [](j_compress_ptr jpeg) { of(jpeg).restart(); };
+    empty_output_buffer = [](j_compress_ptr jpeg) -> boolean {
+      of(jpeg).flush(of(jpeg).buffer.size());  // all of it, whatever free_in_buffer says
+      return TRUE;
+    };
+    term_destination = [](j_compress_ptr jpeg) {
+      of(jpeg).flush(of(jpeg).buffer.size() - of(jpeg).free_in_buffer);
+    };
+  }
+  static FileDestination& of(j_compress_ptr jpeg) { return *static_cast<FileDestination*>(jpeg->dest); }
+  void restart() {
+    next_output_byte = buffer.data();
+    free_in_buffer = buffer.size();
+  }
+  void flush(std::size_t bytes) {
+    file.write(std::as_bytes(std::span(buffer).first(bytes)));
+    restart();
+  }
+
+  OutputFile& file;
+  std::array<JOCTET, 1 << 16> buffer;
+};
+
+struct Compressor : jpeg_compress_struct {
+  explicit Compressor(std::string& name) {
+    err = errors_as<OutputError>(errors);
+    client_data = &name;
+    jpeg_create_compress(this);
+  }
+  ~Compressor() { jpeg_destroy_compress(this); }
+  Compressor(const Compressor&) = delete;
+  Compressor& operator=(const Compressor&) = delete;
+  jpeg_error_mgr errors{};
+};
+
+struct Decompressor : jpeg_decompress_struct {
+  explicit Decompressor(std::string& name) {
+    err = errors_as<InputError>(errors);
+    client_data = &name;
+    jpeg_create_decompress(this);
+  }
+  ~Decompressor() { jpeg_destroy_decompress(this); }
+  Decompressor(const Decompressor&) = delete;
+  Decompressor& operator=(const Decompressor&) = delete;
+  jpeg_error_mgr errors{};
+};
+
+// Pixels for the same length, of no unit: the wider a pixel, the fewer. Each has 16 bits.
+void set_density(jpeg_compress_struct& jpeg, const Rational& aspect) {
+  constexpr std::int64_t kMax = 65'535;
+  const std::int64_t part = 1 + (std::max(aspect.numerator, aspect.denominator) - 1) / kMax;
+  const auto density = [&](std::int64_t of) {
+    return static_cast<UINT16>(std::max<std::int64_t>(round_half_up(of, part), 1));
+  };
+  jpeg.density_unit = 0;
+  jpeg.X_density = density(aspect.denominator);
+  jpeg.Y_density = density(aspect.numerator);
+}
+
+}  // namespace
+
+void write_jpeg(OutputFile& file, const Picture& picture, const std::string& text, int quality) {
+  const Shape& shape = picture.shape;
+  if (std::max(shape.width, shape.height) > JPEG_MAX_DIMENSION) {
+    throw UsageError(
+        format("a .jpg has at most {0} x {0} pixels, and the picture has {1} x {2}; write a .png or .tif",
+               JPEG_MAX_DIMENSION, shape.width, shape.height));
+  }
+  std::string name = "the JPEG cannot be written";
+  Compressor jpeg(name);
+  FileDestination destination(file);
+  jpeg.dest = &destination;
+  jpeg.image_width = shape.width;
+  jpeg.image_height = shape.height;
+  jpeg.input_components = static_cast<int>(shape.channels);
+  jpeg.in_color_space = shape.channels == 1 ? JCS_GRAYSCALE : JCS_RGB;
+  jpeg_set_defaults(&jpeg);
+  jpeg_set_quality(&jpeg, quality, TRUE);
+  jpeg.optimize_coding = TRUE;
+  for (int component = 0; component < jpeg.num_components; ++component) {
+    jpeg.comp_info[component].h_samp_factor = jpeg.comp_info[component].v_samp_factor = 1;
+  }
+  set_density(jpeg, picture.pixel_aspect);
+  jpeg_start_compress(&jpeg, TRUE);
+  const std::vector<std::byte> profile = colour_profile(picture);
+  if (!profile.empty()) {
+    jpeg_write_icc_profile(&jpeg, reinterpret_cast<const JOCTET*>(profile.data()),
+                           static_cast<unsigned>(profile.size()));
+  }
+  for (std::size_t at = 0; at < text.size(); at += kMaxCommentBytes) {
+    const std::string_view part = std::string_view(text).substr(at, kMaxCommentBytes);
+    jpeg_write_marker(&jpeg, JPEG_COM, reinterpret_cast<const JOCTET*>(part.data()),
+                      static_cast<unsigned>(part.size()));
+  }
+  const std::size_t row_bytes = std::size_t{shape.width} * shape.channels;
+  for (std::uint32_t y = 0; y < shape.height; ++y) {
+    // libjpeg only reads it.
+    auto* row = const_cast<JSAMPLE*>(reinterpret_cast<const JSAMPLE*>(picture.bytes.data() + y * row_bytes));
+    jpeg_write_scanlines(&jpeg, &row, 1);
+  }
+  jpeg_finish_compress(&jpeg);
+}
+
+bool is_jpeg(std::span<const std::byte> file) {
+  return file.size() >= 3 && file[0] == std::byte{0xFF} && file[1] == std::byte{0xD8} &&
+         file[2] == std::byte{0xFF};
+}
+
+std::optional<std::string> read_jpeg_comments(std::span<const std::byte> file, const std::string& name) {
+  std::string title = format("{} cannot be read", name);
+  Decompressor jpeg(title);
+  jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(file.data()), file.size());
+  jpeg_save_markers(&jpeg, JPEG_COM, 0xFFFF);
+  jpeg_read_header(&jpeg, TRUE);
+  std::optional<std::string> text;
+  for (const jpeg_marker_struct* marker = jpeg.marker_list; marker != nullptr; marker = marker->next) {
+    if (!text) text.emplace();
+    text->append(reinterpret_cast<const char*>(marker->data), marker->data_length);
+  }
+  return text;
+}
+
+std::vector<std::byte> read_jpeg_profile(std::span<const std::byte> file, const std::string& name) {
+  std::string title = format("{} cannot be read", name);
+  Decompressor jpeg(title);
+  jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(file.data()), file.size());
+  jpeg_save_markers(&jpeg, JPEG_APP0 + 2, 0xFFFF);
+  jpeg_read_header(&jpeg, TRUE);
+  JOCTET* bytes = nullptr;
+  unsigned size = 0;
+  if (!jpeg_read_icc_profile(&jpeg, &bytes, &size)) return {};
+  const std::unique_ptr<JOCTET, decltype(&std::free)> owned(bytes, &std::free);
+  const auto* first = reinterpret_cast<const std::byte*>(bytes);
+  return {first, first + size};
+}
+
+}  // namespace nutik

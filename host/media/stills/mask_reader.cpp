@@ -1,0 +1,59 @@
+#include "media/stills/mask_reader.hpp"
+
+#include <utility>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/stills/netpbm.hpp"
+#include "media/stills/picture_files.hpp"
+#include "system/mapped_file.hpp"
+
+namespace nutik {
+
+namespace {
+
+// What painting programs save as colour: all three channels are the tag.
+Picture grey_of(Picture&& picture, const std::string& name) {
+  if (picture.shape.channels == 1) return std::move(picture);
+  Shape shape = picture.shape;
+  shape.channels = 1;
+  Picture grey(shape, ValueType::code8, picture.white_code);
+  const auto colours = picture.values<std::uint8_t>();
+  for (std::uint64_t i = 0; i < shape.pixel_count(); ++i) {
+    const int red = colours[3 * i], green = colours[3 * i + 1], blue = colours[3 * i + 2];
+    if (red != green || red != blue) {
+      throw InputError(format(
+          "{} is a colour picture, and its pixel {},{} is no grey: red {}, green {}, blue {}. A mask has one "
+          "value for each pixel; save it as grey",
+          name, i % shape.width, i / shape.width, red, green, blue));
+    }
+    grey.bytes[i] = picture.bytes[3 * i];
+  }
+  return grey;
+}
+
+}  // namespace
+
+Picture read_mask(const std::filesystem::path& path) {
+  const MappedFile file(path);
+  return read_mask(file.bytes(), path.string());
+}
+
+Picture read_mask(std::span<const std::byte> bytes, const std::string& name,
+                  const CheckMaskSize& check_size) {
+  if (is_png(bytes)) return grey_of(read_8_bit_png(bytes, name, check_size), name);
+  if (bytes.size() < 2 || bytes[0] != std::byte{'P'}) {
+    throw InputError(
+        format("{} is neither a PGM nor a PNG; masks are 8-bit grey pictures of these kinds "
+               "(JPEG would change their values)",
+               name));
+  }
+  Picture picture = read_netpbm(bytes, name);
+  if (picture.type != ValueType::code8) {
+    throw InputError(format("{} is a picture of 16 bits (maximum {}); a mask has 8 (maximum 255 or less)",
+                            name, picture.white_code));
+  }
+  return grey_of(std::move(picture), name);
+}
+
+}  // namespace nutik

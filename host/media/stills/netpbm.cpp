@@ -1,0 +1,175 @@
+#include "media/stills/netpbm.hpp"
+
+#include <cstring>
+#include <string_view>
+
+#include "capture/capture_mark.hpp"
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "system/interruption.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr std::uint64_t kLargestNetpbmSide = 1u << 20;
+
+class NetpbmReader {
+ public:
+  NetpbmReader(std::span<const std::byte> file, const std::string& name)
+      : text_(reinterpret_cast<const char*>(file.data()), file.size()), name_(name) {}
+
+  // Passes over a picture: how many bytes it has.
+  std::size_t pass() {
+    const auto [shape, maximum, raw] = read_front();
+    const std::uint64_t value_size = maximum > 255 ? 2 : 1;
+    if (raw) return at_ + shape.value_count() * value_size;
+    for (std::uint64_t i = 0; i < shape.value_count(); ++i) number("value", 65'535);
+    return at_;
+  }
+
+  Picture read() {
+    const auto [shape, maximum, raw] = read_front();
+    const std::uint64_t value_size = maximum > 255 ? 2 : 1;
+    Picture picture(shape, maximum > 255 ? ValueType::code16 : ValueType::code8, maximum);
+    for (std::uint64_t i = 0; i < shape.value_count(); ++i) {
+      if (i % 65'536 == 0) check_interruption();
+      const std::uint32_t code = raw ? raw_value(value_size) : number("value", 65'535);
+      if (code > maximum) fail(format("value {} is above its maximum of {}", code, maximum));
+      if (maximum > 255) {
+        picture.values<std::uint16_t>()[i] = static_cast<std::uint16_t>(code);
+      } else {
+        picture.values<std::uint8_t>()[i] = static_cast<std::uint8_t>(code);
+      }
+    }
+    return picture;
+  }
+
+ private:
+  struct Front {
+    Shape shape;
+    std::uint32_t maximum;
+    bool is_raw;
+  };
+
+  // All before the values, which follow if they are raw.
+  Front read_front() {
+    if (text_.size() < 3 || text_[0] != 'P') fail("it is no Netpbm picture");
+    if (begins_as_capture(text_)) {
+      fail("it is a capture (.tik), whose front shows its first sample alone; expose a picture from it");
+    }
+    const char kind = text_[1];
+    if (kind != '2' && kind != '3' && kind != '5' && kind != '6') {
+      fail(format("it is a P{}; PGM (P2, P5) and PPM (P3, P6) are read", kind));
+    }
+    at_ = 2;
+    Shape shape;
+    shape.width = number("width", kLargestNetpbmSide);
+    shape.height = number("height", kLargestNetpbmSide);
+    shape.channels = kind == '3' || kind == '6' ? 3 : 1;
+    const std::uint32_t maximum = number("maximum", 65'535);
+    if (shape.width == 0 || shape.height == 0 || maximum == 0) fail("its size or maximum is 0");
+    const bool raw = kind == '5' || kind == '6';
+    const std::uint64_t value_size = maximum > 255 ? 2 : 1;
+    // Before anything is allocated: a raw picture's bytes are all there, a plain one has two a value.
+    const std::uint64_t needed = shape.value_count() * (raw ? value_size : 2);
+    if (raw) ++at_;  // the one white-space character before the raster
+    if (at_ > text_.size() || text_.size() - at_ + 1 < needed) {
+      fail(format("it was cut off: {} x {} pixels need {} bytes, {} are left", shape.width, shape.height,
+                  needed, text_.size() - std::min(at_, text_.size())));
+    }
+    return {shape, maximum, raw};
+  }
+
+  [[noreturn]] void fail(const std::string& why) const {
+    throw InputError(format("{} cannot be read: {}", name_, why));
+  }
+
+  void skip_space() {
+    while (at_ < text_.size()) {
+      const char c = text_[at_];
+      if (c == '#') {
+        while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+      } else if (c != ' ' && c != '\t' && c != '\n' && c != '\r' && c != '\v' && c != '\f') {
+        return;
+      } else {
+        ++at_;
+      }
+    }
+  }
+
+  std::uint32_t number(const char* what, std::uint64_t limit) {
+    skip_space();
+    std::uint64_t value = 0;
+    const std::size_t start = at_;
+    while (at_ < text_.size() && text_[at_] >= '0' && text_[at_] <= '9') {
+      value = value * 10 + static_cast<std::uint64_t>(text_[at_++] - '0');
+      if (value > limit) fail(format("its {} is above {}", what, limit));
+    }
+    if (at_ == start) {
+      fail(at_ == text_.size() ? format("it was cut off: a {} is missing", what)
+                               : format("a {} is missing at byte {}", what, at_));
+    }
+    return static_cast<std::uint32_t>(value);
+  }
+
+  std::uint32_t raw_value(std::uint64_t bytes) {
+    if (at_ + bytes > text_.size()) fail("it was cut off");
+    std::uint32_t value = 0;
+    for (std::uint64_t i = 0; i < bytes; ++i) {
+      value = value << 8 | static_cast<unsigned char>(text_[at_++]);
+    }
+    return value;
+  }
+
+  std::string_view text_;
+  const std::string& name_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+Picture read_netpbm(std::span<const std::byte> file, const std::string& name) {
+  return NetpbmReader(file, name).read();
+}
+
+std::vector<std::size_t> netpbm_starts(std::span<const std::byte> file, const std::string& name) {
+  std::vector<std::size_t> starts{0};
+  try {
+    for (std::size_t at = 0;;) {
+      at += NetpbmReader(file.subspan(at), name).pass();
+      while (at < file.size() && file[at] == std::byte{'\n'}) ++at;
+      const std::string_view rest(reinterpret_cast<const char*>(file.data()) + at, std::min<std::size_t>(file.size() - at, 3));
+      if (!begins_as_netpbm(rest)) return starts;
+      starts.push_back(at);
+    }
+  } catch (const InputError&) {  // it is said when that picture is read
+    return starts;
+  }
+}
+
+std::string netpbm_text(const Picture& picture, const std::string& comment) {
+  const Shape& shape = picture.shape;
+  const bool colour = shape.channels == 3;
+  if (picture.type == ValueType::light32) {
+    std::string text = format("{}\n{} {}\n-1.0\n", colour ? "PF" : "Pf", shape.width, shape.height);
+    const std::size_t row_bytes = std::size_t{shape.width} * shape.channels * sizeof(float);
+    for (std::uint32_t y = shape.height; y-- > 0;) {
+      text.append(reinterpret_cast<const char*>(picture.bytes.data()) + y * row_bytes, row_bytes);
+    }
+    return text;
+  }
+  std::string text =
+      format("{}\n{}{}{} {}\n{}\n", colour ? "P6" : "P5", comment.empty() ? "" : "# " + comment,
+             comment.empty() ? "" : "\n", shape.width, shape.height, picture.white_code);
+  if (picture.type == ValueType::code8) {
+    text.append(reinterpret_cast<const char*>(picture.bytes.data()), picture.bytes.size());
+  } else {
+    for (const std::uint16_t code : picture.values<std::uint16_t>()) {
+      if (picture.white_code > 255) text.push_back(static_cast<char>(code >> 8));
+      text.push_back(static_cast<char>(code & 0xFF));
+    }
+  }
+  return text;
+}
+
+}  // namespace nutik

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "capture/picture.hpp"
+#include "system/output_file.hpp"
+
+namespace nutik {
+
+// PNG through libpng.
+
+[[nodiscard]] bool is_png(std::span<const std::byte> file);
+
+// Reads a picture of 8 bits, grey or colour, code for code; alpha is left out where it is opaque everywhere. Throws
+// InputError naming `name`, the depth or colour type found and the one wanted, where it is anything else.
+// `check_size` is told width and height first; it may be empty, and may throw.
+[[nodiscard]] Picture read_8_bit_png(
+    std::span<const std::byte> file, const std::string& name,
+    const std::function<void(std::uint32_t, std::uint32_t)>& check_size = {});
+
+// The text under a keyword (Latin-1); nothing where there is none. Throws InputError where the file is damaged.
+[[nodiscard]] std::optional<std::string> read_png_text(std::span<const std::byte> file, const char* keyword,
+                                                       const std::string& name);
+
+// The ICC profile; empty where there is none that can be read. Throws InputError where the file is damaged.
+[[nodiscard]] std::vector<std::byte> read_png_profile(std::span<const std::byte> file,
+                                                      const std::string& name);
+
+// Writes codes: 8 or 16 bits, grey or RGB; what they mean in the chunks cICP, sRGB or gAMA and cHRM, and in iCCP what
+// cICP has no number for; pixels that are
+// not square in pHYs. `text` is kept as picture_text.hpp says; none where it is empty.
+void write_png(OutputFile& file, const Picture& picture, const std::string& text);
+
+// JPEG, through libjpeg.
+
+// 8-bit codes in full colour resolution, quality 1 … 100. What they stand for is in an ICC profile, their pixel aspect
+// in the density of the JFIF header, `text` in comments.
+void write_jpeg(OutputFile& file, const Picture& picture, const std::string& text, int quality);
+
+[[nodiscard]] bool is_jpeg(std::span<const std::byte> file);
+
+// The comments before the picture, one behind the other; nothing where there is none. Throws InputError.
+[[nodiscard]] std::optional<std::string> read_jpeg_comments(std::span<const std::byte> file,
+                                                            const std::string& name);
+
+// The ICC profile; empty where there is none, or not all of it. Throws InputError.
+[[nodiscard]] std::vector<std::byte> read_jpeg_profile(std::span<const std::byte> file,
+                                                       const std::string& name);
+
+// TIFF through libtiff.
+
+// Writes codes (8 or 16 bits) or light (32-bit floating point), uncompressed, so that every program
+// reads it bit for bit; what values mean as an ICC profile, pixels that are not square as resolution. `text` becomes
+// the ImageDescription; none where it is empty. Throws OutputError.
+void write_tiff(const std::filesystem::path& path, const Picture& picture, const std::string& text);
+
+// The ImageDescription of the first picture; nothing where there is none. Throws InputError where the file is no
+// TIFF.
+[[nodiscard]] std::optional<std::string> read_tiff_description(const std::filesystem::path& path);
+
+}  // namespace nutik

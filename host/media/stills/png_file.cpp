@@ -1,0 +1,259 @@
+#include "media/stills/picture_files.hpp"
+
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/formats/coding_points.hpp"
+#include "media/formats/colour_profile.hpp"
+#include "media/stills/picture_text.hpp"
+#include "system/interruption.hpp"
+
+namespace nutik {
+namespace {
+
+// libpng reports errors through a callback that must not return. Throwing through its C frames is what
+// it leaves to C++ programs; it holds no resources there that its own structures do not own.
+[[noreturn]] void throw_input(png_structp png, png_const_charp message) {
+  throw InputError(
+      format("{} cannot be read: {}", *static_cast<std::string*>(png_get_error_ptr(png)), message));
+}
+[[noreturn]] void throw_output(png_structp, png_const_charp message) {
+  throw OutputError(format("the PNG cannot be written: {}", message));
+}
+void ignore_warning(png_structp, png_const_charp) {}
+
+// libpng passes over a text that is too long or damaged, with a warning that starts with the chunk's name.
+void refuse_lost_text(png_structp png, png_const_charp message) {
+  const std::string_view text = message;
+  if (!text.starts_with("tEXt") && !text.starts_with("zTXt")) return;
+  throw InputError(format("{}: a text in it cannot be read ({}); it may have {} MiB at most",
+                          *static_cast<std::string*>(png_get_error_ptr(png)), message,
+                          kMaxPictureTextBytes >> 20));
+}
+
+struct ByteReader {
+  std::span<const std::byte> rest;
+};
+
+void read_bytes(png_structp png, png_bytep to, png_size_t bytes) {
+  auto* reader = static_cast<ByteReader*>(png_get_io_ptr(png));
+  if (bytes > reader->rest.size()) png_error(png, "it was cut off");
+  std::memcpy(to, reader->rest.data(), bytes);
+  reader->rest = reader->rest.subspan(bytes);
+}
+
+struct ReadStructure {
+  png_structp png;
+  png_infop info;
+  explicit ReadStructure(std::string& name, png_error_ptr warn = ignore_warning)
+      : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &name, throw_input, warn)),
+        info(png_create_info_struct(png)) {}
+  ~ReadStructure() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+struct WriteStructure {
+  png_structp png;
+  png_infop info;
+  WriteStructure()
+      : png(png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, throw_output, ignore_warning)),
+        info(png_create_info_struct(png)) {}
+  ~WriteStructure() { png_destroy_write_struct(&png, &info); }
+};
+
+const char* colour_name(int colour_type) {
+  switch (colour_type) {
+    case PNG_COLOR_TYPE_GRAY: return "grey";
+    case PNG_COLOR_TYPE_GRAY_ALPHA: return "grey with transparency";
+    case PNG_COLOR_TYPE_PALETTE: return "palette";
+    case PNG_COLOR_TYPE_RGB: return "RGB";
+    default: return "RGB with transparency";
+  }
+}
+
+// Fast rather than small: a picture is written and looked at many times while a function is adjusted.
+constexpr int kCompressionLevel = 2;
+
+// What codes stand for: in cICP, which this libpng has no function for, and in older chunks where these can say it.
+void set_meaning(png_structp png, png_infop info, const Picture& picture) {
+  if (picture.pixel_aspect != Rational{1, 1}) {
+    // Pixels for the same length, of no unit: the wider a pixel, the fewer.
+    png_set_pHYs(png, info, static_cast<png_uint_32>(picture.pixel_aspect.denominator),
+                 static_cast<png_uint_32>(picture.pixel_aspect.numerator), PNG_RESOLUTION_UNKNOWN);
+  }
+  if (!picture.transfer) return;
+  const Transfer& transfer = *picture.transfer;
+  if (transfer == Transfer::srgb() && picture.primaries == Primaries::bt709) {
+    png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  } else if (transfer.is_linear() || transfer.kind() == Transfer::Kind::gamma) {
+    png_set_gAMA(png, info, std::log(transfer.fraction_of(0.5)) / std::log(0.5));
+    const auto& xy = chromaticities(picture.primaries);
+    png_set_cHRM(png, info, xy[3][0], xy[3][1], xy[0][0], xy[0][1], xy[1][0], xy[1][1], xy[2][0], xy[2][1]);
+  }
+  if (coding_point(transfer)) return;
+  const std::vector<std::byte> profile = colour_profile(picture);
+  png_set_iCCP(png, info, "ICC", PNG_COMPRESSION_TYPE_BASE, reinterpret_cast<png_const_bytep>(profile.data()),
+               static_cast<png_uint_32>(profile.size()));
+}
+
+void write_coding_points(png_structp png, const Picture& picture) {
+  const auto transfer = picture.transfer ? coding_point(*picture.transfer) : std::nullopt;
+  if (!transfer) return;
+  constexpr png_byte kRgb = 0, kFullRange = 1;
+  const std::array<png_byte, 4> points{coding_point(picture.primaries), *transfer, kRgb, kFullRange};
+  constexpr png_byte kName[]{'c', 'I', 'C', 'P'};
+  png_write_chunk(png, kName, points.data(), points.size());
+}
+
+constexpr std::uint64_t kMaxExpansion = 1032;  // of Deflate
+
+// From here on a text is compressed.
+constexpr std::size_t kLongText = 1024;
+
+void set_text(png_structp png, png_infop info, const std::string& text) {
+  std::string keyword = kPictureTextKeyword, value = text;  // libpng takes what it might write to
+  png_text entry{};
+  entry.compression = text.size() < kLongText ? PNG_TEXT_COMPRESSION_NONE : PNG_TEXT_COMPRESSION_zTXt;
+  entry.key = keyword.data();
+  entry.text = value.data();
+  entry.text_length = value.size();
+  png_set_text(png, info, &entry, 1);
+}
+
+// Throws where a pixel is not opaque: what it shows is not in the file.
+void leave_out_alpha(std::span<const std::byte> with_alpha, Picture& picture, const std::string& name) {
+  constexpr std::byte kOpaque{255};
+  const Shape& shape = picture.shape;
+  for (std::uint64_t i = 0; i < shape.pixel_count(); ++i) {
+    const auto pixel = with_alpha.subspan(i * (shape.channels + 1), shape.channels + 1);
+    if (pixel.back() != kOpaque) {
+      throw InputError(
+          format("{} is transparent, and its pixel {},{} has alpha {} of 255; save it without transparency",
+                 name, i % shape.width, i / shape.width, std::to_integer<int>(pixel.back())));
+    }
+    std::ranges::copy(pixel.first(shape.channels),
+                      picture.bytes.begin() + static_cast<std::ptrdiff_t>(i * shape.channels));
+  }
+}
+
+}  // namespace
+
+bool is_png(std::span<const std::byte> file) {
+  return file.size() >= 8 && png_sig_cmp(reinterpret_cast<png_const_bytep>(file.data()), 0, 8) == 0;
+}
+
+Picture read_8_bit_png(std::span<const std::byte> file, const std::string& name,
+                       const std::function<void(std::uint32_t, std::uint32_t)>& check_size) {
+  std::string error_name = name;
+  ReadStructure read(error_name);
+  ByteReader reader{file};
+  png_set_read_fn(read.png, &reader, read_bytes);
+  png_read_info(read.png, read.info);
+  const int colour = png_get_color_type(read.png, read.info);
+  const int bits = png_get_bit_depth(read.png, read.info);
+  if (colour == PNG_COLOR_TYPE_PALETTE || bits != 8) {
+    throw InputError(
+        format("{} is a PNG of {} bits, {}; it must be 8 bits, grey", name, bits, colour_name(colour)));
+  }
+  const bool has_alpha =
+      (colour & PNG_COLOR_MASK_ALPHA) != 0 || png_get_valid(read.png, read.info, PNG_INFO_tRNS) != 0;
+  const Shape shape{png_get_image_width(read.png, read.info), png_get_image_height(read.png, read.info),
+                    (colour & PNG_COLOR_MASK_COLOR) != 0 ? 3u : 1u};
+  if (check_size) check_size(shape.width, shape.height);
+  if (shape.pixel_count() > file.size() * kMaxExpansion) {
+    throw InputError(
+        format("{} cannot be read: it states {} x {} pixels, which its {} bytes do not hold; it is damaged",
+               name, shape.width, shape.height, file.size()));
+  }
+  png_set_tRNS_to_alpha(read.png);  // of which one code is transparent
+  const int passes = png_set_interlace_handling(read.png);
+  png_read_update_info(read.png, read.info);
+  Picture picture(shape, ValueType::code8, 255);
+  const std::size_t pixel_bytes = shape.channels + (has_alpha ? 1 : 0);
+  std::vector<std::byte> with_alpha(has_alpha ? shape.pixel_count() * pixel_bytes : 0);
+  auto* const first = reinterpret_cast<png_bytep>((has_alpha ? with_alpha : picture.bytes).data());
+  std::vector<png_bytep> rows(shape.height);
+  for (std::uint32_t y = 0; y < shape.height; ++y)
+    rows[y] = first + std::size_t{y} * shape.width * pixel_bytes;
+  for (int pass = 0; pass < passes; ++pass) {
+    for (const png_bytep row : rows) {
+      check_interruption();
+      png_read_row(read.png, row, nullptr);
+    }
+  }
+  png_read_end(read.png, nullptr);
+  if (has_alpha) leave_out_alpha(with_alpha, picture, name);
+  return picture;
+}
+
+std::optional<std::string> read_png_text(std::span<const std::byte> file, const char* keyword,
+                                         const std::string& name) {
+  std::string error_name = name;
+  ReadStructure read(error_name, refuse_lost_text);
+  ByteReader reader{file};
+  png_set_read_fn(read.png, &reader, read_bytes);
+  // libpng's own 8 MB are less than function files, and more than a small file can hold.
+  png_set_chunk_malloc_max(read.png,
+                           std::min<std::uint64_t>(kMaxPictureTextBytes, file.size() * kMaxExpansion));
+  png_read_info(read.png, read.info);
+  png_textp texts = nullptr;
+  const int count = png_get_text(read.png, read.info, &texts, nullptr);
+  for (int i = 0; i < count; ++i) {
+    if (std::strcmp(texts[i].key, keyword) == 0) return std::string(texts[i].text, texts[i].text_length);
+  }
+  return std::nullopt;
+}
+
+std::vector<std::byte> read_png_profile(std::span<const std::byte> file, const std::string& name) {
+  std::string error_name = name;
+  ReadStructure read(error_name);
+  ByteReader reader{file};
+  png_set_read_fn(read.png, &reader, read_bytes);
+  png_read_info(read.png, read.info);
+  png_charp title = nullptr;
+  png_bytep profile = nullptr;
+  png_uint_32 size = 0;
+  int compression = 0;
+  if (png_get_iCCP(read.png, read.info, &title, &compression, &profile, &size) == 0) return {};
+  const auto* bytes = reinterpret_cast<const std::byte*>(profile);
+  return {bytes, bytes + size};
+}
+
+void write_png(OutputFile& file, const Picture& picture, const std::string& text) {
+  const Shape& shape = picture.shape;
+  const std::size_t bytes = value_bytes(picture.type);
+  WriteStructure write;
+  png_set_write_fn(
+      write.png, &file,
+      [](png_structp png, png_bytep from, png_size_t count) {
+        static_cast<OutputFile*>(png_get_io_ptr(png))
+            ->write({reinterpret_cast<const std::byte*>(from), count});
+      },
+      nullptr);
+  png_set_IHDR(write.png, write.info, shape.width, shape.height, static_cast<int>(bytes * 8),
+               shape.channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_compression_level(write.png, kCompressionLevel);
+  png_set_filter(write.png, 0, PNG_FILTER_SUB);
+  png_set_compression_buffer_size(write.png, 1 << 16);
+  set_meaning(write.png, write.info, picture);
+  if (!text.empty()) set_text(write.png, write.info, text);
+  png_write_info_before_PLTE(write.png, write.info);  // where cICP has its place
+  write_coding_points(write.png, picture);
+  png_write_info(write.png, write.info);
+  if (bytes == 2) png_set_swap(write.png);  // PNG has the high byte first
+  const std::size_t row_bytes = std::size_t{shape.width} * shape.channels * bytes;
+  for (std::uint32_t y = 0; y < shape.height; ++y) {
+    png_write_row(write.png, reinterpret_cast<png_const_bytep>(picture.bytes.data() + y * row_bytes));
+  }
+  png_write_end(write.png, nullptr);
+}
+
+}  // namespace nutik

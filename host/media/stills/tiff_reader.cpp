@@ -1,0 +1,381 @@
+#include "media/stills/tiff_reader.hpp"
+
+#include <tiffio.h>
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <new>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "system/input_bytes.hpp"
+#include "system/interruption.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr std::uint64_t kLargestPageSide = 1u << 20;
+constexpr std::uint64_t kLargestPage = std::uint64_t{16} << 30;  // bytes
+
+// What a page may take that lies in a file of so many bytes. LZW, which packs most of what photographs are kept in,
+// makes 2558 bytes of one at most; blank fax pages, of which more can be made, are small.
+std::uint64_t max_page_bytes(std::uint64_t file_bytes) {
+  constexpr std::uint64_t kMaxExpansion = 2560, kSmallPage = 64 << 20;
+  return std::min(kLargestPage, std::max(kSmallPage, file_bytes * kMaxExpansion));
+}
+
+// One page of an open file.
+class PageReader {
+ public:
+  PageReader(TIFF* file, std::string name)
+      : file_(file), name_(std::move(name)), file_bytes_(TIFFGetSizeProc(file)(TIFFClientdata(file))) {}
+
+  // Of a page that has no directory of its own the bytes lie so many behind the first one's.
+  TiffPage read(std::uint64_t bytes_behind = 0) {
+    bytes_behind_ = bytes_behind;
+    read_layout();
+    TiffPage page;
+    if (is_plain()) {
+      page.maximum = stated_maximum();
+      page.picture = Picture(shape_, bits_ > 8 ? ValueType::code16 : ValueType::code8, (1u << std::max<std::uint32_t>(bits_, 8)) - 1);
+      for (std::uint16_t plane = 0; plane < (separate_ ? shape_.channels : 1); ++plane) {
+        TIFFIsTiled(file_) ? read_tiles(page.picture, plane) : read_rows(page.picture, plane);
+      }
+    } else {
+      page.picture = read_shown();
+    }
+    page.resolution = resolution();
+    page.profile = profile();
+    page.orientation = orientation();
+    return page;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const {
+    throw InputError(format("{} cannot be read: {}", name_, why));
+  }
+
+  template <typename T>
+  [[nodiscard]] T field(std::uint32_t tag, T missing) const {
+    T value = missing;
+    return TIFFGetFieldDefaulted(file_, tag, &value) == 1 ? value : missing;
+  }
+
+  void read_layout() {
+    shape_.width = field<std::uint32_t>(TIFFTAG_IMAGEWIDTH, 0);
+    shape_.height = field<std::uint32_t>(TIFFTAG_IMAGELENGTH, 0);
+    shape_.channels = field<std::uint16_t>(TIFFTAG_SAMPLESPERPIXEL, 1);
+    bits_ = field<std::uint16_t>(TIFFTAG_BITSPERSAMPLE, 1);
+    photometric_ = field<std::uint16_t>(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+    separate_ = field<std::uint16_t>(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) == PLANARCONFIG_SEPARATE;
+    if (shape_.width == 0 || shape_.height == 0 || shape_.width > kLargestPageSide ||
+        shape_.height > kLargestPageSide) {
+      fail(format("it states {} x {} pixels", shape_.width, shape_.height));
+    }
+    // Before anything is allocated.
+    const std::uint64_t stored_bytes = (shape_.value_count() * bits_ + 7) / 8;
+    const bool is_packed = field<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE;
+    if (stored_bytes > (is_packed ? max_page_bytes(file_bytes_) : file_bytes_)) {
+      fail(format("it states {} x {} pixels, which its {} bytes do not hold; it is damaged or was cut off",
+                  shape_.width, shape_.height, file_bytes_));
+    }
+    if (shape_.channels != 1 && shape_.channels != 3) {
+      fail(format("it has {} channels; grey (1) and colour (3) are read, transparency is not",
+                  shape_.channels));
+    }
+    const auto sample_format = field<std::uint16_t>(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
+    if (bits_ > 16 || sample_format != SAMPLEFORMAT_UINT) {
+      fail(format("it has {}-bit {} values; whole numbers without sign of up to 16 bits are read", bits_,
+                  sample_format == SAMPLEFORMAT_INT      ? "signed"
+                  : sample_format == SAMPLEFORMAT_IEEEFP ? "floating-point"
+                                                         : "unsigned"));
+    }
+    if (is_grey() && shape_.channels == 3) {
+      fail("its 3 samples a pixel are channels of grey, not colour (photometric interpretation MinIsBlack); save one of them, or all as RGB");
+    }
+  }
+
+  // Whether the values are codes as they stand, rather than indices of a palette, YCbCr or single
+  // bits.
+  [[nodiscard]] bool is_plain() const {
+    if (is_grey()) return shape_.channels == 1 && (bits_ >= 8 || bits_ == 1 || bits_ == 2 || bits_ == 4);
+    return bits_ >= 8 && photometric_ == PHOTOMETRIC_RGB && shape_.channels == 3;
+  }
+  [[nodiscard]] bool is_grey() const {
+    return photometric_ == PHOTOMETRIC_MINISBLACK || photometric_ == PHOTOMETRIC_MINISWHITE;
+  }
+
+  [[nodiscard]] std::uint16_t orientation() const {
+    const auto stated = field<std::uint16_t>(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
+    return stated >= ORIENTATION_TOPLEFT && stated <= ORIENTATION_LEFTBOT ? stated : ORIENTATION_TOPLEFT;
+  }
+
+  [[nodiscard]] std::optional<std::pair<double, double>> resolution() const {
+    float across = 0, down = 0;
+    if (TIFFGetField(file_, TIFFTAG_XRESOLUTION, &across) != 1 ||
+        TIFFGetField(file_, TIFFTAG_YRESOLUTION, &down) != 1 || !(across > 0 && down > 0)) {
+      return std::nullopt;
+    }
+    return std::pair(double{across}, double{down});
+  }
+
+  [[nodiscard]] std::vector<std::byte> profile() const {
+    std::uint32_t size = 0;
+    const std::byte* bytes = nullptr;
+    if (TIFFGetField(file_, TIFFTAG_ICCPROFILE, &size, &bytes) != 1 || bytes == nullptr) return {};
+    return {bytes, bytes + size};
+  }
+
+  [[nodiscard]] std::optional<std::uint32_t> stated_maximum() const {
+    const std::uint32_t full = (1u << bits_) - 1;
+    if (bits_ != 16) return bits_ <= 8 ? std::nullopt : std::optional(full);
+    std::uint16_t stated = 0;
+    if (TIFFGetField(file_, TIFFTAG_MAXSAMPLEVALUE, &stated) != 1) return std::nullopt;
+    if (stated <= 255 || (stated & (stated + 1u)) != 0) return std::nullopt;
+    return stated;
+  }
+
+  // Value i of a row as libtiff hands it out: 8 bits, 16 in the machine's order, or packed, high
+  // bits first.
+  [[nodiscard]] std::uint32_t value(const std::vector<std::uint8_t>& row, std::size_t offset,
+                                    std::size_t i) const {
+    const std::uint8_t* bytes = row.data() + offset;
+    if (bits_ == 8) return bytes[i];
+    if (bits_ == 16) return reinterpret_cast<const std::uint16_t*>(bytes)[i];
+    const std::size_t first = i * bits_, last = first + bits_ - 1;
+    std::uint32_t window = 0;
+    for (std::size_t at = first / 8; at <= last / 8; ++at) window = window << 8 | bytes[at];
+    return window >> (7 - last % 8) & ((1u << bits_) - 1);
+  }
+
+  // Puts `count` pixels of a row where they belong.
+  void place(Picture& picture, const std::vector<std::uint8_t>& row, std::size_t offset, std::uint32_t x,
+             std::uint32_t y, std::uint32_t count, std::uint16_t plane) const {
+    const std::uint32_t together = separate_ ? 1 : shape_.channels;
+    const std::uint32_t full = (1u << bits_) - 1;
+    const bool inverted = photometric_ == PHOTOMETRIC_MINISWHITE;
+    const std::size_t to = (std::size_t{y} * shape_.width + x) * shape_.channels + plane;
+    for (std::size_t i = 0; i < std::size_t{count} * together; ++i) {
+      const std::uint32_t stored = value(row, offset, i);
+      // Fewer than 8 bits are spread over 8, as all programs show them.
+      const std::uint32_t code = (inverted ? full - stored : stored) * (bits_ < 8 ? 255 / full : 1);
+      const std::size_t at = to + i / together * shape_.channels + i % together;
+      if (picture.type == ValueType::code8) {
+        picture.bytes[at] = static_cast<std::byte>(code);
+      } else {
+        picture.values<std::uint16_t>()[at] = static_cast<std::uint16_t>(code);
+      }
+    }
+  }
+
+  void read_rows(Picture& picture, std::uint16_t plane) const {
+    const std::uint64_t row_bytes = TIFFScanlineSize64(file_);
+    const std::uint64_t together = separate_ ? 1 : shape_.channels;
+    if (row_bytes < (shape_.width * together * bits_ + 7) / 8 || row_bytes > max_page_bytes(file_bytes_)) {
+      fail(format("it states rows of {} bytes", row_bytes));
+    }
+    std::vector<std::uint8_t> row(row_bytes);
+    for (std::uint32_t y = 0; y < shape_.height; ++y) {
+      check_interruption();
+      const bool is_there = bytes_behind_ > 0 ? read_behind(row, y) : TIFFReadScanline(file_, row.data(), y, plane) >= 0;
+      if (!is_there) {
+        fail(format("it is damaged or was cut off at row {} of {}", y, shape_.height));
+      }
+      place(picture, row, 0, 0, y, shape_.width, plane);
+    }
+  }
+
+  // A row of what lies behind the first page.
+  bool read_behind(std::vector<std::uint8_t>& row, std::uint32_t y) const {
+    const std::uint64_t* offsets = nullptr;
+    if (TIFFGetField(file_, TIFFTAG_STRIPOFFSETS, &offsets) != 1 || offsets == nullptr) return false;
+    const auto stream = TIFFClientdata(file_);
+    const std::uint64_t at = offsets[0] + bytes_behind_ + y * std::uint64_t{row.size()};
+    if (TIFFGetSeekProc(file_)(stream, at, SEEK_SET) != at) return false;
+    if (TIFFGetReadProc(file_)(stream, row.data(), static_cast<tmsize_t>(row.size())) != static_cast<tmsize_t>(row.size())) return false;
+    if (bits_ == 16 && TIFFIsByteSwapped(file_)) {
+      TIFFSwabArrayOfShort(reinterpret_cast<std::uint16_t*>(row.data()), static_cast<tmsize_t>(row.size() / 2));
+    }
+    return true;
+  }
+
+  void read_tiles(Picture& picture, std::uint16_t plane) const {
+    const auto width = field<std::uint32_t>(TIFFTAG_TILEWIDTH, 0);
+    const auto height = field<std::uint32_t>(TIFFTAG_TILELENGTH, 0);
+    const std::uint64_t row_bytes = TIFFTileRowSize64(file_), tile_bytes = TIFFTileSize64(file_);
+    const std::uint64_t together = separate_ ? 1 : shape_.channels;
+    if (width == 0 || height == 0 || width > kLargestPageSide || height > kLargestPageSide ||
+        row_bytes < (width * together * bits_ + 7) / 8 || tile_bytes < row_bytes * height ||
+        tile_bytes > max_page_bytes(file_bytes_)) {
+      fail(format("it states tiles of {} x {} pixels", width, height));
+    }
+    std::vector<std::uint8_t> tile(tile_bytes);
+    for (std::uint32_t y = 0; y < shape_.height; y += height) {
+      for (std::uint32_t x = 0; x < shape_.width; x += width) {
+        check_interruption();
+        if (TIFFReadTile(file_, tile.data(), x, y, 0, plane) < 0) {
+          fail(format("it is damaged or was cut off at row {} of {}", y, shape_.height));
+        }
+        for (std::uint32_t row = 0; row < std::min(height, shape_.height - y); ++row) {
+          place(picture, tile, row * row_bytes, x, y + row, std::min(width, shape_.width - x), plane);
+        }
+      }
+    }
+  }
+
+  // Any other kind, as libtiff would show it: 8 bits.
+  Picture read_shown() {
+    char why[1024] = {};
+    if (bits_ > 8 || TIFFRGBAImageOK(file_, why) == 0) {
+      fail(format("it is of a kind that is not read (photometric interpretation {}, {} bits)", photometric_,
+                  bits_));
+    }
+    std::vector<std::uint32_t> pixels(shape_.pixel_count());
+    // As it is stored, as all other kinds are.
+    if (TIFFReadRGBAImageOriented(file_, shape_.width, shape_.height, pixels.data(), orientation(), 1) == 0) {
+      fail("it is damaged or was cut off");
+    }
+    const bool grey = photometric_ == PHOTOMETRIC_MINISBLACK || photometric_ == PHOTOMETRIC_MINISWHITE;
+    shape_.channels = grey ? 1 : 3;
+    Picture picture(shape_, ValueType::code8, 255);
+    std::size_t at = 0;
+    for (const std::uint32_t pixel : pixels) {
+      picture.bytes[at++] = static_cast<std::byte>(TIFFGetR(pixel));
+      if (grey) continue;
+      picture.bytes[at++] = static_cast<std::byte>(TIFFGetG(pixel));
+      picture.bytes[at++] = static_cast<std::byte>(TIFFGetB(pixel));
+    }
+    return picture;
+  }
+
+  TIFF* file_;
+  std::string name_;
+  std::uint64_t file_bytes_;
+  Shape shape_;
+  std::uint16_t bits_ = 0;
+  std::uint16_t photometric_ = 0;
+  bool separate_ = false;
+  std::uint64_t bytes_behind_ = 0;
+};
+
+// Of a page whose codes lie in one piece as they are, their bytes; 0 of any other.
+std::uint64_t bytes_in_one_piece(TIFF* file) {
+  std::uint16_t bits = 0, compression = 0, plane = 0;
+  TIFFGetFieldDefaulted(file, TIFFTAG_BITSPERSAMPLE, &bits);
+  TIFFGetFieldDefaulted(file, TIFFTAG_COMPRESSION, &compression);
+  TIFFGetFieldDefaulted(file, TIFFTAG_PLANARCONFIG, &plane);
+  const bool is_plain = (bits == 8 || bits == 16) && compression == COMPRESSION_NONE && plane == PLANARCONFIG_CONTIG;
+  std::uint32_t height = 0;
+  const std::uint64_t* offsets = nullptr;
+  if (!is_plain || TIFFIsTiled(file) || TIFFGetField(file, TIFFTAG_IMAGELENGTH, &height) != 1 ||
+      TIFFGetField(file, TIFFTAG_STRIPOFFSETS, &offsets) != 1 || offsets == nullptr) {
+    return 0;
+  }
+  const std::uint64_t row_bytes = TIFFScanlineSize64(file), strip_bytes = TIFFStripSize64(file);
+  for (std::uint32_t strip = 1; strip < TIFFNumberOfStrips(file); ++strip) {
+    if (offsets[strip] != offsets[0] + strip * strip_bytes) return 0;
+  }
+  return row_bytes * height;
+}
+
+}  // namespace
+
+struct TiffReader::File {
+  explicit File(const std::filesystem::path& path) {
+    struct FreeOptions {
+      void operator()(TIFFOpenOptions* options) const { TIFFOpenOptionsFree(options); }
+    };
+    const std::unique_ptr<TIFFOpenOptions, FreeOptions> options(TIFFOpenOptionsAlloc());
+    if (!options) throw std::bad_alloc();
+    TIFFOpenOptionsSetErrorHandlerExtR(options.get(), note_trouble, this);
+    TIFFOpenOptionsSetWarningHandlerExtR(
+        options.get(), [](auto...) { return 1; }, nullptr);
+    std::error_code error;
+    const std::uint64_t file_bytes = std::filesystem::file_size(path, error);
+    if (!error) {
+      TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), static_cast<tmsize_t>(max_page_bytes(file_bytes)));
+    }
+    handle.reset(
+        TIFFOpenExt(path.c_str(), "rm", options.get()));  // m: not mapped, so that it may become shorter
+  }
+
+  // In several places libtiff only reports damage, and returns what it could make of it.
+  static int note_trouble(TIFF*, void* user, const char*, const char* form, va_list values) {
+    auto& trouble = static_cast<File*>(user)->trouble;
+    char text[512];
+    if (trouble.empty() && std::vsnprintf(text, sizeof text, form, values) > 0) trouble = text;
+    return 1;  // libtiff is to say it nowhere else
+  }
+
+  struct Close {
+    void operator()(TIFF* file) const { TIFFClose(file); }
+  };
+  std::string trouble;  // the first of it
+  std::unique_ptr<TIFF, Close> handle;
+};
+
+TiffReader::TiffReader(const std::filesystem::path& path)
+    : name_(input_title(path.string())), file_(std::make_unique<File>(path)) {
+  if (!file_->handle) throw InputError(format("{} cannot be read: it is damaged or no TIFF", name_));
+  page_count_ = TIFFNumberOfDirectories(file_->handle.get());
+  if (page_count_ == 0 || !file_->trouble.empty()) {
+    throw InputError(
+        format("{} cannot be read: it is damaged or was cut off: its list of pages breaks at page {} ({})",
+               name_, page_count_ + 1, file_->trouble));
+  }
+  follow_story();
+}
+TiffReader::~TiffReader() = default;
+
+bool TiffReader::is_dng() const {
+  std::uint8_t* version = nullptr;
+  return TIFFGetField(file_->handle.get(), TIFFTAG_DNGVERSION, &version) == 1;
+}
+
+void TiffReader::follow_story() {
+  TIFF* const handle = file_->handle.get();
+  const char* description = nullptr;
+  if (TIFFGetField(handle, TIFFTAG_IMAGEDESCRIPTION, &description) != 1 || description == nullptr) return;
+  Shape shape;
+  std::uint16_t channels = 1;
+  TIFFGetFieldDefaulted(handle, TIFFTAG_SAMPLESPERPIXEL, &channels);
+  shape.channels = std::max<std::uint16_t>(channels, 1);
+  story_ = read_tiff_story(description, shape);
+  if (page_count_ > 1 && !story_.mixed.empty()) {
+    throw InputError(
+        format("{} holds {}, as its description by {} says, and its pages are not moments one after another; save one "
+               "channel and slice as a TIFF of its own (in Fiji: Image, Hyperstacks, Make Subset)",
+               name_, story_.mixed, story_.who));
+  }
+  if (page_count_ > 1 || story_.pictures <= 1) return;
+  const std::uint64_t page_bytes = bytes_in_one_piece(handle), file_bytes = TIFFGetSizeProc(handle)(TIFFClientdata(handle));
+  const std::uint64_t* offsets = nullptr;
+  const bool has_offsets = TIFFGetField(handle, TIFFTAG_STRIPOFFSETS, &offsets) == 1 && offsets != nullptr;
+  if (!has_offsets || page_bytes == 0 || offsets[0] >= file_bytes) return;
+  const std::uint64_t held = (file_bytes - offsets[0]) / page_bytes;
+  is_in_one_ = held > 1;  // else it is one page that kept the description of a stack
+  if (!is_in_one_) return;
+  if (held < story_.pictures) {
+    throw InputError(format("{} was cut off: its description by {} says that it holds {} pictures, and {} are there", name_,
+                            story_.who, story_.pictures, held));
+  }
+  page_count_ = story_.pictures;
+}
+
+std::optional<TiffPage> TiffReader::next() {
+  if (pages_read_ == page_count_) return std::nullopt;
+  const std::string page_name = format("{}, page {},", name_, pages_read_ + 1);
+  TIFF* const handle = file_->handle.get();
+  const bool found = pages_read_ == 0 || is_in_one_ || TIFFReadDirectory(handle) != 0;
+  std::optional<TiffPage> page;
+  if (found) page = PageReader(handle, page_name).read(is_in_one_ ? pages_read_ * bytes_in_one_piece(handle) : 0);
+  if (!found || !file_->trouble.empty()) {
+    throw InputError(format("{} cannot be read: it is damaged ({})", page_name, file_->trouble));
+  }
+  ++pages_read_;
+  return page;
+}
+
+}  // namespace nutik

@@ -1,0 +1,77 @@
+// TIFF stacks, page after page.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "capture/picture.hpp"
+#include "capture/rational.hpp"
+
+namespace nutik {
+
+// One page's codes as stored: code8 up to 8 bits a value, else code16. Values of 9 to 15 bits are
+// unpacked and not scaled.
+struct TiffPage {
+  Picture picture;
+  // The largest code there can be, where the file tells: fewer than 16 bits a value, or the tag
+  // MaxSampleValue. That tag may also be the largest value that happens to occur; so it counts only
+  // where it is 2^n - 1, all that n bits can hold.
+  std::optional<std::uint32_t> maximum;
+  // How many of its pixels are as long as one and the same length, along a row and along a column, of no unit; where it
+  // has a resolution.
+  std::optional<std::pair<double, double>> resolution;
+  std::vector<std::byte> profile;  // ICC; empty where it has none
+  unsigned orientation = 1;        // as it lies, by TIFF's numbers, which are EXIF's
+};
+
+// What the description of a TIFF says of its pages beside what their directories do: ImageJ, tifffile and OME write there
+// how many pictures there are, of how many channels and slices, and how fast they were taken.
+struct TiffStory {
+  std::uint64_t pictures = 0;    // 0: it does not say
+  std::string mixed;             // of what there is more than one beside moments, for people: `2 channels, 2 slices`
+  std::optional<Rational> rate;  // pictures a second
+  std::string who;               // whose words these are
+};
+
+// Of pages of that shape.
+[[nodiscard]] TiffStory read_tiff_story(std::string_view description, const Shape& page);
+
+class TiffReader {
+ public:
+  // Walks through the file's directories, without reading a pixel. Throws InputError where the file is no TIFF, or
+  // where their chain breaks: what lies behind that would be missing without a word.
+  explicit TiffReader(const std::filesystem::path& path);
+  ~TiffReader();
+
+  // Of these one directory may stand for many, whose codes lie one behind the other, as the description says.
+  [[nodiscard]] std::uint64_t page_count() const { return page_count_; }
+  // Whether it says that it is a DNG.
+  [[nodiscard]] bool is_dng() const;
+  // What the first page's description says.
+  [[nodiscard]] const TiffStory& story() const { return story_; }
+
+  // The next page, in time proportional to its size. Empty after the last one. Throws InputError
+  // naming file and page where it is damaged, as far as libtiff notices, or of a kind that is not read.
+  [[nodiscard]] std::optional<TiffPage> next();
+
+ private:
+  struct File;
+
+  // Throws where the description says of more than moments; makes pages of what it says that no directory does.
+  void follow_story();
+
+  std::string name_;
+  std::unique_ptr<File> file_;
+  std::uint64_t page_count_ = 0;
+  std::uint64_t pages_read_ = 0;
+  TiffStory story_;
+  bool is_in_one_ = false;  // whether all pages have the first one's directory
+};
+
+}  // namespace nutik

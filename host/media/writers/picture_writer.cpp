@@ -1,0 +1,170 @@
+#include "media/writers/picture_writer.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "media/formats/extension.hpp"
+#include "media/stills/picture_files.hpp"
+#include "media/module.hpp"
+#include "media/stills/netpbm.hpp"
+#include "system/output_file.hpp"
+#include "system/temporary_folder.hpp"
+
+namespace nutik {
+namespace {
+
+struct FileKind {
+  const char* extension;
+  bool is_preferred = true;             // of several extensions
+  std::uint32_t code_bits = 0;      // that it holds at most; 0: no codes
+  bool holds_light = false;         // in 32 bits
+  bool holds_half = false;          // in 16
+  bool is_lossy = false;            // codes
+  std::uint32_t only_channels = 0;  // 0: any
+  void (*write)(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes& wishes);
+};
+
+void write_png_file(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
+  write_png(file, picture, text);
+}
+void write_netpbm(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
+  file.write(netpbm_text(picture, text));
+}
+void write_tiff_file(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
+  write_tiff(file.temporary_path(), picture, text);
+}
+void write_jpeg_file(OutputFile& file, const Picture& picture, const std::string& text,
+                     const FileWishes& wishes) {
+  write_jpeg(file, picture, text, wishes.quality);
+}
+void write_exr_file(OutputFile& file, const Picture& picture, const std::string& text,
+                    const FileWishes& wishes) {
+  still_module().write_exr(file, picture, text, wishes.as_half);
+}
+
+constexpr std::array<FileKind, 10> kFileKinds{{
+    {.extension = ".png", .code_bits = 16, .write = write_png_file},
+    {.extension = ".tif", .code_bits = 16, .holds_light = true, .write = write_tiff_file},
+    {.extension = ".tiff", .is_preferred = false, .code_bits = 16, .holds_light = true, .write = write_tiff_file},
+    {.extension = ".jpg", .code_bits = 8, .is_lossy = true, .write = write_jpeg_file},
+    {.extension = ".jpeg", .is_preferred = false, .code_bits = 8, .is_lossy = true, .write = write_jpeg_file},
+    {.extension = ".exr", .holds_light = true, .holds_half = true, .write = write_exr_file},
+    {.extension = ".ppm", .code_bits = 16, .only_channels = 3, .write = write_netpbm},
+    {.extension = ".pgm", .code_bits = 16, .only_channels = 1, .write = write_netpbm},
+    {.extension = ".pnm", .is_preferred = false, .code_bits = 16, .write = write_netpbm},
+    {.extension = ".pfm", .holds_light = true, .write = write_netpbm},
+}};
+
+constexpr std::string_view kStandardOutput = "-", kBehindKind = ":-";
+
+const FileKind* find_kind(const std::filesystem::path& path) {
+  const std::string extension = picture_extension(path);
+  const auto found = std::find_if(kFileKinds.begin(), kFileKinds.end(),
+                                  [&](const FileKind& kind) { return extension == kind.extension; });
+  return found == kFileKinds.end() ? nullptr : &*found;
+}
+
+const FileKind& file_kind_of(const std::filesystem::path& path) {
+  if (const FileKind* kind = find_kind(path)) return *kind;
+  throw UsageError(format("{}: pictures are written as {}, not as '{}'", path.string(), picture_extensions(),
+                          path.extension().string()));
+}
+
+// `.tif, .exr or .pfm`: the extensions of the kinds that are wanted.
+template <typename Wanted>
+std::string extensions_of(Wanted wanted) {
+  std::vector<std::string> names;
+  for (const FileKind& kind : kFileKinds) {
+    if (kind.is_preferred && wanted(kind)) names.emplace_back(kind.extension);
+  }
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
+  }
+  return text;
+}
+
+}  // namespace
+
+Depth parse_depth(std::string_view text) {
+  if (text == "8") return Depth::bits8;
+  if (text == "16") return Depth::bits16;
+  if (text == "half") return Depth::half;
+  if (text == "float") return Depth::floating;
+  throw UsageError(format("depth '{}' is not known; choose 8, 16, half or float", text));
+}
+
+ValueType value_type_for(const std::filesystem::path& path, std::optional<Depth> wish, ValueType usual,
+                         std::uint32_t channels) {
+  const FileKind& kind = file_kind_of(path);
+  if (kind.only_channels != 0 && kind.only_channels != channels) {
+    throw UsageError(format("{} holds {} pictures only and this one {}; write a .png or .tif", path.string(),
+                            channels == 1 ? "colour" : "grey", channels == 1 ? "is grey" : "has colour"));
+  }
+  const bool light = wish ? *wish == Depth::floating || *wish == Depth::half : kind.code_bits == 0;
+  if (light && !kind.holds_light) {
+    throw UsageError(format("{} cannot hold floating point; write a {}", path.string(),
+                            extensions_of([](const FileKind& other) { return other.holds_light; })));
+  }
+  if (wish == Depth::half && !kind.holds_half) {
+    throw UsageError(format("{} holds floating point of 32 bits, not of 16; write a {}", path.string(),
+                            extensions_of([](const FileKind& other) { return other.holds_half; })));
+  }
+  if (!light && kind.code_bits == 0) {
+    throw UsageError(format("{} holds floating point only; write a .png, .tif or .ppm", path.string()));
+  }
+  if (light) return ValueType::light32;
+  if (wish == Depth::bits16 && kind.code_bits < 16) {
+    throw UsageError(format("{} holds 8 bits only; write a {}", path.string(),
+                            extensions_of([](const FileKind& other) { return other.code_bits == 16; })));
+  }
+  if (!wish) return kind.code_bits == 8 ? ValueType::code8 : usual;
+  return *wish == Depth::bits8 ? ValueType::code8 : ValueType::code16;
+}
+
+bool names_standard_output(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  return name == kStandardOutput || (name.ends_with(kBehindKind) && find_kind(path) != nullptr);
+}
+
+std::string picture_extension(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  if (name == kStandardOutput) return ".png";
+  if (name.ends_with(kBehindKind))
+    return extension_of("of." + name.substr(0, name.size() - kBehindKind.size()));
+  return extension_of(path);
+}
+
+bool is_picture_name(const std::filesystem::path& path) { return find_kind(path) != nullptr; }
+
+bool is_lossy_name(const std::filesystem::path& path) {
+  const FileKind* kind = find_kind(path);
+  return kind != nullptr && kind->is_lossy;
+}
+
+std::string picture_extensions() {
+  return extensions_of([](const FileKind&) { return true; });
+}
+
+void write_picture(const std::filesystem::path& path, const Picture& picture, const std::string& text,
+                   const FileWishes& wishes) {
+  const FileKind& kind = file_kind_of(path);
+  const bool fits = holds_codes(picture.type) ? value_bytes(picture.type) * 8 <= kind.code_bits
+                                              : picture.type == ValueType::light32 && kind.holds_light;
+  if (!fits) throw UsageError(format("{} cannot hold the values of this picture", path.string()));
+  if (names_standard_output(path)) {
+    // Made whole before anything is sent; some of it is written by libraries that go back in their file.
+    const NamelessFile nameless;
+    OutputFile file(nameless.path(), OutputFile::Lasting::no);
+    kind.write(file, picture, text, wishes);
+    file.send_to_standard_output();
+    return;
+  }
+  OutputFile file(path);
+  kind.write(file, picture, text, wishes);
+  file.commit();
+}
+
+}  // namespace nutik

@@ -1,0 +1,200 @@
+// Sheets, their warnings, where videos go, and what changes in a capture: what applications share beside pictures.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <thread>
+
+#include "features/activity/activity.hpp"
+#include "features/film/film_making.hpp"
+#include "features/series/picture_queue.hpp"
+#include "features/series/series_making.hpp"
+#include "features/sheets/sheet_making.hpp"
+#include "media/formats/numbered_name.hpp"
+#include "media/writers/picture_writer.hpp"
+#include "media/writers/recipe.hpp"
+#include "session/text/shared_warnings.hpp"
+#include "support/messages.hpp"
+#include "support/scratch.hpp"
+#include "support/still_clip.hpp"
+#include "system/output_file.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr std::int64_t kMillisecond = 1'000'000;
+
+TEST(SharedWarnings, AreSaidOnceWhoeverAddsThem) {
+  SharedWarnings warnings;
+  const std::vector<std::string> said{"too dark"};
+  warnings.add("first", said);
+  constexpr int kEach = 500;
+  const auto add_many = [&] {
+    for (int k = 0; k < kEach; ++k) warnings.add("later", said);
+  };
+  { const std::jthread one(add_many), other(add_many); }
+  warnings.add("last", std::vector<std::string>{"too bright"});
+  EXPECT_EQ(warnings.lines(),
+            (std::vector<std::string>{"last: too bright", "first and 1000 more: too dark"}));
+}
+
+// Pictures that nobody will write are exposed no further.
+TEST(PictureQueue, ThrowsWhatEndedItsThread) {
+  const test::Scratch scratch;
+  PictureQueue queue([](std::size_t, const Error&) { throw InputError("the capture changed"); });
+  const auto push = [&] {
+    queue.push(0, scratch / "no/such/folder/p.png", Picture({8, 8, 1}, ValueType::code8, 255), {}, {});
+  };
+  EXPECT_EQ(test::message_of<InputError>([&] {
+              for (int picture = 0; picture < 100; ++picture) push();
+            }),
+            "the capture changed");
+}
+
+TEST(VideoOutput, RefusesACodecForStillsAndHoldsTheSetting) {
+  EXPECT_EQ(VideoOutput("v-%02d.png", {24, 1}, {}, {}).kind(), "stills");
+  try {
+    static_cast<void>(VideoOutput("v-%02d.png", {24, 1}, "ffv1", {}));
+    FAIL() << "stills have no video codec";
+  } catch (const UsageError& error) {
+    EXPECT_EQ(error.settings(), std::vector{Setting::video_codec});
+  }
+}
+
+// 12 stills of 16 x 16 pixels, 100 a second.
+class ManyExposures : public ::testing::Test {
+ protected:
+  static Session session_of(const test::Scratch& scratch) {
+    const auto modules = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path();
+    setenv("NUTIK_MODULES", modules.c_str(), 0);
+    test::write_still_clip(scratch.folder(), 16, 12);
+    SourceRequest source;
+    source.path = scratch / "frames";
+    source.clip.rate = Rational{100, 1};
+    ComputingRequest computing;
+    computing.renderer = RendererKind::reference;
+    return Session(source, computing);
+  }
+
+  test::Scratch scratch_;
+  Session session_ = session_of(scratch_);
+};
+
+TEST_F(ManyExposures, OfASheetAreThoseOfTheSession) {
+  SheetRequest request;
+  request.heading = "two";
+  request.mask = Mask::uniform(16, 16, 0);
+  for (const std::int64_t start_ms : {0, 50}) {
+    request.exposures.push_back(
+        {"", {{0, GainFunction::boxcar(start_ms * kMillisecond, (start_ms + 30) * kMillisecond)}}});
+  }
+  std::vector<std::size_t> numbers;
+  const Sheet sheet = make_sheet(session_, request, {}, [&](std::size_t i, const ExposedPicture& exposed) {
+    numbers.push_back(i);
+    const ExposedPicture alone =
+        session_.render(request.exposures[i].functions, request.mask, request.plan, exposed.output);
+    EXPECT_EQ(exposed.picture.bytes, alone.picture.bytes) << i;
+    EXPECT_EQ(exposed.output.white_code, session_.format().white_code);
+  });
+  EXPECT_EQ(numbers, (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(sheet.layout.columns * sheet.layout.rows, 2u);
+  EXPECT_EQ(sheet.picture.shape.channels, 3u);
+}
+
+// The file that holds this picture, byte by byte.
+std::string file_of(const test::Scratch& scratch, const Picture& picture) {
+  const auto path = scratch / "alone.png";
+  write_picture(path, picture);
+  return test::read_file(path);
+}
+
+ExposureRequest thirty_milliseconds() {
+  ExposureRequest request;
+  request.gains = PlainInterval{StatedTime::parse("30ms", "length"), Shutter()};
+  return request;
+}
+
+TEST_F(ManyExposures, OfASeriesAreThoseOfTheSession) {
+  std::vector<SeriesPicture> pictures;
+  for (const char* start : {"0ms", "10ms", "60ms"}) {
+    pictures.push_back(
+        {StatedTime::parse(start, "start"), scratch_ / ("s" + std::to_string(pictures.size()) + ".png")});
+  }
+  std::vector<Picture> exposed;
+  make_series(session_, thirty_milliseconds(), pictures, output_format({}, session_.format()), {}, {},
+              [&](std::uint64_t, ExposedPicture& one) {
+                exposed.push_back(one.picture);
+                return std::string();
+              });
+  ASSERT_EQ(exposed.size(), pictures.size());
+  for (std::size_t k = 0; k < exposed.size(); ++k) {
+    ExposureRequest request = thirty_milliseconds();
+    request.start = pictures[k].start;
+    const Picture alone = session_.render(request, output_format({}, session_.format())).picture;
+    EXPECT_EQ(exposed[k].bytes, alone.bytes) << k;
+    EXPECT_EQ(test::read_file(pictures[k].path), file_of(scratch_, alone)) << k;
+  }
+}
+
+TEST_F(ManyExposures, OfASeriesEndAtAPictureThatCannotBeWritten) {
+  const std::vector<SeriesPicture> pictures(
+      1000, {StatedTime::parse("0ms", "start"), scratch_ / "no/such/folder/s.png"});
+  std::uint64_t exposed = 0;
+  EXPECT_THROW(
+      make_series(session_, thirty_milliseconds(), pictures, output_format({}, session_.format()), {}, {},
+                  [&](std::uint64_t, ExposedPicture&) {
+                    ++exposed;
+                    return std::string();
+                  }),
+      OutputError);
+  EXPECT_LT(exposed, pictures.size());
+}
+
+TEST_F(ManyExposures, OfAVideoAreThoseOfTheSession) {
+  FramesRequest request;
+  request.exposure.gains = PlainInterval();
+  request.rate = {25, 1};
+  const VideoOutput output(scratch_ / "v-%02d.png", request.rate, {}, {});
+  const Frames frames = frames_of(request, session_.timeline());
+  ASSERT_EQ(frames.count, 3u);  // of 120 ms
+  std::vector<Exposure> times;
+  const MadeVideo made = make_video(session_, request, frames, output, {},
+                                    [&](std::uint64_t, const Exposure& exposure, const ExposedPicture&) {
+                                      times.push_back(exposure);
+                                      return std::string();
+                                    });
+  EXPECT_EQ(made.frames, frames.count);
+  EXPECT_FALSE(made.interruption);
+  ASSERT_EQ(times.size(), frames.count);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const ExposedPicture alone =
+        session_.render(functions_of(request.exposure, times[k], session_.timeline()),
+                        Mask::uniform(16, 16, 0), {}, output.frame_format(session_.format()));
+    EXPECT_EQ(test::read_file(scratch_ / ("v-0" + std::to_string(k) + ".png")),
+              file_of(scratch_, alone.picture))
+        << k;
+  }
+}
+
+TEST_F(ManyExposures, ActivityCountsThePixelsOfAMask) {
+  const MeasuredActivity all = measure_activity(session_.capture(), {});
+  EXPECT_EQ(all.activity.pixel_count(), 256u);
+  std::uint64_t changes = 0;
+  for (std::uint64_t k = 0; k < 12; ++k) changes += all.activity.changed_pixels()[k];
+  EXPECT_EQ(all.changes(), changes);
+  EXPECT_GT(changes, 0u);
+  EXPECT_DOUBLE_EQ(all.mean_share(), static_cast<double>(changes) / (256.0 * 11.0));
+
+  std::string mask = "P5 16 16 255\n" + std::string(256, '\0');
+  mask[mask.size() - 1] = 7;
+  write_text(scratch_ / "mask.pgm", mask);
+  ActivityRequest request;
+  request.mask = (scratch_ / "mask.pgm").string();
+  EXPECT_EQ(measure_activity(session_.capture(), request).activity.pixel_count(), 1u);
+  request.tag = 8;
+  EXPECT_EQ(
+      test::message_of<InputError>([&] { static_cast<void>(measure_activity(session_.capture(), request)); }),
+      std::get<std::string>(request.mask) + " has no pixel with tag 8");
+}
+
+}  // namespace
+}  // namespace nutik

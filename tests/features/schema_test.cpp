@@ -1,0 +1,69 @@
+// The schema: a row for each option, which the command line, Python and messages read.
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "capture/error.hpp"
+#include "features/schema/option.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr int kCommands = static_cast<int>(CommandId::man) + 1;
+
+TEST(Schema, HasNoTwoRowsOfOneNameForACommand) {
+  for (int id = 0; id < kCommands; ++id) {
+    std::set<std::string> names, arguments;
+    for (const Option* const option : options_of(static_cast<CommandId>(id))) {
+      if (!option->heading.empty()) continue;
+      EXPECT_TRUE(names.insert(option->name()).second) << id << ": " << option->name();
+      EXPECT_TRUE(arguments.insert(option->written(Dialect::python)).second) << id << ": " << option->name();
+      EXPECT_FALSE(option->help.empty()) << option->name();
+    }
+  }
+}
+
+TEST(Schema, HasARowForEverySettingThatErrorsName) {
+  for (int setting = 0; setting <= static_cast<int>(Setting::tick); ++setting) {
+    EXPECT_NE(written(static_cast<Setting>(setting), Dialect::command_line).find("--"), std::string::npos) << setting;
+    EXPECT_NE(written(static_cast<Setting>(setting), Dialect::python).find('='), std::string::npos) << setting;
+  }
+}
+
+TEST(Schema, WritesAdviceAsTheClientStatesIt) {
+  const UsageError error("no pixel is left", Advice{"; keep the size (`unseen hold`), or begin later with `from`"});
+  EXPECT_EQ(message_text(error, Dialect::command_line),
+            "no pixel is left; keep the size (--unseen hold), or begin later with --from");
+  EXPECT_EQ(message_text(error, Dialect::python),
+            "no pixel is left; keep the size (unseen='hold'), or begin later with begin=");
+}
+
+TEST(Schema, LeavesBackquotesThatNameNoOption) {
+  for (const std::string name : {"`", "a`b", "`none`", "``", "a`b`c`d"}) {
+    EXPECT_EQ(message_text(InputError(name, Advice{" " + name + "; leave `from` out"}), Dialect::command_line),
+              name + " " + name + "; leave --from out");
+  }
+}
+
+TEST(Schema, CountsWhatTheRowOfAnotherCommandStated) {
+  Options options;
+  option_of(CommandId::study, "feather")->state(options, "--feather", {"6px"});
+  const Option& exposing = *option_of(CommandId::expose, "feather");
+  ASSERT_NE(&exposing, option_of(CommandId::study, "feather"));
+  ASSERT_NE(exposing.stated(options), nullptr);
+  EXPECT_EQ(*exposing.stated(options), "6px");
+}
+
+TEST(Schema, TakesAnOptionOnce) {
+  Options options;
+  const Option& rate = *option_of_argument(CommandId::encode, "rate");
+  rate.state(options, "rate", {"240"});
+  EXPECT_THROW(rate.state(options, "rate", {"120"}), UsageError);
+  rate.restate(options, {"120"});
+  ASSERT_TRUE(options.source.clip.rate);
+  EXPECT_EQ(*options.source.clip.rate, (Rational{120, 1}));
+}
+
+}  // namespace
+}  // namespace nutik
