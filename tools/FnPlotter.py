@@ -93,8 +93,8 @@ def parse_per_page(text):
 def find_program():
     """nutik-cl where a user has it: beside this file, in PATH, or built beside these tools."""
     here = Path(__file__).resolve().parent
-    beside, built = here / "nutik-cl", here.parent / "build" / "nutik-cl"
-    return str(next((path for path in (beside, shutil.which("nutik-cl"), built) if path and Path(path).exists()), "nutik-cl"))
+    places = (here / "nutik-cl", shutil.which("nutik-cl"), here.parent / "build" / "nutik-cl")
+    return str(next((path for path in places if path and Path(path).exists()), "nutik-cl"))
 
 
 def warn(message):

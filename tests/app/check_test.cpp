@@ -62,6 +62,19 @@ class Check : public test::AppTest {
   cv::Mat mask_;
 };
 
+TEST_F(Check, PrintsControlPointsAlone) {
+  scratch_.write("two.fn", "M7 [-5:0.1], [10:1e-300]\nM0 [0:1]\n");
+  EXPECT_EQ(run("check --points -k two.fn").out, "mask_value,time_ns,gain\n0,0,1\n7,-5,0.1\n7,10,1e-300\n");
+  scratch_.write("warned.fn", "m1 [0:1]\nM0 [0:1]\n");
+  const ProgramResult warned = make("check --points -k warned.fn");
+  EXPECT_EQ(warned.out, "mask_value,time_ns,gain\n0,0,1\n");
+  expect_says(warned.err, "warned.fn:1:1: warning: taken as a comment: a function starts with a capital M\n    m1");
+  scratch_.write("bad.fn", "M0 [0:1],\n");
+  expect_refused("check --points -k bad.fn", 3, "bad.fn has mistakes:\nbad.fn:1:9: a comma with no control point");
+  expect_refused(2, {{"check --points", "--points prints those of a function file; add -k functions.fn"},
+                     {"check --points --json -k two.fn", "--points prints nothing else"}});
+}
+
 // Figures are those of the exposure that is meant.
 TEST_F(Check, TellsTheFiguresOfNormalizedFunctions) {
   scratch_.write("ramp.fn", "M0 [0:0], [1000000000:1], [1000000001:0]\n");

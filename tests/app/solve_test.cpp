@@ -134,8 +134,8 @@ TEST_F(Solve, ComparesWithAnIntervalUpToTheCapturesEnd) {
 TEST_F(Solve, LooksForTimes) {
   // When 10 ms show the ball within its place at rest, and not elsewhere.
   scratch_.write("moved.fn", "M0{[when-1:0], [when:1], [when+10000000:1], [when+10000001:0]}");
-  const test::Words words{"-k",       "moved.fn", "--wish", "70,20,10,10 like 0.9s", "--wish", "10,20,10,10 like 0s..0.02s",
-                          "clip.tik", "-o",       "s.fn"};
+  const test::Words words{"-k", "moved.fn", "--wish", "70,20,10,10 like 0.9s", "--wish", "10,20,10,10 like 0s..0.02s",
+                          "clip.tik", "-o", "s.fn"};
   test::Words by_picture = words + "--free when=0f..110f/1f";
   const json steps = solved(by_picture);
   EXPECT_EQ(steps["tried_exposures"], 111);
