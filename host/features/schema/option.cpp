@@ -25,9 +25,9 @@ std::size_t Option::word_count() const {
 
 std::vector<std::string> Option::choices() const { return parts_of(choice_list, ' '); }
 
-bool Option::knows(std::string_view stated) const {
+bool Option::knows(std::string_view word) const {
   return std::ranges::any_of(choices(), [&](const std::string& choice) {
-    return stated == choice || (choice.ends_with(':') && stated.starts_with(choice));
+    return word == choice || (choice.ends_with(':') && word.starts_with(choice));
   });
 }
 

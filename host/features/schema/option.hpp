@@ -60,7 +60,7 @@ struct Option {
   [[nodiscard]] bool is_flag() const { return value.empty(); }
   [[nodiscard]] bool is_of(CommandId command) const { return (commands & bit(command)) != 0; }
   [[nodiscard]] std::vector<std::string> choices() const;
-  [[nodiscard]] bool knows(std::string_view value) const;
+  [[nodiscard]] bool knows(std::string_view word) const;
 
   // `fn` where `value` is FILE.fn; empty where no kind of file is named.
   [[nodiscard]] std::string_view file_extension() const;
