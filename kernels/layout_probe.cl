@@ -19,6 +19,11 @@ kernel void layout_probe(global uint* restrict sizes) {
   sizes[i++] = NUTIK_OFFSET(BlockEntry, part_row);
   sizes[i++] = NUTIK_OFFSET(BlockEntry, sample_count);
   sizes[i++] = NUTIK_OFFSET(BlockEntry, kept);
+  sizes[i++] = sizeof(ExposeLaunch);
+  sizes[i++] = NUTIK_OFFSET(ExposeLaunch, tile_count);
+  sizes[i++] = NUTIK_OFFSET(ExposeLaunch, block_count);
+  sizes[i++] = NUTIK_OFFSET(ExposeLaunch, function_count);
+  sizes[i++] = NUTIK_OFFSET(ExposeLaunch, is_first);
   sizes[i++] = NUTIK_TILE_PIXELS;
   sizes[i++] = NUTIK_BODY_UNIT;
   sizes[i++] = NUTIK_RECORDS_FLAG;

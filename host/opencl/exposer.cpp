@@ -242,12 +242,12 @@ void Exposer::launch(const cl::Buffer& payload, std::span<const BlockEntry> entr
     const cl::Buffer entries_of_part = memory_.upload(part);
     for (const ExposedBand& exposed : bands) {
       const Band& band = exposed.band;
+      const ExposeLaunch launched{band.sum_tiles, static_cast<cl_uint>(part.size()),
+                                  static_cast<cl_uint>(plan_.function_count()), is_first ? 1u : 0u};
       const cl::Event event =
-          kernel(items(device_.queue, work_.shape, band.sum_tiles), payload, entries_of_part,
-                 static_cast<cl_uint>(part.size()), tables.parts, tables.gains, tables.weights,
-                 tables.boundaries, static_cast<cl_uint>(plan_.function_count()), exposed.map.tiles,
-                 exposed.map.of_tile, exposed.map.of_lane, exposes, light_, kept, exposed.bundles,
-                 exposed.sums, band.sum_tiles, is_first ? 1u : 0u);
+          kernel(items(device_.queue, work_.shape, band.sum_tiles), payload, entries_of_part, tables.parts,
+                 tables.gains, tables.weights, tables.boundaries, exposed.map.tiles, exposed.map.of_tile,
+                 exposed.map.of_lane, exposes, light_, kept, exposed.bundles, exposed.sums, launched);
       event.wait();
       const std::optional<double> took_ms = milliseconds(event);
       statistics_.expose_ms += took_ms.value_or(0.0);

@@ -28,6 +28,16 @@ struct BlockEntry {
   std::uint32_t kept;
 };
 static_assert(sizeof(BlockEntry) == 32 && offsetof(BlockEntry, kept) == 28);
+
+// What one launch of kernels/expose.cl is, beside its buffers. Mirrors ExposeLaunch in kernels/layout.clh.
+struct ExposeLaunch {
+  std::uint64_t tile_count;  // of the band
+  std::uint32_t block_count;
+  std::uint32_t function_count;
+  std::uint32_t is_first;
+  std::uint32_t unused = 0;
+};
+static_assert(sizeof(ExposeLaunch) == 24 && offsetof(ExposeLaunch, is_first) == 16);
 static_assert(sizeof(TileEntry) == 8 && sizeof(SampleSpan) == 4);
 static_assert(kBlockAlignment == 64 && kTilePixels == 64);
 

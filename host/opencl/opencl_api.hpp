@@ -19,6 +19,7 @@
 
 #include "capture/error.hpp"
 #include "opencl/device.hpp"
+#include "opencl/kernel_layout.hpp"
 #include "opencl/work_shape.hpp"
 
 namespace nutik {
@@ -33,10 +34,10 @@ DeviceError device_failed(const cl::Error& error, const std::string& doing);
 std::vector<cl::Device> all_devices();
 DeviceInfo describe_device(const cl::Device& device);
 
-// kernels/expose.cl.
-using ExposeKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl_uint, cl::Buffer, cl::Buffer, cl::Buffer,
-                                       cl::Buffer, cl_uint, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer,
-                                       cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_ulong, cl_uint>;
+// kernels/expose.cl. OpenCL C 1.2 has no structures of buffers, so that only the numbers are one.
+using ExposeKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer,
+                                       cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer,
+                                       cl::Buffer, cl::Buffer, ExposeLaunch>;
 
 // The work-items for so many tiles, in whole work-groups.
 [[nodiscard]] inline cl::EnqueueArgs items(cl::CommandQueue& queue, const WorkShape& shape,

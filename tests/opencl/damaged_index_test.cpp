@@ -67,9 +67,9 @@ class OneTile {
     };
     const cl::Buffer result = buffer(sums);
     ExposeKernel kernel(program_, "expose");
-    kernel(cl::EnqueueArgs(queue_, cl::NDRange(8)), buffer(payload), buffer(blocks), 1, buffer(parts),
-           buffer(gains), buffer(weights), buffer(boundaries), 1, buffer(tiles), buffer(of_tile),
-           buffer(of_lane), buffer(exposes), buffer(sums), buffer(kept), buffer(bundles), result, 1, 1);
+    kernel(cl::EnqueueArgs(queue_, cl::NDRange(8)), buffer(payload), buffer(blocks), buffer(parts), buffer(gains),
+           buffer(weights), buffer(boundaries), buffer(tiles), buffer(of_tile), buffer(of_lane), buffer(exposes),
+           buffer(sums), buffer(kept), buffer(bundles), result, ExposeLaunch{1, 1, 1, 1});
     queue_.enqueueReadBuffer(result, CL_TRUE, 0, sums.size() * sizeof(std::uint64_t), sums.data());
     return sums;
   }
