@@ -1,7 +1,6 @@
 #include "features/activity/activity.hpp"
 #include "sheet/drawings.hpp"
 
-#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
@@ -10,6 +9,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/schema/option.hpp"
+#include "features/schema/options.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"

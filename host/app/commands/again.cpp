@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <span>
 
-#include "app/command_line/command_table.hpp"
 #include "app/output/console.hpp"
 #include "app/requests/requests.hpp"
 #include "capture/error.hpp"
@@ -13,10 +12,11 @@
 #include "exposure/function_check.hpp"
 #include "exposure/mask.hpp"
 #include "features/schema/option.hpp"
+#include "features/schema/options.hpp"
 #include "imev/expected_values.hpp"
 #include "media/input_checksum.hpp"
-#include "media/writers/recipe.hpp"
 #include "media/stills/still_sequence.hpp"
+#include "media/writers/recipe.hpp"
 #include "session/requests/function_input.hpp"
 #include "session/text/shell_text.hpp"
 #include "system/mapped_file.hpp"

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "app/command_line/command_line.hpp"
-#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
@@ -15,6 +14,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/schema/option.hpp"
+#include "features/schema/options.hpp"
 #include "features/series/picture_queue.hpp"
 #include "features/series/series_making.hpp"
 #include "session/text/number_text.hpp"

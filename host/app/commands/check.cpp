@@ -4,10 +4,9 @@
 #include <string>
 #include <utility>
 
-#include "app/command_line/command_table.hpp"
+#include "app/commands/findings.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
-#include "app/commands/findings.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/picture.hpp"
@@ -18,6 +17,7 @@
 #include "exposure/shutter_shape.hpp"
 #include "features/check/input_check.hpp"
 #include "features/schema/option.hpp"
+#include "features/schema/options.hpp"
 #include "imev/each_block.hpp"
 #include "imev/expected_values.hpp"
 #include "mask/feather.hpp"

@@ -1,9 +1,9 @@
 #include "session/devices.hpp"
 
-#include "app/command_line/command_table.hpp"
 #include "app/output/report.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "features/schema/options.hpp"
 #include "session/text/number_text.hpp"
 
 namespace nutik::app {

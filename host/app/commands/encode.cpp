@@ -1,14 +1,14 @@
 #include <utility>
 
 #include "app/commands/camera_files.hpp"
-#include "app/command_line/command_table.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
-#include "app/requests/requests.hpp"
 #include "app/output/timing_text.hpp"
+#include "app/requests/requests.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "features/schema/options.hpp"
 #include "session/clips/encoding.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"

@@ -2,18 +2,21 @@
 #include <iterator>
 #include <utility>
 
-#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "features/schema/options.hpp"
 #include "features/series/series_making.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "session/text/number_text.hpp"
 
 namespace nutik::app {
+
+// A series (series.cpp).
+int run_series(const Options& options);
 
 int run_expose(const Options& options) {
   if (options.every) return run_series(options);

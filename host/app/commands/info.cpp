@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 
-#include "app/command_line/command_table.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
 #include "capture/error.hpp"
@@ -11,6 +10,7 @@
 #include "features/activity/activity.hpp"
 #include "features/captures/capture_figures.hpp"
 #include "features/schema/option.hpp"
+#include "features/schema/options.hpp"
 #include "imev/expected_values.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "media/writers/recipe.hpp"

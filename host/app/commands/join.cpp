@@ -1,10 +1,10 @@
-#include "app/command_line/command_table.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/captures/joining.hpp"
+#include "features/schema/options.hpp"
 #include "session/text/number_text.hpp"
 
 namespace nutik::app {

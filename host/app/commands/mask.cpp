@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
@@ -14,6 +13,7 @@
 #include "exposure/shutter_shape.hpp"
 #include "features/masks/mask_making.hpp"
 #include "features/plate/plate.hpp"
+#include "features/schema/options.hpp"
 #include "mask/feather.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "plot/canvas.hpp"

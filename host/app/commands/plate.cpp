@@ -1,12 +1,12 @@
 #include "features/plate/plate.hpp"
 
-#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "capture/format.hpp"
+#include "features/schema/options.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "session/text/number_text.hpp"
 

@@ -1,10 +1,10 @@
 #include <array>
 
-#include "app/command_line/command_table.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
 #include "capture/format.hpp"
 #include "features/captures/retiming.hpp"
+#include "features/schema/options.hpp"
 #include "session/clips/clip_source.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"

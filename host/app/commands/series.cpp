@@ -2,13 +2,13 @@
 #include <optional>
 #include <string>
 
-#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "capture/format.hpp"
+#include "features/schema/options.hpp"
 #include "features/series/picture_queue.hpp"
 #include "features/series/series_making.hpp"
 #include "session/text/number_text.hpp"

@@ -4,7 +4,6 @@
 #include <functional>
 #include <optional>
 
-#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
@@ -12,6 +11,7 @@
 #include "app/requests/requests.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "features/schema/options.hpp"
 #include "features/sheets/sheet_making.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "media/writers/recipe.hpp"

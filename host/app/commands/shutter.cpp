@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "app/command_line/words.hpp"
-#include "app/command_line/command_table.hpp"
 #include "app/output/console.hpp"
 #include "app/requests/requests.hpp"
 #include "capture/error.hpp"
@@ -11,6 +10,7 @@
 #include "exposure/normalization.hpp"
 #include "exposure/shutter_shape.hpp"
 #include "features/schema/option.hpp"
+#include "features/schema/options.hpp"
 #include "session/clips/clip_source.hpp"
 #include "session/requests/stated_time.hpp"
 #include "session/text/number_text.hpp"

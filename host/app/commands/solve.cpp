@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
@@ -10,6 +9,7 @@
 #include "app/requests/requests.hpp"
 #include "capture/format.hpp"
 #include "features/schema/option.hpp"
+#include "features/schema/options.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"
 #include "session/text/text_table.hpp"

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/commands/study_files.hpp"
 #include "app/output/console.hpp"
@@ -17,6 +16,7 @@
 #include "exposure/mask.hpp"
 #include "features/plate/plate.hpp"
 #include "features/schema/option.hpp"
+#include "features/schema/options.hpp"
 #include "features/study/study_shot.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "media/writers/recipe.hpp"

@@ -1,10 +1,10 @@
 #include <array>
 
-#include "app/command_line/command_table.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
 #include "capture/format.hpp"
 #include "capture/picture.hpp"
+#include "features/schema/options.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "plot/canvas.hpp"
 #include "plot/graph.hpp"

@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "features/schema/options.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "media/writers/recipe.hpp"
 #include "session/session.hpp"

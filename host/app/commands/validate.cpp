@@ -1,7 +1,6 @@
 #include <cmath>
 #include <string>
 
-#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
@@ -9,6 +8,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/schema/option.hpp"
+#include "features/schema/options.hpp"
 #include "session/clips/clip_source.hpp"
 #include "session/clips/source_check.hpp"
 #include "session/session.hpp"

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "app/command_line/command_table.hpp"
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
@@ -8,6 +7,7 @@
 #include "app/requests/requests.hpp"
 #include "capture/format.hpp"
 #include "features/film/film_making.hpp"
+#include "features/schema/options.hpp"
 #include "features/series/series_making.hpp"
 #include "session/text/number_text.hpp"
 
