@@ -33,7 +33,7 @@ struct CameraPath {
   // The pictures in which it is furthest away, and turned most.
   [[nodiscard]] std::uint64_t furthest() const;
   [[nodiscard]] std::uint64_t max_turned() const;
-  // The largest of all pictures.
+  // The largest residual of all pictures.
   [[nodiscard]] double residual_pixels() const;
   // `moved by up to 12.3 pixels, turned by up to 0.41 degrees`
   [[nodiscard]] std::string summary() const;

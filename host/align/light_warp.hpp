@@ -5,8 +5,8 @@
 //            than the darkest of them and no brighter than the brightest
 //   always:  moved by whole pixels, codes stay as they are. What the raster does not show is left as it was in `warped`
 //
-// Between pixels a picture loses noise and sharpness: half a pixel from both sides noise has 0.41 of its variance left;
-// half a pixel along a side waves of four pixels have 0.88 of their contrast left, of eight pixels 0.99.
+// A shift by half a pixel in both directions reduces noise variance to 0.41; along one side waves of four pixels keep
+// 0.88 of their contrast, of eight 0.99.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,6 @@ namespace nutik {
 // Codes as light of single precision, and light as the code next to it: many at once, by tables.
 //
 //   always:  the code of a light is that of LightCodes, which takes one at a time
-
 class LightTables {
  public:
   LightTables(const Transfer& transfer, std::uint32_t white_code);

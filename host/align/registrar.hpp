@@ -32,8 +32,8 @@ enum class CameraMotion {
 
 struct Registered {
   Warp warp;
-  double agreeing =
-      0;  // share of the textured places, seen in both, that lie within a pixel of where it says
+  // Share of the textured places, seen in both, that lie within a pixel of where it says.
+  double agreeing = 0;
   double residual_pixels = 0;  // half of the textured places are no further from there than this
   friend bool operator==(const Registered&, const Registered&) = default;
 };

@@ -41,7 +41,7 @@ int run(std::span<const char* const> words) {
     parsed.options.program = words.front();
     keep_lines_from_output(writes_to_standard_output(parsed.options));
     const int status = parsed.command == nullptr ? ExitStatus::ok : parsed.command->run(parsed.options);
-    // A file was looked at before it got its name. Text that was printed is told to be wrong now.
+    // Files are checked before they get their names; printed text can only be called wrong afterwards.
     if (!has_kept_output()) check_mapped_files();
     flush_output();
     return status;

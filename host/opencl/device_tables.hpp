@@ -24,8 +24,6 @@
 
 namespace nutik {
 
-// The column of one function in the tables that kernels read (device_tables.hpp), packed for an arithmetic.
-
 // Where the numbers of one function go: boundaries a row after another, `stride` bytes apart; weights in groups of rows,
 // whose own lie side by side (kernels/row_groups.clh).
 struct TableColumn {

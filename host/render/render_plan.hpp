@@ -103,8 +103,8 @@ void measure_tables(const RenderPlan& plan);
 [[nodiscard]] SampleRange needed_samples(const Timeline& timeline, const FunctionSet& functions,
                                          const Mask& mask, const PlanOptions& options);
 
-// Throws InputError where the mask has another size than the capture, or mask values have no function
-// (listing the values and how many pixels each has).
+// Defined in plan_cache.cpp: what an empty PlanCache makes. Throws InputError where the mask has another size than the
+// capture, or mask values have no function (listing the values and how many pixels each has).
 [[nodiscard]] RenderPlan make_plan(const CaptureSource& source, const FunctionSet& functions,
                                    const Mask& mask, const PlanOptions& options);
 

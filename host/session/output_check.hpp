@@ -17,6 +17,7 @@ enum class OutputKind { tik, picture, mask, table, video, noise, functions };
 // What an output may take the place of: nothing but an empty file and a picture that carries its recipe, and so can be
 // made again, or all of its kind.
 enum class Replacing { made_by_recipe, all };
+
 // What a name leads to, by links or none, and where nothing is there yet, too: two names of one file have the same.
 [[nodiscard]] std::filesystem::path led_to(std::filesystem::path name);
 
@@ -29,13 +30,12 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
 void check_mask_output(const std::filesystem::path& output, std::span<const std::string> inputs,
                        Replacing replacing = Replacing::all);
 [[nodiscard]] bool is_mask_name(const std::filesystem::path& path);
+// check_output() for a picture of 8-bit codes; throws, too, where its file cannot hold so many channels.
+void check_picture_output(const std::filesystem::path& output, std::uint32_t channels,
+                          std::span<const std::string> inputs, Replacing replacing = Replacing::all);
 
 // Notes the pictures that are there under the numbers from `count` on: a series of so many does not replace them.
 void note_later(std::vector<std::string>& notes, const std::function<std::filesystem::path(std::uint64_t)>& picture,
                 std::uint64_t count);
-
-// The same of a picture of 8-bit codes, where its file cannot hold so many channels, too.
-void check_picture_output(const std::filesystem::path& output, std::uint32_t channels,
-                          std::span<const std::string> inputs, Replacing replacing = Replacing::all);
 
 }  // namespace nutik

@@ -146,7 +146,7 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
                                         const Terms& terms)
     : source_(source),
       devices_(needed(std::move(devices))),
-      // Only of a file can what changes be exposed without looking at what does not.
+      // Events are read whole: only a file lets an exposure skip what does not change.
       reading_(terms.reading == Reading::forward && is_event_recording(source.path) ? Reading::whole : terms.reading),
       besides_(terms.besides),
       is_clip_(terms.open_clip || !is_tik(source.path)),
@@ -202,8 +202,8 @@ void Session::Implementation::check_reading(const MemoryNeeds& more) const {
   needs.rest_of(memory().bytes);
 }
 
-// Calls work(bytes) with what the budget leaves of what is held beside, so much more of it. What that says to be too
-// little becomes the least of all together.
+// Calls work(bytes) with what the budget leaves beside held_needs() and `more`. A MemoryTooLittle of its own is thrown
+// again with these added.
 template <typename Work>
 auto Session::Implementation::within(const MemoryNeeds& more, Work work) const {
   MemoryNeeds held = held_needs();
@@ -216,15 +216,15 @@ auto Session::Implementation::within(const MemoryNeeds& more, Work work) const {
   }
 }
 
-// A device that is four times as fast as another need not wait for it. Waiting pictures take little of the memory, so that
-// none is refused for them which bands would make.
+// Four per device: a fast one need not wait for a slow one. At most a sixteenth of the memory, so that waiting pictures
+// refuse none that bands could make.
 std::size_t Session::Implementation::line_length(ValueType type) const {
   const std::uint64_t room = memory().bytes / 16 / (format_.shape.value_count() * value_bytes(type));
   return static_cast<std::size_t>(std::min<std::uint64_t>(4 * devices_->count(), room));
 }
 
-// Each device makes pictures of its own where that reads no more than bands do. Of packed blocks a band unpacks no others'
-// tiles, and each device would unpack all.
+// Devices make pictures of their own unless blocks are packed: with bands a device unpacks only its own tiles,
+// otherwise every device unpacks all.
 std::size_t Session::Implementation::pictures_at_once(ValueType type, std::size_t count) const {
   const std::size_t devices = devices_->count();
   if (devices == 1 || count < devices || !reader_ || line_length(type) < devices) return 1;

@@ -9,8 +9,8 @@
 //
 //   whole     encoded into a temporary capture before the session is there. Anything, as often as one likes; blocks
 //             stay on the device, as far as memory allows, for the next picture
-//   forward   read while the picture is exposed, no further than that needs. One render(), even if that fails, and
-//             nothing else: whatever is asked besides throws SessionIsSpent. A .tik that is read forward is not kept on the device
+//   forward   read while the picture is exposed, no further than that needs. One render(), even a failed one; anything
+//             else throws SessionIsSpent. A .tik read forward is not kept on the device
 #pragma once
 
 #include <cstdint>

@@ -204,16 +204,16 @@ class Capture:
         style: 'trail', 'strobe', 'rear-curtain', 'frozen', 'clean' or 'slit'. moments: how many, or which times. spacing:
         'time' or 'distance'. trail: 'even', 'fade', 'ramp' or 'none'. slit_from: 'left', 'right', 'top' or 'bottom'.
         regions: (x, y, width, height) each with a subject of its own. by: codes that the subject must differ by more than
-        from the empty scene; None: 1/16 of white. feather: pixels that its border is blended over; None: 2. progress: as
-        of nutik.open().
+        from the empty scene; None: 1/16 of white. feather: pixels that its border is blended over; None: 2; 0 for
+        slit's strips. progress: as of nutik.open().
 
         Raises InputError where nothing moves or everything does: the camera must stand still (align='rigid' where it is
         encoded).
         """
+        asked: Union[int, list[str], None]
         if moments is None:
-            moments = {"slit": 256, "rear-curtain": 1, "frozen": 1}.get(style, 5)
-        asked: Union[int, list[str]]
-        if isinstance(moments, (int, np.integer)):
+            asked = None
+        elif isinstance(moments, (int, np.integer)):
             asked = count_of(moments, "moments")
         else:
             asked = [time_word(time, "moments") for time in moments]

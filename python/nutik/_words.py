@@ -211,7 +211,7 @@ def settings_of(stated: dict[str, Any]) -> dict[str, str]:
             settings[name] = f"{width}x{height}+{x}+{y}"
         elif name == "memory":
             settings[name] = bytes_word(value, name)
-        elif name == "noise" or (name == "start_picture" and not isinstance(value, (int, float))):
+        elif name in ("noise", "align_along") or (name == "start_picture" and not isinstance(value, (int, float))):
             settings[name] = path_word(value)
         else:
             settings[name] = "1" if value is True else str(value)

@@ -22,7 +22,8 @@ namespace {
 
 // All captures of a process share devices, which start once. They are never ended: an OpenCL driver's threads may
 // outlive the interpreter.
-std::shared_ptr<Devices> devices_for(const ComputingRequest& request) {
+std::shared_ptr<Devices> devices_of(const Settings& computing) {
+  const ComputingRequest request = computing_request(stated_options(CommandId::expose, computing));
   static std::mutex finding;
   static auto& known = *new std::deque<std::shared_ptr<Devices>>();
   const std::lock_guard lock(finding);
@@ -33,13 +34,18 @@ std::shared_ptr<Devices> devices_for(const ComputingRequest& request) {
   return known.back();
 }
 
-struct Terms {
+// How a clip is read, and by what; `open` makes one that its owner has.
+struct Opening {
   SourceRequest source;
   std::shared_ptr<Devices> devices;
   OpenClip open;
 };
 
-std::shared_ptr<OpenCapture> opened(const Terms& terms, const py::object& progress) {
+Opening opening_of(const std::string& path, const Settings& settings, const Settings& computing) {
+  return {clip_request(stated_options(CommandId::encode, settings), path), devices_of(computing), {}};
+}
+
+std::shared_ptr<OpenCapture> opened(const Opening& terms, const py::object& progress) {
   return without_lock([&](const Stopping& stopping) {
     Session::Terms how;
     how.progress = stopping.progress();
@@ -56,14 +62,14 @@ py::tuple told_of(std::shared_ptr<OpenCapture> capture, std::vector<std::string>
   return py::make_tuple(std::move(capture), std::move(warnings), note_texts(notes, Dialect::python));
 }
 
-py::tuple opened_and_told(const Terms& terms, const py::object& progress) {
+py::tuple opened_and_told(const Opening& terms, const py::object& progress) {
   std::shared_ptr<OpenCapture> capture = opened(terms, progress);
   const Session& session = *capture->session;
   return told_of(capture, session.warnings(), session.notes());
 }
 
 // To a file, or to a temporary capture.
-py::tuple encoded(const Terms& terms, const std::optional<std::string>& output, const std::string& codec,
+py::tuple encoded(const Opening& terms, const std::optional<std::string>& output, const std::string& codec,
                   const py::object& progress) {
   if (!output) return opened_and_told(terms, progress);
   const EncodeRequest request{*output, tik::Codec::parse(codec)};
@@ -72,7 +78,7 @@ py::tuple encoded(const Terms& terms, const std::optional<std::string>& output, 
     return terms.open ? encode(terms.source, terms.open, request, memory, stopping.progress(), stopping.stop)
                       : encode(terms.source, request, memory, stopping.progress(), stopping.stop);
   }, progress);
-  Terms of_file;
+  Opening of_file;
   of_file.source.path = *output;
   of_file.devices = terms.devices;
   return told_of(opened(of_file, py::none()), std::move(made.warnings), made.notes);
@@ -80,14 +86,14 @@ py::tuple encoded(const Terms& terms, const std::optional<std::string>& output, 
 
 py::tuple open(const std::string& path, const Settings& settings, const Settings& computing,
                const py::object& progress) {
-  return opened_and_told({clip_request(options_of(CommandId::encode, settings), path), devices_for(computing_request(options_of(CommandId::expose, computing))), {}}, progress);
+  return opened_and_told(opening_of(path, settings, computing), progress);
 }
 
 py::tuple encode_clip(const std::string& path, const std::optional<std::string>& output,
                       const std::string& codec, const Settings& settings, const Settings& computing,
                       const py::object& progress) {
   if (is_tik(path)) throw UsageError(format("{} is a capture already; nutik.open() opens it", path));
-  return encoded({clip_request(options_of(CommandId::encode, settings), path), devices_for(computing_request(options_of(CommandId::expose, computing))), {}}, output,
+  return encoded(opening_of(path, settings, computing), output,
                  codec, progress);
 }
 
@@ -96,9 +102,9 @@ py::tuple joined(const std::vector<std::string>& captures, const std::string& ou
   const JoinRequest request{{captures.begin(), captures.end()}, output};
   const Joined made =
       without_lock([&](const Stopping& stopping) { return join(request, stopping.progress()); }, progress);
-  Terms of_file;
+  Opening of_file;
   of_file.source.path = output;
-  of_file.devices = devices_for(computing_request(options_of(CommandId::expose, computing)));
+  of_file.devices = devices_of(computing);
   return told_of(opened(of_file, py::none()), {}, made.notes);
 }
 
@@ -117,7 +123,7 @@ py::tuple encode_pictures(const py::object& pictures, const py::array& first, co
   notes.timing.starts_ns = starts_ns;
   for (const auto& [start_ns, end_ns] : exposures_ns) notes.timing.exposures.push_back({start_ns, end_ns});
   notes.timing.exposed_ns = exposed_ns;
-  Terms terms{clip_request(options_of(CommandId::encode, settings), name), devices_for(computing_request(options_of(CommandId::expose, computing))), {}};
+  Opening terms = opening_of(name, settings, computing);
   if (py::isinstance<py::array>(pictures)) {
     const auto array = pictures.cast<py::array>();
     notes.sample_count = static_cast<std::uint64_t>(array.shape(0));

@@ -141,7 +141,7 @@ void bind_rendering(py::module_& module) {
   py::class_<AskedExposure>(module, "Exposure")
       .def(py::init([](std::optional<HeldFunctions> functions, std::optional<HeldMask> mask,
                        const Settings& settings, const std::optional<DelayTimes>& delays_ns) {
-             Options options = options_of(CommandId::expose, settings);
+             Options options = stated_options(CommandId::expose, settings);
              if (delays_ns) options.delay = delay_of(*delays_ns);
              return AskedExposure{std::move(functions), std::move(mask), std::move(options)};
            }),

@@ -5,7 +5,7 @@
 
 namespace nutik::python {
 
-Options options_of(CommandId command, const Settings& settings) {
+Options stated_options(CommandId command, const Settings& settings) {
   Options options;
   for (const auto& [name, word] : settings) {
     const Option* const option = option_of_argument(command, name);

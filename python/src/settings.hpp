@@ -13,6 +13,6 @@ namespace nutik::python {
 using Settings = std::map<std::string, std::string>;
 
 // As a command's options. Throws UsageError.
-[[nodiscard]] Options options_of(CommandId command, const Settings& settings);
+[[nodiscard]] Options stated_options(CommandId command, const Settings& settings);
 
 }  // namespace nutik::python

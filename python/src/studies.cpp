@@ -18,18 +18,21 @@
 namespace nutik::python {
 namespace {
 
-StudyRequest study_request(const Settings& settings,
-                           const std::variant<std::uint32_t, std::vector<std::string>>& moments,
+using Moments = std::variant<std::uint32_t, std::vector<std::string>>;
+
+StudyRequest study_request(const Settings& settings, const std::optional<Moments>& moments,
                            const std::vector<std::array<std::uint32_t, 4>>& regions) {
-  const Options options = options_of(CommandId::study, settings);
+  const Options options = stated_options(CommandId::study, settings);
   StudyRequest request = options.study;
   request.by_codes = options.by;
   request.feather = options.feather;
-  if (const auto* count = std::get_if<std::uint32_t>(&moments)) {
+  if (!moments) {
+    request.moments = usual_moments(request.style);
+  } else if (const auto* count = std::get_if<std::uint32_t>(&*moments)) {
     request.moments = *count;
   } else {
     std::vector<StatedTime> times;
-    for (const std::string& time : std::get<std::vector<std::string>>(moments))
+    for (const std::string& time : std::get<std::vector<std::string>>(*moments))
       times.push_back(StatedTime::parse(time, "moments"));
     request.moments = std::move(times);
   }
@@ -39,7 +42,7 @@ StudyRequest study_request(const Settings& settings,
 
 // A study of a capture as it is, whose pictures lie on each other.
 py::dict study(const OpenCapture& capture, const Settings& settings,
-               const std::variant<std::uint32_t, std::vector<std::string>>& moments,
+               const std::optional<Moments>& moments,
                const std::vector<std::array<std::uint32_t, 4>>& regions, const Settings& output,
                const py::object& progress) {
   Session& session = *capture.session;

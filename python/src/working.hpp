@@ -39,7 +39,7 @@ struct Stopping {
   [[nodiscard]] ReportedProgress progress() const;
 };
 
-// Waits without Python's lock until is_done(), asked every 50 ms with how long it may wait; asks for a stop at Ctrl-C.
+// Waits without Python's lock until is_done(), which itself waits up to 50 ms at each call; asks for a stop at Ctrl-C.
 // Calls told(done, total), unless that is None, when steps were done, and at the end. Returns what a signal's handler or
 // that raised.
 [[nodiscard]] std::optional<py::error_already_set> wait_for(const std::function<bool()>& is_done,

@@ -98,7 +98,7 @@ TEST_F(Ceilings, OfTexts) {
   EXPECT_NE(piped.err.find("standard input is longer than 256 MiB; no text that a person writes is"), std::string::npos)
       << piped.err;
   EXPECT_LT(peak_mb(), 60 + 2 * 256 + 64);  // where it grows, old and new room are there
-  for (const char* name : {"long.fn", "long.noise", "long.csv", "long.cih", "long.path"}) {
+  for (const char* name : {"long.fn", "long.noise", "long.csv", "long.cih", "long.mraw", "long.path"}) {
     std::filesystem::resize_file(scratch_.write(name, ""), std::uintmax_t{20} << 30);
   }
   const auto expect_long = [&](const std::vector<std::string>& words, const std::string& name) {

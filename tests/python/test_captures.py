@@ -101,7 +101,7 @@ class Arrays(support.TestCase):
         self.assert_raises(nutik.InputError, "sample 2", encode, pictures, times=[0, 2, 1, 3])
         self.assert_raises(nutik.MemoryTooLittle, "memory='", encode, pictures, rate=1, memory="1kB")
         self.assert_raises(usage, "'2GB'", encode, pictures, rate=1, memory="much")
-        self.assert_raises(usage, "'opencl' or 'reference'", encode, pictures, rate=1, renderer="gpu")
+        self.assert_raises(usage, "choose opencl or reference", encode, pictures, rate=1, renderer="gpu")
         self.assert_raises(nutik.DeviceError, "no such device",
                            lambda: encode(pictures, rate=1, device="no such device").render(exposure="1f"))
 

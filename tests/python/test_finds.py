@@ -96,7 +96,11 @@ class Finds(support.TestCase):
         clean = self.capture.study("clean", codes=True)
         self.assertIsNone(clean.mask)
         self.assert_same(clean.picture.array, self.capture.plate(codes=True).picture.array)
-        self.assert_raises(nutik.UsageError, "'trail', 'strobe'", self.capture.study, "blur")
+        self.assert_raises(nutik.UsageError, "there are trail, strobe", self.capture.study, "blur")
+        for style, moments, told in (("slit", ["0.1s"], "how many there are, not which"), ("slit", 300, "a study has 2 to 256"),
+                                     ("frozen", 5, "shows a single moment"), ("trail", 51, "a study has 1 to 50"),
+                                     ("trail", [], "a study has 1 to 50")):
+            self.assert_raises(nutik.UsageError, told, self.capture.study, style, moments=moments)
         still = nutik.encode(self.pictures[:1].repeat(30, 0), rate=960)
         self.assert_raises(nutik.InputError, "nothing moves", still.study)
 

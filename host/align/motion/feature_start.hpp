@@ -11,7 +11,7 @@ namespace nutik::motion {
 
 class FeatureStart {
  public:
-  // `scale` of the picture's own pixels are one of these.
+  // A pixel of `reference` is `scale` pixels of the original.
   FeatureStart(const cv::Mat& reference, double scale);
 
   // Finds a picture of the same size that was moved and turned, not scaled. Nothing where too few features agree.

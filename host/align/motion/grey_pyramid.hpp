@@ -18,7 +18,7 @@ struct GreyPyramid {
   // In the memory of the picture before: pages that are new to a process cost as much as what is done with them.
   void take(const CaptureFormat& format, std::span<const std::byte> raster);
 
-  // The picture in 8 bits, for features, and how many of the picture's pixels are one of its.
+  // An 8-bit picture for features, and its pixels' size in those of the original.
   [[nodiscard]] cv::Mat of_features() const;
   [[nodiscard]] double feature_scale() const;
 

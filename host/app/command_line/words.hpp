@@ -23,6 +23,7 @@ void check_value(const Option& option, const std::string& name, const std::strin
 // Throws UsageError where a value is most likely a mistyped one of the option's choices; `what` says what it is.
 void check_choice(std::string_view what, const std::string& value, const Option& option);
 
+// What was found.
 struct Given {
   const Option* option;
   std::string name;  // as it was written: `-f`
@@ -37,7 +38,7 @@ struct Words {
   bool help = false;
   bool version = false;
 
-  // Throws UsageError for an option that there is not, and for a value that is none (value_check.hpp).
+  // Throws UsageError for an option that there is not, and for a value that is none (check_value()).
   static Words of(std::span<const std::string> words);
 };
 

@@ -1,5 +1,4 @@
 #include "features/activity/activity.hpp"
-#include "sheet/drawings.hpp"
 
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
@@ -14,6 +13,7 @@
 #include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"
 #include "session/text/text_table.hpp"
+#include "sheet/drawings.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {

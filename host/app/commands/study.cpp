@@ -35,8 +35,8 @@ std::string functions_text(const FunctionSet& functions) {
   return text;
 }
 
-// The exposure by hand.
-Options exposing(const Options& options, const StudyFiles& files, StudyStyle style) {
+// Options that expose the same from the written files.
+Options options_by_hand(const Options& options, const StudyFiles& files, StudyStyle style) {
   Options by_hand = options;
   const auto state = [&](std::string_view option, std::string word) {
     option_of(CommandId::expose, option)->restate(by_hand, {std::move(word)});
@@ -71,7 +71,7 @@ std::string commands_text(const Options& options, const StudyFiles& files, const
   }
   return format("nutik-cl mask{}{} --overwrite \\\n  {} {}\nnutik-cl{} --overwrite \\\n  {} {}\n",
                 stated_words(options, CommandId::mask), regions, capture, name(files.mask),
-                stated_words(exposing(options, files, style), CommandId::expose), capture,
+                stated_words(options_by_hand(options, files, style), CommandId::expose), capture,
                 name(files.picture));
 }
 
@@ -179,7 +179,7 @@ int run_study(const Options& stated) {
   std::string recipe;  // names the files, where there are some
   if (!files.is_alone()) {
     files.write_regions(made.mask.to_picture(), functions_text(study.functions));
-    recipe = PictureRecipe(recipe_sources(exposing(options, files, request.style))).text(tally.precision());
+    recipe = PictureRecipe(recipe_sources(options_by_hand(options, files, request.style))).text(tally.precision());
   }
   write_picture(files.picture, exposed.picture, recipe, file_wishes(options.picture));
 

@@ -140,8 +140,6 @@ std::string steps_csv(const TracedExposure& exposure) {
   return text + "\n";
 }
 
-namespace {
-
 Json light_json(const std::array<double, 3>& light, std::uint32_t channels) {
   Json values = Json::array();
   for (std::uint32_t channel = 0; channel < channels; ++channel) values.push_back(light[channel]);
@@ -174,8 +172,6 @@ Json function_json(const Trace& trace, const PlannedFunction& function) {
               {"light", light_json(trace.light, trace.channels)},
               {"steps", steps}};
 }
-
-}  // namespace
 
 // Of a pixel that functions share: its light, and under `functions` each of them.
 Json trace_json(const TracedExposure& exposure) {

@@ -5,9 +5,9 @@
 #include "capture/format.hpp"
 #include "features/schema/option.hpp"
 #include "media/formats/numbered_name.hpp"
+#include "media/stills/still_sequence.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "media/writers/recipe.hpp"
-#include "media/stills/still_sequence.hpp"
 #include "session/output_check.hpp"
 #include "session/requests/delay_request.hpp"
 #include "session/requests/function_input.hpp"
@@ -78,8 +78,8 @@ std::vector<std::string> input_files(const Options& options) {
     const std::string* name = option.reads_file() ? option.stated(options) : nullptr;
     if (name != nullptr && !is_standard_input(*name) && !option.knows(*name)) add(*name);
   }
-  for (const Said& said : options.said) {  // key frames
-    if (said.option == "key" || said.option == "mask-key") add(said.words.back());
+  for (const Said& said : options.said) {  // key frames, which may be given again and again
+    if (said.row->take == nullptr && said.row->reads_standard_input() && said.words.size() > 1) add(said.words.back());
   }
   if (options.delay && !options.delay->file.empty()) inputs.push_back(options.delay->file);
   return inputs;

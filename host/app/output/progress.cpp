@@ -1,7 +1,5 @@
 #include "app/output/progress.hpp"
 
-#include "capture/format.hpp"
-
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "capture/format.hpp"
 
 namespace nutik::app {
 namespace {

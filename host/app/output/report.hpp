@@ -47,8 +47,8 @@ struct Answer {
   void tell_source(const Session& session);  // where it was made from a clip
 };
 
-// Prints it as --json and -q ask; returns the exit status. -q leaves the output's name where nobody gave it one: with
-// -o or as the second operand, unless `was_named` says how.
+// Prints it as --json and -q ask; returns the exit status. With -q only an output's name that nobody stated is printed;
+// `was_named` says so where neither -o nor a second operand tells.
 int tell(const Options& options, const std::filesystem::path& output, const Answer& answer);
 int tell(const Options& options, const std::filesystem::path& output, const Answer& answer, bool was_named);
 

@@ -1,4 +1,4 @@
-// What a clip's times were taken from, for people.
+// What a clip was taken for, and who said so, for people.
 #pragma once
 
 #include <span>
@@ -12,7 +12,8 @@ namespace nutik::app {
 // `120 pictures a second (--fps), shutter 180 degrees (--shutter-angle)`: what times were made from.
 [[nodiscard]] std::string timing_text(std::span<const Fact> facts);
 
-// `source: …` with that, where there is any, and `colour: …` with the other facts and the options that change what is assumed.
+// A line each, where there are facts: source: (times), part:, events:, colour: with the options that change what is
+// assumed.
 [[nodiscard]] std::vector<std::string> fact_lines(std::span<const Fact> facts);
 
 }  // namespace nutik::app

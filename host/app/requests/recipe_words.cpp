@@ -7,6 +7,7 @@
 #include "media/input_checksum.hpp"
 #include "media/writers/recipe.hpp"
 #include "session/requests/function_input.hpp"
+#include "session/text/shell_text.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik::app {
@@ -83,6 +84,17 @@ OwnRecipe own_recipe(const OwnExposure& exposure) {
   own.options["exposure"] = length.text();
   if (gain != 1.0) own.options["gain"] = format("{}", gain);
   return own;
+}
+
+std::string stated_words(const Options& options, CommandId command) {
+  std::string words;
+  for (const Option& option : schema()) {
+    const bool counts = option.makes_picture() || option.scope == Scope::computing;
+    if (!counts || !option.is_of(command) || !option.is_in(options)) continue;
+    words += " " + option.name();
+    if (const std::string* const value = option.stated(options)) words += " " + shell_word(*value);
+  }
+  return words;
 }
 
 }  // namespace nutik::app

@@ -1,8 +1,7 @@
 // The session's requests, as the command line states them.
 //
-//   always:  options that make no sense, or contradict each other, are refused as UsageError before anything large is
-//            read. What is read of a request is read here, function file, noise file, mask: InputError, with all
-//            mistakes of a text; warnings on it are printed
+//   always:  contradicting options are refused as UsageError before anything large is read. Function files and masks
+//            are read here: InputError with all mistakes of a text; warnings are printed
 #pragma once
 
 #include <memory>
@@ -78,9 +77,9 @@ void read_mask_keys(FramesRequest& request, const Options& options, std::uint8_t
 // selects what moves, keeps its largest part, grows that by 4 pixels and gives it tag 128; then an ellipse gets
 // tag 255, over what it covers. Pictures have their names and nothing else, and there is no base, until read_inputs().
 [[nodiscard]] MaskRequest mask_request(const Options& options);
+void read_inputs(MaskRequest& request, const Options& options);
 // As mask_request() reads it.
 [[nodiscard]] std::string change_words(const RegionChange& change);
-void read_inputs(MaskRequest& request, const Options& options);
 
 // What the recipes of a command's pictures have in common; none with --no-recipe. A capture that is exposed many times
 // may be known by its checksum already.

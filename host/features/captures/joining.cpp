@@ -96,7 +96,7 @@ std::vector<std::string_view> facts_of_codes(const tik::Header& header) {
   std::vector<std::string_view> stated;
   for (const std::string_view fact : header.facts) {
     if (!correction_of(fact) && !tells_part(fact) && !fact.starts_with(kJoined))
-      stated.push_back(stated_by(fact));
+      stated.push_back(statement_of(fact));
   }
   return stated;
 }
@@ -247,7 +247,7 @@ tik::Header joined_header(const std::vector<Piece>& pieces, const Timeline& time
     header.codec = packed;
   std::erase_if(header.facts, [](std::string_view fact) { return fact.starts_with(kJoined); });
   for (std::string& fact : header.facts) {
-    const auto state = [&](const std::string& text) { fact.replace(0, stated_by(fact).size(), text); };
+    const auto state = [&](const std::string& text) { fact.replace(0, statement_of(fact).size(), text); };
     if (header.part && tells_part(fact))
       state(header.part->text(header.part->first + timeline.sample_count()));
     if (header.rate) continue;

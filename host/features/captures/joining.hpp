@@ -38,11 +38,10 @@ struct Joined {
   std::vector<Note> notes;
 };
 
-// Captures that tell which pictures of a clip they hold (its part was stated when they were encoded) may be named in
-// any order; notes tell of pictures that none of them has, before the first and behind the last. Others are taken to
-// follow each other at once, as they are named, if they have one constant rate; a note says so. `progress` counts
-// samples. Throws UsageError where fewer than two are named, or `output` is one of them or no name of a capture; InputError where one is damaged or cannot follow the one
-// before it: it was encoded otherwise, or pictures are missing or there twice; OutputError.
+// Captures that know their place in the clip may be named in any order; a note names pictures before the first and
+// behind the last. Others need one constant rate and follow each other as named; a note says so. `progress` counts
+// samples. Throws UsageError where fewer than two are named, or `output` is one of them or no capture's name;
+// InputError where one is damaged, encoded otherwise, or leaves out or repeats pictures; OutputError.
 [[nodiscard]] Joined join(const JoinRequest& request, const ReportedProgress& progress = {});
 
 }  // namespace nutik

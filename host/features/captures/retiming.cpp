@@ -23,7 +23,7 @@
 
 namespace nutik {
 
-std::string_view stated_by(std::string_view line) {
+std::string_view statement_of(std::string_view line) {
   for (const std::string_view origin : {", from ", ", as stated", ", assumed"}) {
     line = line.substr(0, line.find(origin));
   }
@@ -31,7 +31,7 @@ std::string_view stated_by(std::string_view line) {
 }
 
 std::optional<Setting> correction_of(std::string_view fact) {
-  const std::string_view text = stated_by(fact);
+  const std::string_view text = statement_of(fact);
   if (text.find("pictures a second") != text.npos || text.starts_with("a picture every "))
     return Setting::frame_rate;
   if (text.starts_with("shutter ")) return Setting::shutter_angle;
@@ -98,9 +98,9 @@ std::vector<std::string> facts_of(const RetimeRequest& request, const tik::Heade
   };
   const std::string shutter = format("shutter {} degrees", timeline.shutter_angle().text());
   for (std::string& fact : facts) {
-    if (is_timed_shutter(fact)) fact.replace(0, stated_by(fact).size(), shutter);
+    if (is_timed_shutter(fact)) fact.replace(0, statement_of(fact).size(), shutter);
     if (before.part && tells_part(fact))
-      fact.replace(0, stated_by(fact).size(),
+      fact.replace(0, statement_of(fact).size(),
                    before.part->text(before.part->first + timeline.sample_count()));
   }
   if (request.rate) state(Setting::frame_rate, rate_text(*request.rate, "picture"));

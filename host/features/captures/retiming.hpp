@@ -38,10 +38,11 @@ struct Retimed {
   std::vector<Note> notes;         // on what was lost
 };
 
-// What a line of a capture's facts states, without who said so and what else was said.
-[[nodiscard]] std::string_view stated_by(std::string_view line);
+// Lines of a header's facts.
 
-// What states otherwise than a fact that a capture's header tells; none where its clip has to be encoded again.
+// What a line states, without who said so and what else was said.
+[[nodiscard]] std::string_view statement_of(std::string_view line);
+// The setting by which retime corrects this fact; none where the clip has to be encoded again.
 [[nodiscard]] std::optional<Setting> correction_of(std::string_view fact);
 
 // Whether a capture's exposures were listed: its shutter angle is then their mean.

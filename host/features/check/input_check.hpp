@@ -2,7 +2,7 @@
 //
 //   in:      what could be read of them
 //   out:     findings, and figures for each function
-//   always:  what could not be read is left out; a finding of the caller's tells of it
+//   always:  what could not be read is left out; the caller adds a finding for it
 #pragma once
 
 #include <array>
@@ -85,7 +85,7 @@ class InputCheck {
   // Its picture, if it is one, has been read.
   void add_delay(DelayRequest delay) { delay_ = std::move(delay); }
 
-  // How functions will be exposed, which their figures are told for; as they are where nothing is said.
+  // Normalization and gain that the figures are for; without a call, the usual ones.
   void set_weight(const Normalization& normalization, double gain);
 
   // Checks them against each other, once all have been added. Mask values without a function are no mistake if they are
@@ -106,7 +106,7 @@ class InputCheck {
   [[nodiscard]] FunctionFigures figures_of(std::uint8_t tag, const GainSummary& summary) const;
   void check_functions();
   void check_mask(bool unmapped_is_zero);
-  // What it moves outside of the capture.
+  // Warns of functions that delays move outside of the capture.
   void check_delay();
   [[nodiscard]] GainSummary summary_of(const GainFunction& function) const;
 

@@ -5,9 +5,9 @@
 #include "capture/format.hpp"
 #include "exposure/function_text.hpp"
 #include "features/series/picture_queue.hpp"
+#include "media/formats/numbered_name.hpp"
 #include "media/frame_queue.hpp"
 #include "media/input_checksum.hpp"
-#include "media/formats/numbered_name.hpp"
 #include "system/is_absent.hpp"
 
 namespace nutik {
@@ -77,7 +77,7 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
       if (!queue.push(std::move(exposed.picture), std::move(text), frame)) break;
     }
   } catch (const Interrupted& caught) {
-    // Of a film that is there a part is no better one.
+    // A part of a video does not replace a whole one.
     if (made.frames == 0 || (!output.writes_stills() && !is_absent(output.path()))) throw;
     made.interruption = caught;
     clear_interruption();  // what was exposed is still to be written

@@ -1,6 +1,6 @@
 // Makes a video: its frames are exposed one after another, and each is written while the next is exposed.
 //
-//   always:  frames have equal periods; what a signal ends after its first frame is a whole, shorter video
+//   always:  equal frame periods. A signal after the first frame leaves a whole, shorter video
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,6 @@
 namespace nutik {
 
 // Where a video goes, told from its name: a container, or a numbered still for each frame.
-
 class VideoOutput {
  public:
   // `rate` in frames a second; no codec: the one that is usual. Throws UsageError where the name is that of neither,

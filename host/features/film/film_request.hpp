@@ -69,8 +69,8 @@ class CapturedCurve {
 };
 
 struct FramesRequest {
-  ExposureRequest
-      exposure;            // of every frame, from the frame's start on: its own start and length say nothing
+  // Of every frame, from the frame's start on: its own start and length say nothing.
+  ExposureRequest exposure;
   Rational rate{24, 1};    // frames a second of playback
   Rational speed{1, 1};    // seconds of the capture for each second of playback
   Rational angle{180, 1};  // of the shutter, in degrees of a frame; not of functions

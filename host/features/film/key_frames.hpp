@@ -33,7 +33,7 @@ struct MaskKey {
   friend bool operator==(const MaskKey&, const MaskKey&) = default;
 };
 
-// Where a moment lies among masks: at masks[key], or as many 65536ths further to the next one.
+// Between masks[key] and the next, `way` of kWholeWay from the first.
 struct MaskMoment {
   std::size_t key = 0;
   std::uint32_t way = 0;  // below kWholeWay

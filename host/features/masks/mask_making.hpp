@@ -52,9 +52,8 @@ struct MadeMask {
 // Of steps that select no pixel, and of tags that later steps cover.
 [[nodiscard]] std::vector<std::string> warnings_of(const MadeMask& made);
 
-// What a mask's preview lies on.
-
-// An interval as a plain exposure's, the picture at a start alone, or neither: all of the capture.
+// What a mask's preview lies on: an interval as a plain exposure's, the picture at a start alone, or, with neither, all
+// of the capture.
 struct BackdropTime {
   std::optional<StatedTime> start, length;
 };
@@ -66,7 +65,6 @@ struct BackdropTime {
 [[nodiscard]] Picture backdrop_of(const MaskRequest& request, const Mask& mask);
 
 // A soft mask as files: a layer for each of its tags.
-
 class MaskLayers {
  public:
   // `mask-%d.png`. Throws UsageError where the name has no place for a number.

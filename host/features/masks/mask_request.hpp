@@ -136,8 +136,8 @@ struct NamedMask {
 
 struct MaskRequest {
   std::optional<NamedMask> base;  // that steps are painted on; none: tag 0 everywhere
-  std::optional<NamedSize>
-      size;  // needed if neither base, capture nor picture has one; must agree with theirs
+  // Needed if neither base, capture nor picture has one; must agree with theirs.
+  std::optional<NamedSize> size;
   std::vector<MaskStep> steps;
 
   // Whether a step tells what moves from what rests, so that a moving camera confuses it.

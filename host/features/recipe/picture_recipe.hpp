@@ -34,9 +34,8 @@ class PictureRecipe {
   // Reads the capture's checksum beside whatever the caller does next. Without sources there are no recipes.
   explicit PictureRecipe(std::optional<RecipeSources> sources);
 
-  // The recipe's text, for a picture that was computed in this precision; empty without sources. Of many pictures, each
-  // one's is that of a single picture, with what is its own. Throws InputError where the capture cannot be read,
-  // InputError.
+  // The recipe's text for a picture computed in this precision, with what is its own; empty without sources. Throws
+  // InputError where the capture cannot be read or the text is larger than a picture carries.
   [[nodiscard]] std::string text(const std::string& precision, const OwnRecipe& own = {});
 
  private:

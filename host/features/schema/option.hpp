@@ -15,8 +15,8 @@
 
 namespace nutik {
 
-// What an option is about. What holds for some options and not for others follows from it, and is asked of
-// the row: nowhere else is there a list of options.
+// What an option is about. Where it can, what holds for some options and not for others follows from it and is asked of
+// the row, so that few lists of options stand elsewhere.
 enum class Scope {
   decoding,   // what a clip's codes are
   timing,     // when its pictures were exposed

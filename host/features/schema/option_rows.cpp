@@ -41,10 +41,10 @@ constexpr CommandSet kWrites =
     set_of(Id::recover, Id::noise, Id::retime, Id::join, Id::info, Id::thumbnail);
 // Those that lay pictures out on a sheet.
 constexpr CommandSet kMakesSheets = set_of(Id::contact, Id::sweep);
-// Those that have nothing to tell a script, or tell what is a file itself.
+// Without --json: they print the result itself.
 constexpr CommandSet kOnlyPrints = set_of(Id::shutter, Id::again, Id::completion, Id::man);
 
-// What the rows behind it stand under.
+// A heading in help, for the rows after it.
 constexpr Option heading(std::string_view title) { return {.heading = title}; }
 
 // A row that errors and notes refer to, and its argument's name in Python where that is another.
@@ -75,7 +75,7 @@ constexpr Option kRows[] = {
     known(Setting::white_code, {0, "white", "CODE", decoding, kDecodesClips,
      take_whole<InClip<&ClipOptions::white_code>, 1, 65'535>,
      "the code that stands for white: 255, 4095 for 12 bits, … (default: what the file says)"}),
-    // A capture has one too, which a picture may be exposed without: so it is none of what only a clip has.
+    // Of scope exposure: a capture has a transfer function too, and may be exposed with another.
     known(Setting::transfer, {0, "transfer", "NAME", exposure, kDecodesClips | bit(Id::retime),
      take<InClip<&ClipOptions::transfer>>,
      "how codes stand for light: srgb, bt709, linear, gamma:G, hlg or pq (default: srgb; linear for stills "

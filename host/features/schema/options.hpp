@@ -82,7 +82,7 @@ struct Options {
   // How it is computed, and how right that is.
   std::optional<RendererKind> renderer;
   Text device;
-  std::optional<Precision> precision;
+  std::optional<Precision> precision;  // none: auto
   std::optional<MemoryBudget> memory;
   Text source_clip;
   std::uint32_t runs = 5;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "capture/error.hpp"
@@ -56,29 +57,16 @@ void read_noise(SourceRequest& request, const Options& options) {
   }
 }
 
-constexpr std::uint32_t kMaxMoments = 50;
-constexpr std::uint32_t kMaxStrips = 256;  // of a slit: a mask has no more values
-
-std::variant<std::uint32_t, std::vector<StatedTime>> parse_moments(const std::string& text,
-                                                                   StudyStyle style) {
+std::variant<std::uint32_t, std::vector<StatedTime>> parse_moments(const std::string& text) {
   constexpr std::string_view kWhat = "--moments";
-  if (text.find_first_not_of("0123456789") == std::string::npos) {
-    return style == StudyStyle::slit ? parse_whole_number(text, kWhat, 2, kMaxStrips)
-                                     : parse_whole_number(text, kWhat, 1, kMaxMoments);
-  }
-  if (style == StudyStyle::slit) {
-    throw UsageError(Advice{
-        "`style slit` shows a moment in each strip; say with `moments` how many there are, not which"});
-  }
+  if (text.find_first_not_of("0123456789") == std::string::npos)
+    return parse_whole_number(text, kWhat, 0, std::numeric_limits<std::uint32_t>::max());
   std::vector<StatedTime> times;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     times.push_back(StatedTime::parse(text.substr(begin, end - begin), kWhat));
     begin = end + 1;
   }
-  if (times.size() > kMaxMoments)
-    throw UsageError(
-        Advice{format("`moments` names {} times; a study has {} at most", times.size(), kMaxMoments)});
   return times;
 }
 
@@ -200,14 +188,9 @@ StudyRequest study_request(const Options& options) {
   }
   request.by_codes = options.by;
   request.feather = options.feather;
-  if (is_slit) request.moments = kMaxStrips;
-  if (options.moments) request.moments = parse_moments(*options.moments, request.style);
-  const bool shows_one = request.style == StudyStyle::rear_curtain || request.style == StudyStyle::frozen;
-  const auto* times = std::get_if<std::vector<StatedTime>>(&request.moments);
-  if (shows_one && options.moments && (times == nullptr || times->size() != 1)) {
-    throw UsageError(Advice{format("`style {}` shows a single moment; leave `moments` out, or name one time",
-                                   options.text("style"))});
-  }
+  request.moments = usual_moments(request.style);
+  if (options.moments) request.moments = parse_moments(*options.moments);
+  check_study(request);
   return request;
 }
 

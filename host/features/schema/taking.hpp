@@ -12,7 +12,7 @@
 
 namespace nutik {
 
-// The value of a type. Throw UsageError naming `what`, or listing what there is.
+// Read a word as a value of that type. Throw UsageError naming `what`, or listing what there is.
 void read_word(std::string_view word, std::string_view what, std::string& value);
 void read_word(std::string_view word, std::string_view what, Rational& value);
 void read_word(std::string_view word, std::string_view what, StatedTime& value);

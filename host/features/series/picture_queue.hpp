@@ -1,4 +1,5 @@
-// Writes pictures on a thread of its own, while the next ones are exposed.
+// Pictures made and written side by side: PictureLine exposes several at once, PictureQueue writes them on a thread of
+// its own.
 #pragma once
 
 #include <cstddef>
@@ -41,8 +42,8 @@ class PictureQueue {
     };
   }
 
-  // Waits while too many pictures wait already. Throws what ended the writing thread, as finish() does. `number` tells the caller which one failed; `text` goes into
-  // the picture (media/writers/picture_writer.hpp).
+  // Waits while kWaiting pictures wait. Throws what ended the writing thread. `number` comes back in `failed`; `text`
+  // goes into the picture.
   void push(std::size_t number, std::filesystem::path path, Picture picture, std::string text,
             const FileWishes& wishes);
   // Waits until everything is written. Nothing can be pushed any more.
@@ -70,7 +71,6 @@ class PictureQueue {
 //   out:     what work returned, the oldest first
 //   always:  no more than `length` are in line. With 1 a picture is made when it is taken, by whoever takes it. What one
 //            throws first stops the others, and is thrown by the next take()
-
 template <typename Made>
 class PictureLine {
  public:

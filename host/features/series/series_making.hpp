@@ -30,11 +30,6 @@ void make_series(Session& session, ExposureRequest exposure, const std::vector<S
                  const OutputFormat& output, const FileWishes& file, const ReportedProgress& progress,
                  const std::function<std::string(std::uint64_t number, ExposedPicture& exposed)>& add);
 
-// Pictures of a list, each of which may be wrong by itself: what is wrong with one stops no other.
-//
-//   in:      exposures of one session, one after another
-//   out:     each handed to its Done, in that order, while others may be made
-
 // Tells what is wrong with one picture, and goes on.
 template <typename Work, typename Tell>
 void unless_wrong(const Work& work, const Tell& tell) {
@@ -47,6 +42,10 @@ void unless_wrong(const Work& work, const Tell& tell) {
   }
 }
 
+// Pictures of a list, each of which may be wrong by itself: what is wrong with one stops no other.
+//
+//   in:      exposures of one session, one after another
+//   out:     each handed to its Done, in that order, while others may be made
 class ListedPictures {
  public:
   // Returns the picture, once; or throws UsageError or InputError, which say what is wrong with this one.
@@ -73,11 +72,9 @@ class ListedPictures {
   PictureLine<Made> line_;
 };
 
-// Whether a picture is there already, as it would be made: told by the recipe that it carries, not by its name.
-
-// Whether `picture` is a picture whose recipe is, byte for byte, the text that `recipe_of` makes for its precision: the
-// same capture, functions, mask, options and version of the program. `precision`: the only one that counts; none: any,
-// for `auto` is settled when a picture is computed. What carries no recipe, or cannot be read, is not made yet.
+// Whether `picture` is there with the very recipe, byte for byte, that `recipe_of` makes for its precision: the same
+// capture, functions, mask, options and version of the program. `precision`: the only one that counts; none: any, for
+// `auto` is settled when a picture is computed. What carries no recipe, or cannot be read, is not made yet.
 [[nodiscard]] bool is_made(const std::filesystem::path& picture, const std::optional<std::string>& precision,
                            const std::function<std::string(const std::string& precision)>& recipe_of);
 

@@ -1,4 +1,4 @@
-// A series of exposures of one capture: the same again and again, each a step later.
+// Series: exposures a step apart, and which of many frames are made.
 #pragma once
 
 #include <cstdint>
@@ -52,6 +52,7 @@ class FrameRanges {
 // `3, 7-9`: numbers in order, as they would be stated.
 [[nodiscard]] std::string ranges_text(std::span<const std::uint64_t> numbers);
 
+// The same exposure again and again, each a step later.
 struct SeriesRequest {
   // More pictures than a folder is pleasant with, and than anybody means.
   static constexpr std::uint32_t kMaxExposures = 1'000'000;

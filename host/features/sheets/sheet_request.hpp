@@ -1,4 +1,4 @@
-// A contact sheet, as it is asked for: exposures at equal distances from one time on.
+// What sheets show, as it is asked for: moments one after another (contact), or one exposure varied (sweep).
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,6 @@ struct ContactRequest {
                                                  const Timeline& timeline);
 
 // A sweep, as it is asked for: one or two parameters of gain functions, each over a range.
-
 enum class SweepParameter { shift, gain, stretch };
 
 // A parameter's values: from, from + step, … up to `to`. step > 0, from <= to; numerators of at most nine digits and

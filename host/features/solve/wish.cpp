@@ -271,7 +271,8 @@ constexpr std::uint64_t kMaxCombinations = 1'000'000;
 // Candidates where no step is stated: a picture's time apart, further where that is more than so many of all times
 // together.
 constexpr std::uint64_t kDefaultCombinations = 20'000;
-// Which numbers a name may stand for, in nanoseconds.
+
+// From when to when a named time may be.
 struct FreeRange {
   std::int64_t from_ns = 0, to_ns = 0;
 };

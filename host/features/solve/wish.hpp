@@ -36,8 +36,8 @@ struct StatedWish {
   LightRegion region;
   LightWish::Kind kind = LightWish::Kind::equal;
   double factor = 1.0;
-  std::variant<double, Plate, Moment, LightRegion>
-      target;  // of `gone` what the still scene is: a plate or a moment
+  // Of `gone` what the still scene is: a plate or a moment.
+  std::variant<double, Plate, Moment, LightRegion> target;
   double weight = 1.0;
 
   [[nodiscard]] bool needs_plate() const { return std::holds_alternative<Plate>(target); }
@@ -51,7 +51,7 @@ struct StatedWish {
 
 struct TimeFreedom {
   StatedTime from, to;
-  std::optional<StatedTime> step;  // none: every nanosecond
+  std::optional<StatedTime> step;  // none: see candidate_times()
 };
 
 // Of one name of a template.
@@ -63,10 +63,8 @@ struct StatedFreedom {
   static StatedFreedom parse(std::string_view text, const FunctionTemplate& functions);
 };
 
-// Which times are tried for the named ones of gain functions.
-
-// For each named time, in the order of the template: in the steps that were stated, else a picture's time apart, or
-// further where that would make more than 20,000 combinations of all; then times between them count, too. Throws
+// Times to try for each named time, in the template's order: the stated steps; without them a picture's time apart
+// (further where all together would exceed 20,000 combinations), and find_times() then looks between them. Throws
 // UsageError where a time has no range, one that does not lie in the capture, or where steps make more than a million
 // combinations.
 [[nodiscard]] std::vector<CandidateTimes> candidate_times(const FunctionTemplate& functions,

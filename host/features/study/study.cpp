@@ -18,9 +18,9 @@ namespace nutik {
 namespace {
 
 constexpr double kMaxMoving = 0.2;  // of the picture, on average
-// Of a subject's border, along which its plate has an edge and its picture none: of things that the plate shows nothing of,
-// 0.1 at most where they go before a texture, and 0.25 before dark things as large as they are; of things that it shows a
-// quarter of, 0.2, and these cover a place for nearly half of the time.
+// Largest share of a subject's border with an edge in the plate and none in the picture. Measured: at most 0.1 before
+// texture and 0.25 before large dark things where the plate does not show the subject; 0.2 where it shows a quarter of
+// it. The latter cover a place for nearly half of the time, hence kMinCoveredInPlate.
 constexpr double kMaxPlateEdges = 0.15;
 constexpr double kMinCoveredInPlate = 0.4;
 constexpr std::size_t kMinLooks = 8;
@@ -117,7 +117,7 @@ class StudyPlanner {
     }
     study.are_moments_found = true;
     if (request_.style == StudyStyle::rear_curtain) return {last_large_place(track.places).sample};
-    const std::uint32_t wanted = shows_one(request_.style) ? 1 : std::get<std::uint32_t>(request_.moments);
+    const std::uint32_t wanted = std::get<std::uint32_t>(request_.moments);
     std::vector<std::uint64_t> moments;
     for (const SubjectPlace& place :
          choose_moments(track, wanted, request_.spacing, 4 * border_pixels(request_))) {
@@ -196,9 +196,8 @@ void tell_of_other(const std::vector<SubjectPlace>& places, std::vector<std::str
     bottom = std::max(bottom, place.box.y + place.box.height);
   }
   notes.push_back(
-      format("one subject is shown, and another thing goes its way at the same time, within {},{},{},{}: "
-             "name a region for each "
-             "of them to show both",
+      format("one subject is shown, and another thing goes its way at the same time, within {},{},{},{}: name a region "
+             "for each of them to show both",
              left, top, right - left, bottom - top));
 }
 
@@ -208,9 +207,8 @@ void check_before_plate(Study& study, const MadeMask& made, const std::string& n
     const double share = made.steps[i].plate_edges.value_or(0);
     if (share <= kMaxPlateEdges || !study.may_be_in_plate[study.subjects[i]]) continue;
     const std::string why = format(
-        "the scene at rest shows the subject, too, which covers some places for half of the time: at picture "
-        "{} "
-        "{:.0f} % of its border are edges of that scene",
+        "the scene at rest shows the subject, too, which covers some places for half of the time: at picture {} {:.0f} "
+        "% of its border are edges of that scene",
         study.moments[i], 100 * share);
     if (study.are_moments_found) {
       throw NoSubject(
@@ -232,8 +230,8 @@ void check_track(const SubjectTrack& track, const std::string& name, std::uint32
   }
   if (track.places.empty()) {
     throw NoSubject(
-        format("{}: nothing moves: no part of it differs from the rest of the time by more than {} codes. "
-               "State fewer to find what hardly stands out",
+        format("{}: nothing moves: no part of it differs from the rest of the time by more than {} codes. State fewer "
+               "to find what hardly stands out",
                name, by_codes));
   }
   if (is_stated) return;
@@ -251,13 +249,10 @@ void check_track(const SubjectTrack& track, const std::string& name, std::uint32
   if (track.is_scraps()) {
     const double length = track.length();
     throw NoSubject(format(
-        "{}: nothing moves as one whole thing. What goes furthest fills {:.0f} % of its box, and is {:.0f} % "
-        "of what "
-        "differs from the scene at rest: of one of these a subject is half or more. {} shows its edges only, "
-        "and cannot "
-        "be shown twice. Take a clip in which it goes further, name a region with a single subject, or the "
-        "moments to "
-        "show",
+        "{}: nothing moves as one whole thing. What goes furthest fills {:.0f} % of its box, and is {:.0f} % of what "
+        "differs from the scene at rest: of one of these a subject is half or more. {} shows its edges only, and "
+        "cannot be shown twice. Take a clip in which it goes further, name a region with a single subject, or the "
+        "moments to show",
         name, 100 * track.fill, 100 * track.share,
         track.extent < length
             ? format(
@@ -267,11 +262,9 @@ void check_track(const SubjectTrack& track, const std::string& name, std::uint32
   }
   if (track.flickers) {
     throw NoSubject(
-        format("{}: nothing moves as one whole thing. What differs from the scene at rest flickers here and "
-               "there over {:.0f} "
-               "pixels, as light does that changes, leaves, or many things at once. Name a region with a "
-               "single subject, a part "
-               "of the time, or the moments to show",
+        format("{}: nothing moves as one whole thing. What differs from the scene at rest flickers here and there over "
+               "{:.0f} pixels, as light does that changes, leaves, or many things at once. Name a region with a single "
+               "subject, a part of the time, or the moments to show",
                name, track.extent));
   }
 }
@@ -313,7 +306,34 @@ MadeMask make_regions(Study& study, CaptureSource& capture, const std::string& c
   return made;
 }
 
+std::uint32_t usual_moments(StudyStyle style) {
+  constexpr std::uint32_t kUsual = 5;
+  return style == StudyStyle::slit ? kMaxStrips : shows_one(style) ? 1 : kUsual;
+}
+
+namespace {
+
+void check_moments(const StudyRequest& request) {
+  const auto* times = std::get_if<std::vector<StatedTime>>(&request.moments);
+  const std::size_t count = times != nullptr ? times->size() : std::get<std::uint32_t>(request.moments);
+  const bool is_slit = request.style == StudyStyle::slit;
+  if (is_slit && times != nullptr) {
+    throw UsageError(Advice{
+        "`style slit` shows a moment in each strip; say with `moments` how many there are, not which"});
+  }
+  if (shows_one(request.style) && count != 1) {
+    throw UsageError(Advice{format("`style {}` shows a single moment; leave `moments` out, or name one time",
+                                   request.style == StudyStyle::frozen ? "frozen" : "rear-curtain")});
+  }
+  const std::size_t least = is_slit ? 2 : 1, most = is_slit ? kMaxStrips : kMaxMoments;
+  if (count < least || count > most)
+    throw UsageError(Advice{format("`moments` says {}; a study has {} to {}", count, least, most)});
+}
+
+}  // namespace
+
 void check_study(const StudyRequest& request) {
+  if (request.style != StudyStyle::clean) check_moments(request);
   if (!request.feather || request.style == StudyStyle::slit) return;
   if (!request.feather->of_tag.empty()) {
     throw UsageError(
@@ -343,9 +363,9 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
   const double moving = uncertain_share(plate.uncertain, regions);
   if (moving > kMaxMoving) {
     throw EverythingMoves(
-        nutik::format("{}: {:.0f} % of the pixels hold no light for half of the time: everything moves, as "
-                      "it does where nobody held "
-                      "the camera still. A study needs a scene that rests and something that moves in it",
+        nutik::format("{}: {:.0f} % of the pixels hold no light for half of the time: everything moves, as it does "
+                      "where nobody held the camera still. A study needs a scene that rests and something that moves "
+                      "in it",
                       capture_name, 100 * moving));
   }
   if (request.style == StudyStyle::clean) {

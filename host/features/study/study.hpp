@@ -45,10 +45,10 @@ struct StudyRequest {
   MomentSpacing spacing = MomentSpacing::time;
   std::optional<TrailShape> trail;  // none: what the style has
   SlitFrom slit_from = SlitFrom::left;
-  std::vector<Rectangle>
-      regions;  // each with a subject of its own, in pixels; none: one in all of the picture
-  std::optional<std::uint32_t>
-      by_codes;  // only larger differences from the plate are the subject; none: than 1/16 of white, or than the noise
+  // Each with a subject of its own, in pixels; none: one in all of the picture.
+  std::vector<Rectangle> regions;
+  // Only larger differences from the plate are the subject; none: than 1/16 of white, or than the noise.
+  std::optional<std::uint32_t> by_codes;
   std::optional<Feather> feather;  // none: kStudyFeather, and none of a slit's strips
 
   friend bool operator==(const StudyRequest&, const StudyRequest&) = default;
@@ -78,6 +78,12 @@ struct Study {
   Picture plate;              // in codes of the capture
   std::vector<std::string> notes;
 };
+
+// How many moments a study shows, and strips a slit-scan: a mask has no more values.
+inline constexpr std::uint32_t kMaxMoments = 50, kMaxStrips = 256;
+
+// How many moments a style shows where nothing is stated.
+[[nodiscard]] std::uint32_t usual_moments(StudyStyle style);
 
 // Throws UsageError where what is stated does not go together, whatever the capture is.
 void check_study(const StudyRequest& request);

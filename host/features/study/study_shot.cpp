@@ -13,7 +13,7 @@
 namespace nutik {
 namespace {
 
-// What regions are grown by, and the soft edge of them: less hides in these.
+// Regions are grown and softened: a smaller motion hides in that.
 constexpr double kMaxCameraPixels = 4;
 // Shorter shots show nothing that goes anywhere.
 constexpr std::uint64_t kMinSamples = 8;
@@ -85,7 +85,7 @@ class ShotPlanner {
     return terms_.progress ? terms_.progress(what) : ReportedProgress();
   }
 
-  // Things far behind one another do not lie on each other whatever the motion: near ones would be taken for what moves.
+  // Near and far things cannot be aligned together: near ones would be taken for what moves.
   void check_alignment(tik::Reader& capture) const {
     const std::optional<tik::Alignment>& aligned = capture.header().alignment;
     const bool looks_for_subject = request_.style != StudyStyle::slit &&
@@ -106,8 +106,7 @@ class ShotPlanner {
     for (const Rectangle& region : request_.regions) {
       if (region.lies_in(aligned)) continue;
       throw UsageError(format(
-          "region {},{},{},{} does not lie in the {} x {} pixels that every picture of {} saw: the camera "
-          "moved, so "
+          "region {},{},{},{} does not lie in the {} x {} pixels that every picture of {} saw: the camera moved, so "
           "the pictures are moved onto each other and cropped to these, and regions are taken of the result",
           region.x, region.y, region.width, region.height, aligned.width, aligned.height, name_));
     }
@@ -142,8 +141,7 @@ class ShotPlanner {
         return planned;
       } catch (const NoSubject& none) {
         throw NoSubject(
-            format("{}. The camera may have moved: the pictures were moved back by their texture, and one "
-                   "that repeats "
+            format("{}. The camera may have moved: the pictures were moved back by their texture, and one that repeats "
                    "itself tells too little of that",
                    none.what()));
       }

@@ -12,9 +12,7 @@
 namespace nutik {
 namespace {
 
-// A gain function that is put together from pieces.
-
-// Gains of pieces of a function, each of its own interval. In time order.
+// A gain function put together from pieces in time order, each with its own interval.
 class GainPieces {
  public:
   void add(Interval interval, double begin_gain, double end_gain) {

@@ -12,10 +12,8 @@
 
 namespace nutik {
 
-// A slit-scan: strips of a picture side by side, each exposed later than the one before it.
-
-// As many strips as are wanted, as pictures, or as pixels from side to side, whichever is least, at moments spread over all
-// of the time. Throws InputError where that is a single one.
+// A slit-scan: strips side by side, each later than the one before, at moments spread over all of the time. Their
+// number is `wanted`, that of pictures or of pixels across, the least of them. Throws InputError where that is one.
 [[nodiscard]] Study slit_study(CaptureSource& capture, const std::string& name, std::uint32_t wanted,
                                SlitFrom from);
 

@@ -1,5 +1,5 @@
-// What files are by how they begin, where nothing here reads them: so that no other reader takes them for something
-// else or calls them damaged, whichever way they come in.
+// What files are by how they begin: the kinds of stills, and kinds that nothing here reads, which are refused by name
+// whichever way they come in.
 #pragma once
 
 #include <cstddef>

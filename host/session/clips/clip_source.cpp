@@ -25,9 +25,8 @@ void refuse_streams(const std::filesystem::path& path) {
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status) || !std::filesystem::is_other(status)) return;
   throw InputError(
-      format("{} is no regular file: a clip is read more than once; name standard input as -, or save the "
-             "stream to a file "
-             "first",
+      format("{} is no regular file: a clip is read more than once; name standard input as -, or save the stream to a "
+             "file first",
              path.string()));
 }
 
@@ -91,9 +90,8 @@ NoiseModel noise_model(ClipSource& source, const OpenClip& open, const MemoryBud
     if (request.clip.scale || request.align) {
       std::vector settings{Setting::automatic_noise};
       if (request.clip.scale) settings.insert(settings.begin(), Setting::scale);
-      source.notes.emplace_back(format("{} is the noise of single pixels, and a mean of several has less: "
-                                       "changes below it are taken for "
-                                       "noise; measure it on the clip itself",
+      source.notes.emplace_back(format("{} is the noise of single pixels, and a mean of several has less: changes "
+                                       "below it are taken for noise; measure it on the clip itself",
                                        stated->name),
                                 std::move(settings));
     }

@@ -87,9 +87,8 @@ std::string reason_for_no_noise(const NoiseEstimate& estimate) {
   }
   if (uneven > kMuchUneven) {
     return format(
-        "at {:.0f} % of the codes some pixels stray more than others, as noise of a sensor does not: the "
-        "camera "
-        "or the scene moves, or a codec took the noise away",
+        "at {:.0f} % of the codes some pixels stray more than others, as noise of a sensor does not: the camera or the "
+        "scene moves, or a codec took the noise away",
         100 * uneven);
   }
   return {};

@@ -44,13 +44,13 @@ struct ClipTold {
                                           std::uint64_t max_samples, const MemoryBudget& memory,
                                           ClipTold& told);
 
-// Throws InputError where the clip does not stand still, or its brightness does not: where light strays by more than its noise lets it be known: a capture with that noise would hold
-// light that was not there. Returns a note where only some regions of the picture stray so.
+// Throws InputError where light strays by more than its noise explains: the clip moves, or its brightness drifts, and a
+// capture with that noise would hold light that was not there. Returns a note where only some regions stray.
 [[nodiscard]] std::optional<Note> check_stillness(const Stillness& stillness, const SourceRequest& request);
 
-// Why it is no noise of a sensor: so much of what pixels stray by is common to those that lie apart, or at so many codes
-// some stray more than others, that something moves, or a codec took the noise away. Holding codes within it would leave
-// rings round what moves. Empty where it may be one.
+// Why this is no sensor's noise; empty where it may be. Pixels that lie apart stray alike, or at many codes some stray
+// more than others: something moves, or a codec removed the noise. Codes held within it would leave rings round what
+// moves.
 [[nodiscard]] std::string reason_for_no_noise(const NoiseEstimate& estimate);
 
 // What a person should know of an estimate: that little was still, or that no sensor's curve fits; empty where

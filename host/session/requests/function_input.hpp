@@ -35,12 +35,11 @@ struct FunctionInput {
 // The same, or one that is made of layers (mask/layers.hpp), of which the tag `rest` gets what they leave.
 [[nodiscard]] Mask read_layered_mask_input(const std::string& name, std::uint8_t rest,
                                            const std::optional<std::string>& capture = {});
-// A mask, hard or layered, is known by that of its files.
+// The checksum that recipes know a mask by: that of its files.
 [[nodiscard]] std::string mask_checksum(const std::string& name);
 
-// A picture file, codes as they stand.
-
-// Throws UsageError where it is no picture, or many; InputError where it cannot be read.
+// A picture file, codes as they stand. Throws UsageError where it is no picture, or many; InputError where it cannot be
+// read.
 [[nodiscard]] Picture read_picture(const std::string& name);
 
 }  // namespace nutik

@@ -31,7 +31,7 @@ struct OutputRequest {
 // `source`, or what Transfer::parse() knows, but for functions that go beyond a screen's white. Throws UsageError.
 [[nodiscard]] std::variant<Transfer, SourceCodes> parse_out_transfer(std::string_view text);
 
-// How a file is to be written, of all that.
+// What the file's writer needs of it.
 [[nodiscard]] FileWishes file_wishes(const OutputRequest& request);
 
 // Throws UsageError where a quality was asked for and a file of this name has none.

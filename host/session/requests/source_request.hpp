@@ -51,8 +51,8 @@ struct AlignRequest {
 struct SourceRequest {
   std::filesystem::path path;  // a .tik, a video, a sequence of stills or a table of them
   ClipOptions clip;
-  std::optional<Rational>
-      shutter_angle;  // degrees; none: as listed in the files, else Timeline::kFullShutter
+  // Degrees; none: as listed in the files, else Timeline::kFullShutter.
+  std::optional<Rational> shutter_angle;
 
   std::optional<AlignRequest> align;
   bool deflickered = false;  // media/deflicker.hpp, of pictures that are aligned

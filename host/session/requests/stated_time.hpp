@@ -36,10 +36,9 @@ struct StatedTime {
   friend bool operator==(const StatedTime& a, const StatedTime& b);
 };
 
-// Begin and end of an interval on a timeline. From `37f` for `3f` means from the start of picture 37's exposure to the
-// end of picture 39's, so that `1f` is exactly what the camera exposed. `3f` after a start at 0.4s is three periods long.
-// Throws UsageError if the interval is not longer than nothing, or the timeline has no such picture. Both ends are rounded half up once, from their
-// own exact values: 1/300s for 1/300s ends at 2/300s.
+// An interval's ends, each rounded half up once from its exact value. `3f` from `37f`: from the start of picture 37's
+// exposure to the end of picture 39's; after a start in seconds, three periods. Throws UsageError if it is not longer
+// than nothing or a picture is not there.
 [[nodiscard]] Exposure plain_interval(const StatedTime& start, const StatedTime& length,
                                       const Timeline& timeline);
 // The same from a moment, which is no picture's: lengths in pictures are periods.

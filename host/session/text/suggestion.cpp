@@ -1,12 +1,11 @@
 #include "session/text/suggestion.hpp"
 
-#include "capture/format.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <numeric>
 #include <vector>
 
+#include "capture/format.hpp"
 
 namespace nutik {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "exposure/gain_function.hpp"
 #include "exposure/function_numbers.hpp"
+#include "exposure/gain_function.hpp"
 #include "exposure/normalization.hpp"
 #include "exposure/shutter_shape.hpp"
 #include "session/requests/stated_time.hpp"

@@ -68,6 +68,7 @@ Jobs::Work studying(Document& document, std::shared_ptr<Session> session, StudyS
           path = document.facts()->path](const Job& job) -> Jobs::Finish {
     StudyRequest request;
     request.style = style;
+    if (style != StudyStyle::slit) request.moments = usual_moments(style);  // few strips: each is edited by hand
     const std::string name = path.toStdString();
     const MemoryBudget& memory = session->devices().request().memory;
     auto study = std::make_shared<Study>(plan_study(session->capture(), name, request, memory, job.progress));
