@@ -20,7 +20,7 @@ script_packages=(python3 python3-numpy python3-opencv python3-matplotlib)
 # What only tests and benchmarks use. clang checks the kernels while building and, with libFuzzer, builds what tools/fuzz
 # runs; llvm names functions in what sanitizers report; oclgrind checks kernels while they run; Mesa has a second OpenCL
 # driver for the processor, which shows itself where RUSTICL_ENABLE=llvmpipe is set.
-test_packages=(clang libclang-rt-14-dev llvm oclgrind mesa-opencl-icd libgtest-dev libboost-dev zlib1g-dev netpbm time
+test_packages=(clang clang-tidy libclang-rt-14-dev llvm oclgrind mesa-opencl-icd libgtest-dev libboost-dev zlib1g-dev netpbm time
   ffmpeg python3-mpmath zsh fish groff)
 # Schedulers that the job files of tools/farm are run by.
 test_packages+=(slurmctld slurmd slurm-client munge parallel)

@@ -13,7 +13,7 @@
 namespace nutik {
 namespace {
 
-// Of the devices' and platforms' names, in small letters: what might have been meant.
+// What might have been meant, of the devices' and platforms' names in small letters.
 std::vector<std::string> words_of(const std::vector<DeviceInfo>& devices) {
   std::vector<std::string> words;
   for (const DeviceInfo& device : devices) {

@@ -19,7 +19,7 @@ struct ExposureFigures {
   std::uint64_t live_samples = 0;          // that some function exposes
   SampleRange read;                        // whole blocks
   std::uint64_t blocks_read = 0;
-  // Of the capture; none of a clip, whose blocks are made as it is read.
+  // The capture's; none for a clip, whose blocks are made as it is read.
   std::optional<std::uint64_t> block_count;
   std::uint64_t table_bytes = 0;  // of gains
   std::uint64_t map_bytes = 0;    // of functions by pixel

@@ -35,7 +35,8 @@ def open(path: Path, *, rate: Optional[Number] = None, shutter_angle: Optional[N
     Of a clip may be stated what its files do not say or say wrongly: rate in pictures a second ('30000/1001'),
     shutter_angle in degrees, transfer, white, primaries, pixel_aspect; raw, matrix, range, chroma_at of video. Part of it:
     begin and end, crop (x, y, width, height) or 'WxH+X+Y', scale '1/2'. align ('translation', 'rigid', 'homography')
-    moves pictures of a camera that moved onto the first one, or that at align_to; align_along, a path that is known (docs/how-to/align.md). Changes are kept beyond `tolerance`
+    moves pictures of a camera that moved onto the first one, or that at align_to; align_along, along a path that is known
+    (docs/how-to/align.md). Changes are kept beyond `tolerance`
     codes, or beyond `sigmas` of the camera's noise: 'auto', or a noise file. Of a recording of events: contrast, the step
     of log light that an event is (0.2, '0.3:0.17'); start_picture, light before the first, a picture or a number; tick, in
     which changes count together.
@@ -82,7 +83,8 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
     computing = _computing(device, memory, renderer)
     path = None if output is None else path_word(output)
     stated = dict(rate=rate, shutter_angle=shutter_angle, transfer=transfer, white=white, primaries=primaries,
-                  pixel_aspect=pixel_aspect, deflicker=deflicker, align=align, align_to=align_to, align_along=align_along, unseen=unseen,
+                  pixel_aspect=pixel_aspect, deflicker=deflicker, align=align, align_to=align_to, align_along=align_along,
+                  unseen=unseen,
                   tolerance=tolerance, noise=noise, sigmas=sigmas, tiles=tiles, block_samples=block_samples)
     of_files = set(inspect.signature(open).parameters) - {"path", "progress"} - set(_COMPUTING) - set(stated)
     for argument in clip:

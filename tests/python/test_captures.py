@@ -3,7 +3,9 @@
 import datetime
 import itertools
 import os
+import subprocess
 import unittest
+import warnings
 from decimal import Decimal
 from fractions import Fraction
 
@@ -104,6 +106,21 @@ class Arrays(support.TestCase):
         self.assert_raises(usage, "choose opencl or reference", encode, pictures, rate=1, renderer="gpu")
         self.assert_raises(nutik.DeviceError, "no such device",
                            lambda: encode(pictures, rate=1, device="no such device").render(exposure="1f"))
+
+    def test_pictures_moved_along_a_known_path(self):
+        scene = np.kron(np.random.default_rng(5).integers(40, 220, (20, 28)), np.ones((8, 8))).astype(np.uint8)
+        pictures = np.stack([scene[10 + k:138 + k, 20 - 2 * k:196 - 2 * k] for k in range(4)])
+        for k, picture in enumerate(pictures):
+            (self.folder / f"moved{k}.pgm").write_bytes(b"P5 176 128 255\n" + picture.tobytes())
+        path = self.path("path.csv")
+        subprocess.run([support.PROGRAM, "encode", "-q", "-f", "10", "--align", "translation", "--camera-path", path,
+                        self.path("moved*.pgm"), self.path("moved.tik")], check=True)
+        found = nutik.open(self.path("moved.tik")).render(exposure="4f")
+        with warnings.catch_warnings(record=True):
+            along = nutik.encode(pictures, rate=10, align_along=path).render(exposure="4f")
+        self.assert_same(along.array, found.array)
+        self.assert_raises(nutik.UsageError, "leave align= out", nutik.encode, pictures, rate=10, align_along=path,
+                           align="rigid")
 
     def test_files_that_are_none(self):
         (self.folder / "text.tik").write_text("nothing")

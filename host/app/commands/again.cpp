@@ -4,6 +4,7 @@
 
 #include "app/output/console.hpp"
 #include "app/requests/requests.hpp"
+#include "app/run.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/noise_file.hpp"
@@ -194,7 +195,7 @@ int run_again(const Options& options) {
   command += " " + operand(files.find(recipe->capture, "capture", capture_checksum));
   command += " -o " + operand(picture);
   print_line(command);
-  return files.is_complete() ? 0 : 3;
+  return files.is_complete() ? ExitStatus::ok : ExitStatus::input;
 }
 
 }  // namespace nutik::app

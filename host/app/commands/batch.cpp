@@ -11,6 +11,7 @@
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
+#include "app/run.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/schema/option.hpp"
@@ -266,8 +267,9 @@ int run_batch(const Options& options) {
                       made > 0 ? " on " + batch.renderer_name() : std::string()));
     print_notes(batch.tally().notes());
   }
-  constexpr int kSomeAreWrong = 1, kSomeWereNotWritten = 5;
-  return failed == 0 ? 0 : batch.failed_to_write() ? kSomeWereNotWritten : kSomeAreWrong;
+  return failed == 0               ? ExitStatus::ok
+         : batch.failed_to_write() ? ExitStatus::output
+                                   : ExitStatus::other;
 }
 
 }  // namespace nutik::app

@@ -7,6 +7,7 @@
 #include "app/commands/findings.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
+#include "app/run.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/picture.hpp"
@@ -255,7 +256,7 @@ int run_check(const Options& options) {
   if (check.capture()) answer.tell_source(check.capture()->facts, check.capture()->notes);
   if (!options.json) print_check(check, options.quiet);
   tell(options, {}, answer, true);
-  return count_of(check.findings(), Finding::Severity::error) > 0 ? 3 : 0;
+  return count_of(check.findings(), Finding::Severity::error) > 0 ? ExitStatus::input : ExitStatus::ok;
 }
 
 }  // namespace nutik::app

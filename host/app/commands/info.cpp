@@ -3,6 +3,7 @@
 
 #include "app/output/output_name.hpp"
 #include "app/output/report.hpp"
+#include "app/run.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/picture.hpp"
@@ -78,7 +79,7 @@ int run_info(const Options& options) {
 
   const CaptureFigures figures = figures_of(reader);
   for (const InputError& damage : figures.damage) print_warning(message_text(damage, Dialect::command_line));
-  const int status = figures.damage.empty() ? 0 : 3;  // as any command that meets damaged input
+  const int status = figures.damage.empty() ? ExitStatus::ok : ExitStatus::input;  // as any command that meets damaged input
   const auto& [still, rows, dense, records] = figures.tiles;
   const std::uint64_t raw_bytes = figures.raw_bytes;
   const auto share = [](std::uint64_t part, std::uint64_t whole) {

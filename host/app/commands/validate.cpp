@@ -5,6 +5,7 @@
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
+#include "app/run.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/schema/option.hpp"
@@ -203,7 +204,7 @@ int run_validate(const Options& options) {
   if (!validation.is_within_bounds()) {
     print_error("an arithmetic exceeds its bound: the device computes wrongly, or there is a fault here");
   }
-  return is_true && validation.is_within_bounds() ? 0 : 1;
+  return is_true && validation.is_within_bounds() ? ExitStatus::ok : ExitStatus::other;
 }
 
 }  // namespace nutik::app

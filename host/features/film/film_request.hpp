@@ -69,7 +69,7 @@ class CapturedCurve {
 };
 
 struct FramesRequest {
-  // Of every frame, from the frame's start on: its own start and length say nothing.
+  // Exposes every frame, from the frame's start on: its own start and length say nothing.
   ExposureRequest exposure;
   Rational rate{24, 1};    // frames a second of playback
   Rational speed{1, 1};    // seconds of the capture for each second of playback

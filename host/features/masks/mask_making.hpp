@@ -28,7 +28,7 @@ struct StepReport {
   std::uint8_t last_tag = 0;              // of a grid; else the same
   std::uint64_t pixel_count = 0;          // that it gave its tag
   std::optional<std::uint32_t> by_codes;  // more than which a code had to change
-  // Of a subject: along which share of its border the plate has an edge, not the picture (scene/clean_plate.hpp).
+  // The share of a subject's border along which the plate has an edge, not the picture (scene/clean_plate.hpp).
   std::optional<double> plate_edges = {};
   std::vector<std::uint8_t> covered_tags;  // its tags that later steps left on no pixel
 };

@@ -75,7 +75,7 @@ constexpr Option kRows[] = {
     known(Setting::white_code, {0, "white", "CODE", decoding, kDecodesClips,
      take_whole<InClip<&ClipOptions::white_code>, 1, 65'535>,
      "the code that stands for white: 255, 4095 for 12 bits, … (default: what the file says)"}),
-    // Of scope exposure: a capture has a transfer function too, and may be exposed with another.
+    // Its scope is exposure: a capture has a transfer function too, and may be exposed with another.
     known(Setting::transfer, {0, "transfer", "NAME", exposure, kDecodesClips | bit(Id::retime),
      take<InClip<&ClipOptions::transfer>>,
      "how codes stand for light: srgb, bt709, linear, gamma:G, hlg or pq (default: srgb; linear for stills "

@@ -36,7 +36,7 @@ struct StatedWish {
   LightRegion region;
   LightWish::Kind kind = LightWish::Kind::equal;
   double factor = 1.0;
-  // Of `gone` what the still scene is: a plate or a moment.
+  // What `gone` takes for the still scene: a plate or a moment.
   std::variant<double, Plate, Moment, LightRegion> target;
   double weight = 1.0;
 

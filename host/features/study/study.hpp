@@ -41,7 +41,7 @@ enum class TrailShape { even, fade, ramp, none };
 
 struct StudyRequest {
   StudyStyle style = StudyStyle::trail;
-  std::variant<std::uint32_t, std::vector<StatedTime>> moments = std::uint32_t{5};
+  std::variant<std::uint32_t, std::vector<StatedTime>> moments = std::uint32_t{5};  // else usual_moments(style)
   MomentSpacing spacing = MomentSpacing::time;
   std::optional<TrailShape> trail;  // none: what the style has
   SlitFrom slit_from = SlitFrom::left;

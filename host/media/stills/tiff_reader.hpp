@@ -39,7 +39,7 @@ struct TiffStory {
   std::string who;               // whose words these are
 };
 
-// Of pages of that shape.
+// What pages of that shape take.
 [[nodiscard]] TiffStory read_tiff_story(std::string_view description, const Shape& page);
 
 class TiffReader {
