@@ -31,7 +31,7 @@ void make_irregular(const Scratch& scratch, const std::string& output, const std
     times += (k == 0 ? "eq(N," : "+eq(N,") + std::to_string(k) + ")*" + std::to_string(kStarts[k]);
   }
   make(scratch, from_raw({32, 16, 1}, "gray") + "-vf \"settb=1/1000,setpts='" + times +
-                    "'\" -vsync vfr -enc_time_base 1:1000 " + codec + " " + output);
+                    "'\" -fps_mode vfr -enc_time_base 1:1000 " + codec + " " + output);
 }
 
 TEST(ClipTimes, TakesIrregularTimesFromTheContainer) {
@@ -122,7 +122,7 @@ void make_timed(const Scratch& scratch, const TimedClip& clip, int slots) {
   const std::string source =
       "-f lavfi -i testsrc=s=64x48:r=" + clip.rate.text() + " -frames:v " + std::to_string(slots);
   const std::string left_out =
-      clip.filter.empty() ? "" : " -vf \"select='not(" + clip.filter + ")'\" -vsync vfr";
+      clip.filter.empty() ? "" : " -vf \"select='not(" + clip.filter + ")'\" -fps_mode vfr";
   make(scratch, source + left_out + " " + clip.codec + " " + clip.name);
 }
 

@@ -67,8 +67,8 @@ TEST(VideoColour, IsWhatTheFileSaysAndBeforeThatWhatWasStated) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   test::make(scratch, test_picture("64x48") +
-                          "-vf setsar=32/27 -colorspace bt709 -color_range pc -color_primaries bt2020 "
-                          "-color_trc arib-std-b67 clip.mkv");
+                          "-vf setsar=32/27,setparams=color_trc=arib-std-b67 -colorspace bt709 -color_range pc "
+                          "-color_primaries bt2020 clip.mkv");
   const auto clip = test::open_test_clip(scratch / "clip.mkv");
   auto facts = facts_of(*clip);
   EXPECT_EQ(facts[Setting::matrix], from_file("matrix bt709"));
@@ -106,7 +106,7 @@ TEST(VideoColour, OfEightBitsIsBelievedButForTheCurveOfCameras) {
       {"linear", from_file("transfer linear")},
       {"bt709", assumed("transfer srgb")}};
   for (const auto& [named, taken] : told) {
-    test::make(scratch, test_picture("64x48") + "-color_trc " + named + " -y clip.mkv");
+    test::make(scratch, test_picture("64x48") + "-vf setparams=color_trc=" + named + " clip.mkv");
     EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "clip.mkv"))[Setting::transfer], taken) << named;
   }
 }
@@ -136,7 +136,7 @@ TEST(VideoColour, OfHighDynamicRangeIsTheLightOfTheStandard) {
   for (const bool is_hlg : {true, false}) {
     test::make(scratch,
                "-f rawvideo -s 64x64 -pix_fmt yuv444p10le -r 25 -i raw -c:v ffv1 -color_primaries bt2020 "
-               "-colorspace bt2020nc -color_range tv -color_trc " +
+               "-colorspace bt2020nc -color_range tv -vf setparams=color_trc=" +
                    std::string(is_hlg ? "arib-std-b67" : "smpte2084") + " clip.mkv");
     const auto clip = test::open_test_clip(scratch / "clip.mkv");
     const CaptureFormat& format = clip->info().format;
@@ -163,30 +163,6 @@ TEST(VideoColour, OfHighDynamicRangeIsTheLightOfTheStandard) {
   }
 }
 
-// Writes another display matrix into an MP4's track header: a, b, c, d of it, as whole numbers.
-void set_directions(const std::filesystem::path& path, const std::array<int, 4>& directions) {
-  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-  const std::size_t at =
-      bytes.find("tkhd") + 4 + 4 + 36;  // version and flags, then times, number, layer, volume
-  ASSERT_LT(at + 36, bytes.size());
-  std::string matrix(36, '\0');
-  const auto put = [&](std::size_t index, std::int32_t value) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      matrix[index * 4 + i] = static_cast<char>(static_cast<std::uint32_t>(value) >> (24 - 8 * i));
-    }
-  };
-  constexpr std::int32_t kOne = 1 << 16;
-  put(0, directions[0] * kOne);
-  put(1, directions[1] * kOne);
-  put(3, directions[2] * kOne);
-  put(4, directions[3] * kOne);
-  put(8, 1 << 30);
-  file.clear();
-  file.seekp(static_cast<std::streamoff>(at));
-  file << matrix;
-}
-
 // (x, y) of a stored pixel is shown at (a x + c y, b x + d y), moved to where all are positive. Pixels that are not
 // square lie down with the picture.
 TEST(VideoColour, StandsUprightInAllEightDirections) {
@@ -204,7 +180,7 @@ TEST(VideoColour, StandsUprightInAllEightDirections) {
                                       {1, 0, 0, -1},
                                       {0, 1, 1, 0},
                                       {0, -1, -1, 0}}) {
-    set_directions(scratch / "clip.mp4", d);
+    test::set_display_matrix(scratch / "clip.mp4", {1.0 * d[0], 1.0 * d[1], 1.0 * d[2], 1.0 * d[3]});
     const auto clip = test::open_test_clip(scratch / "clip.mp4");
     const bool lies = d[0] == 0;
     const CaptureFormat& format = clip->info().format;

@@ -24,6 +24,7 @@ extern "C" {
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,37 @@ using PacketPointer = std::unique_ptr<AVPacket, FreePacket>;
 using FramePointer = std::unique_ptr<AVFrame, FreeFrame>;
 using GraphPointer = std::unique_ptr<AVFilterGraph, FreeGraph>;
 using ScalerPointer = std::unique_ptr<SwsContext, FreeScaler>;
+
+// What FFmpeg 6.1 says in another way than those before it, whose way ends with 7 and 8.
+#ifdef AV_FRAME_FLAG_INTERLACED
+inline bool is_interlaced(const AVFrame& frame) { return (frame.flags & AV_FRAME_FLAG_INTERLACED) != 0; }
+inline bool is_top_field_first(const AVFrame& frame) { return (frame.flags & AV_FRAME_FLAG_TOP_FIELD_FIRST) != 0; }
+inline void set_interlaced(AVFrame& frame, bool is_top_first) {
+  frame.flags |= AV_FRAME_FLAG_INTERLACED;
+  frame.flags &= ~AV_FRAME_FLAG_TOP_FIELD_FIRST;
+  if (is_top_first) frame.flags |= AV_FRAME_FLAG_TOP_FIELD_FIRST;
+}
+inline std::int64_t duration_of(const AVFrame& frame) { return frame.duration; }
+inline std::span<const std::uint8_t> side_data(const AVStream& stream, AVPacketSideDataType type) {
+  const AVCodecParameters& codec = *stream.codecpar;
+  const AVPacketSideData* data =
+      av_packet_side_data_get(codec.coded_side_data, codec.nb_coded_side_data, type);
+  return data == nullptr ? std::span<const std::uint8_t>() : std::span(data->data, data->size);
+}
+#else
+inline bool is_interlaced(const AVFrame& frame) { return frame.interlaced_frame != 0; }
+inline bool is_top_field_first(const AVFrame& frame) { return frame.top_field_first != 0; }
+inline void set_interlaced(AVFrame& frame, bool is_top_first) {
+  frame.interlaced_frame = 1;
+  frame.top_field_first = is_top_first ? 1 : 0;
+}
+inline std::int64_t duration_of(const AVFrame& frame) { return frame.pkt_duration; }
+inline std::span<const std::uint8_t> side_data(const AVStream& stream, AVPacketSideDataType type) {
+  std::size_t bytes = 0;
+  const std::uint8_t* data = av_stream_get_side_data(&stream, type, &bytes);
+  return data == nullptr ? std::span<const std::uint8_t>() : std::span(data, bytes);
+}
+#endif
 
 inline std::string error_text(int code) {
   char text[AV_ERROR_MAX_STRING_SIZE] = {};
