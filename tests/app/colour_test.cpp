@@ -191,8 +191,8 @@ std::map<std::string, std::string> chunks_of(const std::string& png) {
 TEST_F(Colour, StandsInTheFile) {
   NEEDS_FFMPEG();
   test::make(scratch_,
-             "-f lavfi -i testsrc2=s=64x48:d=0.2:r=25 -vf setsar=32/27,setparams=color_trc=arib-std-b67 -c:v ffv1 "
-             "-pix_fmt yuv420p10le -colorspace bt2020nc -color_primaries bt2020 clip.mkv");
+             "-f lavfi -i testsrc2=s=64x48:d=0.2:r=25 -vf setsar=32/27 -c:v ffv1 -pix_fmt yuv420p10le "
+             "-colorspace bt2020nc -color_primaries bt2020 -color_trc arib-std-b67 clip.mkv");
   const auto coded = [&](const char* out) {
     succeed({"--start", "0s", "--exposure", "1f", "--out-transfer", out, "clip.mkv", "x.png"});
     return chunks_of(test::read_file(scratch_ / "x.png"));
@@ -235,7 +235,7 @@ TEST_F(Colour, StandsInTheFile) {
 TEST_F(Colour, ThatIsCutOffAtWhiteIsNotedWithWhatShowsIt) {
   NEEDS_FFMPEG();
   test::make(scratch_,
-             "-f lavfi -i color=white:s=64x48:d=0.2:r=10 -vf setparams=color_trc=smpte2084 -pix_fmt yuv420p10le "
+             "-f lavfi -i color=white:s=64x48:d=0.2:r=10 -pix_fmt yuv420p10le -color_trc smpte2084 "
              "-color_primaries bt2020 -colorspace bt2020nc -c:v ffv1 clip.mkv");
   const auto told = run("contact clip.mkv sheet.png");
   const std::string start = "come out white; nutik-cl ";

@@ -36,10 +36,11 @@ void make_irregular(const Scratch& scratch, const std::string& output, const std
 
 TEST(ClipTimes, TakesIrregularTimesFromTheContainer) {
   NEEDS_FFMPEG();
+  // Some ffmpegs leave the last packet without a duration: an MP4's edit list, if there was one, would end before it.
   for (const auto& [output, codec] :
        {std::pair<std::string, std::string>{"clip.mkv", "-c:v ffv1 -pix_fmt gray"},
-        {"clip.mp4", "-c:v libx264 -bf 2 -pix_fmt yuv420p10le -video_track_timescale 1000"},
-        {"eight.mp4", "-c:v libx264 -bf 2 -pix_fmt yuv420p -video_track_timescale 90000"}}) {
+        {"clip.mp4", "-c:v libx264 -bf 2 -pix_fmt yuv420p10le -video_track_timescale 1000 -use_editlist 0"},
+        {"eight.mp4", "-c:v libx264 -bf 2 -pix_fmt yuv420p -video_track_timescale 90000 -use_editlist 0"}}) {
     SCOPED_TRACE(output);
     const Scratch scratch;
     make_irregular(scratch, output, codec);

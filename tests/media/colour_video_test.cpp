@@ -156,7 +156,7 @@ TEST(ColourVideo, IsShownWithTheCurveOfSrgb) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   test::make(scratch,
-             "-f lavfi -i color=red:s=16x16:d=0.2 -vf setparams=color_trc=bt709 -c:v ffv1 -pix_fmt yuv420p clip.mkv");
+             "-f lavfi -i color=red:s=16x16:d=0.2 -c:v ffv1 -pix_fmt yuv420p -color_trc bt709 clip.mkv");
   EXPECT_EQ(test::open_test_clip(scratch / "clip.mkv")->info().format.transfer, Transfer::srgb());
 }
 

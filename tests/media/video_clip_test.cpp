@@ -234,8 +234,7 @@ TEST(VideoClip, SaysThatATransferFunctionIsNotKnown) {
   scratch.write("raw", bytes_of(test::random_stills({17, 27, 1}, 1023, 1, 4)));
   for (const auto& [name, known] : {std::pair<std::string, bool>{"bt709", true}, {"smpte428", false}}) {
     make(scratch,
-         from_raw(kGrey, "yuv444p10le") + "-c:v ffv1 -pix_fmt yuv444p10le -vf setparams=color_trc=" + name +
-                      " clip.mkv");
+         from_raw(kGrey, "yuv444p10le") + "-c:v ffv1 -pix_fmt yuv444p10le -color_trc " + name + " clip.mkv");
     const auto clip = open_test_clip(scratch / "clip.mkv");
     EXPECT_EQ(clip->info().format.transfer, known ? Transfer::bt709() : Transfer::srgb());
     ASSERT_EQ(clip->info().notes.size(), known ? 0u : 1u);

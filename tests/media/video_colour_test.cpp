@@ -37,7 +37,7 @@ TEST(VideoColour, OfFilesThatSayNothingDependsOnTheirLines) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   test::make(scratch, test_picture("64x720") + "high.mkv");
-  test::make(scratch, test_picture("64x718") + "low.mkv");
+  test::make(scratch, test_picture("64x718") + "-color_range unknown low.mkv");
   EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "high.mkv"))[Setting::matrix], assumed("matrix bt709"));
   EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "low.mkv"))[Setting::matrix], assumed("matrix bt601"));
   EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "low.mkv"))[Setting::range], assumed("limited range"));
@@ -67,8 +67,8 @@ TEST(VideoColour, IsWhatTheFileSaysAndBeforeThatWhatWasStated) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   test::make(scratch, test_picture("64x48") +
-                          "-vf setsar=32/27,setparams=color_trc=arib-std-b67 -colorspace bt709 -color_range pc "
-                          "-color_primaries bt2020 clip.mkv");
+                          "-vf setsar=32/27 -colorspace bt709 -color_range pc -color_primaries bt2020 "
+                          "-color_trc arib-std-b67 clip.mkv");
   const auto clip = test::open_test_clip(scratch / "clip.mkv");
   auto facts = facts_of(*clip);
   EXPECT_EQ(facts[Setting::matrix], from_file("matrix bt709"));
@@ -106,7 +106,7 @@ TEST(VideoColour, OfEightBitsIsBelievedButForTheCurveOfCameras) {
       {"linear", from_file("transfer linear")},
       {"bt709", assumed("transfer srgb")}};
   for (const auto& [named, taken] : told) {
-    test::make(scratch, test_picture("64x48") + "-vf setparams=color_trc=" + named + " clip.mkv");
+    test::make(scratch, test_picture("64x48") + "-color_trc " + named + " -y clip.mkv");
     EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "clip.mkv"))[Setting::transfer], taken) << named;
   }
 }
@@ -136,7 +136,7 @@ TEST(VideoColour, OfHighDynamicRangeIsTheLightOfTheStandard) {
   for (const bool is_hlg : {true, false}) {
     test::make(scratch,
                "-f rawvideo -s 64x64 -pix_fmt yuv444p10le -r 25 -i raw -c:v ffv1 -color_primaries bt2020 "
-               "-colorspace bt2020nc -color_range tv -vf setparams=color_trc=" +
+               "-colorspace bt2020nc -color_range tv -color_trc " +
                    std::string(is_hlg ? "arib-std-b67" : "smpte2084") + " clip.mkv");
     const auto clip = test::open_test_clip(scratch / "clip.mkv");
     const CaptureFormat& format = clip->info().format;
