@@ -53,36 +53,17 @@ inline std::string from_raw(Shape shape, const std::string& pixels) {
          " -r 25 -pix_fmt " + pixels + " -i raw ";
 }
 
-// Options that say what an output's colours are, as a filter behind all others: up to version 6 ffmpeg writes such options
-// into the file, 7 converts pictures to them or writes what their frames say.
-inline std::string with_marks(std::string words) {
-  static const bool marks_places =
-      test::run_shell("ffmpeg -v error -h filter=setparams", ".").out.find("chroma_location") != std::string::npos;
-  const std::regex option(" -(colorspace|color_primaries|color_trc|color_range" +
-                          std::string(marks_places ? "|chroma_sample_location" : "") + ") (\\S+)");
-  std::string marks;
-  for (std::smatch found; std::regex_search(words, found, option);) {
-    const std::string name = found[1] == "color_range"              ? "range"
-                             : found[1] == "chroma_sample_location" ? "chroma_location"
-                                                                    : found[1].str();
-    marks += (marks.empty() ? "setparams=" : ":") + name + "=" + found[2].str();
-    words = found.prefix().str() + found.suffix().str();
-  }
-  if (marks.empty()) return words;
-  // Behind the conversion of pixels, too.
-  const std::size_t outputs = words.rfind(" -i ") + 4;
-  const std::string output = words.substr(outputs);
-  std::smatch pixels, filters;
-  if (std::regex_search(output, pixels, std::regex(" -pix_fmt (\\S+)"))) marks = "format=" + pixels[1].str() + "," + marks;
-  if (std::regex_search(output, filters, std::regex(" -vf (\\S+)"))) {
-    return words.insert(outputs + static_cast<std::size_t>(filters.position(1) + filters.length(1)), "," + marks);
-  }
-  return words.insert(words.rfind(' '), " -vf " + marks);
-}
-
-// Runs ffmpeg in the scratch folder.
+// Runs ffmpeg in the scratch folder. What options say of colours is written into the output by copying it: while it
+// encodes, ffmpeg 7 converts pictures to what they say, and leaves out what the encoder does not know.
 inline void make(const Scratch& scratch, const std::string& words) {
-  const auto made = test::run_shell("ffmpeg -v error -y " + with_marks(words), scratch.folder());
+  static const std::regex mark(" -(colorspace|color_primaries|color_trc|color_range|chroma_sample_location) \\S+");
+  std::string marks, command = "ffmpeg -v error -y " + std::regex_replace(words, mark, "");
+  for (std::sregex_iterator found(words.begin(), words.end(), mark), end; found != end; ++found) marks += found->str();
+  if (!marks.empty()) {
+    const std::string output = words.substr(words.rfind(' ') + 1), plain = "unmarked-" + output;
+    command += " && mv " + output + " " + plain + " && ffmpeg -v error -y -i " + plain + " -c copy" + marks + " " + output;
+  }
+  const auto made = test::run_shell(command, scratch.folder());
   ASSERT_EQ(made.status, 0) << words << "\n" << made.err;
 }
 
