@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "align/flow.hpp"
 #include "align/warp.hpp"
 #include "capture/memory_needs.hpp"
 #include "capture/picture.hpp"
@@ -72,6 +73,7 @@ struct MotionModule {
 
   void (*use_shared_state)(SharedState& of_program);  // first
   decltype(&open_registrar) open;
+  decltype(&open_flow_finder) open_flow;
 };
 
 // Whether most of the texture follows it.

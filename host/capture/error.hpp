@@ -13,6 +13,7 @@ namespace nutik {
 // says what helps, its error holds the settings, and the application adds what it calls them (--fps, fps=).
 enum class Setting {
   automatic_noise,  // measured on the clip itself
+  between,
   block_samples,
   chroma_place,
   columns,

@@ -183,6 +183,10 @@ class Clip {
 // The files that it would read: a table before its stills, Photron's pictures before their header.
 [[nodiscard]] std::vector<std::filesystem::path> files_of_clip(const std::filesystem::path& path);
 
+// That a clip announces other pictures than could be decoded; nothing where it announces none, or as many.
+[[nodiscard]] std::optional<std::string> lost_pictures_text(const std::string& name, std::uint64_t announced,
+                                                            std::uint64_t decoded);
+
 // Opens a clip from its start, as often as it is asked.
 using OpenClip = std::function<std::unique_ptr<Clip>()>;
 

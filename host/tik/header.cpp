@@ -27,9 +27,9 @@ constexpr std::size_t kLongestHeader = 65'536;
 
 // Tags of fields. `rice` stands where blocks may be packed with that codec, which earlier programs do not know. Those that are not written yet have a name, so that nobody takes it for something else.
 constexpr std::string_view kPixelAspect = "aspc", kPrimaries = "prim", kFacts = "fact", kAligned = "algn",
-                           kMeans = "mean", kRice = "rice", kPart = "part";
-constexpr std::array<std::string_view, 7> kKnownFields{kPixelAspect, kPrimaries, kFacts, kAligned,
-                                                       kMeans,       kRice,      kPart};
+                           kMeans = "mean", kRice = "rice", kPart = "part", kMade = "made";
+constexpr std::array<std::string_view, 8> kKnownFields{kPixelAspect, kPrimaries, kFacts, kAligned,
+                                                       kMeans,       kRice,      kPart,       kMade};
 
 class HeaderParser {
  public:
@@ -263,6 +263,8 @@ void take_fields(std::span<const Field> fields, Header& header) {
       header.is_scaled = true;
     } else if (field.tag == kPart) {
       header.part = parse_part(field.data);
+    } else if (field.tag == kMade) {
+      header.made = MadeSamples::parse(field.data);
     } else if (field.tag == kFacts) {
       for (std::size_t at = 0; at < field.data.size();) {
         const std::size_t end = std::min(field.data.find('\n', at), field.data.size());
@@ -324,6 +326,7 @@ std::vector<Field> Header::fields() const {
   if (is_scaled) fields.push_back({std::string(kMeans), false, "scaled"});
   if (codec == kRice) fields.push_back({std::string(kRice), true, "1"});
   if (part) fields.push_back({std::string(kPart), false, text_of(*part)});
+  if (made) fields.push_back({std::string(kMade), false, made->kept_text()});
   return fields;
 }
 

@@ -31,6 +31,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/made_samples.hpp"
 #include "capture/part_of_clip.hpp"
 #include "capture/picture.hpp"
 #include "capture/timeline.hpp"
@@ -62,6 +63,7 @@ struct Header {
   std::optional<Alignment> alignment = std::nullopt;
   bool is_scaled = false;  // codes are means of the light of a clip's smaller pixels
   std::optional<PartOfClip> part = std::nullopt;  // where samples are not all of a clip's pictures
+  std::optional<MadeSamples> made = std::nullopt;  // where some were filmed and some made
 
   // The header as text, up to and including the line end before the raster.
   [[nodiscard]] std::string text() const;

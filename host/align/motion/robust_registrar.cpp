@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "align/motion/dense_flow.hpp"
 #include "align/motion/feature_start.hpp"
 #include "align/motion/grey_pyramid.hpp"
 #include "align/motion/normal_equations.hpp"
@@ -393,6 +394,6 @@ std::unique_ptr<Registrar> open_robust_registrar(const CaptureFormat& format, Ca
 }  // namespace nutik::motion
 
 extern "C" __attribute__((visibility("default"))) const nutik::MotionModule nutik_motion_module{
-    nutik::use_shared_state, nutik::motion::open_robust_registrar};
+    nutik::use_shared_state, nutik::motion::open_robust_registrar, nutik::motion::open_dense_flow};
 
 extern "C" __attribute__((visibility("default"))) const char nutik_module_version[] = NUTIK_VERSION;

@@ -15,6 +15,7 @@ About subject_of(const Fact& fact) {
     case Setting::from:
     case Setting::to:
     case Setting::crop:
+    case Setting::between:
     case Setting::deflicker:
     case Setting::scale: return About::part;
     case Setting::contrast:

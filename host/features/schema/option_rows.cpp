@@ -123,6 +123,11 @@ constexpr Option kRows[] = {
      "frames fields no"}),
     known(Setting::deflicker, {0, "deflicker", "", decoding, kReadsClips, take<InSource<&SourceRequest::deflickered>>,
      "expose all pictures as the first one: undo a camera's automatic exposure and white balance"}),
+    known(Setting::between, {0, "between", "HOW", encoding, kEncodesClips,
+     take_by<InSource<&SourceRequest::between>, parse_between>,
+     "make samples between two pictures, along the motion from one to the other: auto (as many as no step is longer than "
+     "about a pixel, none where nothing moves), or how many, 1 … 63; the clip is read twice (default: off)",
+     "auto off"}),
     known(Setting::end_at_damage, {0, "as-far-as-it-goes", "", decoding, kDecodesClips,
      take<InClip<&ClipOptions::ends_at_damage>>,
      "take a damaged clip's pictures up to the first that cannot be read, with a warning"}),

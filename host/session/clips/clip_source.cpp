@@ -141,6 +141,28 @@ void align(ClipSource& source, OpenClip& open, const MemoryBudget& memory, const
       alignment_text(path, shown_area(clip.name, path, request.unseen), request.unseen));
 }
 
+// From here on the source's clip has samples between its pictures.
+void fill(ClipSource& source, const OpenClip& open, const MemoryBudget& memory, const ReportedProgress& progress,
+          const std::stop_token& stop) {
+  BetweenRequest& request = *source.request.between;
+  if (source.clip->tells_changes()) {
+    throw UsageError(format("{} holds events, each with its own time: there is nothing to make between them", source.name()),
+                     {Setting::between});
+  }
+  CaptureFormat pictures = source.capture;
+  pictures.noise = {};
+  const ClipToFill clip{source.name(), pictures, source.announced_samples(), source.clip->info().decoder_bytes, open};
+  source.clip.reset();
+  if (!request.made) request.made.emplace(plan_between(clip, request.each, memory.bytes, progress, stop));
+  source.clip = open_between(clip, *request.made);
+  if ((*request.made)->count() > 0) {
+    source.made = request.made;
+  } else {
+    source.notes.emplace_back(
+        "no sample was made between two pictures: nothing that moves could be followed, or all steps are small");
+  }
+}
+
 }  // namespace
 
 CaptureFormat clip_format(const Clip& clip, const ClipOptions& options) {
@@ -157,9 +179,11 @@ CaptureFormat clip_format(const Clip& clip, const ClipOptions& options) {
 }
 
 Timeline ClipSource::timeline(std::uint64_t sample_count) const {
-  return request.shutter_angle
-             ? timeline_of(name(), clip->info(), request.clip, *request.shutter_angle, sample_count)
-             : timeline_of(name(), clip->info(), request.clip, sample_count);
+  const std::uint64_t filmed = made ? (*made)->after.size() : sample_count;
+  const Timeline timeline =
+      request.shutter_angle ? timeline_of(name(), clip->info(), request.clip, *request.shutter_angle, filmed)
+                            : timeline_of(name(), clip->info(), request.clip, filmed);
+  return made ? (*made)->times(timeline) : timeline;
 }
 
 std::vector<Fact> ClipSource::facts(const Timeline& timeline) const {
@@ -181,6 +205,7 @@ std::vector<Fact> ClipSource::facts(const Timeline& timeline) const {
   }
   std::vector<Fact> facts{std::move(rate), std::move(angle)};
   facts.insert(facts.end(), clip->info().facts.begin(), clip->info().facts.end());
+  if (made) facts.push_back({(*made)->text(), Origin::stated, Setting::between});
   return facts;
 }
 
@@ -188,7 +213,7 @@ std::vector<Note> ClipSource::all_notes(const Timeline& timeline) const {
   std::vector<Note> all = notes;
   const ClipTiming& timing = clip->info().timing;
   const bool is_written_down = !timing.exposures.empty() || (timing.exposed_ns && !request.shutter_angle);
-  if (!is_written_down) {
+  if (!is_written_down && !made) {
     if (auto note = gap_note(timeline)) all.push_back(std::move(*note));
   }
   const double rate = timeline.rate().value();
@@ -246,18 +271,29 @@ ClipSource open_clip_source(const SourceRequest& request, const OpenClip& open_w
     if (auto note = evened_note(source.clip->info().timing.starts_ns))
       source.notes.push_back(std::move(*note));
   }
-  if (request.align) align(source, open, memory, progress, stop);
+  // Each look for something reads the clip.
+  const bool is_twofold = progress && request.align && !request.align->path && request.between && !request.between->made;
+  const auto half = [&](bool is_second) -> ReportedProgress {
+    if (!is_twofold) return progress;
+    return [&progress, is_second](std::uint64_t done, std::uint64_t total) {
+      progress((is_second ? total : 0) + done, 2 * total);
+    };
+  };
+  if (request.align) align(source, open, memory, half(false), stop);
   if (request.deflickered) {
     source.clip = deflicker(std::move(source.clip));
     open = [bare = std::move(open)] { return deflicker(bare()); };
   }
   source.capture.noise = noise_model(source, open, memory);
+  if (request.between) fill(source, open, memory, half(true), stop);
   return source;
 }
 
 TwofoldProgress::TwofoldProgress(const SourceRequest& source, const ReportedProgress& progress)
     : reading(progress) {
-  if (!progress || !source.align || source.align->path) return;
+  const bool is_path_sought = source.align && !source.align->path;
+  const bool is_motion_sought = source.between && !source.between->made;
+  if (!progress || !(is_path_sought || is_motion_sought)) return;
   finding = [progress](std::uint64_t done, std::uint64_t total) { progress(done, 2 * total); };
   reading = [progress](std::uint64_t done, std::uint64_t total) { progress(total + done, 2 * total); };
 }
@@ -265,7 +301,7 @@ TwofoldProgress::TwofoldProgress(const SourceRequest& source, const ReportedProg
 Timeline known_timeline(const SourceRequest& request, const MemoryBudget& memory) {
   if (is_tik(request.path)) return tik::Reader(request.path).timeline();
   SourceRequest timed = request;
-  timed.align.reset();  // its times are those of the clip
+  if (!timed.between) timed.align.reset();  // its times are those of the clip
   const ClipSource source = open_clip_source(timed, memory);
   const std::uint64_t count = source.announced_samples();
   if (count == 0) {

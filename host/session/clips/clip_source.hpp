@@ -33,6 +33,7 @@ struct ClipSource {
   CaptureFormat capture;    // of its samples; what is held of them has held_format()
   std::vector<Note> notes;  // on the clip and its noise: what a person should know
   std::optional<Shared<CameraPath>> camera = std::nullopt;  // whose pictures are moved along it
+  std::optional<Shared<MadeSamples>> made = std::nullopt;   // between its pictures
 
   // Everything that was read, stated or assumed of the clip, its times included, each with its origin.
   [[nodiscard]] std::vector<Fact> facts(const Timeline& timeline) const;

@@ -75,12 +75,13 @@ Encoding::Encoding(ClipSource source, const EncodeRequest& request, const ClipMe
   tik::Header header;
   header.capture = held_format(source_.capture);
   const std::optional<Rational>& stated_rate = source_.request.clip.rate;
-  header.rate = stated_rate ? stated_rate : source_.clip->info().timing.rate;
+  if (!source_.made) header.rate = stated_rate ? stated_rate : source_.clip->info().timing.rate;
   header.shutter_angle = times_.shutter_angle();
   for (const Fact& fact : source_.facts(times_)) header.facts.push_back(fact.line());
   header.is_scaled = source_.request.clip.scale.has_value();
   header.part = source_.clip->info().part;
   if (source_.camera) header.alignment = kept_alignment(**source_.camera, source_.request.align->unseen);
+  if (source_.made) header.made = **source_.made;
   writer_.emplace(request.output, header, request.codec, to_held_codes(source_.capture, first_.front()),
                   memory.threads, request.lasting);
   for (std::size_t i = 0; i < kPayloads; ++i) spare_payloads_.push(PageBuffer());
@@ -111,15 +112,10 @@ EncodedCapture Encoding::run(const ReportedProgress& progress, const std::stop_t
           source_.camera};
 }
 
-// Pictures that a decoder leaves out shift all behind them to earlier times.
 std::vector<std::string> Encoding::warnings(std::uint64_t samples) const {
-  if (auto reason = source_.clip->ended_early()) return {std::move(*reason)};
-  const std::uint64_t announced = source_.announced_samples();
-  if (announced == 0 || announced == samples) return {};
-  return {
-      format("{} announces {} pictures and {} could be decoded: if some within are damaged, those "
-             "after them have the times of others",
-             source_.name(), announced, samples)};
+  auto reason = source_.clip->ended_early();
+  if (!reason) reason = lost_pictures_text(source_.name(), source_.announced_samples(), samples);
+  return reason ? std::vector{std::move(*reason)} : std::vector<std::string>();
 }
 
 std::uint64_t Encoding::build(const ReportedProgress& progress, const std::stop_token& stop) {

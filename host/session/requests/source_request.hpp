@@ -9,6 +9,7 @@
 #include <string_view>
 #include <variant>
 
+#include "align/between.hpp"
 #include "align/camera_path.hpp"
 #include "capture/noise_model.hpp"
 #include "capture/timeline.hpp"
@@ -56,6 +57,7 @@ struct SourceRequest {
 
   std::optional<AlignRequest> align;
   bool deflickered = false;  // media/deflicker.hpp, of pictures that are aligned
+  std::optional<BetweenRequest> between;  // of these
 
   // What counts as no change.
   std::uint32_t tolerance = 0;  // codes

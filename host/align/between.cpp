@@ -1,0 +1,172 @@
+#include "align/between.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+#include "align/pair_motion.hpp"
+#include "capture/format.hpp"
+#include "media/read_ahead.hpp"
+#include "system/interruption.hpp"
+#include "system/parallel.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr std::uint64_t kPairsAtOnce = 2;
+// How much moves is looked for at no more pixels than this, each the mean of a square.
+constexpr double kPlannedPixels = 600'000;
+
+std::uint32_t planned_side(const Shape& shape) {
+  return std::max(1U, static_cast<std::uint32_t>(std::ceil(std::sqrt(
+                          static_cast<double>(shape.pixel_count()) / kPlannedPixels))));
+}
+
+[[noreturn]] void refuse_above_white(const std::string& name, std::uint64_t picture, const CodeAboveWhite& error) {
+  throw InputError(format("{}: picture {} has the code {}, which is above white", name, picture, error.code),
+                   {Setting::white_code});
+}
+
+class FilledClip final : public Clip {
+ public:
+  FilledClip(const ClipToFill& clip, Shared<MadeSamples> made)
+      : name_(clip.name),
+        made_(std::move(made)),
+        between_(clip.format),
+        clip_(clip.open()),
+        info_(clip_->info()),
+        first_(clip.format.sample_bytes()),
+        second_(clip.format.sample_bytes()) {
+    info_.decoder_bytes += first_.size() + second_.size() + InBetween::bytes(clip.format);
+    info_.sample_count = made_->total();
+  }
+
+  [[nodiscard]] const ClipInfo& info() const override { return info_; }
+
+  bool read(std::span<std::byte> raster) override { return next(raster); }
+  bool skip(std::span<std::byte>) override { return next({}); }
+
+  [[nodiscard]] std::optional<std::string> ended_early() const override {
+    if (auto reason = clip_->ended_early()) return reason;
+    return lost_pictures_text(name_, clip_->info().sample_count, made_->after.size());
+  }
+  [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
+
+ private:
+  // The next sample, into `raster` unless that is empty.
+  bool next(std::span<std::byte> raster) {
+    const std::vector<std::uint8_t>& after = made_->after;
+    if (picture_ == after.size()) return false;
+    if (step_ == 0) {
+      if (picture_ > 0) {
+        std::swap(first_, second_);
+      } else if (!clip_->read(first_)) {
+        refuse_other_clip();
+      }
+      if (clip_->read(second_) != (picture_ + 1 < after.size())) refuse_other_clip();
+      is_pair_taken_ = false;
+      if (!raster.empty()) std::ranges::copy(first_, raster.begin());
+    } else if (!raster.empty()) {
+      make(after[picture_] + 1U, raster);
+    }
+    if (step_++ == after[picture_]) {
+      step_ = 0;
+      ++picture_;
+    }
+    return true;
+  }
+
+  void make(std::uint32_t steps, std::span<std::byte> raster) {
+    try {
+      if (!is_pair_taken_) between_.take(first_, second_);
+    } catch (const CodeAboveWhite& error) {
+      refuse_above_white(name_, picture_, error);
+    }
+    is_pair_taken_ = true;
+    between_.make(step_, steps, raster);
+  }
+
+  [[noreturn]] void refuse_other_clip() const {
+    throw InputError(format("{} does not have the {} pictures any more that samples were to be made between", name_,
+                            made_->after.size()));
+  }
+
+  std::string name_;
+  Shared<MadeSamples> made_;
+  InBetween between_;
+  std::unique_ptr<Clip> clip_;
+  ClipInfo info_;
+  std::vector<std::byte> first_, second_;  // filmed: the picture that was handed out last, and the one behind it
+  bool is_pair_taken_ = false;
+  std::uint64_t picture_ = 0;  // filmed, that the next sample is or follows
+  std::uint32_t step_ = 0;     // of those after it; 0: itself
+};
+
+}  // namespace
+
+std::optional<BetweenRequest> parse_between(std::string_view text) {
+  if (text == "off") return std::nullopt;
+  if (text == "auto") return BetweenRequest{};
+  std::uint32_t each = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), each);
+  if (error == std::errc() && end == text.data() + text.size() && each >= 1 && each <= MadeSamples::kMost)
+    return BetweenRequest{each, std::nullopt};
+  throw UsageError(format("between '{}' is not known; write auto, off, or how many samples are made between two "
+                          "pictures, 1 … {}",
+                          text, MadeSamples::kMost));
+}
+
+MadeSamples plan_between(const ClipToFill& clip, const std::optional<std::uint32_t>& each, std::uint64_t memory_bytes,
+                         const ReportedProgress& progress, const std::stop_token& stop) {
+  const EvenGrey grey(clip.format, planned_side(clip.format.shape));
+  const std::uint64_t sample_bytes = clip.format.sample_bytes();
+  MemoryNeeds needs{{"pictures within the decoder", clip.decoder_bytes},
+                    {"pictures decoded ahead", 2 * kPairsAtOnce * sample_bytes},
+                    {"motion between pictures", kPairsAtOnce * PairMotion::bytes(grey.width(), grey.height())}};
+  needs.rest_of(memory_bytes);
+  const std::unique_ptr<Clip> pictures = clip.open();
+  ReadAhead ahead(*pictures, 2 * kPairsAtOnce * sample_bytes);
+  MadeSamples made;
+  std::vector<PairMotion> motions;
+  for (std::uint64_t i = 0; i < kPairsAtOnce; ++i) motions.emplace_back(grey.width(), grey.height());
+  std::array<std::vector<std::uint8_t>, kPairsAtOnce + 1> greys;  // the first: of the picture before
+  const auto add = [&](const PairMotion& motion) {
+    const bool is_followed = motion.fastest() > 0 && !motion.is_cut();
+    const double pixels = motion.fastest() * planned_side(clip.format.shape);
+    made.after.back() = !is_followed ? 0 : static_cast<std::uint8_t>(each ? *each : PairMotion::steps_for(pixels) - 1);
+    if (made.after.back() == 0) return;
+    made.changed += motion.changed();
+    made.unfollowed += motion.unfollowed();
+  };
+  for (auto rasters = ahead.next(kPairsAtOnce); !rasters.empty(); rasters = ahead.next(kPairsAtOnce)) {
+    check_interruption();
+    if (stop.stop_requested()) throw Cancelled();
+    if (progress) progress(made.after.size(), clip.announced_samples);
+    parallel_for(rasters.size(), [&](std::uint64_t i) {
+      try {
+        grey.take(rasters[i], greys[i + 1], 1);
+      } catch (const CodeAboveWhite& error) {
+        refuse_above_white(clip.name, made.after.size() + i, error);
+      }
+    });
+    const std::size_t first = made.after.empty() ? 1 : 0;  // nothing is before the first picture
+    parallel_for(rasters.size() - std::min(first, rasters.size()), [&](std::uint64_t i) {
+      motions[i + first].find(greys[i + first].data(), greys[i + first + 1].data(), 1);
+    });
+    for (std::size_t i = 0; i < rasters.size(); ++i) {
+      if (!made.after.empty()) add(motions[i]);
+      made.after.push_back(0);
+    }
+    std::swap(greys[0], greys[rasters.size()]);
+  }
+  if (made.after.empty()) throw InputError(format("{} has no picture", clip.name));
+  return made;
+}
+
+std::unique_ptr<Clip> open_between(const ClipToFill& clip, const Shared<MadeSamples>& made) {
+  return std::make_unique<FilledClip>(clip, made);
+}
+
+}  // namespace nutik

@@ -1,0 +1,48 @@
+// Clips of few pictures a second as if there were more: between two pictures as many are made as the motion there needs,
+// along it (align/pair_motion.hpp).
+//
+//   in:      a clip, which is read twice: once for how much moves, once for its pictures
+//   out:     a clip of its own pictures, bit for bit, and those made between them; which are which
+//   always:  none is made where nothing can be followed, nor across a cut. What is made follows from the two pictures
+//            round it, whatever the number of threads
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+
+#include "align/alignment.hpp"
+#include "capture/made_samples.hpp"
+
+namespace nutik {
+
+struct BetweenRequest {
+  std::optional<std::uint32_t> each;          // so many between any two; none: as many as the motion there needs
+  std::optional<Shared<MadeSamples>> made;  // known already
+  friend bool operator==(const BetweenRequest&, const BetweenRequest&) = default;
+};
+
+// `auto`, `off`, or a number from 1 to MadeSamples::kMost. Throws UsageError.
+[[nodiscard]] std::optional<BetweenRequest> parse_between(std::string_view text);
+
+struct ClipToFill {
+  std::string name;
+  CaptureFormat format;  // of its samples, as they are or as they were stated
+  std::uint64_t announced_samples = 0;
+  std::uint64_t decoder_bytes = 0;
+  OpenClip open;
+};
+
+// Reads all of the clip; `progress` counts its pictures. Throws MemoryTooLittle, Cancelled, InputError where it cannot be
+// read or has no picture.
+[[nodiscard]] MadeSamples plan_between(const ClipToFill& clip, const std::optional<std::uint32_t>& each,
+                                       std::uint64_t memory_bytes, const ReportedProgress& progress,
+                                       const std::stop_token& stop);
+
+// read() throws InputError where the clip has not as many pictures as were planned for.
+[[nodiscard]] std::unique_ptr<Clip> open_between(const ClipToFill& clip, const Shared<MadeSamples>& made);
+
+}  // namespace nutik

@@ -1,0 +1,35 @@
+// Where each pixel of a picture goes in another (dense optical flow).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace nutik {
+
+struct FlowVector {
+  float x = 0, y = 0;  // pixels, right and down
+};
+
+struct GreyPlane {
+  const std::uint8_t* pixels = nullptr;
+  std::uint32_t width = 0, height = 0;
+  std::size_t stride = 0;  // bytes from row to row
+};
+
+class FlowFinder {
+ public:
+  // Planes with a shorter side have no flow.
+  static constexpr std::uint32_t kMinSide = 24;
+
+  virtual ~FlowFinder() = default;
+
+  // Of each pixel of `from`, row by row, into `flow`. Both planes are of one size. The same planes give the same flow. One
+  // thread may ask at a time.
+  virtual void find(const GreyPlane& from, const GreyPlane& to, std::span<FlowVector> flow) = 0;
+};
+
+// Throws InputError where nutik-motion.so is not found.
+[[nodiscard]] std::unique_ptr<FlowFinder> open_flow_finder();
+
+}  // namespace nutik

@@ -1,0 +1,42 @@
+// Dense inverse search (Kroeger, Timofte, Dai and Van Gool, "Fast Optical Flow using Dense Inverse Search"), refined by
+// variations, as OpenCV has it.
+#include "align/motion/dense_flow.hpp"
+
+#include <cmath>
+#include <opencv2/video/tracking.hpp>
+
+namespace nutik::motion {
+namespace {
+
+// Refinement ends at the level with no more pixels than this: 1080p at half its size, small pictures at their own.
+constexpr double kFinestPixels = 600'000;
+
+class DenseFlow final : public FlowFinder {
+ public:
+  // What a patch finds depends on which strip of the picture it is in, and each thread has one.
+  DenseFlow() : search_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)) { cv::setNumThreads(1); }
+
+  void find(const GreyPlane& from, const GreyPlane& to, std::span<FlowVector> flow) override {
+    const double pixels = static_cast<double>(from.width) * from.height;
+    search_->setFinestScale(static_cast<int>(std::max(0.0, std::ceil(std::log2(pixels / kFinestPixels) / 2))));
+    cv::Mat found(static_cast<int>(from.height), static_cast<int>(from.width), CV_32FC2, flow.data());
+    search_->calc(mat(from), mat(to), found);
+    if (found.ptr() != reinterpret_cast<const unsigned char*>(flow.data())) {
+      found.copyTo(cv::Mat(found.rows, found.cols, CV_32FC2, flow.data()));
+    }
+  }
+
+ private:
+  static cv::Mat mat(const GreyPlane& plane) {
+    return {static_cast<int>(plane.height), static_cast<int>(plane.width), CV_8U,
+            const_cast<std::uint8_t*>(plane.pixels), plane.stride};
+  }
+
+  cv::Ptr<cv::DISOpticalFlow> search_;
+};
+
+}  // namespace
+
+std::unique_ptr<FlowFinder> open_dense_flow() { return std::make_unique<DenseFlow>(); }
+
+}  // namespace nutik::motion

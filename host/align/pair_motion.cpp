@@ -1,0 +1,437 @@
+#include "align/pair_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "align/registrar.hpp"
+#include "capture/made_samples.hpp"
+#include "media/module.hpp"
+#include "system/parallel.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr std::uint32_t kBlock = 8;            // pixels a side
+constexpr std::uint32_t kMarginBlocks = 8;     // round what changed: a patch is followed with its surroundings
+constexpr float kNoise = 3.0F * 3.0F;          // of 255, squared: what differs less has not changed
+constexpr float kNotExplained = 0.3F, kExplained = 0.7F;  // share of what changed that motion explains
+constexpr float kBelieved = 0.5F;
+constexpr float kHardlyBelieved = 0.02F;
+constexpr double kSmooth = 1.42;  // pixels: steps that are this long or half of it look like none
+constexpr std::uint8_t kMixedSteps = 4;
+constexpr std::size_t kStrays = 3;  // blocks that may be faster than all others
+constexpr float kSmall = 1e-6F;
+
+float ramp(float value, float low, float high) {
+  const float share = std::clamp((value - low) / (high - low), 0.0F, 1.0F);
+  return share * share * (3 - 2 * share);
+}
+
+float length(const FlowVector& flow) { return std::hypot(flow.x, flow.y); }
+
+// The blocks round one, with 1-2-1 along both sides.
+template <typename Value>
+float smoothed(const Value& value_at, std::int64_t column, std::int64_t row, std::int64_t columns, std::int64_t rows) {
+  float sum = 0, weights = 0;
+  for (std::int64_t y = std::max<std::int64_t>(row - 1, 0); y <= std::min(row + 1, rows - 1); ++y) {
+    for (std::int64_t x = std::max<std::int64_t>(column - 1, 0); x <= std::min(column + 1, columns - 1); ++x) {
+      const float weight = (x == column ? 2.0F : 1.0F) * (y == row ? 2.0F : 1.0F);
+      sum += weight * value_at(x, y);
+      weights += weight;
+    }
+  }
+  return sum / weights;
+}
+
+}  // namespace
+
+std::unique_ptr<FlowFinder> open_flow_finder() { return module<MotionModule>().open_flow(); }
+
+PairMotion::PairMotion(std::uint32_t width, std::uint32_t height)
+    : width_(width),
+      height_(height),
+      columns_((width + kBlock - 1) / kBlock),
+      rows_((height + kBlock - 1) / kBlock),
+      differ_(std::size_t{columns_} * rows_),
+      ways_(differ_.size()) {
+  for (Direction* way : {&forwards_, &backwards_}) way->believed.resize(differ_.size());
+}
+
+std::uint64_t PairMotion::bytes(std::uint32_t width, std::uint32_t height) {
+  constexpr std::uint64_t kSearchBytes = 60;  // a pixel that flow is looked for at: its pyramids and variations
+  return 2 * (sizeof(FlowVector) + sizeof(Weight) + kSearchBytes) * std::uint64_t{width} * height;
+}
+
+std::uint32_t PairMotion::steps_for(double pixels) {
+  const double steps = std::ceil(std::min(pixels, double{MadeSamples::kMost}) / kSmooth);
+  return std::bit_ceil(std::max(static_cast<std::uint32_t>(steps), 1U));
+}
+
+bool PairMotion::is_cut() const {
+  constexpr double kMostOfPicture = 0.5, kMostOfChange = 0.6;
+  return static_cast<double>(changed_) > kMostOfPicture * static_cast<double>(differ_.size()) &&
+         static_cast<double>(unfollowed_) > kMostOfChange * static_cast<double>(changed_);
+}
+
+void PairMotion::compare(const std::uint8_t* first, const std::uint8_t* second) {
+  for (std::uint32_t row = 0; row < rows_; ++row) {
+    const std::uint32_t end = std::min((row + 1) * kBlock, height_);
+    std::vector<std::uint32_t> sums(columns_);
+    for (std::uint32_t y = row * kBlock; y < end; ++y) {
+      const std::uint8_t *a = first + std::size_t{y} * width_, *b = second + std::size_t{y} * width_;
+      for (std::uint32_t x = 0; x < width_; ++x) {
+        const int difference = a[x] - b[x];
+        sums[x / kBlock] += static_cast<std::uint32_t>(difference * difference);
+      }
+    }
+    for (std::uint32_t column = 0; column < columns_; ++column) {
+      const std::uint32_t pixels = (end - row * kBlock) * (std::min((column + 1) * kBlock, width_) - column * kBlock);
+      differ_[std::size_t{row} * columns_ + column] = static_cast<float>(sums[column]) / static_cast<float>(pixels);
+    }
+  }
+}
+
+// False where nothing changed, or pictures are too small to follow anything.
+bool PairMotion::choose_box() {
+  std::uint32_t left = columns_, right = 0, top = rows_, bottom = 0;
+  for (std::uint32_t row = 0; row < rows_; ++row) {
+    for (std::uint32_t column = 0; column < columns_; ++column) {
+      if (differ_[std::size_t{row} * columns_ + column] <= kNoise) continue;
+      left = std::min(left, column);
+      right = std::max(right, column + 1);
+      top = std::min(top, row);
+      bottom = std::max(bottom, row + 1);
+    }
+  }
+  if (left >= right || std::min(width_, height_) < FlowFinder::kMinSide) return false;
+  const auto with_margin = [](std::uint32_t first, std::uint32_t end, std::uint32_t count, std::uint32_t pixels) {
+    const std::uint32_t begin = first > kMarginBlocks ? first - kMarginBlocks : 0;
+    return std::pair(begin * kBlock, std::min(std::min(end + kMarginBlocks, count) * kBlock, pixels));
+  };
+  const auto [x, x_end] = with_margin(left, right, columns_, width_);
+  const auto [y, y_end] = with_margin(top, bottom, rows_, height_);
+  box_ = {x, y, x_end - x, y_end - y};
+  return true;
+}
+
+void PairMotion::find(const std::uint8_t* first, const std::uint8_t* second, std::uint32_t max_threads) {
+  changed_ = unfollowed_ = 0;
+  fastest_ = 0;
+  box_ = {0, 0, 0, 0};
+  compare(first, second);
+  const bool is_followed = choose_box();
+  for (std::size_t block = 0; block < differ_.size(); ++block) {
+    const bool differs = differ_[block] > kNoise;
+    ways_[block] = {differs ? kMixedSteps : std::uint8_t{1}, false};
+    changed_ += differs ? 1 : 0;
+  }
+  unfollowed_ = changed_;
+  if (!is_followed) return;
+  const std::size_t offset = std::size_t{box_.y} * width_ + box_.x;
+  const GreyPlane a{first + offset, box_.width, box_.height, width_}, b{second + offset, box_.width, box_.height, width_};
+  const std::size_t pixels = std::size_t{box_.width} * box_.height;
+  parallel_for(
+      2,
+      [&](std::uint64_t i) {
+        Direction& way = i == 0 ? forwards_ : backwards_;
+        if (!way.finder) way.finder = open_flow_finder();
+        way.flow.assign(pixels, FlowVector());
+        way.weights.resize(pixels);
+        way.finder->find(i == 0 ? a : b, i == 0 ? b : a, way.flow);
+      },
+      max_threads);
+  weigh(a.pixels, b.pixels, forwards_, backwards_, max_threads);
+  weigh(b.pixels, a.pixels, backwards_, forwards_, max_threads);
+  std::vector<float> ways;
+  for (std::size_t block = 0; block < differ_.size(); ++block) {
+    const auto column = static_cast<std::uint32_t>(block % columns_), row = static_cast<std::uint32_t>(block / columns_);
+    for (const Direction* way : {&forwards_, &backwards_}) {
+      if (way->believed[block] > kBelieved) ways.push_back(length(flow_of(*way, column, row)));
+    }
+    if (differ_[block] > kNoise && std::max(forwards_.believed[block], backwards_.believed[block]) >= kBelieved)
+      --unfollowed_;
+  }
+  if (ways.size() > kStrays) {
+    std::ranges::nth_element(ways, ways.end() - static_cast<std::ptrdiff_t>(kStrays) - 1);
+    fastest_ = ways[ways.size() - kStrays - 1];
+  }
+  mark(forwards_);
+  mark(backwards_);
+}
+
+FlowVector PairMotion::flow_of(const Direction& way, std::uint32_t column, std::uint32_t row) const {
+  const std::uint32_t x = std::min(column * kBlock + kBlock / 2, width_ - 1) - box_.x;
+  const std::uint32_t y = std::min(row * kBlock + kBlock / 2, height_ - 1) - box_.y;
+  return x < box_.width && y < box_.height ? way.flow[std::size_t{y} * box_.width + x] : FlowVector();
+}
+
+// How far both directions agree, and what following this one leaves of the difference. `from` and `to` point to the box.
+void PairMotion::weigh(const std::uint8_t* from, const std::uint8_t* to, Direction& way, const Direction& back,
+                       std::uint32_t max_threads) {
+  way.missed.assign(differ_.size(), 0);
+  const float right = static_cast<float>(box_.width - 1), bottom = static_cast<float>(box_.height - 1);
+  const std::uint32_t first_row = box_.y / kBlock, rows = (box_.height + kBlock - 1) / kBlock;
+  parallel_for(
+      rows,
+      [&](std::uint64_t strip) {
+        const auto begin = static_cast<std::uint32_t>(strip) * kBlock, end = std::min(begin + kBlock, box_.height);
+        float* const missed = way.missed.data() + (first_row + strip) * columns_ + box_.x / kBlock;
+        for (std::uint32_t y = begin; y < end; ++y) {
+          const std::size_t row = std::size_t{y} * box_.width;
+          for (std::uint32_t x = 0; x < box_.width; ++x) {
+            const FlowVector& flow = way.flow[row + x];
+            const float to_x = std::clamp(static_cast<float>(x) + flow.x, 0.0F, right);
+            const float to_y = std::clamp(static_cast<float>(y) + flow.y, 0.0F, bottom);
+            const auto left = static_cast<std::uint32_t>(to_x), top = static_cast<std::uint32_t>(to_y);
+            const float u = to_x - static_cast<float>(left), v = to_y - static_cast<float>(top);
+            const std::uint8_t* const above = to + std::size_t{top} * width_ + left;
+            const std::uint8_t* const below = above + (top + 1 < box_.height ? width_ : 0);
+            const std::size_t next = left + 1 < box_.width ? 1 : 0;
+            const float grey = (1 - v) * ((1 - u) * above[0] + u * above[next]) +
+                               v * ((1 - u) * below[0] + u * below[next]);
+            const float difference = grey - from[std::size_t{y} * width_ + x];
+            missed[x / kBlock] += difference * difference;
+            const FlowVector& returned = back.flow[std::size_t{top + (v >= 0.5F && top + 1 < box_.height ? 1 : 0)} *
+                                                       box_.width + left + (u >= 0.5F ? next : 0)];
+            way.weights[row + x].agrees = std::exp(-length({flow.x + returned.x, flow.y + returned.y}));
+          }
+        }
+        for (std::uint32_t column = 0; column * kBlock < box_.width; ++column) {
+          missed[column] /= static_cast<float>((end - begin) * (std::min((column + 1) * kBlock, box_.width) - column * kBlock));
+        }
+      },
+      max_threads);
+  believe(way, max_threads);
+}
+
+void PairMotion::believe(Direction& way, std::uint32_t max_threads) {
+  std::ranges::fill(way.believed, 0.0F);
+  const std::uint32_t first_column = box_.x / kBlock, first_row = box_.y / kBlock;
+  const std::uint32_t columns = (box_.width + kBlock - 1) / kBlock, rows = (box_.height + kBlock - 1) / kBlock;
+  const auto in_box = [&](const std::vector<float>& values) {
+    return [&, all = values.data()](std::int64_t x, std::int64_t y) {
+      return all[static_cast<std::size_t>(first_row + y) * columns_ + static_cast<std::size_t>(first_column + x)];
+    };
+  };
+  for (std::uint32_t row = 0; row < rows; ++row) {
+    for (std::uint32_t column = 0; column < columns; ++column) {
+      const float left = smoothed(in_box(way.missed), column, row, columns, rows);
+      const float differs = smoothed(in_box(differ_), column, row, columns, rows);
+      way.believed[std::size_t{first_row + row} * columns_ + first_column + column] =
+          ramp(1 - (left + kNoise) / (differs + kNoise), kNotExplained, kExplained);
+    }
+  }
+  // Between the middles of blocks in a straight line.
+  parallel_for(
+      box_.height,
+      [&](std::uint64_t y) {
+        const float at_y = (static_cast<float>(y) + 0.5F) / kBlock - 0.5F;
+        const auto above = static_cast<std::int64_t>(std::floor(at_y));
+        const float v = at_y - static_cast<float>(above);
+        const auto row = [&](std::int64_t r) {
+          return way.believed.data() +
+                 static_cast<std::size_t>(first_row + std::clamp<std::int64_t>(r, 0, rows - 1)) * columns_ + first_column;
+        };
+        const float *upper = row(above), *lower = row(above + 1);
+        Weight* const weights = way.weights.data() + y * box_.width;
+        for (std::uint32_t x = 0; x < box_.width; ++x) {
+          const float at_x = (static_cast<float>(x) + 0.5F) / kBlock - 0.5F;
+          const auto left = static_cast<std::int64_t>(std::floor(at_x));
+          const float u = at_x - static_cast<float>(left);
+          const auto l = static_cast<std::size_t>(std::max<std::int64_t>(left, 0));
+          const auto r = static_cast<std::size_t>(std::min<std::int64_t>(left + 1, columns - 1));
+          weights[x].believed = (1 - v) * ((1 - u) * upper[l] + u * upper[r]) + v * ((1 - u) * lower[l] + u * lower[r]);
+        }
+      },
+      max_threads);
+}
+
+// Blocks that something moves through.
+void PairMotion::mark(const Direction& way) {
+  const auto columns = static_cast<std::int64_t>(columns_), rows = static_cast<std::int64_t>(rows_);
+  for (std::int64_t row = 0; row < rows; ++row) {
+    for (std::int64_t column = 0; column < columns; ++column) {
+      if (way.believed[static_cast<std::size_t>(row * columns + column)] <= kHardlyBelieved) continue;
+      const FlowVector flow = flow_of(way, static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
+      const auto blocks = static_cast<std::int64_t>(length(flow) / kBlock) + 1;
+      const auto steps = static_cast<std::uint8_t>(steps_for(length(flow)));
+      for (std::int64_t block = 0; block <= blocks; ++block) {
+        const float share = static_cast<float>(block) / static_cast<float>(blocks) / kBlock;
+        const std::int64_t x = column + std::lround(flow.x * share), y = row + std::lround(flow.y * share);
+        for (std::int64_t j = std::max<std::int64_t>(y - 1, 0); j <= std::min(y + 1, rows - 1); ++j) {
+          for (std::int64_t i = std::max<std::int64_t>(x - 1, 0); i <= std::min(x + 1, columns - 1); ++i) {
+            const bool is_in_box = i * kBlock >= box_.x && i * kBlock < box_.x + box_.width &&
+                                   j * kBlock >= box_.y && j * kBlock < box_.y + box_.height;
+            Way& passed = ways_[static_cast<std::size_t>(j * columns + i)];
+            if (is_in_box) passed = {std::max(passed.is_moved ? passed.steps : std::uint8_t{1}, steps), true};
+          }
+        }
+      }
+    }
+  }
+}
+
+EvenGrey::EvenGrey(const CaptureFormat& format, std::uint32_t side)
+    : format_(format), side_(side), width_(format.shape.width / side), height_(format.shape.height / side) {
+  for (const double light : format.transfer.light_of_codes(format.white_code))
+    looks_.push_back(static_cast<float>(255 * Transfer::srgb().fraction_of(light)));
+}
+
+void EvenGrey::take(std::span<const std::byte> raster, std::vector<std::uint8_t>& grey, std::uint32_t max_threads) const {
+  grey.resize(std::size_t{width_} * height_);
+  const std::uint32_t channels = format_.shape.channels;
+  const auto look = [&]<typename Code>(const Code* codes) {
+    parallel_for(
+        height_,
+        [&](std::uint64_t y) {
+          const auto look_of = [&](const Code* pixel) {
+            const auto one = [&](std::uint32_t channel) {
+              if (pixel[channel] >= looks_.size()) throw CodeAboveWhite(pixel[channel]);
+              return looks_[pixel[channel]];
+            };
+            if (channels == 1) return one(0);
+            return static_cast<float>(kLuma[0]) * one(0) + static_cast<float>(kLuma[1]) * one(1) +
+                   static_cast<float>(kLuma[2]) * one(2);
+          };
+          const float share = 1.0F / static_cast<float>(side_ * side_);
+          for (std::uint32_t x = 0; x < width_; ++x) {
+            float sum = 0;
+            for (std::uint32_t j = 0; j < side_; ++j) {
+              const Code* pixel = codes + ((y * side_ + j) * format_.shape.width + std::size_t{x} * side_) * channels;
+              for (std::uint32_t i = 0; i < side_; ++i, pixel += channels) sum += look_of(pixel);
+            }
+            grey[y * width_ + x] = static_cast<std::uint8_t>(sum * share + 0.5F);
+          }
+        },
+        max_threads);
+  };
+  format_.code_bytes == 1 ? look(reinterpret_cast<const std::uint8_t*>(raster.data()))
+                          : look(reinterpret_cast<const std::uint16_t*>(raster.data()));
+}
+
+InBetween::InBetween(const CaptureFormat& format)
+    : format_(format),
+      grey_(format, 1),
+      tables_(format.transfer, format.white_code),
+      motion_(format.shape.width, format.shape.height) {
+  for (const double light : format.transfer.light_of_codes(format.white_code))
+    light_.push_back(static_cast<float>(light));
+}
+
+std::uint64_t InBetween::bytes(const CaptureFormat& format) {
+  return PairMotion::bytes(format.shape.width, format.shape.height) +
+         2 * (sizeof(Light) + 1) * format.shape.pixel_count();
+}
+
+void InBetween::take(std::span<const std::byte> first, std::span<const std::byte> second) {
+  first_ = first;
+  second_ = second;
+  grey_.take(first, first_grey_, ~0U);
+  grey_.take(second, second_grey_, ~0U);
+  motion_.find(first_grey_.data(), second_grey_.data(), ~0U);
+  made_.assign(first.begin(), first.end());
+  shares_.assign(motion_.ways_.size(), 0);
+  const auto read = [&]<typename Code>(const Code*) {
+    read_light(reinterpret_cast<const Code*>(first.data()), first_light_);
+    read_light(reinterpret_cast<const Code*>(second.data()), second_light_);
+  };
+  format_.code_bytes == 1 ? read(static_cast<const std::uint8_t*>(nullptr))
+                          : read(static_cast<const std::uint16_t*>(nullptr));
+}
+
+template <typename Code>
+void InBetween::read_light(const Code* codes, std::vector<Light>& lights) const {
+  const Rectangle& box = motion_.box_;
+  const std::uint32_t channels = format_.shape.channels;
+  lights.resize(std::size_t{box.width} * box.height);
+  parallel_for(box.height, [&](std::uint64_t y) {
+    const Code* pixel = codes + ((box.y + y) * format_.shape.width + box.x) * channels;
+    Light* const to = lights.data() + y * box.width;
+    for (std::uint32_t x = 0; x < box.width; ++x, pixel += channels) {
+      to[x] = channels == 1 ? Light{light_[pixel[0]]} : Light{light_[pixel[0]], light_[pixel[1]], light_[pixel[2]]};
+    }
+  });
+}
+
+InBetween::Light InBetween::at(const std::vector<Light>& lights, const Rectangle& box, float x, float y) {
+  const auto left = static_cast<std::uint32_t>(x), top = static_cast<std::uint32_t>(y);
+  const float u = x - static_cast<float>(left), v = y - static_cast<float>(top);
+  const Light* const above = lights.data() + std::size_t{top} * box.width + left;
+  const Light* const below = above + (top + 1 < box.height ? box.width : 0);
+  const std::size_t next = left + 1 < box.width ? 1 : 0;
+  return (1 - v) * ((1 - u) * above[0] + u * above[next]) + v * ((1 - u) * below[0] + u * below[next]);
+}
+
+// The flow at that time is put together of both pictures' at the same place (Jiang et al., "Super SloMo").
+InBetween::Light InBetween::moved(std::uint32_t x, std::uint32_t y, float share) const {
+  const Rectangle& box = motion_.box_;
+  const std::size_t i = std::size_t{y} * box.width + x;
+  const FlowVector &there = motion_.forwards_.flow[i], &back = motion_.backwards_.flow[i];
+  const float rest = 1 - share, right = static_cast<float>(box.width - 1), bottom = static_cast<float>(box.height - 1);
+  const auto place = [&](float of_there, float of_back) {
+    return FlowVector{std::clamp(static_cast<float>(x) + of_there * there.x + of_back * back.x, 0.0F, right),
+                      std::clamp(static_cast<float>(y) + of_there * there.y + of_back * back.y, 0.0F, bottom)};
+  };
+  const FlowVector a = place(-rest * share, share * share), b = place(rest * rest, -share * rest);
+  const auto weight = [&](const PairMotion::Direction& way, const FlowVector& at) {
+    return way.weights[static_cast<std::size_t>(at.y + 0.5F) * box.width + static_cast<std::size_t>(at.x + 0.5F)];
+  };
+  const PairMotion::Weight of_a = weight(motion_.forwards_, a), of_b = weight(motion_.backwards_, b);
+  const Light line = rest * first_light_[i] + share * second_light_[i];
+  const float believed = std::max(of_a.believed, of_b.believed);
+  if (believed <= 0) return line;
+  const float count_a = rest * of_a.agrees + kSmall, count_b = share * of_b.agrees + kSmall;
+  const Light along = (count_a * at(first_light_, box, a.x, a.y) + count_b * at(second_light_, box, b.x, b.y)) /
+                      (count_a + count_b);
+  return believed * along + (1 - believed) * line;
+}
+
+template <typename Code>
+void InBetween::make_block(std::uint32_t column, std::uint32_t row, float share, Code* raster) const {
+  const std::uint32_t width = format_.shape.width, channels = format_.shape.channels;
+  const std::uint32_t x = column * kBlock, count = std::min(kBlock, width - x), values = count * channels;
+  const bool is_moved = motion_.ways_[std::size_t{row} * motion_.columns_ + column].is_moved;
+  std::array<float, std::size_t{kBlock} * 3> lights;
+  std::array<std::uint32_t, lights.size()> codes;
+  for (std::uint32_t y = row * kBlock; y < std::min((row + 1) * kBlock, format_.shape.height); ++y) {
+    const std::size_t begin = (std::size_t{y} * width + x) * channels;
+    const auto *first = reinterpret_cast<const Code*>(first_.data()) + begin,
+               *second = reinterpret_cast<const Code*>(second_.data()) + begin;
+    if (share == 0 || share == 1) {
+      std::memcpy(raster + begin, share == 0 ? first : second, values * sizeof(Code));
+      continue;
+    }
+    if (is_moved) {
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const Light light = moved(x + i - motion_.box_.x, y - motion_.box_.y, share);
+        for (std::uint32_t channel = 0; channel < channels; ++channel) lights[i * channels + channel] = light[channel];
+      }
+    } else {
+      for (std::uint32_t i = 0; i < values; ++i) lights[i] = (1 - share) * light_[first[i]] + share * light_[second[i]];
+    }
+    tables_.codes_of({lights.data(), values}, codes.data());
+    for (std::uint32_t i = 0; i < values; ++i) raster[begin + i] = static_cast<Code>(codes[i]);
+  }
+}
+
+void InBetween::make(std::uint32_t step, std::uint32_t steps, std::span<std::byte> raster) {
+  parallel_for(motion_.rows_, [&](std::uint64_t row) {
+    for (std::uint32_t column = 0; column < motion_.columns_; ++column) {
+      const std::size_t block = row * motion_.columns_ + column;
+      // The nearest of its own steps.
+      const std::uint32_t own = std::min<std::uint32_t>(motion_.ways_[block].steps, steps);
+      const float share = static_cast<float>((2 * step * own + steps) / (2 * steps)) / static_cast<float>(own);
+      if (share == shares_[block]) continue;
+      shares_[block] = share;
+      format_.code_bytes == 1
+          ? make_block(column, static_cast<std::uint32_t>(row), share, reinterpret_cast<std::uint8_t*>(made_.data()))
+          : make_block(column, static_cast<std::uint32_t>(row), share, reinterpret_cast<std::uint16_t*>(made_.data()));
+    }
+  });
+  std::ranges::copy(made_, raster.begin());
+}
+
+}  // namespace nutik
