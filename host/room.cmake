@@ -58,6 +58,7 @@ function(nutik_room name)
   list(TRANSFORM ROOM_USES PREPEND nutik::)
   target_link_libraries(nutik_${name} PUBLIC ${ROOM_USES} ${ROOM_LINKS}
                                       PRIVATE ${ROOM_PRIVATE_LINKS} $<BUILD_INTERFACE:nutik_warnings>)
+  set_property(GLOBAL APPEND PROPERTY NUTIK_ROOMS ${name})
   install(TARGETS nutik_${name} EXPORT nutik-targets COMPONENT development)
   if(NOT ROOM_HEADERS)
     install(DIRECTORY ./ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nutik/${name} COMPONENT development

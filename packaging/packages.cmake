@@ -75,10 +75,15 @@ if(TARGET nutik_python)
     TEXT "The package nutik makes captures from clips and NumPy arrays, and exposes\npictures as arrays."
     DEPENDS "python3 (>= ${python}), python3 (<< ${Python_VERSION_MAJOR}.${next_python}), python3-numpy, pocl-opencl-icd | opencl-icd")
 endif()
+# What was compiled by one GCC is linked by it or a newer one.
+string(REGEX MATCH "^[0-9]+" gcc "${CMAKE_CXX_COMPILER_VERSION}")
+if(NOT NUTIK_HAS_STD_FORMAT)
+  set(fmt "libfmt-dev, ")
+endif()
 nutik_package(development NAME libnutik-dev SECTION libdevel
   SUMMARY "static libraries and headers of nutik"
   TEXT "For programs in C++20 that make and expose captures: find_package(nutik) of\nCMake, target nutik::features. The libraries are static, and such a program\nneeds nutik-modules of the same version."
-  DEPENDS "nutik-modules ${same}, g++ (>= 4:12), libjpeg-dev, liblcms2-dev, liblz4-dev, libpng-dev, libtiff-dev, libxxhash-dev, libzstd-dev, libcairo2-dev, libfmt-dev, ocl-icd-opencl-dev, opencl-clhpp-headers, pkg-config"
+  DEPENDS "nutik-modules ${same}, g++ (>= 4:${gcc}), libjpeg-dev, liblcms2-dev, liblz4-dev, libpng-dev, libtiff-dev, libxxhash-dev, libzstd-dev, libcairo2-dev, ${fmt}ocl-icd-opencl-dev, opencl-clhpp-headers, pkg-config"
   RECOMMENDS "cmake (>= 3.25)")
 
 include(CPack)

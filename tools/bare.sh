@@ -1,7 +1,7 @@
-# Sourced by tools/test-bare and tools/packages: a Debian 12 of its own, in a folder, which has nothing but its base
-# system. Needs root, debootstrap and a Debian mirror.
+# Sourced by tools/test-bare and tools/packages: a Debian of its own, in a folder, which has nothing but its base system.
+# Needs root, debootstrap and a Debian mirror.
 #
-#   find_bare [--root FOLDER]   sets $bare and makes it where there is none; a folder that nobody named goes at the end
+#   find_bare SUITE [FOLDER]    sets $bare and makes it where there is none; a folder that nobody named goes at the end
 #   in_bare COMMAND …           runs a command in it, as root, in an environment of its own
 
 mirror=${DEBIAN_MIRROR:-http://deb.debian.org/debian}
@@ -15,15 +15,16 @@ find_bare() {
   [ "$(id -u)" -eq 0 ] || say_missing "only root can make a system of its own"
   command -v debootstrap >/dev/null || say_missing "debootstrap is missing (apt install debootstrap)"
   unshare --mount true 2>/dev/null || say_missing "this machine lets nobody mount /proc elsewhere"
-  if [ "${1:-}" = --root ]; then
+  local suite=$1
+  if [ -n "${2:-}" ]; then
     bare=$2
   else
     bare=$(mktemp -d /var/tmp/nutik-bare-XXXXXX)
     trap 'rm -rf --one-file-system "$bare"' EXIT
   fi
   if [ ! -x "$bare/bin/bash" ]; then
-    debootstrap --variant=minbase --include=ca-certificates,git bookworm "$bare" "$mirror" ||
-      say_missing "no Debian 12 could be fetched from $mirror; set DEBIAN_MIRROR"
+    debootstrap --variant=minbase --include=ca-certificates,git "$suite" "$bare" "$mirror" ||
+      say_missing "no Debian $suite could be fetched from $mirror; set DEBIAN_MIRROR"
   fi
   cp /etc/resolv.conf "$bare/etc/resolv.conf"
 }

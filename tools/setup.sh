@@ -1,6 +1,6 @@
 # Sourced by tools/demo and tools/test: installs what is missing, configures and builds.
 #
-#   set_up demo|test      packages from apt (Debian 12; as root, else through sudo)
+#   set_up demo|test      packages from apt (of Debian 12 or 13; as root, else through sudo)
 #   build_program PRESET [CMAKE OPTIONS]
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -12,7 +12,7 @@ program_packages=(
   libopencv-dev libavfilter-dev libavformat-dev libavcodec-dev libavutil-dev libswscale-dev
   libexif-dev libpng-dev libjpeg-dev libtiff-dev libopenexr-dev libraw-dev liblcms2-dev
   libzstd-dev liblz4-dev libxxhash-dev libcairo2-dev fonts-dejavu-core
-  libeigen3-dev libfmt-dev nlohmann-json3-dev
+  libeigen3-dev nlohmann-json3-dev
   qt6-base-dev
 )
 # The scene generator and the plotter.
@@ -20,7 +20,7 @@ script_packages=(python3 python3-numpy python3-opencv python3-matplotlib)
 # What only tests and benchmarks use. clang checks the kernels while building and, with libFuzzer, builds what tools/fuzz
 # runs; llvm names functions in what sanitizers report; oclgrind checks kernels while they run; Mesa has a second OpenCL
 # driver for the processor, which shows itself where RUSTICL_ENABLE=llvmpipe is set.
-test_packages=(clang clang-tidy libclang-rt-14-dev llvm oclgrind mesa-opencl-icd libgtest-dev libboost-dev zlib1g-dev netpbm time
+test_packages=(clang clang-tidy libclang-rt-dev llvm mesa-opencl-icd libgtest-dev libboost-dev zlib1g-dev netpbm time
   ffmpeg python3-mpmath zsh fish groff)
 # Schedulers that the job files of tools/farm are run by.
 test_packages+=(slurmctld slurmd slurm-client munge parallel)
@@ -31,6 +31,12 @@ test_packages+=(pybind11-dev python3-dev python3-pip python3-setuptools python3-
 test_packages+=(xvfb xauth)
 # What packages are made and looked at with.
 test_packages+=(dpkg-dev lintian desktop-file-utils appstream shared-mime-info)
+
+# Debian 12 has no <format> yet, 13 no oclgrind any more.
+if [ "$(. /etc/os-release && echo "${VERSION_CODENAME:-}")" = bookworm ]; then
+  program_packages+=(libfmt-dev)
+  test_packages+=(oclgrind)
+fi
 
 # Debian's own Python, which the packages above belong to, even where another one comes first in PATH.
 python=/usr/bin/python3
@@ -46,7 +52,7 @@ set_up() {
   local packages=("${program_packages[@]}" "${script_packages[@]}")
   [ "$1" = test ] && packages+=("${test_packages[@]}")
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
-    echo "This system has no apt (tested: Debian 12). Install what these packages hold, then go on with" >&2
+    echo "This system has no apt (tested: Debian 12 and 13). Install what these packages hold, then go on with" >&2
     echo "  cmake --preset release && cmake --build --preset release" >&2
     printf '  %s\n' "${packages[@]}" >&2
     exit 1

@@ -349,6 +349,13 @@ TracedExposure Session::Implementation::trace(const ExposureRequest& request, st
   check_reading(mask_needs(format_));
   StoppableSource blocks(*reader_, std::move(stop));
   std::vector<Trace> traces = follow(planned, blocks);
+  if (const auto& made = reader_->header().made) {
+    const std::vector<bool> marks = made->marks();
+    for (Trace& trace : traces) {
+      for (TraceStep& step : trace.steps)
+        step.is_made = marks[timeline().samples_reaching(step.begin_ns, step.begin_ns + 1).first];
+    }
+  }
   std::vector<std::string> warnings = std::move(planned.warnings);
   keep_traced(planned, traces);
   return {std::move(traces), ExposureFigures::of(std::move(planned), timeline(), reader_->block_count()),

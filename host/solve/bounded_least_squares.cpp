@@ -61,7 +61,8 @@ class ActiveSet {
         if (!is_held_[i]) free.push_back(static_cast<Column>(i));
       }
       if (free.empty()) return;
-      const Eigen::MatrixXd columns = a_(Eigen::all, free);
+      Eigen::MatrixXd columns(a_.rows(), static_cast<Column>(free.size()));
+      for (std::size_t i = 0; i < free.size(); ++i) columns.col(static_cast<Column>(i)) = a_.col(free[i]);
       Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
       decomposition.setThreshold(kMinPivot);
       decomposition.compute(columns);

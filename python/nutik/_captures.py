@@ -32,6 +32,7 @@ class Trace:
     light: Array        # [N, 2, C] at both
     integral_ns: Array  # [N, C] of light times gain over the step
     sum_ns: Array       # [N, C] of all integrals up to the step's end
+    made: Array         # [N] bool: whether the sample it begins with was made between two filmed ones
     exposed: Array      # [C] the exposure's light
     support_ns: int          # D, by which the sum is divided
 

@@ -139,7 +139,7 @@ def fit(gain: Callable[[Any], Any], start: Time, end: Time, *, error: float = 1e
         if values.shape != times.shape:
             raise UsageError(f"the function returns shape {values.shape} for {times.shape}: one gain for each time")
         if not np.all(np.isfinite(values)):
-            raise UsageError(f"the function is not finite at {seconds[~np.isfinite(values)][0]!r} s")
+            raise UsageError(f"the function is not finite at {float(seconds[~np.isfinite(values)][0])} s")
         return values
 
     count = min(_MIN_SAMPLES, end_ns - begin_ns)

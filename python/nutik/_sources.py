@@ -24,7 +24,7 @@ def open(path: Path, *, rate: Optional[Number] = None, shutter_angle: Optional[N
          end: Optional[Time] = None, crop: Union[str, Sequence[int], None] = None, scale: Optional[str] = None,
          deinterlace: Optional[str] = None, as_far_as_it_goes: bool = False, align: Optional[str] = None,
          align_to: Optional[Time] = None, align_along: Optional[Path] = None, unseen: Optional[str] = None,
-         deflicker: bool = False,
+         deflicker: bool = False, between: Union[int, str, None] = None,
          tolerance: Optional[int] = None, noise: Optional[Path] = None, sigmas: Optional[float] = None,
          contrast: Union[str, Number, None] = None, start_picture: Union[Path, Number, None] = None,
          tick: Optional[Time] = None,
@@ -37,7 +37,8 @@ def open(path: Path, *, rate: Optional[Number] = None, shutter_angle: Optional[N
     shutter_angle in degrees, transfer, white, primaries, pixel_aspect; raw, matrix, range, chroma_at of video. Part of it:
     begin and end, crop (x, y, width, height) or 'WxH+X+Y', scale '1/2'. align ('translation', 'rigid', 'homography')
     moves pictures of a camera that moved onto the first one, or that at align_to; align_along, along a path that is known
-    (docs/how-to/align.md). Changes are kept beyond `tolerance`
+    (docs/how-to/align.md). between='auto' makes samples between pictures along the motion, as many as it needs, and a
+    number so many (docs/how-to/slow-clips.md). Changes are kept beyond `tolerance`
     codes, or beyond `sigmas` of the camera's noise: 'auto', or a noise file. Of a recording of events: contrast, the step
     of log light that an event is (0.2, '0.3:0.17'); start_picture, light before the first, a picture or a number; tick, in
     which changes count together.
@@ -60,6 +61,7 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
            times: Optional[Iterable[Time]] = None, exposures: Union[Time, Iterable[Time], None] = None,
            shutter_angle: Optional[Number] = None, transfer: Optional[str] = None, white: Optional[int] = None,
            primaries: Optional[str] = None, pixel_aspect: Union[str, Number, None] = None, deflicker: bool = False,
+           between: Union[int, str, None] = None,
            align: Optional[str] = None, align_to: Optional[Time] = None, align_along: Optional[Path] = None,
            unseen: Optional[str] = None,
            tolerance: Optional[int] = None, noise: Optional[Path] = None, sigmas: Optional[float] = None,
@@ -85,7 +87,7 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
     computing = _computing(device, memory, renderer)
     path = None if output is None else path_word(output)
     stated = dict(rate=rate, shutter_angle=shutter_angle, transfer=transfer, white=white, primaries=primaries,
-                  pixel_aspect=pixel_aspect, deflicker=deflicker, align=align, align_to=align_to, align_along=align_along,
+                  pixel_aspect=pixel_aspect, deflicker=deflicker, between=between, align=align, align_to=align_to, align_along=align_along,
                   unseen=unseen,
                   tolerance=tolerance, noise=noise, sigmas=sigmas, tiles=tiles, block_samples=block_samples)
     of_files = set(inspect.signature(open).parameters) - {"path", "progress"} - set(_COMPUTING) - set(stated)

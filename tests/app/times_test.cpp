@@ -12,7 +12,7 @@ class Times : public test::AppTest {
   // Two seconds at 30 pictures a second without those of these numbers.
   void make_uneven(const std::string& left_out, const std::string& words) const {
     test::make(scratch_, "-f lavfi -i testsrc2=s=32x32:d=2:r=30 -vf \"select='not(" + left_out +
-                             ")'\" -vsync vfr -c:v mpeg4 -movflags use_metadata_tags " + words + " clip.mp4");
+                             ")'\" -fps_mode vfr -c:v mpeg4 -movflags use_metadata_tags " + words + " clip.mp4");
   }
 
   // What is said on standard error of a clip that is encoded.

@@ -21,6 +21,7 @@ class SeveralDevices : public testing::Test {
     if (devices.status != 0 || json::parse(devices.out)["devices"].size() < 2) {
       GTEST_SKIP() << "PoCL is not installed, or has one device whatever POCL_DEVICES says";
     }
+    name_ = json::parse(devices.out)["devices"][0]["name"];
     write_clip();
     ASSERT_EQ(run({"-q", "encode", "-f", "100", "--codec", "zstd", "frames", "clip.tik"}).status, 0);
     ASSERT_EQ(run({"-q", "encode", "-f", "100", "--codec", "none", "frames", "plain.tik"}).status, 0);
@@ -73,6 +74,7 @@ class SeveralDevices : public testing::Test {
   void expect_end_where_one_is_lost(const Words& words) const;
 
   test::Scratch scratch_;
+  std::string name_;  // of each: drivers of several ages name one processor in several ways
 };
 
 TEST_F(SeveralDevices, WriteTheFilesOfOne) {
@@ -135,11 +137,11 @@ TEST_F(SeveralDevices, AreRefusedWithTheWayOut) {
   const auto with = [](const std::string& device) {
     return Words{"expose", "--device", device, "--start", "0s", "--exposure", "50ms", "clip.tik", "new.png"};
   };
-  expect_refused(with("0,0"), 4, "'0,0' names device 0 twice (pthread-");
-  expect_refused(with("1,pthread"), 4, "more than one OpenCL device's name contains 'pthread'");
-  expect_refused(with("0,2"), 4, "there is no OpenCL device 2; these were found:\n  0  pthread-");
+  expect_refused(with("0,0"), 4, "'0,0' names device 0 twice (" + name_);
+  expect_refused(with("1," + name_), 4, "more than one OpenCL device's name contains '" + name_ + "'");
+  expect_refused(with("0,2"), 4, "there is no OpenCL device 2; these were found:\n  0  " + name_);
   expect_refused(with("0,nosuch"), 4,
-                 "no OpenCL device's name contains 'nosuch'; these were found:\n  0  pthread-");
+                 "no OpenCL device's name contains 'nosuch'; these were found:\n  0  " + name_);
   expect_refused(with("0,"), 4, "'0,' names no device before or after a comma");
   expect_refused({"validate", "--device", "0,1", "--start", "0s", "--exposure", "50ms", "clip.tik"}, 2,
                  "each is validated alone; name one of them: --device 0");
@@ -197,9 +199,10 @@ void SeveralDevices::expect_end_where_one_is_lost(const Words& words) const {
       settings.push_back("NUTIK_FAIL_AT=" + std::to_string(at));
       const ProgramResult result = run(words, settings);
       EXPECT_EQ(result.status, 4) << result.err;
-      EXPECT_TRUE(
-          std::regex_search(result.err, std::regex("nutik-cl: device [01]: pthread-.*another device")))
+      EXPECT_TRUE(result.err.find("nutik-cl: device 0: " + name_) != std::string::npos ||
+                  result.err.find("nutik-cl: device 1: " + name_) != std::string::npos)
           << result.err;
+      EXPECT_NE(result.err.find("another device"), std::string::npos) << result.err;
       EXPECT_FALSE(std::filesystem::exists(scratch_ / output));
     }
   }

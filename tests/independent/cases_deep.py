@@ -176,7 +176,7 @@ def variable_rate(checks):
                           ("vfr.mov", ["-c:v", "ffv1", "-pix_fmt", "gray12le"])):
         # A camera that leaves pictures out where nothing moves.
         subprocess.run(["ffmpeg", "-v", "error", "-y", "-i", "even.mkv", "-vf",
-                        "select='not(mod(n,7))+between(n,11,15)+eq(n,40)'", "-vsync", "vfr", *codec,
+                        "select='not(mod(n,7))+between(n,11,15)+eq(n,40)'", "-fps_mode", "vfr", *codec,
                         output], cwd=folder, check=True)
         decoded, seconds = sources.pipe(folder / output, "gray12le", 1)
         kept = [k for k in range(60) if k % 7 == 0 or 11 <= k <= 15 or k == 40]

@@ -115,7 +115,7 @@ def irregular_times(checks, samples):
     pictures.write_lossless(folder / "even.mkv", samples)
     times = "+".join(f"eq(N,{k})*{start}" for k, start in enumerate(starts))
     subprocess.run(["ffmpeg", "-v", "error", "-y", "-i", "even.mkv",
-                    "-vf", f"settb=1/1000,setpts='{times}'", "-vsync", "vfr",
+                    "-vf", f"settb=1/1000,setpts='{times}'", "-fps_mode", "vfr",
                     "-enc_time_base", "1:1000",  # else times are rounded to the file's 25 a second
                     "-c:v", "ffv1", "-pix_fmt", "bgr0", "irregular.mkv"], cwd=folder, check=True)
     text = "M0 [0:0], [50000000:1], [300000000:-0.5], [800000000:2], [940000000:0]\n"

@@ -92,7 +92,7 @@ class YuvVideo:
         self._matrix = MATRIX_NAMES.get(stream.get("color_space"), usual)
         self._is_full = stream["pix_fmt"] == "yuvj420p" or stream.get("color_range") == "pc"
         self._decoder = subprocess.Popen(
-            ["ffmpeg", "-v", "error", "-i", path, "-vsync", "passthrough", "-f", "rawvideo", "-pix_fmt",
+            ["ffmpeg", "-v", "error", "-i", path, "-fps_mode", "passthrough", "-f", "rawvideo", "-pix_fmt",
              stream["pix_fmt"], "-"], stdout=subprocess.PIPE)
 
     @staticmethod

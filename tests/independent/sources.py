@@ -122,7 +122,7 @@ def pipe(path, pixels, channels, *options):
     seconds = [(time - times[0]) * Fraction(stream["time_base"]) for time in times]
     # passthrough: else pictures are repeated and dropped until they have one rate.
     decoded = subprocess.run(
-        ["ffmpeg", "-v", "error", "-i", str(path), "-vsync", "passthrough", *options,
+        ["ffmpeg", "-v", "error", "-i", str(path), "-fps_mode", "passthrough", *options,
          "-f", "rawvideo", "-pix_fmt", pixels, "-"], capture_output=True, check=True)
     samples = np.frombuffer(decoded.stdout, "<u2")
     return samples.reshape(-1, stream["height"], stream["width"], channels), seconds

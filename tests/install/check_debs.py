@@ -28,7 +28,8 @@ HOLDS = {
     "nutik-plotters": ("bin/FnPlotter.py", "bin/NoisePlotter.py", "share/nutik/fnplot/.*.py", "share/nutik/noiseplot/.*.py"),
     "python3-nutik": ("lib/python3.*/nutik/_nutik.*.so", "lib/python3.*/nutik/__init__.py", "lib/python3.*/nutik/py.typed",
                       "lib/python3.*/nutik/nutik-videos.so", "lib/python3.*/nutik-.*.dist-info/METADATA"),
-    "libnutik-dev": ("include/nutik/session.hpp", "lib/.*libnutik_session.a", "lib/.*cmake/nutik/nutik-config.cmake"),
+    "libnutik-dev": ("include/nutik/session.hpp", "lib/.*libnutik_session.a", "lib/.*cmake/nutik/nutik-config.cmake",
+                     "lib/.*pkgconfig/nutik.pc"),
 }
 DRIVER = r"pocl-opencl-icd \| opencl-icd"
 NEEDS = {
@@ -37,7 +38,7 @@ NEEDS = {
     "nutik-studio": (r"nutik-modules \(= [\d.]+\)", DRIVER, "libqt6widgets6"),
     "nutik-plotters": (r"nutik-cl \(>= [\d.]+\)", "python3:any", "python3-matplotlib"),
     "python3-nutik": (r"python3 \(>= 3", r"python3 \(<< 3", "python3-numpy", DRIVER, "libavcodec"),
-    "libnutik-dev": (r"nutik-modules \(= [\d.]+\)", "ocl-icd-opencl-dev", "opencl-clhpp-headers", "libfmt-dev"),
+    "libnutik-dev": (r"nutik-modules \(= [\d.]+\)", "ocl-icd-opencl-dev", "opencl-clhpp-headers"),
 }
 
 
@@ -162,6 +163,8 @@ def main():
     subprocess.run(["cpack", "-G", "DEB", "--config", arguments.build / "CPackConfig.cmake", "-B", work / "debs",
                     "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=gzip"], check=True, stdout=subprocess.DEVNULL)
     debs = sorted((work / "debs").glob("*.deb"))
+    if "NUTIK_HAS_STD_FORMAT:INTERNAL=1" not in (arguments.build / "CMakeCache.txt").read_text():
+        NEEDS["libnutik-dev"] += ("libfmt-dev",)
     mistakes, owners, tree = [], {}, work / "tree"
     names = {check_package(deb, owners, mistakes) for deb in debs}
     built = set(HOLDS) - ({"nutik-studio"} if not (arguments.build / "nutik-studio").exists() else set())

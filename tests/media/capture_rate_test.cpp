@@ -83,7 +83,7 @@ TEST(CaptureRate, ThatIsNoneIsSaid) {
 // A clip whose pictures of these numbers, of two seconds, were left out.
 void make_phone_clip_without(const Scratch& scratch, const std::string& pictures, const std::string& words) {
   test::make(scratch, "-f lavfi -i testsrc2=s=32x32:d=2:r=30 -vf \"select='not(" + pictures +
-                          ")'\" -vsync vfr -movflags use_metadata_tags "
+                          ")'\" -fps_mode vfr -movflags use_metadata_tags "
                           "-metadata com.android.capture.fps=240 -c:v mpeg4 " +
                           words);
 }
@@ -130,7 +130,7 @@ TEST(CaptureRate, IsNotMistakenForSingleTimes) {
   const Scratch scratch;
   const auto clip_of = [&](const std::string& times) {
     test::make(scratch, "-f lavfi -i testsrc2=s=32x32:d=2:r=30 -vf \"settb=1/60000,setpts='" + times +
-                            "'\" -vsync vfr -enc_time_base 1:60000 -movflags use_metadata_tags "
+                            "'\" -fps_mode vfr -enc_time_base 1:60000 -movflags use_metadata_tags "
                             "-metadata com.android.capture.fps=240 -video_track_timescale 60000 "
                             "-c:v mpeg4 -y clip.mp4");
     return test::open_test_clip(scratch / "clip.mp4");
@@ -149,7 +149,7 @@ TEST(CaptureRate, IsOnlyNamedWhereTimesFollowNoRate) {
   const Scratch scratch;
   test::make(
       scratch,
-      "-f lavfi -i testsrc2=s=32x32:d=1:r=30 -vf \"settb=1/1000,setpts='33*N+14*mod(N*N,7)'\" -vsync vfr "
+      "-f lavfi -i testsrc2=s=32x32:d=1:r=30 -vf \"settb=1/1000,setpts='33*N+14*mod(N*N,7)'\" -fps_mode vfr "
       "-enc_time_base 1:1000 -movflags use_metadata_tags -metadata com.android.capture.fps=240 "
       "-video_track_timescale 1000 -c:v mpeg4 clip.mp4");
   const auto clip = test::open_test_clip(scratch / "clip.mp4");

@@ -248,9 +248,10 @@ TEST(VideoClip, StandsUprightAsPlayersShowIt) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   scratch.write("raw", bytes_of(test::random_stills({16, 8, 1}, 4095, 2, 4)));
-  make(scratch, from_raw({16, 8, 1}, "gray12le") + "-c:v ffv1 -pix_fmt gray12le flat.mov");
+  make(scratch, from_raw({16, 8, 1}, "gray12le") + "-c:v ffv1 -pix_fmt gray12le clip.mov");
   for (const int angle : {0, 90, 180, 270}) {
-    make(scratch, "-i flat.mov -c copy -metadata:s:v rotate=" + std::to_string(angle) + " clip.mov");
+    const double across = angle == 90 ? 1 : angle == 270 ? -1 : 0, along = angle == 0 ? 1 : angle == 180 ? -1 : 0;
+    test::set_display_matrix(scratch / "clip.mov", {along, across, -across, along});
     make(scratch, "-i clip.mov -f rawvideo -pix_fmt gray12le shown");  // ffmpeg turns it, too
     const auto clip = open_test_clip(scratch / "clip.mov");
     const bool swapped = angle % 180 != 0;
@@ -267,19 +268,9 @@ TEST(VideoClip, SaysWhereItsPicturesAreTurnedByNoQuarter) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   make(scratch, "-f lavfi -i testsrc2=s=16x8:r=25 -frames:v 2 -c:v ffv1 flat.mov");
-  const std::string flat = test::read_file(scratch / "flat.mov");
-  const std::size_t matrix =
-      flat.find("tkhd") + 44;  // of 9 numbers, big-endian, of which 16 bits are a fraction
-  ASSERT_LT(matrix, flat.size());
   const auto open_with = [&](const std::array<double, 4>& turn) {
-    std::string bytes = flat;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const auto fixed = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(turn[i] * 65536)));
-      const std::size_t at = matrix + std::array<std::size_t, 4>{0, 4, 12, 16}[i];
-      for (std::size_t byte = 0; byte < 4; ++byte)
-        bytes[at + byte] = static_cast<char>(fixed >> (24 - 8 * byte));
-    }
-    return open_test_clip(scratch.write("clip.mov", bytes));
+    test::set_display_matrix(scratch / "flat.mov", turn);
+    return open_test_clip(scratch / "flat.mov");
   };
   const auto turned = [](double degrees) {
     const double angle = degrees * 3.14159265358979 / 180;

@@ -37,7 +37,7 @@ TEST(VideoColour, OfFilesThatSayNothingDependsOnTheirLines) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   test::make(scratch, test_picture("64x720") + "high.mkv");
-  test::make(scratch, test_picture("64x718") + "low.mkv");
+  test::make(scratch, test_picture("64x718") + "-color_range unknown low.mkv");
   EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "high.mkv"))[Setting::matrix], assumed("matrix bt709"));
   EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "low.mkv"))[Setting::matrix], assumed("matrix bt601"));
   EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "low.mkv"))[Setting::range], assumed("limited range"));
@@ -163,30 +163,6 @@ TEST(VideoColour, OfHighDynamicRangeIsTheLightOfTheStandard) {
   }
 }
 
-// Writes another display matrix into an MP4's track header: a, b, c, d of it, as whole numbers.
-void set_directions(const std::filesystem::path& path, const std::array<int, 4>& directions) {
-  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-  const std::size_t at =
-      bytes.find("tkhd") + 4 + 4 + 36;  // version and flags, then times, number, layer, volume
-  ASSERT_LT(at + 36, bytes.size());
-  std::string matrix(36, '\0');
-  const auto put = [&](std::size_t index, std::int32_t value) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      matrix[index * 4 + i] = static_cast<char>(static_cast<std::uint32_t>(value) >> (24 - 8 * i));
-    }
-  };
-  constexpr std::int32_t kOne = 1 << 16;
-  put(0, directions[0] * kOne);
-  put(1, directions[1] * kOne);
-  put(3, directions[2] * kOne);
-  put(4, directions[3] * kOne);
-  put(8, 1 << 30);
-  file.clear();
-  file.seekp(static_cast<std::streamoff>(at));
-  file << matrix;
-}
-
 // (x, y) of a stored pixel is shown at (a x + c y, b x + d y), moved to where all are positive. Pixels that are not
 // square lie down with the picture.
 TEST(VideoColour, StandsUprightInAllEightDirections) {
@@ -204,7 +180,7 @@ TEST(VideoColour, StandsUprightInAllEightDirections) {
                                       {1, 0, 0, -1},
                                       {0, 1, 1, 0},
                                       {0, -1, -1, 0}}) {
-    set_directions(scratch / "clip.mp4", d);
+    test::set_display_matrix(scratch / "clip.mp4", {1.0 * d[0], 1.0 * d[1], 1.0 * d[2], 1.0 * d[3]});
     const auto clip = test::open_test_clip(scratch / "clip.mp4");
     const bool lies = d[0] == 0;
     const CaptureFormat& format = clip->info().format;

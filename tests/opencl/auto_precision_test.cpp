@@ -77,7 +77,7 @@ TEST(AutoPrecision, DependsOnTheFormat) {
   const RenderPlan plan =
       make_plan(capture, {{0, GainFunction::boxcar(0, 1'000'000'000)}}, Mask::uniform(24, 16, 0), {});
   const auto chosen = [&](const OutputFormat& output) {
-    return choose_precision(plan, output, precisions_of(list_devices().front())).precision();
+    return choose_precision(plan, output, test::first_precisions()).precision();
   };
   EXPECT_EQ(chosen({ValueType::code8, 255}), Precision::single_);
   EXPECT_NE(chosen({ValueType::code16, 65'535}), Precision::single_);

@@ -77,7 +77,7 @@ TEST(Delays, OfOneLengthAreAMovedFunctionToTheLastBit) {
     ReferenceRenderer reference;
     EXPECT_EQ(reference.render(delayed, capture, kLight).picture.bytes,
               reference.render(moved, capture, kLight).picture.bytes);
-    for (const Precision precision : precisions_of(list_devices().front())) {
+    for (const Precision precision : test::first_precisions()) {
       OpenClRenderer renderer(test::renderer_options(precision));
       EXPECT_EQ(renderer.render(delayed, capture, kLight).picture.bytes,
                 renderer.render(moved, capture, kLight).picture.bytes)
@@ -110,7 +110,7 @@ TEST(Delays, Of256StepsAreARecipeOf256Strips) {
       make_plan(capture, {{0, GainFunction::boxcar(0, 40'000'000)}}, Mask::uniform(40, 256, 0),
                 delayed_by(DelayMap::by_picture(steps, {0, start_ns(255)}, "steps")));
   EXPECT_TRUE(map.warnings.empty());
-  for (const Precision precision : precisions_of(list_devices().front())) {
+  for (const Precision precision : test::first_precisions()) {
     OpenClRenderer renderer(test::renderer_options(precision));
     for (const OutputFormat& output : {kLight, OutputFormat{ValueType::code8, 255}}) {
       EXPECT_EQ(renderer.render(map, capture, output).picture.bytes,
@@ -142,7 +142,7 @@ TEST(Delays, AreTestedByTheRenderersOwnTest) {
   MemoryCapture capture = scene.capture();
   const RenderPlan plan = make_plan(capture, {{0, triangle(0, 90'000'000)}}, scene.mask(),
                                     delayed_by(DelayMap::by_rows(scene.format.shape, {0, 100'000'000})));
-  for (const Precision precision : precisions_of(list_devices().front())) {
+  for (const Precision precision : test::first_precisions()) {
     OpenClOptions options = test::renderer_options(precision);
     options.tests_itself = true;
     options.cache_folder.clear();

@@ -135,7 +135,7 @@ TEST(LargerThanAnAllocation, IsCutIntoBands) {
   const HardCase hard = hard_case("LargerThanAnAllocation");
   const Layout layout(hard);
   const RenderPlan plan = layout.plan();
-  for (const Precision precision : precisions_of(list_devices().front())) {
+  for (const Precision precision : test::first_precisions()) {
     OpenClOptions options = test::renderer_options(precision);
     options.allocation_bytes = 5000;
     const std::uint64_t bands = cut_picture(plan.capture.shape, Rectangle::whole(plan.capture.shape),

@@ -90,7 +90,7 @@ TEST(LargePicture, TakesLittleOfTheDevice) {
   const RenderPlan plan = make_plan(scene, {{0, GainFunction::boxcar(0, scene.timeline().duration_ns())}},
                                     Mask::uniform(shape.width, shape.height, 0), {});
   const double raw = static_cast<double>(LargeScene::kSamples * scene.format().sample_bytes());
-  for (const Precision precision : precisions_of(list_devices().front())) {
+  for (const Precision precision : test::first_precisions()) {
     OpenClRenderer renderer(test::renderer_options(precision));
     RenderControl of_column;
     of_column.rectangle = Rectangle{3001, 0, 40, shape.height};

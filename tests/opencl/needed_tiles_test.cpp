@@ -26,7 +26,7 @@ FunctionSet short_functions(const FunctionSet& functions, const Timeline& timeli
 
 TEST(NeededTiles, LeaveThePictureAsItIs) {
   std::uint64_t left_out = 0, unpacked = 0;
-  const auto available = precisions_of(list_devices().front());
+  const auto available = test::first_precisions();
   OpenClRenderer plain(test::renderer_options({})), passing(test::renderer_options({})),
       holding(test::renderer_options({}));
   for (std::uint64_t seed = 0; seed < 60; ++seed) {

@@ -23,7 +23,7 @@ TEST(OutTransfer, IsWithinTheBoundInEveryArithmetic) {
   ReferenceRenderer reference;
   std::map<Precision, double> worst;
   std::map<Precision, std::unique_ptr<OpenClRenderer>> renderers;
-  for (const Precision precision : precisions_of(list_devices().front())) {
+  for (const Precision precision : test::first_precisions()) {
     renderers[precision] = std::make_unique<OpenClRenderer>(test::renderer_options(precision));
   }
   std::uint64_t seed = 100;
@@ -99,7 +99,7 @@ TEST(OutTransfer, MakesCodesThatLieCloseTogetherOnTheHost) {
   const OutputFormat output{ValueType::code16, 65'535};
   ReferenceRenderer reference;
   const Picture light = reference.render(plan, capture, {ValueType::light64, 0}).picture;
-  for (const Precision precision : precisions_of(list_devices().front())) {
+  for (const Precision precision : test::first_precisions()) {
     OpenClRenderer renderer(test::renderer_options(precision));
     const Picture picture = renderer.render(plan, capture, output).picture;
     const ErrorBound bound = error_bound(plan, precision, output);

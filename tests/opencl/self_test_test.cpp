@@ -13,6 +13,7 @@
 #include "render/reference_renderer.hpp"
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
+#include "support/rendering.hpp"
 #include "support/scratch.hpp"
 
 namespace nutik {
@@ -78,7 +79,7 @@ class SelfTest : public testing::Test {
 };
 
 TEST_F(SelfTest, IsPassedByEveryArithmetic) {
-  for (const Precision precision : precisions_of(list_devices().front())) {
+  for (const Precision precision : test::first_precisions()) {
     OpenClOptions asking = options();
     asking.precision = precision;
     const Rendered rendered = render(asking);
@@ -86,7 +87,7 @@ TEST_F(SelfTest, IsPassedByEveryArithmetic) {
     EXPECT_TRUE(rendered.warnings.empty());
   }
   const auto verdicts = kept_verdicts(0, scratch_ / "cache");
-  EXPECT_EQ(verdicts.size(), precisions_of(list_devices().front()).size());
+  EXPECT_EQ(verdicts.size(), test::first_precisions().size());
   for (const auto& [precision, verdict] : verdicts) {
     EXPECT_TRUE(verdict.is_right) << to_text(precision);
     EXPECT_GT(verdict.codes, 1000u);
@@ -122,7 +123,7 @@ TEST_F(SelfTest, AskingForAWrongOneIsRefusedUnlessItIsMeasured) {
 }
 
 TEST_F(SelfTest, ADeviceThatIsAlwaysWrongIsAnError) {
-  const auto all = precisions_of(list_devices().front());
+  const auto all = test::first_precisions();
   try {
     static_cast<void>(render(options({all.begin(), all.end()})));
     FAIL() << "a picture was made";

@@ -84,7 +84,7 @@ TEST(SoftMasks, LeaveOtherTilesAndWholeSharesAsTheyAre) {
   MemoryCapture capture = scene.capture();
   const RenderPlan hard = make_plan(capture, scene.functions, scene.hard, {});
   const RenderPlan soft = make_plan(capture, scene.functions, scene.soft, {});
-  for (const Precision precision : precisions_of(list_devices().front())) {
+  for (const Precision precision : test::first_precisions()) {
     OpenClRenderer renderer(test::renderer_options(precision));
     for (const OutputFormat& output : {kLight, OutputFormat{ValueType::code16, 65'535}}) {
       const Picture of_hard = renderer.render(hard, capture, output).picture;
@@ -110,7 +110,7 @@ TEST(SoftMasks, DoNotDependOnHowTheWorkIsCut) {
   const SoftScene scene;
   MemoryCapture capture = scene.capture();
   const RenderPlan plan = make_plan(capture, scene.functions, scene.soft, {});
-  for (const Precision precision : precisions_of(list_devices().front())) {
+  for (const Precision precision : test::first_precisions()) {
     OpenClRenderer whole(test::renderer_options(precision));
     OpenClOptions cut = test::renderer_options(precision);
     cut.allocation_bytes = 60'000;  // a few rows of tiles at a time
@@ -225,7 +225,7 @@ TEST(SoftMasks, KeepToTheirBoundWhereCodesAreClose) {
   MemoryCapture capture = mixtures.capture();
   const RenderPlan plan = mixtures.plan(capture);
   const OutputFormat output{ValueType::code16, 65'535};
-  for (const Precision precision : precisions_of(list_devices().front())) {
+  for (const Precision precision : test::first_precisions()) {
     const ErrorBound bound = error_bound(plan, precision, output);
     const PixelErrors errors(plan, bound);
     for (const bool fuses : {true, false}) {

@@ -133,9 +133,9 @@ TEST(Reference, RefusesSampleNumbersThatNoTileCanHave) {
     MemoryCapture capture(format, timeline, rasters, 6, each.policy);
     const GainFunction gain = GainFunction::boxcar(0, 60'000'000);
     const RenderPlan plan = make_plan(capture, {{0, gain}}, Mask::uniform(8, 8, 0), {});
-    EXPECT_NO_THROW(ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}));
+    EXPECT_NO_THROW(static_cast<void>(ReferenceRenderer().render(plan, capture, {ValueType::light64, 0})));
     CraftedCapture crafted(capture, each.first_index, static_cast<std::byte>(each.value));
-    EXPECT_THROW(ReferenceRenderer().render(plan, crafted, {ValueType::light64, 0}), InputError)
+    EXPECT_THROW(static_cast<void>(ReferenceRenderer().render(plan, crafted, {ValueType::light64, 0})), InputError)
         << to_text(each.policy) << ", byte " << each.first_index << " = " << each.value;
   }
 }

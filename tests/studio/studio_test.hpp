@@ -77,7 +77,11 @@ class StudioTest : public ::testing::Test {
     };
     QMenuBar& bar = *window_.menuBar();
     QAction* title = named(bar, menu);
-    QTest::mouseClick(&bar, Qt::LeftButton, {}, bar.actionGeometry(title).center());
+    const QPoint place = bar.actionGeometry(title).center();
+    // Qt 6.8 closes a menu at a press where the mouse has not moved since it opened, and where it was then is known of
+    // what reaches a window: clicks at widgets, as here, do not count.
+    QTest::mouseMove(window_.windowHandle(), bar.mapTo(&window_, place));
+    QTest::mouseClick(&bar, Qt::LeftButton, {}, place);
     QMenu& rows = *title->menu();
     QTest::mouseClick(&rows, Qt::LeftButton, {}, rows.actionGeometry(named(rows, row)).center());
   }

@@ -42,7 +42,7 @@ OutputFormat codes_like(const CaptureFormat& capture) {
 }
 
 PrecisionCheck::PrecisionCheck(bool use_fma) {
-  for (const Precision precision : precisions_of(list_devices().front())) {
+  for (const Precision precision : first_precisions()) {
     if (!is_wanted(to_text(precision))) continue;
     OpenClOptions options = renderer_options(precision);
     options.use_fma = use_fma;

@@ -11,7 +11,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "capture/error.hpp"
 #include "opencl/opencl_renderer.hpp"
@@ -37,8 +39,14 @@ inline OpenClOptions renderer_options(std::optional<Precision> precision) {
   return options;
 }
 
+// The first device's arithmetics.
+[[nodiscard]] inline std::span<const Precision> first_precisions() {
+  const std::vector<DeviceInfo> devices = list_devices();
+  return precisions_of(devices.front());
+}
+
 [[nodiscard]] inline bool has(Precision precision) {
-  return std::ranges::count(precisions_of(list_devices().front()), precision) > 0;
+  return std::ranges::count(first_precisions(), precision) > 0;
 }
 
 // Double, or pairs of floats on a device without it: where a test is about something else than arithmetic.

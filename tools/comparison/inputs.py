@@ -69,7 +69,7 @@ def write_clips(folder):
     ffmpeg(folder / "deep.mkv", frames(1, 4095), "gray12le", "-c:v", "ffv1", "-pix_fmt", "gray12le")
     ffmpeg(folder / "wide.mkv", colour, "rgb24", "-c:v", "ffv1", "-pix_fmt", "yuv422p10le")
     # Every third picture left out: times that fit no constant rate.
-    ffmpeg(folder / "uneven.mkv", colour, "rgb24", "-vf", "select=mod(n\\,3)", "-vsync", "vfr", "-c:v", "ffv1", "-pix_fmt",
+    ffmpeg(folder / "uneven.mkv", colour, "rgb24", "-vf", "select=mod(n\\,3)", "-fps_mode", "vfr", "-c:v", "ffv1", "-pix_fmt",
            "bgr0")
     ffmpeg(folder / "noisy.mkv", frames(3, 255, 0.01), "rgb24", "-c:v", "ffv1", "-pix_fmt", "bgr0")
     ffmpeg(folder / "still.mkv", frames(3, 255, 0.01, moving=False), "rgb24", "-c:v", "ffv1", "-pix_fmt", "bgr0")

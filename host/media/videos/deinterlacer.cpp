@@ -33,7 +33,7 @@ std::optional<FieldOrder> field_order(AVFieldOrder order) {
 }
 
 FieldOrder order_of(const AVFrame& frame) {
-  return frame.top_field_first != 0 ? FieldOrder::top_first : FieldOrder::bottom_first;
+  return is_top_field_first(frame) ? FieldOrder::top_first : FieldOrder::bottom_first;
 }
 
 ClipInfo of_fields(ClipInfo&& info) {

@@ -24,6 +24,7 @@ extern "C" {
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,49 @@ using PacketPointer = std::unique_ptr<AVPacket, FreePacket>;
 using FramePointer = std::unique_ptr<AVFrame, FreeFrame>;
 using GraphPointer = std::unique_ptr<AVFilterGraph, FreeGraph>;
 using ScalerPointer = std::unique_ptr<SwsContext, FreeScaler>;
+
+// What FFmpeg is told to take where a stream does not say how fast its pictures follow each other: nobody films so.
+inline constexpr AVRational kUnstatedRate{104'729, 3571};
+inline constexpr int kUnstatedDelay = 997;  // hundredths of a second, of a GIF
+
+// What FFmpeg 6.1 says in another way than those before it, whose way ends with 7 and 8.
+#ifdef AV_FRAME_FLAG_INTERLACED
+inline bool is_interlaced(const AVFrame& frame) { return (frame.flags & AV_FRAME_FLAG_INTERLACED) != 0; }
+inline bool is_top_field_first(const AVFrame& frame) { return (frame.flags & AV_FRAME_FLAG_TOP_FIELD_FIRST) != 0; }
+inline void set_interlaced(AVFrame& frame, bool is_top_first) {
+  frame.flags |= AV_FRAME_FLAG_INTERLACED;
+  frame.flags &= ~AV_FRAME_FLAG_TOP_FIELD_FIRST;
+  if (is_top_first) frame.flags |= AV_FRAME_FLAG_TOP_FIELD_FIRST;
+}
+inline std::int64_t duration_of(const AVFrame& frame) { return frame.duration; }
+inline std::span<const std::uint8_t> side_data(const AVStream& stream, AVPacketSideDataType type) {
+  const AVCodecParameters& codec = *stream.codecpar;
+  const AVPacketSideData* data =
+      av_packet_side_data_get(codec.coded_side_data, codec.nb_coded_side_data, type);
+  return data == nullptr ? std::span<const std::uint8_t>() : std::span(data->data, data->size);
+}
+// Of a stream without a container, avg_frame_rate is what FFmpeg was told, and r_frame_rate may count fields or ticks.
+inline void set_rates_of_header(AVStream& stream) {
+  if (av_cmp_q(stream.avg_frame_rate, kUnstatedRate) != 0) return;
+  const AVRational in_header = stream.codecpar->framerate;
+  stream.r_frame_rate = in_header.num > 0 && in_header.den > 0 ? in_header : kUnstatedRate;
+  stream.avg_frame_rate = stream.r_frame_rate;
+}
+#else
+inline void set_rates_of_header(AVStream& /*stream*/) {}
+inline bool is_interlaced(const AVFrame& frame) { return frame.interlaced_frame != 0; }
+inline bool is_top_field_first(const AVFrame& frame) { return frame.top_field_first != 0; }
+inline void set_interlaced(AVFrame& frame, bool is_top_first) {
+  frame.interlaced_frame = 1;
+  frame.top_field_first = is_top_first ? 1 : 0;
+}
+inline std::int64_t duration_of(const AVFrame& frame) { return frame.pkt_duration; }
+inline std::span<const std::uint8_t> side_data(const AVStream& stream, AVPacketSideDataType type) {
+  std::size_t bytes = 0;
+  const std::uint8_t* data = av_stream_get_side_data(&stream, type, &bytes);
+  return data == nullptr ? std::span<const std::uint8_t>() : std::span(data, bytes);
+}
+#endif
 
 inline std::string error_text(int code) {
   char text[AV_ERROR_MAX_STRING_SIZE] = {};
@@ -113,10 +157,6 @@ struct OpenedVideo {
   FormatPointer format = nullptr;
   int stream = 0;
 };
-
-// What FFmpeg is told to take where a stream does not say how fast its pictures follow each other: nobody films so.
-inline constexpr AVRational kUnstatedRate{104'729, 3571};
-inline constexpr int kUnstatedDelay = 997;  // hundredths of a second, of a GIF
 
 // The name's own file, whatever the name looks like: FFmpeg takes what stands before a colon for a protocol.
 inline std::string url_of(const std::filesystem::path& path) { return "file:" + path.string(); }

@@ -260,7 +260,7 @@ class LibavClip final : public Clip {
   bool next_frame() {
     is_decoding_ = true;
     if (!decoder_.next(*frame_)) return false;
-    has_interlaced_ |= frame_->interlaced_frame != 0;
+    has_interlaced_ |= is_interlaced(*frame_);
     return true;
   }
 
@@ -268,7 +268,7 @@ class LibavClip final : public Clip {
   bool next_picture() {
     if (interlaced_ == Interlaced::refused || interlaced_ == Interlaced::ignored) {
       if (!next_frame()) return false;
-      if (interlaced_ == Interlaced::refused && frame_->interlaced_frame != 0) {
+      if (interlaced_ == Interlaced::refused && is_interlaced(*frame_)) {
         refuse_fields(format("{}: picture {}", name_, frames_read_), order_of(*frame_));
       }
       return true;
@@ -283,10 +283,7 @@ class LibavClip final : public Clip {
       }
       check_whole();
       if (!deinterlacer_) deinterlacer_.emplace(*frame_, interlaced_ == Interlaced::fields, name_);
-      if (fields_ && frame_->interlaced_frame == 0) {
-        frame_->interlaced_frame = 1;
-        frame_->top_field_first = *fields_ == FieldOrder::top_first ? 1 : 0;
-      }
+      if (fields_ && !is_interlaced(*frame_)) set_interlaced(*frame_, *fields_ == FieldOrder::top_first);
       deinterlacer_->add(*frame_);
     }
     return true;

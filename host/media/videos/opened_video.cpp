@@ -117,6 +117,7 @@ OpenedVideo open_video(const std::filesystem::path& path, const std::optional<Ra
   if (code >= 0) code = av_find_best_stream(context, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
   if (code < 0) throw InputError(format("{} has no video stream", title));
   opened.stream = code;
+  set_rates_of_header(*context->streams[code]);
   return opened;
 }
 

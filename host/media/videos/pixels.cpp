@@ -248,13 +248,12 @@ bool interpolates_chroma(AVPixelFormat format, const PixelKind& pixels) {
          (planes.log2_chroma_w > 0 || planes.log2_chroma_h > 0);
 }
 
-Upright upright(const AVStream& stream) {
-  const auto* stored = reinterpret_cast<const std::int32_t*>(
-      av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr));
-  if (stored == nullptr) return {};
-  // A row for where each axis of the picture goes. Of a mirrored one what is left is a turn once the first is reversed.
+Upright upright_of(std::span<const std::uint8_t> display_matrix) {
+  if (display_matrix.empty()) return {};
   std::int32_t matrix[9];
-  std::copy_n(stored, 9, matrix);
+  if (display_matrix.size() < sizeof matrix) return {.left_out = "makes no sense"};
+  std::memcpy(matrix, display_matrix.data(), sizeof matrix);
+  // A row for where each axis of the picture goes. Of a mirrored one what is left is a turn once the first is reversed.
   Upright upright;
   upright.is_mirrored = std::int64_t{matrix[0]} * matrix[4] < std::int64_t{matrix[1]} * matrix[3];
   if (upright.is_mirrored) {

@@ -36,7 +36,8 @@ struct Upright {
   int quarter_turns = 0;      // 0 … 3
   std::string left_out = {};  // what else the stream's matrix does, for people
 };
-[[nodiscard]] Upright upright(const AVStream& stream);
+// Of a display matrix, nine numbers of 32 bits as a stream carries them; empty where it has none.
+[[nodiscard]] Upright upright_of(std::span<const std::uint8_t> display_matrix);
 
 // Where nothing says it: to the left, and between two lines, as in H.264 and most that came after it.
 constexpr ChromaPlace kDefaultChromaPlace = ChromaPlace::left;

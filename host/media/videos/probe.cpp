@@ -272,7 +272,7 @@ std::vector<std::int64_t> decoded_times(const std::filesystem::path& path,
   while (decoder.next(*picture)) {
     std::int64_t time = picture->best_effort_timestamp;
     if (time == AV_NOPTS_VALUE && !times.empty() && times.back() != AV_NOPTS_VALUE) {
-      const std::int64_t duration = std::max<std::int64_t>(picture->pkt_duration, 1);
+      const std::int64_t duration = std::max<std::int64_t>(duration_of(*picture), 1);
       time = std::min(times.back(), INT64_MAX - duration) + duration;
     }
     times.push_back(time);
@@ -325,7 +325,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
                input_title(path.string())));
   }
   result.pixel_format = static_cast<AVPixelFormat>(codec.format);
-  result.upright = upright(stream);
+  result.upright = upright_of(side_data(stream, AV_PKT_DATA_DISPLAYMATRIX));
   const unsigned curve = number_of(codec.color_trc), matrix = number_of(codec.color_space),
                  primaries = number_of(codec.color_primaries);
   result.transfer = is_phantom_packed(codec) ? Transfer::linear() : transfer_of_coding_point(curve);
