@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -122,9 +123,10 @@ class LongestHeld {
 // Makes a plate strip by strip, a strip being rows of tiles.
 class PlateMaker {
  public:
-  PlateMaker(CaptureSource& capture, const CodeBand& band, const Looks& looks)
+  PlateMaker(CaptureSource& capture, const CodeBand& band, const Looks& looks, const ReportedProgress& progress)
       : capture_(capture),
         band_(band),
+        progress_(progress),
         grid_(capture.format().shape),
         light_of_code_(capture.format().transfer.light_of_all_codes(capture.format().white_code,
                                                                     capture.format().code_bytes)),
@@ -154,6 +156,7 @@ class PlateMaker {
                     return room.first(bytes);
                   },
                   [&](std::uint64_t from, std::uint64_t to) { return from < last && to > first; }}));
+      tell(0);
       blocks.emplace_back(capture_.format(), leases.back().extent(), leases.back().payload());
     }
     parallel_for(last_row - first_row,
@@ -168,7 +171,7 @@ class PlateMaker {
     const std::size_t side = PlaceTimes::cell_side(capture_.format().shape);
     Region places = plate_.uncertain;
     fill_small_holes(places, side * side);
-    times_.emplace(capture_, places, band_);
+    times_.emplace(capture_, places, band_, [&] { tell(0); });
     std::size_t pixel = 0;
     for (std::uint32_t y = 0; y < places.height; ++y) {
       for (std::uint32_t x = 0; x < places.width; ++x, ++pixel) {
@@ -181,6 +184,14 @@ class PlateMaker {
   [[nodiscard]] Plate finished() && { return std::move(plate_); }
 
  private:
+  // So many tiles more were made. Any thread tells, one after another: a row of tiles may take long.
+  void tell(std::uint64_t tiles) {
+    check_interruption();
+    if (!progress_) return;
+    const std::scoped_lock lock(telling_);
+    progress_(tiles_ += tiles, kPasses * grid_.columns() * std::uint64_t{grid_.rows()});
+  }
+
   void make_row(const std::vector<BlockView>& blocks, std::uint32_t tile_row) {
     if (times_) {
       make_uncertain(blocks, tile_row);
@@ -227,6 +238,7 @@ class PlateMaker {
           plate_.uncertain.inside[pixel] = 2 * duration_ns < all_ns;
         }
       });
+      tell(1);
     }
   }
 
@@ -237,6 +249,7 @@ class PlateMaker {
     const Shape& shape = capture_.format().shape;
     const std::uint32_t bottom = std::min(shape.height, (tile_row + 1) * kTileSide);
     for (std::uint32_t x = 0; x < shape.width; ++x) {
+      if (x % kTileSide == 0) tell(1);
       for (std::uint32_t y = tile_row * kTileSide; y < bottom; ++y) {
         const std::uint64_t pixel = std::uint64_t{y} * shape.width + x;
         if (plate_.uncertain.inside[pixel] == 0) continue;
@@ -279,7 +292,12 @@ class PlateMaker {
   }
 
   CaptureSource& capture_;
+  static constexpr std::uint64_t kPasses = 2;  // the second of what is uncertain
+
   const CodeBand& band_;
+  const ReportedProgress& progress_;
+  std::mutex telling_;
+  std::uint64_t tiles_ = 0;  // told of
   TileGrid grid_;
   std::vector<std::int64_t> starts_ns_;  // as TileHistory has them
   std::vector<double> light_of_code_;
@@ -309,11 +327,8 @@ Plate make_plate(CaptureSource& capture, const CodeBand& band, std::uint64_t mem
   needs.add("a row of tiles at all samples", row_bytes);
   const auto at_once =
       static_cast<std::uint32_t>(std::min<std::uint64_t>(1 + needs.rest_of(memory_bytes) / row_bytes, rows));
-  PlateMaker maker(capture, band, Looks(capture.timeline().sample_count(), max_samples));
-  for (std::uint32_t row = 0; row < rows; row += at_once) {
-    if (progress) progress(row, rows);
-    maker.make(row, std::min(row + at_once, rows));
-  }
+  PlateMaker maker(capture, band, Looks(capture.timeline().sample_count(), max_samples), progress);
+  for (std::uint32_t row = 0; row < rows; row += at_once) maker.make(row, std::min(row + at_once, rows));
   if (maker.uncertain().pixel_count() > 0) {
     maker.look_at_places();
     for (std::uint32_t row = 0; row < rows; row += at_once) maker.make(row, std::min(row + at_once, rows));

@@ -30,7 +30,8 @@ struct Plate {
 // What a plate takes, beside blocks of the capture.
 [[nodiscard]] MemoryNeeds plate_needs(const CaptureFormat& capture);
 
-// Looks at every sample, or at so many evenly in time, on all cores; `progress` counts strips. Packed blocks are
+// Looks at every sample, or at so many evenly in time, on all cores; `progress` counts tiles, twice as many as
+// there are, and is called by any of them, one after another. Packed blocks are
 // unpacked strip by strip, so that they and the plate stay within `memory_bytes`. Throws MemoryTooLittle, InputError where the
 // capture is damaged.
 [[nodiscard]] Plate make_plate(CaptureSource& capture, const CodeBand& band, std::uint64_t memory_bytes,

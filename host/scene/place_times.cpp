@@ -66,7 +66,8 @@ MemoryNeeds PlaceTimes::needs(const CaptureFormat& capture) {
            spots * Looks::kMax * capture.shape.channels * sizeof(std::uint16_t)}};
 }
 
-PlaceTimes::PlaceTimes(CaptureSource& capture, const Region& uncertain, const CodeBand& band)
+PlaceTimes::PlaceTimes(CaptureSource& capture, const Region& uncertain, const CodeBand& band,
+                       const std::function<void()>& keep_going)
     : timeline_(capture.timeline()),
       looks_(timeline_.sample_count()),
       side_(cell_side(capture.format().shape)),
@@ -81,6 +82,7 @@ PlaceTimes::PlaceTimes(CaptureSource& capture, const Region& uncertain, const Co
   const std::vector<std::vector<Spot>> places = spots_of_places(uncertain);
   std::vector<std::vector<std::uint16_t>> bins(places.size());
   for_each_look(capture, looks_, [&](const Look& look) {
+    keep_going();
     for (std::size_t place = 0; place < places.size(); ++place) {
       for (const Spot& spot : places[place]) {
         for (std::uint32_t channel = 0; channel < channels; ++channel) {
@@ -92,7 +94,7 @@ PlaceTimes::PlaceTimes(CaptureSource& capture, const Region& uncertain, const Co
   });
   clocks_.resize(places.size());
   parallel_for(places.size(), [&](std::uint64_t place) {
-    clocks_[place] = clock_of(bins[place], channels, band.window() / 2);
+    clocks_[place] = clock_of(bins[place], channels, band.window() / 2, keep_going);
   });
 }
 
@@ -133,11 +135,12 @@ std::vector<std::vector<PlaceTimes::Spot>> PlaceTimes::spots_of_places(const Reg
 }
 
 PlaceTimes::Clock PlaceTimes::clock_of(const std::vector<std::uint16_t>& bins, std::uint32_t channels,
-                                       std::uint32_t reach) const {
+                                       std::uint32_t reach, const std::function<void()>& keep_going) const {
   const std::size_t looks = looks_.count(), values = bins.size() / looks;
   // What share of the place looks the same at two looks.
   std::vector<float> same(looks * looks, 1.0F);
   for (std::size_t a = 0; a < looks; ++a) {
+    keep_going();
     for (std::size_t b = 0; b < a; ++b) {
       const std::uint16_t *of_a = &bins[a * values], *of_b = &bins[b * values];
       std::size_t count = 0;

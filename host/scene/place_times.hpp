@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "capture/memory_needs.hpp"
@@ -48,8 +49,10 @@ class CodeBand {
 
 class PlaceTimes {
  public:
-  // What is seen at a look holds until the next. Throws InputError where the capture is damaged.
-  PlaceTimes(CaptureSource& capture, const Region& uncertain, const CodeBand& band);
+  // What is seen at a look holds until the next. `keep_going` is called often, by several threads; what it throws ends the
+  // work. Throws InputError where the capture is damaged.
+  PlaceTimes(CaptureSource& capture, const Region& uncertain, const CodeBand& band,
+             const std::function<void()>& keep_going);
 
   // For how long the clock at an uncertain pixel ran until a sample began; sample_count() is the capture's end.
   [[nodiscard]] std::int64_t clock_ns(std::uint32_t x, std::uint32_t y, std::uint64_t sample) const;
@@ -80,7 +83,7 @@ class PlaceTimes {
   std::vector<std::vector<Spot>> spots_of_places(const Region& uncertain);
   // `bins` are those of a place's spots, look by look.
   [[nodiscard]] Clock clock_of(const std::vector<std::uint16_t>& bins, std::uint32_t channels,
-                               std::uint32_t reach) const;
+                               std::uint32_t reach, const std::function<void()>& keep_going) const;
 
   const Timeline& timeline_;
   Looks looks_;

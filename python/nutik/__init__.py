@@ -30,5 +30,6 @@ from ._words import FileMissing, NutikNote, NutikWarning, WrongType
 __all__ = [
     "Activity", "Capture", "DeviceError", "Error", "FileMissing", "Function", "InputError", "Mask", "MemoryTooLittle",
     "NutikNote", "NutikWarning", "OutputError", "Picture", "Plate", "Solution", "SolvedWish", "Study", "Trace",
-    "UsageError", "WrongType", "__version__", "boxcar", "encode", "fit", "join", "open", "parse_functions", "read_functions", "read_mask", "shutter", "write_functions",
+    "UsageError", "WrongType", "__version__", "boxcar", "encode", "fit", "join", "open", "parse_functions",
+    "read_functions", "read_mask", "shutter", "write_functions",
 ]

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 import unittest
 import weakref
 
@@ -147,6 +148,26 @@ class Progress(support.TestCase):
             self.assertEqual(threads, {threading.get_ident()}, "somebody else's thread")
             for done, total in steps:
                 self.assertTrue(0 < done and (total == 0 or done <= total), (done, total))
+
+    def test_a_plate_tells_and_answers(self):
+        """All of its rows fit into memory at once. Whoever ends it at the first report does not wait for the rest."""
+        class Enough(Exception):
+            pass
+
+        pictures = np.random.default_rng(1).integers(0, 256, (192, 384, 512, 3), np.uint8)
+        capture = nutik.encode(pictures, rate=960)
+        times = [time.monotonic()]
+        capture.plate(progress=lambda done, total: times.append(time.monotonic()))
+        whole = time.monotonic() - times[0]
+        self.assertGreater(len(times), 4, whole)
+
+        def end(done, total):
+            raise Enough
+
+        begin = time.monotonic()
+        with self.assertRaises(Enough):
+            capture.plate(progress=end)
+        self.assertLess(time.monotonic() - begin, 0.6 * whole)
 
     def test_what_it_raises_ends_the_work(self):
         class Enough(Exception):

@@ -79,9 +79,13 @@ void Progress::show(std::uint64_t done) {
 }
 
 ReportedProgress progress_bar(std::string what, bool quiet, ProgressLines lines) {
-  return [what = std::move(what), quiet, lines, bar = std::shared_ptr<Progress>()](
+  return [what = std::move(what), quiet, lines, bar = std::shared_ptr<Progress>(), of = std::uint64_t{0}](
              std::uint64_t done, std::uint64_t total) mutable {
-    if (!bar) bar = std::make_shared<Progress>(what, total, quiet, lines);
+    // Work of several parts counts something else in each, or does not know yet how much there is.
+    if (!bar || of != total) {
+      bar.reset();
+      bar = std::make_shared<Progress>(what, of = total, quiet, lines);
+    }
     bar->show(done);
   };
 }

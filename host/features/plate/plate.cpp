@@ -27,7 +27,7 @@ constexpr std::uint64_t kMeasuredSamples = 4 * kWindowSamples;
 constexpr std::uint64_t kMeasuredPixels = 32 * 1024;  // or fewer, spread over the picture
 
 // The noise that a capture holds; none where nothing tells it: all of it moves, or is black.
-std::optional<CameraNoise> noise_of(CaptureSource& capture) {
+std::optional<CameraNoise> noise_of(CaptureSource& capture, const ReportedProgress& progress) {
   const CaptureFormat& format = capture.format();
   const std::uint64_t count = capture.timeline().sample_count();
   std::uint64_t sample = (count - std::min(count, kMeasuredSamples)) / 2;
@@ -45,6 +45,7 @@ std::optional<CameraNoise> noise_of(CaptureSource& capture) {
         "the capture",
         [&](std::span<std::byte> raster) {
           if (sample == count) return false;
+          if (progress) progress(0, 0);
           while (!block || block->extent().range().last <= sample) {
             if (capture.block_extent(next_block++).range().last <= sample) continue;
             samples.reset();
@@ -84,7 +85,7 @@ MadePlate make_plate(CaptureSource& capture, const std::string& capture_name, co
                                    capture_name, *request.by_codes, format.white_code));
   }
   std::optional<CameraNoise> noise;
-  if (!request.by_codes) noise = noise_of(capture);
+  if (!request.by_codes) noise = noise_of(capture, progress);
   const auto least = static_cast<std::uint32_t>(std::ceil(CodeBand::kMinShare * format.white_code));
   const CodeBand band = noise ? CodeBand::of_noise(format, *noise)
                               : CodeBand::of_codes(format, request.by_codes.value_or(least));
