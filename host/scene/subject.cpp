@@ -272,6 +272,7 @@ class Tracker {
         follower_(shape, side, field_),
         looks_(looks) {
     track_.cell_side = side;
+    track_.differing = std::make_shared<std::vector<std::vector<bool>>>();
   }
 
   void add(const DifferingCells& all, std::uint64_t sample) {
@@ -283,6 +284,7 @@ class Tracker {
                   cells.region.inside.begin() + first);
     }
     track_.looked_at.push_back(sample);
+    track_.differing->emplace_back(all.region.inside.begin(), all.region.inside.end());
     track_.cell_columns = columns;
     const std::uint64_t differing = cells.region.pixel_count();
     track_.moving_share +=
@@ -372,6 +374,34 @@ double SubjectTrack::most_covered_share() const {
   }
   if (counts.empty()) return 0;
   return static_cast<double>(std::ranges::max(counts)) / static_cast<double>(looked_at.size());
+}
+
+SampleRange SubjectTrack::free_time(const SubjectPlace& place, std::uint32_t pixels) const {
+  const std::size_t around = (pixels + cell_side - 1) / cell_side;
+  std::vector<bool> is_of_place(differing->front().size());
+  for (const std::size_t cell : place.cells) {
+    const std::size_t x = cell % cell_columns, y = cell / cell_columns;
+    for (std::size_t row = y - std::min(y, around); row <= y + around; ++row) {
+      for (std::size_t column = x - std::min(x, around); column <= std::min(x + around, cell_columns - std::size_t{1});
+           ++column) {
+        const std::size_t near = row * cell_columns + column;
+        if (near < is_of_place.size()) is_of_place[near] = true;
+      }
+    }
+  }
+  std::vector<std::size_t> cells;
+  for (std::size_t cell = 0; cell < is_of_place.size(); ++cell) {
+    if (is_of_place[cell]) cells.push_back(cell);
+  }
+  SampleRange free, longest;
+  for (std::size_t look = 0; look < looked_at.size(); ++look) {
+    const std::vector<bool>& at_look = (*differing)[look];
+    const bool is_free = std::ranges::none_of(cells, [&](std::size_t cell) { return at_look[cell]; });
+    const std::uint64_t sample = looked_at[look];
+    free = is_free ? SampleRange{free.empty() ? sample : free.first, sample + 1} : SampleRange();
+    if (free.size() > longest.size()) longest = free;
+  }
+  return longest;
 }
 
 std::vector<SubjectTrack> track_subjects(CaptureSource& capture, const Picture& plate, std::uint32_t by_codes,

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "capture/picture.hpp"
@@ -35,6 +36,8 @@ struct SubjectTrack {
   // The longest stretch of them at which nothing at all differs from the plate, in all of the picture: what is taken away
   // with it is taken from there, too.
   SampleRange empty;
+  // At each of looked_at: the cells that differ, of all things.
+  std::shared_ptr<std::vector<std::vector<bool>>> differing;
   std::vector<SampleRange> rests;   // where it stays in its place for a good part of the time
   std::vector<SubjectTrack> others;  // what goes its way half as far or more at the same time
   double extent = 0;  // in pixels, from where its centre is furthest to one side to the other
@@ -56,6 +59,8 @@ struct SubjectTrack {
   // The share of all the time for which the cell is covered that is covered longest. A thing that is somewhere for half
   // of the time is in the plate there, and its cells are found while it is elsewhere.
   [[nodiscard]] double most_covered_share() const;
+  // The longest time at which nothing differs at a place, nor so many pixels around it.
+  [[nodiscard]] SampleRange free_time(const SubjectPlace& place, std::uint32_t pixels) const;
 };
 
 // Still things that lie so many pixels from where the plate has them, or more, are taken for what moves: half of a cell

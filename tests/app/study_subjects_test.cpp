@@ -114,6 +114,50 @@ TEST_F(StudySubjects, LeaveNoOtherUnmentioned) {
   EXPECT_EQ(one.err.find("another thing"), std::string::npos) << one.err;
 }
 
+// A bright square in a soft shadow that is wider than it. Beside the square lies its trail, dimmed as the ground is; the
+// trail alone is seen there at other moments.
+TEST_F(StudySubjects, CastTheirShadowsOnTheirTrails) {
+  constexpr int kWidth = 320, kHeight = 96, kSide = 20, kTop = 34;
+  const auto left = [](int k) { return 10 + 7 * k; };
+  cv::Mat ground(kHeight, kWidth, CV_32FC1);
+  cv::RNG(7).fill(ground, cv::RNG::UNIFORM, 110, 131);
+  std::vector<cv::Mat> frames;
+  DrawnClip clip(scratch_ / "shadow");
+  for (int k = 0; k < 40; ++k) {
+    cv::Mat shadow(kHeight, kWidth, CV_32FC1, cv::Scalar(0)), lit, frame;
+    cv::ellipse(shadow, {left(k) + kSide / 2, kTop + kSide / 2}, {20, 18}, 0, 0, 360, cv::Scalar(0.3), cv::FILLED);
+    cv::GaussianBlur(shadow, shadow, {}, 5);
+    cv::multiply(ground, 1 - shadow, lit);
+    lit(cv::Rect(left(k), kTop, kSide, kSide)) = 240;
+    lit.convertTo(frame, CV_8U);
+    frames.push_back(frame);
+    clip.add(frame);
+  }
+  const auto shown_at = [&](const char* moments) {
+    const auto result = study("shadow", {"--moments", moments});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return picture();
+  };
+  const cv::Mat at_10 = shown_at("10f,30f"), at_20 = shown_at("20f,30f");
+  const cv::Mat mask = cv::imread((scratch_ / "study.pgm").string(), cv::IMREAD_UNCHANGED);
+  for (const int y : {kTop + 5, kTop + 10, kTop + 15}) {
+    for (int x = left(10); x < left(10) + kSide; ++x) {
+      ASSERT_NEAR(at_10.at<std::uint8_t>(y, x), 240, 2) << x << ", " << y;
+    }
+    for (int away = 5; away < 40; ++away) {
+      const int x = left(10) + kSide + away;
+      if (away < 20) {
+        ASSERT_EQ(mask.at<std::uint8_t>(y, x), 0) << "the trail alone is seen at the other moments";
+      }
+      if (mask.at<std::uint8_t>(y, x) != 0) continue;
+      const int trail = at_20.at<std::uint8_t>(y, x), shaded = at_10.at<std::uint8_t>(y, x);
+      const double left_of_light = frames[10].at<std::uint8_t>(y, x) / ground.at<float>(y, x);
+      EXPECT_GE(shaded, left_of_light * trail - 4) << x << ", " << y;
+      EXPECT_LE(shaded, trail + 4) << x << ", " << y;
+    }
+  }
+}
+
 // The region is empty while the square is elsewhere: no scene to be taken away.
 TEST_F(StudySubjects, LeaveNothingDarkOutsideOfTheirRegion) {
   draw("one", 40, [](cv::Mat& frame, int k) { frame(cv::Rect(4 + 7 * k / 2, 20, 12, 12)) = 250; });

@@ -66,7 +66,9 @@ std::string commands_text(const Options& options, const StudyFiles& files, const
     } else if (std::holds_alternative<select::Whole>(step.selection)) {
       regions += format(" --tag {} --fill", step.tag);
     } else {
-      regions += format(" \\\n  --tag {} --subject {}f", step.tag, study.moments[step.tag - 1U]);
+      const bool is_body = std::get<select::Subject>(step.selection).is_without_shadow;
+      regions += format(" \\\n  --tag {} --{} {}f", step.tag, is_body ? "body" : "subject",
+                        study.moments[(step.tag - 1U) % study.moments.size()]);
       if (step.by_codes) regions += format(" --by {}", *step.by_codes);
     }
     for (const RegionChange& change : step.changes) regions += " " + change_words(change);

@@ -123,6 +123,7 @@ std::optional<Selection> selection_of(const Said& said) {
   if (said.option == "difference")
     return select::Difference{picture_or_time(said.words[0]), picture_or_time(said.words[1])};
   if (said.option == "subject") return select::Subject{StatedTime::parse(said.words[0], "--subject")};
+  if (said.option == "body") return select::Subject{StatedTime::parse(said.words[0], "--body"), true};
   if (said.option == "moving") return select::Motion{};
   if (said.option == "still") return select::Stillness{};
   if (said.option == "changed-between")

@@ -13,6 +13,7 @@
 #include "mask/layers.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "scene/clean_plate.hpp"
+#include "scene/shadow.hpp"
 #include "session/requests/function_input.hpp"
 #include "session/requests/output_request.hpp"
 
@@ -177,7 +178,8 @@ class MaskMaker {
               if (!plate_) plate_ = make_plate_();
               const std::uint64_t sample = sample_at(subject.at, step.name.text, capture_->timeline());
               seen_ = picture_of_sample(*capture_, sample);
-              return changed(differences(*seen_, *plate_), plate_->white_code, step, report);
+              const Region all = changed(differences(*seen_, *plate_), plate_->white_code, step, report);
+              return subject.is_without_shadow ? without_shadow(*seen_, *plate_, all) : all;
             },
             [&](const select::Stillness&) {
               return inverted(moving({0, capture_->timeline().sample_count()}, step, report));

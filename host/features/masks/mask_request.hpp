@@ -74,6 +74,7 @@ struct Motion {  // within all of the capture, or between two times
 };
 struct Subject {  // what differs from the capture's plate at a time
   StatedTime at;
+  bool is_without_shadow = false;
   friend bool operator==(const Subject&, const Subject&) = default;
 };
 struct Stillness {

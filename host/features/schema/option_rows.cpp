@@ -271,6 +271,7 @@ constexpr Option kRows[] = {
          "40%..100% of white. PICTURE is a file, or a time of the capture (0.3s, 12f)"),
     step("difference", "PICTURE PICTURE", "pixels in which two pictures, or times of the capture, differ"),
     step("subject", "TIME", "pixels that differ from the plate (nutik-cl plate) at a time: 0.3s, 37f"),
+    step("body", "TIME", "the same without soft shadows on the plate"),
     step("moving", "", "pixels that change within the capture by more than its noise"),
     step("still", "", "the others"),
     step("changed-between", "TIME TIME",

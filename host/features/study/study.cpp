@@ -34,6 +34,8 @@ constexpr std::size_t kMinLooks = 8;
 constexpr double kMinExtent = 1.0 / 16;  // of the picture's longer side, that a subject goes
 // In pixels: without specks and without holes.
 constexpr double kSmoothRadius = 1, kCloseRadius = 7;
+// How far beyond that what lies around a subject reaches: a shadow ends as softly as no threshold shows.
+constexpr double kAroundPixels = 6;
 
 Feather feather_of(const StudyRequest& request) {
   return request.feather.value_or(Feather{request.style == StudyStyle::slit ? 0 : kStudyFeather, {}});
@@ -102,13 +104,14 @@ bool covers_half(const SubjectPlace& place, const SubjectPlace& other) {
 class StudyPlanner {
  public:
   StudyPlanner(const StudyRequest& request, CaptureSource& capture, const std::string& name, Picture plate,
-               std::vector<Followed> followed)
+               std::vector<Followed> followed, std::uint32_t by_codes)
       : request_(request),
         capture_(capture),
         timeline_(capture.timeline()),
         name_(name),
         plate_(std::move(plate)),
-        followed_(std::move(followed)) {}
+        followed_(std::move(followed)),
+        by_codes_(by_codes) {}
 
   // Chooses moments, and others for those whose regions turn out not to show what they should.
   void plan(Study& study) {
@@ -139,10 +142,10 @@ class StudyPlanner {
 
  private:
   static constexpr int kMaxRounds = 4;
+  static constexpr std::size_t kMaxTags = 255;
 
   // Subject by subject.
   void choose(Study& study) {
-    constexpr std::size_t kMaxTags = 255;
     study.moments.clear();
     study.subjects.clear();
     study.falls_short = false;
@@ -161,7 +164,9 @@ class StudyPlanner {
   }
 
   void add_regions(Study& study) const {
+    std::vector<MaskStep> around;
     study.mask.steps.clear();
+    study.grounds.assign(study.moments.size(), {});
     for (std::size_t i = 0; i < study.moments.size(); ++i) {
       MaskStep step;
       step.name = {nutik::format("subject {}", i + 1)};
@@ -181,8 +186,32 @@ class StudyPlanner {
                       {RegionChange::Kind::smooth, kSmoothRadius, {}},
                       {RegionChange::Kind::grow, kCloseRadius + border_pixels(request_), {}},
                       {RegionChange::Kind::shrink, kCloseRadius, {}}};
+      study.grounds[i] = ground_of(study, i);
+      if (!study.grounds[i].empty()) {
+        for (std::size_t level = 0; level < kAround.size(); ++level) {
+          MaskStep& all = around.emplace_back(step);
+          all.tag = static_cast<std::uint8_t>((level + 1) * study.moments.size() + i + 1);
+          if (level == 0) all.changes.back().radius -= kAroundPixels;
+          if (level > 0) all.by_codes = static_cast<std::uint32_t>(std::lround(kAround[level].times * by_codes_));
+        }
+        std::get<select::Subject>(step.selection).is_without_shadow = true;
+      }
       study.mask.steps.push_back(std::move(step));
     }
+    std::ranges::stable_sort(around, {}, [&](const MaskStep& step) { return (step.tag - 1U) / study.moments.size(); });
+    study.mask.steps.insert(study.mask.steps.begin(), around.begin(), around.end());
+  }
+
+  // When the ground of a moment is seen bare, so that its trail may lie on it, and its shadow on both. Nothing where
+  // there is no trail, no such time, or no room in the mask.
+  [[nodiscard]] SampleRange ground_of(const Study& study, std::size_t moment) const {
+    const SubjectTrack& track = followed_[study.subjects[moment]].track;
+    if (request_.trail.value_or(default_trail(request_.style)) == TrailShape::none ||
+        !is_seen_at(track, study.moments[moment]) ||
+        (kAround.size() + 1) * study.moments.size() > kMaxTags) {
+      return {};
+    }
+    return track.free_time(place_at(track, study.moments[moment]), static_cast<std::uint32_t>(kAroundPixels));
   }
 
   // The scene as it is on average, without moments.
@@ -254,7 +283,7 @@ class StudyPlanner {
     std::vector<std::size_t> bad;
     const auto left = study.regions.mask.pixels_per_tag();
     for (std::size_t i = 0; i < study.moments.size(); ++i) {
-      const StepReport& step = study.regions.steps[i];
+      const StepReport& step = step_of(study, i);
       const bool is_hole = is_in_plate(study, i);
       const Followed& subject = followed_[study.subjects[i]];
       const bool is_light =
@@ -292,7 +321,7 @@ class StudyPlanner {
   }
 
   [[nodiscard]] bool is_in_plate(const Study& study, std::size_t moment) const {
-    const double share = study.regions.steps[moment].plate_edges.value_or(0);
+    const double share = step_of(study, moment).plate_edges.value_or(0);
     const Followed& subject = followed_[study.subjects[moment]];
     return share > kHoleEdges ||
            (share > kMaxPlateEdges && (subject.verdict.shows != Verdict::Shows::all ||
@@ -302,13 +331,18 @@ class StudyPlanner {
     return format(
         "the scene at rest shows the subject, too, which covers some places for half of the time: at picture {} {:.0f} "
         "% of its border are edges of that scene",
-        study.moments[moment], 100 * study.regions.steps[moment].plate_edges.value_or(0));
+        study.moments[moment], 100 * step_of(study, moment).plate_edges.value_or(0));
   }
   void tell_of_holes(Study& study) const {
     for (std::size_t i = 0; i < study.moments.size(); ++i) {
       if (is_in_plate(study, i))
         study.notes.push_back(why_a_hole(study, i) + ". It may be shown in part, or as a hole");
     }
+  }
+
+  // Those of moments come last.
+  [[nodiscard]] static const StepReport& step_of(const Study& study, std::size_t moment) {
+    return study.regions.steps[study.regions.steps.size() - study.moments.size() + moment];
   }
 
   // Whether it was found at the last sample before that was looked at.
@@ -318,12 +352,16 @@ class StudyPlanner {
            std::ranges::binary_search(track.places, *(after - 1), {}, &SubjectPlace::sample);
   }
 
+  [[nodiscard]] static const SubjectPlace& place_at(const SubjectTrack& track, std::uint64_t sample) {
+    return *(std::ranges::upper_bound(track.places, sample, {}, &SubjectPlace::sample) - 1);
+  }
+
   // The box that it was found in then; all that is looked at if it was not.
   [[nodiscard]] select::Rectangle box_at(std::size_t subject, std::uint64_t sample) const {
     const auto& [track, region, verdict, refused] = followed_[subject];
     Rectangle box = region;
     if (is_seen_at(track, sample)) {
-      box = (std::ranges::upper_bound(track.places, sample, {}, &SubjectPlace::sample) - 1)->box;
+      box = place_at(track, sample).box;
     }
     return {{double(box.x), double(box.y)}, double(box.width), double(box.height)};
   }
@@ -334,6 +372,7 @@ class StudyPlanner {
   const std::string& name_;  // of the capture, for messages
   Picture plate_;
   std::vector<Followed> followed_;
+  std::uint32_t by_codes_;
   std::string why_;  // the first moment that was refused was
 };
 
@@ -539,7 +578,7 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
   }
   check_apart(tracks, regions, capture_name);
   StudyPlanner(request, capture, capture_name, std::move(plate.picture),
-               followed_in(std::move(tracks), regions, request, by_codes, study.notes))
+               followed_in(std::move(tracks), regions, request, by_codes, study.notes), by_codes)
       .plan(study);
   return study;
 }

@@ -5,6 +5,7 @@
 //            each can be changed by hand
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -73,6 +74,9 @@ struct Study {
   // Samples, of one subject after another: of tags 1, 2, …; what is left has tag 0. Of a slit's strips: of tags 0, 1, …
   std::vector<std::uint64_t> moments;
   std::vector<std::size_t> subjects;  // whose each of them is: of which region, from 0. None of a slit
+  // When nothing is at the place of each moment. What lies around the i-th then has tag moments.size() + i + 1, and
+  // what is darker 2 moments.size() + i + 1.
+  std::vector<SampleRange> grounds;
   bool are_moments_found = false;     // not stated
   // A long exposure, or a single moment, for what moves makes no more; a note says why.
   bool falls_short = false;
@@ -84,6 +88,13 @@ struct Study {
   SampleRange empty;          // at which nothing is there: taken away again from where the trail is stronger
   std::vector<std::string> notes;
 };
+
+// What lies around a subject, its shadow for example: what differs by so many times the codes that the subject does,
+// and which share of the trail lies on it. A shadow dims the trail, too, by as much as the ground.
+struct Around {
+  double times, trail_share;
+};
+inline constexpr std::array<Around, 2> kAround{{{1, 0.9}, {2.5, 0.4}}};
 
 // How many moments a study shows, and strips a slit-scan: a mask has no more values.
 inline constexpr std::uint32_t kMaxMoments = 50, kMaxStrips = 256;

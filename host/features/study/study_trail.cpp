@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -38,16 +39,36 @@ constexpr double kTrailOpacity = 0.5;
 constexpr double kMaxStrength = 8;  // more shows the noise of the empty scene
 constexpr std::uint64_t kMinEmptySamples = 4;
 
-TrailShape default_trail(StudyStyle style) {
-  switch (style) {
-    case StudyStyle::trail: return TrailShape::even;
-    case StudyStyle::rear_curtain: return TrailShape::ramp;
-    case StudyStyle::strobe: return TrailShape::none;
-    case StudyStyle::frozen: return TrailShape::even;
-    case StudyStyle::clean:
-    case StudyStyle::slit: break;
+// A gain over an interval, along a straight line.
+struct GainPiece {
+  Interval interval;
+  double begin_gain = 0, end_gain = 0;
+
+  [[nodiscard]] double length_ns() const { return static_cast<double>(interval.end_ns - interval.begin_ns); }
+  [[nodiscard]] double integral() const { return length_ns() * (begin_gain + end_gain) / 2; }
+  [[nodiscard]] double at(std::int64_t time_ns) const {
+    return std::lerp(begin_gain, end_gain, static_cast<double>(time_ns - interval.begin_ns) / length_ns());
   }
-  return TrailShape::none;
+};
+
+// Pieces may lie over each other.
+GainFunction sum_of(const std::vector<GainPiece>& pieces) {
+  std::set<std::int64_t> times;
+  for (const GainPiece& piece : pieces) times.insert({piece.interval.begin_ns, piece.interval.end_ns});
+  GainPieces sum;
+  for (auto end = std::next(times.begin()); end != times.end(); ++end) {
+    const Interval interval{*std::prev(end), *end};
+    double begin_gain = 0, end_gain = 0;
+    bool is_exposed = false;
+    for (const GainPiece& piece : pieces) {
+      if (interval.end_ns <= piece.interval.begin_ns || interval.begin_ns >= piece.interval.end_ns) continue;
+      begin_gain += piece.at(interval.begin_ns);
+      end_gain += piece.at(interval.end_ns);
+      is_exposed = true;
+    }
+    if (is_exposed) sum.add(interval, begin_gain, end_gain);
+  }
+  return sum.function();
 }
 
 class StudyFunctions {
@@ -67,7 +88,29 @@ class StudyFunctions {
     }
     study.empty = tracks_.front().empty;  // of all the picture, and so of all subjects
     if (study.empty.size() < kMinEmptySamples) study.empty = {};
-    study.functions.emplace(std::uint8_t{0}, shape_ == TrailShape::none ? background(study) : trail(study));
+    if (shape_ == TrailShape::none) {
+      study.functions.emplace(std::uint8_t{0}, background(study));
+      return;
+    }
+    const std::vector<GainPiece> way = trail(study);
+    study.functions.emplace(std::uint8_t{0}, sum_of(way));
+    // Around a thing lies what is seen at its moment, its shadow for example, and what the trail adds to the ground.
+    double light = 0;
+    for (const GainPiece& piece : way) light += piece.integral();
+    for (std::size_t i = 0; i < study.grounds.size(); ++i) {
+      if (study.grounds[i].empty()) continue;
+      for (std::size_t level = 0; level < kAround.size(); ++level) {
+        std::vector<GainPiece> around = way;
+        for (const auto& [samples, share] :
+             {std::pair(SampleRange{study.moments[i], study.moments[i] + 1}, 1 / kAround[level].trail_share),
+              std::pair(study.grounds[i], -1.0)}) {
+          const Interval interval = interval_of(samples);
+          const double gain = share * light / static_cast<double>(interval.end_ns - interval.begin_ns);
+          around.push_back({interval, gain, gain});
+        }
+        study.functions.emplace(static_cast<std::uint8_t>((level + 1) * study.moments.size() + i + 1), sum_of(around));
+      }
+    }
   }
 
  private:
@@ -91,7 +134,7 @@ class StudyFunctions {
 
   // The whole way of the subject, or of all of them. Where nothing is there for a while, that is taken away again, so
   // that the way may be as much stronger.
-  [[nodiscard]] GainFunction trail(Study& study) const {
+  [[nodiscard]] std::vector<GainPiece> trail(Study& study) const {
     std::uint64_t first = tracks_.front().places.front().sample, last = 0;
     double covered = 0;
     for (const SubjectTrack& track : tracks_) {
@@ -102,37 +145,27 @@ class StudyFunctions {
     if (request_.style == StudyStyle::rear_curtain) last = std::ranges::max(study.moments);
     const Interval way = interval_of({std::min(first, last), last + 1});
     const double begin = shape_ == TrailShape::ramp ? 0.0 : 1.0, end = shape_ == TrailShape::fade ? 0.0 : 1.0;
-    GainPieces pieces;
     const Interval without = study.empty.empty() ? way : interval_of(study.empty);
     const bool is_apart = without.end_ns <= way.begin_ns || without.begin_ns >= way.end_ns;
     double way_ns = 0;  // each time as strong as it is
-    std::vector<std::pair<Interval, std::pair<double, double>>> moving;
+    std::vector<GainPiece> pieces;
     for (const Interval& part : without_rests(way)) {
       const auto gain = [&](std::int64_t time_ns) {
         return begin + (end - begin) * static_cast<double>(time_ns - way.begin_ns) /
                            static_cast<double>(way.end_ns - way.begin_ns);
       };
       const double first_gain = gain(part.begin_ns), last_gain = gain(part.end_ns);
-      way_ns += static_cast<double>(part.end_ns - part.begin_ns) * (first_gain + last_gain) / 2;
-      moving.push_back({part, {first_gain, last_gain}});
+      pieces.push_back({part, first_gain, last_gain});
+      way_ns += pieces.back().integral();
     }
-    const auto add_way = [&] {
-      for (const auto& [part, gains] : moving) pieces.add(part, gains.first, gains.second);
-    };
-    if (!is_apart || request_.style == StudyStyle::frozen) {
-      add_way();
-      return pieces.function();
-    }
+    if (!is_apart || request_.style == StudyStyle::frozen) return pieces;
     const double wanted = kTrailOpacity / covered;
     study.trail_strength = std::round(10 * std::clamp(wanted, 1.0, kMaxStrength)) / 10;
     const double taken =
         -(1 - 1 / study.trail_strength) * way_ns / static_cast<double>(without.end_ns - without.begin_ns);
     const double rounded = std::round(1000 * taken) / 1000;
-    const bool is_before = without.begin_ns < way.begin_ns;
-    if (is_before) pieces.add(without, rounded, rounded);
-    add_way();
-    if (!is_before) pieces.add(without, rounded, rounded);
-    return pieces.function();
+    pieces.push_back({without, rounded, rounded});
+    return pieces;
   }
 
   // Parts of the way in which a single subject goes on; all of it for several, or for a scene that is exposed for all of
@@ -186,6 +219,18 @@ Study slit_study(CaptureSource& capture, const std::string& name, std::uint32_t 
                                                    : "pixels in a column"));
   }
   return study;
+}
+
+TrailShape default_trail(StudyStyle style) {
+  switch (style) {
+    case StudyStyle::trail: return TrailShape::even;
+    case StudyStyle::rear_curtain: return TrailShape::ramp;
+    case StudyStyle::strobe: return TrailShape::none;
+    case StudyStyle::frozen: return TrailShape::even;
+    case StudyStyle::clean:
+    case StudyStyle::slit: break;
+  }
+  return TrailShape::none;
 }
 
 FunctionSet whole_time(const Timeline& timeline) {

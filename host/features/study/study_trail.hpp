@@ -20,6 +20,9 @@ namespace nutik {
 // All of the time, evenly, where the mask's value is 0.
 [[nodiscard]] FunctionSet whole_time(const Timeline& timeline);
 
+// What a style shows between moments where nothing is stated.
+[[nodiscard]] TrailShape default_trail(StudyStyle style);
+
 // Of the moments that were chosen. Sets the study's functions, how strong its trail is and when nothing is there.
 void add_functions(Study& study, const StudyRequest& request, const Timeline& timeline,
                    const std::vector<SubjectTrack>& tracks);
