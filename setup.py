@@ -27,18 +27,28 @@ def version():
     return re.search(r"^project\(nutik VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.MULTILINE).group(1)
 
 
+def run_cmake(*words):
+    """CMake itself has said what is wrong."""
+    try:
+        status = subprocess.run(["cmake", *words], cwd=ROOT).returncode
+    except FileNotFoundError as error:
+        raise SystemExit(f"cmake is missing: {error}")
+    if status != 0:
+        raise SystemExit(f"cmake failed, status {status}; what it needs: docs/how-to/install.md, tools/setup.sh")
+
+
 class BuildWithCMake(build_ext):
     """The module and what decodes clips, as CMake makes them, and the Python files."""
 
     def run(self):
         stated = os.environ.get("NUTIK_BUILD_DIR")
         folder = Path(stated).resolve() if stated else CMAKE_FOLDER
-        if not (folder / "CMakeCache.txt").exists():
-            subprocess.run(["cmake", "--preset", "release", "-S", ROOT, "-B", folder, "-DNUTIK_BUILD_TESTS=OFF",
-                            "-DNUTIK_BUILD_BENCHMARKS=OFF", "-DNUTIK_BUILD_PYTHON=ON",
-                            f"-DPython_EXECUTABLE={sys.executable}", *shlex.split(os.environ.get("CMAKE_ARGS", ""))],
-                           check=True, cwd=ROOT)
-        subprocess.run(["cmake", "--build", folder, "--target", "nutik_python_package"], check=True)
+        # CMake writes these at the end, where nothing was missing; its cache is there before.
+        if not any((folder / made).exists() for made in ("build.ninja", "Makefile")):
+            run_cmake("--preset", "release", "-S", ROOT, "-B", folder, "-DNUTIK_BUILD_TESTS=OFF",
+                      "-DNUTIK_BUILD_BENCHMARKS=OFF", "-DNUTIK_BUILD_PYTHON=ON",
+                      f"-DPython_EXECUTABLE={sys.executable}", *shlex.split(os.environ.get("CMAKE_ARGS", "")))
+        run_cmake("--build", folder, "--target", "nutik_python_package")
         made, target = folder / "python" / "nutik", Path(self.build_lib) / "nutik"
         module = Path(self.get_ext_filename("_nutik")).name
         if not (made / module).exists():

@@ -40,7 +40,7 @@ const Advice kOtherReference{"; try another picture to align to (`align-to`), or
 
 CannotAlign not_alike(const ClipToAlign& clip, CameraMotion motion, std::uint64_t picture,
                       const Registered& found) {
-  return CannotAlign(
+  CannotAlign error(
       format("{}: picture {} cannot be aligned to picture {}: of what is seen in both {:.1f} % follow one "
              "{} motion, and half must. The camera moved too far or too fast, there is a cut between them, "
              "or what moves by itself fills most of the picture",
@@ -48,6 +48,8 @@ CannotAlign not_alike(const ClipToAlign& clip, CameraMotion motion, std::uint64_
       motion == CameraMotion::homography
           ? kOtherReference
           : Advice{"; try `align homography`, another picture to align to (`align-to`), or a part of the clip (`from`, `to`)"});
+  error.picture = picture;
+  return error;
 }
 
 class AlignedClip final : public Clip {

@@ -24,6 +24,7 @@ namespace nutik {
 // A clip's pictures do not lie on each other, whatever is tried.
 struct CannotAlign : InputError {
   using InputError::InputError;
+  std::optional<std::uint64_t> picture = std::nullopt;  // the first that shows too little of what the reference does
 };
 
 struct ClipToAlign {

@@ -16,9 +16,9 @@ namespace {
 
 constexpr std::uint32_t kBlock = 8;            // pixels a side
 constexpr std::uint32_t kMarginBlocks = 8;     // round what changed: a patch is followed with its surroundings
-constexpr float kNoise = 3.0F * 3.0F;          // of 255, squared: what differs less has not changed
+constexpr float kNoise = 4.0F * 4.0F;          // of 255, squared: what differs less has not changed
 constexpr float kNotExplained = 0.3F, kExplained = 0.7F;  // share of what changed that motion explains
-constexpr float kBelieved = 0.5F;
+constexpr float kBelieved = 0.5F, kFoundBack = 0.35F;  // a pixel away from where it came from, on average
 constexpr float kHardlyBelieved = 0.02F;
 constexpr double kSmooth = 1.42;  // pixels: steps that are this long or half of it look like none
 constexpr std::uint8_t kMixedSteps = 4;
@@ -122,14 +122,14 @@ void PairMotion::find(const std::uint8_t* first, const std::uint8_t* second, std
   fastest_ = 0;
   box_ = {0, 0, 0, 0};
   compare(first, second);
-  const bool is_followed = choose_box();
+  const bool has_box = choose_box();
   for (std::size_t block = 0; block < differ_.size(); ++block) {
     const bool differs = differ_[block] > kNoise;
     ways_[block] = {differs ? kMixedSteps : std::uint8_t{1}, false};
     changed_ += differs ? 1 : 0;
   }
   unfollowed_ = changed_;
-  if (!is_followed) return;
+  if (!has_box) return;
   const std::size_t offset = std::size_t{box_.y} * width_ + box_.x;
   const GreyPlane a{first + offset, box_.width, box_.height, width_}, b{second + offset, box_.width, box_.height, width_};
   const std::size_t pixels = std::size_t{box_.width} * box_.height;
@@ -149,10 +149,9 @@ void PairMotion::find(const std::uint8_t* first, const std::uint8_t* second, std
   for (std::size_t block = 0; block < differ_.size(); ++block) {
     const auto column = static_cast<std::uint32_t>(block % columns_), row = static_cast<std::uint32_t>(block / columns_);
     for (const Direction* way : {&forwards_, &backwards_}) {
-      if (way->believed[block] > kBelieved) ways.push_back(length(flow_of(*way, column, row)));
+      if (is_followed(*way, block)) ways.push_back(length(flow_of(*way, column, row)));
     }
-    if (differ_[block] > kNoise && std::max(forwards_.believed[block], backwards_.believed[block]) >= kBelieved)
-      --unfollowed_;
+    if (differ_[block] > kNoise && (is_followed(forwards_, block) || is_followed(backwards_, block))) --unfollowed_;
   }
   if (ways.size() > kStrays) {
     std::ranges::nth_element(ways, ways.end() - static_cast<std::ptrdiff_t>(kStrays) - 1);
@@ -160,6 +159,10 @@ void PairMotion::find(const std::uint8_t* first, const std::uint8_t* second, std
   }
   mark(forwards_);
   mark(backwards_);
+}
+
+bool PairMotion::is_followed(const Direction& way, std::size_t block) {
+  return way.believed[block] > kBelieved && way.agrees[block] > kFoundBack;
 }
 
 FlowVector PairMotion::flow_of(const Direction& way, std::uint32_t column, std::uint32_t row) const {
@@ -172,13 +175,15 @@ FlowVector PairMotion::flow_of(const Direction& way, std::uint32_t column, std::
 void PairMotion::weigh(const std::uint8_t* from, const std::uint8_t* to, Direction& way, const Direction& back,
                        std::uint32_t max_threads) {
   way.missed.assign(differ_.size(), 0);
+  way.agrees.assign(differ_.size(), 0);
   const float right = static_cast<float>(box_.width - 1), bottom = static_cast<float>(box_.height - 1);
   const std::uint32_t first_row = box_.y / kBlock, rows = (box_.height + kBlock - 1) / kBlock;
   parallel_for(
       rows,
       [&](std::uint64_t strip) {
         const auto begin = static_cast<std::uint32_t>(strip) * kBlock, end = std::min(begin + kBlock, box_.height);
-        float* const missed = way.missed.data() + (first_row + strip) * columns_ + box_.x / kBlock;
+        const std::size_t first_block = (first_row + strip) * columns_ + box_.x / kBlock;
+        float *const missed = way.missed.data() + first_block, *const agrees = way.agrees.data() + first_block;
         for (std::uint32_t y = begin; y < end; ++y) {
           const std::size_t row = std::size_t{y} * box_.width;
           for (std::uint32_t x = 0; x < box_.width; ++x) {
@@ -196,11 +201,15 @@ void PairMotion::weigh(const std::uint8_t* from, const std::uint8_t* to, Directi
             missed[x / kBlock] += difference * difference;
             const FlowVector& returned = back.flow[std::size_t{top + (v >= 0.5F && top + 1 < box_.height ? 1 : 0)} *
                                                        box_.width + left + (u >= 0.5F ? next : 0)];
-            way.weights[row + x].agrees = std::exp(-length({flow.x + returned.x, flow.y + returned.y}));
+            const float agreement = std::exp(-length({flow.x + returned.x, flow.y + returned.y}));
+            way.weights[row + x].agrees = agreement;
+            agrees[x / kBlock] += agreement;
           }
         }
         for (std::uint32_t column = 0; column * kBlock < box_.width; ++column) {
-          missed[column] /= static_cast<float>((end - begin) * (std::min((column + 1) * kBlock, box_.width) - column * kBlock));
+          const std::uint32_t width = std::min((column + 1) * kBlock, box_.width) - column * kBlock;
+          missed[column] /= static_cast<float>((end - begin) * width);
+          agrees[column] /= static_cast<float>((end - begin) * width);
         }
       },
       max_threads);
@@ -417,13 +426,18 @@ void InBetween::make_block(std::uint32_t column, std::uint32_t row, float share,
   }
 }
 
+// The nearest of the block's own steps; between two, where something moves, exactly there.
+float InBetween::share_of(const PairMotion::Way& way, std::uint32_t step, std::uint32_t steps) {
+  const std::uint32_t own = std::min<std::uint32_t>(way.steps, steps), halves = 2 * step * own;
+  if (way.is_moved && halves % (2 * steps) == steps) return static_cast<float>(step) / static_cast<float>(steps);
+  return static_cast<float>((halves + steps) / (2 * steps)) / static_cast<float>(own);
+}
+
 void InBetween::make(std::uint32_t step, std::uint32_t steps, std::span<std::byte> raster) {
   parallel_for(motion_.rows_, [&](std::uint64_t row) {
     for (std::uint32_t column = 0; column < motion_.columns_; ++column) {
       const std::size_t block = row * motion_.columns_ + column;
-      // The nearest of its own steps.
-      const std::uint32_t own = std::min<std::uint32_t>(motion_.ways_[block].steps, steps);
-      const float share = static_cast<float>((2 * step * own + steps) / (2 * steps)) / static_cast<float>(own);
+      const float share = share_of(motion_.ways_[block], step, steps);
       if (share == shares_[block]) continue;
       shares_[block] = share;
       format_.code_bytes == 1

@@ -59,6 +59,7 @@ class PairMotion {
     std::vector<FlowVector> flow;
     std::vector<Weight> weights;
     std::vector<float> missed;    // of each block: squared differences that are left along the motion
+    std::vector<float> agrees;    // of each block: a mean
     std::vector<float> believed;  // of each block
   };
 
@@ -68,6 +69,8 @@ class PairMotion {
              std::uint32_t max_threads);
   void believe(Direction& way, std::uint32_t max_threads);
   void mark(const Direction& way);
+  // Whether a block's motion is believed and found back.
+  [[nodiscard]] static bool is_followed(const Direction& way, std::size_t block);
   [[nodiscard]] FlowVector flow_of(const Direction& way, std::uint32_t column, std::uint32_t row) const;
 
   std::uint32_t width_, height_, columns_, rows_;  // pixels, blocks
@@ -115,6 +118,7 @@ class InBetween {
   void read_light(const Code* codes, std::vector<Light>& lights) const;
   template <typename Code>
   void make_block(std::uint32_t column, std::uint32_t row, float share, Code* raster) const;
+  static float share_of(const PairMotion::Way& way, std::uint32_t step, std::uint32_t steps);
   [[nodiscard]] Light moved(std::uint32_t x, std::uint32_t y, float share) const;
   static Light at(const std::vector<Light>& lights, const Rectangle& box, float x, float y);
 

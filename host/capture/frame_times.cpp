@@ -75,6 +75,14 @@ std::int64_t rounded_sum(const ExactTime& a, const ExactTime& b) {
          round_half_up(of_a.part * of_b.of + of_b.part * of_a.of, of_a.of * of_b.of);
 }
 
+std::int64_t rounded_between(const ExactTime& from, const ExactTime& to, std::int64_t step,
+                             std::int64_t steps) {
+  const Split a = split(from.numerator, from.denominator), b = split(to.numerator, to.denominator);
+  const Split whole = split(a.whole * (steps - step) + b.whole * step, steps);
+  const int128 part = whole.part * a.of * b.of + a.part * b.of * (steps - step) + b.part * a.of * step;
+  return static_cast<std::int64_t>(whole.whole) + round_half_up(part, a.of * b.of * steps);
+}
+
 FrameTimes::FrameTimes(ExactTime from, Rational rate, Rational speed, Rational angle)
     : from_(from), angle_(angle) {
   check_term(rate, "frame rate");

@@ -30,6 +30,9 @@ struct ExactTime {
 
 // Rounded half up, once, from the exact sum.
 [[nodiscard]] std::int64_t rounded_sum(const ExactTime& a, const ExactTime& b);
+// from + (to - from) · step / steps, rounded likewise. 0 <= step <= steps < 2^16; steps > 0.
+[[nodiscard]] std::int64_t rounded_between(const ExactTime& from, const ExactTime& to, std::int64_t step,
+                                           std::int64_t steps);
 
 class FrameTimes {
  public:

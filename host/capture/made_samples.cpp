@@ -13,13 +13,13 @@ std::uint64_t MadeSamples::count() const {
   return std::accumulate(after.begin(), after.end(), std::uint64_t{0});
 }
 
-bool MadeSamples::is_made(std::uint64_t sample) const {
+std::vector<bool> MadeSamples::marks() const {
+  std::vector<bool> marks;
   for (const std::uint8_t made : after) {
-    if (sample == 0) return false;
-    if (sample <= made) return true;
-    sample -= std::uint64_t{made} + 1;
+    marks.push_back(false);
+    marks.insert(marks.end(), made, true);
   }
-  return false;
+  return marks;
 }
 
 Timeline MadeSamples::times(const Timeline& filmed) const {

@@ -20,7 +20,7 @@ struct MadeSamples {
 
   [[nodiscard]] std::uint64_t count() const;                    // of those made
   [[nodiscard]] std::uint64_t total() const { return after.size() + count(); }
-  [[nodiscard]] bool is_made(std::uint64_t sample) const;
+  [[nodiscard]] std::vector<bool> marks() const;  // of each sample, whether it was made
   // The times of all samples, where those that were filmed have these. A made one is exposed as long as its neighbours, and
   // no exposure reaches further than halfway to the middle of the next.
   [[nodiscard]] Timeline times(const Timeline& filmed) const;

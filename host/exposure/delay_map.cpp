@@ -5,7 +5,6 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "capture/rational.hpp"
 
 namespace nutik {
 namespace {
@@ -25,8 +24,7 @@ DelayMap made(const Shape& shape, const DelayRange& range, std::uint32_t steps, 
   }
   std::vector<std::int64_t> delay_of_step(occurs.size());
   for (std::uint32_t step = 0; step <= steps; ++step) {
-    const int128 span = static_cast<int128>(range.to_ns) - range.from_ns;
-    delay_of_step[step] = range.from_ns + round_half_up(span * step, std::max<std::int64_t>(steps, 1));
+    delay_of_step[step] = rounded_between(range.from, range.to, step, std::max<std::int64_t>(steps, 1));
     if (occurs[step]) map.delays_ns.push_back(delay_of_step[step]);
   }
   std::ranges::sort(map.delays_ns);

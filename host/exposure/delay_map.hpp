@@ -2,7 +2,7 @@
 //
 //   in:      a range of delays, and a direction or a picture that says where in it each pixel lies
 //   out:     the delays that occur, and which of them each pixel has
-//   units:   whole nanoseconds, each rounded half up from its own exact value; below 0: earlier
+//   units:   whole nanoseconds, each rounded half up once, from its own exact value; below 0: earlier
 //   always:  delays increase, and some pixel has each; there are at most 65,536
 #pragma once
 
@@ -10,15 +10,16 @@
 #include <string>
 #include <vector>
 
+#include "capture/frame_times.hpp"
 #include "capture/picture.hpp"
 
 namespace nutik {
 
 // From one end of a direction to the other, or from black to white.
 struct DelayRange {
-  std::int64_t from_ns = 0;
-  std::int64_t to_ns = 0;
-  friend bool operator==(const DelayRange&, const DelayRange&) = default;
+  ExactTime from, to;
+  DelayRange(const ExactTime& first, const ExactTime& last) : from(first), to(last) {}
+  DelayRange(std::int64_t from_ns, std::int64_t to_ns) : from{from_ns}, to{to_ns} {}
 };
 
 struct DelayMap {

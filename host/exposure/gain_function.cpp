@@ -206,16 +206,23 @@ double GainSummary::error_scale() const {
                          : std::scalbn(absolute_integral_ns / static_cast<double>(support_ns), exponent);
 }
 
-Interval whole_course(const GainFunction& function, std::int64_t duration_ns) {
-  return {std::min<std::int64_t>(0, function.points().front().time_ns),
-          std::max(duration_ns, function.points().back().time_ns)};
-}
-
 GainSummary summarize_course(const GainFunction& function, std::int64_t duration_ns) {
-  const Interval course = whole_course(function, duration_ns);
-  GainSummary summary = summarize(function.shifted(-course.begin_ns), course.end_ns - course.begin_ns);
+  std::vector<ControlPoint> points(function.points().begin(), function.points().end());
+  const std::int64_t first_ns = points.front().time_ns, last_ns = points.back().time_ns;
+  // Held ends expose within the capture alone: between it and the control points the course is 0.
+  if (first_ns > duration_ns) {
+    if (points.size() > 1 && points[1].time_ns == first_ns) points.erase(points.begin());
+    points.insert(points.begin(), {{duration_ns, function.first_gain()}, {duration_ns, 0.0}, {first_ns, 0.0}});
+  }
+  if (last_ns < 0) {
+    if (points.size() > 1 && points[points.size() - 2].time_ns == last_ns) points.pop_back();
+    points.insert(points.end(), {{last_ns, 0.0}, {0, 0.0}, {0, function.last_gain()}});
+  }
+  const std::int64_t begin_ns = std::min<std::int64_t>(0, first_ns);
+  GainSummary summary =
+      summarize(GainFunction(std::move(points)).shifted(-begin_ns), std::max(duration_ns, last_ns) - begin_ns);
   if (!summary.live.empty()) {
-    summary.live = {summary.live.begin_ns + course.begin_ns, summary.live.end_ns + course.begin_ns};
+    summary.live = {summary.live.begin_ns + begin_ns, summary.live.end_ns + begin_ns};
   }
   return summary;
 }

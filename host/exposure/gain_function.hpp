@@ -104,14 +104,11 @@ struct GainSummary {
 
 [[nodiscard]] GainSummary summarize(const GainFunction& function, std::int64_t duration_ns);
 
-// What a function comes to by itself, wherever pixels' delays put it: over the capture's domain, made longer so that it
-// holds all of the function's control points.
+// What a function comes to by itself, wherever pixels' delays put it: as summarize(), over the capture's domain and
+// between the function's control points; so no part lies outside. Held ends count in the capture alone.
 //
 // A delayed exposure has its D and its normalization from here (docs/explanation/model.md, "Time maps"). For a function
 // that lies within the capture they are those of an exposure without delays.
-[[nodiscard]] Interval whole_course(const GainFunction& function, std::int64_t duration_ns);
-
-// As summarize(), over that; so no part lies outside.
 [[nodiscard]] GainSummary summarize_course(const GainFunction& function, std::int64_t duration_ns);
 
 }  // namespace nutik

@@ -60,9 +60,10 @@ double Normalization::divided_by(const GainSummary& summary, const std::string& 
 }
 
 GainFunction Normalization::normalized(const GainFunction& function, std::int64_t duration_ns, double gain,
-                                       const std::string& name) const {
+                                       const std::string& name, bool has_delays) const {
   if (divisor_ == Divisor::support && gain == 1.0) return function;
-  const GainSummary summary = summarize(function, duration_ns);
+  const GainSummary summary =
+      has_delays ? summarize_course(function, duration_ns) : summarize(function, duration_ns);
   if (summary.support_ns == 0) return function;
   const double factor = gain * divided_by(summary, name);
   try {

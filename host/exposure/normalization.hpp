@@ -38,10 +38,11 @@ class Normalization {
 
   // The function that, divided by D, gives `gain` · ∫ g v / X over a capture of this length: every gain times
   // one factor, `gain` · D / X, rounded once. A function that is zero in the capture comes back as it was.
+  // Delays may bring any part of it into the capture: all of that is then of its whole course.
   // Throws InputError naming the function by `name` where X is an integral that cancels, or where a gain
   // leaves the range of numbers.
   [[nodiscard]] GainFunction normalized(const GainFunction& function, std::int64_t duration_ns, double gain,
-                                        const std::string& name) const;
+                                        const std::string& name, bool has_delays = false) const;
 
   // D / X of such a function, whose D is not 0. Throws as above.
   [[nodiscard]] double divided_by(const GainSummary& summary, const std::string& name) const;

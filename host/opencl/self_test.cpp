@@ -166,7 +166,7 @@ Verdict self_test(const CaptureFormat& like, Precision precision, const OutputFo
   MemoryCapture endless = long_capture(like);
   PlanOptions options;
   if (pixels.have_delays) {
-    options.delays = std::make_shared<const DelayMap>(DelayMap::by_rows(endless.format().shape, {}));
+    options.delays = std::make_shared<const DelayMap>(DelayMap::by_rows(endless.format().shape, {0, 0}));
   }
   judge(endless, make_plan(endless, {{0, GainFunction({{0, 1.0}})}}, Mask::uniform(1, 1, 0), options), false);
   const TilesOfAllKinds scene(like);

@@ -32,6 +32,7 @@ struct TraceStep {
   std::int64_t end_ns = 0;
   double begin_gain = 0.0;
   double end_gain = 0.0;
+  bool is_made = false;  // the sample that it begins with, between two that were filmed (capture/made_samples.hpp)
   std::array<Value, 3> values{};  // as many as there are channels
 };
 

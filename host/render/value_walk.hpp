@@ -166,14 +166,18 @@ void walk_block(ValueWalk& walk, const GainWalk& gain, std::size_t piece, const 
 }
 
 // Along the function of a plan, over the capture's domain. A delayed one is moved there; its D is how long it differs from
-// 0 over its whole course, from its first control point or the capture's start to its last or the capture's end.
+// 0 over its whole course, between its control points and in the capture.
 [[nodiscard]] inline GainWalk walk_along(const PlannedFunction& planned, std::int64_t duration_ns) {
   if (!planned.is_delayed) return GainWalk(planned.function.pieces(duration_ns));
   const std::span<const ControlPoint> points = planned.function.points();
   const std::int64_t begin_ns = std::min<std::int64_t>(0, points.front().time_ns);
   const std::int64_t end_ns = std::max(duration_ns, points.back().time_ns);
   const GainWalk course(planned.function.shifted(-begin_ns).pieces(end_ns - begin_ns));
-  return GainWalk(planned.function.shifted(planned.delay_ns).pieces(duration_ns), course.support_ns());
+  // A held end counts in the capture alone, not on the way from there to a control point beyond.
+  std::int64_t held_outside_ns = 0;
+  if (points.front().gain != 0.0) held_outside_ns += std::max<std::int64_t>(0, points.front().time_ns - duration_ns);
+  if (points.back().gain != 0.0) held_outside_ns += std::max<std::int64_t>(0, -points.back().time_ns);
+  return GainWalk(planned.function.shifted(planned.delay_ns).pieces(duration_ns), course.support_ns() - held_outside_ns);
 }
 
 // What a walk to the end comes to: the light of the exposure, ∫ light × gain / D.

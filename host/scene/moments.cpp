@@ -112,8 +112,12 @@ bool overlap(const SubjectPlace& a, const SubjectPlace& b, std::size_t columns, 
 
 class Chooser {
  public:
-  Chooser(const SubjectTrack& track, std::uint32_t count, std::uint32_t gap_pixels)
-      : track_(track), count_(count), gap_(gap_pixels == 0 ? 0 : (gap_pixels - 1) / track.cell_side + 1) {}
+  Chooser(const SubjectTrack& track, std::uint32_t count, std::uint32_t gap_pixels,
+          const std::vector<SubjectPlace>& taken)
+      : track_(track),
+        count_(count),
+        gap_(gap_pixels == 0 ? 0 : (gap_pixels - 1) / track.cell_side + 1),
+        taken_(taken) {}
 
   // Those nearest to wishes that are spread evenly over candidates.
   void add_evenly(const Places& candidates, MomentSpacing spacing) {
@@ -168,24 +172,26 @@ class Chooser {
 
  private:
   [[nodiscard]] bool is_free(const SubjectPlace& place) const {
-    return std::ranges::none_of(chosen_, [&](const SubjectPlace* other) {
-      return overlap(place, *other, track_.cell_columns, gap_);
-    });
+    const auto is_near = [&](const SubjectPlace& other) { return overlap(place, other, track_.cell_columns, gap_); };
+    return std::ranges::none_of(chosen_, [&](const SubjectPlace* other) { return is_near(*other); }) &&
+           std::ranges::none_of(taken_, is_near);
   }
 
   const SubjectTrack& track_;
   std::uint32_t count_;
   std::size_t gap_;  // in cells
+  const std::vector<SubjectPlace>& taken_;
   Places chosen_;
 };
 
 }  // namespace
 
 std::vector<SubjectPlace> choose_moments(const SubjectTrack& track, std::uint32_t count,
-                                         MomentSpacing spacing, std::uint32_t gap_pixels) {
+                                         MomentSpacing spacing, std::uint32_t gap_pixels,
+                                         const std::vector<SubjectPlace>& taken) {
   const Places candidates = telling_places(track.places);
   const Places whole = whole_places(candidates);
-  Chooser chooser(track, count, gap_pixels);
+  Chooser chooser(track, count, gap_pixels, taken);
   if (const Places& most = whole.size() >= count ? whole : candidates; !most.empty()) {
     chooser.add_evenly(most, spacing);
   }

@@ -5,7 +5,6 @@
 #include <functional>
 #include <iterator>
 #include <span>
-#include <tuple>
 #include <utility>
 
 #include "scene/differing_cells.hpp"
@@ -205,20 +204,22 @@ class Follower {
     ++look_;
   }
 
-  // The places of what goes furthest; and of what goes beside it for half of its own time, half as far or more, as one
-  // whole thing.
-  [[nodiscard]] std::pair<std::vector<SubjectPlace>, std::vector<SubjectPlace>> subject_and_other() && {
+  // The places of what goes furthest, and of what goes beside it for half of its own time, half as far or more, as one
+  // whole thing: a few of these at most.
+  [[nodiscard]] std::vector<std::vector<SubjectPlace>> subjects() && {
+    constexpr std::size_t kMaxSubjects = 4;
     std::vector<std::pair<double, Followed*>> by_weight;
     for (Followed& each : followed_) by_weight.emplace_back(each.weight(), &each);
     if (by_weight.empty()) return {};
     std::ranges::stable_sort(by_weight, std::ranges::greater(), &std::pair<double, Followed*>::first);
     const auto [most, subject] = by_weight.front();
+    std::vector<std::vector<SubjectPlace>> others;
     for (const auto& [weight, other] : std::span(by_weight).subspan(1)) {
-      if (weight < most / 2) break;
-      if (!other->goes_its_way() || !other->is_beside(*subject)) continue;
-      return {std::move(*subject).places(), std::move(*other).places()};
+      if (weight < most / 2 || others.size() + 1 == kMaxSubjects) break;
+      if (other->goes_its_way() && other->is_beside(*subject)) others.push_back(std::move(*other).places());
     }
-    return {std::move(*subject).places(), {}};
+    others.insert(others.begin(), std::move(*subject).places());
+    return others;
   }
 
  private:
@@ -296,19 +297,29 @@ class Tracker {
   }
 
   [[nodiscard]] SubjectTrack track() && {
-    std::tie(track_.places, track_.other) = std::move(follower_).subject_and_other();
-    track_.rests = rests_of(track_.places, track_.cell_side);
-    const Way way(track_.places);
-    track_.extent = way.extent();
-    // A pendulum turns often on its long way; who stands for a while stirs, and yet goes somewhere.
-    constexpr double kMaxTurnsOfLength = 1.3, kMaxTurnsOfExtent = 2;
-    track_.fill = usual(track_.places, &SubjectPlace::fill);
-    track_.share = usual(track_.places, &SubjectPlace::share);
-    track_.flickers = way.turns_of_length() > kMaxTurnsOfLength && way.turns_of_extent() > kMaxTurnsOfExtent;
+    const SubjectTrack none = track_;
+    bool is_first = true;
+    for (std::vector<SubjectPlace>& places : std::move(follower_).subjects()) {
+      SubjectTrack& track = is_first ? track_ : track_.others.emplace_back(none);
+      is_first = false;
+      track.places = std::move(places);
+      measure(track);
+    }
     return std::move(track_);
   }
 
  private:
+  static void measure(SubjectTrack& track) {
+    track.rests = rests_of(track.places, track.cell_side);
+    const Way way(track.places);
+    track.extent = way.extent();
+    // A pendulum turns often on its long way; who stands for a while stirs, and yet goes somewhere.
+    constexpr double kMaxTurnsOfLength = 1.3, kMaxTurnsOfExtent = 2;
+    track.fill = usual(track.places, &SubjectPlace::fill);
+    track.share = usual(track.places, &SubjectPlace::share);
+    track.flickers = way.turns_of_length() > kMaxTurnsOfLength && way.turns_of_extent() > kMaxTurnsOfExtent;
+  }
+
   Field field_;
   Follower follower_;
   std::uint64_t looks_;

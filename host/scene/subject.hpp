@@ -36,8 +36,8 @@ struct SubjectTrack {
   // with it is taken from there, too.
   SampleRange empty;
   std::vector<SampleRange> rests;   // where it stays in its place for a good part of the time
-  std::vector<SubjectPlace> other;  // of what goes its way nearly as far at the same time, if anything does
-  double extent = 0;                // in pixels, from where its centre is furthest to one side to the other
+  std::vector<SubjectTrack> others;  // what goes its way half as far or more at the same time
+  double extent = 0;  // in pixels, from where its centre is furthest to one side to the other
   double fill = 1;                  // of its places' boxes; a median
   double share = 1;                 // of all that differs from the plate when it is there; a median
   bool flickers = false;            // its places lie here and there, as if it were no single thing

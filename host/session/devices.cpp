@@ -1,5 +1,8 @@
 #include "session/devices.hpp"
 
+#include <unistd.h>
+
+#include <atomic>
 #include <cctype>
 #include <chrono>
 #include <cstdlib>
@@ -38,8 +41,21 @@ std::vector<std::size_t> chosen(const std::vector<DeviceInfo>& devices, const st
   }
 }
 
+// Drivers work on threads of their own, which a forked process does not have: it would wait for them for ever.
+bool is_foreign() {
+  static std::atomic<pid_t> user = 0;
+  pid_t first = 0;
+  return !user.compare_exchange_strong(first, getpid()) && first != getpid();
+}
+void check_process() {
+  if (!is_foreign()) return;
+  throw DeviceError("this process was forked from one that had used the device, and a driver does not live in both; "
+                    "spawn processes instead, or fork them before the device is used");
+}
+
 std::shared_ptr<Renderer> made(const ComputingRequest& request, Devices::Announce announce) {
   if (request.renderer == RendererKind::reference) return std::make_shared<ReferenceRenderer>();
+  check_process();
   OpenClOptions options;
   const std::vector<std::size_t> devices = chosen(list_devices(), request.device);
   options.device = devices.front();
@@ -81,6 +97,7 @@ void Devices::start() {
 
 Renderer& Devices::renderer() {
   start();
+  if (request_.renderer == RendererKind::opencl) check_process();
   return *starting_.get();
 }
 
@@ -111,7 +128,7 @@ void Devices::release(const CaptureSource* source) {
   const std::lock_guard lock(naming_);
   if (resident_ != source || source == nullptr) return;
   resident_ = nullptr;
-  renderer().keep_resident(nullptr);
+  if (request_.renderer == RendererKind::reference || !is_foreign()) renderer().keep_resident(nullptr);
 }
 
 }  // namespace nutik

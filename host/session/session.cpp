@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <future>
 #include <optional>
 #include <utility>
@@ -258,6 +259,16 @@ void Session::Implementation::warm_up(CaptureSource& source, const RenderPlan& p
   ready.get();
 }
 
+namespace {
+
+std::uint64_t infinite_values(const Picture& picture) {
+  if (picture.type != ValueType::light32) return 0;
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(picture.values<float>(), [](float value) { return !std::isfinite(value); }));
+}
+
+}  // namespace
+
 ExposedPicture Session::Implementation::expose(CaptureSource& source, const FunctionSet& functions,
                                                const Mask& mask, const PlanOptions& options,
                                                const OutputFormat& output, const RenderControl& control,
@@ -281,6 +292,12 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
         return devices_->renderer().render(plan, source, output, limited);
       });
   rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
+  if (const std::uint64_t count = infinite_values(rendered.picture); count > 0) {
+    rendered.warnings.push_back(
+        nutik::format("{} of {} values are beyond floating point of 32 bits, which ends at 3.4e38, and infinite; "
+                      "expose with smaller gains",
+                      count, format_.shape.value_count()));
+  }
   const auto block_count = reader_ ? std::optional(reader_->block_count()) : std::nullopt;
   ExposureFigures figures = ExposureFigures::of(std::move(plan), source.timeline(), block_count);
   if (figures.functions.size() == 1) {
@@ -332,6 +349,13 @@ TracedExposure Session::Implementation::trace(const ExposureRequest& request, st
   check_reading(mask_needs(format_));
   StoppableSource blocks(*reader_, std::move(stop));
   std::vector<Trace> traces = follow(planned, blocks);
+  if (const auto& made = reader_->header().made) {
+    const std::vector<bool> marks = made->marks();
+    for (Trace& trace : traces) {
+      for (TraceStep& step : trace.steps)
+        step.is_made = marks[timeline().samples_reaching(step.begin_ns, step.begin_ns + 1).first];
+    }
+  }
   std::vector<std::string> warnings = std::move(planned.warnings);
   keep_traced(planned, traces);
   return {std::move(traces), ExposureFigures::of(std::move(planned), timeline(), reader_->block_count()),

@@ -25,10 +25,10 @@ from ._masks import Mask, read_mask
 from ._nutik import (DeviceError, Error, InputError, MemoryTooLittle, OutputError, UsageError, __version__)
 from ._pictures import Picture
 from ._sources import encode, join, open
-from ._words import NutikNote, NutikWarning
+from ._words import FileMissing, NutikNote, NutikWarning, WrongType
 
 __all__ = [
-    "Activity", "Capture", "DeviceError", "Error", "Function", "InputError", "Mask", "MemoryTooLittle", "NutikNote",
-    "NutikWarning", "OutputError", "Picture", "Plate", "Solution", "SolvedWish", "Study", "Trace", "UsageError", "__version__",
-    "boxcar", "encode", "fit", "join", "open", "parse_functions", "read_functions", "read_mask", "shutter", "write_functions",
+    "Activity", "Capture", "DeviceError", "Error", "FileMissing", "Function", "InputError", "Mask", "MemoryTooLittle",
+    "NutikNote", "NutikWarning", "OutputError", "Picture", "Plate", "Solution", "SolvedWish", "Study", "Trace",
+    "UsageError", "WrongType", "__version__", "boxcar", "encode", "fit", "join", "open", "parse_functions", "read_functions", "read_mask", "shutter", "write_functions",
 ]

@@ -19,7 +19,7 @@ from ._words import Array, DelayLike, Path, Progress, Time, box_of, count_of, de
 Functions = Union[FunctionLike, Mapping[int, FunctionLike], Path]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Trace:
     """How one function's light of a pixel came about, or the mean of a region: from edge to edge, where light and gain
     run straight in between. N steps, C channels."""
@@ -32,8 +32,15 @@ class Trace:
     light: Array        # [N, 2, C] at both
     integral_ns: Array  # [N, C] of light times gain over the step
     sum_ns: Array       # [N, C] of all integrals up to the step's end
+    made: Array         # [N] bool: whether the sample it begins with was made between two filmed ones
     exposed: Array      # [C] the exposure's light
     support_ns: int          # D, by which the sum is divided
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Trace) and all(np.array_equal(value, getattr(other, name))
+                                                for name, value in vars(self).items())
+
+    __hash__ = None  # type: ignore[assignment]
 
     @classmethod
     def _of(cls, arrays: dict[str, Any]) -> Trace:
@@ -83,6 +90,9 @@ class Capture:
     def dtype(self) -> np.dtype[Any]:
         """Of its codes: uint8 or uint16."""
         return np.dtype(np.uint8 if self._held.code_bytes == 1 else np.uint16)
+
+    def __array__(self, *_: object, **__: object) -> Array:
+        raise TypeError("a capture is no array: its pictures are exposed by render()")
 
     def __len__(self) -> int:
         return self._held.sample_count

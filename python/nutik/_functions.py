@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import Array, Path, Time, path_word, tag_of, time_ns, time_word, times_ns, warn
+from ._words import Array, Path, Time, path_word, reading, tag_of, time_ns, time_word, times_ns, warn
 
 _MIN_SAMPLES = 1024  # of a callable, evenly, before it is looked at more closely where it bends
 _MAX_SAMPLES = 1 << 20
@@ -80,6 +80,9 @@ class Function:
 
     def __hash__(self) -> int:
         return hash((self.times_ns.tobytes(), self.gains.tobytes()))
+
+    def __reduce__(self) -> Any:
+        return Function.from_ns, (self.times_ns, self.gains)
 
     def __repr__(self) -> str:
         times, gains = self._held.points()
@@ -185,7 +188,8 @@ def parse_functions(text: str, *, name: str = "functions") -> dict[int, Function
 
 def read_functions(path: Path) -> dict[int, Function]:
     """The same of a file."""
-    functions, told = _nutik.read_functions(path_word(path))
+    with reading(path_word(path)):
+        functions, told = _nutik.read_functions(path_word(path))
     warn([told] if told else [])
     return {tag: Function._of(held) for tag, held in functions.items()}
 

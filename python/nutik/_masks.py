@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import Array, Path, path_word, tag_of
+from ._words import Array, Path, path_word, reading, tag_of, whole
 
 
 class Mask:
@@ -17,12 +17,12 @@ class Mask:
 
     def __init__(self, tags: Any) -> None:
         """tags: [height, width] whole numbers 0 ... 255; bool is 0 and 1. Raises UsageError where it is none."""
-        tags = np.asarray(tags)
+        tags = np.asarray(whole(tags, "a mask's array of tags"))
         if tags.dtype == bool:
             tags = tags.astype(np.uint8)
         if tags.dtype != np.uint8:
-            whole = tags.dtype.kind in "iu" and tags.size and tags.min() >= 0 and tags.max() <= 255
-            if not whole:
+            fits = tags.dtype.kind in "iu" and tags.size and tags.min() >= 0 and tags.max() <= 255
+            if not fits:
                 raise UsageError(f"a mask's tags are whole numbers 0 ... 255, and this array has dtype {tags.dtype}"
                                  f"{'' if not tags.size else f' and values {tags.min()} ... {tags.max()}'}; for "
                                  "shares of pixels see nutik.Mask.of_layers()")
@@ -69,6 +69,12 @@ class Mask:
         """Whether some pixel has shares of several tags."""
         return self._held.is_soft()
 
+    def __reduce__(self) -> Any:
+        if not self.is_soft:
+            return Mask, (self.tags,)
+        rest, *others = self.tags_in_use
+        return _of_shares, ({tag: self.share(tag) for tag in others}, rest)
+
     def __repr__(self) -> str:
         height, width = self.tags.shape
         return f"<nutik.Mask {width} x {height}, tags {self.tags_in_use}{', soft' if self.is_soft else ''}>"
@@ -80,7 +86,8 @@ MaskLike = Union[Mask, Array, Mapping[int, Any], Path]
 def read_mask(path: Path, *, rest: int = 0) -> Mask:
     """A mask from a grey picture of 8 bits; or, of a name with a number in it, 'layer-%d.png', from its layers, of which
     `rest` gets what they leave. Raises InputError where it is none."""
-    return Mask._of(_nutik.Mask.read(path_word(path), tag_of(rest)))
+    with reading(path_word(path)):
+        return Mask._of(_nutik.Mask.read(path_word(path), tag_of(rest)))
 
 
 def mask_of(given: Optional[MaskLike], rest: int = 0) -> Optional[Mask]:
@@ -94,17 +101,21 @@ def mask_of(given: Optional[MaskLike], rest: int = 0) -> Optional[Mask]:
     return Mask(given)
 
 
+def _of_shares(shares: dict[int, Array], rest: int) -> Mask:
+    return Mask.of_layers(shares, rest=rest)
+
+
 def _shares(alpha: Any, tag: int) -> Array:
-    alpha = np.asarray(alpha)
-    whole = _nutik.WHOLE_SHARE
+    alpha = np.asarray(whole(alpha, f"the alpha of tag {tag}"))
+    most = _nutik.WHOLE_SHARE
     if alpha.dtype == bool:
-        return np.asarray(alpha * np.uint16(whole))
+        return np.asarray(alpha * np.uint16(most))
     if alpha.dtype == np.uint8:
-        return np.asarray(alpha * np.uint16(whole // 255))
+        return np.asarray(alpha * np.uint16(most // 255))
     if alpha.dtype == np.uint16:
         return np.asarray(alpha)
     if alpha.dtype.kind == "f":
         if alpha.size and not (np.min(alpha) >= 0 and np.max(alpha) <= 1):
             raise UsageError(f"the alpha of tag {tag} lies outside 0 ... 1: {np.min(alpha)} ... {np.max(alpha)}")
-        return np.asarray(np.rint(alpha * whole), np.uint16)
+        return np.asarray(np.rint(alpha * most), np.uint16)
     raise UsageError(f"the alpha of tag {tag} has dtype {alpha.dtype}; give float in [0, 1], uint8, uint16 or bool")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import deepcopy
 from typing import Any, Optional, Union
 
 import numpy as np
@@ -48,14 +49,19 @@ class Picture:
 
     @property
     def error_bound(self) -> Optional[float]:
-        """How far the light of any pixel may lie from the exact integral, in light, before it is rounded to a code.
-        Known before anything was computed (docs/explanation/accuracy.md). None of a plate, and of the reference."""
+        """How far the light of any pixel may lie from the exact integral, in light: of codes before it is rounded to
+        them, of float32 with half a step of that for the largest light. All else was known before anything was computed
+        (docs/explanation/accuracy.md). None of a plate, and of the reference."""
         bound = self._held.figures.get("error_bound")
-        return None if bound is None else bound["light"]
+        if bound is None or self.dtype != np.float32:
+            return None if bound is None else bound["light"]
+        largest = max(float(self._array.max()), -float(self._array.min()))
+        return bound["light"] + largest * 2.0 ** -24 + 2.0 ** -150  # the second: where floats are subnormal
 
     @property
     def error_bound_in_codes(self) -> Optional[float]:
-        """The same on the scale of the picture's codes; of light in steps of its floating point."""
+        """How far they may lie from it on the scale of the picture's codes, before they are rounded; of light in steps
+        of its floating point."""
         bound = self._held.figures.get("error_bound")
         return None if bound is None else bound["steps"]
 
@@ -69,13 +75,13 @@ class Picture:
         """What the exposure touched: samples, live_samples, samples_read (first, one past the last), blocks_read,
         blocks, table_bytes, map_bytes; and functions, one dict for each that the mask uses: tag, pixels, live_ns,
         samples, still_gain, support_ns, integral_ns. Empty of a plate."""
-        return self._held.figures.get("plan", {})
+        return deepcopy(self._held.figures.get("plan", {}))
 
     @property
     def statistics(self) -> dict[str, Any]:
         """What the rendering took: read_ms, expose_ms, develop_ms (None where the driver does not time kernels),
         payload_bytes, device_bytes, blocks, launches. Empty of a plate."""
-        return self._held.figures.get("statistics", {})
+        return dict(self._held.figures.get("statistics", {}))
 
     def write(self, path: Path, *, quality: Optional[int] = None) -> None:
         """Writes a file: .png, .tif, .jpg, .ppm, .pgm of codes, .exr, .tif, .pfm of light. quality: of .jpg, 1 ... 100.
@@ -86,6 +92,9 @@ class Picture:
             raise UsageError(f"{path_word(path)}: files of light hold float32; expose the picture with that dtype, or save "
                              "the array with numpy.save()")
         self._held.write(path_word(path), quality)
+
+    def __reduce__(self) -> Any:
+        return Picture, (self._held,)
 
     def __repr__(self) -> str:
         size = " x ".join(str(side) for side in self.shape[1::-1])

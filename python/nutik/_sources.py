@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 import inspect
 from itertools import chain
 from os import PathLike
@@ -12,8 +13,8 @@ import numpy as np
 from . import _nutik
 from ._captures import Capture
 from ._nutik import InputError, UsageError
-from ._words import Array, NutikNote, Number, Path, Progress, Time, half_up, path_word, seconds_of, settings_of, time_ns, times_ns, warn
-
+from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, half_up, path_word, reading, seconds_of,
+                     settings_of, time_ns, times_ns, warn, whole)
 
 
 def open(path: Path, *, rate: Optional[Number] = None, shutter_angle: Optional[Number] = None,
@@ -23,7 +24,7 @@ def open(path: Path, *, rate: Optional[Number] = None, shutter_angle: Optional[N
          end: Optional[Time] = None, crop: Union[str, Sequence[int], None] = None, scale: Optional[str] = None,
          deinterlace: Optional[str] = None, as_far_as_it_goes: bool = False, align: Optional[str] = None,
          align_to: Optional[Time] = None, align_along: Optional[Path] = None, unseen: Optional[str] = None,
-         deflicker: bool = False,
+         deflicker: bool = False, between: Union[int, str, None] = None,
          tolerance: Optional[int] = None, noise: Optional[Path] = None, sigmas: Optional[float] = None,
          contrast: Union[str, Number, None] = None, start_picture: Union[Path, Number, None] = None,
          tick: Optional[Time] = None,
@@ -36,7 +37,8 @@ def open(path: Path, *, rate: Optional[Number] = None, shutter_angle: Optional[N
     shutter_angle in degrees, transfer, white, primaries, pixel_aspect; raw, matrix, range, chroma_at of video. Part of it:
     begin and end, crop (x, y, width, height) or 'WxH+X+Y', scale '1/2'. align ('translation', 'rigid', 'homography')
     moves pictures of a camera that moved onto the first one, or that at align_to; align_along, along a path that is known
-    (docs/how-to/align.md). Changes are kept beyond `tolerance`
+    (docs/how-to/align.md). between='auto' makes samples between pictures along the motion, as many as it needs, and a
+    number so many (docs/how-to/slow-clips.md). Changes are kept beyond `tolerance`
     codes, or beyond `sigmas` of the camera's noise: 'auto', or a noise file. Of a recording of events: contrast, the step
     of log light that an event is (0.2, '0.3:0.17'); start_picture, light before the first, a picture or a number; tick, in
     which changes count together.
@@ -51,13 +53,15 @@ def open(path: Path, *, rate: Optional[Number] = None, shutter_angle: Optional[N
     """
     stated = {name: value for name, value in locals().items() if name not in (*_COMPUTING, "path", "progress")}
     computing = _computing(device, memory, renderer)
-    return _told(_nutik.open(path_word(path), settings_of(stated), computing, progress))
+    with reading(path_word(path)):
+        return _told(_nutik.open(path_word(path), settings_of(stated), computing, progress))
 
 
 def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number] = None,
            times: Optional[Iterable[Time]] = None, exposures: Union[Time, Iterable[Time], None] = None,
            shutter_angle: Optional[Number] = None, transfer: Optional[str] = None, white: Optional[int] = None,
            primaries: Optional[str] = None, pixel_aspect: Union[str, Number, None] = None, deflicker: bool = False,
+           between: Union[int, str, None] = None,
            align: Optional[str] = None, align_to: Optional[Time] = None, align_along: Optional[Path] = None,
            unseen: Optional[str] = None,
            tolerance: Optional[int] = None, noise: Optional[Path] = None, sigmas: Optional[float] = None,
@@ -70,7 +74,7 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
         however it is strided; or an iterable of such pictures; or the path of a clip (nutik.open() says more of
         these). An array is read where it lies.
     output: a .tik to write; None: a temporary capture, gone when it is closed.
-    rate: pictures a second. Or `times`: when each picture's exposure begins. exposures: how long each was exposed, one
+    rate: pictures a second. Or `times`: when each picture's exposure begins; of dates what lies between them counts. exposures: how long each was exposed, one
         time or one for each; with neither that nor shutter_angle, all the time to the next.
     transfer: what codes stand for, 'srgb', 'bt709', 'linear', 'gamma:G', 'hlg', 'pq'; without it 'srgb' of uint8, 'linear'
         of uint16. white: the code of white, 255 or 65535 without it; no code may be larger.
@@ -83,7 +87,7 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
     computing = _computing(device, memory, renderer)
     path = None if output is None else path_word(output)
     stated = dict(rate=rate, shutter_angle=shutter_angle, transfer=transfer, white=white, primaries=primaries,
-                  pixel_aspect=pixel_aspect, deflicker=deflicker, align=align, align_to=align_to, align_along=align_along,
+                  pixel_aspect=pixel_aspect, deflicker=deflicker, between=between, align=align, align_to=align_to, align_along=align_along,
                   unseen=unseen,
                   tolerance=tolerance, noise=noise, sigmas=sigmas, tiles=tiles, block_samples=block_samples)
     of_files = set(inspect.signature(open).parameters) - {"path", "progress"} - set(_COMPUTING) - set(stated)
@@ -96,8 +100,9 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
         stated.update(clip)
         if times is not None or exposures is not None:
             raise UsageError("times= and exposures= are those of arrays; a table of stills lists those of files")
-        return _told(_nutik.encode_clip(path_word(source), path, codec, settings_of(stated), computing,
-                                        progress))
+        with reading(path_word(source)):
+            return _told(_nutik.encode_clip(path_word(source), path, codec, settings_of(stated), computing,
+                                            progress))
     pictures, first = _pictures_of(source)
     count = len(pictures) if isinstance(pictures, np.ndarray) else None
     starts, intervals, exposed = _timing(rate, times, exposures, shutter_angle, count)
@@ -119,8 +124,9 @@ def join(captures: Iterable[Path], output: Path, *, device: Optional[str] = None
     """
     if isinstance(captures, (str, PathLike)):
         raise UsageError(f"captures= is {captures!r}: give a list of two captures or more")
-    return _told(_nutik.join([path_word(each) for each in captures], path_word(output),
-                             _computing(device, memory, renderer), progress))
+    paths = [path_word(each) for each in captures]
+    with reading(*paths):
+        return _told(_nutik.join(paths, path_word(output), _computing(device, memory, renderer), progress))
 
 
 _COMPUTING = ("device", "memory", "renderer")
@@ -149,8 +155,8 @@ def _check_picture(picture: Array, what: str) -> None:
 
 def _pictures_of(source: Any) -> tuple[Any, Array]:
     """An array of all, or an iterator; and the first picture."""
-    if isinstance(source, np.ndarray) or hasattr(source, "__array_interface__") or hasattr(source, "__array__"):
-        pictures = np.asarray(source)
+    if isinstance(source, memoryview) or hasattr(source, "__array_interface__") or hasattr(source, "__array__"):
+        pictures = np.asarray(whole(source, "the array"))
         if pictures.ndim not in (3, 4) or not len(pictures):
             raise UsageError(f"the array has shape {pictures.shape}; it is [samples, height, width] or [samples, height, "
                              "width, 3], with one sample at least")
@@ -159,14 +165,21 @@ def _pictures_of(source: Any) -> tuple[Any, Array]:
     try:
         iterator = iter(source)
     except TypeError:
-        raise UsageError(f"{type(source).__name__} holds no pictures: give an array, an iterable of arrays, or a path") \
+        raise WrongType(f"{type(source).__name__} holds no pictures: give an array, an iterable of arrays, or a path") \
             from None
+    iterator = (whole(picture, "a picture") for picture in iterator)
     try:
         first = np.asarray(next(iterator))
     except StopIteration:
         raise InputError("the iterable holds no picture") from None
     _check_picture(first, "the first picture")
     return chain([first], iterator), first
+
+
+def _lasting(length: Any, what: str, said: Any) -> Any:
+    if length <= 0:
+        raise UsageError(f"{what}= is {said!r}; an exposure lasts longer than 0")
+    return length
 
 
 def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: Union[Time, Iterable[Time], None],
@@ -178,6 +191,10 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
                          "both")
     if exposures is not None and shutter_angle is not None:
         raise UsageError("exposures= and shutter_angle= both say how long pictures were exposed; leave one out")
+    if times is not None:
+        times = list(times)
+        if times and isinstance(times[0], (np.datetime64, datetime.datetime)):
+            times = [time - times[0] for time in times]  # dates: only what lies between them counts
     is_list = not isinstance(exposures, str) and hasattr(exposures, "__iter__")
     starts = [] if times is None else times_ns(times, "times").tolist()
     if times is not None and count is not None and len(starts) != count:
@@ -185,11 +202,12 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
     if exposures is None:
         return starts, [], None
     if not is_list:
-        return starts, [], time_ns(cast(Time, exposures), "exposures")
+        return starts, [], _lasting(time_ns(cast(Time, exposures), "exposures"), "exposures", exposures)
     if times is None:
         raise UsageError("exposures= of each picture need times=, when each begins; with rate= give one for all")
     begins = [seconds_of(time, "times") for time in times]
-    lengths = [seconds_of(each, f"exposures[{i}]") for i, each in enumerate(cast(Iterable[Time], exposures))]
+    lengths = [_lasting(seconds_of(each, f"exposures[{i}]"), f"exposures[{i}]", each)
+               for i, each in enumerate(cast(Iterable[Time], exposures))]
     if len(lengths) != len(begins):
         raise UsageError(f"there are {len(lengths)} exposures for {len(begins)} times")
     return [], [(start, half_up((begin + length) * 10 ** 9))

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import datetime
+import errno
 import sys
 import warnings
+from contextlib import contextmanager
 from decimal import Decimal
 from fractions import Fraction
 from os import PathLike, fsdecode
-from os.path import dirname
-from typing import Any, Callable, Iterable, Optional, Sequence, Union
+from os.path import dirname, exists
+from typing import Any, Callable, Iterable, Iterator, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _nutik
-from ._nutik import UsageError
+from ._nutik import InputError, UsageError
 
 Time = Union[str, float, int, Fraction, Decimal, np.timedelta64, datetime.timedelta]
 DelayLike = Union[str, NDArray[Any], Sequence[Any]]
@@ -36,6 +38,38 @@ class NutikNote(NutikWarning):
     """What should be known of a result, although nothing is doubtful."""
 
 
+class FileMissing(InputError, FileNotFoundError):
+    """A file that was to be read is not there."""
+
+    def __str__(self) -> str:  # an OSError with a file's name makes another text of that
+        return str(self.args[0])
+
+
+class WrongType(UsageError, TypeError):
+    """An argument is of a type that nothing can be made of."""
+
+
+@contextmanager
+def reading(*paths: str) -> Iterator[None]:
+    """What is wrong with files that are not there is that."""
+    try:
+        yield
+    except InputError as error:
+        missing = [path for path in paths if not exists(path) and not any(sign in path for sign in "%*?")]
+        if type(error) is not InputError or not missing:
+            raise
+        raised = FileMissing(str(error))
+        raised.settings, raised.errno, raised.filename = error.settings, errno.ENOENT, missing[0]
+        raise raised from None
+
+
+def whole(array: Any, what: str) -> Any:
+    """The same, unless it is an array with masked values."""
+    if np.ma.is_masked(array):
+        raise UsageError(f"{what} has masked values, for which there is no place; fill them: .filled(0)")
+    return array
+
+
 def warn(messages: Iterable[str], kind: type[NutikWarning] = NutikWarning) -> None:
     """Warns at the line outside of this package that asked."""
     folder = dirname(__file__)
@@ -49,24 +83,27 @@ def warn(messages: Iterable[str], kind: type[NutikWarning] = NutikWarning) -> No
 def exact(value: Any, what: str) -> Fraction:
     """A number exactly as it is printed: 0.1 is a tenth."""
     if isinstance(value, (bool, np.bool_)):
-        raise UsageError(f"{what} {value!r} is no number")
+        raise WrongType(f"{what} {value!r} is no number")
     try:
         if isinstance(value, (float, np.floating)):
-            return Fraction(repr(float(value)))
+            return Fraction(str(value))  # in as many digits as its own width needs
         if isinstance(value, (int, np.integer)):
             return Fraction(int(value))
         if isinstance(value, (str, Fraction, Decimal)):
             return Fraction(value)
     except (ValueError, OverflowError, ZeroDivisionError):
-        pass
-    raise UsageError(f"{what} {value!r} is no finite number")
+        raise UsageError(f"{what} {value!r} is no finite number") from None
+    raise WrongType(f"{what} {value!r} is no number")
 
 
 def number_word(value: Number, what: str) -> str:
-    """`30000/1001`, `960`."""
+    """`30000/1001`, `960`; of a float with more digits than are read the simplest fraction that it may be, 1000/3."""
     if isinstance(value, str):
         return value
     number = exact(value, what)
+    if isinstance(value, float) and max(abs(number.numerator), number.denominator) > _MAX_DIGITS:
+        simple = (number.limit_denominator(10 ** digits) for digits in range(1, 15))
+        number = next((each for each in simple if float(each) == value), number)
     if max(abs(number.numerator), number.denominator) > _MAX_DIGITS:
         raise UsageError(f"{what} {value!r} needs more than 15 digits; write it as a fraction, '30000/1001'")
     return f"{number.numerator}/{number.denominator}"
@@ -128,7 +165,7 @@ def times_ns(times: Any, what: str) -> Array:
 
 def delays_ns(delays: Any) -> Array:
     """The delay of each pixel, of seconds or timedelta64, in whole nanoseconds, int64."""
-    delays = np.asarray(delays)
+    delays = np.asarray(whole(delays, "delay="))
     if delays.dtype.kind == "m":
         if np.isnat(delays).any() or np.datetime_data(delays.dtype)[0] in ("generic", "Y", "M"):
             raise UsageError("delay=: an array of timedelta64 needs a unit of a fixed length, 'ns', and no NaT")
@@ -172,9 +209,10 @@ def path_word(path: Any) -> str:
 
 def count_of(value: Any, what: str) -> int:
     """A whole number that is not negative."""
-    if isinstance(value, (int, np.integer)) and not isinstance(value, bool) and 0 <= value < 2 ** 32:
+    is_whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+    if is_whole and 0 <= value < 2 ** 32:
         return int(value)
-    raise UsageError(f"{what} is {value!r}, no whole number from 0 on")
+    raise (UsageError if is_whole else WrongType)(f"{what} is {value!r}, no whole number from 0 on")
 
 
 def tag_of(value: Any) -> int:

@@ -71,8 +71,9 @@ py::tuple opened_and_told(const Opening& terms, const py::object& progress) {
 // To a file, or to a temporary capture.
 py::tuple encoded(const Opening& terms, const std::optional<std::string>& output, const std::string& codec,
                   const py::object& progress) {
+  const tik::Codec packed = tik::Codec::parse(codec);
   if (!output) return opened_and_told(terms, progress);
-  const EncodeRequest request{*output, tik::Codec::parse(codec)};
+  const EncodeRequest request{*output, packed};
   EncodedCapture made = without_lock([&](const Stopping& stopping) {
     const MemoryBudget& memory = terms.devices->request().memory;
     return terms.open ? encode(terms.source, terms.open, request, memory, stopping.progress(), stopping.stop)
@@ -119,7 +120,7 @@ py::tuple encode_pictures(const py::object& pictures, const py::array& first, co
   notes.shape = {static_cast<std::uint32_t>(first.shape(1)), static_cast<std::uint32_t>(first.shape(0)),
                  first.ndim() == 3 ? static_cast<std::uint32_t>(first.shape(2)) : 1U};
   notes.code_bytes = static_cast<std::uint32_t>(first.itemsize());
-  notes.timing.rate_from = "the caller";
+  notes.timing.rate_from = "what the caller said";
   notes.timing.starts_ns = starts_ns;
   for (const auto& [start_ns, end_ns] : exposures_ns) notes.timing.exposures.push_back({start_ns, end_ns});
   notes.timing.exposed_ns = exposed_ns;

@@ -61,7 +61,7 @@ HeldFunction fitted(const Times& times_ns, const Gains& gains, double error) {
     low = std::min(low, sample.gain);
     high = std::max(high, sample.gain);
   }
-  const py::gil_scoped_release released;
+  const Unlocked released;
   return {GainFunction(fit_corridor(samples, error, low, high))};
 }
 

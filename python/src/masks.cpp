@@ -35,12 +35,12 @@ HeldMask of_layers(const std::map<std::uint8_t, Codes<std::uint16_t>>& shares, s
   std::vector<MaskLayer> layers;
   for (const auto& [tag, codes] : shares)
     layers.push_back({tag, format("layer {}", tag), picture_of(codes, ValueType::code16, kWholeShare)});
-  const py::gil_scoped_release released;
+  const Unlocked released;
   return {Shared(mask_of_layers(layers, rest))};
 }
 
 HeldMask read_mask(const std::string& path, std::uint8_t rest) {
-  const py::gil_scoped_release released;
+  const Unlocked released;
   return {Shared(read_layered_mask_input(path, rest))};
 }
 
@@ -49,7 +49,7 @@ HeldMask feathered_mask(const HeldMask& held, const std::string& feather) {
   if (held.mask->is_soft())
     throw UsageError(
         "feather= blends a mask of tags along its edges; one of layers says itself how it is blended");
-  const py::gil_scoped_release released;
+  const Unlocked released;
   return {Shared(feathered(*held.mask, how))};
 }
 

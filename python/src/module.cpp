@@ -9,12 +9,15 @@
 #include "features/schema/option.hpp"
 #include "parts.hpp"
 #include "system/mapped_file.hpp"
+#include "working.hpp"
 
 PYBIND11_MODULE(_nutik, module) {
   module.doc() = "The engine. Use the package nutik, which says what its parts take and give.";
   module.attr("__version__") = NUTIK_VERSION;
   // A capture that somebody cuts off must not end the interpreter.
   nutik::watch_mapped_files();
+  const auto at_exit = pybind11::module_::import("atexit").attr("register");
+  at_exit(pybind11::cpp_function(&nutik::python::end_work));
   module.def(
       "clip_arguments",
       [] {

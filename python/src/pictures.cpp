@@ -3,9 +3,13 @@
 
 #include <pybind11/stl.h>
 
+#include <cstring>
+
+#include "capture/error.hpp"
 #include "parts.hpp"
 #include "session/output_check.hpp"
 #include "session/requests/output_request.hpp"
+#include "working.hpp"
 
 namespace nutik::python {
 
@@ -60,8 +64,32 @@ void write(const HeldPicture& held, const std::string& path, std::optional<int> 
   OutputRequest request;
   request.quality = quality;
   check_quality(request, path);
-  const py::gil_scoped_release released;
+  const Unlocked released;
   write_picture(path, held.picture, {}, file_wishes(request));
+}
+
+// All that a picture is, for pickle.
+py::tuple state_of(const HeldPicture& held) {
+  const Picture& picture = held.picture;
+  const auto transfer = picture.transfer ? std::optional(picture.transfer->text()) : std::nullopt;
+  return py::make_tuple(picture.shape.width, picture.shape.height, picture.shape.channels,
+                        static_cast<int>(picture.type), picture.white_code, transfer,
+                        static_cast<int>(picture.primaries), picture.pixel_aspect.numerator,
+                        picture.pixel_aspect.denominator, picture.exposed_ns, held.figures,
+                        py::bytes(reinterpret_cast<const char*>(picture.bytes.data()), picture.bytes.size()));
+}
+
+HeldPicture unpickled(const py::tuple& state) {
+  const Shape shape{state[0].cast<std::uint32_t>(), state[1].cast<std::uint32_t>(), state[2].cast<std::uint32_t>()};
+  Picture picture(shape, static_cast<ValueType>(state[3].cast<int>()), state[4].cast<std::uint32_t>());
+  if (const auto transfer = state[5].cast<std::optional<std::string>>()) picture.transfer = Transfer::parse(*transfer);
+  picture.primaries = static_cast<Primaries>(state[6].cast<int>());
+  picture.pixel_aspect = Rational::of(state[7].cast<std::int64_t>(), state[8].cast<std::int64_t>());
+  picture.exposed_ns = state[9].cast<std::optional<std::int64_t>>();
+  const auto values = state[11].cast<std::string_view>();
+  if (values.size() != picture.bytes.size()) throw InputError("a pickled picture has another size than it says");
+  std::memcpy(picture.bytes.data(), values.data(), values.size());
+  return {std::move(picture), state[10].cast<py::dict>()};
 }
 
 }  // namespace
@@ -69,6 +97,7 @@ void write(const HeldPicture& held, const std::string& path, std::optional<int> 
 void bind_pictures(py::module_& module) {
   py::class_<HeldPicture>(module, "Picture", py::buffer_protocol())
       .def_buffer(&buffer_of)
+      .def(py::pickle(&state_of, &unpickled))
       .def("values", &values)
       .def("write", &write, py::arg("path"), py::arg("quality"))
       .def_property_readonly("figures", [](const HeldPicture& held) { return held.figures; });

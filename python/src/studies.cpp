@@ -50,30 +50,28 @@ py::dict study(const OpenCapture& capture, const Settings& settings,
   const OutputFormat format = output_of(output, session.format());
   struct Made {
     Study study;
-    std::optional<MadeMask> mask;
     std::optional<ExposedPicture> exposed;
     std::optional<MadePlate> plate;
   };
   Made made = without_lock([&](const Stopping& stopping) {
     const MemoryBudget& memory = session.devices().request().memory;
     tik::Reader& reader = session.capture();
-    Made found{plan_study(reader, capture.name, request, memory, stopping.progress()), {}, {}, {}};
+    Made found{plan_study(reader, capture.name, request, memory, stopping.progress()), {}, {}};
     if (request.style == StudyStyle::clean) {
       found.plate = make_plate(reader, capture.name, {}, format, memory, stopping.progress());
       return found;
     }
-    found.mask = make_regions(found.study, reader, capture.name);
     RenderControl control;
     control.stop = stopping.stop;
     found.exposed =
-        session.render(study_exposure(found.study, request, found.mask->mask), format, control);
+        session.render(study_exposure(found.study, request), format, control);
     return found;
   }, progress);
   py::dict told;
   told["moments"] = made.study.moments;
   told["functions"] = held_functions(made.study.functions);
   told["notes"] = made.study.notes;
-  told["mask"] = made.mask ? py::cast(HeldMask{Shared(std::move(made.mask->mask))}) : py::none();
+  told["mask"] = made.plate ? py::none() : py::cast(HeldMask{Shared(std::move(made.study.regions.mask))});
   if (made.exposed) {
     py::dict figures = figures_of(*made.exposed);
     told["picture"] = HeldPicture{std::move(made.exposed->picture), std::move(figures)};

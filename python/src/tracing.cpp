@@ -1,5 +1,8 @@
 // How the light of a pixel, or the mean of a mask value's pixels, came about, as arrays.
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
+
+#include <algorithm>
 
 #include "parts.hpp"
 #include "working.hpp"
@@ -11,6 +14,8 @@ py::dict arrays_of(const TracedExposure& exposure, const Trace& trace) {
   const std::size_t channels = trace.channels;
   std::vector<std::int64_t> edges_ns;
   std::vector<double> gain, light, integral_ns, sum_ns;
+  py::array_t<bool> made(static_cast<py::ssize_t>(trace.steps.size()));
+  std::ranges::transform(trace.steps, made.mutable_data(), &TraceStep::is_made);
   for (const TraceStep& step : trace.steps) {
     edges_ns.insert(edges_ns.end(), {step.begin_ns, step.end_ns});
     gain.insert(gain.end(), {step.begin_gain, step.end_gain});
@@ -33,6 +38,7 @@ py::dict arrays_of(const TracedExposure& exposure, const Trace& trace) {
   arrays["light"] = array_of(light, {steps, 2, wide});
   arrays["integral_ns"] = array_of(integral_ns, {steps, wide});
   arrays["sum_ns"] = array_of(sum_ns, {steps, wide});
+  arrays["made"] = made;
   arrays["exposed"] = array_of(std::vector<double>(trace.light.begin(), trace.light.begin() + wide));
   arrays["support_ns"] = exposure.function_of(trace).summary.support_ns;
   return arrays;

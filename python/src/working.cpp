@@ -1,6 +1,55 @@
 #include "working.hpp"
 
+#include <unistd.h>
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
 namespace nutik::python {
+
+namespace {
+
+// Of all threads' work.
+std::mutex working;
+std::condition_variable has_ended;
+std::size_t unlocked = 0;
+std::optional<std::thread::id> ending;
+
+bool is_over() {
+  const std::scoped_lock lock(working);
+  return ending && *ending != std::this_thread::get_id();
+}
+
+}  // namespace
+
+Unlocked::Unlocked() {
+  released_.emplace();
+  const std::scoped_lock lock(working);
+  ++unlocked;
+}
+
+Unlocked::~Unlocked() {
+  const auto leave = [] {
+    const std::scoped_lock lock(working);
+    --unlocked;
+    has_ended.notify_all();
+  };
+  if (is_over()) {
+    leave();
+    while (true) pause();
+  }
+  released_.reset();
+  leave();
+}
+
+void end_work() {
+  constexpr std::chrono::seconds kLongest(10);  // for work that asks for no stop
+  const py::gil_scoped_release released;
+  std::unique_lock lock(working);
+  ending = std::this_thread::get_id();
+  has_ended.wait_for(lock, kLongest, [] { return unlocked == 0; });
+}
 
 ReportedProgress Stopping::progress() const {
   return [stop = stop, steps = steps](std::uint64_t done, std::uint64_t total) {
@@ -27,8 +76,12 @@ std::optional<py::error_already_set> wait_for(const std::function<bool()>& is_do
     }
   };
   {
-    const py::gil_scoped_release released;
+    const Unlocked released;
     while (!is_done()) {
+      if (is_over()) {
+        stopping.request_stop();
+        continue;
+      }
       const py::gil_scoped_acquire locked;
       if (!raised && PyErr_CheckSignals() != 0) {
         raised.emplace();

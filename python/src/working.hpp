@@ -2,7 +2,7 @@
 //
 //   in:      what is to be done, on a thread of its own
 //   out:     what it returns or throws
-//   always:  Python's other threads go on meanwhile. Ctrl-C stops it and becomes KeyboardInterrupt, which only Python's
+//   always:  Python's other threads go on meanwhile. At the interpreter's end work is stopped. Ctrl-C stops it and becomes KeyboardInterrupt, which only Python's
 //            main thread hears; nothing of a stopped piece of work is left running. Who wants to be told of progress is
 //            called on the thread that waits, and what that raises stops the work, too
 #pragma once
@@ -39,6 +39,21 @@ struct Stopping {
   [[nodiscard]] ReportedProgress progress() const;
 };
 
+// Without Python's lock for as long as it lives. Once the interpreter ends, no thread but the ending one comes back: Python
+// would end the thread within our frames, and with it the process. It sleeps until the process is gone.
+class Unlocked {
+ public:
+  Unlocked();
+  ~Unlocked();
+  Unlocked(const Unlocked&) = delete;
+  Unlocked& operator=(const Unlocked&) = delete;
+
+ private:
+  std::optional<py::gil_scoped_release> released_;
+};
+// Python calls it at its end, before it takes threads their lock: asks all work to stop, and waits for it.
+void end_work();
+
 // Waits without Python's lock until is_done(), which itself waits up to 50 ms at each call; asks for a stop at Ctrl-C.
 // Calls told(done, total), unless that is None, when steps were done, and at the end. Returns what a signal's handler or
 // that raised.
@@ -48,6 +63,7 @@ struct Stopping {
 // Calls work(Stopping) and returns what that does.
 template <typename Work>
 auto without_lock(Work work, const py::object& progress = py::none()) {
+  { const Unlocked sleeps_at_the_end; }
   const MappedLosses losses = losses_so_far();
   std::stop_source source;
   const Stopping stopping{source.get_token(), std::make_shared<Steps>()};

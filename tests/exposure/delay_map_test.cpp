@@ -129,11 +129,27 @@ TEST(WholeCourse, CountsWhatLiesOutside) {
   EXPECT_FALSE(course.reaches_before_capture || course.reaches_after_capture);
 }
 
+// A function may be written with points beyond the capture that hold it within.
+TEST(WholeCourse, CountsHeldEndsInTheCaptureAlone) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  const auto course = [](std::vector<ControlPoint> points) {
+    return summarize_course(GainFunction(std::move(points)), kSecond);
+  };
+  for (const std::int64_t time_ns : {4 * kSecond, -4 * kSecond, kSecond, std::int64_t{0}}) {
+    EXPECT_EQ(course({{time_ns, 1.0}}).support_ns, kSecond) << time_ns;
+    EXPECT_EQ(course({{time_ns, 1.0}}).still_gain(), 1.0) << time_ns;
+  }
+  // A jump there, and points behind it: 1 s held and 2 s between the points.
+  EXPECT_EQ(course({{4 * kSecond, 1.0}, {4 * kSecond, 0.5}, {6 * kSecond, 0.5}}).support_ns, 3 * kSecond);
+  EXPECT_EQ(course({{-6 * kSecond, 0.5}, {-4 * kSecond, 0.5}, {-4 * kSecond, 1.0}}).integral_ns, 1e9 + 1e9);
+}
+
 TEST(WholeCourse, IsExactOnRandomFunctions) {
   test::Random random(3);
   for (int i = 0; i < 200; ++i) {
     const Timeline timeline = test::random_timeline(random, 20);
-    const GainFunction function = test::random_function(random, timeline);
+    const GainFunction function =
+        test::random_function(random, timeline).shifted(random.whole(-1, 1) * 3 * timeline.duration_ns());
     EXPECT_EQ(summarize_course(function, timeline.duration_ns()).support_ns,
               test::exact_course_support_ns(function, timeline.duration_ns()));
   }

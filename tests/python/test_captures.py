@@ -87,7 +87,7 @@ class Arrays(support.TestCase):
         self.assert_raises(usage, "(8, 8, 4)", encode, np.zeros((4, 8, 8, 4), np.uint8), rate=1)
         self.assert_raises(usage, "(0, 8, 8)", encode, pictures[:0], rate=1)
         self.assert_raises(nutik.InputError, "no picture", encode, [], rate=1)
-        self.assert_raises(usage, "int holds no pictures", encode, 3, rate=1)
+        self.assert_raises(nutik.WrongType, "int holds no pictures", encode, 3, rate=1)
         self.assert_raises(usage, ["rate=", "times="], encode, pictures)
         self.assert_raises(usage, "not both", encode, pictures, rate=1, times=range(4))
         self.assert_raises(usage, "3 times for 4", encode, pictures, times=range(3))
@@ -125,7 +125,7 @@ class Arrays(support.TestCase):
     def test_files_that_are_none(self):
         (self.folder / "text.tik").write_text("nothing")
         self.assert_raises(nutik.InputError, "text.tik", nutik.open, self.path("text.tik"))
-        self.assert_raises(nutik.InputError, "no such file", nutik.open, self.path("absent.mp4"))
+        self.assert_raises(nutik.FileMissing, "no such file", nutik.open, self.path("absent.mp4"))
         nutik.encode(np.zeros((4, 8, 8), np.uint8), self.path("clip.tik"), rate=1)
         self.assert_raises(nutik.UsageError, "encoded already", nutik.open, self.path("clip.tik"), rate=2)
 
@@ -183,7 +183,7 @@ class Arrays(support.TestCase):
             nutik.encode(np.zeros((2, side, side), np.uint8), part, rate=1)
         output = self.path("whole.tik")
         self.assert_raises(nutik.InputError, ["b.tik", "9 x 9"], nutik.join, parts, output)
-        self.assert_raises(nutik.InputError, "absent.tik", nutik.join, [parts[0], self.path("absent.tik")], output)
+        self.assert_raises(nutik.FileMissing, "absent.tik", nutik.join, [parts[0], self.path("absent.tik")], output)
         self.assert_raises(nutik.UsageError, "two captures", nutik.join, parts[:1], output)
         self.assert_raises(nutik.UsageError, "a list", nutik.join, parts[0], output)
         self.assert_raises(nutik.UsageError, "a.tik", nutik.join, [parts[0], parts[0]], parts[0])

@@ -102,7 +102,10 @@ class Finds(support.TestCase):
                                      ("trail", [], "a study has 1 to 50")):
             self.assert_raises(nutik.UsageError, told, self.capture.study, style, moments=moments)
         still = nutik.encode(self.pictures[:1].repeat(30, 0), rate=960)
-        self.assert_raises(nutik.InputError, "nothing moves", still.study)
+        with self.assertWarnsRegex(nutik.NutikNote, "nothing moves"):
+            scene = still.study(codes=True)
+        self.assertEqual((scene.moments, int(scene.mask.tags.max())), ([], 0))
+        self.assert_same(scene.picture.array, still.plate(codes=True).picture.array)
 
     def test_solutions(self):
         text = "M0{[0:0], [1:1], [100000000:1], [100000002:rest], [104000000:rest], [104000001:0]}\n"

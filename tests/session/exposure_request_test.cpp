@@ -50,6 +50,18 @@ TEST(ExposureRequest, IsEqualToOneWithFunctionsAndMaskThatHoldTheSame) {
   EXPECT_NE(request, with_functions("M0 [0:1], [1000:0]", {2, 1, {0, 255}}));
 }
 
+// Ends that are no whole nanoseconds are not rounded before what lies between them.
+TEST(ExposureRequest, RoundsEachDelayOnce) {
+  const auto delays = [](std::string_view words, std::uint32_t rows) {
+    return delays_of(DelayRequest::parse(words, "delay"), {1, rows, 1})->delays_ns;
+  };
+  EXPECT_EQ(delays("rows:0ns..5/2000000000s", 3), (std::vector<std::int64_t>{0, 1, 3}));
+  EXPECT_EQ(delays("rows:-5/2000000000s..0ns", 3), (std::vector<std::int64_t>{-2, -1, 0}));
+  EXPECT_EQ(delays("rows:1/3000000000s..2/3000000000s", 1), (std::vector<std::int64_t>{0}));
+  // As far apart, and with as large denominators, as times can be written.
+  EXPECT_EQ(delays("rows:1/999999999999989s..9999999999999/2503s", 3)[1], 1'997'602'876'547'942'469);
+}
+
 TEST(ExposureRequest, MakesTheFunctionsThatTheMaskUses) {
   const FunctionSet all = functions_of(with_functions(kTwoFunctions, {2, 1, {0, 255}}), kTimeline);
   EXPECT_EQ(all.size(), 2u);

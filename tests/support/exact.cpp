@@ -26,8 +26,9 @@ std::int64_t rounded_half_up(const Exact& value) {
 
 std::int64_t exact_course_support_ns(const GainFunction& function, std::int64_t duration_ns) {
   const auto points = function.points();
-  const auto held = [](double gain, std::int64_t begin_ns, std::int64_t end_ns) {
-    return gain == 0.0 ? 0 : std::max<std::int64_t>(0, end_ns - begin_ns);
+  const auto held = [&](double gain, std::int64_t begin_ns, std::int64_t end_ns) {
+    const std::int64_t held_ns = std::min(end_ns, duration_ns) - std::max<std::int64_t>(begin_ns, 0);
+    return gain == 0.0 ? 0 : std::max<std::int64_t>(0, held_ns);
   };
   std::int64_t support_ns = held(points.front().gain, 0, points.front().time_ns) +
                             held(points.back().gain, points.back().time_ns, duration_ns);

@@ -16,6 +16,12 @@ class StudyTest : public MovingSquareTest {
   [[nodiscard]] cv::Mat picture(std::string_view name) const {
     return cv::imread((scratch_ / name).string(), cv::IMREAD_UNCHANGED);
   }
+  // Whether a study without moments is what a plain exposure of all of the clip is, but for how its light was corrected.
+  void expect_mean_of_all(const std::string& clip, int pictures, const std::string& study) const {
+    EXPECT_EQ(cv::countNonZero(picture(study + ".pgm")), 0) << study;
+    make("expose " + clip + " --deflicker --start 0f --exposure " + std::to_string(pictures) + "f --overwrite -o all.png");
+    EXPECT_LE(cv::norm(picture("all.png"), picture(study + ".png"), cv::NORM_INF), 1) << study;
+  }
   // Whether the commands in study.txt make picture and mask, if there is one, byte for byte.
   void expect_the_same_by_hand(const std::string& what) const {
     const bool has_mask = std::filesystem::exists(scratch_ / "study.pgm");

@@ -32,6 +32,15 @@ std::uint64_t write_activity(tik::Reader& reader, const std::string& path) {
   return *std::ranges::max_element(changes);
 }
 
+// Of samples between filmed ones: how many follow each of these.
+Json made_json(const std::optional<MadeSamples>& made) {
+  if (!made) return nullptr;
+  return {{"count", made->count()},
+          {"after", made->after},
+          {"changed_blocks", made->changed},
+          {"unfollowed_blocks", made->unfollowed}};
+}
+
 Json alignment_json(const std::optional<tik::Alignment>& aligned) {
   if (!aligned) return nullptr;
   return {{"motion", aligned->motion},
@@ -97,6 +106,7 @@ int run_info(const Options& options) {
                  {"facts", facts_json(reader.header().facts)},
                  {"alignment", alignment_json(reader.header().alignment)},
                  {"part", part_json(reader.header().part)},
+                 {"made_samples", made_json(reader.header().made)},
                  {"tolerance_codes", capture.noise.tolerance},
                  {"has_camera_noise", capture.noise.camera.has_value()},
                  {"samples", timeline.sample_count()},

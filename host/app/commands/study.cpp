@@ -63,6 +63,8 @@ std::string commands_text(const Options& options, const StudyFiles& files, const
   for (const MaskStep& step : study.mask.steps) {
     if (const auto* grid = std::get_if<select::Grid>(&step.selection)) {
       regions += format(" --grid {}x{}", grid->columns, grid->rows);
+    } else if (std::holds_alternative<select::Whole>(step.selection)) {
+      regions += format(" --tag {} --fill", step.tag);
     } else {
       regions += format(" \\\n  --tag {} --subject {}f", step.tag, study.moments[step.tag - 1U]);
       if (step.by_codes) regions += format(" --by {}", *step.by_codes);
@@ -90,6 +92,7 @@ Json moments_json(const Study& study, const Timeline& timeline) {
 
 // `the subject at 0 ns (0f), 1 s (30f)`; with several, `subject 1 at …; subject 2 at …`.
 std::string moments_text(const Study& study, const Timeline& timeline) {
+  if (study.moments.empty()) return "all of the time, exposed as one";
   if (study.subjects.empty()) {
     return format("the scene at {} moments, one in each strip", study.moments.size());
   }
@@ -127,9 +130,9 @@ PlannedStudy planned_study(Options& options, const StudyRequest& request) {
   const auto state = [&](std::string_view option, std::string word) {
     option_of(CommandId::study, option)->restate(options, {std::move(word)});
   };
-  if (planned.shot) {
-    state("from", format("{}f", planned.shot->first));
-    state("to", format("{}f", planned.shot->last));
+  if (planned.part) {
+    state("from", format("{}f", planned.part->first));
+    state("to", format("{}f", planned.part->last));
   }
   if (planned.aligned_to) {
     state("align", std::string(to_text(kStudyMotion)));
@@ -152,7 +155,7 @@ int run_study(const Options& stated) {
   if (!is_tik(capture_name)) option_of(CommandId::study, "deflicker")->restate(options, {});
   PlannedStudy planned = planned_study(options, request);
   Session& session = planned.session;
-  Study& study = planned.study;
+  const Study& study = planned.study;
   if (request.style == StudyStyle::clean) {
     const MadePlate plate =
         make_plate(session.capture(), capture_name, {},
@@ -170,15 +173,14 @@ int run_study(const Options& stated) {
     add_notes(answer, planned);
     return tell(options, files.picture, answer);
   }
-  const MadeMask made = make_regions(study, session.capture(), capture_name);
   const ExposedPicture exposed =
-      session.render(study_exposure(study, request, made.mask),
+      session.render(study_exposure(study, request),
                      output_format(options.picture, files.picture, session.format()));
   tally.add(exposed);
   print_warnings(exposure_warnings(exposed));
   std::string recipe;  // names the files, where there are some
   if (!files.is_alone()) {
-    files.write_regions(made.mask.to_picture(), functions_text(study.functions));
+    files.write_regions(study.regions.mask.to_picture(), functions_text(study.functions));
     recipe = PictureRecipe(recipe_sources(options_by_hand(options, files, request.style))).text(tally.precision());
   }
   write_picture(files.picture, exposed.picture, recipe, file_wishes(options.picture));

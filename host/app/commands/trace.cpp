@@ -50,6 +50,8 @@ std::string by_channel(const Trace& trace, Text text) {
 
 double share_of(const Trace& trace) { return static_cast<double>(trace.share) / kWholeShare; }
 
+bool has_made(const Trace& trace) { return std::ranges::any_of(trace.steps, &TraceStep::is_made); }
+
 bool is_zero(const TraceStep& step) { return step.begin_gain == 0.0 && step.end_gain == 0.0; }
 
 // A row for each step. Unless all are wanted, the middle of a long run between two control points is folded
@@ -58,6 +60,8 @@ std::string steps_text(const Trace& trace, const PlannedFunction& function, bool
   const double support_ns = std::max(1.0, static_cast<double>(function.summary.support_ns));
   std::vector<std::vector<std::string>> rows{
       {"from ns", "to ns", "gain", trace.channels == 1 ? "light" : "light: red  green  blue", "adds", "sum"}};
+  const bool has_marks = has_made(trace);
+  if (has_marks) rows.front().emplace_back("sample");
   const auto add_step = [&](const TraceStep& step) {
     rows.push_back(
         {format("{}", step.begin_ns), format("{}", step.end_ns), line_text(step.begin_gain, step.end_gain),
@@ -71,6 +75,7 @@ std::string steps_text(const Trace& trace, const PlannedFunction& function, bool
          by_channel(trace, [&](std::uint32_t channel) {
            return number(step.values[channel].sum_ns / support_ns);
          })});
+    if (has_marks) rows.back().emplace_back(step.is_made ? "made" : "filmed");
   };
   // Steps [first, last) as one row.
   const auto add_fold = [&](std::size_t first, std::size_t last) {
@@ -88,6 +93,7 @@ std::string steps_text(const Trace& trace, const PlannedFunction& function, bool
          by_channel(trace, [&](std::uint32_t channel) { return number(added[channel] / support_ns); }),
          by_channel(trace,
                     [&](std::uint32_t channel) { return number(end.values[channel].sum_ns / support_ns); })});
+    if (has_marks) rows.back().emplace_back();
   };
 
   const auto points = function.function.points();
@@ -111,7 +117,7 @@ std::string steps_text(const Trace& trace, const PlannedFunction& function, bool
     }
     first = last;
   }
-  return table_text(rows, "rrllll");
+  return table_text(rows, has_marks ? "rrlllll" : "rrllll");
 }
 
 // begin_ns,end_ns,begin_gain,end_gain, then for each channel its begin_light, end_light, integral_ns and sum_ns. Of a
@@ -120,12 +126,14 @@ std::string steps_csv(const TracedExposure& exposure) {
   const bool is_mixed = exposure.traces.size() > 1;
   const std::uint32_t channels = exposure.traces.front().channels;
   std::string text = is_mixed ? "mask_value,share," : "";
+  const bool has_marks = std::ranges::any_of(exposure.traces, has_made);
   text += "begin_ns,end_ns,begin_gain,end_gain";
   for (std::uint32_t channel = 0; channel < channels; ++channel) {
     for (const char* column : {"begin_light", "end_light", "integral_ns", "sum_ns"}) {
       text += format(",{}_{}", channel_name(channels, channel), column);
     }
   }
+  if (has_marks) text += ",is_made";
   for (const Trace& trace : exposure.traces) {
     const std::string function =
         is_mixed ? format("{},{},", exposure.function_of(trace).tag, share_of(trace)) : std::string();
@@ -135,6 +143,7 @@ std::string steps_csv(const TracedExposure& exposure) {
         const TraceStep::Value& value = step.values[channel];
         text += format(",{},{},{},{}", value.begin_light, value.end_light, value.integral_ns, value.sum_ns);
       }
+      if (has_marks) text += step.is_made ? ",1" : ",0";
     }
   }
   return text + "\n";
@@ -163,6 +172,7 @@ Json function_json(const Trace& trace, const PlannedFunction& function) {
                      {"begin_gain", step.begin_gain},
                      {"end_gain", step.end_gain},
                      {"values", values}});
+    if (step.is_made) steps.back()["is_made"] = true;
   }
   return Json{{"mask_value", function.tag},
               {"pixels", trace.pixel_count},

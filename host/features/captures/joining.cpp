@@ -135,6 +135,12 @@ void check_by_itself(const Piece& piece) {
                "the whole clip: encode it in one go",
                piece.name));
   }
+  if (piece.header.made) {
+    throw InputError(format("{} has samples made between its pictures, and none could be made where it meets another; "
+                            "encode the clip in one go",
+                            piece.name),
+                     {Setting::between});
+  }
   if (std::ranges::count(facts_of_codes(piece.header), kDeflickered) > 0) {
     throw InputError(format("{} is exposed as its own first picture, and its brightness would jump where it "
                             "meets another; encode the clip in one go",

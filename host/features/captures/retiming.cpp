@@ -64,6 +64,12 @@ std::vector<std::int64_t> starts_of(const Timeline& irregular) {
 
 Timeline timeline_of(const RetimeRequest& request, const tik::Header& header, const Timeline& before) {
   if (!request.rate && !request.shutter_angle) return before;
+  if (header.made) {
+    throw UsageError(format("{} has samples made between its pictures, whose times follow from these; encode the clip "
+                            "again with the right ones",
+                            request.capture.string()),
+                     {Setting::frame_rate, Setting::shutter_angle});
+  }
   if (request.rate && !request.shutter_angle && std::ranges::any_of(header.facts, is_timed_shutter)) {
     ClipInfo timed;
     timed.timing.exposed_ns = before.end_ns(0) - before.start_ns(0);

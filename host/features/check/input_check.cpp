@@ -127,8 +127,8 @@ void InputCheck::check_functions() {
   for (const auto& [tag, read] : functions_->file.functions) {
     GainSummary summary = summary_of(read.function);
     try {
-      summary = summary_of(weighed(read.function, normalization_, gain_, domain_.duration_ns,
-                                   delay_.has_value(), format("M{}", tag)));
+      summary = summary_of(normalization_.normalized(read.function, domain_.duration_ns, gain_,
+                                                     format("M{}", tag), delay_.has_value()));
     } catch (const InputError& error) {
       Finding finding = function_finding("not_normalizable", tag, read.start_at, error.what());
       finding.message = error.what();  // which starts with the mask value

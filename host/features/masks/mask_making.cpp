@@ -99,12 +99,13 @@ class MaskMaker {
       : made_{std::move(base), {}}, capture_(capture), make_plate_(plate) {}
 
   void add(const MaskStep& step) {
-    StepReport report{step.name.text, step.tag, step.last_tag(), 0, std::nullopt, std::nullopt, {}};
+    StepReport report{step.name.text, step.tag, step.last_tag(), 0, std::nullopt, std::nullopt, std::nullopt, {}};
     Region region = region_of(step, report);
     for (const RegionChange& change : step.changes) region = changed_by(change, region);
     report.pixel_count = region.pixel_count();
     if (seen_) {
       report.plate_edges = plate_edge_share(*seen_, *plate_, region, *report.by_codes, margin_of(step));
+      report.own_edges = plate_edge_share(*plate_, *seen_, region, *report.by_codes, margin_of(step));
       seen_.reset();
     }
     if (const auto* grid = std::get_if<select::Grid>(&step.selection)) {

@@ -30,6 +30,8 @@ struct StepReport {
   std::optional<std::uint32_t> by_codes;  // more than which a code had to change
   // The share of a subject's border along which the plate has an edge, not the picture (scene/clean_plate.hpp).
   std::optional<double> plate_edges = {};
+  // And that along which the picture has one, not the plate: of light that changed, little.
+  std::optional<double> own_edges = {};
   std::vector<std::uint8_t> covered_tags;  // its tags that later steps left on no pixel
 };
 

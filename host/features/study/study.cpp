@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "capture/error.hpp"
@@ -17,12 +18,18 @@
 namespace nutik {
 namespace {
 
-constexpr double kMaxMoving = 0.2;  // of the picture, on average
+// Of the picture, on average: more of it moves if the camera does. A scene of which still more moves is no scene.
+constexpr double kMaxMoving = 0.2, kMaxUnrest = 0.6;
 // Largest share of a subject's border with an edge in the plate and none in the picture. Measured: at most 0.1 before
 // texture and 0.25 before large dark things where the plate does not show the subject; 0.2 where it shows a quarter of
 // it. The latter cover a place for nearly half of the time, hence kMinCoveredInPlate.
 constexpr double kMaxPlateEdges = 0.15;
-constexpr double kMinCoveredInPlate = 0.4;
+// Where the plate has so much of the border, the thing is gone from the picture: a hole, however long it was covered.
+constexpr double kMinCoveredInPlate = 0.4, kHoleEdges = 0.5;
+// Of the border of a single moment that stands for what makes no study, so much is an edge, or light changed there.
+constexpr double kMinOwnEdges = 0.4;
+// A thing among many others that fills so much of its box and goes further than it is long is no scrap.
+constexpr double kMinFillOfMany = 0.4;
 constexpr std::size_t kMinLooks = 8;
 constexpr double kMinExtent = 1.0 / 16;  // of the picture's longer side, that a subject goes
 // In pixels: without specks and without holes.
@@ -61,41 +68,112 @@ std::string where(const std::string& name, const StudyRequest& request, const Re
   return request.regions.empty() ? name : name + ", " + text_of(region);
 }
 
+// How a track can be shown: as it was asked for, at one moment, or not at all; and why not as it was asked for.
+struct Verdict {
+  enum class Shows { all, one, nothing } shows = Shows::all;
+  std::string why = {};
+};
+
+// A track, and in what it was looked for.
+struct Followed {
+  SubjectTrack track;
+  Rectangle region;
+  Verdict verdict = {};
+  std::vector<SubjectPlace> refused = {};  // of its places: not to be chosen
+};
+
+// The place at which it is seen best: large, and standing out.
+const SubjectPlace& strongest_of(const std::vector<SubjectPlace>& places) {
+  const Places telling = telling_places(places), all_whole = whole_places(telling);
+  const Places& best = all_whole.empty() ? telling : all_whole;
+  const auto strength = [](const SubjectPlace* place) {
+    return static_cast<double>(place->cells.size()) * place->contrast * place->contrast;
+  };
+  return best.empty() ? places.front() : **std::ranges::max_element(best, {}, strength);
+}
+
+// Whether a place covers half or more of the smaller of the two.
+bool covers_half(const SubjectPlace& place, const SubjectPlace& other) {
+  std::vector<std::size_t> both;
+  std::ranges::set_intersection(place.cells, other.cells, std::back_inserter(both));
+  return 2 * both.size() >= std::min(place.cells.size(), other.cells.size());
+}
+
 class StudyPlanner {
  public:
-  StudyPlanner(const StudyRequest& request, const Timeline& timeline, const std::string& name,
-               std::vector<SubjectTrack> tracks, const std::vector<Rectangle>& regions)
-      : request_(request), timeline_(timeline), name_(name), tracks_(std::move(tracks)), regions_(regions) {}
+  StudyPlanner(const StudyRequest& request, CaptureSource& capture, const std::string& name, Picture plate,
+               std::vector<Followed> followed)
+      : request_(request),
+        capture_(capture),
+        timeline_(capture.timeline()),
+        name_(name),
+        plate_(std::move(plate)),
+        followed_(std::move(followed)) {}
+
+  // Chooses moments, and others for those whose regions turn out not to show what they should.
+  void plan(Study& study) {
+    const std::vector<std::string> notes = study.notes;
+    for (int round = 0;; ++round) {
+      study.notes = notes;
+      choose(study);
+      if (study.moments.empty() || round == kMaxRounds) {
+        study.notes = notes;
+        return show_all_of_the_time(study);
+      }
+      add_regions(study);
+      study.regions = make_mask(study.mask, &capture_, name_, [&] { return plate_; });
+      if (!study.are_moments_found) break;
+      const std::vector<std::size_t> bad = bad_moments(study);
+      if (bad.empty()) break;
+      refuse(study, bad, round + 2 >= kMaxRounds);
+    }
+    if (!study.are_moments_found) tell_of_holes(study);
+    std::vector<SubjectTrack> tracks;
+    for (Followed& each : followed_) {
+      std::ranges::move(each.refused, std::back_inserter(each.track.places));
+      std::ranges::sort(each.track.places, {}, &SubjectPlace::sample);
+      if (!each.track.places.empty()) tracks.push_back(std::move(each.track));
+    }
+    add_functions(study, request_, timeline_, tracks);
+  }
+
+ private:
+  static constexpr int kMaxRounds = 4;
 
   // Subject by subject.
   void choose(Study& study) {
-    for (std::size_t i = 0; i < tracks_.size(); ++i) {
-      for (const std::uint64_t sample : moments_of(i, study)) {
+    constexpr std::size_t kMaxTags = 255;
+    study.moments.clear();
+    study.subjects.clear();
+    study.falls_short = false;
+    std::vector<SubjectPlace> taken;
+    for (std::size_t i = 0; i < followed_.size(); ++i) {
+      for (const std::uint64_t sample : moments_of(i, taken, study)) {
         study.moments.push_back(sample);
         study.subjects.push_back(i);
       }
     }
-    constexpr std::size_t kMaxTags = 255;
     if (study.moments.size() > kMaxTags) {
       throw UsageError(format("{} moments of {} subjects are {}; a mask has room for {}",
-                              study.moments.size() / tracks_.size(), tracks_.size(), study.moments.size(),
+                              study.moments.size() / followed_.size(), followed_.size(), study.moments.size(),
                               kMaxTags));
     }
   }
 
   void add_regions(Study& study) const {
+    study.mask.steps.clear();
     for (std::size_t i = 0; i < study.moments.size(); ++i) {
       MaskStep step;
       step.name = {nutik::format("subject {}", i + 1)};
       step.tag = static_cast<std::uint8_t>(i + 1);
       step.selection = select::Subject{StatedTime::of_pictures(static_cast<std::int64_t>(study.moments[i]))};
-      const SubjectTrack& track = tracks_[study.subjects[i]];
+      const SubjectTrack& track = followed_[study.subjects[i]].track;
       if (!is_seen_at(track, study.moments[i])) {
         study.notes.push_back(format(
             "at {} ({}f) the subject that was followed{} is not seen: what differs most from the empty scene "
             "then, if anything, is shown in its place",
             duration_text(timeline_.start_ns(study.moments[i])), study.moments[i],
-            tracks_.size() > 1 ? " in " + text_of(regions_[study.subjects[i]]) : ""));
+            followed_.size() > 1 ? " in " + text_of(followed_[study.subjects[i]].region) : ""));
       }
       step.by_codes = request_.by_codes;
       step.changes = {{RegionChange::Kind::within, 0.0, box_at(study.subjects[i], study.moments[i])},
@@ -107,36 +185,130 @@ class StudyPlanner {
     }
   }
 
-  [[nodiscard]] const std::vector<SubjectTrack>& tracks() const { return tracks_; }
+  // The scene as it is on average, without moments.
+  void show_all_of_the_time(Study& study) const {
+    std::string why = why_;
+    for (const Followed& each : followed_) {
+      if (why.empty()) why = each.verdict.why;
+    }
+    study.notes.push_back(format("{}. So all of the time is shown, exposed as one, and no moments of it; the style "
+                                 "clean shows what is seen longest",
+                                 why));
+    study.falls_short = true;
+    study.moments.clear();
+    study.subjects.clear();
+    MaskStep all;
+    all.name = {"all of the time"};
+    all.tag = 0;
+    all.selection = select::Whole{};
+    study.mask.steps = {std::move(all)};
+    study.regions = make_mask(study.mask, &capture_, name_);
+    study.functions = whole_time(timeline_);
+  }
 
- private:
-  [[nodiscard]] std::vector<std::uint64_t> moments_of(std::size_t subject, Study& study) const {
-    const SubjectTrack& track = tracks_[subject];
+  [[nodiscard]] std::vector<std::uint64_t> moments_of(std::size_t subject, std::vector<SubjectPlace>& taken,
+                                                      Study& study) {
+    const auto& [track, region, verdict, refused] = followed_[subject];
     if (const auto* times = std::get_if<std::vector<StatedTime>>(&request_.moments)) {
       return stated_moments(*times, timeline_);
     }
     study.are_moments_found = true;
-    if (request_.style == StudyStyle::rear_curtain) return {last_large_place(track.places).sample};
+    if (verdict.shows == Verdict::Shows::nothing || track.places.empty()) return {};
+    const std::string whose = followed_.size() > 1 ? format("subject {}: ", subject + 1) : "";
+    const auto one = [&](const SubjectPlace& place, const std::string& why) {
+      taken.push_back(place);
+      if (!why.empty()) {
+        study.falls_short = true;
+        study.notes.push_back(format("{}{}. So a single moment of it is shown", whose, why));
+      }
+      return std::vector{place.sample};
+    };
+    if (request_.style == StudyStyle::rear_curtain) return one(last_large_place(track.places), {});
+    if (verdict.shows == Verdict::Shows::one) return one(strongest_of(track.places), verdict.why);
     const std::uint32_t wanted = std::get<std::uint32_t>(request_.moments);
-    std::vector<std::uint64_t> moments;
-    for (const SubjectPlace& place :
-         choose_moments(track, wanted, request_.spacing, 4 * border_pixels(request_))) {
-      moments.push_back(place.sample);
+    const std::vector<SubjectPlace> chosen =
+        choose_moments(track, wanted, request_.spacing, 4 * border_pixels(request_), taken);
+    if (chosen.size() < std::min(wanted, 2u)) {
+      if (subject > 0 && chosen.empty()) return {};  // no room beside the others
+      return one(chosen.empty() ? strongest_of(track.places) : chosen.front(),
+                 format("what moves goes {:.0f} pixels, and is {:.0f} pixels large: at no two moments{} does it lie "
+                        "apart from itself",
+                        track.extent, track.size(),
+                        track.extent > track.size() ? " at which it is seen as a whole" : ""));
     }
-    if (moments.size() < std::min(wanted, 2u)) {
-      throw NoSubject(format(
-          "{}: what moves goes {:.0f} pixels, and is {:.0f} pixels large: at no two moments{} does it lie "
-          "apart from itself. A single moment can be shown, frozen or at the end of its trail",
-          where(name_, request_, regions_[subject]), track.extent, track.size(),
-          track.extent > track.size() ? " at which it is seen as a whole" : ""));
-    }
-    if (moments.size() < wanted) {
+    if (chosen.size() < wanted) {
       study.notes.push_back(format(
           "{}{} of {} moments are shown: at others the subject would overlap with itself, or the border "
           "of the picture or of its region would leave less than half of it",
-          tracks_.size() > 1 ? format("subject {}: ", subject + 1) : "", moments.size(), wanted));
+          whose, chosen.size(), wanted));
     }
-    return moments;
+    std::vector<std::uint64_t> samples;
+    for (const SubjectPlace& place : chosen) samples.push_back(place.sample);
+    std::ranges::copy(chosen, std::back_inserter(taken));
+    return samples;
+  }
+
+  // Those that the plate shows, too, which makes a hole of the ground that the subject left; and those that moments
+  // after them cover.
+  [[nodiscard]] std::vector<std::size_t> bad_moments(const Study& study) {
+    std::vector<std::size_t> bad;
+    const auto left = study.regions.mask.pixels_per_tag();
+    for (std::size_t i = 0; i < study.moments.size(); ++i) {
+      const StepReport& step = study.regions.steps[i];
+      const bool is_hole = is_in_plate(study, i);
+      const Followed& subject = followed_[study.subjects[i]];
+      const bool is_light =
+          subject.verdict.shows != Verdict::Shows::all && step.own_edges.value_or(1) < kMinOwnEdges;
+      if (!is_hole && !is_light && step.pixel_count > 0 && 2 * left[step.tag] >= step.pixel_count) continue;
+      bad.push_back(i);
+      if (why_.empty()) why_ = subject.verdict.why;
+      if (!why_.empty()) continue;
+      why_ = is_hole ? why_a_hole(study, i)
+                     : format("at picture {} moments after it cover all but {} of the subject's {} pixels: it goes too "
+                              "little for its size",
+                              study.moments[i], left[step.tag], step.pixel_count);
+    }
+    return bad;
+  }
+
+  // Places like those of bad moments are not chosen again; in the end no others than those that were good.
+  void refuse(const Study& study, const std::vector<std::size_t>& bad, bool is_last) {
+    for (std::size_t subject = 0; subject < followed_.size(); ++subject) {
+      std::vector<SubjectPlace>& places = followed_[subject].track.places;
+      std::vector<SubjectPlace> chosen, like;
+      for (std::size_t i = 0; i < study.moments.size(); ++i) {
+        if (study.subjects[i] != subject) continue;
+        const auto place = std::ranges::find(places, study.moments[i], &SubjectPlace::sample);
+        if (place != places.end()) (std::ranges::binary_search(bad, i) ? like : chosen).push_back(*place);
+      }
+      const auto first = std::stable_partition(places.begin(), places.end(), [&](const SubjectPlace& place) {
+        const auto is_same = [&](const SubjectPlace& other) { return other.sample == place.sample; };
+        if (is_last) return std::ranges::any_of(chosen, is_same);
+        return std::ranges::none_of(like, [&](const SubjectPlace& other) { return covers_half(place, other); });
+      });
+      std::move(first, places.end(), std::back_inserter(followed_[subject].refused));
+      places.erase(first, places.end());
+    }
+  }
+
+  [[nodiscard]] bool is_in_plate(const Study& study, std::size_t moment) const {
+    const double share = study.regions.steps[moment].plate_edges.value_or(0);
+    const Followed& subject = followed_[study.subjects[moment]];
+    return share > kHoleEdges ||
+           (share > kMaxPlateEdges && (subject.verdict.shows != Verdict::Shows::all ||
+                                       subject.track.most_covered_share() >= kMinCoveredInPlate));
+  }
+  [[nodiscard]] static std::string why_a_hole(const Study& study, std::size_t moment) {
+    return format(
+        "the scene at rest shows the subject, too, which covers some places for half of the time: at picture {} {:.0f} "
+        "% of its border are edges of that scene",
+        study.moments[moment], 100 * study.regions.steps[moment].plate_edges.value_or(0));
+  }
+  void tell_of_holes(Study& study) const {
+    for (std::size_t i = 0; i < study.moments.size(); ++i) {
+      if (is_in_plate(study, i))
+        study.notes.push_back(why_a_hole(study, i) + ". It may be shown in part, or as a hole");
+    }
   }
 
   // Whether it was found at the last sample before that was looked at.
@@ -148,8 +320,8 @@ class StudyPlanner {
 
   // The box that it was found in then; all that is looked at if it was not.
   [[nodiscard]] select::Rectangle box_at(std::size_t subject, std::uint64_t sample) const {
-    const SubjectTrack& track = tracks_[subject];
-    Rectangle box = regions_[subject];
+    const auto& [track, region, verdict, refused] = followed_[subject];
+    Rectangle box = region;
     if (is_seen_at(track, sample)) {
       box = (std::ranges::upper_bound(track.places, sample, {}, &SubjectPlace::sample) - 1)->box;
     }
@@ -157,10 +329,12 @@ class StudyPlanner {
   }
 
   const StudyRequest& request_;
+  CaptureSource& capture_;
   const Timeline& timeline_;
   const std::string& name_;  // of the capture, for messages
-  std::vector<SubjectTrack> tracks_;
-  const std::vector<Rectangle>& regions_;  // in which each was looked for
+  Picture plate_;
+  std::vector<Followed> followed_;
+  std::string why_;  // the first moment that was refused was
 };
 
 // Where subjects are looked for, one in each.
@@ -186,8 +360,7 @@ double uncertain_share(const Region& uncertain, const std::vector<Rectangle>& re
 }
 
 // That what is not followed leaves a trail only.
-void tell_of_other(const std::vector<SubjectPlace>& places, std::vector<std::string>& notes) {
-  if (places.empty()) return;
+std::string text_of_other(const std::vector<SubjectPlace>& places) {
   std::uint32_t left = places[0].box.x, top = places[0].box.y, right = 0, bottom = 0;
   for (const SubjectPlace& place : places) {
     left = std::min(left, place.box.x);
@@ -195,78 +368,79 @@ void tell_of_other(const std::vector<SubjectPlace>& places, std::vector<std::str
     right = std::max(right, place.box.x + place.box.width);
     bottom = std::max(bottom, place.box.y + place.box.height);
   }
-  notes.push_back(
-      format("one subject is shown, and another thing goes its way at the same time, within {},{},{},{}: name a region "
-             "for each of them to show both",
-             left, top, right - left, bottom - top));
+  return format("{},{},{},{}", left, top, right - left, bottom - top);
 }
 
-// A plate that shows the subject makes a hole of the ground that it left. Moments that are stated are shown with a note.
-void check_before_plate(Study& study, const MadeMask& made, const std::string& name) {
-  for (std::size_t i = 0; i < made.steps.size(); ++i) {
-    const double share = made.steps[i].plate_edges.value_or(0);
-    if (share <= kMaxPlateEdges || !study.may_be_in_plate[study.subjects[i]]) continue;
-    const std::string why = format(
-        "the scene at rest shows the subject, too, which covers some places for half of the time: at picture {} {:.0f} "
-        "% of its border are edges of that scene",
-        study.moments[i], 100 * share);
-    if (study.are_moments_found) {
-      throw NoSubject(
-          format("{}: {}. Take a longer part of the time, in which it goes on, or name the moments to show",
-                 name, why));
-    }
-    study.notes.push_back(why + ". It may be shown in part, or as a hole");
-  }
-}
-
-// Throws what makes no study. Moments that are stated are shown wherever the subject goes.
-void check_track(const SubjectTrack& track, const std::string& name, std::uint32_t by_codes,
-                 std::uint32_t side, StudyStyle style, bool is_stated) {
-  if (track.moving_share > kMaxMoving) {
-    throw EverythingMoves(format(
-        "{}: {:.0f} % of the picture differ from the scene at rest on average: everything moves, as it "
-        "does where the camera did. A study needs a scene that rests, and something that moves in it",
-        name, 100 * track.moving_share));
-  }
+// What of a track makes a study. Moments that are stated are shown wherever the subject goes.
+Verdict verdict_of(const SubjectTrack& track, std::uint32_t by_codes, std::uint32_t side, StudyStyle style,
+                   bool is_stated) {
+  using Shows = Verdict::Shows;
+  if (is_stated) return {};
   if (track.places.empty()) {
-    throw NoSubject(
-        format("{}: nothing moves: no part of it differs from the rest of the time by more than {} codes. State fewer "
-               "to find what hardly stands out",
-               name, by_codes));
+    return {Shows::nothing,
+            format("nothing moves: no part of it differs from the rest of the time by more than {} codes. State fewer "
+                   "to find what hardly stands out",
+                   by_codes)};
   }
-  if (is_stated) return;
+  const double length = track.length();
   if (kMinExtent * side > track.extent && !shows_one(style)) {
-    throw NoSubject(format(
-        "{}: nothing goes anywhere: what moves most is {:.0f} pixels large, and goes {:.0f} pixels of {}{}. "
-        "{}",
-        name, track.size(), track.extent, side,
-        track.looked_at.size() < kMinLooks ? format(", in {} pictures", track.looked_at.size()) : "",
-        track.extent < track.cell_side
-            ? "It comes and goes in its place: a single moment can be shown, frozen, or those that are named"
-            : "Take a part of the picture, of which that is more, or name the moments to show. A camera that "
-              "sways before a texture that repeats itself looks so, too: align the clip"));
+    return {kMinExtent * side > length ? Shows::nothing : Shows::one,
+            format("nothing goes anywhere: what moves most is {:.0f} pixels large, and goes {:.0f} pixels of {}{}{}",
+                   track.size(), track.extent, side,
+                   track.looked_at.size() < kMinLooks ? format(", in {} pictures", track.looked_at.size()) : "",
+                   track.extent < track.cell_side ? ". It comes and goes in its place" : "")};
   }
-  if (track.is_scraps()) {
-    const double length = track.length();
-    throw NoSubject(format(
-        "{}: nothing moves as one whole thing. What goes furthest fills {:.0f} % of its box, and is {:.0f} % of what "
-        "differs from the scene at rest: of one of these a subject is half or more. {} shows its edges only, and "
-        "cannot be shown twice. Take a clip in which it goes further, name a region with a single subject, or the "
-        "moments to show",
-        name, 100 * track.fill, 100 * track.share,
-        track.extent < length
-            ? format(
-                  "Its box is {:.0f} pixels long and goes {:.0f}: a thing that goes less than its own size",
-                  length, track.extent)
-            : "A thing that shakes, grows or shines"));
+  if (track.is_scraps() && (track.fill < kMinFillOfMany || track.extent < length || track.flickers)) {
+    return {Shows::nothing,
+            format("nothing moves as one whole thing. What goes furthest fills {:.0f} % of its box, and is {:.0f} % of "
+                   "what differs from the scene at rest: of one of these a subject is half or more. {} shows its edges "
+                   "only, and cannot be shown twice. Take a clip in which it goes further, name a region with a single "
+                   "subject, or the moments to show",
+                   100 * track.fill, 100 * track.share,
+                   track.extent < length
+                       ? format("Its box is {:.0f} pixels long and goes {:.0f}: a thing that goes less than its own size",
+                                length, track.extent)
+                       : "A thing that shakes, grows or shines")};
   }
   if (track.flickers) {
-    throw NoSubject(
-        format("{}: nothing moves as one whole thing. What differs from the scene at rest flickers here and there over "
-               "{:.0f} pixels, as light does that changes, leaves, or many things at once. Name a region with a single "
-               "subject, a part of the time, or the moments to show",
-               name, track.extent));
+    return {Shows::one,
+            format("nothing moves as one whole thing. What differs from the scene at rest flickers here and there over "
+                   "{:.0f} pixels, as light does that changes, leaves, or many things at once",
+                   track.extent)};
   }
+  return {};
+}
+
+// Where no region is stated, what goes its way beside the subject is one, too.
+std::vector<Followed> followed_in(std::vector<SubjectTrack> tracks, const std::vector<Rectangle>& regions,
+                                  const StudyRequest& request, std::uint32_t by_codes,
+                                  std::vector<std::string>& notes) {
+  const bool is_stated = std::holds_alternative<std::vector<StatedTime>>(request.moments);
+  std::vector<Followed> followed;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const std::uint32_t side = std::max(regions[i].width, regions[i].height);
+    std::vector<SubjectTrack> others = std::move(tracks[i].others);
+    Verdict verdict = verdict_of(tracks[i], by_codes, side, request.style, is_stated);
+    if (!request.regions.empty() && !verdict.why.empty()) verdict.why = text_of(regions[i]) + ": " + verdict.why;
+    followed.push_back({std::move(tracks[i]), regions[i], std::move(verdict)});
+    if (others.empty() || !request.regions.empty()) continue;
+    const std::string where = text_of_other(others.front().places);
+    if (is_stated || shows_one(request.style) || followed.front().verdict.shows != Verdict::Shows::all) {
+      notes.push_back(format("one subject is shown, and another thing goes its way at the same time, within {}: name a "
+                             "region for each of them to show both",
+                             where));
+      continue;
+    }
+    for (SubjectTrack& other : others) {
+      if (verdict_of(other, by_codes, side, request.style, false).shows != Verdict::Shows::all) continue;
+      followed.push_back({std::move(other), regions[i]});
+    }
+    if (followed.size() == 1) continue;
+    notes.push_back(format("{} subjects are shown: another thing goes its way at the same time, within {}. Name a region "
+                           "to show what moves in it",
+                           followed.size(), where));
+  }
+  return followed;
 }
 
 // Regions that overlap may hold a single thing, which cannot be shown as two.
@@ -284,27 +458,6 @@ void check_apart(const std::vector<SubjectTrack>& tracks, const std::vector<Rect
 }
 
 }  // namespace
-
-MadeMask make_regions(Study& study, CaptureSource& capture, const std::string& capture_name) {
-  MadeMask made = make_mask(study.mask, &capture, capture_name, [&] { return std::move(study.plate); });
-  check_before_plate(study, made, capture_name);
-  if (!study.are_moments_found) return made;
-  const auto left = made.mask.pixels_per_tag();
-  for (std::size_t i = 0; i < made.steps.size(); ++i) {
-    const StepReport& step = made.steps[i];
-    if (2 * left[step.tag] >= step.pixel_count) continue;
-    const bool is_single = study.subjects.back() == 0;
-    throw NoSubject(nutik::format(
-        "{}: {}: of the {} pixels that it has at picture {} moments after it cover all but {}. {}",
-        capture_name,
-        is_single ? "the subject overlaps with itself"
-                  : nutik::format("subject {} overlaps with itself or with another", study.subjects[i] + 1),
-        step.pixel_count, study.moments[i], left[step.tag],
-        is_single ? "It goes too little for its size. Name moments further apart, or show a single one"
-                  : "Take regions that lie apart, fewer moments, or a single subject"));
-  }
-  return made;
-}
 
 std::uint32_t usual_moments(StudyStyle style) {
   constexpr std::uint32_t kUsual = 5;
@@ -348,10 +501,12 @@ void check_study(const StudyRequest& request) {
 }
 
 Study plan_study(CaptureSource& capture, const std::string& capture_name, const StudyRequest& request,
-                 const MemoryBudget& memory, const ReportedProgress& progress) {
+                 const MemoryBudget& memory, const ReportedProgress& progress, Unrest unrest) {
   check_study(request);
   if (request.style == StudyStyle::slit) {
-    return slit_study(capture, capture_name, std::get<std::uint32_t>(request.moments), request.slit_from);
+    Study slit = slit_study(capture, capture_name, std::get<std::uint32_t>(request.moments), request.slit_from);
+    slit.regions = make_mask(slit.mask, &capture, capture_name);
+    return slit;
   }
   const CaptureFormat& format = capture.format();
   const std::vector<Rectangle> regions = regions_of(request, capture_name, format.shape);
@@ -360,42 +515,37 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
                                    capture_name, *request.by_codes, format.white_code));
   }
   MadePlate plate = make_rough_plate(capture, capture_name, memory, progress);
-  const double moving = uncertain_share(plate.uncertain, regions);
-  if (moving > kMaxMoving) {
+  Study study;
+  study.moving_share = uncertain_share(plate.uncertain, regions);
+  const double most = unrest == Unrest::shown ? kMaxUnrest : kMaxMoving;
+  if (study.moving_share > most) {
     throw EverythingMoves(
         nutik::format("{}: {:.0f} % of the pixels hold no light for half of the time: everything moves, as it does "
                       "where nobody held the camera still. A study needs a scene that rests and something that moves "
                       "in it",
-                      capture_name, 100 * moving));
+                      capture_name, 100 * study.moving_share));
   }
-  if (request.style == StudyStyle::clean) {
-    Study study;
-    study.plate = std::move(plate.picture);
-    return study;
-  }
+  if (request.style == StudyStyle::clean) return study;
   const std::uint32_t by_codes = request.by_codes.value_or(
       static_cast<std::uint32_t>(std::ceil(2 * CodeBand::kMinShare * format.white_code)));
   std::vector<SubjectTrack> tracks = track_subjects(capture, plate.picture, by_codes, regions, progress);
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    const bool is_stated = std::holds_alternative<std::vector<StatedTime>>(request.moments);
-    check_track(tracks[i], where(capture_name, request, regions[i]), by_codes,
-                std::max(regions[i].width, regions[i].height), request.style, is_stated);
+    study.moving_share = std::max(study.moving_share, tracks[i].moving_share);
+    if (tracks[i].moving_share <= most) continue;
+    throw EverythingMoves(nutik::format(
+        "{}: {:.0f} % of the picture differ from the scene at rest on average: everything moves, as it "
+        "does where the camera did. A study needs a scene that rests, and something that moves in it",
+        where(capture_name, request, regions[i]), 100 * tracks[i].moving_share));
   }
-  Study study;
-  study.plate = std::move(plate.picture);
   check_apart(tracks, regions, capture_name);
-  if (request.regions.empty()) tell_of_other(tracks.front().other, study.notes);
-  for (const SubjectTrack& track : tracks) {
-    study.may_be_in_plate.push_back(track.most_covered_share() >= kMinCoveredInPlate);
-  }
-  StudyPlanner planner(request, capture.timeline(), capture_name, std::move(tracks), regions);
-  planner.choose(study);
-  planner.add_regions(study);
-  add_functions(study, request, capture.timeline(), planner.tracks());
+  StudyPlanner(request, capture, capture_name, std::move(plate.picture),
+               followed_in(std::move(tracks), regions, request, by_codes, study.notes))
+      .plan(study);
   return study;
 }
 
-ExposureRequest study_exposure(const Study& study, const StudyRequest& asked, const Mask& regions) {
+ExposureRequest study_exposure(const Study& study, const StudyRequest& asked) {
+  const Mask& regions = study.regions.mask;
   ExposureRequest request;
   request.gains = Shared(FunctionSet(study.functions));
   const Feather feather = feather_of(asked);

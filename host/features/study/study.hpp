@@ -60,22 +60,28 @@ struct EverythingMoves : InputError {
       : InputError(message, Advice{". A camera that moved stands still with `align rigid`"}) {}
 };
 
-// What moves makes no study.
+// Regions that were stated hold no subjects of their own.
 struct NoSubject : InputError {
   using InputError::InputError;
 };
+
+// What becomes of a scene of which most moves: it is refused, for the camera may have moved, or shown, for nothing helps
+// against that.
+enum class Unrest { refused, shown };
 
 struct Study {
   // Samples, of one subject after another: of tags 1, 2, …; what is left has tag 0. Of a slit's strips: of tags 0, 1, …
   std::vector<std::uint64_t> moments;
   std::vector<std::size_t> subjects;  // whose each of them is: of which region, from 0. None of a slit
-  std::vector<bool> may_be_in_plate;  // each subject, for it is at some place for much of the time
   bool are_moments_found = false;     // not stated
+  // A long exposure, or a single moment, for what moves makes no more; a note says why.
+  bool falls_short = false;
+  double moving_share = 0;  // of the picture, that differs from the scene at rest on average
   MaskRequest mask;
+  MadeMask regions;           // made as `mask` asks for them
   FunctionSet functions;      // as a function file has them, to be normalized by their integrals
   double trail_strength = 1;  // how many times as strong the trail is as in a plain exposure
   SampleRange empty;          // at which nothing is there: taken away again from where the trail is stronger
-  Picture plate;              // in codes of the capture
   std::vector<std::string> notes;
 };
 
@@ -88,21 +94,17 @@ inline constexpr std::uint32_t kMaxMoments = 50, kMaxStrips = 256;
 // Throws UsageError where what is stated does not go together, whatever the capture is.
 void check_study(const StudyRequest& request);
 
-// Looks at all of the capture. Throws UsageError where moments are stated that do not go together; InputError where
-// nothing moves or everything does, with what was found; MemoryTooLittle.
+// Looks at all of the capture, and makes the best picture of it that holds: where what moves cannot be shown as it was
+// asked for, fewer moments, a single one, or a long exposure. Throws UsageError where moments are stated that do not go
+// together; EverythingMoves; NoSubject; InputError where the capture is damaged; MemoryTooLittle.
 [[nodiscard]] Study plan_study(CaptureSource& capture, const std::string& capture_name,
                                const StudyRequest& request, const MemoryBudget& memory,
-                               const ReportedProgress& progress = {});
-
-// The regions of its moments, of the capture that it was planned for; takes its plate. Throws NoSubject where moments that
-// were found cover one another.
-[[nodiscard]] MadeMask make_regions(Study& study, CaptureSource& capture, const std::string& capture_name);
+                               const ReportedProgress& progress = {}, Unrest unrest = Unrest::refused);
 
 // How far the subject's border is blended with what lies around it, in hundredths of a pixel: usually, and at most.
 inline constexpr std::int32_t kStudyFeather = 200, kMaxStudyFeather = 3200;
 
 // What exposes the study's picture through these regions.
-[[nodiscard]] ExposureRequest study_exposure(const Study& study, const StudyRequest& request,
-                                             const Mask& regions);
+[[nodiscard]] ExposureRequest study_exposure(const Study& study, const StudyRequest& request);
 
 }  // namespace nutik

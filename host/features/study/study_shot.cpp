@@ -54,30 +54,48 @@ class ShotPlanner {
   }
 
   // Of a single shot. Where the camera moved, a clip is read once more; also where everything seems to move, for a subject
-  // that fills much of the first picture hides that.
+  // that fills much of the first picture hides that. Where no motion of the camera explains the pictures, they are shown
+  // as they were filmed, or as they were moved, whichever rests more.
   [[nodiscard]] PlannedStudy plan(const SourceRequest& source, Session session) const {
     const bool may_align = session.is_clip() && !source.align;
-    const std::uint64_t samples = session.timeline().sample_count();
     std::optional<MovedCamera> moved = moved_camera(session.capture());
-    if (moved && moved->pixels > kMaxCameraPixels) {
-      if (!session.is_clip()) {
-        throw EverythingMoves(
-            format("{}: {}. A study needs pictures that lie on each other: encode the clip again", name_,
-                   moved->text()));
-      }
-      if (may_align) return plan_aligned(source, samples);
+    const bool is_still = !moved || moved->pixels <= kMaxCameraPixels;
+    if (!is_still && !session.is_clip()) {
+      throw EverythingMoves(format("{}: {}. A study needs pictures that lie on each other: encode the clip again", name_,
+                                   moved->text()));
     }
-    check_alignment(session.capture());
-    try {
-      return plan_as_it_is(std::move(session), std::move(moved));
-    } catch (const EverythingMoves&) {
-      if (!may_align) throw;
+    std::optional<Study> study;
+    if (is_still || !may_align) {
       try {
-        return plan_aligned(source, samples);
-      } catch (const CannotAlign&) {
+        study.emplace(study_of(session, may_align ? Unrest::refused : Unrest::shown));
+      } catch (const EverythingMoves&) {
+        if (!may_align) throw;
       }
+    }
+    std::vector<Note> notes;
+    if (study) {
+      if (std::optional<Note> note = unexplained(session.capture())) {
+        study->falls_short = true;
+        notes.push_back(std::move(*note));
+      }
+      return {std::move(session), std::move(*study), std::move(moved), std::move(notes)};
+    }
+    std::string reason;
+    std::optional<PlannedStudy> aligned = plan_aligned(source, session.timeline().sample_count(), reason);
+    if (aligned && (aligned->notes.empty() || !is_still)) return std::move(*aligned);
+    if (!is_still) throw EverythingMoves(reason);
+    try {
+      study.emplace(study_of(session, Unrest::shown));
+    } catch (const EverythingMoves&) {
+      if (aligned) return std::move(*aligned);
       throw;
     }
+    if (aligned && aligned->study.moving_share < study->moving_share) return std::move(*aligned);
+    notes.emplace_back(
+        format("no motion of the camera explains the pictures, of which {:.0f} % differ from the scene at rest on average: "
+               "they are shown as they were filmed, and what rests in them may be soft",
+               100 * study->moving_share));
+    return {std::move(session), std::move(*study), std::move(moved), std::move(notes)};
   }
 
  private:
@@ -86,19 +104,19 @@ class ShotPlanner {
   }
 
   // Near and far things cannot be aligned together: near ones would be taken for what moves.
-  void check_alignment(tik::Reader& capture) const {
+  [[nodiscard]] std::optional<Note> unexplained(tik::Reader& capture) const {
     const std::optional<tik::Alignment>& aligned = capture.header().alignment;
     const bool looks_for_subject = request_.style != StudyStyle::slit &&
                                    request_.style != StudyStyle::clean &&
                                    std::holds_alternative<std::uint32_t>(request_.moments);
     const double most = min_misplaced_pixels(capture.format().shape);
-    if (!aligned || !looks_for_subject || aligned->residual_pixels < most) return;
-    throw NoSubject(format(
-        "{}: one motion of the camera does not explain the pictures: moved back, half of the "
+    if (!aligned || !looks_for_subject || aligned->residual_pixels < most) return std::nullopt;
+    return Note(format(
+        "one motion of the camera does not explain the pictures: moved back, half of the "
         "texture of one lies {:.2f} pixels or more from its place, and from {:.1f} on it is taken for what "
         "moves. Near things move against far ones where a camera is carried on. Film from one place, take a "
         "shorter part of the time, or name the moments to show",
-        name_, aligned->residual_pixels, most));
+        aligned->residual_pixels, most), {Setting::from, Setting::to});
   }
 
   // A region is stated in pixels of a clip that nobody knew to be cropped.
@@ -112,41 +130,65 @@ class ShotPlanner {
     }
   }
 
-  [[nodiscard]] PlannedStudy plan_as_it_is(Session session, std::optional<MovedCamera> moved) const {
-    Study study = plan_study(session.capture(), name_, request_, terms_.devices->request().memory,
-                             progress("looking for the subject"));
-    return {std::move(session), std::move(study), std::move(moved)};
+  [[nodiscard]] Study study_of(Session& session, Unrest unrest) const {
+    return plan_study(session.capture(), name_, request_, terms_.devices->request().memory,
+                      progress("looking for the subject"), unrest);
   }
 
   // With its pictures moved onto the first one, or the one in the middle where that shows too little of what the others
-  // do.
-  [[nodiscard]] PlannedStudy plan_aligned(const SourceRequest& source, std::uint64_t samples) const {
-    SourceRequest aligned = source;
-    for (const std::uint64_t reference : {std::uint64_t{0}, samples / 2}) {
+  // do; else those on the longer side of the picture that cannot be moved. Nothing where most of them cannot: `reason`
+  // says why.
+  [[nodiscard]] std::optional<PlannedStudy> plan_aligned(const SourceRequest& source, std::uint64_t samples,
+                                                         std::string& reason) const {
+    constexpr int kMaxTries = 4;
+    constexpr std::uint64_t kMinOfSamples = 4;  // one of so many
+    const bool has_parts = !source.clip.from || source.clip.from->is_picture;
+    const std::uint64_t first = source.clip.from ? static_cast<std::uint64_t>(source.clip.from->value) : 0;
+    SampleRange part{0, samples};
+    std::uint64_t reference = 0;
+    for (int tries = 0; tries < kMaxTries; ++tries) {
+      SourceRequest aligned = source;
       aligned.align.emplace();
       aligned.align->motion = kStudyMotion;
-      aligned.align->reference = StatedTime::of_pictures(static_cast<std::int64_t>(reference));
-      std::optional<Session> session;
-      try {
-        session.emplace(open(aligned));
-      } catch (const CannotAlign&) {
-        if (reference == samples / 2) throw;
-        continue;
+      aligned.align->reference = StatedTime::of_pictures(static_cast<std::int64_t>(reference - part.first));
+      const bool is_part = part.size() < samples;
+      if (is_part) {
+        aligned.clip.from = picture(first + part.first);
+        aligned.clip.to = picture(first + part.last);
       }
-      check_regions(session->format().shape);
-      check_alignment(session->capture());
       try {
-        PlannedStudy planned = plan_as_it_is(std::move(*session), {});
-        planned.aligned_to = reference;
+        Session session = open(aligned);
+        check_regions(session.format().shape);
+        Study study = study_of(session, Unrest::shown);
+        std::vector<Note> notes;
+        if (std::optional<Note> note = unexplained(session.capture())) notes.push_back(std::move(*note));
+        if (is_part) {
+          notes.emplace_back(format("pictures {} … {} were taken, for others cannot be moved onto these: {}",
+                                    first + part.first, first + part.last - 1, reason),
+                             std::vector{Setting::from, Setting::to});
+        }
+        study.falls_short = study.falls_short || !notes.empty();
+        PlannedStudy planned{std::move(session), std::move(study), {}, std::move(notes)};
+        if (is_part) planned.part = SampleRange{first + part.first, first + part.last};
+        planned.aligned_to = reference - part.first;
         return planned;
-      } catch (const NoSubject& none) {
-        throw NoSubject(
-            format("{}. The camera may have moved: the pictures were moved back by their texture, and one that repeats "
-                   "itself tells too little of that",
-                   none.what()));
+      } catch (const CannotAlign& error) {
+        if (reason.empty()) reason = error.what();
+        const std::uint64_t failed = part.first + error.picture.value_or(0);
+        if (error.picture && failed > reference && 2 * (failed - part.first) >= part.size()) {
+          part.last = failed;
+        } else if (reference == 0 && part.size() == samples) {
+          reference = samples / 2;
+          continue;
+        } else if (error.picture) {
+          (failed < reference ? part.first : part.last) = failed < reference ? failed + 1 : failed;
+        } else {
+          return std::nullopt;
+        }
+        if (!has_parts || part.size() < std::max(kMinSamples, samples / kMinOfSamples)) return std::nullopt;
       }
     }
-    throw std::logic_error("no picture was aligned to");
+    return std::nullopt;
   }
 
   const StudyRequest& request_;
@@ -178,19 +220,25 @@ PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request
   std::erase_if(shots, [](const SampleRange& shot) { return shot.size() < kMinSamples; });
   std::ranges::stable_sort(shots, std::ranges::greater(), &SampleRange::size);
   std::string reasons;
+  std::optional<PlannedStudy> fallback;  // of the longest shot that makes no study, but a picture
+  const auto taken = [&](PlannedStudy planned) {
+    const SampleRange& part = *planned.part;
+    planned.notes.emplace_back(
+        format("the clip has {} shots, which begin at pictures {}: of the longest that makes a study, "
+               "pictures {} … {} were taken",
+               count, starts, part.first, part.last - 1),
+        std::vector{Setting::from, Setting::to});
+    return planned;
+  };
   for (const SampleRange& shot : shots) {
     SourceRequest of_shot = source;
     of_shot.clip.from = picture(shot.first);
     of_shot.clip.to = picture(shot.last);
     try {
       PlannedStudy planned = planner.plan(of_shot, planner.open(of_shot));
-      planned.shot = shot;
-      planned.notes.emplace_back(
-          format("the clip has {} shots, which begin at pictures {}: of the longest that makes a study, "
-                 "pictures {} … {} were taken",
-                 count, starts, shot.first, shot.last - 1),
-          std::vector{Setting::from, Setting::to});
-      return planned;
+      if (!planned.part) planned.part = shot;
+      if (!planned.study.falls_short) return taken(std::move(planned));
+      if (!fallback) fallback = std::move(planned);
     } catch (const InputError& reason) {
       const std::string_view text = reason.what();
       const std::string named = name + ": ";
@@ -198,6 +246,7 @@ PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request
                         text.starts_with(named) ? text.substr(named.size()) : text);
     }
   }
+  if (fallback) return taken(std::move(*fallback));
   throw InputError(format("{}: none of its {} shots, which begin at pictures {}, makes a study:{}", name,
                           count, starts, reasons));
 }

@@ -29,14 +29,14 @@ struct PlannedStudy {
   std::optional<MovedCamera> moved;  // by little, so that the pictures are as they were filmed
   std::vector<Note> notes = {};
   // What a clip is read with beside what was stated.
-  std::optional<SampleRange> shot = {};          // pictures that were taken of it
+  std::optional<SampleRange> part = {};          // pictures that were taken of it
   std::optional<std::uint64_t> aligned_to = {};  // the picture of them that the others were moved onto
 };
 
 // How pictures are moved where nobody stated that.
 inline constexpr CameraMotion kStudyMotion = CameraMotion::homography;
 
-// Throws InputError where no shot makes a study, and what Session and plan_study() of a capture throw.
+// Throws InputError where no shot makes a picture that holds, and what Session and plan_study() of a capture throw.
 [[nodiscard]] PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request,
                                       const StudyTerms& terms);
 

@@ -94,12 +94,12 @@ class StudyFunctions {
   [[nodiscard]] GainFunction trail(Study& study) const {
     std::uint64_t first = tracks_.front().places.front().sample, last = 0;
     double covered = 0;
-    for (std::size_t i = 0; i < tracks_.size(); ++i) {
-      first = std::min(first, tracks_[i].places.front().sample);
-      last = std::max(last, request_.style == StudyStyle::rear_curtain ? study.moments[i]
-                                                                       : tracks_[i].places.back().sample);
-      covered = std::max(covered, tracks_[i].covered_share());
+    for (const SubjectTrack& track : tracks_) {
+      first = std::min(first, track.places.front().sample);
+      last = std::max(last, track.places.back().sample);
+      covered = std::max(covered, track.covered_share());
     }
+    if (request_.style == StudyStyle::rear_curtain) last = std::ranges::max(study.moments);
     const Interval way = interval_of({std::min(first, last), last + 1});
     const double begin = shape_ == TrailShape::ramp ? 0.0 : 1.0, end = shape_ == TrailShape::fade ? 0.0 : 1.0;
     GainPieces pieces;
@@ -186,6 +186,14 @@ Study slit_study(CaptureSource& capture, const std::string& name, std::uint32_t 
                                                    : "pixels in a column"));
   }
   return study;
+}
+
+FunctionSet whole_time(const Timeline& timeline) {
+  GainPieces pieces;
+  pieces.add({timeline.start_ns(0), timeline.end_ns(timeline.sample_count() - 1)}, 1, 1);
+  FunctionSet functions;
+  functions.emplace(std::uint8_t{0}, pieces.function());
+  return functions;
 }
 
 void add_functions(Study& study, const StudyRequest& request, const Timeline& timeline,

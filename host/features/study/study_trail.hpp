@@ -17,6 +17,9 @@ namespace nutik {
 [[nodiscard]] Study slit_study(CaptureSource& capture, const std::string& name, std::uint32_t wanted,
                                SlitFrom from);
 
+// All of the time, evenly, where the mask's value is 0.
+[[nodiscard]] FunctionSet whole_time(const Timeline& timeline);
+
 // Of the moments that were chosen. Sets the study's functions, how strong its trail is and when nothing is there.
 void add_functions(Study& study, const StudyRequest& request, const Timeline& timeline,
                    const std::vector<SubjectTrack>& tracks);

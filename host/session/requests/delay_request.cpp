@@ -86,7 +86,7 @@ void DelayRequest::read() {
 }
 
 std::shared_ptr<const DelayMap> delays_of(const DelayRequest& request, const Shape& shape) {
-  const DelayRange range{request.from.nanoseconds(), request.to.nanoseconds()};
+  const DelayRange range{request.from.exact_nanoseconds(), request.to.exact_nanoseconds()};
   const auto shared = [](DelayMap map) { return std::make_shared<const DelayMap>(std::move(map)); };
   switch (request.course) {
     case DelayRequest::Course::rows: return shared(DelayMap::by_rows(shape, range));

@@ -47,8 +47,8 @@ FunctionSet functions_of(const ExposureRequest& request, const Timeline& timelin
 FunctionSet functions_of(const ExposureRequest& request, const Exposure& interval, const Timeline& timeline) {
   FunctionSet functions;
   const auto add = [&](std::uint8_t tag, const GainFunction& function, const std::string& name) {
-    functions.emplace(tag, weighed(function, request.normalization, request.gain, timeline.duration_ns(),
-                                   request.delay.has_value(), name));
+    functions.emplace(tag, request.normalization.normalized(function, timeline.duration_ns(), request.gain, name,
+                                                            request.delay.has_value()));
   };
   if (const auto* plain = std::get_if<PlainInterval>(&request.gains)) {
     add(0, function_of(*plain, interval, timeline), kPlainName);
@@ -59,14 +59,6 @@ FunctionSet functions_of(const ExposureRequest& request, const Exposure& interva
     add(tag, interval.start_ns == 0 ? written : written.shifted(interval.start_ns), format("M{}", tag));
   }
   return functions;
-}
-
-GainFunction weighed(const GainFunction& function, const Normalization& normalization, double gain,
-                     std::int64_t duration_ns, bool has_delays, const std::string& name) {
-  if (!has_delays) return normalization.normalized(function, duration_ns, gain, name);
-  const auto [begin_ns, end_ns] = whole_course(function, duration_ns);
-  return normalization.normalized(function.shifted(-begin_ns), end_ns - begin_ns, gain, name)
-      .shifted(begin_ns);
 }
 
 std::int64_t functions_end_ns(const ExposureRequest& request) {

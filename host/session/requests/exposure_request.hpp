@@ -70,12 +70,6 @@ struct ExposureRequest {
 [[nodiscard]] FunctionSet functions_of(const ExposureRequest& request, const Exposure& interval,
                                        const Timeline& timeline);
 
-// A function normalized and as bright as asked for. Delays move it about: it is then weighed by its whole course, of which
-// they may bring any part into the capture. Throws InputError naming it by `name`.
-[[nodiscard]] GainFunction weighed(const GainFunction& function, const Normalization& normalization,
-                                   double gain, std::int64_t duration_ns, bool has_delays,
-                                   const std::string& name);
-
 // The last time at which functions gather light, counted from their time 0.
 [[nodiscard]] std::int64_t functions_end_ns(const ExposureRequest& request);
 

@@ -49,6 +49,7 @@ void check_stated_transfer(const tik::Header& header, const std::string& name,
   const char* const why = header.capture.noise.camera ? "what a camera's noise explains was held as its mean"
                           : header.is_scaled          ? "pictures were scaled"
                           : header.alignment          ? "pictures were moved by fractions of a pixel"
+                          : header.made               ? "samples were made between pictures, in light"
                                                       : nullptr;
   if (why == nullptr) return;
   throw UsageError(

@@ -97,7 +97,7 @@ StatedTime StatedTime::parse(std::string_view text, std::string_view what) {
 }
 
 std::int64_t StatedTime::nanoseconds() const {
-  return round_half_up(static_cast<int128>(number.numerator) * unit_ns, number.denominator);
+  return rounded(exact_nanoseconds());
 }
 
 Rational StatedTime::modest_nanoseconds() const {
@@ -190,9 +190,7 @@ std::uint64_t sample_at(const StatedTime& time, std::string_view what, const Tim
 }
 
 ExactTime exact_time(const StatedTime& time, std::string_view what, const Timeline& timeline) {
-  if (!time.counts_samples()) {
-    return {static_cast<int128>(time.number.numerator) * time.unit_ns, time.number.denominator};
-  }
+  if (!time.counts_samples()) return time.exact_nanoseconds();
   const std::int64_t sample = whole_samples(time, what);
   if (sample == static_cast<std::int64_t>(timeline.sample_count())) return {timeline.duration_ns(), 1};
   return ExactTime::of_sample(timeline, existing_sample(sample, timeline));

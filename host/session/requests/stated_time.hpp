@@ -26,7 +26,10 @@ struct StatedTime {
   static StatedTime of(const ExactTime& time);
 
   [[nodiscard]] bool counts_samples() const { return unit_ns == 0; }
-  // Rounded half up. For a time in seconds or parts of it.
+  // For a time in seconds or parts of it; nanoseconds() is rounded half up.
+  [[nodiscard]] ExactTime exact_nanoseconds() const {
+    return {static_cast<int128>(number.numerator) * unit_ns, number.denominator};
+  }
   [[nodiscard]] std::int64_t nanoseconds() const;
   // Exactly, where 15 digits above and six below the fraction line hold it; else rounded.
   [[nodiscard]] Rational modest_nanoseconds() const;

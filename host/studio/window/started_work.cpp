@@ -72,9 +72,8 @@ Jobs::Work studying(Document& document, std::shared_ptr<Session> session, StudyS
     const std::string name = path.toStdString();
     const MemoryBudget& memory = session->devices().request().memory;
     auto study = std::make_shared<Study>(plan_study(session->capture(), name, request, memory, job.progress));
-    auto made = std::make_shared<MadeMask>(make_regions(*study, session->capture(), name));
-    return [&document, session, study, made, style, told] {
-      document.apply(state_of(document.state(), *study, std::move(made->mask), session->timeline(), style),
+    return [&document, session, study, style, told] {
+      document.apply(state_of(document.state(), *study, std::move(study->regions.mask), session->timeline(), style),
                      Document::tr("Starting point"));
       told(text_of(study->notes));
     };

@@ -1,0 +1,228 @@
+// Samples made between two pictures: their times, and what they show against the same scene drawn at these times.
+#include "align/between.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <thread>
+
+#include "capture/error.hpp"
+#include "support/clips.hpp"
+
+namespace nutik::between_test {
+namespace {
+
+constexpr std::uint32_t kWidth = 320, kHeight = 192;
+
+// Draws a sample: a grey code of each pixel at a time, counted in pictures.
+using Scene = std::function<double(double x, double y, double time)>;
+
+double ground_at(double x, double y) {
+  return 0.35 + 0.1 * std::sin(0.31 * x + 0.07 * y) * std::cos(0.23 * y) + 0.05 * std::sin(0.83 * x - 0.57 * y);
+}
+
+// A textured disc that flies across, ten pixels a picture and then more.
+double disc_at(double x, double y, double time) {
+  const double u = x - (60 + 14 * time), v = y - (90 - 6 * time + 1.0 * time * time);
+  return std::hypot(u, v) < 26 ? 0.7 + 0.15 * std::sin(0.4 * u) * std::cos(0.35 * v) : ground_at(x, y);
+}
+
+CaptureFormat format() {
+  CaptureFormat format;
+  format.shape = {kWidth, kHeight, 1};
+  format.code_bytes = 1;
+  format.white_code = 255;
+  format.transfer = Transfer::srgb();
+  return format;
+}
+
+std::vector<std::byte> drawn(const Scene& scene, double time, double noise = 0, unsigned seed = 0) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> error(0, 1);
+  std::vector<std::byte> raster(format().sample_bytes());
+  for (std::size_t i = 0; i < raster.size(); ++i) {
+    // Four places a pixel, so that edges are soft.
+    double sum = 0;
+    for (const double dx : {-0.25, 0.25}) {
+      for (const double dy : {-0.25, 0.25})
+        sum += scene(static_cast<double>(i % kWidth) + dx, static_cast<double>(i / kWidth) + dy, time);
+    }
+    const double code = 255 * sum / 4 + noise * error(random);
+    raster[i] = static_cast<std::byte>(std::lround(std::clamp(code, 0.0, 255.0)));
+  }
+  return raster;
+}
+
+class DrawnClip final : public Clip {
+ public:
+  explicit DrawnClip(std::vector<std::vector<std::byte>> pictures) : pictures_(std::move(pictures)) {
+    info_.format = format();
+    info_.sample_count = pictures_.size();
+  }
+  [[nodiscard]] const ClipInfo& info() const override { return info_; }
+  bool read(std::span<std::byte> raster) override {
+    if (next_ == pictures_.size()) return false;
+    std::ranges::copy(pictures_[next_++], raster.begin());
+    return true;
+  }
+
+ private:
+  std::vector<std::vector<std::byte>> pictures_;
+  ClipInfo info_;
+  std::size_t next_ = 0;
+};
+
+ClipToFill clip_of(const std::vector<std::vector<std::byte>>& pictures) {
+  test::use_modules();
+  return {"drawn", format(), pictures.size(), 0, [pictures] { return std::make_unique<DrawnClip>(pictures); }};
+}
+
+MadeSamples planned(const ClipToFill& clip, std::optional<std::uint32_t> each = std::nullopt) {
+  return plan_between(clip, each, std::uint64_t{1} << 32, {}, {});
+}
+
+std::vector<std::vector<std::byte>> filled(const ClipToFill& clip, const MadeSamples& made) {
+  return test::read_all(*open_between(clip, Shared(made)));
+}
+
+TEST(Between, ShowsWhatFliesWhereItIsAtThatTime) {
+  std::vector<std::vector<std::byte>> pictures;
+  for (int k = 0; k < 5; ++k) pictures.push_back(drawn(disc_at, k));
+  const ClipToFill clip = clip_of(pictures);
+  const MadeSamples made = planned(clip);
+  // 14 to 15 pixels a picture: steps of 0.7 to 1.4.
+  EXPECT_EQ(made.after, (std::vector<std::uint8_t>{15, 15, 15, 15, 0}));
+  EXPECT_LT(made.unfollowed, made.changed / 3) << made.text();
+  const auto samples = filled(clip, made);
+  ASSERT_EQ(samples.size(), made.total());
+  const std::vector<bool> marks = made.marks();
+  std::vector<double> shown(format().sample_bytes()), truth(shown), line(shown);  // sums over all times
+  for (std::size_t i = 0, picture = 0; i < samples.size(); ++i) {
+    if (!marks[i]) {
+      EXPECT_EQ(samples[i], pictures[picture++]) << "filmed";
+      continue;
+    }
+    const double share = static_cast<double>(i % 16) / 16;
+    const auto drawn_then = drawn(disc_at, static_cast<double>(picture - 1) + share);
+    for (std::size_t p = 0; p < truth.size(); ++p) {
+      const auto code = [p](const auto& raster) { return std::to_integer<int>(raster[p]); };
+      shown[p] += code(samples[i]);
+      truth[p] += code(drawn_then);
+      line[p] += (1 - share) * code(pictures[picture - 1]) + share * code(pictures[picture]);
+    }
+  }
+  const auto error = [&](const std::vector<double>& sums) {
+    double squares = 0;
+    for (std::size_t p = 0; p < truth.size(); ++p) squares += (sums[p] - truth[p]) * (sums[p] - truth[p]);
+    return std::sqrt(squares);
+  };
+  // Light on a trail: a row of discs where it goes in straight lines.
+  EXPECT_LT(error(shown), 0.5 * error(line)) << error(shown) / error(line);
+}
+
+TEST(Between, KeepsWhatIsStillAsItIs) {
+  std::vector<std::vector<std::byte>> pictures;
+  for (unsigned k = 0; k < 4; ++k) pictures.push_back(drawn(disc_at, k, 2.0, k));
+  const ClipToFill clip = clip_of(pictures);
+  const auto samples = filled(clip, planned(clip, 3));
+  ASSERT_EQ(samples.size(), 13U);
+  for (std::size_t i = 0; i < 12; ++i) {
+    for (std::size_t y = 160; y < kHeight; ++y) {  // below what flies
+      for (std::size_t x = 0; x < kWidth; ++x) {
+        const std::byte code = samples[i][y * kWidth + x];
+        const bool is_filmed = code == pictures[i / 4][y * kWidth + x] || code == pictures[i / 4 + 1][y * kWidth + x];
+        ASSERT_TRUE(is_filmed) << "sample " << i << ", pixel " << x << "," << y;
+      }
+    }
+  }
+}
+
+TEST(Between, MakesNothingWhereNothingMovesNorAcrossACut) {
+  std::vector<std::vector<std::byte>> still, cut, flash, dissolve;
+  const Scene other = [](double x, double y, double) { return ground_at(0.7 * y + 300, 1.3 * x - 80); };
+  for (unsigned k = 0; k < 4; ++k) {
+    still.push_back(drawn([](double x, double y, double) { return ground_at(x, y); }, 0, 3.0, k));
+    cut.push_back(drawn(k < 2 ? Scene(disc_at) : other, k));
+    flash.push_back(drawn([&](double x, double y, double) { return (k == 2 ? 1.6 : 1.0) * ground_at(x, y); }, 0));
+    dissolve.push_back(drawn(
+        [&](double x, double y, double) { return (3 - k) / 3.0 * ground_at(x, y) + k / 3.0 * other(x, y, 0); }, 0));
+  }
+  EXPECT_EQ(planned(clip_of(still)).count(), 0U);
+  EXPECT_EQ(planned(clip_of(cut)).after[1], 0) << "across the cut";
+  EXPECT_GT(planned(clip_of(cut)).after[0], 0) << "before it";
+  EXPECT_EQ(planned(clip_of(cut), 7).after[1], 0) << "also where 7 are wanted";
+  EXPECT_EQ(planned(clip_of(flash)).count(), 0U);
+  EXPECT_EQ(planned(clip_of(dissolve)).count(), 0U);
+}
+
+TEST(Between, IsTheSameWhoeverComputesBeside) {
+  std::vector<std::vector<std::byte>> pictures;
+  for (int k = 0; k < 3; ++k) pictures.push_back(drawn(disc_at, k));
+  const ClipToFill clip = clip_of(pictures);
+  const MadeSamples made = planned(clip);
+  const auto alone = filled(clip, made);
+  std::vector<std::vector<std::vector<std::byte>>> beside(4);
+  {
+    std::vector<std::jthread> threads;
+    for (auto& each : beside) threads.emplace_back([&] { each = filled(clip, planned(clip)); });
+  }
+  for (const auto& each : beside) EXPECT_EQ(each, alone);
+}
+
+TEST(Between, PassesOverWhatIsSkipped) {
+  std::vector<std::vector<std::byte>> pictures;
+  for (int k = 0; k < 3; ++k) pictures.push_back(drawn(disc_at, k));
+  const ClipToFill clip = clip_of(pictures);
+  const MadeSamples made = planned(clip, 3);
+  const auto all = filled(clip, made);
+  const auto some = open_between(clip, Shared(made));
+  std::vector<std::byte> raster(format().sample_bytes());
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(some->skip(raster));
+  ASSERT_TRUE(some->read(raster));
+  EXPECT_EQ(raster, all[5]);
+}
+
+TEST(Between, RefusesAClipThatIsNotTheOneItPlannedFor) {
+  std::vector<std::vector<std::byte>> pictures;
+  for (int k = 0; k < 3; ++k) pictures.push_back(drawn(disc_at, k));
+  const MadeSamples made = planned(clip_of(pictures), 1);
+  for (const std::size_t count : {2U, 4U}) {
+    pictures.resize(count, pictures.front());
+    EXPECT_THROW(filled(clip_of(pictures), made), InputError);
+  }
+}
+
+MadeSamples made_after(std::vector<std::uint8_t> after) { return {std::move(after), 10, 4}; }
+
+TEST(MadeSamples, HaveTimesBetweenThoseFilmed) {
+  const Timeline filmed = Timeline::constant({10, 1}, Rational{90, 1}, 3);  // 0 … 25 ms, 100 … 125 ms, 200 … 225 ms
+  const MadeSamples made = made_after({1, 7, 0});
+  const Timeline all = made.times(filmed);
+  ASSERT_EQ(all.sample_count(), 11U);
+  EXPECT_EQ(all.duration_ns(), filmed.duration_ns());
+  // Halfway from one middle to the next, as long as a filmed one.
+  EXPECT_EQ(all.start_ns(1), 50'000'000);
+  EXPECT_EQ(all.end_ns(1), 75'000'000);
+  // Middles 12.5 ms apart, so that none can be exposed for 25 ms: up to halfway.
+  EXPECT_EQ(all.start_ns(2), 100'000'000);
+  EXPECT_EQ(all.end_ns(2), 118'750'000);
+  EXPECT_EQ(all.start_ns(3), 118'750'000);
+  EXPECT_EQ(all.end_ns(3), 131'250'000);
+  EXPECT_EQ(all.end_ns(10), 225'000'000);
+  EXPECT_EQ(made_after({0, 0, 0}).times(filmed), filmed);
+}
+
+TEST(MadeSamples, AreKeptInAFile) {
+  const MadeSamples made = made_after({3, 3, 3, 0, 0, 63, 0});
+  EXPECT_EQ(made.kept_text(), "10 4 3*3 0*2 63*1 0*1");
+  EXPECT_EQ(MadeSamples::parse(made.kept_text()), made);
+  EXPECT_EQ(made.marks()[1], true);
+  EXPECT_EQ(made.marks()[4], false);
+  EXPECT_EQ(made.total(), made.marks().size());
+  for (const char* damaged : {"", "10", "10 4", "10 4 3*3", "10 4 64*1 0*1", "10 4 3*99999999999 0*1", "10 4 3x3 0*1"})
+    EXPECT_THROW(static_cast<void>(MadeSamples::parse(damaged)), UsageError) << damaged;
+}
+
+}  // namespace
+}  // namespace nutik::between_test

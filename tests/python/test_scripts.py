@@ -1,0 +1,204 @@
+"""What scripts of a laboratory do: other kinds of arrays and numbers, copies, errors that they catch."""
+
+import copy
+import datetime
+import os
+import pickle
+import shutil
+import subprocess
+import sys
+import unittest
+from fractions import Fraction
+from pathlib import Path
+
+import nutik
+import numpy as np
+
+import support
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+class Numbers(support.TestCase):
+    def encoded(self, **stated):
+        return nutik.encode(np.zeros((4, 3, 5), np.uint8), **stated)
+
+    def test_a_float_of_any_width_is_taken_as_it_is_printed(self):
+        function = nutik.Function([0, np.float32(0.1), np.float16(0.25)], [0, 1, 0])
+        self.assertEqual(function.times_ns.tolist(), [0, 100_000_000, 250_000_000])
+        self.assertEqual(self.encoded(rate=np.float32(29.97)).rate, Fraction(2997, 100))
+
+    def test_a_rate_that_is_a_quotient_is_that_quotient(self):
+        for rate, wanted in ((1000 / 3, Fraction(1000, 3)), (1 / 0.0003, Fraction(10_000, 3)), (24 / 1.001, Fraction(24_000, 1001)),
+                             (np.float64(1000 / 7), Fraction(1000, 7))):
+            self.assertEqual(self.encoded(rate=rate).rate, wanted)
+        self.assert_raises(nutik.UsageError, "15 digits", self.encoded, rate=Fraction(10 ** 16, 3))
+
+    def test_dates_count_from_the_first(self):
+        begin = np.datetime64("2026-01-31T23:59:59.995", "ns")
+        dates = begin + np.array([0, 10, 25, 40]) * np.timedelta64(1, "ms")
+        wanted = self.encoded(times=[0, "10ms", "25ms", "40ms"], exposures="5ms").times_ns
+        self.assert_same(self.encoded(times=dates, exposures="5ms").times_ns, wanted)
+        self.assert_same(self.encoded(times=list(dates.astype("datetime64[us]").astype(datetime.datetime)),
+                                      exposures="5ms").times_ns, wanted)
+        dates[2] = np.datetime64("NaT")
+        self.assert_raises(nutik.UsageError, "NaT", self.encoded, times=dates)
+
+    def test_facts_say_what_the_caller_said(self):
+        self.assertIn("shutter 1.08 degrees, from what the caller said: 3000000 ns",
+                      self.encoded(rate=1, exposures="3ms").facts)
+        facts = self.encoded(times=[0, 1, 2, 4], exposures=[0.5] * 4).facts
+        self.assertIn("from what the caller said", facts[0])
+        self.assertNotIn("file", " ".join(facts))
+
+    def test_an_exposure_lasts_longer_than_nothing(self):
+        for exposures in (-1, 0, "-1s", np.timedelta64(0, "ms")):
+            self.assert_raises(nutik.UsageError, ["exposures", "longer than 0"], self.encoded, rate=1, exposures=exposures)
+        self.assert_raises(nutik.UsageError, ["exposures[2]", "longer than 0"], self.encoded, times=[0, 1, 2, 3],
+                           exposures=[1, 1, -1, 1])
+
+
+class Arrays(support.TestCase):
+    def test_a_masked_array_is_refused_where_something_is_masked(self):
+        pictures = np.ma.masked_array(support.moving_box(), mask=False)
+        wanted = nutik.encode(support.moving_box(), rate=960).render(exposure="3f").array
+        self.assert_same(nutik.encode(pictures, rate=960).render(exposure="3f").array, wanted)
+        pictures[3, 4, 5] = np.ma.masked
+        tags = np.ma.masked_equal(support.tags(), 128)
+        capture = nutik.encode(support.moving_box(), rate=960)
+        for call in (lambda: nutik.encode(pictures, rate=960), lambda: nutik.encode(iter(pictures[3:]), rate=960),
+                     lambda: nutik.encode(iter(pictures), rate=960),
+                     lambda: nutik.Mask(tags), lambda: nutik.Mask.of_layers({128: tags}),
+                     lambda: capture.render(exposure="1f", delay=np.ma.masked_equal(np.zeros((45, 80)), 0))):
+            self.assert_raises(nutik.UsageError, ["mask", ".filled("], call)
+
+    def test_a_memoryview_is_an_array(self):
+        pictures = support.moving_box()
+        wanted = nutik.encode(pictures, rate=960).render(exposure="3f").array
+        self.assert_same(nutik.encode(memoryview(pictures), rate=960).render(exposure="3f").array, wanted)
+
+    def test_a_capture_is_none(self):
+        capture = nutik.encode(support.moving_box(), rate=960)
+        self.assert_raises(TypeError, ["no array", "render()"], np.asarray, capture)
+
+    def test_light_beyond_floats_is_told(self):
+        capture = nutik.encode(support.moving_box(), self.path("a.tik"), rate=960)
+        with self.assertWarnsRegex(nutik.NutikWarning, "10800 values are beyond floating point"):
+            self.assertTrue(np.isinf(capture.render(exposure="3f", gain=1e200).array).any())
+        words = [support.PROGRAM, "--gain", "1e200", "--start", "0s", "--exposure", "3f", "a.tik"]
+        for more, status, said in (([self.path("a.pfm")], 0, "beyond floating point of 32 bits"),
+                                   ([self.path("a.exr"), "--depth", "half"], 5, "16-bit floating point ends at 65504")):
+            done = subprocess.run([*words, *more], cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual(done.returncode, status, done.stderr)
+            self.assertIn(said, done.stderr)
+
+    def test_the_bound_is_that_of_the_array(self):
+        """Of one sample, whose light is known exactly: what float32 rounds counts."""
+        codes = np.arange(256, dtype=np.uint16).reshape(1, 16, 16) * 257 + 1
+        capture = nutik.encode(np.repeat(codes, 3, axis=0), rate=100)
+        for precision in ("single", "compensated", "double", "fixed"):
+            picture = capture.render(exposure="1f", precision=precision)
+            exact = codes[0].astype(np.longdouble) / 65535
+            error = float(np.abs(picture.array.astype(np.longdouble) - exact).max())
+            self.assertLessEqual(error, picture.error_bound, precision)
+            self.assertLess(picture.error_bound, 1e-3)
+            double = capture.render(exposure="1f", precision=precision, dtype=np.float64)
+            self.assertLessEqual(double.error_bound, picture.error_bound)
+
+
+class Copies(support.TestCase):
+    def test_functions_masks_and_pictures(self):
+        capture = nutik.encode(support.moving_box(), rate=960)
+        function = nutik.shutter("hann", 0, "10ms")
+        soft = nutik.Mask(support.tags()).feathered(3)
+        made = [function, nutik.Mask(support.tags()), soft, capture.render(exposure="3f"),
+                capture.render(exposure="3f", codes=True), capture.render(exposure="3f", dtype=np.float64), capture.plate()]
+        for given in made:
+            for copied in (pickle.loads(pickle.dumps(given)), copy.deepcopy(given), copy.copy(given)):
+                self.assertIs(type(copied), type(given))
+                if isinstance(given, nutik.Mask):
+                    self.assert_same(copied.tags, given.tags)
+                    for tag in given.tags_in_use:
+                        self.assert_same(copied.share(tag), given.share(tag))
+                elif isinstance(given, nutik.Picture):
+                    self.assert_same(copied.array, given.array)
+                    self.assertEqual((copied.plan, copied.precision, copied.error_bound), (given.plan, given.precision,
+                                                                                         given.error_bound))
+                elif isinstance(given, nutik.Function):
+                    self.assertEqual(copied, given)
+
+    def test_a_copied_picture_writes_the_same_file(self):
+        capture = nutik.encode(support.moving_box(dtype=np.uint16), rate=960, white=65535, primaries="bt2020")
+        for name, picture in (("a.png", capture.render(exposure="3f", codes=True, transfer="source")),
+                              ("a.exr", capture.render(exposure="3f"))):
+            picture.write(self.path(name))
+            pickle.loads(pickle.dumps(picture)).write(self.path("copied-" + name))
+            self.assertEqual(Path(self.path(name)).read_bytes(), Path(self.path("copied-" + name)).read_bytes())
+
+    def test_traces_are_equal_where_all_of_them_is(self):
+        capture = nutik.encode(support.moving_box(), rate=960)
+        first, again = (capture.trace(5, 12, exposure="3f")[0] for _ in range(2))
+        self.assertTrue(first == again)
+        self.assertFalse(first == capture.trace(6, 12, exposure="3f")[0])
+        self.assertFalse(first == capture.trace(5, 12, exposure="4f")[0])
+        self.assertFalse(first == 3)
+
+    def test_a_plan_is_the_callers_own(self):
+        picture = nutik.encode(support.moving_box(), rate=960).render(exposure="3f")
+        wanted = copy.deepcopy(picture.plan)
+        picture.plan["functions"][0]["tag"] = 7
+        picture.plan.clear()
+        picture.statistics.clear()
+        self.assertEqual(picture.plan, wanted)
+        self.assertTrue(picture.statistics)
+
+
+class Errors(support.TestCase):
+    def test_a_missing_file_is_an_oserror_too(self):
+        for call in (lambda: nutik.open(self.path("none.tik")), lambda: nutik.encode(Path(self.path("none.mp4"))),
+                     lambda: nutik.read_functions(self.path("none.fn")), lambda: nutik.read_mask(self.path("none.pgm")),
+                     lambda: nutik.join([self.path("a.tik"), self.path("b.tik")], self.path("c.tik"))):
+            with self.assertRaises(FileNotFoundError) as raised:
+                call()
+            self.assertIsInstance(raised.exception, nutik.InputError)
+            self.assertIn(self.path(""), str(raised.exception))
+        Path(self.path("broken.tik")).write_bytes(b"nothing")
+        self.assert_raises(nutik.InputError, "broken.tik", nutik.open, self.path("broken.tik"))
+
+    def test_a_wrong_type_is_a_typeerror_too(self):
+        capture = nutik.encode(support.moving_box(), rate=960)
+        for call in (lambda: nutik.encode(3, rate=1), lambda: nutik.encode(support.moving_box(), rate=[1]),
+                     lambda: capture.render(start=object(), exposure="1f"), lambda: capture.trace("x", "y", exposure="1f"),
+                     lambda: capture.plate(by=1.5)):
+            with self.assertRaises(TypeError) as raised:
+                call()
+            self.assertIsInstance(raised.exception, nutik.UsageError)
+
+    def test_a_codec_is_one_with_and_without_a_file(self):
+        for output in (None, self.path("a.tik")):
+            self.assert_raises(nutik.UsageError, "gif", nutik.encode, support.moving_box(), output, rate=1, codec="gif")
+
+
+class Wheels(support.TestCase):
+    def test_a_build_that_failed_may_be_tried_again(self):
+        """CMake that writes its cache and then fails, as it does where pybind11 is missing."""
+        for part in ("setup.py", "README.md", "CMakeLists.txt", "LICENSE"):
+            shutil.copy(ROOT / part, self.folder)
+        fake = self.folder / "bin" / "cmake"
+        fake.parent.mkdir()
+        fake.write_text('#!/bin/sh\necho "$@" >>calls\nmkdir -p build-python\ntouch build-python/CMakeCache.txt\nexit 1\n')
+        fake.chmod(0o755)
+        environment = {**os.environ, "PATH": f"{fake.parent}:{os.environ['PATH']}"}
+        environment.pop("NUTIK_BUILD_DIR", None)
+        for _ in range(2):
+            done = subprocess.run([sys.executable, "setup.py", "build_ext"], cwd=self.folder, env=environment,
+                                  capture_output=True, text=True)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertNotIn("Traceback", done.stderr)
+            self.assertIn("cmake", done.stderr)
+        calls = (self.folder / "calls").read_text().splitlines()
+        self.assertEqual([call.split()[0] for call in calls], ["--preset", "--preset"], "it went on without build.ninja")
+
+
+if __name__ == "__main__":
+    unittest.main()
