@@ -64,14 +64,7 @@ class BuildWithCMake(build_ext):
 
 
 setup(
-    name="nutik",
     version=version(),
-    description="Exposes pictures after the scene was filmed",
-    long_description=(ROOT / "README.md").read_text(encoding="utf-8"),
-    long_description_content_type="text/markdown",
-    license_files=["LICENSE"],
-    python_requires=">=3.9",
-    install_requires=["numpy>=1.21"],
     packages=[],
     ext_modules=[Extension("nutik._nutik", sources=[])],
     cmdclass={"build_ext": BuildWithCMake},

@@ -1,6 +1,6 @@
 #!/bin/bash
 # Installs packages into the system that this runs in, and uses each as its users would. tools/packages --try runs it in
-# a Debian 12 that has nothing but its base system.
+# a Debian that has nothing but its base system.
 #
 #   try_packages.sh DEBS WORK     WORK: this folder as WORK/install, docs/reference/library.md, and maybe ../source
 set -euo pipefail

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """A wheel is built from a build folder and used from a fresh virtual environment with the system's NumPy, far away from
-both: arrays, videos (which a module beside the package decodes), errors.
+both: arrays, videos (which a module beside the package decodes), errors. The sources can be packed, too.
 
     check_wheel.py --build FOLDER --work FOLDER
 """
@@ -58,6 +58,14 @@ def main():
     run(sys.executable, "-m", "pip", "wheel", ROOT, "--no-build-isolation", "--no-deps", "--no-index", "-q", "-w", "wheels",
         env=environment | {"NUTIK_BUILD_DIR": str(arguments.build)})
     (wheel,) = (arguments.work / "wheels").glob("nutik-*.whl")
+    # The sources as they are packed lack no file that a build begins with.
+    subprocess.run([sys.executable, "setup.py", "-q", "sdist", "-d", arguments.work / "sources"], check=True, cwd=ROOT,
+                   stderr=subprocess.DEVNULL)
+    (packed,) = (arguments.work / "sources").glob("nutik-*.tar.gz")
+    run("tar", "xf", packed, "-C", "sources")
+    run("cmake", "--preset", "release", "-S", arguments.work / "sources" / packed.name.removesuffix(".tar.gz"),
+        "-B", arguments.work / "configured", "-DNUTIK_BUILD_TESTS=OFF", "-DNUTIK_BUILD_BENCHMARKS=OFF",
+        "-DNUTIK_BUILD_PYTHON=ON", f"-DPython_EXECUTABLE={sys.executable}", stdout=subprocess.DEVNULL)
     run(sys.executable, "-m", "venv", "--system-site-packages", "environment", env=environment)
     python = arguments.work / "environment/bin/python"
     run(python, "-m", "pip", "install", "--no-deps", "--no-index", "-q", wheel, env=environment)

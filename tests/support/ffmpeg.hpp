@@ -61,7 +61,8 @@ inline void make(const Scratch& scratch, const std::string& words) {
   for (std::sregex_iterator found(words.begin(), words.end(), mark), end; found != end; ++found) marks += found->str();
   if (!marks.empty()) {
     const std::string output = words.substr(words.rfind(' ') + 1), plain = "unmarked-" + output;
-    command += " && mv " + output + " " + plain + " && ffmpeg -v error -y -i " + plain + " -c copy" + marks + " " + output;
+    command += " && mv " + output + " " + plain;
+    command += " && ffmpeg -v error -y -i " + plain + " -c copy" + marks + " " + output;
   }
   const auto made = test::run_shell(command, scratch.folder());
   ASSERT_EQ(made.status, 0) << words << "\n" << made.err;
