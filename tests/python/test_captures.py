@@ -253,5 +253,24 @@ class Times(support.TestCase):
                 capture.render(start=0, exposure=wrong)
 
 
+class Between(support.TestCase):
+    def test_samples_are_made_and_marked(self):
+        y, x = np.mgrid[0:80, 0:128]
+        pictures = []
+        for k in range(3):
+            inside = (x >= 20 + 6 * k) & (x < 50 + 6 * k) & (y >= 25) & (y < 55)
+            square = 190 + 40 * np.sin(0.6 * (x - 6 * k)) * np.cos(0.5 * y)
+            ground = 80 + 25 * np.sin(0.4 * x + 0.2 * y) * np.cos(0.33 * y)
+            pictures.append(np.where(inside, square, ground).round().astype(np.uint8))
+        capture = nutik.encode(np.stack(pictures), rate=20, transfer="srgb", between=3)
+        self.assertEqual(capture.shape, (9, 80, 128))
+        for k, picture in enumerate(pictures):
+            self.assert_same(sample(capture, 4 * k), picture)
+        made = capture.trace(50, 40, start=0, exposure=0.15)[0].made
+        self.assertTrue(made.any() and not made.all())
+        with self.assertRaises(nutik.UsageError):
+            nutik.encode(np.stack(pictures), rate=20, between="many")
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -1,0 +1,80 @@
+// Samples made between pictures, from the command line: what is told of them, and what is refused.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/app_test.hpp"
+
+namespace nutik {
+namespace {
+
+class BetweenPictures : public test::AppTest {
+ protected:
+  static constexpr int kWidth = 128, kHeight = 80, kPictures = 4;
+
+  // A textured square that moves six pixels a picture over textured ground.
+  void SetUp() override {
+    std::filesystem::create_directory(scratch_ / "frames");
+    for (int k = 0; k < kPictures; ++k) {
+      std::string picture = "P5\n128 80\n255\n";
+      for (int y = 0; y < kHeight; ++y) {
+        for (int x = 0; x < kWidth; ++x) {
+          const int u = x - 20 - 6 * k, v = y - 25;
+          const bool is_square = u >= 0 && u < 30 && v >= 0 && v < 30;
+          const double code = is_square ? 190 + 40 * std::sin(0.6 * u) * std::cos(0.5 * v)
+                                        : 80 + 25 * std::sin(0.4 * x + 0.2 * y) * std::cos(0.33 * y);
+          picture += static_cast<char>(std::lround(code));
+        }
+      }
+      scratch_.write("frames/" + std::to_string(k) + ".pgm", picture);
+    }
+  }
+};
+
+TEST_F(BetweenPictures, AreMarkedWhereverTheyAreTold) {
+  const auto encoded = make("encode -f 20 --transfer srgb --between auto frames all.tik");
+  expect_says(encoded.out, "21 samples made along the motion between 4 filmed");
+  const auto info = answer("info all.tik");
+  EXPECT_EQ(info["samples"], 25);
+  EXPECT_EQ(info["made_samples"]["after"], (std::vector<int>{7, 7, 7, 0}));
+  expect_says(run("info all.tik").out, "21 samples made along the motion between 4 filmed");
+  const test::Words trace("trace --pixel 50,40 --start 0s --exposure 200ms all.tik");
+  EXPECT_NE(run(trace).out.find(" made"), std::string::npos);
+  make(trace + "steps.csv");
+  EXPECT_NE(file("steps.csv").find(",is_made\n"), std::string::npos);
+  // The steps that begin with what was filmed have no mark.
+  bool is_filmed = false, is_made = false;
+  for (const auto& step : answer(trace)["steps"]) (step.contains("is_made") ? is_made : is_filmed) = true;
+  EXPECT_TRUE(is_filmed && is_made);
+}
+
+TEST_F(BetweenPictures, AreMadeAgainByARecipe) {
+  const test::Words source("-f 20 --transfer srgb --between 3 --renderer reference frames");
+  make(test::Words("expose --start 10ms --exposure 150ms") + source + "-o p.png");
+  const std::string picture = file("p.png");
+  expect_says(run("again p.png").out, "--between 3");
+  make("again p.png -o q.png");
+  EXPECT_TRUE(file("q.png") == picture);
+  // A clip that is read forward and its capture.
+  make("encode -f 20 --transfer srgb --between 3 frames all.tik");
+  make("expose --start 10ms --exposure 150ms --renderer reference --no-recipe all.tik -o r.png");
+  make(test::Words("expose --start 10ms --exposure 150ms --no-recipe") + source + "-o s.png");
+  EXPECT_TRUE(file("r.png") == file("s.png"));
+}
+
+TEST_F(BetweenPictures, AreRefusedWhereTheyCannotBe) {
+  make("encode -f 20 --between 3 frames all.tik");
+  make("encode -f 20 --between 3 --from 0f --to 2f frames a.tik");
+  make("encode -f 20 --between 3 --from 2f frames b.tik");
+  expect_refused(2, {{"encode -f 20 --between many frames x.tik", "write auto, off, or how many samples"},
+                     {"encode -f 20 --between 64 frames x.tik", "1 … 63"},
+                     {"retime -f 40 all.tik x.tik", "has samples made between its pictures"},
+                     {"expose --between 3 --exposure 1s all.tik -o x.png", "--between describes a clip"}});
+  expect_refused(5, {{"join a.tik b.tik -o x.tik", "none could be made where it meets another"}});
+  // Nothing moves in one picture.
+  const auto one = make("encode -f 20 --between auto frames/0.pgm one.tik");
+  expect_says(one.err, "no sample was made between two pictures");
+}
+
+}  // namespace
+}  // namespace nutik
