@@ -1,5 +1,5 @@
-// Clips of few pictures a second as if there were more: between two pictures as many are made as the motion there needs,
-// along it (align/pair_motion.hpp).
+// Clips of few pictures a second as if there were more: between two pictures as many are made as the motion there
+// needs, along it (align/pair_motion.hpp).
 //
 //   in:      a clip, which is read twice: once for how much moves, once for its pictures
 //   out:     a clip of its own pictures, bit for bit, and those made between them; which are which
@@ -36,8 +36,8 @@ struct ClipToFill {
   OpenClip open;
 };
 
-// Reads all of the clip; `progress` counts its pictures. Throws MemoryTooLittle, Cancelled, InputError where it cannot be
-// read or has no picture.
+// Reads all of the clip; `progress` counts its pictures. Throws MemoryTooLittle, Cancelled, InputError where it cannot
+// be read or has no picture.
 [[nodiscard]] MadeSamples plan_between(const ClipToFill& clip, const std::optional<std::uint32_t>& each,
                                        std::uint64_t memory_bytes, const ReportedProgress& progress,
                                        const std::stop_token& stop);

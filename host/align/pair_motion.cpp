@@ -131,7 +131,8 @@ void PairMotion::find(const std::uint8_t* first, const std::uint8_t* second, std
   unfollowed_ = changed_;
   if (!has_box) return;
   const std::size_t offset = std::size_t{box_.y} * width_ + box_.x;
-  const GreyPlane a{first + offset, box_.width, box_.height, width_}, b{second + offset, box_.width, box_.height, width_};
+  const GreyPlane a{first + offset, box_.width, box_.height, width_};
+  const GreyPlane b{second + offset, box_.width, box_.height, width_};
   const std::size_t pixels = std::size_t{box_.width} * box_.height;
   parallel_for(
       2,
@@ -147,7 +148,8 @@ void PairMotion::find(const std::uint8_t* first, const std::uint8_t* second, std
   weigh(b.pixels, a.pixels, backwards_, forwards_, max_threads);
   std::vector<float> ways;
   for (std::size_t block = 0; block < differ_.size(); ++block) {
-    const auto column = static_cast<std::uint32_t>(block % columns_), row = static_cast<std::uint32_t>(block / columns_);
+    const auto column = static_cast<std::uint32_t>(block % columns_);
+    const auto row = static_cast<std::uint32_t>(block / columns_);
     for (const Direction* way : {&forwards_, &backwards_}) {
       if (is_followed(*way, block)) ways.push_back(length(flow_of(*way, column, row)));
     }
@@ -171,7 +173,8 @@ FlowVector PairMotion::flow_of(const Direction& way, std::uint32_t column, std::
   return x < box_.width && y < box_.height ? way.flow[std::size_t{y} * box_.width + x] : FlowVector();
 }
 
-// How far both directions agree, and what following this one leaves of the difference. `from` and `to` point to the box.
+// How far both directions agree, and what following this one leaves of the difference. `from` and `to` point to the
+// box.
 void PairMotion::weigh(const std::uint8_t* from, const std::uint8_t* to, Direction& way, const Direction& back,
                        std::uint32_t max_threads) {
   way.missed.assign(differ_.size(), 0);
@@ -241,8 +244,8 @@ void PairMotion::believe(Direction& way, std::uint32_t max_threads) {
         const auto above = static_cast<std::int64_t>(std::floor(at_y));
         const float v = at_y - static_cast<float>(above);
         const auto row = [&](std::int64_t r) {
-          return way.believed.data() +
-                 static_cast<std::size_t>(first_row + std::clamp<std::int64_t>(r, 0, rows - 1)) * columns_ + first_column;
+          const auto inside = static_cast<std::size_t>(std::clamp<std::int64_t>(r, 0, rows - 1));
+          return way.believed.data() + (first_row + inside) * columns_ + first_column;
         };
         const float *upper = row(above), *lower = row(above + 1);
         Weight* const weights = way.weights.data() + y * box_.width;
@@ -289,7 +292,8 @@ EvenGrey::EvenGrey(const CaptureFormat& format, std::uint32_t side)
     looks_.push_back(static_cast<float>(255 * Transfer::srgb().fraction_of(light)));
 }
 
-void EvenGrey::take(std::span<const std::byte> raster, std::vector<std::uint8_t>& grey, std::uint32_t max_threads) const {
+void EvenGrey::take(std::span<const std::byte> raster, std::vector<std::uint8_t>& grey,
+                    std::uint32_t max_threads) const {
   grey.resize(std::size_t{width_} * height_);
   const std::uint32_t channels = format_.shape.channels;
   const auto look = [&]<typename Code>(const Code* codes) {

@@ -42,8 +42,8 @@ class PairMotion {
  private:
   friend class InBetween;
 
-  // How a block of pixels comes from the first picture to the second: in so many steps, a power of 2, of which each moves
-  // nothing by much more than a pixel. One step: it holds until the middle.
+  // How a block of pixels comes from the first picture to the second: in so many steps, a power of 2, of which each
+  // moves nothing by much more than a pixel. One step: it holds until the middle.
   struct Way {
     std::uint8_t steps = 1;
     bool is_moved = false;  // else light goes in a straight line

@@ -14,15 +14,15 @@ struct MadeSamples {
   static constexpr std::uint32_t kMost = 63;  // between two filmed ones
 
   std::vector<std::uint8_t> after;  // how many were made after each filmed sample; none after the last
-  // Blocks of pixels that changed from one filmed sample to the next, counted over the capture, and those whose motion was
-  // not found: there light goes from one value to the other in a straight line.
+  // Blocks of pixels that changed from one filmed sample to the next, counted over the capture, and those whose motion
+  // was not found: there light goes from one value to the other in a straight line.
   std::uint64_t changed = 0, unfollowed = 0;
 
   [[nodiscard]] std::uint64_t count() const;                    // of those made
   [[nodiscard]] std::uint64_t total() const { return after.size() + count(); }
   [[nodiscard]] std::vector<bool> marks() const;  // of each sample, whether it was made
-  // The times of all samples, where those that were filmed have these. A made one is exposed as long as its neighbours, and
-  // no exposure reaches further than halfway to the middle of the next.
+  // The times of all samples, where those that were filmed have these. A made one is exposed as long as its neighbours,
+  // and no exposure reaches further than halfway to the middle of the next.
   [[nodiscard]] Timeline times(const Timeline& filmed) const;
 
   // `31 made between 12 filmed, 4.2 % of what moves could not be followed`

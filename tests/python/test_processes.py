@@ -42,9 +42,10 @@ SPAWNED = PARENT + """
 """
 # A viewer's thread that asks for pictures, or does something else that takes long, when the interpreter ends.
 DAEMON = """
-import threading, time
+import threading, time, warnings
 import numpy as np, nutik
 
+warnings.simplefilter("ignore")  # noise has no background
 pictures = np.random.default_rng(1).integers(0, 256, (40, 128, 128, 3), np.uint8)
 capture = nutik.encode(pictures, rate=100)
 started = threading.Event()
