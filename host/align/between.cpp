@@ -135,6 +135,11 @@ MadeSamples plan_between(const ClipToFill& clip, const std::optional<std::uint32
   const auto add = [&](const PairMotion& motion) {
     const bool is_followed = motion.fastest() > 0 && !motion.is_cut();
     const double pixels = motion.fastest() * planned_side(clip.format.shape);
+    if (made.after.size() == MadeSamples::kMostFilmed) {
+      throw InputError(format("{} has more than {} pictures, between which samples are made", clip.name,
+                              MadeSamples::kMostFilmed),
+                       {Setting::between, Setting::to});
+    }
     made.after.back() = !is_followed ? 0 : static_cast<std::uint8_t>(each ? *each : PairMotion::steps_for(pixels) - 1);
     if (made.after.back() == 0) return;
     made.changed += motion.changed();

@@ -53,6 +53,19 @@ Timeline MadeSamples::times(const Timeline& filmed) const {
   return Timeline::stored(std::move(exposures), filmed.duration_ns(), filmed.shutter_angle());
 }
 
+bool MadeSamples::cut_to(std::uint64_t samples) {
+  std::uint64_t before = 0;
+  for (std::size_t picture = 0; picture < after.size() && before < samples; ++picture) {
+    const std::uint64_t end = before + 1 + after[picture];
+    if (end >= samples) {
+      after.resize(picture + 1);
+      after.back() = static_cast<std::uint8_t>(samples - before - 1);
+    }
+    before = end;
+  }
+  return before >= samples;
+}
+
 std::string MadeSamples::text() const {
   const double share = changed == 0 ? 0 : 100.0 * static_cast<double>(unfollowed) / static_cast<double>(changed);
   return format("{} samples made along the motion between {} filmed; {:.1f} % of what changes could not be followed",
@@ -70,7 +83,6 @@ std::string MadeSamples::kept_text() const {
 }
 
 MadeSamples MadeSamples::parse(std::string_view text) {
-  constexpr std::uint64_t kMostFilmed = std::uint64_t{1} << 32;
   MadeSamples made;
   const auto take = [&](char behind) {
     std::uint64_t number = 0;
@@ -90,7 +102,7 @@ MadeSamples MadeSamples::parse(std::string_view text) {
       throw UsageError("what it says of its made samples is damaged");
     made.after.insert(made.after.end(), run, static_cast<std::uint8_t>(each));
   }
-  if (made.after.empty() || made.after.back() != 0)
+  if (made.after.empty())
     throw UsageError("what it says of its made samples is damaged");
   return made;
 }

@@ -12,8 +12,9 @@ namespace nutik {
 
 struct MadeSamples {
   static constexpr std::uint32_t kMost = 63;  // between two filmed ones
+  static constexpr std::uint64_t kMostFilmed = std::uint64_t{1} << 24;  // six days at 30 a second
 
-  std::vector<std::uint8_t> after;  // how many were made after each filmed sample; none after the last
+  std::vector<std::uint8_t> after;  // how many were made after each filmed sample
   // Blocks of pixels that changed from one filmed sample to the next, counted over the capture, and those whose motion
   // was not found: there light goes from one value to the other in a straight line.
   std::uint64_t changed = 0, unfollowed = 0;
@@ -24,6 +25,9 @@ struct MadeSamples {
   // The times of all samples, where those that were filmed have these. A made one is exposed as long as its neighbours,
   // and no exposure reaches further than halfway to the middle of the next.
   [[nodiscard]] Timeline times(const Timeline& filmed) const;
+
+  // Of a capture that ends after so many samples. False where they are more.
+  [[nodiscard]] bool cut_to(std::uint64_t samples);
 
   // `31 made between 12 filmed, 4.2 % of what moves could not be followed`
   [[nodiscard]] std::string text() const;

@@ -134,6 +134,7 @@ void Reader::read_footer() {
     samples += entry.sample_count;
   }
   if (samples != footer.sample_count || samples == 0) fail("its index contradicts its sample count");
+  if (header_.made && !header_.made->cut_to(samples)) fail("its made samples contradict its sample count");
 
   if (header_.rate) {
     timeline_ = timeline_of(header_, samples, {}, {}, name_);

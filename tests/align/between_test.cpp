@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <random>
 #include <thread>
 
@@ -220,7 +221,16 @@ TEST(MadeSamples, AreKeptInAFile) {
   EXPECT_EQ(made.marks()[1], true);
   EXPECT_EQ(made.marks()[4], false);
   EXPECT_EQ(made.total(), made.marks().size());
-  for (const char* damaged : {"", "10", "10 4", "10 4 3*3", "10 4 64*1 0*1", "10 4 3*99999999999 0*1", "10 4 3x3 0*1"})
+  // Of a capture that was cut off: within a pair, or behind a filmed sample.
+  for (const auto& [samples, after] : std::map<std::uint64_t, std::vector<std::uint8_t>>{
+           {6, {3, 1}}, {9, {3, 3, 0}}, {77, {3, 3, 3, 0, 0, 62}}, {made.total(), made.after}}) {
+    MadeSamples cut = made;
+    EXPECT_TRUE(cut.cut_to(samples));
+    EXPECT_EQ(cut.after, after);
+    EXPECT_EQ(cut.total(), samples);
+  }
+  EXPECT_FALSE(MadeSamples(made).cut_to(made.total() + 1));
+  for (const char* damaged : {"", "10", "10 4", "10 4 64*1 0*1", "10 4 3*99999999999 0*1", "10 4 3x3 0*1"})
     EXPECT_THROW(static_cast<void>(MadeSamples::parse(damaged)), UsageError) << damaged;
 }
 
