@@ -24,8 +24,8 @@ class FlowFinder {
 
   virtual ~FlowFinder() = default;
 
-  // Of each pixel of `from`, row by row, into `flow`. Both planes are of one size. The same planes give the same flow.
-  // One thread may ask at a time.
+  // Writes where each pixel of `from` goes, row by row, into `flow`. Both planes are of one size. The same planes give
+  // the same flow. One thread may ask at a time.
   virtual void find(const GreyPlane& from, const GreyPlane& to, std::span<FlowVector> flow) = 0;
 };
 

@@ -26,7 +26,7 @@ struct MadeSamples {
   // and no exposure reaches further than halfway to the middle of the next.
   [[nodiscard]] Timeline times(const Timeline& filmed) const;
 
-  // Of a capture that ends after so many samples. False where they are more.
+  // Leaves out what a capture that ends after so many samples does not have. False where it has more.
   [[nodiscard]] bool cut_to(std::uint64_t samples);
 
   // `31 made between 12 filmed, 4.2 % of what moves could not be followed`

@@ -10,7 +10,7 @@ namespace nutik::python {
 
 namespace {
 
-// Of all threads' work.
+// All threads' work.
 std::mutex working;
 std::condition_variable has_ended;
 std::size_t unlocked = 0;

@@ -221,7 +221,7 @@ TEST(MadeSamples, AreKeptInAFile) {
   EXPECT_EQ(made.marks()[1], true);
   EXPECT_EQ(made.marks()[4], false);
   EXPECT_EQ(made.total(), made.marks().size());
-  // Of a capture that was cut off: within a pair, or behind a filmed sample.
+  // A capture may be cut off within a pair, or behind a filmed sample.
   for (const auto& [samples, after] : std::map<std::uint64_t, std::vector<std::uint8_t>>{
            {6, {3, 1}}, {9, {3, 3, 0}}, {77, {3, 3, 3, 0, 0, 62}}, {made.total(), made.after}}) {
     MadeSamples cut = made;

@@ -2,12 +2,12 @@
 """How near a long exposure of a slow clip comes to that of the fast clip it was taken from, with and without samples made
 between its pictures (--between auto).
 
-Of each clip every 4th and every 8th picture is taken, and a long exposure over all of them compared with that of the whole
+Every 4th and every 8th picture of each clip is taken, and a long exposure over all of them compared with that of the whole
 clip, where something moves: root mean square differences, in codes of 255. `line`: light goes in a straight line from one
 picture to the next. `floor`: what noise alone leaves, the difference that still pixels have between the two. `share` is
 between's part of line's error.
 
-    tools/bench/between.py NUTIK_CL CLIP … [--pictures 64] [--first N] [--align]
+    tools/bench/between.py NUTIK_CL CLIP … [--pictures 65] [--first N] [--json]
 """
 import argparse
 import json

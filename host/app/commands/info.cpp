@@ -32,7 +32,7 @@ std::uint64_t write_activity(tik::Reader& reader, const std::string& path) {
   return *std::ranges::max_element(changes);
 }
 
-// Of samples between filmed ones: how many follow each of these.
+// How many samples were made behind each filmed one.
 Json made_json(const std::optional<MadeSamples>& made) {
   if (!made) return nullptr;
   return {{"count", made->count()},

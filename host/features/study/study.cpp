@@ -18,7 +18,7 @@
 namespace nutik {
 namespace {
 
-// Of the picture, on average: more of it moves if the camera does. A scene of which still more moves is no scene.
+// A share of the picture, on average: more of it moves if the camera does, and where still more moves there is no scene.
 constexpr double kMaxMoving = 0.2, kMaxUnrest = 0.6;
 // Largest share of a subject's border with an edge in the plate and none in the picture. Measured: at most 0.1 before
 // texture and 0.25 before large dark things where the plate does not show the subject; 0.2 where it shows a quarter of
@@ -26,7 +26,8 @@ constexpr double kMaxMoving = 0.2, kMaxUnrest = 0.6;
 constexpr double kMaxPlateEdges = 0.15;
 // Where the plate has so much of the border, the thing is gone from the picture: a hole, however long it was covered.
 constexpr double kMinCoveredInPlate = 0.4, kHoleEdges = 0.5;
-// Of the border of a single moment that stands for what makes no study, so much is an edge, or light changed there.
+// The share of a single moment's border, where that stands for what makes no study, at which there is an edge or light
+// changed.
 constexpr double kMinOwnEdges = 0.4;
 // A thing among many others that fills so much of its box and goes further than it is long is no scrap.
 constexpr double kMinFillOfMany = 0.4;
