@@ -167,7 +167,7 @@ TEST_F(PanelsTest, TheStatusTellsThePixelTheArithmeticAndTheTime) {
   QEvent leave(QEvent::Leave);
   QApplication::sendEvent(&canvas(), &leave);
   EXPECT_EQ(status("pixel"), "");
-  EXPECT_TRUE(status("arithmetic").contains("single")) << status("arithmetic").toStdString();
+  EXPECT_TRUE(status("arithmetic").startsWith("fixed")) << status("arithmetic").toStdString();
   EXPECT_TRUE(status("arithmetic").contains(":")) << "and its bound: " << status("arithmetic").toStdString();
   EXPECT_TRUE(status("milliseconds").endsWith(" ms")) << status("milliseconds").toStdString();
   EXPECT_EQ(status("saturated"), "");

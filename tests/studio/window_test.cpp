@@ -78,6 +78,32 @@ TEST_F(WindowTest, CopiesTheLineOfWhateverIsExposed) {
   expect_same_picture_by_command();
 }
 
+// The window exposes a clip's capture, whose blocks begin where its changes say; the line reads the clip, in blocks of one
+// length. The mean of two codes in turns is a tie.
+TEST_F(WindowTest, WritesTheSamePictureHoweverSamplesArePartedIntoBlocks) {
+  constexpr int kSide = 32, kCount = 40;
+  std::filesystem::create_directory(scratch_ / "ties");
+  for (int k = 0; k < kCount; ++k) {
+    std::string file = "P5 32 32 255\n";
+    for (int pixel = 0; pixel < kSide * kSide; ++pixel)
+      file += static_cast<char>(pixel % 10 + (k + pixel / kSide) % 2);
+    scratch_.write("ties/" + std::to_string(k) + ".pgm", file);
+  }
+  window_.open(path("ties/%d.pgm"), "160");
+  ASSERT_TRUE(settles());
+  ASSERT_NE(document().facts(), nullptr) << window_.notice().text().toStdString();
+  for (const int samples : {22, 34}) {
+    document().set_boxcar({18'750'000, samples * 6'250'000}, "Scrub");
+    ASSERT_TRUE(settles());
+    expect_same_picture_by_command();
+    for (const char* blocks : {" --block-samples 7", " --block-samples 11"}) {
+      const test::ProgramResult made = run_line(window_.command_for(path("line.png")) + " --overwrite" + blocks);
+      ASSERT_EQ(made.status, 0) << made.err;
+      EXPECT_EQ(difference(QImage(path("line.png")), canvas().image()), "") << samples << blocks;
+    }
+  }
+}
+
 TEST_F(WindowTest, OpensAProjectAsItWasSaved) {
   open_clip();
   add_region(document());

@@ -30,6 +30,7 @@ struct LivePart {
   ExposureRequest exposure;
   OutputFormat output;
   Rectangle rectangle;  // of the session's picture
+  std::optional<Precision> precision = {};  // of a full picture; none: what suits it
 };
 
 struct LiveRequest {

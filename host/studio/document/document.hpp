@@ -29,6 +29,7 @@
 #include "exposure/shutter_shape.hpp"
 #include "mask/feather.hpp"
 #include "mask/region.hpp"
+#include "render/precision.hpp"
 #include "render/render_plan.hpp"
 #include "session/requests/exposure_request.hpp"
 #include "system/shared.hpp"
@@ -43,6 +44,9 @@ struct CaptureFacts {
   CaptureFormat format;
   Timeline timeline;
   QString rate = {};  // pictures a second, as a person stated it; empty: what the clip says
+  // In which pictures are written; none: what suits each. A clip that nutik-cl reads for one picture has other blocks than
+  // the capture that the window makes of it, and only whole numbers have the same sum however they are parted.
+  std::optional<Precision> precision = {};
 };
 
 // What the time strip shows behind the boxcar. Measured after the first picture, so that it does not delay it.

@@ -60,7 +60,7 @@ Opened open_capture(const QString& path, const QString& rate, std::shared_ptr<De
   SourceRequest source;
   source.path = path.toStdString();
   if (!rate.isEmpty()) source.clip.rate = Rational::parse(rate.toStdString(), "the frame rate");
-  const bool is_clip = !path.endsWith(".tik", Qt::CaseInsensitive);
+  const bool is_clip = !is_tik(source.path);
   if (is_clip) first_look(first_picture(source, devices, job));
   const RoomWatch room(temporary_folder());
   const auto progress = [&](std::uint64_t done, std::uint64_t total) {
@@ -71,6 +71,7 @@ Opened open_capture(const QString& path, const QString& rate, std::shared_ptr<De
       source, std::move(devices),
       Session::Terms{.reading = Reading::whole, .progress = progress, .stop = job.stop});
   Opened opened{session, {path, session->format(), session->timeline(), rate}, {}};
+  if (is_clip) opened.facts.precision = Precision::fixed;
   for (const Note& note : session->notes()) {
     opened.notes += sentence(note.text);
     if (std::ranges::find(note.settings, Setting::frame_rate) != note.settings.end())

@@ -214,6 +214,7 @@ QString command_line(const Document& document, const CommandFiles& files, const 
     if (state.mask) add("-m", files.mask);
   }
   for (const auto& [name, value] : options_of(document)) line += " --" + name + " " + shell_word(value);
+  if (const auto& precision = document.facts()->precision) line += format(" --precision {}", to_text(*precision));
   line += " " + shell_word(document.facts()->path.toStdString()) + " " + shell_word(picture.toStdString());
   return QString::fromStdString(line);
 }

@@ -105,12 +105,13 @@ Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session,
   }
   check_output(path, OutputKind::picture, inputs);
   return [state = document.state(), sources = recipe_sources(document, files), session = std::move(session),
-          path, told = std::move(told)](const Job& job) -> Jobs::Finish {
+          path, told = std::move(told), precision = document.facts()->precision](const Job& job) -> Jobs::Finish {
     const auto mask = state.mask && state.mode == ExposureMode::functions
                           ? std::optional(LiveView::feathered_mask(state))
                           : std::nullopt;
     RenderControl control;
     control.stop = job.stop;
+    control.precision = precision;
     PictureRecipe recipe(sources);
     const ExposedPicture exposed =
         session->render(exposure_of(state, mask), output_format({}, path, session->format()), control);
