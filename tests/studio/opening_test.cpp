@@ -208,6 +208,44 @@ TEST_F(OpeningTest, NoToolWorksOnTheFirstPicture) {
   EXPECT_EQ(difference(canvas().image(), fresh_picture()), "");
 }
 
+TEST_F(OpeningTest, NothingElseIsSaidOfAnotherCaptureBesideTheFirstPicture) {
+  const auto seen = [this](const char* name) {
+    QWidget& widget = child<QWidget>(name);
+    const QImage image = widget.grab().toImage();
+    QImage plain(image.size(), image.format());
+    plain.fill(window_.palette().color(QPalette::Window));
+    return difference(image, plain);
+  };
+  ASSERT_NO_FATAL_FAILURE(open_project());
+  ASSERT_NO_FATAL_FAILURE(look_first("small/%d.pgm", [&] {
+    EXPECT_TRUE(window_.windowTitle().startsWith("%d.pgm")) << window_.windowTitle().toStdString();
+    for (const char* name : {"time_strip", "curves"}) EXPECT_EQ(seen(name), "") << name;
+    for (const char* name : {"start", "regions"}) EXPECT_FALSE(child<QWidget>(name).isEnabled()) << name;
+    QTest::mouseClick(&child<QToolButton>("cancel"), Qt::LeftButton);
+  }));
+  ASSERT_TRUE(settles());
+  for (const char* name : {"time_strip", "curves"}) EXPECT_NE(seen(name), "") << name;
+  for (const char* name : {"start", "regions"}) EXPECT_TRUE(child<QWidget>(name).isEnabled()) << name;
+  expect_mine();
+}
+
+TEST_F(OpeningTest, TheFirstPictureStaysUntilTheDocumentsIsThere) {
+  bool is_checked = false;
+  QObject once;
+  QObject::connect(&document(), &Document::capture_changed, &once, [&] {
+    is_checked = true;
+    EXPECT_EQ(shown_at(canvas().grab().toImage(), at(8.5, 4.5)), QColor('a', 'a', 'a'));
+    click_tool("tool_brush");
+    QTest::mouseClick(&canvas(), Qt::LeftButton, {}, at(8, 4));
+    EXPECT_EQ(document().undo_stack().count(), 0) << "no tool works on it";
+  });
+  window_.open(path("small/%d.pgm"), "100");
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(is_checked);
+  EXPECT_FALSE(canvas().shows_first_look());
+  EXPECT_EQ(difference(canvas().image(), fresh_picture()), "");
+}
+
 TEST_F(OpeningTest, AStrokeThatIsNotFinishedIsGivenUpForTheFirstPicture) {
   ASSERT_NO_FATAL_FAILURE(open_project());
   const DocumentState before = document().state();

@@ -199,6 +199,25 @@ TEST_F(PanelsTest, EachRegionTellsHowManyOfItsPixelsAreWhite) {
   EXPECT_EQ(square.text(kWhite), "");
 }
 
+TEST_F(PanelsTest, StillIsWhatLightThatRestsIsMultipliedBy) {
+  open_clip();
+  document().set_points(kBackground, {{0, 0}, {document().duration_ns(), 1}}, "Shape");
+  const auto still = [&] { return list().topLevelItem(0)->text(kStill); };
+  EXPECT_EQ(still(), "0.50×");
+  const auto divide = [&](const char* by, double stops) {
+    DocumentState state = document().state();
+    state.normalization = Normalization::parse(by);
+    state.brightness_ev = stops;
+    document().apply(state, "Normalize");
+  };
+  divide("integral", 0);
+  EXPECT_EQ(still(), "1.00×") << "the picture keeps its brightness";
+  divide("integral", 1);
+  EXPECT_EQ(still(), "2.00×");
+  document().set_points(kBackground, {{0, -1}, {document().duration_ns(), 1}}, "Shape");
+  EXPECT_EQ(still(), "–") << "nothing to divide by";
+}
+
 TEST_F(PanelsTest, ProgressIsShownWhileAClipIsOpened) {
   auto& bar = *window_.findChild<QProgressBar*>();
   auto& cancel = child<QToolButton>("cancel");

@@ -42,7 +42,7 @@ class StateStep : public QUndoCommand {
 
 Document::Document(QObject* parent) : QObject(parent) {}
 
-void Document::start(CaptureFacts facts, std::optional<DocumentState> state) {
+void Document::start(CaptureFacts facts, std::optional<DocumentState> state, Marks marks) {
   facts_ = std::move(facts);
   overview_ = {};
   undo_.clear();
@@ -60,9 +60,12 @@ void Document::start(CaptureFacts facts, std::optional<DocumentState> state) {
   solo_.reset();
   probe_.reset();
   waveform_.reset();
+  marks_ = {};
   Q_EMIT capture_changed();
   Q_EMIT overview_changed();
   Q_EMIT probe_changed();
+  set_mark_in(marks.in_ns);
+  set_mark_out(marks.out_ns);
 }
 
 void Document::set_overview(CaptureOverview overview) {
@@ -160,6 +163,18 @@ void Document::set_solo(std::optional<std::uint8_t> tag) {
   if (tag == solo_) return;
   solo_ = tag;
   Q_EMIT selection_changed();
+}
+
+void Document::set_mark_in(std::optional<std::int64_t> time_ns) {
+  marks_.in_ns = time_ns ? std::optional(std::clamp<std::int64_t>(*time_ns, 0, duration_ns())) : std::nullopt;
+  if (marks_.in_ns && marks_.out_ns && *marks_.out_ns <= *marks_.in_ns) marks_.out_ns.reset();
+  Q_EMIT marks_changed();
+}
+
+void Document::set_mark_out(std::optional<std::int64_t> time_ns) {
+  marks_.out_ns = time_ns ? std::optional(std::clamp<std::int64_t>(*time_ns, 0, duration_ns())) : std::nullopt;
+  if (marks_.in_ns && marks_.out_ns && *marks_.out_ns <= *marks_.in_ns) marks_.in_ns.reset();
+  Q_EMIT marks_changed();
 }
 
 void Document::set_probe(std::optional<QPoint> pixel) {

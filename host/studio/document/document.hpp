@@ -6,7 +6,7 @@
 //            A function's times increase strictly, as those of function files do
 //   threads: the window's own
 //
-// What is looked at (selected tag and points, solo, the clicked pixel) is kept here, too, but is no undo step.
+// What is looked at (selected tag and points, solo, marks, the clicked pixel) is kept here, too, but is no undo step.
 #pragma once
 
 #include <QColor>
@@ -77,6 +77,12 @@ struct Boxcar {
   friend bool operator==(const Boxcar&, const Boxcar&) = default;
 };
 
+// In and out: what work goes on between, from the one on and before the other. None: from the start, to the end.
+struct Marks {
+  std::optional<std::int64_t> in_ns, out_ns;
+  friend bool operator==(const Marks&, const Marks&) = default;
+};
+
 struct RegionLook {
   QString name;
   QColor colour;
@@ -116,7 +122,7 @@ class Document : public QObject {
   [[nodiscard]] const CaptureFacts* facts() const { return facts_ ? &*facts_ : nullptr; }
   [[nodiscard]] std::int64_t duration_ns() const { return facts_ ? facts_->timeline.duration_ns() : 0; }
   // A capture was opened: starts anew with one region, tag 0, exposed over the middle tenth; or with what was loaded.
-  void start(CaptureFacts facts, std::optional<DocumentState> state = {});
+  void start(CaptureFacts facts, std::optional<DocumentState> state = {}, Marks marks = {});
 
   [[nodiscard]] const CaptureOverview& overview() const { return overview_; }
   void set_overview(CaptureOverview overview);
@@ -160,6 +166,13 @@ class Document : public QObject {
   [[nodiscard]] std::optional<std::uint8_t> solo() const { return solo_; }
   void set_solo(std::optional<std::uint8_t> tag);
 
+  // In lies before out; a mark that is set beyond the other one takes it away.
+  [[nodiscard]] const Marks& marks() const { return marks_; }
+  [[nodiscard]] const std::optional<std::int64_t>& mark_in() const { return marks_.in_ns; }
+  [[nodiscard]] const std::optional<std::int64_t>& mark_out() const { return marks_.out_ns; }
+  void set_mark_in(std::optional<std::int64_t> time_ns);
+  void set_mark_out(std::optional<std::int64_t> time_ns);
+
   // The pixel that was clicked, and then its light once it has been read.
   [[nodiscard]] const std::optional<QPoint>& probe() const { return probe_; }
   void set_probe(std::optional<QPoint> pixel);
@@ -172,6 +185,7 @@ class Document : public QObject {
   void changed(Change what);  // state(); also by undo and redo
   void released();            // a drag ended: the full picture may follow
   void selection_changed();   // selected_tag(), selected_points(), solo()
+  void marks_changed();
   void probe_changed();       // probe(), waveform()
 
  private:
@@ -189,6 +203,7 @@ class Document : public QObject {
   std::uint8_t selected_tag_ = 0;
   std::set<std::size_t> selected_points_;
   std::optional<std::uint8_t> solo_;
+  Marks marks_;
   std::optional<QPoint> probe_;
   std::optional<Waveform> waveform_;
 };

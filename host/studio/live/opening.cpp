@@ -7,6 +7,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/activity/activity.hpp"
+#include "session/live/live_pictures.hpp"
 #include "session/text/number_text.hpp"
 #include "studio/live/live_view.hpp"
 #include "system/temporary_folder.hpp"
@@ -79,6 +80,16 @@ Opened open_capture(const QString& path, const QString& rate, std::shared_ptr<De
   }
   for (const std::string& warning : session->warnings()) opened.notes += sentence(warning);
   return opened;
+}
+
+Stretch stretch_between(const Marks& marks, std::shared_ptr<Session> session, const Job& job) {
+  if (marks == Marks()) return {std::move(session)};
+  ClipOptions part;
+  if (marks.in_ns) part.from = ClipMoment{*marks.in_ns};
+  if (marks.out_ns) part.to = ClipMoment{*marks.out_ns};
+  std::shared_ptr<Session> taken = session_of_part(*session, part, job.progress, job.stop);
+  const auto& of_clip = taken->capture().header().part;
+  return {std::move(taken), of_clip ? of_clip->start_ns : 0};
 }
 
 namespace {

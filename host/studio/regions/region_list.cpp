@@ -12,7 +12,9 @@
 #include <QStyledItemDelegate>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <cmath>
 
+#include "capture/error.hpp"
 #include "studio/regions/region_edits.hpp"
 
 namespace nutik::studio {
@@ -45,6 +47,17 @@ QIcon swatch(const QColor& colour) {
 
 std::uint8_t tag_of(const QTreeWidgetItem& item) {
   return static_cast<std::uint8_t>(item.data(0, kTagRole).toUInt());
+}
+
+// As it is exposed: divided and brightened. Nothing can be said where the integral that it is divided by cancels.
+QString still_text(const DocumentState& state, std::uint8_t tag, std::int64_t duration_ns) {
+  try {
+    const GainFunction exposed = state.normalization.normalized(state.functions.at(tag), duration_ns,
+                                                                std::exp2(state.brightness_ev), {});
+    return QStringLiteral("%1×").arg(summarize(exposed, duration_ns).still_gain(), 0, 'f', 2);
+  } catch (const InputError&) {
+    return QStringLiteral("–");
+  }
 }
 
 QDoubleSpinBox* pixel_box(double most, double value, const QString& name, QWidget* parent) {
@@ -223,13 +236,12 @@ void RegionList::follow_selection() {
 void RegionList::fill(QTreeWidgetItem& item, std::uint8_t tag) const {
   const auto look = document_.state().looks.find(tag);
   if (look == document_.state().looks.end()) return;
-  const double still = summarize(document_.functions().at(tag), document_.duration_ns()).still_gain();
   item.setText(kName, look->second.name);
   item.setIcon(kName, swatch(look->second.colour));
   item.setCheckState(kName, look->second.is_visible ? Qt::Checked : Qt::Unchecked);
   item.setToolTip(kName, tr("Checked: its outline and its curve are shown"));
   item.setText(kTag, QStringLiteral("M%1").arg(tag));
-  item.setText(kStill, QStringLiteral("%1×").arg(still, 0, 'f', 2));
+  item.setText(kStill, still_text(document_.state(), tag, document_.duration_ns()));
   item.setText(kWhite, white_[tag] == 0 ? QString() : QString::number(white_[tag]));
   for (const int column : {kStill, kWhite}) item.setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
 }

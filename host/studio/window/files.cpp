@@ -259,7 +259,7 @@ void MainWindow::write_mask(const QString& path) {
 }
 
 void MainWindow::write_plate(const QString& path) {
-  try_to([&] { jobs_.start(tr("Looking for the empty scene"), writing_plate(session_, path, told())); });
+  try_to([&] { jobs_.start(tr("Looking for the empty scene"), writing_plate(document_, session_, path, told())); });
 }
 
 // Beside the project, else beside the capture.

@@ -63,23 +63,24 @@ void MainWindow::build_window() {
   strip->setObjectName("time_strip");
   auto* curves = new CurveEditor(document_, axis_);
   curves->setObjectName("curves");
-  auto* time = new QWidget;
-  auto* time_column = new QVBoxLayout(time);
+  time_ = new QWidget;
+  auto* time_column = new QVBoxLayout(time_);
   time_column->setContentsMargins(0, 0, 0, 0);
   time_column->setSpacing(1);
-  time_column->addWidget(new TimeFields(document_, axis_));
+  time_column->addWidget(new TimeFields(document_));
   time_column->addWidget(strip);
   time_column->addWidget(curves, 1);
 
   auto* column = new QSplitter(Qt::Vertical);
   column->addWidget(picture);
-  column->addWidget(time);
+  column->addWidget(time_);
   column->setStretchFactor(0, 1);
   column->setChildrenCollapsible(false);
   column->setSizes({400, 330});
   auto* row = new QSplitter(Qt::Horizontal);
   row->addWidget(column);
   auto* regions = new RegionList(document_);
+  regions_ = regions;
   row->addWidget(regions);
   connect(&live_, &LiveView::pictured, regions, &RegionList::count_white);
   row->setStretchFactor(0, 1);
@@ -96,16 +97,20 @@ void MainWindow::connect_parts() {
     status_->tell(picture);
   });
   connect(&live_, &LiveView::failed, this,
-          [this](const QString& why) { notice_->say(Notice::Kind::error, why); });
+          [this](const QString& why) {
+            if (canvas_->shows_first_look()) canvas_->clear();
+            notice_->say(Notice::Kind::error, why);
+          });
   for (Jobs* jobs : {&jobs_, &quick_, &writing_}) {
     connect(jobs, &Jobs::failed, this, [this](const QString& what, const QString& why) {
       notice_->say(Notice::Kind::error, tr("%1: %2").arg(what, why));
     });
   }
   connect(&jobs_, &Jobs::ended, this, [this] {
-    if (is_opening_ && !jobs_.is_busy()) stay();
+    if (!opening_.isEmpty() && !jobs_.is_busy()) stay();
   });
   connect(canvas_, &Canvas::visible_changed, &live_, &LiveView::set_visible);
+  connect(canvas_, &Canvas::visible_changed, this, &MainWindow::follow_opening);
   connect(canvas_, &Canvas::pointed, this,
           [this](std::optional<QPoint> pixel) { status_->tell(pixel, canvas_->image()); });
   connect(&document_, &Document::probe_changed, this, &MainWindow::look_at_pixel);
@@ -124,7 +129,14 @@ void MainWindow::open(const QString& path, const QString& rate) {
 void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptProject> kept) {
   try_to([&] {
     Project project = load_project(path);
-    Origin origin{Origin::Kind::recovered, {}, {}, {}, std::move(project.state), {}, std::move(kept)};
+    Origin origin{.kind = Origin::Kind::recovered,
+                  .project = {},
+                  .files = {},
+                  .known = {},
+                  .state = std::move(project.state),
+                  .marks = project.marks,
+                  .left = {},
+                  .kept = std::move(kept)};
     if (!origin.kept) {
       origin.kind = Origin::Kind::project;
       origin.project = path;
@@ -137,9 +149,9 @@ void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptPro
 }
 
 void MainWindow::open_capture_file(const QString& path, const QString& rate, Origin origin) {
-  is_opening_ = false;  // what is cancelled here gives way to this file, not to what is open
+  opening_.clear();  // what is cancelled here gives way to this file, not to what is open
   jobs_.cancel();
-  is_opening_ = true;
+  opening_ = path;
   if (document_.facts() != nullptr) origin.left = document_.state();
   const auto first_look = [this](QImage image) {
     QMetaObject::invokeMethod(
@@ -176,7 +188,7 @@ void MainWindow::ask_rate(const QString& path, const QString& why, const Origin&
 void MainWindow::take(Opened opened, Origin origin) {
   // What was changed while this was opened was not asked for yet.
   if (origin.left && *origin.left != document_.state() && !may_leave()) return;
-  is_opening_ = false;
+  opening_.clear();
   std::optional<DocumentState>& state = origin.state;
   if (state && state->mask) {
     const Shape& shape = opened.facts.format.shape;
@@ -198,10 +210,10 @@ void MainWindow::take(Opened opened, Origin origin) {
   known_ = std::move(origin.known);
   remember(project_.isEmpty() ? opened.facts.path : project_);
   autosave_.begin(std::move(origin.kept));
-  canvas_->clear();
+  canvas_->await_picture();
   live_.show(nullptr);
   session_ = opened.session;
-  document_.start(std::move(opened.facts), std::move(state));
+  document_.start(std::move(opened.facts), std::move(state), origin.marks);
   if (origin.kind == Origin::Kind::recovered || origin.is_unwritten) document_.undo_stack().resetClean();
   if (origin.is_unwritten && notice_->text().isEmpty())
     notice_->say(
@@ -211,7 +223,7 @@ void MainWindow::take(Opened opened, Origin origin) {
   axis_.set_duration(document_.duration_ns());
   note_capture();
   live_.show(session_);
-  follow_title();
+  follow_opening();
   if (!opened.notes.isEmpty() && notice_->text().isEmpty())
     notice_->say(Notice::Kind::note, opened.notes.join('\n'));
   look_at_capture();
@@ -219,11 +231,12 @@ void MainWindow::take(Opened opened, Origin origin) {
 
 // With what is open: another file was not opened, after all.
 void MainWindow::stay() {
-  is_opening_ = false;
+  opening_.clear();
   if (canvas_->shows_first_look()) {
     canvas_->clear();
     live_.show(session_);
   }
+  follow_opening();
   if (session_) look_at_capture();  // which opening may have broken off
 }
 
@@ -312,7 +325,7 @@ void MainWindow::select_motion() {
 
 void MainWindow::choose_difference() {
   if (!session_ || !has_region()) return;
-  auto* dialog = new DifferenceDialog(document_.facts()->timeline, axis_.mark_in().value_or(0),
+  auto* dialog = new DifferenceDialog(document_.facts()->timeline, document_.mark_in().value_or(0),
                                       document_.boxcar().start_ns, this);
   connect(dialog, &QDialog::accepted, this, [this, dialog, session = session_] {
     if (session != session_) return;
@@ -334,10 +347,21 @@ bool MainWindow::is_settled() const {
 
 void MainWindow::follow_title() {
   const CaptureFacts* facts = document_.facts();
-  const QString name = !project_.isEmpty() ? project_ : facts != nullptr ? facts->path : QString();
+  const bool is_another = canvas_->shows_first_look() && !opening_.isEmpty();
+  const QString name = is_another             ? opening_
+                       : !project_.isEmpty() ? project_
+                       : facts != nullptr    ? facts->path
+                                             : QString();
   setWindowTitle(name.isEmpty() ? tr("nutik studio")
                                 : tr("%1[*] – nutik studio").arg(QFileInfo(name).fileName()));
   setWindowModified(!document_.undo_stack().isClean());
+}
+
+// Whose picture is shown: what stands round it says nothing of another capture.
+void MainWindow::follow_opening() {
+  const bool is_another = canvas_->shows_first_look() && !opening_.isEmpty();
+  for (QWidget* of_document : {time_, regions_}) of_document->setEnabled(!is_another);
+  follow_title();
 }
 
 bool MainWindow::event(QEvent* event) {

@@ -41,6 +41,7 @@ struct Origin {
   CommandFiles files;
   FileTimes known;
   std::optional<DocumentState> state;  // none: the document starts anew
+  Marks marks = {};
   std::optional<DocumentState> left;   // what the document was when it was left for this
   std::shared_ptr<const KeptProject> kept = {};  // of Kind::recovered
   bool is_unwritten = false;                     // of Kind::project: its last save was ended in the middle
@@ -107,6 +108,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] bool has_region();  // selected, to be painted; else it is said
   void look_at_pixel();
   void follow_title();
+  void follow_opening();
 
   // menus.cpp
   void build_menus();
@@ -151,7 +153,7 @@ class MainWindow : public QMainWindow {
   Autosave autosave_;
   std::shared_ptr<Devices> devices_;
   std::shared_ptr<Session> session_;
-  bool is_opening_ = false;  // another file, which was not opened yet
+  QString opening_;  // another file, which was not opened yet; empty: none
   QString project_;
   CommandFiles files_;
   FileTimes known_;  // of the project's files and the capture
@@ -161,6 +163,7 @@ class MainWindow : public QMainWindow {
 
   Notice *notice_ = nullptr, *offer_ = nullptr;
   Canvas* canvas_ = nullptr;
+  QWidget *time_ = nullptr, *regions_ = nullptr;
   StatusLine* status_ = nullptr;
   QActionGroup* tools_ = nullptr;
   QList<QAction*> needs_capture_;

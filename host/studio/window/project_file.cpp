@@ -164,6 +164,8 @@ QJsonObject object_of(const QString& path, const Document& document, const Comma
                      {"ev", state.brightness_ev},
                      {"regions", regions}};
   if (state.mask) object["mask"] = named(files.mask);
+  if (document.mark_in()) object["in_ns"] = QString::number(*document.mark_in());
+  if (document.mark_out()) object["out_ns"] = QString::number(*document.mark_out());
   if (!document.facts()->rate.isEmpty()) object["fps"] = document.facts()->rate;
   return object;
 }
@@ -341,6 +343,8 @@ Project load_project(const QString& path) {
   }
   state.mode = object["exposes"].toString() == "interval" ? ExposureMode::boxcar : ExposureMode::functions;
   state.boxcar = {time_in(object, "start_ns", path), time_in(object, "length_ns", path)};
+  if (object.contains("in_ns")) project.marks.in_ns = time_in(object, "in_ns", path);
+  if (object.contains("out_ns")) project.marks.out_ns = time_in(object, "out_ns", path);
   try {
     state.normalization = Normalization::parse(object["normalize"].toString().toStdString());
     state.feather = Feather::parse(object["feather"].toString().toStdString());

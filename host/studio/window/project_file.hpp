@@ -33,6 +33,7 @@ struct Project {
   QString rate;  // stated; empty: what the clip says
   CommandFiles files;
   DocumentState state;
+  Marks marks;
   bool is_unwritten = false;  // functions and mask are not what its files hold
 };
 
