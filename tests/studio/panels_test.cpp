@@ -15,6 +15,7 @@
 
 #include "studio/regions/region_edits.hpp"
 #include "studio/time/time_strip.hpp"
+#include "studio/time/times.hpp"
 #include "studio/window/appearance.hpp"
 #include "studio_test.hpp"
 
@@ -197,6 +198,34 @@ TEST_F(PanelsTest, EachRegionTellsHowManyOfItsPixelsAreWhite) {
   QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
   ASSERT_TRUE(settles());
   EXPECT_EQ(square.text(kWhite), "");
+}
+
+TEST_F(PanelsTest, NumbersHaveAPointAndAreTypedWithACommaToo) {
+  QLocale::setDefault(QLocale(QLocale::German, QLocale::Germany));
+  {
+    MainWindow window;
+    window.show();
+    window.open(path("frames/%02d.pgm"), "100");
+    ASSERT_TRUE(QTest::qWaitFor([&] { return window.is_settled(); }, kMaxWaitMs));
+    for (const char* typed : {"2,5", "2.5"}) {
+      for (const char* name : {"brush_radius", "brightness", "feather", "radius"}) {
+        auto& box = *window.findChild<QDoubleSpinBox*>(name);
+        box.setValue(1);
+        type(box, typed);
+        EXPECT_EQ(box.value(), 2.5) << name;
+        EXPECT_TRUE(box.text().contains("2.5")) << box.text().toStdString();
+      }
+      auto& width = *window.findChild<QLineEdit*>("width");
+      width.selectAll();
+      QTest::keyClicks(&width, QString(typed) + " ms");
+      QTest::keyClick(&width, Qt::Key_Return);
+      EXPECT_EQ(window.document().boxcar().length_ns, 2'500'000) << typed;
+      EXPECT_EQ(read_typed_gain(typed).value, 2.5);
+      window.document().set_boxcar({0, 1'000}, "Scrub");
+    }
+    window.document().undo_stack().setClean();
+  }
+  QLocale::setDefault(QLocale::c());
 }
 
 TEST_F(PanelsTest, StillIsWhatLightThatRestsIsMultipliedBy) {

@@ -38,12 +38,18 @@ namespace nutik::studio {
 
 // What the window knows of the capture that is open. Values: read once by the engine's threads, then only looked at.
 
+// What a person stated of a clip, beside what its files say.
+struct Stated {
+  QString rate = {};            // pictures a second
+  bool ends_at_damage = false;  // its pictures are taken up to the first that cannot be read
+};
+
 // An opened capture's shape, codes and times. timeline.rate() is its sample rate.
 struct CaptureFacts {
   QString path;  // as the person gave it: a .tik or a clip
   CaptureFormat format;
   Timeline timeline;
-  QString rate = {};  // pictures a second, as a person stated it; empty: what the clip says
+  Stated stated = {};
   // In which pictures are written; none: what suits each. A clip that nutik-cl reads for one picture has other blocks than
   // the capture that the window makes of it, and only whole numbers have the same sum however they are parted.
   std::optional<Precision> precision = {};

@@ -56,11 +56,12 @@ void RoomWatch::look(std::uint64_t done, std::uint64_t total) const {
       bytes_text(left), folder_.string()));
 }
 
-Opened open_capture(const QString& path, const QString& rate, std::shared_ptr<Devices> devices,
+Opened open_capture(const QString& path, const Stated& stated, std::shared_ptr<Devices> devices,
                     const Job& job, const std::function<void(QImage)>& first_look) {
   SourceRequest source;
   source.path = path.toStdString();
-  if (!rate.isEmpty()) source.clip.rate = Rational::parse(rate.toStdString(), "the frame rate");
+  if (!stated.rate.isEmpty()) source.clip.rate = Rational::parse(stated.rate.toStdString(), "the frame rate");
+  source.clip.ends_at_damage = stated.ends_at_damage;
   const bool is_clip = !is_tik(source.path);
   if (is_clip) first_look(first_picture(source, devices, job));
   const RoomWatch room(temporary_folder());
@@ -71,7 +72,7 @@ Opened open_capture(const QString& path, const QString& rate, std::shared_ptr<De
   auto session = std::make_shared<Session>(
       source, std::move(devices),
       Session::Terms{.reading = Reading::whole, .progress = progress, .stop = job.stop});
-  Opened opened{session, {path, session->format(), session->timeline(), rate}, {}};
+  Opened opened{session, {path, session->format(), session->timeline(), stated}, {}};
   if (is_clip) opened.facts.precision = Precision::fixed;
   for (const Note& note : session->notes()) {
     opened.notes += sentence(note.text);

@@ -1,7 +1,6 @@
 #include "studio/regions/region_list.hpp"
 
 #include <QColorDialog>
-#include <QDoubleSpinBox>
 #include <QFormLayout>
 #include <QGridLayout>
 #include <QHeaderView>
@@ -61,7 +60,7 @@ QString still_text(const DocumentState& state, std::uint8_t tag, std::int64_t du
 }
 
 QDoubleSpinBox* pixel_box(double most, double value, const QString& name, QWidget* parent) {
-  auto* box = new QDoubleSpinBox(parent);
+  auto* box = new NumberBox(parent);
   box->setRange(0, most);
   box->setDecimals(1);
   box->setSuffix(QStringLiteral(" px"));

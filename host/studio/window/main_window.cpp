@@ -1,5 +1,6 @@
 #include "studio/window/main_window.hpp"
 
+#include <QDir>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFileInfo>
@@ -21,6 +22,7 @@
 #include "studio/time/time_strip.hpp"
 #include "studio/window/project_file.hpp"
 #include "studio/window/started_work.hpp"
+#include "tik/reader.hpp"
 
 namespace nutik::studio {
 
@@ -123,7 +125,7 @@ void MainWindow::open(const QString& path, const QString& rate) {
   notice_->clear();
   if (path.endsWith(QLatin1String(kProjectExtension), Qt::CaseInsensitive))
     return open_project(path);
-  open_capture_file(QFileInfo(path).absoluteFilePath(), rate, {});
+  open_capture_file(QFileInfo(path).absoluteFilePath(), {rate}, {});
 }
 
 void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptProject> kept) {
@@ -144,11 +146,11 @@ void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptPro
       origin.is_unwritten = project.is_unwritten;
       origin.known = times_of({path, project.files.functions, project.files.mask});
     }
-    open_capture_file(project.capture, project.rate, std::move(origin));
+    open_capture_file(project.capture, project.stated, std::move(origin));
   });
 }
 
-void MainWindow::open_capture_file(const QString& path, const QString& rate, Origin origin) {
+void MainWindow::open_capture_file(const QString& path, const Stated& stated, Origin origin) {
   opening_.clear();  // what is cancelled here gives way to this file, not to what is open
   jobs_.cancel();
   opening_ = path;
@@ -158,23 +160,56 @@ void MainWindow::open_capture_file(const QString& path, const QString& rate, Ori
         this, [this, image] { canvas_->show_first_look(image); }, Qt::QueuedConnection);
   };
   jobs_.start(tr("Opening %1").arg(QFileInfo(path).fileName()),
-              [this, path, rate, origin = std::move(origin), devices = devices_,
+              [this, path, stated, origin = std::move(origin), devices = devices_,
                first_look](const Job& job) -> Jobs::Finish {
                 try {
-                  auto opened = std::make_shared<Opened>(open_capture(path, rate, devices, job, first_look));
+                  auto opened = std::make_shared<Opened>(open_capture(path, stated, devices, job, first_look));
                   return [this, opened, origin] { take(std::move(*opened), origin); };
-                } catch (const Error& error) {
-                  const auto& settings = error.settings();
-                  if (!rate.isEmpty() || std::ranges::find(settings, Setting::frame_rate) == settings.end())
-                    throw;
-                  return [this, path, origin, why = sentence_of(std::current_exception())] {
-                    ask_rate(path, why, origin);
+                } catch (const Error&) {
+                  return [this, path, stated, origin, error = std::current_exception()] {
+                    tell_way_out(path, stated, origin, error);
                   };
                 }
               });
 }
 
-void MainWindow::ask_rate(const QString& path, const QString& why, const Origin& origin) {
+void MainWindow::tell_way_out(const QString& path, const Stated& stated, const Origin& origin,
+                              const std::exception_ptr& error) {
+  const QString why = sentence_of(error);
+  const QFileInfo file(path);
+  std::vector<Setting> settings;
+  bool is_cut_off = false;
+  try {
+    std::rethrow_exception(error);
+  } catch (const Error& known) {
+    settings = known.settings();
+    is_cut_off = dynamic_cast<const tik::Recoverable*>(&known) != nullptr;
+  }
+  const auto helps = [&](Setting setting) { return std::ranges::find(settings, setting) != settings.end(); };
+  if (stated.rate.isEmpty() && helps(Setting::frame_rate)) return ask_rate(path, stated, why, origin);
+  QString label;
+  std::function<void()> way;
+  const bool is_series = file.fileName().contains('%') && file.dir().exists();
+  if (!file.exists() && !is_series) {
+    label = tr("Locate…");
+    way = [this, stated, origin] {
+      ask_for_file(tr("Where is it?"), tr("All files (*)"), [&](const QString& found) {
+        Origin elsewhere = origin;
+        elsewhere.is_elsewhere = true;
+        open_capture_file(found, stated, std::move(elsewhere));
+      });
+    };
+  } else if (helps(Setting::end_at_damage)) {
+    label = tr("Open that part");
+    way = [this, path, stated, origin] { open_capture_file(path, {stated.rate, true}, origin); };
+  } else if (is_cut_off) {
+    label = tr("Save what is whole…");
+    way = [this, path, origin] { save_whole_part(path, origin); };
+  }
+  notice_->say(Notice::Kind::error, tr("Opening %1: %2").arg(file.fileName(), why), label, std::move(way));
+}
+
+void MainWindow::ask_rate(const QString& path, Stated stated, const QString& why, const Origin& origin) {
   bool is_answered = false;
   const QString rate = QInputDialog::getText(
       this, tr("Pictures a second"),
@@ -182,7 +217,8 @@ void MainWindow::ask_rate(const QString& path, const QString& why, const Origin&
       QLineEdit::Normal, {}, &is_answered);
   if (!is_answered || rate.trimmed().isEmpty()) return;
   notice_->clear();
-  open_capture_file(path, rate.trimmed(), origin);
+  stated.rate = rate.trimmed();
+  open_capture_file(path, stated, origin);
 }
 
 void MainWindow::take(Opened opened, Origin origin) {
@@ -214,7 +250,7 @@ void MainWindow::take(Opened opened, Origin origin) {
   live_.show(nullptr);
   session_ = opened.session;
   document_.start(std::move(opened.facts), std::move(state), origin.marks);
-  if (origin.kind == Origin::Kind::recovered || origin.is_unwritten) document_.undo_stack().resetClean();
+  if (origin.kind == Origin::Kind::recovered || origin.is_unwritten || (origin.is_elsewhere && origin.state)) document_.undo_stack().resetClean();
   if (origin.is_unwritten && notice_->text().isEmpty())
     notice_->say(
         Notice::Kind::note,

@@ -45,6 +45,7 @@ struct Origin {
   std::optional<DocumentState> left;   // what the document was when it was left for this
   std::shared_ptr<const KeptProject> kept = {};  // of Kind::recovered
   bool is_unwritten = false;                     // of Kind::project: its last save was ended in the middle
+  bool is_elsewhere = false;  // the capture, than where the project says
 };
 
 class MainWindow : public QMainWindow {
@@ -96,9 +97,10 @@ class MainWindow : public QMainWindow {
   void build_window();
   void connect_parts();
   void open_project(const QString& path, std::shared_ptr<const KeptProject> kept = {});
-  void open_capture_file(const QString& path, const QString& rate, Origin origin);
+  void open_capture_file(const QString& path, const Stated& stated, Origin origin);
+  void tell_way_out(const QString& path, const Stated& stated, const Origin& origin, const std::exception_ptr& error);
   void take(Opened opened, Origin origin);
-  void ask_rate(const QString& path, const QString& why, const Origin& origin);
+  void ask_rate(const QString& path, Stated stated, const QString& why, const Origin& origin);
   void stay();
   void look_at_capture();
   void look_along_capture();
@@ -134,6 +136,7 @@ class MainWindow : public QMainWindow {
   void tell_changes();
   void copy_command();
   void write_plate(const QString& path);
+  void save_whole_part(const QString& path, const Origin& origin);
   void remember(const QString& path);
   void fill_recent(QMenu& menu);
   void fill_unsaved(QMenu& menu);

@@ -2,7 +2,6 @@
 #include <QActionGroup>
 #include <QApplication>
 #include <QComboBox>
-#include <QDoubleSpinBox>
 #include <QLabel>
 #include <QMenuBar>
 #include <QSignalBlocker>
@@ -10,6 +9,7 @@
 #include <QToolBar>
 
 #include "studio/regions/region_edits.hpp"
+#include "studio/regions/region_list.hpp"
 #include "studio/window/appearance.hpp"
 #include "studio/window/main_window.hpp"
 #include "studio/window/started_work.hpp"
@@ -91,11 +91,14 @@ void MainWindow::build_file_menu() {
   connect(&menu, &QMenu::aboutToShow, &unsaved,
           [&unsaved] { unsaved.setEnabled(!Autosave::found().empty()); });
   needs_capture_ += add_action(menu, tr("Open a&gain"), QKeySequence::Refresh, [this] {
-    const QString rate = document_.facts()->rate;
-    if (may_leave()) project_.isEmpty() ? open(document_.facts()->path, rate) : open(project_);
+    if (!may_leave()) return;
+    notice_->clear();
+    if (!project_.isEmpty()) return open_project(project_);
+    open_capture_file(document_.facts()->path, document_.facts()->stated, {});
   });
   needs_capture_ += add_action(menu, tr("Frame ra&te…"), {}, [this] {
-    if (may_leave()) ask_rate(document_.facts()->path, tr("The clip is opened again."), {});
+    const CaptureFacts& facts = *document_.facts();
+    if (may_leave()) ask_rate(facts.path, facts.stated, tr("The clip is opened again."), {});
   });
   menu.addSeparator();
   needs_capture_ += add_action(menu, tr("&Save project"), QKeySequence::Save, [this] { save(); });
@@ -201,7 +204,7 @@ void MainWindow::build_tools(QToolBar& bar) {
     connect(action, &QAction::triggered, this, [this, kind = row.kind] { use_tool(kind); });
     needs_capture_ += action;
   }
-  auto* radius = new QDoubleSpinBox;
+  auto* radius = new NumberBox;
   radius->setObjectName("brush_radius");
   radius->setRange(0.5, 500);
   radius->setDecimals(1);
@@ -248,10 +251,11 @@ void MainWindow::build_exposure_bar(QToolBar& bar) {
     state.normalization = Normalization::parse(kNormalizations[index]);
     document_.apply(std::move(state), tr("Normalize"));
   });
-  brightness_ = new QDoubleSpinBox;
+  brightness_ = new NumberBox;
   brightness_->setObjectName("brightness");
   brightness_->setRange(-16, 16);
   brightness_->setSingleStep(0.25);
+  brightness_->setKeyboardTracking(false);  // 2.5 is one step, and not 2 first
   brightness_->setPrefix(tr("EV "));
   brightness_->setAccessibleName(tr("Brightness, in stops"));
   brightness_->setToolTip(brightness_->accessibleName());

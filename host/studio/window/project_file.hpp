@@ -30,7 +30,7 @@ struct CommandFiles {
 
 struct Project {
   QString capture;
-  QString rate;  // stated; empty: what the clip says
+  Stated stated;
   CommandFiles files;
   DocumentState state;
   Marks marks;
