@@ -10,6 +10,9 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QProgressBar>
+#include <QScreen>
+#include <QSettings>
+#include <QSplitter>
 #include <QToolButton>
 #include <QTreeWidget>
 
@@ -322,6 +325,44 @@ TEST_F(PanelsTest, TextsAreReadableDarkAndLight) {
     }
   }
   QApplication::setPalette(kept);
+}
+
+TEST_F(PanelsTest, TheWindowFitsItsScreenAndIsAsItWasClosed) {
+  QSettings().remove("window");
+  const QSize screen = window_.screen()->availableSize();
+  EXPECT_LE(window_.minimumSizeHint().width(), 1000);
+  EXPECT_LE(window_.minimumSizeHint().height(), 600);
+  const auto sizes = [](MainWindow& window, const char* splitter) {
+    return window.findChild<QSplitter*>(splitter)->sizes();
+  };
+  QList<int> row, column;
+  {
+    MainWindow window;
+    EXPECT_LT(window.width(), screen.width());
+    EXPECT_LE(window.height(), screen.height() - 40) << "a frame's title";
+    window.show();
+    window.resize(900, 640);
+    window.findChild<QSplitter*>("row")->setSizes({540, 360});
+    window.findChild<QSplitter*>("column")->setSizes({180, 400});
+    window.open(path("frames/%02d.pgm"), "100");
+    ASSERT_TRUE(QTest::qWaitFor([&] { return window.is_settled(); }, kMaxWaitMs));
+    QTest::keyClick(&window, Qt::Key_B);
+    window.findChild<QDoubleSpinBox*>("brush_radius")->setValue(7.5);
+    window.findChild<QSpinBox*>("wand_codes")->setValue(9);
+    row = sizes(window, "row");
+    column = sizes(window, "column");
+    ASSERT_TRUE(window.close());
+  }
+  MainWindow window;
+  window.show();
+  EXPECT_EQ(window.size(), QSize(900, 640));
+  EXPECT_EQ(sizes(window, "row"), row);
+  EXPECT_EQ(sizes(window, "column"), column);
+  EXPECT_TRUE(window.findChild<QAction*>("tool_brush")->isChecked());
+  EXPECT_EQ(window.findChild<QDoubleSpinBox*>("brush_radius")->value(), 7.5);
+  EXPECT_EQ(window.findChild<QSpinBox*>("wand_codes")->value(), 9);
+  EXPECT_EQ(window.canvas().cursor().shape(), Qt::CrossCursor) << "it paints";
+  QSettings().remove("window");
 }
 
 // ---- without a mouse, without eyes ----

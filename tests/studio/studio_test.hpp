@@ -33,6 +33,7 @@ class StudioTest : public ::testing::Test {
 
   StudioTest() {
     square_.write(scratch_);
+    window_.resize(1280, 800);  // whatever the screen, and another test's window
     window_.show();
   }
 

@@ -112,7 +112,13 @@ void CurveEditor::refresh_findings() {
   const auto found = document_.functions().find(document_.selected_tag());
   if (found == document_.functions().end() || document_.facts() == nullptr) return;
   const std::int64_t duration_ns = document_.duration_ns();
-  findings_ = check_function(found->second, summarize(found->second, duration_ns), {duration_ns, true});
+  GainSummary summary = summarize(found->second, duration_ns);
+  try {
+    summary = exposed_summary(document_.state(), found->first, duration_ns);
+  } catch (const InputError& error) {
+    findings_.push_back({FunctionFinding::Kind::still_gain_not_positive, error.what(), {}});
+  }
+  std::ranges::move(check_function(found->second, summary, {duration_ns, true}), std::back_inserter(findings_));
 }
 
 void CurveEditor::describe() {

@@ -216,6 +216,12 @@ Feather feather_of(const DocumentState& state) {
   return feather;
 }
 
+GainSummary exposed_summary(const DocumentState& state, std::uint8_t tag, std::int64_t duration_ns) {
+  return summarize(state.normalization.normalized(state.functions.at(tag), duration_ns,
+                                                  std::exp2(state.brightness_ev), format("M{}", tag)),
+                   duration_ns);
+}
+
 QColor first_colour(std::uint8_t tag) {
   // Steps of the golden angle: neighbours in number are far apart in hue.
   const int hue = static_cast<int>(std::fmod(205.0 + 137.5 * tag, 360.0));

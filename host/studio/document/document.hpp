@@ -217,6 +217,10 @@ class Document : public QObject {
 // The feather of regions that the mask has: others have no edges.
 [[nodiscard]] Feather feather_of(const DocumentState& state);
 
+// What a region's function comes to as it is exposed: divided and brightened. Throws InputError where the integral that it
+// is divided by cancels.
+[[nodiscard]] GainSummary exposed_summary(const DocumentState& state, std::uint8_t tag, std::int64_t duration_ns);
+
 // The colour that the region with a tag begins with: calm ones, told apart on dark and light.
 [[nodiscard]] QColor first_colour(std::uint8_t tag);
 

@@ -11,7 +11,6 @@
 #include <QStyledItemDelegate>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <cmath>
 
 #include "capture/error.hpp"
 #include "studio/regions/region_edits.hpp"
@@ -48,12 +47,9 @@ std::uint8_t tag_of(const QTreeWidgetItem& item) {
   return static_cast<std::uint8_t>(item.data(0, kTagRole).toUInt());
 }
 
-// As it is exposed: divided and brightened. Nothing can be said where the integral that it is divided by cancels.
 QString still_text(const DocumentState& state, std::uint8_t tag, std::int64_t duration_ns) {
   try {
-    const GainFunction exposed = state.normalization.normalized(state.functions.at(tag), duration_ns,
-                                                                std::exp2(state.brightness_ev), {});
-    return QStringLiteral("%1×").arg(summarize(exposed, duration_ns).still_gain(), 0, 'f', 2);
+    return QStringLiteral("%1×").arg(exposed_summary(state, tag, duration_ns).still_gain(), 0, 'f', 2);
   } catch (const InputError&) {
     return QStringLiteral("–");
   }

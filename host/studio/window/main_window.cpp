@@ -1,11 +1,15 @@
 #include "studio/window/main_window.hpp"
 
+#include <QActionGroup>
 #include <QDir>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFileInfo>
 #include <QInputDialog>
 #include <QMimeData>
+#include <QScreen>
+#include <QSettings>
+#include <QSpinBox>
 #include <QSplitter>
 #include <QUrl>
 #include <QVBoxLayout>
@@ -25,6 +29,11 @@
 #include "tik/reader.hpp"
 
 namespace nutik::studio {
+namespace {
+
+constexpr const char* kWindowKey = "window";
+
+}  // namespace
 
 MainWindow::MainWindow(const ComputingRequest& computing)
     : live_(document_, quick_), autosave_(document_), devices_(std::make_shared<Devices>(computing)) {
@@ -32,6 +41,7 @@ MainWindow::MainWindow(const ComputingRequest& computing)
   build_window();
   build_menus();
   connect_parts();
+  restore_window();
   follow_title();
   follow_exposure();
 }
@@ -44,7 +54,6 @@ MainWindow::~MainWindow() {
 
 void MainWindow::build_window() {
   setAcceptDrops(true);
-  resize(1280, 800);
   notice_ = new Notice;
   offer_ = new Notice;
   if (!Autosave::found().empty())
@@ -74,12 +83,14 @@ void MainWindow::build_window() {
   time_column->addWidget(curves, 1);
 
   auto* column = new QSplitter(Qt::Vertical);
+  column->setObjectName("column");
   column->addWidget(picture);
   column->addWidget(time_);
   column->setStretchFactor(0, 1);
   column->setChildrenCollapsible(false);
   column->setSizes({400, 330});
   auto* row = new QSplitter(Qt::Horizontal);
+  row->setObjectName("row");
   row->addWidget(column);
   auto* regions = new RegionList(document_);
   regions_ = regions;
@@ -91,6 +102,32 @@ void MainWindow::build_window() {
   setCentralWidget(row);
   status_ = new StatusLine(jobs_);
   setStatusBar(status_);
+}
+
+// As it was closed last; at first as large as the screen takes, with its frame.
+void MainWindow::restore_window() {
+  constexpr QSize kUsual(1280, 800), kFrame(16, 48);
+  resize(kUsual.boundedTo(screen()->availableSize() - kFrame));
+  QSettings kept;
+  kept.beginGroup(kWindowKey);
+  restoreGeometry(kept.value("geometry").toByteArray());
+  for (auto* splitter : findChildren<QSplitter*>())
+    splitter->restoreState(kept.value(splitter->objectName()).toByteArray());
+  radius_->setValue(kept.value("radius", tool_settings_.brush_radius).toDouble());
+  codes_->setValue(kept.value("codes", tool_settings_.wand_codes).toInt());
+  const QString tool = kept.value("tool").toString();
+  for (QAction* action : tools_->actions())
+    if (action->objectName() == tool) action->setChecked(true);
+}
+
+void MainWindow::keep_window() {
+  QSettings kept;
+  kept.beginGroup(kWindowKey);
+  kept.setValue("geometry", saveGeometry());
+  for (const auto* splitter : findChildren<QSplitter*>()) kept.setValue(splitter->objectName(), splitter->saveState());
+  kept.setValue("radius", radius_->value());
+  kept.setValue("codes", codes_->value());
+  kept.setValue("tool", tools_->checkedAction()->objectName());
 }
 
 void MainWindow::connect_parts() {
@@ -407,6 +444,7 @@ bool MainWindow::event(QEvent* event) {
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   if (may_leave()) {
+    keep_window();
     autosave_.begin();
     event->accept();
   } else {

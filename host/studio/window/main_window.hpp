@@ -25,6 +25,7 @@
 class QActionGroup;
 class QComboBox;
 class QDoubleSpinBox;
+class QSpinBox;
 class QToolBar;
 
 namespace nutik::studio {
@@ -96,6 +97,8 @@ class MainWindow : public QMainWindow {
   // main_window.cpp
   void build_window();
   void connect_parts();
+  void restore_window();
+  void keep_window();
   void open_project(const QString& path, std::shared_ptr<const KeptProject> kept = {});
   void open_capture_file(const QString& path, const Stated& stated, Origin origin);
   void tell_way_out(const QString& path, const Stated& stated, const Origin& origin, const std::exception_ptr& error);
@@ -163,6 +166,8 @@ class MainWindow : public QMainWindow {
   QString told_changes_;  // what was said of them
   ToolSettings tool_settings_;
   std::unique_ptr<CanvasTool> tool_;
+  QDoubleSpinBox* radius_ = nullptr;
+  QSpinBox* codes_ = nullptr;
 
   Notice *notice_ = nullptr, *offer_ = nullptr;
   Canvas* canvas_ = nullptr;

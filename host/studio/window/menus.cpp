@@ -201,33 +201,35 @@ void MainWindow::build_tools(QToolBar& bar) {
     action->setShortcut(row.key);
     action->setToolTip(tr("%1 (%2)").arg(tr(row.tip), action->shortcut().toString()));
     tools_->addAction(action);
-    connect(action, &QAction::triggered, this, [this, kind = row.kind] { use_tool(kind); });
+    connect(action, &QAction::toggled, this, [this, kind = row.kind](bool is_chosen) {
+      if (is_chosen) use_tool(kind);
+    });
     needs_capture_ += action;
   }
-  auto* radius = new NumberBox;
-  radius->setObjectName("brush_radius");
-  radius->setRange(0.5, 500);
-  radius->setDecimals(1);
-  radius->setValue(tool_settings_.brush_radius);
-  radius->setPrefix(tr("Brush "));
-  radius->setSuffix(tr(" px"));
-  radius->setAccessibleName(tr("Radius of the brush, in pixels"));
-  radius->setToolTip(radius->accessibleName());
-  connect(radius, &QDoubleSpinBox::valueChanged, this, [this](double value) {
+  radius_ = new NumberBox;
+  radius_->setObjectName("brush_radius");
+  radius_->setRange(0.5, 500);
+  radius_->setDecimals(1);
+  radius_->setValue(tool_settings_.brush_radius);
+  radius_->setPrefix(tr("Brush "));
+  radius_->setSuffix(tr(" px"));
+  radius_->setAccessibleName(tr("Radius of the brush, in pixels"));
+  radius_->setToolTip(radius_->accessibleName());
+  connect(radius_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
     tool_settings_.brush_radius = value;
     canvas_->update();
   });
-  auto* codes = new QSpinBox;
-  codes->setObjectName("wand_codes");
-  codes->setRange(0, 255);
-  codes->setValue(tool_settings_.wand_codes);
-  codes->setPrefix(tr("Wand ± "));
-  codes->setAccessibleName(
+  codes_ = new QSpinBox;
+  codes_->setObjectName("wand_codes");
+  codes_->setRange(0, 255);
+  codes_->setValue(tool_settings_.wand_codes);
+  codes_->setPrefix(tr("Wand ± "));
+  codes_->setAccessibleName(
       tr("How many codes of 255 a pixel may differ by from the one that the wand clicked"));
-  codes->setToolTip(codes->accessibleName());
-  connect(codes, &QSpinBox::valueChanged, this, [this](int value) { tool_settings_.wand_codes = value; });
-  bar.addWidget(radius);
-  bar.addWidget(codes);
+  codes_->setToolTip(codes_->accessibleName());
+  connect(codes_, &QSpinBox::valueChanged, this, [this](int value) { tool_settings_.wand_codes = value; });
+  bar.addWidget(radius_);
+  bar.addWidget(codes_);
 }
 
 void MainWindow::build_exposure_bar(QToolBar& bar) {
