@@ -442,8 +442,8 @@ TracedExposure Session::trace(const ExposureRequest& request, const TracedPixel&
 }
 
 TracedExposure Session::trace(const ExposureRequest& request, const TracedTag& tag, std::stop_token stop) {
-  return implementation_->trace(request, std::move(stop), [&](const RenderPlan& plan, CaptureSource& source) {
-    return std::vector{trace_region(plan, source, tag.tag)};
+  return implementation_->trace(request, stop, [&](const RenderPlan& plan, CaptureSource& source) {
+    return std::vector{trace_region(plan, source, tag.tag, stop)};
   });
 }
 
