@@ -77,6 +77,8 @@ const DeviceCodes* KernelConstants::codes(const CodeKey& key, DeviceMemory& memo
 
 const DeviceMap& KernelConstants::map(const std::shared_ptr<const MaskMap>& map, const Band& band,
                                       DeviceMemory& memory, std::uint64_t& written_bytes) {
+  // Of a mask that no plan has any more; another capture's is a map of its own, however alike.
+  maps_.forget([](const DeviceMap& each) { return each.map.use_count() == 1; });
   const DeviceMap* const kept =
       maps_.find([&](const DeviceMap& each) { return each.map == map && each.band == band; });
   if (kept != nullptr) {
@@ -101,7 +103,7 @@ const DeviceMap& KernelConstants::map(const std::shared_ptr<const MaskMap>& map,
     on_device.first_of = memory.upload(functions.first_of);
     on_device.shares = memory.upload(functions.shares);
   } else {
-    functions.of_lane = {};
+    std::vector<std::uint16_t>().swap(functions.of_lane);  // assigning {} would keep its memory
   }
   on_device.host = std::make_shared<const FunctionMap>(std::move(functions));
   const DeviceMap& made = maps_.keep(std::move(on_device));
