@@ -4,7 +4,8 @@
 Each recipe runs in a folder of its own, where its scene's clip.mkv lies, with nutik-cl and FnPlotter.py in PATH. It
 makes picture.png and plot.png. --publish FOLDER writes the pictures of the page there:
 NAME.jpg, NAME-scene.jpg (the clip's picture at one moment), NAME-plot.png and strip.jpg. With --recordings FOLDER it
-makes NAME-real.jpg instead, from real recordings that lie in that folder.
+makes NAME-real.jpg instead, from real recordings that lie in that folder, and of all of them recordings.jpg, in which
+each stands beside a picture of its clip.
 """
 
 import argparse
@@ -29,11 +30,13 @@ RECIPES = {
     "strobe": ("golfer", 0.58),
     "slit-scan": ("windmill", 0.5),
 }
-# Recipes that a real recording shows too, and its file: tools/gallery/real/RECIPE.sh runs beside it.
+# What real recordings show, their files, the clip first, and a picture of it: tools/gallery/real/NAME.sh runs beside them.
 REAL = {
-    "motion-study": "one-by-one-person-detection.mp4",
-    "rear-curtain": "one-by-one-person-detection.mp4",
-    "empty-street": "one-by-one-person-detection.mp4",
+    "motion-study": (("one-by-one-person-detection.mp4",), "1192f"),
+    "empty-street": (("one-by-one-person-detection.mp4",), "430f"),
+    "rear-curtain": (("one-by-one-person-detection.mp4",), "862f"),
+    "falling-ball": (("ball_12bit.mraw", "ball_12bit.cihx"), "7f"),
+    "droplets": (("cine_781.cine",), "7f"),
 }
 JPEG_QUALITY = 88
 SCENE_SIZE = (512, 288)
@@ -83,19 +86,19 @@ def make(recipe, program, work, size, plots=True):
 
 def make_real(recipe, program, work, recordings):
     """Runs the recipe on its recording; the folder with picture.png."""
-    recording = recordings.resolve() / REAL[recipe]
-    if not recording.exists():
-        raise OSError(f"{recording} is not there; docs/how-to/gallery.md says where it is from")
+    files, moment = REAL[recipe]
     folder = work / f"{recipe}-real"
     folder.mkdir(parents=True, exist_ok=True)
-    link = folder / recording.name
-    link.unlink(missing_ok=True)
-    link.symlink_to(recording)
     for made in folder.iterdir():
-        if not made.is_symlink():
-            made.unlink()
+        made.unlink()
+    for name in files:
+        recording = recordings.resolve() / name
+        if not recording.exists():
+            raise OSError(f"{recording} is not there; docs/how-to/gallery.md says where it is from")
+        (folder / name).symlink_to(recording)
     environment = os.environ | {"PATH": commands_in_path(program, work / "bin", plots=False)}
     run(["bash", "-euo", "pipefail", TOOLS / "gallery" / "real" / f"{recipe}.sh"], cwd=folder, env=environment)
+    run([program, "-q", "--start", moment, "--exposure", "1f", files[0], "scene.png"], cwd=folder)
     return folder
 
 
@@ -125,6 +128,17 @@ def publish_strip(work, target):
     write(target / "strip.jpg", np.vstack([np.hstack(tiles[:3]), np.hstack(tiles[3:])]))
 
 
+def publish_recordings(work, target):
+    def pair(name, size):
+        return np.hstack([cv2.resize(read(work / f"{name}-real" / f"{which}.png"), size, interpolation=cv2.INTER_AREA)
+                          for which in ("scene", "picture")])
+
+    left = [pair(name, STRIP_TILE) for name in ("motion-study", "empty-street", "rear-curtain")]
+    side = 3 * STRIP_TILE[1] // 2
+    right = [pair(name, (side, side)) for name in ("falling-ball", "droplets")]
+    write(target / "recordings.jpg", np.hstack([np.vstack(left), np.vstack(right)]))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", required=True, type=Path, help="nutik-cl")
@@ -140,7 +154,10 @@ def main():
     for recipe in [recipe for recipe in options.only or REAL if options.recordings and recipe in REAL]:
         folder = make_real(recipe, program, work, options.recordings)
         if options.publish:
-            write(options.publish / f"{recipe}-real.jpg", read(folder / "picture.png"))
+            if recipe in RECIPES:
+                write(options.publish / f"{recipe}-real.jpg", read(folder / "picture.png"))
+    if options.publish and options.recordings and not options.only:
+        publish_recordings(work, options.publish)
     recipes = [] if options.recordings else options.only or list(RECIPES)
     for recipe in recipes:
         folder = make(recipe, program, work, options.size)

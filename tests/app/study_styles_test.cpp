@@ -57,6 +57,41 @@ class StudyStyles : public test::StudyTest {
   }
 };
 
+// Moments are pictures that were filmed, and the trail is exposed from what was made between them.
+TEST_F(StudyStyles, JoinTheTrailBetweenPictures) {
+  constexpr int kStep = 14, kWide = 20;
+  const auto left_of = [](int picture) { return 4 + kStep * picture; };
+  const auto drawn = [&](int picture) {
+    cv::Mat frame = ground_of(7) / 8 + 40;
+    cv::Mat thing = ground_of(3)(cv::Rect(0, 0, kWide, kWide)) / 4 + 170;
+    thing.copyTo(frame(cv::Rect(left_of(picture), kTop, kWide, kWide)));
+    return frame;
+  };
+  const int last = (ground_of(7).cols - kWide - 4) / kStep;
+  DrawnClip clip(scratch_ / "fast");
+  for (int k = 0; k <= last; ++k) clip.add(drawn(k));
+  const std::string asked = format("study -f 100 fast --moments 1f,{}f --trail even", last);
+  expect_says(run(asked + " -o filmed.png").err, format("every {} pixels", kStep));
+  make(asked + " --between auto -o made.png");
+  // How much the trail changes from column to column, away from the moments.
+  const auto ripple = [&](const char* name) {
+    cv::Mat columns, deviation, mean;
+    const int from = left_of(3), to = left_of(last - 2);
+    cv::reduce(picture(name)(cv::Rect(from, kTop + 4, to - from, kWide - 8)), columns, 0, cv::REDUCE_AVG, CV_64F);
+    cv::meanStdDev(columns, mean, deviation);
+    return deviation.at<double>(0);
+  };
+  EXPECT_LT(ripple("made.png"), 0.5 * ripple("filmed.png"));
+  for (const int moment : {1, last}) {
+    const cv::Rect inner(left_of(moment) + 3, kTop + 3, kWide - 6, kWide - 6);
+    EXPECT_LE(cv::norm(picture("made.png")(inner), drawn(moment)(inner), cv::NORM_INF), 1) << moment;
+  }
+  expect_says(make(asked + " --between auto --json -o json.png").out, format(R"("sample": {})", last));
+  const std::string by_hand = file("made.txt");
+  EXPECT_NE(by_hand.find("--between"), std::string::npos);
+  EXPECT_EQ(by_hand.find("--between"), by_hand.rfind("--between")) << "of the picture, not of the mask:\n" << by_hand;
+}
+
 TEST_F(StudyStyles, HaveNoStepAlongRegionsEdges) {
   for (const char* style : {"trail", "strobe", "rear-curtain", "frozen"}) {
     const cv::Mat is = difference({"--style", style});

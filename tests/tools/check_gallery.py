@@ -41,7 +41,7 @@ def check_page(report):
     report.hold(set(real) == set(gallery.REAL), f"a script for each real recording: {', '.join(sorted(real))}")
     for name, text in real.items():
         report.hold(text in blocks, f"docs/how-to/gallery.md prints tools/gallery/real/{name}.sh as it is run")
-        link = f"images/gallery/{name}-real.jpg"
+        link = f"images/gallery/{name + '-real' if name in gallery.RECIPES else 'recordings'}.jpg"
         report.hold(f"](../{link})" in page and (ROOT / "docs" / link).exists(), f"the page shows {link}")
     report.hold(len(blocks) == len(scripts) + len(real), f"the page has {len(blocks)} scripts for {len(scripts)} recipes and {len(real)} recordings")
     pictures = ROOT / "docs" / "images" / "gallery"

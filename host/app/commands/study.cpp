@@ -48,6 +48,12 @@ Options options_by_hand(const Options& options, const StudyFiles& files, StudySt
   return by_hand;
 }
 
+// As if no samples were to be made between pictures.
+void take_back_between(Options& options) {
+  options.source.between.reset();
+  std::erase_if(options.said, [](const Said& said) { return said.option == "between"; });
+}
+
 // What makes the same by hand.
 std::string commands_text(const Options& options, const StudyFiles& files, const Study& study,
                           StudyStyle style) {
@@ -73,8 +79,10 @@ std::string commands_text(const Options& options, const StudyFiles& files, const
     }
     for (const RegionChange& change : step.changes) regions += " " + change_words(change);
   }
+  Options of_filmed = options;
+  take_back_between(of_filmed);
   return format("nutik-cl mask{}{} --overwrite \\\n  {} {}\nnutik-cl{} --overwrite \\\n  {} {}\n",
-                stated_words(options, CommandId::mask), regions, capture, name(files.mask),
+                stated_words(of_filmed, CommandId::mask), regions, capture, name(files.mask),
                 stated_words(options_by_hand(options, files, style), CommandId::expose), capture,
                 name(files.picture));
 }
@@ -140,6 +148,7 @@ PlannedStudy planned_study(Options& options, const StudyRequest& request) {
     state("align", std::string(to_text(kStudyMotion)));
     if (*planned.aligned_to > 0) state("align-to", format("{}f", *planned.aligned_to));
   }
+  if (!planned.filmed) take_back_between(options);
   return planned;
 }
 
@@ -197,10 +206,10 @@ int run_study(const Options& stated) {
         format("  {}, {}: the mask and the functions, to be changed by hand; {}: the commands",
                files.mask.string(), files.functions.string(), files.commands.string()));
   }
-  answer.json["moments"] = moments_json(study, session.timeline());
+  answer.json["moments"] = moments_json(study, planned.timeline());
   answer.json["trail_strength"] = study.trail_strength;
   answer.line = format("{}: {}, {}", files.picture.string(), shape_text(exposed.picture.shape),
-                       moments_text(study, session.timeline()));
+                       moments_text(study, planned.timeline()));
   tally.end(answer, session, options.verbose);
   add_notes(answer, planned);
   return tell(options, files.picture, answer);

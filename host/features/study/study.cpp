@@ -138,6 +138,7 @@ class StudyPlanner {
       std::ranges::sort(each.track.places, {}, &SubjectPlace::sample);
       if (!each.track.places.empty()) tracks.push_back(std::move(each.track));
     }
+    study.step_pixels = step_of(tracks);
     add_functions(study, request_, timeline_, tracks);
   }
 
@@ -207,7 +208,7 @@ class StudyPlanner {
   // there is no trail, no such time, or no room in the mask.
   [[nodiscard]] SampleRange ground_of(const Study& study, std::size_t moment) const {
     const SubjectTrack& track = followed_[study.subjects[moment]].track;
-    if (request_.trail.value_or(default_trail(request_.style)) == TrailShape::none ||
+    if (!has_trail(request_) ||
         !is_seen_at(track, study.moments[moment]) ||
         (kAround.size() + 1) * study.moments.size() > kMaxTags) {
       return {};
@@ -339,6 +340,22 @@ class StudyPlanner {
       if (is_in_plate(study, i))
         study.notes.push_back(why_a_hole(study, i) + ". It may be shown in part, or as a hole");
     }
+  }
+
+  [[nodiscard]] static double step_of(const std::vector<SubjectTrack>& tracks) {
+    constexpr double kResting = 0.5;
+    std::vector<double> steps;
+    for (const SubjectTrack& track : tracks) {
+      for (std::size_t i = 1; i < track.places.size(); ++i) {
+        const SubjectPlace &before = track.places[i - 1], &place = track.places[i];
+        const double step = std::hypot(place.centre.x - before.centre.x, place.centre.y - before.centre.y) /
+                            static_cast<double>(place.sample - before.sample);
+        if (step > kResting) steps.push_back(step);
+      }
+    }
+    if (steps.empty()) return 0;
+    std::ranges::nth_element(steps, steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2));
+    return steps[steps.size() / 2];
   }
 
   // Those of moments come last.
@@ -583,6 +600,8 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
       .plan(study);
   return study;
 }
+
+bool has_trail(const StudyRequest& request) { return trail_shape(request) != TrailShape::none; }
 
 ExposureRequest study_exposure(const Study& study, const StudyRequest& asked) {
   const Mask& regions = study.regions.mask;

@@ -51,6 +51,9 @@ struct StudyRequest {
   // Only larger differences from the plate are the subject; none: than 1/16 of white, or than the noise.
   std::optional<std::uint32_t> by_codes;
   std::optional<Feather> feather;  // none: kStudyFeather, and none of a slit's strips
+  // The picture is exposed from this capture with samples made between its own: a moment is as short then as none of those
+  // is part of it.
+  bool is_exposed_between = false;
 
   friend bool operator==(const StudyRequest&, const StudyRequest&) = default;
 };
@@ -80,6 +83,7 @@ struct Study {
   bool are_moments_found = false;     // not stated
   // A long exposure, or a single moment, for what moves makes no more; a note says why.
   bool falls_short = false;
+  double step_pixels = 0;   // that the subject goes from one sample to the next, where it goes on; a median
   double moving_share = 0;  // of the picture, that differs from the scene at rest on average
   MaskRequest mask;
   MadeMask regions;           // made as `mask` asks for them
@@ -114,6 +118,9 @@ void check_study(const StudyRequest& request);
 
 // How far the subject's border is blended with what lies around it, in hundredths of a pixel: usually, and at most.
 inline constexpr std::int32_t kStudyFeather = 200, kMaxStudyFeather = 3200;
+
+// Whether anything of the subject's way is seen.
+[[nodiscard]] bool has_trail(const StudyRequest& request);
 
 // What exposes the study's picture through these regions.
 [[nodiscard]] ExposureRequest study_exposure(const Study& study, const StudyRequest& request);

@@ -15,6 +15,8 @@ namespace {
 
 // Regions are grown and softened: a smaller motion hides in that.
 constexpr double kMaxCameraPixels = 4;
+// From one picture to the next: less lies within a border that is blended usually.
+constexpr double kGhostPixels = 4;
 // Shorter shots show nothing that goes anywhere.
 constexpr std::uint64_t kMinSamples = 8;
 
@@ -196,10 +198,7 @@ class ShotPlanner {
   std::string name_;  // for messages
 };
 
-}  // namespace
-
-PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request, const StudyTerms& terms) {
-  check_study(request);
+PlannedStudy plan_filmed(const SourceRequest& source, const StudyRequest& request, const StudyTerms& terms) {
   const std::string name = source.path.string();
   const ShotPlanner planner(request, terms, name);
   std::vector<SampleRange> shots;
@@ -249,6 +248,29 @@ PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request
   if (fallback) return taken(std::move(*fallback));
   throw InputError(format("{}: none of its {} shots, which begin at pictures {}, makes a study:{}", name,
                           count, starts, reasons));
+}
+
+}  // namespace
+
+PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request, const StudyTerms& terms) {
+  check_study(request);
+  SourceRequest filmed = source;
+  filmed.between.reset();
+  StudyRequest asked = request;
+  asked.is_exposed_between = source.between && has_trail(request);
+  PlannedStudy planned = plan_filmed(filmed, asked, terms);
+  if (asked.is_exposed_between) {
+    SourceRequest made = planned.session.source();
+    made.between = source.between;
+    planned.filmed = planned.session.timeline();
+    planned.session = ShotPlanner(asked, terms, source.path.string()).open(made);
+  } else if (planned.session.is_clip() && has_trail(request) && planned.study.step_pixels >= kGhostPixels) {
+    planned.notes.emplace_back(format("the trail shows the subject again every {:.0f} pixels, as far as it goes from one "
+                                      "picture to the next: samples made between them join these",
+                                      planned.study.step_pixels),
+                               std::vector{Setting::between});
+  }
+  return planned;
 }
 
 }  // namespace nutik

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <set>
 #include <utility>
 
 #include "capture/format.hpp"
+#include "capture/made_samples.hpp"
 #include "exposure/function_text.hpp"
 #include "exposure/gain_function.hpp"
 
@@ -78,12 +80,12 @@ class StudyFunctions {
       : request_(request),
         timeline_(timeline),
         tracks_(tracks),
-        shape_(request.trail.value_or(default_trail(request.style))) {}
+        shape_(trail_shape(request)) {}
 
   void add_to(Study& study) const {
     for (std::size_t i = 0; i < study.moments.size(); ++i) {
       GainPieces moment;
-      moment.add(interval_of({study.moments[i], study.moments[i] + 1}), 1, 1);
+      moment.add(moment_of(study.moments[i]), 1, 1);
       study.functions.emplace(static_cast<std::uint8_t>(i + 1), moment.function());
     }
     study.empty = tracks_.front().empty;  // of all the picture, and so of all subjects
@@ -101,10 +103,9 @@ class StudyFunctions {
       if (study.grounds[i].empty()) continue;
       for (std::size_t level = 0; level < kAround.size(); ++level) {
         std::vector<GainPiece> around = way;
-        for (const auto& [samples, share] :
-             {std::pair(SampleRange{study.moments[i], study.moments[i] + 1}, 1 / kAround[level].trail_share),
-              std::pair(study.grounds[i], -1.0)}) {
-          const Interval interval = interval_of(samples);
+        for (const auto& [interval, share] :
+             {std::pair(moment_of(study.moments[i]), 1 / kAround[level].trail_share),
+              std::pair(interval_of(study.grounds[i]), -1.0)}) {
           const double gain = share * light / static_cast<double>(interval.end_ns - interval.begin_ns);
           around.push_back({interval, gain, gain});
         }
@@ -116,6 +117,14 @@ class StudyFunctions {
  private:
   [[nodiscard]] Interval interval_of(SampleRange samples) const {
     return {timeline_.start_ns(samples.first), timeline_.end_ns(samples.last - 1)};
+  }
+
+  [[nodiscard]] Interval moment_of(std::uint64_t sample) const {
+    const Interval exposed = interval_of({sample, sample + 1});
+    if (!request_.is_exposed_between) return exposed;
+    const std::int64_t middle = std::midpoint(exposed.begin_ns, exposed.end_ns);
+    const std::int64_t reach = (exposed.end_ns - exposed.begin_ns) / (4 * (MadeSamples::kMost + 1));
+    return {middle - reach, middle + std::max<std::int64_t>(reach, 1)};
   }
 
   // The scene between the moments: when nothing is there; else the moments together, in each of which most of it is
@@ -221,8 +230,9 @@ Study slit_study(CaptureSource& capture, const std::string& name, std::uint32_t 
   return study;
 }
 
-TrailShape default_trail(StudyStyle style) {
-  switch (style) {
+TrailShape trail_shape(const StudyRequest& request) {
+  if (request.trail) return *request.trail;
+  switch (request.style) {
     case StudyStyle::trail: return TrailShape::even;
     case StudyStyle::rear_curtain: return TrailShape::ramp;
     case StudyStyle::strobe: return TrailShape::none;

@@ -20,8 +20,8 @@ namespace nutik {
 // All of the time, evenly, where the mask's value is 0.
 [[nodiscard]] FunctionSet whole_time(const Timeline& timeline);
 
-// What a style shows between moments where nothing is stated.
-[[nodiscard]] TrailShape default_trail(StudyStyle style);
+// What is shown between moments: as stated, or as the style has it.
+[[nodiscard]] TrailShape trail_shape(const StudyRequest& request);
 
 // Of the moments that were chosen. Sets the study's functions, how strong its trail is and when nothing is there.
 void add_functions(Study& study, const StudyRequest& request, const Timeline& timeline,
