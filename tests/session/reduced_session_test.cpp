@@ -51,6 +51,36 @@ TEST_P(ReducedSession, HasTheSamplesAndTimesOfTheWholeOne) {
   });
 }
 
+TEST_P(ReducedSession, OfSomePicturesHasThoseThatBeginBetweenTwoMoments) {
+  test::RandomCase random(GetParam());
+  random.capture.noise = {};
+  const test::Scratch scratch;
+  SourceRequest source;
+  source.path = test::write_tik(random, {tik::CodecId::zstd, 0}, scratch);
+  Session session(source);
+  const Timeline& whole = session.timeline();
+  if (whole.sample_count() < 3) return;  // no picture lies between others
+  ClipOptions part;
+  part.from = ClipMoment{whole.start_ns(0) + 1};
+  part.to = ClipMoment{whole.start_ns(whole.sample_count() - 1)};
+  const auto taken = session_of_part(session, part);
+  const Timeline& is = taken->timeline();
+  ASSERT_EQ(is.sample_count(), whole.sample_count() - 2);
+  const auto& of_clip = taken->capture().header().part;
+  ASSERT_TRUE(of_clip);
+  EXPECT_EQ(of_clip->start_ns, whole.start_ns(1));
+  std::vector<std::byte> read(taken->format().sample_bytes());
+  for_each_block(taken->capture(), [&](const BlockView& block) {
+    SampleCursor cursor(taken->format().shape, block);
+    const SampleRange samples = block.extent().range();
+    for (std::uint64_t sample = samples.first; sample < samples.last; ++sample) {
+      cursor.go_to(static_cast<std::uint32_t>(sample - samples.first));
+      cursor.read(read);
+      ASSERT_EQ(read, random.rasters[sample + 1]) << random.text() << ", sample " << sample;
+    }
+  });
+}
+
 // Of captures with two rows or more.
 INSTANTIATE_TEST_SUITE_P(Captures, ReducedSession, testing::Values(0, 1, 2, 3, 4, 6, 8, 9, 10, 11));
 

@@ -177,7 +177,9 @@ TEST(TypedNumbers, AreReadBackToTheLastDigit) {
   EXPECT_EQ(read_typed_length("2f", "width", timeline).value, 20'000'000);
   EXPECT_FALSE(read_typed_length("0 ms", "width", timeline).value);
   EXPECT_EQ(read_typed_gain("-2.5e2").value, -250.0);
-  EXPECT_FALSE(read_typed_gain("1,5").value) << "could be 1.5 or 15";
+  EXPECT_EQ(read_typed_gain("1,5").value, 1.5) << "a decimal comma";
+  for (const char* text : {"1,234.5", "1.234,5", "1,234,567"})
+    EXPECT_FALSE(read_typed_gain(text).value) << text << ": no commas between thousands";
   EXPECT_EQ(gain_text(0.1), "0.1");
 }
 

@@ -65,6 +65,15 @@ class OpeningTest : public StudioTest {
         ASSERT_EQ(shown_at(seen, at(x + 0.5, y + 0.5)), image.pixelColor(x, y)) << x << ", " << y;
   }
 
+  // The button beside what is said.
+  void take_way_out(const char* label) {
+    auto& button = *window_.notice().findChild<QToolButton*>("way_out");
+    ASSERT_TRUE(button.isVisible()) << window_.notice().text().toStdString();
+    EXPECT_EQ(button.text(), label);
+    QTest::mouseClick(&button, Qt::LeftButton);
+    ASSERT_TRUE(settles());
+  }
+
   // The menu of recent files, once it was filled.
   [[nodiscard]] QMenu& recent() {
     for (QAction* action : window_.menuBar()->actions().front()->menu()->actions()) {
@@ -208,6 +217,44 @@ TEST_F(OpeningTest, NoToolWorksOnTheFirstPicture) {
   EXPECT_EQ(difference(canvas().image(), fresh_picture()), "");
 }
 
+TEST_F(OpeningTest, NothingElseIsSaidOfAnotherCaptureBesideTheFirstPicture) {
+  const auto seen = [this](const char* name) {
+    QWidget& widget = child<QWidget>(name);
+    const QImage image = widget.grab().toImage();
+    QImage plain(image.size(), image.format());
+    plain.fill(window_.palette().color(QPalette::Window));
+    return difference(image, plain);
+  };
+  ASSERT_NO_FATAL_FAILURE(open_project());
+  ASSERT_NO_FATAL_FAILURE(look_first("small/%d.pgm", [&] {
+    EXPECT_TRUE(window_.windowTitle().startsWith("%d.pgm")) << window_.windowTitle().toStdString();
+    for (const char* name : {"time_strip", "curves"}) EXPECT_EQ(seen(name), "") << name;
+    for (const char* name : {"start", "regions"}) EXPECT_FALSE(child<QWidget>(name).isEnabled()) << name;
+    QTest::mouseClick(&child<QToolButton>("cancel"), Qt::LeftButton);
+  }));
+  ASSERT_TRUE(settles());
+  for (const char* name : {"time_strip", "curves"}) EXPECT_NE(seen(name), "") << name;
+  for (const char* name : {"start", "regions"}) EXPECT_TRUE(child<QWidget>(name).isEnabled()) << name;
+  expect_mine();
+}
+
+TEST_F(OpeningTest, TheFirstPictureStaysUntilTheDocumentsIsThere) {
+  bool is_checked = false;
+  QObject once;
+  QObject::connect(&document(), &Document::capture_changed, &once, [&] {
+    is_checked = true;
+    EXPECT_EQ(shown_at(canvas().grab().toImage(), at(8.5, 4.5)), QColor('a', 'a', 'a'));
+    click_tool("tool_brush");
+    QTest::mouseClick(&canvas(), Qt::LeftButton, {}, at(8, 4));
+    EXPECT_EQ(document().undo_stack().count(), 0) << "no tool works on it";
+  });
+  window_.open(path("small/%d.pgm"), "100");
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(is_checked);
+  EXPECT_FALSE(canvas().shows_first_look());
+  EXPECT_EQ(difference(canvas().image(), fresh_picture()), "");
+}
+
 TEST_F(OpeningTest, AStrokeThatIsNotFinishedIsGivenUpForTheFirstPicture) {
   ASSERT_NO_FATAL_FAILURE(open_project());
   const DocumentState before = document().state();
@@ -264,6 +311,68 @@ TEST_F(OpeningTest, WhatOpeningAnotherFileBrokeOffIsMadeAfterAll) {
   document().end_drag();
   ASSERT_TRUE(settles());
   EXPECT_NE(canvas().image(), full);
+}
+
+TEST_F(OpeningTest, OfADamagedClipThePartBeforeTheDamageIsOpened) {
+  std::filesystem::create_directory(scratch_ / "torn");
+  for (const char* name : {"torn/0.pgm", "torn/1.pgm", "torn/2.pgm"})
+    scratch_.write(name, "P5 16 8 255\n" + std::string(name[5] == '2' ? 100 : 128, name[5]));
+  window_.open(path("torn/%d.pgm"), "100");
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(window_.notice().text().contains("2 pictures before it can be taken"))
+      << window_.notice().text().toStdString();
+  take_way_out("Open that part");
+  ASSERT_NE(document().facts(), nullptr) << window_.notice().text().toStdString();
+  EXPECT_EQ(document().facts()->timeline.sample_count(), 2u);
+  EXPECT_TRUE(window_.notice().text().contains("taken as far as it goes")) << window_.notice().text().toStdString();
+  document().set_boxcar({0, 20'000'000}, "Scrub");
+  ASSERT_TRUE(window_.save_project(path("torn.nutik")));
+  for (const char* again : {"F5", "project"}) {
+    again[0] == 'F' ? QTest::keyClick(&window_, Qt::Key_F5) : window_.open(path("torn.nutik"));
+    ASSERT_TRUE(settles());
+    EXPECT_EQ(document().facts()->timeline.sample_count(), 2u) << again;
+    window_.export_picture(path("window.png"));
+    ASSERT_TRUE(settles());
+    const test::ProgramResult made = run_line(window_.command_for(path("line.png")));
+    ASSERT_EQ(made.status, 0) << made.err;
+    EXPECT_EQ(test::read_file(scratch_ / "window.png"), test::read_file(scratch_ / "line.png"));
+  }
+}
+
+TEST_F(OpeningTest, OfACaptureThatWasCutOffIsSavedAndOpenedWhatIsWhole) {
+  ASSERT_EQ(run_line("nutik-cl encode -f 100 --block-samples 8 frames/%02d.pgm cut.tik").status, 0);
+  std::filesystem::resize_file(scratch_ / "cut.tik", std::filesystem::file_size(scratch_ / "cut.tik") / 10 * 9);
+  window_.open(path("cut.tik"));
+  ASSERT_TRUE(settles());
+  name_next_file("saved.tik");
+  take_way_out("Save what is whole…");
+  ASSERT_NE(document().facts(), nullptr) << window_.notice().text().toStdString();
+  EXPECT_EQ(document().facts()->path, path("saved.tik"));
+  EXPECT_EQ(document().facts()->timeline.sample_count(), 16u);
+  EXPECT_TRUE(window_.notice().text().contains("16 samples were saved")) << window_.notice().text().toStdString();
+}
+
+TEST_F(OpeningTest, AProjectsClipThatWasMovedIsLocated) {
+  ASSERT_NO_FATAL_FAILURE(open_project());
+  const DocumentState state = document().state();
+  const QImage picture = canvas().image();
+  ASSERT_EQ(run_line("nutik-cl encode -f 100 frames/%02d.pgm clip.tik").status, 0);
+  std::string project = test::read_file(scratch_ / "mine.nutik");
+  project.replace(project.find("frames/%02d.pgm"), 15, "gone/clip.tik");
+  scratch_.write("mine.nutik", project.erase(project.find("\"fps\""), project.find('\n', project.find("\"fps\"")) -
+                                                                          project.find("\"fps\"")));
+  window_.open(path("mine.nutik"));
+  ASSERT_TRUE(settles());
+  name_next_file("clip.tik");
+  take_way_out("Locate…");
+  EXPECT_EQ(document().facts()->path, path("clip.tik")) << window_.notice().text().toStdString();
+  EXPECT_EQ(document().state(), state);
+  EXPECT_TRUE(window_.windowTitle().startsWith("mine.nutik"));
+  EXPECT_TRUE(window_.isWindowModified()) << "the project names the old place";
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  QTest::keyClick(&window_, Qt::Key_S, Qt::ControlModifier);
+  EXPECT_TRUE(load_project(path("mine.nutik")).capture == path("clip.tik"));
 }
 
 TEST_F(OpeningTest, RecentFilesAreListedTheLastFirstAndOpened) {

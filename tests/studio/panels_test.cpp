@@ -10,11 +10,15 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QProgressBar>
+#include <QScreen>
+#include <QSettings>
+#include <QSplitter>
 #include <QToolButton>
 #include <QTreeWidget>
 
 #include "studio/regions/region_edits.hpp"
 #include "studio/time/time_strip.hpp"
+#include "studio/time/times.hpp"
 #include "studio/window/appearance.hpp"
 #include "studio_test.hpp"
 
@@ -167,7 +171,7 @@ TEST_F(PanelsTest, TheStatusTellsThePixelTheArithmeticAndTheTime) {
   QEvent leave(QEvent::Leave);
   QApplication::sendEvent(&canvas(), &leave);
   EXPECT_EQ(status("pixel"), "");
-  EXPECT_TRUE(status("arithmetic").contains("single")) << status("arithmetic").toStdString();
+  EXPECT_TRUE(status("arithmetic").startsWith("fixed")) << status("arithmetic").toStdString();
   EXPECT_TRUE(status("arithmetic").contains(":")) << "and its bound: " << status("arithmetic").toStdString();
   EXPECT_TRUE(status("milliseconds").endsWith(" ms")) << status("milliseconds").toStdString();
   EXPECT_EQ(status("saturated"), "");
@@ -197,6 +201,53 @@ TEST_F(PanelsTest, EachRegionTellsHowManyOfItsPixelsAreWhite) {
   QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
   ASSERT_TRUE(settles());
   EXPECT_EQ(square.text(kWhite), "");
+}
+
+TEST_F(PanelsTest, NumbersHaveAPointAndAreTypedWithACommaToo) {
+  QLocale::setDefault(QLocale(QLocale::German, QLocale::Germany));
+  {
+    MainWindow window;
+    window.show();
+    window.open(path("frames/%02d.pgm"), "100");
+    ASSERT_TRUE(QTest::qWaitFor([&] { return window.is_settled(); }, kMaxWaitMs));
+    for (const char* typed : {"2,5", "2.5"}) {
+      for (const char* name : {"brush_radius", "brightness", "feather", "radius"}) {
+        auto& box = *window.findChild<QDoubleSpinBox*>(name);
+        box.setValue(1);
+        type(box, typed);
+        EXPECT_EQ(box.value(), 2.5) << name;
+        EXPECT_TRUE(box.text().contains("2.5")) << box.text().toStdString();
+      }
+      auto& width = *window.findChild<QLineEdit*>("width");
+      width.selectAll();
+      QTest::keyClicks(&width, QString(typed) + " ms");
+      QTest::keyClick(&width, Qt::Key_Return);
+      EXPECT_EQ(window.document().boxcar().length_ns, 2'500'000) << typed;
+      EXPECT_EQ(read_typed_gain(typed).value, 2.5);
+      window.document().set_boxcar({0, 1'000}, "Scrub");
+    }
+    window.document().undo_stack().setClean();
+  }
+  QLocale::setDefault(QLocale::c());
+}
+
+TEST_F(PanelsTest, StillIsWhatLightThatRestsIsMultipliedBy) {
+  open_clip();
+  document().set_points(kBackground, {{0, 0}, {document().duration_ns(), 1}}, "Shape");
+  const auto still = [&] { return list().topLevelItem(0)->text(kStill); };
+  EXPECT_EQ(still(), "0.50×");
+  const auto divide = [&](const char* by, double stops) {
+    DocumentState state = document().state();
+    state.normalization = Normalization::parse(by);
+    state.brightness_ev = stops;
+    document().apply(state, "Normalize");
+  };
+  divide("integral", 0);
+  EXPECT_EQ(still(), "1.00×") << "the picture keeps its brightness";
+  divide("integral", 1);
+  EXPECT_EQ(still(), "2.00×");
+  document().set_points(kBackground, {{0, -1}, {document().duration_ns(), 1}}, "Shape");
+  EXPECT_EQ(still(), "–") << "nothing to divide by";
 }
 
 TEST_F(PanelsTest, ProgressIsShownWhileAClipIsOpened) {
@@ -274,6 +325,44 @@ TEST_F(PanelsTest, TextsAreReadableDarkAndLight) {
     }
   }
   QApplication::setPalette(kept);
+}
+
+TEST_F(PanelsTest, TheWindowFitsItsScreenAndIsAsItWasClosed) {
+  QSettings().remove("window");
+  const QSize screen = window_.screen()->availableSize();
+  EXPECT_LE(window_.minimumSizeHint().width(), 1000);
+  EXPECT_LE(window_.minimumSizeHint().height(), 600);
+  const auto sizes = [](MainWindow& window, const char* splitter) {
+    return window.findChild<QSplitter*>(splitter)->sizes();
+  };
+  QList<int> row, column;
+  {
+    MainWindow window;
+    EXPECT_LT(window.width(), screen.width());
+    EXPECT_LE(window.height(), screen.height() - 40) << "a frame's title";
+    window.show();
+    window.resize(900, 640);
+    window.findChild<QSplitter*>("row")->setSizes({540, 360});
+    window.findChild<QSplitter*>("column")->setSizes({180, 400});
+    window.open(path("frames/%02d.pgm"), "100");
+    ASSERT_TRUE(QTest::qWaitFor([&] { return window.is_settled(); }, kMaxWaitMs));
+    QTest::keyClick(&window, Qt::Key_B);
+    window.findChild<QDoubleSpinBox*>("brush_radius")->setValue(7.5);
+    window.findChild<QSpinBox*>("wand_codes")->setValue(9);
+    row = sizes(window, "row");
+    column = sizes(window, "column");
+    ASSERT_TRUE(window.close());
+  }
+  MainWindow window;
+  window.show();
+  EXPECT_EQ(window.size(), QSize(900, 640));
+  EXPECT_EQ(sizes(window, "row"), row);
+  EXPECT_EQ(sizes(window, "column"), column);
+  EXPECT_TRUE(window.findChild<QAction*>("tool_brush")->isChecked());
+  EXPECT_EQ(window.findChild<QDoubleSpinBox*>("brush_radius")->value(), 7.5);
+  EXPECT_EQ(window.findChild<QSpinBox*>("wand_codes")->value(), 9);
+  EXPECT_EQ(window.canvas().cursor().shape(), Qt::CrossCursor) << "it paints";
+  QSettings().remove("window");
 }
 
 // ---- without a mouse, without eyes ----

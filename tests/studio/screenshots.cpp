@@ -1,7 +1,7 @@
 // Takes the pictures of docs/how-to/studio.md: nutik_studio_screenshots CLIP FOLDER. On the screen that QT_QPA_PLATFORM
 // names; without one where it names none.
 //
-//   FOLDER/*.png        the window at 1280 × 800 and 2560 × 1600, dark and light
+//   FOLDER/*.png        the window at 1280 × 800, 2560 × 1600 and 1000 × 620, dark and light
 //   FOLDER/drag/NN.png  a control point on its way there and back, with the hand that drags it
 #include <QAction>
 #include <QApplication>
@@ -28,7 +28,10 @@ constexpr int kMaxWaitMs = 300'000;  // a clip may have to be encoded first
 
 class Photographer {
  public:
-  explicit Photographer(const QString& folder) : folder_(folder) { window_.show(); }
+  explicit Photographer(const QString& folder) : folder_(folder) {
+    window_.resize(1280, 800);
+    window_.show();
+  }
 
   // All but failures to write pictures is said in the window, which is on them.
   bool take_all(const QString& clip) {
@@ -61,6 +64,8 @@ class Photographer {
     is_taken = is_taken && take("light-large");
     set_appearance(Appearance::dark);
     is_taken = is_taken && take("large");
+    window_.resize(1000, 620);
+    is_taken = is_taken && take("small");
     window_.findChild<QAction*>("tool_look")->trigger();
     window_.resize(size);
     return is_taken;

@@ -33,6 +33,7 @@ class StudioTest : public ::testing::Test {
 
   StudioTest() {
     square_.write(scratch_);
+    window_.resize(1280, 800);  // whatever the screen, and another test's window
     window_.show();
   }
 
@@ -129,7 +130,7 @@ class StudioTest : public ::testing::Test {
     return mask ? static_cast<std::size_t>((*mask)->mask.pixels_per_tag()[tag]) : 0;
   }
 
-  // What a session of its own makes of the document.
+  // What a session of its own makes of the document, as a picture that is written.
   [[nodiscard]] QImage fresh_picture() {
     const DocumentState& state = document().state();
     SourceRequest source;
@@ -137,7 +138,9 @@ class StudioTest : public ::testing::Test {
     source.clip.rate = Rational::parse("100", "rate");
     Session session(source);
     const auto mask = state.mask ? std::optional(LiveView::feathered_mask(state)) : std::nullopt;
-    return image_of(session.render(exposure_of(state, mask), screen_format()).picture);
+    RenderControl control;
+    control.precision = document().facts()->precision;
+    return image_of(session.render(exposure_of(state, mask), screen_format(), control).picture);
   }
 
   // The colour that a widget shows at one of its places, whatever the screen's scale.

@@ -19,7 +19,7 @@ constexpr std::int64_t kStripMs = 1'000'000;
 // 100 samples of 10 ms; 100 ms from 450 ms on are exposed.
 class TimeStripTest : public testing::Test {
  protected:
-  TimeStripTest() : strip_(document_, axis_), fields_(document_, axis_) {
+  TimeStripTest() : strip_(document_, axis_), fields_(document_) {
     CaptureFormat format;
     format.shape = {8, 6, 3};
     document_.start({"clip.tik", format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)});
@@ -132,11 +132,11 @@ TEST_F(TimeStripTest, StepsBySamples) {
 TEST_F(TimeStripTest, SetsMovesAndTakesAwayMarks) {
   key(Qt::Key_I);
   key(Qt::Key_O);
-  EXPECT_EQ(axis_.mark_in(), 450 * kStripMs);
-  EXPECT_EQ(axis_.mark_out(), 550 * kStripMs);
+  EXPECT_EQ(document_.mark_in(), 450 * kStripMs);
+  EXPECT_EQ(document_.mark_out(), 550 * kStripMs);
   const QPoint mark = strip_.mark_place(550 * kStripMs).toPoint();
   drag(mark, {at(800 * kStripMs).x(), mark.y()});
-  EXPECT_EQ(axis_.mark_out(), 800 * kStripMs);
+  EXPECT_EQ(document_.mark_out(), 800 * kStripMs);
   EXPECT_EQ(document_.undo_stack().count(), 0) << "marks are no edits";
   key(Qt::Key_X);
   EXPECT_EQ(document_.boxcar(), (Boxcar{450 * kStripMs, 350 * kStripMs}));
@@ -146,9 +146,9 @@ TEST_F(TimeStripTest, SetsMovesAndTakesAwayMarks) {
   key(Qt::Key_F);
   EXPECT_LT(axis_.begin_ns(), 0);
   QTest::mouseClick(&strip_, Qt::RightButton, {}, strip_.mark_place(800 * kStripMs).toPoint());
-  EXPECT_FALSE(axis_.mark_out());
+  EXPECT_FALSE(document_.mark_out());
   key(Qt::Key_I, Qt::ShiftModifier);
-  EXPECT_FALSE(axis_.mark_in());
+  EXPECT_FALSE(document_.mark_in());
 }
 
 TEST_F(TimeStripTest, TakesADragBackByEscape) {
@@ -174,10 +174,10 @@ TEST_F(TimeStripTest, TakesTypedTimesExactly) {
   EXPECT_EQ(document_.boxcar().start_ns, 370 * kStripMs);
   type("in", "0.2s");
   type("out", "800 ms");
-  EXPECT_EQ(axis_.mark_in(), 200 * kStripMs);
-  EXPECT_EQ(axis_.mark_out(), 800 * kStripMs);
+  EXPECT_EQ(document_.mark_in(), 200 * kStripMs);
+  EXPECT_EQ(document_.mark_out(), 800 * kStripMs);
   type("in", "");
-  EXPECT_FALSE(axis_.mark_in());
+  EXPECT_FALSE(document_.mark_in());
 }
 
 TEST_F(TimeStripTest, SaysWhatIsWrongWithATypedTimeAndKeepsIt) {

@@ -7,6 +7,7 @@
 #include <csignal>
 
 #include "studio/regions/region_edits.hpp"
+#include "studio/time/times.hpp"
 #include "studio/window/project_file.hpp"
 #include "studio_test.hpp"
 
@@ -76,6 +77,32 @@ TEST_F(WindowTest, CopiesTheLineOfWhateverIsExposed) {
   ASSERT_TRUE(window_.has_files());
   ASSERT_TRUE(settles());
   expect_same_picture_by_command();
+}
+
+// The window exposes a clip's capture, whose blocks begin where its changes say; the line reads the clip, in blocks of one
+// length. The mean of two codes in turns is a tie.
+TEST_F(WindowTest, WritesTheSamePictureHoweverSamplesArePartedIntoBlocks) {
+  constexpr int kSide = 32, kCount = 40;
+  std::filesystem::create_directory(scratch_ / "ties");
+  for (int k = 0; k < kCount; ++k) {
+    std::string file = "P5 32 32 255\n";
+    for (int pixel = 0; pixel < kSide * kSide; ++pixel)
+      file += static_cast<char>(pixel % 10 + (k + pixel / kSide) % 2);
+    scratch_.write("ties/" + std::to_string(k) + ".pgm", file);
+  }
+  window_.open(path("ties/%d.pgm"), "160");
+  ASSERT_TRUE(settles());
+  ASSERT_NE(document().facts(), nullptr) << window_.notice().text().toStdString();
+  for (const int samples : {22, 34}) {
+    document().set_boxcar({18'750'000, samples * 6'250'000}, "Scrub");
+    ASSERT_TRUE(settles());
+    expect_same_picture_by_command();
+    for (const char* blocks : {" --block-samples 7", " --block-samples 11"}) {
+      const test::ProgramResult made = run_line(window_.command_for(path("line.png")) + " --overwrite" + blocks);
+      ASSERT_EQ(made.status, 0) << made.err;
+      EXPECT_EQ(difference(QImage(path("line.png")), canvas().image()), "") << samples << blocks;
+    }
+  }
 }
 
 TEST_F(WindowTest, OpensAProjectAsItWasSaved) {
@@ -458,6 +485,51 @@ TEST_F(WindowTest, StudiesAreStartingPoints) {
   expect_same_picture_by_command();
   document().undo_stack().undo();
   EXPECT_EQ(document().state(), before) << "one step";
+}
+
+// The square moves by 2 pixels every 10 ms, and rests from 120 ms on.
+TEST_F(WindowTest, WorkGoesOnBetweenTheMarks) {
+  open_clip();
+  constexpr std::int64_t kIn = 15'000'000, kOut = 115'000'000;
+  document().set_mark_in(kIn);
+  document().set_mark_out(kOut);
+  for (const StudyStyle style : {StudyStyle::trail, StudyStyle::frozen, StudyStyle::slit}) {
+    window_.start_study(style);
+    ASSERT_TRUE(settles());
+    ASSERT_GT(document().functions().size(), 1u) << window_.notice().text().toStdString();
+    for (const auto& [tag, function] : document().functions()) {
+      const Interval live = summarize(function, document().duration_ns()).live;
+      EXPECT_GE(live.begin_ns, 20'000'000 - 1) << "the first picture from the mark on";
+      EXPECT_LE(live.end_ns, 120'000'000 + 1);
+      const QString& name = document().state().looks.at(tag).name;
+      if (!name.contains(" at ")) continue;
+      const auto at = read_typed_time(name.section(" at ", 1), "at", document().facts()->timeline);
+      ASSERT_TRUE(at.value) << name.toStdString();
+      EXPECT_TRUE(*at.value >= kIn && *at.value < kOut) << name.toStdString();
+      if (style != StudyStyle::slit) {
+        EXPECT_LE(live.begin_ns, *at.value);
+        EXPECT_GE(live.end_ns, *at.value + 10'000'000);
+      }
+    }
+  }
+  add_region(document());
+  QTest::keyClick(&window_, Qt::Key_M, Qt::ControlModifier);
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(window_.notice().text().contains("between the marks")) << window_.notice().text().toStdString();
+  const auto& region = document().selected_tag();
+  const auto& tags = (*document().state().mask)->mask.tags;
+  EXPECT_EQ(tags[24 * 96 + 20], region);
+  EXPECT_NE(tags[24 * 96 + 4], region) << "where the square is before";
+
+  ASSERT_TRUE(window_.save_project(path("marked.nutik")));
+  document().set_mark_in({});
+  document().set_mark_out({});
+  window_.open(path("marked.nutik"));
+  ASSERT_TRUE(settles());
+  EXPECT_EQ(document().mark_in(), kIn);
+  EXPECT_EQ(document().mark_out(), kOut);
+  open_clip();
+  EXPECT_EQ(document().marks(), Marks());
 }
 
 TEST_F(WindowTest, ListsRegionsAndTheirStillGain) {

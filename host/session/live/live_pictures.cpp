@@ -9,13 +9,13 @@
 namespace nutik {
 namespace {
 
-ExposedPicture expose(const LivePart& part, const Rectangle& rectangle, std::optional<Precision> precision,
-                      const std::stop_token& stop) {
+// In single the caller looks whether the device computes it rightly.
+ExposedPicture expose(const LivePart& part, const Rectangle& rectangle, bool in_single, const std::stop_token& stop) {
   RenderControl control;
   control.stop = stop;
   control.rectangle = rectangle;
-  control.precision = precision;
-  control.takes_wrong = precision.has_value();  // the caller looks
+  control.precision = in_single ? Precision::single_ : part.precision;
+  control.takes_wrong = in_single;
   return part.session->render(part.exposure, part.output, control);
 }
 
@@ -82,12 +82,10 @@ void LivePictures::preview(Asked asked, const std::stop_token& stop) {
   const LivePart& part = asked.request.preview;
   LiveAnswer found{asked.number, true, part.rectangle, {}, {}};
   try {
-    const std::optional<Precision> single =
-        previews_in_single_ ? std::optional(Precision::single_) : std::nullopt;
-    found.exposed = expose(part, part.rectangle, single, stop);
-    if (single && !found.exposed->passed_self_test) {
+    found.exposed = expose(part, part.rectangle, previews_in_single_, stop);
+    if (previews_in_single_ && !found.exposed->passed_self_test) {
       previews_in_single_ = false;
-      found.exposed = expose(part, part.rectangle, {}, stop);
+      found.exposed = expose(part, part.rectangle, false, stop);
     }
     if (asked.request.full) {
       const std::uint32_t rows = strip_rows(part.rectangle, asked.request.full->rectangle);
@@ -108,7 +106,7 @@ void LivePictures::expose_strip(const std::stop_token& stop) {
     Rectangle strip = whole;
     strip.y += strips.next_row;
     strip.height = std::min(strips.rows_at_once, whole.height - strips.next_row);
-    ExposedPicture exposed = expose(strips.part, strip, {}, stop);
+    ExposedPicture exposed = expose(strips.part, strip, false, stop);
     if (strips.exposed) {
       append(*strips.exposed, exposed);
     } else {

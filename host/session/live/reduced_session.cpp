@@ -64,7 +64,7 @@ std::unique_ptr<Clip> open_capture_clip(CaptureSource& capture) {
 
 }  // namespace
 
-std::shared_ptr<Session> reduced_session(Session& whole, std::uint32_t divisor,
+std::shared_ptr<Session> session_of_part(Session& whole, const ClipOptions& part,
                                          const ReportedProgress& progress, std::stop_token stop) {
   SourceRequest source;
   source.path = whole.source().path;
@@ -73,10 +73,8 @@ std::shared_ptr<Session> reduced_session(Session& whole, std::uint32_t divisor,
   computing.memory.bytes /= 4;
   auto devices = std::make_shared<Devices>(computing);
   devices->start();
-  ClipOptions reduced;
-  reduced.scale = ClipScale{divisor};
-  const auto open = [&whole, reduced] {
-    return take_part(open_capture_clip(whole.capture()), whole.source().path, reduced);
+  const auto open = [&whole, &part] {
+    return take_part(open_capture_clip(whole.capture()), whole.source().path, part);
   };
   return std::make_shared<Session>(
       source, std::move(devices),

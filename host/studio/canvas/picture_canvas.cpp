@@ -142,7 +142,8 @@ Canvas::~Canvas() = default;
 
 void Canvas::show_picture(const ShownPicture& picture) {
   const CaptureFacts* facts = document_.facts();
-  if (facts == nullptr || is_first_look_) return;  // of the clip before: clear() ends the first look
+  if (facts == nullptr || (is_first_look_ && !is_awaiting_)) return;  // of the clip before
+  is_first_look_ = is_awaiting_ = false;
   const QSize size(static_cast<int>(facts->format.shape.width), static_cast<int>(facts->format.shape.height));
   const bool is_part = image_.size() == size && view_.picture() == size;
   if (picture.divisor > 1) return is_part ? show_reduced(picture) : void();
@@ -198,14 +199,20 @@ void Canvas::show_first_look(const QImage& image) {
   image_ = image;
   reduced_ = {};
   is_first_look_ = true;
+  is_awaiting_ = false;
   view_.set_sizes(image.size(), size());
   view_moved();
 }
 
 void Canvas::clear() {
   image_ = reduced_ = {};
-  is_first_look_ = false;
+  is_first_look_ = is_awaiting_ = false;
   update();
+}
+
+void Canvas::await_picture() {
+  if (!is_first_look_) return clear();
+  is_awaiting_ = true;
 }
 
 void Canvas::set_hint(const QString& hint) {
@@ -263,6 +270,7 @@ void Canvas::paintEvent(QPaintEvent* event) {
   for (const QRect& around : event->region() - (image_.isNull() ? QRect() : covered))
     painter.fillRect(around, kSurround);
   if (image_.isNull()) {
+    if (document_.facts() != nullptr) return;  // it comes at once
     painter.setPen(QColor(190, 190, 190));
     painter.drawText(rect().adjusted(24, 24, -24, -24), Qt::AlignCenter | Qt::TextWordWrap, hint_);
     return;

@@ -94,6 +94,8 @@ class Canvas : public QWidget {
   void show_first_look(const QImage& image);
   [[nodiscard]] bool shows_first_look() const { return is_first_look_; }
   void clear();
+  // The document is another capture's: what is shown of a clip that was being opened stays until its first picture.
+  void await_picture();
   // Said where no picture is.
   void set_hint(const QString& hint);
 
@@ -155,7 +157,7 @@ class Canvas : public QWidget {
   QImage solo_;  // what it leaves in the dark
   QPointF pointer_, pressed_;
   bool is_inside_ = false;  // the pointer
-  bool is_first_look_ = false;
+  bool is_first_look_ = false, is_awaiting_ = false;
   bool is_panning_ = false, is_stroking_ = false, has_moved_ = false;
   bool is_by_keys_ = false;     // the pointer was moved by them last
   bool is_key_stroke_ = false;  // begun by a key, which also ends it

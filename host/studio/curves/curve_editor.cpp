@@ -112,7 +112,13 @@ void CurveEditor::refresh_findings() {
   const auto found = document_.functions().find(document_.selected_tag());
   if (found == document_.functions().end() || document_.facts() == nullptr) return;
   const std::int64_t duration_ns = document_.duration_ns();
-  findings_ = check_function(found->second, summarize(found->second, duration_ns), {duration_ns, true});
+  GainSummary summary = summarize(found->second, duration_ns);
+  try {
+    summary = exposed_summary(document_.state(), found->first, duration_ns);
+  } catch (const InputError& error) {
+    findings_.push_back({FunctionFinding::Kind::still_gain_not_positive, error.what(), {}});
+  }
+  std::ranges::move(check_function(found->second, summary, {duration_ns, true}), std::back_inserter(findings_));
 }
 
 void CurveEditor::describe() {
@@ -144,8 +150,8 @@ Snapper CurveEditor::snapper(const PointIndices& moved) const {
   const CaptureFacts* facts = document_.facts();
   Snapper made(facts == nullptr ? nullptr : &facts->timeline, document_.functions(),
                document_.selected_tag());
-  if (axis_.mark_in()) made.add_time(*axis_.mark_in(), "in mark");
-  if (axis_.mark_out()) made.add_time(*axis_.mark_out(), "out mark");
+  if (document_.mark_in()) made.add_time(*document_.mark_in(), "in mark");
+  if (document_.mark_out()) made.add_time(*document_.mark_out(), "out mark");
   // Whoever moves in one direction need not hold the hand still in the other.
   for (const std::size_t i : moved) {
     made.add_time(points_[i].time_ns, "where it was");
@@ -185,6 +191,7 @@ void CurveEditor::paintEvent(QPaintEvent*) {
   const PlotFrame frame = this->frame();
   const CaptureFacts* facts = document_.facts();
   QPainter painter(this);
+  if (!isEnabled()) return;  // the picture is another capture's
   draw_backdrop(painter, colours);
   paint_header(painter, colours);
   if (facts != nullptr && document_.mode() == ExposureMode::boxcar) {

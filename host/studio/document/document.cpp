@@ -42,7 +42,7 @@ class StateStep : public QUndoCommand {
 
 Document::Document(QObject* parent) : QObject(parent) {}
 
-void Document::start(CaptureFacts facts, std::optional<DocumentState> state) {
+void Document::start(CaptureFacts facts, std::optional<DocumentState> state, Marks marks) {
   facts_ = std::move(facts);
   overview_ = {};
   undo_.clear();
@@ -60,9 +60,12 @@ void Document::start(CaptureFacts facts, std::optional<DocumentState> state) {
   solo_.reset();
   probe_.reset();
   waveform_.reset();
+  marks_ = {};
   Q_EMIT capture_changed();
   Q_EMIT overview_changed();
   Q_EMIT probe_changed();
+  set_mark_in(marks.in_ns);
+  set_mark_out(marks.out_ns);
 }
 
 void Document::set_overview(CaptureOverview overview) {
@@ -162,6 +165,18 @@ void Document::set_solo(std::optional<std::uint8_t> tag) {
   Q_EMIT selection_changed();
 }
 
+void Document::set_mark_in(std::optional<std::int64_t> time_ns) {
+  marks_.in_ns = time_ns ? std::optional(std::clamp<std::int64_t>(*time_ns, 0, duration_ns())) : std::nullopt;
+  if (marks_.in_ns && marks_.out_ns && *marks_.out_ns <= *marks_.in_ns) marks_.out_ns.reset();
+  Q_EMIT marks_changed();
+}
+
+void Document::set_mark_out(std::optional<std::int64_t> time_ns) {
+  marks_.out_ns = time_ns ? std::optional(std::clamp<std::int64_t>(*time_ns, 0, duration_ns())) : std::nullopt;
+  if (marks_.in_ns && marks_.out_ns && *marks_.out_ns <= *marks_.in_ns) marks_.in_ns.reset();
+  Q_EMIT marks_changed();
+}
+
 void Document::set_probe(std::optional<QPoint> pixel) {
   if (pixel == probe_) return;
   probe_ = pixel;
@@ -199,6 +214,12 @@ Feather feather_of(const DocumentState& state) {
     return !state.mask || !(*state.mask)->uses(entry.first) || entry.second == feather.everywhere;
   });
   return feather;
+}
+
+GainSummary exposed_summary(const DocumentState& state, std::uint8_t tag, std::int64_t duration_ns) {
+  return summarize(state.normalization.normalized(state.functions.at(tag), duration_ns,
+                                                  std::exp2(state.brightness_ev), format("M{}", tag)),
+                   duration_ns);
 }
 
 QColor first_colour(std::uint8_t tag) {

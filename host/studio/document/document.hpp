@@ -6,7 +6,7 @@
 //            A function's times increase strictly, as those of function files do
 //   threads: the window's own
 //
-// What is looked at (selected tag and points, solo, the clicked pixel) is kept here, too, but is no undo step.
+// What is looked at (selected tag and points, solo, marks, the clicked pixel) is kept here, too, but is no undo step.
 #pragma once
 
 #include <QColor>
@@ -29,6 +29,7 @@
 #include "exposure/shutter_shape.hpp"
 #include "mask/feather.hpp"
 #include "mask/region.hpp"
+#include "render/precision.hpp"
 #include "render/render_plan.hpp"
 #include "session/requests/exposure_request.hpp"
 #include "system/shared.hpp"
@@ -37,12 +38,21 @@ namespace nutik::studio {
 
 // What the window knows of the capture that is open. Values: read once by the engine's threads, then only looked at.
 
+// What a person stated of a clip, beside what its files say.
+struct Stated {
+  QString rate = {};            // pictures a second
+  bool ends_at_damage = false;  // its pictures are taken up to the first that cannot be read
+};
+
 // An opened capture's shape, codes and times. timeline.rate() is its sample rate.
 struct CaptureFacts {
   QString path;  // as the person gave it: a .tik or a clip
   CaptureFormat format;
   Timeline timeline;
-  QString rate = {};  // pictures a second, as a person stated it; empty: what the clip says
+  Stated stated = {};
+  // In which pictures are written; none: what suits each. A clip that nutik-cl reads for one picture has other blocks than
+  // the capture that the window makes of it, and only whole numbers have the same sum however they are parted.
+  std::optional<Precision> precision = {};
 };
 
 // What the time strip shows behind the boxcar. Measured after the first picture, so that it does not delay it.
@@ -71,6 +81,12 @@ struct Boxcar {
   std::int64_t start_ns = 0;
   std::int64_t length_ns = 0;
   friend bool operator==(const Boxcar&, const Boxcar&) = default;
+};
+
+// In and out: what work goes on between, from the one on and before the other. None: from the start, to the end.
+struct Marks {
+  std::optional<std::int64_t> in_ns, out_ns;
+  friend bool operator==(const Marks&, const Marks&) = default;
 };
 
 struct RegionLook {
@@ -112,7 +128,7 @@ class Document : public QObject {
   [[nodiscard]] const CaptureFacts* facts() const { return facts_ ? &*facts_ : nullptr; }
   [[nodiscard]] std::int64_t duration_ns() const { return facts_ ? facts_->timeline.duration_ns() : 0; }
   // A capture was opened: starts anew with one region, tag 0, exposed over the middle tenth; or with what was loaded.
-  void start(CaptureFacts facts, std::optional<DocumentState> state = {});
+  void start(CaptureFacts facts, std::optional<DocumentState> state = {}, Marks marks = {});
 
   [[nodiscard]] const CaptureOverview& overview() const { return overview_; }
   void set_overview(CaptureOverview overview);
@@ -156,6 +172,13 @@ class Document : public QObject {
   [[nodiscard]] std::optional<std::uint8_t> solo() const { return solo_; }
   void set_solo(std::optional<std::uint8_t> tag);
 
+  // In lies before out; a mark that is set beyond the other one takes it away.
+  [[nodiscard]] const Marks& marks() const { return marks_; }
+  [[nodiscard]] const std::optional<std::int64_t>& mark_in() const { return marks_.in_ns; }
+  [[nodiscard]] const std::optional<std::int64_t>& mark_out() const { return marks_.out_ns; }
+  void set_mark_in(std::optional<std::int64_t> time_ns);
+  void set_mark_out(std::optional<std::int64_t> time_ns);
+
   // The pixel that was clicked, and then its light once it has been read.
   [[nodiscard]] const std::optional<QPoint>& probe() const { return probe_; }
   void set_probe(std::optional<QPoint> pixel);
@@ -168,6 +191,7 @@ class Document : public QObject {
   void changed(Change what);  // state(); also by undo and redo
   void released();            // a drag ended: the full picture may follow
   void selection_changed();   // selected_tag(), selected_points(), solo()
+  void marks_changed();
   void probe_changed();       // probe(), waveform()
 
  private:
@@ -185,12 +209,17 @@ class Document : public QObject {
   std::uint8_t selected_tag_ = 0;
   std::set<std::size_t> selected_points_;
   std::optional<std::uint8_t> solo_;
+  Marks marks_;
   std::optional<QPoint> probe_;
   std::optional<Waveform> waveform_;
 };
 
 // The feather of regions that the mask has: others have no edges.
 [[nodiscard]] Feather feather_of(const DocumentState& state);
+
+// What a region's function comes to as it is exposed: divided and brightened. Throws InputError where the integral that it
+// is divided by cancels.
+[[nodiscard]] GainSummary exposed_summary(const DocumentState& state, std::uint8_t tag, std::int64_t duration_ns);
 
 // The colour that the region with a tag begins with: calm ones, told apart on dark and light.
 [[nodiscard]] QColor first_colour(std::uint8_t tag);

@@ -105,7 +105,8 @@ void LiveView::ask(bool with_full) {
                          ? reduced_->part(exposure, outdated)
                          : LivePart{session_.get(), exposure, screen_format(), rectangle_of(outdated, shape)};
   std::optional<LivePart> full;
-  if (with_full && is_final) full = {session_.get(), exposure, screen_format(), Rectangle::whole(shape)};
+  if (with_full && is_final)
+    full = {session_.get(), exposure, screen_format(), Rectangle::whole(shape), document_.facts()->precision};
   full_wanted_ = full.has_value();
   full_shown_ = false;
   const std::scoped_lock lock(mutex_);

@@ -7,6 +7,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/activity/activity.hpp"
+#include "session/live/live_pictures.hpp"
 #include "session/text/number_text.hpp"
 #include "studio/live/live_view.hpp"
 #include "system/temporary_folder.hpp"
@@ -55,12 +56,13 @@ void RoomWatch::look(std::uint64_t done, std::uint64_t total) const {
       bytes_text(left), folder_.string()));
 }
 
-Opened open_capture(const QString& path, const QString& rate, std::shared_ptr<Devices> devices,
+Opened open_capture(const QString& path, const Stated& stated, std::shared_ptr<Devices> devices,
                     const Job& job, const std::function<void(QImage)>& first_look) {
   SourceRequest source;
   source.path = path.toStdString();
-  if (!rate.isEmpty()) source.clip.rate = Rational::parse(rate.toStdString(), "the frame rate");
-  const bool is_clip = !path.endsWith(".tik", Qt::CaseInsensitive);
+  if (!stated.rate.isEmpty()) source.clip.rate = Rational::parse(stated.rate.toStdString(), "the frame rate");
+  source.clip.ends_at_damage = stated.ends_at_damage;
+  const bool is_clip = !is_tik(source.path);
   if (is_clip) first_look(first_picture(source, devices, job));
   const RoomWatch room(temporary_folder());
   const auto progress = [&](std::uint64_t done, std::uint64_t total) {
@@ -70,7 +72,8 @@ Opened open_capture(const QString& path, const QString& rate, std::shared_ptr<De
   auto session = std::make_shared<Session>(
       source, std::move(devices),
       Session::Terms{.reading = Reading::whole, .progress = progress, .stop = job.stop});
-  Opened opened{session, {path, session->format(), session->timeline(), rate}, {}};
+  Opened opened{session, {path, session->format(), session->timeline(), stated}, {}};
+  if (is_clip) opened.facts.precision = Precision::fixed;
   for (const Note& note : session->notes()) {
     opened.notes += sentence(note.text);
     if (std::ranges::find(note.settings, Setting::frame_rate) != note.settings.end())
@@ -78,6 +81,16 @@ Opened open_capture(const QString& path, const QString& rate, std::shared_ptr<De
   }
   for (const std::string& warning : session->warnings()) opened.notes += sentence(warning);
   return opened;
+}
+
+Stretch stretch_between(const Marks& marks, std::shared_ptr<Session> session, const Job& job) {
+  if (marks == Marks()) return {std::move(session)};
+  ClipOptions part;
+  if (marks.in_ns) part.from = ClipMoment{*marks.in_ns};
+  if (marks.out_ns) part.to = ClipMoment{*marks.out_ns};
+  std::shared_ptr<Session> taken = session_of_part(*session, part, job.progress, job.stop);
+  const auto& of_clip = taken->capture().header().part;
+  return {std::move(taken), of_clip ? of_clip->start_ns : 0};
 }
 
 namespace {

@@ -43,10 +43,18 @@ struct Opened {
   QStringList notes;  // what a person should know of the clip, whole sentences
 };
 
-// `rate`, pictures a second, is stated of a clip unless it is empty. `first_look` is told a clip's first picture, on
+// `first_look` is told a clip's first picture, on
 // the job's thread, before the clip is read whole. Throws what Session does.
-[[nodiscard]] Opened open_capture(const QString& path, const QString& rate, std::shared_ptr<Devices> devices,
+[[nodiscard]] Opened open_capture(const QString& path, const Stated& stated, std::shared_ptr<Devices> devices,
                                   const Job& job, const std::function<void(QImage)>& first_look);
+
+// What a capture has between the marks, as a capture of its own that begins at a time of that one; the capture itself where
+// there are none. Throws what session_of_part() does.
+struct Stretch {
+  std::shared_ptr<Session> session;
+  std::int64_t start_ns = 0;
+};
+[[nodiscard]] Stretch stretch_between(const Marks& marks, std::shared_ptr<Session> session, const Job& job);
 
 // Small pictures at evenly spaced times.
 [[nodiscard]] CaptureOverview thumbnails_of(Session& session, const Job& job);

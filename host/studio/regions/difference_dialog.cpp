@@ -12,6 +12,7 @@
 
 #include "features/masks/mask_making.hpp"
 #include "studio/regions/region_edits.hpp"
+#include "studio/live/opening.hpp"
 #include "studio/time/times.hpp"
 
 namespace nutik::studio {
@@ -21,16 +22,17 @@ constexpr double kSmooth = 1;          // pixels: narrower parts are noise
 constexpr std::uint8_t kInside = 255;  // of the mask that is made
 
 // `what` names it for undo; `found` begins what is said of it: "12 pixels …".
-Jobs::Work selecting(Document& document, std::shared_ptr<Session> session, MaskStep step, const QString& what,
-                     const QString& found, Told told) {
+Jobs::Work selecting(Document& document, std::shared_ptr<Session> session, const Marks& marks, MaskStep step,
+                     const QString& what, const QString& found, Told told) {
   step.name.text = what.toStdString();
   step.tag = kInside;
   step.changes.push_back({RegionChange::Kind::smooth, kSmooth, {}});
-  return [&document, session = std::move(session), step = std::move(step), what, found,
-          told = std::move(told), tag = document.selected_tag()](const Job&) -> Jobs::Finish {
+  return [&document, session = std::move(session), marks, step = std::move(step), what, found,
+          told = std::move(told), tag = document.selected_tag()](const Job& job) -> Jobs::Finish {
     MaskRequest request;
     request.steps = {step};
-    const MadeMask made = make_mask(request, &session->capture(), session->source().path.string());
+    const Stretch stretch = stretch_between(marks, session, job);
+    const MadeMask made = make_mask(request, &stretch.session->capture(), session->source().path.string());
     auto region = std::make_shared<Region>(Region::none(made.mask.width, made.mask.height));
     std::ranges::transform(made.mask.tags, region->inside.begin(),
                            [](std::uint8_t of) { return static_cast<std::uint8_t>(of == kInside); });
@@ -50,8 +52,10 @@ Jobs::Work selecting(Document& document, std::shared_ptr<Session> session, MaskS
 Jobs::Work selecting_motion(Document& document, std::shared_ptr<Session> session, Told told) {
   MaskStep step;
   step.selection = select::Motion();
-  return selecting(document, std::move(session), std::move(step), Document::tr("Select what moves"),
-                   Document::tr("move within the capture"), std::move(told));
+  const Marks& marks = document.marks();
+  return selecting(document, std::move(session), marks, std::move(step), Document::tr("Select what moves"),
+                   marks == Marks() ? Document::tr("move within the capture") : Document::tr("move between the marks"),
+                   std::move(told));
 }
 
 Jobs::Work selecting_difference(Document& document, std::shared_ptr<Session> session,
@@ -61,7 +65,7 @@ Jobs::Work selecting_difference(Document& document, std::shared_ptr<Session> ses
                                       StatedTime::of_nanoseconds(difference.to_ns)};
   step.by_codes = difference.by_codes;
   if (difference.is_largest_part) step.changes.push_back({RegionChange::Kind::largest, 0, {}});
-  return selecting(document, std::move(session), std::move(step), Document::tr("Select what differs"),
+  return selecting(document, std::move(session), {}, std::move(step), Document::tr("Select what differs"),
                    Document::tr("differ between %1 and %2")
                        .arg(exact_time_text(difference.from_ns), exact_time_text(difference.to_ns)),
                    std::move(told));

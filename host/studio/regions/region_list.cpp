@@ -1,7 +1,6 @@
 #include "studio/regions/region_list.hpp"
 
 #include <QColorDialog>
-#include <QDoubleSpinBox>
 #include <QFormLayout>
 #include <QGridLayout>
 #include <QHeaderView>
@@ -13,6 +12,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "capture/error.hpp"
 #include "studio/regions/region_edits.hpp"
 
 namespace nutik::studio {
@@ -47,8 +47,16 @@ std::uint8_t tag_of(const QTreeWidgetItem& item) {
   return static_cast<std::uint8_t>(item.data(0, kTagRole).toUInt());
 }
 
+QString still_text(const DocumentState& state, std::uint8_t tag, std::int64_t duration_ns) {
+  try {
+    return QStringLiteral("%1×").arg(exposed_summary(state, tag, duration_ns).still_gain(), 0, 'f', 2);
+  } catch (const InputError&) {
+    return QStringLiteral("–");
+  }
+}
+
 QDoubleSpinBox* pixel_box(double most, double value, const QString& name, QWidget* parent) {
-  auto* box = new QDoubleSpinBox(parent);
+  auto* box = new NumberBox(parent);
   box->setRange(0, most);
   box->setDecimals(1);
   box->setSuffix(QStringLiteral(" px"));
@@ -223,13 +231,12 @@ void RegionList::follow_selection() {
 void RegionList::fill(QTreeWidgetItem& item, std::uint8_t tag) const {
   const auto look = document_.state().looks.find(tag);
   if (look == document_.state().looks.end()) return;
-  const double still = summarize(document_.functions().at(tag), document_.duration_ns()).still_gain();
   item.setText(kName, look->second.name);
   item.setIcon(kName, swatch(look->second.colour));
   item.setCheckState(kName, look->second.is_visible ? Qt::Checked : Qt::Unchecked);
   item.setToolTip(kName, tr("Checked: its outline and its curve are shown"));
   item.setText(kTag, QStringLiteral("M%1").arg(tag));
-  item.setText(kStill, QStringLiteral("%1×").arg(still, 0, 'f', 2));
+  item.setText(kStill, still_text(document_.state(), tag, document_.duration_ns()));
   item.setText(kWhite, white_[tag] == 0 ? QString() : QString::number(white_[tag]));
   for (const int column : {kStill, kWhite}) item.setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
 }

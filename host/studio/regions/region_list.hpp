@@ -1,6 +1,7 @@
 // The regions beside the picture: which there are, what their still gain is, and what can be done with one.
 #pragma once
 
+#include <QDoubleSpinBox>
 #include <QTreeWidget>
 #include <QWidget>
 #include <array>
@@ -9,11 +10,19 @@
 #include "studio/document/document.hpp"
 #include "studio/live/live_view.hpp"
 
-class QDoubleSpinBox;
 class QPushButton;
 class QToolButton;
 
 namespace nutik::studio {
+
+// A number with a decimal point, as fields, files and commands have it, whatever the locale; a comma is taken for one.
+class NumberBox : public QDoubleSpinBox {
+ public:
+  explicit NumberBox(QWidget* parent = nullptr) : QDoubleSpinBox(parent) { setLocale(QLocale::c()); }
+  QValidator::State validate(QString& text, int& cursor) const override {
+    return QDoubleSpinBox::validate(text.replace(',', '.'), cursor);
+  }
+};
 
 class RegionList : public QWidget {
   Q_OBJECT

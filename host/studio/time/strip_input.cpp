@@ -35,8 +35,8 @@ TimeStrip::Part TimeStrip::part_at(QPointF at) const {
     const double from = (at.x() - mark_place(*mark).x()) * direction;
     return from >= -kReach / 2 && from <= kReach * 2;
   };
-  if (is_mark(axis_.mark_in(), 1)) return Part::mark_in;
-  if (is_mark(axis_.mark_out(), -1)) return Part::mark_out;
+  if (is_mark(document_.mark_in(), 1)) return Part::mark_in;
+  if (is_mark(document_.mark_out(), -1)) return Part::mark_out;
   if (at.x() < track.left() - kReach || at.x() > track.right() + kReach) return Part::none;
   const QRectF area = boxcar_area();
   // A boxcar that is too narrow for handles of its own has them outside.
@@ -62,8 +62,8 @@ void TimeStrip::mousePressEvent(QMouseEvent* event) {
   const QPointF at = event->position();
   const Part part = part_at(at);
   if (event->button() == Qt::RightButton) {
-    if (part == Part::mark_in) axis_.set_mark_in(std::nullopt);
-    if (part == Part::mark_out) axis_.set_mark_out(std::nullopt);
+    if (part == Part::mark_in) document_.set_mark_in(std::nullopt);
+    if (part == Part::mark_out) document_.set_mark_out(std::nullopt);
     return;
   }
   if (event->button() == Qt::MiddleButton) {
@@ -72,7 +72,7 @@ void TimeStrip::mousePressEvent(QMouseEvent* event) {
   }
   if (event->button() != Qt::LeftButton || part == Part::none) return;
   press_.emplace(
-      Press{part, at, at, 0.0, document_.boxcar(), document_.state(), axis_.mark_in(), axis_.mark_out()});
+      Press{part, at, at, 0.0, document_.boxcar(), document_.state(), document_.mark_in(), document_.mark_out()});
   if (part == Part::mark_in || part == Part::mark_out) return;
   document_.begin_drag();
   press_->edits = true;
@@ -107,10 +107,10 @@ void TimeStrip::drag_to(QPointF at, Qt::KeyboardModifiers modifiers) {
       return use({from.start_ns, end - from.start_ns});
     }
     case Part::mark_in:
-      if (press_->mark_in) axis_.set_mark_in(held(*press_->mark_in + by_ns, modifiers));
+      if (press_->mark_in) document_.set_mark_in(held(*press_->mark_in + by_ns, modifiers));
       return;
     case Part::mark_out:
-      if (press_->mark_out) axis_.set_mark_out(held(*press_->mark_out + by_ns, modifiers));
+      if (press_->mark_out) document_.set_mark_out(held(*press_->mark_out + by_ns, modifiers));
       return;
     case Part::pan:
     case Part::none: return;
@@ -151,8 +151,8 @@ void TimeStrip::cancel_press() {
     document_.end_drag();
   }
   if (press.part == Part::mark_in || press.part == Part::mark_out) {
-    axis_.set_mark_in(press.mark_in);
-    axis_.set_mark_out(press.mark_out);
+    document_.set_mark_in(press.mark_in);
+    document_.set_mark_out(press.mark_out);
   }
 }
 
@@ -210,16 +210,16 @@ bool TimeStrip::look_by_key(const QKeyEvent& event) {
   const auto none = std::optional<std::int64_t>();
   if (event.modifiers() & Qt::ControlModifier) return false;
   switch (event.key()) {
-    case Qt::Key_I: axis_.set_mark_in(clears ? none : std::optional(boxcar.start_ns)); return true;
-    case Qt::Key_O: axis_.set_mark_out(clears ? none : std::optional(end_ns)); return true;
+    case Qt::Key_I: document_.set_mark_in(clears ? none : std::optional(boxcar.start_ns)); return true;
+    case Qt::Key_O: document_.set_mark_out(clears ? none : std::optional(end_ns)); return true;
     case Qt::Key_X:
-      if (axis_.mark_in() && axis_.mark_out())
-        document_.set_boxcar({*axis_.mark_in(), *axis_.mark_out() - *axis_.mark_in()},
+      if (document_.mark_in() && document_.mark_out())
+        document_.set_boxcar({*document_.mark_in(), *document_.mark_out() - *document_.mark_in()},
                              "Expose from mark to mark");
       return true;
     case Qt::Key_Z: {
-      const double begin = static_cast<double>(axis_.mark_in().value_or(boxcar.start_ns));
-      const double end = static_cast<double>(axis_.mark_out().value_or(end_ns));
+      const double begin = static_cast<double>(document_.mark_in().value_or(boxcar.start_ns));
+      const double end = static_cast<double>(document_.mark_out().value_or(end_ns));
       if (end > begin) axis_.show(begin - 0.1 * (end - begin), end + 0.1 * (end - begin));
       return true;
     }
@@ -235,9 +235,9 @@ QString TimeStrip::text_at(QPointF at) const {
   const Timeline& timeline = document_.facts()->timeline;
   switch (part_at(at)) {
     case Part::mark_in:
-      return "In: " + exact_time_text(*axis_.mark_in()) + "\nDrag to move it, right click to take it away";
+      return "In: " + exact_time_text(*document_.mark_in()) + "\nDrag to move it, right click to take it away";
     case Part::mark_out:
-      return "Out: " + exact_time_text(*axis_.mark_out()) + "\nDrag to move it, right click to take it away";
+      return "Out: " + exact_time_text(*document_.mark_out()) + "\nDrag to move it, right click to take it away";
     case Part::begin: return "Drag to move the interval's begin";
     case Part::end: return "Drag to move the interval's end";
     case Part::whole: {

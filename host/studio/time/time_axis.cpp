@@ -16,9 +16,7 @@ int TimeAxis::extent(int width) { return std::max(width - kLeft - kRight, 1); }
 void TimeAxis::set_duration(std::int64_t duration_ns) {
   duration_ns_ = std::max<std::int64_t>(duration_ns, 1);
   begin_ns_ = end_ns_ = 0;
-  mark_in_ = mark_out_ = std::nullopt;
   show_all();
-  Q_EMIT marks_changed();
 }
 
 double TimeAxis::ns_per_pixel(int width) const { return (end_ns_ - begin_ns_) / extent(width); }
@@ -56,18 +54,6 @@ void TimeAxis::zoom(double factor, double x, int width) {
 void TimeAxis::pan(double pixels, int width) {
   const double by_ns = pixels * ns_per_pixel(width);
   show(begin_ns_ + by_ns, end_ns_ + by_ns);
-}
-
-void TimeAxis::set_mark_in(std::optional<std::int64_t> time_ns) {
-  mark_in_ = time_ns ? std::optional(std::clamp<std::int64_t>(*time_ns, 0, duration_ns_)) : std::nullopt;
-  if (mark_in_ && mark_out_ && *mark_out_ <= *mark_in_) mark_out_.reset();
-  Q_EMIT marks_changed();
-}
-
-void TimeAxis::set_mark_out(std::optional<std::int64_t> time_ns) {
-  mark_out_ = time_ns ? std::optional(std::clamp<std::int64_t>(*time_ns, 0, duration_ns_)) : std::nullopt;
-  if (mark_in_ && mark_out_ && *mark_out_ <= *mark_in_) mark_in_.reset();
-  Q_EMIT marks_changed();
 }
 
 }  // namespace nutik::studio

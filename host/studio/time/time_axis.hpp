@@ -9,7 +9,6 @@
 
 #include <QObject>
 #include <cstdint>
-#include <optional>
 
 namespace nutik::studio {
 
@@ -40,22 +39,14 @@ class TimeAxis : public QObject {
   // Moves what is shown by so many pixels to the left.
   void pan(double pixels, int width);
 
-  // In and out: what work goes on between. In lies before out; a mark that is set beyond the other one takes it away.
-  [[nodiscard]] const std::optional<std::int64_t>& mark_in() const { return mark_in_; }
-  [[nodiscard]] const std::optional<std::int64_t>& mark_out() const { return mark_out_; }
-  void set_mark_in(std::optional<std::int64_t> time_ns);
-  void set_mark_out(std::optional<std::int64_t> time_ns);
-
  Q_SIGNALS:
   void changed();  // what is shown
-  void marks_changed();
 
  private:
   [[nodiscard]] static int extent(int width);
 
   std::int64_t duration_ns_ = 1;
   double begin_ns_ = 0, end_ns_ = 1;
-  std::optional<std::int64_t> mark_in_, mark_out_;
 };
 
 }  // namespace nutik::studio

@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QLineEdit>
 
+#include "studio/time/time_axis.hpp"
 #include "studio/time/time_view.hpp"
 #include "studio/time/time_strip.hpp"
 #include "studio/time/times.hpp"
@@ -24,8 +25,8 @@ QString mark_text(const std::optional<std::int64_t>& mark) {
 
 }  // namespace
 
-TimeFields::TimeFields(Document& document, TimeAxis& axis, QWidget* parent)
-    : QWidget(parent), document_(document), axis_(axis), said_(new QLabel(this)) {
+TimeFields::TimeFields(Document& document, QWidget* parent)
+    : QWidget(parent), document_(document), said_(new QLabel(this)) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(8, 2, TimeAxis::kRight, 2);
   row->setSpacing(6);
@@ -45,7 +46,7 @@ TimeFields::TimeFields(Document& document, TimeAxis& axis, QWidget* parent)
   row->addWidget(said_, 1);
   connect(&document_, &Document::changed, this, &TimeFields::show_values);
   connect(&document_, &Document::capture_changed, this, &TimeFields::show_values);
-  connect(&axis_, &TimeAxis::marks_changed, this, &TimeFields::show_values);
+  connect(&document_, &Document::marks_changed, this, &TimeFields::show_values);
   show_values();
 }
 
@@ -78,8 +79,8 @@ void TimeFields::show_values() {
   if (facts == nullptr) return;
   show_in(*start_, exact_time_text(document_.boxcar().start_ns));
   show_in(*length_, exact_time_text(document_.boxcar().length_ns));
-  show_in(*in_, mark_text(axis_.mark_in()));
-  show_in(*out_, mark_text(axis_.mark_out()));
+  show_in(*in_, mark_text(document_.mark_in()));
+  show_in(*out_, mark_text(document_.mark_out()));
   for (const QLineEdit* field : {start_, length_, in_, out_})
     if (field->isModified()) return;  // what is said about it stays
   QPalette normal = palette();
@@ -132,14 +133,14 @@ void TimeFields::enter_length() {
   accept(*length_);
 }
 
-void TimeFields::enter_in() { enter_mark(*in_, "in", &TimeAxis::set_mark_in); }
-void TimeFields::enter_out() { enter_mark(*out_, "out", &TimeAxis::set_mark_out); }
+void TimeFields::enter_in() { enter_mark(*in_, "in", &Document::set_mark_in); }
+void TimeFields::enter_out() { enter_mark(*out_, "out", &Document::set_mark_out); }
 
 void TimeFields::enter_mark(QLineEdit& field, const QString& what,
-                            void (TimeAxis::*set)(std::optional<std::int64_t>)) {
+                            void (Document::*set)(std::optional<std::int64_t>)) {
   if (!field.isModified()) return;
   if (field.text().trimmed().isEmpty()) {
-    (axis_.*set)(std::nullopt);
+    (document_.*set)(std::nullopt);
     return accept(field);
   }
   const auto typed = read_typed_time(field.text(), what, document_.facts()->timeline);
@@ -147,7 +148,7 @@ void TimeFields::enter_mark(QLineEdit& field, const QString& what,
   if (*typed.value < 0 || *typed.value > document_.duration_ns())
     return refuse(field, QString("Marks lie within the capture, between 0 s and %1")
                              .arg(exact_time_text(document_.duration_ns())));
-  (axis_.*set)(*typed.value);
+  (document_.*set)(*typed.value);
   accept(field);
 }
 

@@ -8,7 +8,6 @@
 #include <functional>
 
 #include "studio/document/document.hpp"
-#include "studio/time/time_axis.hpp"
 
 class QLabel;
 class QLineEdit;
@@ -19,7 +18,7 @@ class TimeFields : public QWidget {
   Q_OBJECT
 
  public:
-  TimeFields(Document& document, TimeAxis& axis, QWidget* parent = nullptr);
+  explicit TimeFields(Document& document, QWidget* parent = nullptr);
 
  protected:
   void changeEvent(QEvent* event) override;
@@ -32,12 +31,11 @@ class TimeFields : public QWidget {
   void enter_length();
   void enter_in();
   void enter_out();
-  void enter_mark(QLineEdit& field, const QString& what, void (TimeAxis::*set)(std::optional<std::int64_t>));
+  void enter_mark(QLineEdit& field, const QString& what, void (Document::*set)(std::optional<std::int64_t>));
   void refuse(QLineEdit& field, const QString& mistake);
   void accept(QLineEdit& field);
 
   Document& document_;
-  TimeAxis& axis_;
   QLineEdit *start_, *length_, *in_, *out_;
   QLabel* said_;
 };

@@ -68,6 +68,7 @@ void TimeStrip::follow_document() {
 void TimeStrip::paintEvent(QPaintEvent*) {
   const TimeColours colours = TimeColours::of(palette());
   QPainter painter(this);
+  if (!isEnabled()) return;  // the picture is another capture's
   draw_backdrop(painter, colours);
   if (document_.facts() == nullptr) return;
   paint_boxcar(painter, colours);
@@ -185,8 +186,8 @@ void TimeStrip::paint_marks(QPainter& painter, const TimeColours& colours) const
     const QPointF top(at.x(), kLabels);
     painter.drawPolygon(QPolygonF({top, top + QPointF(9 * direction, 0), top + QPointF(0, 12)}));
   };
-  paint(axis_.mark_in(), 1);
-  paint(axis_.mark_out(), -1);
+  paint(document_.mark_in(), 1);
+  paint(document_.mark_out(), -1);
   painter.restore();
 }
 

@@ -57,7 +57,7 @@ TimeView::TimeView(Document& document, TimeAxis& axis, QWidget* parent)
     refresh_backdrop();
   });
   connect(&axis_, &TimeAxis::changed, this, &TimeView::refresh_backdrop);
-  connect(&axis_, &TimeAxis::marks_changed, this, qOverload<>(&QWidget::update));
+  connect(&document_, &Document::marks_changed, this, qOverload<>(&QWidget::update));
 }
 
 void TimeView::refresh_backdrop() {

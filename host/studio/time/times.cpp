@@ -18,8 +18,9 @@ namespace {
 
 QString text_of(const std::string& text) { return QString::fromStdString(text); }
 
-std::string without_blanks(QString text) {
-  return text.remove(QChar::Space).remove(QChar::Tabulation).remove(QChar::Nbsp).toStdString();
+// Without blanks, and a comma as a decimal point.
+std::string typed_number(QString text) {
+  return text.remove(QChar::Space).remove(QChar::Tabulation).remove(QChar::Nbsp).replace(',', '.').toStdString();
 }
 
 Typed<std::int64_t> within_reach(std::int64_t time_ns, const QString& what) {
@@ -51,7 +52,7 @@ QString exact_time_text(std::int64_t time_ns) {
 
 Typed<std::int64_t> read_typed_time(const QString& text, const QString& what, const Timeline& timeline) {
   try {
-    const StatedTime time = StatedTime::parse(without_blanks(text), what.toStdString());
+    const StatedTime time = StatedTime::parse(typed_number(text), what.toStdString());
     return within_reach(moment_ns(time, timeline), what);
   } catch (const UsageError& error) {
     return {std::nullopt, text_of(error.what())};
@@ -60,7 +61,7 @@ Typed<std::int64_t> read_typed_time(const QString& text, const QString& what, co
 
 Typed<std::int64_t> read_typed_length(const QString& text, const QString& what, const Timeline& timeline) {
   try {
-    const StatedTime time = StatedTime::parse(without_blanks(text), what.toStdString());
+    const StatedTime time = StatedTime::parse(typed_number(text), what.toStdString());
     const Exposure interval = plain_interval(StatedTime::of_nanoseconds(0), time, timeline);
     return within_reach(interval.end_ns - interval.start_ns, what);
   } catch (const UsageError& error) {
@@ -71,7 +72,7 @@ Typed<std::int64_t> read_typed_length(const QString& text, const QString& what, 
 QString gain_text(double gain) { return text_of(format("{}", gain)); }
 
 Typed<double> read_typed_gain(const QString& text) {
-  const auto read = read_gain(without_blanks(text));
+  const auto read = read_gain(typed_number(text));
   if (!read.mistake.empty()) return {std::nullopt, text_of(read.mistake)};
   return {read.value, {}};
 }

@@ -17,6 +17,7 @@
 #include "studio/window/main_window.hpp"
 #include "studio/window/project_file.hpp"
 #include "studio/window/started_work.hpp"
+#include "tik/reader.hpp"
 
 namespace nutik::studio {
 namespace {
@@ -259,7 +260,27 @@ void MainWindow::write_mask(const QString& path) {
 }
 
 void MainWindow::write_plate(const QString& path) {
-  try_to([&] { jobs_.start(tr("Looking for the empty scene"), writing_plate(session_, path, told())); });
+  try_to([&] { jobs_.start(tr("Looking for the empty scene"), writing_plate(document_, session_, path, told())); });
+}
+
+// Of a capture that was cut off, into a new one, which is then opened.
+void MainWindow::save_whole_part(const QString& path, const Origin& origin) {
+  const QFileInfo from(path);
+  const QString whole = QFileDialog::getSaveFileName(
+      this, tr("Save what is whole"), from.dir().filePath(from.completeBaseName() + "-whole.tik"),
+      tr("Captures (*.tik)"));
+  if (whole.isEmpty()) return;
+  jobs_.start(tr("Saving what is whole"), [this, path, whole, origin](const Job&) -> Jobs::Finish {
+    const std::string damaged = path.toStdString();
+    check_output(whole.toStdString(), OutputKind::tik, std::vector{damaged});
+    const tik::Recovery saved = tik::recover(damaged, whole.toStdString());
+    return [this, whole, origin, samples = saved.sample_count] {
+      notice_->say(Notice::Kind::note, tr("%1: %2 samples were saved").arg(whole).arg(samples));
+      Origin elsewhere = origin;
+      elsewhere.is_elsewhere = true;
+      open_capture_file(whole, {}, std::move(elsewhere));
+    };
+  });
 }
 
 // Beside the project, else beside the capture.

@@ -1,10 +1,15 @@
 #include "studio/window/main_window.hpp"
 
+#include <QActionGroup>
+#include <QDir>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFileInfo>
 #include <QInputDialog>
 #include <QMimeData>
+#include <QScreen>
+#include <QSettings>
+#include <QSpinBox>
 #include <QSplitter>
 #include <QUrl>
 #include <QVBoxLayout>
@@ -21,8 +26,14 @@
 #include "studio/time/time_strip.hpp"
 #include "studio/window/project_file.hpp"
 #include "studio/window/started_work.hpp"
+#include "tik/reader.hpp"
 
 namespace nutik::studio {
+namespace {
+
+constexpr const char* kWindowKey = "window";
+
+}  // namespace
 
 MainWindow::MainWindow(const ComputingRequest& computing)
     : live_(document_, quick_), autosave_(document_), devices_(std::make_shared<Devices>(computing)) {
@@ -30,6 +41,7 @@ MainWindow::MainWindow(const ComputingRequest& computing)
   build_window();
   build_menus();
   connect_parts();
+  restore_window();
   follow_title();
   follow_exposure();
 }
@@ -42,7 +54,6 @@ MainWindow::~MainWindow() {
 
 void MainWindow::build_window() {
   setAcceptDrops(true);
-  resize(1280, 800);
   notice_ = new Notice;
   offer_ = new Notice;
   if (!Autosave::found().empty())
@@ -63,23 +74,26 @@ void MainWindow::build_window() {
   strip->setObjectName("time_strip");
   auto* curves = new CurveEditor(document_, axis_);
   curves->setObjectName("curves");
-  auto* time = new QWidget;
-  auto* time_column = new QVBoxLayout(time);
+  time_ = new QWidget;
+  auto* time_column = new QVBoxLayout(time_);
   time_column->setContentsMargins(0, 0, 0, 0);
   time_column->setSpacing(1);
-  time_column->addWidget(new TimeFields(document_, axis_));
+  time_column->addWidget(new TimeFields(document_));
   time_column->addWidget(strip);
   time_column->addWidget(curves, 1);
 
   auto* column = new QSplitter(Qt::Vertical);
+  column->setObjectName("column");
   column->addWidget(picture);
-  column->addWidget(time);
+  column->addWidget(time_);
   column->setStretchFactor(0, 1);
   column->setChildrenCollapsible(false);
   column->setSizes({400, 330});
   auto* row = new QSplitter(Qt::Horizontal);
+  row->setObjectName("row");
   row->addWidget(column);
   auto* regions = new RegionList(document_);
+  regions_ = regions;
   row->addWidget(regions);
   connect(&live_, &LiveView::pictured, regions, &RegionList::count_white);
   row->setStretchFactor(0, 1);
@@ -90,22 +104,52 @@ void MainWindow::build_window() {
   setStatusBar(status_);
 }
 
+// As it was closed last; at first as large as the screen takes, with its frame.
+void MainWindow::restore_window() {
+  constexpr QSize kUsual(1280, 800), kFrame(16, 48);
+  resize(kUsual.boundedTo(screen()->availableSize() - kFrame));
+  QSettings kept;
+  kept.beginGroup(kWindowKey);
+  restoreGeometry(kept.value("geometry").toByteArray());
+  for (auto* splitter : findChildren<QSplitter*>())
+    splitter->restoreState(kept.value(splitter->objectName()).toByteArray());
+  radius_->setValue(kept.value("radius", tool_settings_.brush_radius).toDouble());
+  codes_->setValue(kept.value("codes", tool_settings_.wand_codes).toInt());
+  const QString tool = kept.value("tool").toString();
+  for (QAction* action : tools_->actions())
+    if (action->objectName() == tool) action->setChecked(true);
+}
+
+void MainWindow::keep_window() {
+  QSettings kept;
+  kept.beginGroup(kWindowKey);
+  kept.setValue("geometry", saveGeometry());
+  for (const auto* splitter : findChildren<QSplitter*>()) kept.setValue(splitter->objectName(), splitter->saveState());
+  kept.setValue("radius", radius_->value());
+  kept.setValue("codes", codes_->value());
+  kept.setValue("tool", tools_->checkedAction()->objectName());
+}
+
 void MainWindow::connect_parts() {
   connect(&live_, &LiveView::pictured, this, [this](const ShownPicture& picture) {
     canvas_->show_picture(picture);
     status_->tell(picture);
   });
   connect(&live_, &LiveView::failed, this,
-          [this](const QString& why) { notice_->say(Notice::Kind::error, why); });
+          [this](const QString& why) {
+            if (canvas_->shows_first_look()) canvas_->clear();
+            notice_->say(Notice::Kind::error, why);
+          });
   for (Jobs* jobs : {&jobs_, &quick_, &writing_}) {
     connect(jobs, &Jobs::failed, this, [this](const QString& what, const QString& why) {
       notice_->say(Notice::Kind::error, tr("%1: %2").arg(what, why));
     });
   }
   connect(&jobs_, &Jobs::ended, this, [this] {
-    if (is_opening_ && !jobs_.is_busy()) stay();
+    if (!opening_.isEmpty() && !jobs_.is_busy()) stay();
   });
   connect(canvas_, &Canvas::visible_changed, &live_, &LiveView::set_visible);
+  connect(canvas_, &Canvas::visible_changed, this, &MainWindow::follow_opening);
   connect(canvas_, &Canvas::pointed, this,
           [this](std::optional<QPoint> pixel) { status_->tell(pixel, canvas_->image()); });
   connect(&document_, &Document::probe_changed, this, &MainWindow::look_at_pixel);
@@ -118,13 +162,20 @@ void MainWindow::open(const QString& path, const QString& rate) {
   notice_->clear();
   if (path.endsWith(QLatin1String(kProjectExtension), Qt::CaseInsensitive))
     return open_project(path);
-  open_capture_file(QFileInfo(path).absoluteFilePath(), rate, {});
+  open_capture_file(QFileInfo(path).absoluteFilePath(), {rate}, {});
 }
 
 void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptProject> kept) {
   try_to([&] {
     Project project = load_project(path);
-    Origin origin{Origin::Kind::recovered, {}, {}, {}, std::move(project.state), {}, std::move(kept)};
+    Origin origin{.kind = Origin::Kind::recovered,
+                  .project = {},
+                  .files = {},
+                  .known = {},
+                  .state = std::move(project.state),
+                  .marks = project.marks,
+                  .left = {},
+                  .kept = std::move(kept)};
     if (!origin.kept) {
       origin.kind = Origin::Kind::project;
       origin.project = path;
@@ -132,37 +183,70 @@ void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptPro
       origin.is_unwritten = project.is_unwritten;
       origin.known = times_of({path, project.files.functions, project.files.mask});
     }
-    open_capture_file(project.capture, project.rate, std::move(origin));
+    open_capture_file(project.capture, project.stated, std::move(origin));
   });
 }
 
-void MainWindow::open_capture_file(const QString& path, const QString& rate, Origin origin) {
-  is_opening_ = false;  // what is cancelled here gives way to this file, not to what is open
+void MainWindow::open_capture_file(const QString& path, const Stated& stated, Origin origin) {
+  opening_.clear();  // what is cancelled here gives way to this file, not to what is open
   jobs_.cancel();
-  is_opening_ = true;
+  opening_ = path;
   if (document_.facts() != nullptr) origin.left = document_.state();
   const auto first_look = [this](QImage image) {
     QMetaObject::invokeMethod(
         this, [this, image] { canvas_->show_first_look(image); }, Qt::QueuedConnection);
   };
   jobs_.start(tr("Opening %1").arg(QFileInfo(path).fileName()),
-              [this, path, rate, origin = std::move(origin), devices = devices_,
+              [this, path, stated, origin = std::move(origin), devices = devices_,
                first_look](const Job& job) -> Jobs::Finish {
                 try {
-                  auto opened = std::make_shared<Opened>(open_capture(path, rate, devices, job, first_look));
+                  auto opened = std::make_shared<Opened>(open_capture(path, stated, devices, job, first_look));
                   return [this, opened, origin] { take(std::move(*opened), origin); };
-                } catch (const Error& error) {
-                  const auto& settings = error.settings();
-                  if (!rate.isEmpty() || std::ranges::find(settings, Setting::frame_rate) == settings.end())
-                    throw;
-                  return [this, path, origin, why = sentence_of(std::current_exception())] {
-                    ask_rate(path, why, origin);
+                } catch (const Error&) {
+                  return [this, path, stated, origin, error = std::current_exception()] {
+                    tell_way_out(path, stated, origin, error);
                   };
                 }
               });
 }
 
-void MainWindow::ask_rate(const QString& path, const QString& why, const Origin& origin) {
+void MainWindow::tell_way_out(const QString& path, const Stated& stated, const Origin& origin,
+                              const std::exception_ptr& error) {
+  const QString why = sentence_of(error);
+  const QFileInfo file(path);
+  std::vector<Setting> settings;
+  bool is_cut_off = false;
+  try {
+    std::rethrow_exception(error);
+  } catch (const Error& known) {
+    settings = known.settings();
+    is_cut_off = dynamic_cast<const tik::Recoverable*>(&known) != nullptr;
+  }
+  const auto helps = [&](Setting setting) { return std::ranges::find(settings, setting) != settings.end(); };
+  if (stated.rate.isEmpty() && helps(Setting::frame_rate)) return ask_rate(path, stated, why, origin);
+  QString label;
+  std::function<void()> way;
+  const bool is_series = file.fileName().contains('%') && file.dir().exists();
+  if (!file.exists() && !is_series) {
+    label = tr("Locate…");
+    way = [this, stated, origin] {
+      ask_for_file(tr("Where is it?"), tr("All files (*)"), [&](const QString& found) {
+        Origin elsewhere = origin;
+        elsewhere.is_elsewhere = true;
+        open_capture_file(found, stated, std::move(elsewhere));
+      });
+    };
+  } else if (helps(Setting::end_at_damage)) {
+    label = tr("Open that part");
+    way = [this, path, stated, origin] { open_capture_file(path, {stated.rate, true}, origin); };
+  } else if (is_cut_off) {
+    label = tr("Save what is whole…");
+    way = [this, path, origin] { save_whole_part(path, origin); };
+  }
+  notice_->say(Notice::Kind::error, tr("Opening %1: %2").arg(file.fileName(), why), label, std::move(way));
+}
+
+void MainWindow::ask_rate(const QString& path, Stated stated, const QString& why, const Origin& origin) {
   bool is_answered = false;
   const QString rate = QInputDialog::getText(
       this, tr("Pictures a second"),
@@ -170,13 +254,14 @@ void MainWindow::ask_rate(const QString& path, const QString& why, const Origin&
       QLineEdit::Normal, {}, &is_answered);
   if (!is_answered || rate.trimmed().isEmpty()) return;
   notice_->clear();
-  open_capture_file(path, rate.trimmed(), origin);
+  stated.rate = rate.trimmed();
+  open_capture_file(path, stated, origin);
 }
 
 void MainWindow::take(Opened opened, Origin origin) {
   // What was changed while this was opened was not asked for yet.
   if (origin.left && *origin.left != document_.state() && !may_leave()) return;
-  is_opening_ = false;
+  opening_.clear();
   std::optional<DocumentState>& state = origin.state;
   if (state && state->mask) {
     const Shape& shape = opened.facts.format.shape;
@@ -198,11 +283,11 @@ void MainWindow::take(Opened opened, Origin origin) {
   known_ = std::move(origin.known);
   remember(project_.isEmpty() ? opened.facts.path : project_);
   autosave_.begin(std::move(origin.kept));
-  canvas_->clear();
+  canvas_->await_picture();
   live_.show(nullptr);
   session_ = opened.session;
-  document_.start(std::move(opened.facts), std::move(state));
-  if (origin.kind == Origin::Kind::recovered || origin.is_unwritten) document_.undo_stack().resetClean();
+  document_.start(std::move(opened.facts), std::move(state), origin.marks);
+  if (origin.kind == Origin::Kind::recovered || origin.is_unwritten || (origin.is_elsewhere && origin.state)) document_.undo_stack().resetClean();
   if (origin.is_unwritten && notice_->text().isEmpty())
     notice_->say(
         Notice::Kind::note,
@@ -211,7 +296,7 @@ void MainWindow::take(Opened opened, Origin origin) {
   axis_.set_duration(document_.duration_ns());
   note_capture();
   live_.show(session_);
-  follow_title();
+  follow_opening();
   if (!opened.notes.isEmpty() && notice_->text().isEmpty())
     notice_->say(Notice::Kind::note, opened.notes.join('\n'));
   look_at_capture();
@@ -219,11 +304,12 @@ void MainWindow::take(Opened opened, Origin origin) {
 
 // With what is open: another file was not opened, after all.
 void MainWindow::stay() {
-  is_opening_ = false;
+  opening_.clear();
   if (canvas_->shows_first_look()) {
     canvas_->clear();
     live_.show(session_);
   }
+  follow_opening();
   if (session_) look_at_capture();  // which opening may have broken off
 }
 
@@ -312,7 +398,7 @@ void MainWindow::select_motion() {
 
 void MainWindow::choose_difference() {
   if (!session_ || !has_region()) return;
-  auto* dialog = new DifferenceDialog(document_.facts()->timeline, axis_.mark_in().value_or(0),
+  auto* dialog = new DifferenceDialog(document_.facts()->timeline, document_.mark_in().value_or(0),
                                       document_.boxcar().start_ns, this);
   connect(dialog, &QDialog::accepted, this, [this, dialog, session = session_] {
     if (session != session_) return;
@@ -334,10 +420,21 @@ bool MainWindow::is_settled() const {
 
 void MainWindow::follow_title() {
   const CaptureFacts* facts = document_.facts();
-  const QString name = !project_.isEmpty() ? project_ : facts != nullptr ? facts->path : QString();
+  const bool is_another = canvas_->shows_first_look() && !opening_.isEmpty();
+  const QString name = is_another             ? opening_
+                       : !project_.isEmpty() ? project_
+                       : facts != nullptr    ? facts->path
+                                             : QString();
   setWindowTitle(name.isEmpty() ? tr("nutik studio")
                                 : tr("%1[*] – nutik studio").arg(QFileInfo(name).fileName()));
   setWindowModified(!document_.undo_stack().isClean());
+}
+
+// Whose picture is shown: what stands round it says nothing of another capture.
+void MainWindow::follow_opening() {
+  const bool is_another = canvas_->shows_first_look() && !opening_.isEmpty();
+  for (QWidget* of_document : {time_, regions_}) of_document->setEnabled(!is_another);
+  follow_title();
 }
 
 bool MainWindow::event(QEvent* event) {
@@ -347,6 +444,7 @@ bool MainWindow::event(QEvent* event) {
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   if (may_leave()) {
+    keep_window();
     autosave_.begin();
     event->accept();
   } else {

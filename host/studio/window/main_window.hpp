@@ -25,6 +25,7 @@
 class QActionGroup;
 class QComboBox;
 class QDoubleSpinBox;
+class QSpinBox;
 class QToolBar;
 
 namespace nutik::studio {
@@ -41,9 +42,11 @@ struct Origin {
   CommandFiles files;
   FileTimes known;
   std::optional<DocumentState> state;  // none: the document starts anew
+  Marks marks = {};
   std::optional<DocumentState> left;   // what the document was when it was left for this
   std::shared_ptr<const KeptProject> kept = {};  // of Kind::recovered
   bool is_unwritten = false;                     // of Kind::project: its last save was ended in the middle
+  bool is_elsewhere = false;  // the capture, than where the project says
 };
 
 class MainWindow : public QMainWindow {
@@ -94,10 +97,13 @@ class MainWindow : public QMainWindow {
   // main_window.cpp
   void build_window();
   void connect_parts();
+  void restore_window();
+  void keep_window();
   void open_project(const QString& path, std::shared_ptr<const KeptProject> kept = {});
-  void open_capture_file(const QString& path, const QString& rate, Origin origin);
+  void open_capture_file(const QString& path, const Stated& stated, Origin origin);
+  void tell_way_out(const QString& path, const Stated& stated, const Origin& origin, const std::exception_ptr& error);
   void take(Opened opened, Origin origin);
-  void ask_rate(const QString& path, const QString& why, const Origin& origin);
+  void ask_rate(const QString& path, Stated stated, const QString& why, const Origin& origin);
   void stay();
   void look_at_capture();
   void look_along_capture();
@@ -107,6 +113,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] bool has_region();  // selected, to be painted; else it is said
   void look_at_pixel();
   void follow_title();
+  void follow_opening();
 
   // menus.cpp
   void build_menus();
@@ -132,6 +139,7 @@ class MainWindow : public QMainWindow {
   void tell_changes();
   void copy_command();
   void write_plate(const QString& path);
+  void save_whole_part(const QString& path, const Origin& origin);
   void remember(const QString& path);
   void fill_recent(QMenu& menu);
   void fill_unsaved(QMenu& menu);
@@ -151,16 +159,19 @@ class MainWindow : public QMainWindow {
   Autosave autosave_;
   std::shared_ptr<Devices> devices_;
   std::shared_ptr<Session> session_;
-  bool is_opening_ = false;  // another file, which was not opened yet
+  QString opening_;  // another file, which was not opened yet; empty: none
   QString project_;
   CommandFiles files_;
   FileTimes known_;  // of the project's files and the capture
   QString told_changes_;  // what was said of them
   ToolSettings tool_settings_;
   std::unique_ptr<CanvasTool> tool_;
+  QDoubleSpinBox* radius_ = nullptr;
+  QSpinBox* codes_ = nullptr;
 
   Notice *notice_ = nullptr, *offer_ = nullptr;
   Canvas* canvas_ = nullptr;
+  QWidget *time_ = nullptr, *regions_ = nullptr;
   StatusLine* status_ = nullptr;
   QActionGroup* tools_ = nullptr;
   QList<QAction*> needs_capture_;

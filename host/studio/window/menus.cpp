@@ -2,7 +2,6 @@
 #include <QActionGroup>
 #include <QApplication>
 #include <QComboBox>
-#include <QDoubleSpinBox>
 #include <QLabel>
 #include <QMenuBar>
 #include <QSignalBlocker>
@@ -10,6 +9,7 @@
 #include <QToolBar>
 
 #include "studio/regions/region_edits.hpp"
+#include "studio/regions/region_list.hpp"
 #include "studio/window/appearance.hpp"
 #include "studio/window/main_window.hpp"
 #include "studio/window/started_work.hpp"
@@ -91,11 +91,14 @@ void MainWindow::build_file_menu() {
   connect(&menu, &QMenu::aboutToShow, &unsaved,
           [&unsaved] { unsaved.setEnabled(!Autosave::found().empty()); });
   needs_capture_ += add_action(menu, tr("Open a&gain"), QKeySequence::Refresh, [this] {
-    const QString rate = document_.facts()->rate;
-    if (may_leave()) project_.isEmpty() ? open(document_.facts()->path, rate) : open(project_);
+    if (!may_leave()) return;
+    notice_->clear();
+    if (!project_.isEmpty()) return open_project(project_);
+    open_capture_file(document_.facts()->path, document_.facts()->stated, {});
   });
   needs_capture_ += add_action(menu, tr("Frame ra&te…"), {}, [this] {
-    if (may_leave()) ask_rate(document_.facts()->path, tr("The clip is opened again."), {});
+    const CaptureFacts& facts = *document_.facts();
+    if (may_leave()) ask_rate(facts.path, facts.stated, tr("The clip is opened again."), {});
   });
   menu.addSeparator();
   needs_capture_ += add_action(menu, tr("&Save project"), QKeySequence::Save, [this] { save(); });
@@ -198,33 +201,35 @@ void MainWindow::build_tools(QToolBar& bar) {
     action->setShortcut(row.key);
     action->setToolTip(tr("%1 (%2)").arg(tr(row.tip), action->shortcut().toString()));
     tools_->addAction(action);
-    connect(action, &QAction::triggered, this, [this, kind = row.kind] { use_tool(kind); });
+    connect(action, &QAction::toggled, this, [this, kind = row.kind](bool is_chosen) {
+      if (is_chosen) use_tool(kind);
+    });
     needs_capture_ += action;
   }
-  auto* radius = new QDoubleSpinBox;
-  radius->setObjectName("brush_radius");
-  radius->setRange(0.5, 500);
-  radius->setDecimals(1);
-  radius->setValue(tool_settings_.brush_radius);
-  radius->setPrefix(tr("Brush "));
-  radius->setSuffix(tr(" px"));
-  radius->setAccessibleName(tr("Radius of the brush, in pixels"));
-  radius->setToolTip(radius->accessibleName());
-  connect(radius, &QDoubleSpinBox::valueChanged, this, [this](double value) {
+  radius_ = new NumberBox;
+  radius_->setObjectName("brush_radius");
+  radius_->setRange(0.5, 500);
+  radius_->setDecimals(1);
+  radius_->setValue(tool_settings_.brush_radius);
+  radius_->setPrefix(tr("Brush "));
+  radius_->setSuffix(tr(" px"));
+  radius_->setAccessibleName(tr("Radius of the brush, in pixels"));
+  radius_->setToolTip(radius_->accessibleName());
+  connect(radius_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
     tool_settings_.brush_radius = value;
     canvas_->update();
   });
-  auto* codes = new QSpinBox;
-  codes->setObjectName("wand_codes");
-  codes->setRange(0, 255);
-  codes->setValue(tool_settings_.wand_codes);
-  codes->setPrefix(tr("Wand ± "));
-  codes->setAccessibleName(
+  codes_ = new QSpinBox;
+  codes_->setObjectName("wand_codes");
+  codes_->setRange(0, 255);
+  codes_->setValue(tool_settings_.wand_codes);
+  codes_->setPrefix(tr("Wand ± "));
+  codes_->setAccessibleName(
       tr("How many codes of 255 a pixel may differ by from the one that the wand clicked"));
-  codes->setToolTip(codes->accessibleName());
-  connect(codes, &QSpinBox::valueChanged, this, [this](int value) { tool_settings_.wand_codes = value; });
-  bar.addWidget(radius);
-  bar.addWidget(codes);
+  codes_->setToolTip(codes_->accessibleName());
+  connect(codes_, &QSpinBox::valueChanged, this, [this](int value) { tool_settings_.wand_codes = value; });
+  bar.addWidget(radius_);
+  bar.addWidget(codes_);
 }
 
 void MainWindow::build_exposure_bar(QToolBar& bar) {
@@ -248,10 +253,11 @@ void MainWindow::build_exposure_bar(QToolBar& bar) {
     state.normalization = Normalization::parse(kNormalizations[index]);
     document_.apply(std::move(state), tr("Normalize"));
   });
-  brightness_ = new QDoubleSpinBox;
+  brightness_ = new NumberBox;
   brightness_->setObjectName("brightness");
   brightness_->setRange(-16, 16);
   brightness_->setSingleStep(0.25);
+  brightness_->setKeyboardTracking(false);  // 2.5 is one step, and not 2 first
   brightness_->setPrefix(tr("EV "));
   brightness_->setAccessibleName(tr("Brightness, in stops"));
   brightness_->setToolTip(brightness_->accessibleName());

@@ -35,12 +35,14 @@ using NamedOptions = std::vector<std::pair<std::string, std::string>>;
 NamedOptions options_of(const Document& document) {
   const DocumentState& state = document.state();
   const bool is_plain = state.mode == ExposureMode::boxcar;
+  const Stated& stated = document.facts()->stated;
   NamedOptions options;
+  if (stated.ends_at_damage) options.emplace_back("as-far-as-it-goes", "");
   if (state.brightness_ev != 0) options.emplace_back("ev", format("{}", state.brightness_ev));
   if (is_plain) options.emplace_back("exposure", StatedTime::of_nanoseconds(state.boxcar.length_ns).text());
   if (const Feather feather = feather_of(state); !is_plain && state.mask && feather != Feather())
     options.emplace_back("feather", feather_text(feather));
-  if (!document.facts()->rate.isEmpty()) options.emplace_back("fps", document.facts()->rate.toStdString());
+  if (!stated.rate.isEmpty()) options.emplace_back("fps", stated.rate.toStdString());
   if (state.normalization != Normalization()) options.emplace_back("normalize", state.normalization.text());
   if (is_plain) options.emplace_back("start", StatedTime::of_nanoseconds(state.boxcar.start_ns).text());
   return options;
@@ -164,7 +166,11 @@ QJsonObject object_of(const QString& path, const Document& document, const Comma
                      {"ev", state.brightness_ev},
                      {"regions", regions}};
   if (state.mask) object["mask"] = named(files.mask);
-  if (!document.facts()->rate.isEmpty()) object["fps"] = document.facts()->rate;
+  if (document.mark_in()) object["in_ns"] = QString::number(*document.mark_in());
+  if (document.mark_out()) object["out_ns"] = QString::number(*document.mark_out());
+  const Stated& stated = document.facts()->stated;
+  if (!stated.rate.isEmpty()) object["fps"] = stated.rate;
+  if (stated.ends_at_damage) object["as_far_as_it_goes"] = true;
   return object;
 }
 
@@ -213,7 +219,9 @@ QString command_line(const Document& document, const CommandFiles& files, const 
     add("-k", files.functions);
     if (state.mask) add("-m", files.mask);
   }
-  for (const auto& [name, value] : options_of(document)) line += " --" + name + " " + shell_word(value);
+  for (const auto& [name, value] : options_of(document))
+    line += " --" + name + (value.empty() ? "" : " " + shell_word(value));
+  if (const auto& precision = document.facts()->precision) line += format(" --precision {}", to_text(*precision));
   line += " " + shell_word(document.facts()->path.toStdString()) + " " + shell_word(picture.toStdString());
   return QString::fromStdString(line);
 }
@@ -318,7 +326,7 @@ Project load_project(const QString& path) {
   };
   Project project;
   project.capture = resolved("capture");
-  project.rate = object["fps"].toString();
+  project.stated = {object["fps"].toString(), object["as_far_as_it_goes"].toBool()};
   const CommandFiles free_files = free_files_beside(path);
   project.files = free_files;
   project.files.functions = resolved("functions");
@@ -340,6 +348,8 @@ Project load_project(const QString& path) {
   }
   state.mode = object["exposes"].toString() == "interval" ? ExposureMode::boxcar : ExposureMode::functions;
   state.boxcar = {time_in(object, "start_ns", path), time_in(object, "length_ns", path)};
+  if (object.contains("in_ns")) project.marks.in_ns = time_in(object, "in_ns", path);
+  if (object.contains("out_ns")) project.marks.out_ns = time_in(object, "out_ns", path);
   try {
     state.normalization = Normalization::parse(object["normalize"].toString().toStdString());
     state.feather = Feather::parse(object["feather"].toString().toStdString());

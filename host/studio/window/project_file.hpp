@@ -30,9 +30,10 @@ struct CommandFiles {
 
 struct Project {
   QString capture;
-  QString rate;  // stated; empty: what the clip says
+  Stated stated;
   CommandFiles files;
   DocumentState state;
+  Marks marks;
   bool is_unwritten = false;  // functions and mask are not what its files hold
 };
 

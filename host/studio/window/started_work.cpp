@@ -12,6 +12,7 @@
 #include "session/requests/output_request.hpp"
 #include "session/text/number_text.hpp"
 #include "studio/live/live_view.hpp"
+#include "studio/live/opening.hpp"
 
 namespace nutik::studio {
 namespace {
@@ -22,17 +23,35 @@ QString text_of(std::span<const std::string> lines) {
   return texts.join('\n');
 }
 
-DocumentState state_of(const DocumentState& before, const Study& study, Mask mask, const Timeline& timeline,
-                       StudyStyle style) {
+// A function of a stretch in the whole capture's time: nothing outside of it.
+GainFunction placed(const GainFunction& function, const Stretch& stretch) {
+  const std::int64_t duration_ns = stretch.session->timeline().duration_ns();
+  std::vector<ControlPoint> points{{0, 0}};
+  const auto add = [&points](ControlPoint point) {
+    if (point != points.back()) points.push_back(point);
+  };
+  for (const GainPiece& piece : function.pieces(duration_ns)) {
+    add({piece.begin_ns, piece.begin_gain});
+    add({piece.end_ns, piece.end_gain});
+  }
+  add({duration_ns, 0});
+  return GainFunction(std::move(points)).shifted(stretch.start_ns);
+}
+
+DocumentState state_of(const DocumentState& before, const Study& study, Mask mask, const Stretch& stretch,
+                       const Timeline& whole, StudyStyle style) {
+  const Timeline& timeline = stretch.session->timeline();
+  const bool is_part = timeline.sample_count() < whole.sample_count();
   DocumentState state = before;
   state.looks.clear();
   state.functions.clear();
-  for (const auto& [tag, function] : study.functions) state.functions.emplace(tag, with_steps(function));
+  for (const auto& [tag, function] : study.functions)
+    state.functions.emplace(tag, with_steps(is_part ? placed(function, stretch) : function));
   const bool is_slit = style == StudyStyle::slit;
   for (const auto& [tag, function] : state.functions) {
     const std::size_t moment = is_slit ? tag : tag - std::size_t{1};
     if (moment >= study.moments.size()) continue;  // what is left around the subject
-    const std::string time = duration_text(timeline.start_ns(study.moments[moment]));
+    const std::string time = duration_text(stretch.start_ns + timeline.start_ns(study.moments[moment]));
     state.looks[tag] = {(is_slit ? Document::tr("Strip at %1") : Document::tr("Subject at %1"))
                             .arg(QString::fromStdString(time)),
                         first_colour(tag), true};
@@ -64,29 +83,34 @@ std::span<const StartingPoint> starting_points() {
 }
 
 Jobs::Work studying(Document& document, std::shared_ptr<Session> session, StudyStyle style, Told told) {
-  return [&document, session = std::move(session), style, told = std::move(told),
+  return [&document, session = std::move(session), style, told = std::move(told), marks = document.marks(),
           path = document.facts()->path](const Job& job) -> Jobs::Finish {
     StudyRequest request;
     request.style = style;
     if (style != StudyStyle::slit) request.moments = usual_moments(style);  // few strips: each is edited by hand
     const std::string name = path.toStdString();
     const MemoryBudget& memory = session->devices().request().memory;
-    auto study = std::make_shared<Study>(plan_study(session->capture(), name, request, memory, job.progress));
-    return [&document, session, study, style, told] {
-      document.apply(state_of(document.state(), *study, std::move(study->regions.mask), session->timeline(), style),
+    const Stretch stretch = stretch_between(marks, session, job);
+    auto study =
+        std::make_shared<Study>(plan_study(stretch.session->capture(), name, request, memory, job.progress));
+    return [&document, session, stretch, study, style, told] {
+      document.apply(state_of(document.state(), *study, std::move(study->regions.mask), stretch,
+                              session->timeline(), style),
                      Document::tr("Starting point"));
       told(text_of(study->notes));
     };
   };
 }
 
-Jobs::Work writing_plate(std::shared_ptr<Session> session, const QString& picture, Told told) {
+Jobs::Work writing_plate(const Document& document, std::shared_ptr<Session> session, const QString& picture,
+                         Told told) {
   const std::filesystem::path path = picture.toStdString();
   const std::string name = session->source().path.string();
   check_output(path, OutputKind::picture, std::vector{name});
-  return [session = std::move(session), path, name, told = std::move(told)](const Job& job) -> Jobs::Finish {
+  return [session = std::move(session), path, name, told = std::move(told),
+          marks = document.marks()](const Job& job) -> Jobs::Finish {
     const MadePlate plate =
-        make_plate(session->capture(), name, {}, output_format({}, path, session->format()),
+        make_plate(stretch_between(marks, session, job).session->capture(), name, {}, output_format({}, path, session->format()),
                    session->devices().request().memory, job.progress);
     write_picture(path, plate.picture);
     const QString line =
@@ -105,12 +129,13 @@ Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session,
   }
   check_output(path, OutputKind::picture, inputs);
   return [state = document.state(), sources = recipe_sources(document, files), session = std::move(session),
-          path, told = std::move(told)](const Job& job) -> Jobs::Finish {
+          path, told = std::move(told), precision = document.facts()->precision](const Job& job) -> Jobs::Finish {
     const auto mask = state.mask && state.mode == ExposureMode::functions
                           ? std::optional(LiveView::feathered_mask(state))
                           : std::nullopt;
     RenderControl control;
     control.stop = job.stop;
+    control.precision = precision;
     PictureRecipe recipe(sources);
     const ExposedPicture exposed =
         session->render(exposure_of(state, mask), output_format({}, path, session->format()), control);

@@ -21,10 +21,13 @@ struct StartingPoint {
 };
 [[nodiscard]] std::span<const StartingPoint> starting_points();
 
+// Both look at what lies between the document's marks.
+
 // The document gets the study's regions, functions and mask as one step; `told` its notes.
 [[nodiscard]] Jobs::Work studying(Document& document, std::shared_ptr<Session> session, StudyStyle style, Told told);
 // The scene without what moves, as a picture file.
-[[nodiscard]] Jobs::Work writing_plate(std::shared_ptr<Session> session, const QString& picture, Told told);
+[[nodiscard]] Jobs::Work writing_plate(const Document& document, std::shared_ptr<Session> session,
+                                       const QString& picture, Told told);
 
 // The picture of a document, with the bytes and the recipe that nutik-cl gives it. `files` hold its mask and functions.
 [[nodiscard]] Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session,

@@ -16,13 +16,19 @@ QString light_text(int code) {
 
 }  // namespace
 
-Notice::Notice(QWidget* parent) : QFrame(parent), text_(new QLabel(this)) {
+Notice::Notice(QWidget* parent) : QFrame(parent), text_(new QLabel(this)), way_out_(new QToolButton(this)) {
   setAutoFillBackground(true);
   setFrameShape(QFrame::NoFrame);
   text_->setWordWrap(true);
   text_->setTextFormat(Qt::PlainText);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   text_->setAccessibleName(tr("Message"));
+  way_out_->setObjectName("way_out");
+  connect(way_out_, &QToolButton::clicked, this, [this] {
+    const auto act = std::move(act_);
+    clear();
+    act();
+  });
   auto* close = new QToolButton(this);
   close->setText(tr("Close"));
   close->setAutoRaise(true);
@@ -31,11 +37,12 @@ Notice::Notice(QWidget* parent) : QFrame(parent), text_(new QLabel(this)) {
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(12, 6, 6, 6);
   row->addWidget(text_, 1);
+  row->addWidget(way_out_, 0, Qt::AlignTop);
   row->addWidget(close, 0, Qt::AlignTop);
   hide();
 }
 
-void Notice::say(Kind kind, const QString& text) {
+void Notice::say(Kind kind, const QString& text, const QString& label, std::function<void()> way_out) {
   const QColor ground = kind == Kind::error ? QColor(122, 46, 40) : QColor(52, 76, 104);
   QPalette colours = palette();
   for (const auto role : {QPalette::Window, QPalette::Button}) colours.setColor(role, ground);
@@ -43,6 +50,9 @@ void Notice::say(Kind kind, const QString& text) {
     colours.setColor(role, QColor(240, 240, 240));
   setPalette(colours);
   text_->setText(text);
+  way_out_->setText(label);
+  way_out_->setVisible(!label.isEmpty());
+  act_ = std::move(way_out);
   setVisible(!text.isEmpty());
 }
 

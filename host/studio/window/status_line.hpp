@@ -6,6 +6,7 @@
 #include <QPoint>
 #include <QStatusBar>
 #include <QString>
+#include <functional>
 #include <optional>
 
 #include "studio/live/jobs.hpp"
@@ -26,12 +27,15 @@ class Notice : public QFrame {
   enum class Kind { error, note };
 
   explicit Notice(QWidget* parent = nullptr);
-  void say(Kind kind, const QString& text);  // in place of what it said
+  // In place of what it said. With a button, where there is a way out.
+  void say(Kind kind, const QString& text, const QString& label = {}, std::function<void()> way_out = {});
   void clear();
   [[nodiscard]] QString text() const;
 
  private:
   QLabel* text_;
+  QToolButton* way_out_;
+  std::function<void()> act_;
 };
 
 class StatusLine : public QStatusBar {
