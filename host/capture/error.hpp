@@ -32,6 +32,7 @@ enum class Setting {
   precision,
   primaries,
   quality,
+  keep_pixels,
   range,
   raw_layout,
   renderer,

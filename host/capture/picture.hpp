@@ -54,6 +54,17 @@ struct Rectangle {
 // What red, green and blue add to the brightness of a colour (ITU-R BT.709).
 inline constexpr double kLuma[3] = {0.2126, 0.7152, 0.0722};
 
+// The size in square pixels of so many that are `aspect` times as wide as high: no side smaller than it is.
+[[nodiscard]] inline Shape in_square_pixels(Shape shape, const Rational& aspect) {
+  const auto longer = [](std::uint32_t side, std::int64_t by, std::int64_t than) {
+    return static_cast<std::uint32_t>(round_half_up(static_cast<int128>(side) * by, than));
+  };
+  const auto [wide, high] = aspect;
+  if (wide > high) shape.width = longer(shape.width, wide, high);
+  if (high > wide) shape.height = longer(shape.height, high, wide);
+  return shape;
+}
+
 // What the codes of a capture are.
 struct CaptureFormat {
   Shape shape;
@@ -65,17 +76,7 @@ struct CaptureFormat {
   Rational pixel_aspect{1, 1};             // how much wider than high a pixel is to be shown
 
   [[nodiscard]] std::uint64_t sample_bytes() const { return shape.value_count() * code_bytes; }
-  // Its size in square pixels, no side smaller than it is.
-  [[nodiscard]] Shape shown_shape() const {
-    Shape shown = shape;
-    const auto longer = [](std::uint32_t side, std::int64_t by, std::int64_t than) {
-      return static_cast<std::uint32_t>(round_half_up(static_cast<int128>(side) * by, than));
-    };
-    const auto [wide, high] = pixel_aspect;
-    if (wide > high) shown.width = longer(shape.width, wide, high);
-    if (high > wide) shown.height = longer(shape.height, high, wide);
-    return shown;
-  }
+  [[nodiscard]] Shape shown_shape() const { return in_square_pixels(shape, pixel_aspect); }
   friend bool operator==(const CaptureFormat&, const CaptureFormat&) = default;
 };
 

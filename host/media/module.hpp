@@ -44,6 +44,8 @@ struct StillModule {
   // Light as OpenEXR has it (media/writers/picture_writer.hpp), and the text that such a file carries.
   void (*write_exr)(OutputFile& file, const Picture& picture, const std::string& text, bool as_half);
   std::optional<std::string> (*read_exr_text)(const std::filesystem::path& file, const char* keyword);
+  // A picture of codes in square pixels (media/writers/picture_writer.hpp).
+  Picture (*enlarge)(const Picture& picture, const Shape& shape);
 };
 
 // The entry points that stand behind `symbol` in the library `file`; `without` says what lacks without it. It is looked

@@ -83,15 +83,17 @@ class Picture:
         payload_bytes, device_bytes, blocks, launches. Empty of a plate."""
         return dict(self._held.figures.get("statistics", {}))
 
-    def write(self, path: Path, *, quality: Optional[int] = None) -> None:
+    def write(self, path: Path, *, quality: Optional[int] = None, keep_pixels: bool = False) -> None:
         """Writes a file: .png, .tif, .jpg, .ppm, .pgm of codes, .exr, .tif, .pfm of light. quality: of .jpg, 1 ... 100.
+        keep_pixels: a .png or .jpg has the pixels of `array` also where they are not square; without it they are made so,
+        for eyes. Other files keep them.
 
         Raises UsageError where such a file cannot hold the picture, OutputError where it cannot be written.
         """
         if self.dtype == np.float64:
             raise UsageError(f"{path_word(path)}: files of light hold float32; expose the picture with that dtype, or save "
                              "the array with numpy.save()")
-        self._held.write(path_word(path), quality)
+        self._held.write(path_word(path), quality, keep_pixels)
 
     def __reduce__(self) -> Any:
         return Picture, (self._held,)

@@ -59,10 +59,11 @@ py::buffer_info buffer_of(HeldPicture& held) {
       std::move(strides),        kReadOnly};
 }
 
-void write(const HeldPicture& held, const std::string& path, std::optional<int> quality) {
+void write(const HeldPicture& held, const std::string& path, std::optional<int> quality, bool keep_pixels) {
   check_output(path, OutputKind::picture, {});
   OutputRequest request;
   request.quality = quality;
+  request.keep_pixels = keep_pixels;
   check_quality(request, path);
   const Unlocked released;
   write_picture(path, held.picture, {}, file_wishes(request));
@@ -99,7 +100,7 @@ void bind_pictures(py::module_& module) {
       .def_buffer(&buffer_of)
       .def(py::pickle(&state_of, &unpickled))
       .def("values", &values)
-      .def("write", &write, py::arg("path"), py::arg("quality"))
+      .def("write", &write, py::arg("path"), py::arg("quality"), py::arg("keep_pixels"))
       .def_property_readonly("figures", [](const HeldPicture& held) { return held.figures; });
 }
 

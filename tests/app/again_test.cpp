@@ -34,6 +34,14 @@ class Again : public test::AppTest {
   }
 };
 
+TEST_F(Again, MakesPixelsSquareOrKeepsThemAsBefore) {
+  make("-f 40 --pixel-aspect 2:1 frames wide.tik");
+  make("--exposure 33ms wide.tik square.png");
+  make("--exposure 33ms --keep-pixels wide.tik kept.png");
+  ASSERT_NE(file("square.png"), file("kept.png"));
+  for (const char* picture : {"square.png", "kept.png"}) expect_same_bytes(picture);
+}
+
 TEST_F(Again, MakesTheSameBytes) {
   const std::vector<std::string> functions{"-k", "it's f.fn", "-m", "mask.pgm"};
   int number = 0;

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "capture/format.hpp"
 #include "capture/transfer.hpp"
 #include "support/app_test.hpp"
 #include "support/ffmpeg.hpp"
@@ -194,7 +195,7 @@ TEST_F(Colour, StandsInTheFile) {
              "-f lavfi -i testsrc2=s=64x48:d=0.2:r=25 -vf setsar=32/27 -c:v ffv1 -pix_fmt yuv420p10le "
              "-colorspace bt2020nc -color_primaries bt2020 -color_trc arib-std-b67 clip.mkv");
   const auto coded = [&](const char* out) {
-    succeed({"--start", "0s", "--exposure", "1f", "--out-transfer", out, "clip.mkv", "x.png"});
+    succeed({"--start", "0s", "--exposure", "1f", "--out-transfer", out, "--keep-pixels", "clip.mkv", "x.png"});
     return chunks_of(test::read_file(scratch_ / "x.png"));
   };
   auto srgb = coded("srgb");
@@ -219,7 +220,7 @@ TEST_F(Colour, StandsInTheFile) {
   EXPECT_EQ(info["primaries"], "bt2020");
   EXPECT_EQ(info["transfer"], "hlg");
   EXPECT_EQ(info["version"], 1);
-  succeed("video --out-fps 25 clip.tik video.mp4");
+  succeed("video --out-fps 25 --keep-pixels clip.tik video.mp4");
   const auto probed = test::run_shell("ffprobe -v error -of json -show_streams video.mp4", scratch_.folder());
   const Json stream = Json::parse(probed.out)["streams"][0];
   EXPECT_EQ(stream["sample_aspect_ratio"], "32:27");
@@ -229,6 +230,67 @@ TEST_F(Colour, StandsInTheFile) {
   succeed("contact --every 1f --columns 1 clip.tik sheet.png");
   const cv::Mat sheet = cv::imread((scratch_ / "sheet.png").string());
   EXPECT_EQ(sheet.cols, 2 * 12 + std::max(96, static_cast<int>(std::lround(64 * 32.0 / 27))));
+}
+
+// What people look at has square pixels, what is measured has the capture's.
+class AnamorphicPixels : public Colour {
+ protected:
+  // A moving picture of 64 x 48 pixels, each twice as wide as high.
+  void SetUp() override {
+    std::string raw;
+    for (const Picture& still : test::random_stills({64, 48, 3}, 255, 6, 3))
+      raw.append(reinterpret_cast<const char*>(still.bytes.data()), still.bytes.size());
+    scratch_.write("clip.raw", raw);
+    succeed("--raw 64x48:rgb24 -f 25 --pixel-aspect 2:1 -q clip.raw clip.tik");
+  }
+  [[nodiscard]] cv::Size size_of(const char* name) const {
+    return cv::imread((scratch_ / name).string(), cv::IMREAD_UNCHANGED).size();
+  }
+};
+
+TEST_F(AnamorphicPixels, AreSquareForEyesAndKeptForMeasuring) {
+  const std::string exposure = "--start 0s --exposure 2f clip.tik ";
+  const auto made = run("--json " + exposure + "eyes.png");
+  const Json json = Json::parse(made.out);
+  EXPECT_EQ(json["width"], 128);
+  EXPECT_EQ(json["notes"][0], "pixels of 2:1 were made square: 64 x 48 became 128 x 48 (--keep-pixels)");
+  succeed(exposure + "eyes.jpg");
+  EXPECT_EQ(size_of("eyes.png"), cv::Size(128, 48));
+  EXPECT_EQ(size_of("eyes.jpg"), cv::Size(128, 48));
+  succeed(exposure + "kept.png --keep-pixels");
+  succeed(exposure + "deep.png --depth 16");
+  succeed(exposure + "own.png --out-transfer source");
+  for (const char* exact : {"x.tif", "x.ppm", "x.exr", "x.pfm"}) succeed(exposure + exact);
+  for (const char* name : {"kept.png", "deep.png", "own.png", "x.tif", "x.ppm"})
+    EXPECT_EQ(size_of(name), cv::Size(64, 48)) << name;
+  const cv::Mat kept = cv::imread((scratch_ / "kept.png").string()), eyes = cv::imread((scratch_ / "eyes.png").string());
+  EXPECT_EQ(cv::norm(kept, cv::imread((scratch_ / "x.ppm").string()), cv::NORM_INF), 0);
+  cv::Mat wide;
+  cv::resize(kept, wide, eyes.size(), 0, 0, cv::INTER_LANCZOS4);
+  EXPECT_EQ(cv::norm(wide, eyes, cv::NORM_INF), 0);
+}
+
+TEST_F(AnamorphicPixels, AreSquareInPlatesStudiesAndFilms) {
+  NEEDS_FFMPEG();
+  succeed("plate --by 254 clip.tik plate.png");
+  EXPECT_EQ(size_of("plate.png"), cv::Size(128, 48));
+  succeed("--every 2f --exposure 2f clip.tik s-%d.png");
+  EXPECT_EQ(size_of("s-1.png"), cv::Size(128, 48));
+  scratch_.write("list.txt", "--start 0s --exposure 2f b.png\n--start 0s --exposure 2f --keep-pixels k.png\n");
+  const auto batch = run("batch list.txt clip.tik");
+  EXPECT_EQ(size_of("b.png"), cv::Size(128, 48));
+  EXPECT_EQ(size_of("k.png"), cv::Size(64, 48));
+  const auto shape_of = [&](const std::string& words, const std::string& film) {
+    succeed("video --out-fps 25 " + words + " clip.tik " + film);
+    const auto probed =
+        test::run_shell("ffprobe -v error -of json -show_streams " + film, scratch_.folder());
+    const Json stream = Json::parse(probed.out)["streams"][0];
+    return format("{} x {}, {}", stream["width"].get<int>(), stream["height"].get<int>(),
+                  stream.value("sample_aspect_ratio", "1:1"));
+  };
+  EXPECT_EQ(shape_of("", "eyes.mp4"), "128 x 48, 1:1");
+  EXPECT_EQ(shape_of("--keep-pixels", "kept.mp4"), "64 x 48, 2:1");
+  EXPECT_EQ(shape_of("", "exact.mkv"), "64 x 48, 2:1");
 }
 
 // Also of commands that have no --ev themselves.

@@ -161,6 +161,11 @@ class Pictures(support.TestCase):
         deep = self.capture.render(start=0, exposure="10ms", dtype=np.float64)
         self.assert_raises(nutik.UsageError, "float32", deep.write, self.path("light.exr"))
         self.assert_raises(nutik.OutputError, "absent", picture.write, self.path("absent/ours.ppm"))
+        wide = nutik.encode(self.pictures[:4], rate=support.RATE, pixel_aspect="2:1").render(exposure="1f", codes=True)
+        for name, keep, width in (("eyes.png", False, 160), ("kept.png", True, 80)):
+            wide.write(self.path(name), keep_pixels=keep)
+            size = (self.folder / name).read_bytes()[16:24]
+            self.assertEqual(size, width.to_bytes(4, "big") + (45).to_bytes(4, "big"))
 
     def test_what_makes_no_sense(self):
         render, usage = self.capture.render, nutik.UsageError

@@ -163,8 +163,11 @@ class Batch {
     for (const std::string& warning : exposure_warnings(exposed))
       print_warning(format("{}:{}: {}", list_title_, number, warning));
     if (options_.verbose && !options_.json) print_line(format("{}: {}", output.string(), tally_.report()));
+    const FileWishes wishes = file_wishes(line.picture);
+    tally_.wrote(exposed.figures.capture,
+                 written_shape(output, exposed.picture.shape, exposed.picture.pixel_aspect, wishes));
     pictures_.push(number, output, std::move(exposed.picture), recipe_text(line, tally_.precision()),
-                   file_wishes(line.picture));
+                   wishes);
   }
 
   std::string recipe_text(const Options& line, const std::string& precision) {

@@ -42,10 +42,12 @@ int run_expose(const Options& options) {
                 file_wishes(options.picture));
 
   const ExposureFigures& figures = exposed.figures;
-  const Shape& shape = figures.capture.shape;
+  const Shape shape =
+      written_shape(output, exposed.picture.shape, exposed.picture.pixel_aspect, file_wishes(options.picture));
   const std::uint64_t samples = figures.timeline.sample_count();
   Answer answer{{{"picture", output.string()}}};
-  answer.json.update(shape_json(exposed.picture.shape));
+  tally.wrote(figures.capture, shape);
+  answer.json.update(shape_json(shape));
   answer.json.update(
       {{"samples", samples}, {"live_samples", figures.live_samples}, {"functions", functions_json(figures)}});
   answer.line = format("{}: {}, {} of {} samples{}{}", output.string(), shape_text(shape),

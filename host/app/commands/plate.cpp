@@ -1,5 +1,8 @@
 #include "features/plate/plate.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
@@ -55,16 +58,19 @@ int run_plate(const Options& options) {
 
   const std::uint64_t uncertain = made.uncertain.pixel_count();
   Answer answer{{{"picture", output.string()}}};
-  answer.json.update(shape_json(made.picture.shape));
+  const Shape shape =
+      written_shape(output, made.picture.shape, made.picture.pixel_aspect, file_wishes(options.picture));
+  answer.json.update(shape_json(shape));
   answer.json.update({{"samples", session.timeline().sample_count()},
                       {"uncertain_pixels", uncertain},
                       {"seconds", stopwatch.seconds()}});
   answer.line =
       format("{}: {}, {} samples, {:.3g} % of the pixels uncertain, {:.2f} s", output.string(),
-             shape_text(made.picture.shape), session.timeline().sample_count(),
+             shape_text(shape), session.timeline().sample_count(),
              100.0 * static_cast<double>(uncertain) / static_cast<double>(capture.shape.pixel_count()),
              stopwatch.seconds());
-  answer.notes = camera_notes(moved);
+  answer.notes = square_notes(capture, shape);
+  std::ranges::move(camera_notes(moved), std::back_inserter(answer.notes));
   answer.tell_source(session);
   if (made.saturation.above > 0) {
     answer.notes.push_back(

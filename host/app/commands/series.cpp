@@ -64,11 +64,14 @@ int run_series(const Options& options) {
   for (const SeriesPicture& picture : pictures) {
     answer.json["pictures"].push_back({{"picture", picture.path.string()}, {"start", picture.start.text()}});
   }
-  answer.json.update(shape_json(session.format().shape));
+  const Shape shape =
+      written_shape(names[0], session.format().shape, session.format().pixel_aspect, file_wishes(wishes));
+  tally.wrote(session.format(), shape);
+  answer.json.update(shape_json(shape));
   answer.json["functions"] = functions_json(*first);
   answer.line = format("{} … {}: {} exposures every {}, {}{}{}", pictures.front().path.string(),
                        pictures.back().path.filename().string(), pictures.size(), series.every.text(),
-                       shape_text(session.format().shape), still_gains_text(*first, request.is_plain()),
+                       shape_text(shape), still_gains_text(*first, request.is_plain()),
                        codes_text(first->capture, output));
   answer.json["skipped"] = wanted - pictures.size();
   if (wanted > pictures.size())

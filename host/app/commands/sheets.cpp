@@ -72,6 +72,10 @@ class SheetJob {
     answer.json[key] = std::move(exposures);
     answer.line = format("{}: {}, {}, {}", output_.string(), counted_as, counted(columns, "column"),
                          counted(rows, "row"));
+    if (options_.each) {
+      const CaptureFormat& capture = session.format();
+      tally_.wrote(capture, written_shape(*options_.each, capture.shape, capture.pixel_aspect, file_wishes(codes_)));
+    }
     tally_.end(answer, session, options_.verbose);
     answer.tell_source(session);
     return tell(options_, output_, answer);

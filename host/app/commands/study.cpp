@@ -172,15 +172,18 @@ int run_study(const Options& stated) {
         make_plate(session.capture(), capture_name, {},
                    output_format(options.picture, files.picture, session.format()),
                    session.devices().request().memory, progress_bar("reading", options.quiet));
-    write_picture(files.picture, plate.picture, {}, file_wishes(options.picture));
+    const FileWishes wishes = file_wishes(options.picture);
+    write_picture(files.picture, plate.picture, {}, wishes);
+    const Shape shape = written_shape(files.picture, plate.picture.shape, plate.picture.pixel_aspect, wishes);
     Answer answer{{{"picture", files.picture.string()}}};
     answer.line = format("{}: {}, the scene without moving things", files.picture.string(),
-                         shape_text(plate.picture.shape));
+                         shape_text(shape));
     if (!files.is_alone()) {
       files.write_commands(commands_text(options, files, study, request.style));
       answer.json["commands"] = files.commands.string();
       answer.line += format("; {}: the command", files.commands.string());
     }
+    answer.notes = square_notes(session.format(), shape);
     add_notes(answer, planned);
     return tell(options, files.picture, answer);
   }
@@ -194,7 +197,10 @@ int run_study(const Options& stated) {
     files.write_regions(study.regions.mask.to_picture(), functions_text(study.functions));
     recipe = PictureRecipe(recipe_sources(options_by_hand(options, files, request.style))).text(tally.precision());
   }
-  write_picture(files.picture, exposed.picture, recipe, file_wishes(options.picture));
+  const FileWishes wishes = file_wishes(options.picture);
+  write_picture(files.picture, exposed.picture, recipe, wishes);
+  const Shape shape = written_shape(files.picture, exposed.picture.shape, exposed.picture.pixel_aspect, wishes);
+  tally.wrote(session.format(), shape);
 
   Answer answer{{{"picture", files.picture.string()}}};
   if (!files.is_alone()) {
@@ -208,7 +214,7 @@ int run_study(const Options& stated) {
   }
   answer.json["moments"] = moments_json(study, planned.timeline());
   answer.json["trail_strength"] = study.trail_strength;
-  answer.line = format("{}: {}, {}", files.picture.string(), shape_text(exposed.picture.shape),
+  answer.line = format("{}: {}, {}", files.picture.string(), shape_text(shape),
                        moments_text(study, planned.timeline()));
   tally.end(answer, session, options.verbose);
   add_notes(answer, planned);

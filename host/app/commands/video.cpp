@@ -29,7 +29,7 @@ int run_video(const Options& options) {
       options, {.besides = video_needs(output.encoder_frames(), [&](const CaptureFormat& format) {
                   return output.frame_format(format).type;
                 })});
-  const Shape shape = session.format().shape;
+  const Shape shape = output.shape(session.format());
   Frames frames = frames_of(request, session.timeline());
   if (!frames.warning.empty()) print_warning(frames.warning);
   output.check(frames.numbers, inputs, replacing(options));
@@ -66,6 +66,7 @@ int run_video(const Options& options) {
 
   const auto [start_ns, end_ns] = frames.span();
   Answer answer{{{"video", name}, {"kind", output.kind()}}};
+  tally.wrote(session.format(), shape);
   answer.json.update(shape_json(shape));
   answer.json.update({{"frames", frames.numbers.size()},
                       {"skipped", wanted - frames.numbers.size()},

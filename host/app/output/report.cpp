@@ -77,6 +77,15 @@ void Answer::tell_source(const Session& session) {
   if (session.is_clip()) tell_source(session.facts(), session.notes());
 }
 
+std::vector<std::string> square_notes(const CaptureFormat& capture, const Shape& written) {
+  if (written == capture.shape) return {};
+  const auto [wide, high] = capture.pixel_aspect;
+  const Note note(format("pixels of {}:{} were made square: {} x {} became {} x {}", wide, high, capture.shape.width,
+                         capture.shape.height, written.width, written.height),
+                  {Setting::keep_pixels});
+  return note_texts({note}, Dialect::command_line);
+}
+
 int tell(const Options& options, const std::filesystem::path& output, const Answer& answer) {
   return tell(options, output, answer, options.output.has_value() || options.operands.size() > 1);
 }
@@ -107,6 +116,10 @@ void ExposureTally::add(const ExposedPicture& exposed) {
   report_ = rendering_report(exposed, exposed.output);
 }
 
+void ExposureTally::wrote(const CaptureFormat& capture, const Shape& written) {
+  squared_ = square_notes(capture, written);
+}
+
 std::string ExposureTally::saturation_text() const {
   return has_codes_ ? ", " + saturated_text(saturation_) : std::string();
 }
@@ -117,13 +130,15 @@ Json ExposureTally::saturation_json() const {
 }
 
 std::vector<std::string> ExposureTally::notes() const {
-  if (!cut_off_) return {};
+  std::vector<std::string> notes = squared_;
+  if (!cut_off_) return notes;
   const double white = cut_off_->reference_white();
-  return {format(
+  notes.push_back(format(
       "white is {:.3g} % of the light that {} reaches, and {} brighter come out white; nutik-cl expose "
       "--ev {:.1f} shows all that a still scene holds, and an .exr, or a .tif with --depth float, keeps it",
       100 * white, cut_off_->text(), counted(saturation_.above, "pixel"),
-      std::floor(10 * std::log2(white)) / 10)};
+      std::floor(10 * std::log2(white)) / 10));
+  return notes;
 }
 
 void ExposureTally::end(Answer& answer, Session& session, bool verbose, const std::string& rate) const {

@@ -56,6 +56,8 @@ int tell(const Options& options, const std::filesystem::path& output, const Answ
 class ExposureTally {
  public:
   void add(const ExposedPicture& exposed);
+  // The size that its pictures were written in.
+  void wrote(const CaptureFormat& capture, const Shape& written);
 
   // Of the last one: its arithmetic, by the name that asks for it, and what rendering it did and took, in lines.
   [[nodiscard]] const std::string& precision() const { return precision_; }
@@ -66,7 +68,7 @@ class ExposureTally {
   // hold light.
   [[nodiscard]] std::string saturation_text() const;
   [[nodiscard]] Json saturation_json() const;
-  // That codes to be seen end at white, where those of the capture go on behind it.
+  // That codes to be seen end at white, where those of the capture go on behind it; square_notes() of the last one.
   [[nodiscard]] std::vector<std::string> notes() const;
 
   // Ends an answer with that and with what the exposures were made with; `rate` is put before the seconds.
@@ -77,8 +79,12 @@ class ExposureTally {
   Saturation saturation_;
   bool has_codes_ = false;
   std::optional<Transfer> cut_off_;  // whose light above white was cut off
+  std::vector<std::string> squared_;
   std::string precision_, renderer_, report_;
 };
+
+// That pixels were made square, where the size that was written is not the capture's.
+[[nodiscard]] std::vector<std::string> square_notes(const CaptureFormat& capture, const Shape& written);
 
 // Warnings of many exposures, printed when this goes: of those that were made before an error, too.
 struct WarningsAtEnd : SharedWarnings {

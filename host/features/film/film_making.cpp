@@ -1,5 +1,6 @@
 #include "features/film/film_making.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "capture/format.hpp"
@@ -140,14 +141,48 @@ std::filesystem::path VideoOutput::still(std::uint64_t frame) const {
   return path_.parent_path() / NumberedName::parse(path_.filename().string()).value().with(frame);
 }
 
+Shape VideoOutput::shape(const CaptureFormat& capture) const {
+  const FileWishes wishes = file_wishes(request_);
+  if (codec_ == nullptr) return written_shape(path_, capture.shape, capture.pixel_aspect, wishes);
+  if (!wishes.square_pixels || codec_->is_lossless) return capture.shape;
+  Shape shape = capture.shown_shape();
+  const bool pairs = codec_->pairs_pixels;
+  if (shape.width != capture.shape.width) shape.width += pairs ? shape.width % 2 : 0;
+  if (shape.height != capture.shape.height) shape.height += pairs ? shape.height % 2 : 0;
+  return std::max(shape.width, shape.height) <= kLargestSquaredSide ? shape : capture.shape;
+}
+
+namespace {
+
+// Frames in square pixels.
+class SquareWriter final : public VideoWriter {
+ public:
+  SquareWriter(const Shape& shape, std::unique_ptr<VideoWriter> writer) : shape_(shape), writer_(std::move(writer)) {}
+  void write(const Picture& picture, const std::string& text, std::uint64_t number) override {
+    writer_->write(in_square_pixels(picture, shape_), text, number);
+  }
+  void finish() override { writer_->finish(); }
+  [[nodiscard]] std::vector<std::string> notes() const override { return writer_->notes(); }
+
+ private:
+  Shape shape_;
+  std::unique_ptr<VideoWriter> writer_;
+};
+
+}  // namespace
+
 std::unique_ptr<VideoWriter> VideoOutput::open(const CaptureFormat& capture,
                                                const OutputFormat& format) const {
   if (codec_ == nullptr) return open_still_writer(path_, file_wishes(request_));
   const CodeMaking making = CodeMaking::of(capture, format);
-  return open_video_writer(path_,
-                           {capture.shape, format.type, format.white_code, making.transfer, rate_,
-                            making.primaries, capture.pixel_aspect},
-                           *codec_);
+  const Shape frame = shape(capture);
+  const bool is_squared = frame != capture.shape;
+  auto writer = open_video_writer(path_,
+                                  {frame, format.type, format.white_code, making.transfer, rate_, making.primaries,
+                                   is_squared ? Rational{1, 1} : capture.pixel_aspect},
+                                  *codec_);
+  if (!is_squared) return writer;
+  return std::make_unique<SquareWriter>(frame, std::move(writer));
 }
 
 std::string VideoOutput::kind() const { return writes_stills() ? "stills" : std::string(codec_->name); }

@@ -39,6 +39,8 @@ class VideoOutput {
   // The still of a frame. Of stills alone.
   [[nodiscard]] std::filesystem::path still(std::uint64_t frame) const;
 
+  // The size of its frames: in square pixels where people look at them.
+  [[nodiscard]] Shape shape(const CaptureFormat& capture) const;
   [[nodiscard]] std::unique_ptr<VideoWriter> open(const CaptureFormat& capture,
                                                   const OutputFormat& format) const;
 

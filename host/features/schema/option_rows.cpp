@@ -417,6 +417,10 @@ constexpr Option kRows[] = {
     known(Setting::quality, {0, "quality", "N", exposure, kExposesFreely | set_of(Id::plate, Id::study),
      take_whole<InPicture<&OutputRequest::quality>, 1, 100>,
      "of .jpg pictures, 1 … 100 (default: 90)"}),
+    known(Setting::keep_pixels, {0, "keep-pixels", "", exposure,
+     set_of(Id::expose, Id::sweep, Id::video, Id::plate, Id::study), take<InPicture<&OutputRequest::keep_pixels>>,
+     "keep pixels that are not square as they are, to measure in them (default: .png, .jpg and films of lossy codecs "
+     "come in square ones, unless --depth 16 or --out-transfer source is stated; other files as they are)"}),
     {0, "negative", "HOW", exposure, kExposesFreely, take<InPicture<&OutputRequest::negative>>,
      "what codes make of light below 0: saturate (black), offset (light 0 is mid-grey, light below it "
      "darker), abs (as bright as light above it) (default: saturate)",

@@ -439,12 +439,30 @@ std::unique_ptr<Clip> open_still_files(std::span<const std::filesystem::path> fi
   return std::make_unique<StillClip>(files, timing, options);
 }
 
+// Between the codes themselves, as players do: in light, Lanczos' kernel would draw dark lines beside bright edges.
+Picture enlarged(const Picture& picture, const Shape& shape) {
+  Picture large(shape, picture.type, picture.white_code);
+  large.transfer = picture.transfer;
+  large.primaries = picture.primaries;
+  large.exposed_ns = picture.exposed_ns;
+  const int depth = picture.type == ValueType::code8 ? CV_8U : CV_16U;
+  const auto matrix_of = [&](const Shape& of, const std::byte* bytes) {
+    return cv::Mat(static_cast<int>(of.height), static_cast<int>(of.width),
+                   CV_MAKETYPE(depth, static_cast<int>(of.channels)), const_cast<std::byte*>(bytes));
+  };
+  cv::Mat to = matrix_of(shape, large.bytes.data());
+  cv::resize(matrix_of(picture.shape, picture.bytes.data()), to, to.size(), 0, 0, cv::INTER_LANCZOS4);
+  const double white = picture.white_code;
+  cv::min(to, cv::Scalar(white, white, white), to);
+  return large;
+}
+
 }  // namespace
 }  // namespace nutik::stills
 
 // What nutik-stills.so gives the program (media/module.hpp).
 extern "C" __attribute__((visibility("default"))) const nutik::StillModule nutik_still_module{
     nutik::use_shared_state, nutik::stills::open_still_files, nutik::stills::read_exif_times,
-    nutik::stills::write_exr, nutik::stills::read_exr_text};
+    nutik::stills::write_exr, nutik::stills::read_exr_text, nutik::stills::enlarged};
 
 extern "C" __attribute__((visibility("default"))) const char nutik_module_version[] = NUTIK_VERSION;

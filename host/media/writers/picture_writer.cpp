@@ -22,6 +22,7 @@ struct FileKind {
   bool holds_light = false;         // in 32 bits
   bool holds_half = false;          // in 16
   bool is_lossy = false;            // codes
+  bool is_for_eyes = false;         // shown by viewers that take pixels for square ones
   std::uint32_t only_channels = 0;  // 0: any
   void (*write)(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes& wishes);
 };
@@ -45,11 +46,12 @@ void write_exr_file(OutputFile& file, const Picture& picture, const std::string&
 }
 
 constexpr std::array<FileKind, 10> kFileKinds{{
-    {.extension = ".png", .code_bits = 16, .write = write_png_file},
+    {.extension = ".png", .code_bits = 16, .is_for_eyes = true, .write = write_png_file},
     {.extension = ".tif", .code_bits = 16, .holds_light = true, .write = write_tiff_file},
     {.extension = ".tiff", .is_preferred = false, .code_bits = 16, .holds_light = true, .write = write_tiff_file},
-    {.extension = ".jpg", .code_bits = 8, .is_lossy = true, .write = write_jpeg_file},
-    {.extension = ".jpeg", .is_preferred = false, .code_bits = 8, .is_lossy = true, .write = write_jpeg_file},
+    {.extension = ".jpg", .code_bits = 8, .is_lossy = true, .is_for_eyes = true, .write = write_jpeg_file},
+    {.extension = ".jpeg", .is_preferred = false, .code_bits = 8, .is_lossy = true, .is_for_eyes = true,
+     .write = write_jpeg_file},
     {.extension = ".exr", .holds_light = true, .holds_half = true, .write = write_exr_file},
     {.extension = ".ppm", .code_bits = 16, .only_channels = 3, .write = write_netpbm},
     {.extension = ".pgm", .code_bits = 16, .only_channels = 1, .write = write_netpbm},
@@ -148,8 +150,22 @@ std::string picture_extensions() {
   return extensions_of([](const FileKind&) { return true; });
 }
 
+Shape written_shape(const std::filesystem::path& path, const Shape& shape, const Rational& aspect,
+                    const FileWishes& wishes) {
+  const Shape square = in_square_pixels(shape, aspect);
+  const bool is_squared = wishes.square_pixels && file_kind_of(path).is_for_eyes &&
+                          std::max(square.width, square.height) <= kLargestSquaredSide;
+  return is_squared ? square : shape;
+}
+
+Picture in_square_pixels(const Picture& picture, const Shape& shape) {
+  return shape == picture.shape ? picture : still_module().enlarge(picture, shape);
+}
+
 void write_picture(const std::filesystem::path& path, const Picture& picture, const std::string& text,
                    const FileWishes& wishes) {
+  const Shape shape = written_shape(path, picture.shape, picture.pixel_aspect, wishes);
+  if (shape != picture.shape) return write_picture(path, in_square_pixels(picture, shape), text, wishes);
   const FileKind& kind = file_kind_of(path);
   const bool fits = holds_codes(picture.type) ? value_bytes(picture.type) * 8 <= kind.code_bits
                                               : picture.type == ValueType::light32 && kind.holds_light;

@@ -37,7 +37,16 @@ struct FileWishes {
   static constexpr int kDefaultQuality = 90;
   int quality = kDefaultQuality;  // 1 … 100, of lossy files
   bool as_half = false;         // light in 16 bits
+  bool square_pixels = false;   // of files that people look at: .png and .jpg
 };
+
+// That files hold where pixels are made square.
+inline constexpr std::uint32_t kLargestSquaredSide = 65'500;
+// The size that a picture of codes, whose pixels are `aspect` times as wide as high, has in a file of this name.
+[[nodiscard]] Shape written_shape(const std::filesystem::path& path, const Shape& shape, const Rational& aspect,
+                                  const FileWishes& wishes);
+// The picture in square pixels, if their size is not its own.
+[[nodiscard]] Picture in_square_pixels(const Picture& picture, const Shape& shape);
 
 // Writes a picture whole or not at all, to a file or to standard output, with what its values mean and a line of text where its format has a place for
 // them (picture_text.hpp).

@@ -40,7 +40,10 @@ std::variant<Transfer, SourceCodes> parse_out_transfer(std::string_view text) {
 }
 
 FileWishes file_wishes(const OutputRequest& request) {
-  return {request.quality.value_or(FileWishes::kDefaultQuality), request.depth == Depth::half};
+  const bool measures = request.depth == Depth::bits16 ||
+                        (request.transfer && std::holds_alternative<SourceCodes>(*request.transfer));
+  return {request.quality.value_or(FileWishes::kDefaultQuality), request.depth == Depth::half,
+          !request.keep_pixels && !measures};
 }
 
 void check_quality(const OutputRequest& request, const std::filesystem::path& output) {

@@ -24,6 +24,7 @@ struct OutputRequest {
   // How light becomes codes, whose white is the last one that their type holds. None: sRGB, which screens show.
   std::optional<std::variant<Transfer, SourceCodes>> transfer = std::nullopt;
   std::optional<int> quality = std::nullopt;  // of lossy files, 1 … 100
+  bool keep_pixels = false;  // in files that people look at, too, whose pixels are made square otherwise
 
   friend bool operator==(const OutputRequest&, const OutputRequest&) = default;
 };
@@ -31,7 +32,8 @@ struct OutputRequest {
 // `source`, or what Transfer::parse() knows, but for functions that go beyond a screen's white. Throws UsageError.
 [[nodiscard]] std::variant<Transfer, SourceCodes> parse_out_transfer(std::string_view text);
 
-// What the file's writer needs of it.
+// What the file's writer needs of it. Pixels are kept, too, if 16 bits or the capture's own codes were asked for: those
+// are to be measured.
 [[nodiscard]] FileWishes file_wishes(const OutputRequest& request);
 
 // Throws UsageError where a quality was asked for and a file of this name has none.
