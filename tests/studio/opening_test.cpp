@@ -409,7 +409,7 @@ TEST_F(OpeningTest, FilesAreChosenInDialogsByKeyboard) {
   drag(canvas(), at(10, 10), at(60, 40));
   ASSERT_NO_FATAL_FAILURE(choose(Qt::Key_S, "mine.nutik"));
   ASSERT_TRUE(window_.has_files()) << window_.notice().text().toStdString();
-  ASSERT_NO_FATAL_FAILURE(choose(Qt::Key_E, "window.png"));
+  ASSERT_NO_FATAL_FAILURE(choose(Qt::Key_E, "window"));  // an ending is added
   window_.activateWindow();
   ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
   QTest::keyClick(&window_, Qt::Key_C, Qt::ControlModifier | Qt::ShiftModifier);

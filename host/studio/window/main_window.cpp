@@ -5,7 +5,9 @@
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFileInfo>
+#include <QGridLayout>
 #include <QInputDialog>
+#include <QKeyEvent>
 #include <QMimeData>
 #include <QScreen>
 #include <QSettings>
@@ -62,13 +64,19 @@ void MainWindow::build_window() {
   canvas_ = new Canvas(document_);
   canvas_->setObjectName("canvas");
   canvas_->set_hint(tr("Open a clip or a capture (Ctrl+O), or drop one here."));
+  // Over the picture, which stays where it is whatever is said.
+  auto* said = new QWidget;
+  auto* said_column = new QVBoxLayout(said);
   auto* picture = new QWidget;
-  auto* picture_column = new QVBoxLayout(picture);
-  picture_column->setContentsMargins(0, 0, 0, 0);
-  picture_column->setSpacing(0);
-  picture_column->addWidget(offer_);
-  picture_column->addWidget(notice_);
-  picture_column->addWidget(canvas_, 1);
+  auto* stack = new QGridLayout(picture);
+  for (QLayout* layout : std::initializer_list<QLayout*>{said_column, stack}) {
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+  }
+  said_column->addWidget(offer_);
+  said_column->addWidget(notice_);
+  stack->addWidget(canvas_, 0, 0);
+  stack->addWidget(said, 0, 0, Qt::AlignTop);
 
   auto* strip = new TimeStrip(document_, axis_);
   strip->setObjectName("time_strip");
@@ -440,6 +448,12 @@ void MainWindow::follow_opening() {
 bool MainWindow::event(QEvent* event) {
   if (event->type() == QEvent::WindowActivate) tell_changes();
   return QMainWindow::event(event);
+}
+
+// Escape that nothing in the window had a use for.
+void MainWindow::keyPressEvent(QKeyEvent* event) {
+  if (event->key() != Qt::Key_Escape) return QMainWindow::keyPressEvent(event);
+  (notice_->isVisible() ? notice_ : offer_)->clear();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

@@ -89,6 +89,7 @@ class MainWindow : public QMainWindow {
 
  protected:
   bool event(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
   void closeEvent(QCloseEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
@@ -124,12 +125,16 @@ class MainWindow : public QMainWindow {
   void build_view_menu();
   void build_start_menu();
   void build_region_menu();
+  void build_help_menu();
+  void show_keys();
+  static void offer_beside(QWidget& widget, const QMenu& menu);
   void follow_exposure();
 
   // files.cpp
   using Use = std::function<void(const QString& path)>;
   void ask_for_file(const QString& title, const QString& filter, const Use& use);
   void ask_for_name(const QString& title, const QString& ending, const QString& filter, const Use& use);
+  [[nodiscard]] QString named_file(const QString& title, const QString& ending, const QString& filter);
   bool save();  // asks for a name where there is none
   bool save_as();
   bool may_leave();  // asks where something is not saved

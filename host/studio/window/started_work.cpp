@@ -141,10 +141,12 @@ Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session,
         session->render(exposure_of(state, mask), output_format({}, path, session->format()), control);
     write_picture(path, exposed.picture, recipe.text(std::string(to_text(exposed.precision))),
                   file_wishes({}));
+    const bool is_within = exposed.saturation.below + exposed.saturation.above == 0;
     const QString line = Jobs::tr("%1: %2, %3")
                              .arg(QString::fromStdString(path.string()),
                                   QString::fromStdString(shape_text(exposed.picture.shape)),
-                                  QString::fromStdString(saturated_text(exposed.saturation)));
+                                  is_within ? Jobs::tr("no light beyond white")
+                                            : QString::fromStdString(saturated_text(exposed.saturation)));
     return [told, line] { told(line); };
   };
 }
