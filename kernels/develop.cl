@@ -56,7 +56,7 @@ NUTIK_INLINE uints codes_of(const Lights light, global const Threshold* threshol
                             global const uint* guesses, const uint guess_count) {
   const reals root = sqrt(share_of_white(light, thresholds[0]));
   const uints step = min(NUTIK_TO_UINTS(root * guess_count), (uints)(guess_count - 1));
-  const uints guess = gather_uint(guesses, step);
+  const uints guess = NUTIK_GATHER_UINTS(guesses, step);
   return guess + one_where_reached(thresholds, guess + 1, light);
 }
 

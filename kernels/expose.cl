@@ -85,14 +85,14 @@ typedef struct {
 } Tile;
 
 NUTIK_INLINE void expose_block(const Entry* entry, const Tile tile, const Block* block, const Region* region,
-                               global const Light* transfer, Sums* sums) {
+                               LightTable transfer, Sums* sums) {
   global const TileEntry* directory = (global const TileEntry*)entry->payload;
   expose_tile(entry->payload, directory[tile.in_picture], tile.lane, block, region, transfer, sums);
 }
 
 // Adds an entry to pixels of one function.
 NUTIK_INLINE void expose_one(const Entry* entry, const Tile tile, const uint function,
-                             global const Light* transfer, const BandSums band) {
+                             LightTable transfer, const BandSums band) {
   const BlockPart part = entry->parts[function];
   const uint kept_as = part.steady ? 1u << (part.steady >> NUTIK_SUM_SHIFT) : 0;
   const bool is_of_kept = entry->kept & kept_as;
@@ -153,7 +153,7 @@ NUTIK_INLINE void narrow(Block* block, global const BlockPart* parts,
 
 // Adds an entry to pixels of several functions, which have no kept sums.
 NUTIK_INLINE void expose_several(const Entry* entry, const Tile tile, global const function_index* functions,
-                                 global const Light* transfer, const BandSums band) {
+                                 LightTable transfer, const BandSums band) {
   if (entry->is_kept && !entry->is_start) return;
   Sums sums[NUTIK_ITEM_VECTORS];
   clear(sums);
@@ -180,10 +180,20 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
                    global const Weight* restrict weights, global const Weight* restrict boundaries,
                    global const uint* restrict tiles, global const ushort* restrict function_of_tile,
                    global const function_index* restrict function_of_lane, global const uchar* restrict exposes,
-                   global const Light* restrict transfer, global const Sum* restrict kept,
+                   global const Light* restrict light, global const Sum* restrict kept,
                    global Sum* restrict bundles, global Sum* restrict sums, const ExposeLaunch launch) {
   const Item item = item_of(get_global_id(0), launch.tile_count);
   const BandSums band = {sums, bundles, kept};
+#if NUTIK_TABLE_COPIES > 0
+  local Light copies[256 * NUTIK_TABLE_COPIES];
+  for (uint i = get_local_id(0); i < 256 * NUTIK_TABLE_COPIES; i += get_local_size(0)) {
+    copies[i] = light[i / NUTIK_TABLE_COPIES];
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  const LightTable transfer = copies + get_local_id(0) % NUTIK_TABLE_COPIES;
+#else
+  const LightTable transfer = light;
+#endif
 
   // Block by block, not tile by tile: a block's tiles lie one after the other in memory. A block is summed
   // on its own before it is added, so that rounding errors grow with its length, not the capture's; the

@@ -69,7 +69,7 @@ std::uint32_t Activity::change(const ChangeRecord& before, const ChangeRecord& a
   return static_cast<std::uint32_t>(largest);
 }
 
-void Activity::add(const BlockView& block) {
+void Activity::add(const BlockView& block, const std::function<void(std::uint32_t y)>& begin_row) {
   const TileGrid grid(shape_);
   const bool is_first = last_.empty();
   last_.resize(changes_.size());
@@ -89,6 +89,7 @@ void Activity::add(const BlockView& block) {
   std::vector<ChangeRecord> history;
   std::uint64_t pixel = 0;
   for (std::uint32_t y = 0; y < shape_.height; ++y) {
+    if (begin_row) begin_row(y);
     for (std::uint32_t x = 0; x < shape_.width; ++x, ++pixel) {
       const bool counts = options_.counted.empty() || options_.counted[pixel] != 0;
       block.read_history(grid.tile_of(x, y), TileGrid::lane_of(x, y), history);

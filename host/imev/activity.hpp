@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -65,8 +66,9 @@ class Activity {
     return {{"changes of samples", samples * (3 + tags) * 2 * sizeof(std::uint64_t)}};
   }
 
-  // Adds the next block; blocks must come in order, all of them.
-  void add(const BlockView& block);
+  // Adds the next block; blocks must come in order, all of them. Calls begin_row(y), if there is one, before each row
+  // of its pixels.
+  void add(const BlockView& block, const std::function<void(std::uint32_t y)>& begin_row = {});
   // After the last block: samples that were left out have as many changes as those beside them have on average.
   void bridge_left_out();
 

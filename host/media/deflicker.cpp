@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,8 @@ constexpr std::uint32_t kMaxBlocksToASide = 48;  // spread over the picture
 constexpr double kCode8 = 1.0 / 255;
 // A correction that would be this much another is left as it is, so that still pixels keep their codes.
 constexpr double kMinChange = 0.75 * kCode8;
+// Codes, for one that counts: of rarer ones neither the exposure can be told nor what a correction makes of them.
+constexpr std::size_t kMaxSilent = 50;
 
 // Tukey's: nothing from 4.685 standard deviations on, as usual.
 double trust(double error, double deviation) {
@@ -146,7 +149,7 @@ class DeflickeredClip final : public Clip {
     for (std::size_t channel = 0; channel < means.size(); ++channel) {
       const auto shift = CodeShift::between(means[channel], first_[channel]);
       if (!shift) return false;
-      change = std::max(change, shift->distance_to(shifts_[channel]));
+      change = std::max(change, shift->distance_to(shifts_[channel], means[channel]));
       shifts.push_back(*shift);
     }
     if (change < kMinChange) return true;
@@ -154,7 +157,7 @@ class DeflickeredClip final : public Clip {
     is_shifted_ = false;
     double most = 0;
     for (std::size_t channel = 0; channel < tables_.size(); ++channel) {
-      most = std::max(most, shifts_[channel].distance_to({}));
+      most = std::max(most, shifts_[channel].distance_to({}, means[channel]));
       fill(tables_[channel], shifts_[channel]);
     }
     is_shifted_ = most >= kMinChange;
@@ -208,7 +211,6 @@ std::optional<CodeShift> CodeShift::between(std::span<const double> codes, std::
   constexpr int kTimesEach = 4;
   // Codes of one place stray, by shadows too. Followed more closely, that would be taken for a bent curve.
   constexpr double kMinReach = 4;
-  constexpr std::size_t kMaxSilent = 50;  // pairs, for one that tells: of darkness it need not be known
   CodeShift shift;
   std::vector<double> ratios;
   for (std::size_t i = 0; i < codes.size(); ++i) {
@@ -231,12 +233,13 @@ std::optional<CodeShift> CodeShift::between(std::span<const double> codes, std::
       deviation = std::max(1.4826 * median(sizes), kCode8);
       // Sorted to fractions of a knot first: weights and weighted sums.
       constexpr std::size_t kParts = 4;
-      std::array<double, kParts*(kKnots - 1) + 1> weights{}, sums{};
+      std::array<double, kParts*(kKnots - 1) + 1> weights{}, strays{}, sums{};
       for (std::size_t i = 0; i < codes.size(); ++i) {
         const double weight = trust(left[i], deviation);
         const auto part =
             static_cast<std::size_t>(std::lround(std::min(codes[i], 1.0) * (weights.size() - 1)));
         weights[part] += weight;
+        strays[part] += 1 - weight;
         sums[part] += weight * left[i];
       }
       // So many pairs count as much as what is known already.
@@ -247,7 +250,7 @@ std::optional<CodeShift> CodeShift::between(std::span<const double> codes, std::
           const double away =
               std::abs(static_cast<double>(part) / kParts - static_cast<double>(knot)) / (reach + 1);
           const double near = std::max(1 - away, 0.0);
-          weight += near * weights[part];
+          weight += near * (weights[part] + strays[part]);
           sum += near * sums[part];
         }
         shift.shifts_[knot] += sum / weight;
@@ -275,12 +278,12 @@ double CodeShift::at(double code) const {
   return (1 - share) * shifts_[knot] + share * shifts_[knot + 1];
 }
 
-double CodeShift::distance_to(const CodeShift& other) const {
-  double distance = 0;
-  for (std::size_t knot = 0; knot < kKnots; ++knot) {
-    distance = std::max(distance, std::abs(shifts_[knot] - other.shifts_[knot]));
-  }
-  return distance;
+double CodeShift::distance_to(const CodeShift& other, std::span<const double> codes) const {
+  std::vector<double> distances;
+  for (const double code : codes) distances.push_back(std::abs(at(code) - other.at(code)));
+  const auto rare = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / kMaxSilent);
+  std::nth_element(distances.begin(), rare, distances.end(), std::greater<>());
+  return *rare;
 }
 
 std::unique_ptr<Clip> deflicker(std::unique_ptr<Clip> clip) {

@@ -28,8 +28,9 @@ class CodeShift {
   static std::optional<CodeShift> between(std::span<const double> codes, std::span<const double> wanted);
 
   [[nodiscard]] double at(double code) const;
-  // The greatest difference of two.
-  [[nodiscard]] double distance_to(const CodeShift& other) const;
+  // The greatest difference of two that more than a fiftieth of `codes` has, which are not empty. Where no codes are, a
+  // shift is only carried on from others, and may be anything.
+  [[nodiscard]] double distance_to(const CodeShift& other, std::span<const double> codes) const;
 
  private:
   static constexpr std::size_t kKnots = 17;

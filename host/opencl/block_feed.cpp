@@ -55,7 +55,7 @@ bool ResidentBlocks::drop_others(std::uint64_t bytes) {
 }
 
 BlockFeed::BlockFeed(cl::Context context, const cl::Device& device, const DeviceInfo& info)
-    : context_(std::move(context)), info_(info), copies_(context_, device) {}
+    : context_(std::move(context)), info_(info), uploads_(context_, device) {}
 
 void BlockFeed::keep_resident(const CaptureSource* source) {
   stop();
@@ -320,7 +320,7 @@ BlockPlace BlockFeed::store(Slab& slab, const BlockLease& lease) {
       lease.copy_to(source_->format(), upload_memory_.first(place.bytes));
       from = upload_memory_.data();
     }
-    copies_.enqueueWriteBuffer(slab.device, CL_TRUE, place.offset, place.bytes, from);
+    uploads_.write(slab.device, place.offset, {from, place.bytes});
   }
   slab.used = std::min(align_up(place.offset + place.bytes, kBlockAlignment), slab.capacity);
   return place;

@@ -22,6 +22,7 @@
 #include "opencl/kernel_layout.hpp"
 #include "opencl/needed_tiles.hpp"
 #include "opencl/opencl_api.hpp"
+#include "opencl/uploads.hpp"
 #include "render/render_plan.hpp"
 #include "system/page_buffer.hpp"
 
@@ -165,7 +166,7 @@ class BlockFeed {
   cl::Context context_;
   DeviceInfo info_;
   FeedLimits limits_{0, 0};
-  cl::CommandQueue copies_;  // its own, so that copying goes on while the kernel runs
+  Uploads uploads_;
 
   const RenderPlan* plan_ = nullptr;
   CaptureSource* source_ = nullptr;

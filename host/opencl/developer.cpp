@@ -116,7 +116,7 @@ void Developer::develop_rows(const ExposedBand& exposed, const Band& rows, const
   }
   Bytes of_sums(std::uint64_t{part.width} * part.height * shape_.channels * sum_bytes(work_.precision));
   develop_band(rows, part, of_sums, [&](const cl::Buffer& raster) {
-    return kernel(items(queue_, work_.shape, rows.tile_count), sums, rows.shape.width, rows.shape.height,
+    return kernel(items(kernel, queue_, work_.shape, rows.tile_count), sums, rows.shape.width, rows.shape.height,
                   rows.tile_count, raster);
   });
   store_light(plan_, part, work_.precision, of_sums, picture);
@@ -139,12 +139,11 @@ void Developer::codes(const ExposedBand& exposed, const DeviceCodes& tables) {
   const cl::Buffer scales = memory_.upload(light_scales(plan_, work_.precision));
   const Band& band = exposed.band;
   const Rectangle part = part_in(band);
-  const cl::EnqueueArgs tiles = items(queue_, work_.shape, band.tile_count);
   if (exposed.map.host->is_mixed()) {
     BlendCodesKernel kernel(program_, "blend_codes");
     const cl::Buffer where_blended = memory_.upload(blend_scales(plan_, work_.precision));
     develop_band(band, part, rows_of(part), [&](const cl::Buffer& raster) {
-      return kernel(tiles, exposed.sums, scales, where_blended, exposed.map.of_lane, exposed.map.first_of,
+      return kernel(items(kernel, queue_, work_.shape, band.tile_count), exposed.sums, scales, where_blended, exposed.map.of_lane, exposed.map.first_of,
                     exposed.map.shares, blend_shift(plan_, work_.precision), band.shape.width,
                     band.shape.height, band.tile_count, tables.thresholds, tables.guesses, tables.guess_count,
                     raster);
@@ -153,7 +152,7 @@ void Developer::codes(const ExposedBand& exposed, const DeviceCodes& tables) {
   }
   DevelopCodesKernel kernel(program_, "develop_codes");
   develop_band(band, part, rows_of(part), [&](const cl::Buffer& raster) {
-    return kernel(tiles, exposed.sums, scales, exposed.map.of_lane, band.shape.width, band.shape.height,
+    return kernel(items(kernel, queue_, work_.shape, band.tile_count), exposed.sums, scales, exposed.map.of_lane, band.shape.width, band.shape.height,
                   band.tile_count, tables.thresholds, tables.guesses, tables.guess_count, raster);
   });
 }
@@ -169,7 +168,7 @@ Saturation Developer::saturated(const ExposedBand& exposed, const CodeScale& sca
   const cl::Buffer counts =
       memory_.allocate(sizeof found, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, found.data());
   CountSaturatedKernel kernel(program_, "count_saturated");
-  const cl::Event event = kernel(items(queue_, work_.shape, band.tile_count), exposed.sums,
+  const cl::Event event = kernel(items(kernel, queue_, work_.shape, band.tile_count), exposed.sums,
                                  memory_.upload(blend_scales(plan_, work_.precision)), exposed.map.of_lane,
                                  band.shape.width, band.shape.height, band.tile_count, left, top,
                                  left + part.width, top + part.height, limits, counts);

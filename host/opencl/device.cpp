@@ -152,6 +152,9 @@ DeviceInfo describe_device(const cl::Device& device) {
   info.native_float_lanes = device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>();
   info.loop_limit = loop_limit_of(info);
   info.has_double = device.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>() != 0;
+  if (device.getInfo<CL_DEVICE_LOCAL_MEM_TYPE>() == CL_LOCAL) {
+    info.group_memory_bytes = device.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>();
+  }
   cl_bool unified = CL_FALSE;
   device.getInfo(CL_DEVICE_HOST_UNIFIED_MEMORY, &unified);
   info.shares_host_memory = info.kind == DeviceKind::cpu && unified == CL_TRUE;

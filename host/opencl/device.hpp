@@ -25,6 +25,7 @@ struct DeviceInfo {
   // Iterations after which a work-item's loops end, all of them together, whether they are done or not; 0: never.
   std::uint32_t loop_limit = 0;
   bool has_double = false;
+  std::uint64_t group_memory_bytes = 0;  // beside the work-items of a group; 0: such memory is like any other
   bool shares_host_memory = false;
 };
 

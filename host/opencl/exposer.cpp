@@ -245,7 +245,7 @@ void Exposer::launch(const cl::Buffer& payload, std::span<const BlockEntry> entr
       const ExposeLaunch launched{band.sum_tiles, static_cast<cl_uint>(part.size()),
                                   static_cast<cl_uint>(plan_.function_count()), is_first ? 1u : 0u};
       const cl::Event event =
-          kernel(items(device_.queue, work_.shape, band.sum_tiles), payload, entries_of_part, tables.parts,
+          kernel(items(kernel, device_.queue, work_.shape, band.sum_tiles), payload, entries_of_part, tables.parts,
                  tables.gains, tables.weights, tables.boundaries, exposed.map.tiles, exposed.map.of_tile,
                  exposed.map.of_lane, exposes, light_, kept, exposed.bundles, exposed.sums, launched);
       event.wait();

@@ -31,11 +31,12 @@ std::string common_options(const Work& work, const CaptureFormat& capture, bool 
 
 std::string expose_options(const Work& work, const CaptureFormat& capture, const char* light_kind,
                            bool has_delays) {
+  const bool has_copies = capture.code_bytes == 1 && light_kind == std::string_view("NUTIK_LIGHT_TABLE");
   return format(
       "{} -DNUTIK_CODE_BYTES={} -DNUTIK_LIGHT={} -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} "
-      "-DNUTIK_LANES={}",
+      "-DNUTIK_LANES={} -DNUTIK_ROWS_AT_ONCE={} -DNUTIK_TABLE_COPIES={}",
       common_options(work, capture, has_delays), capture.code_bytes, light_kind, work.shape.item_pixels,
-      work.shape.item_tiles, work.shape.lanes);
+      work.shape.item_tiles, work.shape.lanes, work.shape.rows_at_once, has_copies ? work.shape.table_copies : 0);
 }
 
 std::string develop_options(const Work& work, const CaptureFormat& capture, const OutputFormat& output,
@@ -43,12 +44,12 @@ std::string develop_options(const Work& work, const CaptureFormat& capture, cons
   const std::size_t raster_bytes = holds_codes(output.type) ? value_bytes(output.type) : 1;
   return format(
       "{} -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} -DNUTIK_LANES={} "
-      "-DNUTIK_RASTER_BYTES={} -DNUTIK_BLENDS={}",
+      "-DNUTIK_TABLE_COPIES=0 -DNUTIK_RASTER_BYTES={} -DNUTIK_BLENDS={}",
       common_options(work, capture, has_delays), work.shape.item_pixels, work.shape.item_tiles,
       std::min(work.shape.lanes, kTileSide), raster_bytes, blends ? 1 : 0);
 }
 
-const DeviceLight& KernelConstants::light(const RenderPlan& plan, Precision precision, bool permutes_pieces,
+const DeviceLight& KernelConstants::light(const RenderPlan& plan, Precision precision, const LightMeans& means,
                                           DeviceMemory& memory) {
   const CaptureFormat& capture = plan.capture;
   LightKey key{capture.transfer, capture.code_bytes, capture.white_code, precision};
@@ -57,7 +58,7 @@ const DeviceLight& KernelConstants::light(const RenderPlan& plan, Precision prec
     memory.count(kept->bytes());
     return *kept;
   }
-  const LightSource source = light_source(capture, precision, permutes_pieces);
+  const LightSource source = light_source(capture, precision, means);
   const Bytes values = light_values(source, precision, key.fixed_white_light);
   return light_.keep({key, source.kind, memory.upload(values), values.size()});
 }
@@ -76,6 +77,8 @@ const DeviceCodes* KernelConstants::codes(const CodeKey& key, DeviceMemory& memo
 
 const DeviceMap& KernelConstants::map(const std::shared_ptr<const MaskMap>& map, const Band& band,
                                       DeviceMemory& memory, std::uint64_t& written_bytes) {
+  // Of a mask that no plan has any more; another capture's is a map of its own, however alike.
+  maps_.forget([](const DeviceMap& each) { return each.map.use_count() == 1; });
   const DeviceMap* const kept =
       maps_.find([&](const DeviceMap& each) { return each.map == map && each.band == band; });
   if (kept != nullptr) {
@@ -100,7 +103,7 @@ const DeviceMap& KernelConstants::map(const std::shared_ptr<const MaskMap>& map,
     on_device.first_of = memory.upload(functions.first_of);
     on_device.shares = memory.upload(functions.shares);
   } else {
-    functions.of_lane = {};
+    std::vector<std::uint16_t>().swap(functions.of_lane);  // assigning {} would keep its memory
   }
   on_device.host = std::make_shared<const FunctionMap>(std::move(functions));
   const DeviceMap& made = maps_.keep(std::move(on_device));

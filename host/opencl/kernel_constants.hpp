@@ -13,6 +13,7 @@
 #include "opencl/device_memory.hpp"
 #include "opencl/function_map.hpp"
 #include "opencl/kernel_tables.hpp"
+#include "opencl/light_source.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/recent.hpp"
 #include "opencl/work_shape.hpp"
@@ -86,9 +87,9 @@ class KernelConstants {
   // Maps of `max_map_bytes` are kept.
   explicit KernelConstants(std::uint64_t max_map_bytes) : maps_(max_map_bytes) {}
 
-  // `permutes_pieces` as for light_source(). What is returned counts in `memory`; it stays until the next of its kind
+  // `means` as for light_source(). What is returned counts in `memory`; it stays until the next of its kind
   // is asked for.
-  const DeviceLight& light(const RenderPlan& plan, Precision precision, bool permutes_pieces,
+  const DeviceLight& light(const RenderPlan& plan, Precision precision, const LightMeans& means,
                            DeviceMemory& memory);
   // Null where the codes lie too close together (code_search() in kernel_tables.cpp).
   const DeviceCodes* codes(const CodeKey& key, DeviceMemory& memory);

@@ -108,10 +108,11 @@ std::optional<std::vector<double>> light_pieces(const Transfer& transfer, std::u
   return pieces;
 }
 
-LightSource light_source(const CaptureFormat& capture, Precision precision, bool permutes_pieces) {
+LightSource light_source(const CaptureFormat& capture, Precision precision, const LightMeans& means) {
   if (capture.transfer.is_linear()) return {"NUTIK_LIGHT_LINEAR", {}};
-  if (precision == Precision::single_) {
-    if (permutes_pieces) {
+  const bool is_near = means.has_near_table && capture.code_bytes == 1;
+  if (precision == Precision::single_ && !is_near) {
+    if (means.permutes_pieces) {
       if (auto pieces = light_pieces(capture.transfer, capture.white_code)) {
         return {"NUTIK_LIGHT_PIECES", std::move(*pieces)};
       }

@@ -31,9 +31,12 @@ struct LightSource {
   std::vector<double> values;  // a table, a curve or pieces, to be rounded to the kernel's precision
 };
 
-// `permutes_pieces`: whether the kernel works on as many lanes as there are pieces, and the device's vectors
-// hold them.
-[[nodiscard]] LightSource light_source(const CaptureFormat& capture, Precision precision,
-                                       bool permutes_pieces);
+struct LightMeans {
+  bool permutes_pieces = false;   // the kernel works on as many lanes as there are pieces, and the device's vectors
+                                  // hold them
+  bool has_near_table = false;    // tables of 256 codes lie beside a group of work-items
+};
+
+[[nodiscard]] LightSource light_source(const CaptureFormat& capture, Precision precision, const LightMeans& means);
 
 }  // namespace nutik

@@ -13,6 +13,8 @@
 #include <CL/opencl.hpp>
 #pragma GCC diagnostic pop
 
+#include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,10 +41,13 @@ using ExposeKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl::B
                                        cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer,
                                        cl::Buffer, cl::Buffer, ExposeLaunch>;
 
-// The work-items for so many tiles, in whole work-groups.
-[[nodiscard]] inline cl::EnqueueArgs items(cl::CommandQueue& queue, const WorkShape& shape,
-                                           std::uint64_t tile_count) {
-  const std::uint64_t group = shape.group_items;
+// The work-items for so many tiles, in whole work-groups, which are smaller where a kernel needs more of the device.
+template <typename Functor>
+[[nodiscard]] cl::EnqueueArgs items(Functor& kernel, cl::CommandQueue& queue, const WorkShape& shape,
+                                    std::uint64_t tile_count) {
+  const std::uint64_t group =
+      std::min<std::uint64_t>(shape.group_items, kernel.getKernel().template getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(
+                                                     queue.getInfo<CL_QUEUE_DEVICE>()));
   const std::uint64_t count = shape.items(tile_count);
   return {queue, cl::NDRange((count + group - 1) / group * group), cl::NDRange(group)};
 }

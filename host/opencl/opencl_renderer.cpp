@@ -281,7 +281,7 @@ class OpenClRenderer::Implementation {
   const DeviceLight& light_of(const Work& work, const RenderPlan& plan, DeviceMemory& memory) {
     const bool permutes = work.shape.lanes == kLightPieces &&
                           options_.permutes_pieces.value_or(info_.native_float_lanes >= kLightPieces);
-    return constants_->light(plan, work.precision, permutes, memory);
+    return constants_->light(plan, work.precision, {permutes, work.shape.table_copies > 0}, memory);
   }
 
   [[nodiscard]] std::string fault_of(Precision precision) const {

@@ -37,6 +37,8 @@ struct OpenClOptions {
   std::uint32_t item_tiles = 0;        // tiles in a row that a work-item owns pixels of
   std::uint32_t lanes = 0;             // of them that it works on at a time: 1, 4, 8 or 16
   std::uint32_t group_items = 0;       // work-items in a work-group
+  std::uint32_t rows_at_once = 0;      // of which loads are under way at once
+  std::optional<std::uint32_t> table_copies;  // of light of 256 codes beside a work-group; 0: none
   bool use_fma = true;                 // false: as on a device that does not fuse multiplication and addition
   std::uint64_t chunk_bytes = 0;       // of blocks that one launch reads
   std::uint64_t allocation_bytes = 0;  // the largest buffer, at most the device's own (allocation_cuts.hpp)

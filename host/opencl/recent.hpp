@@ -25,6 +25,12 @@ class Recent {
     return &values_.front();
   }
 
+  // Those that `are_useless` are kept no longer.
+  template <typename Are>
+  void forget(Are are_useless) {
+    values_.remove_if(are_useless);
+  }
+
   // Stays where it is until the next one is kept.
   Value& keep(Value value) {
     values_.push_front(std::move(value));

@@ -7,18 +7,28 @@
 #include "capture/format.hpp"
 
 namespace nutik {
+namespace {
+
+constexpr std::uint64_t kRoomForCopies = 32 << 10;  // of two groups, in any arithmetic
+
+}  // namespace
 
 WorkShape work_shape(const OpenClOptions& options, Precision precision, const DeviceInfo& device) {
-  WorkShape shape{1, 1, 1, 64};
+  const bool is_of_words = precision == Precision::single_ || precision == Precision::fixed;  // a code's light
+  WorkShape shape{4, 1, 4, 256, 4, is_of_words ? 16u : 8u};
   const bool has_vectors = device.native_float_lanes > 1;  // else its work-items are lanes, as on a GPU
   if (device.kind == DeviceKind::cpu && has_vectors) {
     const bool is_of_floats = precision == Precision::single_ || precision == Precision::compensated;
     shape = {kTilePixels, 16, is_of_floats ? 16u : 8u, 1};
+  } else if (device.group_memory_bytes < kRoomForCopies) {
+    shape.table_copies = 0;
   }
   if (options.item_pixels != 0) shape.item_pixels = options.item_pixels;
   if (options.item_tiles != 0) shape.item_tiles = options.item_tiles;
   if (options.lanes != 0) shape.lanes = options.lanes;
   if (options.group_items != 0) shape.group_items = options.group_items;
+  if (options.rows_at_once != 0) shape.rows_at_once = options.rows_at_once;
+  if (options.table_copies) shape.table_copies = *options.table_copies;
   const bool lanes_fit = shape.lanes == 1 || shape.lanes == 4 || shape.lanes == 8 || shape.lanes == 16;
   if (shape.item_pixels == 0 || kTilePixels % shape.item_pixels != 0 || !lanes_fit ||
       shape.item_pixels % shape.lanes != 0) {

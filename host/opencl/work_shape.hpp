@@ -18,6 +18,8 @@ struct WorkShape {
   std::uint32_t item_tiles;
   std::uint32_t lanes;
   std::uint32_t group_items;
+  std::uint32_t rows_at_once = 1;  // loads of so many rows are under way at once
+  std::uint32_t table_copies = 0;  // of light of 256 codes, beside a group; 0: read from where the host wrote it
 
   // Rows of weights that lie side by side for each function: NUTIK_TABLE_ROWS in kernels/row_groups.clh.
   static constexpr std::uint32_t kMaxTableRows = 4;
@@ -29,7 +31,7 @@ struct WorkShape {
   }
 };
 
-// The shape that suits a device and an arithmetic, unless the options state one: one pixel an item on a GPU, 16
+// The shape that suits a device and an arithmetic, unless the options state one: four pixels an item on a GPU, 16
 // tiles an item on a CPU with vectors (docs/explanation/performance.md). UsageError if it does not divide a tile.
 [[nodiscard]] WorkShape work_shape(const OpenClOptions& options, Precision precision,
                                    const DeviceInfo& device);

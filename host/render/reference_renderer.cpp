@@ -33,7 +33,8 @@ class Reference {
     walks_.resize(walked * plan.capture.shape.channels);
   }
 
-  void add_block(const PlannedBlock& planned, const BlockView& block, bool follows_the_one_before) {
+  void add_block(const PlannedBlock& planned, const BlockView& block, bool follows_the_one_before,
+                 const RenderControl& control) {
     const std::vector<SampleTimes> times = timeline_.times(planned.extent.range());
     const WalkedBlock walked{times, follows_the_one_before, times.back().after_ns == plan_.duration_ns};
     std::vector<std::size_t> first_pieces;  // where each function's walk starts
@@ -43,6 +44,7 @@ class Reference {
     const std::uint32_t first_column = rectangle_.x / kTileSide;
     const std::uint32_t last_column = (rectangle_.x + rectangle_.width - 1) / kTileSide;
     parallel_for(last_row - first_row + 1, [&](std::uint64_t row) {
+      throw_if_cancelled(control);
       std::vector<ChangeRecord> history;
       for (std::uint32_t column = first_column; column <= last_column; ++column) {
         for_each_pixel(column, static_cast<std::uint32_t>(first_row + row),
@@ -137,10 +139,9 @@ Picture light_of(const RenderPlan& plan, CaptureSource& source, const Rectangle&
   Reference reference(plan, source.timeline(), rectangle);
   BlockCursor cursor(source);
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
-    throw_if_cancelled(control);
     const PlannedBlock& planned = plan.blocks[b];
     const bool follows = b > 0 && plan.blocks[b - 1].block + 1 == planned.block;
-    reference.add_block(planned, cursor.at(planned.block), follows);
+    reference.add_block(planned, cursor.at(planned.block), follows, control);
   }
   throw_if_cancelled(control);
   Picture light({rectangle.width, rectangle.height, plan.capture.shape.channels}, ValueType::light64,

@@ -145,7 +145,7 @@ std::array<double, 3> light_of(std::span<const Trace> traces) {
   return light;
 }
 
-Trace trace_region(const RenderPlan& plan, CaptureSource& source, std::uint8_t tag) {
+Trace trace_region(const RenderPlan& plan, CaptureSource& source, std::uint8_t tag, const std::stop_token& stop) {
   if (plan.map->has_delays()) {
     throw UsageError(
         "the pixels of a mask value have delays of their own, and no common function; follow one pixel");
@@ -181,6 +181,7 @@ Trace trace_region(const RenderPlan& plan, CaptureSource& source, std::uint8_t t
   Trace result = trace(plan, source, function, wants, [&](const BlockView& block) {
     LightSum sum(block.extent());
     for (std::uint64_t pixel = 0; pixel < shape.pixel_count(); ++pixel) {
+      if (pixel % shape.width == 0 && stop.stop_requested()) throw Cancelled();
       const double weight = weight_of(pixel);
       if (weight == 0.0) continue;
       const auto x = static_cast<std::uint32_t>(pixel % shape.width);

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "imev/capture_source.hpp"
@@ -54,7 +55,8 @@ struct Trace {
 [[nodiscard]] std::array<double, 3> light_of(std::span<const Trace> traces);
 
 // The mean over all pixels with this mask value, each by the share that it has of the pixel: the walk along the mean of
-// their light. Throws UsageError where no pixel has it.
-[[nodiscard]] Trace trace_region(const RenderPlan& plan, CaptureSource& source, std::uint8_t tag);
+// their light. Throws UsageError where no pixel has it, Cancelled.
+[[nodiscard]] Trace trace_region(const RenderPlan& plan, CaptureSource& source, std::uint8_t tag,
+                                 const std::stop_token& stop = {});
 
 }  // namespace nutik

@@ -261,6 +261,14 @@ void Session::Implementation::warm_up(CaptureSource& source, const RenderPlan& p
 
 namespace {
 
+// An arithmetic that was asked for is taken, however coarse it is for codes.
+void doubt_asked(Rendered& rendered, const OutputFormat& output) {
+  if (!holds_codes(output.type) || !rendered.choice || rendered.choice->is_right_enough()) return;
+  rendered.warnings.push_back(nutik::format(
+      "{} is not sure to be right to {} of a code here: {}; auto takes an arithmetic that is, where there is one",
+      to_text(rendered.precision), kMaxSteps, error_text(rendered.choice->bound.worst, output)));
+}
+
 std::uint64_t infinite_values(const Picture& picture) {
   if (picture.type != ValueType::light32) return 0;
   return static_cast<std::uint64_t>(
@@ -292,6 +300,7 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
         return devices_->renderer().render(plan, source, output, limited);
       });
   rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
+  if (devices_->request().precision && !control.precision) doubt_asked(rendered, output);
   if (const std::uint64_t count = infinite_values(rendered.picture); count > 0) {
     rendered.warnings.push_back(
         nutik::format("{} of {} values are beyond floating point of 32 bits, which ends at 3.4e38, and infinite; "
@@ -433,8 +442,8 @@ TracedExposure Session::trace(const ExposureRequest& request, const TracedPixel&
 }
 
 TracedExposure Session::trace(const ExposureRequest& request, const TracedTag& tag, std::stop_token stop) {
-  return implementation_->trace(request, std::move(stop), [&](const RenderPlan& plan, CaptureSource& source) {
-    return std::vector{trace_region(plan, source, tag.tag)};
+  return implementation_->trace(request, stop, [&](const RenderPlan& plan, CaptureSource& source) {
+    return std::vector{trace_region(plan, source, tag.tag, stop)};
   });
 }
 

@@ -12,7 +12,7 @@ import numpy as np
 from . import _finds, _nutik
 from ._functions import Function, FunctionLike, function_of, read_functions
 from ._masks import Mask, MaskLike, mask_of
-from ._nutik import UsageError
+from ._nutik import InputError, UsageError
 from ._pictures import Picture
 from ._words import Array, DelayLike, Path, Progress, Time, box_of, count_of, delays_ns, settings_of, tag_of, time_word, warn
 
@@ -122,10 +122,13 @@ class Capture:
         """What should be known of the clip that it was made from; each was warned of as a NutikNote."""
         return list(self._notes)
 
+    @property
     def figures(self) -> dict[str, Any]:
-        """What it comes to: samples, duration_ns, rate, shutter_angle, white, transfer, primaries, tolerance, blocks,
-        records, tiles, file_bytes, raw_bytes, memory_bytes, codec."""
-        return self._held.figures()
+        """What it comes to: samples, duration_ns, is_constant_rate, white, transfer, primaries, tolerance, blocks,
+        records, tiles, file_bytes, raw_bytes, memory_bytes, codec; and, as a Fraction each, rate (samples a second),
+        shutter_angle (degrees) and pixel_aspect."""
+        figures = self._held.figures()
+        return {**figures, **{name: Fraction(*figures[name]) for name in ("rate", "shutter_angle", "pixel_aspect")}}
 
     def render(self, functions: Optional[Functions] = None, mask: Optional[MaskLike] = None, *,
                start: Optional[Time] = None, exposure: Optional[Time] = None, shutter: Optional[str] = None,
@@ -268,6 +271,13 @@ class Capture:
         if stated.get("unmapped") not in (None, "zero"):
             raise UsageError(f"unmapped={stated['unmapped']!r} is not known; the only choice is 'zero'")
         held = None if functions is None else {tag: each._held for tag, each in functions.items()}
+        tags = [] if functions is None or made is None else made._held.tags_in_use()
+        bare = ", ".join(str(tag) for tag in tags if functions and tag not in functions)
+        if bare and not stated.get("unmapped"):
+            raised = InputError(f"mask tags without a function: {bare}; give each one in functions=, or expose them to "
+                                "black (unmapped='zero')")
+            raised.settings = ("unmapped='zero'",)
+            raise raised
         if isinstance(delay, str):
             stated = {**stated, "delay": delay}
         times = None if delay is None or isinstance(delay, str) else delays_ns(delay)

@@ -125,6 +125,8 @@ def freedom_word(name: str, free: Union[str, tuple[Any, ...]], functions: str) -
     if len(free) not in (2, 3):
         raise UsageError(f"free[{name!r}] is {free!r}; give (least, most) of a gain, (from, to) or (from, to, step) of a "
                          "time")
+    if type(free[0]) is type(free[1]) and not isinstance(free[0], str) and free[0] > free[1]:
+        raise UsageError(f"free[{name!r}] is {free!r}: the first is above the second")
     if re.search(rf"\[\s*{re.escape(name)}\b", functions):  # in the place of a time
         words = [time_word(each, f"free[{name!r}]") for each in free]
         return f"{name}={words[0]}..{words[1]}" + (f"/{words[2]}" if len(words) == 3 else "")

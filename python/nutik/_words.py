@@ -229,7 +229,10 @@ def box_of(value: Any, what: str) -> list[int]:
         x, y, width, height = value
     except (TypeError, ValueError):
         raise UsageError(f"{what} is {value!r}; write whole pixels: (x, y, width, height)") from None
-    return [count_of(each, f"a side of {what}") for each in (x, y, width, height)]
+    box = [count_of(each, f"a side of {what}") for each in (x, y, width, height)]
+    if 0 in box[2:]:
+        raise UsageError(f"{what} is {value!r}, which holds no pixel: (x, y, width, height)")
+    return box
 
 
 def settings_of(stated: dict[str, Any]) -> dict[str, str]:

@@ -72,6 +72,8 @@ py::tuple opened_and_told(const Opening& terms, const py::object& progress) {
 py::tuple encoded(const Opening& terms, const std::optional<std::string>& output, const std::string& codec,
                   const py::object& progress) {
   const tik::Codec packed = tik::Codec::parse(codec);
+  if (output && !is_tik(*output))
+    throw UsageError(format("{} is no name for a capture, which ends in .tik", *output));
   if (!output) return opened_and_told(terms, progress);
   const EncodeRequest request{*output, packed};
   EncodedCapture made = without_lock([&](const Stopping& stopping) {
@@ -167,13 +169,14 @@ py::dict figures(const OpenCapture& capture) {
   py::dict told;
   told["samples"] = timeline.sample_count();
   told["duration_ns"] = timeline.duration_ns();
-  told["rate"] = timeline.rate().text();
+  const auto pair = [](const Rational& number) { return py::make_tuple(number.numerator, number.denominator); };
+  told["rate"] = pair(timeline.rate());
   told["is_constant_rate"] = timeline.is_constant();
-  told["shutter_angle"] = timeline.shutter_angle().text();
+  told["shutter_angle"] = pair(timeline.shutter_angle());
   told["white"] = format.white_code;
   told["transfer"] = format.transfer.text();
   told["primaries"] = std::string(to_text(format.primaries));
-  told["pixel_aspect"] = py::make_tuple(format.pixel_aspect.numerator, format.pixel_aspect.denominator);
+  told["pixel_aspect"] = pair(format.pixel_aspect);
   told["tolerance"] = format.noise.tolerance;
   told["blocks"] = reader.block_count();
   told["records"] = held.record_count;

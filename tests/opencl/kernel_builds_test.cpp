@@ -207,7 +207,7 @@ TEST(KernelBuildTable, MeetsAnyTwoValues) {
   for (const Precision precision :
        {Precision::single_, Precision::compensated, Precision::double_, Precision::fixed}) {
     EXPECT_TRUE(std::ranges::any_of(few, [&](const KernelBuild& build) {
-      return build.precision == precision && build.lanes == 1 && build.item_pixels == 1 &&
+      return build.precision == precision && build.lanes == 4 && build.item_pixels == 4 &&
              build.item_tiles == 1;
     })) << to_text(precision);
   }

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <vector>
 
 #include "render/reference_renderer.hpp"
 #include "support/random_case.hpp"
@@ -129,6 +131,23 @@ TEST(OpenClRenderer, ReadsOnlyTheBlocksOfThePlan) {
   EXPECT_EQ(rendered.statistics.payload_bytes,
             64u + 4 * 64u);  // a directory and four still tiles
   EXPECT_EQ(rendered.picture.values<std::uint8_t>()[0], 90);
+}
+
+// A script may open captures by the thousand.
+TEST(OpenClRenderer, KeepsNoMapsOfCapturesThatAreGone) {
+  OpenClRenderer renderer(test::renderer_options(test::precise()));
+  std::vector<std::weak_ptr<const MaskMap>> maps;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const RandomCase random(seed);
+    MemoryCapture capture = random.encode();
+    const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
+    static_cast<void>(renderer.render(plan, capture, {ValueType::light64, 0}));
+    const Rendered again = renderer.render(plan, capture, {ValueType::light64, 0});
+    EXPECT_EQ(again.statistics.map_bytes_written, 0u);
+    maps.push_back(plan.map);
+  }
+  EXPECT_TRUE(maps[0].expired());
+  EXPECT_TRUE(maps[1].expired());
 }
 
 }  // namespace

@@ -73,14 +73,17 @@ class Arrays(support.TestCase):
     def test_noise_is_left_out(self):
         pictures = np.full((40, 32, 32), 100, np.uint8)
         pictures += np.random.default_rng(1).integers(0, 3, pictures.shape, np.uint8)
-        lossless, held = (nutik.encode(pictures, rate=1, tolerance=each).figures() for each in (0, 2))
+        lossless, held = (nutik.encode(pictures, rate=1, tolerance=each).figures for each in (0, 2))
         self.assertEqual(held["tolerance"], 2)
+        self.assertEqual([held[name] for name in ("rate", "shutter_angle", "pixel_aspect")], [1, 360, 1])
         self.assertLess(held["records"], lossless["records"] / 10)
 
     def test_refused(self):
         pictures = np.zeros((4, 8, 8), np.uint8)
         encode, usage = nutik.encode, nutik.UsageError
         self.assert_raises(usage, ["float64", "uint16"], encode, pictures.astype(float), rate=1)
+        self.assert_raises(usage, "clip.png is no name for a capture, which ends in .tik", encode, pictures,
+                           self.path("clip.png"), rate=1)
         self.assert_raises(usage, "byte order", encode, pictures.astype(">u2"), rate=1)
         self.assert_raises(usage, "int64", encode, pictures.astype(int), rate=1)
         self.assert_raises(usage, "(8, 8)", encode, pictures[0], rate=1)

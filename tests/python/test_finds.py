@@ -122,6 +122,8 @@ class Finds(support.TestCase):
         solution = self.capture.solve(timed, ["90,50,20,20 >= 0.4"], free={"when": ("0s", 0.1, "1f")})
         self.assertTrue(solution.is_kept)
         self.assertGreater(solution.wishes[0].reached[0], 0.4)
+        self.assert_raises(nutik.UsageError, "free['when'] is (0.2, 0.1)", self.capture.solve, timed, ["all = 1"],
+                           free={"when": (0.2, 0.1)})
         self.assert_raises(nutik.UsageError, "free={'when': (0.6, 0.8)}", self.capture.solve, timed, ["all = 1"])
         self.assert_raises(nutik.InputError, "the functions:1", self.capture.solve, "M0 [x", ["all = 1"])
         self.assert_raises(nutik.UsageError, "nothing is wished", self.capture.solve, text, [])

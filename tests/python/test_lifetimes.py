@@ -59,6 +59,28 @@ class Views(support.TestCase):
         self.assertEqual(capture.render(exposure="1f").shape, (45, 80, 3))
 
 
+class Iterables(support.TestCase):
+    def test_few_of_their_pictures_are_held(self):
+        alive = most = 0
+
+        def gone():
+            nonlocal alive
+            alive -= 1
+
+        def camera():
+            nonlocal alive, most
+            for k in range(300):
+                picture = np.full((64, 64), k % 251, np.uint8)
+                weakref.finalize(picture, gone)
+                alive += 1
+                most = max(most, alive)
+                yield picture
+
+        for output in (None, self.path("clip.tik")):
+            nutik.encode(camera(), output, rate=960)
+            self.assertLessEqual(most, 3)
+
+
 class Interruptions(support.TestCase):
     """Ctrl-C is a signal to this process; the work itself sends it, so that it surely has begun."""
 
@@ -149,25 +171,28 @@ class Progress(support.TestCase):
             for done, total in steps:
                 self.assertTrue(0 < done and (total == 0 or done <= total), (done, total))
 
-    def test_a_plate_tells_and_answers(self):
-        """All of its rows fit into memory at once. Whoever ends it at the first report does not wait for the rest."""
+    def test_long_calls_tell_and_answer(self):
+        """All rows of a plate fit into memory at once, and a block is a third of the capture. Whoever ends a call at its
+        first report does not wait for the rest."""
         class Enough(Exception):
             pass
 
         pictures = np.random.default_rng(1).integers(0, 256, (192, 384, 512, 3), np.uint8)
         capture = nutik.encode(pictures, rate=960)
-        times = [time.monotonic()]
-        capture.plate(progress=lambda done, total: times.append(time.monotonic()))
-        whole = time.monotonic() - times[0]
-        self.assertGreater(len(times), 4, whole)
 
         def end(done, total):
             raise Enough
 
-        begin = time.monotonic()
-        with self.assertRaises(Enough):
-            capture.plate(progress=end)
-        self.assertLess(time.monotonic() - begin, 0.6 * whole)
+        for work in (capture.plate, capture.activity):
+            with self.subTest(work=work.__name__):
+                times = [time.monotonic()]
+                work(progress=lambda done, total: times.append(time.monotonic()))
+                whole = time.monotonic() - times[0]
+                self.assertGreater(len(times), 4, whole)
+                begin = time.monotonic()
+                with self.assertRaises(Enough):
+                    work(progress=end)
+                self.assertLess(time.monotonic() - begin, 0.6 * whole)
 
     def test_what_it_raises_ends_the_work(self):
         class Enough(Exception):

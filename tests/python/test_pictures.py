@@ -177,7 +177,8 @@ class Pictures(support.TestCase):
         self.assert_raises(usage, "rectangle", render, exposure="1ms", region=(70, 0, 20, 20))
         self.assert_raises(usage, "0 ... 255", render, {300: [(0, 1)]}, self.tags)
         self.assert_raises(nutik.InputError, ["80 x 45", "4 x 3"], render, {0: [(0, 1)]}, np.zeros((3, 4), np.uint8))
-        found = self.assert_raises(nutik.InputError, "unmapped='zero'", render, {0: [(0, 1)]}, self.tags)
+        found = self.assert_raises(nutik.InputError, ["128, 255; give each one", "unmapped='zero'"], render,
+                                   {0: [(0, 1)]}, self.tags)
         self.assertEqual(found.settings, ("unmapped='zero'",))
         self.assert_raises(nutik.InputError, "more than all", nutik.Mask.of_layers, {1: np.ones((2, 2)), 2: np.ones((2, 2))})
         self.assert_raises(usage, "0 ... 255", nutik.Mask, np.full((2, 2), 256))

@@ -94,6 +94,26 @@ TEST_F(SessionOfClip, ReadForwardIsSpentAfterOnePicture) {
   EXPECT_THROW(static_cast<void>(once.render(request_, kFloats)), SessionIsSpent);
 }
 
+// Whole numbers hold light in 30 bits, of which the darkest codes of PQ in 16 bits share one.
+TEST_F(SessionOfClip, DoubtsAnArithmeticThatIsAskedForAndTooCoarse) {
+  source_.clip.transfer = Transfer::pq();
+  const OutputFormat codes8{ValueType::code8, 255}, codes16{ValueType::code16, 65535};
+  ComputingRequest fixed;
+  fixed.precision = Precision::fixed;
+  Session session(source_, fixed);
+  const std::vector<std::string> warnings = session.render(request_, codes16).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(warnings[0].starts_with("fixed is not sure to be right to 0.5 of a code here: light within "))
+      << warnings[0];
+  EXPECT_TRUE(warnings[0].ends_with("; auto takes an arithmetic that is, where there is one")) << warnings[0];
+  EXPECT_TRUE(session.render(request_, codes8).warnings.empty());
+  EXPECT_TRUE(session.render(request_, kFloats).warnings.empty());
+  EXPECT_TRUE(Session(source_, ComputingRequest()).render(request_, codes16).warnings.empty());
+  RenderControl preview;  // by a program's own choice
+  preview.precision = Precision::fixed;
+  EXPECT_TRUE(session.render(request_, codes16, preview).warnings.empty());
+}
+
 // Whoever made a request: what the command line refuses is refused here, and nothing is written.
 TEST_F(SessionOfClip, RefusesWhatNoRequestMayBe) {
   Session session(source_, reference());

@@ -1,12 +1,13 @@
 // The first device as another one: what OpenCL says of it is changed on the way to the program that is tested, so that
 // what only such a device runs is run on every machine. For programs that are linked with this file.
 //
-//   NUTIK_TEST_DEVICE=gpu,single,allocation=1000000    any of them
+//   NUTIK_TEST_DEVICE=gpu,single,allocation=1000000,group=8    any of them
 //
-//   gpu          has its own memory, and work-items for lanes. A buffer in the host's memory is refused, which a card
+//   gpu          has its own memory, work-items for lanes, and memory beside each group. A buffer in the host's memory is refused, which a card
 //                would copy for each launch
 //   single       has no double
 //   allocation   allocates so many bytes at a time and no more
+//   group        runs so many work-items of a kernel in a group and no more
 //
 // Kernels are the machine's own. That those without double need none is held where they are compiled
 // (kernels/CMakeLists.txt).
@@ -28,6 +29,7 @@ struct Traits {
   bool is_gpu = false;
   bool is_single = false;
   std::uint64_t allocation_bytes = 0;  // 0: the device's own
+  std::size_t group_items = 0;         // likewise
 
   Traits() {
     const char* wanted = std::getenv("NUTIK_TEST_DEVICE");
@@ -40,8 +42,10 @@ struct Traits {
         is_single = true;
       } else if (word.starts_with("allocation=")) {
         allocation_bytes = std::stoull(std::string(word.substr(word.find('=') + 1)));
+      } else if (word.starts_with("group=")) {
+        group_items = std::stoull(std::string(word.substr(word.find('=') + 1)));
       } else {
-        std::fprintf(stderr, "NUTIK_TEST_DEVICE is not of gpu, single, allocation=BYTES: %s\n", wanted);
+        std::fprintf(stderr, "NUTIK_TEST_DEVICE is not of gpu, single, allocation=BYTES, group=N: %s\n", wanted);
         std::abort();
       }
     }
@@ -76,6 +80,7 @@ cl_int clGetDeviceInfo(cl_device_id device, cl_device_info what, size_t room, vo
     if (what == CL_DEVICE_TYPE) change(value, cl_device_type{CL_DEVICE_TYPE_GPU});
     if (what == CL_DEVICE_HOST_UNIFIED_MEMORY) change(value, cl_bool{CL_FALSE});
     if (what == CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT) change(value, cl_uint{1});
+    if (what == CL_DEVICE_LOCAL_MEM_TYPE) change(value, cl_device_local_mem_type{CL_LOCAL});
   }
   if (traits().is_single && what == CL_DEVICE_DOUBLE_FP_CONFIG) change(value, cl_device_fp_config{0});
   if (traits().allocation_bytes != 0 && what == CL_DEVICE_MAX_MEM_ALLOC_SIZE) {
@@ -92,6 +97,24 @@ cl_mem clCreateBuffer(cl_context context, cl_mem_flags flags, size_t bytes, void
   if (error == CL_SUCCESS) return real(context, flags, bytes, host, said);
   if (said != nullptr) *said = error;
   return nullptr;
+}
+
+cl_int clGetKernelWorkGroupInfo(cl_kernel kernel, cl_device_id device, cl_kernel_work_group_info what, size_t room,
+                                void* value, size_t* bytes) {
+  static const auto real = next(&clGetKernelWorkGroupInfo, "clGetKernelWorkGroupInfo");
+  const cl_int error = real(kernel, device, what, room, value, bytes);
+  if (error == CL_SUCCESS && traits().group_items != 0 && what == CL_KERNEL_WORK_GROUP_SIZE) {
+    change(value, traits().group_items);
+  }
+  return error;
+}
+
+cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions, const size_t* offset,
+                              const size_t* items, const size_t* group, cl_uint wait_count, const cl_event* waits,
+                              cl_event* event) {
+  static const auto real = next(&clEnqueueNDRangeKernel, "clEnqueueNDRangeKernel");
+  if (traits().group_items != 0 && group != nullptr && *group > traits().group_items) return CL_INVALID_WORK_GROUP_SIZE;
+  return real(queue, kernel, dimensions, offset, items, group, wait_count, waits, event);
 }
 
 }  // extern "C"

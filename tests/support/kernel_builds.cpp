@@ -13,7 +13,8 @@ namespace {
 
 constexpr Precision kPrecisions[] = {Precision::single_, Precision::compensated, Precision::double_,
                                      Precision::fixed};
-constexpr LightKind kLights[] = {LightKind::linear, LightKind::curve, LightKind::pieces, LightKind::table};
+constexpr LightKind kLights[] = {LightKind::linear, LightKind::curve, LightKind::pieces, LightKind::table,
+                                LightKind::near_table};
 constexpr std::uint32_t kLanes[] = {1, 4, 8, 16};
 constexpr std::uint32_t kItemPixels[] = {1, 4, 8, 16, 64};
 constexpr std::uint32_t kItemTiles[] = {1, 3, 16};
@@ -41,6 +42,9 @@ constexpr Exclusion kExclusions[] = {
      }},
     {"16 pieces are permuted in 16 lanes",
      [](const KernelBuild& build) { return build.light == LightKind::pieces && build.lanes != 16; }},
+    {"tables beside a group have 256 codes", [](const KernelBuild& build) {
+       return build.light == LightKind::near_table && build.code_bytes != 1;
+     }},
     {"whole numbers have no fused product: the host always says that there is none",
      [](const KernelBuild& build) { return build.precision == Precision::fixed && build.fuses; }},
 };
@@ -51,6 +55,7 @@ const char* name_of(LightKind light) {
     case LightKind::curve: return "curve";
     case LightKind::pieces: return "pieces";
     case LightKind::table: return "table";
+    case LightKind::near_table: return "near";
   }
   return "";
 }
@@ -94,7 +99,7 @@ class ValueNumbers {
 // The shape of a device's own work (work_shape.hpp): a GPU's, and a CPU's in this precision.
 bool has_own_shape(const KernelBuild& build, Precision precision, bool is_gpu) {
   const bool is_of_floats = precision == Precision::single_ || precision == Precision::compensated;
-  const std::array wanted = is_gpu ? std::array{1u, 1u, 1u} : std::array{is_of_floats ? 16u : 8u, 64u, 16u};
+  const std::array wanted = is_gpu ? std::array{4u, 4u, 1u} : std::array{is_of_floats ? 16u : 8u, 64u, 16u};
   return build.precision == precision &&
          wanted == std::array{build.lanes, build.item_pixels, build.item_tiles};
 }
@@ -111,7 +116,8 @@ Transfer KernelBuild::transfer() const {
     case LightKind::linear: return Transfer::linear();
     case LightKind::curve: return Transfer::srgb();
     case LightKind::pieces: return Transfer::bt709();
-    case LightKind::table: break;
+    case LightKind::table:
+    case LightKind::near_table: break;
   }
   return Transfer::gamma(2.2);
 }
@@ -121,7 +127,9 @@ OpenClOptions KernelBuild::options() const {
   options.item_pixels = item_pixels;
   options.item_tiles = item_tiles;
   options.lanes = lanes;
-  options.group_items = lanes == 1 ? 64 : 1;
+  options.group_items = lanes <= 4 ? 64 : 1;
+  options.rows_at_once = lanes == 4 ? 4 : 1;
+  options.table_copies = light == LightKind::near_table ? 8 : 0;
   options.use_fma = fuses;
   options.permutes_pieces = light == LightKind::pieces;
   return options;

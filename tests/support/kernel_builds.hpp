@@ -16,7 +16,7 @@
 namespace nutik::test {
 
 // How a kernel turns codes into light; kernels/light.clh.
-enum class LightKind { linear, curve, pieces, table };
+enum class LightKind { linear, curve, pieces, table, near_table };
 
 struct KernelBuild {
   Precision precision;

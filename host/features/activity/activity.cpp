@@ -58,8 +58,11 @@ Activity activity_of(CaptureSource& capture, const ActivityOptions& options,
                      const ReportedProgress& progress) {
   Activity activity(capture.format(), options);
   for_each_block(capture, [&](const BlockView& block) {
-    if (progress) progress(block.extent().first_sample, capture.timeline().sample_count());
-    activity.add(block);
+    const BlockExtent& extent = block.extent();
+    activity.add(block, [&](std::uint32_t y) {
+      const std::uint64_t samples = std::uint64_t{extent.sample_count} * y / capture.format().shape.height;
+      if (progress) progress(extent.first_sample + samples, capture.timeline().sample_count());
+    });
   });
   activity.bridge_left_out();
   return activity;
