@@ -3,6 +3,7 @@
 #include <QProgressBar>
 #include <QSettings>
 #include <QToolButton>
+#include <fstream>
 
 #include "capture/error.hpp"
 #include "studio/live/opening.hpp"
@@ -311,6 +312,28 @@ TEST_F(OpeningTest, WhatOpeningAnotherFileBrokeOffIsMadeAfterAll) {
   document().end_drag();
   ASSERT_TRUE(settles());
   EXPECT_NE(canvas().image(), full);
+}
+
+// As its self-test found, which is kept.
+TEST_F(OpeningTest, AClipIsOpenedWhereADeviceComputesWholeNumbersWrongly) {
+  const QByteArray kept = qgetenv("XDG_CACHE_HOME");
+  qputenv("XDG_CACHE_HOME", path("cache").toUtf8());
+  for (const bool is_wrong : {false, true}) {
+    MainWindow window;
+    window.open(path("frames/%02d.pgm"), "100");
+    ASSERT_TRUE(QTest::qWaitFor([&] { return window.is_settled(); }, kMaxWaitMs));
+    ASSERT_NE(window.document().facts(), nullptr) << window.notice().text().toStdString();
+    EXPECT_EQ(window.document().facts()->precision, is_wrong ? std::nullopt : std::optional(Precision::fixed));
+    EXPECT_EQ(window.command_for("picture.png").contains("--precision fixed"), !is_wrong);
+    EXPECT_FALSE(window.canvas().shows_first_look());
+    for (const auto& file : std::filesystem::recursive_directory_iterator(scratch_ / "cache")) {
+      if (!file.path().filename().string().starts_with("self-test-")) continue;
+      std::string text = test::read_file(file.path());
+      if (const auto at = text.find("\nfixed right"); at != std::string::npos) text.replace(at, 12, "\nfixed wrong");
+      std::ofstream(file.path()) << text;
+    }
+  }
+  kept.isNull() ? qunsetenv("XDG_CACHE_HOME") : qputenv("XDG_CACHE_HOME", kept);
 }
 
 TEST_F(OpeningTest, OfADamagedClipThePartBeforeTheDamageIsOpened) {
