@@ -97,7 +97,9 @@ Jobs::Work studying(Document& document, std::shared_ptr<Session> session, StudyS
       document.apply(state_of(document.state(), *study, std::move(study->regions.mask), stretch,
                               session->timeline(), style),
                      Document::tr("Starting point"));
-      told(text_of(study->notes));
+      const QString notes = text_of(study->notes);
+      told(notes.isEmpty() || stretch.start_ns == 0 ? notes
+                                                    : notes + Document::tr("\nTimes and pictures count from In."));
     };
   };
 }
