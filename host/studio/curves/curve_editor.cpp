@@ -118,7 +118,8 @@ void CurveEditor::refresh_findings() {
   } catch (const InputError& error) {
     findings_.push_back({FunctionFinding::Kind::still_gain_not_positive, error.what(), {}});
   }
-  std::ranges::move(check_function(found->second, summary, {duration_ns, true}), std::back_inserter(findings_));
+  std::ranges::move(check_function(found->second, summary, {duration_ns, true}),
+                    std::back_inserter(findings_));
 }
 
 void CurveEditor::describe() {
@@ -237,7 +238,8 @@ void CurveEditor::paint_header(QPainter& painter, const TimeColours& colours) co
   if (aside.isEmpty() && !waveform_.empty()) {
     const QPoint pixel = document_.waveform()->pixel;
     const Series::Range light = waveform_.over(0, waveform_.values().size());
-    aside = QString("light of pixel %1, %2, up to %3").arg(pixel.x()).arg(pixel.y()).arg(light.high, 0, 'g', 3);
+    aside =
+        QString("light of pixel %1, %2, up to %3").arg(pixel.x()).arg(pixel.y()).arg(light.high, 0, 'g', 3);
   }
   if (!aside.isEmpty()) {
     const double wide = std::min(metrics.horizontalAdvance(aside), line.width() / 2);
@@ -292,8 +294,10 @@ void CurveEditor::paint_drag(QPainter& painter, const PlotFrame& frame, const Ti
 QString CurveEditor::pointer_text() const {
   const PlotFrame frame = this->frame();
   if (!hovered_ || press_ || !frame.box().contains(*hovered_) || numbers_->isVisible()) return {};
-  if (const auto under = point_under(frame, points_, selected(), *hovered_)) return point_text(points_[*under]);
-  return studio::pointer_text({frame.time_at(hovered_->x()), frame.gain_at(hovered_->y())}, frame.ns_per_pixel());
+  if (const auto under = point_under(frame, points_, selected(), *hovered_))
+    return point_text(points_[*under]);
+  return studio::pointer_text({frame.time_at(hovered_->x()), frame.gain_at(hovered_->y())},
+                              frame.ns_per_pixel());
 }
 
 }  // namespace nutik::studio

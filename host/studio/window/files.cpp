@@ -58,7 +58,8 @@ void MainWindow::ask_for_name(const QString& title, const QString& ending, const
 QString MainWindow::named_file(const QString& title, const QString& ending, const QString& filter) {
   QString path = QFileDialog::getSaveFileName(this, title, suggested(ending), filter);
   const QString suffix = ending.mid(ending.lastIndexOf('.'));
-  const bool has_ending = suffix == kProjectExtension ? path.endsWith(suffix) : !QFileInfo(path).suffix().isEmpty();
+  const bool has_ending =
+      suffix == kProjectExtension ? path.endsWith(suffix) : !QFileInfo(path).suffix().isEmpty();
   if (path.isEmpty() || has_ending) return path;
   path += suffix;
   const bool is_free = !QFileInfo::exists(path) ||
@@ -266,7 +267,9 @@ void MainWindow::write_mask(const QString& path) {
 }
 
 void MainWindow::write_plate(const QString& path) {
-  try_to([&] { jobs_.start(tr("Looking for the empty scene"), writing_plate(document_, session_, path, told())); });
+  try_to([&] {
+    jobs_.start(tr("Looking for the empty scene"), writing_plate(document_, session_, path, told()));
+  });
 }
 
 // Of a capture that was cut off, into a new one, which is then opened.

@@ -46,7 +46,7 @@ struct Origin {
   std::optional<DocumentState> left;   // what the document was when it was left for this
   std::shared_ptr<const KeptProject> kept = {};  // of Kind::recovered
   bool is_unwritten = false;                     // of Kind::project: its last save was ended in the middle
-  bool is_elsewhere = false;  // the capture, than where the project says
+  bool is_elsewhere = false;                     // the capture, than where the project says
 };
 
 class MainWindow : public QMainWindow {
@@ -102,7 +102,8 @@ class MainWindow : public QMainWindow {
   void keep_window();
   void open_project(const QString& path, std::shared_ptr<const KeptProject> kept = {});
   void open_capture_file(const QString& path, const Stated& stated, Origin origin);
-  void tell_way_out(const QString& path, const Stated& stated, const Origin& origin, const std::exception_ptr& error);
+  void tell_way_out(const QString& path, const Stated& stated, const Origin& origin,
+                    const std::exception_ptr& error);
   void take(Opened opened, Origin origin);
   void ask_rate(const QString& path, Stated stated, const QString& why, const Origin& origin);
   void stay();

@@ -96,13 +96,17 @@ class ToolIcon : public QIconEngine {
 // What keys and the mouse do where no menu says it.
 constexpr std::pair<const char*, const char*> kElsewhere[] = {
     {QT_TR_NOOP("Picture: wheel, middle button"), QT_TR_NOOP("zooms to the pointer, pans")},
-    {QT_TR_NOOP("Picture: arrows, Space, Backspace"), QT_TR_NOOP("move the pointer; begin and end a stroke, one that erases")},
+    {QT_TR_NOOP("Picture: arrows, Space, Backspace"),
+     QT_TR_NOOP("move the pointer; begin and end a stroke, one that erases")},
     {QT_TR_NOOP("Alt with a tool"), QT_TR_NOOP("erases")},
     {QT_TR_NOOP("Time: wheel, Shift and wheel, F"), QT_TR_NOOP("zooms, pans, shows all")},
-    {QT_TR_NOOP("Strip: Left, Right, Up, Down"), QT_TR_NOOP("the interval later and earlier, longer and shorter, by a sample")},
-    {QT_TR_NOOP("Strip: I, O, X, Z"), QT_TR_NOOP("In and Out at its ends; exposes between them; shows what lies there")},
+    {QT_TR_NOOP("Strip: Left, Right, Up, Down"),
+     QT_TR_NOOP("the interval later and earlier, longer and shorter, by a sample")},
+    {QT_TR_NOOP("Strip: I, O, X, Z"),
+     QT_TR_NOOP("In and Out at its ends; exposes between them; shows what lies there")},
     {QT_TR_NOOP("Curve: click, right click"), QT_TR_NOOP("adds a point, takes it away")},
-    {QT_TR_NOOP("Curve: Insert, Delete, Return"), QT_TR_NOOP("the same, and types numbers; arrows move a point")},
+    {QT_TR_NOOP("Curve: Insert, Delete, Return"),
+     QT_TR_NOOP("the same, and types numbers; arrows move a point")},
     {QT_TR_NOOP("Shift, Ctrl while dragging"), QT_TR_NOOP("a tenth as fast; not drawn to samples")},
     {QT_TR_NOOP("Escape"), QT_TR_NOOP("takes back what is not finished, closes a message")}};
 
@@ -232,10 +236,11 @@ void MainWindow::build_help_menu() {
   QMenu& menu = *menuBar()->addMenu(tr("&Help"));
   add_action(menu, tr("&Keys and mouse"), QKeySequence::HelpContents, [this] { show_keys(); });
   add_action(menu, tr("&About nutik studio"), {}, [this] {
-    QMessageBox::about(this, tr("About nutik studio"),
-                       tr("nutik studio %1\n\nTime and gain after filming: gain functions and masks are drawn while the "
-                          "picture follows. It writes what nutik-cl reads.")
-                           .arg(NUTIK_VERSION));
+    QMessageBox::about(
+        this, tr("About nutik studio"),
+        tr("nutik studio %1\n\nTime and gain after filming: gain functions and masks are drawn while the "
+           "picture follows. It writes what nutik-cl reads.")
+            .arg(NUTIK_VERSION));
   });
 }
 
@@ -243,7 +248,8 @@ void MainWindow::build_help_menu() {
 void MainWindow::show_keys() {
   QString rows;
   const auto add = [&rows](const QString& keys, const QString& what) {
-    rows += QString("<tr><td><b>%1</b>&nbsp;&nbsp;</td><td>%2</td></tr>").arg(keys.toHtmlEscaped(), what.toHtmlEscaped());
+    rows += QString("<tr><td><b>%1</b>&nbsp;&nbsp;</td><td>%2</td></tr>")
+                .arg(keys.toHtmlEscaped(), what.toHtmlEscaped());
   };
   for (QAction* action : findChildren<QAction*>()) {
     const QString keys = action->shortcut().toString(QKeySequence::NativeText);
