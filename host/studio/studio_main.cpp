@@ -1,6 +1,7 @@
 // nutik-studio: a window in which functions and masks are drawn while the picture follows.
 #include <QApplication>
 #include <QCommandLineParser>
+#include <QIcon>
 #include <string>
 
 #include "session/devices.hpp"
@@ -16,6 +17,8 @@ int main(int count, char** words) {
   QApplication::setApplicationName("nutik-studio");
   QApplication::setOrganizationName("nutik");
   QApplication::setApplicationVersion(NUTIK_VERSION);
+  QApplication::setDesktopFileName("nutik-studio");
+  QApplication::setWindowIcon(QIcon::fromTheme("nutik-studio"));  // as it is installed
 
   QCommandLineParser parser;
   parser.setApplicationDescription("Draw gain functions and masks while the picture follows.");

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "capture/format.hpp"
 #include "features/series/series_request.hpp"
 #include "session/clips/encoding.hpp"
 #include "support/messages.hpp"
@@ -60,6 +61,29 @@ TEST_F(SessionOfClip, AnswersTheSameReadForwardAndWhole) {
   }
   EXPECT_EQ(streamed.figures.timeline.sample_count(), 24u);
   EXPECT_FALSE(streamed.figures.block_count.has_value());
+}
+
+// Means of two codes in turns are ties.
+TEST_F(SessionOfClip, InWholeNumbersOrEqualBlocksIsTheSameReadForwardAndWhole) {
+  source_.path = scratch_ / "ties";
+  std::filesystem::create_directory(source_.path);
+  for (int k = 0; k < 40; ++k) {
+    std::string file = "P5 32 8 255\n";
+    for (int pixel = 0; pixel < 256; ++pixel) file += static_cast<char>(pixel % 10 + (k + pixel / 32) % 2);
+    scratch_.write(format("ties/{:02}.pgm", k), file);
+  }
+  request_.gains = PlainInterval{StatedTime::of_pictures(34), Shutter()};
+  const auto codes = [&](Reading reading, std::uint32_t block_samples, Precision precision) {
+    source_.block_samples = block_samples;
+    ComputingRequest computing;
+    computing.precision = precision;
+    Session session(source_, std::make_shared<Devices>(computing), {reading, {}, {}});
+    OutputFormat output;
+    output.transfer = Transfer::srgb();
+    return session.render(request_, output).picture.bytes;
+  };
+  EXPECT_EQ(codes(Reading::forward, 7, Precision::fixed), codes(Reading::whole, 40, Precision::fixed));
+  EXPECT_EQ(codes(Reading::forward, 7, Precision::single_), codes(Reading::whole, 7, Precision::single_));
 }
 
 TEST_F(SessionOfClip, ReadsAClipThatItsOwnerMakes) {

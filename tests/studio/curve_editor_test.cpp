@@ -342,14 +342,16 @@ TEST_F(CurveEditorTest, SaysWhatCheckFinds) {
 
 TEST_F(CurveEditorTest, SaysItOfWhatIsExposed) {
   const auto says = [&](const char* words) { return editor_.accessibleDescription().contains(words); };
-  document_.set_points(document_.selected_tag(), {{0, 0}, {100'000'000, 4}, {900'000'000, 4}, {1'000'000'000, 0}}, "Shape");
+  document_.set_points(document_.selected_tag(),
+                       {{0, 0}, {100'000'000, 4}, {900'000'000, 4}, {1'000'000'000, 0}}, "Shape");
   EXPECT_TRUE(says("still gain is 3.6")) << editor_.accessibleDescription().toStdString();
   DocumentState state = document_.state();
   state.normalization = Normalization::parse("integral");
   document_.apply(state, "Normalize");
   EXPECT_FALSE(says("still gain")) << "the picture keeps its brightness";
   document_.set_points(document_.selected_tag(), {{0, -1}, {1'000'000'000, 1}}, "Shape");
-  EXPECT_TRUE(says("integral")) << "there is nothing to divide by: " << editor_.accessibleDescription().toStdString();
+  EXPECT_TRUE(says("integral")) << "there is nothing to divide by: "
+                                << editor_.accessibleDescription().toStdString();
 }
 
 TEST_F(CurveEditorTest, ZoomsTimeAndGainToThePointerAndKeepsTheGainAxisWhileDragging) {

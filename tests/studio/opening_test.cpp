@@ -3,6 +3,7 @@
 #include <QProgressBar>
 #include <QSettings>
 #include <QToolButton>
+#include <fstream>
 
 #include "capture/error.hpp"
 #include "studio/live/opening.hpp"
@@ -230,6 +231,7 @@ TEST_F(OpeningTest, NothingElseIsSaidOfAnotherCaptureBesideTheFirstPicture) {
     EXPECT_TRUE(window_.windowTitle().startsWith("%d.pgm")) << window_.windowTitle().toStdString();
     for (const char* name : {"time_strip", "curves"}) EXPECT_EQ(seen(name), "") << name;
     for (const char* name : {"start", "regions"}) EXPECT_FALSE(child<QWidget>(name).isEnabled()) << name;
+    EXPECT_FALSE(child<QWidget>("said").isVisible());
     QTest::mouseClick(&child<QToolButton>("cancel"), Qt::LeftButton);
   }));
   ASSERT_TRUE(settles());
@@ -313,6 +315,30 @@ TEST_F(OpeningTest, WhatOpeningAnotherFileBrokeOffIsMadeAfterAll) {
   EXPECT_NE(canvas().image(), full);
 }
 
+// As its self-test found, which is kept.
+TEST_F(OpeningTest, AClipIsOpenedWhereADeviceComputesWholeNumbersWrongly) {
+  const QByteArray kept = qgetenv("XDG_CACHE_HOME");
+  qputenv("XDG_CACHE_HOME", path("cache").toUtf8());
+  for (const bool is_wrong : {false, true}) {
+    MainWindow window;
+    window.open(path("frames/%02d.pgm"), "100");
+    ASSERT_TRUE(QTest::qWaitFor([&] { return window.is_settled(); }, kMaxWaitMs));
+    ASSERT_NE(window.document().facts(), nullptr) << window.notice().text().toStdString();
+    EXPECT_EQ(window.document().facts()->precision,
+              is_wrong ? std::nullopt : std::optional(Precision::fixed));
+    EXPECT_EQ(window.command_for("picture.png").contains("--precision fixed"), !is_wrong);
+    EXPECT_FALSE(window.canvas().shows_first_look());
+    for (const auto& file : std::filesystem::recursive_directory_iterator(scratch_ / "cache")) {
+      if (!file.path().filename().string().starts_with("self-test-")) continue;
+      std::string text = test::read_file(file.path());
+      if (const auto at = text.find("\nfixed right"); at != std::string::npos)
+        text.replace(at, 12, "\nfixed wrong");
+      std::ofstream(file.path()) << text;
+    }
+  }
+  kept.isNull() ? qunsetenv("XDG_CACHE_HOME") : qputenv("XDG_CACHE_HOME", kept);
+}
+
 TEST_F(OpeningTest, OfADamagedClipThePartBeforeTheDamageIsOpened) {
   std::filesystem::create_directory(scratch_ / "torn");
   for (const char* name : {"torn/0.pgm", "torn/1.pgm", "torn/2.pgm"})
@@ -324,7 +350,8 @@ TEST_F(OpeningTest, OfADamagedClipThePartBeforeTheDamageIsOpened) {
   take_way_out("Open that part");
   ASSERT_NE(document().facts(), nullptr) << window_.notice().text().toStdString();
   EXPECT_EQ(document().facts()->timeline.sample_count(), 2u);
-  EXPECT_TRUE(window_.notice().text().contains("taken as far as it goes")) << window_.notice().text().toStdString();
+  EXPECT_TRUE(window_.notice().text().contains("taken as far as it goes"))
+      << window_.notice().text().toStdString();
   document().set_boxcar({0, 20'000'000}, "Scrub");
   ASSERT_TRUE(window_.save_project(path("torn.nutik")));
   for (const char* again : {"F5", "project"}) {
@@ -341,7 +368,8 @@ TEST_F(OpeningTest, OfADamagedClipThePartBeforeTheDamageIsOpened) {
 
 TEST_F(OpeningTest, OfACaptureThatWasCutOffIsSavedAndOpenedWhatIsWhole) {
   ASSERT_EQ(run_line("nutik-cl encode -f 100 --block-samples 8 frames/%02d.pgm cut.tik").status, 0);
-  std::filesystem::resize_file(scratch_ / "cut.tik", std::filesystem::file_size(scratch_ / "cut.tik") / 10 * 9);
+  std::filesystem::resize_file(scratch_ / "cut.tik",
+                               std::filesystem::file_size(scratch_ / "cut.tik") / 10 * 9);
   window_.open(path("cut.tik"));
   ASSERT_TRUE(settles());
   name_next_file("saved.tik");
@@ -349,7 +377,8 @@ TEST_F(OpeningTest, OfACaptureThatWasCutOffIsSavedAndOpenedWhatIsWhole) {
   ASSERT_NE(document().facts(), nullptr) << window_.notice().text().toStdString();
   EXPECT_EQ(document().facts()->path, path("saved.tik"));
   EXPECT_EQ(document().facts()->timeline.sample_count(), 16u);
-  EXPECT_TRUE(window_.notice().text().contains("16 samples were saved")) << window_.notice().text().toStdString();
+  EXPECT_TRUE(window_.notice().text().contains("16 samples were saved"))
+      << window_.notice().text().toStdString();
 }
 
 TEST_F(OpeningTest, AProjectsClipThatWasMovedIsLocated) {
@@ -359,8 +388,9 @@ TEST_F(OpeningTest, AProjectsClipThatWasMovedIsLocated) {
   ASSERT_EQ(run_line("nutik-cl encode -f 100 frames/%02d.pgm clip.tik").status, 0);
   std::string project = test::read_file(scratch_ / "mine.nutik");
   project.replace(project.find("frames/%02d.pgm"), 15, "gone/clip.tik");
-  scratch_.write("mine.nutik", project.erase(project.find("\"fps\""), project.find('\n', project.find("\"fps\"")) -
-                                                                          project.find("\"fps\"")));
+  scratch_.write("mine.nutik",
+                 project.erase(project.find("\"fps\""),
+                               project.find('\n', project.find("\"fps\"")) - project.find("\"fps\"")));
   window_.open(path("mine.nutik"));
   ASSERT_TRUE(settles());
   name_next_file("clip.tik");
@@ -409,7 +439,7 @@ TEST_F(OpeningTest, FilesAreChosenInDialogsByKeyboard) {
   drag(canvas(), at(10, 10), at(60, 40));
   ASSERT_NO_FATAL_FAILURE(choose(Qt::Key_S, "mine.nutik"));
   ASSERT_TRUE(window_.has_files()) << window_.notice().text().toStdString();
-  ASSERT_NO_FATAL_FAILURE(choose(Qt::Key_E, "window.png"));
+  ASSERT_NO_FATAL_FAILURE(choose(Qt::Key_E, "window"));  // an ending is added
   window_.activateWindow();
   ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
   QTest::keyClick(&window_, Qt::Key_C, Qt::ControlModifier | Qt::ShiftModifier);

@@ -13,6 +13,7 @@
 #include <QScreen>
 #include <QSettings>
 #include <QSplitter>
+#include <QTextBrowser>
 #include <QToolButton>
 #include <QTreeWidget>
 
@@ -79,7 +80,8 @@ TEST_F(PanelsTest, ARegionIsHiddenAndShownAlone) {
   const std::uint8_t tag = document().selected_tag();
   click_tool("tool_look");
   QTest::mouseMove(&canvas(), at(80, 40));
-  const QPoint edge = at(10, 20), inside = at(15, 15), outside = at(60, 15);
+  const QPointF edge = canvas().view().to_widget({10, 20});
+  const QPoint inside = at(15, 15), outside = at(60, 15);
   const QImage outlined = shown();
   const QColor colour = document().state().looks.at(tag).colour;
   EXPECT_EQ(shown_at(outlined, edge), colour) << "a line in the region's colour";
@@ -117,7 +119,7 @@ TEST_F(PanelsTest, ARegionsColourIsChosen) {
   click_button("region_colour");
   EXPECT_TRUE(is_asked_);
   EXPECT_EQ(document().state().looks.at(tag).colour, chosen);
-  EXPECT_EQ(shown_at(shown(), at(10, 20)), chosen);
+  EXPECT_EQ(shown_at(shown(), canvas().view().to_widget({10, 20})), chosen);
   answer_next<QColorDialog>([](QColorDialog& dialog) { QTest::keyClick(&dialog, Qt::Key_Escape); });
   click_button("region_colour");
   EXPECT_EQ(document().state().looks.at(tag).colour, chosen) << "who escapes changes nothing";
@@ -363,6 +365,75 @@ TEST_F(PanelsTest, TheWindowFitsItsScreenAndIsAsItWasClosed) {
   EXPECT_EQ(window.findChild<QSpinBox*>("wand_codes")->value(), 9);
   EXPECT_EQ(window.canvas().cursor().shape(), Qt::CrossCursor) << "it paints";
   QSettings().remove("window");
+}
+
+TEST_F(PanelsTest, WhatIsSaidLiesOverThePictureUntilEscape) {
+  open_clip();
+  window_.notice().clear();
+  QApplication::processEvents();
+  const QRect place(canvas().mapTo(&window_, QPoint()), canvas().size());
+  window_.notice().say(Notice::Kind::note, "Something to know.");
+  QApplication::processEvents();
+  EXPECT_EQ(QRect(canvas().mapTo(&window_, QPoint()), canvas().size()), place) << "the picture does not move";
+  EXPECT_TRUE(window_.notice().isVisible());
+  const QPoint middle = window_.notice().mapTo(&window_, window_.notice().rect().center());
+  EXPECT_TRUE(window_.notice().isAncestorOf(window_.childAt(middle))) << "it is in front";
+  canvas().setFocus();
+  document().set_probe(QPoint(3, 3));
+  QTest::keyClick(&canvas(), Qt::Key_Escape);
+  EXPECT_TRUE(window_.notice().isVisible()) << "the pixel is given up first";
+  QTest::keyClick(&canvas(), Qt::Key_Escape);
+  EXPECT_FALSE(window_.notice().isVisible());
+}
+
+TEST_F(PanelsTest, NothingOfTheToolBarIsHidden) {
+  window_.resize(window_.minimumSizeHint());
+  QApplication::processEvents();
+  const auto& bar = child<QToolBar>("tools");
+  for (const char* name : {"brightness", "mode", "brush_radius"}) {
+    EXPECT_TRUE(child<QWidget>(name).isVisible()) << name;
+    EXPECT_TRUE(bar.rect().contains(child<QWidget>(name).geometry())) << name;
+  }
+  EXPECT_LE(window_.width(), 1000);
+}
+
+TEST_F(PanelsTest, ToolsHaveIconsAndTheirNamesOnHover) {
+  open_clip();
+  std::set<QByteArray> icons;
+  for (const char* name : {"look", "brush", "rectangle", "ellipse", "polygon", "wand"}) {
+    const auto& action = child<QAction>(("tool_" + std::string(name)).c_str());
+    EXPECT_TRUE(action.toolTip().startsWith(action.text())) << action.toolTip().toStdString();
+    const QImage icon = action.icon().pixmap(32, 32).toImage();
+    icons.insert(QByteArray(reinterpret_cast<const char*>(icon.constBits()), icon.sizeInBytes()));
+  }
+  EXPECT_EQ(icons.size(), 6u) << "all of them different";
+  for (const char* name : {"radius", "feather", "own_feather"})
+    EXPECT_FALSE(child<QWidget>(name).toolTip().isEmpty()) << name;
+}
+
+TEST_F(PanelsTest, HelpTellsKeysAndRightClicksOfferMenus) {
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  QTest::keyClick(&window_, Qt::Key_F1);
+  const auto* text = window_.findChild<QTextBrowser*>();
+  ASSERT_NE(text, nullptr);
+  for (const char* words : {"Ctrl+E", "Export picture", "Strip: I, O", "Brush"})
+    EXPECT_TRUE(text->toPlainText().contains(words)) << words;
+  text->window()->close();
+  QString about;
+  answer_next<QMessageBox>([&](QMessageBox& box) {
+    about = box.text();
+    box.accept();
+  });
+  click_menu("Help", "About");
+  EXPECT_TRUE(about.contains(NUTIK_VERSION)) << about.toStdString();
+  for (const auto& [name, words] : {std::pair{"regions", "Remove region"}, {"canvas", "Fit"}}) {
+    const QWidget& widget = child<QWidget>(name);
+    EXPECT_EQ(widget.contextMenuPolicy(), Qt::ActionsContextMenu) << name;
+    EXPECT_TRUE(std::ranges::any_of(widget.actions(), [&](const QAction* action) {
+      return action->text().remove('&') == words;
+    })) << words;
+  }
 }
 
 // ---- without a mouse, without eyes ----

@@ -229,5 +229,26 @@ TEST_F(TimeStripTest, ZoomsToThePointer) {
   EXPECT_LT(axis_.end_ns() - axis_.begin_ns(), 5e8);
 }
 
+TEST_F(TimeStripTest, ThumbnailsReachFromTheCapturesStartToItsEnd) {
+  CaptureOverview overview;
+  QImage image(160, 90, QImage::Format_RGB32);
+  image.fill(QColor(10, 200, 30));
+  for (const std::int64_t ms : {100, 500, 900}) overview.thumbnails.push_back({ms * kStripMs, image});
+  document_.set_overview(overview);
+  for (const int width : {600, 640, 680, 720, 760}) {
+    strip_.resize(width, strip_.height());
+    const QImage seen = strip_.grab().toImage();
+    for (const std::int64_t ms : {5, 250, 500, 750, 995}) {
+      const QPointF at(axis_.to_pixel(static_cast<double>(ms * kStripMs), width), strip_.track().top() + 10);
+      bool is_shown = false;  // pictures have a pixel between them
+      for (const int x : {-1, 0, 1}) {
+        const QColor colour = seen.pixelColor(((at + QPointF(x, 0)) * seen.devicePixelRatio()).toPoint());
+        is_shown = is_shown || colour.green() - colour.red() > 80;
+      }
+      EXPECT_TRUE(is_shown) << ms << " ms of a strip of " << width;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace nutik::studio

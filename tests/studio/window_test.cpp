@@ -79,8 +79,8 @@ TEST_F(WindowTest, CopiesTheLineOfWhateverIsExposed) {
   expect_same_picture_by_command();
 }
 
-// The window exposes a clip's capture, whose blocks begin where its changes say; the line reads the clip, in blocks of one
-// length. The mean of two codes in turns is a tie.
+// The window exposes a clip's capture, whose blocks begin where its changes say; the line reads the clip, in blocks of
+// one length. The mean of two codes in turns is a tie.
 TEST_F(WindowTest, WritesTheSamePictureHoweverSamplesArePartedIntoBlocks) {
   constexpr int kSide = 32, kCount = 40;
   std::filesystem::create_directory(scratch_ / "ties");
@@ -98,7 +98,8 @@ TEST_F(WindowTest, WritesTheSamePictureHoweverSamplesArePartedIntoBlocks) {
     ASSERT_TRUE(settles());
     expect_same_picture_by_command();
     for (const char* blocks : {" --block-samples 7", " --block-samples 11"}) {
-      const test::ProgramResult made = run_line(window_.command_for(path("line.png")) + " --overwrite" + blocks);
+      const test::ProgramResult made =
+          run_line(window_.command_for(path("line.png")) + " --overwrite" + blocks);
       ASSERT_EQ(made.status, 0) << made.err;
       EXPECT_EQ(difference(QImage(path("line.png")), canvas().image()), "") << samples << blocks;
     }

@@ -122,6 +122,7 @@ void Canvas::keyPressEvent(QKeyEvent* event) {
       if (tool_ != nullptr) tool_->finish();
       return update();
     case Qt::Key_Escape:
+      if (!is_stroking_ && !document_.probe()) event->ignore();
       if (tool_ != nullptr) {
         tool_->give_up();
       } else {

@@ -71,7 +71,7 @@ QString CurveEditor::function_name() const {
   const std::uint8_t tag = document_.selected_tag();
   const auto look = document_.state().looks.find(tag);
   const QString name = look == document_.state().looks.end() ? QString() : look->second.name;
-  return name.isEmpty() ? QString("M%1").arg(tag) : QString("M%1  %2").arg(tag).arg(name);
+  return name.isEmpty() ? QString("M%1").arg(tag) : QString("%1 (M%2)").arg(name).arg(tag);
 }
 
 void CurveEditor::follow_document() {
@@ -118,7 +118,8 @@ void CurveEditor::refresh_findings() {
   } catch (const InputError& error) {
     findings_.push_back({FunctionFinding::Kind::still_gain_not_positive, error.what(), {}});
   }
-  std::ranges::move(check_function(found->second, summary, {duration_ns, true}), std::back_inserter(findings_));
+  std::ranges::move(check_function(found->second, summary, {duration_ns, true}),
+                    std::back_inserter(findings_));
 }
 
 void CurveEditor::describe() {
@@ -233,15 +234,18 @@ void CurveEditor::paint_header(QPainter& painter, const TimeColours& colours) co
   const QString name = metrics.elidedText(function_name(), Qt::ElideRight, line.width() / 3);
   painter.drawText(line, Qt::AlignVCenter, name);
   line.setLeft(line.left() + metrics.horizontalAdvance(name) + 20);
-  if (!waveform_.empty()) {
+  QString aside = pointer_text();
+  if (aside.isEmpty() && !waveform_.empty()) {
     const QPoint pixel = document_.waveform()->pixel;
     const Series::Range light = waveform_.over(0, waveform_.values().size());
-    const QString text =
+    aside =
         QString("light of pixel %1, %2, up to %3").arg(pixel.x()).arg(pixel.y()).arg(light.high, 0, 'g', 3);
-    const double wide = std::min(metrics.horizontalAdvance(text), line.width() / 2);
-    painter.setPen(colours.waveform);
+  }
+  if (!aside.isEmpty()) {
+    const double wide = std::min(metrics.horizontalAdvance(aside), line.width() / 2);
+    painter.setPen(hovered_ ? colours.label : colours.waveform);
     painter.drawText(QRectF(line.right() - wide, 0, wide, line.height()), Qt::AlignVCenter,
-                     metrics.elidedText(text, Qt::ElideRight, wide));
+                     metrics.elidedText(aside, Qt::ElideRight, wide));
     line.setRight(line.right() - wide - 16);
   }
   QString said = message_;
@@ -284,20 +288,16 @@ void CurveEditor::paint_drag(QPainter& painter, const PlotFrame& frame, const Ti
     QString text = dragged_->text;
     if (dragged_->time_snap) text += "  ·  " + dragged_->time_snap->what;
     paint_tip(painter, rect(), press_ ? press_->last : QPointF(), text, colours);
-    return;
   }
-  if (!hovered_ || !box.contains(*hovered_) || numbers_->isVisible() || document_.facts() == nullptr) return;
-  // Coordinates of the pointer, in the lower right corner, so that they hide nothing.
-  const auto under = point_under(frame, points_, selected(), *hovered_);
-  ControlPoint at{frame.time_at(hovered_->x()), frame.gain_at(hovered_->y())};
-  if (under) at = points_[*under];
-  const QFontMetricsF metrics(painter.font());
-  const QString text = under ? point_text(at) : pointer_text(at, frame.ns_per_pixel());
-  painter.setPen(colours.label);
-  painter.drawText(
-      QRectF(box.right() - metrics.horizontalAdvance(text) - 6, box.bottom() - metrics.height() - 3,
-             metrics.horizontalAdvance(text) + 1, metrics.height()),
-      Qt::AlignCenter, text);
+}
+
+QString CurveEditor::pointer_text() const {
+  const PlotFrame frame = this->frame();
+  if (!hovered_ || press_ || !frame.box().contains(*hovered_) || numbers_->isVisible()) return {};
+  if (const auto under = point_under(frame, points_, selected(), *hovered_))
+    return point_text(points_[*under]);
+  return studio::pointer_text({frame.time_at(hovered_->x()), frame.gain_at(hovered_->y())},
+                              frame.ns_per_pixel());
 }
 
 }  // namespace nutik::studio

@@ -80,6 +80,7 @@ class CurveEditor : public TimeView {
   [[nodiscard]] std::optional<TransformBox> box() const;
   [[nodiscard]] QRectF plot_area() const;
   [[nodiscard]] QString function_name() const;
+  [[nodiscard]] QString pointer_text() const;  // where it is, or the point that it is on
 
   // Mouse.
   void press_point(std::size_t point, const QMouseEvent& event);

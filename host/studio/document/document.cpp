@@ -172,7 +172,8 @@ void Document::set_mark_in(std::optional<std::int64_t> time_ns) {
 }
 
 void Document::set_mark_out(std::optional<std::int64_t> time_ns) {
-  marks_.out_ns = time_ns ? std::optional(std::clamp<std::int64_t>(*time_ns, 0, duration_ns())) : std::nullopt;
+  marks_.out_ns =
+      time_ns ? std::optional(std::clamp<std::int64_t>(*time_ns, 0, duration_ns())) : std::nullopt;
   if (marks_.in_ns && marks_.out_ns && *marks_.out_ns <= *marks_.in_ns) marks_.in_ns.reset();
   Q_EMIT marks_changed();
 }

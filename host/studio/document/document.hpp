@@ -50,8 +50,8 @@ struct CaptureFacts {
   CaptureFormat format;
   Timeline timeline;
   Stated stated = {};
-  // In which pictures are written; none: what suits each. A clip that nutik-cl reads for one picture has other blocks than
-  // the capture that the window makes of it, and only whole numbers have the same sum however they are parted.
+  // In which pictures are written; none: what suits each. A clip that nutik-cl reads for one picture has other blocks
+  // than the capture that the window makes of it, and only whole numbers have the same sum however they are parted.
   std::optional<Precision> precision = {};
 };
 
@@ -217,9 +217,10 @@ class Document : public QObject {
 // The feather of regions that the mask has: others have no edges.
 [[nodiscard]] Feather feather_of(const DocumentState& state);
 
-// What a region's function comes to as it is exposed: divided and brightened. Throws InputError where the integral that it
-// is divided by cancels.
-[[nodiscard]] GainSummary exposed_summary(const DocumentState& state, std::uint8_t tag, std::int64_t duration_ns);
+// What a region's function comes to as it is exposed: divided and brightened. Throws InputError where the integral that
+// it is divided by cancels.
+[[nodiscard]] GainSummary exposed_summary(const DocumentState& state, std::uint8_t tag,
+                                          std::int64_t duration_ns);
 
 // The colour that the region with a tag begins with: calm ones, told apart on dark and light.
 [[nodiscard]] QColor first_colour(std::uint8_t tag);

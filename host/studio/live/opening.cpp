@@ -25,13 +25,15 @@ std::uint64_t left_in(const std::filesystem::path& folder) {
 }
 
 // The first picture, of a session that reads no further.
-QImage first_picture(const SourceRequest& source, const std::shared_ptr<Devices>& devices, const Job& job) {
+QImage first_picture(const SourceRequest& source, const std::shared_ptr<Devices>& devices,
+                     std::optional<Precision> precision, const Job& job) {
   Session forward(source, devices, {.reading = Reading::forward, .progress = {}, .stop = job.stop});
   ExposureRequest exposure;
   exposure.start = StatedTime::of_pictures(0);
   exposure.gains = PlainInterval{StatedTime::of_pictures(1), Shutter()};
   RenderControl control;
   control.stop = job.stop;
+  control.precision = precision;
   return image_of(forward.render(exposure, screen_format(), control).picture);
 }
 
@@ -63,7 +65,16 @@ Opened open_capture(const QString& path, const Stated& stated, std::shared_ptr<D
   if (!stated.rate.isEmpty()) source.clip.rate = Rational::parse(stated.rate.toStdString(), "the frame rate");
   source.clip.ends_at_damage = stated.ends_at_damage;
   const bool is_clip = !is_tik(source.path);
-  if (is_clip) first_look(first_picture(source, devices, job));
+  std::optional<Precision> precision;
+  if (is_clip) {
+    try {
+      precision = Precision::fixed;
+      first_look(first_picture(source, devices, precision, job));
+    } catch (const DeviceError&) {  // which may compute it wrongly
+      precision.reset();
+      first_look(first_picture(source, devices, precision, job));
+    }
+  }
   const RoomWatch room(temporary_folder());
   const auto progress = [&](std::uint64_t done, std::uint64_t total) {
     if (is_clip) room.look(done, total);
@@ -73,7 +84,7 @@ Opened open_capture(const QString& path, const Stated& stated, std::shared_ptr<D
       source, std::move(devices),
       Session::Terms{.reading = Reading::whole, .progress = progress, .stop = job.stop});
   Opened opened{session, {path, session->format(), session->timeline(), stated}, {}};
-  if (is_clip) opened.facts.precision = Precision::fixed;
+  opened.facts.precision = precision;
   for (const Note& note : session->notes()) {
     opened.notes += sentence(note.text);
     if (std::ranges::find(note.settings, Setting::frame_rate) != note.settings.end())

@@ -48,8 +48,8 @@ struct Opened {
 [[nodiscard]] Opened open_capture(const QString& path, const Stated& stated, std::shared_ptr<Devices> devices,
                                   const Job& job, const std::function<void(QImage)>& first_look);
 
-// What a capture has between the marks, as a capture of its own that begins at a time of that one; the capture itself where
-// there are none. Throws what session_of_part() does.
+// What a capture has between the marks, as a capture of its own that begins at a time of that one; the capture itself
+// where there are none. Throws what session_of_part() does.
 struct Stretch {
   std::shared_ptr<Session> session;
   std::int64_t start_ns = 0;

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "features/masks/mask_making.hpp"
-#include "studio/regions/region_edits.hpp"
 #include "studio/live/opening.hpp"
+#include "studio/regions/region_edits.hpp"
 #include "studio/time/times.hpp"
 
 namespace nutik::studio {
@@ -53,9 +53,10 @@ Jobs::Work selecting_motion(Document& document, std::shared_ptr<Session> session
   MaskStep step;
   step.selection = select::Motion();
   const Marks& marks = document.marks();
-  return selecting(document, std::move(session), marks, std::move(step), Document::tr("Select what moves"),
-                   marks == Marks() ? Document::tr("move within the capture") : Document::tr("move between the marks"),
-                   std::move(told));
+  return selecting(
+      document, std::move(session), marks, std::move(step), Document::tr("Select what moves"),
+      marks == Marks() ? Document::tr("move within the capture") : Document::tr("move between the marks"),
+      std::move(told));
 }
 
 Jobs::Work selecting_difference(Document& document, std::shared_ptr<Session> session,

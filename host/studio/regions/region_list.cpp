@@ -62,6 +62,7 @@ QDoubleSpinBox* pixel_box(double most, double value, const QString& name, QWidge
   box->setSuffix(QStringLiteral(" px"));
   box->setValue(value);
   box->setAccessibleName(name);
+  box->setToolTip(name);
   return box;
 }
 
@@ -75,9 +76,8 @@ RegionList::RegionList(Document& document, QWidget* parent)
   list_->setHeaderLabels({tr("Region"), tr("Tag"), tr("Still"), tr("White"), tr("Solo")});
   list_->headerItem()->setToolTip(kTag, tr("The region's value in the mask, and its M in the function file"));
   list_->headerItem()->setToolTip(kStill, tr("What light that does not change is multiplied by"));
-  list_->headerItem()->setToolTip(
-      kWhite,
-      tr("How many of its pixels have a channel at the last code, 255: more light would not be seen"));
+  list_->headerItem()->setToolTip(kWhite, tr("How many of its pixels have a channel at the last code, 255: just "
+                                             "white, or saturated. More light would not be seen"));
   list_->headerItem()->setToolTip(kSolo, tr("Darkens all other regions"));
   list_->setRootIsDecorated(false);
   list_->setUniformRowHeights(true);
@@ -153,6 +153,8 @@ void RegionList::build_buttons() {
   numbers->addRow(tr("By"), radius_);
   numbers->addRow(tr("Feather edges"), feather_);
   numbers->addRow(tr("Its own edges"), own_feather_);
+  for (QDoubleSpinBox* box : {radius_, feather_, own_feather_})
+    numbers->labelForField(box)->setToolTip(box->toolTip());
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(6, 6, 6, 6);
   column->addWidget(list_, 1);

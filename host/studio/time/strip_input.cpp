@@ -71,8 +71,8 @@ void TimeStrip::mousePressEvent(QMouseEvent* event) {
     return;
   }
   if (event->button() != Qt::LeftButton || part == Part::none) return;
-  press_.emplace(
-      Press{part, at, at, 0.0, document_.boxcar(), document_.state(), document_.mark_in(), document_.mark_out()});
+  press_.emplace(Press{part, at, at, 0.0, document_.boxcar(), document_.state(), document_.mark_in(),
+                       document_.mark_out()});
   if (part == Part::mark_in || part == Part::mark_out) return;
   document_.begin_drag();
   press_->edits = true;
@@ -235,9 +235,11 @@ QString TimeStrip::text_at(QPointF at) const {
   const Timeline& timeline = document_.facts()->timeline;
   switch (part_at(at)) {
     case Part::mark_in:
-      return "In: " + exact_time_text(*document_.mark_in()) + "\nDrag to move it, right click to take it away";
+      return "In: " + exact_time_text(*document_.mark_in()) +
+             "\nDrag to move it, right click to take it away";
     case Part::mark_out:
-      return "Out: " + exact_time_text(*document_.mark_out()) + "\nDrag to move it, right click to take it away";
+      return "Out: " + exact_time_text(*document_.mark_out()) +
+             "\nDrag to move it, right click to take it away";
     case Part::begin: return "Drag to move the interval's begin";
     case Part::end: return "Drag to move the interval's end";
     case Part::whole: {

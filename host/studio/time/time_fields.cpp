@@ -6,8 +6,8 @@
 #include <QLineEdit>
 
 #include "studio/time/time_axis.hpp"
-#include "studio/time/time_view.hpp"
 #include "studio/time/time_strip.hpp"
+#include "studio/time/time_view.hpp"
 #include "studio/time/times.hpp"
 
 namespace nutik::studio {
@@ -39,6 +39,7 @@ TimeFields::TimeFields(Document& document, QWidget* parent)
                   &TimeFields::enter_in);
   out_ = add_field("&Out", "Where work ends, or nothing. " + times + "the start of sample 37",
                    &TimeFields::enter_out);
+  said_->setObjectName("said");
   said_->setAccessibleName("Exposed samples");
   said_->setTextFormat(Qt::PlainText);
   said_->setMinimumWidth(0);
@@ -52,6 +53,7 @@ TimeFields::TimeFields(Document& document, QWidget* parent)
 
 void TimeFields::changeEvent(QEvent* event) {
   if (event->type() == QEvent::PaletteChange) show_values();
+  if (event->type() == QEvent::EnabledChange) said_->setVisible(isEnabled());
   QWidget::changeEvent(event);
 }
 

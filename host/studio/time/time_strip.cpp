@@ -138,8 +138,11 @@ void TimeStrip::paint_thumbnails(QPainter& painter, const QRectF& row) const {
   const double zero = axis_.to_pixel(0, width());
   painter.setRenderHint(QPainter::SmoothPixmapTransform);
   for (double x = zero + std::floor((row.left() - zero) / wide) * wide; x < row.right(); x += wide) {
-    const std::int64_t middle = axis_.to_time(x + wide / 2, width());
-    if (middle < 0 || middle > document_.duration_ns()) continue;
+    if (axis_.to_time(x, width()) >= document_.duration_ns()) break;
+    if (axis_.to_time(x + wide, width()) <= 0) continue;
+    // What the last one has beyond the capture is covered.
+    const std::int64_t middle =
+        std::clamp<std::int64_t>(axis_.to_time(x + wide / 2, width()), 0, document_.duration_ns());
     const auto after = std::lower_bound(thumbnails.begin(), thumbnails.end(), middle,
                                         [](const CaptureOverview::Thumbnail& thumbnail, std::int64_t time) {
                                           return thumbnail.time_ns < time;

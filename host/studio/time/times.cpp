@@ -20,7 +20,11 @@ QString text_of(const std::string& text) { return QString::fromStdString(text); 
 
 // Without blanks, and a comma as a decimal point.
 std::string typed_number(QString text) {
-  return text.remove(QChar::Space).remove(QChar::Tabulation).remove(QChar::Nbsp).replace(',', '.').toStdString();
+  return text.remove(QChar::Space)
+      .remove(QChar::Tabulation)
+      .remove(QChar::Nbsp)
+      .replace(',', '.')
+      .toStdString();
 }
 
 Typed<std::int64_t> within_reach(std::int64_t time_ns, const QString& what) {

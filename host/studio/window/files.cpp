@@ -50,8 +50,22 @@ void MainWindow::ask_for_file(const QString& title, const QString& filter, const
 }
 
 void MainWindow::ask_for_name(const QString& title, const QString& ending, const QString& filter, const Use& use) {
-  const QString path = QFileDialog::getSaveFileName(this, title, suggested(ending), filter);
+  const QString path = named_file(title, ending, filter);
   if (!path.isEmpty()) use(path);
+}
+
+// Empty where none is given. A name without an ending gets its own, of which the dialog did not know.
+QString MainWindow::named_file(const QString& title, const QString& ending, const QString& filter) {
+  QString path = QFileDialog::getSaveFileName(this, title, suggested(ending), filter);
+  const QString suffix = ending.mid(ending.lastIndexOf('.'));
+  const bool has_ending =
+      suffix == kProjectExtension ? path.endsWith(suffix) : !QFileInfo(path).suffix().isEmpty();
+  if (path.isEmpty() || has_ending) return path;
+  path += suffix;
+  const bool is_free = !QFileInfo::exists(path) ||
+                       QMessageBox::question(this, title, tr("%1 is there already. Replace it?").arg(path)) ==
+                           QMessageBox::Yes;
+  return is_free ? path : QString();
 }
 
 bool MainWindow::save_project(const QString& path) {
@@ -158,16 +172,9 @@ void MainWindow::fill_unsaved(QMenu& menu) {
 
 bool MainWindow::save_as() {
   if (document_.facts() == nullptr) return false;
-  QString path = QFileDialog::getSaveFileName(this, tr("Save the project"), suggested(kProjectExtension),
-                                              tr("Projects (*%1)").arg(kProjectExtension));
+  const QString path =
+      named_file(tr("Save the project"), kProjectExtension, tr("Projects (*%1)").arg(kProjectExtension));
   if (path.isEmpty()) return false;
-  if (!path.endsWith(QLatin1String(kProjectExtension))) {
-    path += QLatin1String(kProjectExtension);  // of which the dialog did not know
-    if (QFileInfo::exists(path) &&
-        QMessageBox::question(this, tr("Save the project"),
-                              tr("%1 is there already. Replace it?").arg(path)) != QMessageBox::Yes)
-      return false;
-  }
   return path == project_ ? save() : save_project(path);
 }
 
@@ -260,7 +267,9 @@ void MainWindow::write_mask(const QString& path) {
 }
 
 void MainWindow::write_plate(const QString& path) {
-  try_to([&] { jobs_.start(tr("Looking for the empty scene"), writing_plate(document_, session_, path, told())); });
+  try_to([&] {
+    jobs_.start(tr("Looking for the empty scene"), writing_plate(document_, session_, path, told()));
+  });
 }
 
 // Of a capture that was cut off, into a new one, which is then opened.

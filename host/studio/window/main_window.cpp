@@ -5,7 +5,9 @@
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFileInfo>
+#include <QGridLayout>
 #include <QInputDialog>
+#include <QKeyEvent>
 #include <QMimeData>
 #include <QScreen>
 #include <QSettings>
@@ -62,13 +64,19 @@ void MainWindow::build_window() {
   canvas_ = new Canvas(document_);
   canvas_->setObjectName("canvas");
   canvas_->set_hint(tr("Open a clip or a capture (Ctrl+O), or drop one here."));
+  // Over the picture, which stays where it is whatever is said.
+  auto* said = new QWidget;
+  auto* said_column = new QVBoxLayout(said);
   auto* picture = new QWidget;
-  auto* picture_column = new QVBoxLayout(picture);
-  picture_column->setContentsMargins(0, 0, 0, 0);
-  picture_column->setSpacing(0);
-  picture_column->addWidget(offer_);
-  picture_column->addWidget(notice_);
-  picture_column->addWidget(canvas_, 1);
+  auto* stack = new QGridLayout(picture);
+  for (QLayout* layout : std::initializer_list<QLayout*>{said_column, stack}) {
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+  }
+  said_column->addWidget(offer_);
+  said_column->addWidget(notice_);
+  stack->addWidget(canvas_, 0, 0);
+  stack->addWidget(said, 0, 0, Qt::AlignTop);
 
   auto* strip = new TimeStrip(document_, axis_);
   strip->setObjectName("time_strip");
@@ -124,7 +132,8 @@ void MainWindow::keep_window() {
   QSettings kept;
   kept.beginGroup(kWindowKey);
   kept.setValue("geometry", saveGeometry());
-  for (const auto* splitter : findChildren<QSplitter*>()) kept.setValue(splitter->objectName(), splitter->saveState());
+  for (const auto* splitter : findChildren<QSplitter*>())
+    kept.setValue(splitter->objectName(), splitter->saveState());
   kept.setValue("radius", radius_->value());
   kept.setValue("codes", codes_->value());
   kept.setValue("tool", tools_->checkedAction()->objectName());
@@ -135,11 +144,10 @@ void MainWindow::connect_parts() {
     canvas_->show_picture(picture);
     status_->tell(picture);
   });
-  connect(&live_, &LiveView::failed, this,
-          [this](const QString& why) {
-            if (canvas_->shows_first_look()) canvas_->clear();
-            notice_->say(Notice::Kind::error, why);
-          });
+  connect(&live_, &LiveView::failed, this, [this](const QString& why) {
+    if (canvas_->shows_first_look()) canvas_->clear();
+    notice_->say(Notice::Kind::error, why);
+  });
   for (Jobs* jobs : {&jobs_, &quick_, &writing_}) {
     connect(jobs, &Jobs::failed, this, [this](const QString& what, const QString& why) {
       notice_->say(Notice::Kind::error, tr("%1: %2").arg(what, why));
@@ -200,7 +208,8 @@ void MainWindow::open_capture_file(const QString& path, const Stated& stated, Or
               [this, path, stated, origin = std::move(origin), devices = devices_,
                first_look](const Job& job) -> Jobs::Finish {
                 try {
-                  auto opened = std::make_shared<Opened>(open_capture(path, stated, devices, job, first_look));
+                  auto opened =
+                      std::make_shared<Opened>(open_capture(path, stated, devices, job, first_look));
                   return [this, opened, origin] { take(std::move(*opened), origin); };
                 } catch (const Error&) {
                   return [this, path, stated, origin, error = std::current_exception()] {
@@ -287,7 +296,8 @@ void MainWindow::take(Opened opened, Origin origin) {
   live_.show(nullptr);
   session_ = opened.session;
   document_.start(std::move(opened.facts), std::move(state), origin.marks);
-  if (origin.kind == Origin::Kind::recovered || origin.is_unwritten || (origin.is_elsewhere && origin.state)) document_.undo_stack().resetClean();
+  if (origin.kind == Origin::Kind::recovered || origin.is_unwritten || (origin.is_elsewhere && origin.state))
+    document_.undo_stack().resetClean();
   if (origin.is_unwritten && notice_->text().isEmpty())
     notice_->say(
         Notice::Kind::note,
@@ -421,7 +431,7 @@ bool MainWindow::is_settled() const {
 void MainWindow::follow_title() {
   const CaptureFacts* facts = document_.facts();
   const bool is_another = canvas_->shows_first_look() && !opening_.isEmpty();
-  const QString name = is_another             ? opening_
+  const QString name = is_another            ? opening_
                        : !project_.isEmpty() ? project_
                        : facts != nullptr    ? facts->path
                                              : QString();
@@ -440,6 +450,12 @@ void MainWindow::follow_opening() {
 bool MainWindow::event(QEvent* event) {
   if (event->type() == QEvent::WindowActivate) tell_changes();
   return QMainWindow::event(event);
+}
+
+// Escape that nothing in the window had a use for.
+void MainWindow::keyPressEvent(QKeyEvent* event) {
+  if (event->key() != Qt::Key_Escape) return QMainWindow::keyPressEvent(event);
+  (notice_->isVisible() ? notice_ : offer_)->clear();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

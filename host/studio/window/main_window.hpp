@@ -46,7 +46,7 @@ struct Origin {
   std::optional<DocumentState> left;   // what the document was when it was left for this
   std::shared_ptr<const KeptProject> kept = {};  // of Kind::recovered
   bool is_unwritten = false;                     // of Kind::project: its last save was ended in the middle
-  bool is_elsewhere = false;  // the capture, than where the project says
+  bool is_elsewhere = false;                     // the capture, than where the project says
 };
 
 class MainWindow : public QMainWindow {
@@ -89,6 +89,7 @@ class MainWindow : public QMainWindow {
 
  protected:
   bool event(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
   void closeEvent(QCloseEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
@@ -101,7 +102,8 @@ class MainWindow : public QMainWindow {
   void keep_window();
   void open_project(const QString& path, std::shared_ptr<const KeptProject> kept = {});
   void open_capture_file(const QString& path, const Stated& stated, Origin origin);
-  void tell_way_out(const QString& path, const Stated& stated, const Origin& origin, const std::exception_ptr& error);
+  void tell_way_out(const QString& path, const Stated& stated, const Origin& origin,
+                    const std::exception_ptr& error);
   void take(Opened opened, Origin origin);
   void ask_rate(const QString& path, Stated stated, const QString& why, const Origin& origin);
   void stay();
@@ -124,12 +126,16 @@ class MainWindow : public QMainWindow {
   void build_view_menu();
   void build_start_menu();
   void build_region_menu();
+  void build_help_menu();
+  void show_keys();
+  static void offer_beside(QWidget& widget, const QMenu& menu);
   void follow_exposure();
 
   // files.cpp
   using Use = std::function<void(const QString& path)>;
   void ask_for_file(const QString& title, const QString& filter, const Use& use);
   void ask_for_name(const QString& title, const QString& ending, const QString& filter, const Use& use);
+  [[nodiscard]] QString named_file(const QString& title, const QString& ending, const QString& filter);
   bool save();  // asks for a name where there is none
   bool save_as();
   bool may_leave();  // asks where something is not saved

@@ -2,11 +2,17 @@
 #include <QActionGroup>
 #include <QApplication>
 #include <QComboBox>
+#include <QDialog>
+#include <QIconEngine>
 #include <QLabel>
 #include <QMenuBar>
+#include <QMessageBox>
+#include <QPainter>
 #include <QSignalBlocker>
 #include <QSpinBox>
+#include <QTextBrowser>
 #include <QToolBar>
+#include <QVBoxLayout>
 
 #include "studio/regions/region_edits.hpp"
 #include "studio/regions/region_list.hpp"
@@ -38,6 +44,72 @@ constexpr ToolRow kTools[] = {
     {ToolKind::wand, "tool_wand", QT_TR_NOOP("Wand"),
      QT_TR_NOOP("Pixels that look like the one clicked and hang together with it"), Qt::Key_W}};
 
+// Drawn in the colour of texts, whatever the appearance and the screen's scale; in 16 units to a side.
+class ToolIcon : public QIconEngine {
+ public:
+  explicit ToolIcon(ToolKind kind) : kind_(kind) {}
+
+  QIconEngine* clone() const override { return new ToolIcon(kind_); }
+  void paint(QPainter* painter, const QRect& place, QIcon::Mode mode, QIcon::State) override {
+    const auto group = mode == QIcon::Disabled ? QPalette::Disabled : QPalette::Active;
+    const QColor colour = QApplication::palette().color(group, QPalette::ButtonText);
+    painter->save();
+    painter->setRenderHint(QPainter::Antialiasing);
+    painter->translate(place.topLeft());
+    painter->scale(place.width() / 16.0, place.height() / 16.0);
+    painter->setPen(QPen(colour, 1.4, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    draw(*painter, colour);
+    painter->restore();
+  }
+  QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
+    QPixmap drawn(size);
+    drawn.fill(Qt::transparent);
+    QPainter painter(&drawn);
+    paint(&painter, drawn.rect(), mode, state);
+    return drawn;
+  }
+
+ private:
+  void draw(QPainter& painter, const QColor& colour) const {
+    switch (kind_) {
+      case ToolKind::look:
+        painter.drawEllipse(QPointF(6.5, 6.5), 4.5, 4.5);
+        return painter.drawLine(QPointF(10, 10), QPointF(14, 14));
+      case ToolKind::brush:
+        painter.drawLine(QPointF(14, 2), QPointF(7, 9));
+        painter.setBrush(colour);
+        return painter.drawEllipse(QPointF(4.5, 11.5), 2.5, 2.5);
+      case ToolKind::rectangle: return painter.drawRect(QRectF(2, 4, 12, 8));
+      case ToolKind::ellipse: return painter.drawEllipse(QRectF(1.5, 3.5, 13, 9));
+      case ToolKind::polygon:
+        return painter.drawPolygon(QPolygonF({{8, 2}, {14, 6.5}, {11, 14}, {3, 12}, {2, 5}}));
+      case ToolKind::wand:
+        painter.drawLine(QPointF(2, 14), QPointF(9, 7));
+        for (const QPointF ray : {QPointF(3, 0), QPointF(0, 3), QPointF(2, 2), QPointF(2, -2)})
+          painter.drawLine(QPointF(11, 5) - ray, QPointF(11, 5) + ray);
+    }
+  }
+
+  ToolKind kind_;
+};
+
+// What keys and the mouse do where no menu says it.
+constexpr std::pair<const char*, const char*> kElsewhere[] = {
+    {QT_TR_NOOP("Picture: wheel, middle button"), QT_TR_NOOP("zooms to the pointer, pans")},
+    {QT_TR_NOOP("Picture: arrows, Space, Backspace"),
+     QT_TR_NOOP("move the pointer; begin and end a stroke, one that erases")},
+    {QT_TR_NOOP("Alt with a tool"), QT_TR_NOOP("erases")},
+    {QT_TR_NOOP("Time: wheel, Shift and wheel, F"), QT_TR_NOOP("zooms, pans, shows all")},
+    {QT_TR_NOOP("Strip: Left, Right, Up, Down"),
+     QT_TR_NOOP("the interval later and earlier, longer and shorter, by a sample")},
+    {QT_TR_NOOP("Strip: I, O, X, Z"),
+     QT_TR_NOOP("In and Out at its ends; exposes between them; shows what lies there")},
+    {QT_TR_NOOP("Curve: click, right click"), QT_TR_NOOP("adds a point, takes it away")},
+    {QT_TR_NOOP("Curve: Insert, Delete, Return"),
+     QT_TR_NOOP("the same, and types numbers; arrows move a point")},
+    {QT_TR_NOOP("Shift, Ctrl while dragging"), QT_TR_NOOP("a tenth as fast; not drawn to samples")},
+    {QT_TR_NOOP("Escape"), QT_TR_NOOP("takes back what is not finished, closes a message")}};
+
 constexpr const char* kNormalizations[] = {"support", "integral", "absolute"};
 
 }  // namespace
@@ -61,6 +133,7 @@ void MainWindow::build_menus() {
   build_region_menu();
   build_start_menu();
   build_view_menu();
+  build_help_menu();
   auto* bar = new QToolBar(tr("Tools"));
   bar->setObjectName("tools");
   bar->setMovable(false);
@@ -68,6 +141,7 @@ void MainWindow::build_menus() {
   build_tools(*bar);
   bar->addSeparator();
   build_exposure_bar(*bar);
+  bar->setMinimumWidth(bar->sizeHint().width());  // nothing of it is hidden
   const auto follow = [this] {
     for (QAction* action : std::as_const(needs_capture_)) action->setEnabled(document_.facts() != nullptr);
   };
@@ -149,6 +223,49 @@ void MainWindow::build_region_menu() {
       add_action(menu, tr("Select what &moves"), Qt::CTRL | Qt::Key_M, [this] { select_motion(); });
   needs_capture_ +=
       add_action(menu, tr("Select what di&ffers…"), Qt::CTRL | Qt::Key_D, [this] { choose_difference(); });
+  offer_beside(*regions_->findChild<QWidget*>("regions"), menu);
+}
+
+// As the menu of a right click.
+void MainWindow::offer_beside(QWidget& widget, const QMenu& menu) {
+  widget.addActions(menu.actions());
+  widget.setContextMenuPolicy(Qt::ActionsContextMenu);
+}
+
+void MainWindow::build_help_menu() {
+  QMenu& menu = *menuBar()->addMenu(tr("&Help"));
+  add_action(menu, tr("&Keys and mouse"), QKeySequence::HelpContents, [this] { show_keys(); });
+  add_action(menu, tr("&About nutik studio"), {}, [this] {
+    QMessageBox::about(
+        this, tr("About nutik studio"),
+        tr("nutik studio %1\n\nTime and gain after filming: gain functions and masks are drawn while the "
+           "picture follows. It writes what nutik-cl reads.")
+            .arg(NUTIK_VERSION));
+  });
+}
+
+// Of each menu what has a key, and what keys do elsewhere.
+void MainWindow::show_keys() {
+  QString rows;
+  const auto add = [&rows](const QString& keys, const QString& what) {
+    rows += QString("<tr><td><b>%1</b>&nbsp;&nbsp;</td><td>%2</td></tr>")
+                .arg(keys.toHtmlEscaped(), what.toHtmlEscaped());
+  };
+  for (QAction* action : findChildren<QAction*>()) {
+    const QString keys = action->shortcut().toString(QKeySequence::NativeText);
+    if (!keys.isEmpty()) add(keys, action->text().remove('&').remove(QChar(0x2026)));
+  }
+  for (const auto& [keys, what] : kElsewhere) add(tr(keys), tr(what));
+  auto* dialog = new QDialog(this);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setWindowTitle(tr("Keys and mouse"));
+  auto* text = new QTextBrowser(dialog);
+  text->setHtml("<table>" + rows + "</table>");
+  text->setAccessibleName(dialog->windowTitle());
+  auto* column = new QVBoxLayout(dialog);
+  column->addWidget(text);
+  dialog->resize(620, 560);
+  dialog->show();
 }
 
 void MainWindow::build_start_menu() {
@@ -174,6 +291,7 @@ void MainWindow::build_view_menu() {
   add_action(menu, tr("Zoom &out"), QKeySequence::ZoomOut, [this] { canvas_->zoom_by(1 / kStep); });
   add_action(menu, tr("&Fit"), Qt::CTRL | Qt::Key_0, [this] { canvas_->fit(); });
   add_action(menu, tr("&Pixel for pixel"), Qt::CTRL | Qt::Key_1, [this] { canvas_->show_actual_size(); });
+  offer_beside(*canvas_, menu);
   add_action(menu, tr("All of the &time"), Qt::CTRL | Qt::Key_T, [this] { axis_.show_all(); });
   QMenu& looks = *menu.addMenu(tr("&Appearance"));
   auto* group = new QActionGroup(this);
@@ -199,7 +317,8 @@ void MainWindow::build_tools(QToolBar& bar) {
     action->setCheckable(true);
     action->setChecked(row.kind == ToolKind::look);
     action->setShortcut(row.key);
-    action->setToolTip(tr("%1 (%2)").arg(tr(row.tip), action->shortcut().toString()));
+    action->setIcon(QIcon(new ToolIcon(row.kind)));
+    action->setToolTip(tr("%1 (%2): %3").arg(tr(row.name), action->shortcut().toString(), tr(row.tip)));
     tools_->addAction(action);
     connect(action, &QAction::toggled, this, [this, kind = row.kind](bool is_chosen) {
       if (is_chosen) use_tool(kind);

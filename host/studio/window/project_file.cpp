@@ -221,7 +221,8 @@ QString command_line(const Document& document, const CommandFiles& files, const 
   }
   for (const auto& [name, value] : options_of(document))
     line += " --" + name + (value.empty() ? "" : " " + shell_word(value));
-  if (const auto& precision = document.facts()->precision) line += format(" --precision {}", to_text(*precision));
+  if (const auto& precision = document.facts()->precision)
+    line += format(" --precision {}", to_text(*precision));
   line += " " + shell_word(document.facts()->path.toStdString()) + " " + shell_word(picture.toStdString());
   return QString::fromStdString(line);
 }

@@ -87,7 +87,8 @@ Jobs::Work studying(Document& document, std::shared_ptr<Session> session, StudyS
           path = document.facts()->path](const Job& job) -> Jobs::Finish {
     StudyRequest request;
     request.style = style;
-    if (style != StudyStyle::slit) request.moments = usual_moments(style);  // few strips: each is edited by hand
+    if (style != StudyStyle::slit)
+      request.moments = usual_moments(style);  // few strips: each is edited by hand
     const std::string name = path.toStdString();
     const MemoryBudget& memory = session->devices().request().memory;
     const Stretch stretch = stretch_between(marks, session, job);
@@ -97,7 +98,10 @@ Jobs::Work studying(Document& document, std::shared_ptr<Session> session, StudyS
       document.apply(state_of(document.state(), *study, std::move(study->regions.mask), stretch,
                               session->timeline(), style),
                      Document::tr("Starting point"));
-      told(text_of(study->notes));
+      const QString notes = text_of(study->notes);
+      told(notes.isEmpty() || stretch.start_ns == 0
+               ? notes
+               : notes + Document::tr("\nTimes and pictures count from In."));
     };
   };
 }
@@ -109,9 +113,9 @@ Jobs::Work writing_plate(const Document& document, std::shared_ptr<Session> sess
   check_output(path, OutputKind::picture, std::vector{name});
   return [session = std::move(session), path, name, told = std::move(told),
           marks = document.marks()](const Job& job) -> Jobs::Finish {
-    const MadePlate plate =
-        make_plate(stretch_between(marks, session, job).session->capture(), name, {}, output_format({}, path, session->format()),
-                   session->devices().request().memory, job.progress);
+    const MadePlate plate = make_plate(stretch_between(marks, session, job).session->capture(), name, {},
+                                       output_format({}, path, session->format()),
+                                       session->devices().request().memory, job.progress);
     write_picture(path, plate.picture);
     const QString line =
         Document::tr("%1: the scene without what moves").arg(QString::fromStdString(path.string()));
@@ -129,7 +133,8 @@ Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session,
   }
   check_output(path, OutputKind::picture, inputs);
   return [state = document.state(), sources = recipe_sources(document, files), session = std::move(session),
-          path, told = std::move(told), precision = document.facts()->precision](const Job& job) -> Jobs::Finish {
+          path, told = std::move(told),
+          precision = document.facts()->precision](const Job& job) -> Jobs::Finish {
     const auto mask = state.mask && state.mode == ExposureMode::functions
                           ? std::optional(LiveView::feathered_mask(state))
                           : std::nullopt;
@@ -141,10 +146,12 @@ Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session,
         session->render(exposure_of(state, mask), output_format({}, path, session->format()), control);
     write_picture(path, exposed.picture, recipe.text(std::string(to_text(exposed.precision))),
                   file_wishes({}));
+    const bool is_within = exposed.saturation.below + exposed.saturation.above == 0;
     const QString line = Jobs::tr("%1: %2, %3")
                              .arg(QString::fromStdString(path.string()),
                                   QString::fromStdString(shape_text(exposed.picture.shape)),
-                                  QString::fromStdString(saturated_text(exposed.saturation)));
+                                  is_within ? Jobs::tr("no light beyond white")
+                                            : QString::fromStdString(saturated_text(exposed.saturation)));
     return [told, line] { told(line); };
   };
 }

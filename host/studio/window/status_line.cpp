@@ -75,7 +75,10 @@ StatusLine::StatusLine(Jobs& jobs, QWidget* parent)
   saturated_->setObjectName("saturated");
   milliseconds_->setObjectName("milliseconds");
   arithmetic_->setToolTip(tr("The arithmetic that the picture was computed in, and what it may be wrong by"));
-  saturated_->setToolTip(tr("Pixels with light that the picture's codes cannot show"));
+  saturated_->setToolTip(
+      tr("Pixels with light beyond white, or below 0, that the picture's codes cannot show. Those that are "
+         "just white "
+         "count beside their region"));
   milliseconds_->setToolTip(tr("From the change to the picture"));
   progress_->setMaximumWidth(160);
   progress_->setMaximumHeight(14);
