@@ -83,7 +83,7 @@ endif()
 nutik_package(development NAME libnutik-dev SECTION libdevel
   SUMMARY "static libraries and headers of nutik"
   TEXT "For programs in C++20 that make and expose captures: find_package(nutik) of\nCMake, target nutik::features. The libraries are static, and such a program\nneeds nutik-modules of the same version."
-  DEPENDS "nutik-modules ${same}, g++ (>= 4:${gcc}), libjpeg-dev, liblcms2-dev, liblz4-dev, libpng-dev, libtiff-dev, libxxhash-dev, libzstd-dev, libcairo2-dev, ${fmt}ocl-icd-opencl-dev, opencl-clhpp-headers, pkg-config"
+  DEPENDS "nutik-modules ${same}, g++ (>= 4:${gcc}), libdeflate-dev, libjpeg-dev, liblcms2-dev, liblz4-dev, libpng-dev, libtiff-dev, libxxhash-dev, libzstd-dev, libcairo2-dev, ${fmt}ocl-icd-opencl-dev, opencl-clhpp-headers, pkg-config"
   RECOMMENDS "cmake (>= 3.25)")
 
 include(CPack)

@@ -10,7 +10,7 @@ program_packages=(
   g++ cmake ninja-build pkg-config
   ocl-icd-opencl-dev opencl-headers opencl-clhpp-headers pocl-opencl-icd
   libopencv-dev libavfilter-dev libavformat-dev libavcodec-dev libavutil-dev libswscale-dev
-  libexif-dev libpng-dev libjpeg-dev libtiff-dev libopenexr-dev libraw-dev liblcms2-dev
+  libexif-dev libdeflate-dev libpng-dev libjpeg-dev libtiff-dev libopenexr-dev libraw-dev liblcms2-dev
   libzstd-dev liblz4-dev libxxhash-dev libcairo2-dev fonts-dejavu-core
   libeigen3-dev nlohmann-json3-dev
   qt6-base-dev

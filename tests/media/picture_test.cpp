@@ -76,6 +76,19 @@ TEST(PictureWriter, WritesWhatASecondProgramReadsBack) {
   }
 }
 
+// From 64 MiB on rows are compressed one by one.
+TEST(PictureWriter, WritesLargePngsRowByRow) {
+  const Scratch scratch;
+  Picture picture({8192, 4097, 1}, ValueType::code16, 65'535);
+  for (std::uint64_t i = 0; i < picture.shape.value_count(); ++i) {
+    picture.values<std::uint16_t>()[i] = static_cast<std::uint16_t>(i * i >> 12);
+  }
+  write_picture(scratch / "large.png", picture);
+  const cv::Mat read = cv::imread((scratch / "large.png").string(), cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(read.total() * read.elemSize(), picture.bytes.size());
+  EXPECT_EQ(std::memcmp(read.data, picture.bytes.data(), picture.bytes.size()), 0);
+}
+
 TEST(PictureWriter, ChoosesTheTypeByNameAndWish) {
   const auto type = [](const char* name, std::optional<Depth> wish) {
     return value_type_for(name, wish, ValueType::code16, 3);
