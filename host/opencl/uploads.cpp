@@ -14,9 +14,10 @@ Uploads::Uploads(cl::Context context, const cl::Device& device)
 
 Uploads::~Uploads() {
   for (Piece& piece : pieces_) {
-    if (piece.memory != nullptr) ::clEnqueueUnmapMemObject(queue_(), piece.buffer(), piece.memory, 0, nullptr, nullptr);
+    if (piece.memory == nullptr) continue;
+    ::clEnqueueUnmapMemObject(queue_(), piece.buffer(), piece.memory, 0, nullptr, nullptr);
+    ::clFinish(queue_());
   }
-  ::clFinish(queue_());
 }
 
 void Uploads::write(const cl::Buffer& to, std::uint64_t offset, std::span<const std::byte> from) {

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "opencl/cache_folder.hpp"
+#include "opencl/device_succession.hpp"
 #include "opencl/device_team.hpp"
 #include "render/reference_renderer.hpp"
 #include "session/text/suggestion.hpp"
@@ -57,7 +58,8 @@ std::shared_ptr<Renderer> made(const ComputingRequest& request, Devices::Announc
   if (request.renderer == RendererKind::reference) return std::make_shared<ReferenceRenderer>();
   check_process();
   OpenClOptions options;
-  const std::vector<std::size_t> devices = chosen(list_devices(), request.device);
+  const std::vector<DeviceInfo> all = list_devices();
+  const std::vector<std::size_t> devices = chosen(all, request.device);
   options.device = devices.front();
   options.precision = request.precision;
   options.memory_bytes = request.memory.rendering_bytes();
@@ -69,6 +71,7 @@ std::shared_ptr<Renderer> made(const ComputingRequest& request, Devices::Announc
   options.tests_itself = request.tests_drivers;
   options.announce = std::move(announce);
   if (devices.size() > 1) return std::make_shared<DeviceTeam>(devices, options);
+  if (request.device.empty() && all.size() > 1) return std::make_shared<DeviceSuccession>(all, options);
   return std::make_shared<OpenClRenderer>(options);
 }
 
@@ -103,6 +106,7 @@ Renderer& Devices::renderer() {
 
 OpenClRenderer& Devices::opencl() {
   if (auto* renderer = dynamic_cast<OpenClRenderer*>(&this->renderer())) return *renderer;
+  if (auto* several = dynamic_cast<DeviceSuccession*>(&this->renderer())) return *several->current();
   if (has_several()) throw UsageError("several devices were asked for, and each is validated alone; name one of them", Advice{": `device 0`"});
   throw UsageError("the reference is no OpenCL device");
 }

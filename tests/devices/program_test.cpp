@@ -1,8 +1,10 @@
 // The program on two devices: PoCL's, which share the processor. Files are those of one device.
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 
 #include "support/program.hpp"
 #include "support/scratch.hpp"
@@ -71,6 +73,8 @@ class SeveralDevices : public testing::Test {
     EXPECT_FALSE(std::filesystem::exists(scratch_ / "new.png"));
   }
 
+  void for_each_fault(const Words& words, const std::string& call,
+                      const std::function<void(const ProgramResult&)>& look) const;
   void expect_end_where_one_is_lost(const Words& words) const;
 
   test::Scratch scratch_;
@@ -172,39 +176,71 @@ TEST_F(SeveralDevices, EndWhereOneIsLost) {
                                 "clip.tik", "new.png"});
 }
 
+// Nobody named a device: the other one takes over, and makes the same picture or film.
+TEST_F(SeveralDevices, TakeOverFromOneThatFails) {
+  for (const Words& words :
+       {Words{"expose", "--precision", "fixed", "-m", "mask.pgm", "-k", "two.fn", "clip.tik", "new.png"},
+        Words{"video", "--precision", "fixed", "--out-fps", "50", "plain.tik", "new.avi"}}) {
+    SCOPED_TRACE(words.front());
+    ASSERT_EQ(run(words).status, 0);
+    const std::string whole = test::read_file(scratch_ / words.back());
+    for (const char* call : {"start", "enqueue", "allocate", "wait"}) {
+      for_each_fault(words, call, [&](const ProgramResult& result) {
+        EXPECT_EQ(result.status, 0) << result.err;
+        EXPECT_NE(result.err.find(": " + name_), std::string::npos) << result.err;
+        EXPECT_EQ(test::read_file(scratch_ / words.back()), whole);
+      });
+    }
+  }
+}
+
+// Of a clip that is read for one picture what was read is gone.
+TEST_F(SeveralDevices, EndAClipForOnePictureWhereOneFails) {
+  const Words words{"expose", "-f", "100", "--start", "0s", "--exposure", "50ms", "frames", "new.png"};
+  ASSERT_EQ(run(words).status, 0);
+  for_each_fault(words, "wait", [&](const ProgramResult& result) { EXPECT_EQ(result.status, 4) << result.err; });
+}
+
 // The same of a film whose frames are shared out.
 TEST_F(SeveralDevices, EndAFilmWhereOneIsLost) {
   expect_end_where_one_is_lost({"video", "--device", "0,1", "--precision", "fixed", "--out-fps", "50", "plain.tik",
                                 "new.avi"});
 }
 
-void SeveralDevices::expect_end_where_one_is_lost(const Words& words) const {
+// `look` at what a command says where one call fails, early, in between and late.
+void SeveralDevices::for_each_fault(const Words& words, const std::string& call,
+                                    const std::function<void(const ProgramResult&)>& look) const {
   const std::string& output = words.back();
-  ASSERT_EQ(run(words).status, 0);  // kernels are built
-  std::filesystem::remove(scratch_ / output);
   const std::string library =
       (std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path() / "tests" / "libfail_device.so").string();
-  for (const char* call : {"enqueue", "allocate", "wait"}) {
-    const std::string report = (scratch_ / "calls").string();
-    const Words fault{"LD_PRELOAD=" + library, std::string("NUTIK_FAIL_CALL=") + call, "NUTIK_SELF_TEST=off",
-                      "NUTIK_FAIL_REPORT=" + report};
-    std::filesystem::remove(report);
-    ASSERT_EQ(run(words, fault).status, 0);
+  const std::string report = (scratch_ / "calls").string();
+  const Words fault{"LD_PRELOAD=" + library, "NUTIK_FAIL_CALL=" + call, "NUTIK_SELF_TEST=off",
+                    "NUTIK_FAIL_REPORT=" + report};
+  std::filesystem::remove(report);
+  std::filesystem::remove(scratch_ / output);
+  ASSERT_EQ(run(words, fault).status, 0);
+  const int calls = std::stoi(test::read_file(report));
+  ASSERT_GT(calls, 0);
+  for (const int at : std::set{1, (calls + 1) / 2, calls}) {
+    SCOPED_TRACE(call + " " + std::to_string(at) + " of " + std::to_string(calls));
     std::filesystem::remove(scratch_ / output);
-    const int calls = std::stoi(test::read_file(report));
-    ASSERT_GT(calls, 1);
-    for (const int at : {1, calls / 2, calls}) {
-      SCOPED_TRACE(std::string(call) + " " + std::to_string(at) + " of " + std::to_string(calls));
-      Words settings = fault;
-      settings.push_back("NUTIK_FAIL_AT=" + std::to_string(at));
-      const ProgramResult result = run(words, settings);
+    Words settings = fault;
+    settings.push_back("NUTIK_FAIL_AT=" + std::to_string(at));
+    look(run(words, settings));
+  }
+}
+
+void SeveralDevices::expect_end_where_one_is_lost(const Words& words) const {
+  ASSERT_EQ(run(words).status, 0);  // kernels are built
+  for (const char* call : {"enqueue", "allocate", "wait"}) {
+    for_each_fault(words, call, [&](const ProgramResult& result) {
       EXPECT_EQ(result.status, 4) << result.err;
       EXPECT_TRUE(result.err.find("nutik-cl: device 0: " + name_) != std::string::npos ||
                   result.err.find("nutik-cl: device 1: " + name_) != std::string::npos)
           << result.err;
       EXPECT_NE(result.err.find("another device"), std::string::npos) << result.err;
-      EXPECT_FALSE(std::filesystem::exists(scratch_ / output));
-    }
+      EXPECT_FALSE(std::filesystem::exists(scratch_ / words.back()));
+    });
   }
 }
 

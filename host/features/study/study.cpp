@@ -295,9 +295,11 @@ class StudyPlanner {
       if (why_.empty()) why_ = subject.verdict.why;
       if (!why_.empty()) continue;
       why_ = is_hole ? why_a_hole(study, i)
-                     : format("at picture {} moments after it cover all but {} of the subject's {} pixels: it goes too "
-                              "little for its size",
-                              study.moments[i], left[step.tag], step.pixel_count);
+               : step.pixel_count == 0
+                   ? format("at picture {} nothing of it stands out from the scene at rest", study.moments[i])
+                   : format("at picture {} moments after it cover all but {} of the subject's {} pixels: it goes too "
+                            "little for its size",
+                            study.moments[i], left[step.tag], step.pixel_count);
     }
     return bad;
   }
