@@ -219,10 +219,9 @@ QString command_line(const Document& document, const CommandFiles& files, const 
     add("-k", files.functions);
     if (state.mask) add("-m", files.mask);
   }
-  for (const auto& [name, value] : options_of(document))
-    line += " --" + name + (value.empty() ? "" : " " + shell_word(value));
-  if (const auto& precision = document.facts()->precision)
-    line += format(" --precision {}", to_text(*precision));
+  NamedOptions options = options_of(document);
+  if (const auto& precision = document.facts()->precision) options.emplace_back("precision", to_text(*precision));
+  for (const auto& [name, value] : options) line += " --" + name + (value.empty() ? "" : " " + shell_word(value));
   line += " " + shell_word(document.facts()->path.toStdString()) + " " + shell_word(picture.toStdString());
   return QString::fromStdString(line);
 }
