@@ -98,7 +98,7 @@ std::string describe(const cl::Error& error, const std::string& doing) {
 }
 
 DeviceError device_failed(const cl::Error& error, const std::string& doing) {
-  return DeviceError(describe(error, doing) + "; use another device or the reference", {Setting::renderer});
+  return DeviceError(describe(error, doing), Advice{"; use another device or the reference (`renderer`)"});
 }
 
 std::vector<cl::Device> all_devices() {

@@ -28,7 +28,8 @@ bool DeviceSuccession::start_next() {
       return true;
     } catch (const DeviceError& error) {
       if (!first) first = std::current_exception();
-      untold_.push_back(format("{}: {}. The next device takes its place", devices_[options_.device].name, error.what()));
+      untold_.push_back(format("device {}, {}: {}. The next one takes its place", options_.device,
+                               devices_[options_.device].name, error.what()));
     }
   }
   if (!current_) std::rethrow_exception(first);
@@ -38,8 +39,10 @@ bool DeviceSuccession::start_next() {
 bool DeviceSuccession::leave(const std::shared_ptr<OpenClRenderer>& failed, const DeviceError& error) {
   const std::scoped_lock lock(mutex_);
   if (current_ != failed) return true;
+  const std::size_t number = options_.device;
   if (!start_next()) return false;
-  untold_.push_back(format("{}. {} computes from here on", error.what(), current_->name()));
+  untold_.push_back(format("device {}: {}. Device {}, {}, computes from here on", number, error.what(), options_.device,
+                           current_->name()));
   return true;
 }
 

@@ -74,7 +74,9 @@ void add_new(std::vector<std::string>& to, const std::vector<std::string>& texts
 }
 
 [[noreturn]] void throw_numbered(std::size_t device, const DeviceError& error) {
-  throw DeviceError(format("device {}: {}", device, error.what()), error.settings());
+  const std::string text = format("device {}: {}", device, error.what());
+  if (!error.advice().empty()) throw DeviceError(text, Advice{error.advice()});
+  throw DeviceError(text, error.settings());
 }
 
 }  // namespace

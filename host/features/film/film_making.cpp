@@ -141,6 +141,9 @@ std::filesystem::path VideoOutput::still(std::uint64_t frame) const {
   return path_.parent_path() / NumberedName::parse(path_.filename().string()).value().with(frame);
 }
 
+// Of the encoders of H.264 and H.265.
+static constexpr std::uint32_t kLargestFrameSide = 16'384;
+
 Shape VideoOutput::shape(const CaptureFormat& capture) const {
   const FileWishes wishes = file_wishes(request_);
   if (codec_ == nullptr) return written_shape(path_, capture.shape, capture.pixel_aspect, wishes);
@@ -149,7 +152,7 @@ Shape VideoOutput::shape(const CaptureFormat& capture) const {
   const bool pairs = codec_->pairs_pixels;
   if (shape.width != capture.shape.width) shape.width += pairs ? shape.width % 2 : 0;
   if (shape.height != capture.shape.height) shape.height += pairs ? shape.height % 2 : 0;
-  return std::max(shape.width, shape.height) <= kLargestSquaredSide ? shape : capture.shape;
+  return std::max(shape.width, shape.height) <= kLargestFrameSide ? shape : capture.shape;
 }
 
 namespace {

@@ -27,10 +27,11 @@ MemoryNeeds study_needs(const CaptureFormat& capture) {
   return needs;
 }
 
-std::string starts_of(const std::vector<SampleRange>& shots) {
+// Numbered as in the clip, whose part begins with picture `part`.
+std::string starts_of(const std::vector<SampleRange>& shots, std::uint64_t part = 0) {
   std::string text;
   for (const SampleRange& shot : shots) {
-    text += format("{}{}{}", text.empty() ? "" : ", ", shot.first, shot.size() == 1 ? " (a single one)" : "");
+    text += format("{}{}{}", text.empty() ? "" : ", ", part + shot.first, shot.size() == 1 ? " (a single one)" : "");
   }
   return text;
 }
@@ -207,10 +208,13 @@ PlannedStudy plan_filmed(const SourceRequest& source, const StudyRequest& reques
     shots = shots_of(session.capture());
     if (shots.size() == 1) return planner.plan(source, std::move(session));
     if (!session.is_clip() || source.clip.from || source.clip.to) {
+      const bool is_numbered = source.clip.from && source.clip.from->is_picture;
+      const std::uint64_t part = is_numbered ? static_cast<std::uint64_t>(source.clip.from->value) : 0;
       throw InputError(
-          format("{}: it has {} shots, which begin at pictures {}. A study shows a single one: take that "
+          format("{}: it has {} shots, which begin at pictures {}{}. A study shows a single one: take that "
                  "from the clip",
-                 name, shots.size(), starts_of(shots)),
+                 name, shots.size(), starts_of(shots, part),
+                 source.clip.from && !is_numbered ? " of the part that was asked for" : ""),
           {Setting::from, Setting::to});
     }
   }
@@ -259,6 +263,11 @@ PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request
   StudyRequest asked = request;
   asked.is_exposed_between = source.between && has_trail(request);
   PlannedStudy planned = plan_filmed(filmed, asked, terms);
+  if (planned.session.capture().header().made) {
+    planned.notes.emplace_back(
+        "the capture has samples made between its pictures, which are taken for pictures here: moments may lie on "
+        "them. The clip itself is studied by what was filmed");
+  }
   if (asked.is_exposed_between) {
     SourceRequest made = planned.session.source();
     made.between = source.between;
