@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cctype>
 #include <chrono>
@@ -37,7 +38,9 @@ std::vector<std::size_t> chosen(const std::vector<DeviceInfo>& devices, const st
   try {
     return choose_devices(devices, wanted);
   } catch (const DeviceError& error) {
-    const std::string meant = wanted.size() < 3 ? "" : did_you_mean(lower_case(wanted), words_of(devices));
+    const std::vector<std::string> words = words_of(devices);
+    const bool is_one_of_them = std::ranges::count(words, lower_case(wanted)) > 0;  // of several devices
+    const std::string meant = wanted.size() < 3 || is_one_of_them ? "" : did_you_mean(lower_case(wanted), words);
     throw DeviceError(error.what(), Advice{meant.empty() ? "" : "\n" + meant.substr(2)});
   }
 }
