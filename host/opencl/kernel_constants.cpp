@@ -77,7 +77,7 @@ const DeviceCodes* KernelConstants::codes(const CodeKey& key, DeviceMemory& memo
 
 const DeviceMap& KernelConstants::map(const std::shared_ptr<const MaskMap>& map, const Band& band,
                                       DeviceMemory& memory, std::uint64_t& written_bytes) {
-  // Of a mask that no plan has any more; another capture's is a map of its own, however alike.
+  // No plan has the mask any more; another capture's is a map of its own, however alike.
   maps_.forget([](const DeviceMap& each) { return each.map.use_count() == 1; });
   const DeviceMap* const kept =
       maps_.find([&](const DeviceMap& each) { return each.map == map && each.band == band; });

@@ -195,7 +195,7 @@ TEST_F(SeveralDevices, TakeOverFromOneThatFails) {
   }
 }
 
-// Of a clip that is read for one picture what was read is gone.
+// What was read of a clip that is read for one picture is gone.
 TEST_F(SeveralDevices, EndAClipForOnePictureWhereOneFails) {
   const Words words{"expose", "-f", "100", "--start", "0s", "--exposure", "50ms", "frames", "new.png"};
   ASSERT_EQ(run(words).status, 0);

@@ -141,7 +141,7 @@ std::filesystem::path VideoOutput::still(std::uint64_t frame) const {
   return path_.parent_path() / NumberedName::parse(path_.filename().string()).value().with(frame);
 }
 
-// Of the encoders of H.264 and H.265.
+// Encoders of H.264 and H.265 take no more.
 static constexpr std::uint32_t kLargestFrameSide = 16'384;
 
 Shape VideoOutput::shape(const CaptureFormat& capture) const {

@@ -272,7 +272,7 @@ void MainWindow::write_plate(const QString& path) {
   });
 }
 
-// Of a capture that was cut off, into a new one, which is then opened.
+// Saves the whole blocks of a capture that was cut off as a new one, which is then opened.
 void MainWindow::save_whole_part(const QString& path, const Origin& origin) {
   const QFileInfo from(path);
   const QString whole = QFileDialog::getSaveFileName(

@@ -244,7 +244,7 @@ void MainWindow::build_help_menu() {
   });
 }
 
-// Of each menu what has a key, and what keys do elsewhere.
+// Lists what has a key in each menu, and what keys do elsewhere.
 void MainWindow::show_keys() {
   QString rows;
   const auto add = [&rows](const QString& keys, const QString& what) {
