@@ -23,15 +23,17 @@
 
 namespace nutik::test {
 
-// NUTIK_TEST_SHAPE=pixels,tiles,lanes,group cuts the work another way than suits the device (OpenClOptions): GPUs'
-// way on a CPU, say. NUTIK_TEST_DEVICE makes the device another one (support/device_traits.cpp).
+// NUTIK_TEST_SHAPE=pixels,tiles,lanes,group,rows,copies cuts the work another way than suits the device
+// (OpenClOptions): GPUs' way on a CPU, say. NUTIK_TEST_DEVICE makes the device another one (support/device_traits.cpp).
 inline OpenClOptions renderer_options(std::optional<Precision> precision) {
   OpenClOptions options;
   if (const char* shape = std::getenv("NUTIK_TEST_SHAPE")) {
-    if (std::sscanf(shape, "%u,%u,%u,%u", &options.item_pixels, &options.item_tiles, &options.lanes,
-                    &options.group_items) != 4) {
-      throw UsageError(std::string("NUTIK_TEST_SHAPE is not pixels,tiles,lanes,group: ") + shape);
+    std::uint32_t copies = 0;
+    if (std::sscanf(shape, "%u,%u,%u,%u,%u,%u", &options.item_pixels, &options.item_tiles, &options.lanes,
+                    &options.group_items, &options.rows_at_once, &copies) != 6) {
+      throw UsageError(std::string("NUTIK_TEST_SHAPE is not pixels,tiles,lanes,group,rows,copies: ") + shape);
     }
+    options.table_copies = copies;
   }
   options.precision = precision;
   options.tests_itself = false;  // these tests are stricter

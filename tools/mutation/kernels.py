@@ -84,7 +84,7 @@ MUTATIONS = (
 
 def failed_tests(build, folder, mutation):
     """The tests that fail, and whether a source was changed."""
-    settings = {"TMPDIR": str(folder), "POCL_CACHE_DIR": str(folder), "NUTIK_TEST_SHAPE": "1,1,1,64"}
+    settings = {"TMPDIR": str(folder), "POCL_CACHE_DIR": str(folder), "NUTIK_TEST_SHAPE": "4,1,4,64,4,8"}
     if mutation is not None:
         settings |= {"LD_PRELOAD": str(build / "tests/libmutate_kernels.so"), "NUTIK_MUTATE_FROM": mutation[1],
                      "NUTIK_MUTATE_TO": mutation[2]}
