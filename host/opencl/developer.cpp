@@ -143,7 +143,8 @@ void Developer::codes(const ExposedBand& exposed, const DeviceCodes& tables) {
     BlendCodesKernel kernel(program_, "blend_codes");
     const cl::Buffer where_blended = memory_.upload(blend_scales(plan_, work_.precision));
     develop_band(band, part, rows_of(part), [&](const cl::Buffer& raster) {
-      return kernel(items(kernel, queue_, work_.shape, band.tile_count), exposed.sums, scales, where_blended, exposed.map.of_lane, exposed.map.first_of,
+      return kernel(items(kernel, queue_, work_.shape, band.tile_count), exposed.sums, scales, where_blended,
+                    exposed.map.of_lane, exposed.map.first_of,
                     exposed.map.shares, blend_shift(plan_, work_.precision), band.shape.width,
                     band.shape.height, band.tile_count, tables.thresholds, tables.guesses, tables.guess_count,
                     raster);
@@ -152,7 +153,8 @@ void Developer::codes(const ExposedBand& exposed, const DeviceCodes& tables) {
   }
   DevelopCodesKernel kernel(program_, "develop_codes");
   develop_band(band, part, rows_of(part), [&](const cl::Buffer& raster) {
-    return kernel(items(kernel, queue_, work_.shape, band.tile_count), exposed.sums, scales, exposed.map.of_lane, band.shape.width, band.shape.height,
+    return kernel(items(kernel, queue_, work_.shape, band.tile_count), exposed.sums, scales,
+                  exposed.map.of_lane, band.shape.width, band.shape.height,
                   band.tile_count, tables.thresholds, tables.guesses, tables.guess_count, raster);
   });
 }

@@ -45,9 +45,9 @@ using ExposeKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl::B
 template <typename Functor>
 [[nodiscard]] cl::EnqueueArgs items(Functor& kernel, cl::CommandQueue& queue, const WorkShape& shape,
                                     std::uint64_t tile_count) {
-  const std::uint64_t group =
-      std::min<std::uint64_t>(shape.group_items, kernel.getKernel().template getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(
-                                                     queue.getInfo<CL_QUEUE_DEVICE>()));
+  const std::size_t most = kernel.getKernel().template getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(
+      queue.getInfo<CL_QUEUE_DEVICE>());
+  const std::uint64_t group = std::min<std::uint64_t>(shape.group_items, most);
   const std::uint64_t count = shape.items(tile_count);
   return {queue, cl::NDRange((count + group - 1) / group * group), cl::NDRange(group)};
 }

@@ -3,8 +3,8 @@
 //
 //   NUTIK_TEST_DEVICE=gpu,single,allocation=1000000,group=8    any of them
 //
-//   gpu          has its own memory, work-items for lanes, and memory beside each group. A buffer in the host's memory is refused, which a card
-//                would copy for each launch
+//   gpu          has its own memory, work-items for lanes, and memory beside each group. A buffer in the host's memory
+//                is refused, which a card would copy for each launch
 //   single       has no double
 //   allocation   allocates so many bytes at a time and no more
 //   group        runs so many work-items of a kernel in a group and no more

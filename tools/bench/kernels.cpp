@@ -269,7 +269,8 @@ int run(const Settings& settings) {
     csv << device.name << ',' << name_of(one.content) << ',' << to_text(one.precision) << ','
         << one.transfer.text() << ',' << one.code_bytes * 8 << ',' << name_of(one.regions) << ','
         << timed(measured.expose_ms, 4, "") << ',' << measured.bytes << ',' << timed(rate * 1e-9, 4, "")
-        << ',' << limit * 1e-9 << ',' << timed(measured.develop_ms, 4, "") << ',' << measured.read_ms << ',' << worst << '\n';
+        << ',' << limit * 1e-9 << ',' << timed(measured.develop_ms, 4, "") << ',' << measured.read_ms << ','
+        << worst << '\n';
   }
   return 0;
 }

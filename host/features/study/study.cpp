@@ -138,7 +138,7 @@ class StudyPlanner {
       std::ranges::sort(each.track.places, {}, &SubjectPlace::sample);
       if (!each.track.places.empty()) tracks.push_back(std::move(each.track));
     }
-    study.step_pixels = step_of(tracks);
+    study.step_pixels = usual_step(tracks);
     add_functions(study, request_, timeline_, tracks);
   }
 
@@ -208,8 +208,7 @@ class StudyPlanner {
   // there is no trail, no such time, or no room in the mask.
   [[nodiscard]] SampleRange ground_of(const Study& study, std::size_t moment) const {
     const SubjectTrack& track = followed_[study.subjects[moment]].track;
-    if (!has_trail(request_) ||
-        !is_seen_at(track, study.moments[moment]) ||
+    if (!has_trail(request_) || !is_seen_at(track, study.moments[moment]) ||
         (kAround.size() + 1) * study.moments.size() > kMaxTags) {
       return {};
     }
@@ -294,12 +293,15 @@ class StudyPlanner {
       bad.push_back(i);
       if (why_.empty()) why_ = subject.verdict.why;
       if (!why_.empty()) continue;
-      why_ = is_hole ? why_a_hole(study, i)
-               : step.pixel_count == 0
-                   ? format("at picture {} nothing of it stands out from the scene at rest", study.moments[i])
-                   : format("at picture {} moments after it cover all but {} of the subject's {} pixels: it goes too "
-                            "little for its size",
-                            study.moments[i], left[step.tag], step.pixel_count);
+      if (is_hole) {
+        why_ = why_a_hole(study, i);
+      } else if (step.pixel_count == 0) {
+        why_ = format("at picture {} nothing of it stands out from the scene at rest", study.moments[i]);
+      } else {
+        why_ = format("at picture {} moments after it cover all but {} of the subject's {} pixels: it goes too little "
+                      "for its size",
+                      study.moments[i], left[step.tag], step.pixel_count);
+      }
     }
     return bad;
   }
@@ -344,7 +346,7 @@ class StudyPlanner {
     }
   }
 
-  [[nodiscard]] static double step_of(const std::vector<SubjectTrack>& tracks) {
+  [[nodiscard]] static double usual_step(const std::vector<SubjectTrack>& tracks) {
     constexpr double kResting = 0.5;
     std::vector<double> steps;
     for (const SubjectTrack& track : tracks) {

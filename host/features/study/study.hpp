@@ -51,8 +51,8 @@ struct StudyRequest {
   // Only larger differences from the plate are the subject; none: than 1/16 of white, or than the noise.
   std::optional<std::uint32_t> by_codes;
   std::optional<Feather> feather;  // none: kStudyFeather, and none of a slit's strips
-  // The picture is exposed from this capture with samples made between its own: a moment is as short then as none of those
-  // is part of it.
+  // The picture is exposed from this capture with samples made between its own: a moment is then so short that none of
+  // those is part of it.
   bool is_exposed_between = false;
 
   friend bool operator==(const StudyRequest&, const StudyRequest&) = default;

@@ -274,10 +274,11 @@ PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request
     planned.filmed = planned.session.timeline();
     planned.session = ShotPlanner(asked, terms, source.path.string()).open(made);
   } else if (planned.session.is_clip() && has_trail(request) && planned.study.step_pixels >= kGhostPixels) {
-    planned.notes.emplace_back(format("the trail shows the subject again every {:.0f} pixels, as far as it goes from one "
-                                      "picture to the next: samples made between them join these",
-                                      planned.study.step_pixels),
-                               std::vector{Setting::between});
+    planned.notes.emplace_back(
+        format("the trail shows the subject again every {:.0f} pixels, as far as it goes from one picture to the next: "
+               "samples made between them join these",
+               planned.study.step_pixels),
+        std::vector{Setting::between});
   }
   return planned;
 }

@@ -162,7 +162,8 @@ void filter_rows(const Picture& picture, std::size_t row, png_byte* to) {
   }
 }
 
-// The picture's rows and the file's end. libpng compresses with zlib, which takes more than twice as long for a larger file.
+// Writes the picture's rows and the file's end. libpng compresses with zlib, which takes more than twice as long for a
+// larger file.
 void write_at_once(png_structp png, const Picture& picture, std::size_t row) {
   const std::size_t size = (row + 1) * picture.shape.height;
   const auto filtered = std::make_unique_for_overwrite<png_byte[]>(size);
