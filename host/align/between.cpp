@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <deque>
 #include <vector>
 
 #include "align/pair_motion.hpp"
@@ -37,9 +38,8 @@ class FilledClip final : public Clip {
         between_(clip.format),
         clip_(clip.open()),
         info_(clip_->info()),
-        first_(clip.format.sample_bytes()),
-        second_(clip.format.sample_bytes()) {
-    info_.decoder_bytes += first_.size() + second_.size() + InBetween::bytes(clip.format);
+        format_bytes_(clip.format.sample_bytes()) {
+    info_.decoder_bytes += pictures_.size() * format_bytes_ + InBetween::bytes(clip.format);
     info_.sample_count = made_->total();
   }
 
@@ -60,14 +60,14 @@ class FilledClip final : public Clip {
     const std::vector<std::uint8_t>& after = made_->after;
     if (picture_ == after.size()) return false;
     if (step_ == 0) {
-      if (picture_ > 0) {
-        std::swap(first_, second_);
-      } else if (!clip_->read(first_)) {
-        refuse_other_clip();
+      if (picture_ == 0) {
+        for (std::size_t i = 1; i < pictures_.size(); ++i) read_picture(i, i - 1);
+      } else {
+        std::ranges::rotate(pictures_, pictures_.begin() + 1);
+        read_picture(pictures_.size() - 1, picture_ + 2);
       }
-      if (clip_->read(second_) != (picture_ + 1 < after.size())) refuse_other_clip();
       is_pair_taken_ = false;
-      if (!raster.empty()) std::ranges::copy(first_, raster.begin());
+      if (!raster.empty()) std::ranges::copy(pictures_[1], raster.begin());
     } else if (!raster.empty()) {
       make(after[picture_] + 1U, raster);
     }
@@ -78,9 +78,19 @@ class FilledClip final : public Clip {
     return true;
   }
 
+  // Leaves nothing behind the last.
+  void read_picture(std::size_t place, std::uint64_t number) {
+    const bool is_there = number < made_->after.size();
+    if (!is_there && is_read_) return pictures_[place].clear();
+    pictures_[place].resize(format_bytes_);
+    if (clip_->read(pictures_[place]) != is_there) refuse_other_clip();
+    if (!is_there) pictures_[place].clear();
+    is_read_ = !is_there;
+  }
+
   void make(std::uint32_t steps, std::span<std::byte> raster) {
     try {
-      if (!is_pair_taken_) between_.take(first_, second_);
+      if (!is_pair_taken_) between_.take({pictures_[1], pictures_[2], pictures_[0], pictures_[3]});
     } catch (const CodeAboveWhite& error) {
       refuse_above_white(name_, picture_, error);
     }
@@ -98,7 +108,10 @@ class FilledClip final : public Clip {
   InBetween between_;
   std::unique_ptr<Clip> clip_;
   ClipInfo info_;
-  std::vector<std::byte> first_, second_;  // filmed: the picture that was handed out last, and the one behind it
+  std::uint64_t format_bytes_;
+  // Filmed: one before the picture that was handed out last, that, and two behind it; empty: there is none.
+  std::array<std::vector<std::byte>, 4> pictures_;
+  bool is_read_ = false;  // all of the clip
   bool is_pair_taken_ = false;
   std::uint64_t picture_ = 0;  // filmed, that the next sample is or follows
   std::uint32_t step_ = 0;     // of those after it; 0: itself
@@ -124,14 +137,16 @@ MadeSamples plan_between(const ClipToFill& clip, const std::optional<std::uint32
   const std::uint64_t sample_bytes = clip.format.sample_bytes();
   MemoryNeeds needs{{"pictures within the decoder", clip.decoder_bytes},
                     {"pictures decoded ahead", 2 * kPairsAtOnce * sample_bytes},
-                    {"motion between pictures", kPairsAtOnce * PairMotion::bytes(grey.width(), grey.height())}};
+                    {"motion between pictures", kPairsAtOnce * PairMotion::bytes(grey.width(), grey.height())},
+                    {"pictures in grey", (kPairsAtOnce + 3) * std::uint64_t{grey.width()} * grey.height()}};
   needs.rest_of(memory_bytes);
   const std::unique_ptr<Clip> pictures = clip.open();
   ReadAhead ahead(*pictures, 2 * kPairsAtOnce * sample_bytes);
   MadeSamples made;
   std::vector<PairMotion> motions;
   for (std::uint64_t i = 0; i < kPairsAtOnce; ++i) motions.emplace_back(grey.width(), grey.height());
-  std::array<std::vector<std::uint8_t>, kPairsAtOnce + 1> greys;  // the first: of the picture before
+  std::deque<std::vector<std::uint8_t>> greys;  // of pictures that pairs need still, the last of them
+  std::uint64_t pictures_read = 0;
   const auto add = [&](const PairMotion& motion) {
     const bool is_followed = motion.fastest() > 0 && !motion.is_cut();
     const double pixels = motion.fastest() * planned_side(clip.format.shape);
@@ -140,32 +155,47 @@ MadeSamples plan_between(const ClipToFill& clip, const std::optional<std::uint32
                               MadeSamples::kMostFilmed),
                        {Setting::between, Setting::to});
     }
-    made.after.back() = !is_followed ? 0 : static_cast<std::uint8_t>(each ? *each : PairMotion::steps_for(pixels) - 1);
+    made.after.push_back(!is_followed ? 0 : static_cast<std::uint8_t>(each ? *each : PairMotion::steps_for(pixels) - 1));
     if (made.after.back() == 0) return;
     made.changed += motion.changed();
     made.unfollowed += motion.unfollowed();
   };
+  // Pairs behind which a picture is known, or is none.
+  const auto follow = [&](bool is_end) {
+    const auto grey_of = [&](std::uint64_t picture) {
+      return picture < pictures_read ? greys[greys.size() - (pictures_read - picture)].data() : nullptr;
+    };
+    const std::uint64_t known = pictures_read - std::min<std::uint64_t>(pictures_read, is_end ? 1 : 2);
+    while (made.after.size() < known) {
+      const std::uint64_t first = made.after.size(), count = std::min(known - first, kPairsAtOnce);
+      parallel_for(count, [&](std::uint64_t i) {
+        const std::uint64_t picture = first + i;
+        motions[i].find({grey_of(picture), grey_of(picture + 1), picture > 0 ? grey_of(picture - 1) : nullptr,
+                         grey_of(picture + 2)},
+                        1);
+      });
+      for (std::uint64_t i = 0; i < count; ++i) add(motions[i]);
+    }
+    while (greys.size() > 3) greys.pop_front();
+  };
   for (auto rasters = ahead.next(kPairsAtOnce); !rasters.empty(); rasters = ahead.next(kPairsAtOnce)) {
     check_interruption();
     if (stop.stop_requested()) throw Cancelled();
-    if (progress) progress(made.after.size(), clip.announced_samples);
+    if (progress) progress(pictures_read, clip.announced_samples);
+    const std::size_t before = greys.size();
+    greys.resize(before + rasters.size());
     parallel_for(rasters.size(), [&](std::uint64_t i) {
       try {
-        grey.take(rasters[i], greys[i + 1], 1);
+        grey.take(rasters[i], greys[before + i], 1);
       } catch (const CodeAboveWhite& error) {
-        refuse_above_white(clip.name, made.after.size() + i, error);
+        refuse_above_white(clip.name, pictures_read + i, error);
       }
     });
-    const std::size_t first = made.after.empty() ? 1 : 0;  // nothing is before the first picture
-    parallel_for(rasters.size() - std::min(first, rasters.size()), [&](std::uint64_t i) {
-      motions[i + first].find(greys[i + first].data(), greys[i + first + 1].data(), 1);
-    });
-    for (std::size_t i = 0; i < rasters.size(); ++i) {
-      if (!made.after.empty()) add(motions[i]);
-      made.after.push_back(0);
-    }
-    std::swap(greys[0], greys[rasters.size()]);
+    pictures_read += rasters.size();
+    follow(false);
   }
+  follow(true);
+  if (pictures_read > 0) made.after.push_back(0);
   if (made.after.empty()) throw InputError(format("{} has no picture", clip.name));
   return made;
 }

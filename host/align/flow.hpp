@@ -1,6 +1,8 @@
 // Where each pixel of a picture goes in another (dense optical flow).
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -10,6 +12,16 @@ namespace nutik {
 struct FlowVector {
   float x = 0, y = 0;  // pixels, right and down
 };
+
+inline float length(const FlowVector& flow) { return std::hypot(flow.x, flow.y); }
+
+// How far motion is believed that leaves this share of what changed: not where it explains less than 0.3 of it, wholly
+// from 0.7 on.
+constexpr float kExplainsLittle = 0.3F;
+inline float believed_of(float left) {
+  const float share = std::clamp((1 - left - kExplainsLittle) / 0.4F, 0.0F, 1.0F);
+  return share * share * (3 - 2 * share);
+}
 
 struct GreyPlane {
   const std::uint8_t* pixels = nullptr;

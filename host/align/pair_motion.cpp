@@ -17,20 +17,13 @@ namespace {
 constexpr std::uint32_t kBlock = 8;            // pixels a side
 constexpr std::uint32_t kMarginBlocks = 8;     // round what changed: a patch is followed with its surroundings
 constexpr float kNoise = 4.0F * 4.0F;          // of 255, squared: what differs less has not changed
-constexpr float kNotExplained = 0.3F, kExplained = 0.7F;  // share of what changed that motion explains
+constexpr float kDoubt = 3 * kNoise;           // added to both: what changes by little more than noise moves no light
 constexpr float kBelieved = 0.5F, kFoundBack = 0.35F;  // a pixel away from where it came from, on average
 constexpr float kHardlyBelieved = 0.02F;
 constexpr double kSmooth = 1.42;  // pixels: steps that are this long or half of it look like none
 constexpr std::uint8_t kMixedSteps = 4;
 constexpr std::size_t kStrays = 3;  // blocks that may be faster than all others
 constexpr float kSmall = 1e-6F;
-
-float ramp(float value, float low, float high) {
-  const float share = std::clamp((value - low) / (high - low), 0.0F, 1.0F);
-  return share * share * (3 - 2 * share);
-}
-
-float length(const FlowVector& flow) { return std::hypot(flow.x, flow.y); }
 
 // The blocks round one, with 1-2-1 along both sides.
 template <typename Value>
@@ -61,7 +54,7 @@ PairMotion::PairMotion(std::uint32_t width, std::uint32_t height)
 }
 
 std::uint64_t PairMotion::bytes(std::uint32_t width, std::uint32_t height) {
-  constexpr std::uint64_t kSearchBytes = 60;  // a pixel that flow is looked for at: its pyramids and variations
+  constexpr std::uint64_t kSearchBytes = 61;  // a pixel that flow is looked for at: its pyramids and variations
   return 2 * (sizeof(FlowVector) + sizeof(Weight) + kSearchBytes) * std::uint64_t{width} * height;
 }
 
@@ -97,6 +90,20 @@ void PairMotion::compare(const std::uint8_t* first, const std::uint8_t* second) 
 // False where nothing changed, or pictures are too small to follow anything.
 bool PairMotion::choose_box() {
   std::uint32_t left = columns_, right = 0, top = rows_, bottom = 0;
+  for (const Flight& flight : flights_) {
+    const auto block = [](float place, std::uint32_t count) {
+      return static_cast<std::uint32_t>(std::clamp(place / kBlock, 0.0F, static_cast<float>(count - 1)));
+    };
+    for (const float share : {0.0F, 0.5F, 1.0F}) {
+      const FlowVector gone = flight.at(share);
+      const Rectangle& box = flight.first.box;
+      const float x = static_cast<float>(box.x) + gone.x, y = static_cast<float>(box.y) + gone.y;
+      left = std::min(left, block(x, columns_));
+      right = std::max(right, block(x + static_cast<float>(box.width), columns_) + 1);
+      top = std::min(top, block(y, rows_));
+      bottom = std::max(bottom, block(y + static_cast<float>(box.height), rows_) + 1);
+    }
+  }
   for (std::uint32_t row = 0; row < rows_; ++row) {
     for (std::uint32_t column = 0; column < columns_; ++column) {
       if (differ_[std::size_t{row} * columns_ + column] <= kNoise) continue;
@@ -117,11 +124,13 @@ bool PairMotion::choose_box() {
   return true;
 }
 
-void PairMotion::find(const std::uint8_t* first, const std::uint8_t* second, std::uint32_t max_threads) {
+void PairMotion::find(const GreyPictures& pictures, std::uint32_t max_threads) {
+  const std::uint8_t *first = pictures.first, *second = pictures.second;
   changed_ = unfollowed_ = 0;
   fastest_ = 0;
   box_ = {0, 0, 0, 0};
   compare(first, second);
+  flights_ = find_flights(pictures, width_, height_);
   const bool has_box = choose_box();
   for (std::size_t block = 0; block < differ_.size(); ++block) {
     const bool differs = differ_[block] > kNoise;
@@ -129,7 +138,7 @@ void PairMotion::find(const std::uint8_t* first, const std::uint8_t* second, std
     changed_ += differs ? 1 : 0;
   }
   unfollowed_ = changed_;
-  if (!has_box) return;
+  if (!has_box) return flights_.clear();
   const std::size_t offset = std::size_t{box_.y} * width_ + box_.x;
   const GreyPlane a{first + offset, box_.width, box_.height, width_};
   const GreyPlane b{second + offset, box_.width, box_.height, width_};
@@ -146,6 +155,8 @@ void PairMotion::find(const std::uint8_t* first, const std::uint8_t* second, std
       max_threads);
   weigh(a.pixels, b.pixels, forwards_, backwards_, max_threads);
   weigh(b.pixels, a.pixels, backwards_, forwards_, max_threads);
+  std::vector<bool> is_flown(differ_.size());
+  fly(is_flown);
   std::vector<float> ways;
   for (std::size_t block = 0; block < differ_.size(); ++block) {
     const auto column = static_cast<std::uint32_t>(block % columns_);
@@ -153,14 +164,57 @@ void PairMotion::find(const std::uint8_t* first, const std::uint8_t* second, std
     for (const Direction* way : {&forwards_, &backwards_}) {
       if (is_followed(*way, block)) ways.push_back(length(flow_of(*way, column, row)));
     }
-    if (differ_[block] > kNoise && (is_followed(forwards_, block) || is_followed(backwards_, block))) --unfollowed_;
+    const bool is_known = is_flown[block] || is_followed(forwards_, block) || is_followed(backwards_, block);
+    if (differ_[block] > kNoise && is_known) --unfollowed_;
   }
   if (ways.size() > kStrays) {
     std::ranges::nth_element(ways, ways.end() - static_cast<std::ptrdiff_t>(kStrays) - 1);
-    fastest_ = ways[ways.size() - kStrays - 1];
+    fastest_ = std::max(fastest_, double{ways[ways.size() - kStrays - 1]});
   }
   mark(forwards_);
   mark(backwards_);
+}
+
+// Things that fly: blocks that they leave and come to, those on their way, and nothing of them is left to dense flow.
+void PairMotion::fly(std::vector<bool>& is_flown) {
+  for (const Flight& flight : flights_) {
+    const FlowVector last = {flight.way.x + flight.bend.x / 2, flight.way.y + flight.bend.y / 2};
+    const FlowVector begin = {flight.way.x - flight.bend.x / 2, flight.way.y - flight.bend.y / 2};
+    const float fastest = std::max(length(begin), length(last));
+    const bool is_believed = flight.believed > kBelieved;
+    if (is_believed) fastest_ = std::max(fastest_, double{fastest});
+    for (const auto& [seen, way] : {std::pair(&flight.first, &forwards_), std::pair(&flight.second, &backwards_)}) {
+      for (std::size_t i = 0; i < seen->cover.size(); ++i) {
+        const std::size_t x = seen->box.x + i % seen->box.width, y = seen->box.y + i / seen->box.width;
+        const std::size_t block = y / kBlock * columns_ + x / kBlock;
+        is_flown[block] = is_flown[block] || (is_believed && seen->cover[i] > kBelieved);
+        way->weights[(y - box_.y) * box_.width + x - box_.x].believed *= 1 - seen->cover[i];
+      }
+    }
+    const auto steps = static_cast<std::uint8_t>(steps_for(fastest));
+    const auto places = static_cast<std::uint32_t>(2 * fastest / kBlock) + 1;
+    for (std::uint32_t place = 0; place <= places; ++place) {
+      const FlowVector gone = flight.at(static_cast<float>(place) / static_cast<float>(places));
+      const auto blocks = [&](std::uint32_t begin_pixel, float moved, std::uint32_t pixels, std::uint32_t count) {
+        const auto at = [&](float pixel) {
+          return static_cast<std::uint32_t>(std::clamp(pixel / kBlock, 0.0F, static_cast<float>(count - 1)));
+        };
+        const float place_of = static_cast<float>(begin_pixel) + moved;
+        return std::pair(at(place_of - kBlock / 2), at(place_of + static_cast<float>(pixels) + kBlock / 2));
+      };
+      const Rectangle& box = flight.first.box;
+      const auto [left, right] = blocks(box.x, gone.x, box.width, columns_);
+      const auto [top, bottom] = blocks(box.y, gone.y, box.height, rows_);
+      for (std::uint32_t row = top; row <= bottom; ++row) {
+        for (std::uint32_t column = left; column <= right; ++column) {
+          const bool is_in_box = column * kBlock >= box_.x && column * kBlock < box_.x + box_.width &&
+                                 row * kBlock >= box_.y && row * kBlock < box_.y + box_.height;
+          Way& passed = ways_[std::size_t{row} * columns_ + column];
+          if (is_in_box) passed = {std::max(passed.is_moved ? passed.steps : std::uint8_t{1}, steps), true};
+        }
+      }
+    }
+  }
 }
 
 bool PairMotion::is_followed(const Direction& way, std::size_t block) {
@@ -233,7 +287,7 @@ void PairMotion::believe(Direction& way, std::uint32_t max_threads) {
       const float left = smoothed(in_box(way.missed), column, row, columns, rows);
       const float differs = smoothed(in_box(differ_), column, row, columns, rows);
       way.believed[std::size_t{first_row + row} * columns_ + first_column + column] =
-          ramp(1 - (left + kNoise) / (differs + kNoise), kNotExplained, kExplained);
+          believed_of((left + kDoubt) / (differs + kDoubt));
     }
   }
   // Between the middles of blocks in a straight line.
@@ -336,23 +390,62 @@ InBetween::InBetween(const CaptureFormat& format)
 
 std::uint64_t InBetween::bytes(const CaptureFormat& format) {
   return PairMotion::bytes(format.shape.width, format.shape.height) +
-         2 * (sizeof(Light) + 1) * format.shape.pixel_count();
+         (2 * sizeof(Light) + 4) * format.shape.pixel_count();
 }
 
-void InBetween::take(std::span<const std::byte> first, std::span<const std::byte> second) {
-  first_ = first;
-  second_ = second;
-  grey_.take(first, first_grey_, ~0U);
-  grey_.take(second, second_grey_, ~0U);
-  motion_.find(first_grey_.data(), second_grey_.data(), ~0U);
-  made_.assign(first.begin(), first.end());
+void InBetween::take(const Rasters& rasters) {
+  first_ = rasters.first;
+  second_ = rasters.second;
+  const std::array all{rasters.before, rasters.first, rasters.second, rasters.after};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!all[i].empty()) grey_.take(all[i], greys_[i], ~0U);
+  }
+  const auto grey = [&](std::size_t i) { return all[i].empty() ? nullptr : greys_[i].data(); };
+  motion_.find({grey(1), grey(2), grey(0), grey(3)}, ~0U);
+  made_.assign(first_.begin(), first_.end());
   shares_.assign(motion_.ways_.size(), 0);
   const auto read = [&]<typename Code>(const Code*) {
-    read_light(reinterpret_cast<const Code*>(first.data()), first_light_);
-    read_light(reinterpret_cast<const Code*>(second.data()), second_light_);
+    read_light(reinterpret_cast<const Code*>(first_.data()), first_light_);
+    read_light(reinterpret_cast<const Code*>(second_.data()), second_light_);
   };
   format_.code_bytes == 1 ? read(static_cast<const std::uint8_t*>(nullptr))
                           : read(static_cast<const std::uint16_t*>(nullptr));
+  taken_.clear();
+  for (const Flight& flight : motion_.flights_) {
+    Taken first = taken(flight.first, first_light_, second_light_);
+    taken_.emplace_back(std::move(first), taken(flight.second, second_light_, first_light_));
+  }
+}
+
+// Leaves in its place what the other picture shows there.
+InBetween::Taken InBetween::taken(const Flight::Seen& seen, std::vector<Light>& lights,
+                                  const std::vector<Light>& behind) const {
+  Taken taken{seen.box, std::vector<Light>(seen.cover.size())};
+  for (std::size_t i = 0; i < seen.cover.size(); ++i) {
+    const std::size_t x = seen.box.x + i % seen.box.width - motion_.box_.x;
+    const std::size_t y = seen.box.y + i / seen.box.width - motion_.box_.y;
+    Light& light = lights[y * motion_.box_.width + x];
+    const Light shown = light;
+    light += seen.cover[i] * (behind[y * motion_.box_.width + x] - shown);
+    taken.lights[i] = shown - (1 - seen.hides[i]) * light;
+    taken.lights[i][3] = seen.hides[i];
+  }
+  return taken;
+}
+
+// Nothing outside of its box.
+InBetween::Light InBetween::Taken::at(float x, float y) const {
+  const float left = std::floor(x), top = std::floor(y), u = x - left, v = y - top;
+  Light sum{};
+  for (int j = 0; j < 2; ++j) {
+    for (int i = 0; i < 2; ++i) {
+      const auto column = static_cast<std::int64_t>(left) + i - box.x, row = static_cast<std::int64_t>(top) + j - box.y;
+      if (column < 0 || row < 0 || column >= box.width || row >= box.height) continue;
+      sum += (i == 0 ? 1 - u : u) * (j == 0 ? 1 - v : v) *
+             lights[static_cast<std::size_t>(row) * box.width + static_cast<std::size_t>(column)];
+    }
+  }
+  return sum;
 }
 
 template <typename Code>
@@ -419,8 +512,17 @@ void InBetween::make_block(std::uint32_t column, std::uint32_t row, float share,
     }
     if (is_moved) {
       for (std::uint32_t i = 0; i < count; ++i) {
-        const Light light = moved(x + i - motion_.box_.x, y - motion_.box_.y, share);
-        for (std::uint32_t channel = 0; channel < channels; ++channel) lights[i * channels + channel] = light[channel];
+        Light light = moved(x + i - motion_.box_.x, y - motion_.box_.y, share);
+        for (std::size_t k = 0; k < taken_.size(); ++k) {
+          const auto& [from, to] = taken_[k];
+          const FlowVector gone = motion_.flights_[k].at(share), &way = motion_.flights_[k].way;
+          const float from_x = static_cast<float>(x + i) - gone.x, from_y = static_cast<float>(y) - gone.y;
+          const Light flies = (1 - share) * from.at(from_x, from_y) + share * to.at(from_x + way.x, from_y + way.y);
+          light = (1 - flies[3]) * light + flies;
+        }
+        for (std::uint32_t channel = 0; channel < channels; ++channel) {
+          lights[i * channels + channel] = std::clamp(light[channel], 0.0F, 1.0F);
+        }
       }
     } else {
       for (std::uint32_t i = 0; i < values; ++i) lights[i] = (1 - share) * light_[first[i]] + share * light_[second[i]];

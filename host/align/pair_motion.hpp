@@ -1,19 +1,23 @@
 // What moved from one picture to the next, and the pictures between them.
 //
-//   in:      two pictures of a clip
+//   in:      two pictures of a clip, and those filmed before and behind them
 //   out:     how far what moves goes; pictures at any time between, each pixel fetched along the motion from both
 //   always:  what did not change keeps its codes. Where the motion is not known light goes in a straight line from one
 //            value to the other, and from one kind of place to the other there is no seam
 //
-// Motion is believed where following it explains most of what changed, and where forwards and backwards agree.
+// Motion is believed where following it explains most of what changed, and where forwards and backwards agree. Small
+// things that no dense flow can follow fly over what lies behind them (align/flights.hpp).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "align/flights.hpp"
 #include "align/flow.hpp"
 #include "align/light_warp.hpp"
 #include "capture/picture.hpp"
@@ -24,8 +28,8 @@ class PairMotion {
  public:
   PairMotion(std::uint32_t width, std::uint32_t height);
 
-  // Rows of both pictures lie side by side, in grey of 0 … 255 that looks even to eyes. Uses as many threads.
-  void find(const std::uint8_t* first, const std::uint8_t* second, std::uint32_t max_threads);
+  // Uses as many threads.
+  void find(const GreyPictures& pictures, std::uint32_t max_threads);
 
   [[nodiscard]] static std::uint64_t bytes(std::uint32_t width, std::uint32_t height);
 
@@ -65,6 +69,7 @@ class PairMotion {
 
   void compare(const std::uint8_t* first, const std::uint8_t* second);
   bool choose_box();
+  void fly(std::vector<bool>& is_flown);
   void weigh(const std::uint8_t* from, const std::uint8_t* to, Direction& way, const Direction& back,
              std::uint32_t max_threads);
   void believe(Direction& way, std::uint32_t max_threads);
@@ -78,6 +83,7 @@ class PairMotion {
   std::vector<Way> ways_;                          // of each block
   Rectangle box_;                                  // what changed, and what lies round it: whole blocks, in pixels
   Direction forwards_, backwards_;
+  std::vector<Flight> flights_;
   std::uint64_t changed_ = 0, unfollowed_ = 0;
   double fastest_ = 0;
 };
@@ -103,8 +109,12 @@ class InBetween {
  public:
   explicit InBetween(const CaptureFormat& format);
 
-  // Both rasters stay until the next call.
-  void take(std::span<const std::byte> first, std::span<const std::byte> second);
+  struct Rasters {
+    std::span<const std::byte> first, second;
+    std::span<const std::byte> before = {}, after = {};  // empty: there is none
+  };
+  // The first two stay until the next call.
+  void take(const Rasters& rasters);
   // Behind `step` of so many steps from the first to the second. On all cores.
   void make(std::uint32_t step, std::uint32_t steps, std::span<std::byte> raster);
 
@@ -121,15 +131,23 @@ class InBetween {
   static float share_of(const PairMotion::Way& way, std::uint32_t step, std::uint32_t steps);
   [[nodiscard]] Light moved(std::uint32_t x, std::uint32_t y, float share) const;
   static Light at(const std::vector<Light>& lights, const Rectangle& box, float x, float y);
+  // A thing that flies, taken out of the picture: its light, and in the last place how much it hides.
+  struct Taken {
+    Rectangle box;
+    std::vector<Light> lights;
+    [[nodiscard]] Light at(float x, float y) const;
+  };
+  [[nodiscard]] Taken taken(const Flight::Seen& seen, std::vector<Light>& lights, const std::vector<Light>& behind) const;
 
   CaptureFormat format_;
   EvenGrey grey_;
   LightTables tables_;
   std::vector<float> light_;  // of each code
   PairMotion motion_;
-  std::vector<std::uint8_t> first_grey_, second_grey_;
+  std::array<std::vector<std::uint8_t>, 4> greys_;  // before, first, second, after
   std::span<const std::byte> first_, second_;
-  std::vector<Light> first_light_, second_light_;  // within the motion's box
+  std::vector<Light> first_light_, second_light_;  // within the motion's box, without what flies
+  std::vector<std::pair<Taken, Taken>> taken_;     // of each flight, out of both
   std::vector<std::byte> made_;                    // last
   std::vector<float> shares_;                      // of the way that each block of it has gone
 };
