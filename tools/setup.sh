@@ -29,8 +29,8 @@ test_packages+=(pybind11-dev python3-dev python3-pip python3-setuptools python3-
   python3-nbclient python3-nbformat python3-ipykernel)
 # A screen that nobody sees, for the studio.
 test_packages+=(xvfb xauth)
-# What packages are made and looked at with.
-test_packages+=(dpkg-dev lintian desktop-file-utils appstream shared-mime-info)
+# What packages and archives are made and looked at with; reuse reads licences.
+test_packages+=(dpkg-dev lintian desktop-file-utils appstream shared-mime-info patchelf reuse)
 
 # Debian 12 has no <format> yet, 13 no oclgrind any more.
 if [ "$(. /etc/os-release && echo "${VERSION_CODENAME:-}")" = bookworm ]; then

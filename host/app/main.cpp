@@ -9,6 +9,7 @@
 #include "system/interruption.hpp"
 #include "system/mapped_file.hpp"
 #include "system/output_file.hpp"
+#include "system/own_folders.hpp"
 
 namespace {
 
@@ -31,5 +32,6 @@ int main(int argc, char** argv) {
   nutik::watch_mapped_files();
   nutik::do_one_work();
   nutik::prepare_for_pocl();
+  nutik::use_own_fonts();
   return nutik::app::run({argv, static_cast<std::size_t>(argc)});
 }

@@ -10,10 +10,8 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "system/is_absent.hpp"
+#include "system/own_folders.hpp"
 
-#ifndef NUTIK_INSTALLED_MODULES
-#error "NUTIK_INSTALLED_MODULES is not set: the folder of installed modules, relative to the program's"
-#endif
 #ifndef NUTIK_VERSION
 #error "NUTIK_VERSION is not set: modules of other versions have other tables of functions"
 #endif
@@ -21,26 +19,12 @@
 namespace nutik {
 namespace {
 
-// The file that this code was linked into: a program, or a library that another program has loaded.
-std::filesystem::path own_file() {
-  Dl_info info{};
-  std::error_code error;
-  if (dladdr(reinterpret_cast<const void*>(&own_file), &info) == 0 || info.dli_fname == nullptr) return {};
-  const auto loaded = std::filesystem::canonical(info.dli_fname, error);
-  if (!error) return loaded;
-  // A program is named as it was called, which may be by a name in PATH.
-  return std::filesystem::read_symlink("/proc/self/exe", error);
-}
-
 // Where modules may be, in the order of the search. An empty folder leaves it to the loader, which knows the run
 // path that find_package(nutik) gives to whatever is linked to this library.
 std::vector<std::filesystem::path> module_folders() {
   std::vector<std::filesystem::path> folders;
   if (const char* folder = std::getenv("NUTIK_MODULES"); folder != nullptr) folders.emplace_back(folder);
-  if (const std::filesystem::path own = own_file(); !own.empty()) {
-    folders.push_back(own.parent_path());
-    folders.push_back(own.parent_path() / NUTIK_INSTALLED_MODULES);
-  }
+  for (const std::filesystem::path& folder : own_folders()) folders.push_back(folder);
   folders.emplace_back();
   return folders;
 }

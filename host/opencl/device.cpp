@@ -1,5 +1,7 @@
 #include "opencl/device.hpp"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
@@ -9,6 +11,8 @@
 #include "capture/format.hpp"
 #include "opencl/cache_folder.hpp"
 #include "opencl/opencl_api.hpp"
+#include "system/is_absent.hpp"
+#include "system/own_folders.hpp"
 
 namespace nutik {
 namespace {
@@ -81,6 +85,39 @@ std::string error_name(cl_int code) {
   }
 }
 
+// The platforms of a PoCL that lies beside the program, where it was unpacked from an archive: no loader knows of it. It
+// is asked as a loader asks, and calls find their way through its objects. Never closed: its devices outlive any caller.
+std::vector<cl::Platform> own_platforms() {
+  for (const std::filesystem::path& folder : own_folders()) {
+    const std::filesystem::path file = folder / "pocl" / "lib" / "opencl" / "libpocl.so";
+    if (is_absent(file)) continue;
+    void* const driver = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
+    if (driver == nullptr) continue;
+    const auto find = reinterpret_cast<void*(CL_API_CALL*)(const char*)>(
+        dlsym(driver, "clGetExtensionFunctionAddress"));
+    const auto list = find == nullptr ? nullptr
+                                      : reinterpret_cast<decltype(&clGetPlatformIDs)>(find("clIcdGetPlatformIDsKHR"));
+    cl_platform_id platform = nullptr;
+    cl_uint count = 0;
+    if (list == nullptr || list(1, &platform, &count) != CL_SUCCESS || count == 0) continue;
+    ::setenv("COMPILER_PATH", file.parent_path().c_str(), 0);  // where its compiler looks for a linker first
+    return {cl::Platform(platform)};
+  }
+  return {};
+}
+
+void add_devices(std::span<const cl::Platform> platforms, std::vector<cl::Device>& devices) {
+  for (const cl::Platform& platform : platforms) {
+    std::vector<cl::Device> found;
+    try {
+      platform.getDevices(CL_DEVICE_TYPE_ALL, &found);
+    } catch (const cl::Error&) {
+      continue;  // a platform without devices reports an error
+    }
+    devices.insert(devices.end(), found.begin(), found.end());
+  }
+}
+
 }  // namespace
 
 std::string to_text(DeviceKind kind) {
@@ -116,14 +153,11 @@ std::vector<cl::Device> all_devices() {
     platforms.clear();
   }
   std::vector<cl::Device> devices;
-  for (const cl::Platform& platform : platforms) {
-    std::vector<cl::Device> found;
-    try {
-      platform.getDevices(CL_DEVICE_TYPE_ALL, &found);
-    } catch (const cl::Error&) {
-      continue;  // a platform without devices reports an error
-    }
-    devices.insert(devices.end(), found.begin(), found.end());
+  add_devices(platforms, devices);
+  const auto is_processor = [](const cl::Device& device) { return describe_device(device).kind == DeviceKind::cpu; };
+  if (std::ranges::none_of(devices, is_processor)) {
+    static const std::vector<cl::Platform> own = own_platforms();
+    add_devices(own, devices);
   }
   if (devices.empty()) {
     throw DeviceError(

@@ -9,9 +9,11 @@
 #include "studio/window/appearance.hpp"
 #include "studio/window/main_window.hpp"
 #include "system/mapped_file.hpp"
+#include "system/own_folders.hpp"
 
 int main(int count, char** words) {
   nutik::prepare_for_pocl();
+  nutik::use_own_fonts();
   nutik::watch_mapped_files();  // a capture that somebody cuts off must not end the window
   QApplication application(count, words);
   QApplication::setApplicationName("nutik-studio");

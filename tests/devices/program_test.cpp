@@ -1,5 +1,7 @@
 // The program on two devices: PoCL's, which share the processor. Files are those of one device.
+#include <dlfcn.h>
 #include <gtest/gtest.h>
+#include <link.h>
 
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -243,6 +245,29 @@ void SeveralDevices::expect_end_where_one_is_lost(const Words& words) const {
       EXPECT_FALSE(std::filesystem::exists(scratch_ / words.back()));
     });
   }
+}
+
+// As it comes in an archive: no driver is installed, and PoCL lies beside the program.
+TEST(OwnDriver, IsTakenWhereTheSystemHasNoneForTheProcessor) {
+  std::string line = test::read_file("/etc/OpenCL/vendors/pocl.icd");
+  void* const loaded = dlopen(line.erase(line.find_last_not_of(" \n") + 1).c_str(), RTLD_LAZY | RTLD_LOCAL);
+  if (line.empty() || loaded == nullptr) GTEST_SKIP() << "PoCL is not installed";
+  link_map* map = nullptr;
+  ASSERT_EQ(dlinfo(loaded, RTLD_DI_LINKMAP, static_cast<void*>(&map)), 0);
+  const auto driver = std::filesystem::canonical(map->l_name);
+  const test::Scratch scratch;
+  std::filesystem::copy_file(NUTIK_TEST_PROGRAM, scratch / "nutik-cl");
+  const std::string list = "env OCL_ICD_VENDORS=" + scratch.folder().string() + " ./nutik-cl devices --json";
+  EXPECT_NE(test::run_shell(list, scratch.folder()).err.find("no OpenCL device was found"), std::string::npos);
+
+  const std::filesystem::path folder = scratch / "pocl/lib/opencl";
+  std::filesystem::create_directories(folder);
+  std::filesystem::create_directory_symlink("/usr/share", scratch / "pocl/share");
+  std::filesystem::create_directory_symlink(driver.parent_path() / "pocl", folder / "pocl");
+  std::filesystem::create_symlink(driver, folder / "libpocl.so");
+  const test::ProgramResult devices = test::run_shell(list, scratch.folder());
+  ASSERT_EQ(devices.status, 0) << devices.err;
+  EXPECT_EQ(json::parse(devices.out)["devices"][0]["kind"], "CPU");
 }
 
 }  // namespace

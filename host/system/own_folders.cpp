@@ -1,0 +1,43 @@
+#include "system/own_folders.hpp"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+
+#include "system/is_absent.hpp"
+
+#ifndef NUTIK_INSTALLED_MODULES
+#error "NUTIK_INSTALLED_MODULES is not set: the folder of installed modules, relative to the program's"
+#endif
+
+namespace nutik {
+namespace {
+
+// The file that this code was linked into: a program, or a library that another program has loaded.
+std::filesystem::path own_file() {
+  Dl_info info{};
+  std::error_code error;
+  if (dladdr(reinterpret_cast<const void*>(&own_file), &info) == 0 || info.dli_fname == nullptr) return {};
+  const auto loaded = std::filesystem::canonical(info.dli_fname, error);
+  if (!error) return loaded;
+  // A program is named as it was called, which may be by a name in PATH.
+  return std::filesystem::read_symlink("/proc/self/exe", error);
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> own_folders() {
+  const std::filesystem::path own = own_file();
+  if (own.empty()) return {};
+  return {own.parent_path(), own.parent_path() / NUTIK_INSTALLED_MODULES};
+}
+
+void use_own_fonts() {
+  if (!is_absent("/etc/fonts/fonts.conf")) return;
+  for (const std::filesystem::path& folder : own_folders()) {
+    const std::filesystem::path file = folder / "fonts" / "fonts.conf";
+    if (!is_absent(file)) ::setenv("FONTCONFIG_FILE", file.c_str(), 0);
+  }
+}
+
+}  // namespace nutik
