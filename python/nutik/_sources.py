@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime
 import inspect
+from dataclasses import dataclass
 from itertools import chain
 from os import PathLike
 from typing import Any, BinaryIO, Iterable, Optional, Sequence, Union, cast
@@ -131,6 +132,25 @@ def join(captures: Iterable[Path], output: Path, *, device: Optional[str] = None
     paths = [path_word(each) for each in captures]
     with reading(*paths):
         return _told(_nutik.join(paths, path_word(output), _computing(device, memory, renderer), progress))
+
+
+@dataclass(frozen=True)
+class Device:
+    """An OpenCL device of this machine: device=index takes it."""
+
+    index: int
+    name: str
+    platform: str
+    driver: str                  # its version
+    kind: str                    # 'GPU', 'accelerator', 'CPU' or 'other'
+    compute_units: int
+    memory_bytes: int
+    precisions: tuple[str, ...]  # that it computes in, the fastest first
+
+
+def devices() -> list[Device]:
+    """The OpenCL devices of this machine, those first that are taken first. Raises DeviceError where there are none."""
+    return [Device(index, *told) for index, told in enumerate(_nutik.devices())]
 
 
 _COMPUTING = ("device", "memory", "renderer")
