@@ -1,5 +1,9 @@
 // What a window keeps until another file is open, and what it forgets then.
-#include <QInputDialog>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialog>
+#include <QLabel>
+#include <QLineEdit>
 #include <QProgressBar>
 #include <QSettings>
 #include <QToolButton>
@@ -452,11 +456,43 @@ TEST_F(OpeningTest, FilesAreChosenInDialogsByKeyboard) {
   EXPECT_TRUE(by_window == test::read_file(scratch_ / "mine.png")) << "byte for byte";
 }
 
+TEST_F(OpeningTest, ReadsAClipAsItIsTold) {
+  ASSERT_NO_FATAL_FAILURE(open_project());
+  const auto actions = window_.findChildren<QAction*>();
+  const auto action = std::ranges::find_if(actions, [](QAction* each) { return each->text().contains("How the clip"); });
+  ASSERT_NE(action, actions.end());
+  const auto answer = [&](int align, bool deflickers, bool makes_between) {
+    answer_next<QDialog>([=](QDialog& question) {
+      EXPECT_EQ(question.findChild<QLineEdit*>("fps")->text(), "100");
+      question.findChild<QComboBox*>("align")->setCurrentIndex(align);
+      question.findChild<QCheckBox*>("deflicker")->setChecked(deflickers);
+      question.findChild<QCheckBox*>("between")->setChecked(makes_between);
+      QTest::keyClick(&question, Qt::Key_Return);
+    });
+    (*action)->trigger();
+    ASSERT_TRUE(settles());
+    ASSERT_TRUE(is_asked_);
+  };
+  ASSERT_NO_FATAL_FAILURE(answer(0, true, true));
+  const Stated told = {{"between", "auto"}, {"deflicker", ""}, {"fps", "100"}};
+  ASSERT_EQ(document().facts()->stated, told) << window_.notice().text().toStdString();
+  EXPECT_GT(document().facts()->timeline.sample_count(), 20U) << "samples were made";
+  ASSERT_TRUE(window_.save_project(path("read.nutik")));
+  EXPECT_EQ(load_project(path("read.nutik")).stated, told);
+  const test::ProgramResult made = run_line(window_.command_for(path("read.png")));
+  EXPECT_EQ(made.status, 0) << made.err;
+
+  ASSERT_NO_FATAL_FAILURE(answer(3, false, false));
+  EXPECT_TRUE(document().facts()->stated == (Stated{{"align", "homography"}, {"fps", "100"}}) ||
+              window_.notice().text().contains("align"))
+      << window_.notice().text().toStdString();
+}
+
 TEST_F(OpeningTest, AsksHowFastAClipWasFilmedThatDoesNotSay) {
-  answer_next<QInputDialog>([](QInputDialog& question) {
-    EXPECT_TRUE(question.labelText().contains("How many pictures a second"))
-        << question.labelText().toStdString();
-    question.setTextValue("50");
+  answer_next<QDialog>([](QDialog& question) {
+    const QString why = question.findChild<QLabel*>()->text();
+    EXPECT_TRUE(why.contains("How many pictures a second")) << why.toStdString();
+    QTest::keyClicks(question.findChild<QLineEdit*>("fps"), "50");
     QTest::keyClick(&question, Qt::Key_Return);
   });
   window_.open(path("frames/%02d.pgm"));

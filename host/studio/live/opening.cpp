@@ -7,6 +7,8 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/activity/activity.hpp"
+#include "features/schema/option.hpp"
+#include "features/schema/requests.hpp"
 #include "session/live/live_pictures.hpp"
 #include "session/text/number_text.hpp"
 #include "studio/live/live_view.hpp"
@@ -60,10 +62,9 @@ void RoomWatch::look(std::uint64_t done, std::uint64_t total) const {
 
 Opened open_capture(const QString& path, const Stated& stated, std::shared_ptr<Devices> devices,
                     const Job& job, const std::function<void(QImage)>& first_look) {
-  SourceRequest source;
-  source.path = path.toStdString();
-  if (!stated.rate.isEmpty()) source.clip.rate = Rational::parse(stated.rate.toStdString(), "the frame rate");
-  source.clip.ends_at_damage = stated.ends_at_damage;
+  Options options;
+  for (const auto& [name, value] : stated) option_of(CommandId::encode, name)->state(options, name, {value});
+  const SourceRequest source = clip_request(options, path.toStdString());
   const bool is_clip = !is_tik(source.path);
   std::optional<Precision> precision;
   if (is_clip) {
@@ -88,7 +89,7 @@ Opened open_capture(const QString& path, const Stated& stated, std::shared_ptr<D
   for (const Note& note : session->notes()) {
     opened.notes += sentence(note.text);
     if (std::ranges::find(note.settings, Setting::frame_rate) != note.settings.end())
-      opened.notes.back() += Jobs::tr(" (File, Frame rate)");
+      opened.notes.back() += Jobs::tr(" (File, How the clip is read)");
   }
   for (const std::string& warning : session->warnings()) opened.notes += sentence(warning);
   return opened;

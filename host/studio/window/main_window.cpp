@@ -6,7 +6,6 @@
 #include <QDropEvent>
 #include <QFileInfo>
 #include <QGridLayout>
-#include <QInputDialog>
 #include <QKeyEvent>
 #include <QMimeData>
 #include <QScreen>
@@ -26,6 +25,7 @@
 #include "studio/regions/region_list.hpp"
 #include "studio/time/time_fields.hpp"
 #include "studio/time/time_strip.hpp"
+#include "studio/window/clip_dialog.hpp"
 #include "studio/window/project_file.hpp"
 #include "studio/window/started_work.hpp"
 #include "tik/reader.hpp"
@@ -170,7 +170,9 @@ void MainWindow::open(const QString& path, const QString& rate) {
   notice_->clear();
   if (path.endsWith(QLatin1String(kProjectExtension), Qt::CaseInsensitive))
     return open_project(path);
-  open_capture_file(QFileInfo(path).absoluteFilePath(), {rate}, {});
+  Stated stated;
+  if (!rate.isEmpty()) stated.emplace("fps", rate.toStdString());
+  open_capture_file(QFileInfo(path).absoluteFilePath(), stated, {});
 }
 
 void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptProject> kept) {
@@ -232,7 +234,9 @@ void MainWindow::tell_way_out(const QString& path, const Stated& stated, const O
     is_cut_off = dynamic_cast<const tik::Recoverable*>(&known) != nullptr;
   }
   const auto helps = [&](Setting setting) { return std::ranges::find(settings, setting) != settings.end(); };
-  if (stated.rate.isEmpty() && helps(Setting::frame_rate)) return ask_rate(path, stated, why, origin);
+  if (!stated.contains("fps") && helps(Setting::frame_rate)) {
+    return ask_how_to_read(path, stated, tr("%1\n\nHow many pictures a second was it filmed with?").arg(why), origin);
+  }
   QString label;
   std::function<void()> way;
   const bool is_series = file.fileName().contains('%') && file.dir().exists();
@@ -247,7 +251,11 @@ void MainWindow::tell_way_out(const QString& path, const Stated& stated, const O
     };
   } else if (helps(Setting::end_at_damage)) {
     label = tr("Open that part");
-    way = [this, path, stated, origin] { open_capture_file(path, {stated.rate, true}, origin); };
+    way = [this, path, stated, origin] {
+      Stated until_damage = stated;
+      until_damage.emplace("as-far-as-it-goes", "");
+      open_capture_file(path, until_damage, origin);
+    };
   } else if (is_cut_off) {
     label = tr("Save what is whole…");
     way = [this, path, origin] { save_whole_part(path, origin); };
@@ -255,16 +263,11 @@ void MainWindow::tell_way_out(const QString& path, const Stated& stated, const O
   notice_->say(Notice::Kind::error, tr("Opening %1: %2").arg(file.fileName(), why), label, std::move(way));
 }
 
-void MainWindow::ask_rate(const QString& path, Stated stated, const QString& why, const Origin& origin) {
-  bool is_answered = false;
-  const QString rate = QInputDialog::getText(
-      this, tr("Pictures a second"),
-      tr("%1\n\nHow many pictures a second was it filmed with? As in 120 or 30000/1001").arg(why),
-      QLineEdit::Normal, {}, &is_answered);
-  if (!is_answered || rate.trimmed().isEmpty()) return;
+void MainWindow::ask_how_to_read(const QString& path, const Stated& stated, const QString& why, const Origin& origin) {
+  const std::optional<Stated> answer = studio::ask_how_to_read(this, why, stated);
+  if (!answer) return;
   notice_->clear();
-  stated.rate = rate.trimmed();
-  open_capture_file(path, stated, origin);
+  open_capture_file(path, *answer, origin);
 }
 
 void MainWindow::take(Opened opened, Origin origin) {

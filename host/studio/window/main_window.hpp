@@ -105,7 +105,7 @@ class MainWindow : public QMainWindow {
   void tell_way_out(const QString& path, const Stated& stated, const Origin& origin,
                     const std::exception_ptr& error);
   void take(Opened opened, Origin origin);
-  void ask_rate(const QString& path, Stated stated, const QString& why, const Origin& origin);
+  void ask_how_to_read(const QString& path, const Stated& stated, const QString& why, const Origin& origin);
   void stay();
   void look_at_capture();
   void look_along_capture();

@@ -36,15 +36,14 @@ NamedOptions options_of(const Document& document) {
   const DocumentState& state = document.state();
   const bool is_plain = state.mode == ExposureMode::boxcar;
   const Stated& stated = document.facts()->stated;
-  NamedOptions options;
-  if (stated.ends_at_damage) options.emplace_back("as-far-as-it-goes", "");
+  NamedOptions options(stated.begin(), stated.end());
   if (state.brightness_ev != 0) options.emplace_back("ev", format("{}", state.brightness_ev));
   if (is_plain) options.emplace_back("exposure", StatedTime::of_nanoseconds(state.boxcar.length_ns).text());
   if (const Feather feather = feather_of(state); !is_plain && state.mask && feather != Feather())
     options.emplace_back("feather", feather_text(feather));
-  if (!stated.rate.isEmpty()) options.emplace_back("fps", stated.rate.toStdString());
   if (state.normalization != Normalization()) options.emplace_back("normalize", state.normalization.text());
   if (is_plain) options.emplace_back("start", StatedTime::of_nanoseconds(state.boxcar.start_ns).text());
+  std::ranges::sort(options);
   return options;
 }
 
@@ -57,6 +56,9 @@ constexpr int kVersion = 1;
 // Functions and mask of a project whose files do not hold them.
 constexpr const char* kUnwrittenKey = "unwritten";
 constexpr const char* kIdKey = "id";
+
+// Of an option.
+QString key_of(const std::string& name) { return QString::fromStdString(name).replace('-', '_'); }
 
 void write_text(const QString& path, std::string_view text) {
   OutputFile file(path.toStdString());
@@ -168,9 +170,8 @@ QJsonObject object_of(const QString& path, const Document& document, const Comma
   if (state.mask) object["mask"] = named(files.mask);
   if (document.mark_in()) object["in_ns"] = QString::number(*document.mark_in());
   if (document.mark_out()) object["out_ns"] = QString::number(*document.mark_out());
-  const Stated& stated = document.facts()->stated;
-  if (!stated.rate.isEmpty()) object["fps"] = stated.rate;
-  if (stated.ends_at_damage) object["as_far_as_it_goes"] = true;
+  for (const auto& [name, value] : document.facts()->stated)
+    object[key_of(name)] = value.empty() ? QJsonValue(true) : QJsonValue(QString::fromStdString(value));
   return object;
 }
 
@@ -326,7 +327,10 @@ Project load_project(const QString& path) {
   };
   Project project;
   project.capture = resolved("capture");
-  project.stated = {object["fps"].toString(), object["as_far_as_it_goes"].toBool()};
+  for (const char* name : {"align", "as-far-as-it-goes", "between", "deflicker", "fps"}) {
+    const QJsonValue value = object[key_of(name)];
+    if (value.isString() || value.toBool()) project.stated.emplace(name, value.toString().toStdString());
+  }
   const CommandFiles free_files = free_files_beside(path);
   project.files = free_files;
   project.files.functions = resolved("functions");
