@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint64_t kPairsAtOnce = 2;
 // How much moves is looked for at no more pixels than this, each the mean of a square.
-constexpr double kPlannedPixels = 600'000;
+constexpr double kPlannedPixels = 250'000;
 
 std::uint32_t planned_side(const Shape& shape) {
   return std::max(1U, static_cast<std::uint32_t>(std::ceil(std::sqrt(

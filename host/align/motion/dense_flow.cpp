@@ -8,22 +8,22 @@
 namespace nutik::motion {
 namespace {
 
-// Small pictures are searched at their own size, larger ones at the level with no more pixels than the second: 1080p at
-// a quarter of its sides, for a fourth of the time at half of them.
-constexpr double kSmallPixels = 500'000, kFinestPixels = 250'000;
+// Refinement ends at the level with no more pixels than this: 1080p at a quarter of its sides, for a fourth of the time
+// at half of them, small pictures at their own.
+constexpr double kFinestPixels = 200'000;
 
 class DenseFlow final : public FlowFinder {
  public:
   // What a patch finds depends on which strip of the picture it is in, and each thread has one.
   DenseFlow() : search_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)) {
     search_->setVariationalRefinementIterations(2);  // three quarters of the time of 5, as good within a hundredth
-    cv::setNumThreads(1);
+    // Once: it takes down the threads there are, and two finders may be opened at the same time.
+    [[maybe_unused]] static const bool is_alone = (cv::setNumThreads(1), true);
   }
 
   void find(const GreyPlane& from, const GreyPlane& to, std::span<FlowVector> flow) override {
     const double pixels = static_cast<double>(from.width) * from.height;
-    const bool is_small = pixels <= kSmallPixels;
-    search_->setFinestScale(is_small ? 0 : static_cast<int>(std::ceil(std::log2(pixels / kFinestPixels) / 2)));
+    search_->setFinestScale(static_cast<int>(std::max(0.0, std::ceil(std::log2(pixels / kFinestPixels) / 2))));
     cv::Mat found(static_cast<int>(from.height), static_cast<int>(from.width), CV_32FC2, flow.data());
     search_->calc(mat(from), mat(to), found);
     if (found.ptr() != reinterpret_cast<const unsigned char*>(flow.data())) {
