@@ -20,6 +20,7 @@ import mpmath as mp
 
 DEGREE = 10
 DIGITS = 20  # as written; a double holds 17
+BY_LIGHT = 4
 CURVE_FILE = pathlib.Path(__file__).parent.parent / "host/opencl/light_source.cpp"
 WHITE_CODES = (255, 1023, 4095, 16383, 65535)
 
@@ -92,7 +93,8 @@ def in_file(transfer):
 
 def single_errors(transfer, coefficients, fit_error, white, is_fused):
     """Largest error in light of kernels/light.clh in single precision over the codes 0 ... white, and what
-    it cannot exceed: the fit's error and each rounding's, carried on through Horner's scheme."""
+    it cannot exceed: the fit's error and each rounding's, carried on through Horner's scheme. The last number
+    is what that leaves beside BY_LIGHT roundings of the light itself (host/render/error_bound.cpp)."""
     import numpy as np
     single, double = np.float32, np.float64
     roundoff = 2.0**-24
@@ -123,7 +125,7 @@ def single_errors(transfer, coefficients, fit_error, white, is_fused):
     offset = double(transfer.offset)
     exact = np.where(is_toe, x * double(transfer.toe_slope),
                      ((x + offset) / (1 + offset)) ** double(transfer.exponent))
-    return np.abs(light - exact).max(), bound.max()
+    return np.abs(light - exact).max(), bound.max(), (bound - BY_LIGHT * roundoff * exact).max()
 
 
 def main():
@@ -145,9 +147,9 @@ def main():
             print(f"{CURVE_FILE.name} holds other numbers for {transfer.constant}", file=sys.stderr)
         for white in white_codes:
             for is_fused in (True, False):
-                largest, bound = single_errors(transfer, coefficients, fit_error, white, is_fused)
+                largest, bound, beside = single_errors(transfer, coefficients, fit_error, white, is_fused)
                 print(f"// white {white}, {'fused' if is_fused else 'not fused'}: "
-                      f"{largest:.3g}, bound {bound:.3g}")
+                      f"{largest:.3g}, bound {bound:.3g}, {beside:.3g} + {BY_LIGHT} u light")
     return 1 if differs else 0
 
 

@@ -1,7 +1,7 @@
 // A block's payload on loan from its source.
 //
 //   always:  the payload stays where it is and as it is while the lease lives, whatever else is acquired meanwhile.
-//            The source must outlive its leases; they may be given back by any thread, in any order
+//            The source must outlive its leases; any thread may end one, in any order
 #pragma once
 
 #include <cstddef>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "render/fixed_scale.hpp"
 #include "render/function_course.hpp"
@@ -11,7 +12,6 @@ namespace nutik {
 namespace {
 
 constexpr double kRoundoff64 = 0x1p-53;
-constexpr double kRoundoff32 = 0x1p-24;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 // In u₆₄ of S, whatever the kernel's arithmetic: weights 26, the reference 30, codes to light and sums
@@ -24,8 +24,14 @@ constexpr double kCorrectedRoundings = 2;
 // Light of a code in single precision by a curve or by pieces, for any white code and any device.
 constexpr double kCurveLight = 3.3e-7;
 
+// The same by the light itself: nearly all of it is the fit's.
+constexpr LightLine kCurveLine{1.9e-7, 4 * kRoundoff32};
+
 // In u₆₄, what thresholds between codes err by before they are rounded to the kernel's table.
 constexpr double kThresholdRoundings = 16;
+
+// How closely the most that codes err by is found, from above.
+constexpr double kFinely = 1.01;
 
 // What doubles lose that are too small to be normal, in the reference and in the light of sums.
 constexpr double kSmallest = 16 * std::numeric_limits<double>::denorm_min();
@@ -39,6 +45,7 @@ struct Roundings {
   double of_boundary;  // each boundary that a difference is made of
   double of_share;     // each share of a light: making it a number, the product, adding it
   double light;        // codes to light, absolute
+  LightLine light_line;
   double threshold;    // between codes, absolute
   double unnormal;     // numbers too small to be normal: each operation, in scaled gain
   double growth;       // a bound for what first order leaves out, each rounding in a row
@@ -50,14 +57,21 @@ Roundings roundings_of(Precision precision, const Transfer& transfer) {
   switch (precision) {
     case Precision::single_: {
       const double light = transfer.toe() ? kCurveLight : has_table ? kRoundoff32 : 0.0;
-      return {kRoundoff32, 1, 2, 2, 0, 3, light, kRoundoff32, 0x1p-122, kRoundoff32};
+      const LightLine line = transfer.toe() ? kCurveLine : LightLine{has_table ? 0x1p-126 : 0.0, light};
+      return {kRoundoff32, 1, 2, 2, 0, 3, light, line, kRoundoff32, 0x1p-122, kRoundoff32};
     }
     case Precision::compensated:
-      return {kPair, 3, 17, 17, 4, 20, has_table ? kPair : 0.0, kPair, 0x1p-122, kRoundoff32};
+      return {kPair, 3, 17, 17, 4, 20, has_table ? kPair : 0.0, {}, kPair, 0x1p-122, kRoundoff32};
     case Precision::double_:
     case Precision::fixed: break;
   }
-  return {kRoundoff64, 1, 2, 2, 0, 3, 0.0, kRoundoff64, 0.0, kRoundoff64};
+  return {kRoundoff64, 1, 2, 2, 0, 3, 0.0, {}, kRoundoff64, 0.0, kRoundoff64};
+}
+
+// For what first order leaves out: a factor.
+double growth_of(const FunctionCourse& course, const Roundings& roundings) {
+  const double growth = roundings.growth * (course.longest_block + course.block_count + 10);
+  return growth < 0.5 ? 1 / (1 - growth) : kInfinite;
 }
 
 double floating_error(const FunctionCourse& course, Precision precision, const Roundings& roundings) {
@@ -67,8 +81,20 @@ double floating_error(const FunctionCourse& course, Precision precision, const R
                                                roundings.of_boundary * course.boundaries) +
                              course.boundary_errors(precision) + roundings.light * course.magnitude +
                              roundings.unnormal * (course.sample_count + course.block_count);
-  const double growth = roundings.growth * (course.longest_block + course.block_count + 10);
-  return growth < 0.5 ? first_order / (1 - growth) : kInfinite;
+  return first_order * growth_of(course, roundings);
+}
+
+// What single errs by, where the function is nowhere below 0: for each of the course's lines.
+std::vector<LightLine> single_lines(const FunctionCourse& course, const Roundings& roundings) {
+  const double sums = roundings.of_sum * std::max(0.0, course.block_count - 1);
+  const double weights = roundings.of_weight + (course.steady_magnitude > 0.0 ? roundings.of_steady : 0.0);
+  const double slope = roundings.unit * (sums + weights) + roundings.light_line.slope;
+  const double constant = slope * course.overshoot + roundings.light_line.constant * course.magnitude +
+                          roundings.unnormal * (course.sample_count + course.block_count);
+  const double growth = growth_of(course, roundings);
+  std::vector<LightLine> lines = course.single_lines;
+  for (LightLine& line : lines) line = {growth * (line.constant + constant), growth * (line.slope + slope)};
+  return lines;
 }
 
 double fixed_error(const FunctionCourse& course, const FixedScale& scale, std::size_t function,
@@ -96,16 +122,25 @@ constexpr double kReferenceBlend = 3;
 // In units of the scale on which whole lights are blended: what each light and their sum are rounded down by.
 constexpr double kFixedBlendUnits = 2;
 
-// What blending the lights of so many functions rounds, beside units of whole numbers; lights by their shares come to
-// `magnitude`. The host blends light in double, where none is too small.
-double blend_error(const Roundings& roundings, const OutputFormat& output, std::size_t functions,
-                   double magnitude) {
+// What blending the lights of so many functions rounds, beside units of whole numbers, by what lights come to by their
+// shares. The host blends light in double, where none is too small.
+LightLine blend_line(const Roundings& roundings, const OutputFormat& output, std::size_t functions) {
   const auto count = static_cast<double>(functions);
   const double relative =
       roundings.unit * (roundings.of_share + roundings.of_sum * (count - 1)) + kReferenceBlend * kRoundoff64;
   const double growth = roundings.growth * (count + 8);
-  return relative * magnitude / (1 - growth) + (holds_codes(output.type) ? roundings.unnormal * count : 0.0) +
-         kSmallest;
+  return {(holds_codes(output.type) ? roundings.unnormal * count : 0.0) + kSmallest, relative / (1 - growth)};
+}
+
+double blend_error(const Roundings& roundings, const OutputFormat& output, std::size_t functions,
+                   double magnitude) {
+  const LightLine line = blend_line(roundings, output, functions);
+  return line.constant + line.slope * magnitude;
+}
+
+// What lights that err by `line` at most err by once they are blended.
+LightLine blended(const LightLine& line, const LightLine& blend) {
+  return {line.constant * (1 + blend.slope) + blend.constant, line.slope * (1 + blend.slope) + blend.slope};
 }
 
 // Of codes that kernels blend in whole numbers; light is blended by the host, in double.
@@ -122,7 +157,7 @@ double in_steps(const RenderPlan& plan, double scale, double light, double thres
   if (holds_codes(output.type)) {
     const CodeMaking making = CodeMaking::of(plan.capture, output);
     const double seen = making.conversion ? converted_error(*making.conversion, light, scale) : light;
-    return code_error(making.transfer, output.white_code, seen / making.white_light + threshold);
+    return code_error(making.transfer, output.white_code, {seen / making.white_light + threshold, 0.0});
   }
   // Numbers of the format have no smaller steps than its least one.
   const double least = output.type == ValueType::light64 ? std::numeric_limits<double>::denorm_min()
@@ -130,17 +165,51 @@ double in_steps(const RenderPlan& plan, double scale, double light, double thres
   return scale > 0.0 ? light / std::max(scale * format_step(output.type), least) : 0.0;
 }
 
+// In codes. Other primaries mix light of other channels into a channel's own.
+double line_steps(const RenderPlan& plan, const LightLine& line, const Roundings& roundings,
+                  const OutputFormat& output) {
+  const CodeMaking making = CodeMaking::of(plan.capture, output);
+  if (making.conversion) return kInfinite;
+  const LightLine seen{line.constant / making.white_light + kThresholdRoundings * kRoundoff64,
+                       line.slope + roundings.threshold};
+  return code_error(making.transfer, output.white_code, seen);
+}
+
+// Takes the line that costs least of a picture of codes, where it has some: what codes err by then.
+double take_best(const RenderPlan& plan, std::span<const LightLine> lines, const Roundings& roundings,
+                 const OutputFormat& output, PictureError& error) {
+  if (!holds_codes(output.type)) return kInfinite;
+  const Transfer transfer = CodeMaking::of(plan.capture, output).transfer;
+  double least = kInfinite;
+  for (const LightLine& line : lines) {
+    // Roughly in codes: few functions are steeper than that at their bright end. Any line will do.
+    const double cost = transfer.fraction_of(line.constant) + line.slope / 2;
+    if (!(cost < least)) continue;
+    least = cost;
+    error.line = line;
+  }
+  return least < kInfinite ? line_steps(plan, error.line, roundings, output) : kInfinite;
+}
+
 double threshold_error(const Roundings& roundings) {
   return roundings.threshold + kThresholdRoundings * kRoundoff64;
+}
+
+// Its constant is infinite where light has no line.
+LightLine line_of(const PictureError& error) {
+  return error.light > 0.0 && error.line.slope == 0.0 ? LightLine{kInfinite, 0.0} : error.line;
 }
 
 // Of any mixture of the plan's functions: no larger than the worst of them, and what blending that rounds.
 void add_blending(const RenderPlan& plan, const Roundings& roundings, ErrorBound& bound) {
   double largest = 0.0, min_scale = kInfinite;
+  LightLine line;
   for (std::size_t f = 0; f < plan.functions.size(); ++f) {
     const double scale = plan.functions[f].summary.error_scale();
     largest = std::max(largest, scale + bound.functions[f].light);
     if (scale > 0.0) min_scale = std::min(min_scale, scale / kWholeShare);  // of a mixture with zeros
+    const LightLine own = line_of(bound.functions[f]);
+    line = {std::max(line.constant, own.constant), std::max(line.slope, own.slope)};
   }
   const std::size_t functions = plan.map->mixed.max_functions();
   const double light = bound.worst.light + blend_error(roundings, bound.output, functions, largest) +
@@ -148,6 +217,9 @@ void add_blending(const RenderPlan& plan, const Roundings& roundings, ErrorBound
   bound.worst.light = light;
   if (holds_codes(bound.output.type)) {
     bound.worst.steps = in_steps(plan, largest, light, threshold_error(roundings), bound.output);
+    const LightLine seen = blended(line, blend_line(roundings, bound.output, functions));
+    const double steps = take_best(plan, {&seen, 1}, roundings, bound.output, bound.worst);
+    bound.worst.steps = std::min(bound.worst.steps, kFinely * steps);  // no pixel's may be found to be larger
   } else if (largest > 0.0) {
     // Relative to the pixel's own S, of which each function's error and every rounding are a share.
     const double blend = blend_error(roundings, bound.output, functions, min_scale);
@@ -160,12 +232,28 @@ void add_blending(const RenderPlan& plan, const Roundings& roundings, ErrorBound
 
 double format_step(ValueType type) { return type == ValueType::light64 ? 2e-12 : 0x1p-23; }
 
-double code_error(const Transfer& transfer, std::uint32_t white_code, double light) {
-  if (!(light < 1.0)) return white_code;
-  // Steepest at one end: at 0 where the function bends down, at 1 where it bends up.
-  const double at_black = transfer.fraction_of(light);
-  const double at_white = 1.0 - transfer.fraction_of(1.0 - light);
-  return white_code * std::max(at_black, at_white);
+double code_error(const Transfer& transfer, std::uint32_t white_code, const LightLine& error) {
+  // From the darker of two lights to the brighter one.
+  const double left = 1.0 - error.slope;
+  const double constant = error.constant / left, slope = error.slope / left;
+  if (!(constant + slope < 1.0) || !(left > 0.0)) return white_code;
+  double found = transfer.fraction_of(constant) - transfer.fraction_of(0.0), largest = 0.0, ratio = 2.0;
+  for (double to = 1.0; to > 0.0;) {
+    const double from = slope * to > constant / 128 ? to / ratio : 0.0;
+    const double light = constant + slope * to;
+    // Between two lights the function is steepest at the darker if it bends down, else at the brighter.
+    const double at_to = transfer.fraction_of(to) - transfer.fraction_of(std::max(0.0, to - light));
+    const double at_most = std::max(at_to, transfer.fraction_of(from + light) - transfer.fraction_of(from));
+    found = std::max(found, at_to);
+    if (at_most > kFinely * found && ratio > kFinely && from > 0.0) {
+      ratio = std::sqrt(ratio);
+      continue;
+    }
+    largest = std::max(largest, at_most);
+    to = from;
+    ratio *= ratio;
+  }
+  return white_code * largest;
 }
 
 ErrorBound error_bound(const RenderPlan& plan, Precision precision, const OutputFormat& output) {
@@ -184,8 +272,14 @@ ErrorBound error_bound(const RenderPlan& plan, Precision precision, const Output
       const double tables =
           kRoundoff64 * (kDoubleRoundings * gain.absolute_integral_ns / static_cast<double>(gain.support_ns) +
                          kCorrectedRoundings * course.corrected_magnitude + course.boundaries);
-      error.light = std::scalbn(sums + tables, gain.exponent) + kSmallest;
+      const auto in_light = [&](double scaled) { return std::scalbn(scaled + tables, gain.exponent) + kSmallest; };
+      error.light = in_light(sums);
       error.steps = in_steps(plan, gain.error_scale(), error.light, threshold_error(roundings), output);
+      if (precision == Precision::single_) {
+        std::vector<LightLine> lines = single_lines(course, roundings);
+        for (LightLine& line : lines) line.constant = in_light(line.constant);
+        error.steps = std::min(error.steps, take_best(plan, lines, roundings, output, error));
+      }
     }
     bound.functions.push_back(error);
     bound.worst.light = std::max(bound.worst.light, error.light);
@@ -203,13 +297,20 @@ PictureError PixelErrors::of(std::uint64_t pixel) const {
   if (shares.empty()) return bound_.functions[plan_.function_of(pixel)];
   const Roundings roundings = roundings_of(bound_.precision, plan_.capture.transfer);
   double of_functions = 0.0;
-  for (const Share& share : shares)
-    of_functions += share.size * bound_.functions[share.of].light / kWholeShare;
+  LightLine line;
+  for (const Share& share : shares) {
+    const PictureError& function = bound_.functions[share.of];
+    of_functions += share.size * function.light / kWholeShare;
+    const LightLine own = line_of(function);
+    line = {line.constant + share.size * own.constant / kWholeShare, std::max(line.slope, own.slope)};
+  }
   const double scale = plan_.error_scale(pixel);
   PictureError error;
   error.light = of_functions + blend_error(roundings, bound_.output, shares.size(), scale + of_functions) +
                 fixed_blend_;
   error.steps = in_steps(plan_, scale, error.light, threshold_error(roundings), bound_.output);
+  const LightLine seen = blended(line, blend_line(roundings, bound_.output, shares.size()));
+  error.steps = std::min(error.steps, take_best(plan_, {&seen, 1}, roundings, bound_.output, error));
   return error;
 }
 

@@ -3,6 +3,8 @@
 //   in:      a plan, an arithmetic, the format that the picture will have
 //   out:     for each planned function, and over all of them, the most that light may err by before it is
 //            rounded to the format, and how many of the format's steps that is
+//            Where no gain is below 0, single precision has a second bound, by the light itself: the dark, where
+//            codes lie close together, errs by less.
 //   always:  holds for every capture with these tables, whatever kind its tiles are of and however the work is
 //            cut, on every device that rounds as IEEE 754 says; infinite where nothing can be promised.
 //            Derived in docs/explanation/accuracy.md.
@@ -14,11 +16,13 @@
 // against a picture of the reference.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "render/function_course.hpp"
 #include "render/output_format.hpp"
-#include "render/precision.hpp"
 #include "render/render_plan.hpp"
 
 namespace nutik {
@@ -29,6 +33,12 @@ struct PictureError {
   // In codes for pictures of codes: how far the light may lie from its place on the scale of codes, before it
   // is rounded to one. For floating point in units of format_step().
   double steps = 0.0;
+  // Light L errs by at most constant + slope · L, too, where the slope is above 0.
+  LightLine line = {};
+
+  [[nodiscard]] double of_light(double value) const {
+    return line.slope > 0.0 ? std::min(light, line.constant + line.slope * std::fabs(value)) : light;
+  }
 };
 
 struct ErrorBound {
@@ -59,7 +69,7 @@ class PixelErrors {
 // apart below S; for light64 2e-12, so that half a step is what the arithmetic in double promises.
 [[nodiscard]] double format_step(ValueType type);
 
-// The most by which code = white · fraction_of(light) changes where light of [0, 1] changes by `light`.
-[[nodiscard]] double code_error(const Transfer& transfer, std::uint32_t white_code, double light);
+// The most by which code = white · fraction_of(light) changes where light L of [0, 1] changes by constant + slope · L.
+[[nodiscard]] double code_error(const Transfer& transfer, std::uint32_t white_code, const LightLine& error);
 
 }  // namespace nutik

@@ -89,7 +89,7 @@ StoredErrors real_errors(const RenderPlan& plan, const ErrorBound& bound, const 
     ++errors.differing;
     // Rounding keeps the order, also beyond the largest number: what lies between is what some light within the
     // bound is stored as. Never where it is no number.
-    const double allowed = bounds.of(i / plan.capture.shape.channels).light;
+    const double allowed = bounds.of(i / plan.capture.shape.channels).of_light(light[i]);
     if (static_cast<Real>(light[i] - allowed) <= reals[i] &&
         reals[i] <= static_cast<Real>(light[i] + allowed)) {
       ++errors.explained;
@@ -117,7 +117,7 @@ LightErrors light_errors(const RenderPlan& plan, const ErrorBound& bound, const 
   for (std::uint64_t i = 0; i < wanted.size(); ++i) {
     if (found[i] == wanted[i]) continue;
     double error = std::fabs(found[i] - wanted[i]);
-    const double allowed = bounds.of(i / plan.capture.shape.channels).light;
+    const double allowed = bounds.of(i / plan.capture.shape.channels).of_light(wanted[i]);
     if (const double share = share_of(error, allowed); share > errors.share_of_bound) {
       errors.share_of_bound = share;
       errors.bounded_error = std::isnan(error) ? kInfiniteError : error;

@@ -46,8 +46,8 @@ struct PlannedFunction {
   std::uint64_t pixel_count;  // of the mask, that it has a share of
   std::shared_ptr<const GainTable> table;
 
-  // With a time map: by how much it comes later. `function` is without that, `summary` and table with it, and D is that of
-  // its whole course (exposure/gain_function.hpp).
+  // With a delay map: by how much this region is exposed later. `function` is not shifted; `summary` and `table` are. D
+  // is that of the whole function, also where the capture's end cuts it (exposure/gain_function.hpp).
   bool is_delayed = false;
   std::int64_t delay_ns = 0;
 };

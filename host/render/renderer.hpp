@@ -102,7 +102,8 @@ class Renderer {
   // capture must live that long. A renderer may do without.
   virtual void keep_resident(const CaptureSource* /*source*/) {}
 
-  // Does ahead what render() needs no capture for, kernels to load for example. May be left out.
+  // Does ahead what render() needs no capture for: kernels are built or loaded, and tested where no verdict on them is
+  // known. May be left out.
   virtual void prepare(const RenderPlan& /*plan*/, const OutputFormat& /*output*/) {}
 
   // Exposes a picture. `source` is the capture that the plan was made for; its blocks are read in time

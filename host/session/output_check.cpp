@@ -148,8 +148,11 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
     }
   }
   if (kind == OutputKind::tik && output.extension() != ".tik") {
-    throw UsageError(format("{} is no name for a capture", name),
-                     Advice{": encode writes .tik files (nutik-cl CLIP CAPTURE.tik)"});
+    throw UsageError(
+        format("{} is no name for a capture", name),
+        Advice{is_picture_name(output)
+                   ? ": for a picture say of when, `start` 0.4s `exposure` 10ms, or let nutik-cl study find what moves"
+                   : ": encode writes .tik files (nutik-cl CLIP CAPTURE.tik), nutik-cl video films"});
   }
   if (kind == OutputKind::noise && (output.extension() == ".tik" || is_picture_name(output))) {
     throw UsageError(format("{} is no name for a text: a camera's noise is written as .noise", name));

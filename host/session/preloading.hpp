@@ -9,8 +9,8 @@
 
 namespace nutik {
 
-// One block after another until the device is ready, of at most `max_bytes` together, as far as they are packed and
-// every function reads some of them. Throws InputError for a damaged block.
+// Unpacks one block after another until the device is ready. It ends at the first block that is not packed, that some
+// function does not read, or with which they would take more than `max_bytes`. Throws InputError for a damaged block.
 void preload_until(const std::future<void>& ready, CaptureSource& source, const RenderPlan& plan,
                    std::uint64_t max_bytes);
 

@@ -24,12 +24,12 @@ from ._functions import Function, boxcar, fit, parse_functions, read_functions, 
 from ._masks import Mask, read_mask
 from ._nutik import (DeviceError, Error, InputError, MemoryTooLittle, OutputError, UsageError, __version__)
 from ._pictures import Picture
-from ._sources import encode, join, open
+from ._sources import Device, devices, encode, join, open
 from ._words import FileMissing, NutikNote, NutikWarning, WrongType
 
 __all__ = [
-    "Activity", "Capture", "DeviceError", "Error", "FileMissing", "Function", "InputError", "Mask", "MemoryTooLittle",
+    "Activity", "Capture", "Device", "DeviceError", "Error", "FileMissing", "Function", "InputError", "Mask", "MemoryTooLittle",
     "NutikNote", "NutikWarning", "OutputError", "Picture", "Plate", "Solution", "SolvedWish", "Study", "Trace",
-    "UsageError", "WrongType", "__version__", "boxcar", "encode", "fit", "join", "open", "parse_functions",
+    "UsageError", "WrongType", "__version__", "boxcar", "devices", "encode", "fit", "join", "open", "parse_functions",
     "read_functions", "read_mask", "shutter", "write_functions",
 ]

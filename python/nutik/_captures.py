@@ -4,19 +4,23 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from html import escape
 from os import PathLike
-from typing import Any, Mapping, Optional, Sequence, Union
+from operator import index
+from typing import Any, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _finds, _nutik
 from ._functions import Function, FunctionLike, function_of, read_functions
 from ._masks import Mask, MaskLike, mask_of
-from ._nutik import InputError, UsageError
+from ._nutik import InputError, MemoryTooLittle, UsageError
 from ._pictures import Picture
-from ._words import Array, DelayLike, Path, Progress, Time, box_of, count_of, delays_ns, settings_of, tag_of, time_word, warn
+from ._words import Array, DelayLike, Path, Progress, Time, axes_of, box_of, count_of, delays_ns, settings_of, tag_of, time_word, warn
 
 Functions = Union[FunctionLike, Mapping[int, FunctionLike], Path]
+
+_MOST_AT_ONCE = 4 << 30  # bytes of samples that one array takes
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +43,15 @@ class Trace:
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Trace) and all(np.array_equal(value, getattr(other, name))
                                                 for name, value in vars(self).items())
+
+    def plot(self, ax: Any = None, **style: Any) -> Any:
+        """Draws light over seconds with matplotlib, a line for each channel, into `ax` or the current axes, which it
+        returns."""
+        axes = axes_of(ax, "time, s", "light")
+        for channel, colour in enumerate(("red", "green", "blue") if self.light.shape[2] == 3 else (None,)):
+            axes.plot(self.times_ns.ravel() / 1e9, self.light[:, :, channel].ravel(),
+                      **({"color": colour} if colour else {}), **style)
+        return axes
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -91,11 +104,69 @@ class Capture:
         """Of its codes: uint8 or uint16."""
         return np.dtype(np.uint8 if self._held.code_bytes == 1 else np.uint16)
 
-    def __array__(self, *_: object, **__: object) -> Array:
-        raise TypeError("a capture is no array: its pictures are exposed by render()")
-
     def __len__(self) -> int:
         return self._held.sample_count
+
+    def __getitem__(self, key: Any) -> Array:
+        """The codes that are held, exactly: `capture[3]` is [height, width] or [height, width, 3], `capture[10:20]` has
+        samples before them; what follows picks pixels, `capture[:, 100:200, 50:60]`. An array of its own each time; raises
+        IndexError, and MemoryTooLittle where the samples of a slice take more than 4 GiB."""
+        picked, rest = (key[0], key[1:]) if isinstance(key, tuple) and key else (key, ())
+        if picked is Ellipsis or isinstance(key, tuple) and not key:
+            picked, rest = slice(None), (key[:1] if picked is Ellipsis and isinstance(key, tuple) else ()) + rest
+        if isinstance(picked, slice):
+            numbers = range(*picked.indices(len(self)))
+            bytes_asked = len(numbers) * int(np.prod(self.shape[1:])) * self.dtype.itemsize
+            if bytes_asked > _MOST_AT_ONCE:
+                raise MemoryTooLittle(f"{len(numbers)} samples are {bytes_asked / 1e9:.1f} GB; take fewer at a time, or "
+                                      "expose them with render()")
+            forward = numbers if numbers.step > 0 else numbers[::-1]
+            held = self._held.samples(forward)
+            return (held if numbers.step > 0 else held[::-1])[(slice(None), *rest)]
+        number = index(picked)
+        if not -len(self) <= number < len(self):
+            raise IndexError(f"sample {number} of {len(self)}")
+        return self._held.samples([number % len(self)])[(0, *rest)]
+
+    def __iter__(self) -> Iterator[Array]:
+        return (self[number] for number in range(len(self)))
+
+    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> Array:
+        """All samples, where they take no more than 4 GiB; a copy always."""
+        if copy is False:
+            raise ValueError("a capture holds no array: a copy of its codes is made")
+        return self[:] if dtype is None else self[:].astype(dtype, copy=False)
+
+    @property
+    def times(self) -> Array:
+        """[samples] float64: when each sample's exposure begins, in seconds; times_ns has it exactly."""
+        return self.times_ns[:, 0] / 1e9
+
+    def records(self, region: Optional[Sequence[int]] = None, *, first: int = 0, last: Optional[int] = None) -> Array:
+        """What pixels hold, from one change to the next, as an array of records: x, y, start_ns, end_ns, code (of colour
+        [3]); each pixel's in time order, row after row.
+
+        region: (x, y, width, height), only these pixels. first, last: only samples from `first` on and before `last`; what
+        is held before or after is cut there. Raises UsageError where there are no such pixels or samples.
+        """
+        height, width = self.shape[1:3]
+        box = [0, 0, width, height] if region is None else box_of(region, "region")
+        if box[0] + box[2] > width or box[1] + box[3] > height:
+            raise UsageError(f"region is {tuple(box)}; the capture has {width} x {height} pixels")
+        end = len(self) if last is None else count_of(last, "last")
+        if not count_of(first, "first") < end <= len(self):
+            raise UsageError(f"there are no samples from {first} to {end}; the capture has {len(self)}")
+        places, samples, codes = self._held.records(box, first, end)
+        code: Any = ("code", self.dtype, (3,)) if codes.shape[1] == 3 else ("code", self.dtype)
+        made = np.empty(len(codes), [("x", np.uint32), ("y", np.uint32), ("start_ns", np.int64), ("end_ns", np.int64), code])
+        times = self.times_ns
+        made["x"], made["y"] = places[:, 0], places[:, 1]
+        made["start_ns"] = times[samples[:, 0], 0]
+        # A sample is held until the next one begins.
+        begins = np.append(times[1:, 0], times[-1, 1])
+        made["end_ns"] = begins[samples[:, 1] - 1]
+        made["code"] = codes if codes.shape[1] == 3 else codes[:, 0]
+        return made
 
     @property
     def rate(self) -> Fraction:
@@ -324,6 +395,14 @@ class Capture:
             raise UsageError(f"dtype={kind} holds no {'codes' if codes else 'light'}: light is float32 or float64; "
                              f"{other}")
         return settings_of({"dtype": kind, "transfer": transfer, "negative": negative})
+
+    def _repr_html_(self) -> str:
+        if self._open_capture is None:
+            return escape(repr(self))
+        rows = {"shape": " x ".join(map(str, self.shape)), "codes": f"{self.dtype}, white {self.figures['white']}",
+                "rate": f"{float(self.rate):g} a second", "lasts": f"{self.duration_ns / 1e9:g} s", "told": "; ".join(self.facts)}
+        return f"<b>{escape(self.name)}</b><table>" + "".join(
+            f"<tr><th>{name}</th><td>{escape(text)}</td></tr>" for name, text in rows.items()) + "</table>"
 
     def __repr__(self) -> str:
         if self._open_capture is None:

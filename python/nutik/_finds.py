@@ -13,7 +13,7 @@ from ._functions import Function, parse_functions
 from ._masks import Mask
 from ._nutik import UsageError
 from ._pictures import Picture
-from ._words import Array, NutikNote, Progress, time_word, warn
+from ._words import Array, NutikNote, Progress, axes_of, time_word, warn
 
 
 @dataclass(frozen=True)
@@ -42,6 +42,13 @@ class Activity:
     redrawn: Array         # samples that count as those beside them
     busiest: Optional[Stretch]  # a twentieth of the capture; None where nothing changes
     quietest: Optional[Stretch]
+
+    def plot(self, ax: Any = None, **style: Any) -> Any:
+        """Draws the share of pixels that change at each sample with matplotlib, into `ax` or the current axes, which it
+        returns."""
+        axes = axes_of(ax, "sample", "share of pixels that change")
+        axes.plot(self.changed_pixels / max(self.counted_pixels, 1), **style)
+        return axes
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import Array, Path, Time, path_word, reading, tag_of, time_ns, time_word, times_ns, warn
+from ._words import Array, Path, Time, axes_of, path_word, reading, tag_of, time_ns, time_word, times_ns, warn
 
 _MIN_SAMPLES = 1024  # of a callable, evenly, before it is looked at more closely where it bends
 _MAX_SAMPLES = 1 << 20
@@ -63,6 +63,11 @@ class Function:
         value = np.where(length > 0, gains[begin] + (gains[end] - gains[begin]) * share, gains[begin])
         return value if value.ndim else float(value)
 
+    @property
+    def times(self) -> Array:
+        """[points] float64: when the control points are, in seconds; times_ns has them exactly."""
+        return self.times_ns / 1e9
+
     def shifted(self, by: Time) -> Function:
         """The same function later; earlier where `by` is negative."""
         return Function._of(self._held.shifted_ns(time_ns(by, "by")))
@@ -70,6 +75,49 @@ class Function:
     def scaled(self, factor: float) -> Function:
         """The same function with every gain times `factor`."""
         return Function._of(self._held.scaled(factor))
+
+    __array_ufunc__ = None  # numpy's numbers leave f * 2 to it
+
+    def plot(self, ax: Any = None, **style: Any) -> Any:
+        """Draws gain over seconds with matplotlib, into `ax` or the current axes, which it returns."""
+        axes = axes_of(ax, "time, s", "gain")
+        axes.plot(self.times, self.gains, **style)
+        return axes
+
+    def __add__(self, other: Function) -> Function:
+        """Both together: straight between all of their points. Gains are sums in float64."""
+        if not isinstance(other, Function):
+            return NotImplemented
+        times = np.union1d(self.times_ns, other.times_ns)
+        before, after = (a + b for a, b in zip(self._beside(times), other._beside(times)))
+        is_twice = before != after
+        at = np.repeat(times, 1 + is_twice)
+        gains = np.repeat(after, 1 + is_twice)
+        gains[np.flatnonzero(np.diff(at, prepend=at[0] - 1, append=at[-1] + 1)[1:] == 0)] = before[is_twice]
+        return Function.from_ns(at, gains)
+
+    def __sub__(self, other: Function) -> Function:
+        return self + other * -1 if isinstance(other, Function) else NotImplemented
+
+    def __mul__(self, factor: float) -> Function:
+        return self.scaled(factor) if isinstance(factor, (int, float, np.number)) else NotImplemented
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, divisor: float) -> Function:
+        return self * (1 / divisor)
+
+    def __neg__(self) -> Function:
+        return self * -1
+
+    def _beside(self, times: Array) -> tuple[Array, Array]:
+        """The gain just before and just behind each of these times, whole nanoseconds."""
+        points, gains = self._held.points()
+        value = np.interp((times - points[0]).astype(np.float64), (points - points[0]).astype(np.float64), gains)
+        first, last = np.searchsorted(points, times, "left"), np.searchsorted(points, times, "right")
+        is_point = first < last
+        return (np.where(is_point, gains[np.minimum(first, len(gains) - 1)], value),
+                np.where(is_point, gains[np.maximum(last - 1, 0)], value))
 
     def text(self, tag: int = 0) -> str:
         """Its line in a function file. Jumps become steps of 1 ns, for files have none."""

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from copy import deepcopy
-from typing import Any, Optional, Union
+from io import BytesIO
+from os import PathLike
+from os.path import join
+from shutil import copyfileobj
+from tempfile import TemporaryDirectory
+from typing import Any, BinaryIO, Optional, Union
 
 import numpy as np
 
 from . import _nutik
-from ._nutik import UsageError
+from ._nutik import OutputError, UsageError
 from ._words import Array, Path, path_word
 
 
@@ -83,17 +88,40 @@ class Picture:
         payload_bytes, device_bytes, blocks, launches. Empty of a plate."""
         return dict(self._held.figures.get("statistics", {}))
 
-    def write(self, path: Path, *, quality: Optional[int] = None, keep_pixels: bool = False) -> None:
-        """Writes a file: .png, .tif, .jpg, .ppm, .pgm of codes, .exr, .tif, .pfm of light. quality: of .jpg, 1 ... 100.
+    def write(self, path: Union[Path, BinaryIO], *, kind: Optional[str] = None, quality: Optional[int] = None,
+              keep_pixels: bool = False) -> None:
+        """Writes a file: .png, .tif, .jpg, .ppm, .pgm of codes, .exr, .tif, .pfm of light, .npy of any, float64 too.
+
+        path: or a file that is open for bytes, as io.BytesIO; kind says then which, '.png'. quality: of .jpg, 1 ... 100.
         keep_pixels: a .png or .jpg has the pixels of `array` also where they are not square; without it they are made so,
         for eyes. Other files keep them.
 
         Raises UsageError where such a file cannot hold the picture, OutputError where it cannot be written.
         """
+        if not isinstance(path, (str, PathLike)):
+            if kind is None:
+                raise UsageError("which kind of file? An open one has no name: kind='.png'")
+            with TemporaryDirectory(prefix="nutik-") as folder:
+                self.write(join(folder, f"picture{kind}"), quality=quality, keep_pixels=keep_pixels)
+                with open(join(folder, f"picture{kind}"), "rb") as file:
+                    copyfileobj(file, path)
+            return
+        name = path_word(path)
+        if name.endswith(".npy"):
+            try:
+                np.save(name, self._array)
+            except OSError as error:
+                raise OutputError(f"{name} cannot be written: {error.strerror}") from None
+            return
         if self.dtype == np.float64:
-            raise UsageError(f"{path_word(path)}: files of light hold float32; expose the picture with that dtype, or save "
-                             "the array with numpy.save()")
-        self._held.write(path_word(path), quality, keep_pixels)
+            raise UsageError(f"{name}: files of light hold float32; expose the picture with that dtype, or write .npy")
+        self._held.write(name, quality, keep_pixels)
+
+    def _repr_png_(self) -> bytes:
+        """As notebooks show it: light as sRGB codes of 8 bits."""
+        file = BytesIO()
+        (self if self.dtype.kind == "u" else Picture(self._held.for_eyes())).write(file, kind=".png")
+        return file.getvalue()
 
     def __reduce__(self) -> Any:
         return Picture, (self._held,)

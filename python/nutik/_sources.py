@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import datetime
 import inspect
+from dataclasses import dataclass
 from itertools import chain
 from os import PathLike
-from typing import Any, Iterable, Optional, Sequence, Union, cast
+from typing import Any, BinaryIO, Iterable, Optional, Sequence, Union, cast
 
 import numpy as np
 
 from . import _nutik
 from ._captures import Capture
 from ._nutik import InputError, UsageError
-from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, half_up, path_word, reading, seconds_of,
+from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, path_word, reading, seconds_of,
                      settings_of, time_ns, times_ns, warn, whole)
 
 
-def open(path: Path, *, rate: Optional[Number] = None, shutter_angle: Optional[Number] = None,
+def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_angle: Optional[Number] = None,
          transfer: Optional[str] = None, white: Optional[int] = None, primaries: Optional[str] = None,
          pixel_aspect: Union[str, Number, None] = None, raw: Optional[str] = None, matrix: Optional[str] = None,
          range: Optional[str] = None, chroma_at: Optional[str] = None, begin: Optional[Time] = None,
@@ -31,7 +32,7 @@ def open(path: Path, *, rate: Optional[Number] = None, shutter_angle: Optional[N
          device: Optional[str] = None, memory: Union[int, str, None] = None, renderer: Optional[str] = None,
          progress: Progress = None) -> Capture:
     """Opens a capture (.tik), or a clip, which is encoded into a temporary capture first: a video, a folder of stills,
-    'frames/*.png', a table of stills (docs/reference/input.md).
+    'frames/*.png', a table of stills (docs/reference/input.md); or what is open for bytes, as io.BytesIO.
 
     Of a clip may be stated what its files do not say or say wrongly: rate in pictures a second ('30000/1001'),
     shutter_angle in degrees, transfer, white, primaries, pixel_aspect; raw, matrix, range, chroma_at of video. Part of it:
@@ -53,13 +54,13 @@ def open(path: Path, *, rate: Optional[Number] = None, shutter_angle: Optional[N
     """
     stated = {name: value for name, value in locals().items() if name not in (*_COMPUTING, "path", "progress")}
     computing = _computing(device, memory, renderer)
-    with reading(path_word(path)):
-        return _told(_nutik.open(path_word(path), settings_of(stated), computing, progress))
+    with as_file(path, "clip") as name, reading(name):
+        return _told(_nutik.open(name, settings_of(stated), computing, progress))
 
 
 def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number] = None,
            times: Optional[Iterable[Time]] = None, exposures: Union[Time, Iterable[Time], None] = None,
-           shutter_angle: Optional[Number] = None, transfer: Optional[str] = None, white: Optional[int] = None,
+           shutter_angle: Optional[Number] = None, transfer: Optional[str] = None, white: Optional[float] = None,
            primaries: Optional[str] = None, pixel_aspect: Union[str, Number, None] = None, deflicker: bool = False,
            between: Union[int, str, None] = None,
            align: Optional[str] = None, align_to: Optional[Time] = None, align_along: Optional[Path] = None,
@@ -70,14 +71,16 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
            progress: Progress = None, name: str = "array", **clip: Any) -> Capture:
     """Makes a capture of pictures, and opens it.
 
-    source: an array [samples, height, width] or [samples, height, width, 3] (red, green, blue) of uint8 or uint16,
-        however it is strided; or an iterable of such pictures; or the path of a clip (nutik.open() says more of
-        these). An array is read where it lies.
+    source: an array [samples, height, width] or [samples, height, width, 3] (red, green, blue) of uint8 or uint16 codes,
+        however it is strided, or of floats that are light; or an iterable of such pictures; or the path of a clip, or one
+        that is open for bytes (nutik.open() says more of these). Codes in the machine's order of bytes are read where
+        they lie. What has __dlpack__ is an array.
     output: a .tik to write; None: a temporary capture, gone when it is closed.
     rate: pictures a second. Or `times`: when each picture's exposure begins; of dates what lies between them counts. exposures: how long each was exposed, one
         time or one for each; with neither that nor shutter_angle, all the time to the next.
     transfer: what codes stand for, 'srgb', 'bt709', 'linear', 'gamma:G', 'hlg', 'pq'; without it 'srgb' of uint8, 'linear'
-        of uint16. white: the code of white, 255 or 65535 without it; no code may be larger.
+        of uint16. white: the code of white, 255 or 65535 without it; no code may be larger. Of floats the light of white,
+        which must be stated: they become 16-bit codes, linear, to the nearest of 65535 steps; none may be negative.
     tolerance, noise, sigmas, align, ...: as of nutik.open(), which takes more of a path: begin, crop, raw, ... codec, of an
         output: 'none', 'rice', 'lz4', 'zstd', 'zstd:9'. progress: as of nutik.open().
 
@@ -91,19 +94,21 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
                   unseen=unseen,
                   tolerance=tolerance, noise=noise, sigmas=sigmas, tiles=tiles, block_samples=block_samples)
     of_files = set(inspect.signature(open).parameters) - {"path", "progress"} - set(_COMPUTING) - set(stated)
+    is_clip = isinstance(source, (str, PathLike)) or hasattr(source, "read")
     for argument in clip:
         if argument not in of_files:
             raise TypeError(f"encode() has no argument {argument!r}")
-        if not isinstance(source, (str, PathLike)):
+        if not is_clip:
             raise UsageError(f"{argument}= is said of a clip's files; these are pictures in memory")
-    if isinstance(source, (str, PathLike)):
+    if is_clip:
         stated.update(clip)
         if times is not None or exposures is not None:
             raise UsageError("times= and exposures= are those of arrays; a table of stills lists those of files")
-        with reading(path_word(source)):
-            return _told(_nutik.encode_clip(path_word(source), path, codec, settings_of(stated), computing,
-                                            progress))
-    pictures, first = _pictures_of(source)
+        with as_file(source, "clip") as clip_name, reading(clip_name):
+            return _told(_nutik.encode_clip(clip_name, path, codec, settings_of(stated), computing, progress))
+    pictures, first, is_light = _pictures_of(source, white)
+    if is_light:
+        stated["white"] = None  # of the codes it is the last one
     count = len(pictures) if isinstance(pictures, np.ndarray) else None
     starts, intervals, exposed = _timing(rate, times, exposures, shutter_angle, count)
     return _told(_nutik.encode_pictures(pictures, first, name, starts, intervals, exposed, path, codec,
@@ -129,6 +134,25 @@ def join(captures: Iterable[Path], output: Path, *, device: Optional[str] = None
         return _told(_nutik.join(paths, path_word(output), _computing(device, memory, renderer), progress))
 
 
+@dataclass(frozen=True)
+class Device:
+    """An OpenCL device of this machine: device=index takes it."""
+
+    index: int
+    name: str
+    platform: str
+    driver: str                  # its version
+    kind: str                    # 'GPU', 'accelerator', 'CPU' or 'other'
+    compute_units: int
+    memory_bytes: int
+    precisions: tuple[str, ...]  # that it computes in, the fastest first
+
+
+def devices() -> list[Device]:
+    """The OpenCL devices of this machine, those first that are taken first. Raises DeviceError where there are none."""
+    return [Device(index, *told) for index, told in enumerate(_nutik.devices())]
+
+
 _COMPUTING = ("device", "memory", "renderer")
 
 
@@ -143,37 +167,69 @@ def _told(opened: tuple[_nutik.Capture, list[str], list[str]]) -> Capture:
     return Capture(capture, notes)
 
 
+def _native(picture: Array) -> Array:
+    """The same in the machine's order of bytes."""
+    return picture if picture.dtype.isnative else picture.astype(picture.dtype.newbyteorder("="))
+
+
+def _codes_of_light(picture: Array, white: float) -> Array:
+    """Light, where `white` is white, as the nearest of 65535 steps."""
+    share = np.asarray(picture, np.float64) / white
+    if not (share >= 0).all() or (share > 1).any():
+        raise InputError(f"a value of light is none between 0 and white={white:g}; clip it, or state a larger white")
+    return (share * 65535 + 0.5).astype(np.uint16)
+
+
+def _is_light(picture: Array) -> bool:
+    return picture.dtype.kind == "f"
+
+
 def _check_picture(picture: Array, what: str) -> None:
-    if picture.dtype not in (np.uint8, np.uint16) or not picture.dtype.isnative:
-        way = ("round them: (light * 65535 + 0.5).astype(numpy.uint16), with transfer='linear'"
-               if picture.dtype.kind == "f" else "say which with .astype()")
-        raise UsageError(f"{what} has dtype {picture.dtype}; codes are uint8 or uint16 in the machine's byte order: {way}")
+    if picture.dtype.newbyteorder("=") not in (np.uint8, np.uint16) and not _is_light(picture):
+        raise UsageError(f"{what} has dtype {picture.dtype}; codes are uint8 or uint16, light is of floats: say which with "
+                         ".astype()")
     if picture.ndim not in (2, 3) or (picture.ndim == 3 and picture.shape[2] not in (1, 3)) or not picture.size:
         raise UsageError(f"{what} has shape {picture.shape}; pictures are [height, width] or [height, width, 3], not "
                          "empty")
 
 
-def _pictures_of(source: Any) -> tuple[Any, Array]:
-    """An array of all, or an iterator; and the first picture."""
+def _pictures_of(source: Any, white: Optional[float]) -> tuple[Any, Array, bool]:
+    """An array of all, or an iterator; the first picture; whether they were light, which becomes codes."""
+    def codes_of(picture: Array, what: str) -> Array:
+        picture = np.asarray(whole(picture, what))
+        _check_picture(picture, what)
+        if not _is_light(picture):
+            return _native(picture)
+        if white is None or not white > 0:
+            raise UsageError(f"{what} has dtype {picture.dtype}: which value is white? white=1.0; light becomes the nearest of "
+                             "65535 steps up to it")
+        return _codes_of_light(picture, white)
+
+    if hasattr(source, "__dlpack__") and not isinstance(source, np.ndarray):
+        source = np.from_dlpack(source)
     if isinstance(source, memoryview) or hasattr(source, "__array_interface__") or hasattr(source, "__array__"):
         pictures = np.asarray(whole(source, "the array"))
         if pictures.ndim not in (3, 4) or not len(pictures):
             raise UsageError(f"the array has shape {pictures.shape}; it is [samples, height, width] or [samples, height, "
                              "width, 3], with one sample at least")
-        _check_picture(pictures[0], "a picture of the array")
-        return pictures, pictures[0]
+        first, is_light = codes_of(pictures[0], "a picture of the array"), _is_light(pictures)
+        if pictures.dtype != first.dtype:
+            codes = np.empty(pictures.shape, first.dtype)
+            for into, picture in zip(codes, pictures):
+                into[...] = codes_of(picture, "a picture of the array")
+            pictures = codes
+        return pictures, pictures[0], is_light
     try:
         iterator = iter(source)
     except TypeError:
         raise WrongType(f"{type(source).__name__} holds no pictures: give an array, an iterable of arrays, or a path") \
             from None
-    iterator = (whole(picture, "a picture") for picture in iterator)
     try:
-        first = np.asarray(next(iterator))
+        given = next(iterator)
     except StopIteration:
         raise InputError("the iterable holds no picture") from None
-    _check_picture(first, "the first picture")
-    return chain([first], iterator), first
+    first = codes_of(given, "the first picture")
+    return chain([first], (codes_of(picture, "a picture") for picture in iterator)), first, _is_light(np.asarray(given))
 
 
 def _lasting(length: Any, what: str, said: Any) -> Any:

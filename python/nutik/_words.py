@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import datetime
 import errno
+import shutil
 import sys
+import tempfile
 import warnings
 from contextlib import contextmanager
 from decimal import Decimal
 from fractions import Fraction
 from os import PathLike, fsdecode
-from os.path import dirname, exists
+from os.path import dirname, exists, join
 from typing import Any, Callable, Iterable, Iterator, Optional, Sequence, Union
 
 import numpy as np
@@ -61,6 +63,30 @@ def reading(*paths: str) -> Iterator[None]:
         raised = FileMissing(str(error))
         raised.settings, raised.errno, raised.filename = error.settings, errno.ENOENT, missing[0]
         raise raised from None
+
+
+def axes_of(ax: Any, x: str, y: str) -> Any:
+    """The axes, or matplotlib's current ones, labelled where they are not yet."""
+    if ax is None:
+        from matplotlib import pyplot
+
+        ax = pyplot.gca()
+    ax.set_xlabel(ax.get_xlabel() or x)
+    ax.set_ylabel(ax.get_ylabel() or y)
+    return ax
+
+
+@contextmanager
+def as_file(source: Any, name: str) -> Iterator[str]:
+    """The path of a source, or of a file with the bytes of one that is open to be read, which is gone afterwards."""
+    if not hasattr(source, "read"):
+        yield path_word(source)
+        return
+    with tempfile.TemporaryDirectory(prefix="nutik-") as folder:
+        path = join(folder, name)
+        with open(path, "wb") as file:
+            shutil.copyfileobj(source, file)
+        yield path
 
 
 def whole(array: Any, what: str) -> Any:

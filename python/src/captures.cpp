@@ -13,6 +13,8 @@
 #include "features/captures/joining.hpp"
 #include "features/schema/option.hpp"
 #include "features/schema/requests.hpp"
+#include "imev/each_block.hpp"
+#include "imev/sample_cursor.hpp"
 #include "parts.hpp"
 #include "session/clips/encoding.hpp"
 #include "working.hpp"
@@ -188,6 +190,88 @@ py::dict figures(const OpenCapture& capture) {
   return told;
 }
 
+// The codes that are held at samples in increasing order, [samples, height, width(, 3)].
+py::array samples(const OpenCapture& capture, const std::vector<std::uint64_t>& numbers) {
+  Session& session = *capture.session;
+  const CaptureFormat& held = session.format();
+  std::vector<py::ssize_t> axes = axes_of(held.shape);
+  axes.insert(axes.begin(), static_cast<py::ssize_t>(numbers.size()));
+  py::array rasters(held.code_bytes == 1 ? py::dtype::of<std::uint8_t>() : py::dtype::of<std::uint16_t>(), axes);
+  auto* const bytes = static_cast<std::byte*>(rasters.mutable_data());
+  without_lock([&](const Stopping& stopping) {
+    auto next = numbers.begin();
+    tik::Reader& reader = session.capture();
+    BlockCursor blocks(reader);
+    while (next != numbers.end()) {
+      std::uint64_t block = 0;
+      while (reader.block_extent(block).range().last <= *next) ++block;
+      const BlockView view = blocks.at(block);
+      const SampleRange range = view.extent().range();
+      SampleCursor cursor(held.shape, view);
+      for (; next != numbers.end() && *next < range.last; ++next) {
+        if (stopping.stop.stop_requested()) throw Cancelled();
+        cursor.go_to(static_cast<std::uint32_t>(*next - range.first));
+        const std::uint64_t at = static_cast<std::uint64_t>(next - numbers.begin()) * held.sample_bytes();
+        cursor.read({bytes + at, held.sample_bytes()});
+      }
+    }
+  });
+  return rasters;
+}
+
+// What pixels of a box hold between two samples, from one change to the next: of each record the pixel's place, the
+// samples at which it begins and ends, and its codes; of each pixel in time order.
+py::tuple records(const OpenCapture& capture, const std::vector<std::uint32_t>& box, std::uint64_t first,
+                  std::uint64_t last) {
+  Session& session = *capture.session;
+  const Shape& shape = session.format().shape;
+  const Rectangle region{box[0], box[1], box[2], box[3]};
+  struct Record {
+    std::uint64_t begin = 0, end = 0;
+    std::array<std::uint16_t, 3> codes{};
+  };
+  std::vector<std::vector<Record>> found(std::size_t{region.width} * region.height);
+  without_lock([&](const Stopping& stopping) {
+    std::vector<ChangeRecord> history;
+    for_each_block(session.capture(), {first, last}, [&](const BlockView& block) {
+      const SampleRange range = block.extent().range();
+      const TileGrid grid(shape);
+      auto pixel = found.begin();
+      for (std::uint32_t y = region.y; y < region.y + region.height; ++y) {
+        if (stopping.stop.stop_requested()) throw Cancelled();
+        for (std::uint32_t x = region.x; x < region.x + region.width; ++x, ++pixel) {
+          block.read_history(grid.tile_of(x, y), TileGrid::lane_of(x, y), history);
+          for (std::size_t i = 0; i < history.size(); ++i) {
+            const std::uint64_t begin = std::max(first, range.first + history[i].sample);
+            const std::uint64_t end =
+                std::min(last, i + 1 < history.size() ? range.first + history[i + 1].sample : range.last);
+            if (begin >= end) continue;
+            if (!pixel->empty() && pixel->back().codes == history[i].codes) {
+              pixel->back().end = end;  // a block begins anew with what is held
+            } else {
+              pixel->push_back({begin, end, history[i].codes});
+            }
+          }
+        }
+      }
+    });
+  });
+  std::vector<std::uint32_t> places;
+  std::vector<std::uint64_t> times;
+  std::vector<std::uint16_t> codes;
+  for (std::size_t pixel = 0; pixel < found.size(); ++pixel) {
+    for (const Record& record : found[pixel]) {
+      places.push_back(region.x + static_cast<std::uint32_t>(pixel % region.width));
+      places.push_back(region.y + static_cast<std::uint32_t>(pixel / region.width));
+      times.insert(times.end(), {record.begin, record.end});
+      codes.insert(codes.end(), record.codes.begin(), record.codes.begin() + shape.channels);
+    }
+  }
+  const auto count = static_cast<py::ssize_t>(times.size() / 2);
+  return py::make_tuple(array_of(places, {count, 2}), array_of(times, {count, 2}),
+                        array_of(codes, {count, static_cast<py::ssize_t>(shape.channels)}));
+}
+
 std::optional<std::string> moved_camera_text(const OpenCapture& capture) {
   return without_lock([&](const Stopping&) -> std::optional<std::string> {
     const auto moved = moved_camera(capture.session->capture());
@@ -219,6 +303,8 @@ void bind_captures(py::module_& module) {
       .def_property_readonly("facts", &facts)
       .def("times_ns", &times_ns)
       .def("figures", &figures)
+      .def("samples", &samples, py::arg("numbers"))
+      .def("records", &records, py::arg("box"), py::arg("first"), py::arg("last"))
       .def("moved_camera", &moved_camera_text);
   module.def("open", &open, py::arg("path"), py::arg("settings"), py::arg("computing"), py::arg("progress"));
   module.def("encode_clip", &encode_clip, py::arg("path"), py::arg("output"), py::arg("codec"),

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "capture/error.hpp"
+#include "capture/light_codes.hpp"
 #include "parts.hpp"
 #include "session/output_check.hpp"
 #include "session/requests/output_request.hpp"
@@ -69,6 +70,22 @@ void write(const HeldPicture& held, const std::string& path, std::optional<int> 
   write_picture(path, held.picture, {}, file_wishes(request));
 }
 
+// Light as codes of screens.
+HeldPicture for_eyes(const HeldPicture& held) {
+  const Picture& light = held.picture;
+  const Transfer srgb = Transfer::srgb();
+  Picture codes(light.shape, ValueType::code8, 255);
+  codes.transfer = srgb;
+  codes.primaries = light.primaries;
+  codes.pixel_aspect = light.pixel_aspect;
+  const LightCodes table(srgb, 255);
+  for (std::uint64_t i = 0; i < light.shape.value_count(); ++i) {
+    const double value = light.type == ValueType::light32 ? light.values<float>()[i] : light.values<double>()[i];
+    codes.values<std::uint8_t>()[i] = static_cast<std::uint8_t>(table.code_of(value));
+  }
+  return {std::move(codes), {}};
+}
+
 // All that a picture is, for pickle.
 py::tuple state_of(const HeldPicture& held) {
   const Picture& picture = held.picture;
@@ -101,6 +118,7 @@ void bind_pictures(py::module_& module) {
       .def(py::pickle(&state_of, &unpickled))
       .def("values", &values)
       .def("write", &write, py::arg("path"), py::arg("quality"), py::arg("keep_pixels"))
+      .def("for_eyes", &for_eyes)
       .def_property_readonly("figures", [](const HeldPicture& held) { return held.figures; });
 }
 

@@ -137,6 +137,18 @@ py::dict figures_of(const ExposedPicture& exposed) {
   return told;
 }
 
+// Those of list_devices(), in its order.
+py::list devices() {
+  py::list told;
+  for (const DeviceInfo& info : without_lock([](const Stopping&) { return list_devices(); })) {
+    std::vector<std::string> precisions;
+    for (const Precision precision : precisions_of(info)) precisions.push_back(to_text(precision));
+    told.append(py::make_tuple(info.name, info.platform, info.driver_version, to_text(info.kind), info.compute_units,
+                               info.memory_bytes, py::tuple(py::cast(precisions))));
+  }
+  return told;
+}
+
 void bind_rendering(py::module_& module) {
   py::class_<AskedExposure>(module, "Exposure")
       .def(py::init([](std::optional<HeldFunctions> functions, std::optional<HeldMask> mask,
@@ -146,6 +158,7 @@ void bind_rendering(py::module_& module) {
              return AskedExposure{std::move(functions), std::move(mask), std::move(options)};
            }),
            py::arg("functions"), py::arg("mask"), py::arg("settings"), py::arg("delays_ns"));
+  module.def("devices", &devices);
   module.def("render", &render, py::arg("capture"), py::arg("exposure"), py::arg("output"), py::arg("region"),
              py::arg("precision"));
 }

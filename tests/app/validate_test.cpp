@@ -81,8 +81,11 @@ TEST_F(Validate, AnswersInJson) {
   const json sixteen = json_of({"--depth", "16", "clip.tik"});
   EXPECT_EQ(sixteen["white_code"], 65'535);
   for (const json& variant : sixteen["variants"])
+    EXPECT_EQ(variant["is_chosen"], variant["precision"] == "single") << variant;
+  const json floats = json_of({"--depth", "float", "clip.tik"});
+  for (const json& variant : floats["variants"])
     EXPECT_FALSE(variant["precision"] == "single" && variant["is_chosen"]);
-  EXPECT_FALSE(json_of({"--depth", "float", "clip.tik"}).contains("white_code"));
+  EXPECT_FALSE(floats.contains("white_code"));
 }
 
 // In the table of a mask and functions, and of a clip that is no capture yet.

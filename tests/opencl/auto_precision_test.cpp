@@ -80,8 +80,19 @@ TEST(AutoPrecision, DependsOnTheFormat) {
     return choose_precision(plan, output, test::first_precisions()).precision();
   };
   EXPECT_EQ(chosen({ValueType::code8, 255}), Precision::single_);
-  EXPECT_NE(chosen({ValueType::code16, 65'535}), Precision::single_);
+  EXPECT_EQ(chosen({ValueType::code16, 65'535}), Precision::single_);
   EXPECT_NE(chosen({ValueType::light32, 0}), Precision::single_);
+}
+
+// In the dark sums of light that is nowhere taken away err by little; else by what was added and taken away.
+TEST(AutoPrecision, TakesSingleFor16BitsWithoutNegativeGain) {
+  MemoryCapture capture = clip();
+  const auto chosen = [&](const std::vector<ControlPoint>& points) {
+    const RenderPlan plan = make_plan(capture, {{0, GainFunction(points)}}, Mask::uniform(24, 16, 0), {});
+    return choose_precision(plan, {ValueType::code16, 65'535}, test::first_precisions()).precision();
+  };
+  EXPECT_EQ(chosen({{0, 0.0}, {200'000'000, 1.0}, {300'000'000, 0.5}, {700'000'000, 0.1}}), Precision::single_);
+  EXPECT_NE(chosen({{0, 0.0}, {200'000'000, 1.0}, {300'000'000, -0.5}, {700'000'000, 0.1}}), Precision::single_);
 }
 
 TEST(AutoPrecision, SaysWhereNoArithmeticIsRightEnough) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include "capture/format.hpp"
 #include "render/reference_renderer.hpp"
@@ -10,6 +11,7 @@
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
 #include "support/seeds.hpp"
+#include "support/soft_mask.hpp"
 
 namespace nutik {
 namespace {
@@ -140,6 +142,119 @@ TEST_F(Precisions, BoundOfSingleIsUseful) {
   std::printf("measured / bound of single: median %.3g, %.3g … %.3g\n", median, shares.front(),
               shares.back());
   EXPECT_GE(median, 0.01);
+}
+
+// Functions without negative gain, exposed to codes of 16 bits: boxcars and lines, cut anywhere; up to 1000 samples, from
+// cameras of any transfer function to pictures of another; every fourth mask is soft.
+struct BrightCase {
+  std::optional<MemoryCapture> capture;
+  FunctionSet functions;
+  Mask mask = Mask::uniform(16, 16, 0);
+  OutputFormat output{ValueType::code16, 65'535};
+
+  explicit BrightCase(std::uint64_t seed) {
+    test::Random random(seed);
+    CaptureFormat format;
+    format.shape = {16, 16, 1};
+    format.transfer = random_transfer(random);
+    if (random.chance(0.3)) {
+      format.code_bytes = 2;
+      format.white_code = static_cast<std::uint32_t>(random.pick(std::vector<int>{1023, 4095, 50'000, 65'535}));
+    }
+    const auto samples = static_cast<std::uint64_t>(std::exp(random.real(0.0, std::log(1001.0))));
+    capture.emplace(format, test::random_timeline(random, samples), test::random_rasters(random, format, samples),
+                    static_cast<std::uint32_t>(random.whole(8, 64)));
+    functions.emplace(0, function(random));
+    if (random.chance(0.25)) {
+      functions.emplace(1, function(random));
+      test::soften(mask, functions, seed);
+    }
+    if (random.chance(0.7)) output.transfer = Transfer::srgb();
+  }
+
+ private:
+  static Transfer random_transfer(test::Random& random) {
+    if (random.chance(0.5)) return Transfer::srgb();
+    return random.pick(std::vector<Transfer>{Transfer::linear(), Transfer::bt709(), Transfer::gamma(2.2),
+                                             Transfer::gamma(0.6), Transfer::hlg(), Transfer::pq()});
+  }
+  [[nodiscard]] GainFunction function(test::Random& random) const {
+    const std::int64_t end_ns = capture->timeline().duration_ns();
+    const std::int64_t from_ns = random.whole(0, end_ns - 1);
+    const double gain = random.chance(0.5) ? 1.0 : std::exp(random.real(-3, 3));
+    if (random.chance(0.5)) return GainFunction::boxcar(from_ns, random.whole(from_ns + 1, end_ns), gain);
+    std::vector<ControlPoint> points{{random.whole(0, end_ns / 3), gain}};
+    while (points.size() < 4) {
+      const std::int64_t time_ns = points.back().time_ns + random.whole(0, end_ns / 3);
+      points.push_back({time_ns, random.chance(0.2) ? 0.0 : gain * random.real(0, 1)});
+      if (points[points.size() - 2].time_ns == time_ns) points.pop_back();
+      if (end_ns < 3) break;
+    }
+    return GainFunction(std::move(points));
+  }
+};
+
+// What the bound of all light makes of codes.
+double whole_steps(const RenderPlan& plan, const ErrorBound& whole, const OutputFormat& output) {
+  const Transfer transfer = output.transfer.value_or(plan.capture.transfer);
+  const double white = output.transfer ? plan.capture.transfer.reference_white() : 1.0;
+  return code_error(transfer, output.white_code, {whole.worst.light / white + 0x1p-24 + 0x1p-49, 0.0});
+}
+
+// How far light is from `expected` on the scale of codes, in what its pixel may be.
+double share_of_codes(const RenderPlan& plan, const ErrorBound& bound, const Picture& light, const Picture& expected) {
+  const Transfer transfer = bound.output.transfer.value_or(plan.capture.transfer);
+  const double white = bound.output.transfer ? plan.capture.transfer.reference_white() : 1.0;
+  const auto place = [&](double value) {
+    return bound.output.white_code * transfer.fraction_of(std::clamp(value / white, 0.0, 1.0));
+  };
+  const PixelErrors bounds(plan, bound);
+  double worst = 0.0;
+  for (std::uint64_t i = 0; i < light.shape.value_count(); ++i) {
+    const double error = std::fabs(place(light.values<double>()[i]) - place(expected.values<double>()[i]));
+    worst = std::max(worst, error == 0.0 ? 0.0 : error / bounds.of(i).steps);
+  }
+  return worst;
+}
+
+// NUTIK_TEST_CASES=10000 is the full run (docs/explanation/accuracy.md).
+TEST_F(Precisions, SingleErrsByTheLightItselfWithoutNegativeGain) {
+  const test::Seeds seeds = test::seeds(0, 120);
+  std::vector<double> of_codes, of_codes_before, of_light, by_light;
+  std::uint64_t chosen = 0, chosen_before = 0;
+  for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
+    BrightCase bright(seed);
+    const RenderPlan plan = make_plan(*bright.capture, bright.functions, bright.mask, {});
+    Renderer& single = check_.of(Precision::single_);
+    const Picture expected = ReferenceRenderer().render(plan, *bright.capture, test::kLight).picture;
+    const Picture light = single.render(plan, *bright.capture, test::kLight).picture;
+    const Picture codes = single.render(plan, *bright.capture, bright.output).picture;
+    const ErrorBound bound = error_bound(plan, Precision::single_, bright.output);
+    const ErrorBound whole = error_bound(plan, Precision::single_, test::kLight);
+    of_light.push_back(test::share_of_bound(plan, whole, light, expected).worst);
+    by_light.push_back(test::share_of_bound(plan, bound, test::kLight, light, expected).worst);
+    of_codes.push_back(share_of_codes(plan, bound, light, expected));
+    of_codes_before.push_back(of_codes.back() * bound.worst.steps / whole_steps(plan, whole, bright.output));
+    ASSERT_LE(of_light.back(), 1.0) << test::rerun(seed);
+    ASSERT_LE(by_light.back(), 1.0) << test::rerun(seed);
+    ASSERT_LE(of_codes.back(), 1.0) << test::rerun(seed);
+    ASSERT_LE(test::share_of_bound(plan, bound, bright.output, codes, expected).worst, 1.0) << test::rerun(seed);
+    ASSERT_LE(bound.worst.steps, whole_steps(plan, whole, bright.output)) << test::rerun(seed);
+    chosen += bound.worst.steps <= kMaxSteps;
+    chosen_before += whole_steps(plan, whole, bright.output) <= kMaxSteps;
+  }
+  const auto print = [](const char* what, std::vector<double> shares) {
+    std::ranges::sort(shares);
+    std::printf("%s: median %.3g, %.3g … %.3g\n", what, shares[shares.size() / 2], shares.front(), shares.back());
+    return shares[shares.size() / 2];
+  };
+  print("of the bound of all light", of_light);
+  EXPECT_GE(print("of the bound by the light itself", by_light), 2 * 0.056);
+  const double before = print("of the bound of all light, in codes", of_codes_before);
+  EXPECT_GE(print("of the bound in codes", of_codes), 5 * before);
+  EXPECT_GT(chosen, 2 * chosen_before);
+  std::printf("single is right enough in %llu cases, without the bound by light in %llu\n",
+              static_cast<unsigned long long>(chosen), static_cast<unsigned long long>(chosen_before));
 }
 
 // The same bytes whatever the size of work-groups, vectors and items, the order and length of blocks, the kind

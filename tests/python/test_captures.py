@@ -81,10 +81,10 @@ class Arrays(support.TestCase):
     def test_refused(self):
         pictures = np.zeros((4, 8, 8), np.uint8)
         encode, usage = nutik.encode, nutik.UsageError
-        self.assert_raises(usage, ["float64", "uint16"], encode, pictures.astype(float), rate=1)
+        self.assert_raises(usage, ["float64", "white=1.0"], encode, pictures.astype(float), rate=1)
         self.assert_raises(usage, "clip.png is no name for a capture, which ends in .tik", encode, pictures,
                            self.path("clip.png"), rate=1)
-        self.assert_raises(usage, "byte order", encode, pictures.astype(">u2"), rate=1)
+        self.assert_raises(usage, "white '255.0'", encode, pictures, rate=1, white=255.0)
         self.assert_raises(usage, "int64", encode, pictures.astype(int), rate=1)
         self.assert_raises(usage, "(8, 8)", encode, pictures[0], rate=1)
         self.assert_raises(usage, "(8, 8, 4)", encode, np.zeros((4, 8, 8, 4), np.uint8), rate=1)

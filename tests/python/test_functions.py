@@ -24,6 +24,26 @@ class Functions(support.TestCase):
         self.assertEqual(hash(function), hash(nutik.Function.from_ns(function.times_ns, function.gains)))
         self.assertEqual(nutik.boxcar("1/3s", "1/3s").times_ns.tolist(), [333333333, 333333333, 666666667, 666666667])
 
+    def test_sums_and_multiples(self):
+        rng = np.random.default_rng(8)
+        for _ in range(300):
+            drawn = []
+            for _ in range(2):
+                times = np.sort(rng.integers(0, 12, rng.integers(1, 7)))
+                times = times[np.concatenate([[True, True], times[2:] != times[:-2]])[:len(times)]]  # two at a jump
+                drawn.append(nutik.Function.from_ns(times * 1000, rng.integers(-4, 5, len(times))))
+            a, b = drawn
+            at = np.arange(-500, 12_500) / 1e9 + 0.25e-9
+            np.testing.assert_allclose((a + b)(at), a(at) + b(at), atol=1e-9)
+            np.testing.assert_allclose((2 * a - b / 4)(at), 2 * a(at) - b(at) / 4, atol=1e-9)
+            self.assertEqual(np.float64(3) * a, a.scaled(3))
+            self.assertEqual(-a, a.scaled(-1))
+        jump = nutik.boxcar(0, 1) + nutik.boxcar(1, 1)
+        self.assertEqual(jump, nutik.Function([0, 0, 2, 2], [0, 1, 1, 0]) + nutik.Function([1], [0]))
+        self.assertEqual(jump.times.tolist(), [0, 0, 1, 2, 2])
+        for wrong in (lambda: jump + 1, lambda: jump * jump, lambda: jump - 1, lambda: "2" * jump):
+            self.assertRaises(TypeError, wrong)
+
     def test_points_that_are_none(self):
         make, usage = nutik.Function, nutik.UsageError
         self.assert_raises(usage, ["control point 1", "not after"], make, [1, 0], [0, 0])

@@ -1,5 +1,6 @@
 """A picture from Python is the command line's, bit for bit: codes and light, in every arithmetic, through every mask."""
 
+import json
 import unittest
 
 import nutik
@@ -7,6 +8,17 @@ from nutik import _words
 import numpy as np
 
 import support
+
+
+class Devices(support.TestCase):
+    def test_are_those_of_the_command_line(self):
+        told = json.loads(self.run_program("devices", "--json"))["devices"]
+        ours = nutik.devices()
+        self.assertEqual([(each.index, each.name, each.kind, each.memory_bytes) for each in ours],
+                         [(each["number"], each["name"], each["kind"], each["memory_bytes"]) for each in told])
+        capture = nutik.encode(np.zeros((2, 8, 8), np.uint8), rate=1, device=ours[0].index)
+        for precision in ours[0].precisions:
+            self.assertEqual(capture.render(exposure=1, precision=precision).precision, precision)
 
 
 class Pictures(support.TestCase):

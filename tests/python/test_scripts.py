@@ -1,5 +1,6 @@
 """What scripts of a laboratory do: other kinds of arrays and numbers, copies, errors that they catch."""
 
+import io
 import copy
 import datetime
 import os
@@ -77,9 +78,112 @@ class Arrays(support.TestCase):
         wanted = nutik.encode(pictures, rate=960).render(exposure="3f").array
         self.assert_same(nutik.encode(memoryview(pictures), rate=960).render(exposure="3f").array, wanted)
 
-    def test_a_capture_is_none(self):
-        capture = nutik.encode(support.moving_box(), rate=960)
-        self.assert_raises(TypeError, ["no array", "render()"], np.asarray, capture)
+    def test_a_capture_is_a_sequence_of_its_codes(self):
+        still = np.random.default_rng(5).integers(0, 256, (200, 19, 30, 3), np.uint8)
+        still[40:130, 3:12] = 7  # tiles of every kind, over several blocks
+        for pictures in (still, still[..., 0].astype(np.uint16) * 257, support.moving_box()):
+            capture = nutik.encode(pictures, rate=100, block_samples=64)
+            self.assert_same(np.asarray(capture), pictures)
+            for key in (0, -1, 69, np.int64(3), slice(10, 140, 7), slice(None, None, -1), slice(5, 5), ...,
+                        (slice(60, 70), slice(2, 9), -1), (..., 1), (3, 4)):
+                self.assert_same(capture[key], pictures[key])
+            for held, picture in zip(capture, pictures, strict=True):
+                self.assert_same(held, picture)
+            self.assertEqual(capture.times.tolist(), (np.arange(len(pictures)) / 100).tolist())
+            for key in (len(pictures), -len(pictures) - 1):
+                self.assertRaises(IndexError, capture.__getitem__, key)
+            self.assertRaises(TypeError, capture.__getitem__, 1.5)
+            self.assertRaises(ValueError, capture.__array__, copy=False)
+
+    def test_too_much_at_once(self):
+        capture = nutik.encode((np.zeros((1080, 1920, 3), np.uint8) for _ in range(700)), rate=100)
+        self.assert_raises(nutik.MemoryTooLittle, ["700 samples", "4.4 GB", "render()"], np.asarray, capture)
+        self.assertEqual(capture[699, 5, 5].tolist(), [0, 0, 0])
+
+    def test_records_are_what_pixels_hold(self):
+        rng = np.random.default_rng(6)
+        for shape in ((150, 17, 21), (150, 17, 21, 3)):
+            pictures = np.repeat(rng.integers(0, 256, (30, *shape[1:]), np.uint8), 5, axis=0)
+            pictures[:, 8:] = pictures[0, 8:]
+            capture = nutik.encode(pictures, times=np.cumsum(rng.integers(1, 9, 150)) / 1000, exposures=1e-4, block_samples=64)
+            begins = capture.times_ns[:, 0]
+            first, last = 33, 149
+            records = capture.records((2, 3, 9, 11), first=first, last=last)
+            again = np.zeros_like(pictures)
+            for x, y, start, end, code in records.tolist():
+                held = (begins >= start) & (begins < end)
+                self.assertFalse(again[held, y, x].any())
+                again[held, y, x] = code
+            self.assert_same(again[first:last, 3:14, 2:11], pictures[first:last, 3:14, 2:11])
+            of_one = records[(records["x"] == 2) & (records["y"] == 13)]  # where nothing changes
+            self.assertEqual(len(of_one), 1)
+            self.assertEqual(of_one["end_ns"], begins[last])
+            self.assertEqual(capture.records()["end_ns"].max(), capture.times_ns[-1, 1])
+            for wrong in (dict(region=(0, 0, 22, 1)), dict(first=150), dict(last=151), dict(first=9, last=9)):
+                self.assertRaises(nutik.UsageError, capture.records, **wrong)
+
+    def test_light_in_floats_is_encoded_where_white_is_stated(self):
+        light = np.random.default_rng(7).random((9, 8, 12, 3)) * 0.5
+        light[0, 0, 0] = [0, 0.5, 0.25]
+        for pictures, white in ((light, 0.5), (light.astype(np.float32) * 800, 400), (light.astype(np.float16), 1)):
+            for source in (pictures, iter(pictures)):
+                capture = nutik.encode(source, rate=10, white=white)
+                self.assertLessEqual(np.abs(np.asarray(capture) / 65535 - pictures.astype(float) / white).max(),
+                                     0.5 / 65535 + 1e-12)
+                self.assertIn("transfer linear, assumed", capture.facts)
+        for wrong in (light - 0.1, light * 3, np.where(light > 0.4, np.nan, light)):
+            self.assert_raises(nutik.InputError, ["0 and white=1", "larger white"], nutik.encode, wrong, rate=1, white=1)
+        self.assert_raises(nutik.UsageError, "white=1.0", nutik.encode, light, rate=1)
+
+    def test_other_orders_of_bytes_and_dlpack(self):
+        pictures = support.moving_box().astype(np.uint16) * 200
+
+        class Tensor:
+            def __dlpack__(self, **how):
+                return pictures.__dlpack__(**how)
+
+            def __dlpack_device__(self):
+                return pictures.__dlpack_device__()
+
+        for source in (pictures.astype(">u2"), iter(pictures.astype(">u2")), Tensor()):
+            self.assert_same(np.asarray(nutik.encode(source, rate=960)), pictures)
+
+    def test_open_files_are_read_and_written(self):
+        pictures = support.moving_box()
+        nutik.encode(pictures, self.path("a.tik"), rate=960)
+        with open(self.path("a.tik"), "rb") as file:
+            bytes_of_capture = file.read()
+        self.assert_same(np.asarray(nutik.open(io.BytesIO(bytes_of_capture))), pictures)
+        self.assert_same(np.asarray(nutik.encode(io.BytesIO(b"P5 3 2 255\n" + bytes(6)), rate=1)), np.zeros((1, 2, 3), np.uint8))
+        picture = nutik.open(self.path("a.tik")).render(exposure="3f", dtype=float)
+        file = io.BytesIO()
+        picture.write(file, kind=".npy")
+        file.seek(0)
+        self.assert_same(np.load(file), picture.array)
+        picture.write(self.path("p.npy"))
+        self.assert_same(np.load(self.path("p.npy")), picture.array)
+        self.assert_raises(nutik.OutputError, "p.npy cannot be written", picture.write, self.path("absent/p.npy"))
+        self.assert_raises(nutik.UsageError, "kind='.png'", picture.write, file)
+
+    def test_what_notebooks_show(self):
+        capture = nutik.encode(support.moving_box(), rate=960, name="<b>")
+        codes = capture.render(exposure="3f", codes=True)
+        codes.write(self.path("codes.png"))
+        with open(self.path("codes.png"), "rb") as file:
+            self.assertEqual(codes._repr_png_(), file.read())
+        for light in (capture.render(exposure="3f"), capture.render(exposure="3f", dtype=float)):
+            self.assertEqual(light._repr_png_(), codes._repr_png_())
+        self.assertIn("<b>&lt;b&gt;</b>", capture._repr_html_())
+        try:
+            from matplotlib import pyplot
+        except ImportError:
+            self.skipTest("matplotlib is not installed")
+        pyplot.switch_backend("agg")
+        trace, = capture.trace(3, 4, functions=nutik.boxcar(0, 0.01))
+        for drawn, label in ((nutik.boxcar(0, 1), "gain"), (trace, "light"), (capture.activity(), "share of pixels")):
+            axes = drawn.plot(pyplot.figure().gca())
+            self.assertIn(label, axes.get_ylabel())
+            self.assertGreater(len(axes.lines), 0)
 
     def test_light_beyond_floats_is_told(self):
         capture = nutik.encode(support.moving_box(), self.path("a.tik"), rate=960)

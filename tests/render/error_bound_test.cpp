@@ -40,14 +40,52 @@ TEST(ErrorBound, ShrinksWithBetterArithmetic) {
 
 // 12.92 and 4.5 codes of error for each of light at the dark end; all of it where light may be anything.
 TEST(ErrorBound, CodesErrMostInTheDark) {
-  EXPECT_NEAR(code_error(Transfer::srgb(), 255, 1e-6), 255 * 12.92e-6, 1e-12);
-  EXPECT_NEAR(code_error(Transfer::bt709(), 65'535, 1e-6), 65'535 * 4.5e-6, 1e-9);
-  EXPECT_NEAR(code_error(Transfer::linear(), 4095, 1e-3), 4.095, 1e-9);
-  EXPECT_NEAR(code_error(Transfer::gamma(2.0), 255, 1e-4), 2.55, 1e-9);
-  EXPECT_NEAR(code_error(Transfer::gamma(0.5), 255, 1e-4), 255 * (1 - 0.9999 * 0.9999), 1e-9);
-  EXPECT_EQ(code_error(Transfer::srgb(), 255, 2.0), 255);
-  EXPECT_EQ(code_error(Transfer::srgb(), 255, NAN), 255);
-  EXPECT_NEAR(code_error(Transfer::srgb(), 255, 0.0), 0.0, 1e-12);
+  EXPECT_NEAR(code_error(Transfer::srgb(), 255, {1e-6, 0.0}), 255 * 12.92e-6, 1e-12);
+  EXPECT_NEAR(code_error(Transfer::bt709(), 65'535, {1e-6, 0.0}), 65'535 * 4.5e-6, 1e-9);
+  EXPECT_NEAR(code_error(Transfer::linear(), 4095, {1e-3, 0.0}), 4.095, 1e-9);
+  EXPECT_NEAR(code_error(Transfer::gamma(2.0), 255, {1e-4, 0.0}), 2.55, 1e-9);
+  EXPECT_NEAR(code_error(Transfer::gamma(0.5), 255, {1e-4, 0.0}), 255 * (1 - 0.9999 * 0.9999), 1e-9);
+  EXPECT_EQ(code_error(Transfer::srgb(), 255, {2.0, 0.0}), 255);
+  EXPECT_EQ(code_error(Transfer::srgb(), 255, {NAN, 0.0}), 255);
+  EXPECT_NEAR(code_error(Transfer::srgb(), 255, {0.0, 0.0}), 0.0, 1e-12);
+}
+
+const std::vector<Transfer> kEveryTransfer{Transfer::srgb(), Transfer::bt709(), Transfer::linear(), Transfer::gamma(2.2),
+                                       Transfer::gamma(0.6), Transfer::hlg(), Transfer::pq()};
+
+// The largest L · f′(L): by these much codes err where light errs by a share of itself.
+TEST(ErrorBound, CodesOfErrorsInProportionToLightCostNoMoreInTheDark) {
+  constexpr double kShare = 1e-6;
+  const std::vector<double> slopes{0.43958, 0.49468, 1.0, 1 / 2.2, 1 / 0.6, 0.25, 0.10912};
+  for (std::size_t i = 0; i < kEveryTransfer.size(); ++i) {
+    const double error = code_error(kEveryTransfer[i], 65'535, {1e-60, kShare}) / (65'535 * kShare);
+    EXPECT_GE(error, slopes[i] * (1 - 1e-4)) << kEveryTransfer[i].text();
+    EXPECT_LE(error, slopes[i] * 1.012) << kEveryTransfer[i].text();
+  }
+}
+
+// Against many lights, each off to both sides by all that it may be.
+TEST(ErrorBound, CodesErrByNoMoreThanIsFoundForAnyLight) {
+  test::Random random(3);
+  for (const Transfer& transfer : kEveryTransfer) {
+    for (int i = 0; i < 200; ++i) {
+      const LightLine line{std::exp(random.real(-30, -3)), std::exp(random.real(-16, -3))};
+      double largest = 0.0;
+      for (int k = 0; k <= 2000; ++k) {
+        const double light = k < 1000 ? std::exp2(-k / 20.0) : (k - 1000) / 1000.0;
+        const double error = line.constant + line.slope * light;
+        for (const double other : {light + error, light - error}) {
+          largest = std::max(largest, std::fabs(transfer.fraction_of(std::clamp(other, 0.0, 1.0)) -
+                                                transfer.fraction_of(light)));
+        }
+      }
+      const double bound = code_error(transfer, 1, line);
+      ASSERT_GE(bound, largest * (1 - 1e-9)) << transfer.text() << ": " << line.constant << ", " << line.slope;
+      ASSERT_LE(bound, std::min(1.0, largest * 1.25)) << transfer.text() << ": " << line.constant << ", " << line.slope;
+    }
+  }
+  EXPECT_EQ(code_error(Transfer::srgb(), 255, {1e-9, 1.0}), 255);
+  EXPECT_EQ(code_error(Transfer::srgb(), 255, {1e-9, NAN}), 255);
 }
 
 // Whatever the sizes of gains: no sum of light and weights leaves 62 bits, and none stays far below.

@@ -46,5 +46,41 @@ TEST(FunctionCourse, AddsUpWhatTablesMissOfBoundaries) {
   EXPECT_EQ(meter.course().boundary_errors(Precision::double_), 0.0);
 }
 
+// Two samples whose boundaries are floats. The first one's light is in two sums, and both are rounded.
+TEST(FunctionCourse, HasLinesOfWhatSumsLoseOfTheLightItself) {
+  constexpr std::array<double, 2> weights{0.5, 0.25};
+  constexpr std::array<double, 3> boundaries{0.0, 0.5, 0.75};
+  CourseMeter meter;
+  meter.add({.span = {}, .weights = weights, .boundaries = boundaries, .before = {}}, {});
+  const std::vector<LightLine> lines = meter.course().single_lines;
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0].constant, 0.0);
+  EXPECT_EQ(lines[0].slope, 0x1p-24);
+}
+
+// A sample of next to no weight behind others: its boundaries err by much more than its light is.
+TEST(FunctionCourse, HasLinesThatCountFewSamplesAsAConstant) {
+  constexpr double kSmall = 0x1p-30;
+  constexpr std::array<double, 3> weights{0.5, 0.25, kSmall};
+  constexpr std::array<double, 4> boundaries{0.0, 0.5, 0.75, 0.75 + kSmall};
+  CourseMeter meter;
+  meter.add({.span = {}, .weights = weights, .boundaries = boundaries, .before = {}}, {});
+  const std::vector<LightLine> lines = meter.course().single_lines;
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[0].slope, 0.0);
+  EXPECT_NEAR(lines[0].constant, 0x1p-23 * 0.75 + kSmall, kSmall * 1e-6);
+  EXPECT_EQ(lines[1].slope, 0x1p-23);
+  EXPECT_NEAR(lines[1].constant, kSmall, kSmall * 1e-6) << "all of the boundary that no float holds";
+  EXPECT_EQ(lines[2].constant, 0.0);
+}
+
+TEST(FunctionCourse, HasNoLinesWhereLightIsTakenAway) {
+  constexpr std::array<double, 2> weights{0.5, -0.25};
+  constexpr std::array<double, 3> boundaries{0.0, 0.5, 0.25};
+  CourseMeter meter;
+  meter.add({.span = {}, .weights = weights, .boundaries = boundaries, .before = {}}, {});
+  EXPECT_TRUE(meter.course().single_lines.empty());
+}
+
 }  // namespace
 }  // namespace nutik

@@ -44,7 +44,7 @@ double share_of(const Transfer& transfer, const PictureError& error, const Outpu
   const double distance = std::fabs(value - light);
   const double rounding =
       output.type == ValueType::light32 ? std::max(std::fabs(value) * 0x1p-24, 0x1p-150) : 0.0;
-  return distance <= rounding ? 0.0 : (distance - rounding) / error.light;
+  return distance <= rounding ? 0.0 : (distance - rounding) / error.of_light(light);
 }
 
 // Light as the codes of `output` are made of it: white is 1, in BT.709's primaries if it is to be seen.

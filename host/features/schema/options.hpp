@@ -1,6 +1,7 @@
 // What was asked for: every option of the schema (option.hpp) as the value that it stands for.
 //
-//   always:  a field has its usual value until its option is stated; `said` tells which were, and in which words
+//   always:  until its option is stated, a field is empty or has the option's usual value; `said` tells which options
+//            were stated, and in which words
 #pragma once
 
 #include <algorithm>

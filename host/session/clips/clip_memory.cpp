@@ -17,9 +17,9 @@ constexpr std::uint64_t kMaxReadAhead = 64 << 20;
 // Of a thread that packs: a group of tiles (tik/codec.cpp) plain, in parts, and packed, and the codec's own.
 constexpr std::uint64_t kPackingBytes = 8 << 20;
 
-// What blocks come to in units of where they close: the one being built and the one being packed may each reach twice
-// that (imev/tile_log.hpp), and what it is packed into is no larger than its content. With a camera's noise there are
-// the samples as they came, and three times what is held of them.
+// The memory of blocks while a clip is encoded, in units of the size at which a block closes. The block being built and
+// the one being packed may each reach twice that size (imev/tile_log.hpp); the packed one is no larger than its content.
+// With a camera's noise there are also the samples as they came, and three times what is held of them.
 std::uint64_t block_units(const CaptureFormat& capture) {
   if (!capture.noise.camera) return 5;
   return 1 + 3 * held_format(capture).sample_bytes() / capture.sample_bytes();

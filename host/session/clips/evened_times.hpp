@@ -15,9 +15,9 @@ namespace nutik {
 // steps, for these are even. Times are in order.
 [[nodiscard]] std::optional<Note> evened_note(const std::vector<std::int64_t>& starts_ns);
 
-// Where steps are longer than the usual one by half of it and more, as where pictures were dropped: how many, and that
-// a picture before one counts as exposed for its share of all of it. Of a timeline that was made from starts and an
-// angle; nothing of one with a rate.
+// How many steps are longer than one and a half usual ones, as where pictures were dropped, and that the picture before
+// such a step counts as exposed for the shutter's share of the whole step. For a timeline that was made from starts and
+// an angle; one with a rate has no note.
 [[nodiscard]] std::optional<Note> gap_note(const Timeline& timeline);
 
 }  // namespace nutik

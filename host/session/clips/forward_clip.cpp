@@ -30,7 +30,7 @@ ExposedPicture expose_once(ClipSource& source, std::uint64_t sample_count, const
   const SampleRange needed = needed_samples(timeline, functions, mask, options);
   const std::uint64_t last =
       streamed_samples(source.capture, needed, shares.stream_samples, timeline.sample_count()).last;
-  // At the timeline's end samples that follow are counted: they prove it wrong.
+  // Where the exposure reaches the timeline's end, the clip is read on: further samples would prove the timeline wrong.
   const bool is_end = last == timeline.sample_count();
   ReadAhead samples(*source.clip, shares.read_ahead_bytes, is_end ? ReadAhead::kAll : last);
   StreamingCapture stream(source.capture, timeline, needed, shares.stream_samples, source.request.tiles,
