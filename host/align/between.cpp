@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint64_t kPairsAtOnce = 2;
 // How much moves is looked for at no more pixels than this, each the mean of a square.
-constexpr double kPlannedPixels = 600'000;
+constexpr double kPlannedPixels = 250'000;
 
 std::uint32_t planned_side(const Shape& shape) {
   return std::max(1U, static_cast<std::uint32_t>(std::ceil(std::sqrt(
@@ -39,7 +39,8 @@ class FilledClip final : public Clip {
         clip_(clip.open()),
         info_(clip_->info()),
         format_bytes_(clip.format.sample_bytes()) {
-    info_.decoder_bytes += pictures_.size() * format_bytes_ + InBetween::bytes(clip.format);
+    const std::uint64_t grey_bytes = clip.format.shape.pixel_count();
+    info_.decoder_bytes += pictures_.size() * (format_bytes_ + grey_bytes) + InBetween::bytes(clip.format);
     info_.sample_count = made_->total();
   }
 
@@ -67,7 +68,7 @@ class FilledClip final : public Clip {
         read_picture(pictures_.size() - 1, picture_ + 2);
       }
       is_pair_taken_ = false;
-      if (!raster.empty()) std::ranges::copy(pictures_[1], raster.begin());
+      if (!raster.empty()) std::ranges::copy(pictures_[1].raster, raster.begin());
     } else if (!raster.empty()) {
       make(after[picture_] + 1U, raster);
     }
@@ -80,17 +81,19 @@ class FilledClip final : public Clip {
 
   // Leaves nothing behind the last.
   void read_picture(std::size_t place, std::uint64_t number) {
+    auto& [picture, grey] = pictures_[place];
+    grey.clear();
     const bool is_there = number < made_->after.size();
-    if (!is_there && is_read_) return pictures_[place].clear();
-    pictures_[place].resize(format_bytes_);
-    if (clip_->read(pictures_[place]) != is_there) refuse_other_clip();
-    if (!is_there) pictures_[place].clear();
+    if (!is_there && is_read_) return picture.clear();
+    picture.resize(format_bytes_);
+    if (clip_->read(picture) != is_there) refuse_other_clip();
+    if (!is_there) picture.clear();
     is_read_ = !is_there;
   }
 
   void make(std::uint32_t steps, std::span<std::byte> raster) {
     try {
-      if (!is_pair_taken_) between_.take({pictures_[1], pictures_[2], pictures_[0], pictures_[3]});
+      if (!is_pair_taken_) between_.take(pictures_[1], pictures_[2], pictures_[0], pictures_[3]);
     } catch (const CodeAboveWhite& error) {
       refuse_above_white(name_, picture_, error);
     }
@@ -110,7 +113,7 @@ class FilledClip final : public Clip {
   ClipInfo info_;
   std::uint64_t format_bytes_;
   // Filmed: one before the picture that was handed out last, that, and two behind it; empty: there is none.
-  std::array<std::vector<std::byte>, 4> pictures_;
+  std::array<InBetween::Picture, 4> pictures_;
   bool is_read_ = false;  // all of the clip
   bool is_pair_taken_ = false;
   std::uint64_t picture_ = 0;  // filmed, that the next sample is or follows

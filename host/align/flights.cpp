@@ -61,19 +61,19 @@ class FlightSearch {
                                const std::uint8_t* fourth) {
     const std::size_t count = stands_out_.size();
     std::ranges::fill(stands_out_, std::uint8_t{0});
+    const auto apart = [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(std::max(a, b) - std::min(a, b)); };
     for (const std::uint8_t* more : {third, fourth}) {
       if (!more) continue;
       for (std::size_t i = 0; i < count; ++i) {
-        const int here = std::abs(shown[i] - other[i]), there = std::abs(shown[i] - more[i]);
-        const int clear = std::min(here, there) - 2 * std::abs(other[i] - more[i]);
-        stands_out_[i] = std::max(stands_out_[i], static_cast<std::uint8_t>(std::max(clear, 0)));
+        const std::uint8_t here = std::min(apart(shown[i], other[i]), apart(shown[i], more[i]));
+        const std::uint8_t others = std::min(apart(other[i], more[i]), std::uint8_t{127});
+        const auto clear = static_cast<std::uint8_t>(std::max(here, static_cast<std::uint8_t>(2 * others)) - 2 * others);
+        stands_out_[i] = std::max(stands_out_[i], clear);
       }
     }
-    std::uint64_t standing_out = 0;
-    for (std::uint8_t& value : stands_out_) {
-      value = value >= kStandsOut ? value : std::uint8_t{0};
-      standing_out += value > 0 ? 1 : 0;
-    }
+    for (std::uint8_t& value : stands_out_) value = value >= kStandsOut ? value : std::uint8_t{0};
+    const auto standing_out = static_cast<std::uint64_t>(
+        std::ranges::count_if(stands_out_, [](std::uint8_t value) { return value > 0; }));
     std::vector<Thing> things;
     if (standing_out * kMostOfPicture > count) return things;  // a picture that moves as a whole
     for (std::size_t i = 0; i < count; ++i) {

@@ -13,7 +13,7 @@ struct FlowVector {
   float x = 0, y = 0;  // pixels, right and down
 };
 
-inline float length(const FlowVector& flow) { return std::hypot(flow.x, flow.y); }
+inline float length(const FlowVector& flow) { return std::sqrt(flow.x * flow.x + flow.y * flow.y); }
 
 // How far motion is believed that leaves this share of what changed: not where it explains less than 0.3 of it, wholly
 // from 0.7 on.

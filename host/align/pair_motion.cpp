@@ -25,6 +25,12 @@ constexpr std::uint8_t kMixedSteps = 4;
 constexpr std::size_t kStrays = 3;  // blocks that may be faster than all others
 constexpr float kSmall = 1e-6F;
 
+// About exp(-pixels), for a tenth of the time.
+float agreement_of(float pixels) {
+  const float apart = 1 + pixels / 8, square = apart * apart, fourth = square * square;
+  return 1 / (fourth * fourth);
+}
+
 // The blocks round one, with 1-2-1 along both sides.
 template <typename Value>
 float smoothed(const Value& value_at, std::int64_t column, std::int64_t row, std::int64_t columns, std::int64_t rows) {
@@ -258,7 +264,7 @@ void PairMotion::weigh(const std::uint8_t* from, const std::uint8_t* to, Directi
             missed[x / kBlock] += difference * difference;
             const FlowVector& returned = back.flow[std::size_t{top + (v >= 0.5F && top + 1 < box_.height ? 1 : 0)} *
                                                        box_.width + left + (u >= 0.5F ? next : 0)];
-            const float agreement = std::exp(-length({flow.x + returned.x, flow.y + returned.y}));
+            const float agreement = agreement_of(length({flow.x + returned.x, flow.y + returned.y}));
             way.weights[row + x].agrees = agreement;
             agrees[x / kBlock] += agreement;
           }
@@ -342,41 +348,49 @@ void PairMotion::mark(const Direction& way) {
 
 EvenGrey::EvenGrey(const CaptureFormat& format, std::uint32_t side)
     : format_(format), side_(side), width_(format.shape.width / side), height_(format.shape.height / side) {
-  for (const double light : format.transfer.light_of_codes(format.white_code))
-    looks_.push_back(static_cast<float>(255 * Transfer::srgb().fraction_of(light)));
+  const auto lights = format.transfer.light_of_codes(format.white_code);
+  for (std::uint32_t channel = 0; channel < format.shape.channels; ++channel) {
+    const double share = format.shape.channels == 1 ? 1 : kLuma[channel];
+    for (const double light : lights)
+      looks_[channel].push_back(static_cast<float>(255 * share * Transfer::srgb().fraction_of(light)));
+  }
 }
 
 void EvenGrey::take(std::span<const std::byte> raster, std::vector<std::uint8_t>& grey,
                     std::uint32_t max_threads) const {
   grey.resize(std::size_t{width_} * height_);
-  const std::uint32_t channels = format_.shape.channels;
-  const auto look = [&]<typename Code>(const Code* codes) {
+  const auto look = [&]<typename Code, std::uint32_t kChannels>(const Code* codes) {
     parallel_for(
         height_,
         [&](std::uint64_t y) {
           const auto look_of = [&](const Code* pixel) {
-            const auto one = [&](std::uint32_t channel) {
-              if (pixel[channel] >= looks_.size()) throw CodeAboveWhite(pixel[channel]);
-              return looks_[pixel[channel]];
-            };
-            if (channels == 1) return one(0);
-            return static_cast<float>(kLuma[0]) * one(0) + static_cast<float>(kLuma[1]) * one(1) +
-                   static_cast<float>(kLuma[2]) * one(2);
+            float sum = 0;
+            for (std::uint32_t channel = 0; channel < kChannels; ++channel) {
+              if (pixel[channel] >= looks_[channel].size()) throw CodeAboveWhite(pixel[channel]);
+              sum += looks_[channel][pixel[channel]];
+            }
+            return sum;
           };
           const float share = 1.0F / static_cast<float>(side_ * side_);
           for (std::uint32_t x = 0; x < width_; ++x) {
             float sum = 0;
             for (std::uint32_t j = 0; j < side_; ++j) {
-              const Code* pixel = codes + ((y * side_ + j) * format_.shape.width + std::size_t{x} * side_) * channels;
-              for (std::uint32_t i = 0; i < side_; ++i, pixel += channels) sum += look_of(pixel);
+              const Code* pixel = codes + ((y * side_ + j) * format_.shape.width + std::size_t{x} * side_) * kChannels;
+              for (std::uint32_t i = 0; i < side_; ++i, pixel += kChannels) sum += look_of(pixel);
             }
             grey[y * width_ + x] = static_cast<std::uint8_t>(sum * share + 0.5F);
           }
         },
         max_threads);
   };
-  format_.code_bytes == 1 ? look(reinterpret_cast<const std::uint8_t*>(raster.data()))
-                          : look(reinterpret_cast<const std::uint16_t*>(raster.data()));
+  const bool is_grey = format_.shape.channels == 1;
+  if (format_.code_bytes == 1) {
+    const auto* const codes = reinterpret_cast<const std::uint8_t*>(raster.data());
+    is_grey ? look.template operator()<std::uint8_t, 1>(codes) : look.template operator()<std::uint8_t, 3>(codes);
+  } else {
+    const auto* const codes = reinterpret_cast<const std::uint16_t*>(raster.data());
+    is_grey ? look.template operator()<std::uint16_t, 1>(codes) : look.template operator()<std::uint16_t, 3>(codes);
+  }
 }
 
 InBetween::InBetween(const CaptureFormat& format)
@@ -390,18 +404,18 @@ InBetween::InBetween(const CaptureFormat& format)
 
 std::uint64_t InBetween::bytes(const CaptureFormat& format) {
   return PairMotion::bytes(format.shape.width, format.shape.height) +
-         (2 * sizeof(Light) + 4) * format.shape.pixel_count();
+         2 * sizeof(Light) * format.shape.pixel_count();
 }
 
-void InBetween::take(const Rasters& rasters) {
-  first_ = rasters.first;
-  second_ = rasters.second;
-  const std::array all{rasters.before, rasters.first, rasters.second, rasters.after};
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!all[i].empty()) grey_.take(all[i], greys_[i], ~0U);
-  }
-  const auto grey = [&](std::size_t i) { return all[i].empty() ? nullptr : greys_[i].data(); };
-  motion_.find({grey(1), grey(2), grey(0), grey(3)}, ~0U);
+void InBetween::take(Picture& first, Picture& second, Picture& before, Picture& after) {
+  first_ = first.raster;
+  second_ = second.raster;
+  const auto grey = [&](Picture& picture) -> const std::uint8_t* {
+    if (picture.raster.empty()) return nullptr;
+    if (picture.grey.empty()) grey_.take(picture.raster, picture.grey, ~0U);
+    return picture.grey.data();
+  };
+  motion_.find({grey(first), grey(second), grey(before), grey(after)}, ~0U);
   made_.assign(first_.begin(), first_.end());
   shares_.assign(motion_.ways_.size(), 0);
   const auto read = [&]<typename Code>(const Code*) {

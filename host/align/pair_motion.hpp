@@ -101,7 +101,7 @@ class EvenGrey {
  private:
   CaptureFormat format_;
   std::uint32_t side_, width_, height_;
-  std::vector<float> looks_;  // of each code
+  std::array<std::vector<float>, 3> looks_;  // of each channel's codes, as much as it counts
 };
 
 // Pictures between two.
@@ -109,12 +109,12 @@ class InBetween {
  public:
   explicit InBetween(const CaptureFormat& format);
 
-  struct Rasters {
-    std::span<const std::byte> first, second;
-    std::span<const std::byte> before = {}, after = {};  // empty: there is none
+  struct Picture {
+    std::vector<std::byte> raster;   // empty: there is none
+    std::vector<std::uint8_t> grey;  // empty until it is needed
   };
-  // The first two stay until the next call.
-  void take(const Rasters& rasters);
+  // What was filmed before and behind two pictures, which stay until the next call.
+  void take(Picture& first, Picture& second, Picture& before, Picture& after);
   // Behind `step` of so many steps from the first to the second. On all cores.
   void make(std::uint32_t step, std::uint32_t steps, std::span<std::byte> raster);
 
@@ -144,7 +144,6 @@ class InBetween {
   LightTables tables_;
   std::vector<float> light_;  // of each code
   PairMotion motion_;
-  std::array<std::vector<std::uint8_t>, 4> greys_;  // before, first, second, after
   std::span<const std::byte> first_, second_;
   std::vector<Light> first_light_, second_light_;  // within the motion's box, without what flies
   std::vector<std::pair<Taken, Taken>> taken_;     // of each flight, out of both
