@@ -66,6 +66,7 @@ struct Options {
   std::optional<ShutterShape> shutter;
   std::optional<double> shutter_error, gain, ev;
   Normalization normalization;
+  Combining combining;
   std::optional<std::uint32_t> mask_way;  // of kWholeWay
   std::optional<MaskBlend> mask_blend;
 
@@ -78,6 +79,7 @@ struct Options {
   std::optional<FrameRanges> frames;
   FramesRequest film;  // its rates and times
   Text curve, video_codec;
+  FilmSoundWish sound = FilmSoundWish::as_it_is;
 
   // How it is computed, and how right that is.
   std::optional<RendererKind> renderer;
