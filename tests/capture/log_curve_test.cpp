@@ -37,7 +37,7 @@ constexpr Printed kPrinted[] = {
 TEST(LogCurve, HasTheCodesOfItsMakersTable) {
   for (const auto& [name, light, code] : kPrinted) {
     EXPECT_EQ(std::lround(1023 * curve(name).signal_of(light)), code) << name << " " << light;
-    // Within half a code, as issue and paper round.
+    // Within half a code, to which papers round.
     EXPECT_LE(curve(name).light_of((code - 0.5) / 1023), light + 1e-9) << name;
     EXPECT_GE(curve(name).light_of((code + 0.5) / 1023), light - 1e-9) << name;
   }
