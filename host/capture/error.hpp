@@ -32,6 +32,8 @@ enum class Setting {
   precision,
   primaries,
   quality,
+  crf,
+  sound,
   keep_pixels,
   range,
   raw_layout,

@@ -7,11 +7,11 @@
 
 namespace nutik {
 
-// BT.709, which are sRGB's too; BT.2020, which are BT.2100's; P3 with the white of screens (SMPTE EG 432-1). All
-// have the white D65.
-enum class Primaries { bt709, bt2020, p3 };
+// BT.709, which are sRGB's too; BT.2020, which are BT.2100's; P3 with the white of screens (SMPTE EG 432-1); those of
+// cameras' curves, from the papers that log_curve.cpp names; ACES' AP1. All but AP1 have the white D65.
+enum class Primaries { bt709, bt2020, p3, sgamut3, sgamut3_cine, vgamut, cinema_gamut, arri_wg3, arri_wg4, dgamut, ap1 };
 
-// `bt709`, `bt2020`, `p3`.
+// `bt709`, `bt2020`, `p3`, `sgamut3-cine` ….
 [[nodiscard]] std::string_view to_text(Primaries primaries);
 // Throws UsageError listing them.
 [[nodiscard]] Primaries parse_primaries(std::string_view text);
@@ -19,7 +19,8 @@ enum class Primaries { bt709, bt2020, p3 };
 // x and y of red, green, blue and white (CIE 1931).
 [[nodiscard]] const std::array<std::array<double, 2>, 4>& chromaticities(Primaries primaries);
 
-// Light in some primaries to the same light in others: a row for each of red, green and blue.
+// Light in some primaries to the same light in others, AP1's with its white adapted by Bradford's matrix: a row for each
+// of red, green and blue.
 using ColourMatrix = std::array<std::array<double, 3>, 3>;
 [[nodiscard]] const ColourMatrix& to_bt709(Primaries primaries);
 

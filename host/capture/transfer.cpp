@@ -40,6 +40,13 @@ constexpr double kPqC3 = 2392.0 / 4096 * 32;
 constexpr double kPqPeak = 10'000.0;         // cd/m²
 constexpr double kPqReferenceWhite = 203.0;  // BT.2408
 
+// Light of a camera's black. Half a code of 16 bits is a thousand times as much.
+constexpr double kLogBlack = 0x1p-30;
+constexpr std::string_view kOfVideo = ":video";
+
+// Black and white of 10 bits of limited range.
+constexpr double kVideoBlack = 64.0 / 1023, kVideoSpan = 876.0 / 1023;
+
 double hlg_light(double fraction) {
   if (fraction <= kHlgRootFraction) return fraction <= 0.0 ? 0.0 : fraction * fraction / 3.0;
   // The printed constants pass 1 by 3e-8, and light beyond the last code is nobody's.
@@ -72,6 +79,25 @@ Transfer Transfer::gamma(double exponent) {
   return Transfer(Kind::gamma, exponent);
 }
 
+Transfer Transfer::log(std::string_view name) {
+  const auto curves = log_curves();
+  const auto found = std::ranges::find(curves, name, &LogCurve::name);
+  if (found == curves.end()) throw UsageError(format("no camera's curve is called {}", name));
+  Transfer transfer(Kind::log, 1.0);
+  transfer.curve_ = &*found;
+  return transfer;
+}
+
+std::optional<Primaries> Transfer::usual_primaries() const {
+  return curve_ != nullptr ? std::optional(curve_->primaries) : std::nullopt;
+}
+
+Transfer Transfer::scaled_from_video() const {
+  Transfer scaled = *this;
+  scaled.is_of_video_ = is_of_video_ || (curve_ != nullptr && curve_->is_of_whole_codes);
+  return scaled;
+}
+
 Transfer Transfer::parse(std::string_view text) {
   if (text == "srgb") return srgb();
   if (text == "bt709") return bt709();
@@ -85,8 +111,16 @@ Transfer Transfer::parse(std::string_view text) {
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), exponent);
     if (error == std::errc() && end == number.data() + number.size()) return gamma(exponent);
   }
-  throw UsageError(format(
-      "transfer '{}' is not known; choose srgb, bt709, linear, gamma:G (as in gamma:2.2), hlg or pq", text));
+  std::string names;
+  for (const LogCurve& curve : log_curves()) {
+    Transfer log = Transfer::log(curve.name);
+    if (text == log.text()) return log;
+    log.is_of_video_ = true;
+    if (text == log.text()) return log;
+    names += format(", {}", curve.name);
+  }
+  throw UsageError(format("transfer '{}' is not known; choose srgb, bt709, linear, gamma:G (as in gamma:2.2), hlg, pq or a "
+                          "camera's curve{}", text, names.replace(0, 1, ":")));
 }
 
 std::string Transfer::text() const {
@@ -97,6 +131,7 @@ std::string Transfer::text() const {
     case Kind::gamma: return format("gamma:{}", exponent_);
     case Kind::hlg: return "hlg";
     case Kind::pq: return "pq";
+    case Kind::log: return std::string(curve_->name) + std::string(is_of_video_ ? kOfVideo : "");
   }
   return {};
 }
@@ -115,6 +150,7 @@ double Transfer::light_of(double fraction) const {
     case Kind::gamma: return fraction <= 0.0 ? 0.0 : std::pow(fraction, exponent_);
     case Kind::hlg: return hlg_light(fraction);
     case Kind::pq: return pq_light(fraction);
+    case Kind::log: return log_light(fraction);
   }
   return fraction;
 }
@@ -132,6 +168,7 @@ double Transfer::fraction_of(double light) const {
     case Kind::gamma: return light <= 0.0 ? 0.0 : std::pow(light, 1.0 / exponent_);
     case Kind::hlg: return hlg_fraction(light);
     case Kind::pq: return pq_fraction(light);
+    case Kind::log: return log_fraction(light);
   }
   return light;
 }
@@ -140,6 +177,7 @@ double Transfer::reference_white() const {
   switch (kind_) {
     case Kind::hlg: return hlg_light(kHlgReferenceWhite);
     case Kind::pq: return kPqReferenceWhite / kPqPeak;
+    case Kind::log: return kLogBlack + (1.0 - kLogBlack) / curve_->light_of(signal_of(1.0));
     default: return 1.0;
   }
 }
@@ -151,9 +189,30 @@ std::optional<Transfer::Toe> Transfer::toe() const {
     case Kind::linear:
     case Kind::gamma:
     case Kind::hlg:
-    case Kind::pq: return std::nullopt;
+    case Kind::pq:
+    case Kind::log: return std::nullopt;
   }
   return std::nullopt;
+}
+
+double Transfer::signal_of(double fraction) const {
+  return is_of_video_ ? kVideoBlack + kVideoSpan * fraction : fraction;
+}
+
+double Transfer::fraction_of_signal(double signal) const {
+  return is_of_video_ ? (signal - kVideoBlack) / kVideoSpan : signal;
+}
+
+double Transfer::log_light(double fraction) const {
+  const double black = fraction_of_signal(curve_->signal_of(0.0));
+  if (fraction <= black) return kLogBlack * std::max(fraction, 0.0) / black;
+  return kLogBlack + (1.0 - kLogBlack) * curve_->light_of(signal_of(fraction)) / curve_->light_of(signal_of(1.0));
+}
+
+double Transfer::log_fraction(double light) const {
+  if (light <= kLogBlack) return fraction_of_signal(curve_->signal_of(0.0)) * std::max(light, 0.0) / kLogBlack;
+  const double share = (light - kLogBlack) / (1.0 - kLogBlack);
+  return fraction_of_signal(curve_->signal_of(share * curve_->light_of(signal_of(1.0))));
 }
 
 std::vector<double> Transfer::light_of_codes(std::uint32_t white_code) const {

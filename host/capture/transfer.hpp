@@ -10,11 +10,13 @@
 #include <string_view>
 #include <vector>
 
+#include "capture/log_curve.hpp"
+
 namespace nutik {
 
 class Transfer {
  public:
-  enum class Kind { srgb, bt709, linear, gamma, hlg, pq };
+  enum class Kind { srgb, bt709, linear, gamma, hlg, pq, log };
 
   static Transfer srgb() { return Transfer(Kind::srgb, 1.0); }      // IEC 61966-2-1
   static Transfer bt709() { return Transfer(Kind::bt709, 1.0); }    // ITU-R BT.709, BT.2020's constants
@@ -25,19 +27,33 @@ class Transfer {
   static Transfer hlg() { return Transfer(Kind::hlg, 1.0); }
   static Transfer pq() { return Transfer(Kind::pq, 1.0); }
 
-  // `srgb`, `bt709`, `linear`, `gamma:2.2` (0.1 … 10), `hlg` or `pq`. Throws UsageError listing these.
+  // A camera's curve by its name (capture/log_curve.hpp). Light is a share of what its largest code stands for. Codes up
+  // to black have next to no light (at most 2^-30), each more than the one below, so that all codes can be told apart.
+  static Transfer log(std::string_view name);
+
+  // What codes stand for that were taken for `held` and are said to be `stated`: of the same curve they keep their scale.
+  static Transfer restated(const Transfer& held, const Transfer& stated) {
+    return held == stated.scaled_from_video() ? held : stated;
+  }
+
+  // `srgb`, `bt709`, `linear`, `gamma:2.2` (0.1 … 10), `hlg`, `pq` or a camera's curve, `slog3`; `slog3:video` is of
+  // codes between black and white of video of limited range. Throws UsageError listing these.
   static Transfer parse(std::string_view text);
   [[nodiscard]] std::string text() const;
 
   [[nodiscard]] Kind kind() const { return kind_; }
   [[nodiscard]] bool is_linear() const { return kind_ == Kind::linear; }
+  // That a camera's curve is stored with; none for other functions.
+  [[nodiscard]] std::optional<Primaries> usual_primaries() const;
+  // Of codes that were scaled from video of limited range: a curve that counts whole codes becomes `…:video`.
+  [[nodiscard]] Transfer scaled_from_video() const;
 
   // Light of a code fraction, and back. Inverse of each other to a few ulp; increasing.
   [[nodiscard]] double light_of(double fraction) const;
   [[nodiscard]] double fraction_of(double light) const;
 
   // The light that a screen shows as white: 1, or below it where codes also stand for what is brighter than white
-  // (ITU-R BT.2408: 75 % of HLG, 203 cd/m² of PQ).
+  // (ITU-R BT.2408: 75 % of HLG, 203 cd/m² of PQ; reflectance 1 of cameras' curves).
   [[nodiscard]] double reference_white() const;
 
   // Light of every code 0 … white_code.
@@ -63,8 +79,16 @@ class Transfer {
  private:
   constexpr Transfer(Kind kind, double exponent) : kind_(kind), exponent_(exponent) {}
 
+  [[nodiscard]] double log_light(double fraction) const;
+  [[nodiscard]] double log_fraction(double light) const;
+  // What a curve's formula has for a code.
+  [[nodiscard]] double signal_of(double fraction) const;
+  [[nodiscard]] double fraction_of_signal(double signal) const;
+
   Kind kind_;
   double exponent_;
+  const LogCurve* curve_ = nullptr;
+  bool is_of_video_ = false;
 };
 
 }  // namespace nutik

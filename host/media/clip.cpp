@@ -31,7 +31,8 @@ void describe_stored_codes(ClipInfo& info, const ClipOptions& options, const Sto
   add_origin(codes.unread_transfer);
   if (capture.shape.channels > 1) {
     capture.primaries =
-        settle(info.facts, options.primaries, codes.primaries, Primaries::bt709, Setting::primaries,
+        settle(info.facts, options.primaries, codes.primaries,
+               capture.transfer.usual_primaries().value_or(Primaries::bt709), Setting::primaries,
                [](Primaries primaries) { return format("primaries {}", to_text(primaries)); });
     add_origin(codes.unread_primaries);
   }

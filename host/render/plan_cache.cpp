@@ -86,8 +86,9 @@ PlanCache::PlanCache(std::uint64_t table_bytes) : memory_(std::make_shared<Table
 RenderPlan PlanCache::plan(const CaptureSource& source, const FunctionSet& functions, const Mask& mask,
                            const PlanOptions& options) {
   RenderPlan plan;
+  plan.combine = options.combine;
   plan.capture = source.format();
-  if (options.transfer) plan.capture.transfer = *options.transfer;
+  if (options.transfer) plan.capture.transfer = Transfer::restated(plan.capture.transfer, *options.transfer);
   if (const std::string mistake = size_mistake(mask, plan.capture.shape); !mistake.empty()) {
     throw InputError(mistake);
   }

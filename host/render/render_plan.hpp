@@ -28,11 +28,17 @@ namespace nutik {
 
 using FunctionSet = std::map<std::uint8_t, GainFunction>;  // by mask value
 
+// What becomes of a pixel's light while its function is not 0: its integral, or of its samples, each times its largest gain,
+// the lightest, the darkest or the middle one (render/combining_renderer.hpp).
+enum class Combine { integral, lighten, darken, median };
+
 struct PlanOptions {
   bool unmapped_is_zero = false;     // mask values without a function expose to 0 instead of being an error
   bool live_all = false;             // visit every sample, also where all gains are 0
   std::optional<Transfer> transfer;  // instead of the capture's own
   std::string function_name;         // in warnings, where it is not a mask value's; empty: M0, M1, …
+
+  Combine combine = Combine::integral;
 
   // By how much each pixel's function comes later; null: by nothing (docs/explanation/model.md, "Time maps").
   std::shared_ptr<const DelayMap> delays;
@@ -69,6 +75,8 @@ struct RenderPlan {
   std::shared_ptr<const MaskMap> map;
   std::vector<PlannedBlock> blocks;   // in time order
   std::vector<std::string> warnings;  // whole sentences
+
+  Combine combine = Combine::integral;
 
   // Kernels add up light · ns of this much of its blocks, all steady: what exposures of other gains have in common.
   std::optional<Halves> sums_light;

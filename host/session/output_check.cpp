@@ -66,8 +66,10 @@ bool is_functions_content(const std::filesystem::path& file) {
 bool is_video_content(std::string_view bytes) {
   const bool is_matroska = bytes.starts_with("\x1A\x45\xDF\xA3");
   const bool is_mp4 = bytes.size() >= 8 && bytes.substr(4, 4) == "ftyp";
-  const bool is_avi = bytes.size() >= 12 && bytes.starts_with("RIFF") && bytes.substr(8, 4) == "AVI ";
-  return is_matroska || is_mp4 || is_avi;
+  const bool is_riff = bytes.size() >= 12 && bytes.starts_with("RIFF");
+  const bool is_avi = is_riff && (bytes.substr(8, 4) == "AVI " || bytes.substr(8, 4) == "WEBP");
+  const bool is_mxf = bytes.starts_with(std::string_view("\x06\x0E\x2B\x34\x02\x05\x01\x01", 8));
+  return is_matroska || is_mp4 || is_avi || is_mxf || bytes.starts_with("GIF8");
 }
 
 // What a file begins with; of what is no regular file nothing, as that is never written to. What it is must be known.

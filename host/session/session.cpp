@@ -12,6 +12,7 @@
 #include "imev/each_block.hpp"
 #include "imev/expected_values.hpp"
 #include "media/events/event_clip.hpp"
+#include "render/combining_renderer.hpp"
 #include "render/picture_memory.hpp"
 #include "render/plan_cache.hpp"
 #include "session/clips/clip_memory.hpp"
@@ -130,6 +131,7 @@ class Session::Implementation {
   std::optional<Timeline> announced_;
 
   PlanCache plans_;
+  CombiningRenderer combining_;
   std::atomic_flag warmed_up_;
   std::atomic<bool> is_spent_ = false;
 };
@@ -284,8 +286,9 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
   throw_if_cancelled(control);
   check_transfer(options.transfer);
   RenderPlan plan = plans_.plan(source, functions, mask, options);
-  if (!warmed_up_.test_and_set()) warm_up(source, plan, output);
-  if (reading_ == Reading::whole) devices_->keep_resident(reader_.get());
+  const bool by_devices = plan.combine == Combine::integral;
+  if (by_devices && !warmed_up_.test_and_set()) warm_up(source, plan, output);
+  if (by_devices && reading_ == Reading::whole) devices_->keep_resident(reader_.get());
   // In the mask and in its map.
   const std::uint64_t mixed_bytes = 2 * mask.mixed.bytes();
   const std::uint64_t line_bytes =
@@ -297,7 +300,7 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
       [&](std::uint64_t left) {
         RenderControl limited = control;
         if (limited.memory_bytes == 0 || limited.memory_bytes > left) limited.memory_bytes = left;
-        return devices_->renderer().render(plan, source, output, limited);
+        return (by_devices ? devices_->renderer() : static_cast<Renderer&>(combining_)).render(plan, source, output, limited);
       });
   rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
   if (devices_->request().precision && !control.precision) doubt_asked(rendered, output);

@@ -78,9 +78,10 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
     output: a .tik to write; None: a temporary capture, gone when it is closed.
     rate: pictures a second. Or `times`: when each picture's exposure begins; of dates what lies between them counts. exposures: how long each was exposed, one
         time or one for each; with neither that nor shutter_angle, all the time to the next.
-    transfer: what codes stand for, 'srgb', 'bt709', 'linear', 'gamma:G', 'hlg', 'pq'; without it 'srgb' of uint8, 'linear'
-        of uint16. white: the code of white, 255 or 65535 without it; no code may be larger. Of floats the light of white,
-        which must be stated: they become 16-bit codes, linear, to the nearest of 65535 steps; none may be negative.
+    transfer: what codes stand for, 'srgb', 'bt709', 'linear', 'gamma:G', 'hlg', 'pq' or a camera's curve ('slog3'); without
+        it 'srgb' of uint8, 'linear' of uint16. white: the code of white, 255 or 65535 without it; no code may be larger. Of
+        floats the light of white, which must be stated: they become 16-bit codes, to the nearest of 65535 steps; none may
+        be negative.
     tolerance, noise, sigmas, align, ...: as of nutik.open(), which takes more of a path: begin, crop, raw, ... codec, of an
         output: 'none', 'rice', 'lz4', 'zstd', 'zstd:9'. progress: as of nutik.open().
 

@@ -133,6 +133,31 @@ TEST_F(Colour, AboveWhiteIsNotCutOffInSilence) {
   }
 }
 
+// A grey card of 18 % that was filmed as its maker's table has it is 18 % of white: within half a code of 10 bits. Makers
+// count whole codes, or codes between video's black and white.
+TEST_F(Colour, OfCamerasCurvesIsReflectance) {
+  NEEDS_FFMPEG();
+  for (const LogCurve& curve : log_curves()) {
+    const std::string name(curve.name);
+    const double signal = curve.signal_of(0.18);
+    const int code = static_cast<int>(std::lround(curve.is_of_whole_codes ? 1023 * signal : 64 + 876 * signal));
+    scratch_.write("raw", test::planes_of(std::vector<std::array<int, 3>>(32 * 32, {code, 512, 512})));
+    test::make(scratch_, "-f rawvideo -s 32x32 -pix_fmt yuv444p10le -r 25 -i raw -c:v ffv1 -color_range tv grey.mkv");
+    succeed("--start 0s --exposure 1f --transfer " + name + " --out-transfer linear --depth 16 grey.mkv grey.png");
+    const cv::Mat grey = cv::imread((scratch_ / "grey.png").string(), cv::IMREAD_UNCHANGED);
+    const double step = curve.is_of_whole_codes ? 0.5 / 1023 : 0.5 / 876;
+    for (int channel = 0; channel < 3; ++channel) {
+      const double light = grey.at<cv::Vec3w>(16, 16)[channel] / 65'535.0;
+      EXPECT_GE(light, curve.light_of(signal - step)) << name;
+      EXPECT_LE(light, curve.light_of(signal + step)) << name;
+    }
+  }
+  succeed("-q --transfer vlog grey.mkv grey.tik");
+  const auto info = run("info grey.tik");
+  EXPECT_NE((info.out + info.err).find("vlog:video"), std::string::npos) << info.out;
+  EXPECT_NE((info.out + info.err).find("vgamut"), std::string::npos) << info.out;
+}
+
 // Light has another mean by another transfer function: what holds means is not said to be something else afterwards.
 TEST_F(Colour, OfMeansOfLightStaysWhatItIs) {
   NEEDS_FFMPEG();

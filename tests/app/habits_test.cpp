@@ -79,7 +79,7 @@ TEST_F(Habits, SuggestsWhatWasMeant) {
            {{"-ss", "1", "clip.tik", "a.png"}, "there is no option -ss; see nutik-cl --help"},
            {{"-vX", "clip.tik", "a.png"}, "there is no option -X; see nutik-cl --help"},
            {{"video", "--quality", "50", "clip.tik", "a.mkv"},
-            "a quality is one of .jpg pictures, and a.mkv is none; leave it out (--quality)"}}) {
+            "ffv1 has no scale of quality: it loses nothing (--quality)"}}) {
     expect_refused(words, 2, said);
   }
   expect_refused(2, {{"shutter hann --expo 10ms", "did you mean --exposure?; see nutik-cl shutter --help"},

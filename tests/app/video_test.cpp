@@ -213,7 +213,7 @@ TEST_F(Video, SaysWhatMakesNoSense) {
       {{"v.mp4", "--start", "0s"}, 2, "--start does not go with video"},
       {{"v.png"}, 2, "v.png is one picture and a video has many; number them: v-%05d.png"},
       {{"v-%d.png", "--video-codec", "h264"}, 2, "stills (--video-codec)"},
-      {{"v.gif"}, 2, "videos are written as .mp4"},
+      {{"v.ogg"}, 2, "videos are written as .mp4"},
       {{"v.mp4", "--depth", "16"}, 2, "h264 holds 8 bits"},
       {{"v.mov"}, 2, "v.mov exists and is no video; it is not replaced"},
       {{"v.mp4", "-f", "30"}, 2, "--fps describes a clip that is encoded"},

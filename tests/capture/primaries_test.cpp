@@ -8,7 +8,9 @@
 namespace nutik {
 namespace {
 
-constexpr Primaries kAll[] = {Primaries::bt709, Primaries::bt2020, Primaries::p3};
+constexpr Primaries kAll[] = {Primaries::bt709,        Primaries::bt2020,       Primaries::p3,       Primaries::sgamut3,
+                              Primaries::sgamut3_cine, Primaries::vgamut,       Primaries::cinema_gamut,
+                              Primaries::arri_wg3,     Primaries::arri_wg4,     Primaries::dgamut};
 
 // A colour has one XYZ, in whichever primaries its light is told.
 TEST(Primaries, MatricesKeepColours) {
@@ -23,6 +25,16 @@ TEST(Primaries, MatricesKeepColours) {
       }
     }
   }
+}
+
+// As the Academy's ACEScg to BT.709 with Bradford's adaptation is printed by OpenColorIO's and others' tables.
+TEST(Primaries, OfAp1HaveTheirWhiteAdapted) {
+  const double printed[3][3] = {
+      {1.70505, -0.62179, -0.08326}, {-0.13026, 1.14080, -0.01055}, {-0.02400, -0.12897, 1.15297}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(to_bt709(Primaries::ap1)[i][j], printed[i][j], 5.1e-6);
+  }
+  EXPECT_EQ(parse_primaries("ap1"), Primaries::ap1);
 }
 
 // As ITU-R BT.2087 prints it.

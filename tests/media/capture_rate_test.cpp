@@ -43,6 +43,43 @@ TEST(CaptureRate, IsAndroidsWhereTheFilePlaysSlower) {
   EXPECT_EQ(test::open_test_clip(scratch / "clip.mp4")->info().timing.rate, (Rational{3, 1}));
 }
 
+std::string sony_story(const char* rate, const char* curve, const char* gamut) {
+  return std::string("<?xml version=\"1.0\"?><NonRealTimeMeta><VideoFormat><VideoFrame videoCodec=\"AVC\" captureFps=\"") +
+         rate + "\" formatFps=\"23.98p\"/></VideoFormat><AcquisitionRecord><Group name=\"CameraUnitMetadataSet\">" +
+         "<Item name=\"CaptureGammaEquation\" value=\"" + curve + "\"/><Item name=\"CaptureColorPrimaries\" value=\"" + gamut +
+         "\"/></Group></AcquisitionRecord></NonRealTimeMeta>";
+}
+
+// In a file beside the clip, or in a box of it. Other curves than those that are known here are left to the container.
+TEST(CaptureRate, AndCurveAreSonysWhereItsXmlSaysThem) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  test::make(scratch, phone_clip("24000/1001", ""));
+  scratch.write("clipM01.XML", sony_story("119.88p", "s-log3-cine", "s-gamut3-cine"));
+  const auto beside = test::open_test_clip(scratch / "clip.mp4");
+  EXPECT_EQ(beside->info().timing.rate, (Rational{120'000, 1001}));
+  EXPECT_EQ(beside->info().format.transfer.text(), "slog3:video");
+  EXPECT_EQ(beside->info().format.primaries, Primaries::sgamut3_cine);
+  EXPECT_NE(notes_of(*beside).find("Sony's captureFps says that 120000/1001"), std::string::npos) << notes_of(*beside);
+  scratch.write("otherM01.XML", "<other/>");
+  const std::string story = sony_story("240p", "s-log2", "s-gamut");
+  const std::string plain = test::read_file(scratch / "clip.mp4");
+  const auto box = [](const std::string& name, const std::string& held) {
+    const std::size_t size = held.size() + 8;
+    return std::string{static_cast<char>(size >> 24), static_cast<char>(size >> 16), static_cast<char>(size >> 8),
+                       static_cast<char>(size)} + name + held;
+  };
+  const std::string version(4, '\0');
+  scratch.write("within.mp4", plain + box("meta", version + box("xml ", version + story)));
+  const auto within = test::open_test_clip(scratch / "within.mp4");
+  EXPECT_EQ(within->info().format.transfer.text(), "slog2:video");
+  EXPECT_EQ(within->info().format.primaries, Primaries::sgamut3);
+  scratch.write("other.mp4", plain + box("meta", version + box("xml ", version + sony_story("x", "rec709", ""))));
+  const auto other = test::open_test_clip(scratch / "other.mp4");
+  EXPECT_EQ(other->info().format.transfer, Transfer::srgb());
+  EXPECT_EQ(other->info().timing.rate, (Rational{24'000, 1001}));
+}
+
 TEST(CaptureRate, ChangesNothingWhereTheFileRunsAtIt) {
   NEEDS_FFMPEG();
   const Scratch scratch;

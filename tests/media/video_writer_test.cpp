@@ -227,9 +227,11 @@ TEST(VideoWriter, RefusesWhatAContainerOrCodecCannotHold) {
   const auto codec = [](const char* path, const char* name) {
     return test::message_of<Error>([&] { static_cast<void>(video_codec_for(path, name)); });
   };
-  EXPECT_EQ(codec("v.mp4", "ffv1"), "v.mp4: a .mp4 file holds h264, h265, not ffv1");
+  EXPECT_EQ(codec("v.mp4", "ffv1"), "v.mp4: a .mp4 file holds h264, h264-10, h265, h265-10, av1, av1-10, not ffv1");
   EXPECT_EQ(codec("v.mkv", "h263"),
-            "video codec 'h263' is not known; choose one of: ffv1, h264, h265, vp9, prores, mjpeg");
+            "video codec 'h263' is not known; choose one of: ffv1, h264, h264-10, h265, h265-10, av1, av1-10, vp9, "
+            "prores, prores-proxy, prores-lt, prores-422, prores-4444, dnxhr-lb, dnxhr-sq, dnxhr-hq, dnxhr-hqx, dnxhr-444, "
+            "mjpeg, gif, webp");
   EXPECT_NE(codec("v.ogg", "ffv1").find("videos are written as .mp4"), std::string::npos);
   EXPECT_EQ(video_codec_for("a/V.MKV", std::nullopt).name, "ffv1");
   const auto type = [](const char* path, std::optional<Depth> wish) {

@@ -56,7 +56,7 @@ int run_video(const Options& options) {
                         return output.writes_stills()
                                    ? recipe.text(tally.precision(), own_recipe_of(frame))
                                    : std::string();
-                      });
+                      }, options.sound);
   }();
   const std::string name = output.path().string();
   if (made.interruption) {

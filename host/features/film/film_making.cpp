@@ -1,6 +1,7 @@
 #include "features/film/film_making.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "capture/format.hpp"
@@ -39,20 +40,56 @@ OwnRecipe frame_recipe(const FramesRequest& request, const Frames& frames, std::
   return own;
 }
 
+namespace {
+
+// The part of the clip's sound that is heard with these frames; says in `notes` why there is none.
+std::optional<FilmSound> film_sound(const Session& session, const FramesRequest& request, const Frames& frames,
+                                    const VideoOutput& output, FilmSoundWish wish, std::vector<std::string>& notes) {
+  const std::filesystem::path& clip = session.source().path;
+  if (wish == FilmSoundWish::none || !session.is_clip() || session.source().clip.raw) return {};
+  const auto found = clip_sound(clip);
+  if (!found) return {};
+  const auto left_out = [&](const std::string& why) {
+    notes.push_back(format("the clip's sound is left out: {}", why));
+    return std::nullopt;
+  };
+  if (!output.holds_sound()) return left_out(format("{} holds none", output.path().extension().string()));
+  if (frames.curve) return left_out("the film's speed changes");
+  if (frames.numbers.back() - frames.numbers.front() + 1 != frames.numbers.size())
+    return left_out("some frames of the film are");
+  const Timeline& timeline = session.timeline();
+  const std::uint64_t last = timeline.sample_count() - 1;
+  const double filmed_s = static_cast<double>(timeline.start_ns(last) - timeline.start_ns(0)) * 1e-9;
+  if (!(filmed_s > 0)) return left_out("the clip is too short");
+  const double file_s = (found->last_s - found->first_s) / filmed_s;  // of the file in a filmed second
+  FilmSound sound{clip, 0.0, request.speed.value() * file_s,
+                  static_cast<double>(frames.numbers.size()) / request.rate.value()};
+  sound.start_s = found->first_s + file_s * static_cast<double>(frames.times.start_ns(frames.numbers.front())) * 1e-9;
+  // Where both run as fast but for what half a frame comes to at the film's end, packets stay as they are.
+  if (std::abs(sound.speed - 1.0) * sound.seconds * request.rate.value() < 0.5) sound.speed = 1.0;
+  if (sound.speed == 1.0 || wish == FilmSoundWish::stretched) return sound;
+  return left_out(format("the film runs {:.4g} times as fast as the file, and stretching it was not asked for", sound.speed));
+}
+
+}  // namespace
+
 MadeVideo make_video(Session& session, const FramesRequest& request, const Frames& frames,
                      const VideoOutput& output, const ReportedProgress& progress,
                      const std::function<std::string(std::uint64_t frame, const Exposure& exposure,
-                                                     const ExposedPicture& exposed)>& add) {
+                                                     const ExposedPicture& exposed)>& add,
+                     FilmSoundWish wish) {
   CaptureFormat capture = session.format();
   const PlanOptions plan = plan_options_of(request.exposure, capture.shape);
   const bool mask_changes = !request.keys.masks.empty();
   const Mask mask = mask_changes ? Mask() : mask_of(exposure_of(request, frames, 0), capture.shape);
   const OutputFormat frame_format = output.frame_format(capture);
-  capture.transfer = plan.transfer.value_or(capture.transfer);
+  if (plan.transfer) capture.transfer = Transfer::restated(capture.transfer, *plan.transfer);
 
   MadeVideo made;
+  std::vector<std::string> sound_notes;
+  const auto sound = film_sound(session, request, frames, output, wish, sound_notes);
   const TimeToEnd is_kept;  // the frames so far, whatever a frame takes
-  FrameQueue queue([&] { return output.open(capture, frame_format); },
+  FrameQueue queue([&] { return output.open(capture, frame_format, sound); },
                    session.waiting_pictures(frame_format.type));
   const std::size_t count = frames.numbers.size();
   PictureLine<ExposedPicture> line(session.pictures_at_once(frame_format.type, count));
@@ -85,6 +122,7 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
   }
   queue.finish();
   made.notes = queue.notes();
+  std::ranges::move(sound_notes, std::back_inserter(made.notes));
   return made;
 }
 
@@ -96,6 +134,8 @@ VideoOutput::VideoOutput(std::filesystem::path path, Rational rate, const std::o
         format("{} is standard output, and a video is written to a file: what makes it goes back in it",
                path_.string()));
   }
+  if (request.crf && is_picture_name(path_))
+    throw UsageError("that is a film's quality, on its codec's scale; pictures have none", {Setting::crf});
   const bool is_numbered = NumberedName::parse(path_.filename().string()).has_value();
   if (is_picture_name(path_) && is_numbered) {
     if (codec) {
@@ -109,6 +149,8 @@ VideoOutput::VideoOutput(std::filesystem::path path, Rational rate, const std::o
                             (path_.parent_path() / path_.stem()).string(), path_.extension().string()));
   }
   codec_ = &video_codec_for(path_, codec);
+  codec_setting_ = codec_setting(*codec_, request.crf,
+                                 request.quality ? std::optional(static_cast<std::uint32_t>(*request.quality)) : std::nullopt);
   if (const double largest = largest_rate_for(path_); rate.value() > largest) {
     throw UsageError(
         format("{}: a {} file tells at most {:.0f} frames a second apart, and {} are asked for; write {}",
@@ -119,8 +161,10 @@ VideoOutput::VideoOutput(std::filesystem::path path, Rational rate, const std::o
 
 OutputFormat VideoOutput::frame_format(const CaptureFormat& capture) const {
   if (codec_ == nullptr) return output_format(request_, path_, capture);
+  OutputRequest request = request_;
+  request.quality.reset();  // which the codec was told
   OutputFormat output =
-      output_format(request_, path_, video_value_type(*codec_, request_.depth, code_type(capture)), capture);
+      output_format(request, path_, video_value_type(*codec_, request_.depth, code_type(capture)), capture);
   output.white_code = output.type == ValueType::code8 ? 255 : 65'535;  // what players take for white
   return output;
 }
@@ -175,17 +219,22 @@ class SquareWriter final : public VideoWriter {
 }  // namespace
 
 std::unique_ptr<VideoWriter> VideoOutput::open(const CaptureFormat& capture,
-                                               const OutputFormat& format) const {
+                                               const OutputFormat& format,
+                                               const std::optional<FilmSound>& sound) const {
   if (codec_ == nullptr) return open_still_writer(path_, file_wishes(request_));
   const CodeMaking making = CodeMaking::of(capture, format);
   const Shape frame = shape(capture);
   const bool is_squared = frame != capture.shape;
   auto writer = open_video_writer(path_,
                                   {frame, format.type, format.white_code, making.transfer, rate_, making.primaries,
-                                   is_squared ? Rational{1, 1} : capture.pixel_aspect},
+                                   is_squared ? Rational{1, 1} : capture.pixel_aspect, codec_setting_, sound},
                                   *codec_);
   if (!is_squared) return writer;
   return std::make_unique<SquareWriter>(frame, std::move(writer));
+}
+
+bool VideoOutput::holds_sound() const {
+  return codec_ != nullptr && codec_->name != "gif" && codec_->name != "webp" && path_.extension() != ".mxf";
 }
 
 std::string VideoOutput::kind() const { return writes_stills() ? "stills" : std::string(codec_->name); }

@@ -41,13 +41,14 @@ class VideoOutput {
 
   // The size of its frames: in square pixels where people look at them.
   [[nodiscard]] Shape shape(const CaptureFormat& capture) const;
-  [[nodiscard]] std::unique_ptr<VideoWriter> open(const CaptureFormat& capture,
-                                                  const OutputFormat& format) const;
+  [[nodiscard]] std::unique_ptr<VideoWriter> open(const CaptureFormat& capture, const OutputFormat& format,
+                                                  const std::optional<FilmSound>& sound = {}) const;
 
   // That the encoder keeps.
   [[nodiscard]] std::uint32_t encoder_frames() const { return codec_ == nullptr ? 1 : codec_->held_frames; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] bool writes_stills() const { return codec_ == nullptr; }
+  [[nodiscard]] bool holds_sound() const;
   // `h264`, or `stills`.
   [[nodiscard]] std::string kind() const;
 
@@ -56,6 +57,7 @@ class VideoOutput {
   Rational rate_;
   OutputRequest request_;
   const VideoCodec* codec_ = nullptr;  // null: stills
+  int codec_setting_ = 0;
 };
 
 struct MadeVideo {
@@ -76,6 +78,7 @@ struct MadeVideo {
     Session& session, const FramesRequest& request, const Frames& frames, const VideoOutput& output,
     const ReportedProgress& progress,
     const std::function<std::string(std::uint64_t frame, const Exposure& exposure,
-                                    const ExposedPicture& exposed)>& add);
+                                    const ExposedPicture& exposed)>& add,
+    FilmSoundWish sound = FilmSoundWish::as_it_is);
 
 }  // namespace nutik

@@ -78,10 +78,11 @@ constexpr Option kRows[] = {
     // Its scope is exposure: a capture has a transfer function too, and may be exposed with another.
     known(Setting::transfer, {0, "transfer", "NAME", exposure, kDecodesClips | bit(Id::retime),
      take<InClip<&ClipOptions::transfer>>,
-     "how codes stand for light: srgb, bt709, linear, gamma:G, hlg or pq (default: srgb; linear for stills "
+     "how codes stand for light: srgb, bt709, linear, gamma:G, hlg, pq or a camera's curve: slog2, slog3, vlog, clog2, "
+     "clog3, logc3 (EI 800), logc4, flog, flog2, nlog, dlog, applelog, acescct (default: srgb; linear for stills "
      "and grey video of more than 8 bits and for 16-bit colour; what a file names, but for bt709 in 8-bit "
      "video; a .tik's own)",
-     "srgb bt709 linear gamma: hlg pq"}),
+     "srgb bt709 linear gamma: hlg pq slog2 slog3 vlog clog2 clog3 logc3 logc4 flog flog2 nlog dlog applelog acescct"}),
     known(Setting::matrix, {0, "matrix", "NAME", decoding, kDecodesClips, take<InClip<&ClipOptions::matrix>>,
      "how a video's YUV becomes RGB: bt601, bt709, bt2020 or ycgco (default: what the file says; else bt709 from "
      "720 lines on, bt601 below)",
@@ -96,8 +97,9 @@ constexpr Option kRows[] = {
      "left center topleft top bottomleft bottom"}),
     known(Setting::primaries, {0, "primaries", "NAME", decoding, kDecodesClips | bit(Id::retime),
      take<InClip<&ClipOptions::primaries>>,
-     "the colours of red, green and blue: bt709, bt2020 or p3 (default: what the file says; else bt2020 if "
-     "the matrix is, and bt709)",
+     "the colours of red, green and blue: bt709, bt2020, p3, or a camera's: sgamut3, sgamut3-cine, vgamut, cinema-gamut, "
+     "arri-wg3, arri-wg4, dgamut, ap1 (default: the curve's, of cameras' curves; what the file says; else bt2020 if the "
+     "matrix is, and bt709)",
      "bt709 bt2020 p3"}),
     known(Setting::pixel_aspect, {0, "pixel-aspect", "W:H", decoding, kDecodesClips | bit(Id::retime),
      take_by<InClip<&ClipOptions::pixel_aspect>, parse_pixel_aspect>,
@@ -219,6 +221,10 @@ constexpr Option kRows[] = {
      "divide by the time with a gain (support), by its integral (integral: a still scene keeps its "
      "brightness), by that of its magnitude (absolute), or by seconds:S (default: support)",
      "support integral absolute seconds:"}),
+    {0, "combine", "HOW", exposure, set_of(Id::expose, Id::video), take<In<&Options::combining>>,
+     "what becomes of a pixel's light: its integral, its mean, or of its samples, each times its largest gain, the lightest "
+     "(lighten: star trails, fireworks), the darkest or the middle one (darken, median: what moves is gone) (default: integral)",
+     "integral mean lighten darken median"},
     {0, "gain", "G", exposure, kTakesFunctions | bit(Id::shutter), take_by<In<&Options::gain>, parse_signed>,
      "make the light G times as much (default: 1)"},
     {0, "ev", "E", exposure, kTakesFunctions | bit(Id::shutter), take_by<In<&Options::ev>, parse_signed>,
@@ -254,9 +260,19 @@ constexpr Option kRows[] = {
     {0, "mask-key", "TIME FILE.pgm", series, bit(Id::video), {},
      "in place of -m, several times: the mask at this time of the video"},
     known(Setting::video_codec, {0, "video-codec", "NAME", output, bit(Id::video), take<In<&Options::video_codec>>,
-     "ffv1 (lossless; .mkv, .avi), h264, h265 (.mp4, .mov, .mkv), vp9 (.webm, .mkv), prores (.mov, .mkv) or "
-     "mjpeg (.avi, .mov, .mkv) (default: h264, in .mkv and .avi ffv1, in .webm vp9)",
-     "ffv1 h264 h265 vp9 prores mjpeg"}),
+     "ffv1 (lossless; .mkv, .avi), h264, h265 (.mp4, .mov, .mkv), av1 (.mp4, .mkv, .webm), vp9 (.webm, .mkv), mjpeg (.avi, "
+     ".mov, .mkv); of 10 bits h264-10, h265-10, av1-10; for editors prores, prores-proxy, -lt, -422, -4444 (.mov, .mkv), "
+     "dnxhr-lb, -sq, -hq, -hqx, -444 (.mov, .mxf); gif, webp (default: h264, in .mkv and .avi ffv1, in .webm vp9, in .mxf "
+     "dnxhr-hqx)",
+     "ffv1 h264 h265 h264-10 h265-10 av1 av1-10 vp9 prores prores-proxy prores-lt prores-422 prores-4444 dnxhr-lb dnxhr-sq "
+     "dnxhr-hq dnxhr-hqx dnxhr-444 mjpeg gif webp"}),
+    known(Setting::crf, {0, "crf", "N", output, bit(Id::video), take_whole<InPicture<&OutputRequest::crf>, 0, 100>,
+     "quality on the codec's own scale: h264, h265 0 … 51 (default: 17), av1, vp9 0 … 63, mjpeg 2 … 31, the less the "
+     "better; webp 0 … 100"}),
+    known(Setting::sound, {0, "sound", "HOW", output, bit(Id::video), take<In<&Options::sound>>,
+     "of the clip: clip (as it is, if the film runs as fast as the file), stretch (as slow or fast as the film) or no "
+     "(default: clip)",
+     "clip stretch no"}),
 
     heading("Regions, in this order: later ones lie over earlier ones"),
     step("tag", "N", "the tag of the regions after it, 0 … 255 (default: 255)"),
@@ -416,7 +432,7 @@ constexpr Option kRows[] = {
      "8 16 half float"}),
     known(Setting::quality, {0, "quality", "N", exposure, kExposesFreely | set_of(Id::plate, Id::study),
      take_whole<InPicture<&OutputRequest::quality>, 1, 100>,
-     "of .jpg pictures, 1 … 100 (default: 90)"}),
+     "of .jpg pictures and of films whose codec loses something, 1 … 100 (default: 90 of .jpg, of films the codec's)"}),
     known(Setting::keep_pixels, {0, "keep-pixels", "", exposure,
      set_of(Id::expose, Id::sweep, Id::video, Id::plate, Id::study), take<InPicture<&OutputRequest::keep_pixels>>,
      "keep pixels that are not square as they are, to measure in them (default: .png, .jpg and films of lossy codecs "

@@ -67,6 +67,7 @@ struct Options {
   std::optional<ShutterShape> shutter;
   std::optional<double> shutter_error, gain, ev;
   Normalization normalization;
+  Combining combining;
   std::optional<std::uint32_t> mask_way;  // of kWholeWay
   std::optional<MaskBlend> mask_blend;
 
@@ -79,6 +80,7 @@ struct Options {
   std::optional<FrameRanges> frames;
   FramesRequest film;  // its rates and times
   Text curve, video_codec;
+  FilmSoundWish sound = FilmSoundWish::as_it_is;
 
   // How it is computed, and how right that is.
   std::optional<RendererKind> renderer;

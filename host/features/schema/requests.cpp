@@ -131,7 +131,12 @@ ExposureRequest weighed_exposure(const Options& options) {
   request.unmapped_is_zero = options.unmapped_is_zero;
   request.live_all = options.live_all;
   request.transfer = options.source.clip.transfer;
-  request.normalization = options.normalization;
+  request.normalization = options.combining.is_mean ? Normalization::parse("integral") : options.normalization;
+  if (options.combining.is_mean && options.has("normalize"))
+    throw UsageError(Advice{"`combine mean` divides by the gain's integral, and so says `normalize`; use one"});
+  request.combine = options.combining.how;
+  if (request.combine != Combine::integral && options.delay)
+    throw UsageError(Advice{"`combine` goes with one time for all pixels, and `delay` has one for each; use one"});
   request.gain = brightening(options);
   request.delay = options.delay;
   if (request.delay) request.delay->read();

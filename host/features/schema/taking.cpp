@@ -104,6 +104,14 @@ void read_word(std::string_view word, std::string_view what, Unseen& value) {
   value = word == "hold" ? Unseen::held : Unseen::cropped;
 }
 
+void read_word(std::string_view word, std::string_view, Combining& value) { value = Combining::parse(word); }
+
+void read_word(std::string_view word, std::string_view what, FilmSoundWish& value) {
+  if (word != "clip" && word != "stretch" && word != "no")
+    throw UsageError(format("{} {} is not known; choose clip, stretch or no", what, word));
+  value = word == "clip" ? FilmSoundWish::as_it_is : word == "no" ? FilmSoundWish::none : FilmSoundWish::stretched;
+}
+
 void read_word(std::string_view word, std::string_view what, MaskBlend& value) {
   if (word != "distance" && word != "alpha")
     throw UsageError(format("{} {} is not known; choose distance or alpha", what, word));

@@ -48,6 +48,8 @@ void read_word(std::string_view word, std::string_view what, StudyStyle& value);
 void read_word(std::string_view word, std::string_view what, MomentSpacing& value);
 void read_word(std::string_view word, std::string_view what, TrailShape& value);
 void read_word(std::string_view word, std::string_view what, SlitFrom& value);
+void read_word(std::string_view word, std::string_view, Combining& value);
+void read_word(std::string_view word, std::string_view what, FilmSoundWish& value);
 inline void read_word(std::string_view, std::string_view, bool& flag) { flag = true; }
 template <typename Value>
 void read_word(std::string_view word, std::string_view what, std::optional<Value>& value) {

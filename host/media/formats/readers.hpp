@@ -41,7 +41,7 @@ struct Reader {
 using std::literals::operator""sv;
 
 inline constexpr Reader kVideo{
-    "video", {}, {}, "what FFmpeg takes it for", "its pictures' times; filming rates of Android and Samsung", "none",
+    "video", {}, {}, "what FFmpeg takes it for", "its pictures' times; filming rates of Android, Samsung and Sony", "none",
     "colour: RGB of 8 bits, or over 16, by matrix and range; grey: as stored, white by its bits",
     "display matrix, by quarter turns", "left out, with a note", "as shown"};
 inline constexpr Reader kRawVideo{

@@ -84,6 +84,51 @@ SamsungRecording samsung_recording(Bytes file) {
   return {};
 }
 
+// The text of Sony's NonRealTimeMeta; empty where there is none.
+std::string sony_story(const std::filesystem::path& path) {
+  constexpr std::string_view kName = "<NonRealTimeMeta";
+  constexpr std::uintmax_t kMaxBytes = 1u << 20;
+  const MappedFile mapped(path);
+  for (const auto& boxes : {std::vector<std::string_view>{"meta"}, {"moov", "meta"}}) {
+    const Bytes box = box_at(mapped.bytes(), boxes);
+    const std::string_view text(reinterpret_cast<const char*>(box.data()), box.size());
+    if (const auto at = text.find(kName); at != text.npos) return std::string(text.substr(at));
+  }
+  const std::filesystem::path beside = path.parent_path() / (path.stem().string() + "M01.XML");
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(beside, error);
+  if (error || bytes == 0 || bytes > kMaxBytes) return {};
+  const MappedFile story(beside);
+  std::string text(reinterpret_cast<const char*>(story.bytes().data()), story.bytes().size());
+  return text.find(kName) == text.npos ? std::string() : text;
+}
+
+// What stands between quotes behind `before`, from `from` on.
+std::string quoted(const std::string& text, std::string_view before, std::size_t from = 0) {
+  const std::size_t at = from == text.npos ? text.npos : text.find(before, from);
+  if (at == text.npos) return {};
+  const std::size_t begin = at + before.size(), end = text.find('"', begin);
+  return end == text.npos ? std::string() : text.substr(begin, end - begin);
+}
+
+// <Item name="CaptureGammaEquation" value="s-log3-cine"/>
+std::string item_of(const std::string& story, std::string_view name) {
+  return quoted(story, "value=\"", story.find(format("name=\"{}\"", name)));
+}
+
+// `119.88p`, which is 120000/1001.
+std::optional<Rational> sony_rate(const std::string& story) {
+  constexpr double kRounded = 0.006;
+  const double rate = std::strtod(quoted(story, "captureFps=\"").c_str(), nullptr);
+  if (!(rate > 0.0 && rate < 1e6)) return std::nullopt;
+  for (const std::int64_t divisor : {1000, 1001}) {
+    const double whole = std::round(rate * static_cast<double>(divisor) / 1000);
+    if (whole > 0 && std::fabs(whole * 1000 / static_cast<double>(divisor) - rate) < kRounded)
+      return Rational::of(static_cast<std::int64_t>(whole) * 1000, divisor);
+  }
+  return std::nullopt;
+}
+
 bool is_mp4(Bytes file) { return file.size() >= 8 && std::memcmp(file.data() + 4, "ftyp", 4) == 0; }
 
 double mean_rate(const std::vector<std::int64_t>& starts_ns) {
@@ -134,6 +179,19 @@ double steady_rate(const std::vector<std::int64_t>& starts_ns) {
 
 }  // namespace
 
+std::optional<NamedCurve> named_curve(const AVFormatContext& format, const std::filesystem::path& path) {
+  const AVDictionaryEntry* dji = av_dict_get(format.metadata, "com.dji.camera.ColorGammaSxS", nullptr, 0);
+  if (dji != nullptr && std::string_view(dji->value) == "D-Log") return NamedCurve{Transfer::log("dlog"), std::nullopt};
+  const std::string story = sony_story(path);
+  const std::string curve = item_of(story, "CaptureGammaEquation"), gamut = item_of(story, "CaptureColorPrimaries");
+  const char* const known = curve == "s-log2" ? "slog2" : curve.starts_with("s-log3") ? "slog3" : nullptr;
+  if (known == nullptr) return std::nullopt;
+  NamedCurve named{Transfer::log(known), std::nullopt};
+  if (gamut == "s-gamut" || gamut == "s-gamut3") named.primaries = Primaries::sgamut3;
+  if (gamut == "s-gamut3-cine") named.primaries = Primaries::sgamut3_cine;
+  return named;
+}
+
 std::optional<CaptureRate> capture_rate(const AVFormatContext& format, const std::filesystem::path& path,
                                         std::vector<Note>& notes) {
   constexpr const char* kAndroid = "com.android.capture.fps";
@@ -149,6 +207,7 @@ std::optional<CaptureRate> capture_rate(const AVFormatContext& format, const std
                                      kAndroid, entry->value),
                        std::vector{Setting::frame_rate});
   }
+  if (const auto rate = sony_rate(sony_story(path))) return CaptureRate{*rate, "Sony's captureFps"};
   const MappedFile mapped(path);
   if (!is_mp4(mapped.bytes())) return std::nullopt;
   const SamsungRecording samsung = samsung_recording(mapped.bytes());

@@ -16,8 +16,18 @@ struct CaptureRate {
   std::string name;  // of what states it
 };
 
-// What Android's cameras write (com.android.capture.fps), or Samsung's (moov/udta/smta). Says in `notes` where that is no
-// rate.
+// A camera's curve that a file's metadata name, which H.273 has no numbers for.
+struct NamedCurve {
+  Transfer transfer;
+  std::optional<Primaries> primaries;
+};
+
+// What Sony's cameras write in their XML, which is a box of an MP4 or lies beside the clip (C0001.MXF: C0001M01.XML), and
+// DJI's as com.dji.camera.ColorGammaSxS.
+[[nodiscard]] std::optional<NamedCurve> named_curve(const AVFormatContext& format, const std::filesystem::path& path);
+
+// What Android's cameras write (com.android.capture.fps), Samsung's (moov/udta/smta), or Sony's (captureFps). Says in
+// `notes` where that is no rate.
 [[nodiscard]] std::optional<CaptureRate> capture_rate(const AVFormatContext& format,
                                                       const std::filesystem::path& path,
                                                       std::vector<Note>& notes);

@@ -12,6 +12,7 @@
 #include "media/videos/picture_decoder.hpp"
 #include "media/videos/pixels.hpp"
 #include "media/videos/probe.hpp"
+#include "media/videos/sound.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::videos {
@@ -68,8 +69,9 @@ void describe(ClipInfo& info, const Probe& probe, const ClipOptions& options) {
   if (is_colour_yuv(probe)) {
     settle(facts, options.matrix, probe.matrix, usual_matrix(probe.shape.height), Setting::matrix,
            [](YuvMatrix matrix) { return format("matrix {}", to_text(matrix)); });
-    settle(facts, options.range, probe.range, CodeRange::limited, Setting::range,
-           [](CodeRange range) { return format("{} range", to_text(range)); });
+    const CodeRange range = settle(facts, options.range, probe.range, CodeRange::limited, Setting::range,
+                                   [](CodeRange each) { return format("{} range", to_text(each)); });
+    if (range == CodeRange::limited) capture.transfer = capture.transfer.scaled_from_video();
   }
   if (interpolates_chroma(probe.pixel_format, pixels)) {
     settle(facts, options.chroma_at, probe.chroma_at, kDefaultChromaPlace, Setting::chroma_place,
@@ -78,9 +80,13 @@ void describe(ClipInfo& info, const Probe& probe, const ClipOptions& options) {
   if (!pixels.is_grey) {
     const bool is_wide =
         options.matrix.value_or(probe.matrix.value_or(usual_matrix(probe.shape.height))) == YuvMatrix::bt2020;
+    // What containers name beside a camera's curve are not its primaries, for which they have no number.
+    const auto of_curve = capture.transfer.usual_primaries();
+    const bool names_curves = of_curve && probe.transfer && probe.transfer->usual_primaries();
     capture.primaries = settle(
-        facts, options.primaries, probe.primaries, is_wide ? Primaries::bt2020 : Primaries::bt709,
-        Setting::primaries, [](Primaries primaries) { return format("primaries {}", to_text(primaries)); });
+        facts, options.primaries, of_curve && !names_curves ? std::nullopt : probe.primaries,
+        of_curve.value_or(is_wide ? Primaries::bt2020 : Primaries::bt709), Setting::primaries,
+        [](Primaries primaries) { return format("primaries {}", to_text(primaries)); });
     if (facts.back().origin == Origin::file && !probe.near_primaries.empty()) {
       facts.back().remark = format("it names {}", probe.near_primaries);
     }
@@ -319,6 +325,7 @@ std::unique_ptr<Clip> open_video_clip(const std::filesystem::path& path, const C
 
 // What nutik-videos.so gives the program (media/module.hpp).
 extern "C" __attribute__((visibility("default"))) const nutik::VideoModule nutik_video_module{
-    nutik::use_shared_state, nutik::videos::open_video_clip, nutik::videos::open_libav_writer};
+    nutik::use_shared_state, nutik::videos::open_video_clip, nutik::videos::open_libav_writer,
+    nutik::videos::sound_of_clip};
 
 extern "C" __attribute__((visibility("default"))) const char nutik_module_version[] = NUTIK_VERSION;

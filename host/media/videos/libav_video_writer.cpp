@@ -2,14 +2,16 @@
 // the rate to thousandths, in which 30000/1001 drifts, and takes 8 bits of BGR only.
 //
 //   codes in   8 or 16 bits, grey or RGB, over the full range
-//   pixels     ffv1: as they are; prores: YUV 4:2:2 of 10 bits; the others: YUV 4:2:0 of 8 bits, by the matrix that
-//              is usual for so many lines and that the file names; mjpeg: BT.601's, which a JPEG always has
+//   pixels     ffv1: as they are; gif: 256 colours, which are always the same; the others: YUV as the codec's row says, by the matrix
+//              that the primaries of BT.2020 have or that is usual for so many lines, and that the file names; mjpeg and
+//              webp: BT.601's, which JPEG and WebP always have
 #include <algorithm>
 #include <cstring>
 
 #include "media/formats/coding_points.hpp"
 #include "media/videos/libav.hpp"
 #include "media/videos/pixels.hpp"
+#include "media/videos/sound.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::videos {
@@ -23,9 +25,6 @@ struct FreeOutput {
 };
 using OutputPointer = std::unique_ptr<AVFormatContext, FreeOutput>;
 
-// Of H.264 and its kin: below what an eye sees. FFV1 is there for all else.
-constexpr const char* kQuality = "17";
-
 AVPixelFormat source_pixels(const VideoFormat& format) {
   const bool deep = format.type == ValueType::code16;
   if (format.shape.channels == 1) return deep ? AV_PIX_FMT_GRAY16 : AV_PIX_FMT_GRAY8;
@@ -33,9 +32,7 @@ AVPixelFormat source_pixels(const VideoFormat& format) {
 }
 
 AVPixelFormat encoded_pixels(const VideoFormat& format, const VideoCodec& codec) {
-  if (codec.name == "prores") return AV_PIX_FMT_YUV422P10;
-  if (codec.name == "mjpeg") return AV_PIX_FMT_YUVJ420P;
-  if (!codec.is_lossless) return AV_PIX_FMT_YUV420P;
+  if (!codec.pixels.empty()) return av_get_pix_fmt(std::string(codec.pixels).c_str());
   const AVPixelFormat source = source_pixels(format);
   if (source == AV_PIX_FMT_RGB24) return AV_PIX_FMT_BGR0;
   return source == AV_PIX_FMT_RGB48 ? AV_PIX_FMT_GBRP16 : source;
@@ -44,7 +41,10 @@ AVPixelFormat encoded_pixels(const VideoFormat& format, const VideoCodec& codec)
 // What an encoder is told by name.
 class Settings {
  public:
-  Settings() = default;
+  // `level=3:slicecrc=1`
+  explicit Settings(std::string_view pairs) {
+    if (av_dict_parse_string(&entries_, std::string(pairs).c_str(), "=", ":", 0) < 0) throw std::bad_alloc();
+  }
   ~Settings() { av_dict_free(&entries_); }
   Settings(const Settings&) = delete;
   Settings& operator=(const Settings&) = delete;
@@ -90,6 +90,7 @@ class LibavVideoWriter final : public VideoWriter {
       open_scaler();
     }
     note_rounded_pixels();
+    if (video.sound) sound_ = open_sound(*video.sound, *muxer_, name_);
     check(avio_open(&muxer_->pb, url_of(file_.temporary_path()).c_str(), AVIO_FLAG_WRITE));
     check(avformat_write_header(muxer_.get(), nullptr));
   }
@@ -113,14 +114,17 @@ class LibavVideoWriter final : public VideoWriter {
     // ProRes keeps in each frame what the encoder was told once.
     frame->colorspace = encoder_->colorspace;
     frame->color_range = encoder_->color_range;
+    frame->quality = encoder_->global_quality;
     frame->color_primaries = encoder_->color_primaries;
     frame->color_trc = encoder_->color_trc;
+    if (sound_) sound_->write_to(static_cast<double>(frames_written_) / video_.rate.value());
     frame->pts = frames_written_++;
     encode(frame);
   }
 
   void finish() override {
     encode(nullptr);
+    if (sound_) sound_->write_to(static_cast<double>(frames_written_) / video_.rate.value());
     check(av_write_trailer(muxer_.get()));
     check(avio_closep(&muxer_->pb));
     file_.commit();
@@ -145,9 +149,14 @@ class LibavVideoWriter final : public VideoWriter {
   void open_encoder(const VideoCodec& codec) {
     const AVCodec* encoder = avcodec_find_encoder_by_name(std::string(codec.encoder).c_str());
     if (encoder == nullptr) {
+      std::string has;
+      for (const VideoCodec& each : video_codecs()) {
+        if (avcodec_find_encoder_by_name(std::string(each.encoder).c_str()) == nullptr) continue;
+        has += format("{}{}", has.empty() ? "" : ", ", each.name);
+      }
       throw OutputError(
-          format("{} cannot be written: the FFmpeg here has no encoder {} for {}; choose another codec",
-                 name_, codec.encoder, codec.name),
+          format("{} cannot be written: the FFmpeg here has no encoder {} for {}; it has those for: {}", name_,
+                 codec.encoder, codec.name, has),
           {Setting::video_codec});
     }
     encoder_.reset(allocated(avcodec_alloc_context3(encoder)));
@@ -162,8 +171,15 @@ class LibavVideoWriter final : public VideoWriter {
     context.thread_count = 0;  // as many as there are cores
     const AVPixFmtDescriptor& pixels = *av_pix_fmt_desc_get(context.pix_fmt);
     const bool is_coded_yuv = is_yuv(context.pix_fmt);
-    const bool is_bt709 = codec.name != "mjpeg" && usual_matrix(static_cast<std::uint32_t>(height_)) == YuvMatrix::bt709;
-    context.colorspace = is_coded_yuv                ? is_bt709 ? AVCOL_SPC_BT709 : AVCOL_SPC_SMPTE170M
+    const bool is_still_kin = codec.name == "mjpeg" || codec.name == "webp";
+    // Decoders of DNxHR take BT.709's, whatever the container names.
+    const bool is_bt709 =
+        codec.encoder == "dnxhd" || usual_matrix(static_cast<std::uint32_t>(height_)) == YuvMatrix::bt709;
+    const AVColorSpace matrix = is_still_kin                              ? AVCOL_SPC_SMPTE170M
+                                : video_.primaries == Primaries::bt2020 ? AVCOL_SPC_BT2020_NCL
+                                : is_bt709                                ? AVCOL_SPC_BT709
+                                                                          : AVCOL_SPC_SMPTE170M;
+    context.colorspace = is_coded_yuv                ? matrix
                          : pixels.nb_components == 1 ? AVCOL_SPC_UNSPECIFIED
                                                      : AVCOL_SPC_RGB;
     context.color_range =
@@ -173,20 +189,17 @@ class LibavVideoWriter final : public VideoWriter {
         coding_point(video_.transfer).value_or(AVCOL_TRC_UNSPECIFIED));
     if ((muxer_->oformat->flags & AVFMT_GLOBALHEADER) != 0) context.flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
 
-    Settings settings;
-    if (codec.name == "ffv1") {
-      settings.set("level", "3");  // slices, which are packed side by side and carry checksums
-      settings.set("slicecrc", "1");
-      context.gop_size = 1;
-    } else if (codec.name == "mjpeg") {
+    const int quality = video_.codec_setting.value_or(codec.scale.usual);
+    Settings settings(codec.settings);
+    if (codec.name == "ffv1") context.gop_size = 1;
+    if (codec.scale.key == "qscale") {
       context.flags |= AV_CODEC_FLAG_QSCALE;
-      context.global_quality = 2 * FF_QP2LAMBDA;
-    } else if (codec.name != "prores") {
-      settings.set("crf", kQuality);
-      if (codec.name == "h265") settings.set("x265-params", "log-level=none");
-      if (codec.name == "vp9") settings.set("row-mt", "1");
-      if (codec.name == "vp9") settings.set("cpu-used", "4");
+      context.global_quality = quality * FF_QP2LAMBDA;
+    } else if (!codec.scale.key.empty()) {
+      settings.set(codec.scale.key.data(), std::to_string(quality).c_str());
+      if (codec.scale.key == "crf" && codec.name.starts_with("av1")) context.bit_rate = 0;
     }
+    if (muxer_->oformat->audio_codec == AV_CODEC_ID_NONE) av_opt_set(muxer_->priv_data, "loop", "0", 0);  // for ever
     check(avcodec_open2(&context, encoder, settings.get()));
     // What an encoder does not know it leaves: the video would be another one than was asked for.
     if (const auto left = settings.first_name()) {
@@ -201,7 +214,7 @@ class LibavVideoWriter final : public VideoWriter {
     stream_->sample_aspect_ratio = context.sample_aspect_ratio;
     stream_->avg_frame_rate = context.framerate;
     // What Apple's players know H.265 by.
-    if (codec.name == "h265" && std::string_view(muxer_->oformat->name) != "matroska") {
+    if (codec.name.starts_with("h265") && std::string_view(muxer_->oformat->name) != "matroska") {
       stream_->codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');
     }
   }
@@ -271,6 +284,7 @@ class LibavVideoWriter final : public VideoWriter {
   FramePointer picture_;
   FramePointer encoded_;
   PacketPointer packet_;
+  std::unique_ptr<SoundWriter> sound_;
   std::int64_t frames_written_ = 0;
 };
 

@@ -334,6 +334,10 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   result.range = named_range(codec);
   result.chroma_at = named_chroma_place(codec);
   result.primaries = primaries_of_coding_point(primaries);
+  if (const auto named = raw ? std::nullopt : named_curve(*opened.format, path)) {
+    result.transfer = named->transfer;
+    result.primaries = named->primaries;
+  }
   if (result.primaries == Primaries::bt709 && primaries != AVCOL_PRI_BT709)
     result.near_primaries = primaries_name(primaries);
   if (!raw && has_edits(path)) {
@@ -372,7 +376,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
     result.unread_matrix = name != nullptr ? name : format("number {} of H.273", matrix);
   }
   if (primaries != AVCOL_PRI_UNSPECIFIED && primaries != AVCOL_PRI_RESERVED &&
-      primaries != AVCOL_PRI_RESERVED0) {
+      primaries != AVCOL_PRI_RESERVED0 && !(result.transfer && result.transfer->usual_primaries())) {
     const char* const name = primaries_name(primaries);
     note_unknown(result.primaries.has_value(), "set of primaries",
                  name != nullptr ? name : format("number {} of H.273", primaries).c_str(),

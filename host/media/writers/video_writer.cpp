@@ -2,36 +2,69 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/formats/extension.hpp"
-#include "media/module.hpp"
 #include "media/formats/numbered_name.hpp"
+#include "media/module.hpp"
 
 namespace nutik {
 namespace {
 
-constexpr std::array<VideoCodec, 6> kCodecs{{
-    {"ffv1", "ffv1", " .mkv .avi ", true, true, true, 130, false},
-    {"h264", "libx264", " .mp4 .m4v .mov .mkv ", true, false, false, 110, true},
-    {"h265", "libx265", " .mp4 .m4v .mov .mkv ", true, false, false, 130, true},
-    {"vp9", "libvpx-vp9", " .webm .mkv ", true, false, false, 110, true},
-    {"prores", "prores_ks", " .mov .mkv ", false, true, false, 40, true},
-    {"mjpeg", "mjpeg", " .avi .mov .mkv ", true, false, false, 16, true},
-}};
+constexpr CodecScale kX264{"crf", 0, 51, 17}, kAom{"crf", 0, 63, 20}, kVpx{"crf", 0, 63, 17};
+constexpr CodecScale kMjpeg{"qscale", 2, 31, 2}, kWebp{"quality", 100, 0, 90}, kNone{};
+
+constexpr VideoCodec kCodecs[] = {
+    {"ffv1", "ffv1", " .mkv .avi ", true, true, true, 130, false, "", kNone, "level=3:slicecrc=1"},
+    {"h264", "libx264", " .mp4 .m4v .mov .mkv ", true, false, false, 110, true, "yuv420p", kX264},
+    {"h264-10", "libx264", " .mp4 .m4v .mov .mkv ", false, true, false, 110, true, "yuv420p10le", kX264},
+    {"h265", "libx265", " .mp4 .m4v .mov .mkv ", true, false, false, 130, true, "yuv420p", kX264,
+     "x265-params=log-level=none"},
+    {"h265-10", "libx265", " .mp4 .m4v .mov .mkv ", false, true, false, 130, true, "yuv420p10le", kX264,
+     "x265-params=log-level=none"},
+    {"av1", "libaom-av1", " .mp4 .m4v .mkv .webm ", true, false, false, 130, true, "yuv420p", kAom,
+     "row-mt=1:cpu-used=6"},
+    {"av1-10", "libaom-av1", " .mp4 .m4v .mkv .webm ", false, true, false, 130, true, "yuv420p10le", kAom,
+     "row-mt=1:cpu-used=6"},
+    {"vp9", "libvpx-vp9", " .webm .mkv ", true, false, false, 110, true, "yuv420p", kVpx,
+     "row-mt=1:cpu-used=4"},
+    {"prores", "prores_ks", " .mov .mkv ", false, true, false, 40, true, "yuv422p10le", kNone, "profile=hq"},
+    {"prores-proxy", "prores_ks", " .mov .mkv ", false, true, false, 40, true, "yuv422p10le", kNone,
+     "profile=proxy"},
+    {"prores-lt", "prores_ks", " .mov .mkv ", false, true, false, 40, true, "yuv422p10le", kNone,
+     "profile=lt"},
+    {"prores-422", "prores_ks", " .mov .mkv ", false, true, false, 40, true, "yuv422p10le", kNone,
+     "profile=standard"},
+    {"prores-4444", "prores_ks", " .mov .mkv ", false, true, false, 40, true, "yuv444p10le", kNone,
+     "profile=4444"},
+    {"dnxhr-lb", "dnxhd", " .mov .mxf ", true, false, false, 40, true, "yuv422p", kNone, "profile=dnxhr_lb"},
+    {"dnxhr-sq", "dnxhd", " .mov .mxf ", true, false, false, 40, true, "yuv422p", kNone, "profile=dnxhr_sq"},
+    {"dnxhr-hq", "dnxhd", " .mov .mxf ", true, false, false, 40, true, "yuv422p", kNone, "profile=dnxhr_hq"},
+    {"dnxhr-hqx", "dnxhd", " .mov .mxf ", false, true, false, 40, true, "yuv422p10le", kNone,
+     "profile=dnxhr_hqx"},
+    {"dnxhr-444", "dnxhd", " .mov .mxf ", false, true, false, 40, true, "yuv444p10le", kNone,
+     "profile=dnxhr_444"},
+    {"mjpeg", "mjpeg", " .avi .mov .mkv ", true, false, false, 16, true, "yuvj420p", kMjpeg},
+    {"gif", "gif", " .gif ", true, false, false, 16, false, "rgb8", kNone},
+    {"webp", "libwebp_anim", " .webp ", true, false, false, 16, true, "yuv420p", kWebp},
+};
 
 struct Container {
   std::string_view extension;
   std::string_view default_codec;
 };
 
-constexpr std::array<Container, 6> kContainers{{{".mp4", "h264"},
+constexpr std::array<Container, 9> kContainers{{{".mp4", "h264"},
                                                 {".m4v", "h264"},
                                                 {".mov", "h264"},
                                                 {".mkv", "ffv1"},
                                                 {".avi", "ffv1"},
-                                                {".webm", "vp9"}}};
+                                                {".webm", "vp9"},
+                                                {".mxf", "dnxhr-hqx"},
+                                                {".gif", "gif"},
+                                                {".webp", "webp"}}};
 
 const Container* find_container(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
@@ -68,7 +101,9 @@ class StillWriter final : public VideoWriter {
 
 double largest_rate_for(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
-  const bool is_coarse = extension == ".mkv" || extension == ".webm" || extension == ".avi";
+  if (extension == ".gif") return 50.0;  // players wait longer for less than two hundredths
+  const bool is_coarse =
+      extension == ".mkv" || extension == ".webm" || extension == ".avi" || extension == ".webp";
   return is_coarse ? 1000.0 : 100'000.0;
 }
 
@@ -76,8 +111,8 @@ const VideoCodec& video_codec_for(const std::filesystem::path& path, const std::
   const Container* container = find_container(path);
   if (container == nullptr) {
     throw UsageError(
-        format("{}: videos are written as .mp4, .m4v, .mov, .mkv, .avi or .webm, or as numbered "
-               "stills, frame-%05d.png",
+        format("{}: videos are written as .mp4, .m4v, .mov, .mxf, .mkv, .avi, .webm, .gif or .webp, or as "
+               "numbered stills, frame-%05d.png",
                path.string()));
   }
   std::string all, fitting;
@@ -87,11 +122,37 @@ const VideoCodec& video_codec_for(const std::filesystem::path& path, const std::
     all += format("{}{}", all.empty() ? "" : ", ", codec.name);
     if (held) fitting += format("{}{}", fitting.empty() ? "" : ", ", codec.name);
   }
-  const bool known = std::any_of(kCodecs.begin(), kCodecs.end(),
-                                 [&](const VideoCodec& codec) { return codec.name == *name; });
+  const bool known = std::ranges::find(kCodecs, *name, &VideoCodec::name) != std::end(kCodecs);
   if (!known) throw UsageError(format("video codec '{}' is not known; choose one of: {}", *name, all));
   throw UsageError(
       format("{}: a {} file holds {}, not {}", path.string(), container->extension, fitting, *name));
+}
+
+std::span<const VideoCodec> video_codecs() { return kCodecs; }
+
+int codec_setting(const VideoCodec& codec, const std::optional<std::uint32_t>& crf,
+                  const std::optional<std::uint32_t>& quality) {
+  const CodecScale& scale = codec.scale;
+  if (!crf && !quality) return scale.usual;
+  if (scale.key.empty()) {
+    throw UsageError(
+        format("{} has no scale of quality{}", codec.name,
+               codec.is_lossless ? ": it loses nothing" : "; choose another of its kind, by its name"),
+        {crf ? Setting::crf : Setting::quality});
+  }
+  if (crf) {
+    const auto [least, most] = std::minmax(scale.best, scale.worst);
+    if (static_cast<int>(*crf) >= least && static_cast<int>(*crf) <= most) return static_cast<int>(*crf);
+    throw UsageError(format("{}'s own scale runs from {} (best) to {}, and {} is outside", codec.name,
+                            scale.best, scale.worst, *crf),
+                     {Setting::crf});
+  }
+  const double share = (100.0 - *quality) / 99.0;  // of the way from best to worst
+  return static_cast<int>(std::lround(scale.best + share * (scale.worst - scale.best)));
+}
+
+std::optional<ClipSound> clip_sound(const std::filesystem::path& clip) {
+  return video_module().sound_of_clip(clip);
 }
 
 std::unique_ptr<VideoWriter> open_video_writer(const std::filesystem::path& path, const VideoFormat& format,
@@ -108,8 +169,11 @@ ValueType video_value_type(const VideoCodec& codec, std::optional<Depth> wish, V
     throw UsageError("a video holds no floating point; write numbered stills: frame-%05d.exr or .tif");
   }
   if (wish == Depth::bits16 && !codec.holds_16_bits) {
-    throw UsageError(format("{} holds 8 bits; for 16 use ffv1 in a .mkv, or numbered stills", codec.name),
-                     {Setting::video_codec});
+    throw UsageError(
+        format("{} holds 8 bits; for 16 use ffv1 in a .mkv, or numbered stills; for 10 one of the codecs "
+               "that say so: h264-10, h265-10, av1-10, prores, dnxhr-hqx",
+               codec.name),
+        {Setting::video_codec});
   }
   if (wish == Depth::bits8 && !codec.holds_8_bits) {
     throw UsageError(format("{} holds more than 8 bits; leave the depth out", codec.name), {Setting::depth});

@@ -16,6 +16,13 @@
 
 namespace nutik {
 
+// A codec's own scale of quality: the number from best to worst, and what it is called by its encoder. None: no name.
+struct CodecScale {
+  std::string_view key = {};
+  int best = 0, worst = 0;
+  int usual = 0;  // below what an eye sees
+};
+
 // The containers and codecs that videos are written with.
 struct VideoCodec {
   std::string_view name;        // as a person says it: ffv1, h264, …
@@ -26,6 +33,32 @@ struct VideoCodec {
   bool is_lossless;
   std::uint32_t held_frames;  // of three values for two pixels, that its encoder keeps about
   bool pairs_pixels;          // keeps one colour for two by two pixels, so that both sides must be even
+  std::string_view pixels;    // as FFmpeg calls what is encoded; empty: the frames' own
+  CodecScale scale;
+  std::string_view settings = {};  // of the encoder, `name=value:name=value`
+};
+
+[[nodiscard]] std::span<const VideoCodec> video_codecs();
+
+// On the codec's scale: as it was stated itself, else between worst (1) and best (100), else what is usual. Throws
+// UsageError where it has none, or a number lies outside.
+[[nodiscard]] int codec_setting(const VideoCodec& codec, const std::optional<std::uint32_t>& crf,
+                                const std::optional<std::uint32_t>& quality);
+
+// When the first and the last picture of a clip with sound are shown, in seconds of the file.
+struct ClipSound {
+  double first_s, last_s;
+};
+
+// None of what is no video, or has no sound.
+[[nodiscard]] std::optional<ClipSound> clip_sound(const std::filesystem::path& clip);
+
+// A part of a clip's sound, in a film.
+struct FilmSound {
+  std::filesystem::path clip;
+  double start_s = 0;  // of the file, where the film begins
+  double speed = 1;    // seconds of the file in one of the film
+  double seconds = 0;  // of the film
 };
 
 // The frames a second that a container of this name still tells apart: 1000 in .mkv and .webm, whose times are
@@ -47,6 +80,8 @@ struct VideoFormat {
   Rational rate{24, 1};  // frames a second of playback; numerator and denominator below 2^31
   Primaries primaries = Primaries::bt709;
   Rational pixel_aspect{1, 1};
+  std::optional<int> codec_setting = {};  // codec_setting(); none: what is usual
+  std::optional<FilmSound> sound = {};
 };
 
 class VideoWriter {

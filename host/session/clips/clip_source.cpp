@@ -167,7 +167,7 @@ void fill(ClipSource& source, const OpenClip& open, const MemoryBudget& memory, 
 
 CaptureFormat clip_format(const Clip& clip, const ClipOptions& options) {
   CaptureFormat capture = clip.info().format;
-  if (options.transfer) capture.transfer = *options.transfer;
+  if (options.transfer) capture.transfer = Transfer::restated(capture.transfer, *options.transfer);
   if (options.white_code && !clip.makes_codes()) {
     if (capture.code_bytes == 1 && *options.white_code > 255) {
       throw UsageError(

@@ -75,6 +75,15 @@ std::int64_t functions_end_ns(const ExposureRequest& request) {
   return end_ns;
 }
 
+Combining Combining::parse(std::string_view text) {
+  if (text == "mean") return {Combine::integral, true};
+  const std::string_view names[]{"integral", "lighten", "darken", "median"};
+  const auto found = std::ranges::find(names, text);
+  if (found == std::end(names))
+    throw UsageError(format("light is not combined as '{}'; choose integral, mean, lighten, darken or median", text));
+  return {static_cast<Combine>(found - std::begin(names))};
+}
+
 Mask mask_of(const ExposureRequest& request, const Shape& shape) {
   if (request.mask) return (*request.mask)->mask;
   return Mask::uniform(shape.width, shape.height,
@@ -85,6 +94,7 @@ PlanOptions plan_options_of(const ExposureRequest& request, const Shape& shape) 
   PlanOptions options;
   options.unmapped_is_zero = request.unmapped_is_zero;
   options.live_all = request.live_all;
+  options.combine = request.combine;
   options.transfer = request.transfer;
   if (request.is_plain()) options.function_name = kPlainName;
   if (request.delay) options.delays = delays_of(*request.delay, shape);

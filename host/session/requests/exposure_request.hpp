@@ -45,6 +45,14 @@ struct MaskWithRegions {
   friend bool operator==(const MaskWithRegions& a, const MaskWithRegions& b) { return a.mask == b.mask; }
 };
 
+// `integral`, `mean`, `lighten`, `darken`, `median`: the mean is the integral, divided by that of the gain.
+struct Combining {
+  Combine how = Combine::integral;
+  bool is_mean = false;
+
+  static Combining parse(std::string_view text);
+};
+
 struct ExposureRequest {
   // Functions as they were written, by mask value: at least one; without a mask exactly one.
   std::variant<PlainInterval, Shared<FunctionSet>> gains;
@@ -53,6 +61,7 @@ struct ExposureRequest {
   std::optional<DelayRequest> delay;  // of each pixel; its picture, if it is one, has been read
   Normalization normalization;
   double gain = 1.0;  // multiplies the light
+  Combine combine = Combine::integral;
   bool unmapped_is_zero = false;
   bool live_all = false;
   std::optional<Transfer> transfer;  // instead of the capture's own

@@ -24,6 +24,7 @@ struct OutputRequest {
   // How light becomes codes, whose white is the last one that their type holds. None: sRGB, which screens show.
   std::optional<std::variant<Transfer, SourceCodes>> transfer = std::nullopt;
   std::optional<int> quality = std::nullopt;  // of lossy files, 1 … 100
+  std::optional<std::uint32_t> crf = std::nullopt;  // of films, on their codec's own scale
   bool keep_pixels = false;  // in files that people look at, too, whose pixels are made square otherwise
 
   friend bool operator==(const OutputRequest&, const OutputRequest&) = default;

@@ -1,0 +1,29 @@
+// The sound of a clip, in a film of it.
+//
+//   in:      a clip with a stream of sound, when its part begins and how fast the film runs through it (FilmSound)
+//   out:     a stream of the film's: packets as they are where the container holds them and the film runs as fast as the
+//            file; else decoded, played slower or faster as a tape is, and encoded anew
+//   always:  a sound has the time of its picture; packets as they are begin with the first whole one
+#pragma once
+
+#include <memory>
+
+#include "media/videos/libav.hpp"
+
+namespace nutik::videos {
+
+// What a clip has to be heard; none where there is nothing.
+[[nodiscard]] std::optional<ClipSound> sound_of_clip(const std::filesystem::path& path);
+
+class SoundWriter {
+ public:
+  virtual ~SoundWriter() = default;
+  // Writes what is heard before that time of the film, of which it has not yet been written.
+  virtual void write_to(double film_s) = 0;
+};
+
+// Adds a stream to a container whose header has not been written yet. Throws OutputError where it holds no sound that can
+// be made here.
+[[nodiscard]] std::unique_ptr<SoundWriter> open_sound(const FilmSound& sound, AVFormatContext& film, const std::string& name);
+
+}  // namespace nutik::videos

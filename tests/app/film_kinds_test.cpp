@@ -1,0 +1,238 @@
+// Films as editors, players and the web take them: decoded again by others, with their tags, and with the clip's sound.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <sstream>
+
+#include "support/app_test.hpp"
+#include "support/ffmpeg.hpp"
+
+namespace nutik {
+namespace {
+
+class FilmKinds : public test::AppTest {
+ protected:
+  void ffmpeg(const std::string& words) const {
+    const auto made = test::run_shell("ffmpeg -v error -y " + words, scratch_.folder());
+    ASSERT_EQ(made.status, 0) << words << made.err;
+  }
+  // `codec_name=h264` and the like, a line each.
+  [[nodiscard]] std::string probed(const std::string& name, const std::string& stream = "v") const {
+    return test::run_shell(
+               "ffprobe -v error -count_frames -select_streams " + stream +
+                   " -show_entries stream=codec_name,profile,pix_fmt,r_frame_rate,nb_read_frames,color_space,"
+                   "color_transfer,color_primaries,start_time -of default=nw=1 " +
+                   name,
+               scratch_.folder())
+        .out;
+  }
+  // All frames as others decode them, RGB of 8 bits.
+  [[nodiscard]] std::string decoded(const std::string& name) const {
+    ffmpeg("-i " + name + " -vsync 0 -f rawvideo -pix_fmt rgb24 decoded");
+    return file("decoded");
+  }
+  static double mean_difference(const std::string& a, const std::string& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      sum += std::abs(static_cast<int>(static_cast<unsigned char>(a[i])) -
+                      static_cast<int>(static_cast<unsigned char>(b[i])));
+    return sum / static_cast<double>(a.size());
+  }
+};
+
+struct Kind {
+  std::string film, codec, is, pixels;
+  double most;  // codes of 8 bits by which frames differ in the mean
+};
+
+TEST_F(FilmKinds, AreDecodedAgain) {
+  NEEDS_FFMPEG();
+  constexpr int kFrames = 6;
+  test::make(scratch_,
+             "-f lavfi -i testsrc2=s=320x180:d=1:r=24000/1001 -vf boxblur=4 -frames:v 6 -c:v ffv1 -pix_fmt "
+             "bgr0 clip.mkv");
+  const std::string source = decoded("clip.mkv");
+  ASSERT_EQ(source.size(), std::size_t{320} * 180 * 3 * kFrames);
+  const std::vector<Kind> kinds{
+      {"a.mkv", "ffv1", "ffv1", "bgr0", 0.0},
+      {"a.mp4", "h264", "h264", "yuv420p", 2.5},
+      {"b.mp4", "h264-10", "h264", "yuv420p10le", 2.5},
+      {"c.mp4", "h265", "hevc", "yuv420p", 2.5},
+      {"d.mp4", "h265-10", "hevc", "yuv420p10le", 2.5},
+      {"e.mp4", "av1", "av1", "yuv420p", 3},
+      {"f.mkv", "av1-10", "av1", "yuv420p10le", 3},
+      {"g.webm", "vp9", "vp9", "yuv420p", 3},
+      {"h.mov", "prores", "prores", "yuv422p10le", 1.5},
+      {"i.mov", "prores-proxy", "prores", "yuv422p10le", 3},
+      {"j.mov", "prores-lt", "prores", "yuv422p10le", 2},
+      {"k.mov", "prores-422", "prores", "yuv422p10le", 2},
+      {"l.mov", "prores-4444", "prores", "yuv444p12le", 1.5},
+      {"m.mov", "dnxhr-lb", "dnxhd", "yuv422p", 4},
+      {"n.mov", "dnxhr-sq", "dnxhd", "yuv422p", 2},
+      {"o.mov", "dnxhr-hq", "dnxhd", "yuv422p", 2},
+      {"p.mxf", "dnxhr-hqx", "dnxhd", "yuv422p10le", 2},
+      {"q.mov", "dnxhr-444", "dnxhd", "yuv444p10le", 2},
+      {"r.avi", "mjpeg", "mjpeg", "yuvj420p", 3},
+      {"s.gif", "gif", "gif", "bgra", 20},
+  };
+  for (const Kind& kind : kinds) {
+    SCOPED_TRACE(kind.codec);
+    const auto made = make("video --out-fps 24000/1001 --out-angle 360 --video-codec " + kind.codec +
+                           " clip.mkv " + kind.film);
+    ASSERT_EQ(made.status, 0);
+    const std::string told = probed(kind.film);
+    expect_says(told,
+                {"codec_name=" + kind.is + "\n", "pix_fmt=" + kind.pixels + "\n", "nb_read_frames=6\n"});
+    const bool is_coarse = kind.codec == "gif";
+    if (!is_coarse) expect_says(told, "r_frame_rate=24000/1001\n");
+    const std::string frames = decoded(kind.film);
+    ASSERT_EQ(frames.size(), source.size());
+    EXPECT_LE(mean_difference(frames, source), kind.most);
+    if (kind.codec.starts_with("prores-4444")) expect_says(told, "profile=4444\n");
+    if (kind.codec == "dnxhr-hqx") expect_says(told, "profile=DNXHR HQX\n");
+  }
+  make("video --out-fps 24000/1001 --out-angle 360 clip.mkv web.webp");
+  const std::string webp = file("web.webp");
+  EXPECT_EQ(webp.substr(0, 4) + webp.substr(8, 4), "RIFFWEBP");
+  std::size_t frames = 0;
+  for (std::size_t at = webp.find("ANMF"); at != webp.npos; at = webp.find("ANMF", at + 4)) ++frames;
+  EXPECT_EQ(frames, 6u);
+}
+
+TEST_F(FilmKinds, HaveTheQualityThatIsAskedFor) {
+  NEEDS_FFMPEG();
+  test::make(scratch_,
+             "-f lavfi -i testsrc2=s=320x180:d=1:r=24 -vf noise=alls=30:allf=t -frames:v 6 -c:v ffv1 "
+             "-pix_fmt bgr0 clip.mkv");
+  const auto bytes = [&](const std::string& words, const std::string& name) {
+    make("video -q --overwrite --out-fps 24 --out-angle 360 " + words + " clip.mkv " + name);
+    return file(name).size();
+  };
+  for (const char* codec : {"h264", "h265-10", "av1"}) {
+    const std::string of = "--video-codec " + std::string(codec) + " ";
+    EXPECT_GT(bytes(of + "--crf 10", "a.mp4"), bytes(of + "--crf 40", "a.mp4")) << codec;
+    EXPECT_GT(bytes(of + "--quality 90", "a.mp4"), bytes(of + "--quality 20", "a.mp4")) << codec;
+  }
+  EXPECT_GT(bytes("--video-codec mjpeg --crf 2", "a.avi"), bytes("--video-codec mjpeg --crf 20", "a.avi"));
+  EXPECT_GT(bytes("--crf 90", "a.webp"), bytes("--crf 10", "a.webp"));
+  expect_refused("video --crf 60 clip.mkv x.mp4", 2,
+                 "h264's own scale runs from 0 (best) to 51, and 60 is outside");
+  expect_refused("video --crf 3 clip.mkv x.mkv", 2, "ffv1 has no scale of quality: it loses nothing");
+  expect_refused("video --quality 3 clip.mkv x.mov --video-codec prores", 2,
+                 "prores has no scale of quality; choose another");
+  expect_refused("video --crf 3 clip.mkv x-%d.png", 2, "pictures have none");
+}
+
+// HLG comes in and goes out with its codes and tags, in 10 bits and BT.2020's matrix.
+TEST_F(FilmKinds, KeepHighDynamicRange) {
+  NEEDS_FFMPEG();
+  for (const auto& [curve, name] : {std::pair{"arib-std-b67", "hlg"}, {"smpte2084", "pq"}}) {
+    test::make(scratch_,
+               "-f lavfi -i gradients=s=320x180:d=1:r=25 -frames:v 5 -c:v ffv1 -pix_fmt yuv420p10le "
+               "-colorspace bt2020nc "
+               "-color_primaries bt2020 -color_trc " +
+                   std::string(curve) + " -color_range tv hdr.mkv");
+    make(
+        "video --overwrite --out-fps 25 --out-angle 360 --out-transfer source --video-codec h265-10 --crf 4 "
+        "hdr.mkv film.mp4");
+    const std::string told = probed("film.mp4");
+    expect_says(told, {"pix_fmt=yuv420p10le\n", "color_space=bt2020nc\n",
+                       "color_transfer=" + std::string(curve) + "\n", "color_primaries=bt2020\n",
+                       "nb_read_frames=5\n"});
+    ffmpeg("-i hdr.mkv -f rawvideo -pix_fmt yuv420p10le before");
+    ffmpeg("-i film.mp4 -f rawvideo -pix_fmt yuv420p10le after");
+    const std::string before = file("before"), after = file("after");
+    ASSERT_EQ(before.size(), after.size());
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < before.size(); i += 2) {
+      std::uint16_t a = 0, b = 0;
+      std::memcpy(&a, before.data() + i, 2);
+      std::memcpy(&b, after.data() + i, 2);
+      sum += std::abs(a - b);
+    }
+    EXPECT_LE(sum / static_cast<double>(before.size() / 2), 2.5) << name;  // codes of 10 bits
+  }
+}
+
+class FilmSoundTest : public FilmKinds {
+ protected:
+  // Four seconds of 25 frames each: black and silent but for a flash of frame 50, and a tone that begins with it.
+  void make_clap(const std::string& name, const std::string& sound) const {
+    ffmpeg(
+        "-f lavfi -i color=black:s=64x48:r=25:d=4 -f lavfi -i "
+        "aevalsrc=\"if(between(t\\,2\\,2.1)\\,sin(2*PI*1000*t)\\,0)\":s=48000:d=4 "
+        "-vf \"drawbox=c=white:t=fill:enable=eq(n\\,50)\" -c:v mpeg4 -q:v 2 -c:a " +
+        sound + " " + name);
+  }
+  // The frame that is bright, and when the sound begins, in frames.
+  [[nodiscard]] std::pair<double, double> clap(const std::string& name, double rate) const {
+    ffmpeg("-i " + name + " -vsync 0 -f rawvideo -pix_fmt gray frames");
+    ffmpeg("-i " + name + " -vn -af aresample=async=1:first_pts=0 -f f32le -ac 1 -ar 48000 sound");
+    const std::string frames = file("frames"), sound = file("sound");
+    std::size_t frame = 0;
+    while (frame * 64 * 48 < frames.size() &&
+           static_cast<unsigned char>(frames[frame * 64 * 48 + 1000]) < 128)
+      ++frame;
+    std::size_t sample = 0;
+    for (float value = 0; sample * 4 + 4 <= sound.size(); ++sample) {
+      std::memcpy(&value, sound.data() + sample * 4, 4);
+      if (std::fabs(value) > 0.2F) break;
+    }
+    return {static_cast<double>(frame), static_cast<double>(sample) / 48'000 * rate};
+  }
+};
+
+TEST_F(FilmSoundTest, LiesOnItsFrame) {
+  NEEDS_FFMPEG();
+  make_clap("clip.mp4", "aac");
+  make_clap("plain.mov", "pcm_s16le");
+  // As packets are, and encoded anew.
+  const std::vector<std::pair<std::string, std::string>> films{
+      {"clip.mp4", "a.mp4"},  {"clip.mp4", "a.mkv"},   {"clip.mp4", "a.mov"},
+      {"clip.mp4", "a.webm"}, {"clip.mp4", "a.avi"},   {"plain.mov", "b.mp4"},
+      {"plain.mov", "b.mkv"}, {"plain.mov", "b.webm"}, {"plain.mov", "b.avi"}};
+  for (const auto& [clip, film] : films) {
+    SCOPED_TRACE(clip + " as " + film);
+    const auto made = make("video --out-fps 25 --out-angle 360 --from 1s --to 3.5s " + clip + " " + film);
+    EXPECT_EQ((made.out + made.err).find("left out"), std::string::npos) << made.err;
+    const auto [frame, sound] = clap(film, 25);
+    EXPECT_EQ(frame, 25);
+    EXPECT_NEAR(sound, frame, 1.0);
+    const std::string length =
+        test::run_shell("ffprobe -v error -show_entries format=duration -of csv=p=0 " + film,
+                        scratch_.folder())
+            .out;
+    EXPECT_NEAR(std::stod(length), 2.5, 0.1);
+  }
+}
+
+TEST_F(FilmSoundTest, IsLeftOutAloudOrStretched) {
+  NEEDS_FFMPEG();
+  make_clap("clip.mp4", "aac");
+  const auto slow = make("video --out-fps 25 --out-angle 360 --from 1s --speed 0.5 clip.mp4 slow.mp4");
+  expect_says(slow.out + slow.err,
+              "the clip's sound is left out: the film runs 0.5 times as fast as the file");
+  EXPECT_EQ(probed("slow.mp4", "a"), "");
+  for (const auto& [speed, at] : {std::pair{"0.5", 50.0}, {"0.25", 100.0}, {"2", 12.5}}) {
+    make("video --overwrite --out-fps 25 --out-angle 360 --sound stretch --from 1s --speed " +
+         std::string(speed) + " clip.mp4 slow.mp4");
+    const auto [frame, sound] = clap("slow.mp4", 25);
+    EXPECT_NEAR(frame, at, 0.5) << speed;
+    EXPECT_NEAR(sound, at, 1.0) << speed;
+  }
+  make("video --out-fps 25 --sound no clip.mp4 mute.mp4");
+  EXPECT_EQ(probed("mute.mp4", "a"), "");
+  const auto gif = make("video --out-fps 25 clip.mp4 a.gif");
+  expect_says(gif.out + gif.err, "the clip's sound is left out: .gif holds none");
+  expect_refused("video --sound loud clip.mp4 x.mp4", 2, "choose clip, stretch or no");
+  // A phone's slow motion, which plays at an eighth of the speed of life: so the film does that runs as slow.
+  ffmpeg("-i clip.mp4 -c copy -movflags use_metadata_tags -metadata com.android.capture.fps=200 phone.mp4");
+  make("video --out-fps 25 --out-angle 360 --speed 1/8 phone.mp4 same.mp4");
+  const auto [frame, sound] = clap("same.mp4", 25);
+  EXPECT_EQ(frame, 50);
+  EXPECT_NEAR(sound, 50, 1.0);
+}
+
+}  // namespace
+}  // namespace nutik

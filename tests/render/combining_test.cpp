@@ -1,0 +1,131 @@
+// The lightest, darkest and middle sample: against all samples, one by one, and by hand.
+#include "render/combining_renderer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "capture/error.hpp"
+#include "support/random_case.hpp"
+#include "support/seeds.hpp"
+
+namespace nutik {
+namespace {
+
+constexpr Combine kAll[] = {Combine::lighten, Combine::darken, Combine::median};
+
+PlanOptions combining(Combine how) {
+  PlanOptions options;
+  options.combine = how;
+  return options;
+}
+
+FunctionSet without_gains_below_zero(const FunctionSet& functions) {
+  FunctionSet positive;
+  for (const auto& [tag, function] : functions) {
+    std::vector<ControlPoint> points(function.points().begin(), function.points().end());
+    for (ControlPoint& point : points) point.gain = std::abs(point.gain);
+    positive.emplace(tag, GainFunction(points));
+  }
+  return positive;
+}
+
+// A function's largest gain while a sample is exposed.
+double largest_gain(const GainFunction& function, std::int64_t start_ns, std::int64_t end_ns, std::int64_t duration_ns) {
+  double largest = 0.0;
+  for (const GainPiece& piece : function.pieces(duration_ns)) {
+    if (piece.end_ns <= start_ns || piece.begin_ns >= end_ns) continue;
+    largest = std::max({largest, piece.at(std::max(start_ns, piece.begin_ns)), piece.at(std::min(end_ns, piece.end_ns))});
+  }
+  return largest;
+}
+
+// The reference: no blocks, no tiles, all samples of a value in a row.
+double combined(const RenderPlan& plan, const test::RandomCase& random, std::uint64_t value) {
+  const std::uint64_t pixel = value / plan.capture.shape.channels;
+  std::vector<Share> shares(plan.shares_of(pixel).begin(), plan.shares_of(pixel).end());
+  if (shares.empty()) shares.push_back({plan.function_of(pixel), kWholeShare});
+  double sum = 0.0;
+  for (const Share& share : shares) {
+    const PlannedFunction& planned = plan.functions[share.of];
+    std::vector<double> lights;
+    const SampleRange exposed = exposed_samples(planned, random.timeline);
+    for (std::uint64_t k = exposed.first; k < exposed.last; ++k) {
+      const double gain = largest_gain(planned.function, random.timeline.start_ns(k), random.timeline.end_ns(k), plan.duration_ns);
+      const double code = test::code_at(plan.capture, random.rasters[k], value);
+      if (gain > 0.0) lights.push_back(gain * plan.capture.transfer.light_of(code / plan.capture.white_code));
+    }
+    std::ranges::sort(lights);
+    if (lights.empty()) continue;
+    const std::size_t n = lights.size();
+    sum += share.size * (plan.combine == Combine::lighten  ? lights.back()
+                         : plan.combine == Combine::darken ? lights.front()
+                                                           : (lights[(n - 1) / 2] + lights[n / 2]) / 2);
+  }
+  return sum / kWholeShare;
+}
+
+// Random captures, masks and functions: to the last bit.
+TEST(Combining, IsTheReferencesToTheLastBit) {
+  const test::Seeds seeds = test::seeds(0, 40);
+  for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
+    test::RandomCase random(seed);
+    random.capture.noise.tolerance = 0;  // held codes are the source's
+    MemoryCapture capture = random.encode();
+    const FunctionSet functions = without_gains_below_zero(random.functions);
+    for (const Combine how : kAll) {
+      const RenderPlan plan = make_plan(capture, functions, random.mask, combining(how));
+      RenderControl little;
+      little.memory_bytes = 1;  // as few rows at a time as there can be
+      for (const RenderControl& control : {RenderControl(), little}) {
+        const Picture picture = CombiningRenderer().render(plan, capture, test::kLight, control).picture;
+        const auto found = picture.values<double>();
+        for (std::size_t i = 0; i < found.size(); ++i) {
+          ASSERT_EQ(found[i], combined(plan, random, i))
+              << random.text() << ", value " << i << ", " << static_cast<int>(how) << "; rerun: " << test::rerun(seed);
+        }
+      }
+    }
+  }
+}
+
+// Eight samples at 100 a second, shutter 180 degrees, of one pixel.
+class CombiningByHand : public testing::Test {
+ protected:
+  static double light(Combine how, const GainFunction& function) {
+    CaptureFormat format;
+    format.shape = {1, 1, 1};
+    format.transfer = Transfer::linear();
+    test::Rasters rasters;
+    for (const int code : {10, 90, 30, 200, 60, 20, 50, 70})
+      rasters.push_back({static_cast<std::byte>(code)});
+    MemoryCapture source(format, Timeline::constant({100, 1}, {180, 1}, 8), rasters, 3);
+    const RenderPlan plan = make_plan(source, {{0, function}}, Mask::uniform(1, 1, 0), combining(how));
+    return CombiningRenderer().render(plan, source, test::kLight).picture.values<double>()[0] * 255;
+  }
+};
+
+TEST_F(CombiningByHand, TakesTheSamplesOfTheInterval) {
+  const GainFunction four = GainFunction::boxcar(10'000'000, 50'000'000);  // samples 1 … 4
+  EXPECT_DOUBLE_EQ(light(Combine::lighten, four), 200);
+  EXPECT_DOUBLE_EQ(light(Combine::darken, four), 30);
+  EXPECT_DOUBLE_EQ(light(Combine::median, four), 75);
+  EXPECT_DOUBLE_EQ(light(Combine::median, GainFunction::boxcar(10'000'000, 60'000'000)), 60);
+  EXPECT_DOUBLE_EQ(light(Combine::lighten, GainFunction::boxcar(10'000'000, 50'000'000, 0.5)), 100);
+}
+
+// A comet's tail: the gain falls, and scales light before the lightest is taken.
+TEST_F(CombiningByHand, ScalesLightBefore) {
+  const GainFunction falling({{0, 1.0}, {80'000'000, 0.0}});
+  EXPECT_NEAR(light(Combine::lighten, falling), 200 * (1 - 30.0 / 80), 1e-9);
+  EXPECT_NEAR(light(Combine::darken, falling), 20 * (1 - 50.0 / 80), 1e-9);
+}
+
+TEST_F(CombiningByHand, RefusesGainsBelowZero) {
+  EXPECT_THROW(light(Combine::lighten, GainFunction::boxcar(0, 30'000'000, -1.0)), UsageError);
+}
+
+}  // namespace
+}  // namespace nutik
