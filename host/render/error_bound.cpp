@@ -165,11 +165,12 @@ double in_steps(const RenderPlan& plan, double scale, double light, double thres
   return scale > 0.0 ? light / std::max(scale * format_step(output.type), least) : 0.0;
 }
 
-// In codes. Other primaries mix light of other channels into a channel's own.
+// In codes. Other primaries mix light of other channels into a channel's own, and cameras' curves bend both ways, which
+// code_error() does not look for.
 double line_steps(const RenderPlan& plan, const LightLine& line, const Roundings& roundings,
                   const OutputFormat& output) {
   const CodeMaking making = CodeMaking::of(plan.capture, output);
-  if (making.conversion) return kInfinite;
+  if (making.conversion || making.transfer.kind() == Transfer::Kind::log) return kInfinite;
   const LightLine seen{line.constant / making.white_light + kThresholdRoundings * kRoundoff64,
                        line.slope + roundings.threshold};
   return code_error(making.transfer, output.white_code, seen);
