@@ -158,7 +158,8 @@ MadeSamples plan_between(const ClipToFill& clip, const std::optional<std::uint32
                               MadeSamples::kMostFilmed),
                        {Setting::between, Setting::to});
     }
-    made.after.push_back(!is_followed ? 0 : static_cast<std::uint8_t>(each ? *each : PairMotion::steps_for(pixels) - 1));
+    const std::uint32_t count = !is_followed ? 0 : each ? *each : PairMotion::steps_for(pixels) - 1;
+    made.after.push_back(static_cast<std::uint8_t>(count));
     if (made.after.back() == 0) return;
     made.changed += motion.changed();
     made.unfollowed += motion.unfollowed();

@@ -10,7 +10,7 @@
 namespace nutik {
 namespace {
 
-constexpr int kStandsOut = 16;            // codes of 255 that a thing differs by from what is seen at its place otherwise
+constexpr int kStandsOut = 16;  // codes of 255 that a thing differs by from what is seen at its place otherwise
 constexpr std::size_t kMinThing = 8;     // fewer are noise that a codec left
 constexpr std::size_t kMostThings = 24;   // of each picture: those that stand out most
 constexpr std::uint32_t kMostOfSide = 4;  // things as long as this part of the shorter side fill the picture
@@ -61,13 +61,15 @@ class FlightSearch {
                                const std::uint8_t* fourth) {
     const std::size_t count = stands_out_.size();
     std::ranges::fill(stands_out_, std::uint8_t{0});
-    const auto apart = [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(std::max(a, b) - std::min(a, b)); };
+    const auto apart = [](std::uint8_t a, std::uint8_t b) {
+      return static_cast<std::uint8_t>(std::max(a, b) - std::min(a, b));
+    };
     for (const std::uint8_t* more : {third, fourth}) {
       if (!more) continue;
       for (std::size_t i = 0; i < count; ++i) {
         const std::uint8_t here = std::min(apart(shown[i], other[i]), apart(shown[i], more[i]));
-        const std::uint8_t others = std::min(apart(other[i], more[i]), std::uint8_t{127});
-        const auto clear = static_cast<std::uint8_t>(std::max(here, static_cast<std::uint8_t>(2 * others)) - 2 * others);
+        const auto others = static_cast<std::uint8_t>(2 * std::min(apart(other[i], more[i]), std::uint8_t{127}));
+        const auto clear = static_cast<std::uint8_t>(std::max(here, others) - others);
         stands_out_[i] = std::max(stands_out_[i], clear);
       }
     }
@@ -126,8 +128,8 @@ class FlightSearch {
     return thing;
   }
 
-  // What remains, of what changed at the thing's place, between it and `to` so many pixels away. What leaves the picture
-  // remains all.
+  // What remains, of what changed at the thing's place, between it and `to` so many pixels away. Nothing of what leaves
+  // the picture is explained.
   [[nodiscard]] float left_of(const std::uint8_t* from, const std::uint8_t* to, const Thing& thing, std::int64_t right,
                               std::int64_t down) const {
     double left = 0, changed = 0;
@@ -303,7 +305,8 @@ class FlightSearch {
     seen.cover = over(wide, 1, sum, 0);
     seen.hides.resize(seen.cover.size());
     for (std::size_t i = 0; i < seen.cover.size(); ++i) {
-      const std::size_t pixel = (seen.box.y + i / seen.box.width) * std::size_t{width_} + seen.box.x + i % seen.box.width;
+      const std::size_t x = seen.box.x + i % seen.box.width, y = seen.box.y + i / seen.box.width;
+      const std::size_t pixel = y * width_ + x;
       const float differs = static_cast<float>(std::abs(shown[pixel] - behind[pixel])) / std::max(contrast, 1.0F);
       seen.cover[i] *= believed / 9;
       seen.hides[i] = seen.cover[i] * std::max(std::min(differs, 1.0F), core[i]);

@@ -137,7 +137,8 @@ class InBetween {
     std::vector<Light> lights;
     [[nodiscard]] Light at(float x, float y) const;
   };
-  [[nodiscard]] Taken taken(const Flight::Seen& seen, std::vector<Light>& lights, const std::vector<Light>& behind) const;
+  [[nodiscard]] Taken taken(const Flight::Seen& seen, std::vector<Light>& lights,
+                            const std::vector<Light>& behind) const;
 
   CaptureFormat format_;
   EvenGrey grey_;

@@ -158,7 +158,9 @@ TEST(Between, LetsNothingFlyOfWhatVanishes) {
   for (int k = 0; k < 4; ++k) {
     pictures.push_back(drawn(
         [k](double x, double y, double) {
-          const auto shines = [&](double at_x, double at_y, double radius) { return std::hypot(x - at_x, y - at_y) < radius; };
+          const auto shines = [&](double at_x, double at_y, double radius) {
+            return std::hypot(x - at_x, y - at_y) < radius;
+          };
           const bool is_on = k < 2 ? shines(60, 60, 5) || shines(60, 130, 5) : shines(240, 90, 11);
           return is_on ? 0.9 : ground_at(x, y);
         },
