@@ -53,6 +53,8 @@ int run(std::span<const char* const> words) {
     return fail(error, ExitStatus::device);
   } catch (const OutputError& error) {
     return fail(error, ExitStatus::output);
+  } catch (const ImpreciseError& error) {
+    return fail(error, ExitStatus::imprecise);
   } catch (const Interrupted& interruption) {
     print_error(interruption.what());
     return ExitStatus::signal + interruption.signal;

@@ -6,7 +6,8 @@
 namespace nutik::app {
 
 struct ExitStatus {
-  static constexpr int ok = 0, other = 1, usage = 2, input = 3, device = 4, output = 5, memory = 6, signal = 128;
+  static constexpr int ok = 0, other = 1, usage = 2, input = 3, device = 4, output = 5, memory = 6, imprecise = 7,
+                       signal = 128;
 };
 
 // What the program does with these words, of which the first is its own name.

@@ -110,6 +110,11 @@ struct OutputError : Error {
   using Error::Error;
 };
 
+// The result may err by more than was allowed.
+struct ImpreciseError : Error {
+  using Error::Error;
+};
+
 // Whoever asked does not want the result any more.
 struct Cancelled : Error {
   Cancelled() : Error("it was cancelled") {}

@@ -1,5 +1,6 @@
 #include "opencl/arithmetic_choice.hpp"
 
+#include <utility>
 #include <vector>
 
 #include "capture/error.hpp"
@@ -8,19 +9,28 @@
 namespace nutik {
 namespace {
 
-// Said only of what the program chose: a person who asks for an arithmetic gets it.
-void warn(Rendered& rendered, const OutputFormat& output, const std::string& device) {
+// An arithmetic that was asked for is taken, however coarse it is; of codes that is said.
+void doubt(Rendered& rendered, const OutputFormat& output, bool is_asked, const RenderControl& control,
+           const std::string& device) {
   if (rendered.choice->is_right_enough()) return;
-  rendered.warnings.push_back(
-      format("no arithmetic of {} is sure to be right to {} of a code here; {} is the closest: {}", device,
-             kMaxSteps, to_text(rendered.precision), error_text(rendered.choice->bound.worst, output)));
+  if (is_asked && (control.precision || !holds_codes(output.type))) return;
+  const std::string name = to_text(rendered.precision), error = error_text(rendered.choice->bound.worst, output);
+  std::string text =
+      is_asked ? format("{} is not sure to be right to {} of a code here: {}; auto takes an arithmetic that is, "
+                        "where there is one",
+                        name, kMaxSteps, error)
+               : format("no arithmetic of {} is sure to be right to {} of a code here; {} is the closest: {}",
+                        device, kMaxSteps, name, error);
+  if (control.strict) throw ImpreciseError(text);
+  rendered.warnings.push_back(std::move(text));
 }
 
 }  // namespace
 
 void choose_arithmetic(const RenderPlan& plan, const OutputFormat& output,
                        std::span<const Precision> available, std::optional<Precision> asked,
-                       const std::string& device, bool takes_wrong, const FaultOf& fault_of, Rendered& rendered) {
+                       const std::string& device, const RenderControl& control, const FaultOf& fault_of,
+                       Rendered& rendered) {
   std::vector<Precision> left(available.begin(), available.end());
   if (asked) left = {*asked};
   std::string faults;
@@ -29,14 +39,13 @@ void choose_arithmetic(const RenderPlan& plan, const OutputFormat& output,
     rendered.precision = rendered.choice->precision();
     const std::string fault = fault_of(rendered.precision);
     rendered.passed_self_test = fault.empty();
-    if (asked && !fault.empty() && !takes_wrong) {
+    if (asked && !fault.empty() && !control.takes_wrong) {
       throw DeviceError(format("{}: this driver computes `{}` wrongly (self-test: {}); use auto or another arithmetic, "
                                "another device or the reference",
                                device, to_text(*asked), fault),
                         {Setting::precision, Setting::renderer});
     }
-    if (!asked && fault.empty()) warn(rendered, output, device);
-    if (asked || fault.empty()) return;
+    if (asked || fault.empty()) return doubt(rendered, output, asked.has_value(), control, device);
     faults += format("\n  {}: {}", to_text(rendered.precision), fault);
     std::erase(left, rendered.precision);
   }

@@ -17,10 +17,12 @@ namespace nutik {
 using FaultOf = std::function<std::string(Precision precision)>;
 
 // Sets the arithmetic, the choice, the self-test and warnings of `rendered`. `available` are the fastest first; `asked`
-// is taken as it is named, a wrong one only if `takes_wrong`. `device` is what a person calls what computes. Throws DeviceError where what is asked for, or
-// all that are available, are computed wrongly.
+// is taken as it is named, a wrong one only if control.takes_wrong. `device` is what a person calls what computes.
+// Throws DeviceError where what is asked for, or all that are available, are computed wrongly; ImpreciseError if
+// control.strict and the picture may err by too much.
 void choose_arithmetic(const RenderPlan& plan, const OutputFormat& output,
                        std::span<const Precision> available, std::optional<Precision> asked,
-                       const std::string& device, bool takes_wrong, const FaultOf& fault_of, Rendered& rendered);
+                       const std::string& device, const RenderControl& control, const FaultOf& fault_of,
+                       Rendered& rendered);
 
 }  // namespace nutik

@@ -160,7 +160,7 @@ void DeviceTeam::keep_resident(const CaptureSource* source) {
 void DeviceTeam::prepare(const RenderPlan& plan, const OutputFormat& output) {
   const std::unique_lock turn = turn_of_all();
   Rendered ignored;
-  choose(plan, output, precision_, false, ignored);
+  choose(plan, output, precision_, {}, ignored);
 }
 
 std::string DeviceTeam::name() const { return names_of(all_); }
@@ -184,10 +184,10 @@ std::string DeviceTeam::names_of(std::span<const std::size_t> members) const {
 }
 
 void DeviceTeam::choose(const RenderPlan& plan, const OutputFormat& output, std::optional<Precision> asked,
-                        bool takes_wrong, Rendered& rendered) {
+                        const RenderControl& control, Rendered& rendered) {
   const std::scoped_lock choosing(choosing_);
   choose_arithmetic(
-      plan, output, available_, asked, name(), takes_wrong,
+      plan, output, available_, asked, name(), control,
       [&](Precision precision) { return fault_of(precision, plan, output); }, rendered);
 }
 
@@ -216,7 +216,7 @@ Rendered DeviceTeam::render_part(const RenderPlan& plan, CaptureSource& source, 
                                  const Rectangle& rectangle, const RenderControl& control) {
   const std::optional<Precision> asked = control.precision ? control.precision : precision_;
   Rendered chosen;
-  choose(plan, output, asked, control.takes_wrong, chosen);
+  choose(plan, output, asked, control, chosen);
   RenderControl of_part = control;
   of_part.precision = chosen.precision;
   std::optional<Rendered> rendered;

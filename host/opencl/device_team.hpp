@@ -58,7 +58,7 @@ class DeviceTeam final : public Renderer {
   void on_each(std::span<const std::size_t> members, const std::stop_token& outer, Work work) const;
   [[nodiscard]] std::string names_of(std::span<const std::size_t> members) const;
   void choose(const RenderPlan& plan, const OutputFormat& output, std::optional<Precision> asked,
-              bool takes_wrong, Rendered& rendered);
+              const RenderControl& control, Rendered& rendered);
   [[nodiscard]] std::string fault_of(Precision precision, const RenderPlan& plan, const OutputFormat& output);
   [[nodiscard]] Rendered render_part(const RenderPlan& plan, CaptureSource& source,
                                      const OutputFormat& output, const Rectangle& rectangle,

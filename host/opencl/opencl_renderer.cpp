@@ -100,7 +100,7 @@ class OpenClRenderer::Implementation {
     const std::scoped_lock turn(turn_);
     try {
       Rendered ignored;
-      choose(plan, output, options_.precision, false, ignored);
+      choose(plan, output, options_.precision, {}, ignored);
     } catch (const cl::Error& error) {
       throw device_failed(error, format("{} failed", info_.name));
     }
@@ -123,7 +123,7 @@ class OpenClRenderer::Implementation {
     const std::scoped_lock turn(turn_);
     try {
       Rendered rendered;
-      choose(request.plan, request.output, asked, request.control.takes_wrong, rendered);
+      choose(request.plan, request.output, asked, request.control, rendered);
       const Work work = work_for(rendered.precision);
       expose_and_develop(work, request, develop_program(work, request.plan, request.output), rendered);
       programs_->save_new_binaries();
@@ -177,9 +177,9 @@ class OpenClRenderer::Implementation {
 
   // Kernels of the arithmetic that is chosen are built and tested.
   void choose(const RenderPlan& plan, const OutputFormat& output, std::optional<Precision> asked,
-              bool takes_wrong, Rendered& rendered) {
+              const RenderControl& control, Rendered& rendered) {
     choose_arithmetic(
-        plan, output, precisions(), asked, info_.name, takes_wrong,
+        plan, output, precisions(), asked, info_.name, control,
         [&](Precision precision) { return fault_text_of(precision, plan, output); }, rendered);
   }
 

@@ -290,6 +290,32 @@ ErrorBound error_bound(const RenderPlan& plan, Precision precision, const Output
   return bound;
 }
 
+ErrorBound reference_bound(const RenderPlan& plan, const OutputFormat& output) {
+  ErrorBound bound{Precision::double_, {}, {}, output};
+  for (const PlannedFunction& function : plan.functions) {
+    const double scale = function.summary.error_scale();
+    PictureError error{kReferenceError * scale, 0.0};
+    error.steps = in_steps(plan, scale, error.light, 0.0, output);
+    bound.functions.push_back(error);
+    bound.worst.light = std::max(bound.worst.light, error.light);
+    bound.worst.steps = std::max(bound.worst.steps, error.steps);
+  }
+  return bound;
+}
+
+Picture bound_map(const RenderPlan& plan, const ErrorBound& bound) {
+  Picture map({plan.capture.shape.width, plan.capture.shape.height, 1}, ValueType::light32, 0);
+  const PixelErrors errors(plan, bound);
+  const auto values = map.values<float>();
+  for (std::uint64_t pixel = 0; pixel < values.size(); ++pixel) {
+    const PictureError error = errors.of(pixel);
+    // Rounded up: a bound is no smaller for being stored.
+    values[pixel] = std::nextafter(static_cast<float>(holds_codes(bound.output.type) ? error.steps : error.light),
+                                   std::numeric_limits<float>::infinity());
+  }
+  return map;
+}
+
 PixelErrors::PixelErrors(const RenderPlan& plan, const ErrorBound& bound)
     : plan_(plan), bound_(bound), fixed_blend_(fixed_blend_error(plan, bound)) {}
 

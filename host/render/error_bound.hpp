@@ -21,6 +21,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "capture/picture.hpp"
 #include "render/function_course.hpp"
 #include "render/output_format.hpp"
 #include "render/render_plan.hpp"
@@ -41,6 +42,9 @@ struct PictureError {
   }
 };
 
+// Of the reference, in S.
+inline constexpr double kReferenceError = 30 * 0x1p-53;
+
 struct ErrorBound {
   Precision precision = Precision::single_;
   std::vector<PictureError> functions;  // by planned function
@@ -49,6 +53,9 @@ struct ErrorBound {
 };
 
 [[nodiscard]] ErrorBound error_bound(const RenderPlan& plan, Precision precision, const OutputFormat& output);
+
+// That of the reference.
+[[nodiscard]] ErrorBound reference_bound(const RenderPlan& plan, const OutputFormat& output);
 
 // The bound of each pixel.
 class PixelErrors {
@@ -64,6 +71,9 @@ class PixelErrors {
   const ErrorBound& bound_;
   double fixed_blend_ = 0.0;  // in light
 };
+
+// The bounds as a grey picture of floats: in codes if the picture holds codes, else in light.
+[[nodiscard]] Picture bound_map(const RenderPlan& plan, const ErrorBound& bound);
 
 // What a step of floating point is, in S = ∫|g|/D of the function: 2^-23 for light32, the most that floats lie
 // apart below S; for light64 2e-12, so that half a step is what the arithmetic in double promises.

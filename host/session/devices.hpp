@@ -34,6 +34,7 @@ struct ComputingRequest {
   // Several with commas between them, or `all`, make each picture together.
   std::string device;
   std::optional<Precision> precision;  // none: for each picture the fastest whose error bound is small enough
+  bool strict = false;  // pictures that may err by more than half a code are errors: ImpreciseError
   // Keeps built kernels. None: default_cache_folder(); an empty path: they are not kept.
   std::optional<std::filesystem::path> cache_folder;
 

@@ -8,6 +8,7 @@
 #include "capture/timeline.hpp"
 #include "render/render_plan.hpp"
 #include "render/renderer.hpp"
+#include "session/uncertainty.hpp"
 
 namespace nutik {
 
@@ -33,6 +34,8 @@ struct ExposureFigures {
 struct ExposedPicture : Rendered {
   ExposureFigures figures;
   OutputFormat output;
+  Uncertainty uncertainty = {};
+  std::optional<Picture> bounds = std::nullopt;  // RenderControl::maps_bounds
 };
 
 }  // namespace nutik

@@ -124,6 +124,7 @@ class Session::Implementation {
   std::vector<Fact> facts_;
   std::vector<Note> notes_;
   std::vector<std::string> warnings_;
+  CaptureErrors errors_;
 
   // A capture, or a clip that has not been read yet and the timeline that its files announce.
   std::unique_ptr<tik::Reader> reader_;
@@ -189,6 +190,16 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
     }
   }
   format_ = reader_ ? reader_->format() : held_format(clip_->capture);
+  errors_ = CaptureErrors::of(format_);
+  std::optional<tik::Alignment> alignment;
+  if (reader_) {
+    alignment = reader_->header().alignment;
+    errors_.made = reader_->header().made;
+  } else {
+    if (clip_->camera) alignment = kept_alignment(**clip_->camera, clip_->request.align->unseen);
+    if (clip_->made) errors_.made = **clip_->made;
+  }
+  if (alignment) errors_.alignment_pixels = alignment->residual_pixels;
   if (reader_ && !terms.renders) check_reading({});
 }
 
@@ -263,14 +274,6 @@ void Session::Implementation::warm_up(CaptureSource& source, const RenderPlan& p
 
 namespace {
 
-// An arithmetic that was asked for is taken, however coarse it is for codes.
-void doubt_asked(Rendered& rendered, const OutputFormat& output) {
-  if (!holds_codes(output.type) || !rendered.choice || rendered.choice->is_right_enough()) return;
-  rendered.warnings.push_back(nutik::format(
-      "{} is not sure to be right to {} of a code here: {}; auto takes an arithmetic that is, where there is one",
-      to_text(rendered.precision), kMaxSteps, error_text(rendered.choice->bound.worst, output)));
-}
-
 std::uint64_t infinite_values(const Picture& picture) {
   if (picture.type != ValueType::light32) return 0;
   return static_cast<std::uint64_t>(
@@ -296,14 +299,17 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
           ? line_length(output.type) * format_.shape.value_count() * value_bytes(output.type)
           : 0;
   Rendered rendered = within(
-      {{"reading the clip", stream_bytes}, {"mixed pixels", mixed_bytes}, {"pictures in line", line_bytes}},
+      {{"reading the clip", stream_bytes},
+       {"mixed pixels", mixed_bytes},
+       {"pictures in line", line_bytes},
+       {"the map of bounds", control.maps_bounds ? sizeof(float) * format_.shape.pixel_count() : 0}},
       [&](std::uint64_t left) {
         RenderControl limited = control;
+        limited.strict |= devices_->request().strict;
         if (limited.memory_bytes == 0 || limited.memory_bytes > left) limited.memory_bytes = left;
         return (by_devices ? devices_->renderer() : static_cast<Renderer&>(combining_)).render(plan, source, output, limited);
       });
   rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
-  if (devices_->request().precision && !control.precision) doubt_asked(rendered, output);
   if (const std::uint64_t count = infinite_values(rendered.picture); count > 0) {
     rendered.warnings.push_back(
         nutik::format("{} of {} values are beyond floating point of 32 bits, which ends at 3.4e38, and infinite; "
@@ -311,11 +317,17 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
                       count, format_.shape.value_count()));
   }
   const auto block_count = reader_ ? std::optional(reader_->block_count()) : std::nullopt;
+  std::optional<Picture> bounds;
+  if (control.maps_bounds)
+    bounds = bound_map(plan, rendered.choice ? rendered.choice->bound : reference_bound(plan, output));
   ExposureFigures figures = ExposureFigures::of(std::move(plan), source.timeline(), block_count);
   if (figures.functions.size() == 1) {
     rendered.picture.exposed_ns = figures.functions.front().summary.support_ns;
   }
-  return {std::move(rendered), std::move(figures), output};
+  ExposedPicture exposed{std::move(rendered), std::move(figures), output};
+  exposed.uncertainty = Uncertainty::of(exposed, errors_);
+  exposed.bounds = std::move(bounds);
+  return exposed;
 }
 
 ExposedPicture Session::Implementation::render(const ExposureRequest& request, const OutputFormat& output,

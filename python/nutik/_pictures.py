@@ -71,6 +71,13 @@ class Picture:
         return None if bound is None else bound["steps"]
 
     @property
+    def uncertainty(self) -> dict[str, Any]:
+        """What the light of the picture may be off by, term by term (docs/explanation/uncertainty.md): scale, S; terms,
+        one dict for each with term, is ('bound', 'deviation', 'count'), light, codes or float_steps, and what else it
+        has; bounds, the sum of all that are bounds. Empty of a plate."""
+        return deepcopy(self._held.figures.get("uncertainty", {}))
+
+    @property
     def saturated(self) -> Optional[tuple[int, int]]:
         """How many pixels hold light below the first code, and above the last; None where light is kept."""
         return self._held.figures.get("saturated")

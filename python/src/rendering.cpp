@@ -28,6 +28,23 @@ py::object bound_of(const ExposedPicture& exposed) {
   return bound;
 }
 
+py::dict fields_of(const UncertaintyTerm& term, const OutputFormat& output) {
+  py::dict fields;
+  for (const auto& [name, value] : term.fields(output))
+    std::visit([&](const auto& each) { fields[py::str(std::string(name))] = py::cast(each); }, value);
+  return fields;
+}
+
+py::dict uncertainty_of(const ExposedPicture& exposed) {
+  py::list terms;
+  for (const UncertaintyTerm& term : exposed.uncertainty.terms) terms.append(fields_of(term, exposed.output));
+  py::dict told;
+  told["scale"] = exposed.uncertainty.scale;
+  told["terms"] = std::move(terms);
+  told["bounds"] = fields_of(exposed.uncertainty.bounds, exposed.output);
+  return told;
+}
+
 py::list functions_of_plan(const ExposureFigures& figures) {
   py::list functions;
   for (const PlannedFunction& planned : figures.functions) {
@@ -128,6 +145,7 @@ py::dict figures_of(const ExposedPicture& exposed) {
   py::dict told;
   told["precision"] = to_text(exposed.precision);
   told["error_bound"] = bound_of(exposed);
+  told["uncertainty"] = uncertainty_of(exposed);
   told["saturated"] = holds_codes(exposed.output.type)
                           ? py::object(py::make_tuple(exposed.saturation.below, exposed.saturation.above))
                           : py::none();

@@ -144,8 +144,8 @@ TEST_F(Precisions, BoundOfSingleIsUseful) {
   EXPECT_GE(median, 0.01);
 }
 
-// Functions without negative gain, exposed to codes of 16 bits: boxcars and lines, cut anywhere; up to 1000 samples, from
-// cameras of any transfer function to pictures of another; every fourth mask is soft.
+// Functions without negative gain, exposed to codes of 16 bits: boxcars and lines, cut anywhere; up to 1000 samples,
+// from cameras of any transfer function to pictures of another; every fourth mask is soft.
 struct BrightCase {
   std::optional<MemoryCapture> capture;
   FunctionSet functions;

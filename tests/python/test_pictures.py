@@ -153,6 +153,12 @@ class Pictures(support.TestCase):
             worst = np.max(np.abs(ours.array - reference.array))
             self.assertGreater(ours.error_bound, 0)
             self.assertLessEqual(worst, ours.error_bound, precision)
+        terms = {each["term"]: each for each in ours.uncertainty["terms"]}
+        self.assertEqual(terms["arithmetic"]["light"], ours.error_bound)
+        self.assertEqual(terms["times"]["is"], "bound")
+        self.assertNotIn("rounding", terms)  # of 64 bits
+        self.assertAlmostEqual(ours.uncertainty["bounds"]["light"], sum(each["light"] for each in terms.values()), 15)
+        self.assertGreater(ours.uncertainty["scale"], 0)
         codes = self.capture.render({0: [(0, 3.0), (0.06, 3.0), (0.06, 0)]}, codes=True)
         light = self.capture.render({0: [(0, 3.0), (0.06, 3.0), (0.06, 0)]})
         self.assertEqual(codes.saturated[0], 0)

@@ -50,8 +50,8 @@ TEST(ErrorBound, CodesErrMostInTheDark) {
   EXPECT_NEAR(code_error(Transfer::srgb(), 255, {0.0, 0.0}), 0.0, 1e-12);
 }
 
-const std::vector<Transfer> kEveryTransfer{Transfer::srgb(), Transfer::bt709(), Transfer::linear(), Transfer::gamma(2.2),
-                                       Transfer::gamma(0.6), Transfer::hlg(), Transfer::pq()};
+const std::vector<Transfer> kEveryTransfer{Transfer::srgb(), Transfer::bt709(), Transfer::linear(),
+                                           Transfer::gamma(2.2), Transfer::gamma(0.6), Transfer::hlg(), Transfer::pq()};
 
 // The largest L · f′(L): by these much codes err where light errs by a share of itself.
 TEST(ErrorBound, CodesOfErrorsInProportionToLightCostNoMoreInTheDark) {

@@ -70,6 +70,7 @@ Options line_options(const std::string& text, const Options& batch, const std::o
     throw UsageError(format("--transfer holds for all exposures where --noise does, whose light it tells: "
                             "nutik-cl batch --transfer {} …", options.text("transfer")));
   }
+  if (options.bounds) throw UsageError("--bounds goes with one picture: nutik-cl expose --bounds MAP.tif …");
   if (options.every || options.count) {
     throw UsageError("--every and --count make a series; a line of a batch is one picture");
   }
@@ -150,6 +151,8 @@ class Batch {
   // How many were there already, and whether one could not be written.
   [[nodiscard]] std::size_t skipped() const { return skipped_; }
   [[nodiscard]] bool failed_to_write() const { return failed_to_write_; }
+  // Whether one may err by more than --strict allows.
+  [[nodiscard]] bool was_imprecise() const { return was_imprecise_; }
   // The lines whose pictures are missing. After finish().
   [[nodiscard]] const std::set<std::size_t>& failed_lines() const { return failed_lines_; }
   // What each clip was taken for.
@@ -166,15 +169,15 @@ class Batch {
     const FileWishes wishes = file_wishes(line.picture);
     tally_.wrote(exposed.figures.capture,
                  written_shape(output, exposed.picture.shape, exposed.picture.pixel_aspect, wishes));
-    pictures_.push(number, output, std::move(exposed.picture), recipe_text(line, tally_.precision()),
-                   wishes);
+    pictures_.push(number, output, std::move(exposed.picture),
+                   recipe_text(line, tally_.precision(), tally_.error_bound()), wishes);
   }
 
-  std::string recipe_text(const Options& line, const std::string& precision) {
+  std::string recipe_text(const Options& line, const std::string& precision, const std::string& error_bound = {}) {
     if (line.no_recipe) return {};
     const std::string& name = line.operands.front();
     if (!capture_checksum_ || capture_checksum_->first != name) capture_checksum_ = {name, capture_checksum(name)};
-    return PictureRecipe(recipe_sources(line, capture_checksum_->second)).text(precision);
+    return PictureRecipe(recipe_sources(line, capture_checksum_->second)).text(precision, {}, error_bound);
   }
 
   // Any line may ask for floating point.
@@ -205,6 +208,7 @@ class Batch {
     const std::lock_guard lock(reporting_);
     failed_lines_.insert(line);
     failed_to_write_ |= dynamic_cast<const OutputError*>(&error) != nullptr;
+    was_imprecise_ |= dynamic_cast<const ImpreciseError*>(&error) != nullptr;
     print_error(format("{}:{}: {}", list_title_, line, message_text(error, Dialect::command_line)));
   }
 
@@ -215,7 +219,7 @@ class Batch {
   ExposureTally tally_;
   std::optional<std::pair<std::string, std::string>> capture_checksum_;  // of the capture that a recipe was last for
   std::size_t skipped_ = 0;
-  bool failed_to_write_ = false;
+  bool failed_to_write_ = false, was_imprecise_ = false;
   std::size_t exposures_;
   std::optional<Session> session_;
   std::optional<ListedPictures> listed_;
@@ -259,6 +263,7 @@ int run_batch(const Options& options) {
   if (options.json) {
     Json json{{"exposures", exposures.size()}, {"failed_lines", batch.failed_lines()}, {"skipped", batch.skipped()}};
     json.update(batch.tally().saturation_json());
+    json.update(batch.tally().uncertainty_json());
     json.update({{"clips", batch.clips()}, {"seconds", seconds}, {"notes", batch.tally().notes()}});
     print_json(json);
   } else if (!options.quiet) {
@@ -272,6 +277,7 @@ int run_batch(const Options& options) {
   }
   return failed == 0               ? ExitStatus::ok
          : batch.failed_to_write() ? ExitStatus::output
+         : batch.was_imprecise()   ? ExitStatus::imprecise
                                    : ExitStatus::other;
 }
 

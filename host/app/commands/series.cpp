@@ -56,7 +56,7 @@ int run_series(const Options& options) {
                   tally.add(exposed);
                   warnings.add(pictures[k].path.string(), exposure_warnings(exposed));
                   if (k == 0) first = std::move(exposed.figures);
-                  return recipe.text(tally.precision(), own_recipe_of(pictures[k]));
+                  return recipe.text(tally.precision(), own_recipe_of(pictures[k]), tally.error_bound());
                 });
   }
 

@@ -189,7 +189,7 @@ int run_sweep(const Options& options) {
         own_exposure(sheet.exposures[i].functions, request, timeline, singles[i].stem().string() + ".fn");
     if (!own && !options.no_recipe) warnings.add(singles[i].string(), std::array{std::string(kNoRecipe)});
     write_picture(singles[i], exposed.picture,
-                  own ? recipe.text(job.tally().precision(), own_recipe(*own)) : "",
+                  own ? recipe.text(job.tally().precision(), own_recipe(*own), job.tally().error_bound()) : "",
                   file_wishes(job.wishes()));
   };
   return job.run(session, sheet, what, "pictures", std::move(json), write_single);

@@ -195,7 +195,8 @@ int run_study(const Options& stated) {
   std::string recipe;  // names the files, where there are some
   if (!files.is_alone()) {
     files.write_regions(study.regions.mask.to_picture(), functions_text(study.functions));
-    recipe = PictureRecipe(recipe_sources(options_by_hand(options, files, request.style))).text(tally.precision());
+    PictureRecipe by_hand(recipe_sources(options_by_hand(options, files, request.style)));
+    recipe = by_hand.text(tally.precision(), {}, tally.error_bound());
   }
   const FileWishes wishes = file_wishes(options.picture);
   write_picture(files.picture, exposed.picture, recipe, wishes);

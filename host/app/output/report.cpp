@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <variant>
 
 #include "app/output/timing_text.hpp"
 #include "capture/format.hpp"
@@ -114,6 +115,11 @@ void ExposureTally::add(const ExposedPicture& exposed) {
   precision_ = to_text(exposed.precision);
   renderer_ = exposed.renderer;
   report_ = rendering_report(exposed, exposed.output);
+  error_bound_ = exposed.choice ? error_text(exposed.choice->bound.worst, exposed.output) : std::string();
+  if (!worst_.bounds.error || exposed.uncertainty.bounds.error->light > worst_.bounds.error->light) {
+    worst_ = exposed.uncertainty;
+    worst_output_ = exposed.output;
+  }
 }
 
 void ExposureTally::wrote(const CaptureFormat& capture, const Shape& written) {
@@ -127,6 +133,19 @@ std::string ExposureTally::saturation_text() const {
 Json ExposureTally::saturation_json() const {
   if (!has_codes_) return Json::object();
   return {{"saturated_below_pixels", saturation_.below}, {"saturated_above_pixels", saturation_.above}};
+}
+
+Json ExposureTally::uncertainty_json() const {
+  if (!worst_.bounds.error) return Json::object();  // nothing was exposed
+  const auto json_of = [&](const UncertaintyTerm& term) {
+    Json json;
+    for (const auto& [name, value] : term.fields(worst_output_))
+      std::visit([&](const auto& each) { json[std::string(name)] = each; }, value);
+    return json;
+  };
+  Json terms = Json::array();
+  for (const UncertaintyTerm& term : worst_.terms) terms.push_back(json_of(term));
+  return {{"uncertainty", {{"scale", worst_.scale}, {"terms", terms}, {"bounds", json_of(worst_.bounds)}}}};
 }
 
 std::vector<std::string> ExposureTally::notes() const {
@@ -144,10 +163,13 @@ std::vector<std::string> ExposureTally::notes() const {
 void ExposureTally::end(Answer& answer, Session& session, bool verbose, const std::string& rate) const {
   const std::string renderer = renderer_.empty() ? session.devices().renderer().name() : renderer_;
   answer.json.update(saturation_json());
+  answer.json.update(uncertainty_json());
   answer.json.update({{"precision", precision_}, {"renderer", renderer}, {"seconds", seconds()}});
   answer.line += format("{}{}, {:.2f} s on {}", saturation_text(), rate, seconds(), renderer);
   std::ranges::move(notes(), std::back_inserter(answer.notes));
   if (verbose && !report_.empty()) answer.details.push_back(report_);
+  if (verbose && worst_.bounds.error)
+    std::ranges::move(worst_.lines(worst_output_), std::back_inserter(answer.details));
 }
 
 std::vector<std::string> exposure_warnings(const ExposedPicture& exposed) {

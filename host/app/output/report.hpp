@@ -62,12 +62,16 @@ class ExposureTally {
   // Of the last one: its arithmetic, by the name that asks for it, and what rendering it did and took, in lines.
   [[nodiscard]] const std::string& precision() const { return precision_; }
   [[nodiscard]] const std::string& report() const { return report_; }
+  // What that may be off by; empty of the reference.
+  [[nodiscard]] const std::string& error_bound() const { return error_bound_; }
   [[nodiscard]] double seconds() const { return stopwatch_.seconds(); }
 
   // `, no pixel saturated`, and so on; `saturated_below_pixels` and `saturated_above_pixels`. Nothing where all pictures
   // hold light.
   [[nodiscard]] std::string saturation_text() const;
   [[nodiscard]] Json saturation_json() const;
+  // `uncertainty`: of the picture whose bounds are the largest.
+  [[nodiscard]] Json uncertainty_json() const;
   // That codes to be seen end at white, where those of the capture go on behind it; square_notes() of the last one.
   [[nodiscard]] std::vector<std::string> notes() const;
 
@@ -80,7 +84,9 @@ class ExposureTally {
   bool has_codes_ = false;
   std::optional<Transfer> cut_off_;  // whose light above white was cut off
   std::vector<std::string> squared_;
-  std::string precision_, renderer_, report_;
+  std::string precision_, renderer_, report_, error_bound_;
+  Uncertainty worst_;
+  OutputFormat worst_output_;
 };
 
 // That pixels were made square, where the size that was written is not the capture's.

@@ -34,11 +34,13 @@ PictureRecipe::PictureRecipe(std::optional<RecipeSources> sources) {
   });
 }
 
-std::string PictureRecipe::text(const std::string& precision, const OwnRecipe& own) {
+std::string PictureRecipe::text(const std::string& precision, const OwnRecipe& own,
+                                const std::string& error_bound) {
   if (reading_.valid()) recipe_ = reading_.get();
   if (!recipe_) return {};
   Recipe recipe = *recipe_;
   recipe.precision = precision;
+  recipe.error_bound = error_bound;
   if (own.functions) recipe.functions = own.functions;
   if (own.mask) recipe.mask = own.mask;
   if (own.mask_to) recipe.mask_to = own.mask_to;

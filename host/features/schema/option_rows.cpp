@@ -409,6 +409,8 @@ constexpr Option kRows[] = {
      "single, compensated, double, fixed (the same bytes on every device), or auto: the fastest that is "
      "sure to be right to half a code, or to half a float's step (default: auto; see -v)",
      "auto single compensated double fixed"}),
+    {0, "strict", "", computing, kExposes, take<In<&Options::strict>>,
+     "an error, with exit status 7, where light may err by more than half a code and a warning would say so"},
     {0, "memory", "SIZE", computing, kDecodesClips | kExposes, take<In<&Options::memory>>,
      "the most that may be held: 500MB, 2GB, 1GiB; libraries and drivers come on top (default: half of the "
      "machine's)"},
@@ -430,6 +432,9 @@ constexpr Option kRows[] = {
      "8, 16, float or half (.exr): light as it is, with negatives (default: the capture's own, 8 for .jpg, "
      "float for .exr and .pfm)",
      "8 16 half float"}),
+    {0, "bounds", "MAP.tif", output, bit(Id::expose), take<In<&Options::bounds>>,
+     "also write what each pixel may be off by, as floats (.tif, .exr, .pfm): in codes, or in light if the picture "
+     "holds light"},
     known(Setting::quality, {0, "quality", "N", exposure, kExposesFreely | set_of(Id::plate, Id::study),
      take_whole<InPicture<&OutputRequest::quality>, 1, 100>,
      "of .jpg pictures and of films whose codec loses something, 1 … 100 (default: 90 of .jpg, of films the codec's)"}),

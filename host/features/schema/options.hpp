@@ -86,6 +86,7 @@ struct Options {
   std::optional<RendererKind> renderer;
   Text device;
   std::optional<Precision> precision;  // none: auto
+  bool strict = false;
   std::optional<MemoryBudget> memory;
   Text source_clip;
   std::uint32_t runs = 5;
@@ -102,7 +103,7 @@ struct Options {
   bool counts_redrawn = false;
 
   // What is written.
-  Text output, activity;
+  Text output, activity, bounds;
   OutputRequest picture;
   bool points = false;  // of a function file, printed
   bool json = false, no_recipe = false, quiet = false, verbose = false;

@@ -123,6 +123,7 @@ ComputingRequest computing_request(const Options& options) {
   }
   if (options.device) request.device = *options.device;
   request.precision = options.precision;
+  request.strict = options.strict;
   return request;
 }
 

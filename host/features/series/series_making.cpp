@@ -45,6 +45,8 @@ void ListedPictures::add(const ExposureRequest& request, const OutputFormat& out
       return {std::nullopt, std::current_exception()};
     } catch (const InputError&) {
       return {std::nullopt, std::current_exception()};
+    } catch (const ImpreciseError&) {
+      return {std::nullopt, std::current_exception()};
     }
   });
   if (line_.is_full()) hand_on();
@@ -71,9 +73,11 @@ bool is_made(const std::filesystem::path& picture, const std::optional<std::stri
   try {
     const auto text = read_picture_text(picture);
     if (!text) return false;
-    const Recipe recipe = Recipe::parse(*text, picture.string());
+    Recipe recipe = Recipe::parse(*text, picture.string());
     if (precision && recipe.precision != *precision) return false;
-    return recipe_of(recipe.precision) == *text;
+    if (recipe.text() != *text) return false;
+    recipe.error_bound.clear();  // follows from the rest
+    return recipe_of(recipe.precision) == recipe.text();
   } catch (const InputError&) {
     return false;  // cut off, or no picture at all: whether it may be replaced is for check_output() to say
   }

@@ -39,6 +39,8 @@ void unless_wrong(const Work& work, const Tell& tell) {
     tell(error);
   } catch (const InputError& error) {
     tell(error);
+  } catch (const ImpreciseError& error) {
+    tell(error);
   }
 }
 
@@ -48,7 +50,8 @@ void unless_wrong(const Work& work, const Tell& tell) {
 //   out:     each handed to its Done, in that order, while others may be made
 class ListedPictures {
  public:
-  // Returns the picture, once; or throws UsageError or InputError, which say what is wrong with this one.
+  // Returns the picture, once; or throws UsageError, InputError or ImpreciseError, which say what is wrong with this
+  // one.
   using Take = std::function<ExposedPicture()>;
   using Done = std::function<void(const Take& take)>;
 

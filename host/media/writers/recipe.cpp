@@ -120,6 +120,7 @@ std::string Recipe::text() const {
   for (const auto& [name, value] : options) json["options"][name] = value;
   json["renderer"] = renderer;
   json["precision"] = precision;
+  if (!error_bound.empty()) json["error_bound"] = error_bound;
   constexpr int kOneLine = -1;
   // Names of files may be in any encoding.
   return json.dump(kOneLine, ' ', true, Json::error_handler_t::replace);
@@ -140,6 +141,7 @@ Recipe Recipe::parse(std::string_view text, const std::string& name) {
     for (const auto& [option, value] : json.at("options").items()) recipe.options.emplace_back(option, value);
     recipe.renderer = json.at("renderer");
     recipe.precision = json.at("precision");
+    recipe.error_bound = json.value("error_bound", std::string());
     return recipe;
   } catch (const Json::exception& error) {
     throw InputError(format("{}: its recipe is damaged: {}", name, error.what()));

@@ -43,6 +43,7 @@ struct Recipe {
   std::vector<std::pair<std::string, std::string>> options;
   std::string renderer;
   std::string precision;
+  std::string error_bound;  // what its arithmetic may be off by, for people; empty: not known
 
   [[nodiscard]] std::string text() const;
 
