@@ -151,10 +151,10 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
   }
   if (kind == OutputKind::tik && output.extension() != ".tik") {
     throw UsageError(
-        format("{} is no name for a capture", name),
+        format("{} is no name for a capture, which ends in .tik", name),
         Advice{is_picture_name(output)
-                   ? ": for a picture say of when, `start` 0.4s `exposure` 10ms, or let nutik-cl study find what moves"
-                   : ": encode writes .tik files (nutik-cl CLIP CAPTURE.tik), nutik-cl video films"});
+                   ? "; for a picture say of when, `start` 0.4s `exposure` 10ms, or let nutik-cl study find what moves"
+                   : "; nutik-cl video makes films"});
   }
   if (kind == OutputKind::noise && (output.extension() == ".tik" || is_picture_name(output))) {
     throw UsageError(format("{} is no name for a text: a camera's noise is written as .noise", name));

@@ -175,9 +175,9 @@ TEST_F(CommandLine, SaysWhatIsWrongWithInput) {
 
 TEST_F(CommandLine, ReplacesOnlyItsOwnKind) {
   expect_refused(2, {{"clip.tik clip.avi", "clip.tik is a capture already"},
-                     {"x.tik clip.avi", "clip.avi is no name for a capture: encode writes .tik files (nutik-cl CLIP "
-                                        "CAPTURE.tik), nutik-cl video films"},
-                     {"clip.avi x.png", "x.png is no name for a capture: for a picture say of when"},
+                     {"x.tik clip.avi", "clip.avi is no name for a capture, which ends in .tik; nutik-cl video makes "
+                                        "films"},
+                     {"clip.avi x.png", "x.png is no name for a capture, which ends in .tik; for a picture say of when"},
                      {"-k one.fn clip.tik -o clip.tik", "is also an input"},
                      {"-k one.fn clip.tik -o ./one.fn", "is also an input"}});
   scratch_.write("notes.png", "my notes");
