@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "capture/timeline.hpp"
@@ -36,6 +37,11 @@ struct ExposedPicture : Rendered {
   OutputFormat output;
   Uncertainty uncertainty = {};
   std::optional<Picture> bounds = std::nullopt;  // RenderControl::maps_bounds
+
+  // What the arithmetic may be off by, in words; empty where it was not chosen, as of the reference.
+  [[nodiscard]] std::string error_bound() const {
+    return choice ? error_text(choice->bound.worst, output) : std::string();
+  }
 };
 
 }  // namespace nutik

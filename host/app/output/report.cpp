@@ -115,7 +115,7 @@ void ExposureTally::add(const ExposedPicture& exposed) {
   precision_ = to_text(exposed.precision);
   renderer_ = exposed.renderer;
   report_ = rendering_report(exposed, exposed.output);
-  error_bound_ = exposed.choice ? error_text(exposed.choice->bound.worst, exposed.output) : std::string();
+  error_bound_ = exposed.error_bound();
   if (!worst_.bounds.error || exposed.uncertainty.bounds.error->light > worst_.bounds.error->light) {
     worst_ = exposed.uncertainty;
     worst_output_ = exposed.output;

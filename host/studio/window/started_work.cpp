@@ -144,8 +144,8 @@ Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session,
     PictureRecipe recipe(sources);
     const ExposedPicture exposed =
         session->render(exposure_of(state, mask), output_format({}, path, session->format()), control);
-    write_picture(path, exposed.picture, recipe.text(std::string(to_text(exposed.precision))),
-                  file_wishes({}));
+    write_picture(path, exposed.picture,
+                  recipe.text(std::string(to_text(exposed.precision)), {}, exposed.error_bound()), file_wishes({}));
     const bool is_within = exposed.saturation.below + exposed.saturation.above == 0;
     const QString line = Jobs::tr("%1: %2, %3")
                              .arg(QString::fromStdString(path.string()),
