@@ -278,8 +278,8 @@ class StudyPlanner {
     return samples;
   }
 
-  // Those that the plate shows, too, which makes a hole of the ground that the subject left; and those that moments
-  // after them cover.
+  // Moments that the plate shows, too: the ground that the subject left would become a hole. And moments that later ones
+  // cover.
   [[nodiscard]] std::vector<std::size_t> bad_moments(const Study& study) {
     std::vector<std::size_t> bad;
     const auto left = study.regions.mask.pixels_per_tag();
@@ -395,7 +395,7 @@ class StudyPlanner {
   Picture plate_;
   std::vector<Followed> followed_;
   std::uint32_t by_codes_;
-  std::string why_;  // the first moment that was refused was
+  std::string why_;  // why the first moment was refused that was
 };
 
 // Where subjects are looked for, one in each.
@@ -420,8 +420,8 @@ double uncertain_share(const Region& uncertain, const std::vector<Rectangle>& re
   return static_cast<double>(count) / static_cast<double>(all);
 }
 
-// That what is not followed leaves a trail only.
-std::string text_of_other(const std::vector<SubjectPlace>& places) {
+// The box round all places of a subject, as regions are stated: x,y,width,height.
+std::string box_text_of(const std::vector<SubjectPlace>& places) {
   std::uint32_t left = places[0].box.x, top = places[0].box.y, right = 0, bottom = 0;
   for (const SubjectPlace& place : places) {
     left = std::min(left, place.box.x);
@@ -485,7 +485,7 @@ std::vector<Followed> followed_in(std::vector<SubjectTrack> tracks, const std::v
     if (!request.regions.empty() && !verdict.why.empty()) verdict.why = text_of(regions[i]) + ": " + verdict.why;
     followed.push_back({std::move(tracks[i]), regions[i], std::move(verdict)});
     if (others.empty() || !request.regions.empty()) continue;
-    const std::string where = text_of_other(others.front().places);
+    const std::string where = box_text_of(others.front().places);
     if (is_stated || shows_one(request.style) || followed.front().verdict.shows != Verdict::Shows::all) {
       notes.push_back(format("one subject is shown, and another thing goes its way at the same time, within {}: name a "
                              "region for each of them to show both",

@@ -93,10 +93,10 @@ struct Study {
   std::vector<std::string> notes;
 };
 
-// What lies around a subject, its shadow for example: what differs by so many times the codes that the subject does,
-// and which share of the trail lies on it. A shadow dims the trail, too, by as much as the ground.
+// What lies around a subject, its shadow for example. A shadow dims the trail by as much as it dims the ground.
 struct Around {
-  double times, trail_share;
+  double times;        // it differs from the plate by this many times the codes that a subject must differ by
+  double trail_share;  // of the trail, that lies on it
 };
 inline constexpr std::array<Around, 2> kAround{{{1, 0.9}, {2.5, 0.4}}};
 

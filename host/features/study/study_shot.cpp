@@ -122,7 +122,7 @@ class ShotPlanner {
         aligned->residual_pixels, most), {Setting::from, Setting::to});
   }
 
-  // A region is stated in pixels of a clip that nobody knew to be cropped.
+  // Regions were stated in pixels of the clip; aligned pictures are cropped, and a region may lie outside of them.
   void check_regions(const Shape& aligned) const {
     for (const Rectangle& region : request_.regions) {
       if (region.lies_in(aligned)) continue;
@@ -138,9 +138,9 @@ class ShotPlanner {
                       progress("looking for the subject"), unrest);
   }
 
-  // With its pictures moved onto the first one, or the one in the middle where that shows too little of what the others
-  // do; else those on the longer side of the picture that cannot be moved. Nothing where most of them cannot: `reason`
-  // says why.
+  // Moves the pictures onto the first one; onto the one in the middle if the first shows too little of what the others
+  // show. If a picture cannot be moved, those before it or behind it are taken, whichever are more. Nothing if most cannot
+  // be moved: `reason` says why.
   [[nodiscard]] std::optional<PlannedStudy> plan_aligned(const SourceRequest& source, std::uint64_t samples,
                                                          std::string& reason) const {
     constexpr int kMaxTries = 4;
