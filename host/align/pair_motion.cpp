@@ -100,15 +100,15 @@ bool PairMotion::choose_box() {
     const auto block = [](float place, std::uint32_t count) {
       return static_cast<std::uint32_t>(std::clamp(place / kBlock, 0.0F, static_cast<float>(count - 1)));
     };
-    for (const float share : {0.0F, 0.5F, 1.0F}) {
-      const FlowVector gone = flight.at(share);
-      const Rectangle& box = flight.first.box;
+    const auto hold = [&](const Rectangle& box, FlowVector gone) {
       const float x = static_cast<float>(box.x) + gone.x, y = static_cast<float>(box.y) + gone.y;
       left = std::min(left, block(x, columns_));
       right = std::max(right, block(x + static_cast<float>(box.width), columns_) + 1);
       top = std::min(top, block(y, rows_));
       bottom = std::max(bottom, block(y + static_cast<float>(box.height), rows_) + 1);
-    }
+    };
+    hold(flight.second.box, {});
+    for (const float share : {0.0F, 0.5F, 1.0F}) hold(flight.first.box, flight.at(share));
   }
   for (std::uint32_t row = 0; row < rows_; ++row) {
     for (std::uint32_t column = 0; column < columns_; ++column) {

@@ -100,7 +100,10 @@ std::vector<cl::Platform> own_platforms() {
     cl_platform_id platform = nullptr;
     cl_uint count = 0;
     if (list == nullptr || list(1, &platform, &count) != CL_SUCCESS || count == 0) continue;
-    ::setenv("COMPILER_PATH", file.parent_path().c_str(), 0);  // where its compiler looks for a linker first
+    // Where its compiler looks for a linker first; the linker there hands on what is no kernel (tools/archive).
+    const char* const others = std::getenv("COMPILER_PATH");
+    const std::string path = file.parent_path().string() + (others == nullptr ? "" : std::string(":") + others);
+    ::setenv("COMPILER_PATH", path.c_str(), 1);
     return {cl::Platform(platform)};
   }
   return {};

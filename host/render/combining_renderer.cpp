@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "capture/error.hpp"
+#include "capture/memory_needs.hpp"
 #include "imev/each_block.hpp"
 #include "render/code_scale.hpp"
 #include "system/parallel.hpp"
@@ -39,7 +40,8 @@ struct SampleGains {
 
 class Combiner {
  public:
-  Combiner(const RenderPlan& plan, const Timeline& timeline, const Rectangle& rectangle)
+  // Throws MemoryTooLittle where it takes more than `allowed` bytes; 0: any number.
+  Combiner(const RenderPlan& plan, const Timeline& timeline, const Rectangle& rectangle, std::uint64_t allowed)
       : plan_(plan), rectangle_(rectangle), grid_(plan.capture.shape), values_(plan.capture.shape.channels * kTilePixels) {
     for (const PlannedFunction& planned : plan.functions) gains_.emplace_back(planned, timeline, plan.duration_ns);
     light_ = plan.capture.transfer.light_of_all_codes(plan.capture.white_code, plan.capture.code_bytes);
@@ -49,6 +51,15 @@ class Combiner {
         if (std::ranges::find(of_tile[tile], share.of) == of_tile[tile].end()) of_tile[tile].push_back(share.of);
       }
     });
+    std::uint64_t codes = 0, lights = 0;
+    for (const std::vector<std::uint16_t>& functions : of_tile) {
+      for (const std::uint16_t function : functions) {
+        codes += sizeof(std::uint16_t) * values_ * (keeps_all(function) ? gains_[function].gains.size() : 1);
+        lights += sizeof(double) * values_;
+      }
+    }
+    const MemoryNeeds needs{{"codes of all exposed samples", codes}, {"light of pixels", lights}};
+    if (allowed != 0 && needs.bytes() > allowed) throw MemoryTooLittle(allowed, needs);
     for (std::uint64_t tile = 0; tile < of_tile.size(); ++tile) {
       first_places_.push_back(places_.size());
       for (const std::uint16_t function : of_tile[tile]) {
@@ -221,7 +232,8 @@ Rendered CombiningRenderer::render_part(const RenderPlan& plan, CaptureSource& s
   rendered.picture = Picture({rectangle.width, 0, plan.capture.shape.channels}, output.type, output.white_code);
   for (std::uint32_t y = 0; y < rectangle.height; y += rows) {
     Combiner combiner(plan, source.timeline(),
-                      {rectangle.x, rectangle.y + y, rectangle.width, std::min(rows, rectangle.height - y)});
+                      {rectangle.x, rectangle.y + y, rectangle.width, std::min(rows, rectangle.height - y)},
+                      control.memory_bytes);
     BlockCursor cursor(source);
     for (const PlannedBlock& planned : plan.blocks) {
       throw_if_cancelled(control);

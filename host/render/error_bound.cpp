@@ -106,16 +106,6 @@ double fixed_error(const FunctionCourse& course, const FixedScale& scale, std::s
   return light * course.magnitude + (boundaries + running_sum) * (1 + light);
 }
 
-// Of light in other primaries: a channel has shares of the errors of all three, and rounds entries, products and sums.
-double converted_error(const ColourMatrix& matrix, double light, double scale) {
-  constexpr double kMatrixRoundings = 4;  // in u₆₄ of what is added up
-  double largest_row = 0.0;
-  for (const auto& row : matrix) {
-    largest_row = std::max(largest_row, std::fabs(row[0]) + std::fabs(row[1]) + std::fabs(row[2]));
-  }
-  return largest_row * (light + kMatrixRoundings * kRoundoff64 * (scale + light));
-}
-
 // In u₆₄ of a mixed pixel's S: the reference's products, their sum, the division.
 constexpr double kReferenceBlend = 3;
 
@@ -230,6 +220,15 @@ void add_blending(const RenderPlan& plan, const Roundings& roundings, ErrorBound
 }
 
 }  // namespace
+
+double converted_error(const ColourMatrix& matrix, double light, double scale) {
+  constexpr double kMatrixRoundings = 4;  // in u₆₄ of what is added up
+  double largest_row = 0.0;
+  for (const auto& row : matrix) {
+    largest_row = std::max(largest_row, std::fabs(row[0]) + std::fabs(row[1]) + std::fabs(row[2]));
+  }
+  return largest_row * (light + kMatrixRoundings * kRoundoff64 * (scale + light));
+}
 
 double format_step(ValueType type) { return type == ValueType::light64 ? 2e-12 : 0x1p-23; }
 

@@ -79,6 +79,10 @@ class PixelErrors {
 // apart below S; for light64 2e-12, so that half a step is what the arithmetic in double promises.
 [[nodiscard]] double format_step(ValueType type);
 
+// What light in other primaries errs by: a channel has shares of the errors of all three, and rounds entries, products and
+// sums.
+[[nodiscard]] double converted_error(const ColourMatrix& matrix, double light, double scale);
+
 // The most by which code = white · fraction_of(light) changes where light L of [0, 1] changes by constant + slope · L.
 [[nodiscard]] double code_error(const Transfer& transfer, std::uint32_t white_code, const LightLine& error);
 

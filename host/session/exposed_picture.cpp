@@ -40,6 +40,7 @@ ExposureFigures ExposureFigures::of(RenderPlan&& plan, const Timeline& timeline,
   }
   figures.table_bytes = 2 * plan.row_count() * plan.function_count() * sizeof(double);
   figures.map_bytes = plan.map->bytes();
+  figures.combine = plan.combine;
   figures.functions = plan.map->has_delays() ? by_mask_value(plan) : std::move(plan.functions);
   for (PlannedFunction& function : figures.functions) function.table.reset();  // its memory is the session's
   return figures;

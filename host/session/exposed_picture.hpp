@@ -25,6 +25,7 @@ struct ExposureFigures {
   std::optional<std::uint64_t> block_count;
   std::uint64_t table_bytes = 0;  // of gains
   std::uint64_t map_bytes = 0;    // of functions by pixel
+  Combine combine = Combine::integral;
 
   // Takes the functions out of the plan.
   static ExposureFigures of(RenderPlan&& plan, const Timeline& timeline,

@@ -325,7 +325,13 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
     rendered.picture.exposed_ns = figures.functions.front().summary.support_ns;
   }
   ExposedPicture exposed{std::move(rendered), std::move(figures), output};
-  exposed.uncertainty = Uncertainty::of(exposed, errors_);
+  CaptureErrors errors = errors_;
+  if (const CaptureFormat& read = exposed.figures.capture; read.transfer != format_.transfer) {
+    errors = CaptureErrors::of(read);  // by the function that was stated instead
+    errors.alignment_pixels = errors_.alignment_pixels;
+    errors.made = errors_.made;
+  }
+  exposed.uncertainty = Uncertainty::of(exposed, errors);
   exposed.bounds = std::move(bounds);
   return exposed;
 }

@@ -27,7 +27,8 @@ PictureError error_of(const ExposedPicture& exposed, double scale, double light)
     return error;
   }
   const CodeMaking making = CodeMaking::of(exposed.figures.capture, exposed.output);
-  error.steps = code_error(making.transfer, exposed.output.white_code, {light / making.white_light, 0.0});
+  const double seen = making.conversion ? converted_error(*making.conversion, light, scale) : light;
+  error.steps = code_error(making.transfer, exposed.output.white_code, {seen / making.white_light, 0.0});
   return error;
 }
 
@@ -41,6 +42,12 @@ std::optional<PictureError> rounding_of(const ExposedPicture& exposed, double sc
   return PictureError{making.white_light * light_within(making.transfer, half_code), 0.5};
 }
 
+double largest_gain(const GainFunction& function) {
+  double largest = 0.0;
+  for (const ControlPoint& point : function.points()) largest = std::max(largest, std::fabs(point.gain));
+  return largest;
+}
+
 // Both ends of a sample are rounded to whole nanoseconds, and so is D: the integral misses half of one at each.
 double times_of(const ExposureFigures& figures) {
   double largest = 0.0;
@@ -48,10 +55,8 @@ double times_of(const ExposureFigures& figures) {
     const GainSummary& gain = function.summary;
     if (gain.support_ns == 0) continue;
     const auto samples = static_cast<double>(exposed_samples(function, figures.timeline).size());
-    double largest_gain = 0.0;
-    for (const ControlPoint& point : function.function.points())
-      largest_gain = std::max(largest_gain, std::fabs(point.gain));
-    largest = std::max(largest, (samples + 1) / static_cast<double>(gain.support_ns) * largest_gain);
+    largest =
+        std::max(largest, (samples + 1) / static_cast<double>(gain.support_ns) * largest_gain(function.function));
   }
   return largest;
 }
@@ -96,8 +101,10 @@ CaptureErrors CaptureErrors::of(const CaptureFormat& capture) {
 
 Uncertainty Uncertainty::of(const ExposedPicture& exposed, const CaptureErrors& capture) {
   Uncertainty uncertainty;
+  const bool adds_up = exposed.figures.combine == Combine::integral;
   for (const PlannedFunction& function : exposed.figures.functions)
-    uncertainty.scale = std::max(uncertainty.scale, function.summary.error_scale());
+    uncertainty.scale =
+        std::max(uncertainty.scale, adds_up ? function.summary.error_scale() : largest_gain(function.function));
   const double scale = uncertainty.scale;
   const auto add = [&](std::string_view name, Is is, const PictureError& error) {
     if (error.light > 0.0) uncertainty.terms.push_back({name, is, error});
@@ -106,7 +113,7 @@ Uncertainty Uncertainty::of(const ExposedPicture& exposed, const CaptureErrors& 
       exposed.choice ? exposed.choice->bound.worst : error_of(exposed, scale, scale * kReferenceError));
   if (const auto rounding = rounding_of(exposed, scale)) add("rounding", Is::bound, *rounding);
   add("held_samples", Is::bound, error_of(exposed, scale, scale * capture.held_light));
-  add("times", Is::bound, error_of(exposed, scale, times_of(exposed.figures)));
+  if (adds_up) add("times", Is::bound, error_of(exposed, scale, times_of(exposed.figures)));
   PictureError sum;
   for (const UncertaintyTerm& term : uncertainty.terms) {
     sum.light += term.error->light;
@@ -115,7 +122,7 @@ Uncertainty Uncertainty::of(const ExposedPicture& exposed, const CaptureErrors& 
   if (holds_codes(exposed.output.type)) sum.steps = std::min<double>(sum.steps, exposed.output.white_code);
   uncertainty.bounds = {"all_bounds", Is::bound, sum};
   for (UncertaintyTerm& term : uncertainty.terms) {
-    term.figures = {{"share_of_bounds", term.error->light / sum.light}};
+    term.figures = {{"share_of_bounds", std::isfinite(sum.light) ? term.error->light / sum.light : 1.0}};
     if (term.name == "arithmetic") term.text = to_text(exposed.precision);
   }
   if (capture.noise_light > 0.0)

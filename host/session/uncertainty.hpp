@@ -46,7 +46,7 @@ struct UncertaintyTerm {
 };
 
 struct Uncertainty {
-  double scale = 0.0;  // S: the largest ∫|g| / D of a function
+  double scale = 0.0;  // S: the largest ∫|g| / D of a function; of light that is combined the largest gain
   std::vector<UncertaintyTerm> terms;
   UncertaintyTerm bounds;  // all of them, added up
 

@@ -18,10 +18,10 @@ std::filesystem::path own_file() {
   Dl_info info{};
   std::error_code error;
   if (dladdr(reinterpret_cast<const void*>(&own_file), &info) == 0 || info.dli_fname == nullptr) return {};
-  const auto loaded = std::filesystem::canonical(info.dli_fname, error);
-  if (!error) return loaded;
-  // A program is named as it was called, which may be by a name in PATH.
-  return std::filesystem::read_symlink("/proc/self/exe", error);
+  // A program is named as it was called, which may be by a name in PATH: a file of that name here is another.
+  const std::filesystem::path named = info.dli_fname;
+  return named.has_parent_path() ? std::filesystem::canonical(named, error)
+                                 : std::filesystem::read_symlink("/proc/self/exe", error);
 }
 
 }  // namespace

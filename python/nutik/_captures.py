@@ -50,7 +50,7 @@ class Trace:
         axes = axes_of(ax, "time, s", "light")
         for channel, colour in enumerate(("red", "green", "blue") if self.light.shape[2] == 3 else (None,)):
             axes.plot(self.times_ns.ravel() / 1e9, self.light[:, :, channel].ravel(),
-                      **({"color": colour} if colour else {}), **style)
+                      **{**({"color": colour} if colour and not {"c", "color"} & style.keys() else {}), **style})
         return axes
 
     __hash__ = None  # type: ignore[assignment]
@@ -109,7 +109,7 @@ class Capture:
 
     def __getitem__(self, key: Any) -> Array:
         """The codes that are held, exactly: `capture[3]` is [height, width] or [height, width, 3], `capture[10:20]` has
-        samples before them; what follows picks pixels, `capture[:, 100:200, 50:60]`. An array of its own each time; raises
+        samples before them; what follows picks pixels, `capture[:, 100:200, 50:60]`. A copy each time; raises
         IndexError, and MemoryTooLittle where the samples of a slice take more than 4 GiB."""
         picked, rest = (key[0], key[1:]) if isinstance(key, tuple) and key else (key, ())
         if picked is Ellipsis or isinstance(key, tuple) and not key:

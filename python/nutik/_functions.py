@@ -96,6 +96,9 @@ class Function:
         gains[np.flatnonzero(np.diff(at, prepend=at[0] - 1, append=at[-1] + 1)[1:] == 0)] = before[is_twice]
         return Function.from_ns(at, gains)
 
+    def __radd__(self, other: Any) -> Function:
+        return self if isinstance(other, int) and other == 0 else NotImplemented  # sum() begins with 0
+
     def __sub__(self, other: Function) -> Function:
         return self + other * -1 if isinstance(other, Function) else NotImplemented
 
@@ -127,7 +130,7 @@ class Function:
         return isinstance(other, Function) and bool(self._held == other._held)
 
     def __hash__(self) -> int:
-        return hash((self.times_ns.tobytes(), self.gains.tobytes()))
+        return hash((self.times_ns.tobytes(), (self.gains + 0.0).tobytes()))  # -0.0 equals 0.0
 
     def __reduce__(self) -> Any:
         return Function.from_ns, (self.times_ns, self.gains)

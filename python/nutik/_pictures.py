@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from copy import deepcopy
 from io import BytesIO
-from os import PathLike
-from os.path import join
+from os import PathLike, remove, replace
+from os.path import exists, join
+from secrets import token_hex
 from shutil import copyfileobj
 from tempfile import TemporaryDirectory
 from typing import Any, BinaryIO, Optional, Union
@@ -105,8 +106,8 @@ class Picture:
 
         Raises UsageError where such a file cannot hold the picture, OutputError where it cannot be written.
         """
-        if not isinstance(path, (str, PathLike)):
-            if kind is None:
+        if not isinstance(path, (str, bytes, PathLike)):
+            if kind is None or not kind.startswith("."):
                 raise UsageError("which kind of file? An open one has no name: kind='.png'")
             with TemporaryDirectory(prefix="nutik-") as folder:
                 self.write(join(folder, f"picture{kind}"), quality=quality, keep_pixels=keep_pixels)
@@ -114,11 +115,16 @@ class Picture:
                     copyfileobj(file, path)
             return
         name = path_word(path)
-        if name.endswith(".npy"):
+        if name.lower().endswith(".npy"):
+            whole = f"{name}.{token_hex(8)}.tmp"
             try:
-                np.save(name, self._array)
+                with open(whole, "xb") as file:
+                    np.save(file, self._array)
+                replace(whole, name)
             except OSError as error:
-                raise OutputError(f"{name} cannot be written: {error.strerror}") from None
+                if exists(whole):
+                    remove(whole)
+                raise OutputError(f"{name} cannot be written: {error.strerror or error}") from None
             return
         if self.dtype == np.float64:
             raise UsageError(f"{name}: files of light hold float32; expose the picture with that dtype, or write .npy")

@@ -196,18 +196,28 @@ def _check_picture(picture: Array, what: str) -> None:
 
 def _pictures_of(source: Any, white: Optional[float]) -> tuple[Any, Array, bool]:
     """An array of all, or an iterator; the first picture; whether they were light, which becomes codes."""
+    kinds: set[bool] = set()
+
     def codes_of(picture: Array, what: str) -> Array:
         picture = np.asarray(whole(picture, what))
         _check_picture(picture, what)
+        kinds.add(_is_light(picture))
+        if len(kinds) > 1:
+            raise InputError(f"{what} has dtype {picture.dtype}; some pictures are codes, and some are light")
         if not _is_light(picture):
             return _native(picture)
-        if white is None or not white > 0:
+        if not isinstance(white, (int, float, np.number)) or not 0 < white < np.inf:
             raise UsageError(f"{what} has dtype {picture.dtype}: which value is white? white=1.0; light becomes the nearest of "
                              "65535 steps up to it")
         return _codes_of_light(picture, white)
 
-    if hasattr(source, "__dlpack__") and not isinstance(source, np.ndarray):
-        source = np.from_dlpack(source)
+    if isinstance(source, Capture):
+        raise UsageError(f"{source.name} is a capture already; pictures of it are numpy.asarray(capture)")
+    if hasattr(source, "__dlpack__") and not hasattr(source, "__array__"):
+        try:
+            source = np.from_dlpack(source)
+        except (AttributeError, BufferError, RuntimeError) as error:
+            raise UsageError(f"{type(source).__name__} is no array of this machine's memory: {error}") from None
     if isinstance(source, memoryview) or hasattr(source, "__array_interface__") or hasattr(source, "__array__"):
         pictures = np.asarray(whole(source, "the array"))
         if pictures.ndim not in (3, 4) or not len(pictures):

@@ -8,6 +8,7 @@
 #include "array_clip.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/memory_needs.hpp"
 #include "errors.hpp"
 #include "features/captures/capture_figures.hpp"
 #include "features/captures/joining.hpp"
@@ -231,8 +232,14 @@ py::tuple records(const OpenCapture& capture, const std::vector<std::uint32_t>& 
     std::array<std::uint16_t, 3> codes{};
   };
   std::vector<std::vector<Record>> found(std::size_t{region.width} * region.height);
+  constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30;
+  constexpr std::uint64_t kBytes = 3 * sizeof(Record) + 40;  // of a record: growing, copied, and in the array
+  std::vector<std::uint32_t> places;
+  std::vector<std::uint64_t> times;
+  std::vector<std::uint16_t> codes;
   without_lock([&](const Stopping& stopping) {
     std::vector<ChangeRecord> history;
+    std::uint64_t count = 0;
     for_each_block(session.capture(), {first, last}, [&](const BlockView& block) {
       const SampleRange range = block.extent().range();
       const TileGrid grid(shape);
@@ -250,23 +257,23 @@ py::tuple records(const OpenCapture& capture, const std::vector<std::uint32_t>& 
               pixel->back().end = end;  // a block begins anew with what is held
             } else {
               pixel->push_back({begin, end, history[i].codes});
+              if (++count * kBytes > kMostBytes)
+                throw MemoryTooLittle(kMostBytes, {{"records; ask for fewer pixels or samples", count * kBytes}});
             }
           }
         }
       }
     });
-  });
-  std::vector<std::uint32_t> places;
-  std::vector<std::uint64_t> times;
-  std::vector<std::uint16_t> codes;
-  for (std::size_t pixel = 0; pixel < found.size(); ++pixel) {
-    for (const Record& record : found[pixel]) {
-      places.push_back(region.x + static_cast<std::uint32_t>(pixel % region.width));
-      places.push_back(region.y + static_cast<std::uint32_t>(pixel / region.width));
-      times.insert(times.end(), {record.begin, record.end});
-      codes.insert(codes.end(), record.codes.begin(), record.codes.begin() + shape.channels);
+    for (std::size_t pixel = 0; pixel < found.size(); ++pixel) {
+      for (const Record& record : found[pixel]) {
+        places.push_back(region.x + static_cast<std::uint32_t>(pixel % region.width));
+        places.push_back(region.y + static_cast<std::uint32_t>(pixel / region.width));
+        times.insert(times.end(), {record.begin, record.end});
+        codes.insert(codes.end(), record.codes.begin(), record.codes.begin() + shape.channels);
+      }
+      found[pixel] = {};
     }
-  }
+  });
   const auto count = static_cast<py::ssize_t>(times.size() / 2);
   return py::make_tuple(array_of(places, {count, 2}), array_of(times, {count, 2}),
                         array_of(codes, {count, static_cast<py::ssize_t>(shape.channels)}));

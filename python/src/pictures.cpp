@@ -70,7 +70,7 @@ void write(const HeldPicture& held, const std::string& path, std::optional<int> 
   write_picture(path, held.picture, {}, file_wishes(request));
 }
 
-// Light as codes of screens.
+// Light as codes of screens, whose white is the light that the capture's curve has for it.
 HeldPicture for_eyes(const HeldPicture& held) {
   const Picture& light = held.picture;
   const Transfer srgb = Transfer::srgb();
@@ -79,9 +79,10 @@ HeldPicture for_eyes(const HeldPicture& held) {
   codes.primaries = light.primaries;
   codes.pixel_aspect = light.pixel_aspect;
   const LightCodes table(srgb, 255);
+  const double white = held.figures.contains("reference_white") ? held.figures["reference_white"].cast<double>() : 1.0;
   for (std::uint64_t i = 0; i < light.shape.value_count(); ++i) {
     const double value = light.type == ValueType::light32 ? light.values<float>()[i] : light.values<double>()[i];
-    codes.values<std::uint8_t>()[i] = static_cast<std::uint8_t>(table.code_of(value));
+    codes.values<std::uint8_t>()[i] = static_cast<std::uint8_t>(value > 0 ? table.code_of(value / white) : 0);
   }
   return {std::move(codes), {}};
 }

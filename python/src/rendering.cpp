@@ -152,6 +152,7 @@ py::dict figures_of(const ExposedPicture& exposed) {
   told["plan"] = std::move(plan);
   told["statistics"] = std::move(statistics);
   told["warnings"] = exposed.warnings;
+  told["reference_white"] = figures.capture.transfer.reference_white();
   return told;
 }
 

@@ -63,6 +63,23 @@ TEST_F(UncertaintyOf, APictureIsToldTermByTerm) {
   EXPECT_NEAR(term_of(offset, "rounding")["light"].get<double>(), 2.275 / 255, 1e-4) << "half of the codes";
 }
 
+// By the function that is stated.
+TEST_F(UncertaintyOf, WhatIsHeldFollowsTheStatedFunction) {
+  const json told = answer("--start 0s --exposure 0.1s --transfer linear --json clip.tik a.png")["uncertainty"];
+  EXPECT_NEAR(term_of(told, "held_samples")["light"].get<double>(), 2.0 / 255, 1e-9);
+}
+
+// Light that is combined is not averaged: a ramp that falls from 2 leaves it up to twice as large.
+TEST_F(UncertaintyOf, CombinedLightIsAsLargeAsTheLargestGain) {
+  scratch_.write("ramp.fn", "M0 [0:0], [200000000:2]\n");
+  const json told = answer("--combine lighten -k ramp.fn --json clip.tik a.png")["uncertainty"];
+  EXPECT_EQ(told["scale"], 2.0) << told;
+  EXPECT_TRUE(term_of(told, "times").is_null());
+  expect_refused("--combine lighten --start 0s --exposure 0.1s --bounds m.tif clip.tik b.png", 2, "adds nothing up");
+  expect_refused("--start 0s --exposure 0.1s --bounds tif:- clip.tik b.png", 2, "standard output has one picture");
+  expect_refused("--combine median --start 0s --exposure 0.2s --memory 100kB clip.tik c.png", 6, "memory");
+}
+
 TEST_F(UncertaintyOf, FloatsAreInStepsAndTheReferenceHasTheLeast) {
   const json floats = answer("--start 0s --exposure 0.1s --json clip.tik a.pfm")["uncertainty"];
   EXPECT_LE(term_of(floats, "arithmetic")["float_steps"], 0.5);

@@ -268,6 +268,14 @@ TEST(OwnDriver, IsTakenWhereTheSystemHasNoneForTheProcessor) {
   const test::ProgramResult devices = test::run_shell(list, scratch.folder());
   ASSERT_EQ(devices.status, 0) << devices.err;
   EXPECT_EQ(json::parse(devices.out)["devices"][0]["kind"], "CPU");
+
+  // Called by its name alone, where another file has that name.
+  std::filesystem::create_directories(scratch / "elsewhere/nutik-cl");
+  const std::string here = scratch.folder().string();
+  const test::ProgramResult called = test::run_shell(
+      "env OCL_ICD_VENDORS=" + here + " PATH=" + here + ":$PATH nutik-cl devices --json", scratch / "elsewhere");
+  ASSERT_EQ(called.status, 0) << called.err;
+  EXPECT_EQ(json::parse(called.out)["devices"][0]["kind"], "CPU");
 }
 
 }  // namespace

@@ -41,6 +41,9 @@ class Functions(support.TestCase):
         jump = nutik.boxcar(0, 1) + nutik.boxcar(1, 1)
         self.assertEqual(jump, nutik.Function([0, 0, 2, 2], [0, 1, 1, 0]) + nutik.Function([1], [0]))
         self.assertEqual(jump.times.tolist(), [0, 0, 1, 2, 2])
+        self.assertEqual(sum([jump, jump]), 2 * jump)
+        zeros = nutik.Function([0, 1], [0, -1])
+        self.assertEqual((zeros, hash(zeros)), (nutik.Function([0, 1], [0, 1]) * -1, hash(nutik.Function([0, 1], [0, 1]) * -1)))
         for wrong in (lambda: jump + 1, lambda: jump * jump, lambda: jump - 1, lambda: "2" * jump):
             self.assertRaises(TypeError, wrong)
 

@@ -134,6 +134,11 @@ class Arrays(support.TestCase):
         for wrong in (light - 0.1, light * 3, np.where(light > 0.4, np.nan, light)):
             self.assert_raises(nutik.InputError, ["0 and white=1", "larger white"], nutik.encode, wrong, rate=1, white=1)
         self.assert_raises(nutik.UsageError, "white=1.0", nutik.encode, light, rate=1)
+        self.assert_raises(nutik.UsageError, "white=1.0", nutik.encode, light, rate=1, white=np.inf)
+        mixed = [np.zeros((8, 12), np.uint16), np.zeros((8, 12))]
+        for pictures in (mixed, mixed[::-1]):
+            self.assert_raises(nutik.InputError, "some pictures are codes", nutik.encode, pictures, rate=1, white=1)
+        self.assert_raises(nutik.UsageError, "a capture already", nutik.encode, nutik.encode(light, rate=1, white=1), rate=1)
 
     def test_other_orders_of_bytes_and_dlpack(self):
         pictures = support.moving_box().astype(np.uint16) * 200
@@ -173,6 +178,8 @@ class Arrays(support.TestCase):
             self.assertEqual(codes._repr_png_(), file.read())
         for light in (capture.render(exposure="3f"), capture.render(exposure="3f", dtype=float)):
             self.assertEqual(light._repr_png_(), codes._repr_png_())
+        hlg = nutik.encode(support.moving_box(), rate=960, transfer="hlg")
+        self.assertEqual(hlg.render(exposure="3f")._repr_png_(), hlg.render(exposure="3f", codes=True)._repr_png_())
         self.assertIn("<b>&lt;b&gt;</b>", capture._repr_html_())
         try:
             from matplotlib import pyplot

@@ -30,6 +30,9 @@ int run_expose(const Options& options) {
   check_output(output, OutputKind::picture, inputs, replacing(options));
   inputs.push_back(output.string());
   if (options.bounds) {
+    if (names_standard_output(*options.bounds)) throw UsageError("--bounds writes a file: standard output has one picture");
+    if (request.combine != Combine::integral)
+      throw UsageError("--bounds maps what sums may be off by, and --combine adds nothing up");
     check_output(*options.bounds, OutputKind::picture, inputs, replacing(options));
     static_cast<void>(value_type_for(*options.bounds, Depth::floating, ValueType::light32, 1));
   }
@@ -49,7 +52,7 @@ int run_expose(const Options& options) {
   print_warnings(exposure_warnings(exposed));
   const std::string made = recipe.text(tally.precision(), {}, tally.error_bound());
   write_picture(output, exposed.picture, made, file_wishes(options.picture));
-  if (exposed.bounds) write_picture(*options.bounds, *exposed.bounds, made);
+  if (exposed.bounds) write_picture(*options.bounds, *exposed.bounds, {});  // no recipe: `again` would make the picture
 
   const ExposureFigures& figures = exposed.figures;
   const Shape shape =

@@ -7,6 +7,7 @@
 #include "capture/format.hpp"
 #include "exposure/function_text.hpp"
 #include "features/series/picture_queue.hpp"
+#include "media/formats/extension.hpp"
 #include "media/formats/numbered_name.hpp"
 #include "media/frame_queue.hpp"
 #include "media/input_checksum.hpp"
@@ -56,7 +57,7 @@ std::optional<FilmSound> film_sound(const Session& session, const FramesRequest&
   if (!output.holds_sound()) return left_out(format("{} holds none", output.path().extension().string()));
   if (frames.curve) return left_out("the film's speed changes");
   if (frames.numbers.back() - frames.numbers.front() + 1 != frames.numbers.size())
-    return left_out("some frames of the film are");
+    return left_out("the film has not all of its frames");
   const Timeline& timeline = session.timeline();
   const std::uint64_t last = timeline.sample_count() - 1;
   const double filmed_s = static_cast<double>(timeline.start_ns(last) - timeline.start_ns(0)) * 1e-9;
@@ -67,6 +68,7 @@ std::optional<FilmSound> film_sound(const Session& session, const FramesRequest&
   sound.start_s = found->first_s + file_s * static_cast<double>(frames.times.start_ns(frames.numbers.front())) * 1e-9;
   // Where both run as fast but for what half a frame comes to at the film's end, packets stay as they are.
   if (std::abs(sound.speed - 1.0) * sound.seconds * request.rate.value() < 0.5) sound.speed = 1.0;
+  sound.is_asked = wish == FilmSoundWish::stretched;
   if (sound.speed == 1.0 || wish == FilmSoundWish::stretched) return sound;
   return left_out(format("the film runs {:.4g} times as fast as the file, and stretching it was not asked for", sound.speed));
 }
@@ -234,7 +236,7 @@ std::unique_ptr<VideoWriter> VideoOutput::open(const CaptureFormat& capture,
 }
 
 bool VideoOutput::holds_sound() const {
-  return codec_ != nullptr && codec_->name != "gif" && codec_->name != "webp" && path_.extension() != ".mxf";
+  return codec_ != nullptr && codec_->name != "gif" && codec_->name != "webp" && extension_of(path_) != ".mxf";
 }
 
 std::string VideoOutput::kind() const { return writes_stills() ? "stills" : std::string(codec_->name); }

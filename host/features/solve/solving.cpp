@@ -76,7 +76,8 @@ class Solver {
       }
     }
     const bool is_light_restated =
-        request_.exposure.transfer && !(*request_.exposure.transfer == session_.format().transfer);
+        request_.exposure.transfer &&
+        Transfer::restated(session_.format().transfer, *request_.exposure.transfer) != session_.format().transfer;
     for (const StatedWish& wish : request_.wishes) {
       const auto fail = [&](const char* why) {
         throw UsageError(format("the wish {}: {}", nutik::quoted(wish.text), why));

@@ -1,12 +1,15 @@
 #include "media/videos/capture_rate.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <initializer_list>
 #include <span>
 #include <string_view>
 
+#include "capture/error.hpp"
+#include "media/formats/extension.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::videos {
@@ -94,13 +97,19 @@ std::string sony_story(const std::filesystem::path& path) {
     const std::string_view text(reinterpret_cast<const char*>(box.data()), box.size());
     if (const auto at = text.find(kName); at != text.npos) return std::string(text.substr(at));
   }
+  const std::string extension = extension_of(path);
+  if (extension != ".mxf" && extension != ".mp4") return {};  // an export of another kind has other codes
   const std::filesystem::path beside = path.parent_path() / (path.stem().string() + "M01.XML");
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(beside, error);
   if (error || bytes == 0 || bytes > kMaxBytes) return {};
-  const MappedFile story(beside);
-  std::string text(reinterpret_cast<const char*>(story.bytes().data()), story.bytes().size());
-  return text.find(kName) == text.npos ? std::string() : text;
+  try {
+    const MappedFile story(beside);
+    std::string text(reinterpret_cast<const char*>(story.bytes().data()), story.bytes().size());
+    return text.find(kName) == text.npos ? std::string() : text;
+  } catch (const InputError&) {
+    return {};  // the clip can be read without it
+  }
 }
 
 // What stands between quotes behind `before`, from `from` on.
@@ -116,11 +125,13 @@ std::string item_of(const std::string& story, std::string_view name) {
   return quoted(story, "value=\"", story.find(format("name=\"{}\"", name)));
 }
 
-// `119.88p`, which is 120000/1001.
+// `119.88p`, which is 120000/1001; `50i` counts fields, as the file does not.
 std::optional<Rational> sony_rate(const std::string& story) {
   constexpr double kRounded = 0.006;
-  const double rate = std::strtod(quoted(story, "captureFps=\"").c_str(), nullptr);
-  if (!(rate > 0.0 && rate < 1e6)) return std::nullopt;
+  const std::string text = quoted(story, "captureFps=\"");
+  double rate = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), rate);
+  if (error != std::errc() || std::string_view(end) != "p" || !(rate > 0.0 && rate < 1e6)) return std::nullopt;
   for (const std::int64_t divisor : {1000, 1001}) {
     const double whole = std::round(rate * static_cast<double>(divisor) / 1000);
     if (whole > 0 && std::fabs(whole * 1000 / static_cast<double>(divisor) - rate) < kRounded)

@@ -90,7 +90,7 @@ class LibavVideoWriter final : public VideoWriter {
       open_scaler();
     }
     note_rounded_pixels();
-    if (video.sound) sound_ = open_sound(*video.sound, *muxer_, name_);
+    if (video.sound) add_sound(*video.sound);
     check(avio_open(&muxer_->pb, url_of(file_.temporary_path()).c_str(), AVIO_FLAG_WRITE));
     check(avformat_write_header(muxer_.get(), nullptr));
   }
@@ -172,10 +172,9 @@ class LibavVideoWriter final : public VideoWriter {
     const AVPixFmtDescriptor& pixels = *av_pix_fmt_desc_get(context.pix_fmt);
     const bool is_coded_yuv = is_yuv(context.pix_fmt);
     const bool is_still_kin = codec.name == "mjpeg" || codec.name == "webp";
-    // Decoders of DNxHR take BT.709's, whatever the container names.
-    const bool is_bt709 =
-        codec.encoder == "dnxhd" || usual_matrix(static_cast<std::uint32_t>(height_)) == YuvMatrix::bt709;
+    const bool is_bt709 = usual_matrix(static_cast<std::uint32_t>(height_)) == YuvMatrix::bt709;
     const AVColorSpace matrix = is_still_kin                              ? AVCOL_SPC_SMPTE170M
+                                : codec.encoder == "dnxhd"                ? AVCOL_SPC_BT709  // as its decoders take it
                                 : video_.primaries == Primaries::bt2020 ? AVCOL_SPC_BT2020_NCL
                                 : is_bt709                                ? AVCOL_SPC_BT709
                                                                           : AVCOL_SPC_SMPTE170M;
@@ -220,6 +219,16 @@ class LibavVideoWriter final : public VideoWriter {
   }
 
   // A .webm tells players how many whole pixels wide its frames are shown, and no pixel aspect.
+  void add_sound(const FilmSound& sound) {
+    muxer_->max_interleave_delta = AV_TIME_BASE;  // pictures that wait for a late sound, or for one that has ended
+    try {
+      sound_ = open_sound(sound, *muxer_, name_);
+    } catch (const OutputError& error) {
+      if (sound.is_asked) throw;
+      notes_.push_back(format("the clip's sound is left out: {}", error.what()));
+    }
+  }
+
   void note_rounded_pixels() {
     if (std::string_view(muxer_->oformat->name) != "webm") return;
     const auto& [across, down] = video_.pixel_aspect;

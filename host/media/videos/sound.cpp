@@ -39,19 +39,23 @@ class LibavSoundWriter final : public SoundWriter {
     const int found = best_sound(*clip_.format);
     check(found);
     from_ = clip_.format->streams[found];
-    to_ = allocated(avformat_new_stream(&film_, nullptr));
     const AVCodecParameters& codec = *from_->codecpar;
     const bool is_compressed = av_get_exact_bits_per_sample(codec.codec_id) == 0;
     is_copied_ = sound_.speed == 1.0 && is_compressed && holds(codec.codec_id);
+    if (!is_copied_) {
+      open_decoder();
+      open_encoder();
+      open_graph();
+    }
+    to_ = allocated(avformat_new_stream(&film_, nullptr));  // last, since a film has no stream of a sound that fails
     if (is_copied_) {
       check(avcodec_parameters_copy(to_->codecpar, &codec));
       to_->codecpar->codec_tag = 0;
       to_->time_base = from_->time_base;
       return;
     }
-    open_decoder();
-    open_encoder();
-    open_graph();
+    check(avcodec_parameters_from_context(to_->codecpar, encoder_.get()));
+    to_->time_base = encoder_->time_base;
   }
 
   void write_to(double film_s) override {
@@ -65,6 +69,10 @@ class LibavSoundWriter final : public SoundWriter {
   }
 
   [[nodiscard]] bool holds(AVCodecID codec) const {
+    // Of what it has a tag for FFmpeg does not write all.
+    const bool is_quicktime = std::string_view(film_.oformat->name) == "mov";
+    if (codec == AV_CODEC_ID_TRUEHD || (is_quicktime && (codec == AV_CODEC_ID_FLAC || codec == AV_CODEC_ID_OPUS)))
+      return film_.oformat->name == std::string_view("matroska");
     return avformat_query_codec(film_.oformat, codec, FF_COMPLIANCE_NORMAL) == 1;
   }
 
@@ -75,6 +83,7 @@ class LibavSoundWriter final : public SoundWriter {
     check(avcodec_parameters_to_context(decoder_.get(), from_->codecpar));
     decoder_->pkt_timebase = from_->time_base;
     check(avcodec_open2(decoder_.get(), codec, nullptr));
+    if (decoder_->sample_fmt == AV_SAMPLE_FMT_NONE || decoder_->sample_rate <= 0) check(AVERROR_INVALIDDATA);
     if (decoder_->ch_layout.order == AV_CHANNEL_ORDER_UNSPEC)
       av_channel_layout_default(&decoder_->ch_layout, decoder_->ch_layout.nb_channels);
   }
@@ -98,8 +107,6 @@ class LibavSoundWriter final : public SoundWriter {
     encoder_->bit_rate = kBitsPerChannel * encoder_->ch_layout.nb_channels;
     if ((film_.oformat->flags & AVFMT_GLOBALHEADER) != 0) encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
     check(avcodec_open2(encoder_.get(), codec, nullptr));
-    check(avcodec_parameters_from_context(to_->codecpar, encoder_.get()));
-    to_->time_base = encoder_->time_base;
   }
 
   // Cuts the part out, fills gaps with silence, plays slower or faster, converts. A filter that keeps pitch (atempo) would
@@ -174,7 +181,8 @@ class LibavSoundWriter final : public SoundWriter {
       frame_->pts = static_cast<std::int64_t>(std::llround(at * decoder_->sample_rate));
       if (frame_->ch_layout.order == AV_CHANNEL_ORDER_UNSPEC)
         check(av_channel_layout_copy(&frame_->ch_layout, &decoder_->ch_layout));
-      if (at + length > 0) check(av_buffersrc_add_frame(source_, frame_.get()));
+      // What has another form than the sound began with is silence; behind the film's end some versions take no more.
+      if (at + length > 0) static_cast<void>(av_buffersrc_add_frame(source_, frame_.get()));
       av_frame_unref(frame_.get());
     }
     encode_all();
@@ -205,7 +213,7 @@ class LibavSoundWriter final : public SoundWriter {
   void end() {
     if (std::exchange(is_at_end_, true) || is_copied_) return;
     decode(nullptr);
-    check(av_buffersrc_add_frame(source_, nullptr));
+    static_cast<void>(av_buffersrc_add_frame(source_, nullptr));
     encode_all();
     encode(nullptr);
   }

@@ -1,8 +1,8 @@
 // The sound of a clip, in a film of it.
 //
 //   in:      a clip with a stream of sound, when its part begins and how fast the film runs through it (FilmSound)
-//   out:     a stream of the film's: packets as they are where the container holds them and the film runs as fast as the
-//            file; else decoded, played slower or faster as a tape is, and encoded anew
+//   out:     a stream of the film's: compressed packets as they are where the container holds them and the film runs as fast
+//            as the file; else decoded, played slower or faster as a tape is, and encoded anew
 //   always:  a sound has the time of its picture; packets as they are begin with the first whole one
 #pragma once
 

@@ -59,6 +59,7 @@ struct FilmSound {
   double start_s = 0;  // of the file, where the film begins
   double speed = 1;    // seconds of the file in one of the film
   double seconds = 0;  // of the film
+  bool is_asked = false;  // else a film without it is better than none
 };
 
 // The frames a second that a container of this name still tells apart: 1000 in .mkv and .webm, whose times are

@@ -45,7 +45,7 @@ std::optional<Shape> known_shape(const std::filesystem::path& path) {
 void check_stated_transfer(const tik::Header& header, const std::string& name,
                            const std::optional<Transfer>& stated) {
   const Transfer& held = header.capture.transfer;
-  if (!stated || *stated == held) return;
+  if (!stated || Transfer::restated(held, *stated) == held) return;
   const char* const why = header.capture.noise.camera ? "what a camera's noise explains was held as its mean"
                           : header.is_scaled          ? "pictures were scaled"
                           : header.alignment          ? "pictures were moved by fractions of a pixel"

@@ -170,7 +170,7 @@ void MainWindow::build_file_menu() {
     if (!project_.isEmpty()) return open_project(project_);
     open_capture_file(document_.facts()->path, document_.facts()->stated, {});
   });
-  needs_capture_ += add_action(menu, tr("How the clip is &read…"), {}, [this] {
+  needs_capture_ += add_action(menu, tr("How &the clip is read…"), {}, [this] {
     const CaptureFacts& facts = *document_.facts();
     if (may_leave()) ask_how_to_read(facts.path, facts.stated, tr("The clip is opened again."), {});
   });
