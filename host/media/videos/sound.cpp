@@ -182,7 +182,7 @@ class LibavSoundWriter final : public SoundWriter {
       if (frame_->ch_layout.order == AV_CHANNEL_ORDER_UNSPEC)
         check(av_channel_layout_copy(&frame_->ch_layout, &decoder_->ch_layout));
       // What has another form than the sound began with is silence; behind the film's end some versions take no more.
-      if (at + length > 0) static_cast<void>(av_buffersrc_add_frame(source_, frame_.get()));
+      if (at + length > 0 && av_buffersrc_add_frame(source_, frame_.get()) < 0) av_frame_unref(frame_.get());
       av_frame_unref(frame_.get());
     }
     encode_all();
@@ -213,7 +213,7 @@ class LibavSoundWriter final : public SoundWriter {
   void end() {
     if (std::exchange(is_at_end_, true) || is_copied_) return;
     decode(nullptr);
-    static_cast<void>(av_buffersrc_add_frame(source_, nullptr));
+    if (const int ended = av_buffersrc_add_frame(source_, nullptr); ended != AVERROR_EOF) check(ended);
     encode_all();
     encode(nullptr);
   }
