@@ -77,7 +77,6 @@ TEST_F(UncertaintyOf, CombinedLightIsAsLargeAsTheLargestGain) {
   EXPECT_TRUE(term_of(told, "times").is_null());
   expect_refused("--combine lighten --start 0s --exposure 0.1s --bounds m.tif clip.tik b.png", 2, "adds nothing up");
   expect_refused("--start 0s --exposure 0.1s --bounds tif:- clip.tik b.png", 2, "standard output has one picture");
-  expect_refused("--combine median --start 0s --exposure 0.2s --memory 100kB clip.tik c.png", 6, "memory");
 }
 
 TEST_F(UncertaintyOf, FloatsAreInStepsAndTheReferenceHasTheLeast) {
