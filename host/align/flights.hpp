@@ -15,7 +15,7 @@
 
 namespace nutik {
 
-// Of one size, rows side by side, in grey of 0 … 255 that looks even to eyes.
+// Pictures of one size, rows side by side, in grey of 0 … 255 that looks even to eyes.
 struct GreyPictures {
   const std::uint8_t* first = nullptr;
   const std::uint8_t* second = nullptr;

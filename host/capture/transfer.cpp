@@ -119,8 +119,10 @@ Transfer Transfer::parse(std::string_view text) {
     if (text == log.text()) return log;
     names += format(", {}", curve.name);
   }
-  throw UsageError(format("transfer '{}' is not known; choose srgb, bt709, linear, gamma:G (as in gamma:2.2), hlg, pq or a "
-                          "camera's curve{}", text, names.replace(0, 1, ":")));
+  throw UsageError(
+      format("transfer '{}' is not known; choose srgb, bt709, linear, gamma:G (as in gamma:2.2), hlg, pq or a "
+             "camera's curve{}",
+             text, names.replace(0, 1, ":")));
 }
 
 std::string Transfer::text() const {

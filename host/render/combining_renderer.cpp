@@ -27,14 +27,16 @@ struct SampleGains {
       while (piece + 1 < pieces.size() && pieces[piece].end_ns <= start_ns) ++piece;
       double& largest = gains.emplace_back(0.0);
       for (std::size_t p = piece; p < pieces.size() && pieces[p].begin_ns < end_ns; ++p) {
-        for (const std::int64_t time_ns : {std::max(start_ns, pieces[p].begin_ns), std::min(end_ns, pieces[p].end_ns)}) {
+        for (const std::int64_t time_ns :
+             {std::max(start_ns, pieces[p].begin_ns), std::min(end_ns, pieces[p].end_ns)}) {
           const double gain = pieces[p].at(time_ns);
           if (gain < 0.0) throw UsageError("light that is combined takes no gains below 0: they subtract it");
           largest = std::max(largest, gain);
         }
       }
     }
-    is_one = gains.empty() || (gains.front() > 0.0 && std::ranges::all_of(gains, [&](double g) { return g == gains.front(); }));
+    is_one = gains.empty() ||
+             (gains.front() > 0.0 && std::ranges::all_of(gains, [&](double g) { return g == gains.front(); }));
   }
 };
 
@@ -42,7 +44,10 @@ class Combiner {
  public:
   // Throws MemoryTooLittle where it takes more than `allowed` bytes; 0: any number.
   Combiner(const RenderPlan& plan, const Timeline& timeline, const Rectangle& rectangle, std::uint64_t allowed)
-      : plan_(plan), rectangle_(rectangle), grid_(plan.capture.shape), values_(plan.capture.shape.channels * kTilePixels) {
+      : plan_(plan),
+        rectangle_(rectangle),
+        grid_(plan.capture.shape),
+        values_(plan.capture.shape.channels * kTilePixels) {
     for (const PlannedFunction& planned : plan.functions) gains_.emplace_back(planned, timeline, plan.duration_ns);
     light_ = plan.capture.transfer.light_of_all_codes(plan.capture.white_code, plan.capture.code_bytes);
     std::vector<std::vector<std::uint16_t>> of_tile(grid_.tile_count());
@@ -78,7 +83,8 @@ class Combiner {
       const std::uint64_t before = block.extent().first_sample;
       const auto clip = [&](std::uint64_t from, std::uint64_t until, auto visit) {
         const SampleRange& samples = gains_[place.function].samples;
-        const std::uint64_t first = std::max(before + from, samples.first), last = std::min(before + until, samples.last);
+        const std::uint64_t first = std::max(before + from, samples.first),
+                            last = std::min(before + until, samples.last);
         if (first < last) visit(first - samples.first, last - samples.first);
       };
       const auto add_rows = [&](auto code) {
@@ -151,7 +157,8 @@ class Combiner {
     std::uint16_t* const to = place.codes.data();
     if (keeps_all(place.function)) {
       const std::size_t samples = gains_[place.function].gains.size();
-      for (std::size_t i = begin; i < values_; i += step) std::fill(to + i * samples + first, to + i * samples + last, codes[i]);
+      for (std::size_t i = begin; i < values_; i += step)
+        std::fill(to + i * samples + first, to + i * samples + last, codes[i]);
     } else if (plan_.combine == Combine::lighten) {
       for (std::size_t i = begin; i < values_; i += step) to[i] = std::max<std::uint16_t>(to[i], codes[i]);
     } else {
@@ -168,12 +175,14 @@ class Combiner {
       for (std::size_t r = 0; r < history.size(); ++r) {
         for (std::size_t i = lane, channel = 0; i < values_; i += kTilePixels) codes[i] = history[r].codes[channel++];
         clip(history[r].sample, r + 1 < history.size() ? history[r + 1].sample : block.extent().sample_count,
-             [&](std::uint64_t first, std::uint64_t last) { add_run(place, first, last, codes.data(), lane, kTilePixels); });
+             [&](std::uint64_t first, std::uint64_t last) {
+               add_run(place, first, last, codes.data(), lane, kTilePixels);
+             });
       }
     }
   }
 
-  // Of each value; a sample without a gain is none.
+  // The light of each value; a sample without a gain does not count.
   [[nodiscard]] std::vector<double> light_of(const Place& place) const {
     const SampleGains& gains = gains_[place.function];
     std::vector<double> result(values_, 0.0), lights;
@@ -211,16 +220,19 @@ class Combiner {
 // Where all codes are kept, so many rows of pixels are made at a time.
 std::uint32_t rows_at_once(const RenderPlan& plan, const CaptureSource& source, const Rectangle& rectangle,
                            std::uint64_t allowed) {
-  const bool keeps_all = plan.combine == Combine::median || std::ranges::any_of(plan.functions, [](const auto& planned) {
-    const std::span<const ControlPoint> points = planned.function.points();
-    const double largest = std::ranges::max(points, {}, &ControlPoint::gain).gain;
-    return std::ranges::any_of(points, [&](const auto& point) { return point.gain != 0.0 && point.gain != largest; });
-  });
+  const bool keeps_all =
+      plan.combine == Combine::median || std::ranges::any_of(plan.functions, [](const auto& planned) {
+        const std::span<const ControlPoint> points = planned.function.points();
+        const double largest = std::ranges::max(points, {}, &ControlPoint::gain).gain;
+        return std::ranges::any_of(points,
+                                   [&](const auto& point) { return point.gain != 0.0 && point.gain != largest; });
+      });
   if (!keeps_all || source.is_forward_only() || allowed == 0) return rectangle.height;
   const std::uint64_t row_bytes = std::uint64_t{rectangle.width} * plan.capture.shape.channels * sizeof(std::uint16_t) *
                                   std::max<std::uint64_t>(plan.exposed_sample_count(), 1);
   const std::uint64_t rows = allowed / 2 / row_bytes / kTileSide * kTileSide;
-  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(rows, std::min(kTileSide, rectangle.height), rectangle.height));
+  return static_cast<std::uint32_t>(
+      std::clamp<std::uint64_t>(rows, std::min(kTileSide, rectangle.height), rectangle.height));
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 //
 //   in:      a plan whose light is combined so (Combine), of functions without gains below 0
 //   out:     of each pixel, over the samples that its function exposes, the largest, the least or the middle value of
-//            light · gain; a sample's gain is its function's largest while it is exposed. Of an even number of samples the
-//            middle is the mean of two. A soft mask blends what its functions come to
+//            light · gain; a sample's gain is its function's largest while it is exposed. The middle of an even
+//            number of samples is the mean of two. A soft mask blends what its functions come to
 //   always:  one gain for all samples rounds nothing: codes are compared as they are
 #pragma once
 

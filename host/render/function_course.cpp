@@ -41,7 +41,7 @@ void CourseMeter::add_single(double error, double own_weight) {
   like.weight += own_weight;
 }
 
-// Of light v in [0, 1] samples err by no more than Σ c v. Whatever the slope, that is at most
+// Samples of light v in [0, 1] err by no more than Σ c v. Whatever the slope, that is at most
 // Σ max(0, c - slope · w) + slope · Σ w v.
 std::vector<LightLine> CourseMeter::single_lines() const {
   std::vector<LightLine> lines;

@@ -307,7 +307,8 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
         RenderControl limited = control;
         limited.strict |= devices_->request().strict;
         if (limited.memory_bytes == 0 || limited.memory_bytes > left) limited.memory_bytes = left;
-        return (by_devices ? devices_->renderer() : static_cast<Renderer&>(combining_)).render(plan, source, output, limited);
+        return (by_devices ? devices_->renderer() : static_cast<Renderer&>(combining_))
+            .render(plan, source, output, limited);
       });
   rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
   if (const std::uint64_t count = infinite_values(rendered.picture); count > 0) {

@@ -174,12 +174,14 @@ TEST_F(CommandLine, SaysWhatIsWrongWithInput) {
 }
 
 TEST_F(CommandLine, ReplacesOnlyItsOwnKind) {
-  expect_refused(2, {{"clip.tik clip.avi", "clip.tik is a capture already"},
-                     {"x.tik clip.avi", "clip.avi is no name for a capture, which ends in .tik; nutik-cl video makes "
-                                        "films"},
-                     {"clip.avi x.png", "x.png is no name for a capture, which ends in .tik; for a picture say of when"},
-                     {"-k one.fn clip.tik -o clip.tik", "is also an input"},
-                     {"-k one.fn clip.tik -o ./one.fn", "is also an input"}});
+  expect_refused(2,
+                 {{"clip.tik clip.avi", "clip.tik is a capture already"},
+                  {"x.tik clip.avi",
+                   "clip.avi is no name for a capture, which ends in .tik; nutik-cl video makes "
+                   "films"},
+                  {"clip.avi x.png", "x.png is no name for a capture, which ends in .tik; for a picture say of when"},
+                  {"-k one.fn clip.tik -o clip.tik", "is also an input"},
+                  {"-k one.fn clip.tik -o ./one.fn", "is also an input"}});
   scratch_.write("notes.png", "my notes");
   expect_refused("-k one.fn clip.tik -o notes.png", 2, "notes.png exists and is no picture");
   EXPECT_EQ(test::read_file(scratch_ / "notes.png"), "my notes");

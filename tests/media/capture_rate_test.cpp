@@ -44,10 +44,11 @@ TEST(CaptureRate, IsAndroidsWhereTheFilePlaysSlower) {
 }
 
 std::string sony_story(const char* rate, const char* curve, const char* gamut) {
-  return std::string("<?xml version=\"1.0\"?><NonRealTimeMeta><VideoFormat><VideoFrame videoCodec=\"AVC\" captureFps=\"") +
+  return std::string(
+             "<?xml version=\"1.0\"?><NonRealTimeMeta><VideoFormat><VideoFrame videoCodec=\"AVC\" captureFps=\"") +
          rate + "\" formatFps=\"23.98p\"/></VideoFormat><AcquisitionRecord><Group name=\"CameraUnitMetadataSet\">" +
-         "<Item name=\"CaptureGammaEquation\" value=\"" + curve + "\"/><Item name=\"CaptureColorPrimaries\" value=\"" + gamut +
-         "\"/></Group></AcquisitionRecord></NonRealTimeMeta>";
+         "<Item name=\"CaptureGammaEquation\" value=\"" + curve + "\"/><Item name=\"CaptureColorPrimaries\" value=\"" +
+         gamut + "\"/></Group></AcquisitionRecord></NonRealTimeMeta>";
 }
 
 // In a file beside the clip, or in a box of it. Other curves than those that are known here are left to the container.

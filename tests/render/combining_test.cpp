@@ -34,11 +34,13 @@ FunctionSet without_gains_below_zero(const FunctionSet& functions) {
 }
 
 // A function's largest gain while a sample is exposed.
-double largest_gain(const GainFunction& function, std::int64_t start_ns, std::int64_t end_ns, std::int64_t duration_ns) {
+double largest_gain(const GainFunction& function, std::int64_t start_ns, std::int64_t end_ns,
+                    std::int64_t duration_ns) {
   double largest = 0.0;
   for (const GainPiece& piece : function.pieces(duration_ns)) {
     if (piece.end_ns <= start_ns || piece.begin_ns >= end_ns) continue;
-    largest = std::max({largest, piece.at(std::max(start_ns, piece.begin_ns)), piece.at(std::min(end_ns, piece.end_ns))});
+    largest =
+        std::max({largest, piece.at(std::max(start_ns, piece.begin_ns)), piece.at(std::min(end_ns, piece.end_ns))});
   }
   return largest;
 }
@@ -54,7 +56,8 @@ double combined(const RenderPlan& plan, const test::RandomCase& random, std::uin
     std::vector<double> lights;
     const SampleRange exposed = exposed_samples(planned, random.timeline);
     for (std::uint64_t k = exposed.first; k < exposed.last; ++k) {
-      const double gain = largest_gain(planned.function, random.timeline.start_ns(k), random.timeline.end_ns(k), plan.duration_ns);
+      const double gain =
+          largest_gain(planned.function, random.timeline.start_ns(k), random.timeline.end_ns(k), plan.duration_ns);
       const double code = test::code_at(plan.capture, random.rasters[k], value);
       if (gain > 0.0) lights.push_back(gain * plan.capture.transfer.light_of(code / plan.capture.white_code));
     }

@@ -30,7 +30,8 @@ int run_expose(const Options& options) {
   check_output(output, OutputKind::picture, inputs, replacing(options));
   inputs.push_back(output.string());
   if (options.bounds) {
-    if (names_standard_output(*options.bounds)) throw UsageError("--bounds writes a file: standard output has one picture");
+    if (names_standard_output(*options.bounds))
+      throw UsageError("--bounds writes a file: standard output has one picture");
     if (request.combine != Combine::integral)
       throw UsageError("--bounds maps what sums may be off by, and --combine adds nothing up");
     check_output(*options.bounds, OutputKind::picture, inputs, replacing(options));

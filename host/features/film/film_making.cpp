@@ -70,7 +70,8 @@ std::optional<FilmSound> film_sound(const Session& session, const FramesRequest&
   if (std::abs(sound.speed - 1.0) * sound.seconds * request.rate.value() < 0.5) sound.speed = 1.0;
   sound.is_asked = wish == FilmSoundWish::stretched;
   if (sound.speed == 1.0 || wish == FilmSoundWish::stretched) return sound;
-  return left_out(format("the film runs {:.4g} times as fast as the file, and stretching it was not asked for", sound.speed));
+  return left_out(
+      format("the film runs {:.4g} times as fast as the file, and stretching it was not asked for", sound.speed));
 }
 
 }  // namespace
@@ -151,8 +152,9 @@ VideoOutput::VideoOutput(std::filesystem::path path, Rational rate, const std::o
                             (path_.parent_path() / path_.stem()).string(), path_.extension().string()));
   }
   codec_ = &video_codec_for(path_, codec);
-  codec_setting_ = codec_setting(*codec_, request.crf,
-                                 request.quality ? std::optional(static_cast<std::uint32_t>(*request.quality)) : std::nullopt);
+  codec_setting_ =
+      codec_setting(*codec_, request.crf,
+                    request.quality ? std::optional(static_cast<std::uint32_t>(*request.quality)) : std::nullopt);
   if (const double largest = largest_rate_for(path_); rate.value() > largest) {
     throw UsageError(
         format("{}: a {} file tells at most {:.0f} frames a second apart, and {} are asked for; write {}",

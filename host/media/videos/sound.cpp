@@ -16,8 +16,10 @@ struct SoundEncoder {
   int only_rate = 0;  // samples a second; 0: the clip's own
 };
 
-constexpr SoundEncoder kEncoders[] = {
-    {"avi", "pcm_s16le", "s16"}, {"matroska", "flac", "s16"}, {"webm", "libopus", "flt", 48'000}, {"", "aac", "fltp", 48'000}};
+constexpr SoundEncoder kEncoders[] = {{"avi", "pcm_s16le", "s16"},
+                                      {"matroska", "flac", "s16"},
+                                      {"webm", "libopus", "flt", 48'000},
+                                      {"", "aac", "fltp", 48'000}};
 
 int best_sound(const AVFormatContext& file) {
   return av_find_best_stream(const_cast<AVFormatContext*>(&file), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0);
@@ -69,7 +71,7 @@ class LibavSoundWriter final : public SoundWriter {
   }
 
   [[nodiscard]] bool holds(AVCodecID codec) const {
-    // Of what it has a tag for FFmpeg does not write all.
+    // FFmpeg does not write all that a container has a tag for.
     const bool is_quicktime = std::string_view(film_.oformat->name) == "mov";
     if (codec == AV_CODEC_ID_TRUEHD || (is_quicktime && (codec == AV_CODEC_ID_FLAC || codec == AV_CODEC_ID_OPUS)))
       return film_.oformat->name == std::string_view("matroska");
@@ -95,8 +97,10 @@ class LibavSoundWriter final : public SoundWriter {
     });
     const AVCodec* codec = avcodec_find_encoder_by_name(kind_.name);
     if (codec == nullptr || !holds(codec->id)) {
-      throw OutputError(format("{} cannot be written with sound: the FFmpeg here does not encode {} for {}; leave it out",
-                               name_, kind_.name, container), {Setting::sound});
+      throw OutputError(
+          format("{} cannot be written with sound: the FFmpeg here does not encode {} for {}; leave it out", name_,
+                 kind_.name, container),
+          {Setting::sound});
     }
     encoder_.reset(allocated(avcodec_alloc_context3(codec)));
     encoder_->sample_fmt = av_get_sample_fmt(kind_.samples);

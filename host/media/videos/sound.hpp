@@ -24,6 +24,7 @@ class SoundWriter {
 
 // Adds a stream to a container whose header has not been written yet. Throws OutputError where it holds no sound that can
 // be made here.
-[[nodiscard]] std::unique_ptr<SoundWriter> open_sound(const FilmSound& sound, AVFormatContext& film, const std::string& name);
+[[nodiscard]] std::unique_ptr<SoundWriter> open_sound(const FilmSound& sound, AVFormatContext& film,
+                                                      const std::string& name);
 
 }  // namespace nutik::videos

@@ -57,7 +57,7 @@ constexpr int kVersion = 1;
 constexpr const char* kUnwrittenKey = "unwritten";
 constexpr const char* kIdKey = "id";
 
-// Of an option.
+// The key of an option in a project.
 QString key_of(const std::string& name) { return QString::fromStdString(name).replace('-', '_'); }
 
 void write_text(const QString& path, std::string_view text) {
