@@ -64,7 +64,7 @@ class FilledClip final : public Clip {
       if (picture_ == 0) {
         for (std::size_t i = 1; i < pictures_.size(); ++i) read_picture(i, i - 1);
       } else {
-        std::ranges::rotate(pictures_, pictures_.begin() + 1);
+        std::rotate(pictures_.begin(), pictures_.begin() + 1, pictures_.end());
         read_picture(pictures_.size() - 1, picture_ + 2);
       }
       is_pair_taken_ = false;
