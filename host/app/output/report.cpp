@@ -139,8 +139,8 @@ Json ExposureTally::uncertainty_json() const {
   if (!worst_.bounds.error) return Json::object();  // nothing was exposed
   const auto json_of = [&](const UncertaintyTerm& term) {
     Json json;
-    for (const auto& [name, value] : term.fields(worst_output_))
-      std::visit([&](const auto& each) { json[std::string(name)] = each; }, value);
+    for (const UncertaintyTerm::Field& field : term.fields(worst_output_))
+      std::visit([&](const auto& each) { json[std::string(field.first)] = each; }, field.second);
     return json;
   };
   Json terms = Json::array();
