@@ -45,7 +45,7 @@ class Transfer {
   [[nodiscard]] bool is_linear() const { return kind_ == Kind::linear; }
   // That a camera's curve is stored with; none for other functions.
   [[nodiscard]] std::optional<Primaries> usual_primaries() const;
-  // Of codes that were scaled from video of limited range: a curve that counts whole codes becomes `…:video`.
+  // The function of codes that were scaled from video of limited range: a curve that counts whole codes becomes `…:video`.
   [[nodiscard]] Transfer scaled_from_video() const;
 
   // Light of a code fraction, and back. Inverse of each other to a few ulp; increasing.

@@ -40,15 +40,22 @@ struct SampleGains {
   }
 };
 
+// Codes can be compared as they come where one gain holds for all, but for the middle one.
+bool keeps_all(const RenderPlan& plan, const SampleGains& gains) {
+  return plan.combine == Combine::median || !gains.is_one;
+}
+
 class Combiner {
  public:
-  // Throws MemoryTooLittle where it takes more than `allowed` bytes; 0: any number.
-  Combiner(const RenderPlan& plan, const Timeline& timeline, const Rectangle& rectangle, std::uint64_t allowed)
+  // `gains` are those of the plan's functions. Throws MemoryTooLittle where it takes more than `allowed` bytes; 0: any
+  // number.
+  Combiner(const RenderPlan& plan, const std::vector<SampleGains>& gains, const Rectangle& rectangle,
+           std::uint64_t allowed)
       : plan_(plan),
         rectangle_(rectangle),
         grid_(plan.capture.shape),
-        values_(plan.capture.shape.channels * kTilePixels) {
-    for (const PlannedFunction& planned : plan.functions) gains_.emplace_back(planned, timeline, plan.duration_ns);
+        values_(plan.capture.shape.channels * kTilePixels),
+        gains_(gains) {
     light_ = plan.capture.transfer.light_of_all_codes(plan.capture.white_code, plan.capture.code_bytes);
     std::vector<std::vector<std::uint16_t>> of_tile(grid_.tile_count());
     for_each_pixel([&](std::uint64_t, std::uint64_t tile, std::uint32_t, std::span<const Share> shares) {
@@ -131,10 +138,7 @@ class Combiner {
     std::vector<std::uint16_t> codes;  // [value], or [value][sample]
   };
 
-  // Codes can be compared as they come where one gain holds for all, but for the middle one.
-  [[nodiscard]] bool keeps_all(std::uint16_t function) const {
-    return plan_.combine == Combine::median || !gains_[function].is_one;
-  }
+  [[nodiscard]] bool keeps_all(std::uint16_t function) const { return nutik::keeps_all(plan_, gains_[function]); }
 
   // Calls visit(pixel of the rectangle, tile, lane, shares).
   template <typename Visit>
@@ -210,24 +214,18 @@ class Combiner {
   const RenderPlan& plan_;
   Rectangle rectangle_;
   TileGrid grid_;
-  std::size_t values_;              // of a tile
-  std::vector<SampleGains> gains_;  // by planned function
-  std::vector<double> light_;       // of each code
-  std::vector<Place> places_;       // by tile
+  std::size_t values_;                     // of a tile
+  const std::vector<SampleGains>& gains_;  // by planned function
+  std::vector<double> light_;              // of each code
+  std::vector<Place> places_;              // by tile
   std::vector<std::uint64_t> first_places_;
 };
 
 // Where all codes are kept, so many rows of pixels are made at a time.
-std::uint32_t rows_at_once(const RenderPlan& plan, const CaptureSource& source, const Rectangle& rectangle,
-                           std::uint64_t allowed) {
-  const bool keeps_all =
-      plan.combine == Combine::median || std::ranges::any_of(plan.functions, [](const auto& planned) {
-        const std::span<const ControlPoint> points = planned.function.points();
-        const double largest = std::ranges::max(points, {}, &ControlPoint::gain).gain;
-        return std::ranges::any_of(points,
-                                   [&](const auto& point) { return point.gain != 0.0 && point.gain != largest; });
-      });
-  if (!keeps_all || source.is_forward_only() || allowed == 0) return rectangle.height;
+std::uint32_t rows_at_once(const RenderPlan& plan, const std::vector<SampleGains>& gains, const CaptureSource& source,
+                           const Rectangle& rectangle, std::uint64_t allowed) {
+  const bool keeps = std::ranges::any_of(gains, [&](const SampleGains& each) { return keeps_all(plan, each); });
+  if (!keeps || source.is_forward_only() || allowed == 0) return rectangle.height;
   const std::uint64_t row_bytes = std::uint64_t{rectangle.width} * plan.capture.shape.channels * sizeof(std::uint16_t) *
                                   std::max<std::uint64_t>(plan.exposed_sample_count(), 1);
   const std::uint64_t rows = allowed / 2 / row_bytes / kTileSide * kTileSide;
@@ -240,10 +238,13 @@ std::uint32_t rows_at_once(const RenderPlan& plan, const CaptureSource& source, 
 Rendered CombiningRenderer::render_part(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output,
                                         const Rectangle& rectangle, const RenderControl& control) {
   Rendered rendered;
-  const std::uint32_t rows = rows_at_once(plan, source, rectangle, control.memory_bytes);
+  std::vector<SampleGains> gains;
+  for (const PlannedFunction& planned : plan.functions)
+    gains.emplace_back(planned, source.timeline(), plan.duration_ns);
+  const std::uint32_t rows = rows_at_once(plan, gains, source, rectangle, control.memory_bytes);
   rendered.picture = Picture({rectangle.width, 0, plan.capture.shape.channels}, output.type, output.white_code);
   for (std::uint32_t y = 0; y < rectangle.height; y += rows) {
-    Combiner combiner(plan, source.timeline(),
+    Combiner combiner(plan, gains,
                       {rectangle.x, rectangle.y + y, rectangle.width, std::min(rows, rectangle.height - y)},
                       control.memory_bytes);
     BlockCursor cursor(source);

@@ -42,7 +42,7 @@ struct PictureError {
   }
 };
 
-// Of the reference, in S.
+// The reference's error, in S.
 inline constexpr double kReferenceError = 30 * 0x1p-53;
 
 struct ErrorBound {

@@ -12,8 +12,7 @@ namespace {
 
 using Is = UncertaintyTerm::Is;
 
-// The most that light changes where a code of [0, 1] changes by `fraction`: at an end, for transfer functions bend one
-// way only.
+// The most that light changes where a code of [0, 1] changes by `fraction`: no function is steeper than at one of its ends.
 double light_within(const Transfer& transfer, double fraction) {
   if (!(fraction < 1.0)) return 1.0;
   return std::max(transfer.light_of(fraction) - transfer.light_of(0.0), 1.0 - transfer.light_of(1.0 - fraction));
