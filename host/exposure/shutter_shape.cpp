@@ -219,11 +219,16 @@ ShutterShape ShutterShape::spline(std::string_view list) {
   }
   ShutterShape shape;
   shape.corners_.clear();
-  const auto by_value = [](const auto& a, const auto& b) { return a.value < b.value; };
-  shape.min_ = std::min_element(knots.begin(), knots.end(), by_value)->value;
-  shape.max_ = std::max_element(knots.begin(), knots.end(), by_value)->value;
-  if (shape.largest_gain() == 0.0) throw UsageError("the spline is zero everywhere");
-  const MonotoneSpline spline(knots);
+  double largest = 0.0;
+  for (const auto& knot : knots) largest = std::max(largest, std::fabs(knot.value));
+  if (largest == 0.0) throw UsageError("the spline is zero everywhere");
+  std::vector<MonotoneSpline::Knot> scaled = knots;
+  shape.exponent_ = std::ilogb(largest);
+  for (auto& knot : scaled) knot.value = std::scalbn(knot.value, -shape.exponent_);
+  const auto [least, most] = std::ranges::minmax(scaled, {}, &MonotoneSpline::Knot::value);
+  shape.min_ = least.value;
+  shape.max_ = most.value;
+  const MonotoneSpline spline(std::move(scaled));
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
     const bool is_zero = knots[i].value == 0.0 && knots[i + 1].value == 0.0;
     shape.sections_.push_back({knots[i].at, knots[i + 1].at, spline.largest_bend(i), is_zero});
@@ -233,7 +238,7 @@ ShutterShape ShutterShape::spline(std::string_view list) {
 }
 
 double ShutterShape::gain(double x) const {
-  if (curve_) return curve_(x);
+  if (curve_) return std::scalbn(curve_(x), exponent_);
   std::size_t i = 1;
   while (i + 1 < corners_.size() && corners_[i].at.value() <= x) ++i;
   const double begin = corners_[i - 1].at.value(), end = corners_[i].at.value();
@@ -259,7 +264,7 @@ std::vector<ControlPoint> ShutterShape::straight_points(std::int64_t length_ns) 
 
 std::vector<ControlPoint> ShutterShape::curved_points(std::int64_t length_ns, double error) const {
   const auto length = static_cast<double>(length_ns);
-  const double allowed = error * largest_gain();
+  const double allowed = error * std::max(-min_, max_);
   std::vector<ControlPoint> points;
   std::vector<ControlPoint> run;  // samples of sections that are not zero, one behind the other
   double chord = 0.0;             // how far the curve leaves the chords of samples
@@ -309,6 +314,7 @@ std::vector<ControlPoint> ShutterShape::curved_points(std::int64_t length_ns, do
                      (section.bend * gap * gap + (bend_of(i - 1) + bend_of(i + 1)) / (length * length)) / 8);
   }
   close_run();
+  for (ControlPoint& point : points) point.gain = std::scalbn(point.gain, exponent_);
   return points;
 }
 

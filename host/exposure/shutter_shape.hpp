@@ -20,6 +20,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -45,7 +46,7 @@ class ShutterShape {
 
   // The gain at share x of the exposure, 0 <= x <= 1; at a jump, that of the later side.
   [[nodiscard]] double gain(double x) const;
-  [[nodiscard]] double largest_gain() const { return std::max(-min_, max_); }  // of |gain|
+  [[nodiscard]] double largest_gain() const { return std::scalbn(std::max(-min_, max_), exponent_); }  // of |gain|
 
   // The function of an exposure [begin_ns, end_ns]. kMinError <= error < 1. Throws UsageError where it is too
   // short for the shape's corners, or for whole nanoseconds to keep within the error.
@@ -64,7 +65,7 @@ class ShutterShape {
     double gain;
     friend bool operator==(const Corner&, const Corner&) = default;
   };
-  // A stretch of a curve with a bound on |second derivative|, in gain per square of the exposure.
+  // A stretch of a curve with a bound on |second derivative|, in curve_'s unit per square of the exposure.
   struct Section {
     double begin;
     double end;
@@ -81,9 +82,12 @@ class ShutterShape {
 
   std::string text_ = "box";
   std::vector<Corner> corners_{{{0, 1}, 1.0}, {{1, 1}, 1.0}};  // empty for a curve
-  std::function<double(double)> curve_;                        // empty for straight lines
-  std::vector<Section> sections_;                              // of a curve, from 0 to 1 without gaps
-  double min_ = 0.0;                                         // the range of its gains
+  // Empty for straight lines. A curve's gain is curve_ x 2^exponent_, so that what is reckoned with stays near 1
+  // however large or small the gains are.
+  std::function<double(double)> curve_;
+  int exponent_ = 0;
+  std::vector<Section> sections_;  // of a curve, from 0 to 1 without gaps
+  double min_ = 0.0;               // the range of curve_
   double max_ = 1.0;
 };
 

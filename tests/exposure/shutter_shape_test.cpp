@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "capture/error.hpp"
+#include "capture/format.hpp"
 #include "support/messages.hpp"
 
 namespace nutik {
@@ -114,6 +115,25 @@ TEST(ShutterShape, CurvesTakeAsFewPointsAsNeeded) {
       EXPECT_LE(pieces, fewest * 1.1 + 4) << curve.text << ", error " << error;
     }
   }
+}
+
+// A spline is fitted alike whatever its gains are measured in, as far as a double reaches.
+TEST(ShutterShape, SplinesKeepTheirFormAtEveryScale) {
+  const auto function = [](double unit) {
+    const std::string text = format("spline:0=0,0.3={},0.7={},1=0", unit, -unit / 2);
+    return ShutterShape::parse(text).function({0, 1'000'000});
+  };
+  const GainFunction plain = function(1.0);
+  for (const int exponent : {-1000, -333, 500, 1023}) {
+    const GainFunction scaled = function(std::scalbn(1.0, exponent));
+    ASSERT_EQ(scaled.points().size(), plain.points().size()) << exponent;
+    for (std::size_t i = 0; i < plain.points().size(); ++i) {
+      EXPECT_EQ(scaled.points()[i].time_ns, plain.points()[i].time_ns);
+      EXPECT_EQ(scaled.points()[i].gain, std::scalbn(plain.points()[i].gain, exponent));
+    }
+  }
+  const GainFunction least = ShutterShape::parse("spline:0=0,0.5=5e-324,1=0").function({0, 1'000'000});
+  EXPECT_TRUE(std::ranges::any_of(least.points(), [](const ControlPoint& point) { return point.gain > 0.0; }));
 }
 
 // D and the sign of the light that is added are the shape's own, whatever the error.
