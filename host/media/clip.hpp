@@ -46,6 +46,8 @@ struct ClipInfo {
   std::vector<Note> notes;
   std::vector<Fact> facts;  // what samples are taken for, each with who said it
   std::optional<PartOfClip> part = std::nullopt;  // which pictures these are, if not all of a clip's
+  bool holds_light = false;  // its files do: codes are the nearest ones
+  bool is_rounded = false;   // codes are light that was rounded to the nearest
 };
 
 // How YUV becomes RGB, which codes stand for black and white, and where samples of chroma lie that pixels share, among
@@ -140,6 +142,7 @@ struct ClipOptions {
   // What its decoder may hold: it works on no more pictures at a time than fit, one at least. None: on one for each
   // core.
   std::optional<std::uint64_t> decoder_bytes = std::nullopt;
+  std::optional<double> white_light = std::nullopt;  // of floating-point pictures; a white code is one, too
   friend bool operator==(const ClipOptions&, const ClipOptions&) = default;
 };
 

@@ -40,6 +40,7 @@ class DescribedClip final : public Clip {
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
   bool read(std::span<std::byte> raster) override { return clip_->read(raster); }
   bool skip(std::span<std::byte> room) override { return clip_->skip(room); }
+  [[nodiscard]] bool makes_codes() const override { return clip_->makes_codes(); }
   [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
 
  private:

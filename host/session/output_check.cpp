@@ -21,7 +21,7 @@ bool is_tik_content(const std::string& bytes) { return tik::looks_like_tik(std::
 bool is_picture_content(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG") || bytes.starts_with(std::string_view("II*\0", 4)) ||
       bytes.starts_with(std::string_view("MM\0*", 4)) || bytes.starts_with("II+") ||
-      bytes.starts_with("\xFF\xD8\xFF") || bytes.starts_with("\x76\x2f\x31\x01")) {
+      bytes.starts_with("\xFF\xD8\xFF") || bytes.starts_with("\x76\x2f\x31\x01") || bytes.starts_with("\x93NUMPY")) {
     return true;
   }
   return bytes.size() > 2 && bytes[0] == 'P' &&

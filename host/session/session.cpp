@@ -125,6 +125,7 @@ class Session::Implementation {
   std::vector<Note> notes_;
   std::vector<std::string> warnings_;
   CaptureErrors errors_;
+  bool is_rounded_ = false;  // codes are light that was rounded to the nearest
 
   // A capture, or a clip that has not been read yet and the timeline that its files announce.
   std::unique_ptr<tik::Reader> reader_;
@@ -190,7 +191,8 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
     }
   }
   format_ = reader_ ? reader_->format() : held_format(clip_->capture);
-  errors_ = CaptureErrors::of(format_);
+  is_rounded_ = reader_ ? reader_->header().is_rounded : clip_->clip->info().is_rounded;
+  errors_ = CaptureErrors::of(format_, is_rounded_);
   std::optional<tik::Alignment> alignment;
   if (reader_) {
     alignment = reader_->header().alignment;
@@ -328,7 +330,7 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
   ExposedPicture exposed{std::move(rendered), std::move(figures), output};
   CaptureErrors errors = errors_;
   if (const CaptureFormat& read = exposed.figures.capture; read.transfer != format_.transfer) {
-    errors = CaptureErrors::of(read);  // by the function that was stated instead
+    errors = CaptureErrors::of(read, is_rounded_);  // by the function that was stated instead
     errors.alignment_pixels = errors_.alignment_pixels;
     errors.made = errors_.made;
   }

@@ -74,10 +74,11 @@ std::uint64_t made_of(const ExposureFigures& figures, const MadeSamples& made) {
 
 }  // namespace
 
-CaptureErrors CaptureErrors::of(const CaptureFormat& capture) {
+CaptureErrors CaptureErrors::of(const CaptureFormat& capture, bool is_rounded) {
   CaptureErrors errors;
   const NoiseModel& noise = capture.noise;
   const double white = capture.white_code;
+  if (is_rounded) errors.rounded_light = light_within(capture.transfer, 0.5 / white);
   errors.held_light = light_within(capture.transfer, noise.tolerance / white);
   if (!noise.camera) return errors;
   const CameraNoise& camera = *noise.camera;
@@ -111,6 +112,7 @@ Uncertainty Uncertainty::of(const ExposedPicture& exposed, const CaptureErrors& 
   add("arithmetic", Is::bound,
       exposed.choice ? exposed.choice->bound.worst : error_of(exposed, scale, scale * kReferenceError));
   if (const auto rounding = rounding_of(exposed, scale)) add("rounding", Is::bound, *rounding);
+  add("rounded_codes", Is::bound, error_of(exposed, scale, scale * capture.rounded_light));
   add("held_samples", Is::bound, error_of(exposed, scale, scale * capture.held_light));
   if (adds_up) add("times", Is::bound, error_of(exposed, scale, times_of(exposed.figures)));
   PictureError sum;

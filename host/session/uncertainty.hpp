@@ -23,12 +23,14 @@ struct ExposedPicture;
 
 // What a capture is known to be off by before anything is exposed.
 struct CaptureErrors {
+  double rounded_light = 0.0;  // between light and the code that it was rounded to: scaled or floating-point pictures
   double held_light = 0.0;   // between what a sample had and what is held of it: its tolerance, its noise's sigmas
   double noise_light = 0.0;  // a sample's standard deviation where it is largest; 0: not known
   std::optional<double> alignment_pixels = std::nullopt;
   std::optional<MadeSamples> made = std::nullopt;
 
-  [[nodiscard]] static CaptureErrors of(const CaptureFormat& capture);
+  // `is_rounded`: its codes are light that was rounded.
+  [[nodiscard]] static CaptureErrors of(const CaptureFormat& capture, bool is_rounded);
 };
 
 struct UncertaintyTerm {

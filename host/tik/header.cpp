@@ -27,9 +27,8 @@ constexpr std::size_t kLongestHeader = 65'536;
 
 // Tags of fields. `rice` stands where blocks may be packed with that codec, which earlier programs do not know. Those that are not written yet have a name, so that nobody takes it for something else.
 constexpr std::string_view kPixelAspect = "aspc", kPrimaries = "prim", kFacts = "fact", kAligned = "algn",
-                           kMeans = "mean", kRice = "rice", kPart = "part", kMade = "made";
-constexpr std::array<std::string_view, 8> kKnownFields{kPixelAspect, kPrimaries, kFacts, kAligned,
-                                                       kMeans,       kRice,      kPart,       kMade};
+                           kMeans = "mean", kRounded = "rond", kRice = "rice", kPart = "part", kMade = "made";
+constexpr std::array kKnownFields{kPixelAspect, kPrimaries, kFacts, kAligned, kMeans, kRounded, kRice, kPart, kMade};
 
 class HeaderParser {
  public:
@@ -261,6 +260,8 @@ void take_fields(std::span<const Field> fields, Header& header) {
       header.alignment = parse_alignment(field.data);
     } else if (field.tag == kMeans) {
       header.is_scaled = true;
+    } else if (field.tag == kRounded) {
+      header.is_rounded = true;
     } else if (field.tag == kPart) {
       header.part = parse_part(field.data);
     } else if (field.tag == kMade) {
@@ -324,6 +325,7 @@ std::vector<Field> Header::fields() const {
   if (!lines.empty()) fields.push_back({std::string(kFacts), false, lines});
   if (alignment) fields.push_back({std::string(kAligned), false, text_of(*alignment)});
   if (is_scaled) fields.push_back({std::string(kMeans), false, "scaled"});
+  if (is_rounded) fields.push_back({std::string(kRounded), false, "1"});
   if (codec == kRice) fields.push_back({std::string(kRice), true, "1"});
   if (part) fields.push_back({std::string(kPart), false, text_of(*part)});
   if (made) fields.push_back({std::string(kMade), false, made->kept_text()});

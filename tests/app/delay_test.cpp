@@ -97,6 +97,15 @@ TEST_F(DelayCommand, SweepsThroughTheCaptureInEveryArithmetic) {
   EXPECT_EQ(row("out.pgm"), (std::vector<int>{20, 30, 40, 50, 60, 70}));
 }
 
+TEST_F(DelayCommand, TakesMapsOfLight) {
+  make("-f 100 map.tif map.tik");
+  for (const std::string extension : {"tif", "exr", "pfm", "npy"}) {
+    make("--start 0f --exposure 1f --depth float map.tik light." + extension);
+    make(exposing("light." + extension + ":20ms..70ms", {"--overwrite", "clip.tik", "out.pgm"}));
+    EXPECT_EQ(row("out.pgm"), (std::vector<int>{20, 30, 40, 50, 60, 70})) << extension;
+  }
+}
+
 TEST_F(DelayCommand, ReadsAClipForward) {
   make(exposing("rows:60ms", {"-f", "100", "--transfer", "linear", "frames", "out.pgm"}));
   EXPECT_EQ(column("out.pgm"), (std::vector<int>{0, 20, 40, 60}));

@@ -5,6 +5,8 @@
 
 #include "capture/format.hpp"
 #include "media/stills/mask_reader.hpp"
+#include "media/writers/picture_writer.hpp"
+#include "support/clips.hpp"
 #include "support/moving_square_test.hpp"
 #include "support/stills.hpp"
 
@@ -93,6 +95,29 @@ TEST_F(MaskCommand, ComparesPicturesAndTimes) {
   EXPECT_EQ(tags("--threshold 0f 150..255 clip.tik"), boxes({{4, 20, 8, 8, 255}}));
   EXPECT_EQ(tags("--threshold frames/19.pgm 60%"), boxes({{28, 20, 8, 8, 255}}));
   EXPECT_EQ(tags("--threshold frames/19.pgm 0..150"), boxes({{0, 0, 96, 48, 255}, {28, 20, 8, 8, 0}}));
+}
+
+// Light of 0 to 1 in as many steps as codes of 16 bits have; tags as they stand.
+TEST_F(MaskCommand, TakesFloatingPointPicturesAndTiff) {
+  for (const std::string extension : {"npy", "exr", "pfm", "tif"}) {
+    for (const char* picture : {"0", "19"})
+      make("--exposure 1f --depth float clip.tik --start " + std::string(picture) + "f " + picture + "." + extension);
+    EXPECT_EQ(tags("--difference 0." + extension + " 19." + extension + " --by 4000"),
+              boxes({{4, 20, 8, 8, 255}, {28, 20, 8, 8, 255}}));
+  }
+  const auto mask_of = [&](double value) {
+    Picture light({MovingSquare::kWidth, MovingSquare::kHeight, 1}, ValueType::light32, 0);
+    light.values<float>()[3] = static_cast<float>(value);
+    for (const char* name : {"m.exr", "m.pfm", "m.npy", "m.tif"}) write_picture(scratch_ / name, light);
+  };
+  mask_of(4);
+  for (const char* name : {"m.exr", "m.pfm", "m.npy", "m.tif"})
+    EXPECT_EQ(tags("--base " + std::string(name)), boxes({{3, 0, 1, 1, 4}})) << name;
+  mask_of(4.5);
+  expect_refused("mask --base m.npy -o x.pgm", 3,
+                 "m.npy: pixel 3,0 has no value of a mask, a whole number from 0 to 255");
+  mask_of(256);
+  expect_refused("mask --base m.exr -o x.pgm", 3, "m.exr: pixel 3,0 has light 256");
 }
 
 TEST_F(MaskCommand, ChangesTheRegionBefore) {

@@ -63,6 +63,19 @@ TEST_F(UncertaintyOf, APictureIsToldTermByTerm) {
   EXPECT_NEAR(term_of(offset, "rounding")["light"].get<double>(), 2.275 / 255, 1e-4) << "half of the codes";
 }
 
+// Floats, and pictures that were made smaller, are rounded to the capture's codes first.
+TEST_F(UncertaintyOf, CodesThatWereRoundedHaveHalfOfOne) {
+  make("--start 0s --exposure 1f clip.tik light.npy");
+  for (const std::string source : {"--white 1.0 light.npy", "--scale 1/2 frames"}) {
+    make("encode -f 100 --overwrite " + source + " r.tik");
+    const json told = answer("--start 0s --exposure 1f --depth double --json r.tik a.npy --overwrite")["uncertainty"];
+    const double codes = source.find("scale") == source.npos ? 65535.0 : 255 / 2.275;
+    EXPECT_NEAR(term_of(told, "rounded_codes")["light"].get<double>() * codes, 0.5, 0.01) << told;
+  }
+  const json own = answer("--start 0s --exposure 1f --json clip.tik b.npy")["uncertainty"];
+  EXPECT_TRUE(term_of(own, "rounded_codes").is_null());
+}
+
 // By the function that is stated.
 TEST_F(UncertaintyOf, WhatIsHeldFollowsTheStatedFunction) {
   const json told = answer("--start 0s --exposure 0.1s --transfer linear --json clip.tik a.png")["uncertainty"];

@@ -21,7 +21,9 @@ constexpr std::uint64_t kMaxSampleBytes = 64 << 20;
 void read(Bytes input) {
   if (input.empty()) return;
   const auto kind = static_cast<std::size_t>(input.front()) % std::size(kKinds);
-  const std::unique_ptr<Clip> clip = open_clip(as_file(input.subspan(1), kKinds[kind]), {});
+  ClipOptions options;
+  options.white_light = 1.0;  // of floating-point pictures
+  const std::unique_ptr<Clip> clip = open_clip(as_file(input.subspan(1), kKinds[kind]), options);
   const CaptureFormat& format = clip->info().format;
   demand(format.shape.value_count() > 0 && format.white_code > 0, "a clip has pixels and a white");
   if (format.sample_bytes() > kMaxSampleBytes) return;

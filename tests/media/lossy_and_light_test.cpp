@@ -7,6 +7,7 @@
 #include <ImfChromaticities.h>
 #include <ImfFrameBuffer.h>
 #include <ImfInputFile.h>
+#include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
 #include <jpeglib.h>
 #include <lcms2.h>
@@ -18,7 +19,6 @@
 #include "media/stills/picture_text.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "support/clips.hpp"
-#include "support/ffmpeg.hpp"
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
@@ -186,31 +186,57 @@ int worst_code(const Picture& picture, const std::filesystem::path& path) {
   return worst;
 }
 
-// It is no clip, and what its refusal advises makes it one.
-TEST(OpenExr, IsRefusedAsAClipWithAWayOut) {
-  NEEDS_FFMPEG();
+// A clip of what it holds: halves, in its own primaries and pixels.
+TEST(OpenExr, IsAClipByWhatItSays) {
   for (const Shape& shape : {Shape{16, 8, 1}, Shape{16, 8, 3}}) {
     const Scratch scratch;
     Picture picture = random_light(shape, 0);
     for (std::uint64_t i = 0; i < shape.value_count(); ++i)
       picture.values<float>()[i] = static_cast<float>(i) / static_cast<float>(shape.value_count());
-    write_picture(scratch / "a.exr", picture);
-    const std::string refusal = message_of<InputError>([&] { test::open_test_clip(scratch / "a.exr"); });
-    const auto from = refusal.find("ffmpeg ");
-    ASSERT_NE(from, std::string::npos) << refusal;
-    const std::string file = "-i PICTURE ";
-    std::string words = refusal.substr(from + 7);
-    ASSERT_EQ(words.find(file), 0u) << refusal;
-    test::make(scratch, "-i a.exr " + words.substr(file.size()));
-    const auto clip = test::open_test_clip(scratch / "PICTURE.png");
-    EXPECT_EQ(clip->info().format.shape, shape);
-    EXPECT_TRUE(clip->info().format.transfer.is_linear());
+    picture.primaries = Primaries::bt2020;
+    picture.pixel_aspect = {4, 3};
+    FileWishes halves;
+    halves.as_half = true;
+    write_picture(scratch / "a.exr", picture, {}, halves);
+    ClipOptions options;
+    options.white_light = 1.0;
+    const auto clip = test::open_test_clip(scratch / "a.exr", options);
+    const CaptureFormat& format = clip->info().format;
+    EXPECT_EQ(format.shape, shape);
+    EXPECT_TRUE(format.transfer.is_linear());
+    EXPECT_EQ(format.primaries, shape.channels == 3 ? Primaries::bt2020 : Primaries::bt709);
+    EXPECT_NEAR(format.pixel_aspect.value(), 4.0 / 3, 1e-4);
     const auto codes = test::read_all(*clip).at(0);
-    // libswscale computes with 15 bits.
     for (std::uint64_t i = 0; i < shape.value_count(); ++i)
-      EXPECT_NEAR(test::code_at(clip->info().format, codes, i), 65'535.0 * picture.values<float>()[i], 32)
-          << i;
+      EXPECT_NEAR(test::code_at(format, codes, i), 65'535.0 * picture.values<float>()[i], 65'535 * 0x1p-12 + 0.5) << i;
   }
+}
+
+TEST(OpenExr, OfOtherChannelsOrPixelsIsRefused) {
+  const Scratch scratch;
+  const auto refusal = [&](std::initializer_list<const char*> channels, const Imath::Box2i& data) {
+    const Imath::Box2i shown({0, 0}, {3, 3});
+    Imf::Header header(shown, data);
+    std::vector<float> values(64, 0.5F);
+    Imf::FrameBuffer buffer;
+    for (const char* channel : channels) {
+      header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
+      buffer.insert(channel, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()), sizeof(float),
+                                        4 * sizeof(float)));
+    }
+    {
+      Imf::OutputFile file((scratch / "a.exr").c_str(), header);
+      file.setFrameBuffer(buffer);
+      file.writePixels(data.max.y - data.min.y + 1);
+    }
+    return message_of<InputError>([&] { test::open_test_clip(scratch / "a.exr"); });
+  };
+  const auto says = [](const std::string& message, const char* part) {
+    EXPECT_NE(message.find(part), message.npos) << message;
+  };
+  says(refusal({"A", "B", "G", "R"}, {{0, 0}, {3, 3}}), "its channels are A, B, G, R; R, G and B, or one");
+  says(refusal({"Y"}, {{0, 0}, {2, 3}}), "its pixels are not those of its picture");
+  says(refusal({"Y"}, {{0, 0}, {3, 3}}), "the largest value is 0.5");  // but for its white it is read
 }
 
 // At quality 100 each of the 64 coefficients of a block is a whole number, off by a half at most: their orthonormal
@@ -303,7 +329,10 @@ TEST(PictureWriter, SaysWhichFilesHoldWhatWasAskedFor) {
   };
   EXPECT_EQ(refusal("a.jpg", Depth::bits16), "a.jpg holds 8 bits only; write a .png, .tif, .ppm or .pgm");
   EXPECT_EQ(refusal("a.jpg", Depth::floating),
-            "a.jpg cannot hold floating point; write a .tif, .exr or .pfm");
+            "a.jpg cannot hold floating point; write a .tif, .exr, .pfm or .npy");
+  EXPECT_EQ(type("a.npy", {}), ValueType::light32);
+  EXPECT_EQ(type("a.tif", Depth::doubled), ValueType::light64);
+  EXPECT_EQ(refusal("a.exr", Depth::doubled), "a.exr holds no floating point of 64 bits; write a .tif or .npy");
   EXPECT_EQ(refusal("a.tif", Depth::half), "a.tif holds floating point of 32 bits, not of 16; write a .exr");
   EXPECT_EQ(refusal("a.exr", Depth::bits8), "a.exr holds floating point only; write a .png, .tif or .ppm");
   const Scratch scratch;

@@ -105,7 +105,7 @@ TEST(PictureWriter, ChoosesTheTypeByNameAndWish) {
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
     }
   };
-  refused("a.png", Depth::floating, "cannot hold floating point; write a .tif, .exr or .pfm");
+  refused("a.png", Depth::floating, "cannot hold floating point; write a .tif, .exr, .pfm or .npy");
   refused("a.pfm", Depth::bits8, "holds floating point only");
   refused("a.gif", {}, "not as '.gif'");
   refused("a", {}, "not as ''");

@@ -144,7 +144,8 @@ TEST_F(StillSequence, LeavesOtherFilesToOthers) {
   EXPECT_EQ(listed("clip.mp4"), "no stills");
   EXPECT_EQ(listed("absent.mp4"), "no stills");
   EXPECT_EQ(listed("still.png"), "still.png");
-  expect_refused("empty", {"empty: the folder holds no picture (.png, .tif, .pgm, .ppm, .jpg, .dng)"});
+  expect_refused("empty",
+                 {"empty: the folder holds no picture (.png, .tif, .pgm, .ppm, .jpg, .dng, .exr, .pfm, .npy)"});
 }
 
 TEST_F(StillSequence, NamesWhatIsMadeFromIt) {

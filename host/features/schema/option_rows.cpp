@@ -72,9 +72,9 @@ constexpr Option kRows[] = {
      take<InSource<&SourceRequest::shutter_angle>>,
      "share of the time between pictures that the shutter was open, 360 being all of it (default: what the "
      "file says, else 360)"}),
-    known(Setting::white_code, {0, "white", "CODE", decoding, kDecodesClips,
-     take_whole<InClip<&ClipOptions::white_code>, 1, 65'535>,
-     "the code that stands for white: 255, 4095 for 12 bits, … (default: what the file says)"}),
+    known(Setting::white_code, {0, "white", "CODE", decoding, kDecodesClips, take_white,
+     "the code that stands for white: 255, 4095 for 12 bits, …; of floating-point pictures the light of white, which "
+     "must be stated: 1.0 (default: what the file says)"}),
     // Its scope is exposure: a capture has a transfer function too, and may be exposed with another.
     known(Setting::transfer, {0, "transfer", "NAME", exposure, kDecodesClips | bit(Id::retime),
      take<InClip<&ClipOptions::transfer>>,
@@ -429,12 +429,12 @@ constexpr Option kRows[] = {
     known(Setting::depth, "dtype", {0, "depth", "BITS", exposure, set_of(Id::expose, Id::video, Id::validate,
      Id::plate, Id::study),
      take<InPicture<&OutputRequest::depth>>,
-     "8, 16, float or half (.exr): light as it is, with negatives (default: the capture's own, 8 for .jpg, "
-     "float for .exr and .pfm)",
-     "8 16 half float"}),
+     "8, 16, float, double (.tif, .npy) or half (.exr): light as it is, with negatives (default: the capture's own, 8 "
+     "for .jpg, float for .exr, .pfm and .npy)",
+     "8 16 half float double"}),
     {0, "bounds", "MAP.tif", output, bit(Id::expose), take<In<&Options::bounds>>,
-     "also write what each pixel may be off by, as floats (.tif, .exr, .pfm): in codes, or in light if the picture "
-     "holds light"},
+     "also write what each pixel may be off by, as floats (.tif, .exr, .pfm, .npy): in codes, or in light if the "
+     "picture holds light"},
     known(Setting::quality, {0, "quality", "N", exposure, kExposesFreely | set_of(Id::plate, Id::study),
      take_whole<InPicture<&OutputRequest::quality>, 1, 100>,
      "of .jpg pictures and of films whose codec loses something, 1 … 100 (default: 90 of .jpg, of films the codec's)"}),

@@ -236,6 +236,15 @@ std::uint32_t parse_whole(std::string_view word, std::string_view what, std::uin
   return parse_whole_number(word, what, low, high);
 }
 
+void take_white(Options& options, std::string_view what, const std::string& word) {
+  ClipOptions& clip = options.source.clip;
+  const bool is_whole = word.find_first_not_of("0123456789") == word.npos;
+  const auto light = is_whole ? std::nullopt : parse_number(word);
+  clip.white_code.reset();
+  if (!light || !(*light > 0)) clip.white_code = parse_whole(word, what, 1, 65'535);
+  clip.white_light = clip.white_code ? *clip.white_code : *light;
+}
+
 void take_activity_tag(Options& options, std::string_view what, const std::string& word) {
   options.each_tag = word == "all";
   if (!options.each_tag) options.tag = static_cast<std::uint8_t>(parse_whole(word, what, 0, 255));

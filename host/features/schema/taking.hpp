@@ -115,6 +115,8 @@ void take_range(Options& options, std::string_view what, const std::string& word
   options.sweep.push_back(SweepRange::parse(parameter, word, what));
 }
 
+// A code, a whole number; anything else, and a whole number too, is light of floating-point pictures.
+void take_white(Options& options, std::string_view what, const std::string& word);
 // A tag, or `all`.
 void take_activity_tag(Options& options, std::string_view what, const std::string& word);
 

@@ -55,7 +55,7 @@ inline constexpr Reader kJpeg{
     "EXIF", "none", "one picture"};
 inline constexpr Reader kTiff{
     "TIFF", {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv}, " .tif .tiff ", {}, "ImageJ's or OME's description", "none",
-    "as stored, white by its bits; of 16 `MaxSampleValue` if all ones, else 65535 with a note",
+    "as stored, white by its bits; of 16 `MaxSampleValue` if all ones, else 65535 with a note; floats as of OpenEXR",
     "`Orientation`", "refused", "its pages"};
 inline constexpr Reader kDng{
     "DNG", {}, " .dng ", "a TIFF's `DNGVersion`", "the first one's `FrameRate`; EXIF, in a table", "`ExposureTime`, if alike; EXIF, in a table",
@@ -63,6 +63,14 @@ inline constexpr Reader kDng{
 inline constexpr Reader kNetpbm{
     "Netpbm", {"P2", "P3", "P5", "P6"}, " .pgm .ppm .pnm ", {}, "none", "none", "as stored, white is its maximum", "none",
     "none", "one behind the other", " \t\r\n"};
+inline constexpr Reader kExr{
+    "OpenEXR", {"\x76\x2F\x31\x01"}, " .exr ", {}, "none", "none",
+    "floating-point light, over 16 bits by the white that you state", "as it lies", "refused", "one picture"};
+inline constexpr Reader kPfm{
+    "PFM", {"PF", "Pf"}, " .pfm ", {}, "none", "none", "as of OpenEXR", "none", "none", "one picture", " \t\r\n"};
+inline constexpr Reader kNumpy{
+    "NumPy", {"\x93NUMPY"}, " .npy ", {}, "none", "none",
+    "integers as stored, white 255 or 65535; floats as of OpenEXR", "none", "none", "its first axis, if it has three, or four with colour"};
 inline constexpr Reader kSequence{
     "several stills", {}, {}, "a folder, `'frames/*.png'`, `frame%04d.tif`", "the first one's, else a folder's only Photron header",
     "as the times", "alike in all", "each one's", "as of one", "as a person counts, 2 before 10"};
@@ -87,8 +95,9 @@ inline constexpr Reader kCapture{
     "capture (no clip)", {}, {}, "first bytes", "its own", "its own", "its own", "upright", "none", "by time"};
 
 // Pictures of one file each, of which sequences are made.
-inline constexpr const Reader* kStills[] = {&kPng, &kJpeg, &kTiff, &kDng, &kNetpbm};
-inline constexpr const Reader* kAll[] = {&kVideo,    &kRawVideo, &kPng,     &kJpeg,      &kTiff,   &kDng,    &kNetpbm,
-                                         &kSequence, &kTable,    &kPhotron, &kPhantom, &kProphesee, &kAdder, &kCapture};
+inline constexpr const Reader* kStills[] = {&kPng, &kJpeg, &kTiff, &kDng, &kNetpbm, &kExr, &kPfm, &kNumpy};
+inline constexpr const Reader* kAll[] = {&kVideo,  &kRawVideo, &kPng,   &kJpeg,     &kTiff,  &kDng,
+                                         &kNetpbm, &kExr,      &kPfm,   &kNumpy,    &kSequence, &kTable,
+                                         &kPhotron, &kPhantom, &kProphesee, &kAdder, &kCapture};
 
 }  // namespace nutik::readers

@@ -11,6 +11,8 @@
 #include <ImfStringAttribute.h>
 #include <half.h>
 
+#include <algorithm>
+#include <cmath>
 #include <exception>
 #include <string_view>
 #include <vector>
@@ -146,6 +148,82 @@ void write_exr(OutputFile& file, const Picture& picture, const std::string& text
     throw OutputError(format("the OpenEXR file cannot be written: {}", error.what()));
   }
   stream.check();
+}
+
+namespace {
+
+// The channels of a picture of light, in a raster's order. Throws where they are none.
+std::vector<std::string> channels_of(const Imf::ChannelList& channels) {
+  std::string all;
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel)
+    all += (all.empty() ? "" : ", ") + std::string(channel.name());
+  if (all == "B, G, R") return {"R", "G", "B"};
+  if (!all.empty() && all.find(',') == std::string::npos) return {all};
+  throw InputError(format("its channels are {}; R, G and B, or one of grey, are read, transparency is not", all));
+}
+
+// Those that a file names, to what its floats hold of them; none where they are no known ones.
+std::optional<Primaries> named_primaries(const Imf::Header& header) {
+  if (!Imf::hasChromaticities(header)) return std::nullopt;
+  constexpr double kAgree = 5e-4;
+  const Imf::Chromaticities& named = Imf::chromaticities(header);
+  const Imath::V2f points[] = {named.red, named.green, named.blue, named.white};
+  for (int each = 0; each <= static_cast<int>(Primaries::ap1); ++each) {
+    const auto known = static_cast<Primaries>(each);
+    double furthest = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto& [x, y] = chromaticities(known)[i];
+      furthest = std::max({furthest, std::abs(x - double{points[i].x}), std::abs(y - double{points[i].y})});
+    }
+    if (furthest < kAgree) return known;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+ExrPicture read_exr(const std::filesystem::path& file) {
+  constexpr std::int64_t kLargestSide = 1 << 20;
+  constexpr std::uint64_t kSmall = 64 << 20, kMaxExpansion = 2560;
+  try {
+    const MappedFile mapped(file);
+    check_attributes({reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size()});
+    Imf::InputFile input(file.c_str(), 0);
+    const Imf::Header& header = input.header();
+    const Imath::Box2i window = header.dataWindow();
+    if (window != header.displayWindow())
+      throw InputError("its pixels are not those of its picture (data and display window)");
+    const std::vector<std::string> names = channels_of(header.channels());
+    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1,
+                       height = std::int64_t{window.max.y} - window.min.y + 1;
+    const Shape shape{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
+                      static_cast<std::uint32_t>(names.size())};
+    const std::uint64_t largest = std::max(kSmall, mapped.bytes().size() * kMaxExpansion);
+    const bool is_possible =
+        std::max(width, height) <= kLargestSide && shape.value_count() * sizeof(float) <= largest;
+    if (!is_possible) {
+      throw InputError(format("it states {} x {} pixels, which its {} bytes do not hold; it is damaged", width, height,
+                              mapped.bytes().size()));
+    }
+    ExrPicture read{Picture(shape, ValueType::light32, 0), named_primaries(header), double{header.pixelAspectRatio()}};
+    constexpr std::size_t kValue = sizeof(float);
+    const std::size_t pixel = kValue * names.size(), row = pixel * shape.width;
+    // OpenEXR counts from its own corner, and adds what is before it.
+    char* const first = reinterpret_cast<char*>(read.light.bytes.data()) -
+                        window.min.x * static_cast<std::ptrdiff_t>(pixel) -
+                        window.min.y * static_cast<std::ptrdiff_t>(row);
+    Imf::FrameBuffer buffer;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (const Imf::Channel& channel = header.channels()[names[i]]; channel.xSampling != 1 || channel.ySampling != 1)
+        throw InputError(format("its channel {} has fewer pixels than the picture", names[i]));
+      buffer.insert(names[i], Imf::Slice(Imf::FLOAT, first + i * kValue, pixel, row));
+    }
+    input.setFrameBuffer(buffer);
+    input.readPixels(window.min.y, window.max.y);
+    return read;
+  } catch (const std::exception& error) {
+    throw InputError(format("{} cannot be read: {}", file.string(), error.what()));
+  }
 }
 
 std::optional<std::string> read_exr_text(const std::filesystem::path& file, const char* keyword) {

@@ -1,5 +1,8 @@
 #include "media/stills/netpbm.hpp"
 
+#include <algorithm>
+#include <bit>
+#include <charconv>
 #include <cstring>
 #include <string_view>
 
@@ -40,6 +43,37 @@ class NetpbmReader {
       } else {
         picture.values<std::uint8_t>()[i] = static_cast<std::uint8_t>(code);
       }
+    }
+    return picture;
+  }
+
+  // PF or Pf, width, height, a number whose sign is that of machines with their low bytes first if it is below 0; then
+  // rows from the bottom up.
+  Picture read_light() {
+    if (!text_.starts_with("PF") && !text_.starts_with("Pf")) fail("it is no PFM picture");
+    at_ = 2;
+    Shape shape;
+    shape.width = number("width", kLargestNetpbmSide);
+    shape.height = number("height", kLargestNetpbmSide);
+    shape.channels = text_[1] == 'F' ? 3 : 1;
+    skip_space();
+    double scale = 0;
+    const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), scale);
+    if (error != std::errc() || scale == 0) fail("it does not say in which order its bytes are");
+    at_ = static_cast<std::size_t>(end - text_.data()) + 1;
+    if (shape.width == 0 || shape.height == 0) fail("its size is 0");
+    const std::uint64_t needed = shape.value_count() * sizeof(float);
+    if (at_ > text_.size() || text_.size() - at_ < needed) {
+      fail(format("it was cut off: {} x {} pixels need {} bytes, {} are left", shape.width, shape.height, needed,
+                  text_.size() - std::min(at_, text_.size())));
+    }
+    Picture picture(shape, ValueType::light32, 0);
+    const std::size_t row_bytes = std::size_t{shape.width} * shape.channels * sizeof(float);
+    for (std::uint32_t y = shape.height; y-- > 0; at_ += row_bytes)
+      std::memcpy(picture.bytes.data() + y * row_bytes, text_.data() + at_, row_bytes);
+    if ((scale < 0) != (std::endian::native == std::endian::little)) {
+      for (std::size_t i = 0; i < picture.bytes.size(); i += sizeof(float))
+        std::reverse(picture.bytes.data() + i, picture.bytes.data() + i + sizeof(float));
     }
     return picture;
   }
@@ -130,6 +164,10 @@ class NetpbmReader {
 
 Picture read_netpbm(std::span<const std::byte> file, const std::string& name) {
   return NetpbmReader(file, name).read();
+}
+
+Picture read_pfm(std::span<const std::byte> file, const std::string& name) {
+  return NetpbmReader(file, name).read_light();
 }
 
 std::vector<std::size_t> netpbm_starts(std::span<const std::byte> file, const std::string& name) {

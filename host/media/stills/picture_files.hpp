@@ -55,7 +55,7 @@ void write_jpeg(OutputFile& file, const Picture& picture, const std::string& tex
 
 // TIFF through libtiff.
 
-// Writes codes (8 or 16 bits) or light (32-bit floating point), uncompressed, so that every program
+// Writes codes (8 or 16 bits) or light (32- or 64-bit floating point), uncompressed, so that every program
 // reads it bit for bit; what values mean as an ICC profile, pixels that are not square as resolution. `text` becomes
 // the ImageDescription; none where it is empty. Throws OutputError.
 void write_tiff(const std::filesystem::path& path, const Picture& picture, const std::string& text);

@@ -1,5 +1,5 @@
 // Sequences of stills: PNG and JPEG through OpenCV; Netpbm and TIFF through our own readers, which
-// keep the maximum, and read the pages of a TIFF in one go.
+// keep the maximum, and read the pages of a TIFF in one go. Light of floating-point pictures becomes codes of 16 bits.
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -13,6 +13,7 @@
 #include "media/formats/file_kinds.hpp"
 #include "media/stills/picture_files.hpp"
 #include "media/stills/netpbm.hpp"
+#include "media/stills/npy.hpp"
 #include "media/formats/readers.hpp"
 #include "media/module.hpp"
 #include "media/settled_fact.hpp"
@@ -47,6 +48,7 @@ struct Still {
   std::optional<Primaries> primaries = std::nullopt;
   std::string colours_from = "the file";                    // what of it names these
   std::string unread_transfer = {}, unread_primaries = {};  // that it names and that are not believed
+  bool holds_light = false;
 };
 
 // How much wider than high a pixel is of which so many are as long as one and the same length. Pictures state pixels an
@@ -64,9 +66,49 @@ std::optional<Rational> aspect_of(double pixels_across, double pixels_down) {
   return Rational::of(std::llround(aspect * kParts), kParts);
 }
 
+constexpr std::uint32_t kLightSteps = 65'535;
+
 Still still_of(Picture&& picture, std::optional<std::uint32_t> maximum) {
   return {picture.shape, static_cast<std::uint32_t>(value_bytes(picture.type)), maximum,
           std::move(picture.bytes)};
+}
+
+// Light as the nearest of equal steps up to white. Throws InputError where a capture cannot hold a value.
+template <typename Value>
+Picture codes_of_light(const Picture& light, std::optional<double> white, const std::string& name) {
+  const std::vector<Setting> settings{Setting::white_code};
+  const auto values = light.values<Value>();
+  if (!white) {
+    const double largest = *std::ranges::max_element(values);
+    throw InputError(format("{} holds floating-point light, and nothing says how much of it is white; the largest "
+                            "value is {:.6g}: state the light of white",
+                            name, largest),
+                     settings);
+  }
+  Picture codes(light.shape, ValueType::code16, kLightSteps);
+  auto* code = codes.values<std::uint16_t>().data();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double value = values[i];
+    if (value >= 0 && value <= *white) {
+      *code++ = static_cast<std::uint16_t>(std::floor(value / *white * kLightSteps + 0.5));
+      continue;
+    }
+    const std::size_t pixel = i / light.shape.channels;
+    throw InputError(format("{}: pixel {},{} has light {:.6g}, and a capture holds what lies between 0 and white, "
+                            "{:.6g}; {}",
+                            name, pixel % light.shape.width, pixel / light.shape.width, value, *white,
+                            value > *white && std::isfinite(value) ? "state a larger white" : "clip it"),
+                     settings);
+  }
+  return codes;
+}
+
+Still still_of_light(const Picture& light, std::optional<double> white, const std::string& name) {
+  Still still = still_of(light.type == ValueType::light64 ? codes_of_light<double>(light, white, name)
+                                                          : codes_of_light<float>(light, white, name),
+                         kLightSteps);
+  still.holds_light = true;
+  return still;
 }
 
 Still read_netpbm_still(const Page& page) {
@@ -247,6 +289,8 @@ class StillClip final : public Clip {
       } else if (*kind == readers::kNetpbm) {
         starts = netpbm_starts(MappedFile(file).bytes(), file.string());
         count = starts.size();
+      } else if (*kind == readers::kNumpy) {
+        count = read_npy_front(MappedFile(file).bytes(), file.string()).pictures;
       }
       if (count > 1 && timing.is_known()) {
         throw InputError(format("{} has {} pages; in a table with times each picture is a file of its own",
@@ -256,13 +300,18 @@ class StillClip final : public Clip {
         pages_.push_back({file, kind, number, count, starts[starts.size() > 1 ? number - 1 : 0]});
       }
     }
+    stated_ = options;
     first_ = read_page(pages_.front());
     first_maximum_ = first_.maximum;
-    stated_ = options;
+    info_.holds_light = info_.is_rounded = first_.holds_light;
     CaptureFormat& capture = info_.format;
     capture.shape = first_.shape;
     capture.code_bytes = first_.code_bytes;
-    if (first_.code_bytes == 1) {
+    if (first_.holds_light) {
+      capture.white_code = kLightSteps;
+      info_.facts.push_back({format("light {} is white, to the nearest of {} steps", *options.white_light, kLightSteps),
+                             Origin::stated, Setting::white_code});
+    } else if (first_.code_bytes == 1) {
       capture.white_code = options.white_code.value_or(first_.maximum.value_or(255));
     } else {
       capture.white_code = settle_white(info_, options.white_code, first_.maximum);
@@ -296,6 +345,8 @@ class StillClip final : public Clip {
     ++next_;
     return true;
   }
+
+  [[nodiscard]] bool makes_codes() const override { return info_.holds_light; }
 
   bool skip(std::span<std::byte> /*room*/) override {
     if (next_ == pages_.size()) return false;
@@ -365,11 +416,27 @@ class StillClip final : public Clip {
       return still;
     }
     if (*page.kind == readers::kNetpbm) return read_netpbm_still(page);
+    const std::optional<double>& white = stated_.white_light;
+    if (*page.kind == readers::kExr) {
+      const ExrPicture read = read_exr(page.file);
+      Still still = still_of_light(read.light, white, page.name());
+      still.primaries = read.primaries;
+      still.pixel_aspect = aspect_of(1, read.pixel_aspect);
+      return still;
+    }
+    if (*page.kind == readers::kPfm || *page.kind == readers::kNumpy) {
+      const MappedFile mapped(page.file);
+      Picture picture = *page.kind == readers::kPfm ? read_pfm(mapped.bytes(), page.name())
+                                                    : read_npy(mapped.bytes(), page.name(), page.number - 1);
+      if (!holds_codes(picture.type)) return still_of_light(picture, white, page.name());
+      return still_of(std::move(picture), std::nullopt);
+    }
     if (*page.kind != readers::kTiff) return read_with_opencv(page.file, *page.kind == readers::kJpeg);
     if (page.number == 1) tiff_.emplace(page.file);
     std::optional<TiffPage> read = tiff_->next();
     if (!read) throw InputError(format("{} cannot be read: the file was cut off", page.name()));
-    Still still = still_of(std::move(read->picture), read->maximum);
+    Still still = holds_codes(read->picture.type) ? still_of(std::move(read->picture), read->maximum)
+                                                  : still_of_light(read->picture, white, page.name());
     if (!read->profile.empty()) follow_profile(still, read->profile);
     if (read->resolution) still.pixel_aspect = aspect_of(read->resolution->first, read->resolution->second);
     turn_upright(still, read->orientation);
@@ -408,7 +475,8 @@ class StillClip final : public Clip {
 
   void check_like_first(const Still& still, const Page& page) const {
     const CaptureFormat& capture = info_.format;
-    const bool same_white = stated_.white_code || still.maximum == first_maximum_;
+    const bool same_white =
+        still.holds_light == info_.holds_light && (stated_.white_code || still.maximum == first_maximum_);
     if (still.shape == capture.shape && still.code_bytes == capture.code_bytes && same_white) return;
     const auto text = [](const Shape& shape, std::uint32_t code_bytes, std::optional<std::uint32_t> maximum) {
       return format("{} x {} {} of {} bits{}", shape.width, shape.height,

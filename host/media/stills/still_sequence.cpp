@@ -144,7 +144,8 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
       if (const auto kind = unread_kind_text(file)) throw InputError(*kind);
     }
     throw InputError(
-        format("{}: the folder holds no picture (.png, .tif, .pgm, .ppm, .jpg, .dng)", folder.string()));
+        format("{}: the folder holds no picture (.png, .tif, .pgm, .ppm, .jpg, .dng, .exr, .pfm, .npy)",
+               folder.string()));
   }
   // Two kinds are two sequences, or a sequence and something else: neither may be guessed at.
   for (const fs::path& file : files) {

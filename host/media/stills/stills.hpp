@@ -39,6 +39,14 @@ struct PngTags {
 [[nodiscard]] unsigned exif_orientation(const std::filesystem::path& jpeg);
 
 void write_exr(OutputFile& file, const Picture& picture, const std::string& text, bool as_half);
+// Light in light32, and what its file says of it. Throws InputError where it has other channels than R, G and B or one,
+// or other pixels than its picture.
+struct ExrPicture {
+  Picture light;
+  std::optional<Primaries> primaries;
+  double pixel_aspect = 1;
+};
+[[nodiscard]] ExrPicture read_exr(const std::filesystem::path& file);
 [[nodiscard]] std::optional<std::string> read_exr_text(const std::filesystem::path& file,
                                                        const char* keyword);
 

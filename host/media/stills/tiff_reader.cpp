@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdarg>
 #include <cstdio>
+#include <cstring>
 #include <new>
 #include <vector>
 
@@ -39,7 +40,7 @@ class PageReader {
     TiffPage page;
     if (is_plain()) {
       page.maximum = stated_maximum();
-      page.picture = Picture(shape_, bits_ > 8 ? ValueType::code16 : ValueType::code8, (1u << std::max<std::uint32_t>(bits_, 8)) - 1);
+      page.picture = Picture(shape_, value_type(), is_light_ ? 0 : (1u << std::max<std::uint32_t>(bits_, 8)) - 1);
       for (std::uint16_t plane = 0; plane < (separate_ ? shape_.channels : 1); ++plane) {
         TIFFIsTiled(file_) ? read_tiles(page.picture, plane) : read_rows(page.picture, plane);
       }
@@ -86,14 +87,20 @@ class PageReader {
                   shape_.channels));
     }
     const auto sample_format = field<std::uint16_t>(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
-    if (bits_ > 16 || sample_format != SAMPLEFORMAT_UINT) {
-      fail(format("it has {}-bit {} values; whole numbers without sign of up to 16 bits are read", bits_,
+    is_light_ = sample_format == SAMPLEFORMAT_IEEEFP && (bits_ == 32 || bits_ == 64);
+    if (!is_light_ && (bits_ > 16 || sample_format != SAMPLEFORMAT_UINT)) {
+      fail(format("it has {}-bit {} values; whole numbers without sign of up to 16 bits are read, and floating point "
+                  "of 32 and 64",
+                  bits_,
                   sample_format == SAMPLEFORMAT_INT      ? "signed"
                   : sample_format == SAMPLEFORMAT_IEEEFP ? "floating-point"
                                                          : "unsigned"));
     }
     if (is_grey() && shape_.channels == 3) {
       fail("its 3 samples a pixel are channels of grey, not colour (photometric interpretation MinIsBlack); save one of them, or all as RGB");
+    }
+    if (is_light_ && (photometric_ == PHOTOMETRIC_MINISWHITE || !is_plain())) {
+      fail(format("its floating-point values are no light (photometric interpretation {})", photometric_));
     }
   }
 
@@ -129,12 +136,18 @@ class PageReader {
   }
 
   [[nodiscard]] std::optional<std::uint32_t> stated_maximum() const {
+    if (is_light_) return std::nullopt;
     const std::uint32_t full = (1u << bits_) - 1;
     if (bits_ != 16) return bits_ <= 8 ? std::nullopt : std::optional(full);
     std::uint16_t stated = 0;
     if (TIFFGetField(file_, TIFFTAG_MAXSAMPLEVALUE, &stated) != 1) return std::nullopt;
     if (stated <= 255 || (stated & (stated + 1u)) != 0) return std::nullopt;
     return stated;
+  }
+
+  [[nodiscard]] ValueType value_type() const {
+    if (is_light_) return bits_ == 64 ? ValueType::light64 : ValueType::light32;
+    return bits_ > 8 ? ValueType::code16 : ValueType::code8;
   }
 
   // Value i of a row as libtiff hands it out: 8 bits, 16 in the machine's order, or packed, high
@@ -154,9 +167,15 @@ class PageReader {
   void place(Picture& picture, const std::vector<std::uint8_t>& row, std::size_t offset, std::uint32_t x,
              std::uint32_t y, std::uint32_t count, std::uint16_t plane) const {
     const std::uint32_t together = separate_ ? 1 : shape_.channels;
+    const std::size_t to = (std::size_t{y} * shape_.width + x) * shape_.channels + plane;
+    if (is_light_) {
+      const std::size_t value = value_bytes(picture.type), run = value * together;
+      for (std::size_t i = 0; i < count; ++i)
+        std::memcpy(picture.bytes.data() + (to + i * shape_.channels) * value, row.data() + offset + i * run, run);
+      return;
+    }
     const std::uint32_t full = (1u << bits_) - 1;
     const bool inverted = photometric_ == PHOTOMETRIC_MINISWHITE;
-    const std::size_t to = (std::size_t{y} * shape_.width + x) * shape_.channels + plane;
     for (std::size_t i = 0; i < std::size_t{count} * together; ++i) {
       const std::uint32_t stored = value(row, offset, i);
       // Fewer than 8 bits are spread over 8, as all programs show them.
@@ -195,8 +214,11 @@ class PageReader {
     const std::uint64_t at = offsets[0] + bytes_behind_ + y * std::uint64_t{row.size()};
     if (TIFFGetSeekProc(file_)(stream, at, SEEK_SET) != at) return false;
     if (TIFFGetReadProc(file_)(stream, row.data(), static_cast<tmsize_t>(row.size())) != static_cast<tmsize_t>(row.size())) return false;
-    if (bits_ == 16 && TIFFIsByteSwapped(file_)) {
-      TIFFSwabArrayOfShort(reinterpret_cast<std::uint16_t*>(row.data()), static_cast<tmsize_t>(row.size() / 2));
+    if (TIFFIsByteSwapped(file_)) {
+      const auto values = static_cast<tmsize_t>(row.size() / (bits_ / 8u));
+      if (bits_ == 16) TIFFSwabArrayOfShort(reinterpret_cast<std::uint16_t*>(row.data()), values);
+      if (bits_ == 32) TIFFSwabArrayOfLong(reinterpret_cast<std::uint32_t*>(row.data()), values);
+      if (bits_ == 64) TIFFSwabArrayOfLong8(reinterpret_cast<std::uint64_t*>(row.data()), values);
     }
     return true;
   }
@@ -257,6 +279,7 @@ class PageReader {
   std::uint16_t bits_ = 0;
   std::uint16_t photometric_ = 0;
   bool separate_ = false;
+  bool is_light_ = false;  // floating point
   std::uint64_t bytes_behind_ = 0;
 };
 
@@ -266,7 +289,8 @@ std::uint64_t bytes_in_one_piece(TIFF* file) {
   TIFFGetFieldDefaulted(file, TIFFTAG_BITSPERSAMPLE, &bits);
   TIFFGetFieldDefaulted(file, TIFFTAG_COMPRESSION, &compression);
   TIFFGetFieldDefaulted(file, TIFFTAG_PLANARCONFIG, &plane);
-  const bool is_plain = (bits == 8 || bits == 16) && compression == COMPRESSION_NONE && plane == PLANARCONFIG_CONTIG;
+  const bool has_bytes = bits == 8 || bits == 16 || bits == 32 || bits == 64;
+  const bool is_plain = has_bytes && compression == COMPRESSION_NONE && plane == PLANARCONFIG_CONTIG;
   std::uint32_t height = 0;
   const std::uint64_t* offsets = nullptr;
   if (!is_plain || TIFFIsTiled(file) || TIFFGetField(file, TIFFTAG_IMAGELENGTH, &height) != 1 ||

@@ -15,8 +15,8 @@
 
 namespace nutik {
 
-// One page's codes as stored: code8 up to 8 bits a value, else code16. Values of 9 to 15 bits are
-// unpacked and not scaled.
+// One page's values as stored: code8 up to 8 bits a value, else code16. Values of 9 to 15 bits are
+// unpacked and not scaled. Floating point is light32 or light64.
 struct TiffPage {
   Picture picture;
   // The largest code there can be, where the file tells: fewer than 16 bits a value, or the tag

@@ -9,6 +9,7 @@
 #include "media/stills/picture_files.hpp"
 #include "media/module.hpp"
 #include "media/stills/netpbm.hpp"
+#include "media/stills/npy.hpp"
 #include "system/output_file.hpp"
 #include "system/temporary_folder.hpp"
 
@@ -21,6 +22,7 @@ struct FileKind {
   std::uint32_t code_bits = 0;      // that it holds at most; 0: no codes
   bool holds_light = false;         // in 32 bits
   bool holds_half = false;          // in 16
+  bool holds_double = false;        // in 64
   bool is_lossy = false;            // codes
   bool is_for_eyes = false;         // shown by viewers that take pixels for square ones
   std::uint32_t only_channels = 0;  // 0: any
@@ -32,6 +34,9 @@ void write_png_file(OutputFile& file, const Picture& picture, const std::string&
 }
 void write_netpbm(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
   file.write(netpbm_text(picture, text));
+}
+void write_npy(OutputFile& file, const Picture& picture, const std::string&, const FileWishes&) {
+  file.write(npy_text(picture));
 }
 void write_tiff_file(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
   write_tiff(file.temporary_path(), picture, text);
@@ -45,10 +50,11 @@ void write_exr_file(OutputFile& file, const Picture& picture, const std::string&
   still_module().write_exr(file, picture, text, wishes.as_half);
 }
 
-constexpr std::array<FileKind, 10> kFileKinds{{
+constexpr std::array<FileKind, 11> kFileKinds{{
     {.extension = ".png", .code_bits = 16, .is_for_eyes = true, .write = write_png_file},
-    {.extension = ".tif", .code_bits = 16, .holds_light = true, .write = write_tiff_file},
-    {.extension = ".tiff", .is_preferred = false, .code_bits = 16, .holds_light = true, .write = write_tiff_file},
+    {.extension = ".tif", .code_bits = 16, .holds_light = true, .holds_double = true, .write = write_tiff_file},
+    {.extension = ".tiff", .is_preferred = false, .code_bits = 16, .holds_light = true, .holds_double = true,
+     .write = write_tiff_file},
     {.extension = ".jpg", .code_bits = 8, .is_lossy = true, .is_for_eyes = true, .write = write_jpeg_file},
     {.extension = ".jpeg", .is_preferred = false, .code_bits = 8, .is_lossy = true, .is_for_eyes = true,
      .write = write_jpeg_file},
@@ -57,6 +63,7 @@ constexpr std::array<FileKind, 10> kFileKinds{{
     {.extension = ".pgm", .code_bits = 16, .only_channels = 1, .write = write_netpbm},
     {.extension = ".pnm", .is_preferred = false, .code_bits = 16, .write = write_netpbm},
     {.extension = ".pfm", .holds_light = true, .write = write_netpbm},
+    {.extension = ".npy", .holds_light = true, .holds_double = true, .write = write_npy},
 }};
 
 constexpr std::string_view kStandardOutput = "-", kBehindKind = ":-";
@@ -95,7 +102,8 @@ Depth parse_depth(std::string_view text) {
   if (text == "16") return Depth::bits16;
   if (text == "half") return Depth::half;
   if (text == "float") return Depth::floating;
-  throw UsageError(format("depth '{}' is not known; choose 8, 16, half or float", text));
+  if (text == "double") return Depth::doubled;
+  throw UsageError(format("depth '{}' is not known; choose 8, 16, half, float or double", text));
 }
 
 ValueType value_type_for(const std::filesystem::path& path, std::optional<Depth> wish, ValueType usual,
@@ -105,7 +113,7 @@ ValueType value_type_for(const std::filesystem::path& path, std::optional<Depth>
     throw UsageError(format("{} holds {} pictures only and this one {}; write a .png or .tif", path.string(),
                             channels == 1 ? "colour" : "grey", channels == 1 ? "is grey" : "has colour"));
   }
-  const bool light = wish ? *wish == Depth::floating || *wish == Depth::half : kind.code_bits == 0;
+  const bool light = wish ? *wish != Depth::bits8 && *wish != Depth::bits16 : kind.code_bits == 0;
   if (light && !kind.holds_light) {
     throw UsageError(format("{} cannot hold floating point; write a {}", path.string(),
                             extensions_of([](const FileKind& other) { return other.holds_light; })));
@@ -114,10 +122,14 @@ ValueType value_type_for(const std::filesystem::path& path, std::optional<Depth>
     throw UsageError(format("{} holds floating point of 32 bits, not of 16; write a {}", path.string(),
                             extensions_of([](const FileKind& other) { return other.holds_half; })));
   }
+  if (wish == Depth::doubled && !kind.holds_double) {
+    throw UsageError(format("{} holds no floating point of 64 bits; write a {}", path.string(),
+                            extensions_of([](const FileKind& other) { return other.holds_double; })));
+  }
   if (!light && kind.code_bits == 0) {
     throw UsageError(format("{} holds floating point only; write a .png, .tif or .ppm", path.string()));
   }
-  if (light) return ValueType::light32;
+  if (light) return wish == Depth::doubled ? ValueType::light64 : ValueType::light32;
   if (wish == Depth::bits16 && kind.code_bits < 16) {
     throw UsageError(format("{} holds 8 bits only; write a {}", path.string(),
                             extensions_of([](const FileKind& other) { return other.code_bits == 16; })));
@@ -168,7 +180,8 @@ void write_picture(const std::filesystem::path& path, const Picture& picture, co
   if (shape != picture.shape) return write_picture(path, in_square_pixels(picture, shape), text, wishes);
   const FileKind& kind = file_kind_of(path);
   const bool fits = holds_codes(picture.type) ? value_bytes(picture.type) * 8 <= kind.code_bits
-                                              : picture.type == ValueType::light32 && kind.holds_light;
+                    : picture.type == ValueType::light64 ? kind.holds_double
+                                                         : kind.holds_light;
   if (!fits) throw UsageError(format("{} cannot hold the values of this picture", path.string()));
   if (names_standard_output(path)) {
     // Made whole before anything is sent; some of it is written by libraries that go back in their file.

@@ -11,9 +11,9 @@
 
 namespace nutik {
 
-// How many bits a person asked for: codes, or light as floating point of 16 or 32 bits.
-enum class Depth { bits8, bits16, half, floating };
-[[nodiscard]] Depth parse_depth(std::string_view text);  // `8`, `16`, `half`, `float`; throws UsageError
+// How many bits a person asked for: codes, or light as floating point of 16, 32 or 64 bits.
+enum class Depth { bits8, bits16, half, floating, doubled };
+[[nodiscard]] Depth parse_depth(std::string_view text);  // `8`, `16`, `half`, `float`, `double`; throws UsageError
 
 // The value type that a picture of `channels` takes in a file of this name. Without a wish it is `usual`
 // (codes of the capture's own depth, or 8 bits where the file holds no more) where the file holds codes, else light.
@@ -29,7 +29,7 @@ enum class Depth { bits8, bits16, half, floating };
 [[nodiscard]] bool is_picture_name(const std::filesystem::path& path);
 // Whether it is one of files whose codes are near those of the picture, as near as a quality says.
 [[nodiscard]] bool is_lossy_name(const std::filesystem::path& path);
-// `.png, .tif, … or .pfm`: those extensions.
+// `.png, .tif, … or .npy`: those extensions.
 [[nodiscard]] std::string picture_extensions();
 
 // What a person asked of a file beside its values.

@@ -165,7 +165,7 @@ std::unique_ptr<VideoWriter> open_still_writer(const std::filesystem::path& path
 }
 
 ValueType video_value_type(const VideoCodec& codec, std::optional<Depth> wish, ValueType usual) {
-  if (wish == Depth::floating || wish == Depth::half) {
+  if (wish && *wish != Depth::bits8 && *wish != Depth::bits16) {
     throw UsageError("a video holds no floating point; write numbered stills: frame-%05d.exr or .tif");
   }
   if (wish == Depth::bits16 && !codec.holds_16_bits) {

@@ -168,6 +168,12 @@ void fill(ClipSource& source, const OpenClip& open, const MemoryBudget& memory, 
 CaptureFormat clip_format(const Clip& clip, const ClipOptions& options) {
   CaptureFormat capture = clip.info().format;
   if (options.transfer) capture.transfer = Transfer::restated(capture.transfer, *options.transfer);
+  if (options.white_light && !options.white_code && !clip.info().holds_light) {
+    throw UsageError(format("white is one of the clip's codes, a whole number (255, 4095 for 12 bits); {:.6g} with a "
+                            "point is light of floating-point pictures",
+                            *options.white_light),
+                     {Setting::white_code});
+  }
   if (options.white_code && !clip.makes_codes()) {
     if (capture.code_bytes == 1 && *options.white_code > 255) {
       throw UsageError(

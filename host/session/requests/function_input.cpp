@@ -1,5 +1,6 @@
 #include "session/requests/function_input.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <vector>
 
@@ -9,7 +10,9 @@
 #include "exposure/mask_check.hpp"
 #include "mask/layers.hpp"
 #include "media/clip.hpp"
+#include "media/formats/file_kinds.hpp"
 #include "media/formats/numbered_name.hpp"
+#include "media/formats/readers.hpp"
 #include "media/input_checksum.hpp"
 #include "media/stills/mask_reader.hpp"
 #include "media/stills/still_sequence.hpp"
@@ -38,9 +41,47 @@ FunctionInput read_function_input(const std::string& name) {
   return read_functions(InputBytes(name).text(), input_title(name));
 }
 
+namespace {
+
+// A picture file as it stands, light of `white` having the last code.
+Picture read_still(const std::string& name, double white) {
+  ClipOptions options;
+  options.white_light = white;
+  const auto clip = open_clip(name, options);
+  const CaptureFormat& kind = clip->info().format;
+  Picture picture(kind.shape, code_type(kind), kind.white_code);
+  if (!clip->read(picture.bytes)) throw InputError(format("{} has no picture", name));
+  return picture;
+}
+
+// Values of a TIFF, or of floating point, as tags: whole numbers from 0 to 255.
+Picture read_tags(const std::string& name) {
+  constexpr double kLast = 255;
+  constexpr std::uint32_t kSteps = 257;  // of 65535 codes, to the next tag
+  const Picture read = read_still(name, kLast);
+  if (read.shape.channels != 1)
+    throw InputError(format("{} has colour; a mask has one value for each pixel: save it as grey", name));
+  if (read.type == ValueType::code8) return read;
+  Picture tags(read.shape, ValueType::code8, 255);
+  const auto codes = read.values<std::uint16_t>();
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    if (codes[i] % kSteps != 0) {
+      throw InputError(format("{}: pixel {},{} has no value of a mask, a whole number from 0 to 255", name,
+                              i % read.shape.width, i / read.shape.width));
+    }
+    tags.bytes[i] = static_cast<std::byte>(codes[i] / kSteps);
+  }
+  return tags;
+}
+
+}  // namespace
+
 Mask read_mask_input(const std::string& name, const std::optional<std::string>& capture) {
   const InputBytes input(name, kMaxPipedMask);
   const auto shape = capture ? known_shape(*capture) : std::nullopt;
+  constexpr const readers::Reader* kAlsoRead[] = {&readers::kTiff, &readers::kExr, &readers::kPfm, &readers::kNumpy};
+  const readers::Reader* const kind = is_standard_input(name) ? nullptr : still_kind(name);
+  if (std::ranges::count(kAlsoRead, kind) > 0) return Mask::from_picture(read_tags(name));
   return Mask::from_picture(
       read_mask(input.bytes(), input_title(name), [&](std::uint32_t width, std::uint32_t height) {
         const std::string mistake = shape ? size_mistake({width, height, {}}, *shape) : std::string();
@@ -104,15 +145,12 @@ Picture read_picture(const std::string& name) {
   }
   const auto stills = list_stills(name);
   if (!stills || stills->size() != 1) {
-    throw UsageError(format("{} is {}; a picture is needed (PNG, TIFF, PGM, PPM, JPEG)", name,
+    throw UsageError(format("{} is {}; a picture is needed (PNG, TIFF, PGM, PPM, JPEG, OpenEXR, PFM, NPY)", name,
                                  stills ? format("a sequence of {}", stills->size()) : "no picture"),
                           Advice{", or a time of the capture: 0.3s, 12f"});
   }
-  const auto clip = open_clip(name, {});
-  const CaptureFormat& kind = clip->info().format;
-  Picture picture(kind.shape, code_type(kind), kind.white_code);
-  if (!clip->read(picture.bytes)) throw InputError(format("{} has no picture", name));
-  const std::uint32_t largest = largest_code(picture.bytes, kind.code_bytes);
+  Picture picture = read_still(name, 1.0);
+  const std::uint32_t largest = largest_code(picture.bytes, static_cast<std::uint32_t>(value_bytes(picture.type)));
   if (largest > picture.white_code) {
     throw InputError(
         format("{} cannot be read: it has a code of {}, above the {} that it states as its largest; write it "

@@ -38,8 +38,8 @@ struct FunctionInput {
 // The checksum that recipes know a mask by: that of its files.
 [[nodiscard]] std::string mask_checksum(const std::string& name);
 
-// A picture file, codes as they stand. Throws UsageError where it is no picture, or many; InputError where it cannot be
-// read.
+// A picture file, codes as they stand; floating-point light, from 0 to 1, in 65535 steps. Throws UsageError where it is
+// no picture, or many; InputError where it cannot be read.
 [[nodiscard]] Picture read_picture(const std::string& name);
 
 }  // namespace nutik

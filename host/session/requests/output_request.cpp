@@ -75,8 +75,9 @@ OutputFormat output_format(const OutputRequest& request, const std::filesystem::
 OutputFormat output_format(const OutputRequest& request, const CaptureFormat& capture) {
   const ValueType type = !request.depth                   ? code_type(capture)
                          : request.depth == Depth::bits8  ? ValueType::code8
-                         : request.depth == Depth::bits16 ? ValueType::code16
-                                                          : ValueType::light32;
+                         : request.depth == Depth::bits16  ? ValueType::code16
+                         : request.depth == Depth::doubled ? ValueType::light64
+                                                           : ValueType::light32;
   return format_of(request, type, capture);
 }
 

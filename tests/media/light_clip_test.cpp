@@ -1,0 +1,177 @@
+// Floating-point pictures as clips: what is written comes back, to the nearest of 65535 steps of the white that was
+// stated; what a capture cannot hold is refused by its pixel.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "capture/error.hpp"
+#include "media/stills/npy.hpp"
+#include "media/stills/tiff_reader.hpp"
+#include "media/writers/picture_writer.hpp"
+#include "support/clips.hpp"
+#include "support/messages.hpp"
+#include "support/random_case.hpp"
+#include "support/scratch.hpp"
+
+namespace nutik {
+namespace {
+
+using test::message_of;
+using test::open_test_clip;
+using test::read_all;
+using test::Scratch;
+
+constexpr Shape kGrey{17, 9, 1}, kColour{13, 21, 3};
+constexpr double kWhite = 2.5;
+
+ClipOptions of_white(std::optional<double> white) {
+  ClipOptions options;
+  options.white_light = white;
+  return options;
+}
+
+template <typename Value>
+Picture random_light(const Shape& shape, ValueType type, std::uint64_t seed) {
+  Picture picture(shape, type, 0);
+  test::Random random(seed);
+  for (Value& value : picture.values<Value>()) value = static_cast<Value>(random.real(0, kWhite));
+  picture.values<Value>()[0] = 0;
+  picture.values<Value>()[1] = static_cast<Value>(kWhite);
+  return picture;
+}
+
+template <typename Value>
+void expect_comes_back(const std::string& extension, ValueType type) {
+  for (const Shape& shape : {kGrey, kColour}) {
+    SCOPED_TRACE(extension + (shape.channels == 1 ? ", grey" : ", colour"));
+    const Scratch scratch;
+    test::use_modules();
+    std::vector<Picture> written;
+    for (std::uint64_t k = 0; k < 3; ++k) {
+      written.push_back(random_light<Value>(shape, type, k + 1));
+      write_picture(scratch / ("f" + std::to_string(k) + extension), written.back());
+    }
+    const auto clip = open_test_clip(scratch.folder(), of_white(kWhite));
+    EXPECT_EQ(clip->info().format.shape, shape);
+    EXPECT_EQ(clip->info().format.white_code, 65'535u);
+    EXPECT_EQ(clip->info().format.transfer, Transfer::linear());
+    EXPECT_TRUE(clip->info().is_rounded);
+    EXPECT_EQ(test::facts_of(*clip).at(Setting::white_code).line(),
+              "light 2.5 is white, to the nearest of 65535 steps, as stated");
+    const auto rasters = read_all(*clip);
+    ASSERT_EQ(rasters.size(), written.size());
+    for (std::size_t k = 0; k < rasters.size(); ++k) {
+      const auto* codes = reinterpret_cast<const std::uint16_t*>(rasters[k].data());
+      const auto light = written[k].values<Value>();
+      for (std::size_t i = 0; i < light.size(); ++i)
+        ASSERT_LE(std::abs(codes[i] - double{light[i]} / kWhite * 65'535), 0.5) << "value " << i << " of picture " << k;
+    }
+  }
+}
+
+TEST(LightClip, EveryKindThatIsWrittenComesBack) {
+  for (const char* extension : {".tif", ".exr", ".pfm", ".npy"})
+    expect_comes_back<float>(extension, ValueType::light32);
+  for (const char* extension : {".tif", ".npy"}) expect_comes_back<double>(extension, ValueType::light64);
+}
+
+TEST(LightClip, DoublesAreWrittenToTheLastBit) {
+  const Scratch scratch;
+  const Picture light = random_light<double>(kColour, ValueType::light64, 5);
+  write_picture(scratch / "a.npy", light);
+  write_picture(scratch / "a.tif", light);
+  EXPECT_EQ(TiffReader(scratch / "a.tif").next()->picture.bytes, light.bytes);
+  const std::string bytes = test::read_file(scratch / "a.npy");
+  EXPECT_EQ(bytes.substr(0, 10), std::string("\x93NUMPY\1\0\x76\0", 10)) << "128 bytes in front, 118 of them text";
+  EXPECT_NE(bytes.find("{'descr': '<f8', 'fortran_order': False, 'shape': (21, 13, 3), }"), bytes.npos);
+  EXPECT_EQ(bytes.size(), 128 + light.bytes.size());
+  EXPECT_EQ(read_npy(std::as_bytes(std::span(bytes)), "a.npy", 0).bytes, light.bytes);
+  EXPECT_NE(message_of<UsageError>([&] { write_picture(scratch / "a.exr", light); }).find("cannot hold the values"),
+            std::string::npos);
+}
+
+std::string npy(const std::string& words, const std::string& values) {
+  std::string text("\x93NUMPY\2\0", 8);
+  for (std::size_t i = 0; i < 4; ++i) text.push_back(static_cast<char>(words.size() >> (8 * i)));
+  return text + words + values;
+}
+
+TEST(LightClip, ArraysHaveTheirPicturesBehindOneAnother) {
+  const Scratch scratch;
+  scratch.write("a.npy",
+                npy("{'shape': (3, 2, 4), 'fortran_order': False, 'descr': '|u1'}\n", "abcdefghijklmnopqrstuvwx"));
+  const auto clip = open_test_clip(scratch / "a.npy");
+  EXPECT_EQ(clip->info().format.shape, (Shape{4, 2, 1}));
+  EXPECT_EQ(clip->info().format.transfer, Transfer::srgb());
+  const auto rasters = read_all(*clip);
+  ASSERT_EQ(rasters.size(), 3u);
+  EXPECT_EQ(std::memcmp(rasters[2].data(), "qrstuvwx", 8), 0);
+}
+
+TEST(LightClip, OtherArraysAreRefusedByWhatTheyAre) {
+  const Scratch scratch;
+  const auto refused = [&](const std::string& words, const std::string& part) {
+    scratch.write("a.npy", npy(words, std::string(64, '\0')));
+    const std::string message = message_of<InputError>([&] { open_test_clip(scratch / "a.npy", of_white(1.0)); });
+    EXPECT_NE(message.find(part), message.npos) << message;
+  };
+  refused("{'descr': '>f4', 'fortran_order': False, 'shape': (2, 2)}", "its values are '>f4'; uint8, uint16, float32");
+  refused("{'descr': '<i4', 'fortran_order': False, 'shape': (2, 2)}", "its values are '<i4'");
+  refused("{'descr': '<f4', 'fortran_order': True, 'shape': (2, 2)}", "numpy.ascontiguousarray");
+  refused("{'descr': '<f4', 'fortran_order': False, 'shape': (4,)}", "its axes are none of [height, width]");
+  refused("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 0)}", "it states 1 pictures of 0 x 2 pixels");
+  refused("{'descr': '<f4', 'fortran_order': False, 'shape': (5, 4)}", "it was cut off");
+  refused("{'descr': '<f4', 'fortran_order': False, 'shape': (18446744073709551615, 2, 2)}", "it was cut off");
+  refused("{'fortran_order': False, 'shape': (5, 4)}", "does not say its descr");
+}
+
+TEST(LightClip, ValuesThatNoCaptureHoldsAreRefusedByTheirPixel) {
+  const Scratch scratch;
+  const auto refused = [&](double value, std::optional<double> white, const std::string& part) {
+    Picture light(kGrey, ValueType::light64, 0);
+    light.values<double>()[17 * 3 + 5] = value;
+    write_picture(scratch / "a.npy", light);
+    const std::string message = message_of<InputError>([&] { open_test_clip(scratch / "a.npy", of_white(white)); });
+    EXPECT_NE(message.find(part), message.npos) << message;
+  };
+  refused(0.75, std::nullopt, "how much of it is white; the largest value is 0.75: state the light of white");
+  refused(1.5, 1.0, "pixel 5,3 has light 1.5, and a capture holds what lies between 0 and white, 1; state a larger");
+  refused(-0.25, 1.0, "pixel 5,3 has light -0.25, and a capture holds what lies between 0 and white, 1; clip it");
+  refused(std::nan(""), 1.0, "pixel 5,3 has light nan");
+  refused(std::numeric_limits<double>::infinity(), 1.0, "pixel 5,3 has light inf");
+}
+
+TEST(LightClip, PfmComesInEitherOrderOfBytes) {
+  const Scratch scratch;
+  std::string values;
+  for (const float value : {0.25F, 0.5F, 0.75F, 1.0F}) {
+    char bytes[sizeof value];
+    std::memcpy(bytes, &value, sizeof value);
+    std::reverse(bytes, bytes + sizeof value);
+    values.append(bytes, sizeof value);
+  }
+  scratch.write("a.pfm", "Pf\n2 2\n1.0\n" + values);
+  const auto rasters = read_all(*open_test_clip(scratch / "a.pfm", of_white(1.0)));
+  const std::uint16_t expected[] = {49'151, 65'535, 16'384, 32'768};  // the lowest row first
+  EXPECT_EQ(std::memcmp(rasters.at(0).data(), expected, sizeof expected), 0);
+  for (const char* broken : {"Pf\n2 2\n0\n", "Pf\n2 2\n", "Pf\n2 2\n-1\nabc", "Pf\n0 2\n-1\n"}) {
+    scratch.write("b.pfm", broken);
+    const std::string message = message_of<InputError>([&] { open_test_clip(scratch / "b.pfm", of_white(1.0)); });
+    EXPECT_NE(message.find("b.pfm cannot be read"), message.npos) << message;
+  }
+}
+
+TEST(LightClip, PicturesOfCodesAndOfLightAreNoSequence) {
+  const Scratch scratch;
+  test::use_modules();
+  write_picture(scratch / "f0.tif", random_light<float>(kGrey, ValueType::light32, 1));
+  write_picture(scratch / "f1.tif", Picture(kGrey, ValueType::code16, 65'535));
+  const auto clip = open_test_clip(scratch.folder(), of_white(kWhite));
+  EXPECT_NE(message_of<InputError>([&] { read_all(*clip); }).find("All must be alike"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace nutik
