@@ -28,8 +28,7 @@ struct FunctionTexts {
   FunctionTexts(const ExposureFigures& figures, Text text) {
     constexpr std::size_t kMax = 6;
     const std::size_t shown = std::min(figures.functions.size(), kMax);
-    std::transform(figures.functions.begin(), figures.functions.begin() + shown, std::back_inserter(texts),
-                   text);
+    std::ranges::transform(std::span(figures.functions).first(shown), std::back_inserter(texts), text);
     left_out = figures.functions.size() - shown;
   }
 
@@ -67,7 +66,6 @@ void Answer::tell_source(const std::vector<Fact>& facts, const std::vector<Note>
     std::string text = note_texts({note}, Dialect::command_line).front();
     if (note.is_warning) {
       print_warning(text);
-      json["warnings"].push_back(text);
     } else {
       notes.push_back(std::move(text));
     }
@@ -95,6 +93,7 @@ int tell(const Options& options, const std::filesystem::path& output, const Answ
   if (options.json) {
     Json json = answer.json;
     json["notes"] = answer.notes;
+    json["warnings"] = printed_warnings();
     print_json(json);
   } else if (!options.quiet) {
     if (!answer.line.empty()) print_line(answer.line);
