@@ -19,8 +19,8 @@ inline constexpr std::string_view kWhatItIs =
     "record of when and how every pixel changed, and exposes pictures from it in which every region of a "
     "mask has its own gain as a function of time.";
 inline constexpr std::string_view kAboutFunctionFiles =
-    "A function file has a line for each mask value, with times in nanoseconds:";
-inline constexpr std::string_view kFunctionFile = "M0 [0:1], [10000000:1], [10000001:0]";
+    "A function file has a line for each mask value, with times in nanoseconds or with a unit:";
+inline constexpr std::string_view kFunctionFile = "M0 [0:1], [10ms:1], [10000001:0]";
 
 // What a summary begins with: up to its first colon, semicolon, bracket or full stop.
 [[nodiscard]] std::string brief(std::string_view summary);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <vector>
 
 #include "capture/error.hpp"
@@ -38,7 +39,14 @@ FunctionInput read_functions(std::string_view text, const std::string& title) {
 }
 
 FunctionInput read_function_input(const std::string& name) {
-  return read_functions(InputBytes(name).text(), input_title(name));
+  const InputBytes input(name);
+  const std::string_view text = input.text();
+  const auto begins = [&](const readers::Reader* kind) { return kind->begins(text); };
+  if (const auto kind = std::ranges::find_if(readers::kStills, begins); kind != std::end(readers::kStills)) {
+    throw InputError(format("{} is a picture, a {}, and gain functions are text; were mask and functions swapped?",
+                            input_title(name), (*kind)->name));
+  }
+  return read_functions(text, input_title(name));
 }
 
 namespace {
