@@ -36,6 +36,7 @@
 #include "capture/picture.hpp"
 #include "capture/timeline.hpp"
 #include "imev/tile.hpp"
+#include "imev/tile_step.hpp"
 
 namespace nutik {
 
@@ -78,12 +79,14 @@ struct BlockGeometry {
   std::uint32_t sample_count;
   std::uint32_t channels;
   std::uint32_t code_bytes;
+  CodeSteps steps;
 
   BlockGeometry(const CaptureFormat& capture, std::uint32_t samples)
       : tile_count(TileGrid(capture.shape).tile_count()),
         sample_count(samples),
         channels(capture.shape.channels),
-        code_bytes(capture.code_bytes) {}
+        code_bytes(capture.code_bytes),
+        steps(CodeSteps::of(capture)) {}
 
   [[nodiscard]] std::uint32_t index_bytes() const { return sample_count <= 255 ? 1 : 2; }
   [[nodiscard]] std::uint64_t row_bytes() const { return std::uint64_t{channels} * kTilePixels * code_bytes; }

@@ -259,6 +259,7 @@ class BlockBuilder::Comparing final : public Implementation {
     StripStep step{};
     step.sample_count = static_cast<std::uint32_t>(samples.size());
     step.tolerance = is_first ? 0 : source_.noise.tolerance;
+    step.steps = CodeSteps::of(source_);
     step.writes_all = starts || policy_ == TilePolicy::dense;
     const BlockCourse course{samples_ + step.sample_count, expected_samples(samples_ + step.sample_count)};
     std::array<std::byte*, kStripTiles> from;

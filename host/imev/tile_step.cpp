@@ -117,6 +117,19 @@ inline __attribute__((always_inline)) std::uint64_t compare(const Code* now_code
   return pack_lanes(bytes);
 }
 
+// The same with a tolerance: what is held moves by steps.
+template <typename Code, std::uint32_t Channels>
+inline __attribute__((always_inline)) std::uint64_t compare_in_steps(const Code* now_codes, Code* held_codes, Code limit,
+                                                                     const CodeSteps steps) {
+  Code reached[Channels * kTilePixels];
+  std::memcpy(reached, held_codes, sizeof reached);
+  const std::uint64_t changed = compare<Code, Channels>(now_codes, reached, limit);
+  if (changed == 0) return 0;
+  for (std::uint32_t i = 0; i < Channels * kTilePixels; ++i)
+    held_codes[i] = static_cast<Code>(steps.nearest(held_codes[i], reached[i]));
+  return changed;
+}
+
 template <typename Code, std::uint32_t Channels>
 inline __attribute__((always_inline)) void step_strip(StripStep& step) {
   constexpr std::size_t kRowBytes = sizeof(Code) * Channels * kTilePixels;
@@ -135,7 +148,8 @@ inline __attribute__((always_inline)) void step_strip(StripStep& step) {
       gather_tile<Code, Channels>(raster + i * kTileSide * Channels, step.row_values, now[i]);
     }
     for (std::uint32_t i = 0; i < tiles; ++i) {
-      step.changes[k][i] = compare<Code, Channels>(now[i], held[i], limit);
+      step.changes[k][i] = limit == 0 ? compare<Code, Channels>(now[i], held[i], limit)
+                                      : compare_in_steps<Code, Channels>(now[i], held[i], limit, step.steps);
       if (step.changes[k][i] == 0 && !step.writes_all) continue;
       std::memcpy(step.next[i], held[i], kRowBytes);
       step.next[i] += kRowBytes;
@@ -195,14 +209,15 @@ void write_change(const CaptureFormat& capture, const PixelChange& change, std::
 }
 
 std::uint64_t differing_lanes(const CaptureFormat& capture, const std::byte* held, std::byte* row) {
+  const CodeSteps steps = CodeSteps::of(capture);
   std::uint64_t further = 0;
   for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
-    if (is_further(capture, held, row, lane)) {
-      further |= std::uint64_t{1} << lane;
-      continue;
-    }
+    const bool changed = is_further(capture, held, row, lane);
+    further |= std::uint64_t{changed} << lane;
     for (std::uint32_t channel = 0; channel < capture.shape.channels; ++channel) {
-      set_code(capture, row, channel, lane, code_at(capture, held, channel, lane));
+      const std::uint32_t before = code_at(capture, held, channel, lane), after = code_at(capture, row, channel, lane);
+      const std::int32_t moved = steps.nearest(static_cast<std::int32_t>(before), static_cast<std::int32_t>(after));
+      set_code(capture, row, channel, lane, changed ? static_cast<std::uint32_t>(moved) : before);
     }
   }
   return further;

@@ -2,6 +2,7 @@
 // lanes found that differ from what they hold.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -12,14 +13,46 @@
 
 namespace nutik {
 
+// With a tolerance of T codes, what is held moves by whole steps of 2 T + 1 to the one that is nearest to the new code, but
+// not beyond 0 and white: no further from it than T, and codecs keep a number of steps.
+struct CodeSteps {
+  // Up to here a number of two bytes times a step has four.
+  static constexpr std::int32_t kLargest = (1 << 15) - 1;
+
+  std::int32_t codes = 1;  // 1: what is held is the new code
+  std::int32_t white = 0;
+
+  [[nodiscard]] static CodeSteps of(const CaptureFormat& capture) {
+    return {static_cast<std::int32_t>(std::min<std::uint64_t>(2 * std::uint64_t{capture.noise.tolerance} + 1, 1u << 17)),
+            static_cast<std::int32_t>(capture.white_code)};
+  }
+  [[nodiscard]] std::int32_t moved(std::int32_t held, std::int32_t count) const {
+    return std::clamp(held + count * codes, 0, white);
+  }
+  // How many lead to a code, where `rest` of a step counts as one more: exact, for distances have 17 bits.
+  [[nodiscard]] std::int32_t count(std::int32_t held, std::int32_t code, std::int32_t rest) const {
+    const std::int32_t distance = code - held, sign = distance >> 31;
+    const float whole = (static_cast<float>((distance ^ sign) - sign) + static_cast<float>(codes - rest) + 0.5F) *
+                        (1.0F / static_cast<float>(codes));
+    return (static_cast<std::int32_t>(whole) ^ sign) - sign;
+  }
+  [[nodiscard]] std::int32_t nearest_count(std::int32_t held, std::int32_t code) const {
+    return count(held, code, codes / 2 + 1);
+  }
+  // What is held from a code on.
+  [[nodiscard]] std::int32_t nearest(std::int32_t held, std::int32_t code) const {
+    return moved(held, nearest_count(held, code));
+  }
+};
+
 // A tile's row that is told by what changes in it. Rows are codes[channel][lane].
 
 // Into all lanes that show the pixel: its own, and those outside the picture that repeat it. `row` is of the tile that
 // the pixel is in.
 void write_change(const CaptureFormat& capture, const PixelChange& change, std::byte* row);
 
-// The lanes, as bits, in which any channel is further from what is held than the capture's tolerance. The others are
-// given what is held.
+// The lanes, as bits, in which any channel is further from what is held than the capture's tolerance. They are given what
+// is held from now on, the others what is held.
 [[nodiscard]] std::uint64_t differing_lanes(const CaptureFormat& capture, const std::byte* held,
                                             std::byte* row);
 
@@ -42,6 +75,7 @@ struct StripStep {
   std::uint32_t sample_count;
   std::uint32_t tile_count;
   std::uint32_t tolerance;
+  CodeSteps steps;
   bool writes_all;  // also rows in which nothing changed
   std::array<const std::byte*, kStripTiles>
       held;                                  // in: what each tile holds, codes[channel][lane]; may be next

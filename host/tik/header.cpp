@@ -27,8 +27,8 @@ constexpr std::size_t kLongestHeader = 65'536;
 
 // Tags of fields. `rice` stands where blocks may be packed with that codec, which earlier programs do not know. Those that are not written yet have a name, so that nobody takes it for something else.
 constexpr std::string_view kPixelAspect = "aspc", kPrimaries = "prim", kFacts = "fact", kAligned = "algn",
-                           kMeans = "mean", kRounded = "rond", kRice = "rice", kPart = "part", kMade = "made";
-constexpr std::array kKnownFields{kPixelAspect, kPrimaries, kFacts, kAligned, kMeans, kRounded, kRice, kPart, kMade};
+                           kMeans = "mean", kRounded = "rond", kRice = "rice", kSteps = "step", kPart = "part", kMade = "made";
+constexpr std::array kKnownFields{kPixelAspect, kPrimaries, kFacts, kAligned, kMeans, kRounded, kRice, kSteps, kPart, kMade};
 
 class HeaderParser {
  public:
@@ -327,6 +327,7 @@ std::vector<Field> Header::fields() const {
   if (is_scaled) fields.push_back({std::string(kMeans), false, "scaled"});
   if (is_rounded) fields.push_back({std::string(kRounded), false, "1"});
   if (codec == kRice) fields.push_back({std::string(kRice), true, "1"});
+  if (codec == kRice && capture.noise.tolerance > 0) fields.push_back({std::string(kSteps), true, "1"});
   if (part) fields.push_back({std::string(kPart), false, text_of(*part)});
   if (made) fields.push_back({std::string(kMade), false, made->kept_text()});
   return fields;

@@ -31,11 +31,14 @@ constexpr std::size_t kMaxLevelBytes = 15 * 8 + 8;
 // Its memory must have room for what the planes of a group come to at most.
 class RiceWriter {
  public:
-  RiceWriter(std::uint8_t* shapes, std::uint8_t* hows, std::byte* planes, std::byte* levels, std::uint32_t shift)
-      : shift_(shift), shapes_(shapes), hows_(hows), planes_(planes), levels_(levels) {}
+  RiceWriter(std::uint8_t* shapes, std::uint8_t* hows, std::byte* planes, std::byte* levels, std::uint32_t shift,
+             const CodeSteps& steps)
+      : shift_(shift), steps_(steps), shapes_(shapes), hows_(hows), planes_(planes), levels_(levels) {}
 
   // Lowest bits that no code has.
   [[nodiscard]] std::uint32_t shift() const { return shift_; }
+  [[nodiscard]] bool may_step() const { return steps_.codes > 1 && steps_.codes <= CodeSteps::kLargest && shift_ == 0; }
+  [[nodiscard]] const CodeSteps& steps() const { return steps_; }
 
   void put_mark(std::uint8_t shape, std::uint8_t how) {
     *shapes_++ = shape;
@@ -72,6 +75,7 @@ class RiceWriter {
   }
 
   std::uint32_t shift_;
+  CodeSteps steps_;
   std::uint8_t* shapes_;
   std::uint8_t* hows_;
   std::byte* planes_;
@@ -84,8 +88,9 @@ class RiceWriter {
 class RiceReader {
  public:
   RiceReader(const std::uint8_t* shapes, const std::uint8_t* hows, const std::byte* planes,
-             std::span<const std::byte> levels, std::uint32_t shift)
+             std::span<const std::byte> levels, std::uint32_t shift, const CodeSteps& steps)
       : shift_(shift),
+        steps_{std::min(steps.codes, CodeSteps::kLargest), steps.white},
         shapes_(shapes),
         hows_(hows),
         planes_(planes),
@@ -93,6 +98,7 @@ class RiceReader {
         last_(levels.size() - sizeof(std::uint64_t) - 1) {}
 
   [[nodiscard]] std::uint32_t shift() const { return shift_; }
+  [[nodiscard]] const CodeSteps& steps() const { return steps_; }
   RiceMark get_mark() { return {*shapes_++, *hows_++}; }
   std::uint64_t get_plane() {
     std::uint64_t bits;
@@ -115,6 +121,7 @@ class RiceReader {
 
  private:
   std::uint32_t shift_;
+  CodeSteps steps_;
   const std::uint8_t* shapes_;
   const std::uint8_t* hows_;
   const std::byte* planes_;
@@ -312,7 +319,8 @@ RiceGroup encode_rice(const TileGroup& group, std::span<const std::byte> payload
     room = {planes, std::make_unique_for_overwrite<std::byte[]>(planes * kMaxPlaneBytes),
             std::make_unique_for_overwrite<std::byte[]>(planes * kMaxLevelBytes + 2 * sizeof(std::uint64_t))};
   }
-  RiceWriter writer(shapes, shapes + planes, room.planes.get(), room.levels.get(), shift);
+  RiceWriter writer(shapes, shapes + planes, room.planes.get(), room.levels.get(), shift,
+                    group.geometry.steps);
   with_kernel(group.geometry, instructions, [&](auto kernel) { kernel.encode(group, payload, writer); });
   writer.finish_levels();
   coded.planes = {room.planes.get(), writer.planes_end()};
@@ -336,7 +344,7 @@ bool decode_rice(const TileGroup& group, std::span<const std::byte> head, std::s
   const bool has_levels = levels.size() > sizeof(std::uint64_t);
   RiceReader reader(reinterpret_cast<const std::uint8_t*>(shapes.data()),
                     reinterpret_cast<const std::uint8_t*>(hows.data()), body.data(),
-                    has_levels ? levels : std::span<const std::byte>(none), shift);
+                    has_levels ? levels : std::span<const std::byte>(none), shift, group.geometry.steps);
   with_kernel(group.geometry, instructions, [&](auto kernel) { kernel.decode(group, reader, payload); });
   if (group.geometry.index_bytes() == 1) {
     read_indices<std::uint8_t>(group, head.data(), payload);

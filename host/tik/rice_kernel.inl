@@ -188,6 +188,43 @@ NUTIK_INLINE std::uint32_t sum_of(const CodeLanes<Code>& lanes) {
   return sum;
 }
 
+// By how many steps each lane moved, as the nearest to a code that is cut off at 0 and white needs; false where any moved
+// otherwise.
+template <typename Code>
+NUTIK_INLINE bool count_steps(const CodeLanes<Code>& now, const CodeLanes<Code>& before, const CodeSteps& steps,
+                              CodeLanes<Code>& counts) {
+  Code codes[kTilePixels], held[kTilePixels];
+  give(now, codes);
+  give(before, held);
+  std::int32_t missed = 0;
+  for (std::size_t l = 0; l < kTilePixels; ++l) {
+    const std::int32_t count = steps.count(held[l], codes[l], 1);
+    missed |= steps.moved(held[l], count) ^ codes[l];
+    held[l] = static_cast<Code>(count);
+  }
+  take(held, counts);
+  return missed == 0;
+}
+template <typename Code>
+NUTIK_INLINE void add_steps(const CodeLanes<Code>& before, const CodeSteps& steps, CodeLanes<Code>& counts) {
+  Code codes[kTilePixels], held[kTilePixels];
+  give(counts, codes);
+  give(before, held);
+  for (std::size_t l = 0; l < kTilePixels; ++l)
+    codes[l] = static_cast<Code>(steps.moved(held[l], static_cast<std::make_signed_t<Code>>(codes[l])));
+  take(codes, counts);
+}
+
+// Those that lead nearest to the pixel above, in the first line to the left one; none for the first pixel. `codes` are known
+// before they are asked for.
+template <typename Code, typename Use>
+NUTIK_INLINE void each_count_above(const Code* codes, const Code* held, const CodeSteps& steps, Use use) {
+  use(0, 0);
+  for (std::size_t l = 1; l < kTileSide; ++l) use(l, steps.nearest_count(held[l], codes[l - 1]));
+  for (std::size_t y = kTileSide; y < kTilePixels; y += kTileSide)
+    for (std::size_t l = y; l < y + kTileSide; ++l) use(l, steps.nearest_count(held[l], codes[l - kTileSide]));
+}
+
 // Any bit that is set in any lane.
 template <typename Code>
 NUTIK_INLINE std::uint32_t bits_in(const CodeLanes<Code>& lanes) {
@@ -378,7 +415,7 @@ class Kernel {
     Code corners[Channels] = {};
     for (const TileEntry& entry : group.entries) {
       const std::byte* const body = payload.data() + entry.offset * kBlockAlignment;
-      const std::byte* before = nullptr;
+      const std::byte *before = nullptr, *before_that = nullptr;
       for (std::uint32_t r = 0; r < row_count(entry); ++r) {
         const std::byte* const now = body + row_offset(entry, group.geometry, r);
         if (entry.is_records() && r > 0) encode_index(group.geometry, body, r - 1, to);
@@ -386,10 +423,10 @@ class Kernel {
           if (before == nullptr) {
             encode_first(now, i, corners[i], to);
           } else {
-            encode_next(now, before, i, to);
+            encode_next(now, before, before_that, i, to);
           }
         }
-        before = now;
+        before_that = std::exchange(before, now);
       }
     }
   }
@@ -398,12 +435,12 @@ class Kernel {
     Code corners[Channels] = {};
     for (const TileEntry& entry : group.entries) {
       std::byte* const body = payload.data() + entry.offset * kBlockAlignment;
-      const std::byte* before = nullptr;
+      const std::byte *before = nullptr, *before_that = nullptr;
       for (std::uint32_t r = 0; r < row_count(entry); ++r) {
         std::byte* const now = body + row_offset(entry, group.geometry, r);
         if (entry.is_records() && r > 0) decode_index(group.geometry, body, r - 1, from);
-        for (std::uint32_t i = 0; i < Channels; ++i) decode_row(now, before, i, corners[i], from);
-        before = now;
+        for (std::uint32_t i = 0; i < Channels; ++i) decode_row(now, before, before_that, i, corners[i], from);
+        before_that = std::exchange(before, now);
       }
     }
   }
@@ -440,20 +477,72 @@ class Kernel {
     write(values, sum_of(values), RiceMode::median, i > 0, to);
   }
 
+  struct Predicted {
+    std::uint32_t sum;
+    RiceMode mode;
+    bool is_marked;
+    CodeLanes<Code> values;
+  };
+
+  // Tries for counts of steps what is above, whole and half of the way there, and half of the way back to the row before
+  // the last: where noise is all that changes, the mean of two is nearer than one.
+  static void predict_steps(const CodeLanes<Code>& now, const CodeLanes<Code>& before, const CodeLanes<Code>& change,
+                            const std::byte* row_before_that, std::uint32_t i, const RiceWriter& to, Predicted& best) {
+    Code codes[kTilePixels], held[kTilePixels], counts[kTilePixels], tried[3][kTilePixels];
+    give(now, codes);
+    give(before, held);
+    give(change, counts);
+    each_count_above(codes, held, to.steps(), [&](std::size_t l, std::int32_t above) {
+      tried[0][l] = static_cast<Code>(counts[l] - above);
+      tried[1][l] = static_cast<Code>(counts[l] - above / 2);
+    });
+    if (row_before_that != nullptr) half_back(before, row_before_that + channel_offset(i), to.steps(), codes);
+    for (std::size_t l = 0; l < kTilePixels; ++l) tried[2][l] = static_cast<Code>(counts[l] - codes[l]);
+    for (std::size_t each = 0; each < (row_before_that != nullptr ? 3 : 2); ++each) {
+      CodeLanes<Code> values;
+      take(tried[each], values);
+      fold(values, values);
+      const std::uint32_t sum = sum_of(values);
+      if (sum >= best.sum) continue;
+      best.sum = sum;
+      best.mode = each == 2 ? RiceMode::median : RiceMode::above;
+      best.is_marked = each == 1;
+      assign(best.values, values);
+    }
+  }
+
+  // Half of the steps from a row to the one before it.
+  static void half_back(const CodeLanes<Code>& before, const std::byte* before_that, const CodeSteps& steps, Code* counts) {
+    CodeLanes<Code> earlier, back;
+    load(before_that, 0, earlier);
+    static_cast<void>(count_steps(earlier, before, steps, back));
+    give(back, counts);
+    for (std::size_t l = 0; l < kTilePixels; ++l)
+      counts[l] = static_cast<Code>(static_cast<std::make_signed_t<Code>>(counts[l]) / 2);
+  }
+
   // Tries the row before with and without green, and the pixels above for what is better of these.
-  static void encode_next(const std::byte* row, const std::byte* row_before, std::uint32_t i, RiceWriter& to) {
+  static void encode_next(const std::byte* row, const std::byte* row_before, const std::byte* row_before_that,
+                          std::uint32_t i, RiceWriter& to) {
     CodeLanes<Code> now, before, change, values;
     load(row + channel_offset(i), to.shift(), now);
     load(row_before + channel_offset(i), to.shift(), before);
-    subtract(now, before, change);
+    const bool in_steps = to.may_step() && count_steps(now, before, to.steps(), change);
+    if (!in_steps) subtract(now, before, change);
     fold(change, values);
     std::uint32_t sum = sum_of(values);
+    Predicted by_steps{sum, RiceMode::before, false, {}};
+    if (in_steps && sum > kGoodEnough) predict_steps(now, before, change, row_before_that, i, to, by_steps);
     bool leans = false;
     if (i > 0 && sum > kGoodEnough) {
-      CodeLanes<Code> green, green_change, leaning;
+      CodeLanes<Code> green, green_before, green_change, leaning;
       load(row + channel_offset(0), to.shift(), green);
-      load(row_before + channel_offset(0), to.shift(), green_change);
-      subtract(green, green_change, green_change);
+      load(row_before + channel_offset(0), to.shift(), green_before);
+      if (in_steps) {
+        static_cast<void>(count_steps(green, green_before, to.steps(), green_change));
+      } else {
+        subtract(green, green_before, green_change);
+      }
       subtract(change, green_change, green_change);
       fold(green_change, leaning);
       const std::uint32_t leaning_sum = sum_of(leaning);
@@ -462,7 +551,7 @@ class Kernel {
         assign(values, leaning);
         assign(change, green_change);
         subtract(now, green, now);
-        subtract(now, change, before);
+        subtract(before, green_before, before);
         sum = leaning_sum;
       }
     }
@@ -483,31 +572,66 @@ class Kernel {
         for (std::size_t p = 0; p < kParts<Code>; ++p) values.part[p] = others[better].part[p];
       }
     }
-    write(values, sum, mode, leans, to);
+    if (by_steps.sum < sum) {
+      write(by_steps.values, by_steps.sum, by_steps.mode, by_steps.is_marked, to, true);
+    } else {
+      write(values, sum, mode, leans, to, in_steps && mode != RiceMode::above);
+    }
   }
 
   template <typename Value>
   NUTIK_INLINE static void write(const CodeLanes<Value>& values, std::uint32_t sum, RiceMode mode, bool leans,
-                                 RiceWriter& to) {
+                                 RiceWriter& to, bool in_steps = false) {
     const auto [shape, tells_lines] =
         sum == 0 ? std::pair(std::uint8_t{0}, false) : write_plane(values, choose_low(values, sum), to);
     to.put_mark(shape, static_cast<std::uint8_t>(static_cast<unsigned>(mode) | (leans ? kLeans : 0u) |
-                                                 (tells_lines ? kTellsLines : 0u)));
+                                                 (tells_lines ? kTellsLines : 0u) | (in_steps ? kInSteps : 0u)));
   }
 
-  static void decode_row(std::byte* row, const std::byte* row_before, std::uint32_t i, Code& corner, RiceReader& from) {
+  static void decode_row(std::byte* row, const std::byte* row_before, const std::byte* row_before_that, std::uint32_t i,
+                         Code& corner, RiceReader& from) {
     const RiceMark mark = from.get_mark();
     const auto mode = static_cast<RiceMode>(mark.how & kModeBits);
-    const bool leans = i > 0 && (mark.how & kLeans) != 0;
-    CodeLanes<Code> plane, before{}, green, green_before{};
+    const bool is_marked = (mark.how & kLeans) != 0, leans = i > 0 && is_marked;
+    CodeLanes<Code> plane, before{}, green{}, green_before{};
     read_plane(mark.shape, (mark.how & kTellsLines) != 0, from, plane);
     unfold(plane, plane);
     if (row_before != nullptr) load(row_before + channel_offset(i), from.shift(), before);
     if (leans) {
       load(row + channel_offset(0), from.shift(), green);
       if (row_before != nullptr) load(row_before + channel_offset(0), from.shift(), green_before);
-      subtract(before, green_before, before);
     }
+    if ((mark.how & kInSteps) != 0 && mode == RiceMode::above) {
+      Code codes[kTilePixels], held[kTilePixels];
+      give(plane, codes);
+      give(before, held);
+      each_count_above(codes, held, from.steps(), [&](std::size_t l, std::int32_t above) {
+        const auto count =
+            static_cast<std::make_signed_t<Code>>(static_cast<Code>(codes[l] + (is_marked ? above / 2 : above)));
+        codes[l] = static_cast<Code>(from.steps().moved(held[l], count));
+      });
+      take(codes, plane);
+      store(plane, from.shift(), row + channel_offset(i));
+      return;
+    }
+    if ((mark.how & kInSteps) != 0) {
+      if (mode == RiceMode::median && row_before_that != nullptr) {
+        Code back[kTilePixels];
+        half_back(before, row_before_that + channel_offset(i), from.steps(), back);
+        CodeLanes<Code> counts;
+        take(back, counts);
+        add(plane, counts, plane);
+      }
+      if (mode == RiceMode::drift) add_up(plane, Code{0}, plane);
+      if (leans) {
+        static_cast<void>(count_steps(green, green_before, from.steps(), green));
+        add(plane, green, plane);
+      }
+      add_steps(before, from.steps(), plane);
+      store(plane, from.shift(), row + channel_offset(i));
+      return;
+    }
+    if (leans) subtract(before, green_before, before);
     switch (mode) {
       case RiceMode::before: add(plane, before, plane); break;
       case RiceMode::above: add_up(plane, before.part[0][0], plane); break;

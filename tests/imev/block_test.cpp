@@ -18,7 +18,8 @@ using test::Random;
 using test::RandomCase;
 using test::Rasters;
 
-// The codes held at every sample, straight from the definition of a change record.
+// The codes held at every sample, straight from the definition of a change record: whole steps of 2 T + 1 codes, of which
+// the nearest leads as near to the new code as the tolerance T.
 Rasters held_by_definition(const CaptureFormat& capture, const Rasters& rasters) {
   Rasters held;
   for (const auto& raster : rasters) {
@@ -33,7 +34,13 @@ Rasters held_by_definition(const CaptureFormat& capture, const Rasters& rasters)
       }
       for (std::uint32_t c = 0; changed && c < capture.shape.channels; ++c) {
         const std::uint64_t value = pixel * capture.shape.channels + c;
-        test::set_code(capture, now, value, code_at(capture, raster, value));
+        const auto before = static_cast<std::int64_t>(code_at(capture, now, value));
+        const auto after = static_cast<std::int64_t>(code_at(capture, raster, value));
+        const std::int64_t tolerance = capture.noise.tolerance, step = 2 * tolerance + 1;
+        const std::int64_t count = (std::abs(after - before) + tolerance) / step;
+        const std::int64_t reached = before + (after < before ? -count : count) * step;
+        test::set_code(capture, now, value,
+                       static_cast<std::uint32_t>(std::clamp<std::int64_t>(reached, 0, capture.white_code)));
       }
     }
     held.push_back(std::move(now));
@@ -118,6 +125,25 @@ TEST(Block, ToleratesWhateverATolerancePermits) {
     EXPECT_EQ(sample_of(encoded, 1), rasters[each.changes ? 1 : 0])
         << each.code_bytes << " bytes, tolerance " << each.tolerance;
   }
+}
+
+// By hand, a tolerance of 4: steps of 9, and the ends of the scale.
+TEST(Block, MovesByWholeSteps) {
+  CaptureFormat capture;
+  capture.shape = {1, 1, 1};
+  capture.noise.tolerance = 4;
+  using Codes = std::vector<int>;
+  const auto held = [&](const Codes& codes) {
+    Rasters rasters;
+    for (const int code : codes) rasters.push_back({static_cast<std::byte>(code)});
+    const MemoryCapture encoded(capture, Timeline::constant({100, 1}, Timeline::kFullShutter, codes.size()), rasters, 3);
+    Codes all;
+    for (std::uint64_t k = 0; k < codes.size(); ++k) all.push_back(static_cast<int>(sample_of(encoded, k)[0]));
+    return all;
+  };
+  EXPECT_EQ(held({100, 104, 105, 101, 99, 0, 6, 255, 250, 248}), (Codes{100, 100, 109, 100, 100, 1, 10, 253, 253, 244}));
+  EXPECT_EQ(held({250, 255, 250}), (Codes{250, 255, 246})) << "white";
+  EXPECT_EQ(held({250, 7, 0, 9}), (Codes{250, 7, 0, 9})) << "black";
 }
 
 TEST(Block, GivesASourceBackExactlyAtToleranceZero) {

@@ -98,19 +98,19 @@ def rounded_timeline(checks, folder):
 
 
 def held_codes(checks, folder):
-    """Tolerance 4: 100, 104, 105, 101 is held as 100, 100, 105, 105."""
+    """Tolerance 4, steps of 9: 100, 104, 105, 101 is held as 100, 100, 109, 100."""
     pictures.write_lossless(folder / "held.mkv", grey_row([100, 9], [104, 9], [105, 9], [101, 9]))
     source = ["-f100", "--transfer", "linear", "--tolerance", "4", "held.mkv"]
     whole = ["--start", "0s", "--exposure", "40ms"]
-    checks.expose_float("tolerance 4 holds 100, 100, 105, 105: mean 102.5", folder, whole + source,
-                        by_hand([102.5 / 255, 9 / 255]))
+    checks.expose_float("tolerance 4 holds 100, 100, 109, 100: mean 102.25", folder, whole + source,
+                        by_hand([102.25 / 255, 9 / 255]))
     checks.expose_float("a gap without a record at its end doesn't ramp: 100", folder,
                         ["--start", "6ms", "--exposure", "4ms", "-a180"] + source,
                         by_hand([100 / 255, 9 / 255]))
-    colours = np.array([[[[100, 50, 20]]], [[[104, 52, 20]]], [[[105, 53, 20]]]], np.uint8)
+    colours = np.array([[[[100, 50, 20]]], [[[104, 52, 20]]], [[[105, 62, 24]]]], np.uint8)
     pictures.write_lossless(folder / "colours.mkv", colours)
-    expected = Exposure(np.array([[[305, 153, 60]]]) / 3 / 255, np.ones((1, 1)), {})
-    checks.expose_float("one channel's change replaces all: (100 100 105, 50 50 53) / 3", folder,
+    expected = Exposure(np.array([[[309, 159, 60]]]) / 3 / 255, np.ones((1, 1)), {})
+    checks.expose_float("each channel moves by steps of its own: (100 100 109, 50 50 59, 20 20 20) / 3", folder,
                         ["-f100", "--transfer", "linear", "--tolerance", "4", "--start", "0s",
                          "--exposure", "30ms", "colours.mkv"], expected)
 

@@ -62,7 +62,7 @@ def _sum_light(samples, shares, mask, table, tolerance):
     if not needed:
         return sums.reshape(height, width, channels)
     pixels = {m: np.flatnonzero(mask == m) for m in shares}
-    for k, codes in _needed_codes(samples, needed, tolerance):
+    for k, codes in _needed_codes(samples, needed, tolerance, len(table) - 1):
         flat = codes.reshape(-1, channels)
         for m, share in shares.items():
             if k not in share:
@@ -75,14 +75,14 @@ def _sum_light(samples, shares, mask, table, tolerance):
     return sums.reshape(height, width, channels)
 
 
-def _needed_codes(samples, needed, tolerance):
+def _needed_codes(samples, needed, tolerance, white):
     """(k, held codes) of the needed samples. What is held depends on all samples before, unless
     the tolerance is 0: then it is what the sample shows, and the others needn't be looked at."""
     if tolerance == 0:
         return ((k, samples[k]) for k in needed)
     past = (samples[k] for k in range(needed[-1] + 1))
     wanted = set(needed)
-    return ((k, codes) for k, codes in enumerate(transfers.held_codes(past, tolerance))
+    return ((k, codes) for k, codes in enumerate(transfers.held_codes(past, tolerance, white))
             if k in wanted)
 
 

@@ -42,17 +42,20 @@ def codes_of(light, transfer, white):
     return np.searchsorted(code_edges(transfer, white), light, side="right")
 
 
-def held_codes(samples, tolerance):
+def held_codes(samples, tolerance, white=255):
     """The codes that change records hold at each sample: yields arrays H x W x C, one a sample.
 
     A record is written where any channel differs from what the pixel holds by more than the
-    tolerance (in codes); it replaces all channels. samples: iterable of H x W x C integers.
+    tolerance T (in codes); it moves all channels, each by the number of steps of 2 T + 1 codes that leads
+    nearest to the new code, but not below 0 or above white. samples: iterable of H x W x C integers.
     """
     held = None
     for codes in samples:
         if held is None or tolerance == 0:
             held = codes
         else:
-            difference = np.abs(codes.astype(np.int32) - held.astype(np.int32))
-            held = np.where((difference > tolerance).any(axis=2, keepdims=True), codes, held)
+            difference = codes.astype(np.int64) - held.astype(np.int64)
+            step = 2 * tolerance + 1
+            moved = np.clip(held + (difference + tolerance) // step * step, 0, white)
+            held = np.where((np.abs(difference) > tolerance).any(axis=2, keepdims=True), moved, held)
         yield held

@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
 #include "capture/format.hpp"
 #include "features/series/series_request.hpp"
 #include "session/clips/encoding.hpp"
+#include "session/uncertainty.hpp"
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
@@ -47,6 +50,49 @@ class SessionOfClip : public ::testing::Test {
   SourceRequest source_;
   ExposureRequest request_;
 };
+
+// By hand: five samples with a gain of 1 from picture 3 on, of which every other was made.
+TEST_F(SessionOfClip, TellsWhatIsNoBoundByItsValues) {
+  const ExposedPicture exposed = forward().render(request_, kFloats);
+  CaptureErrors errors;
+  errors.noise_light = 0.01;
+  errors.alignment_pixels = 0.25;
+  errors.made = MadeSamples{std::vector<std::uint8_t>(12, 1)};
+  const Uncertainty told = Uncertainty::of(exposed, errors);
+  EXPECT_DOUBLE_EQ(told.scale, 1.0);
+  const auto term = [&](std::string_view name) {
+    const auto found = std::ranges::find(told.terms, name, &UncertaintyTerm::name);
+    return found == told.terms.end() ? UncertaintyTerm() : *found;
+  };
+  using Figures = std::vector<std::pair<std::string_view, double>>;
+  ASSERT_TRUE(term("noise").error);
+  EXPECT_DOUBLE_EQ(term("noise").error->light, 0.01);
+  EXPECT_DOUBLE_EQ(term("noise").error->steps, 0.01 * 0x1p23);
+  EXPECT_EQ(term("noise").is, UncertaintyTerm::Is::deviation);
+  EXPECT_EQ(term("alignment").figures, (Figures{{"residual_pixels", 0.25}}));
+  EXPECT_EQ(term("made_samples").figures, (Figures{{"made_samples", 3}, {"exposed_samples", 5}}));
+  EXPECT_EQ(term("made_samples").text, "3 of 5 samples were not filmed");
+  EXPECT_LT(told.bounds.error->light, 1e-5) << "none of them is a bound";
+}
+
+// By hand, in linear light: a sensor's variance is read² + shot · light, and three deviations count as none.
+TEST(Session, KnowsNoiseByItsModel) {
+  CaptureFormat capture;
+  capture.shape = {1, 1, 1};
+  capture.code_bytes = 2;
+  capture.white_code = 65'535;
+  capture.transfer = Transfer::linear();
+  capture.noise.camera = CameraNoise{4095, Transfer::linear(), {{NoiseCurve::sensor, 0.001, 1e-4, {}}}};
+  const CaptureErrors errors = CaptureErrors::of(capture, false);
+  const double at_white = std::sqrt(1e-6 + 1e-4);
+  EXPECT_NEAR(errors.noise_light, at_white, 0.01 * at_white) << "within a deviation of white";
+  EXPECT_NEAR(errors.held_light, 3 * at_white, 1e-3 * at_white) << "down from white";
+  capture.noise.camera.reset();
+  capture.noise.tolerance = 6;
+  EXPECT_NEAR(CaptureErrors::of(capture, false).held_light, 6.0 / 65'535, 1e-15);
+  EXPECT_NEAR(CaptureErrors::of(capture, true).rounded_light, 0.5 / 65'535, 1e-15);
+  EXPECT_EQ(CaptureErrors::of(capture, true).noise_light, 0.0);
+}
 
 TEST_F(SessionOfClip, AnswersTheSameReadForwardAndWhole) {
   Session once = forward();

@@ -125,6 +125,41 @@ TEST(Rice, ARoomIsUsedAgain) {
   }
 }
 
+// Codes that move by whole steps of a tolerance cost what as many single codes cost; those that do not come back as well.
+TEST(Rice, CountsStepsOfATolerance) {
+  for (const std::uint32_t code_bytes : {1u, 2u}) {
+    for (const std::uint32_t channels : {1u, 3u}) {
+      CaptureFormat capture;
+      capture.shape = {8, 8, channels};
+      capture.code_bytes = code_bytes;
+      capture.white_code = code_bytes == 1 ? 255 : 4095;
+      const auto packed_bytes = [&](std::int64_t step, std::uint32_t tolerance, bool strays) {
+        capture.noise.tolerance = tolerance;
+        test::Random draw(7);
+        DrawnPayload payload(capture, 20);
+        payload.add_tile(20, draw, 0);
+        const std::uint64_t row = payload.geometry.row_bytes();
+        std::byte* const body = payload.bytes.data() + payload.entries[0].offset * kBlockAlignment;
+        for (std::uint64_t value = 0; value < row / code_bytes; ++value) {
+          std::int64_t code = draw.whole(100, 120);
+          for (std::uint32_t r = 0; r < 20; ++r) {
+            const auto own = static_cast<std::uint16_t>(code + (strays && value == 5 && r == 9 ? 1 : 0));
+            std::memcpy(body + r * row + value * code_bytes, &own, code_bytes);
+            code = std::clamp<std::int64_t>(code + step * draw.whole(-3, 3), 0, capture.white_code);
+          }
+        }
+        const TileGroup group{payload.entries, payload.geometry};
+        expect_same_bytes_and_back(group, payload.bytes, std::to_string(channels) + " channels");
+        return packed(group, payload.bytes).body.size();
+      };
+      const std::size_t single = packed_bytes(1, 0, false), steps = packed_bytes(9, 4, false);
+      EXPECT_LE(steps, single + single / 20);
+      EXPECT_GT(packed_bytes(9, 0, false), single + single / 2);
+      EXPECT_GT(packed_bytes(9, 4, true), steps) << "a row that moved otherwise";
+    }
+  }
+}
+
 TEST(Rice, LeavesOutLowBitsThatNoCodeHas) {
   test::Random draw(1);
   CaptureFormat capture;
