@@ -207,7 +207,7 @@ class Capture:
                delay: Optional[DelayLike] = None, normalize: str = "support", gain: float = 1.0,
                unmapped: Optional[str] = None, precision: Optional[str] = None, codes: bool = False, dtype: Any = None,
                transfer: Optional[str] = None, negative: Optional[str] = None,
-               region: Optional[Sequence[int]] = None) -> Picture:
+               region: Optional[Sequence[int]] = None, bounds: bool = False) -> Picture:
         """Exposes a picture.
 
         Either an interval: `start` (0 without one) and `exposure`, with `shutter` a shape (nutik.shutter()) and
@@ -225,7 +225,8 @@ class Capture:
 
         Light comes as float32, or float64 with dtype; codes=True gives uint8 or uint16, the capture's own unless dtype
         says which, sRGB unless `transfer` says otherwise ('source': the capture's own). negative: what codes say of
-        light below 0, 'saturate', 'offset' or 'abs'. region: (x, y, width, height), only these pixels.
+        light below 0, 'saturate', 'offset' or 'abs'. region: (x, y, width, height), only these pixels. bounds: also a map
+        of what the arithmetic may be off by, Picture.bounds.
 
         Raises UsageError where the request does not fit the capture, InputError where mask and functions do not or the
         capture is damaged, DeviceError; KeyboardInterrupt at Ctrl-C.
@@ -234,7 +235,7 @@ class Capture:
                                normalize, gain, unmapped)
         output = self._output(codes, dtype, transfer, negative)
         box = None if region is None else box_of(region, "region")
-        held = _nutik.render(self._held, asked, output, box, None if precision is None else str(precision))
+        held = _nutik.render(self._held, asked, output, box, None if precision is None else str(precision), bounds)
         picture = Picture(held)
         warn(held.figures["warnings"])
         if picture.dtype.kind == "u" and negative in (None, "saturate"):

@@ -72,6 +72,13 @@ class Picture:
         return None if bound is None else bound["steps"]
 
     @property
+    def bounds(self) -> Optional[Array]:
+        """[height, width] float32: what the arithmetic may be off by at each pixel, in light, or in the picture's codes,
+        rounded up; of render(..., bounds=True), else None."""
+        held = self._held.figures.get("bounds_map")
+        return None if held is None else held.values()
+
+    @property
     def uncertainty(self) -> dict[str, Any]:
         """What the light of the picture may be off by, term by term (docs/explanation/uncertainty.md): scale, S; terms,
         one dict for each with term, is ('bound', 'deviation', 'count'), light, codes or float_steps, and what else it

@@ -1,6 +1,7 @@
 // Exposures: what is asked for, the picture, and the plan's figures.
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "capture/error.hpp"
@@ -63,18 +64,29 @@ py::list functions_of_plan(const ExposureFigures& figures) {
 
 HeldPicture render(const OpenCapture& capture, const AskedExposure& asked, const Settings& output,
                    const std::optional<std::array<std::uint32_t, 4>>& region,
-                   const std::optional<std::string>& precision) {
+                   const std::optional<std::string>& precision, bool bounds) {
   Session& session = *capture.session;
   const ExposureRequest request = exposure_request(asked);
   const OutputFormat format = output_of(output, session.format());
   RenderControl control;
   if (precision) control.precision = parse_precision(*precision);
+  control.maps_bounds = bounds;
   if (region) control.rectangle = Rectangle{(*region)[0], (*region)[1], (*region)[2], (*region)[3]};
   ExposedPicture exposed = without_lock([&](const Stopping& stopping) {
     control.stop = stopping.stop;
     return session.render(request, format, control);
   });
   py::dict figures = figures_of(exposed);
+  if (exposed.bounds) {
+    const Picture& whole = *exposed.bounds;
+    const Rectangle part = control.rectangle.value_or(Rectangle::whole(whole.shape));
+    Picture map({part.width, part.height, 1}, whole.type, 0);
+    for (std::uint32_t y = 0; y < part.height; ++y) {
+      const auto row = whole.values<float>().subspan(std::size_t{part.y + y} * whole.shape.width + part.x, part.width);
+      std::ranges::copy(row, map.values<float>().begin() + static_cast<std::ptrdiff_t>(y) * part.width);
+    }
+    figures["bounds_map"] = HeldPicture{std::move(map), {}};
+  }
   return {std::move(exposed.picture), std::move(figures)};
 }
 
@@ -179,7 +191,7 @@ void bind_rendering(py::module_& module) {
            py::arg("functions"), py::arg("mask"), py::arg("settings"), py::arg("delays_ns"));
   module.def("devices", &devices);
   module.def("render", &render, py::arg("capture"), py::arg("exposure"), py::arg("output"), py::arg("region"),
-             py::arg("precision"));
+             py::arg("precision"), py::arg("bounds") = false);
 }
 
 }  // namespace nutik::python

@@ -1,6 +1,7 @@
 """A picture from Python is the command line's, bit for bit: codes and light, in every arithmetic, through every mask."""
 
 import json
+import pickle
 import unittest
 
 import nutik
@@ -153,6 +154,16 @@ class Pictures(support.TestCase):
             worst = np.max(np.abs(ours.array - reference.array))
             self.assertGreater(ours.error_bound, 0)
             self.assertLessEqual(worst, ours.error_bound, precision)
+        self.assertIsNone(ours.bounds)
+        mapped = self.capture.render(self.functions, self.tags, dtype=np.float64, precision="fixed", bounds=True)
+        self.assertEqual((mapped.bounds.shape, mapped.bounds.dtype), (self.tags.shape, np.float32))
+        self.assertEqual(mapped.bounds.max(), np.nextafter(np.float32(mapped.error_bound), np.float32(1)))
+        off = np.abs(mapped.array - reference.array).reshape(*self.tags.shape, -1).max(axis=2)
+        self.assertTrue((off <= mapped.bounds).all())
+        part = self.capture.render(self.functions, self.tags, dtype=np.float64, precision="fixed", bounds=True,
+                                   region=(3, 2, 9, 5))
+        np.testing.assert_array_equal(part.bounds, mapped.bounds[2:7, 3:12])
+        np.testing.assert_array_equal(pickle.loads(pickle.dumps(part)).bounds, part.bounds)
         terms = {each["term"]: each for each in ours.uncertainty["terms"]}
         self.assertEqual(terms["arithmetic"]["light"], ours.error_bound)
         self.assertEqual(terms["times"]["is"], "bound")

@@ -169,9 +169,11 @@ CaptureFormat clip_format(const Clip& clip, const ClipOptions& options) {
   CaptureFormat capture = clip.info().format;
   if (options.transfer) capture.transfer = Transfer::restated(capture.transfer, *options.transfer);
   if (options.white_light && !options.white_code && !clip.info().holds_light) {
-    throw UsageError(format("white is one of the clip's codes, a whole number (255, 4095 for 12 bits); {:.6g} with a "
-                            "point is light of floating-point pictures",
-                            *options.white_light),
+    std::string light = format("{:.6g}", *options.white_light);
+    if (light.find_first_of(".e") == light.npos) light += ".0";
+    throw UsageError(format("white '{}' is no code of the clip, a whole number of 1 … 65535; only floating-point pictures "
+                            "have a light of white",
+                            light),
                      {Setting::white_code});
   }
   if (options.white_code && !clip.makes_codes()) {
