@@ -60,14 +60,16 @@ NUTIK_INLINE uints codes_of(const Lights light, global const Threshold* threshol
   return guess + one_where_reached(thresholds, guess + 1, light);
 }
 
-NUTIK_INLINE void write_codes(const Pixels* pixels, const Lights* lights, global const Threshold* thresholds,
-                              global const uint* guesses, const uint guess_count,
-                              global raster_code* raster) {
-  uint codes[NUTIK_CHANNELS][NUTIK_LANES];
+NUTIK_INLINE void make_codes(const Lights* lights, global const Threshold* thresholds, global const uint* guesses,
+                             const uint guess_count, uint codes[NUTIK_CHANNELS][NUTIK_LANES]) {
 #pragma unroll
   for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
     NUTIK_STORE(codes_of(lights[channel], thresholds, guesses, guess_count), codes[channel]);
   }
+}
+
+NUTIK_INLINE void write_codes(const Pixels* pixels, uint codes[NUTIK_CHANNELS][NUTIK_LANES],
+                              global raster_code* raster) {
   for (uint i = 0; i < pixels->count; ++i) {
 #pragma unroll
     for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) {
@@ -135,6 +137,28 @@ NUTIK_INLINE void blend_tiles(const size_t first, const size_t last, const uint 
   }
 }
 
+// Codes of pixels that one function of a shared tile has alone are made of its light as it is: where lights are blended
+// they are coarser, in `fixed` by as much as another function's gain asks for.
+NUTIK_INLINE void make_lone_codes(const size_t first, const size_t last, const uint lane, global const Sum* sums,
+                                  global const LightScale* scales, global const function_index* function_of_lane,
+                                  global const ushort* shares, global const Threshold* thresholds,
+                                  global const uint* guesses, const uint guess_count,
+                                  uint codes[NUTIK_CHANNELS][NUTIK_LANES]) {
+  for (size_t tile = first; tile < last; ++tile) {
+    bool any = false;
+    for (uint i = 0; i < NUTIK_LANES; ++i) any |= shares[tile * NUTIK_TILE_PIXELS + lane + i] == 65535;
+    if (!any) continue;
+    Lights own_lights[NUTIK_CHANNELS];
+    uint own_codes[NUTIK_CHANNELS][NUTIK_LANES];
+    develop_tile(tile, lane, sums, scales, function_of_lane, thresholds[0], own_lights);
+    make_codes(own_lights, thresholds, guesses, guess_count, own_codes);
+    for (uint i = 0; i < NUTIK_LANES; ++i) {
+      if (shares[tile * NUTIK_TILE_PIXELS + lane + i] != 65535) continue;
+      for (uint channel = 0; channel < NUTIK_CHANNELS; ++channel) codes[channel][i] = own_codes[channel][i];
+    }
+  }
+}
+
 // first_tiles: of each tile of the band, and one more, where its sums begin.
 kernel void blend_codes(global const Sum* restrict sums, global const LightScale* restrict scales,
                         global const LightScale* restrict blend_scales,
@@ -149,13 +173,19 @@ kernel void blend_codes(global const Sum* restrict sums, global const LightScale
     for (uint lane = item.lane; lane < item.lane + NUTIK_ITEM_PIXELS; lane += NUTIK_LANES) {
       const Pixels pixels = pixels_at(tile, lane, width, height);
       Lights lights[NUTIK_CHANNELS];
+      uint codes[NUTIK_CHANNELS][NUTIK_LANES];
       if (last == first + 1) {
         develop_tile(first, lane, sums, scales, function_of_lane, thresholds[0], lights);
       } else {
         blend_tiles(first, last, lane, sums, blend_scales, function_of_lane, shares, blend_shift, thresholds[0],
                     lights);
       }
-      write_codes(&pixels, lights, thresholds, guesses, guess_count, raster);
+      make_codes(lights, thresholds, guesses, guess_count, codes);
+      if (last > first + 1) {
+        make_lone_codes(first, last, lane, sums, scales, function_of_lane, shares, thresholds, guesses, guess_count,
+                        codes);
+      }
+      write_codes(&pixels, codes, raster);
     }
   }
 }
@@ -170,8 +200,10 @@ kernel void develop_codes(global const Sum* restrict sums, global const LightSca
     for (uint lane = item.lane; lane < item.lane + NUTIK_ITEM_PIXELS; lane += NUTIK_LANES) {
       const Pixels pixels = pixels_at(tile, lane, width, height);
       Lights lights[NUTIK_CHANNELS];
+      uint codes[NUTIK_CHANNELS][NUTIK_LANES];
       develop_tile(tile, lane, sums, scales, function_of_lane, thresholds[0], lights);
-      write_codes(&pixels, lights, thresholds, guesses, guess_count, raster);
+      make_codes(lights, thresholds, guesses, guess_count, codes);
+      write_codes(&pixels, codes, raster);
     }
   }
 }
