@@ -7,15 +7,18 @@ One folder a target. Videos are made by the ffmpeg command; without it a line sa
 """
 
 import argparse
+import os
 import shutil
 import struct
 import subprocess
 import sys
 import tempfile
 import zlib
+from io import BytesIO
 from pathlib import Path
 
-import cv2
+os.environ["OPENCV_IO_ENABLE_OPENEXR"] = "1"
+import cv2  # which asks for it when it is loaded
 import numpy as np
 
 SIZE = 12, 10  # width, height
@@ -57,6 +60,15 @@ def stills():
     yield "a.pgm", b"P2\n# a comment\n3 2 255\n0 1 2\n3 4 255\n"
     yield "a.ppm", b"P6 2 2 255\n" + bytes(range(12))
     yield "a.ppm", b"P3 1 2 65535 0 1 2 65535 4 5\n"
+    light = (deep / 65535).astype(np.float32)
+    yield "a.tif", encoded(".tif", light, options=(cv2.IMWRITE_TIFF_COMPRESSION, 1))
+    yield "a.exr", encoded(".exr", light)
+    yield "a.exr", encoded(".exr", light[:, :, 0])
+    yield "a.pfm", b"PF\n%d %d\n-1.0\n" % (light.shape[1], light.shape[0]) + light.tobytes()
+    for array in (light, light.astype(np.float64), grey, np.stack([deep, deep])):
+        with BytesIO() as file:
+            np.save(file, array)
+            yield "a.npy", file.getvalue()
 
 
 def lossless_jpeg(codes):
