@@ -12,7 +12,7 @@ Times are seconds, exactly as a float is printed (0.4 is 4/10 s), or words with 
 for picture 37; or Fraction, Decimal, numpy.timedelta64, datetime.timedelta. What is returned as `..._ns` is whole
 nanoseconds, int64. Light of white is 1. Pictures are [height, width] or [height, width, 3] (red, green, blue).
 
-Everything raises nutik.Error: UsageError, InputError, DeviceError, OutputError, MemoryTooLittle. Ctrl-C ends what
+Everything raises nutik.Error: UsageError, InputError, DeviceError, OutputError, MemoryTooLittle, ImpreciseError. Ctrl-C ends what
 takes long and raises KeyboardInterrupt. What is doubtful about a result comes as a warning of class NutikWarning, what
 should be known of it besides as one of its subclass NutikNote. Work runs without Python's lock; any number of threads
 may use one capture.
@@ -22,14 +22,15 @@ from ._captures import Capture, Trace
 from ._finds import Activity, Plate, Solution, SolvedWish, Study
 from ._functions import Function, boxcar, fit, parse_functions, read_functions, shutter, write_functions
 from ._masks import Mask, read_mask
-from ._nutik import (DeviceError, Error, InputError, MemoryTooLittle, OutputError, UsageError, __version__)
-from ._pictures import Picture
+from ._nutik import (DeviceError, Error, ImpreciseError, InputError, MemoryTooLittle, OutputError, UsageError, __version__)
+from ._pictures import Picture, Pictures
 from ._sources import Device, devices, encode, join, open
 from ._words import FileMissing, NutikNote, NutikWarning, WrongType
 
 __all__ = [
-    "Activity", "Capture", "Device", "DeviceError", "Error", "FileMissing", "Function", "InputError", "Mask", "MemoryTooLittle",
-    "NutikNote", "NutikWarning", "OutputError", "Picture", "Plate", "Solution", "SolvedWish", "Study", "Trace",
-    "UsageError", "WrongType", "__version__", "boxcar", "devices", "encode", "fit", "join", "open", "parse_functions",
-    "read_functions", "read_mask", "shutter", "write_functions",
+    "Activity", "Capture", "Device", "DeviceError", "Error", "FileMissing", "Function", "ImpreciseError",
+    "InputError", "Mask", "MemoryTooLittle", "NutikNote", "NutikWarning", "OutputError", "Picture", "Pictures",
+    "Plate", "Solution", "SolvedWish", "Study", "Trace", "UsageError", "WrongType", "__version__", "boxcar",
+    "devices", "encode", "fit", "join", "open", "parse_functions", "read_functions", "read_mask", "shutter",
+    "write_functions",
 ]

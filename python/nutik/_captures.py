@@ -7,7 +7,7 @@ from fractions import Fraction
 from html import escape
 from os import PathLike
 from operator import index
-from typing import Any, Iterator, Mapping, Optional, Sequence, Union
+from typing import Any, Iterable, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
@@ -15,8 +15,9 @@ from . import _finds, _nutik
 from ._functions import Function, FunctionLike, function_of, read_functions
 from ._masks import Mask, MaskLike, mask_of
 from ._nutik import InputError, MemoryTooLittle, UsageError
-from ._pictures import Picture
-from ._words import Array, DelayLike, Path, Progress, Time, axes_of, box_of, count_of, delays_ns, settings_of, tag_of, time_word, warn
+from ._pictures import Picture, Pictures
+from ._words import (Array, DelayLike, Path, Progress, Time, axes_of, box_of, count_of, delays_ns, is_list, settings_of, tag_of,
+                     time_word, warn)
 
 Functions = Union[FunctionLike, Mapping[int, FunctionLike], Path]
 
@@ -207,7 +208,7 @@ class Capture:
                delay: Optional[DelayLike] = None, normalize: str = "support", gain: float = 1.0,
                unmapped: Optional[str] = None, precision: Optional[str] = None, codes: bool = False, dtype: Any = None,
                transfer: Optional[str] = None, negative: Optional[str] = None,
-               region: Optional[Sequence[int]] = None) -> Picture:
+               region: Optional[Sequence[int]] = None, strict: bool = False) -> Picture:
         """Exposes a picture.
 
         Either an interval: `start` (0 without one) and `exposure`, with `shutter` a shape (nutik.shutter()) and
@@ -222,6 +223,7 @@ class Capture:
         normalize: 'support', 'integral', 'absolute' or 'seconds:S' (docs/explanation/model.md). gain: multiplies the light.
         unmapped: 'zero' lets tags without a function expose to black.
         precision: 'single', 'compensated', 'double' or 'fixed'; None: the fastest whose error bound is small enough.
+        strict: codes that may err by more than half of one raise ImpreciseError, and are no warning.
 
         Light comes as float32, or float64 with dtype; codes=True gives uint8 or uint16, the capture's own unless dtype
         says which, sRGB unless `transfer` says otherwise ('source': the capture's own). negative: what codes say of
@@ -231,7 +233,7 @@ class Capture:
         capture is damaged, DeviceError; KeyboardInterrupt at Ctrl-C.
         """
         asked = self._exposure(functions, mask, start, exposure, shutter, shutter_error, feather, delay,
-                               normalize, gain, unmapped)
+                               normalize, gain, unmapped, strict)
         output = self._output(codes, dtype, transfer, negative)
         box = None if region is None else box_of(region, "region")
         held = _nutik.render(self._held, asked, output, box, None if precision is None else str(precision))
@@ -242,6 +244,46 @@ class Capture:
                  "negative='offset' shows light below 0, and light itself (codes=False) keeps it"
                  for each in picture.plan["functions"] if each["still_gain"] < 0)
         return picture
+
+    def render_many(self, functions: Optional[Sequence[Functions]] = None, mask: Optional[MaskLike] = None, *,
+                    starts: Union[Time, Iterable[Time], None] = None,
+                    exposures: Union[Time, Iterable[Time], None] = None, shutter: Optional[str] = None,
+                    shutter_error: Optional[float] = None, feather: Union[str, float, None] = None,
+                    delay: Optional[DelayLike] = None, normalize: str = "support", gain: float = 1.0,
+                    unmapped: Optional[str] = None, precision: Optional[str] = None, codes: bool = False,
+                    dtype: Any = None, transfer: Optional[str] = None, negative: Optional[str] = None,
+                    region: Optional[Sequence[int]] = None, strict: bool = False,
+                    progress: Progress = None) -> Pictures:
+        """Exposes many pictures in one call: [pictures, height, width] or [pictures, height, width, 3].
+
+        starts, exposures: one for all pictures, or one for each. functions: a list, of each picture those that render()
+        takes. What is a list has one length. The rest is as of render(), and so are the pictures, but that small ones
+        (16384 values) with one function each are added up on the processor, in double, in one pass over the capture.
+        progress: called with (pictures done, of how many).
+
+        Raises UsageError where lists have different lengths or are empty; as render() does.
+        """
+        lists = {name: list(each) if name == "functions" or is_list(each) else [each]
+                 for name, each in (("functions", functions), ("starts", starts), ("exposures", exposures))
+                 if each is not None}
+        counts = {len(each) for each in lists.values()} - {1} or {1}
+        if len(counts) > 1 or 0 in counts:
+            said = ", ".join(f"{len(each)} {name}" for name, each in lists.items())
+            raise UsageError(f"there are {said}: lists have one length, or one for all pictures")
+        count = counts.pop()
+        first = {name: each[0] for name, each in lists.items()}
+        asked = self._exposure(first.get("functions"), mask, first.get("starts"), first.get("exposures"), shutter,
+                               shutter_error, feather, delay, normalize, gain, unmapped, strict)
+        words = {name: [time_word(each, f"{name}[{i}]") for i, each in enumerate(lists.get(name, []))]
+                 for name in ("starts", "exposures")}
+        held = [{tag: function._held for tag, function in self._functions(each, mask is not None).items()}
+                for each in lists.get("functions", [])]
+        box = None if region is None else box_of(region, "region")
+        array, bounds, told = _nutik.render_many(self._held, asked, count, words["starts"], words["exposures"], held,
+                                                 self._output(codes, dtype, transfer, negative), box,
+                                                 None if precision is None else str(precision), progress)
+        warn(told)
+        return Pictures._of(array, bounds)
 
     def trace(self, x: Optional[int] = None, y: Optional[int] = None, *, tag: Optional[int] = None,
               functions: Optional[Functions] = None, mask: Optional[MaskLike] = None, start: Optional[Time] = None,
@@ -357,9 +399,9 @@ class Capture:
     def _exposure(self, functions: Optional[Functions], mask: Optional[MaskLike], start: Optional[Time],
                   exposure: Optional[Time], shutter: Optional[str], shutter_error: Optional[float],
                   feather: Union[str, float, None], delay: Optional[DelayLike], normalize: str, gain: float,
-                  unmapped: Optional[str]) -> _nutik.Exposure:
+                  unmapped: Optional[str], strict: bool = False) -> _nutik.Exposure:
         stated = dict(start=start, exposure=exposure, shutter=shutter, shutter_error=shutter_error,
-                      normalize=normalize, gain=gain, unmapped=unmapped)
+                      normalize=normalize, gain=gain, unmapped=unmapped, strict=strict)
         if functions is None:
             if mask is not None:
                 raise UsageError("a mask goes with functions=, not with a plain interval")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from copy import deepcopy
+from dataclasses import dataclass
 from io import BytesIO
 from os import PathLike, remove, replace
 from os.path import exists, join
@@ -16,6 +17,33 @@ import numpy as np
 from . import _nutik
 from ._nutik import OutputError, UsageError
 from ._words import Array, Path, path_word
+
+
+def _bounds(light: Any, pictures: Array) -> Array:
+    """[pictures] of what is handed over: of float32 with half a step of the largest light of each."""
+    if pictures.dtype != np.float32:
+        return np.broadcast_to(light, len(pictures))
+    largest = np.abs(pictures).max(axis=tuple(range(1, pictures.ndim)), initial=0.0).astype(np.float64)
+    return light + largest * 2.0 ** -24 + 2.0 ** -150  # the second: where floats are subnormal
+
+
+@dataclass(frozen=True, eq=False)
+class Pictures:
+    """Many pictures of a capture."""
+
+    array: Array         # [pictures, height, width] or [pictures, height, width, 3]: light or codes
+    error_bounds: Array  # [pictures] float64: as error_bound of a Picture; NaN of the reference
+
+    @classmethod
+    def _of(cls, array: Array, bounds: Array) -> Pictures:
+        array.flags.writeable = False
+        return cls(array, _bounds(bounds, array))
+
+    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> Array:
+        return self.array if dtype is None and not copy else self.array.astype(dtype or self.array.dtype, copy=bool(copy))
+
+    def __len__(self) -> int:
+        return len(self.array)
 
 
 class Picture:
@@ -59,10 +87,7 @@ class Picture:
         them, of float32 with half a step of that for the largest light. All else was known before anything was computed
         (docs/explanation/accuracy.md). None of a plate, and of the reference."""
         bound = self._held.figures.get("error_bound")
-        if bound is None or self.dtype != np.float32:
-            return None if bound is None else bound["light"]
-        largest = max(float(self._array.max()), -float(self._array.min()))
-        return bound["light"] + largest * 2.0 ** -24 + 2.0 ** -150  # the second: where floats are subnormal
+        return None if bound is None else float(_bounds(bound["light"], self._array[None])[0])
 
     @property
     def error_bound_in_codes(self) -> Optional[float]:

@@ -14,8 +14,8 @@ import numpy as np
 from . import _nutik
 from ._captures import Capture
 from ._nutik import InputError, UsageError
-from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, path_word, reading, seconds_of,
-                     settings_of, time_ns, times_ns, warn, whole)
+from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, is_list, path_word, reading,
+                     seconds_of, settings_of, time_ns, times_ns, warn, whole)
 
 
 def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_angle: Optional[Number] = None,
@@ -262,13 +262,12 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
         times = list(times)
         if times and isinstance(times[0], (np.datetime64, datetime.datetime)):
             times = [time - times[0] for time in times]  # dates: only what lies between them counts
-    is_list = not isinstance(exposures, str) and hasattr(exposures, "__iter__")
     starts = [] if times is None else times_ns(times, "times").tolist()
     if times is not None and count is not None and len(starts) != count:
         raise UsageError(f"there are {len(starts)} times for {count} pictures")
     if exposures is None:
         return starts, [], None
-    if not is_list:
+    if not is_list(exposures):
         return starts, [], _lasting(time_ns(cast(Time, exposures), "exposures"), "exposures", exposures)
     if times is None:
         raise UsageError("exposures= of each picture need times=, when each begins; with rate= give one for all")

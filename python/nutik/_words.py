@@ -89,6 +89,11 @@ def as_file(source: Any, name: str) -> Iterator[str]:
         yield path
 
 
+def is_list(value: Any) -> bool:
+    """Whether it is several, and no word."""
+    return not isinstance(value, str) and hasattr(value, "__iter__")
+
+
 def whole(array: Any, what: str) -> Any:
     """The same, unless it is an array with masked values."""
     if np.ma.is_masked(array):
