@@ -37,6 +37,13 @@ struct ClipTiming {
   [[nodiscard]] bool is_known() const { return rate || !starts_ns.empty() || !exposures.empty(); }
 };
 
+// Of a clip with sound: when a player of its file shows the first and the last picture, and how long it is from the one to
+// the other as they were filmed (what opens the clip for a capture fills that in).
+struct ClipSound {
+  double first_s = 0, last_s = 0;
+  double filmed_s = 0;
+};
+
 struct ClipInfo {
   CaptureFormat format;  // the noise model is left at lossless
   ClipTiming timing;
@@ -46,6 +53,7 @@ struct ClipInfo {
   std::vector<Note> notes;
   std::vector<Fact> facts;  // what samples are taken for, each with who said it
   std::optional<PartOfClip> part = std::nullopt;  // which pictures these are, if not all of a clip's
+  std::optional<ClipSound> sound = std::nullopt;  // none: it has none
 };
 
 // How YUV becomes RGB, which codes stand for black and white, and where samples of chroma lie that pixels share, among

@@ -194,6 +194,7 @@ class ClipPart final : public Clip {
     if (first_ > 0 && (options.rate || info.timing.is_known()))
       info_.part->start_ns = Starts(name_, info, options).of_part(first_);
     keep_times();
+    info_.sound.reset();  // of the whole clip
     if (count > 0) info_.sample_count = end_ - first_;
     info_.facts.push_back({info_.part->text(end_ == kMaxSamples ? std::nullopt : std::optional(end_)),
                            Origin::stated, options.from ? Setting::from : Setting::to});

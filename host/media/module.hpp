@@ -26,7 +26,6 @@ struct VideoModule {
   std::unique_ptr<Clip> (*open)(const std::filesystem::path& path, const ClipOptions& options);
   std::unique_ptr<VideoWriter> (*open_writer)(const std::filesystem::path& path, const VideoFormat& format,
                                               const VideoCodec& codec);
-  std::optional<ClipSound> (*sound_of_clip)(const std::filesystem::path& path);  // none: it has none
 };
 
 // What nutik-stills.so gives the program.

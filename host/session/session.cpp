@@ -77,6 +77,7 @@ class Session::Implementation {
   [[nodiscard]] const CaptureFormat& format() const { return format_; }
   [[nodiscard]] const Timeline& timeline() const { return reader_ ? reader_->timeline() : *announced_; }
   [[nodiscard]] const std::vector<Fact>& facts() const { return facts_; }
+  [[nodiscard]] const std::optional<ClipSound>& sound() const { return sound_; }
   [[nodiscard]] const std::vector<Note>& notes() const { return notes_; }
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
   [[nodiscard]] tik::Reader& capture();
@@ -126,6 +127,7 @@ class Session::Implementation {
   bool is_clip_;
   CaptureFormat format_;
   std::vector<Fact> facts_;
+  std::optional<ClipSound> sound_;
   std::vector<Note> notes_;
   std::vector<std::string> warnings_;
   CaptureErrors errors_;
@@ -179,6 +181,7 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
         terms.progress, terms.stop);
     reader_ = std::move(scratch.reader);
     facts_ = std::move(scratch.encoded.facts);
+    sound_ = scratch.encoded.sound;
     notes_ = std::move(scratch.encoded.notes);
     warnings_ = std::move(scratch.encoded.warnings);
   } else {
@@ -186,6 +189,7 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
     clip_ = open_clip_source(source, memory(), terms.progress, terms.stop);
     announced_ = clip_->timeline(clip_->announced_samples());
     facts_ = clip_->facts(*announced_);
+    sound_ = clip_->sound();
     notes_ = clip_->all_notes(*announced_);
     if (devices_->has_several()) {
       notes_.emplace_back(
@@ -490,6 +494,7 @@ bool Session::is_clip() const { return implementation_->is_clip(); }
 const CaptureFormat& Session::format() const { return implementation_->format(); }
 const Timeline& Session::timeline() const { return implementation_->timeline(); }
 const std::vector<Fact>& Session::facts() const { return implementation_->facts(); }
+const std::optional<ClipSound>& Session::sound() const { return implementation_->sound(); }
 const std::vector<Note>& Session::notes() const { return implementation_->notes(); }
 const std::vector<std::string>& Session::warnings() const { return implementation_->warnings(); }
 std::uint32_t Session::waiting_pictures(ValueType type) const {

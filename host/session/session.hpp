@@ -101,6 +101,8 @@ class Session {
   [[nodiscard]] const Timeline& timeline() const;
   // What a clip is taken for, each with who said it: its times first. None of a .tik, whose header has them.
   [[nodiscard]] const std::vector<Fact>& facts() const;
+  // Where a clip's sound lies beside its pictures; none where it has none.
+  [[nodiscard]] const std::optional<ClipSound>& sound() const;
   // On a clip: what a person should know, and what is doubtful about the capture made from it. Whole sentences.
   [[nodiscard]] const std::vector<Note>& notes() const;
   [[nodiscard]] const std::vector<std::string>& warnings() const;

@@ -129,7 +129,7 @@ TEST_F(FilmKinds, KeepHighDynamicRange) {
   NEEDS_FFMPEG();
   for (const auto& [curve, name] : {std::pair{"arib-std-b67", "hlg"}, {"smpte2084", "pq"}}) {
     test::make(scratch_,
-               "-f lavfi -i gradients=s=320x180:d=1:r=25 -frames:v 5 -c:v ffv1 -pix_fmt yuv420p10le "
+               "-f lavfi -i gradients=seed=1:s=320x180:d=1:r=25 -frames:v 5 -c:v ffv1 -pix_fmt yuv420p10le "
                "-colorspace bt2020nc "
                "-color_primaries bt2020 -color_trc " +
                    std::string(curve) + " -color_range tv hdr.mkv");
@@ -205,6 +205,36 @@ TEST_F(FilmSoundTest, LiesOnItsFrame) {
             .out;
     EXPECT_NEAR(std::stod(length), 2.5, 0.1);
   }
+}
+
+// What is taken of a clip's pictures moves no sound: fields, a stream that was cut in its middle, one that ends at damage,
+// samples between, and a sound that begins behind the pictures.
+TEST_F(FilmSoundTest, LiesOnItsFrameWhateverIsTakenOfTheClip) {
+  NEEDS_FFMPEG();
+  const auto lies_at = [&](double at, const std::string& words, const std::string& film, double rate) {
+    SCOPED_TRACE(words);
+    const auto made = make("video --out-fps " + format("{}", rate) + " --out-angle 360 " + words + " " + film);
+    EXPECT_EQ((made.out + made.err).find("sound is left out"), std::string::npos) << made.err;
+    const auto [frame, sound] = clap(film, rate);
+    EXPECT_NEAR(frame, at, 1.0);
+    EXPECT_NEAR(sound, frame, 1.0);
+  };
+  make_clap("clip.mp4", "aac");
+  lies_at(100, "--deinterlace fields clip.mp4", "fields.mp4", 50);
+  lies_at(50, "--between 3 clip.mp4", "between.mp4", 25);
+  ffmpeg("-i clip.mp4 -c:v mpeg2video -g 12 -bf 2 -q:v 2 -c:a mp2 whole.ts");
+  // Broadcasts are cut anywhere, between packets of 188 bytes.
+  const std::string whole = file("whole.ts");
+  scratch_.write("cut.ts", whole.substr(whole.size() / 5 / 188 * 188));
+  const auto late = clap("cut.ts", 25);
+  lies_at(late.first, "cut.ts", "cut.mp4", 25);
+  ffmpeg("-i clip.mp4 -c:v ffv1 -g 1 -slicecrc 1 -c:a copy plain.mkv");
+  std::string damaged = file("plain.mkv");
+  damaged.replace(damaged.size() - damaged.size() / 8, 400, 400, '\xA5');
+  scratch_.write("damaged.mkv", damaged);
+  lies_at(50, "--as-far-as-it-goes damaged.mkv", "damaged.mp4", 25);
+  ffmpeg("-i clip.mp4 -itsoffset 1.5 -ss 1.5 -i clip.mp4 -map 0:v -map 1:a -c:v copy -c:a ac3 late.mkv");
+  for (const char* film : {"late.avi", "late.mp4", "late.mov"}) lies_at(50, "late.mkv", film, 25);
 }
 
 TEST_F(FilmSoundTest, IsLeftOutAloudOrStretched) {

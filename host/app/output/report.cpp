@@ -28,8 +28,7 @@ struct FunctionTexts {
   FunctionTexts(const ExposureFigures& figures, Text text) {
     constexpr std::size_t kMax = 6;
     const std::size_t shown = std::min(figures.functions.size(), kMax);
-    std::transform(figures.functions.begin(), figures.functions.begin() + shown, std::back_inserter(texts),
-                   text);
+    std::ranges::transform(std::span(figures.functions).first(shown), std::back_inserter(texts), text);
     left_out = figures.functions.size() - shown;
   }
 

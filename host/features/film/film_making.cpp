@@ -46,10 +46,8 @@ namespace {
 // The part of the clip's sound that is heard with these frames; says in `notes` why there is none.
 std::optional<FilmSound> film_sound(const Session& session, const FramesRequest& request, const Frames& frames,
                                     const VideoOutput& output, FilmSoundWish wish, std::vector<std::string>& notes) {
-  const std::filesystem::path& clip = session.source().path;
-  if (wish == FilmSoundWish::none || !session.is_clip() || session.source().clip.raw) return {};
-  const auto found = clip_sound(clip);
-  if (!found) return {};
+  const auto& found = session.sound();
+  if (wish == FilmSoundWish::none || !found) return {};
   const auto left_out = [&](const std::string& why) {
     notes.push_back(format("the clip's sound is left out: {}", why));
     return std::nullopt;
@@ -58,12 +56,8 @@ std::optional<FilmSound> film_sound(const Session& session, const FramesRequest&
   if (frames.curve) return left_out("the film's speed changes");
   if (frames.numbers.back() - frames.numbers.front() + 1 != frames.numbers.size())
     return left_out("the film has not all of its frames");
-  const Timeline& timeline = session.timeline();
-  const std::uint64_t last = timeline.sample_count() - 1;
-  const double filmed_s = static_cast<double>(timeline.start_ns(last) - timeline.start_ns(0)) * 1e-9;
-  if (!(filmed_s > 0)) return left_out("the clip is too short");
-  const double file_s = (found->last_s - found->first_s) / filmed_s;  // of the file in a filmed second
-  FilmSound sound{clip, 0.0, request.speed.value() * file_s,
+  const double file_s = (found->last_s - found->first_s) / found->filmed_s;  // of the file in a filmed second
+  FilmSound sound{session.source().path, 0.0, request.speed.value() * file_s,
                   static_cast<double>(frames.numbers.size()) / request.rate.value()};
   sound.start_s = found->first_s + file_s * static_cast<double>(frames.times.start_ns(frames.numbers.front())) * 1e-9;
   // Where both run as fast but for what half a frame comes to at the film's end, packets stay as they are.

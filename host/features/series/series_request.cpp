@@ -98,7 +98,7 @@ std::optional<std::uint64_t> take_number(std::string_view& text) {
 }  // namespace
 
 FrameRanges FrameRanges::parse(std::string_view text, std::string_view what) {
-  const auto fail = [&] [[noreturn]] (std::string_view part) {
+  const auto fail = [&](std::string_view part) {
     throw UsageError(format("{} '{}': '{}' is no range of frames; write numbers from 0 on: 7, 1-100, 1-100x2 for "
                             "every second, several with commas between",
                             what, text, part));

@@ -216,7 +216,7 @@ StatedWish StatedWish::parse(std::string_view text) {
 }
 
 StatedFreedom StatedFreedom::parse(std::string_view text, const FunctionTemplate& functions) {
-  const auto fail = [&] [[noreturn]] (const std::string& why) {
+  const auto fail = [&](const std::string& why) {
     throw UsageError(format("the range {}: {}", nutik::quoted(text), why));
   };
   const auto equals = text.find('='), dots = text.find("..", equals == std::string_view::npos ? 0 : equals);

@@ -47,6 +47,10 @@ ClipInfo of_fields(ClipInfo&& info) {
         is_last ? (k > 0 ? frames[k] - frames[k - 1] : 2) : frames[k + 1] - frames[k];
     timing.starts_ns.push_back(frames[k] + period_ns / 2);
   }
+  if (info.sound && info.sample_count > 1) {
+    ClipSound& sound = *info.sound;
+    sound.last_s += (sound.last_s - sound.first_s) / static_cast<double>(info.sample_count - 1) / 2;
+  }
   info.sample_count *= 2;
   return std::move(info);
 }

@@ -12,7 +12,6 @@
 #include "media/videos/picture_decoder.hpp"
 #include "media/videos/pixels.hpp"
 #include "media/videos/probe.hpp"
-#include "media/videos/sound.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::videos {
@@ -145,6 +144,7 @@ class LibavClip final : public Clip {
     info_.notes = probe.notes;
     info_.timing = probe.timing;
     info_.sample_count = probe.sample_count;
+    info_.sound = probe.sound;
     const AVCodecParameters& parameters = *decoder_.stream().codecpar;
     info_.decoder_bytes = (static_cast<std::uint64_t>(decoder_.threads()) + kept_pictures(parameters)) *
                           decoded_bytes(parameters);
@@ -325,7 +325,6 @@ std::unique_ptr<Clip> open_video_clip(const std::filesystem::path& path, const C
 
 // What nutik-videos.so gives the program (media/module.hpp).
 extern "C" __attribute__((visibility("default"))) const nutik::VideoModule nutik_video_module{
-    nutik::use_shared_state, nutik::videos::open_video_clip, nutik::videos::open_libav_writer,
-    nutik::videos::sound_of_clip};
+    nutik::use_shared_state, nutik::videos::open_video_clip, nutik::videos::open_libav_writer};
 
 extern "C" __attribute__((visibility("default"))) const char nutik_module_version[] = NUTIK_VERSION;

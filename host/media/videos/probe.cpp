@@ -14,6 +14,7 @@
 #include "media/videos/phantom_packing.hpp"
 #include "media/videos/picture_decoder.hpp"
 #include "media/videos/picture_times.hpp"
+#include "media/videos/sound.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::videos {
@@ -437,6 +438,10 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   }
   if (lost) result.notes.push_back(warning_of(std::move(*lost)));
   const std::vector<std::int64_t> times = picture_times(path, opened, packets, result);
+  if (times.size() > 1 && best_sound(*opened.format) >= 0) {
+    const double tick_s = av_q2d(stream.time_base);
+    result.sound = ClipSound{static_cast<double>(times.front()) * tick_s, static_cast<double>(times.back()) * tick_s};
+  }
   if (auto doubt = doubt_about_rate(*opened.format, stream, MappedFile(path).bytes())) {
     result.timing.rate_doubt = std::move(*doubt);
   } else {

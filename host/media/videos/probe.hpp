@@ -32,6 +32,7 @@ struct Probe {
   std::string transfer_name;  // that the file has for its function, known here or not; empty: it has none
   ClipTiming timing;
   std::uint64_t sample_count = 0;
+  std::optional<ClipSound> sound;
   PictureDecoder::Packets packets;
   std::optional<Transfer> transfer;   // where the file names one that is known here
   std::vector<Note> notes;            // what a person should know, whole sentences

@@ -18,16 +18,9 @@ struct SoundEncoder {
 
 constexpr SoundEncoder kEncoders[] = {{"avi", "pcm_s16le", "s16"},
                                       {"matroska", "flac", "s16"},
+                                      {"mov", "pcm_s24le", "s32"},
                                       {"webm", "libopus", "flt", 48'000},
                                       {"", "aac", "fltp", 48'000}};
-
-int best_sound(const AVFormatContext& file) {
-  return av_find_best_stream(const_cast<AVFormatContext*>(&file), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0);
-}
-
-double seconds(std::int64_t time, const AVStream& stream) {
-  return static_cast<double>(time) * av_q2d(stream.time_base);
-}
 
 class LibavSoundWriter final : public SoundWriter {
  public:
@@ -43,7 +36,9 @@ class LibavSoundWriter final : public SoundWriter {
     from_ = clip_.format->streams[found];
     const AVCodecParameters& codec = *from_->codecpar;
     const bool is_compressed = av_get_exact_bits_per_sample(codec.codec_id) == 0;
-    is_copied_ = sound_.speed == 1.0 && is_compressed && holds(codec.codec_id);
+    // An .avi does not say when sound begins: silence in front of it has to be encoded.
+    is_copied_ = sound_.speed == 1.0 && is_compressed && std::string_view(film.oformat->name) != "avi" &&
+                 holds(codec.codec_id);
     if (!is_copied_) {
       open_decoder();
       open_encoder();
@@ -239,25 +234,8 @@ class LibavSoundWriter final : public SoundWriter {
 
 }  // namespace
 
-std::optional<ClipSound> sound_of_clip(const std::filesystem::path& path) {
-  OpenedVideo opened;
-  try {
-    opened = open_video(path, std::nullopt);
-  } catch (const InputError&) {
-    return std::nullopt;  // stills, or a camera's file
-  }
-  if (best_sound(*opened.format) < 0) return std::nullopt;
-  const PacketPointer packet(allocated(av_packet_alloc()));
-  std::int64_t first = INT64_MAX, last = INT64_MIN;
-  for (; av_read_frame(opened.format.get(), packet.get()) >= 0; av_packet_unref(packet.get())) {
-    if (packet->stream_index != opened.stream || packet->pts == AV_NOPTS_VALUE) continue;
-    if ((packet->flags & AV_PKT_FLAG_DISCARD) != 0) continue;
-    first = std::min(first, packet->pts);
-    last = std::max(last, packet->pts);
-  }
-  const AVStream& pictures = *opened.format->streams[opened.stream];
-  if (first >= last) return std::nullopt;
-  return ClipSound{seconds(first, pictures), seconds(last, pictures)};
+int best_sound(const AVFormatContext& file) {
+  return av_find_best_stream(const_cast<AVFormatContext*>(&file), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0);
 }
 
 std::unique_ptr<SoundWriter> open_sound(const FilmSound& sound, AVFormatContext& film, const std::string& name) {

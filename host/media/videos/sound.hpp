@@ -12,8 +12,8 @@
 
 namespace nutik::videos {
 
-// What a clip has to be heard; none where there is nothing.
-[[nodiscard]] std::optional<ClipSound> sound_of_clip(const std::filesystem::path& path);
+// The stream of sound that is played with the pictures, or a number below 0.
+[[nodiscard]] int best_sound(const AVFormatContext& file);
 
 class SoundWriter {
  public:

@@ -151,10 +151,6 @@ int codec_setting(const VideoCodec& codec, const std::optional<std::uint32_t>& c
   return static_cast<int>(std::lround(scale.best + share * (scale.worst - scale.best)));
 }
 
-std::optional<ClipSound> clip_sound(const std::filesystem::path& clip) {
-  return video_module().sound_of_clip(clip);
-}
-
 std::unique_ptr<VideoWriter> open_video_writer(const std::filesystem::path& path, const VideoFormat& format,
                                                const VideoCodec& codec) {
   return video_module().open_writer(path, format, codec);

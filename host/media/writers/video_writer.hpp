@@ -45,14 +45,6 @@ struct VideoCodec {
 [[nodiscard]] int codec_setting(const VideoCodec& codec, const std::optional<std::uint32_t>& crf,
                                 const std::optional<std::uint32_t>& quality);
 
-// When the first and the last picture of a clip with sound are shown, in seconds of the file.
-struct ClipSound {
-  double first_s, last_s;
-};
-
-// None of what is no video, or has no sound.
-[[nodiscard]] std::optional<ClipSound> clip_sound(const std::filesystem::path& clip);
-
 // A part of a clip's sound, in a film.
 struct FilmSound {
   std::filesystem::path clip;

@@ -209,6 +209,14 @@ std::vector<Fact> ClipSource::facts(const Timeline& timeline) const {
   return facts;
 }
 
+std::optional<ClipSound> ClipSource::sound() const {
+  std::optional<ClipSound> sound = clip->info().sound;
+  if (!sound || announced_samples() < 2) return {};
+  const Timeline all = timeline(announced_samples());
+  sound->filmed_s = static_cast<double>(all.start_ns(all.sample_count() - 1) - all.start_ns(0)) * 1e-9;
+  return sound->filmed_s > 0 && sound->last_s > sound->first_s ? sound : std::nullopt;
+}
+
 std::vector<Note> ClipSource::all_notes(const Timeline& timeline) const {
   std::vector<Note> all = notes;
   const ClipTiming& timing = clip->info().timing;

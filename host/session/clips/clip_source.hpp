@@ -38,6 +38,9 @@ struct ClipSource {
   // Everything that was read, stated or assumed of the clip, its times included, each with its origin.
   [[nodiscard]] std::vector<Fact> facts(const Timeline& timeline) const;
 
+  // None where it has none, or all pictures are at one time.
+  [[nodiscard]] std::optional<ClipSound> sound() const;
+
   // `notes`, and that the rate may be one of playing: slow-motion files state that.
   [[nodiscard]] std::vector<Note> all_notes(const Timeline& timeline) const;
 

@@ -109,7 +109,7 @@ EncodedCapture Encoding::run(const ReportedProgress& progress, const std::stop_t
   std::vector<Note> notes = source_.all_notes(timeline);
   return {source_.capture,  std::move(timeline), writer_->bytes_written(),
           std::move(facts), std::move(notes),    warnings(samples),
-          source_.camera};
+          source_.camera,   source_.sound()};
 }
 
 std::vector<std::string> Encoding::warnings(std::uint64_t samples) const {

@@ -30,6 +30,7 @@ struct EncodedCapture {
   std::vector<Note> notes;            // on the clip
   std::vector<std::string> warnings;  // what is doubtful about the capture, whole sentences
   std::optional<Shared<CameraPath>> camera = std::nullopt;  // of pictures that were aligned
+  std::optional<ClipSound> sound = std::nullopt;
 };
 
 // Reads the whole clip; `progress` counts samples. Throws InputError if the clip has no sample or unusable times,
