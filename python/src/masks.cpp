@@ -49,8 +49,7 @@ HeldMask feathered_mask(const HeldMask& held, const std::string& feather) {
   if (held.mask->is_soft())
     throw UsageError(
         "feather= blends a mask of tags along its edges; one of layers says itself how it is blended");
-  const Unlocked released;
-  return {Shared(feathered(*held.mask, how))};
+  return without_lock([&](const Stopping& stopping) { return HeldMask{Shared(feathered(*held.mask, how, stopping.stop))}; });
 }
 
 std::vector<py::ssize_t> axes(const Mask& mask) {

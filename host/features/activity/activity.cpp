@@ -59,8 +59,8 @@ Activity activity_of(CaptureSource& capture, const ActivityOptions& options,
   Activity activity(capture.format(), options);
   for_each_block(capture, [&](const BlockView& block) {
     const BlockExtent& extent = block.extent();
-    activity.add(block, [&](std::uint32_t y) {
-      const std::uint64_t samples = std::uint64_t{extent.sample_count} * y / capture.format().shape.height;
+    activity.add(block, [&](std::uint32_t rows) {
+      const std::uint64_t samples = std::uint64_t{extent.sample_count} * rows / capture.format().shape.height;
       if (progress) progress(extent.first_sample + samples, capture.timeline().sample_count());
     });
   });
