@@ -19,6 +19,7 @@ may use one capture.
 """
 
 from ._captures import Capture, Trace
+from ._commands import batch, check, contact, noise, recover, retime, validate, video
 from ._finds import Activity, Plate, Solution, SolvedWish, Study
 from ._functions import Function, boxcar, fit, parse_functions, read_functions, shutter, write_functions
 from ._masks import Mask, read_mask
@@ -30,7 +31,7 @@ from ._words import FileMissing, NutikNote, NutikWarning, WrongType
 __all__ = [
     "Activity", "Capture", "Device", "DeviceError", "Error", "FileMissing", "Function", "ImpreciseError",
     "InputError", "Mask", "MemoryTooLittle", "NutikNote", "NutikWarning", "OutputError", "Picture", "Pictures",
-    "Plate", "Solution", "SolvedWish", "Study", "Trace", "UsageError", "WrongType", "__version__", "boxcar",
-    "devices", "encode", "fit", "join", "open", "parse_functions", "read_functions", "read_mask", "shutter",
-    "write_functions",
+    "Plate", "Solution", "SolvedWish", "Study", "Trace", "UsageError", "WrongType", "__version__", "batch",
+    "boxcar", "check", "contact", "devices", "encode", "fit", "join", "noise", "open", "parse_functions",
+    "read_functions", "read_mask", "recover", "retime", "shutter", "validate", "video", "write_functions",
 ]

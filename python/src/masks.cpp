@@ -35,8 +35,7 @@ HeldMask of_layers(const std::map<std::uint8_t, Codes<std::uint16_t>>& shares, s
   std::vector<MaskLayer> layers;
   for (const auto& [tag, codes] : shares)
     layers.push_back({tag, format("layer {}", tag), picture_of(codes, ValueType::code16, kWholeShare)});
-  const Unlocked released;
-  return {Shared(mask_of_layers(layers, rest))};
+  return without_lock([&](const Stopping& stopping) { return HeldMask{Shared(mask_of_layers(layers, rest, stopping.stop))}; });
 }
 
 HeldMask read_mask(const std::string& path, std::uint8_t rest) {

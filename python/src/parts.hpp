@@ -81,6 +81,7 @@ struct AskedExposure {
 [[nodiscard]] OutputFormat output_of(const Settings& settings, const CaptureFormat& capture);
 [[nodiscard]] py::dict figures_of(const ExposedPicture& exposed);
 
+void bind_commands(py::module_& module);
 void bind_captures(py::module_& module);
 void bind_functions(py::module_& module);
 void bind_masks(py::module_& module);
