@@ -56,7 +56,7 @@ WORKS = dict(
     check=lambda told: nutik.check(folder + "/noise.tik", progress=told),
     contact=lambda told: nutik.contact(folder + "/noise.tik", folder + "/sheet.png", exposure=0.01, overwrite=True),
     noise=lambda told: nutik.noise(folder + "/still", transfer="linear", output=folder + "/camera.noise", overwrite=True),
-    recover=lambda told: nutik.recover(folder + "/noise.tik", folder + "/whole.tik", overwrite=True),
+    recover=lambda told: nutik.recover(folder + "/cut.tik", folder + "/whole.tik", overwrite=True),
     retime=lambda told: nutik.retime(folder + "/noise.tik", folder + "/slow.tik", rate=24, overwrite=True),
     validate=lambda told: nutik.validate(folder + "/noise.tik", start=0, exposure=0.03, runs=3, progress=told),
     video=lambda told: nutik.video(folder + "/noise.tik", folder + "/film.mp4", out_fps=960, overwrite=True, progress=told),
@@ -65,6 +65,9 @@ still = np.linspace(20, 230, 4096).reshape(64, 64) + np.random.default_rng(2).no
 def prepare():
     of_noise()
     of_box()
+    nutik.encode(box, folder + "/blocks.tik", rate=960, block_samples=16)
+    with open(folder + "/blocks.tik", "rb") as whole, open(folder + "/cut.tik", "wb") as cut:
+        cut.write(whole.read()[:-20_000])
     os.mkdir(folder + "/still")
     for k, picture in enumerate(np.clip(still, 0, 255).astype(np.uint8)):
         with open(f"{{folder}}/still/{{k:03}}.pgm", "wb") as file:
