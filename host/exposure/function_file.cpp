@@ -166,7 +166,7 @@ class Parser {
       const std::size_t rest = peek() == ',' ? behind_blanks(at_ + 1) : at_;
       const bool is_split = word_end(rest) > rest && text_[behind_blanks(word_end(rest))] == ':';
       fail_at_other("where the ':' between time and gain should stand",
-                    is_split ? "; a time is one run of digits, without a unit" : "");
+                    is_split ? "; a time is one word: 10000000 or 10ms" : "");
     }
     ++at_;
     skip_blanks();
@@ -207,7 +207,7 @@ class Parser {
       fail(at,
            format(
                "{} is neither a number nor a name; a name has letters, digits and _, and a time's may go on "
-               "with +NANOSECONDS",
+               "with +TIME",
                quoted(word)));
     }
     Named named;

@@ -107,10 +107,14 @@ Renderer& Devices::renderer() {
   return *starting_.get();
 }
 
-OpenClRenderer& Devices::opencl() {
-  if (auto* renderer = dynamic_cast<OpenClRenderer*>(&this->renderer())) return *renderer;
-  if (auto* several = dynamic_cast<DeviceSuccession*>(&this->renderer())) return *several->current();
-  if (has_several()) throw UsageError("several devices were asked for, and each is validated alone; name one of them", Advice{": `device 0`"});
+std::shared_ptr<OpenClRenderer> Devices::opencl() {
+  static_cast<void>(renderer());
+  if (auto alone = std::dynamic_pointer_cast<OpenClRenderer>(starting_.get())) return alone;
+  if (const auto* several = dynamic_cast<const DeviceSuccession*>(starting_.get().get())) return several->current();
+  if (has_several()) {
+    throw UsageError("several devices were asked for, and each is validated alone; name one of them",
+                     Advice{": `device 0`"});
+  }
   throw UsageError("the reference is no OpenCL device");
 }
 

@@ -66,7 +66,7 @@ class Devices {
   // Wait until the renderer has started. Throw DeviceError where none has the stated name or it cannot do what is asked;
   // opencl() throws UsageError if the reference or several were asked for.
   [[nodiscard]] Renderer& renderer();
-  [[nodiscard]] OpenClRenderer& opencl();
+  [[nodiscard]] std::shared_ptr<OpenClRenderer> opencl();  // stays when another device takes over
   // How many devices pictures are shared out among (opencl/device_team.hpp). Waits only where the request may mean
   // several.
   [[nodiscard]] std::size_t count();

@@ -464,7 +464,8 @@ ValidatedExposure Session::Implementation::validate(const ExposureRequest& reque
     MemoryNeeds needs = picture_needs(format_.shape, ValueType::light64);
     needs.add("a block", largest_block(*reader_));
     needs.rest_of(left);
-    return nutik::validate(planned, *reader_, output, devices_->opencl(), runs,
+    const auto device = devices_->opencl();
+    return nutik::validate(planned, *reader_, output, *device, runs,
                            progress ? progress : ReportedProgress(ignored), left);
   });
   std::vector<std::string> warnings = std::move(planned.warnings);

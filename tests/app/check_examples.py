@@ -152,17 +152,18 @@ def main():
                        PATH=f"{Path(arguments.program).parent}:{os.environ['PATH']}")
 
     def help_of(*words):
-        return subprocess.run([arguments.program, *words, "--help"], env=environment, text=True, check=True,
+        return subprocess.run([arguments.program, *words], env=environment, text=True, check=True,
                               capture_output=True).stdout
 
-    commands = re.findall(r"^  ([a-z]+) {2,}[A-Z]", help_of(), re.M)
+    overview = help_of("--help")
+    commands = re.findall(r"^  ([a-z]+) {2,}[A-Z]", overview, re.M) + re.search("Also: (.*), help", overview)[1].split(", ")
     assert len(commands) >= 18, commands
 
     seen = []  # pictures that were judged
 
     def failures_of(command):
         """How many of a command's examples ran, and what went wrong with others."""
-        examples = [example for example in examples_of(help_of(command))
+        examples = [example for example in examples_of(help_of(command, "--help=all"))
                     if "man -l" not in example or shutil.which("man")]
         assert examples, command
         folder = arguments.work / command

@@ -79,7 +79,7 @@ def check_bash(program, work):
     offers("nutik-cl devices --json ", set())
     # What the table has, completion has: all options of all commands.
     for command in re.findall(r"^  ([a-z]+) {2,}[A-Z]", output(program, "--help"), re.M):
-        page = output(program, command, "--help")
+        page = output(program, command, "--help=all").split("\nFor experiments:")[0]
         offers(f"nutik-cl {command} --", set(re.findall(r"^(?:  -., |      )(--[a-z-]+)", page, re.M)) | {"--help"})
 
 
@@ -149,7 +149,7 @@ def check_man(program, work):
     for part in ("NAME", "SYNOPSIS", "--negative HOW", "nutik-cl clip.mp4 clip.tik", "EXIT STATUS", "NO_COLOR",
                  "spline:0=G,…,1=G", "'frames/*.png'"):
         expect(part in result.stdout, f"{part} is not on the page")
-    for name in re.findall(r"^(?:  -., |      )(--[a-z-]+)", output(program, "expose", "--help"), re.M):
+    for name in re.findall(r"^(?:  -., |      )(--[a-z-]+)", output(program, "expose", "--help=all"), re.M):
         expect(name in result.stdout, f"{name} is not on the page")
 
 

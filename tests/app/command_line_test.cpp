@@ -214,19 +214,38 @@ TEST_F(CommandLine, SaysWhereRateAndAngleComeFrom) {
 }
 
 TEST_F(CommandLine, HasHelpForEverything) {
-  expect_says(run("--help").out, "nutik-cl clip.mp4 clip.tik");
-  EXPECT_EQ(run("--version").out.rfind("nutik-cl ", 0), 0u);
-  for (const char* command :
-       {"encode", "expose", "info", "devices", "recover", "mask", "contact", "activity", "sweep"}) {
-    const ProgramResult result = make({command, "--help"});
-    expect_says(result.out, "Examples:");
-    std::size_t start = 0;
-    while (start < result.out.size()) {
-      const auto end = result.out.find('\n', start);
-      EXPECT_LE(end - start, 104u) << result.out.substr(start, end - start);  // 100 columns and some UTF-8
-      start = end + 1;
-    }
+  const std::string overview = run("--help").out;
+  expect_says(overview, "nutik-cl clip.mp4 clip.tik");
+  EXPECT_EQ(run("help").out, overview);
+  for (const char* words : {"--version", "-V", "version"}) EXPECT_EQ(run(words).out.rfind("nutik-cl ", 0), 0u);
+  std::vector<std::string> commands{"devices", "completion", "man"};
+  std::istringstream lines(overview);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("  ") && !line.starts_with("  nutik-cl")) commands.push_back(line.substr(2, line.find(' ', 2) - 2));
   }
+  EXPECT_EQ(commands.size(), 25u) << overview;
+  const auto expect_fits = [](const std::string& page) {
+    EXPECT_LE(std::ranges::count(page, '\n'), 40) << page;
+    std::istringstream read(page);
+    for (std::string line; std::getline(read, line);) {
+      EXPECT_LE(std::ranges::count_if(line, [](char c) { return (c & 0xC0) != 0x80; }), 80) << line;
+    }
+  };
+  expect_fits(overview);
+  for (const std::string& command : commands) {
+    SCOPED_TRACE(command);
+    const std::string page = make({command, "--help"}).out;
+    expect_fits(page);
+    EXPECT_EQ(make({"help", command}).out, page);
+    EXPECT_EQ(page.find("For experiments"), page.npos);
+    expect_says(make({command, "--help=all"}).out, "\nExamples:\n  ");
+  }
+  expect_says(run("expose --help=all").out, {"--tiles KIND", "--matrix NAME", "--memory SIZE"});
+  EXPECT_EQ(run("expose --help").out.find("--matrix"), std::string::npos);
+  expect_says(run("expose --help=source").out, "--matrix NAME");
+  EXPECT_EQ(run("expose --help=source").out.find("--memory"), std::string::npos);
+  expect_refused(2, {{"expose --help=sauce", "there is no help on 'sauce'; choose all, source, computing or output"},
+                     {"help exposse", "no command 'exposse'; did you mean expose?"}});
 }
 
 TEST_F(CommandLine, RecoversACutOffCapture) {

@@ -72,6 +72,18 @@ TEST_F(Habits, NamesStandardInput) {
   expect_says(piped("list.txt", "batch - clip.tik").err, "standard input holds the list already");
 }
 
+TEST_F(Habits, NoticesThatMaskAndFunctionsWereSwapped) {
+  expect_refused("-m two.fn -k mask.pgm clip.tik", 3, "were mask and functions swapped?");
+  expect_refused("-m two.fn -k two.fn clip.tik", 3, "It looks like gain functions; were mask and functions swapped?");
+}
+
+TEST_F(Habits, TakesTimesWithUnitsInFunctionFiles) {
+  scratch_.write("units.fn", "M0 [0s:1], [40ms:1], [40000001:0]\n");
+  make("-k units.fn --no-recipe clip.tik units.pfm");
+  make("-k one.fn --no-recipe clip.tik one.pfm");
+  EXPECT_EQ(test::read_file(scratch_ / "units.pfm"), test::read_file(scratch_ / "one.pfm"));
+}
+
 TEST_F(Habits, SuggestsWhatWasMeant) {
   expect_refused("--expo 10ms clip.tik", 2, "there is no option --expo; did you mean --exposure?");
   for (const auto& [words, said] : std::vector<std::pair<std::vector<std::string>, std::string>>{

@@ -181,16 +181,22 @@ TEST_F(SeveralDevices, EndWhereOneIsLost) {
 // Nobody named a device: the other one takes over, and makes the same picture or film.
 TEST_F(SeveralDevices, TakeOverFromOneThatFails) {
   for (const Words& words :
-       {Words{"expose", "--precision", "fixed", "-m", "mask.pgm", "-k", "two.fn", "clip.tik", "new.png"},
-        Words{"video", "--precision", "fixed", "--out-fps", "50", "plain.tik", "new.avi"}}) {
+       {Words{"expose", "--json", "--precision", "fixed", "-m", "mask.pgm", "-k", "two.fn", "clip.tik", "new.png"},
+        Words{"video", "--json", "--precision", "fixed", "--out-fps", "50", "plain.tik", "new.avi"}}) {
     SCOPED_TRACE(words.front());
     ASSERT_EQ(run(words).status, 0);
     const std::string whole = test::read_file(scratch_ / words.back());
     for (const char* call : {"start", "enqueue", "allocate", "wait"}) {
       for_each_fault(words, call, [&](const ProgramResult& result) {
         EXPECT_EQ(result.status, 0) << result.err;
-        EXPECT_TRUE(result.err.find(": device 0: " + name_) != std::string::npos ||
-                    result.err.find(": device 0, " + name_) != std::string::npos) << result.err;
+        // To people, and to scripts.
+        for (const auto& [text, is_said] : {std::pair(result.err, "warning: "), {result.out, "\"warnings\": [\n    \""}}) {
+          const auto said = text.find(is_said);
+          ASSERT_NE(said, std::string::npos) << text;
+          EXPECT_TRUE(text.find("device 0: " + name_, said) != std::string::npos ||
+                      text.find("device 0, " + name_, said) != std::string::npos)
+              << text;
+        }
         EXPECT_EQ(test::read_file(scratch_ / words.back()), whole);
       });
     }

@@ -70,7 +70,7 @@ TEST(FunctionTemplate, SaysWhatIsWrongWithANameAndWhere) {
            Mistake{"M0 [0:a.b], [5:0]", "f.fn:1:7: 'a.b' is neither a number nor a name"},
            Mistake{"M0 [0:a+1], [5:0]", "f.fn:1:7: 'a+1' is neither a number nor a name"},
            Mistake{"M0 [0:nan], [5:0]", "f.fn:1:7: 'nan' is neither a number nor a name"},
-           Mistake{"M0 [t+1ms:0]", "f.fn:1:5: "},
+           Mistake{"M0 [t+1m:0]", "f.fn:1:5: "},
            Mistake{"M0 [a:0], [a+5:a]", "f.fn:1:16: 'a' stands for a gain and for a time"},
            Mistake{"M0 [t+5:0], [t+5:1]", "f.fn:1:14: "},
            Mistake{"M0 [0:1 a]", "f.fn:1:9: "},

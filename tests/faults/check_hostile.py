@@ -5,7 +5,7 @@
 
 Each command line is run twice: to its end, and ended by SIGTERM in the middle. Memory must stay below a ceiling that
 follows from what the file honestly needs; SIGTERM is answered within a second, of which three are allowed on a machine
-that is busy. --markdown prints the table of docs/explanation/reliability.md.
+that is busy. --markdown prints what it measured as a table.
 """
 
 import argparse

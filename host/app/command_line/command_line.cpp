@@ -91,7 +91,8 @@ ParsedCommandLine parse_command_line(std::span<const std::string> words) {
     return {};
   }
   if (found.help) {
-    found.command != nullptr ? print_command_help(*found.command) : print_help();
+    if (found.command == nullptr && !found.operands.empty()) fail_misspelt_command(found.operands.front());
+    found.command != nullptr ? print_command_help(*found.command, found.topic) : print_help();
     return {};
   }
   if (found.unfinished) {

@@ -45,18 +45,18 @@ constexpr Command kCommands[] = {
      "Save the whole blocks of a .tik file that was cut off.", "nutik-cl recover damaged.tik -o whole.tik",
      run_recover, kCaptures},
     {Id::join, "join", "PART.tik... -o WHOLE.tik",
-     "Make one capture of those of a clip's parts, which encode --from --to makes, on several machines perhaps.",
+     "Make one capture of a clip's parts: of those that encode --from --to made, on several machines perhaps.",
      "nutik-cl join part-1.tik part-2.tik part-3.tik -o whole.tik\n"
      "nutik-cl join part-*.tik -o whole.tik",
      run_join, kCaptures},
     {Id::thumbnail, "thumbnail", "CAPTURE.tik [PICTURE.png]",
-     "Write a capture's first sample as a small picture, as file managers show it.",
+     "Write a capture's first sample as a small picture: as file managers show it.",
      "nutik-cl thumbnail clip.tik\n"
      "nutik-cl thumbnail --width 512 clip.tik first.png",
      run_thumbnail, kCaptures},
     {Id::retime, "retime", "CAPTURE.tik [CORRECTED.tik]",
-     "Correct what a capture says of itself, without encoding its clip again: rate, shutter angle, transfer "
-     "function, primaries, pixel aspect. With --in-place the capture itself is replaced.",
+     "Correct what a capture says of itself: rate, shutter angle, transfer function, primaries, pixel aspect, without "
+     "encoding its clip again. With --in-place the capture itself is replaced.",
      "nutik-cl retime clip.tik -f 960 -a 180 --in-place\n"
      "nutik-cl retime clip.tik --transfer linear -o corrected.tik",
      run_retime, kCaptures},
@@ -74,8 +74,7 @@ constexpr Command kCommands[] = {
      "printf '%s\\n' '--start 0s --exposure 10ms a.png' '-k trail.fn b.png' | nutik-cl batch - clip.tik",
      run_batch, kPictures},
     {Id::check, "check", "[CAPTURE.tik|CLIP]",
-     "Name everything wrong or suspicious in a function file, a mask and a capture, and each function's "
-     "figures.",
+     "Name what is wrong in functions, masks and captures: what is suspicious, too, with each function's figures.",
      "nutik-cl check -k regions.fn\n"
      "nutik-cl check -m regions.pgm -k regions.fn clip.tik\n"
      "nutik-cl check --json -m regions.pgm -k regions.fn clip.tik\n"
@@ -90,7 +89,7 @@ constexpr Command kCommands[] = {
      "nutik-cl trace --pixel 0,0 --start 0.4s --exposure 10ms clip.tik",
      run_trace, kUnderstanding},
     {Id::mask, "mask", "[CAPTURE.tik|CLIP] [MASK.pgm]",
-     "Make a mask from shapes, pictures and motion, without an image editor.",
+     "Make a mask from shapes, pictures and motion: without an image editor.",
      "nutik-cl mask --moving clip.tik mask.pgm --preview preview.png\n"
      "nutik-cl mask --moving --smooth 2 --largest --grow 4 clip.tik mask.pgm\n"
      "nutik-cl mask --tag 128 --changed-between 0.3s 0.5s --tag 255 --ellipse 320,180,60,40 clip.tik\n"
@@ -98,7 +97,7 @@ constexpr Command kCommands[] = {
      "nutik-cl mask --size 640x360 --tag 64 --rectangle 0,0,320,360 -o halves.pgm",
      run_mask, kUnderstanding},
     {Id::contact, "contact", "CAPTURE.tik|CLIP [SHEET.png]",
-     "Lay out exposures of a capture, one after another, on a labelled sheet: to find the moment.",
+     "Lay out exposures, one after another, on a labelled sheet: to find the moment.",
      "nutik-cl contact clip.tik\n"
      "nutik-cl contact --every 0.2s --exposure 10ms clip.tik sheet.png\n"
      "nutik-cl contact --start 0.4s --every 5f --columns 6 --width 2400 clip.tik -o sheet.png",
@@ -110,7 +109,7 @@ constexpr Command kCommands[] = {
      "nutik-cl activity -m mask.pgm --tag 128 --csv - clip.tik",
      run_activity, kUnderstanding},
     {Id::sweep, "sweep", "CAPTURE.tik|CLIP [SHEET.png]",
-     "Expose with the same functions again and again, each time later, stronger or longer, on a labelled "
+     "Expose with the same functions again and again: each time later, stronger or longer, on a labelled "
      "sheet.",
      "nutik-cl sweep -k file.fn -m mask.pgm --shift 0..1s/0.1s clip.tik\n"
      "nutik-cl sweep -k trail.fn --scale-gain 0.5..2/0.25 --stretch 0.5..2/0.5 clip.tik sheet.png\n"
@@ -135,7 +134,7 @@ constexpr Command kCommands[] = {
      "nutik-cl study --moments 0.36s,0.75s,1.27s --trail ramp clip.tik study.png",
      run_study, kPictures},
     {Id::solve, "solve", "CAPTURE.tik|CLIP [FUNCTIONS.fn]",
-     "Find the gains and times of a function file that make a picture as it is wished. What is to be found has a name in "
+     "Find the gains and times that make a picture as it is wished: those of a function file. What is to be found has a name in "
      "place of its number, as in M0 [0:1], [1000000000:1], [1000000001:rest], [1010000000:rest], [1010000001:0].",
      "nutik-cl solve -k named.fn --free rest=-50..0 --wish '300,150,60,60 gone at 0s' clip.tik solved.fn\n"
      "nutik-cl solve -m regions.pgm -k named-regions.fn --free rest=-50..0 --wish 'M0 = plate' clip.tik\n"
@@ -157,7 +156,7 @@ constexpr Command kCommands[] = {
      "nutik-cl shutter strobe:5 --start 30f --exposure 60f --fps 960",
      run_shutter, kUnderstanding},
     {Id::again, "again", "PICTURE [FOLDER...]",
-     "Print the command that makes a picture again, byte for byte, from the recipe that the picture carries, "
+     "Print the command that makes a picture again: byte for byte, from the recipe that the picture carries, "
      "by the program that was run. The files it was made from are looked for in the folders, the current one "
      "and the picture's.",
      "nutik-cl again picture.png\n"
@@ -165,7 +164,7 @@ constexpr Command kCommands[] = {
      "nutik-cl again picture.png | sh",
      run_again, kPictures},
     {Id::completion, "completion", "bash|zsh|fish",
-     "Print a script that completes commands, options and their values in a shell. cmake --install puts all "
+     "Print a script for completion in a shell: of commands, options and their values. cmake --install puts all "
      "three where shells look for them.",
      "source <(nutik-cl completion bash)\n"
      "nutik-cl completion fish > nutik-cl.fish",
@@ -175,8 +174,8 @@ constexpr Command kCommands[] = {
      "nutik-cl man | man -l -",
      run_man},
     {Id::validate, "validate", "CAPTURE.tik|CLIP",
-     "Expose with the reference and in every arithmetic that the device has: how right each is, within which "
-     "bound, and how long it takes. Exit status 1 if one exceeds its bound.",
+     "Expose in every arithmetic and with the reference: how right each is, within which bound, and how long it "
+     "takes. Exit status 1 if one exceeds its bound.",
      "nutik-cl validate --start 0.4s --exposure 10ms clip.tik\n"
      "nutik-cl validate -m regions.pgm -k regions.fn --depth 16 clip.tik\n"
      "nutik-cl validate --start 0s --exposure 1s --source clip.mp4 clip.tik\n"

@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/output/console.hpp"
+#include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/source_text.hpp"
 #include "session/text/text_table.hpp"
 
 namespace nutik::app {
@@ -66,20 +69,96 @@ std::string wrapped(std::string_view text, std::size_t indent, std::string_view 
   return result;
 }
 
-std::string option_lines(const Option& option) {
+std::string names_of(const Option& option) {
   const std::string short_name = option.short_name != 0 ? format("-{}, ", option.short_name) : "    ";
-  std::string names =
-      format("  {}{}{}{}", short_name, option.name(), option.is_flag() ? "" : " ", option.value);
+  return format("  {}{}{}{}", short_name, option.name(), option.is_flag() ? "" : " ", option.value);
+}
+
+// All that is said of an option.
+std::string option_lines(const Option& option) {
+  std::string names = names_of(option);
   const bool fits = names.size() + 2 <= kOptionColumn;
   names += fits ? std::string(kOptionColumn - names.size(), ' ') : '\n' + std::string(kOptionColumn, ' ');
   return names + wrapped(option.help, kOptionColumn) + '\n';
 }
 
+// Which options `--help=TOPIC` shows, by their headings.
+struct Topic {
+  std::string_view name;
+  std::vector<std::string_view> headings;
+};
+const std::vector<Topic>& topics() {
+  static const std::vector<Topic> all{{"source", {kSourceClip, kClipCodes, kEventRecording, kMovingCamera}},
+                                      {"computing", {kComputing}},
+                                      {"output", {kOutputs}}};
+  return all;
+}
+
+bool is_under(const Option& option, std::span<const std::string_view> headings) {
+  return std::ranges::find(headings, option.heading) != headings.end();
+}
+
+// A command's options of a topic, or `all`. Throws UsageError for another.
+std::vector<const Option*> options_of_topic(const Command& command, std::string_view name) {
+  std::vector<const Option*> found = options_of(command.id);
+  if (name == "all") return found;
+  const auto topic = std::ranges::find(topics(), name, &Topic::name);
+  if (topic == topics().end()) {
+    throw UsageError(format("there is no help on '{}'; choose all, source, computing or output", printable(name)));
+  }
+  std::erase_if(found, [&](const Option* option) { return !is_under(*option, topic->headings); });
+  return found;
+}
+
+// What sets a command apart; all that it takes, where that is little.
+std::vector<const Option*> options_of_its_own(const Command& command) {
+  constexpr std::size_t kLittle = 22;
+  std::vector<const Option*> found = options_of(command.id);
+  std::erase_if(found, [](const Option* option) { return option->heading == kForExperiments; });
+  if (found.size() <= kLittle) return found;
+  std::vector<std::string_view> shared{kClipCodes, kComputing, kOutputs};
+  if (command.id != CommandId::encode) shared.insert(shared.end(), {kSourceClip, kEventRecording, kMovingCamera});
+  std::erase_if(found, [&](const Option* option) { return is_under(*option, shared); });
+  return found;
+}
+
+std::string usage(const Command& command) {
+  return format("nutik-cl {} [OPTIONS]{}{}\n\n{}\n", command.name, command.operands.empty() ? "" : " ",
+                command.operands, wrapped(command.summary, 0));
+}
+
+// As a shell takes it, also where it goes on in another line.
+std::string example_lines(const std::string& example) { return format("  {}\n", wrapped(example, 6, " \\")); }
+
+// The first three that take one line; else the first.
+std::string short_examples(const Command& command) {
+  const std::vector<std::string> all = parts_of(command.examples, '\n');
+  std::string text;
+  for (std::size_t i = 0, left = 3; i < all.size() && left > 0; ++i) {
+    if (columns(all[i]) + 2 > kDefault) continue;
+    text += example_lines(all[i]);
+    --left;
+  }
+  return text.empty() ? example_lines(all.front()) : text;
+}
+
+// In a few words, with the values that it knows if they fit.
+std::string short_lines(const Option& option) {
+  std::string line = names_of(option) + "  ";
+  if (line.size() < kOptionColumn) line.resize(kOptionColumn, ' ');
+  line += brief(option.help);
+  std::string choices = ":";
+  for (const std::string& choice : option.choices()) choices += " " + choice + (choice.ends_with(':') ? "…" : "");
+  if (choices.size() > 1 && columns(line + choices) <= kDefault) line += choices;
+  return line + '\n';
+}
+
 }  // namespace
 
 std::string brief(std::string_view summary) {
-  for (const std::string_view end : {". ", " (default", ": "}) summary = summary.substr(0, summary.find(end));
-  return std::string(summary) + (summary.ends_with('.') ? "" : ".");
+  for (const std::string_view end : {". ", " (", ": ", "; "}) summary = summary.substr(0, summary.find(end));
+  if (summary.ends_with('.')) summary.remove_suffix(1);
+  return std::string(summary);
 }
 
 void print_version() { print_line("nutik-cl " NUTIK_VERSION); }
@@ -91,37 +170,44 @@ void print_help() {
                      "  nutik-cl clip.mp4 clip.tik                                 encode a clip\n"
                      "  nutik-cl --start 0.4s --exposure 10ms clip.tik moment.png  expose an interval\n"
                      "  nutik-cl -m mask.pgm -k functions.fn clip.tik out.png      expose by functions\n"
-                     "  nutik-cl clip.tik                                          say what it holds\n"
-                     "\n" +
-                     format("{}\n  {}\n", wrapped(kAboutFunctionFiles, 0), kFunctionFile);
+                     "\n";
   for (const std::string_view group : kCommandGroups) {
-    text += format("\n{}:\n", group);
+    if (group == kOther) continue;
+    text += format("{}:\n", group);
     for (const Command* command : commands_of(group)) {
       text += format("  {:<{}}{}\n", command->name, kCommandColumn - 2,
                      wrapped(brief(command->summary), kCommandColumn));
     }
   }
-  text += "\n" +
-          wrapped(
-              "nutik-cl COMMAND --help says more. A file that is named like a command is written ./info, or "
-              "after --.",
-              0);
+  text += "\nAlso: ";
+  for (const Command* command : commands_of(kOther)) text += format("{}, ", command->name);
+  text += "help [COMMAND], version; ./info is a file.\n"
+          "In a window: nutik-studio. More: nutik-cl COMMAND --help, man nutik-cl, docs/.\n"
+          "A fault? Report it with what 'nutik-cl devices --json' prints.";
   print_line(text);
 }
 
-void print_command_help(const Command& command) {
-  std::string text =
-      format("nutik-cl {} [OPTIONS]{}{}\n\n{}\n", command.name, command.operands.empty() ? "" : " ",
-             command.operands, wrapped(command.summary, 0));
+void print_command_help(const Command& command, std::string_view topic) {
+  std::string text = usage(command);
   std::string_view heading;
-  for (const Option* option : options_of(command.id)) {
-    if (option->heading != heading) text += format("\n{}:\n", heading = option->heading);
-    text += option_lines(*option);
-  }
-  text += "\nExamples:";
-  // As a shell takes them, also where a line goes on.
-  for (const std::string& example : parts_of(command.examples, '\n')) {
-    text += format("\n  {}", wrapped(example, 6, " \\"));
+  if (topic.empty()) {
+    text += '\n' + short_examples(command) + '\n';
+    const std::vector<const Option*> own = options_of_its_own(command);
+    for (const Option* option : own) {
+      if (option->heading != heading) text += format("{}:\n", heading = option->heading);
+      text += short_lines(*option);
+    }
+    const bool is_all = own.size() == options_of(command.id).size();
+    text += is_all ? format("\nMore: nutik-cl {} --help=all", command.name)
+                   : format("\nMore: nutik-cl {0} --help=all, or =source, =computing, =output", command.name);
+  } else {
+    for (const Option* option : options_of_topic(command, topic)) {
+      if (option->heading != heading) text += format("\n{}:\n", heading = option->heading);
+      text += option_lines(*option);
+    }
+    text += "\nExamples:\n";
+    for (const std::string& example : parts_of(command.examples, '\n')) text += example_lines(example);
+    text.pop_back();
   }
   print_line(text);
 }

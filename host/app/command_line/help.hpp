@@ -19,14 +19,16 @@ inline constexpr std::string_view kWhatItIs =
     "record of when and how every pixel changed, and exposes pictures from it in which every region of a "
     "mask has its own gain as a function of time.";
 inline constexpr std::string_view kAboutFunctionFiles =
-    "A function file has a line for each mask value, with times in nanoseconds:";
-inline constexpr std::string_view kFunctionFile = "M0 [0:1], [10000000:1], [10000001:0]";
+    "A function file has a line for each mask value, with times in nanoseconds or with a unit:";
+inline constexpr std::string_view kFunctionFile = "M0 [0:1], [10ms:1], [10000001:0]";
 
-// The first sentence of a summary, with its full stop, without what a colon adds and without a default.
+// What a summary begins with: up to its first colon, semicolon, bracket or full stop.
 [[nodiscard]] std::string brief(std::string_view summary);
 
 void print_help();
-void print_command_help(const Command& command);
+// In 40 lines of 80 columns what sets the command apart; with a topic (all, source, computing, output) all that is said of
+// those options. Throws UsageError for another topic.
+void print_command_help(const Command& command, std::string_view topic);
 void print_version();
 
 }  // namespace nutik::app

@@ -104,7 +104,10 @@ class Reader {
       }
       if (word == "--help" || word == "-h") {
         found_.help = true;
-      } else if (word == "--version") {
+      } else if (constexpr std::string_view kTopic = "--help="; word.starts_with(kTopic)) {
+        found_.help = true;
+        found_.topic = word.substr(kTopic.size());
+      } else if (word == "--version" || word == "-V") {
         found_.version = true;
       } else if (word.starts_with("--")) {
         take_long(word);
@@ -120,6 +123,14 @@ class Reader {
  private:
   void take_operand(const std::string& word) {
     if (found_.command == nullptr && found_.operands.empty()) {
+      if (word == "help") {
+        found_.help = true;
+        return;
+      }
+      if (word == "version") {
+        found_.version = true;
+        return;
+      }
       found_.command = find_command(word);
       if (found_.command != nullptr) return;
     }

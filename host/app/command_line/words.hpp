@@ -36,6 +36,7 @@ struct Words {
   std::vector<Given> given;           // in their order
   bool unfinished = false;            // the last option needs more words
   bool help = false;
+  std::string topic = {};  // of help: --help=all
   bool version = false;
 
   // Throws UsageError for an option that there is not, and for a value that is none (check_value()).

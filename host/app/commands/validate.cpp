@@ -167,7 +167,7 @@ int run_validate(const Options& options) {
   const std::uint32_t runs = options.runs;
   const ExposureRequest request = exposure_request(options);
   const std::shared_ptr<Devices> devices = make_devices(options);
-  const std::string device = devices->opencl().name();  // refused before a clip is read
+  const std::string device = devices->opencl()->name();  // refused before a clip is read
   Session session = open_session(input, options_of_capture(options), devices);
   const Shape& shape = session.format().shape;
   const OutputFormat output = output_format(options.picture, session.format());

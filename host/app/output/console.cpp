@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <mutex>
 #include <string_view>
 
 #include "capture/error.hpp"
@@ -18,6 +19,9 @@ constexpr const char* kPlain = "\x1b[0m";
 
 // Where lines of a result go.
 std::FILE* line_stream = stdout;
+
+std::mutex warning;
+std::vector<std::string> warnings_so_far;
 
 void write_line(std::FILE* stream, const std::string& text) {
   std::fprintf(stream, "%s\n", text.c_str());
@@ -47,7 +51,15 @@ void print_text(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);
 }
-void print_warning(const std::string& text) { write_message(kYellow, "warning:", text); }
+void print_warning(const std::string& text) {
+  const std::scoped_lock lock(warning);
+  write_message(kYellow, "warning:", text);
+  warnings_so_far.push_back(text);
+}
+std::vector<std::string> printed_warnings() {
+  const std::scoped_lock lock(warning);
+  return warnings_so_far;
+}
 void print_error(const std::string& text) { write_message(kRed, "nutik-cl:", text); }
 void print_note(const std::string& text) { write_line(stderr, printable_lines(text)); }
 void print_warnings(const std::vector<std::string>& texts) {

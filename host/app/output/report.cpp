@@ -66,7 +66,6 @@ void Answer::tell_source(const std::vector<Fact>& facts, const std::vector<Note>
     std::string text = note_texts({note}, Dialect::command_line).front();
     if (note.is_warning) {
       print_warning(text);
-      json["warnings"].push_back(text);
     } else {
       notes.push_back(std::move(text));
     }
@@ -94,6 +93,7 @@ int tell(const Options& options, const std::filesystem::path& output, const Answ
   if (options.json) {
     Json json = answer.json;
     json["notes"] = answer.notes;
+    json["warnings"] = printed_warnings();
     print_json(json);
   } else if (!options.quiet) {
     if (!answer.line.empty()) print_line(answer.line);

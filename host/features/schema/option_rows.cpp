@@ -63,15 +63,51 @@ constexpr Option step(std::string_view name, std::string_view value, std::string
 }
 
 constexpr Option kRows[] = {
-    heading("The source clip"),
+    heading(kSourceClip),
     known(Setting::frame_rate, "rate", {'f', "fps", "RATE", timing, kReadsClips | set_of(Id::shutter, Id::retime),
      take<InClip<&ClipOptions::rate>>,
      "pictures a second that the clip was filmed with: 120, 29.97, 30000/1001 (default: what the file says)"}),
     known(Setting::shutter_angle, {'a', "shutter-angle", "DEGREES", timing, kReadsClips | set_of(Id::shutter,
      Id::retime),
      take<InSource<&SourceRequest::shutter_angle>>,
-     "share of the time between pictures that the shutter was open, 360 being all of it (default: what the "
-     "file says, else 360)"}),
+     "how long the shutter was open: 360 is all the time to the next picture (default: what the file says, else "
+     "360)"}),
+    known(Setting::from, "begin", {0, "from", "TIME", decoding, kDecodesClips & ~bit(Id::video),
+     take<InClip<&ClipOptions::from>>,
+     "take pictures that start here or later: 1.5s, 32f; the first of them is at time 0 (default: all)"}),
+    known(Setting::to, "end", {0, "to", "TIME", decoding, kDecodesClips & ~bit(Id::video),
+     take<InClip<&ClipOptions::to>>,
+     "take pictures that start earlier: 2s, 48f (default: all)"}),
+    known(Setting::crop, {0, "crop", "WxH+X+Y", decoding, kDecodesClips, take<InClip<&ClipOptions::crop>>,
+     "take a rectangle of the clip's pictures: its size, and the place of its top left pixel"}),
+    known(Setting::scale, {0, "scale", "SCALE", decoding, kDecodesClips, take<InClip<&ClipOptions::scale>>,
+     "make pictures smaller: each pixel is the mean of the light it covers, 1/2, 1/3, …, or 640x360"}),
+    known(Setting::deinterlace, {0, "deinterlace", "HOW", decoding, kDecodesClips,
+     take<InClip<&ClipOptions::interlaced>>,
+     "what becomes of interlaced video: frames (a picture from each frame), fields (one from each field, twice as"
+     " many), or no (it only says that it is) (default: it is refused)",
+     "frames fields no"}),
+    known(Setting::deflicker, {0, "deflicker", "", decoding, kReadsClips, take<InSource<&SourceRequest::deflickered>>,
+     "expose all pictures as the first one: undo a camera's automatic exposure and white balance"}),
+    known(Setting::between, {0, "between", "HOW", encoding, kEncodesClips,
+     take_by<InSource<&SourceRequest::between>, parse_between>,
+     "make samples between pictures, along the motion: auto (as many as no step is longer than about a pixel, "
+     "none where nothing moves), or how many, 1 … 63; the clip is read twice (default: off)",
+     "auto off"}),
+    known(Setting::end_at_damage, {0, "as-far-as-it-goes", "", decoding, kDecodesClips,
+     take<InClip<&ClipOptions::ends_at_damage>>,
+     "end a damaged clip before what cannot be read; a warning says where"}),
+    {0, "tolerance", "CODES", encoding, kEncodesClips, take_whole<InSource<&SourceRequest::tolerance>, 0, 65'535>,
+     "differences up to this many codes are no change; 0 keeps every one (default: 0)"},
+    {0, "noise", "FILE|auto", encoding, kReadsClips, take<In<&Options::noise>>,
+     "the camera's noise: as nutik-cl noise measures it, or auto, measured on the clip itself. What is within it "
+     "is no change, and samples are held as the light they are expected to have",
+     "auto"},
+    {0, "sigmas", "K", encoding, kReadsClips, take_by<InSource<&SourceRequest::sigmas>, parse_sigmas>,
+     "how many deviations of the noise are no change: standard deviations from the held light, with --noise "
+     "(default: 3)"},
+
+    heading(kClipCodes),
     known(Setting::white_code, {0, "white", "CODE", decoding, kDecodesClips,
      take_whole<InClip<&ClipOptions::white_code>, 1, 65'535>,
      "the code that stands for white: 255, 4095 for 12 bits, … (default: what the file says)"}),
@@ -92,8 +128,8 @@ constexpr Option kRows[] = {
      "limited full"}),
     known(Setting::chroma_place, {0, "chroma-at", "PLACE", decoding, kDecodesClips,
      take<InClip<&ClipOptions::chroma_at>>,
-     "where samples of chroma lie that pixels of deep video share: left, center, topleft, top, bottomleft or "
-     "bottom (default: what the file says, else left)",
+     "where chroma lies that pixels share: in deep video, left, center, topleft, top, bottomleft or bottom "
+     "(default: what the file says, else left)",
      "left center topleft top bottomleft bottom"}),
     known(Setting::primaries, {0, "primaries", "NAME", decoding, kDecodesClips | bit(Id::retime),
      take<InClip<&ClipOptions::primaries>>,
@@ -103,86 +139,51 @@ constexpr Option kRows[] = {
      "bt709 bt2020 p3 sgamut3 sgamut3-cine vgamut cinema-gamut arri-wg3 arri-wg4 dgamut ap1"}),
     known(Setting::pixel_aspect, {0, "pixel-aspect", "W:H", decoding, kDecodesClips | bit(Id::retime),
      take_by<InClip<&ClipOptions::pixel_aspect>, parse_pixel_aspect>,
-     "how much wider than high a pixel is shown, as in 32:27 (default: what the file says, else 1:1)"}),
+     "how much wider than high a pixel is: 32:27 (default: what the file says, else 1:1)"}),
     known(Setting::raw_layout, {0, "raw", "WxH:FORMAT", decoding, kDecodesClips | bit(Id::shutter),
      take<InClip<&ClipOptions::raw>>,
      "a video without a header: its size and FFmpeg's name of its pixels, 480x270:yuv420p10le"}),
-    known(Setting::from, "begin", {0, "from", "TIME", decoding, kDecodesClips & ~bit(Id::video),
-     take<InClip<&ClipOptions::from>>,
-     "take pictures of the clip that start here or later, which is then time 0: 1.5s, 32f (default: the "
-     "first)"}),
-    known(Setting::to, "end", {0, "to", "TIME", decoding, kDecodesClips & ~bit(Id::video),
-     take<InClip<&ClipOptions::to>>,
-     "take pictures that start earlier: 2s, 48f (default: all)"}),
-    known(Setting::crop, {0, "crop", "WxH+X+Y", decoding, kDecodesClips, take<InClip<&ClipOptions::crop>>,
-     "take a rectangle of the clip's pictures: its size, and the place of its top left pixel"}),
-    known(Setting::scale, {0, "scale", "SCALE", decoding, kDecodesClips, take<InClip<&ClipOptions::scale>>,
-     "make pictures smaller, each pixel the mean of the light it covers: 1/2, 1/3, …, or 640x360"}),
-    known(Setting::deinterlace, {0, "deinterlace", "HOW", decoding, kDecodesClips,
-     take<InClip<&ClipOptions::interlaced>>,
-     "of interlaced video: frames (a picture from each frame), fields (one from each field, twice as many), "
-     "or no (it only says that it is) (default: it is refused)",
-     "frames fields no"}),
-    known(Setting::deflicker, {0, "deflicker", "", decoding, kReadsClips, take<InSource<&SourceRequest::deflickered>>,
-     "expose all pictures as the first one: undo a camera's automatic exposure and white balance"}),
-    known(Setting::between, {0, "between", "HOW", encoding, kEncodesClips,
-     take_by<InSource<&SourceRequest::between>, parse_between>,
-     "make samples between two pictures, along the motion from one to the other: auto (as many as no step is longer than "
-     "about a pixel, none where nothing moves), or how many, 1 … 63; the clip is read twice (default: off)",
-     "auto off"}),
-    known(Setting::end_at_damage, {0, "as-far-as-it-goes", "", decoding, kDecodesClips,
-     take<InClip<&ClipOptions::ends_at_damage>>,
-     "take a damaged clip's pictures up to the first that cannot be read, with a warning"}),
-    {0, "tolerance", "CODES", encoding, kEncodesClips, take_whole<InSource<&SourceRequest::tolerance>, 0, 65'535>,
-     "differences up to this many codes are no change; 0 keeps every one (default: 0)"},
-    {0, "noise", "FILE|auto", encoding, kReadsClips, take<In<&Options::noise>>,
-     "the camera's noise, as nutik-cl noise measures it, or auto: measured on the clip itself. What is "
-     "within it is no change, and samples are held as the light they are expected to have",
-     "auto"},
-    {0, "sigmas", "K", encoding, kReadsClips, take_by<InSource<&SourceRequest::sigmas>, parse_sigmas>,
-     "with --noise: how many standard deviations from the held light are no change (default: 3)"},
 
-    heading("A recording of events"),
+    heading(kEventRecording),
     known(Setting::contrast, {0, "contrast", "STEP", decoding, kDecodesClips, take<InEvents<&EventOptions::contrast>>,
-     "of an event camera: by how much the natural logarithm of light changes with an event, 0.2, or up and down apart, "
-     "0.3:0.17 (default: 0.2)"}),
+     "how much light changes with an event: the step of its natural logarithm, 0.2, or up and down apart, 0.3:0.17 "
+     "(default: 0.2)"}),
     known(Setting::start_picture, {0, "start-picture", "FILE|LIGHT", decoding, bit(Id::encode),
      take<InEvents<&EventOptions::start>>,
      "light before the first event: a picture's of the same pixels, or the same everywhere, 1 being white (default: "
      "0.18)"}),
     known(Setting::tick, {0, "tick", "TIME", decoding, kDecodesClips,
      take_by<InEvents<&EventOptions::tick_ns>, parse_tick>,
-     "changes count at the start of the tick that they are in, 100us: fewer samples (default: the file's own times)"}),
+     "round events down to a tick: 100us, for fewer samples (default: the file's own times)"}),
 
-    heading("A camera that moved"),
+    heading(kMovingCamera),
     {0, "align", "MOTION", encoding, kEncodesClips, take<In<&Options::align>>,
-     "move each picture onto the first one, so that the camera stands still: by translation, rigid (turning, "
-     "too) or homography (whatever a camera on the spot does); the clip is read twice",
+     "keep the camera still: move each picture onto the first one by translation, rigid (turning, too) or "
+     "homography (whatever a camera on the spot does); the clip is read twice",
      "translation rigid homography"},
     {0, "align-to", "TIME", encoding, kEncodesClips, take<In<&Options::align_to>>,
-     "with --align: onto the picture at this time: 0.5s, 60f (default: the first)"},
+     "the picture onto which the others are moved: its time, 0.5s, 60f (default: the first)"},
     {0, "align-along", "FILE.csv", encoding, bit(Id::encode), take<In<&Options::align_along>>,
-     "move pictures along a path that --camera-path wrote, be it changed by hand"},
+     "move pictures along a path: one that --camera-path wrote, be it changed by hand"},
     {0, "unseen", "HOW", encoding, kEncodesClips, take<In<&Options::unseen>>,
-     "what becomes of places that not every aligned picture saw: crop cuts them away, hold shows what was "
-     "seen there before (default: crop)",
+     "what becomes of places not always seen: crop cuts them away, hold shows what was seen there before "
+     "(default: crop)",
      "crop hold"},
     {0, "camera-path", "PATH.csv", output, bit(Id::encode), take<In<&Options::camera_path>>,
-     "also write how the camera moved, a line for each picture"},
+     "also write how the camera moved: a line for each picture"},
     {0, "camera-plot", "PLOT.png", output, bit(Id::encode), take<In<&Options::camera_plot>>,
-     "also draw that"},
+     "also draw how the camera moved"},
     {0, "coverage", "MAP.png", output, bit(Id::encode), take<In<&Options::coverage>>,
-     "also write how many of the aligned pictures saw each place, as a grey picture: white all of them"},
+     "also write how many pictures saw each place: as a grey picture, white all of them"},
 
     heading("The exposure"),
     {'k', "functions", "FILE.fn", exposure, kTakesFunctions, take<In<&Options::functions>>,
-     "the gain functions, one for each mask value; a file with a single one needs no mask; - is standard "
-     "input"},
+     "the gain functions: one for each mask value; a file with a single one needs no mask; - is standard input"},
     {'m', "mask", "FILE.pgm", exposure, kTakesFunctions | bit(Id::activity), take<In<&Options::mask>>,
      "which function each pixel is exposed with: an 8-bit grey PGM or PNG; - is standard input; "
      "layer-%d.png: a grey layer for each mask value, which says how much of a pixel it has"},
     {0, "feather", "PIXELS", exposure, kTakesFunctions, take<In<&Options::feather>>,
-     "blend the mask's functions along its edges, so far to either side: 6px; M255=6px for one mask value; "
+     "blend the mask's functions along its edges: so far to either side, 6px, M255=6px for one mask value; "
      "several with commas between: 2px,M255=6px"},
     {0, "delay", "WHERE:TIMES", exposure, kShapesExposures | bit(Id::check), take<In<&Options::delay>>,
      "expose each pixel later: rows:15ms (from the first row to the last), columns:0s..0.5s, radial:-20ms..20ms "
@@ -191,7 +192,7 @@ constexpr Option kRows[] = {
     {0, "mask-to", "FILE.pgm", exposure, kBlendsMasks, take<In<&Options::mask_to>>,
      "a second mask: that of -m on its way to it, as between two key frames of a video"},
     {0, "mask-share", "SHARE", exposure, kBlendsMasks, take_by<In<&Options::mask_way>, parse_share>,
-     "how far it has come, from 0 to 1: 3/8"},
+     "how far the mask has become the second one: from 0 to 1, 3/8"},
     {0, "mask-blend", "HOW", exposure, kBlendsMasks | bit(Id::video), take<In<&Options::mask_blend>>,
      "how one mask turns into the other: distance (edges move) or alpha (it fades) (default: distance)",
      "distance alpha"},
@@ -204,19 +205,14 @@ constexpr Option kRows[] = {
     known(Setting::unmapped, {0, "unmapped", "zero", exposure, kTakesFunctions,
      take_by<In<&Options::unmapped_is_zero>, parse_zero>,
      "expose mask values without a function to black (default: an error)", "zero"}),
-    {0, "live", "all", exposure, kShapesExposures, take_by<In<&Options::live_all>, parse_all>,
-     "visit every sample, also if no gain needs it (the picture is the same)", "all"},
     {0, "pixel", "X,Y", subject, bit(Id::trace), take_by<In<&Options::pixel>, parse_pixel>,
-     "the pixel to follow, counted from 0 at the top left"},
+     "the pixel to follow: counted from 0 at the top left"},
     {0, "tag", "VALUE", subject, bit(Id::trace), take_whole<In<&Options::tag>, 0, 255>,
-     "follow the mean of all pixels that have this value in the mask"},
+     "follow the mean of a mask value's pixels"},
     {0, "shutter", "SHAPE", exposure, kShapesExposures, take<In<&Options::shutter>>,
-     "how far the shutter is open in the course of the plain interval: box, trapezoid:R, triangle, "
-     "gaussian, hann, strobe:N[,R] or spline:0=G,…,1=G (default: box)",
+     "how the shutter opens and closes: box, trapezoid:R, triangle, gaussian, hann, strobe:N[,R] or "
+     "spline:0=G,…,1=G (default: box)",
      "box trapezoid: triangle gaussian hann strobe: spline:"},
-    {0, "shutter-error", "E", exposure, kShapesExposures | bit(Id::shutter),
-     take_by<In<&Options::shutter_error>, parse_shutter_error>,
-     "how far a smooth shape may be from its true gains, as a share of the largest (default: 0.001)"},
     known(Setting::normalization, {0, "normalize", "BY", exposure, kTakesFunctions, take<In<&Options::normalization>>,
      "divide by the time with a gain (support), by its integral (integral: a still scene keeps its "
      "brightness), by that of its magnitude (absolute), or by seconds:S (default: support)",
@@ -230,11 +226,11 @@ constexpr Option kRows[] = {
     {0, "ev", "E", exposure, kTakesFunctions | bit(Id::shutter), take_by<In<&Options::ev>, parse_signed>,
      "make the light 2^E times as much: 1 is one stop brighter (default: 0)"},
     {0, "every", "TIME", series, bit(Id::expose), take_by<In<&Options::every>, parse_step>,
-     "expose a series, each picture this much later than the one before: 40ms, 2f; name it out-%03d.png"},
+     "expose a series: each picture this much later than the one before, 40ms, 2f; name it out-%03d.png"},
     {0, "count", "N", series, bit(Id::expose), take_whole<In<&Options::count>, 1, SeriesRequest::kMaxExposures>,
      "pictures in the series (default: as many as fit in the capture)"},
     {0, "frames", "RANGES", series, kMakesMany, take<In<&Options::frames>>,
-     "only these frames of a video or pictures of a series, numbered from 0, or these lines of a batch: 7, 0-99, "
+     "only some frames, pictures or lines: of a video or series, numbered from 0, or of a batch, 7, 0-99, "
      "1-100x2, several with commas between; names keep their numbers (default: all)"},
     {0, "tag", "VALUE", subject, bit(Id::shutter), take_whole<In<&Options::tag>, 0, 255>,
      "the mask value that the function belongs to: 0 … 255 (default: 0)"},
@@ -243,66 +239,66 @@ constexpr Option kRows[] = {
     {0, "out-fps", "RATE", series, bit(Id::video), take<InFilm<&FramesRequest::rate>>,
      "frames a second that the video is played with (default: 24)"},
     {0, "out-angle", "DEGREES", series, bit(Id::video), take<InFilm<&FramesRequest::angle>>,
-     "share of the time between frames that each is exposed, 360 being all of it; more makes them overlap "
-     "(default: 180)"},
+     "how long each frame is exposed: 360 is all the time to the next; more makes them overlap (default: 180)"},
     {0, "from", "TIME", series, bit(Id::video), take<InFilm<&FramesRequest::from>>,
      "where in the capture the video starts: 0.4s, 37f (default: 0s)"},
     {0, "to", "TIME", series, bit(Id::video), take<InFilm<&FramesRequest::to>>,
-     "where it ends; frames that would go on behind it are left out (default: the capture's end)"},
+     "where in the capture the video ends; frames that would go on behind it are left out (default: the capture's"
+     " end)"},
     {0, "speed", "FACTOR", series, bit(Id::video), take<InFilm<&FramesRequest::speed>>,
      "seconds of the capture in a second of the video: 0.25 is four times slower than life (default: 1)"},
     {0, "curve", "FILE.csv", series, bit(Id::video), take<In<&Options::curve>>,
-     "in place of --from, --to and --speed: which time of the capture each time of the video shows, a line for "
-     "each point, 1.5s,0.4s; also backwards and standing still"},
+     "which time each time of the video shows: in place of --from, --to and --speed, a line for each point, "
+     "1.5s,0.4s; also backwards and standing still"},
     {0, "key", "TIME FILE.fn", series, bit(Id::video), {},
-     "in place of -k, several times: the functions at this time of the video (2s, or 48f for frame 48), which "
-     "change from key to key"},
+     "the functions at a time of the video: 2s, or 48f for frame 48; in place of -k, several times; they change "
+     "from key to key"},
     {0, "mask-key", "TIME FILE.pgm", series, bit(Id::video), {},
-     "in place of -m, several times: the mask at this time of the video"},
+     "the mask at a time of the video: in place of -m, several times"},
     known(Setting::video_codec, {0, "video-codec", "NAME", output, bit(Id::video), take<In<&Options::video_codec>>,
-     "ffv1 (lossless; .mkv, .avi), h264, h265 (.mp4, .mov, .mkv), av1 (.mp4, .mkv, .webm), vp9 (.webm, .mkv), mjpeg (.avi, "
-     ".mov, .mkv); of 10 bits h264-10, h265-10, av1-10; for editors prores, prores-proxy, -lt, -422, -4444 (.mov, .mkv), "
-     "dnxhr-lb, -sq, -hq, -hqx, -444 (.mov, .mxf); gif, webp (default: h264, in .mkv and .avi ffv1, in .webm vp9, in .mxf "
-     "dnxhr-hqx)",
+     "the codec: ffv1 (lossless; .mkv, .avi), h264, h265 (.mp4, .mov, .mkv), av1 (.mp4, .mkv, .webm), vp9 (.webm,"
+     " .mkv), mjpeg (.avi, .mov, .mkv); of 10 bits h264-10, h265-10, av1-10; for editors prores, prores-proxy, "
+     "-lt, -422, -4444 (.mov, .mkv), dnxhr-lb, -sq, -hq, -hqx, -444 (.mov, .mxf); gif, webp (default: h264, in "
+     ".mkv and .avi ffv1, in .webm vp9, in .mxf dnxhr-hqx)",
      "ffv1 h264 h265 h264-10 h265-10 av1 av1-10 vp9 prores prores-proxy prores-lt prores-422 prores-4444 dnxhr-lb dnxhr-sq "
      "dnxhr-hq dnxhr-hqx dnxhr-444 mjpeg gif webp"}),
     known(Setting::crf, {0, "crf", "N", output, bit(Id::video), take_whole<InPicture<&OutputRequest::crf>, 0, 100>,
-     "quality on the codec's own scale: h264, h265 0 … 51 (default: 17), av1, vp9 0 … 63, mjpeg 2 … 31, the less the "
-     "better; webp 0 … 100"}),
+     "quality on the codec's own scale: h264, h265 0 … 51 (default: 17), av1, vp9 0 … 63, mjpeg 2 … 31, the less "
+     "the better; webp 0 … 100"}),
     known(Setting::sound, {0, "sound", "HOW", output, bit(Id::video), take<In<&Options::sound>>,
-     "of the clip: clip (as it is, if the film runs as fast as the file), stretch (as slow or fast as the film) or no "
-     "(default: clip)",
+     "the clip's sound: clip (as it is, if the film runs as fast as the file), stretch (as slow or fast as the "
+     "film) or no (default: clip)",
      "clip stretch no"}),
 
     heading("Regions, in this order: later ones lie over earlier ones"),
     step("tag", "N", "the tag of the regions after it, 0 … 255 (default: 255)"),
     step("fill", "", "the whole picture"),
     step("rectangle", "X,Y,W,H", "from its top left corner, in pixels"),
-    step("ellipse", "X,Y,RX,RY", "round its centre, with half its width and height"),
-    step("polygon", "X,Y,X,Y,...", "three corners or more, even-odd if it crosses itself"),
+    step("ellipse", "X,Y,RX,RY", "round a centre, with half its width and height"),
+    step("polygon", "X,Y,X,Y,...", "three corners or more: even-odd if it crosses itself"),
     step("grid", "COLUMNSxROWS",
-         "the whole picture, cut into cells that are tagged N, N + 1, … row by row, from 0 without --tag"),
+         "the whole picture, cut into cells: tagged N, N + 1, … row by row, from 0 without --tag"),
     step("threshold", "PICTURE LOW..HIGH",
          "pixels with a brightness in a range: 100..255 in codes, 100 for that and brighter, "
          "40%..100% of white. PICTURE is a file, or a time of the capture (0.3s, 12f)"),
-    step("difference", "PICTURE PICTURE", "pixels in which two pictures, or times of the capture, differ"),
+    step("difference", "PICTURE PICTURE", "pixels in which two pictures differ: files, or times of the capture"),
     step("subject", "TIME", "pixels that differ from the plate (nutik-cl plate) at a time: 0.3s, 37f"),
     step("body", "TIME", "the same without soft shadows on the plate"),
-    step("moving", "", "pixels that change within the capture by more than its noise"),
-    step("still", "", "the others"),
+    step("moving", "", "pixels that change: within the capture, by more than its noise"),
+    step("still", "", "pixels that do not change"),
     step("changed-between", "TIME TIME",
          "pixels that change from one time to another: 0.3s 0.5s, or 37f 52f"),
 
     heading("Changes to the region before them"),
     step("by", "CODES",
-         "the largest difference that is no change, in codes: for --moving, --still, --changed-between, "
-         "--difference and --subject (default: twice the 25th percentile of all pixels' ranges, at least "
-         "1/16 of white)"),
+         "the largest difference that is no change: in codes, for --moving, --still, --changed-between, "
+         "--difference and --subject (default: twice the 25th percentile of all pixels' ranges, at least 1/16 of "
+         "white)"),
     step("within", "X,Y,W,H", "only its part in a rectangle"),
     step("largest", "", "only its largest connected part"),
-    step("grow", "PIXELS", "and all that is no further away than this"),
-    step("shrink", "PIXELS", "without all that is no further than this from its border"),
-    step("smooth", "PIXELS", "without specks and holes narrower than twice this"),
+    step("grow", "PIXELS", "with what is no further away"),
+    step("shrink", "PIXELS", "without what is no further from its border"),
+    step("smooth", "PIXELS", "without specks and holes: those narrower than twice this"),
     step("invert", "", "everything else"),
 
     heading("The mask"),
@@ -311,11 +307,10 @@ constexpr Option kRows[] = {
     {0, "size", "WxH", subject, bit(Id::mask), take<In<&Options::size>>,
      "its size, if neither capture nor picture tells: 640x360"},
     {0, "feather", "PIXELS", subject, bit(Id::mask), take<In<&Options::feather>>,
-     "blend tags along their edges, so far to either side: 6px, M255=6px, 2px,M255=6px; the output is "
-     "layers of 16 bits, one for each tag: layer-%d.png"},
+     "blend tags along their edges: so far to either side, 6px, M255=6px, 2px,M255=6px; the output is layers of "
+     "16 bits, one for each tag: layer-%d.png"},
     {0, "preview", "PICTURE.png", output, bit(Id::mask), take<In<&Options::preview>>,
-     "also show the tags in colours over an exposure of the capture: of all of it, or of --start and "
-     "--exposure"},
+     "also show the tags over an exposure: in colours, of all of it, or of --start and --exposure"},
 
     heading("What is varied, FROM..TO/STEP: one, or two as rows and columns"),
     {0, "shift", "TIMES", series, bit(Id::sweep), take_range<SweepParameter::shift>,
@@ -323,7 +318,7 @@ constexpr Option kRows[] = {
     {0, "scale-gain", "FACTORS", series, bit(Id::sweep), take_range<SweepParameter::gain>,
      "every gain times a factor: 0.5..2/0.25"},
     {0, "stretch", "FACTORS", series, bit(Id::sweep), take_range<SweepParameter::stretch>,
-     "the functions longer by a factor, from the moment that the first begins to expose: 0.5..2/0.5"},
+     "the functions longer by a factor: from the moment that the first begins to expose, 0.5..2/0.5"},
 
     heading("The sheet"),
     {0, "every", "TIME", series, bit(Id::contact), take_by<In<&Options::every>, parse_step>,
@@ -332,96 +327,99 @@ constexpr Option kRows[] = {
      "pictures beside each other (default: as many as look well)"}),
     known(Setting::width, {0, "width", "PIXELS", series, kMakesSheets,
      take_whole<In<&Options::width>, 100, plot::kLargestSide>,
-     "of the whole sheet (default: up to 1600, no picture enlarged)"}),
+     "width of the whole sheet (default: up to 1600, no picture enlarged)"}),
     {0, "each", "NAME%02d.png", output, bit(Id::sweep), take<In<&Options::each>>,
-     "also write every picture in full size, numbered from 0"},
+     "also write every picture in full size: numbered from 0"},
 
     heading("Changes over time"),
     {0, "tag", "N", subject, bit(Id::activity), take_activity_tag,
-     "count only pixels that have this value in the mask; all: those with each value for themselves, too", "all"},
+     "count only pixels of this mask value; all: those with each value for themselves, too", "all"},
     {0, "by", "CODES", subject, bit(Id::activity), take_whole<In<&Options::by>, 0, 65'535>,
-     "count codes that differ by more than this at a sample (default: 0)"},
+     "the largest difference that is no change: of codes, at a sample (default: 0)"},
     known(Setting::count_redrawn, {0, "count-redrawn", "", subject, bit(Id::activity),
      take<In<&Options::counts_redrawn>>,
-     "also count changes at samples at which the whole picture changed a little at once: its codec drew it anew, as at "
-     "key frames, or the camera changed its exposure (default: they count as those beside them)"}),
+     "also count changes of a whole picture at once: its codec drew it anew, as at key frames, or the camera "
+     "changed its exposure (default: they count as those beside them)"}),
     {0, "moment", "quietest|busiest", subject, bit(Id::activity), take<In<&Options::moment>>,
-     "print nothing but that stretch, as options for another command: --start 12f --exposure 9f"},
+     "print only that stretch: as options for another command, --start 12f --exposure 9f"},
     {0, "csv", "FILE.csv", output, bit(Id::activity), take<In<&Options::csv>>,
      "a line for each sample, - for standard output"},
     {0, "map", "MAP.png", output, bit(Id::activity), take<In<&Options::map>>,
-     "also write where it changes, as info --activity does: black never, white most often"},
+     "also write where it changes: as info --activity does, black never, white most often"},
 
     heading("The study"),
     {0, "style", "NAME", subject, bit(Id::study), take<InStudy<&StudyRequest::style>>,
-     "trail (sharp moments over the whole way), strobe (moments alone), rear-curtain (the last moment, and "
-     "a trail that grows towards it), frozen (one moment in a scene exposed for all of the time), clean (the "
-     "scene without moving things) or slit (strips, each later than the one before it) (default: trail)",
+     "what the picture shows: trail (sharp moments over the whole way), strobe (moments alone), rear-curtain (the"
+     " last moment, and a trail that grows towards it), frozen (one moment in a scene exposed for all of the "
+     "time), clean (the scene without moving things) or slit (strips, each later than the one before it) "
+     "(default: trail)",
      "trail strobe rear-curtain frozen clean slit"},
     {0, "moments", "N|TIMES", subject, bit(Id::study), take<In<&Options::moments>>,
-     "how many moments, up to 50, or which: 7, or 0.36s,0.75s,1.27s (default: 5; of rear-curtain and frozen 1); "
+     "how many moments, or which: up to 50, 7, or 0.36s,0.75s,1.27s (default: 5; of rear-curtain and frozen 1); "
      "of slit how many strips, up to 256 (default: 256)"},
     step("region", "X,Y,W,H",
          "look for a subject in this rectangle only; several times for as many subjects, each in its own",
          Id::study),
     {0, "spacing", "time|distance", subject, bit(Id::study), take<InStudy<&StudyRequest::spacing>>,
-     "moments are evenly apart in time, or along the way (default: time)", "time distance"},
+     "how moments are evenly apart: in time, or along the way (default: time)", "time distance"},
     {0, "trail", "SHAPE", subject, bit(Id::study), take<InStudy<&StudyRequest::trail>>,
-     "even, fade (ends at nothing), ramp (begins at nothing) or none (default: even of trail and frozen, ramp of "
-     "rear-curtain, none of strobe)",
+     "the trail's shape: even, fade (ends at nothing), ramp (begins at nothing) or none (default: even of trail "
+     "and frozen, ramp of rear-curtain, none of strobe)",
      "even fade ramp none"},
     {0, "by", "CODES", subject, bit(Id::study), take_whole<In<&Options::by>, 1, 65'535>,
-     "the largest difference from the empty scene that is not the subject, in codes: fewer find what hardly stands out, "
-     "more leave out shadows (default: 1/16 of white; twice the noise, if that is more, for the subject's outline)"},
+     "the largest difference that is no subject: from the empty scene, in codes; fewer find what hardly stands "
+     "out, more leave out shadows (default: 1/16 of white; twice the noise, if that is more, for the subject's "
+     "outline)"},
     {0, "feather", "PIXELS", exposure, bit(Id::study), take<In<&Options::feather>>,
-     "blend the subject's region, or slit's strips, over so many pixels: 6px, at most 32px (default: 2px; strips: 0px)"},
+     "blend the edges of subject or strips: over so many pixels, 6px, at most 32px (default: 2px; strips: 0px)"},
     {0, "slit-from", "SIDE", subject, bit(Id::study), take<InStudy<&StudyRequest::slit_from>>,
      "where slit begins: left, right (columns), top or bottom (rows) (default: left)", "left right top bottom"},
 
     heading("What is solved for"),
     step("wish", "WISH",
-         "what the picture should have, as often as there are wishes: 'M0 = plate', 'R1 gone', 'M64 like 0.8s', "
+         "what the picture should have: once for each wish, 'M0 = plate', 'R1 gone', 'M64 like 0.8s', "
          "'500,120,80,60 <= 0.5'. A region (all, M64, R1, X,Y,WIDTH,HEIGHT, M64 within X,Y,WIDTH,HEIGHT), then "
          "gone, or =, <=, >=, like and light: a number, plate, a time, a region, also 1.5 times it: 1.5 * plate",
          Id::solve),
     step("free", "NAME=FROM..TO",
-         "bounds of a gain, rest=-100..0 (default: none), or when a time may be, when=0.6s..0.8s, in steps "
-         "when=60f..80f/1f (default: any)",
+         "bounds of a gain or a time: rest=-100..0 (default: none), or when a time may be, when=0.6s..0.8s, in "
+         "steps when=60f..80f/1f (default: any)",
          Id::solve),
     {0, "regions", "MASK.pgm", subject, bit(Id::solve), take<In<&Options::regions>>,
-     "a second mask, whose values are the regions R0 … R255 of wishes"},
+     "a second mask: its values are the regions R0 … R255 of wishes"},
 
     heading("The plate"),
     {0, "by", "CODES", subject, bit(Id::plate), take_whole<In<&Options::by>, 0, 65'535>,
-     "codes that differ by no more, to either side, stand for the same light (default: three standard "
-     "deviations of the capture's noise, at least 1/32 of white)"},
+     "how far codes of the same light may differ: to either side (default: three standard deviations of the "
+     "capture's noise, at least 1/32 of white)"},
     {0, "uncertain", "MASK.pgm", output, bit(Id::plate), take<In<&Options::uncertain>>,
-     "also write as tag 255 the pixels that hold their light for less than half of the time"},
+     "also write where it is uncertain: as tag 255 the pixels that hold their light for less than half of the "
+     "time"},
 
-    heading("Computing"),
+    heading(kComputing),
     known(Setting::renderer, {0, "renderer", "NAME", computing, kExposes, take<In<&Options::renderer>>,
-     "opencl, or reference: plain double precision on the processor, slow (default: opencl)",
+     "what computes: opencl, or reference, plain double precision on the processor, slow (default: opencl)",
      "opencl reference"}),
     {0, "device", "NAME", computing, kExposes | bit(Id::validate), take<In<&Options::device>>,
-     "OpenCL device by number or part of its name; several that make each picture together: 0,1, or all; "
+     "the OpenCL device: its number or part of its name; several that make each picture together: 0,1, or all; "
      "NUTIK_DEVICE does the same (default: the first GPU, else the first device)"},
     known(Setting::precision, {0, "precision", "NAME", computing, kExposes, take<In<&Options::precision>>,
-     "single, compensated, double, fixed (the same bytes on every device), or auto: the fastest that is "
-     "sure to be right to half a code, or to half a float's step (default: auto; see -v)",
+     "the arithmetic: single, compensated, double, fixed (the same bytes on every device), or auto: the fastest "
+     "that is sure to be right to half a code, or to half a float's step (default: auto; see -v)",
      "auto single compensated double fixed"}),
     {0, "strict", "", computing, kExposes, take<In<&Options::strict>>,
-     "an error, with exit status 7, where light may err by more than half a code and a warning would say so"},
+     "refuse what may err by more than half a code: an error with exit status 7 where a warning would say so"},
     {0, "memory", "SIZE", computing, kDecodesClips | kExposes, take<In<&Options::memory>>,
      "the most that may be held: 500MB, 2GB, 1GiB; libraries and drivers come on top (default: half of the "
      "machine's)"},
 
     heading("Validation"),
     {0, "source", "CLIP", subject, bit(Id::validate), take<In<&Options::source_clip>>,
-     "also compare the capture with the clip that it was made from, picture by picture"},
+     "also compare the capture with its clip: picture by picture"},
     {0, "runs", "N", subject, bit(Id::validate), take_whole<In<&Options::runs>, 1, 10'000>,
-     "renders that are timed in each arithmetic, in turns (default: 5)"},
+     "renders that are timed: in each arithmetic, in turns (default: 5)"},
 
-    heading("Output"),
+    heading(kOutputs),
     {'o', "output", "FILE", output,
      kWrites & ~set_of(Id::batch, Id::info, Id::thumbnail), take<In<&Options::output>>,
      "where to write; without it the last operand, or a name made from the inputs. A picture goes to "
@@ -429,19 +427,20 @@ constexpr Option kRows[] = {
     known(Setting::depth, "dtype", {0, "depth", "BITS", exposure, set_of(Id::expose, Id::video, Id::validate,
      Id::plate, Id::study),
      take<InPicture<&OutputRequest::depth>>,
-     "8, 16, float or half (.exr): light as it is, with negatives (default: the capture's own, 8 for .jpg, "
-     "float for .exr and .pfm)",
+     "bits of the picture: 8, 16, float or half (.exr): light as it is, with negatives (default: the capture's "
+     "own, 8 for .jpg, float for .exr and .pfm)",
      "8 16 half float"}),
     {0, "bounds", "MAP.tif", output, bit(Id::expose), take<In<&Options::bounds>>,
-     "also write what each pixel may be off by, as floats (.tif, .exr, .pfm): in codes, or in light if the picture "
-     "holds light"},
+     "also write what each pixel may be off by: as floats (.tif, .exr, .pfm): in codes, or in light if the "
+     "picture holds light"},
     known(Setting::quality, {0, "quality", "N", exposure, kExposesFreely | set_of(Id::plate, Id::study),
      take_whole<InPicture<&OutputRequest::quality>, 1, 100>,
-     "of .jpg pictures and of films whose codec loses something, 1 … 100 (default: 90 of .jpg, of films the codec's)"}),
+     "quality from 1 to 100: of .jpg pictures, and of films whose codec loses something (default: 90 of .jpg, of "
+     "films the codec's)"}),
     known(Setting::keep_pixels, {0, "keep-pixels", "", exposure,
      set_of(Id::expose, Id::sweep, Id::video, Id::plate, Id::study), take<InPicture<&OutputRequest::keep_pixels>>,
-     "keep pixels that are not square as they are, to measure in them (default: .png, .jpg and films of lossy codecs "
-     "come in square ones, unless --depth 16 or --out-transfer source is stated; other files as they are)"}),
+     "keep pixels that are not square: to measure in them (default: .png, .jpg and films of lossy codecs come in "
+     "square ones, unless --depth 16 or --out-transfer source is stated; other files as they are)"}),
     {0, "negative", "HOW", exposure, kExposesFreely, take<InPicture<&OutputRequest::negative>>,
      "what codes make of light below 0: saturate (black), offset (light 0 is mid-grey, light below it "
      "darker), abs (as bright as light above it) (default: saturate)",
@@ -453,37 +452,43 @@ constexpr Option kRows[] = {
      "with its own white code (default: srgb, white being the largest code)",
      "srgb source linear bt709 gamma:"}),
     {0, "codec", "NAME", encoding, bit(Id::encode), take<In<&Options::codec>>,
-     "pack blocks with none (large, quickest to expose), rice (quick to pack and unpack), lz4, zstd (small) or "
-     "zstd:1 … zstd:19 (smaller, slower) (default: rice)",
+     "how blocks are packed: none (large, quickest to expose), rice (quick to pack and unpack), lz4, zstd (small)"
+     " or zstd:1 … zstd:19 (smaller, slower) (default: rice)",
      "none rice lz4 zstd zstd:"},
+    {0, "activity", "MAP.png", output, bit(Id::info), take<In<&Options::activity>>,
+     "also write how often each pixel changes: a grey picture, black never, white most often, between them sRGB"},
+    {0, "width", "PIXELS", output, bit(Id::thumbnail), take_whole<In<&Options::width>, 1, 4096>,
+     "width of the longer side (default: 256); no picture is enlarged"},
+    {0, "points", "", answer, bit(Id::check), take<In<&Options::points>>,
+     "print only the control points of -k: a line for each, mask value, nanoseconds, gain"},
+    {0, "json", "", answer, kAll & ~kOnlyPrints, take<In<&Options::json>>, "answer with one JSON object, for scripts"},
+    {0, "no-recipe", "", output, kExposes & ~bit(Id::mask), take<In<&Options::no_recipe>>,
+     "do not keep in the picture how it was made: names, functions and options (see nutik-cl again)"},
+    {0, "skip-existing", "", output, kMakesMany, take<In<&Options::skip_existing>>,
+     "leave out pictures that are there already: with the recipe that they would get"},
+    {0, "overwrite", "", output, kWrites, take<In<&Options::overwrite>>,
+     "replace files that are there already; without it only pictures that carry a recipe are replaced"},
+    {0, "in-place", "", output, bit(Id::retime), take<In<&Options::in_place>>, "change the capture itself"},
+    {0, "progress", "", output, kMakesMany | set_of(Id::encode, Id::join), take<In<&Options::progress>>,
+     "print progress where stderr is no terminal: a line a second, Progress: 45% …"},
+    {'q', "quiet", "", output, kAll, take<In<&Options::quiet>>, "no progress bar and no summary"},
+    {'v', "verbose", "", output, (kExposes & ~set_of(Id::mask, Id::solve)) | bit(Id::trace),
+     take<In<&Options::verbose>>,
+     "say more: what is read and what is skipped, in which precision and why, how fast and with how much "
+     "memory; every step of a trace"},
+
+    heading(kForExperiments),
+    {0, "live", "all", exposure, kShapesExposures, take_by<In<&Options::live_all>, parse_all>,
+     "visit every sample, also if no gain needs it (the picture is the same)", "all"},
+    {0, "shutter-error", "E", exposure, kShapesExposures | bit(Id::shutter),
+     take_by<In<&Options::shutter_error>, parse_shutter_error>,
+     "how far a smooth shape may be from its gains: as a share of the largest (default: 0.001)"},
     {0, "tiles", "KIND", encoding, kEncodesClips, take<InSource<&SourceRequest::tiles>>,
      "auto, or all tiles as dense, rows or records, for experiments (default: auto)",
      "auto dense rows records"},
     known(Setting::block_samples, {0, "block-samples", "N", encoding, kEncodesClips,
      take_whole<InSource<&SourceRequest::block_samples>, 1, kLargestBlockSamples>,
      "samples in a block (default: 64, fewer where much of a large picture changes)"}),
-    {0, "activity", "MAP.png", output, bit(Id::info), take<In<&Options::activity>>,
-     "also write how often each pixel changes, as a grey picture: black never, white most often, between "
-     "them sRGB"},
-    {0, "width", "PIXELS", output, bit(Id::thumbnail), take_whole<In<&Options::width>, 1, 4096>,
-     "of the longer side (default: 256); no picture is enlarged"},
-    {0, "points", "", answer, bit(Id::check), take<In<&Options::points>>,
-     "print nothing but the control points of -k, a line for each: mask value, nanoseconds, gain"},
-    {0, "json", "", answer, kAll & ~kOnlyPrints, take<In<&Options::json>>, "answer with one JSON object, for scripts"},
-    {0, "no-recipe", "", output, kExposes & ~bit(Id::mask), take<In<&Options::no_recipe>>,
-     "do not keep in the picture how it was made: names, functions and options (see nutik-cl again)"},
-    {0, "skip-existing", "", output, kMakesMany, take<In<&Options::skip_existing>>,
-     "leave out pictures that are there already with the recipe that they would get"},
-    {0, "overwrite", "", output, kWrites, take<In<&Options::overwrite>>,
-     "replace files that are there already; without it only pictures that carry a recipe are replaced"},
-    {0, "in-place", "", output, bit(Id::retime), take<In<&Options::in_place>>, "change the capture itself"},
-    {0, "progress", "", output, kMakesMany | set_of(Id::encode, Id::join), take<In<&Options::progress>>,
-     "print a line a second on stderr if that is no terminal: Progress: 45% …"},
-    {'q', "quiet", "", output, kAll, take<In<&Options::quiet>>, "no progress bar and no summary"},
-    {'v', "verbose", "", output, (kExposes & ~set_of(Id::mask, Id::solve)) | bit(Id::trace),
-     take<In<&Options::verbose>>,
-     "say more: what is read and what is skipped, in which precision and why, how fast and with how much "
-     "memory; every step of a trace"},
 };
 
 std::vector<Option> rows_under_headings() {

@@ -43,10 +43,12 @@ Picture read_mask(std::span<const std::byte> bytes, const std::string& name,
                   const CheckMaskSize& check_size) {
   if (is_png(bytes)) return grey_of(read_8_bit_png(bytes, name, check_size), name);
   if (bytes.size() < 2 || bytes[0] != std::byte{'P'}) {
+    const bool is_functions = bytes.size() > 1 && bytes[0] == std::byte{'M'} && bytes[1] >= std::byte{'0'} &&
+                              bytes[1] <= std::byte{'9'};
     throw InputError(
         format("{} is neither a PGM nor a PNG; masks are 8-bit grey pictures of these kinds "
-               "(JPEG would change their values)",
-               name));
+               "(JPEG would change their values){}",
+               name, is_functions ? ". It looks like gain functions; were mask and functions swapped?" : ""));
   }
   Picture picture = read_netpbm(bytes, name);
   if (picture.type != ValueType::code8) {

@@ -1,6 +1,8 @@
 #include "session/requests/function_input.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <vector>
 
 #include "capture/error.hpp"
@@ -10,6 +12,7 @@
 #include "mask/layers.hpp"
 #include "media/clip.hpp"
 #include "media/formats/numbered_name.hpp"
+#include "media/formats/readers.hpp"
 #include "media/input_checksum.hpp"
 #include "media/stills/mask_reader.hpp"
 #include "media/stills/still_sequence.hpp"
@@ -35,7 +38,14 @@ FunctionInput read_functions(std::string_view text, const std::string& title) {
 }
 
 FunctionInput read_function_input(const std::string& name) {
-  return read_functions(InputBytes(name).text(), input_title(name));
+  const InputBytes input(name);
+  const std::string_view text = input.text();
+  const auto begins = [&](const readers::Reader* kind) { return kind->begins(text); };
+  if (const auto kind = std::ranges::find_if(readers::kStills, begins); kind != std::end(readers::kStills)) {
+    throw InputError(format("{} is a picture, a {}, and gain functions are text; were mask and functions swapped?",
+                            input_title(name), (*kind)->name));
+  }
+  return read_functions(text, input_title(name));
 }
 
 Mask read_mask_input(const std::string& name, const std::optional<std::string>& capture) {
