@@ -3,10 +3,15 @@
 A capture records for every pixel when and how its value changed. A picture is the integral of each pixel's light times
 a gain function of time; each region of a mask has its own.
 
-    import nutik
-    capture = nutik.open("clip.tik")                               # or a video, or nutik.encode(array, rate=960)
-    picture = capture.render(start="0.4s", exposure="10ms")        # light, float32
-    light = picture.array                                          # [height, width, 3], read-only, no copy
+    >>> import numpy as np
+    >>> import nutik
+    >>> codes = np.arange(96 * 4 * 6, dtype=np.uint16).reshape(96, 4, 6)      # [samples, height, width]
+    >>> capture = nutik.encode(codes, rate=960)                                # or nutik.open("clip.tik"), of a video too
+    >>> picture = capture.render(start="10ms", exposure="20ms")                # light, float32
+    >>> picture.array.shape                                                    # [height, width], read-only, no copy
+    (4, 6)
+    >>> bool(abs(picture.array - codes[10:30].mean(0) / 65535).max() < 0.01)
+    True
 
 Times are seconds, exactly as a float is printed (0.4 is 4/10 s), or words with a unit: "10ms", "250us", "1/300s", "37f"
 for picture 37; or Fraction, Decimal, numpy.timedelta64, datetime.timedelta. What is returned as `..._ns` is whole

@@ -9,17 +9,22 @@ import re
 import signal
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from keyword import iskeyword
 from os import PathLike, fsdecode
 from os.path import dirname
 from threading import Thread
-from typing import Any, Callable, Union
+from typing import Any, Protocol, Union
 
 from . import _nutik
 from ._nutik import DeviceError, Error, ImpreciseError, InputError, MemoryTooLittle, OutputError, UsageError
+from ._told import Json
 from ._words import NutikNote, Path, Progress, bytes_word, is_list, number_word, time_word, warn
+
+# A value, several, or of a command's option that takes two words a list of pairs.
+Value = Union[str, int, float, Fraction, "PathLike[str]"]
+Option = Union[Value, Sequence[Union[Value, Sequence[Value]]], None]
 
 _ERRORS = {2: UsageError, 3: InputError, 4: DeviceError, 5: OutputError, 6: MemoryTooLittle, 7: ImpreciseError}
 _ANSWERED = 1, 3  # findings of a check, an arithmetic beyond its bound: what was asked for, and no failure
@@ -59,7 +64,7 @@ def _words(kind: str, name: str, value: Any) -> list[str]:
         _word(name, each, part) for each, part in zip(kinds, value)]
 
 
-def _run(command: str, operands: Sequence[Path], progress: Progress, stated: dict[str, Any]) -> dict[str, Any]:
+def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Mapping[str, Any]) -> dict[str, Json]:
     _, _, arguments = _nutik.described(command)
     said: dict[str, list[list[str]]] = {"json": [[]]}
     if progress is not None and "progress" in arguments:
@@ -109,7 +114,7 @@ def _in_python(text: str) -> str:
     return re.sub(r"--([a-z][a-z-]*)", lambda option: option[1].replace("-", "_") + "=", text)
 
 
-def _answer(command: str, status: int, text: str, told: Sequence[str]) -> dict[str, Any]:
+def _answer(command: str, status: int, text: str, told: Sequence[str]) -> dict[str, Json]:
     if status and not (text and status in _ANSWERED):
         message = _in_python("".join(told).strip()).removeprefix("nutik-cl: ")
         raise _ERRORS.get(status, Error)(message or f"{command} ended with status {status}")
@@ -120,13 +125,14 @@ def _answer(command: str, status: int, text: str, told: Sequence[str]) -> dict[s
     return found
 
 
-Option = Union[str, int, float, Fraction, "PathLike[str]", Sequence[Any], None]
+class Command(Protocol):
+    def __call__(self, *files: Path, progress: Progress = None, **stated: Option) -> dict[str, Json]: ...
 
 
-def _function_of(command: str) -> Callable[..., dict[str, Any]]:
+def _function_of(command: str) -> Command:
     summary, operands, arguments = _nutik.described(command)
 
-    def function(*files: Path, progress: Progress = None, **stated: Option) -> dict[str, Any]:
+    def function(*files: Path, progress: Progress = None, **stated: Option) -> dict[str, Json]:
         return _run(command, files, progress, stated)
 
     offered = {name + "_" * iskeyword(name): row for name, row in arguments.items()
@@ -138,6 +144,7 @@ def _function_of(command: str) -> Callable[..., dict[str, Any]]:
         "warnings. It runs in a process of its own, which Ctrl-C ends. progress: called with a percentage and 100.\n\n"
         + "\n".join(f"{name}: {row[0] or 'True'}; {row[1]}" for name, row in offered.items()))
     kinds = inspect.Parameter
+    function.__annotations__.update(dict.fromkeys(offered, "Option"))
     signature = inspect.signature(function)
     function.__signature__ = signature.replace(parameters=[  # type: ignore[attr-defined]
         signature.parameters["files"], signature.parameters["progress"],

@@ -7,15 +7,25 @@ import inspect
 from dataclasses import dataclass
 from itertools import chain
 from os import PathLike
-from typing import Any, BinaryIO, Iterable, Optional, Sequence, Union, cast
+from typing import Any, BinaryIO, Iterable, Optional, Protocol, Sequence, Union, cast
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _nutik
 from ._captures import Capture
 from ._nutik import InputError, UsageError
 from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, is_list, path_word, reading,
                      seconds_of, settings_of, time_ns, times_ns, warn, whole)
+
+
+class HasArray(Protocol):
+    """What NumPy makes an array of; of torch, jax and others those in this machine's memory."""
+
+    def __array__(self) -> NDArray[np.generic]: ...
+
+
+Source = Union[ArrayLike, HasArray, Iterable[ArrayLike], Path, BinaryIO]
 
 
 def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_angle: Optional[Number] = None,
@@ -58,7 +68,7 @@ def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_
         return _told(_nutik.open(name, settings_of(stated), computing, progress))
 
 
-def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number] = None,
+def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Number] = None,
            times: Optional[Iterable[Time]] = None, exposures: Union[Time, Iterable[Time], None] = None,
            shutter_angle: Optional[Number] = None, transfer: Optional[str] = None, white: Optional[float] = None,
            primaries: Optional[str] = None, pixel_aspect: Union[str, Number, None] = None, deflicker: bool = False,
@@ -68,7 +78,7 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
            tolerance: Optional[int] = None, noise: Optional[Path] = None, sigmas: Optional[float] = None,
            codec: str = "rice", tiles: Optional[str] = None, block_samples: Optional[int] = None,
            device: Optional[str] = None, memory: Union[int, str, None] = None, renderer: Optional[str] = None,
-           progress: Progress = None, name: str = "array", **clip: Any) -> Capture:
+           progress: Progress = None, name: str = "array", **clip: object) -> Capture:
     """Makes a capture of pictures, and opens it.
 
     source: an array [samples, height, width] or [samples, height, width, 3] (red, green, blue) of uint8 or uint16 codes,
@@ -87,10 +97,16 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
 
     Raises UsageError where arguments do not fit, InputError where pictures are unlike or times out of order,
     OutputError; what an iterable raises; KeyboardInterrupt at Ctrl-C. No file is left behind then.
+
+    >>> capture = nutik.encode(np.zeros((30, 8, 8, 3), np.uint8), times=np.arange(30) / 100, exposures="2ms")
+    >>> capture.shape, capture.times_ns[1].tolist()
+    ((30, 8, 8, 3), [10000000, 12000000])
+    >>> len(nutik.encode((np.full((8, 8), k, np.uint8) for k in range(20)), rate="30000/1001"))
+    20
     """
     computing = _computing(device, memory, renderer)
     path = None if output is None else path_word(output)
-    stated = dict(rate=rate, shutter_angle=shutter_angle, transfer=transfer, white=white, primaries=primaries,
+    stated: dict[str, object] = dict(rate=rate, shutter_angle=shutter_angle, transfer=transfer, white=white, primaries=primaries,
                   pixel_aspect=pixel_aspect, deflicker=deflicker, between=between, align=align, align_to=align_to, align_along=align_along,
                   unseen=unseen,
                   tolerance=tolerance, noise=noise, sigmas=sigmas, tiles=tiles, block_samples=block_samples)
@@ -150,7 +166,11 @@ class Device:
 
 
 def devices() -> list[Device]:
-    """The OpenCL devices of this machine, those first that are taken first. Raises DeviceError where there are none."""
+    """The OpenCL devices of this machine, those first that are taken first. Raises DeviceError where there are none.
+
+    >>> [device.index for device in nutik.devices()][0]
+    0
+    """
     return [Device(index, *told) for index, told in enumerate(_nutik.devices())]
 
 
