@@ -18,8 +18,8 @@ from ._masks import Mask, MaskLike, mask_of
 from ._nutik import InputError, MemoryTooLittle, UsageError
 from ._pictures import Picture, Pictures
 from ._told import Figures
-from ._words import (Array, Axes, DelayLike, Path, Progress, Time, axes_of, box_of, count_of, delays_ns, ellipsis, is_list, settings_of, tag_of,
-                     time_word, warn)
+from ._words import (Axes, DelayLike, Path, Progress, Time, axes_of, box_of, count_of, delays_ns, ellipsis, is_list,
+                     settings_of, tag_of, time_word, warn)
 
 Codes = Union[NDArray[np.uint8], NDArray[np.uint16]]
 Index = Union[int, slice, ellipsis, tuple[Union[int, slice, ellipsis, None], ...]]
@@ -151,7 +151,8 @@ class Capture:
         """[samples] float64: when each sample's exposure begins, in seconds; times_ns has it exactly."""
         return self.times_ns[:, 0] / 1e9
 
-    def records(self, region: Optional[Sequence[int]] = None, *, first: int = 0, last: Optional[int] = None) -> NDArray[np.void]:
+    def records(self, region: Optional[Sequence[int]] = None, *, first: int = 0,
+                last: Optional[int] = None) -> NDArray[np.void]:
         """What pixels hold, from one change to the next, as an array of records: x, y, start_ns, end_ns, code (of colour
         [3]); each pixel's in time order, row after row.
 

@@ -106,7 +106,8 @@ def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Map
         for reader, stream in zip(readers, (process.stdout, process.stderr)):
             reader.join()
             stream.close()  # type: ignore[union-attr]
-    return _answer(command, process.returncode, "".join(answer), [line for line in told if not line.startswith("Progress:")])
+    said_besides = [line for line in told if not line.startswith("Progress:")]
+    return _answer(command, process.returncode, "".join(answer), said_besides)
 
 
 def _in_python(text: str) -> str:
@@ -140,8 +141,8 @@ def _function_of(command: str) -> Command:
     function.__name__ = function.__qualname__ = command
     function.__module__ = "nutik"
     function.__doc__ = _in_python(
-        f"{summary}\n\nfiles: {operands}. Returns what the command answers to scripts, a dict; what it says besides comes as\n"
-        "warnings. It runs in a process of its own, which Ctrl-C ends. progress: called with a percentage and 100.\n\n"
+        f"{summary}\n\nfiles: {operands}. Returns what the command answers to scripts, a dict; what it says besides comes\n"
+        "as warnings. It runs in a process of its own, which Ctrl-C ends. progress: called with a percentage and 100.\n\n"
         + "\n".join(f"{name}: {row[0] or 'True'}; {row[1]}" for name, row in offered.items()))
     kinds = inspect.Parameter
     function.__annotations__.update(dict.fromkeys(offered, "Option"))

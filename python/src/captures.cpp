@@ -344,7 +344,8 @@ void bind_captures(py::module_& module) {
       .def("times_ns", &times_ns)
       .def("figures", &figures)
       .def("samples", &samples, py::arg("numbers"))
-      .def("reader", [](std::shared_ptr<OpenCapture> capture) { return std::make_unique<SampleReader>(std::move(capture)); })
+      .def("reader",
+           [](std::shared_ptr<OpenCapture> capture) { return std::make_unique<SampleReader>(std::move(capture)); })
       .def("records", &records, py::arg("box"), py::arg("first"), py::arg("last"))
       .def("moved_camera", &moved_camera_text);
   py::class_<SampleReader>(module, "SampleReader").def("sample", &sample, py::arg("number"));

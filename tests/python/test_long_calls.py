@@ -97,8 +97,8 @@ for name, work in WORKS.items():
             sent.append(time.monotonic())
             os.kill(os.getpid(), signal.SIGINT)
         timer = threading.Timer(share * whole, interrupt)
-        timer.start()
         try:
+            timer.start()
             work(None)
             timer.join()
             time.sleep(0.01)
