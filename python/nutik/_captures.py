@@ -153,12 +153,23 @@ class Capture:
 
     def records(self, region: Optional[Sequence[int]] = None, *, first: int = 0,
                 last: Optional[int] = None) -> NDArray[np.void]:
-        """What pixels hold, from one change to the next, as an array of records: x, y, start_ns, end_ns, code (of colour
-        [3]); each pixel's in time order, row after row.
+        """What pixels hold, from one change to the next.
 
-        region: (x, y, width, height), only these pixels. first, last: only samples from `first` on and before `last`; what
-        is held before or after is cut there. Raises UsageError where there are no such pixels or samples.
+        Parameters
+        ----------
+        region : (x, y, width, height), only these pixels.
+        first, last : only samples from `first` on and before `last`; what is held before or after is cut there.
 
+        Returns
+        -------
+        [records] with the fields x, y, start_ns, end_ns, code (of colour [3]); each pixel's in time order, row after row.
+
+        Raises
+        ------
+        UsageError where there are no such pixels or samples.
+
+        Examples
+        --------
         >>> capture.records((3, 4, 1, 1), first=0, last=1)["end_ns"].tolist()
         [10000000]
         """
@@ -221,29 +232,40 @@ class Capture:
                unmapped: Optional[str] = None, precision: Optional[str] = None, codes: bool = False, dtype: DTypeLike = None,
                transfer: Optional[str] = None, negative: Optional[str] = None,
                region: Optional[Sequence[int]] = None, strict: bool = False) -> Picture:
-        """Exposes a picture.
+        """Exposes a picture: of an interval, or with gain functions.
 
-        Either an interval: `start` (0 without one) and `exposure`, with `shutter` a shape (nutik.shutter()) and
-        `shutter_error`. Or `functions`: one for all of the picture (a nutik.Function, a list of (time, gain), a
-        callable over the whole capture), or one for each tag of `mask` ({0: ..., 128: ...}, or a function file);
-        `start` is then their time 0.
+        Parameters
+        ----------
+        functions : one for all of the picture (a nutik.Function, a list of (time, gain), a callable over the whole
+            capture), or one for each tag of `mask` ({0: ..., 128: ...}, or a function file).
+        mask : [height, width] of tags, or {tag: alpha} of shares (the first function gets what they leave), a nutik.Mask,
+            or a file.
+        start, exposure : the interval, in place of functions; 0 without a start. Of functions their time 0.
+        shutter, shutter_error : its shape, as of nutik.shutter().
+        feather : pixels that tags are blended over, 6 or '6px'.
+        delay : how much later each pixel is exposed (docs/how-to/delay.md): 'rows:15ms', 'columns:0s..0.5s',
+            'radial:-20ms..20ms', 'map.tif:0s..1s', or [height, width] of seconds or timedelta64.
+        normalize : 'support', 'integral', 'absolute' or 'seconds:S' (docs/explanation/model.md).
+        gain : multiplies the light.
+        unmapped : 'zero' lets tags without a function expose to black.
+        precision : 'single', 'compensated', 'double' or 'fixed'; None: the fastest whose error bound is small enough.
+        codes, dtype : float32 without them, or float64. With codes uint8 or uint16, the capture's own without dtype.
+        transfer : of codes, sRGB without it; 'source': the capture's own.
+        negative : what codes say of light below 0, 'saturate', 'offset' or 'abs'.
+        region : (x, y, width, height) in pixels, only these.
+        strict : codes that may err by more than half of one raise ImpreciseError, and are no warning.
 
-        mask: tags [height, width], or {tag: alpha} of shares (the first function gets what they leave), a nutik.Mask, or
-            a file. feather: pixels that tags are blended over, 6 or '6px'.
-        delay: how much later each pixel is exposed (docs/how-to/delay.md): 'rows:15ms', 'columns:0s..0.5s',
-            'radial:-20ms..20ms', 'map.tif:0s..1s', or an array [height, width] of seconds or timedelta64.
-        normalize: 'support', 'integral', 'absolute' or 'seconds:S' (docs/explanation/model.md). gain: multiplies the light.
-        unmapped: 'zero' lets tags without a function expose to black.
-        precision: 'single', 'compensated', 'double' or 'fixed'; None: the fastest whose error bound is small enough.
-        strict: codes that may err by more than half of one raise ImpreciseError, and are no warning.
+        Returns
+        -------
+        Picture, whose array is [height, width] or [height, width, 3]: light, of which 1 is white, or codes.
 
-        Light comes as float32, or float64 with dtype; codes=True gives uint8 or uint16, the capture's own unless dtype
-        says which, sRGB unless `transfer` says otherwise ('source': the capture's own). negative: what codes say of
-        light below 0, 'saturate', 'offset' or 'abs'. region: (x, y, width, height), only these pixels.
+        Raises
+        ------
+        UsageError where the request does not fit the capture, InputError where mask and functions do not or the capture
+        is damaged, DeviceError; KeyboardInterrupt at Ctrl-C.
 
-        Raises UsageError where the request does not fit the capture, InputError where mask and functions do not or the
-        capture is damaged, DeviceError; KeyboardInterrupt at Ctrl-C.
-
+        Examples
+        --------
         >>> capture.render(start="5f", exposure=0.02, codes=True).dtype
         dtype('uint8')
         >>> halves = np.zeros((24, 32), np.uint8)
@@ -274,15 +296,27 @@ class Capture:
                     dtype: DTypeLike = None, transfer: Optional[str] = None, negative: Optional[str] = None,
                     region: Optional[Sequence[int]] = None, strict: bool = False,
                     progress: Progress = None) -> Pictures:
-        """Exposes many pictures in one call: [pictures, height, width] or [pictures, height, width, 3].
+        """Exposes many pictures in one call. Small ones (16384 values) with one function each are added up on the
+        processor, in double, in one pass over the capture; others are made one by one.
 
-        starts, exposures: one for all pictures, or one for each. functions: a list, of each picture those that render()
-        takes. What is a list has one length. The rest is as of render(), and so are the pictures, but that small ones
-        (16384 values) with one function each are added up on the processor, in double, in one pass over the capture.
-        progress: called with (pictures done, of how many).
+        Parameters
+        ----------
+        functions : a list, of each picture those that render() takes.
+        starts, exposures : one for all pictures, or one for each. What is a list has one length.
+        progress : called with (pictures done, of how many).
 
-        Raises UsageError where lists have different lengths or are empty; as render() does.
+        The rest is as of render().
 
+        Returns
+        -------
+        Pictures, whose array is [pictures, height, width] or [pictures, height, width, 3].
+
+        Raises
+        ------
+        UsageError where lists have different lengths or are empty; as render() does.
+
+        Examples
+        --------
         >>> many = capture.render_many(starts=np.linspace(0, 0.05, 100), exposures="10ms")
         >>> many.array.shape, many.error_bounds.shape
         ((100, 24, 32), (100,))
@@ -314,11 +348,25 @@ class Capture:
               exposure: Optional[Time] = None, shutter: Optional[str] = None, shutter_error: Optional[float] = None,
               feather: Union[str, float, None] = None, delay: Optional[DelayLike] = None, normalize: str = "support",
               gain: float = 1.0, unmapped: Optional[str] = None) -> list[Trace]:
-        """How the light of pixel x, y came about, or the mean of all pixels with a `tag` of the mask: a Trace for each
-        function that has a share. The other arguments are those of render().
+        """How the light of a pixel came about, or the mean of all pixels of a tag.
 
-        Raises UsageError where there is no such pixel or tag; as render() does.
+        Parameters
+        ----------
+        x, y : the pixel, or
+        tag : of the mask.
 
+        The rest is as of render().
+
+        Returns
+        -------
+        A Trace for each function that has a share.
+
+        Raises
+        ------
+        UsageError where there is no such pixel or tag; as render() does.
+
+        Examples
+        --------
         >>> trace, = capture.trace(3, 4, start=0, exposure="10ms")
         >>> bool(abs(trace.integral_ns.sum() / trace.support_ns - trace.exposed[0]) < 1e-12)
         True
@@ -336,16 +384,54 @@ class Capture:
 
     def plate(self, *, by: Optional[int] = None, codes: bool = False, dtype: DTypeLike = None,
               transfer: Optional[str] = None, progress: Progress = None) -> _finds.Plate:
-        """The scene without what moves in it (docs/how-to/plate.md). by: codes that the same light may differ by; None: by the
-        capture's own noise. codes, dtype and transfer as of render(), but for float64. progress: as of nutik.open()."""
+        """The scene without what moves in it (docs/how-to/plate.md).
+
+        Parameters
+        ----------
+        by : codes that the same light may differ by; None: by the capture's own noise.
+        codes, dtype, transfer : as of render(), but for float64.
+        progress : as of nutik.open().
+
+        Returns
+        -------
+        Plate: a picture, and [height, width] of where it is a guess.
+
+        Raises
+        ------
+        UsageError, InputError where there is one sample; KeyboardInterrupt at Ctrl-C.
+
+        Examples
+        --------
+        >>> nutik.encode(np.full((9, 8, 8), 7, np.uint8), rate=9).plate(codes=True).picture.array[0, 0]
+        7
+        """
         return _finds.plate(self._held, None if by is None else count_of(by, "by"),
                             self._output(codes, dtype, transfer, None), progress)
 
     def activity(self, mask: Optional[MaskLike] = None, *, tag: Optional[int] = None, by: int = 0,
                  count_redrawn: bool = False, progress: Progress = None) -> _finds.Activity:
-        """When it changes, and where. Only pixels of `mask` with `tag` count, or with any tag but 0; changes of no more
-        than `by` codes are none. Samples at which a codec drew its picture anew count as those beside them, unless
-        count_redrawn. progress: as of nutik.open()."""
+        """When it changes, and where.
+
+        Parameters
+        ----------
+        mask, tag : only pixels of the mask with this tag count, or with any tag but 0.
+        by : changes of no more than so many codes are none.
+        count_redrawn : samples at which a codec drew its picture anew count as those beside them without it.
+        progress : as of nutik.open().
+
+        Returns
+        -------
+        Activity: changes by sample and by pixel.
+
+        Raises
+        ------
+        UsageError, InputError where no pixel counts; KeyboardInterrupt at Ctrl-C.
+
+        Examples
+        --------
+        >>> capture.activity().changed_pixels.shape
+        (10,)
+        """
         return _finds.activity(self._held, mask_of(mask), None if tag is None else tag_of(tag), count_of(by, "by"),
                                count_redrawn, progress)
 

@@ -183,14 +183,21 @@ def shutter(shape: str, start: Time, exposure: Time, *, error: float = 1e-3) -> 
 def fit(gain: Gain, start: Time, end: Time, *, error: float = 1e-3) -> Function:
     """The fewest straight pieces that stay near a callable, from `start` to `end`; 0 outside.
 
-    gain: called with an array of times in seconds, returns as many gains; one that takes single times only is called
+    Parameters
+    ----------
+    gain : called with an array of times in seconds, returns as many gains; one that takes single times only is called
         once for each.
-    error: how far the pieces may lie from it, a share of its largest |gain|. It holds at every time that was looked at:
-        1024 evenly, and more wherever the middle of two lies off the line between them, down to single nanoseconds.
+    error : how far the pieces may lie from it, a share of its largest |gain|. It holds at every time that was looked at:
+        1024 evenly, and more wherever the middle of two lies off the line between them, down to single nanoseconds. A
+        jump becomes a step of 1 ns.
 
-    A jump becomes a step of 1 ns. Raises UsageError where a gain is not finite, where it is 0 everywhere, or where it
-    bends in more places than can be looked at: give such a function's pieces as points.
+    Raises
+    ------
+    UsageError where a gain is not finite, where it is 0 everywhere, or where it bends in more places than can be looked
+    at: give such a function's pieces as points.
 
+    Examples
+    --------
     >>> wave = nutik.fit(lambda t: np.sin(40 * t) ** 2, 0, 0.3, error=1e-3)
     >>> bool(abs(wave(0.1) - np.sin(4.0) ** 2) <= 1e-3)
     True

@@ -81,23 +81,36 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
            progress: Progress = None, name: str = "array", **clip: object) -> Capture:
     """Makes a capture of pictures, and opens it.
 
-    source: an array [samples, height, width] or [samples, height, width, 3] (red, green, blue) of uint8 or uint16 codes,
-        however it is strided, or of floats that are light; or an iterable of such pictures; or the path of a clip, or one
-        that is open for bytes (nutik.open() says more of these). Codes in the machine's order of bytes are read where
-        they lie. What has __dlpack__ is an array.
-    output: a .tik to write; None: a temporary capture, gone when it is closed.
-    rate: pictures a second. Or `times`: when each picture's exposure begins; of dates what lies between them counts. exposures: how long each was exposed, one
-        time or one for each; with neither that nor shutter_angle, all the time to the next.
-    transfer: what codes stand for, 'srgb', 'bt709', 'linear', 'gamma:G', 'hlg', 'pq' or a camera's curve ('slog3'); without
-        it 'srgb' of uint8, 'linear' of uint16. white: the code of white, 255 or 65535 without it; no code may be larger. Of
-        floats the light of white, which must be stated: they become 16-bit codes, to the nearest of 65535 steps; none may
-        be negative.
-    tolerance, noise, sigmas, align, ...: as of nutik.open(), which takes more of a path: begin, crop, raw, ... codec, of an
-        output: 'none', 'rice', 'lz4', 'zstd', 'zstd:9'. progress: as of nutik.open().
+    Parameters
+    ----------
+    source : [samples, height, width] or [samples, height, width, 3] (red, green, blue) of uint8 or uint16 codes, however
+        it is strided, or of floats that are light; or an iterable of such pictures; or the path of a clip, or one that is
+        open for bytes (nutik.open() says more of these). Codes in the machine's order of bytes are read where they lie.
+        What has __dlpack__ is an array.
+    output : a .tik to write; None: a temporary capture, gone when it is closed.
+    rate : pictures a second.
+    times : or when each picture's exposure begins, in seconds; of dates what lies between them counts.
+    exposures : how long each was exposed, one time or one for each; with neither that nor shutter_angle, all the time to
+        the next.
+    transfer : what codes stand for, 'srgb', 'bt709', 'linear', 'gamma:G', 'hlg', 'pq' or a camera's curve ('slog3');
+        without it 'srgb' of uint8, 'linear' of uint16.
+    white : the code of white, 255 or 65535 without it; no code may be larger. Of floats the light of white, which must be
+        stated: they become 16-bit codes, to the nearest of 65535 steps; none may be negative.
+    codec : of an output: 'none', 'rice', 'lz4', 'zstd', 'zstd:9'.
+    tolerance, noise, sigmas, align, ... : as of nutik.open(), which takes more of a path: begin, crop, raw, ...
+    progress : as of nutik.open().
 
-    Raises UsageError where arguments do not fit, InputError where pictures are unlike or times out of order,
-    OutputError; what an iterable raises; KeyboardInterrupt at Ctrl-C. No file is left behind then.
+    Returns
+    -------
+    Capture
 
+    Raises
+    ------
+    UsageError where arguments do not fit, InputError where pictures are unlike or times out of order, OutputError; what an
+    iterable raises; KeyboardInterrupt at Ctrl-C. No file is left behind then.
+
+    Examples
+    --------
     >>> capture = nutik.encode(np.zeros((30, 8, 8, 3), np.uint8), times=np.arange(30) / 100, exposures="2ms")
     >>> capture.shape, capture.times_ns[1].tolist()
     ((30, 8, 8, 3), [10000000, 12000000])
