@@ -1,11 +1,13 @@
 // How often each pixel of a capture changes, and how many change at each sample.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
 #include <span>
+#include <thread>
 #include <vector>
 
 #include "capture/memory_needs.hpp"
@@ -62,13 +64,15 @@ class Activity {
                                       tiles * kTilePixels * capture.shape.channels * sizeof(std::uint16_t)}};
   }
 
-  // Besides, of so many samples: their counts, of all pixels and of those with each tag, with room that they grow by.
-  [[nodiscard]] static MemoryNeeds needs_of_samples(std::uint64_t samples, std::size_t tags) {
-    return {{"changes of samples", samples * (3 + tags) * 2 * sizeof(std::uint64_t)}};
+  // Besides, of so many samples: their counts, of all pixels and of those with each tag, with room that they grow by; and
+  // those that each thread has of a block, of so many samples at most.
+  [[nodiscard]] static MemoryNeeds needs_of_samples(std::uint64_t samples, std::size_t tags, std::uint64_t block) {
+    const std::uint64_t threads = std::max(1U, std::thread::hardware_concurrency());
+    return {{"changes of samples", (2 * samples + threads * block) * (3 + tags) * sizeof(std::uint64_t)}};
   }
 
-  // Adds the next block; blocks must come in order, all of them. Tells done_rows(), if there is one, how many rows of its
-  // pixels are done: now and then, from any thread, one at a time.
+  // Adds the next block; blocks must come in order, all of them. Tells done_rows(), if there is one, how many rows of
+  // its pixels are done: now and then, from any thread, one at a time.
   void add(const BlockView& block, const std::function<void(std::uint32_t rows)>& done_rows = {});
   // After the last block: samples that were left out have as many changes as those beside them have on average.
   void bridge_left_out();

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::uint64_t kMostValues = 1u << 14;  // of a picture
 constexpr std::uint64_t kSumBytes = 32u << 20;   // of all pictures of a pass
+constexpr std::size_t kMostPictures = 4096;      // of a pass, whose plans are kept
 constexpr std::uint64_t kLightBytes = 4u << 20;  // of samples that are weighed together
 
 // A plan's sums: of the block that is read, and of all before.
@@ -98,8 +99,9 @@ bool suits_one_pass(const RenderPlan& plan) {
          plan.capture.shape.value_count() <= kMostValues;
 }
 
-std::size_t pictures_in_one_pass(const RenderPlan& plan, const Rectangle& rectangle) {
-  return std::max<std::size_t>(1, kSumBytes / (2 * sizeof(double) * values_of(plan, rectangle)));
+std::size_t pictures_in_one_pass(const RenderPlan& plan, const Rectangle& rectangle, std::uint64_t most_bytes) {
+  return std::clamp<std::size_t>(std::min(kSumBytes, most_bytes) / (2 * sizeof(double) * values_of(plan, rectangle)), 1,
+                                 kMostPictures);
 }
 
 std::vector<Picture> expose_in_one_pass(std::span<const RenderPlan> plans, CaptureSource& source,

@@ -18,8 +18,9 @@ namespace nutik {
 // Whether all pixels have one function, and there are few.
 [[nodiscard]] bool suits_one_pass(const RenderPlan& plan);
 
-// How many pictures of a rectangle are best made at once.
-[[nodiscard]] std::size_t pictures_in_one_pass(const RenderPlan& plan, const Rectangle& rectangle);
+// How many pictures of a rectangle are best made at once, with no more than so many bytes.
+[[nodiscard]] std::size_t pictures_in_one_pass(const RenderPlan& plan, const Rectangle& rectangle,
+                                               std::uint64_t most_bytes);
 
 // Throws InputError for a damaged block, Cancelled.
 [[nodiscard]] std::vector<Picture> expose_in_one_pass(std::span<const RenderPlan> plans, CaptureSource& source,

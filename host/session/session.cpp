@@ -405,7 +405,7 @@ void Session::Implementation::render_many(std::span<const ExposureRequest> reque
         if (!plans.empty() && plans.front().capture != planned.capture) expose_waiting();
         plans.push_back(std::move(planned));
         waiting.push_back(std::move(rendered));
-        if (plans.size() >= pictures_in_one_pass(plans.front(), rectangle)) expose_waiting();
+        if (plans.size() >= pictures_in_one_pass(plans.front(), rectangle, memory().bytes / 16)) expose_waiting();
         continue;
       }
     }

@@ -252,6 +252,14 @@ class Pictures(support.TestCase):
                             error = np.abs(many.array[k].astype(np.float64) - picture.array).max()
                             self.assertLessEqual(error, many.error_bounds[k] + picture.error_bound)
 
+    def test_many_more_than_one_pass_makes(self):
+        capture = nutik.encode(self.pictures[:, :4, :4, 0], rate=support.RATE)
+        starts = np.linspace(0, 0.06, 5000)
+        many = capture.render_many(starts=starts, exposures="3ms", precision="double", dtype=np.float64)
+        for k in (0, 4095, 4096, 4999):
+            alone = capture.render(start=starts[k], exposure="3ms", precision="double", dtype=np.float64)
+            self.assertLessEqual(np.abs(many.array[k] - alone.array).max(), many.error_bounds[k] + alone.error_bound)
+
     def test_many_through_a_mask(self):
         many = self.capture.render_many([self.functions, self.functions], self.tags, feather=2)
         self.assert_same(many.array[1], self.capture.render(self.functions, self.tags, feather=2).array)
