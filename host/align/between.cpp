@@ -124,18 +124,39 @@ class FilledClip final : public Clip {
 
 std::optional<BetweenRequest> parse_between(std::string_view text) {
   if (text == "off") return std::nullopt;
-  if (text == "auto") return BetweenRequest{};
+  const auto colon = text.find(':');
+  const std::string_view how = text.substr(0, colon);
+  std::string_view pictures = colon == text.npos ? std::string_view() : text.substr(colon + 1);
+  const auto take = [](std::string_view& from, auto& number, std::string_view mark) {
+    const auto [end, error] = std::from_chars(from.data(), from.data() + from.size(), number);
+    from.remove_prefix(static_cast<std::size_t>(end - from.data()));
+    if (error != std::errc() || !from.starts_with(mark)) return false;
+    from.remove_prefix(mark.size());
+    return true;
+  };
+  BetweenRequest request;
+  std::string_view rest = how;
   std::uint32_t each = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), each);
-  if (error == std::errc() && end == text.data() + text.size() && each >= 1 && each <= MadeSamples::kMost)
-    return BetweenRequest{each, std::nullopt};
+  bool is_known = how == "auto" || (take(rest, each, "") && rest.empty() && each >= 1 && each <= MadeSamples::kMost);
+  if (how != "auto") request.each = each;
+  if (colon != text.npos) {
+    is_known &= take(pictures, request.first, "f..") && take(pictures, request.last, "f") && pictures.empty() &&
+                request.first < request.last;
+  }
+  if (is_known) return request;
   throw UsageError(format("between '{}' is not known; write auto, off, or how many samples are made between two "
-                          "pictures, 1 … {}",
+                          "pictures, 1 … {}; auto:10f..20f makes them between these pictures alone",
                           text, MadeSamples::kMost));
 }
 
-MadeSamples plan_between(const ClipToFill& clip, const std::optional<std::uint32_t>& each, std::uint64_t memory_bytes,
+std::string BetweenRequest::text() const {
+  const std::string how = each ? std::to_string(*each) : "auto";
+  return last == UINT64_MAX ? how : format("{}:{}f..{}f", how, first, last);
+}
+
+MadeSamples plan_between(const ClipToFill& clip, const BetweenRequest& request, std::uint64_t memory_bytes,
                          const ReportedProgress& progress, const std::stop_token& stop) {
+  const auto is_wanted = [&](std::uint64_t picture) { return picture >= request.first && picture < request.last; };
   const EvenGrey grey(clip.format, planned_side(clip.format.shape));
   const std::uint64_t sample_bytes = clip.format.sample_bytes();
   MemoryNeeds needs{{"pictures within the decoder", clip.decoder_bytes},
@@ -151,14 +172,14 @@ MadeSamples plan_between(const ClipToFill& clip, const std::optional<std::uint32
   std::deque<std::vector<std::uint8_t>> greys;  // of pictures that pairs need still, the last of them
   std::uint64_t pictures_read = 0;
   const auto add = [&](const PairMotion& motion) {
-    const bool is_followed = motion.fastest() > 0 && !motion.is_cut();
+    const bool is_followed = is_wanted(made.after.size()) && motion.fastest() > 0 && !motion.is_cut();
     const double pixels = motion.fastest() * planned_side(clip.format.shape);
     if (made.after.size() == MadeSamples::kMostFilmed) {
       throw InputError(format("{} has more than {} pictures, between which samples are made", clip.name,
                               MadeSamples::kMostFilmed),
                        {Setting::between, Setting::to});
     }
-    const std::uint32_t count = !is_followed ? 0 : each ? *each : PairMotion::steps_for(pixels) - 1;
+    const std::uint32_t count = !is_followed ? 0 : request.each ? *request.each : PairMotion::steps_for(pixels) - 1;
     made.after.push_back(static_cast<std::uint8_t>(count));
     if (made.after.back() == 0) return;
     made.changed += motion.changed();
@@ -174,6 +195,7 @@ MadeSamples plan_between(const ClipToFill& clip, const std::optional<std::uint32
       const std::uint64_t first = made.after.size(), count = std::min(known - first, kPairsAtOnce);
       parallel_for(count, [&](std::uint64_t i) {
         const std::uint64_t picture = first + i;
+        if (!is_wanted(picture)) return;
         motions[i].find({grey_of(picture), grey_of(picture + 1), picture > 0 ? grey_of(picture - 1) : nullptr,
                          grey_of(picture + 2)},
                         1);

@@ -20,12 +20,15 @@
 namespace nutik {
 
 struct BetweenRequest {
-  std::optional<std::uint32_t> each;          // so many between any two; none: as many as the motion there needs
-  std::optional<Shared<MadeSamples>> made;  // known already
+  std::optional<std::uint32_t> each = {};  // so many between any two; none: as many as the motion there needs
+  // From this picture of the clip to this one, and nowhere else.
+  std::uint64_t first = 0, last = UINT64_MAX;
+  std::optional<Shared<MadeSamples>> made = {};  // known already
+  [[nodiscard]] std::string text() const;  // as parse_between() reads it
   friend bool operator==(const BetweenRequest&, const BetweenRequest&) = default;
 };
 
-// `auto`, `off`, or a number from 1 to MadeSamples::kMost. Throws UsageError.
+// `auto`, `off`, or a number from 1 to MadeSamples::kMost; `auto:10f..20f` between these pictures alone. Throws UsageError.
 [[nodiscard]] std::optional<BetweenRequest> parse_between(std::string_view text);
 
 struct ClipToFill {
@@ -38,9 +41,8 @@ struct ClipToFill {
 
 // Reads all of the clip; `progress` counts its pictures. Throws MemoryTooLittle, Cancelled, InputError where it cannot
 // be read or has no picture.
-[[nodiscard]] MadeSamples plan_between(const ClipToFill& clip, const std::optional<std::uint32_t>& each,
-                                       std::uint64_t memory_bytes, const ReportedProgress& progress,
-                                       const std::stop_token& stop);
+[[nodiscard]] MadeSamples plan_between(const ClipToFill& clip, const BetweenRequest& request, std::uint64_t memory_bytes,
+                                       const ReportedProgress& progress, const std::stop_token& stop);
 
 // read() throws InputError where the clip has not as many pictures as were planned for.
 [[nodiscard]] std::unique_ptr<Clip> open_between(const ClipToFill& clip, const Shared<MadeSamples>& made);

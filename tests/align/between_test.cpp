@@ -80,7 +80,7 @@ ClipToFill clip_of(const std::vector<std::vector<std::byte>>& pictures) {
 }
 
 MadeSamples planned(const ClipToFill& clip, std::optional<std::uint32_t> each = std::nullopt) {
-  return plan_between(clip, each, std::uint64_t{1} << 32, {}, {});
+  return plan_between(clip, {.each = each}, std::uint64_t{1} << 32, {}, {});
 }
 
 std::vector<std::vector<std::byte>> filled(const ClipToFill& clip, const MadeSamples& made) {
@@ -130,6 +130,23 @@ TEST(Between, ShowsWhatFliesWhereItIsAtThatTime) {
   ASSERT_EQ(samples.size(), made.total());
   // Light on a trail: a row of discs where it goes in straight lines.
   EXPECT_LT(share_of_error(disc_at, 4, made, samples), 0.5);
+}
+
+TEST(Between, ArePlannedBetweenThePicturesThatAreNamed) {
+  std::vector<std::vector<std::byte>> pictures;
+  for (int k = 0; k < 5; ++k) pictures.push_back(drawn(disc_at, k));
+  const auto planned_by = [&](std::string_view text) {
+    const auto request = parse_between(text);
+    EXPECT_EQ(request->text(), text);
+    return plan_between(clip_of(pictures), *request, std::uint64_t{1} << 32, {}, {}).after;
+  };
+  EXPECT_EQ(planned_by("auto:1f..3f"), (std::vector<std::uint8_t>{0, 15, 15, 0, 0}));
+  EXPECT_EQ(planned_by("2:0f..1f"), (std::vector<std::uint8_t>{2, 0, 0, 0, 0}));
+  EXPECT_EQ(planned_by("2:3f..9f"), (std::vector<std::uint8_t>{0, 0, 0, 2, 0}));
+  EXPECT_FALSE(parse_between("off"));
+  for (const char* text : {"auto:", "auto:1f", "auto:3f..3f", "auto:4f..3f", "2:1..3", "0:1f..3f", "64", "auto:1f..3ff",
+                           "off:1f..3f", "auto:1s..3s", "auto:-1f..3f"})
+    EXPECT_THROW(static_cast<void>(parse_between(text)), UsageError) << text;
 }
 
 // A ball of ten pixels that goes five times as far from picture to picture, on a parabola.

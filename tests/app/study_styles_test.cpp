@@ -57,39 +57,54 @@ class StudyStyles : public test::StudyTest {
   }
 };
 
-// Moments are pictures that were filmed, and the trail is exposed from what was made between them.
+// Moments are pictures that were filmed, and the trail is exposed from what was made between them: as it is asked for, or by
+// itself where copies of a thing lie apart.
 TEST_F(StudyStyles, JoinTheTrailBetweenPictures) {
-  constexpr int kStep = 14, kWide = 20;
+  constexpr int kStep = 14;
   const auto left_of = [](int picture) { return 4 + kStep * picture; };
-  const auto drawn = [&](int picture) {
+  const auto drawn = [&](int picture, int wide) {
     cv::Mat frame = ground_of(7) / 8 + 40;
-    cv::Mat thing = ground_of(3)(cv::Rect(0, 0, kWide, kWide)) / 4 + 170;
-    thing.copyTo(frame(cv::Rect(left_of(picture), kTop, kWide, kWide)));
+    cv::Mat thing = ground_of(3)(cv::Rect(0, 0, wide, wide)) / 4 + 170;
+    thing.copyTo(frame(cv::Rect(left_of(picture), kTop, wide, wide)));
     return frame;
   };
-  const int last = (ground_of(7).cols - kWide - 4) / kStep;
-  DrawnClip clip(scratch_ / "fast");
-  for (int k = 0; k <= last; ++k) clip.add(drawn(k));
-  const std::string asked = format("study -f 100 fast --moments 1f,{}f --trail even", last);
-  expect_says(run(asked + " -o filmed.png").err, format("every {} pixels", kStep));
-  make(asked + " --between auto -o made.png");
-  // How much the trail changes from column to column, away from the moments.
-  const auto ripple = [&](const char* name) {
-    cv::Mat columns, deviation, mean;
-    const int from = left_of(3), to = left_of(last - 2);
-    cv::reduce(picture(name)(cv::Rect(from, kTop + 4, to - from, kWide - 8)), columns, 0, cv::REDUCE_AVG, CV_64F);
-    cv::meanStdDev(columns, mean, deviation);
-    return deviation.at<double>(0);
-  };
-  EXPECT_LT(ripple("made.png"), 0.5 * ripple("filmed.png"));
-  for (const int moment : {1, last}) {
-    const cv::Rect inner(left_of(moment) + 3, kTop + 3, kWide - 6, kWide - 6);
-    EXPECT_LE(cv::norm(picture("made.png")(inner), drawn(moment)(inner), cv::NORM_INF), 1) << moment;
+  const int last = (ground_of(7).cols - 20 - 4) / kStep;
+  for (const auto& [wide, between] : {std::pair(20, " --between auto"), {8, ""}}) {
+    SCOPED_TRACE(wide);
+    DrawnClip clip(scratch_ / format("fast{}", wide));
+    for (int k = 0; k <= last; ++k) clip.add(drawn(k, wide));
+    const std::string asked = format("study -f 100 fast{} --moments 1f,{}f --trail even --overwrite", wide, last);
+    make(asked + " --between off -o filmed.png");
+    const std::string told = make(asked + between + " --json -o made.png").out;
+    expect_says(told, format(R"("sample": {})", last));
+    EXPECT_EQ(told.find(format("the subject goes {} pixels", kStep)) != told.npos, between == std::string_view()) << told;
+    // How much the trail changes from column to column, away from the moments.
+    const auto ripple = [&](const char* name) {
+      cv::Mat columns, deviation, mean;
+      const int from = left_of(3), to = left_of(last - 2);
+      cv::reduce(picture(name)(cv::Rect(from, kTop + 2, to - from, wide - 4)), columns, 0, cv::REDUCE_AVG, CV_64F);
+      cv::meanStdDev(columns, mean, deviation);
+      return deviation.at<double>(0);
+    };
+    EXPECT_LT(ripple("made.png"), 0.5 * ripple("filmed.png"));
+    for (const int moment : {1, last}) {
+      const cv::Rect inner(left_of(moment) + 2, kTop + 2, wide - 4, wide - 4);
+      EXPECT_LE(cv::norm(picture("made.png")(inner), drawn(moment, wide)(inner), cv::NORM_INF), 1) << moment;
+    }
+    const std::string by_hand = file("made.txt");
+    EXPECT_NE(by_hand.find(between == std::string_view() ? format("--between auto:0f..{}f", last) : "--between auto"),
+              std::string::npos)
+        << by_hand;
+    EXPECT_EQ(by_hand.find("--between"), by_hand.rfind("--between")) << "of the picture, not of the mask:\n" << by_hand;
+    // Made again by what it says, byte for byte.
+    const std::string made = file("made.png");
+    std::string again = make("again made.png").out;
+    again.erase(again.find_last_not_of('\n') + 1);
+    EXPECT_EQ(test::run_shell(again + " --overwrite", scratch_.folder()).status, 0) << again;
+    EXPECT_EQ(file("made.png"), made);
   }
-  expect_says(make(asked + " --between auto --json -o json.png").out, format(R"("sample": {})", last));
-  const std::string by_hand = file("made.txt");
-  EXPECT_NE(by_hand.find("--between"), std::string::npos);
-  EXPECT_EQ(by_hand.find("--between"), by_hand.rfind("--between")) << "of the picture, not of the mask:\n" << by_hand;
+  expect_says(run(format("study -f 100 fast20 --moments 1f,{}f --trail even --overwrite", last)).err,
+              format("every {} pixels", kStep));
 }
 
 TEST_F(StudyStyles, HaveNoStepAlongRegionsEdges) {

@@ -148,6 +148,7 @@ PlannedStudy planned_study(Options& options, const StudyRequest& request) {
     state("align", std::string(to_text(kStudyMotion)));
     if (*planned.aligned_to > 0) state("align-to", format("{}f", *planned.aligned_to));
   }
+  if (planned.between) state("between", *planned.between);
   if (!planned.filmed) take_back_between(options);
   return planned;
 }

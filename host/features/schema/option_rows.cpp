@@ -92,8 +92,9 @@ constexpr Option kRows[] = {
     known(Setting::between, {0, "between", "HOW", encoding, kEncodesClips,
      take_by<InSource<&SourceRequest::between>, parse_between>,
      "make samples between pictures, along the motion: auto (as many as no step is longer than about a pixel, "
-     "none where nothing moves), or how many, 1 … 63; the clip is read twice (default: off)",
-     "auto off"}),
+     "none where nothing moves), or how many, 1 … 63; auto:10f..20f, between these pictures alone; the clip is read "
+     "twice (default: off; a study makes them where its trail has gaps)",
+     "auto auto: off"}),
     known(Setting::end_at_damage, {0, "as-far-as-it-goes", "", decoding, kDecodesClips,
      take<InClip<&ClipOptions::ends_at_damage>>,
      "end a damaged clip before what cannot be read; a warning says where"}),

@@ -192,6 +192,7 @@ StudyRequest study_request(const Options& options) {
   for (const Said& said : options.said) {
     if (said.option == "region") request.regions.push_back(region_of(said.words.front()));
   }
+  request.joins_trail = !options.has("between");
   request.by_codes = options.by;
   request.feather = options.feather;
   request.moments = usual_moments(request.style);

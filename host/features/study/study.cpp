@@ -139,6 +139,7 @@ class StudyPlanner {
       if (!each.track.places.empty()) tracks.push_back(std::move(each.track));
     }
     study.step_pixels = usual_step(tracks);
+    for (const SubjectTrack& track : tracks) study.step_share = std::max(study.step_share, study.step_pixels / track.size());
     add_functions(study, request_, timeline_, tracks);
   }
 

@@ -51,9 +51,8 @@ struct StudyRequest {
   // Only larger differences from the plate are the subject; none: than 1/16 of white, or than the noise.
   std::optional<std::uint32_t> by_codes;
   std::optional<Feather> feather;  // none: kStudyFeather, and none of a slit's strips
-  // The picture is exposed from this capture with samples made between its own: a moment is then so short that none of
-  // those is part of it.
-  bool is_exposed_between = false;
+  // Where the trail would show the subject again and again, samples are made between the pictures of its way.
+  bool joins_trail = false;
 
   friend bool operator==(const StudyRequest&, const StudyRequest&) = default;
 };
@@ -84,10 +83,14 @@ struct Study {
   // A long exposure, or a single moment, for what moves makes no more; a note says why.
   bool falls_short = false;
   double step_pixels = 0;   // that the subject goes from one sample to the next, where it goes on; a median
+  double step_share = 0;    // of its size
   double moving_share = 0;  // of the picture, that differs from the scene at rest on average
   MaskRequest mask;
   MadeMask regions;           // made as `mask` asks for them
   FunctionSet functions;      // as a function file has them, to be normalized by their integrals
+  // The same where samples are made between the pictures: moments are so short that none of those is part of them.
+  FunctionSet functions_between;
+  SampleRange way;  // from where to where its trail goes
   double trail_strength = 1;  // how many times as strong the trail is as in a plain exposure
   SampleRange empty;          // at which nothing is there: taken away again from where the trail is stronger
   std::vector<std::string> notes;

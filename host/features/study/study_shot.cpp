@@ -17,6 +17,9 @@ namespace {
 constexpr double kMaxCameraPixels = 4;
 // From one picture to the next: less lies within a border that is blended usually.
 constexpr double kGhostPixels = 4;
+// Copies lie apart that are a subject's size from each other: worse than what is made between them may be, where ground
+// with texture goes along with what moves over it.
+constexpr double kApart = 1;
 // Shorter shots show nothing that goes anywhere.
 constexpr std::uint64_t kMinSamples = 8;
 
@@ -260,25 +263,42 @@ PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request
   check_study(request);
   SourceRequest filmed = source;
   filmed.between.reset();
-  StudyRequest asked = request;
-  asked.is_exposed_between = source.between && has_trail(request);
-  PlannedStudy planned = plan_filmed(filmed, asked, terms);
+  PlannedStudy planned = plan_filmed(filmed, request, terms);
   if (planned.session.capture().header().made) {
     planned.notes.emplace_back(
         "the capture has samples made between its pictures, which are taken for pictures here: moments may lie on "
         "them. The clip itself is studied by what was filmed");
   }
-  if (asked.is_exposed_between) {
+  if (!has_trail(request)) return planned;
+  const auto expose_between = [&](const BetweenRequest& between) {
     SourceRequest made = planned.session.source();
-    made.between = source.between;
+    made.between = between;
+    Session session = ShotPlanner(request, terms, source.path.string()).open(made);
     planned.filmed = planned.session.timeline();
-    planned.session = ShotPlanner(asked, terms, source.path.string()).open(made);
-  } else if (planned.session.is_clip() && has_trail(request) && planned.study.step_pixels >= kGhostPixels) {
-    planned.notes.emplace_back(
-        format("the trail shows the subject again every {:.0f} pixels, as far as it goes from one picture to the next: "
-               "samples made between them join these",
-               planned.study.step_pixels),
-        std::vector{Setting::between});
+    planned.session = std::move(session);
+    planned.study.functions = std::move(planned.study.functions_between);
+  };
+  const double step = planned.study.step_pixels;
+  if (source.between) {
+    expose_between(*source.between);
+  } else if (planned.session.is_clip() && step >= kGhostPixels) {
+    const SampleRange& way = planned.study.way;
+    const std::uint64_t last = std::min(way.last, planned.session.timeline().sample_count() - 1);
+    std::string text = format("the trail shows the subject again every {:.0f} pixels, as far as it goes from one picture "
+                              "to the next: samples made between them join these",
+                              step);
+    if (request.joins_trail && planned.study.step_share >= kApart && way.first < last) {
+      const BetweenRequest between{.first = way.first, .last = last};
+      try {
+        expose_between(between);
+        planned.between = between.text();
+        text = format("the subject goes {:.0f} pixels from one picture to the next: so that its trail has no gaps, samples "
+                      "were made between pictures {} … {}; off leaves it as it was filmed",
+                      step, way.first, last);
+      } catch (const UsageError&) {  // memory that is enough for the study alone; or events, each with its own time
+      }
+    }
+    planned.notes.emplace_back(std::move(text), std::vector{Setting::between});
   }
   return planned;
 }

@@ -31,6 +31,7 @@ struct PlannedStudy {
   // What a clip is read with beside what was stated.
   std::optional<SampleRange> part = {};          // pictures that were taken of it
   std::optional<std::uint64_t> aligned_to = {};  // the picture of them that the others were moved onto
+  std::optional<std::string> between = {};       // which samples were made, where nobody stated that
   // Times of the pictures that were filmed, which the study counts, where the session's capture has samples made
   // between them.
   std::optional<Timeline> filmed = {};
@@ -40,8 +41,8 @@ struct PlannedStudy {
 // How pictures are moved where nobody stated that.
 inline constexpr CameraMotion kStudyMotion = CameraMotion::homography;
 
-// Subject and moments are looked for in the pictures that were filmed. Samples that the source asks to be made between
-// them are part of the capture that is exposed, where the study has a trail.
+// Subject and moments are looked for in the pictures that were filmed. Where the study has a trail, samples that are made
+// between them are part of the capture that is exposed: as the source asks, or along the subject's way.
 //
 // Throws InputError where no shot makes a picture that holds, and what Session and plan_study() of a capture throw.
 [[nodiscard]] PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request,

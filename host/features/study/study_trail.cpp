@@ -76,8 +76,9 @@ GainFunction sum_of(const std::vector<GainPiece>& pieces) {
 class StudyFunctions {
  public:
   StudyFunctions(const StudyRequest& request, const Timeline& timeline,
-                 const std::vector<SubjectTrack>& tracks)
+                 const std::vector<SubjectTrack>& tracks, bool is_between)
       : request_(request),
+        is_between_(is_between),
         timeline_(timeline),
         tracks_(tracks),
         shape_(trail_shape(request)) {}
@@ -121,7 +122,7 @@ class StudyFunctions {
 
   [[nodiscard]] Interval moment_of(std::uint64_t sample) const {
     const Interval exposed = interval_of({sample, sample + 1});
-    if (!request_.is_exposed_between) return exposed;
+    if (!is_between_) return exposed;
     const std::int64_t middle = std::midpoint(exposed.begin_ns, exposed.end_ns);
     const std::int64_t reach = (exposed.end_ns - exposed.begin_ns) / (4 * (MadeSamples::kMost + 1));
     return {middle - reach, middle + std::max<std::int64_t>(reach, 1)};
@@ -152,7 +153,8 @@ class StudyFunctions {
       covered = std::max(covered, track.covered_share());
     }
     if (request_.style == StudyStyle::rear_curtain) last = std::ranges::max(study.moments);
-    const Interval way = interval_of({std::min(first, last), last + 1});
+    study.way = {std::min(first, last), last + 1};
+    const Interval way = interval_of(study.way);
     const double begin = shape_ == TrailShape::ramp ? 0.0 : 1.0, end = shape_ == TrailShape::fade ? 0.0 : 1.0;
     const Interval without = study.empty.empty() ? way : interval_of(study.empty);
     const bool is_apart = without.end_ns <= way.begin_ns || without.begin_ns >= way.end_ns;
@@ -194,6 +196,7 @@ class StudyFunctions {
   }
 
   const StudyRequest& request_;
+  bool is_between_;  // samples are made between the pictures
   const Timeline& timeline_;
   const std::vector<SubjectTrack>& tracks_;
   TrailShape shape_;
@@ -253,7 +256,9 @@ FunctionSet whole_time(const Timeline& timeline) {
 
 void add_functions(Study& study, const StudyRequest& request, const Timeline& timeline,
                    const std::vector<SubjectTrack>& tracks) {
-  StudyFunctions(request, timeline, tracks).add_to(study);
+  StudyFunctions(request, timeline, tracks, true).add_to(study);
+  study.functions_between = std::exchange(study.functions, {});
+  StudyFunctions(request, timeline, tracks, false).add_to(study);
 }
 
 }  // namespace nutik

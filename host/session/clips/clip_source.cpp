@@ -153,7 +153,7 @@ void fill(ClipSource& source, const OpenClip& open, const MemoryBudget& memory, 
   pictures.noise = {};
   const ClipToFill clip{source.name(), pictures, source.announced_samples(), source.clip->info().decoder_bytes, open};
   source.clip.reset();
-  if (!request.made) request.made.emplace(plan_between(clip, request.each, memory.bytes, progress, stop));
+  if (!request.made) request.made.emplace(plan_between(clip, request, memory.bytes, progress, stop));
   source.clip = open_between(clip, *request.made);
   if ((*request.made)->count() > 0) {
     source.made = request.made;
