@@ -11,10 +11,12 @@ import subprocess
 import sys
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from functools import cache
 from keyword import iskeyword
 from os import PathLike, fsdecode
 from os.path import dirname
-from threading import Thread
+from threading import Event, Thread, current_thread, main_thread
+from time import sleep
 from typing import Any, Protocol, Union
 
 from . import _nutik
@@ -30,14 +32,34 @@ _ERRORS = {2: UsageError, 3: InputError, 4: DeviceError, 5: OutputError, 6: Memo
 _ANSWERED = 1, 3  # findings of a check, an arithmetic beyond its bound: what was asked for, and no failure
 _MAIN = "import sys; sys.path.insert(0, sys.argv[1]); import _nutik; sys.exit(_nutik.run_program(sys.argv[2:]))"
 _STOP_AFTER_S = 0.05
+_END_WITHIN_S = 5.0
 
 _running: set[subprocess.Popen[str]] = set()
 
 
-@atexit.register
+_is_over = Event()
+
+
+@cache
+def _end_at_exit() -> None:
+    """From the first command on."""
+    atexit.register(_end_all)
+
+
 def _end_all() -> None:
-    for process in list(_running):
-        process.terminate()
+    """Ends what threads wait for, and leaves these asleep: a thread that wakes up while Python ends may crash."""
+    _is_over.set()
+    for _ in range(int(_END_WITHIN_S / _STOP_AFTER_S)):
+        for process in list(_running):
+            process.terminate()
+        sleep(_STOP_AFTER_S)  # at least once, for threads between two calls
+        if not _running:
+            break
+
+
+def _sleep_at_the_end() -> None:
+    if _is_over.is_set() and current_thread() is not main_thread():
+        Event().wait()
 
 
 def _word(name: str, kind: str, value: Any) -> str:
@@ -77,6 +99,8 @@ def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Map
         said[name] = [_words(kind, name, each) for each in value] if is_repeated and is_list(value) else [
             _words(kind, name, value)]
     words = _nutik.command_words(command, said)
+    _sleep_at_the_end()
+    _end_at_exit()
     process = subprocess.Popen([sys.executable, "-c", _MAIN, dirname(__file__), *words, "--", *map(fsdecode, operands)],
                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     _running.add(process)
@@ -102,10 +126,11 @@ def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Map
         process.wait()
         raise
     finally:
-        _running.discard(process)
         for reader, stream in zip(readers, (process.stdout, process.stderr)):
             reader.join()
             stream.close()  # type: ignore[union-attr]
+        _running.discard(process)
+    _sleep_at_the_end()
     said_besides = [line for line in told if not line.startswith("Progress:")]
     return _answer(command, process.returncode, "".join(answer), said_besides)
 
