@@ -47,6 +47,7 @@ struct FunctionFinding {
     still_gain_not_positive,  // still scenes come out black
     still_gain_saturates,     // and white
     mistyped_time,
+    missing_unit,  // all times are nanoseconds near the start of a long capture
   };
 
   Kind kind;

@@ -84,9 +84,9 @@ std::optional<std::int64_t> whole_number(const Decimal& decimal, long power) {
 // A unit's nanoseconds.
 std::optional<std::int64_t> nanoseconds_of(std::string_view unit) {
   using Unit = std::pair<std::string_view, std::int64_t>;
-  constexpr std::array<Unit, 7> kUnits = {
+  constexpr std::array<Unit, 8> kUnits = {
       Unit{"ns", 1},         Unit{"us", 1'000}, Unit{"\u00B5s", 1'000},       Unit{"\u03BCs", 1'000},
-      Unit{"ms", 1'000'000}, Unit{"s", kSecondNs}, Unit{"min", 60 * kSecondNs},
+      Unit{"ms", 1'000'000}, Unit{"s", kSecondNs}, Unit{"min", 60 * kSecondNs}, Unit{"h", 3600 * kSecondNs},
   };
   const auto* const found = std::ranges::find(kUnits, unit, &Unit::first);
   return found == kUnits.end() ? std::nullopt : std::optional(found->second);
@@ -103,7 +103,7 @@ std::optional<std::int64_t> time_with_unit(std::string_view word) {
     const std::string_view digits = rest.substr(1, digits_at(rest, 1));
     std::int64_t parts = 0;
     std::from_chars(digits.data(), digits.data() + digits.size(), parts);
-    constexpr std::size_t kMostDigits = 9;
+    constexpr std::size_t kMostDigits = 12;
     if (digits.empty() || digits.size() > kMostDigits || parts == 0) return std::nullopt;
     below = parts;
     rest.remove_prefix(1 + digits.size());
@@ -125,8 +125,7 @@ std::optional<std::int64_t> time_with_unit(std::string_view word) {
   if (power > 0 && above > kLargestTimeNs) return INT64_MAX;
   if (power > 0 && above < -kLargestTimeNs) return INT64_MIN;
   if (power > 0) above *= ten;
-  const int128 most = static_cast<int128>(kLargestTimeNs) * below;
-  if (above > most || above < -most) return above > 0 ? INT64_MAX : INT64_MIN;
+  if (above / below > kLargestTimeNs || above / below < -kLargestTimeNs) return above > 0 ? INT64_MAX : INT64_MIN;
   return round_half_up(above, below);
 }
 

@@ -17,7 +17,7 @@ struct ReadNumber {
 // The digits behind an `M`: 0 … 255.
 [[nodiscard]] ReadNumber<std::uint8_t> read_mask_value(std::string_view word);
 
-// Nanoseconds as [+-] digits; or a decimal number or a fraction with a unit (ns, us, ms, s, min): 0.4s, 10ms, 1/30s,
+// Nanoseconds as [+-] digits; or a decimal number or a fraction with a unit (ns, us, ms, s, min, h): 0.4s, 10ms, 1/30s,
 // rounded half up once. At most kLargestTimeNs from 0.
 [[nodiscard]] ReadNumber<std::int64_t> read_time(std::string_view word);
 

@@ -235,6 +235,11 @@ TEST_F(FilmSoundTest, LiesOnItsFrameWhateverIsTakenOfTheClip) {
   lies_at(50, "--as-far-as-it-goes damaged.mkv", "damaged.mp4", 25);
   ffmpeg("-i clip.mp4 -itsoffset 1.5 -ss 1.5 -i clip.mp4 -map 0:v -map 1:a -c:v copy -c:a ac3 late.mkv");
   for (const char* film : {"late.avi", "late.mp4", "late.mov"}) lies_at(50, "late.mkv", film, 25);
+  ffmpeg("-i late.mkv -c:v copy -c:a flac flac.mkv");
+  lies_at(50, "flac.mkv", "flac.mp4", 25);
+  // Opus, which a copy would move: from film to film it stays where it is.
+  ffmpeg("-i late.mkv -c:v libvpx-vp9 -c:a libopus opus0.webm");
+  for (int film = 1; film < 4; ++film) lies_at(50, format("opus{}.webm", film - 1), format("opus{}.webm", film), 25);
 }
 
 TEST_F(FilmSoundTest, IsLeftOutAloudOrStretched) {

@@ -77,6 +77,22 @@ TEST_F(Habits, NoticesThatMaskAndFunctionsWereSwapped) {
   expect_refused("-m two.fn -k two.fn clip.tik", 3, "It looks like gain functions; were mask and functions swapped?");
 }
 
+TEST_F(Habits, RefusesHelpOnWhatIsNoCommand) {
+  expect_refused(2, {{"--help=source", "is help on a command: nutik-cl COMMAND --help=source"},
+                     {"help ./clip.tik", "there is no command ./clip.tik"}});
+  EXPECT_EQ(make("help expose source").out, make("expose --help=source").out);
+}
+
+TEST_F(Habits, NoticesAMissingUnitAndACommaForAPoint) {
+  scratch_.write("ns.fn", "M0 [39:0], [40:1], [80:1], [81:0]\n");
+  expect_says(run("check -k ns.fn clip.tik").out, "were milliseconds meant, 81ms?");
+  expect_refused(2, {{"--start 0,1s --exposure 1f clip.tik a.png", "the decimal mark is a point"}});
+  expect_refused(3, {{"batch clip.tik", "batch takes the list first"}});
+  make("--start 0s --exposure 1f --ev 1/2 --no-recipe clip.tik third.pfm");
+  make("--start 0s --exposure 1f --ev 0.5 --no-recipe clip.tik half.pfm");
+  EXPECT_EQ(test::read_file(scratch_ / "third.pfm"), test::read_file(scratch_ / "half.pfm"));
+}
+
 TEST_F(Habits, TakesTimesWithUnitsInFunctionFiles) {
   scratch_.write("units.fn", "M0 [0s:1], [40ms:1], [40000001:0]\n");
   make("-k units.fn --no-recipe clip.tik units.pfm");

@@ -91,7 +91,14 @@ ParsedCommandLine parse_command_line(std::span<const std::string> words) {
     return {};
   }
   if (found.help) {
-    if (found.command == nullptr && !found.operands.empty()) fail_misspelt_command(found.operands.front());
+    const auto& rest = found.operands;
+    if (found.command == nullptr && found.is_help_word && !rest.empty()) {
+      fail_misspelt_command(rest.front());
+      throw UsageError(format("there is no command {}; see nutik-cl --help", shell_word(rest.front())));
+    }
+    if (found.command == nullptr && !found.topic.empty())
+      throw UsageError(format("--help={0} is help on a command: nutik-cl COMMAND --help={0}", found.topic));
+    if (found.topic.empty() && rest.size() == 1 && is_help_topic(rest.front())) found.topic = rest.front();
     found.command != nullptr ? print_command_help(*found.command, found.topic) : print_help();
     return {};
   }

@@ -161,6 +161,10 @@ std::string brief(std::string_view summary) {
   return std::string(summary);
 }
 
+bool is_help_topic(std::string_view name) {
+  return name == "all" || std::ranges::find(topics(), name, &Topic::name) != topics().end();
+}
+
 void print_version() { print_line("nutik-cl " NUTIK_VERSION); }
 
 void print_help() {

@@ -25,6 +25,8 @@ inline constexpr std::string_view kFunctionFile = "M0 [0:1], [10ms:1], [10000001
 // What a summary begins with: up to its first colon, semicolon, bracket or full stop.
 [[nodiscard]] std::string brief(std::string_view summary);
 
+[[nodiscard]] bool is_help_topic(std::string_view name);  // all, source, computing, output
+
 void print_help();
 // In 40 lines of 80 columns what sets the command apart; with a topic (all, source, computing, output) all that is said of
 // those options. Throws UsageError for another topic.

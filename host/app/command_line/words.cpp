@@ -124,7 +124,7 @@ class Reader {
   void take_operand(const std::string& word) {
     if (found_.command == nullptr && found_.operands.empty()) {
       if (word == "help") {
-        found_.help = true;
+        found_.help = found_.is_help_word = true;
         return;
       }
       if (word == "version") {

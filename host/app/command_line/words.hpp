@@ -37,6 +37,7 @@ struct Words {
   bool unfinished = false;            // the last option needs more words
   bool help = false;
   std::string topic = {};  // of help: --help=all
+  bool is_help_word = false;  // `help`, and what follows is a command
   bool version = false;
 
   // Throws UsageError for an option that there is not, and for a value that is none (check_value()).

@@ -34,7 +34,12 @@ struct ListedExposure {
 std::vector<ListedExposure> read_list(const std::string& name) {
   constexpr std::size_t kMaxBytes = 16 << 20;  // some hundred thousand lines
   std::vector<ListedExposure> exposures;
-  std::istringstream lines(text_up_to(name, kMaxBytes));
+  std::string list = text_up_to(name, kMaxBytes);
+  if (list.find('\0') != list.npos) {
+    throw InputError(format("{} is no list: it is no text. batch takes the list first, then the clip or the capture",
+                            input_title(name)));
+  }
+  std::istringstream lines(std::move(list));
   std::string text;
   for (std::size_t line = 1; std::getline(lines, text); ++line) {
     if (!text.empty() && text.back() == '\r') text.pop_back();

@@ -208,9 +208,10 @@ std::string FramesRequest::text() const {
 }
 
 Exposure Frames::span() const {
-  Exposure span = exposure(numbers.front());
+  Exposure span{INT64_MAX, INT64_MIN};
   for (const std::uint64_t k : numbers) {
-    const Exposure one = exposure(k);
+    Exposure one = exposure(k);
+    if (functions_ns && !curve) one.end_ns = one.start_ns + *functions_ns;
     span = {std::min(span.start_ns, one.start_ns), std::max(span.end_ns, one.end_ns)};
   }
   return span;
@@ -228,6 +229,7 @@ Frames frames_of(const FramesRequest& request, const Timeline& timeline) {
   } else {
     put_evenly(frames, request, timeline);
   }
+  if (!request.exposure.is_plain() || !request.keys.functions.empty()) frames.functions_ns = functions_end_ns(request);
   frames.numbers = chosen_numbers(request.numbers, frames.count, "frames", "film");
   if (request.curve) frames.warning = outside_text(frames, request.curve->name, timeline);
   return frames;

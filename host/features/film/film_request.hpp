@@ -99,6 +99,7 @@ struct Frames {
   std::vector<std::uint64_t> numbers;  // of the frames to make, in order: at least one
   std::optional<CapturedCurve> curve = {};
   std::optional<FrameTimes> film = {};  // where a curve or keys need the film's own time
+  std::optional<std::int64_t> functions_ns = {};  // how long functions expose from a frame's start on
 
   // When a frame is exposed, on the capture.
   [[nodiscard]] Exposure exposure(std::uint64_t frame) const {

@@ -218,9 +218,12 @@ double parse_shutter_error(std::string_view word, std::string_view what) {
 }
 
 double parse_signed(std::string_view word, std::string_view what) {
-  const auto value = parse_number(word.substr(word.starts_with('+') ? 1 : 0));
-  if (!value) throw UsageError(format("{} {} is no number", what, word));
-  return *value;
+  const std::string_view number = word.substr(word.starts_with('+') ? 1 : 0);
+  const auto slash = number.find('/');  // a third of a stop is 1/3
+  const auto above = parse_number(number.substr(0, slash));
+  const auto below = slash == number.npos ? std::optional(1.0) : parse_number(number.substr(slash + 1));
+  if (!above || !below || *below == 0.0) throw UsageError(format("{} {} is no number", what, word));
+  return *above / *below;
 }
 
 StatedTime parse_step(std::string_view word, std::string_view what) {

@@ -36,9 +36,10 @@ class LibavSoundWriter final : public SoundWriter {
     from_ = clip_.format->streams[found];
     const AVCodecParameters& codec = *from_->codecpar;
     const bool is_compressed = av_get_exact_bits_per_sample(codec.codec_id) == 0;
-    // An .avi does not say when sound begins: silence in front of it has to be encoded.
-    is_copied_ = sound_.speed == 1.0 && is_compressed && std::string_view(film.oformat->name) != "avi" &&
-                 holds(codec.codec_id);
+    // An .avi does not say when sound begins: silence in front of it has to be encoded. FFmpeg 5 moves Opus by its delay
+    // each time that a stream is copied.
+    const bool moves = std::string_view(film.oformat->name) == "avi" || codec.codec_id == AV_CODEC_ID_OPUS;
+    is_copied_ = sound_.speed == 1.0 && is_compressed && !moves && holds(codec.codec_id);
     if (!is_copied_) {
       open_decoder();
       open_encoder();
@@ -68,7 +69,7 @@ class LibavSoundWriter final : public SoundWriter {
   [[nodiscard]] bool holds(AVCodecID codec) const {
     // FFmpeg does not write all that a container has a tag for.
     const bool is_quicktime = std::string_view(film_.oformat->name) == "mov";
-    if (codec == AV_CODEC_ID_TRUEHD || (is_quicktime && (codec == AV_CODEC_ID_FLAC || codec == AV_CODEC_ID_OPUS)))
+    if (codec == AV_CODEC_ID_TRUEHD || codec == AV_CODEC_ID_FLAC || (is_quicktime && codec == AV_CODEC_ID_OPUS))
       return film_.oformat->name == std::string_view("matroska");
     return avformat_query_codec(film_.oformat, codec, FF_COMPLIANCE_NORMAL) == 1;
   }

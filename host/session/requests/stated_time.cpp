@@ -20,10 +20,11 @@ struct Unit {
 };
 
 // The first of a length is the one that is written; times are written in those up to a second, the coarsest first.
-constexpr std::array<Unit, 8> kUnits{{{"s", 1'000'000'000},
+constexpr std::array<Unit, 9> kUnits{{{"s", 1'000'000'000},
                                       {"ms", 1'000'000},
                                       {"us", 1000},
-                                      {"µs", 1000},
+                                      {"\u00B5s", 1000},
+                                      {"\u03BCs", 1000},
                                       {"ns", 1},
                                       {"min", 60'000'000'000},
                                       {"h", 3'600'000'000'000},
@@ -76,6 +77,8 @@ StatedTime StatedTime::parse(std::string_view text, std::string_view what) {
   const std::string_view name = unit_at == std::string_view::npos ? std::string_view() : text.substr(unit_at);
   const auto unit = std::find_if(kUnits.begin(), kUnits.end(),
                                  [&](const Unit& candidate) { return candidate.name == name; });
+  if (text.find(',') != text.npos)
+    throw UsageError(format("{} '{}' is no time; the decimal mark is a point: 0.4s", what, text));
   if (unit == kUnits.end() || unit_at == 0) {
     throw UsageError(
         format("{} '{}' is no time; write a number and a unit: 0.4s, 10ms, 250us, 1/100s, or "
