@@ -1,5 +1,7 @@
 #include "app/run.hpp"
 
+#include <sys/resource.h>
+
 #include <exception>
 #include <new>
 #include <string>
@@ -11,9 +13,11 @@
 #include "app/output/output_name.hpp"
 #include "capture/error.hpp"
 #include "features/schema/option.hpp"
+#include "session/devices.hpp"
 #include "system/interruption.hpp"
 #include "system/mapped_file.hpp"
 #include "system/output_file.hpp"
+#include "system/own_folders.hpp"
 
 namespace nutik::app {
 namespace {
@@ -31,6 +35,13 @@ int fail_input(const InputError& error) {
     return fail(lost, ExitStatus::input);
   }
   return fail(error, ExitStatus::input);
+}
+
+// Drivers and decoders take more than 64 kB; without it they crash.
+bool has_stack() {
+  constexpr rlim_t kLeastStack = 256 << 10;
+  rlimit stack{};
+  return getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= kLeastStack;
 }
 
 }  // namespace
@@ -70,6 +81,20 @@ int run(std::span<const char* const> words) {
   } catch (const std::exception& error) {
     return fail(error, ExitStatus::other);
   }
+}
+
+int run_process(std::span<const char* const> words) {
+  if (!has_stack()) {
+    print_error("the stack may have less than 256 kB; raise its limit: ulimit -s 8192");
+    return ExitStatus::memory;
+  }
+  catch_interruptions();
+  catch_limits();
+  watch_mapped_files();
+  do_one_work();
+  prepare_for_pocl();
+  use_own_fonts();
+  return run(words);
 }
 
 }  // namespace nutik::app

@@ -12,5 +12,7 @@ struct ExitStatus {
 
 // What the program does with these words, of which the first is its own name.
 int run(std::span<const char* const> words);
+// The same of a process that does nothing else, whose signals and limits are set to that.
+int run_process(std::span<const char* const> words);
 
 }  // namespace nutik::app

@@ -1,11 +1,13 @@
 // How often each pixel of a capture changes, and how many change at each sample.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
 #include <span>
+#include <thread>
 #include <vector>
 
 #include "capture/memory_needs.hpp"
@@ -57,18 +59,21 @@ class Activity {
 
   // What it takes: the counts of pixels, what they held, which of them count.
   [[nodiscard]] static MemoryNeeds needs(const CaptureFormat& capture) {
-    return {{"changes of pixels",
-             capture.shape.pixel_count() * (sizeof(std::uint64_t) + sizeof(ChangeRecord) + 2)}};
+    const std::uint64_t tiles = TileGrid(capture.shape).tile_count();
+    return {{"changes of pixels", capture.shape.pixel_count() * (sizeof(std::uint64_t) + 2) +
+                                      tiles * kTilePixels * capture.shape.channels * sizeof(std::uint16_t)}};
   }
 
-  // Besides, of so many samples: their counts, of all pixels and of those with each tag, with room that they grow by.
-  [[nodiscard]] static MemoryNeeds needs_of_samples(std::uint64_t samples, std::size_t tags) {
-    return {{"changes of samples", samples * (3 + tags) * 2 * sizeof(std::uint64_t)}};
+  // Besides, of so many samples: their counts, of all pixels and of those with each tag, with room that they grow by; and
+  // those that each thread has of a block, of so many samples at most.
+  [[nodiscard]] static MemoryNeeds needs_of_samples(std::uint64_t samples, std::size_t tags, std::uint64_t block) {
+    const std::uint64_t threads = std::max(1U, std::thread::hardware_concurrency());
+    return {{"changes of samples", (2 * samples + threads * block) * (3 + tags) * sizeof(std::uint64_t)}};
   }
 
-  // Adds the next block; blocks must come in order, all of them. Calls begin_row(y), if there is one, before each row
-  // of its pixels.
-  void add(const BlockView& block, const std::function<void(std::uint32_t y)>& begin_row = {});
+  // Adds the next block; blocks must come in order, all of them. Tells done_rows(), if there is one, how many rows of
+  // its pixels are done: now and then, from any thread, one at a time.
+  void add(const BlockView& block, const std::function<void(std::uint32_t rows)>& done_rows = {});
   // After the last block: samples that were left out have as many changes as those beside them have on average.
   void bridge_left_out();
 
@@ -87,8 +92,11 @@ class Activity {
   [[nodiscard]] std::uint64_t pixel_count() const;
 
  private:
-  // By how many codes a pixel changes, at most, in any channel.
-  [[nodiscard]] std::uint32_t change(const ChangeRecord& before, const ChangeRecord& after) const;
+  struct Counts;
+  struct Tile;
+  template <typename Code>
+  void add_rows(const BlockView& block, const std::vector<bool>& is_left_out, Tile& tile, Counts& counts);
+  void add_records(const BlockView& block, const std::vector<bool>& is_left_out, Tile& tile, Counts& counts);
 
   Shape shape_;
   std::uint32_t much_;  // codes
@@ -96,7 +104,7 @@ class Activity {
   std::vector<std::uint64_t> changes_;
   std::vector<std::uint64_t> changed_pixels_, any_changed_pixels_, much_changed_pixels_;
   std::map<std::uint8_t, std::vector<std::uint64_t>> changed_by_tag_;
-  std::vector<ChangeRecord> last_;  // what each pixel held at the end of the block before; empty at first
+  std::vector<std::uint16_t> last_;  // codes at the end of the block before, [tile][channel][lane]
 };
 
 // Samples at which a codec drew its picture anew, as it does with its key frames: pixels that are still change there,

@@ -211,7 +211,7 @@ Feather Feather::parse(const std::string& text) {
 
 // From the widest edge to the narrowest: those that reach as far, or less, share out anew what they have together. So
 // an edge between two tags is as wide as the wider of theirs.
-Mask feathered(const Mask& mask, const Feather& feather) {
+Mask feathered(const Mask& mask, const Feather& feather, const std::stop_token& stop) {
   std::set<std::int32_t, std::greater<>> reaches;
   const auto counts = mask.pixels_per_tag();
   for (const auto& [tag, reach] : feather.of_tag) {
@@ -225,11 +225,16 @@ Mask feathered(const Mask& mask, const Feather& feather) {
   tents.reserve(reaches.size());
   for (const std::int32_t reach : reaches) tents.emplace_back(reach);
   std::vector<MixedRow> rows(mask.height);
+  const auto throw_if_stopped = [&] {
+    if (stop.stop_requested()) throw Cancelled();
+  };
   parallel_for(mask.height, [&](std::uint64_t y) {
+    throw_if_stopped();
     rows[y] = feathered_row(mask, feather, tents, static_cast<std::int64_t>(y));
   });
   Mask soft{mask.width, mask.height, mask.tags, {}};
   for (const MixedRow& row : rows) {
+    throw_if_stopped();
     for (const auto& [pixel, shares] : row) put_shares(soft, pixel, shares);
   }
   return soft;

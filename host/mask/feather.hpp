@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <map>
+#include <stop_token>
 #include <string>
 
 #include "exposure/mask.hpp"
@@ -32,6 +33,6 @@ struct Feather {
 };
 
 // Of a hard mask. Throws UsageError where no pixel has a tag with a feather of its own.
-[[nodiscard]] Mask feathered(const Mask& mask, const Feather& feather);
+[[nodiscard]] Mask feathered(const Mask& mask, const Feather& feather, const std::stop_token& stop = {});
 
 }  // namespace nutik

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <string>
 
 #include "capture/picture.hpp"
@@ -23,7 +24,8 @@ struct MaskLayer {
 
 // Throws InputError where sizes differ, or pixels have more than all of them: how many, and the first with what each
 // layer says.
-[[nodiscard]] Mask mask_of_layers(std::span<const MaskLayer> layers, std::uint8_t rest);
+[[nodiscard]] Mask mask_of_layers(std::span<const MaskLayer> layers, std::uint8_t rest,
+                                  const std::stop_token& stop = {});
 
 // Of 16 bits.
 [[nodiscard]] Picture layer_of(const Mask& mask, std::uint8_t tag);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "scene/looks.hpp"
@@ -140,7 +141,8 @@ class PlateMaker {
                                                             : timeline.duration_ns());
     }
     plate_.light = Picture(format.shape, ValueType::light64, format.white_code);
-    plate_.uncertain = Region::none(format.shape.width, format.shape.height);
+    plate_.uncertain = again_ = Region::none(format.shape.width, format.shape.height);
+    sees_all_ = looks.count() == timeline.sample_count();
   }
 
   void make(std::uint32_t first_row, std::uint32_t last_row) {
@@ -176,9 +178,12 @@ class PlateMaker {
     for (std::uint32_t y = 0; y < places.height; ++y) {
       for (std::uint32_t x = 0; x < places.width; ++x, ++pixel) {
         if (places.inside[pixel] != 0 && times_->has_look(x, y)) plate_.uncertain.inside[pixel] = 1;
+        again_.inside[pixel] = plate_.uncertain.inside[pixel] != 0 && !(sees_all_ && !times_->has_look(x, y));
       }
     }
   }
+  // Where a place has no look, all that its pixels held counts, as it did before: of these nothing is made again.
+  [[nodiscard]] bool makes_again() const { return again_.pixel_count() > 0; }
 
   [[nodiscard]] const Region& uncertain() const { return plate_.uncertain; }
   [[nodiscard]] Plate finished() && { return std::move(plate_); }
@@ -252,7 +257,7 @@ class PlateMaker {
       if (x % kTileSide == 0) tell(1);
       for (std::uint32_t y = tile_row * kTileSide; y < bottom; ++y) {
         const std::uint64_t pixel = std::uint64_t{y} * shape.width + x;
-        if (plate_.uncertain.inside[pixel] == 0) continue;
+        if (again_.inside[pixel] == 0) continue;
         held.clear();
         for (const BlockView& block : blocks) {
           block.read_history(grid_.tile_of(x, y), TileGrid::lane_of(x, y), history);
@@ -267,10 +272,11 @@ class PlateMaker {
   // What was held while the place's clock ran.
   void add(const BlockExtent& extent, const std::vector<ChangeRecord>& history, std::uint32_t x,
            std::uint32_t y, std::vector<HeldCodes>& held) const {
+    std::int64_t end_ns = times_->clock_ns(x, y, extent.first_sample + history.front().sample);
     for (std::size_t r = 0; r < history.size(); ++r) {
       const std::uint32_t until = r + 1 < history.size() ? history[r + 1].sample : extent.sample_count;
-      const std::int64_t held_ns = times_->clock_ns(x, y, extent.first_sample + until) -
-                                   times_->clock_ns(x, y, extent.first_sample + history[r].sample);
+      const std::int64_t begin_ns = std::exchange(end_ns, times_->clock_ns(x, y, extent.first_sample + until));
+      const std::int64_t held_ns = end_ns - begin_ns;
       if (held_ns > 0) held.push_back({history[r].codes, static_cast<std::uint64_t>(held_ns)});
     }
   }
@@ -303,6 +309,8 @@ class PlateMaker {
   std::vector<double> light_of_code_;
   std::vector<PageBuffer> rooms_;  // for blocks that are unpacked
   Plate plate_;
+  Region again_;  // what is made a second time
+  bool sees_all_ = false;
   std::optional<PlaceTimes> times_;
 };
 
@@ -310,7 +318,7 @@ class PlateMaker {
 
 MemoryNeeds plate_needs(const CaptureFormat& capture) {
   MemoryNeeds needs = PlaceTimes::needs(capture);
-  needs.add("the plate", capture.shape.pixel_count() * (capture.shape.channels * sizeof(double) + 3));
+  needs.add("the plate", capture.shape.pixel_count() * (capture.shape.channels * sizeof(double) + 4));
   return needs;
 }
 
@@ -331,7 +339,7 @@ Plate make_plate(CaptureSource& capture, const CodeBand& band, std::uint64_t mem
   for (std::uint32_t row = 0; row < rows; row += at_once) maker.make(row, std::min(row + at_once, rows));
   if (maker.uncertain().pixel_count() > 0) {
     maker.look_at_places();
-    for (std::uint32_t row = 0; row < rows; row += at_once) maker.make(row, std::min(row + at_once, rows));
+    for (std::uint32_t row = 0; row < rows && maker.makes_again(); row += at_once) maker.make(row, std::min(row + at_once, rows));
   }
   return std::move(maker).finished();
 }

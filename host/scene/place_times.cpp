@@ -77,6 +77,10 @@ PlaceTimes::PlaceTimes(CaptureSource& capture, const Region& uncertain, const Co
     starts_ns_.push_back(timeline_.start_ns(looks_.sample(look)));
   }
   starts_ns_.push_back(timeline_.duration_ns());
+  for (std::uint64_t sample = 0; sample < timeline_.sample_count(); ++sample) {
+    const std::uint64_t look = looks_.before(sample);
+    samples_.push_back({timeline_.start_ns(sample) - starts_ns_[look], static_cast<std::uint32_t>(look)});
+  }
 
   const std::uint32_t channels = capture.format().shape.channels;
   const std::vector<std::vector<Spot>> places = spots_of_places(uncertain);
@@ -190,10 +194,9 @@ PlaceTimes::Clock PlaceTimes::clock_of(const std::vector<std::uint16_t>& bins, s
 
 std::int64_t PlaceTimes::clock_ns(std::uint32_t x, std::uint32_t y, std::uint64_t sample) const {
   const Clock& clock = clock_of(x, y);
-  if (sample == timeline_.sample_count()) return clock.before_ns.back();
-  const std::uint64_t look = looks_.before(sample);
-  const std::int64_t within = clock.runs[look] != 0 ? timeline_.start_ns(sample) - starts_ns_[look] : 0;
-  return clock.before_ns[look] + within;
+  if (sample == samples_.size()) return clock.before_ns.back();
+  const Begin& begin = samples_[sample];
+  return clock.before_ns[begin.look] + (clock.runs[begin.look] != 0 ? begin.since_look_ns : 0);
 }
 
 }  // namespace nutik

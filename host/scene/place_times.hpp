@@ -88,6 +88,11 @@ class PlaceTimes {
   const Timeline& timeline_;
   Looks looks_;
   std::vector<std::int64_t> starts_ns_;  // of looks, and the capture's end
+  struct Begin {
+    std::int64_t since_look_ns;  // from its look's start
+    std::uint32_t look;          // the last that is no later
+  };
+  std::vector<Begin> samples_;  // when each begins: told for each change of each pixel, which divisions would take long for
   std::uint32_t side_, columns_, rows_;  // of cells, in pixels; how many
   std::vector<std::size_t> clock_of_cell_;
   std::vector<Clock> clocks_;

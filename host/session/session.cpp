@@ -12,7 +12,9 @@
 #include "imev/each_block.hpp"
 #include "imev/expected_values.hpp"
 #include "media/events/event_clip.hpp"
+#include "render/code_scale.hpp"
 #include "render/combining_renderer.hpp"
+#include "render/one_pass.hpp"
 #include "render/picture_memory.hpp"
 #include "render/plan_cache.hpp"
 #include "session/clips/clip_memory.hpp"
@@ -85,6 +87,8 @@ class Session::Implementation {
   [[nodiscard]] ExposedPicture render(const FunctionSet& functions, const Mask& mask,
                                       const PlanOptions& options, const OutputFormat& output,
                                       const RenderControl& control);
+  void render_many(std::span<const ExposureRequest> requests, const OutputFormat& output, const RenderControl& control,
+                   const RenderedOne& done);
   template <typename Follow>
   [[nodiscard]] TracedExposure trace(const ExposureRequest& request, std::stop_token stop, const Follow& follow);
   [[nodiscard]] ValidatedExposure validate(const ExposureRequest& request, const OutputFormat& output,
@@ -286,6 +290,16 @@ std::uint64_t infinite_values(const Picture& picture) {
       std::ranges::count_if(picture.values<float>(), [](float value) { return !std::isfinite(value); }));
 }
 
+// Of light that was added up: what is doubtful about it.
+void warn_of_infinite(Rendered& rendered) {
+  const std::uint64_t count = infinite_values(rendered.picture);
+  if (count == 0) return;
+  rendered.warnings.push_back(
+      format("{} of {} values are beyond floating point of 32 bits, which ends at 3.4e38, and infinite; "
+             "expose with smaller gains",
+             count, rendered.picture.shape.value_count()));
+}
+
 }  // namespace
 
 ExposedPicture Session::Implementation::expose(CaptureSource& source, const FunctionSet& functions,
@@ -317,12 +331,7 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
             .render(plan, source, output, limited);
       });
   rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
-  if (const std::uint64_t count = infinite_values(rendered.picture); count > 0) {
-    rendered.warnings.push_back(
-        nutik::format("{} of {} values are beyond floating point of 32 bits, which ends at 3.4e38, and infinite; "
-                      "expose with smaller gains",
-                      count, format_.shape.value_count()));
-  }
+  warn_of_infinite(rendered);
   const auto block_count = reader_ ? std::optional(reader_->block_count()) : std::nullopt;
   std::optional<Picture> bounds;
   if (control.maps_bounds)
@@ -361,6 +370,51 @@ ExposedPicture Session::Implementation::render(const FunctionSet& functions, con
                                                const PlanOptions& options, const OutputFormat& output,
                                                const RenderControl& control) {
   return expose(capture(), functions, mask, options, output, control);
+}
+
+void Session::Implementation::render_many(std::span<const ExposureRequest> requests, const OutputFormat& output,
+                                          const RenderControl& control, const RenderedOne& done) {
+  const ComputingRequest& computing = devices_->request();
+  const auto asked = control.precision ? control.precision : computing.precision;
+  const bool in_double = computing.renderer == RendererKind::opencl && !control.maps_bounds &&
+                         asked.value_or(Precision::double_) == Precision::double_;
+  const Rectangle rectangle = control.rectangle.value_or(Rectangle::whole(format_.shape));
+  std::vector<RenderPlan> plans;
+  std::vector<Rendered> waiting;
+  std::size_t next = 0;
+  const auto expose_waiting = [&] {
+    if (plans.empty()) return;
+    std::vector<Picture> light = expose_in_one_pass(plans, *reader_, rectangle, control);
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+      Rendered& rendered = waiting[i];
+      rendered.picture = stored(std::move(light[i]), plans[i].capture, output, rendered.saturation);
+      state_values(rendered.picture, plans[i].capture, output);
+      warn_of_infinite(rendered);
+      done(next++, rendered);
+    }
+    plans.clear();
+    waiting.clear();
+  };
+  for (const ExposureRequest& request : requests) {
+    throw_if_cancelled(control);
+    if (in_double && rectangle.lies_in(format_.shape)) {
+      RenderPlan planned = plan(request);
+      Rendered rendered;
+      rendered.renderer = "the processor";
+      rendered.warnings = planned.warnings;
+      if (suits_one_pass(planned) &&
+          (rendered.choice = PrecisionChoice{error_bound(planned, Precision::double_, output), {}})->is_right_enough()) {
+        if (!plans.empty() && plans.front().capture != planned.capture) expose_waiting();
+        plans.push_back(std::move(planned));
+        waiting.push_back(std::move(rendered));
+        if (plans.size() >= pictures_in_one_pass(plans.front(), rectangle, memory().bytes / 16)) expose_waiting();
+        continue;
+      }
+    }
+    expose_waiting();
+    done(next++, render(request, output, control));
+  }
+  expose_waiting();
 }
 
 namespace {
@@ -462,6 +516,11 @@ ExposedPicture Session::render(const ExposureRequest& request, const OutputForma
 ExposedPicture Session::render(const FunctionSet& functions, const Mask& mask, const PlanOptions& options,
                                const OutputFormat& output, const RenderControl& control) {
   return implementation_->render(functions, mask, options, output, control);
+}
+
+void Session::render_many(std::span<const ExposureRequest> requests, const OutputFormat& output,
+                          const RenderControl& control, const RenderedOne& done) {
+  implementation_->render_many(requests, output, control, done);
 }
 
 TracedExposure Session::trace(const ExposureRequest& request, const TracedPixel& pixel,

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -115,6 +116,13 @@ class Session {
   [[nodiscard]] ExposedPicture render(const FunctionSet& functions, const Mask& mask,
                                       const PlanOptions& options, const OutputFormat& output,
                                       const RenderControl& control = {});
+
+  // Pictures one after another, each as soon as it is there handed to done(number, rendered). Those of few pixels, each with
+  // one function and in the arithmetic that is chosen by itself, are made many at once, in one pass over the capture and
+  // in double (render/one_pass.hpp). Throws as render() does.
+  using RenderedOne = std::function<void(std::size_t number, const Rendered& rendered)>;
+  void render_many(std::span<const ExposureRequest> requests, const OutputFormat& output, const RenderControl& control,
+                   const RenderedOne& done);
 
   // How the light of a pixel came about, and of the mean of all pixels of a mask value. Cancelled between blocks.
   [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const TracedPixel& pixel,

@@ -3,6 +3,7 @@
 #include <lz4.h>
 #include <zstd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <charconv>
 #include <cstring>
@@ -33,7 +34,35 @@ struct PackingTools {
   std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd{ZSTD_createCCtx(), &ZSTD_freeCCtx};
 };
 
-std::vector<std::byte> compress(const Codec& codec, std::span<const std::byte> plain, PackingTools& tools) {
+// The bytes that it takes. A slow level is given its bytes little by little, so that a stop is heard: that makes the same
+// of them.
+std::size_t zstd_packed(int level, std::span<const std::byte> plain, std::span<std::byte> packed, PackingTools& tools,
+                        const std::stop_token& stop) {
+  constexpr int kFirstSlowLevel = 10;
+  constexpr std::size_t kBytesAtOnce = 128 << 10;
+  const auto checked = [](std::size_t result) {
+    if (ZSTD_isError(result)) throw OutputError(format("zstd failed: {}", ZSTD_getErrorName(result)));
+    return result;
+  };
+  ZSTD_CCtx* const zstd = tools.zstd.get();
+  if (zstd == nullptr) throw std::bad_alloc();
+  if (level < kFirstSlowLevel)
+    return checked(ZSTD_compressCCtx(zstd, packed.data(), packed.size(), plain.data(), plain.size(), level));
+  checked(ZSTD_CCtx_reset(zstd, ZSTD_reset_session_and_parameters));
+  checked(ZSTD_CCtx_setParameter(zstd, ZSTD_c_compressionLevel, level));
+  checked(ZSTD_CCtx_setPledgedSrcSize(zstd, plain.size()));
+  ZSTD_outBuffer to{packed.data(), packed.size(), 0};
+  while (true) {
+    if (stop.stop_requested()) throw Cancelled();
+    ZSTD_inBuffer from{plain.data(), std::min(plain.size(), kBytesAtOnce), 0};
+    plain = plain.subspan(from.size);
+    checked(ZSTD_compressStream2(zstd, &to, &from, plain.empty() ? ZSTD_e_end : ZSTD_e_continue));
+    if (plain.empty()) return to.pos;
+  }
+}
+
+std::vector<std::byte> compress(const Codec& codec, std::span<const std::byte> plain, PackingTools& tools,
+                                const std::stop_token& stop) {
   std::vector<std::byte> packed;
   if (codec.id == CodecId::lz4) {
     if (plain.size() > LZ4_MAX_INPUT_SIZE) {
@@ -48,11 +77,7 @@ std::vector<std::byte> compress(const Codec& codec, std::span<const std::byte> p
     packed.resize(static_cast<std::size_t>(bytes));
   } else {
     packed.resize(ZSTD_compressBound(plain.size()));
-    if (!tools.zstd) throw std::bad_alloc();
-    const std::size_t bytes = ZSTD_compressCCtx(tools.zstd.get(), packed.data(), packed.size(), plain.data(),
-                                                plain.size(), codec.level == 0 ? kDefaultZstdLevel : codec.level);
-    if (ZSTD_isError(bytes)) throw OutputError(format("zstd failed: {}", ZSTD_getErrorName(bytes)));
-    packed.resize(bytes);
+    packed.resize(zstd_packed(codec.level == 0 ? kDefaultZstdLevel : codec.level, plain, packed, tools, stop));
   }
   return packed;
 }
@@ -85,7 +110,7 @@ using GroupSizes = std::array<std::uint32_t, 1 + kPlainParts>;
 void pack_rice_group(const TileGroup& group, std::span<const std::byte> payload, PackingTools& tools,
                      std::vector<std::byte>& packed) {
   const RiceGroup coded = encode_rice(group, payload, tools.room);
-  const std::vector<std::byte> head = compress({CodecId::zstd, 0}, coded.head, tools);
+  const std::vector<std::byte> head = compress({CodecId::zstd, 0}, coded.head, tools, {});
   const auto head_bytes = static_cast<std::uint32_t>(head.size());
   packed.clear();
   packed.reserve(sizeof head_bytes + head.size() + coded.planes.size() + coded.levels.size());
@@ -106,7 +131,7 @@ bool unpack_rice_group(const TileGroup& group, std::span<const std::byte> packed
 }
 
 void pack_group(const Codec& codec, const TileGroup& group, std::span<const std::byte> payload, PackingTools& tools,
-                std::vector<std::byte>& packed) {
+                const std::stop_token& stop, std::vector<std::byte>& packed) {
   if (codec.id == CodecId::rice) {
     pack_rice_group(group, payload, tools, packed);
     return;
@@ -116,7 +141,7 @@ void pack_group(const Codec& codec, const TileGroup& group, std::span<const std:
   packed.assign(sizeof sizes, std::byte{0});
   const auto add = [&](std::size_t at, std::span<const std::byte> part) {
     if (part.empty()) return;
-    const std::vector<std::byte> bytes = compress(codec, part, tools);
+    const std::vector<std::byte> bytes = compress(codec, part, tools, stop);
     sizes[at] = static_cast<std::uint32_t>(bytes.size());
     packed.insert(packed.end(), bytes.begin(), bytes.end());
   };
@@ -260,7 +285,7 @@ std::string Codec::text() const {
 }
 
 void pack(const Codec& codec, const BlockGeometry& geometry, std::span<const std::byte> payload,
-          std::vector<std::vector<std::byte>>& parts, std::uint32_t max_threads) {
+          std::vector<std::vector<std::byte>>& parts, std::uint32_t max_threads, const std::stop_token& stop) {
   if (codec.id == CodecId::none) {
     parts.assign(1, {payload.begin(), payload.end()});
     return;
@@ -278,8 +303,9 @@ void pack(const Codec& codec, const BlockGeometry& geometry, std::span<const std
   parallel_for_with(
       sizes.size(), [] { return PackingTools(); },
       [&](std::uint64_t g, PackingTools& tools) {
+        if (stop.stop_requested()) throw Cancelled();
         const TileGroup group{std::span(entries).subspan(firsts[g], sizes[g]), geometry};
-        pack_group(codec, group, payload, tools, parts[1 + g]);
+        pack_group(codec, group, payload, tools, stop, parts[1 + g]);
       },
       max_threads);
 
@@ -293,7 +319,7 @@ void pack(const Codec& codec, const BlockGeometry& geometry, std::span<const std
   }
   PackingTools tools;
   const std::vector<std::byte> packed_counts =
-      compress(general_codec(codec), std::as_bytes(std::span(counts)), tools);
+      compress(general_codec(codec), std::as_bytes(std::span(counts)), tools, stop);
   const std::array<std::uint32_t, 2> counts_head{static_cast<std::uint32_t>(packed_counts.size()), 0};
   append(front, counts_head.data(), sizeof counts_head);
   append(front, packed_counts.data(), packed_counts.size());

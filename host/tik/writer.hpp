@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "imev/block.hpp"
@@ -33,6 +35,9 @@ class Writer {
   // The same of a picture that lay at the front of another .tik: a Netpbm raster.
   static Writer from_raster(const std::filesystem::path& path, const Header& header,
                             std::span<const std::byte> raster);
+
+  // Packing ends when that is asked to stop: append() throws Cancelled.
+  void stop_by(std::stop_token stop) { stop_ = std::move(stop); }
 
   // Appends the next block; with an irregular timeline also its samples' exposures, times from the
   // first sample's start.
@@ -64,6 +69,7 @@ class Writer {
   Header header_;
   Codec codec_;
   std::uint32_t max_threads_;  // that pack
+  std::stop_token stop_;
   std::vector<std::vector<std::byte>> packed_;  // the last block, whose memory the next one is packed into
   std::vector<IndexEntry> index_;
   Checksum headers_;  // of all block headers so far

@@ -7,17 +7,22 @@ from fractions import Fraction
 from html import escape
 from os import PathLike
 from operator import index
-from typing import Any, Iterator, Mapping, Optional, Sequence, Union
+from typing import Any, Iterable, Iterator, cast, Mapping, Optional, Sequence, Union
 
 import numpy as np
+from numpy.typing import DTypeLike, NDArray
 
 from . import _finds, _nutik
 from ._functions import Function, FunctionLike, function_of, read_functions
 from ._masks import Mask, MaskLike, mask_of
 from ._nutik import InputError, MemoryTooLittle, UsageError
-from ._pictures import Picture
-from ._words import Array, DelayLike, Path, Progress, Time, axes_of, box_of, count_of, delays_ns, settings_of, tag_of, time_word, warn
+from ._pictures import Picture, Pictures
+from ._told import Figures
+from ._words import (Axes, DelayLike, Path, Progress, Time, axes_of, box_of, count_of, delays_ns, ellipsis, is_list,
+                     settings_of, tag_of, time_word, warn)
 
+Codes = Union[NDArray[np.uint8], NDArray[np.uint16]]
+Index = Union[int, slice, ellipsis, tuple[Union[int, slice, ellipsis, None], ...]]
 Functions = Union[FunctionLike, Mapping[int, FunctionLike], Path]
 
 _MOST_AT_ONCE = 4 << 30  # bytes of samples that one array takes
@@ -31,26 +36,26 @@ class Trace:
     tag: int                 # whose function it is
     share: float             # of the pixel's light that this function has
     pixels: int              # whose mean it is
-    times_ns: Array     # [N, 2] int64: where each step begins and ends
-    gain: Array         # [N, 2] at both
-    light: Array        # [N, 2, C] at both
-    integral_ns: Array  # [N, C] of light times gain over the step
-    sum_ns: Array       # [N, C] of all integrals up to the step's end
-    made: Array         # [N] bool: whether the sample it begins with was made between two filmed ones
-    exposed: Array      # [C] the exposure's light
-    support_ns: int          # D, by which the sum is divided
+    times_ns: NDArray[np.int64]       # [N, 2]: where each step begins and ends
+    gain: NDArray[np.float64]         # [N, 2] at both
+    light: NDArray[np.float64]        # [N, 2, C] at both
+    integral_ns: NDArray[np.float64]  # [N, C] of light times gain over the step
+    sum_ns: NDArray[np.float64]       # [N, C] of all integrals up to the step's end
+    made: NDArray[np.bool_]           # [N]: whether the sample it begins with was made between two filmed ones
+    exposed: NDArray[np.float64]      # [C] the exposure's light
+    support_ns: int                   # D, by which the sum is divided
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Trace) and all(np.array_equal(value, getattr(other, name))
                                                 for name, value in vars(self).items())
 
-    def plot(self, ax: Any = None, **style: Any) -> Any:
+    def plot(self, ax: Optional[Axes] = None, **style: object) -> Axes:
         """Draws light over seconds with matplotlib, a line for each channel, into `ax` or the current axes, which it
         returns."""
         axes = axes_of(ax, "time, s", "light")
-        for channel, colour in enumerate(("red", "green", "blue") if self.light.shape[2] == 3 else (None,)):
-            axes.plot(self.times_ns.ravel() / 1e9, self.light[:, :, channel].ravel(),
-                      **{**({"color": colour} if colour and not {"c", "color"} & style.keys() else {}), **style})
+        for channel, colour in enumerate(("red", "green", "blue") if self.light.shape[2] == 3 else ("",)):
+            named: dict[str, object] = {"color": colour} if colour and not {"c", "color"} & style.keys() else {}
+            axes.plot(self.times_ns.ravel() / 1e9, self.light[:, :, channel].ravel(), **{**named, **style})
         return axes
 
     __hash__ = None  # type: ignore[assignment]
@@ -100,20 +105,23 @@ class Capture:
         return (len(self), *self._held.shape)
 
     @property
-    def dtype(self) -> np.dtype[Any]:
+    def dtype(self) -> np.dtype[Union[np.uint8, np.uint16]]:
         """Of its codes: uint8 or uint16."""
         return np.dtype(np.uint8 if self._held.code_bytes == 1 else np.uint16)
 
     def __len__(self) -> int:
         return self._held.sample_count
 
-    def __getitem__(self, key: Any) -> Array:
+    def __getitem__(self, key: Index) -> Codes:
         """The codes that are held, exactly: `capture[3]` is [height, width] or [height, width, 3], `capture[10:20]` has
         samples before them; what follows picks pixels, `capture[:, 100:200, 50:60]`. A copy each time; raises
-        IndexError, and MemoryTooLittle where the samples of a slice take more than 4 GiB."""
-        picked, rest = (key[0], key[1:]) if isinstance(key, tuple) and key else (key, ())
-        if picked is Ellipsis or isinstance(key, tuple) and not key:
-            picked, rest = slice(None), (key[:1] if picked is Ellipsis and isinstance(key, tuple) else ()) + rest
+        IndexError, and MemoryTooLittle where the samples of a slice take more than 4 GiB.
+
+        >>> capture[3].shape, capture[2:5, :10, 0].shape
+        ((24, 32), (3, 10))
+        """
+        keys: tuple[Any, ...] = key if isinstance(key, tuple) else (key,)
+        picked, rest = (keys[0], keys[1:]) if keys and keys[0] is not Ellipsis else (slice(None), keys)
         if isinstance(picked, slice):
             numbers = range(*picked.indices(len(self)))
             bytes_asked = len(numbers) * int(np.prod(self.shape[1:])) * self.dtype.itemsize
@@ -122,32 +130,48 @@ class Capture:
                                       "expose them with render()")
             forward = numbers if numbers.step > 0 else numbers[::-1]
             held = self._held.samples(forward)
-            return (held if numbers.step > 0 else held[::-1])[(slice(None), *rest)]
+            return cast(Codes, (held if numbers.step > 0 else held[::-1])[(slice(None), *rest)])
         number = index(picked)
         if not -len(self) <= number < len(self):
             raise IndexError(f"sample {number} of {len(self)}")
-        return self._held.samples([number % len(self)])[(0, *rest)]
+        return cast(Codes, self._held.samples([number % len(self)])[(0, *rest)])
 
-    def __iter__(self) -> Iterator[Array]:
-        return (self[number] for number in range(len(self)))
+    def __iter__(self) -> Iterator[Codes]:
+        reader = self._held.reader()
+        return (reader.sample(number) for number in range(len(self)))
 
-    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> Array:
+    def __array__(self, dtype: DTypeLike = None, copy: Optional[bool] = None) -> NDArray[np.generic]:
         """All samples, where they take no more than 4 GiB; a copy always."""
         if copy is False:
             raise ValueError("a capture holds no array: a copy of its codes is made")
         return self[:] if dtype is None else self[:].astype(dtype, copy=False)
 
     @property
-    def times(self) -> Array:
+    def times(self) -> NDArray[np.float64]:
         """[samples] float64: when each sample's exposure begins, in seconds; times_ns has it exactly."""
         return self.times_ns[:, 0] / 1e9
 
-    def records(self, region: Optional[Sequence[int]] = None, *, first: int = 0, last: Optional[int] = None) -> Array:
-        """What pixels hold, from one change to the next, as an array of records: x, y, start_ns, end_ns, code (of colour
-        [3]); each pixel's in time order, row after row.
+    def records(self, region: Optional[Sequence[int]] = None, *, first: int = 0,
+                last: Optional[int] = None) -> NDArray[np.void]:
+        """What pixels hold, from one change to the next.
 
-        region: (x, y, width, height), only these pixels. first, last: only samples from `first` on and before `last`; what
-        is held before or after is cut there. Raises UsageError where there are no such pixels or samples.
+        Parameters
+        ----------
+        region : (x, y, width, height), only these pixels.
+        first, last : only samples from `first` on and before `last`; what is held before or after is cut there.
+
+        Returns
+        -------
+        [records] with the fields x, y, start_ns, end_ns, code (of colour [3]); each pixel's in time order, row after row.
+
+        Raises
+        ------
+        UsageError where there are no such pixels or samples.
+
+        Examples
+        --------
+        >>> capture.records((3, 4, 1, 1), first=0, last=1)["end_ns"].tolist()
+        [10000000]
         """
         height, width = self.shape[1:3]
         box = [0, 0, width, height] if region is None else box_of(region, "region")
@@ -179,7 +203,7 @@ class Capture:
         return self._held.duration_ns
 
     @property
-    def times_ns(self) -> Array:
+    def times_ns(self) -> NDArray[np.int64]:
         """[samples, 2] int64: when each sample's exposure begins and ends."""
         return self._held.times_ns()
 
@@ -194,45 +218,66 @@ class Capture:
         return list(self._notes)
 
     @property
-    def figures(self) -> dict[str, Any]:
-        """What it comes to: samples, duration_ns, is_constant_rate, white, transfer, primaries, tolerance, blocks,
-        records, tiles, file_bytes, raw_bytes, memory_bytes, codec; and, as a Fraction each, rate (samples a second),
-        shutter_angle (degrees) and pixel_aspect."""
-        figures = self._held.figures()
-        return {**figures, **{name: Fraction(*figures[name]) for name in ("rate", "shutter_angle", "pixel_aspect")}}
+    def figures(self) -> Figures:
+        """What it comes to, from `samples` to `codec`."""
+        figures: dict[str, Any] = self._held.figures()
+        for name in ("rate", "shutter_angle", "pixel_aspect"):
+            figures[name] = Fraction(*figures[name])
+        return cast(Figures, figures)
 
     def render(self, functions: Optional[Functions] = None, mask: Optional[MaskLike] = None, *,
                start: Optional[Time] = None, exposure: Optional[Time] = None, shutter: Optional[str] = None,
                shutter_error: Optional[float] = None, feather: Union[str, float, None] = None,
                delay: Optional[DelayLike] = None, normalize: str = "support", gain: float = 1.0,
-               unmapped: Optional[str] = None, precision: Optional[str] = None, codes: bool = False, dtype: Any = None,
+               unmapped: Optional[str] = None, precision: Optional[str] = None, codes: bool = False, dtype: DTypeLike = None,
                transfer: Optional[str] = None, negative: Optional[str] = None,
-               region: Optional[Sequence[int]] = None, bounds: bool = False) -> Picture:
-        """Exposes a picture.
+               region: Optional[Sequence[int]] = None, bounds: bool = False,
+               strict: bool = False) -> Picture:
+        """Exposes a picture: of an interval, or with gain functions.
 
-        Either an interval: `start` (0 without one) and `exposure`, with `shutter` a shape (nutik.shutter()) and
-        `shutter_error`. Or `functions`: one for all of the picture (a nutik.Function, a list of (time, gain), a
-        callable over the whole capture), or one for each tag of `mask` ({0: ..., 128: ...}, or a function file);
-        `start` is then their time 0.
+        Parameters
+        ----------
+        functions : one for all of the picture (a nutik.Function, a list of (time, gain), a callable over the whole
+            capture), or one for each tag of `mask` ({0: ..., 128: ...}, or a function file).
+        mask : [height, width] of tags, or {tag: alpha} of shares (the first function gets what they leave), a nutik.Mask,
+            or a file.
+        start, exposure : the interval, in place of functions; 0 without a start. Of functions their time 0.
+        shutter, shutter_error : its shape, as of nutik.shutter().
+        feather : pixels that tags are blended over, 6 or '6px'.
+        delay : how much later each pixel is exposed (docs/how-to/delay.md): 'rows:15ms', 'columns:0s..0.5s',
+            'radial:-20ms..20ms', 'map.tif:0s..1s', or [height, width] of seconds or timedelta64.
+        normalize : 'support', 'integral', 'absolute' or 'seconds:S' (docs/explanation/model.md).
+        gain : multiplies the light.
+        unmapped : 'zero' lets tags without a function expose to black.
+        precision : 'single', 'compensated', 'double' or 'fixed'; None: the fastest whose error bound is small enough.
+        codes, dtype : float32 without them, or float64. With codes uint8 or uint16, the capture's own without dtype.
+        transfer : of codes, sRGB without it; 'source': the capture's own.
+        negative : what codes say of light below 0, 'saturate', 'offset' or 'abs'.
+        region : (x, y, width, height) in pixels, only these.
+        bounds : also a map of what the arithmetic may be off by, Picture.bounds.
+        strict : codes that may err by more than half of one raise ImpreciseError, and are no warning.
 
-        mask: tags [height, width], or {tag: alpha} of shares (the first function gets what they leave), a nutik.Mask, or
-            a file. feather: pixels that tags are blended over, 6 or '6px'.
-        delay: how much later each pixel is exposed (docs/how-to/delay.md): 'rows:15ms', 'columns:0s..0.5s',
-            'radial:-20ms..20ms', 'map.tif:0s..1s', or an array [height, width] of seconds or timedelta64.
-        normalize: 'support', 'integral', 'absolute' or 'seconds:S' (docs/explanation/model.md). gain: multiplies the light.
-        unmapped: 'zero' lets tags without a function expose to black.
-        precision: 'single', 'compensated', 'double' or 'fixed'; None: the fastest whose error bound is small enough.
+        Returns
+        -------
+        Picture, whose array is [height, width] or [height, width, 3]: light, of which 1 is white, or codes.
 
-        Light comes as float32, or float64 with dtype; codes=True gives uint8 or uint16, the capture's own unless dtype
-        says which, sRGB unless `transfer` says otherwise ('source': the capture's own). negative: what codes say of
-        light below 0, 'saturate', 'offset' or 'abs'. region: (x, y, width, height), only these pixels. bounds: also a map
-        of what the arithmetic may be off by, Picture.bounds.
+        Raises
+        ------
+        UsageError where the request does not fit the capture, InputError where mask and functions do not or the capture
+        is damaged, DeviceError; KeyboardInterrupt at Ctrl-C.
 
-        Raises UsageError where the request does not fit the capture, InputError where mask and functions do not or the
-        capture is damaged, DeviceError; KeyboardInterrupt at Ctrl-C.
+        Examples
+        --------
+        >>> capture.render(start="5f", exposure=0.02, codes=True).dtype
+        dtype('uint8')
+        >>> halves = np.zeros((24, 32), np.uint8)
+        >>> halves[:, 16:] = 128
+        >>> picture = capture.render({0: nutik.boxcar(0, "10ms"), 128: [(0, 1), (0.05, 0)]}, mask=halves)
+        >>> picture.array.shape, picture.error_bound < 1e-6
+        ((24, 32), True)
         """
         asked = self._exposure(functions, mask, start, exposure, shutter, shutter_error, feather, delay,
-                               normalize, gain, unmapped)
+                               normalize, gain, unmapped, strict)
         output = self._output(codes, dtype, transfer, negative)
         box = None if region is None else box_of(region, "region")
         held = _nutik.render(self._held, asked, output, box, None if precision is None else str(precision), bounds)
@@ -244,15 +289,89 @@ class Capture:
                  for each in picture.plan["functions"] if each["still_gain"] < 0)
         return picture
 
+    def render_many(self, functions: Optional[Sequence[Functions]] = None, mask: Optional[MaskLike] = None, *,
+                    starts: Union[Time, Iterable[Time], None] = None,
+                    exposures: Union[Time, Iterable[Time], None] = None, shutter: Optional[str] = None,
+                    shutter_error: Optional[float] = None, feather: Union[str, float, None] = None,
+                    delay: Optional[DelayLike] = None, normalize: str = "support", gain: float = 1.0,
+                    unmapped: Optional[str] = None, precision: Optional[str] = None, codes: bool = False,
+                    dtype: DTypeLike = None, transfer: Optional[str] = None, negative: Optional[str] = None,
+                    region: Optional[Sequence[int]] = None, strict: bool = False,
+                    progress: Progress = None) -> Pictures:
+        """Exposes many pictures in one call. Small ones (16384 values) with one function each are added up on the
+        processor, in double, in one pass over the capture; others are made one by one.
+
+        Parameters
+        ----------
+        functions : a list, of each picture those that render() takes.
+        starts, exposures : one for all pictures, or one for each. What is a list has one length.
+        progress : called with (pictures done, of how many).
+
+        The rest is as of render().
+
+        Returns
+        -------
+        Pictures, whose array is [pictures, height, width] or [pictures, height, width, 3].
+
+        Raises
+        ------
+        UsageError where lists have different lengths or are empty; as render() does.
+
+        Examples
+        --------
+        >>> many = capture.render_many(starts=np.linspace(0, 0.05, 100), exposures="10ms")
+        >>> many.array.shape, many.error_bounds.shape
+        ((100, 24, 32), (100,))
+        """
+        lists: dict[str, list[Any]] = {name: list(cast(Iterable[Any], each)) if name == "functions" or is_list(each) else [each]
+                 for name, each in (("functions", functions), ("starts", starts), ("exposures", exposures))
+                 if each is not None}
+        counts = {len(each) for each in lists.values()} - {1} or {1}
+        if len(counts) > 1 or 0 in counts:
+            said = ", ".join(f"{len(each)} {name}" for name, each in lists.items())
+            raise UsageError(f"there are {said}: lists have one length, or one for all pictures")
+        count = counts.pop()
+        first = {name: each[0] for name, each in lists.items()}
+        asked = self._exposure(first.get("functions"), mask, first.get("starts"), first.get("exposures"), shutter,
+                               shutter_error, feather, delay, normalize, gain, unmapped, strict)
+        words = {name: [time_word(each, f"{name}[{i}]") for i, each in enumerate(lists.get(name, []))]
+                 for name in ("starts", "exposures")}
+        held = [{tag: function._held for tag, function in self._functions(each, mask is not None).items()}
+                for each in lists.get("functions", [])]
+        box = None if region is None else box_of(region, "region")
+        array, bounds, told = _nutik.render_many(self._held, asked, count, words["starts"], words["exposures"], held,
+                                                 self._output(codes, dtype, transfer, negative), box,
+                                                 None if precision is None else str(precision), progress)
+        warn(told)
+        return Pictures._of(array, bounds)
+
     def trace(self, x: Optional[int] = None, y: Optional[int] = None, *, tag: Optional[int] = None,
               functions: Optional[Functions] = None, mask: Optional[MaskLike] = None, start: Optional[Time] = None,
               exposure: Optional[Time] = None, shutter: Optional[str] = None, shutter_error: Optional[float] = None,
               feather: Union[str, float, None] = None, delay: Optional[DelayLike] = None, normalize: str = "support",
               gain: float = 1.0, unmapped: Optional[str] = None) -> list[Trace]:
-        """How the light of pixel x, y came about, or the mean of all pixels with a `tag` of the mask: a Trace for each
-        function that has a share. The other arguments are those of render().
+        """How the light of a pixel came about, or the mean of all pixels of a tag.
 
-        Raises UsageError where there is no such pixel or tag; as render() does.
+        Parameters
+        ----------
+        x, y : the pixel, or
+        tag : of the mask.
+
+        The rest is as of render().
+
+        Returns
+        -------
+        A Trace for each function that has a share.
+
+        Raises
+        ------
+        UsageError where there is no such pixel or tag; as render() does.
+
+        Examples
+        --------
+        >>> trace, = capture.trace(3, 4, start=0, exposure="10ms")
+        >>> bool(abs(trace.integral_ns.sum() / trace.support_ns - trace.exposed[0]) < 1e-12)
+        True
         """
         if (x is None) != (y is None) or (x is None) == (tag is None):
             raise UsageError("what should be followed? Either a pixel, x and y, or a tag of the mask, tag=")
@@ -265,25 +384,63 @@ class Capture:
         warn(told)
         return [Trace._of(arrays) for arrays in traces]
 
-    def plate(self, *, by: Optional[int] = None, codes: bool = False, dtype: Any = None,
+    def plate(self, *, by: Optional[int] = None, codes: bool = False, dtype: DTypeLike = None,
               transfer: Optional[str] = None, progress: Progress = None) -> _finds.Plate:
-        """The scene without what moves in it (docs/how-to/plate.md). by: codes that the same light may differ by; None: by the
-        capture's own noise. codes, dtype and transfer as of render(), but for float64. progress: as of nutik.open()."""
+        """The scene without what moves in it (docs/how-to/plate.md).
+
+        Parameters
+        ----------
+        by : codes that the same light may differ by; None: by the capture's own noise.
+        codes, dtype, transfer : as of render(), but for float64.
+        progress : as of nutik.open().
+
+        Returns
+        -------
+        Plate: a picture, and [height, width] of where it is a guess.
+
+        Raises
+        ------
+        UsageError, InputError where there is one sample; KeyboardInterrupt at Ctrl-C.
+
+        Examples
+        --------
+        >>> nutik.encode(np.full((9, 8, 8), 7, np.uint8), rate=9).plate(codes=True).picture.array[0, 0]
+        7
+        """
         return _finds.plate(self._held, None if by is None else count_of(by, "by"),
                             self._output(codes, dtype, transfer, None), progress)
 
     def activity(self, mask: Optional[MaskLike] = None, *, tag: Optional[int] = None, by: int = 0,
                  count_redrawn: bool = False, progress: Progress = None) -> _finds.Activity:
-        """When it changes, and where. Only pixels of `mask` with `tag` count, or with any tag but 0; changes of no more
-        than `by` codes are none. Samples at which a codec drew its picture anew count as those beside them, unless
-        count_redrawn. progress: as of nutik.open()."""
+        """When it changes, and where.
+
+        Parameters
+        ----------
+        mask, tag : only pixels of the mask with this tag count, or with any tag but 0.
+        by : changes of no more than so many codes are none.
+        count_redrawn : samples at which a codec drew its picture anew count as those beside them without it.
+        progress : as of nutik.open().
+
+        Returns
+        -------
+        Activity: changes by sample and by pixel.
+
+        Raises
+        ------
+        UsageError, InputError where no pixel counts; KeyboardInterrupt at Ctrl-C.
+
+        Examples
+        --------
+        >>> capture.activity().changed_pixels.shape
+        (10,)
+        """
         return _finds.activity(self._held, mask_of(mask), None if tag is None else tag_of(tag), count_of(by, "by"),
                                count_redrawn, progress)
 
     def study(self, style: str = "trail", *, moments: Union[int, Sequence[Time], None] = None, spacing: str = "time",
               trail: Optional[str] = None, slit_from: str = "left", regions: Sequence[Sequence[int]] = (),
               by: Optional[int] = None, feather: Union[str, float, None] = None, codes: bool = False,
-              dtype: Any = None, transfer: Optional[str] = None, progress: Progress = None) -> _finds.Study:
+              dtype: DTypeLike = None, transfer: Optional[str] = None, progress: Progress = None) -> _finds.Study:
         """A motion study that finds its subject by itself (docs/how-to/study.md).
 
         style: 'trail', 'strobe', 'rear-curtain', 'frozen', 'clean' or 'slit'. moments: how many, or which times. spacing:
@@ -313,7 +470,7 @@ class Capture:
                             progress)
 
     def solve(self, functions: str, wishes: Sequence[str], *,
-              free: Mapping[str, Union[str, tuple[Any, ...]]] = {}, mask: Optional[MaskLike] = None,
+              free: Mapping[str, Union[str, Sequence[Time]]] = {}, mask: Optional[MaskLike] = None,
               regions: Optional[MaskLike] = None, start: Optional[Time] = None,
               feather: Union[str, float, None] = None, normalize: str = "support", gain: float = 1.0,
               unmapped: Optional[str] = None, progress: Progress = None) -> _finds.Solution:
@@ -358,9 +515,9 @@ class Capture:
     def _exposure(self, functions: Optional[Functions], mask: Optional[MaskLike], start: Optional[Time],
                   exposure: Optional[Time], shutter: Optional[str], shutter_error: Optional[float],
                   feather: Union[str, float, None], delay: Optional[DelayLike], normalize: str, gain: float,
-                  unmapped: Optional[str]) -> _nutik.Exposure:
+                  unmapped: Optional[str], strict: bool = False) -> _nutik.Exposure:
         stated = dict(start=start, exposure=exposure, shutter=shutter, shutter_error=shutter_error,
-                      normalize=normalize, gain=gain, unmapped=unmapped)
+                      normalize=normalize, gain=gain, unmapped=unmapped, strict=strict)
         if functions is None:
             if mask is not None:
                 raise UsageError("a mask goes with functions=, not with a plain interval")
@@ -387,7 +544,7 @@ class Capture:
             made[tag_of(tag)] = function_of(each, f"functions[{tag}]", duration)
         return made
 
-    def _output(self, codes: bool, dtype: Any, transfer: Optional[str],
+    def _output(self, codes: bool, dtype: DTypeLike, transfer: Optional[str],
                 negative: Optional[str]) -> dict[str, str]:
         kinds = ("uint8", "uint16") if codes else ("float32", "float64")
         kind = np.dtype(dtype).name if dtype is not None else self.dtype.name if codes else kinds[0]

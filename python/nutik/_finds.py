@@ -7,13 +7,14 @@ from dataclasses import dataclass
 from typing import Any, Optional, Union
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _nutik
 from ._functions import Function, parse_functions
 from ._masks import Mask
 from ._nutik import UsageError
 from ._pictures import Picture
-from ._words import Array, NutikNote, Progress, axes_of, time_word, warn
+from ._words import Axes, NutikNote, Progress, axes_of, time_word, warn
 
 
 @dataclass(frozen=True)
@@ -21,7 +22,7 @@ class Plate:
     """The scene without what moves in it."""
 
     picture: Picture
-    uncertain: Array  # [height, width] bool: pixels whose light is a guess
+    uncertain: NDArray[np.bool_]  # [height, width] bool: pixels whose light is a guess
 
 
 @dataclass(frozen=True)
@@ -36,14 +37,14 @@ class Stretch:
 class Activity:
     """When a capture changes, and where."""
 
-    changed_pixels: Array  # [samples] uint64: how many of the counted pixels changed at each sample
-    changes: Array         # [height, width] uint64: at how many samples each pixel changed
+    changed_pixels: NDArray[np.uint64]  # [samples]: how many of the counted pixels changed at each sample
+    changes: NDArray[np.uint64]         # [height, width]: at how many samples each pixel changed
     counted_pixels: int
-    redrawn: Array         # samples that count as those beside them
+    redrawn: NDArray[np.uint64]         # samples that count as those beside them
     busiest: Optional[Stretch]  # a twentieth of the capture; None where nothing changes
     quietest: Optional[Stretch]
 
-    def plot(self, ax: Any = None, **style: Any) -> Any:
+    def plot(self, ax: Optional[Axes] = None, **style: object) -> Axes:
         """Draws the share of pixels that change at each sample with matplotlib, into `ax` or the current axes, which it
         returns."""
         axes = axes_of(ax, "sample", "share of pixels that change")
@@ -104,7 +105,7 @@ def activity(capture: _nutik.Capture, mask: Optional[Mask], tag: Optional[int], 
              count_redrawn: bool, progress: Progress = None) -> Activity:
     if tag is not None and mask is None:
         raise UsageError("tag= is a value of a mask; add mask=")
-    told = _nutik.activity(capture, None if mask is None else mask._held, tag, by, count_redrawn, progress)
+    told: dict[str, Any] = _nutik.activity(capture, None if mask is None else mask._held, tag, by, count_redrawn, progress)
     warn(told.pop("notes"), NutikNote)
     for name in ("changed_pixels", "changes", "redrawn"):
         told[name].flags.writeable = False
@@ -113,11 +114,11 @@ def activity(capture: _nutik.Capture, mask: Optional[Mask], tag: Optional[int], 
     return Activity(**told)
 
 
-def study(capture: _nutik.Capture, settings: dict[str, str], moments: Union[int, list[str]], regions: list[Any],
+def study(capture: _nutik.Capture, settings: dict[str, str], moments: Union[int, list[str], None], regions: list[list[int]],
           output: dict[str, str], progress: Progress = None) -> Study:
     if settings["style"] == "clean" and output["dtype"] == "float64":
         raise UsageError("a plate's light is float32")
-    told = _nutik.study(capture, settings, moments, regions, output, progress)
+    told: dict[str, Any] = _nutik.study(capture, settings, moments, regions, output, progress)
     warn(told["notes"], NutikNote)
     picture = Picture(told["picture"])
     warn(picture._held.figures.get("warnings", []))
@@ -125,7 +126,7 @@ def study(capture: _nutik.Capture, settings: dict[str, str], moments: Union[int,
                  {tag: Function._of(held) for tag, held in told["functions"].items()}, told["moments"])
 
 
-def freedom_word(name: str, free: Union[str, tuple[Any, ...]], functions: str) -> str:
+def freedom_word(name: str, free: Any, functions: str) -> str:
     """`rest=-100..0`, `when=0.6s..0.8s/1f`."""
     if isinstance(free, str):
         return f"{name}={free}"
@@ -142,7 +143,7 @@ def freedom_word(name: str, free: Union[str, tuple[Any, ...]], functions: str) -
 
 def solve(capture: _nutik.Capture, functions: str, wishes: list[str], free: list[str], asked: _nutik.Exposure,
           regions: Optional[_nutik.Mask], progress: Progress = None) -> Solution:
-    told = _nutik.solve(capture, functions, wishes, free, asked, regions, progress)
+    told: dict[str, Any] = _nutik.solve(capture, functions, wishes, free, asked, regions, progress)
     told_wishes = [SolvedWish(**wish) for wish in told.pop("wishes")]
     warnings = told.pop("warnings")
     if not told["is_kept"]:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Iterable, Mapping, Sequence, Union
+from typing import Any, Callable, Iterable, Mapping, Optional, Sequence, Union, overload
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import Array, Path, Time, axes_of, path_word, reading, tag_of, time_ns, time_word, times_ns, warn
+from ._words import Axes, Path, Time, axes_of, path_word, reading, tag_of, time_ns, time_word, times_ns, warn
 
 _MIN_SAMPLES = 1024  # of a callable, evenly, before it is looked at more closely where it bends
 _MAX_SAMPLES = 1 << 20
@@ -34,7 +35,7 @@ class Function:
         return function
 
     @classmethod
-    def from_ns(cls, times_ns: Any, gains: Any) -> Function:
+    def from_ns(cls, times_ns: ArrayLike, gains: ArrayLike) -> Function:
         """The same of whole nanoseconds. Raises UsageError as above."""
         at = np.asarray(times_ns)
         if at.size and at.dtype.kind not in "iu":
@@ -42,16 +43,21 @@ class Function:
         return cls._of(_nutik.Function(at.astype(np.int64), np.asarray(gains, np.float64)))
 
     @property
-    def times_ns(self) -> Array:
+    def times_ns(self) -> NDArray[np.int64]:
         """[points] int64: when the control points are, in nanoseconds."""
         return self._held.points()[0]
 
     @property
-    def gains(self) -> Array:
+    def gains(self) -> NDArray[np.float64]:
         """[points] float64."""
         return self._held.points()[1]
 
-    def __call__(self, times: Any) -> Any:
+    @overload
+    def __call__(self, times: float) -> float: ...
+    @overload
+    def __call__(self, times: NDArray[np.float64]) -> NDArray[np.float64]: ...
+
+    def __call__(self, times: Union[float, NDArray[np.float64]]) -> Union[float, NDArray[np.float64]]:
         """The gain at times in seconds, an array of any shape or a number; at a jump that of its later side."""
         at = np.asarray(times, np.float64) * 1e9
         points, gains = self._held.points()
@@ -61,10 +67,10 @@ class Function:
         length = (points[end] - points[begin]).astype(np.float64)
         share = np.clip((at - points[begin]) / np.where(length > 0, length, 1), 0, 1)
         value = np.where(length > 0, gains[begin] + (gains[end] - gains[begin]) * share, gains[begin])
-        return value if value.ndim else float(value)
+        return np.asarray(value, np.float64) if value.ndim else float(value)
 
     @property
-    def times(self) -> Array:
+    def times(self) -> NDArray[np.float64]:
         """[points] float64: when the control points are, in seconds; times_ns has them exactly."""
         return self.times_ns / 1e9
 
@@ -78,7 +84,7 @@ class Function:
 
     __array_ufunc__ = None  # numpy's numbers leave f * 2 to it
 
-    def plot(self, ax: Any = None, **style: Any) -> Any:
+    def plot(self, ax: Optional[Axes] = None, **style: object) -> Axes:
         """Draws gain over seconds with matplotlib, into `ax` or the current axes, which it returns."""
         axes = axes_of(ax, "time, s", "gain")
         axes.plot(self.times, self.gains, **style)
@@ -96,8 +102,10 @@ class Function:
         gains[np.flatnonzero(np.diff(at, prepend=at[0] - 1, append=at[-1] + 1)[1:] == 0)] = before[is_twice]
         return Function.from_ns(at, gains)
 
-    def __radd__(self, other: Any) -> Function:
-        return self if isinstance(other, int) and other == 0 else NotImplemented  # sum() begins with 0
+    def __radd__(self, other: int) -> Function:
+        if isinstance(other, int) and other == 0:  # sum() begins with it
+            return self
+        return NotImplemented
 
     def __sub__(self, other: Function) -> Function:
         return self + other * -1 if isinstance(other, Function) else NotImplemented
@@ -113,7 +121,7 @@ class Function:
     def __neg__(self) -> Function:
         return self * -1
 
-    def _beside(self, times: Array) -> tuple[Array, Array]:
+    def _beside(self, times: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """The gain just before and just behind each of these times, whole nanoseconds."""
         points, gains = self._held.points()
         value = np.interp((times - points[0]).astype(np.float64), (points - points[0]).astype(np.float64), gains)
@@ -132,7 +140,7 @@ class Function:
     def __hash__(self) -> int:
         return hash((self.times_ns.tobytes(), (self.gains + 0.0).tobytes()))  # -0.0 equals 0.0
 
-    def __reduce__(self) -> Any:
+    def __reduce__(self) -> tuple[object, ...]:
         return Function.from_ns, (self.times_ns, self.gains)
 
     def __repr__(self) -> str:
@@ -143,11 +151,17 @@ class Function:
         return f"<nutik.Function {points}>"
 
 
-FunctionLike = Union[Function, Sequence[tuple[Time, float]], Callable[[Any], Any]]
+Gain = Union[Callable[[float], float], Callable[[NDArray[np.float64]], NDArray[np.float64]]]
+FunctionLike = Union[Function, Sequence[tuple[Time, float]], Gain]
 
 
 def boxcar(start: Time, exposure: Time, gain: float = 1.0) -> Function:
-    """`gain` from a start for a length of time, 0 elsewhere."""
+    """`gain` from a start for a length of time, 0 elsewhere.
+
+    >>> function = nutik.boxcar("10ms", 0.02) + 0.5 * nutik.boxcar(0, "1s")
+    >>> function(0.015), function(0.5)
+    (1.5, 0.5)
+    """
     begin, end = _nutik.interval_ns(time_word(start, "start"), time_word(exposure, "exposure"))
     return Function.from_ns([begin, begin, end, end], [0.0, gain, gain, 0.0])
 
@@ -158,21 +172,35 @@ def shutter(shape: str, start: Time, exposure: Time, *, error: float = 1e-3) -> 
     their largest gain.
 
     Raises UsageError where the shape is not known, or the exposure too short for it.
+
+    >>> len(nutik.shutter("trapezoid:0.25", 0, "10ms").gains)
+    4
     """
     begin, end = _nutik.interval_ns(time_word(start, "start"), time_word(exposure, "exposure"))
     return Function._of(_nutik.shutter(shape, begin, end, error))
 
 
-def fit(gain: Callable[[Any], Any], start: Time, end: Time, *, error: float = 1e-3) -> Function:
+def fit(gain: Gain, start: Time, end: Time, *, error: float = 1e-3) -> Function:
     """The fewest straight pieces that stay near a callable, from `start` to `end`; 0 outside.
 
-    gain: called with an array of times in seconds, returns as many gains; one that takes single times only is called
+    Parameters
+    ----------
+    gain : called with an array of times in seconds, returns as many gains; one that takes single times only is called
         once for each.
-    error: how far the pieces may lie from it, a share of its largest |gain|. It holds at every time that was looked at:
-        1024 evenly, and more wherever the middle of two lies off the line between them, down to single nanoseconds.
+    error : how far the pieces may lie from it, a share of its largest |gain|. It holds at every time that was looked at:
+        1024 evenly, and more wherever the middle of two lies off the line between them, down to single nanoseconds. A
+        jump becomes a step of 1 ns.
 
-    A jump becomes a step of 1 ns. Raises UsageError where a gain is not finite, where it is 0 everywhere, or where it
-    bends in more places than can be looked at: give such a function's pieces as points.
+    Raises
+    ------
+    UsageError where a gain is not finite, where it is 0 everywhere, or where it bends in more places than can be looked
+    at: give such a function's pieces as points.
+
+    Examples
+    --------
+    >>> wave = nutik.fit(lambda t: np.sin(40 * t) ** 2, 0, 0.3, error=1e-3)
+    >>> bool(abs(wave(0.1) - np.sin(4.0) ** 2) <= 1e-3)
+    True
     """
     begin_ns, end_ns = time_ns(start, "start"), time_ns(end, "end")
     if end_ns - begin_ns < 1:
@@ -180,12 +208,14 @@ def fit(gain: Callable[[Any], Any], start: Time, end: Time, *, error: float = 1e
     if not 0 < error < 1:
         raise UsageError(f"error={error} is no share between 0 and 1")
 
-    def gains_at(times: Array) -> Array:
+    called: Callable[[Any], Any] = gain
+
+    def gains_at(times: NDArray[np.int64]) -> NDArray[np.float64]:
         seconds = times / 1e9
         try:
-            values = np.asarray(gain(seconds), np.float64)
+            values = np.asarray(called(seconds), np.float64)
         except (TypeError, ValueError):
-            values = np.asarray([gain(float(each)) for each in seconds], np.float64)
+            values = np.asarray([called(float(each)) for each in seconds], np.float64)
         values = np.broadcast_to(values, times.shape) if values.ndim == 0 else values
         if values.shape != times.shape:
             raise UsageError(f"the function returns shape {values.shape} for {times.shape}: one gain for each time")

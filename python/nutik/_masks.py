@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from os import PathLike
-from typing import Any, Mapping, Optional, Union
+from typing import Mapping, Optional, Union
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _nutik
 from ._nutik import UsageError
@@ -15,7 +16,7 @@ from ._words import Array, Path, path_word, reading, tag_of, whole
 class Mask:
     """One tag for each pixel, or shares of several. Masks do not change."""
 
-    def __init__(self, tags: Any) -> None:
+    def __init__(self, tags: ArrayLike) -> None:
         """tags: [height, width] whole numbers 0 ... 255; bool is 0 and 1. Raises UsageError where it is none."""
         tags = np.asarray(whole(tags, "a mask's array of tags"))
         if tags.dtype == bool:
@@ -36,7 +37,7 @@ class Mask:
         return mask
 
     @classmethod
-    def of_layers(cls, alphas: Mapping[int, Any], *, rest: int = 0) -> Mask:
+    def of_layers(cls, alphas: Mapping[int, ArrayLike], *, rest: int = 0) -> Mask:
         """A soft mask. alphas: for each tag [height, width], the share of each pixel that it has: float in [0, 1],
         uint8 of 255, uint16 of 65535, or bool. `rest` is the tag that gets what they leave.
 
@@ -47,7 +48,11 @@ class Mask:
 
     def feathered(self, feather: Union[str, float]) -> Mask:
         """A mask of tags, blended along its edges: pixels to either side, 6 or '6px', or '2px,M255=6px' for a tag of
-        its own (docs/reference/masks.md)."""
+        its own (docs/reference/masks.md).
+
+        >>> nutik.Mask(np.eye(16, dtype=np.uint8)).feathered(2).is_soft
+        True
+        """
         return Mask._of(self._held.feathered(feather if isinstance(feather, str) else f"{feather:g}px"))
 
     @property
@@ -69,7 +74,7 @@ class Mask:
         """Whether some pixel has shares of several tags."""
         return self._held.is_soft()
 
-    def __reduce__(self) -> Any:
+    def __reduce__(self) -> tuple[object, ...]:
         if not self.is_soft:
             return Mask, (self.tags,)
         rest, *others = self.tags_in_use
@@ -80,7 +85,7 @@ class Mask:
         return f"<nutik.Mask {width} x {height}, tags {self.tags_in_use}{', soft' if self.is_soft else ''}>"
 
 
-MaskLike = Union[Mask, Array, Mapping[int, Any], Path]
+MaskLike = Union[Mask, NDArray[np.uint8], NDArray[np.int64], NDArray[np.bool_], Mapping[int, ArrayLike], Path]
 
 
 def read_mask(path: Path, *, rest: int = 0) -> Mask:
@@ -105,7 +110,7 @@ def _of_shares(shares: dict[int, Array], rest: int) -> Mask:
     return Mask.of_layers(shares, rest=rest)
 
 
-def _shares(alpha: Any, tag: int) -> Array:
+def _shares(alpha: ArrayLike, tag: int) -> NDArray[np.uint16]:
     alpha = np.asarray(whole(alpha, f"the alpha of tag {tag}"))
     most = _nutik.WHOLE_SHARE
     if alpha.dtype == bool:

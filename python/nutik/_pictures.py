@@ -3,19 +3,49 @@
 from __future__ import annotations
 
 from copy import deepcopy
+from dataclasses import dataclass
 from io import BytesIO
 from os import PathLike, remove, replace
 from os.path import exists, join
 from secrets import token_hex
 from shutil import copyfileobj
 from tempfile import TemporaryDirectory
-from typing import Any, BinaryIO, Optional, Union
+from typing import BinaryIO, Optional, Union
 
 import numpy as np
+from numpy.typing import DTypeLike, NDArray
 
 from . import _nutik
 from ._nutik import OutputError, UsageError
+from ._told import Plan, Statistics, Uncertainty
 from ._words import Array, Path, path_word
+
+
+def _bounds(light: Union[float, NDArray[np.float64]], pictures: Array) -> NDArray[np.float64]:
+    """[pictures] of what is handed over: of float32 with half a step of the largest light of each."""
+    if pictures.dtype != np.float32:
+        return np.broadcast_to(np.asarray(light, np.float64), (len(pictures),))
+    largest: NDArray[np.float64] = np.abs(pictures).max(axis=tuple(range(1, pictures.ndim)), initial=0.0).astype(np.float64)
+    return np.asarray(light + largest * 2.0 ** -24 + 2.0 ** -150, np.float64)  # the second: where floats are subnormal
+
+
+@dataclass(frozen=True, eq=False)
+class Pictures:
+    """Many pictures of a capture."""
+
+    array: Array         # [pictures, height, width] or [pictures, height, width, 3]: light or codes
+    error_bounds: NDArray[np.float64]  # [pictures] float64: as error_bound of a Picture; NaN of the reference
+
+    @classmethod
+    def _of(cls, array: Array, bounds: NDArray[np.float64]) -> Pictures:
+        array.flags.writeable = False
+        return cls(array, _bounds(bounds, array))
+
+    def __array__(self, dtype: DTypeLike = None, copy: Optional[bool] = None) -> NDArray[np.generic]:
+        return self.array if dtype is None and not copy else self.array.astype(dtype or self.array.dtype, copy=bool(copy))
+
+    def __len__(self) -> int:
+        return len(self.array)
 
 
 class Picture:
@@ -35,7 +65,7 @@ class Picture:
         keeps the picture's memory alive by itself."""
         return self._array
 
-    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> Array:
+    def __array__(self, dtype: DTypeLike = None, copy: Optional[bool] = None) -> NDArray[np.generic]:
         return self._array if dtype is None and not copy else self._array.astype(dtype or self.dtype, copy=bool(copy))
 
     @property
@@ -44,7 +74,7 @@ class Picture:
         return self._array.shape
 
     @property
-    def dtype(self) -> np.dtype[Any]:
+    def dtype(self) -> np.dtype[np.generic]:
         """The type of `array`."""
         return self._array.dtype
 
@@ -59,10 +89,7 @@ class Picture:
         them, of float32 with half a step of that for the largest light. All else was known before anything was computed
         (docs/explanation/accuracy.md). None of a plate, and of the reference."""
         bound = self._held.figures.get("error_bound")
-        if bound is None or self.dtype != np.float32:
-            return None if bound is None else bound["light"]
-        largest = max(float(self._array.max()), -float(self._array.min()))
-        return bound["light"] + largest * 2.0 ** -24 + 2.0 ** -150  # the second: where floats are subnormal
+        return None if bound is None else float(_bounds(bound["light"], self._array[None])[0])
 
     @property
     def error_bound_in_codes(self) -> Optional[float]:
@@ -79,10 +106,9 @@ class Picture:
         return None if held is None else held.values()
 
     @property
-    def uncertainty(self) -> dict[str, Any]:
-        """What the light of the picture may be off by, term by term (docs/explanation/uncertainty.md): scale, S; terms,
-        one dict for each with term, is ('bound', 'deviation', 'count'), light, codes or float_steps, and what else it
-        has; bounds, the sum of all that are bounds. Empty of a plate."""
+    def uncertainty(self) -> Uncertainty:
+        """What the light of the picture may be off by, term by term (docs/explanation/uncertainty.md). Empty of a
+        plate."""
         return deepcopy(self._held.figures.get("uncertainty", {}))
 
     @property
@@ -91,17 +117,14 @@ class Picture:
         return self._held.figures.get("saturated")
 
     @property
-    def plan(self) -> dict[str, Any]:
-        """What the exposure touched: samples, live_samples, samples_read (first, one past the last), blocks_read,
-        blocks, table_bytes, map_bytes; and functions, one dict for each that the mask uses: tag, pixels, live_ns,
-        samples, still_gain, support_ns, integral_ns. Empty of a plate."""
+    def plan(self) -> Plan:
+        """What the exposure touched, with `functions`, those that the mask uses. Empty of a plate."""
         return deepcopy(self._held.figures.get("plan", {}))
 
     @property
-    def statistics(self) -> dict[str, Any]:
-        """What the rendering took: read_ms, expose_ms, develop_ms (None where the driver does not time kernels),
-        payload_bytes, device_bytes, blocks, launches. Empty of a plate."""
-        return dict(self._held.figures.get("statistics", {}))
+    def statistics(self) -> Statistics:
+        """What the rendering took. Empty of a plate."""
+        return deepcopy(self._held.figures.get("statistics", {}))
 
     def write(self, path: Union[Path, BinaryIO], *, kind: Optional[str] = None, quality: Optional[int] = None,
               keep_pixels: bool = False) -> None:
@@ -143,7 +166,7 @@ class Picture:
         (self if self.dtype.kind == "u" else Picture(self._held.for_eyes())).write(file, kind=".png")
         return file.getvalue()
 
-    def __reduce__(self) -> Any:
+    def __reduce__(self) -> tuple[object, ...]:
         return Picture, (self._held,)
 
     def __repr__(self) -> str:

@@ -7,15 +7,25 @@ import inspect
 from dataclasses import dataclass
 from itertools import chain
 from os import PathLike
-from typing import Any, BinaryIO, Iterable, Optional, Sequence, Union, cast
+from typing import Any, BinaryIO, Iterable, Optional, Protocol, Sequence, Union, cast
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _nutik
 from ._captures import Capture
 from ._nutik import InputError, UsageError
-from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, path_word, reading, seconds_of,
-                     settings_of, time_ns, times_ns, warn, whole)
+from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, is_list, path_word, reading,
+                     seconds_of, settings_of, time_ns, times_ns, warn, whole)
+
+
+class HasArray(Protocol):
+    """What NumPy makes an array of; of torch, jax and others those in this machine's memory."""
+
+    def __array__(self) -> NDArray[np.generic]: ...
+
+
+Source = Union[ArrayLike, HasArray, Iterable[ArrayLike], Path, BinaryIO]
 
 
 def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_angle: Optional[Number] = None,
@@ -58,7 +68,7 @@ def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_
         return _told(_nutik.open(name, settings_of(stated), computing, progress))
 
 
-def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number] = None,
+def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Number] = None,
            times: Optional[Iterable[Time]] = None, exposures: Union[Time, Iterable[Time], None] = None,
            shutter_angle: Optional[Number] = None, transfer: Optional[str] = None, white: Optional[float] = None,
            primaries: Optional[str] = None, pixel_aspect: Union[str, Number, None] = None, deflicker: bool = False,
@@ -68,29 +78,48 @@ def encode(source: Any, output: Optional[Path] = None, *, rate: Optional[Number]
            tolerance: Optional[int] = None, noise: Optional[Path] = None, sigmas: Optional[float] = None,
            codec: str = "rice", tiles: Optional[str] = None, block_samples: Optional[int] = None,
            device: Optional[str] = None, memory: Union[int, str, None] = None, renderer: Optional[str] = None,
-           progress: Progress = None, name: str = "array", **clip: Any) -> Capture:
+           progress: Progress = None, name: str = "array", **clip: object) -> Capture:
     """Makes a capture of pictures, and opens it.
 
-    source: an array [samples, height, width] or [samples, height, width, 3] (red, green, blue) of uint8 or uint16 codes,
-        however it is strided, or of floats that are light; or an iterable of such pictures; or the path of a clip, or one
-        that is open for bytes (nutik.open() says more of these). Codes in the machine's order of bytes are read where
-        they lie. What has __dlpack__ is an array.
-    output: a .tik to write; None: a temporary capture, gone when it is closed.
-    rate: pictures a second. Or `times`: when each picture's exposure begins; of dates what lies between them counts. exposures: how long each was exposed, one
-        time or one for each; with neither that nor shutter_angle, all the time to the next.
-    transfer: what codes stand for, 'srgb', 'bt709', 'linear', 'gamma:G', 'hlg', 'pq' or a camera's curve ('slog3'); without
-        it 'srgb' of uint8, 'linear' of uint16. white: the code of white, 255 or 65535 without it; no code may be larger. Of
-        floats the light of white, which must be stated: they become 16-bit codes, to the nearest of 65535 steps; none may
-        be negative.
-    tolerance, noise, sigmas, align, ...: as of nutik.open(), which takes more of a path: begin, crop, raw, ... codec, of an
-        output: 'none', 'rice', 'lz4', 'zstd', 'zstd:9'. progress: as of nutik.open().
+    Parameters
+    ----------
+    source : [samples, height, width] or [samples, height, width, 3] (red, green, blue) of uint8 or uint16 codes, however
+        it is strided, or of floats that are light; or an iterable of such pictures; or the path of a clip, or one that is
+        open for bytes (nutik.open() says more of these). Codes in the machine's order of bytes are read where they lie.
+        What has __dlpack__ is an array.
+    output : a .tik to write; None: a temporary capture, gone when it is closed.
+    rate : pictures a second.
+    times : or when each picture's exposure begins, in seconds; of dates what lies between them counts.
+    exposures : how long each was exposed, one time or one for each; with neither that nor shutter_angle, all the time to
+        the next.
+    transfer : what codes stand for, 'srgb', 'bt709', 'linear', 'gamma:G', 'hlg', 'pq' or a camera's curve ('slog3');
+        without it 'srgb' of uint8, 'linear' of uint16.
+    white : the code of white, 255 or 65535 without it; no code may be larger. Of floats the light of white, which must be
+        stated: they become 16-bit codes, to the nearest of 65535 steps; none may be negative.
+    codec : of an output: 'none', 'rice', 'lz4', 'zstd', 'zstd:9'.
+    tolerance, noise, sigmas, align, ... : as of nutik.open(), which takes more of a path: begin, crop, raw, ...
+    progress : as of nutik.open().
 
-    Raises UsageError where arguments do not fit, InputError where pictures are unlike or times out of order,
-    OutputError; what an iterable raises; KeyboardInterrupt at Ctrl-C. No file is left behind then.
+    Returns
+    -------
+    Capture
+
+    Raises
+    ------
+    UsageError where arguments do not fit, InputError where pictures are unlike or times out of order, OutputError; what an
+    iterable raises; KeyboardInterrupt at Ctrl-C. No file is left behind then.
+
+    Examples
+    --------
+    >>> capture = nutik.encode(np.zeros((30, 8, 8, 3), np.uint8), times=np.arange(30) / 100, exposures="2ms")
+    >>> capture.shape, capture.times_ns[1].tolist()
+    ((30, 8, 8, 3), [10000000, 12000000])
+    >>> len(nutik.encode((np.full((8, 8), k, np.uint8) for k in range(20)), rate="30000/1001"))
+    20
     """
     computing = _computing(device, memory, renderer)
     path = None if output is None else path_word(output)
-    stated = dict(rate=rate, shutter_angle=shutter_angle, transfer=transfer, white=white, primaries=primaries,
+    stated: dict[str, object] = dict(rate=rate, shutter_angle=shutter_angle, transfer=transfer, white=white, primaries=primaries,
                   pixel_aspect=pixel_aspect, deflicker=deflicker, between=between, align=align, align_to=align_to, align_along=align_along,
                   unseen=unseen,
                   tolerance=tolerance, noise=noise, sigmas=sigmas, tiles=tiles, block_samples=block_samples)
@@ -150,7 +179,11 @@ class Device:
 
 
 def devices() -> list[Device]:
-    """The OpenCL devices of this machine, those first that are taken first. Raises DeviceError where there are none."""
+    """The OpenCL devices of this machine, those first that are taken first. Raises DeviceError where there are none.
+
+    >>> [device.index for device in nutik.devices()][0]
+    0
+    """
     return [Device(index, *told) for index, told in enumerate(_nutik.devices())]
 
 
@@ -262,13 +295,12 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
         times = list(times)
         if times and isinstance(times[0], (np.datetime64, datetime.datetime)):
             times = [time - times[0] for time in times]  # dates: only what lies between them counts
-    is_list = not isinstance(exposures, str) and hasattr(exposures, "__iter__")
     starts = [] if times is None else times_ns(times, "times").tolist()
     if times is not None and count is not None and len(starts) != count:
         raise UsageError(f"there are {len(starts)} times for {count} pictures")
     if exposures is None:
         return starts, [], None
-    if not is_list:
+    if not is_list(exposures):
         return starts, [], _lasting(time_ns(cast(Time, exposures), "exposures"), "exposures", exposures)
     if times is None:
         raise UsageError("exposures= of each picture need times=, when each begins; with rate= give one for all")

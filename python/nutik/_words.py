@@ -13,20 +13,26 @@ from decimal import Decimal
 from fractions import Fraction
 from os import PathLike, fsdecode
 from os.path import dirname, exists, join
-from typing import Any, Callable, Iterable, Iterator, Optional, Sequence, Union
+from importlib import import_module
+from typing import (TYPE_CHECKING, Any, BinaryIO, Callable, Iterable, Iterator, Optional, Protocol, Sequence, Union, cast)
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _nutik
 from ._nutik import InputError, UsageError
 
+if TYPE_CHECKING:
+    from builtins import ellipsis as ellipsis
+else:
+    ellipsis = type(...)
+
 Time = Union[str, float, int, Fraction, Decimal, np.timedelta64, datetime.timedelta]
-DelayLike = Union[str, NDArray[Any], Sequence[Any]]
+DelayLike = Union[str, ArrayLike]
 Number = Union[str, float, int, Fraction, Decimal]
 Path = Union[str, "PathLike[str]"]
-Array = NDArray[Any]
-Progress = Optional[Callable[[int, int], Any]]  # progress(done, total); total is 0 where it is not known
+Array = Union[NDArray[np.uint8], NDArray[np.uint16], NDArray[np.float32], NDArray[np.float64]]  # codes, or light
+Progress = Optional[Callable[[int, int], object]]  # progress(done, total); total is 0 where it is not known
 
 _MAX_DIGITS = 10 ** 15 - 1  # that the engine reads above and below a fraction line
 _SECOND_NS = 10 ** 9
@@ -65,12 +71,20 @@ def reading(*paths: str) -> Iterator[None]:
         raise raised from None
 
 
-def axes_of(ax: Any, x: str, y: str) -> Any:
+class Axes(Protocol):
+    """Those of matplotlib, as far as they are needed here."""
+
+    def plot(self, *values: object, **style: object) -> object: ...
+    def set_xlabel(self, text: str) -> object: ...
+    def set_ylabel(self, text: str) -> object: ...
+    def get_xlabel(self) -> str: ...
+    def get_ylabel(self) -> str: ...
+
+
+def axes_of(ax: Optional[Axes], x: str, y: str) -> Axes:
     """The axes, or matplotlib's current ones, labelled where they are not yet."""
     if ax is None:
-        from matplotlib import pyplot
-
-        ax = pyplot.gca()
+        ax = cast(Axes, import_module("matplotlib.pyplot").gca())
     ax.set_xlabel(ax.get_xlabel() or x)
     ax.set_ylabel(ax.get_ylabel() or y)
     return ax
@@ -89,9 +103,14 @@ def as_file(source: Any, name: str) -> Iterator[str]:
         yield path
 
 
+def is_list(value: Any) -> bool:
+    """Whether it is several, and no word."""
+    return not isinstance(value, str) and hasattr(value, "__iter__")
+
+
 def whole(array: Any, what: str) -> Any:
     """The same, unless it is an array with masked values."""
-    if np.ma.is_masked(array):
+    if isinstance(array, np.ma.MaskedArray) and np.any(array.mask):
         raise UsageError(f"{what} has masked values, for which there is no place; fill them: .filled(0)")
     return array
 
@@ -180,7 +199,7 @@ def time_ns(time: Time, what: str) -> int:
     return half_up(seconds_of(time, what) * _SECOND_NS)
 
 
-def times_ns(times: Any, what: str) -> Array:
+def times_ns(times: Any, what: str) -> NDArray[np.int64]:
     """Times one after another in whole nanoseconds, int64."""
     values = [time_ns(time, f"{what}[{i}]") for i, time in enumerate(times)]
     try:
@@ -189,7 +208,7 @@ def times_ns(times: Any, what: str) -> Array:
         raise UsageError(f"{what}: a time lies further away than 126 years") from None
 
 
-def delays_ns(delays: Any) -> Array:
+def delays_ns(delays: Any) -> NDArray[np.int64]:
     """The delay of each pixel, of seconds or timedelta64, in whole nanoseconds, int64."""
     delays = np.asarray(whole(delays, "delay="))
     if delays.dtype.kind == "m":
@@ -199,13 +218,13 @@ def delays_ns(delays: Any) -> Array:
         return _checked_delays(times_ns(different, "delay=")[place].reshape(delays.shape))
     if delays.dtype.kind not in "iuf":
         raise UsageError(f"delay= is 'rows:15ms', 'map.tif:0s..1s' or an array of seconds, and this has dtype {delays.dtype}")
-    return _checked_delays(np.floor(delays.astype(np.float64) * _SECOND_NS + 0.5)).astype(np.int64)
+    return _checked_delays(np.floor(delays.astype(np.float64) * _SECOND_NS + 0.5))
 
 
-def _checked_delays(nanoseconds: Array) -> Array:
+def _checked_delays(nanoseconds: Any) -> NDArray[np.int64]:
     if not (np.abs(nanoseconds.astype(np.float64)) < 2.0 ** 62).all():
         raise UsageError("delay=: some pixel's delay is no number of seconds, or further away than 146 years")
-    return nanoseconds
+    return np.asarray(nanoseconds, np.int64)
 
 
 def bytes_word(size: Union[int, str], what: str) -> str:

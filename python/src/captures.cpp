@@ -191,33 +191,66 @@ py::dict figures(const OpenCapture& capture) {
   return told;
 }
 
-// The codes that are held at samples in increasing order, [samples, height, width(, 3)].
-py::array samples(const OpenCapture& capture, const std::vector<std::uint64_t>& numbers) {
-  Session& session = *capture.session;
-  const CaptureFormat& held = session.format();
-  std::vector<py::ssize_t> axes = axes_of(held.shape);
-  axes.insert(axes.begin(), static_cast<py::ssize_t>(numbers.size()));
-  py::array rasters(held.code_bytes == 1 ? py::dtype::of<std::uint8_t>() : py::dtype::of<std::uint16_t>(), axes);
-  auto* const bytes = static_cast<std::byte*>(rasters.mutable_data());
+// The codes that are held at samples. It keeps the block of the one before: samples in a row unpack each block once.
+class SampleReader {
+ public:
+  explicit SampleReader(std::shared_ptr<OpenCapture> capture)
+      : capture_(std::move(capture)), blocks_(capture_->session->capture()) {}
+
+  void read(std::uint64_t sample, std::span<std::byte> raster) {
+    if (!block_ || sample < first_ || sample >= block_->extent().range().last) find_block(sample);
+    samples_->go_to(static_cast<std::uint32_t>(sample - block_->extent().first_sample));
+    samples_->read(raster);
+    first_ = sample;
+  }
+
+  [[nodiscard]] const CaptureFormat& format() const { return capture_->session->format(); }
+  // [axes..., height, width(, 3)]
+  [[nodiscard]] py::array rasters(std::vector<py::ssize_t> axes) const {
+    const std::vector<py::ssize_t> sides = axes_of(format().shape);
+    axes.insert(axes.end(), sides.begin(), sides.end());
+    return {format().code_bytes == 1 ? py::dtype::of<std::uint8_t>() : py::dtype::of<std::uint16_t>(), axes};
+  }
+
+ private:
+  void find_block(std::uint64_t sample) {
+    tik::Reader& reader = capture_->session->capture();
+    std::uint64_t block = 0;
+    while (reader.block_extent(block).range().last <= sample) ++block;
+    samples_.reset();
+    block_.reset();
+    block_.emplace(blocks_.at(block));
+    samples_.emplace(format().shape, *block_);
+  }
+
+  std::shared_ptr<OpenCapture> capture_;
+  BlockCursor blocks_;
+  std::optional<BlockView> block_;
+  std::optional<SampleCursor> samples_;
+  std::uint64_t first_ = 0;  // a cursor only goes on
+};
+
+// At samples in increasing order, [samples, height, width(, 3)].
+py::array samples(std::shared_ptr<OpenCapture> capture, const std::vector<std::uint64_t>& numbers) {
+  SampleReader reader(std::move(capture));
+  py::array rasters = reader.rasters({static_cast<py::ssize_t>(numbers.size())});
+  auto* bytes = static_cast<std::byte*>(rasters.mutable_data());
   without_lock([&](const Stopping& stopping) {
-    auto next = numbers.begin();
-    tik::Reader& reader = session.capture();
-    BlockCursor blocks(reader);
-    while (next != numbers.end()) {
-      std::uint64_t block = 0;
-      while (reader.block_extent(block).range().last <= *next) ++block;
-      const BlockView view = blocks.at(block);
-      const SampleRange range = view.extent().range();
-      SampleCursor cursor(held.shape, view);
-      for (; next != numbers.end() && *next < range.last; ++next) {
-        if (stopping.stop.stop_requested()) throw Cancelled();
-        cursor.go_to(static_cast<std::uint32_t>(*next - range.first));
-        const std::uint64_t at = static_cast<std::uint64_t>(next - numbers.begin()) * held.sample_bytes();
-        cursor.read({bytes + at, held.sample_bytes()});
-      }
+    for (const std::uint64_t number : numbers) {
+      if (stopping.stop.stop_requested()) throw Cancelled();
+      reader.read(number, {bytes, reader.format().sample_bytes()});
+      bytes += reader.format().sample_bytes();
     }
   });
   return rasters;
+}
+
+py::array sample(SampleReader& reader, std::uint64_t number) {
+  py::array raster = reader.rasters({});
+  auto* const bytes = static_cast<std::byte*>(raster.mutable_data());
+  const Unlocked released;
+  reader.read(number, {bytes, reader.format().sample_bytes()});
+  return raster;
 }
 
 // What pixels of a box hold between two samples, from one change to the next: of each record the pixel's place, the
@@ -311,8 +344,11 @@ void bind_captures(py::module_& module) {
       .def("times_ns", &times_ns)
       .def("figures", &figures)
       .def("samples", &samples, py::arg("numbers"))
+      .def("reader",
+           [](std::shared_ptr<OpenCapture> capture) { return std::make_unique<SampleReader>(std::move(capture)); })
       .def("records", &records, py::arg("box"), py::arg("first"), py::arg("last"))
       .def("moved_camera", &moved_camera_text);
+  py::class_<SampleReader>(module, "SampleReader").def("sample", &sample, py::arg("number"));
   module.def("open", &open, py::arg("path"), py::arg("settings"), py::arg("computing"), py::arg("progress"));
   module.def("encode_clip", &encode_clip, py::arg("path"), py::arg("output"), py::arg("codec"),
              py::arg("settings"), py::arg("computing"), py::arg("progress"));

@@ -17,7 +17,7 @@ namespace {
 
 // Kept for as long as the interpreter runs: translators have no other place to look.
 struct ErrorTypes {
-  PyObject *error, *usage, *input, *device, *output, *memory;
+  PyObject *error, *usage, *input, *device, *output, *memory, *imprecise;
 };
 ErrorTypes& types() {
   static ErrorTypes types{};
@@ -46,6 +46,8 @@ void translate(std::exception_ptr thrown) {
     raise(types().device, error);
   } catch (const OutputError& error) {
     raise(types().output, error);
+  } catch (const ImpreciseError& error) {
+    raise(types().imprecise, error);
   } catch (const Cancelled&) {
     PyErr_SetNone(PyExc_KeyboardInterrupt);
   } catch (const Error& error) {
@@ -82,6 +84,8 @@ void bind_errors(py::module_& module) {
                          "A file cannot be written.");
   made.memory = add_type(module, "MemoryTooLittle", py::make_tuple(base(made.usage), base(PyExc_MemoryError)),
                          "Less memory is allowed than the work takes; the message says the least that does.");
+  made.imprecise = add_type(module, "ImpreciseError", py::make_tuple(error, base(PyExc_ArithmeticError)),
+                            "Light may err by more than half a code, and strict=True allows no more.");
   py::register_exception_translator(translate);
 }
 

@@ -35,8 +35,8 @@ HeldMask of_layers(const std::map<std::uint8_t, Codes<std::uint16_t>>& shares, s
   std::vector<MaskLayer> layers;
   for (const auto& [tag, codes] : shares)
     layers.push_back({tag, format("layer {}", tag), picture_of(codes, ValueType::code16, kWholeShare)});
-  const Unlocked released;
-  return {Shared(mask_of_layers(layers, rest))};
+  return without_lock(
+      [&](const Stopping& stopping) { return HeldMask{Shared(mask_of_layers(layers, rest, stopping.stop))}; });
 }
 
 HeldMask read_mask(const std::string& path, std::uint8_t rest) {
@@ -49,8 +49,8 @@ HeldMask feathered_mask(const HeldMask& held, const std::string& feather) {
   if (held.mask->is_soft())
     throw UsageError(
         "feather= blends a mask of tags along its edges; one of layers says itself how it is blended");
-  const Unlocked released;
-  return {Shared(feathered(*held.mask, how))};
+  return without_lock(
+      [&](const Stopping& stopping) { return HeldMask{Shared(feathered(*held.mask, how, stopping.stop))}; });
 }
 
 std::vector<py::ssize_t> axes(const Mask& mask) {

@@ -30,6 +30,7 @@ PYBIND11_MODULE(_nutik, module) {
       },
       "What may be stated of a clip, by the schema.");
   nutik::python::bind_errors(module);
+  nutik::python::bind_commands(module);
   nutik::python::bind_functions(module);
   nutik::python::bind_masks(module);
   nutik::python::bind_pictures(module);

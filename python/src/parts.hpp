@@ -63,6 +63,7 @@ template <typename Value>
   return array_of(values, {static_cast<py::ssize_t>(values.size())});
 }
 
+[[nodiscard]] py::dtype dtype_of(ValueType type);
 // [height, width] or [height, width, 3].
 [[nodiscard]] std::vector<py::ssize_t> axes_of(const Shape& shape);
 // Memory of `owner`, which lives as long as what NumPy makes of it; nobody writes there.
@@ -80,6 +81,7 @@ struct AskedExposure {
 [[nodiscard]] OutputFormat output_of(const Settings& settings, const CaptureFormat& capture);
 [[nodiscard]] py::dict figures_of(const ExposedPicture& exposed);
 
+void bind_commands(py::module_& module);
 void bind_captures(py::module_& module);
 void bind_functions(py::module_& module);
 void bind_masks(py::module_& module);

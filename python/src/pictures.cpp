@@ -14,6 +14,16 @@
 
 namespace nutik::python {
 
+py::dtype dtype_of(ValueType type) {
+  switch (type) {
+    case ValueType::code8: return py::dtype::of<std::uint8_t>();
+    case ValueType::code16: return py::dtype::of<std::uint16_t>();
+    case ValueType::light32: return py::dtype::of<float>();
+    case ValueType::light64: return py::dtype::of<double>();
+  }
+  return {};
+}
+
 std::vector<py::ssize_t> axes_of(const Shape& shape) {
   std::vector<py::ssize_t> axes{static_cast<py::ssize_t>(shape.height),
                                 static_cast<py::ssize_t>(shape.width)};
@@ -29,16 +39,6 @@ py::array view_of(const py::dtype& type, std::vector<py::ssize_t> shape, const v
 }
 
 namespace {
-
-py::dtype dtype_of(ValueType type) {
-  switch (type) {
-    case ValueType::code8: return py::dtype::of<std::uint8_t>();
-    case ValueType::code16: return py::dtype::of<std::uint16_t>();
-    case ValueType::light32: return py::dtype::of<float>();
-    case ValueType::light64: return py::dtype::of<double>();
-  }
-  return {};
-}
 
 py::array values(const py::object& self) {
   const Picture& picture = self.cast<const HeldPicture&>().picture;

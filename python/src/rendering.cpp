@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <limits>
+#include <tuple>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -62,16 +65,23 @@ py::list functions_of_plan(const ExposureFigures& figures) {
   return functions;
 }
 
-HeldPicture render(const OpenCapture& capture, const AskedExposure& asked, const Settings& output,
-                   const std::optional<std::array<std::uint32_t, 4>>& region,
+using Region = std::optional<std::array<std::uint32_t, 4>>;
+
+RenderControl control_of(const AskedExposure& asked, const Region& region, const std::optional<std::string>& precision) {
+  RenderControl control;
+  if (precision) control.precision = parse_precision(*precision);
+  if (region) control.rectangle = Rectangle{(*region)[0], (*region)[1], (*region)[2], (*region)[3]};
+  control.strict = asked.options.strict;
+  return control;
+}
+
+HeldPicture render(const OpenCapture& capture, const AskedExposure& asked, const Settings& output, const Region& region,
                    const std::optional<std::string>& precision, bool bounds) {
   Session& session = *capture.session;
   const ExposureRequest request = exposure_request(asked);
   const OutputFormat format = output_of(output, session.format());
-  RenderControl control;
-  if (precision) control.precision = parse_precision(*precision);
+  RenderControl control = control_of(asked, region, precision);
   control.maps_bounds = bounds;
-  if (region) control.rectangle = Rectangle{(*region)[0], (*region)[1], (*region)[2], (*region)[3]};
   ExposedPicture exposed = without_lock([&](const Stopping& stopping) {
     control.stop = stopping.stop;
     return session.render(request, format, control);
@@ -88,6 +98,56 @@ HeldPicture render(const OpenCapture& capture, const AskedExposure& asked, const
     figures["bounds_map"] = HeldPicture{std::move(map), {}};
   }
   return {std::move(exposed.picture), std::move(figures)};
+}
+
+// Of `count` exposures what differs from `asked`: starts, lengths, functions, each a list of one or of all of them, or
+// empty where it does not.
+struct Differences {
+  std::vector<std::string> starts, lengths;
+  std::vector<HeldFunctions> functions;
+
+  [[nodiscard]] ExposureRequest of(ExposureRequest request, std::size_t number) const {
+    const auto at = [&](const auto& list) { return list[list.size() == 1 ? 0 : number]; };
+    if (!starts.empty()) request.start = StatedTime::parse(at(starts), "start");
+    if (!lengths.empty()) std::get<PlainInterval>(request.gains).length = StatedTime::parse(at(lengths), "exposure");
+    if (!functions.empty()) request.gains = Shared(set_of(at(functions)));
+    return request;
+  }
+};
+
+// [count, height, width(, 3)], the bound of each picture's light (NaN of the reference), and warnings, each once.
+py::tuple render_many(const OpenCapture& capture, const AskedExposure& asked, std::size_t count,
+                      std::vector<std::string> starts, std::vector<std::string> lengths,
+                      std::vector<HeldFunctions> functions, const Settings& output, const Region& region,
+                      const std::optional<std::string>& precision, const py::object& progress) {
+  Session& session = *capture.session;
+  const Differences differences{std::move(starts), std::move(lengths), std::move(functions)};
+  const ExposureRequest request = exposure_request(asked);
+  const OutputFormat format = output_of(output, session.format());
+  RenderControl control = control_of(asked, region, precision);
+  Shape shape = session.format().shape;
+  if (region) std::tie(shape.width, shape.height) = std::pair((*region)[2], (*region)[3]);
+  std::vector<py::ssize_t> axes = axes_of(shape);
+  axes.insert(axes.begin(), static_cast<py::ssize_t>(count));
+  py::array pictures(dtype_of(format.type), axes);
+  auto* const bytes = static_cast<std::byte*>(pictures.mutable_data());
+  std::vector<double> bounds;
+  std::vector<std::string> warnings;
+  without_lock([&](const Stopping& stopping) {
+    const ReportedProgress report = stopping.progress();
+    control.stop = stopping.stop;
+    std::vector<ExposureRequest> requests;
+    for (std::size_t number = 0; number < count; ++number) requests.push_back(differences.of(request, number));
+    session.render_many(requests, format, control, [&](std::size_t number, const Rendered& rendered) {
+      const auto& made = rendered.picture.bytes;
+      std::memcpy(bytes + number * made.size(), made.data(), made.size());
+      bounds.push_back(rendered.choice ? rendered.choice->bound.worst.light : std::numeric_limits<double>::quiet_NaN());
+      for (const std::string& warning : rendered.warnings)
+        if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
+      report(number + 1, count);
+    });
+  }, progress);
+  return py::make_tuple(pictures, array_of(bounds), warnings);
 }
 
 // The time of each pixel in nanoseconds, [height, width].
@@ -192,6 +252,9 @@ void bind_rendering(py::module_& module) {
   module.def("devices", &devices);
   module.def("render", &render, py::arg("capture"), py::arg("exposure"), py::arg("output"), py::arg("region"),
              py::arg("precision"), py::arg("bounds") = false);
+  module.def("render_many", &render_many, py::arg("capture"), py::arg("exposure"), py::arg("count"), py::arg("starts"),
+             py::arg("lengths"), py::arg("functions"), py::arg("output"), py::arg("region"), py::arg("precision"),
+             py::arg("progress"));
 }
 
 }  // namespace nutik::python

@@ -1,7 +1,12 @@
 #include "settings.hpp"
 
+#include <pybind11/stl.h>
+
+#include "app/command_line/command_table.hpp"
+#include "app/run.hpp"
 #include "capture/error.hpp"
 #include "features/schema/option.hpp"
+#include "parts.hpp"
 
 namespace nutik::python {
 
@@ -13,6 +18,64 @@ Options stated_options(CommandId command, const Settings& settings) {
     option->state(options, name, {word});
   }
   return options;
+}
+
+namespace {
+
+const app::Command& command_of(const std::string& name) {
+  const app::Command* const found = app::find_command(name);
+  if (found == nullptr) throw UsageError("there is no command " + name);
+  return *found;
+}
+
+// What a command is for, its operands, and of each argument: how its value is written, what it says, and whether it may
+// be given several times.
+py::tuple described(const std::string& command) {
+  const app::Command& row = command_of(command);
+  py::dict arguments;
+  for (const Option* const option : options_of(row.id)) {
+    const std::string written = option->written(Dialect::python);
+    arguments[py::str(written.substr(0, written.find('=')))] =
+        py::make_tuple(std::string(option->value), std::string(option->help), option->take == nullptr);
+  }
+  return py::make_tuple(std::string(row.summary), std::string(row.operands), arguments);
+}
+
+// The words of a command line that states these, each once or several times.
+std::vector<std::string> command_words(const std::string& command,
+                                       const std::map<std::string, std::vector<std::vector<std::string>>>& stated) {
+  const CommandId id = command_of(command).id;
+  Options options;
+  std::vector<std::string> line{command};
+  for (const auto& [name, values] : stated) {
+    const Option* const option = option_of_argument(id, name);
+    if (option == nullptr) throw UsageError(command + " has no argument " + name + "=");
+    for (const std::vector<std::string>& words : values) {
+      if (words.size() != option->word_count())
+        throw UsageError(name + "= takes " + std::string(option->value));
+      option->state(options, name, words);
+      line.push_back(option->name());
+      line.insert(line.end(), words.begin(), words.end());
+    }
+  }
+  return line;
+}
+
+// Runs the command line in this process, which does nothing else; never in one with other work.
+int run_program(std::vector<std::string> words) {
+  words.insert(words.begin(), "nutik-cl");
+  std::vector<const char*> pointers;
+  for (const std::string& word : words) pointers.push_back(word.c_str());
+  const py::gil_scoped_release released;
+  return app::run_process(pointers);
+}
+
+}  // namespace
+
+void bind_commands(py::module_& module) {
+  module.def("described", &described, py::arg("command"));
+  module.def("command_words", &command_words, py::arg("command"), py::arg("stated"));
+  module.def("run_program", &run_program, py::arg("words"));
 }
 
 }  // namespace nutik::python

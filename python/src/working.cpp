@@ -15,6 +15,8 @@ std::mutex working;
 std::condition_variable has_ended;
 std::size_t unlocked = 0;
 std::optional<std::thread::id> ending;
+const std::thread::id importing = std::this_thread::get_id();
+bool others_work = false;  // threads but the one that loaded this
 
 bool is_over() {
   const std::scoped_lock lock(working);
@@ -27,6 +29,7 @@ Unlocked::Unlocked() {
   released_.emplace();
   const std::scoped_lock lock(working);
   ++unlocked;
+  others_work |= std::this_thread::get_id() != importing;
 }
 
 Unlocked::~Unlocked() {
@@ -49,6 +52,12 @@ void end_work() {
   std::unique_lock lock(working);
   ending = std::this_thread::get_id();
   has_ended.wait_for(lock, kLongest, [] { return unlocked == 0; });
+  const bool waits = others_work;
+  lock.unlock();
+  // Threads between two calls come to their next one, where they sleep: Python ends those that wait for its lock within
+  // its own frames, and may read there what it has freed.
+  constexpr std::chrono::milliseconds kBetweenCalls(50);
+  if (waits) std::this_thread::sleep_for(kBetweenCalls);
 }
 
 ReportedProgress Stopping::progress() const {

@@ -2,7 +2,9 @@
 
 import json
 import pickle
+import time
 import unittest
+import warnings
 
 import nutik
 from nutik import _words
@@ -222,6 +224,76 @@ class Pictures(support.TestCase):
         with self.assertWarnsRegex(nutik.NutikWarning, "still gain is -1: .* negative='offset'") as warned:
             self.capture.render([(0, -1), (0.05, -1), (0.05, 0)], codes=True)
         self.assertEqual(warned.filename, __file__)
+
+    def test_strict(self):
+        for precision, gain in ((None, 1e14), ("single", 1e6)):
+            wild = [(0, gain), (0.01, -gain), (0.02, gain), (0.03, 0)]
+            asked = dict(codes=True, dtype=np.uint16, precision=precision)
+            with self.subTest(precision=precision), warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                self.capture.render(wild, **asked)
+                for call, functions in ((self.capture.render, wild), (self.capture.render_many, [wild] * 2)):
+                    raised = self.assert_raises(nutik.ImpreciseError, "0.5 of a code", call, functions, strict=True, **asked)
+                    self.assertIsInstance(raised, ArithmeticError)
+
+    def test_many_in_one_call(self):
+        starts, lengths = np.linspace(0, 0.05, 30), np.linspace(1e-3, 2e-2, 30)
+        functions = [nutik.boxcar(start, length) * (1 + start) for start, length in zip(starts, lengths)]
+        grey = nutik.encode(support.moving_box(channels=1), rate=support.RATE)
+        small = nutik.encode(self.pictures[:, :16, :16], rate=support.RATE)
+        for capture in (small, grey, self.capture, nutik.open(self.path("clip.tik"), renderer="reference")):
+            for asked in (dict(starts=starts, exposures=lengths), dict(starts=starts, exposures="5ms", shutter="hann"),
+                          dict(starts="1/960s", exposures=list(lengths)), dict(functions=functions)):
+                for output in (dict(), dict(dtype=np.float64), dict(codes=True), dict(region=(3, 2, 9, 5), precision="double")):
+                    many = capture.render_many(**asked, **output)
+                    self.assertEqual(len(many), 30)
+                    self.assertFalse(many.array.flags.writeable)
+                    for k in (0, 7, 29):
+                        alone = {name[:-1] if name in ("starts", "exposures") else name:
+                                 value[k] if name != "shutter" and not isinstance(value, str) else value
+                                 for name, value in asked.items()}
+                        picture = capture.render(**alone, **output)
+                        self.assertEqual((many.array[k].shape, many.array.dtype), (picture.shape, picture.dtype))
+                        if "codes" in output:
+                            self.assertLess(np.mean(many.array[k] != picture.array), 1e-3)
+                        elif picture.error_bound is None:
+                            self.assert_same(many.array[k], picture.array)
+                            self.assertTrue(np.isnan(many.error_bounds[k]))
+                        else:
+                            error = np.abs(many.array[k].astype(np.float64) - picture.array).max()
+                            self.assertLessEqual(error, many.error_bounds[k] + picture.error_bound)
+
+    def test_many_more_than_one_pass_makes(self):
+        capture = nutik.encode(self.pictures[:, :4, :4, 0], rate=support.RATE)
+        starts = np.linspace(0, 0.06, 5000)
+        many = capture.render_many(starts=starts, exposures="3ms", precision="double", dtype=np.float64)
+        for k in (0, 4095, 4096, 4999):
+            alone = capture.render(start=starts[k], exposure="3ms", precision="double", dtype=np.float64)
+            self.assertLessEqual(np.abs(many.array[k] - alone.array).max(), many.error_bounds[k] + alone.error_bound)
+
+    def test_many_through_a_mask(self):
+        many = self.capture.render_many([self.functions, self.functions], self.tags, feather=2)
+        self.assert_same(many.array[1], self.capture.render(self.functions, self.tags, feather=2).array)
+
+    def test_many_are_fast_and_tell(self):
+        capture = nutik.encode(self.pictures[:, :16, :16, 0], rate=support.RATE)
+        starts, told = np.linspace(0, 0.05, 400), []
+        begin = time.perf_counter()
+        capture.render_many(starts=starts, exposures=0.01, progress=lambda *each: told.append(each))
+        many = time.perf_counter() - begin
+        begin = time.perf_counter()
+        for start in starts:
+            capture.render(start=start, exposure=0.01)
+        self.assertLess(5 * many, time.perf_counter() - begin)
+        self.assertEqual(told[-1], (400, 400))
+
+    def test_many_that_make_no_sense(self):
+        many, usage = self.capture.render_many, nutik.UsageError
+        self.assert_raises(usage, "2 starts, 3 exposures", many, starts=[0, 1], exposures=[1, 2, 3])
+        self.assert_raises(usage, "0 functions", many, [])
+        self.assert_raises(usage, "needs a plain interval", many)
+        self.assert_raises(usage, "starts[1]", many, starts=[0, float("nan")], exposures=1)
+        self.assert_raises(usage, "rectangle", many, starts=[0, 0], exposures="1ms", region=(70, 0, 20, 20))
 
 
 if __name__ == "__main__":

@@ -1,10 +1,20 @@
 """The stubs of the module say what is there, names and arguments; the package is annotated and says what it takes."""
 
 import ast
+import doctest
 import inspect
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
 import typing
 import unittest
 from pathlib import Path
+
+import numpy as np
 
 import nutik
 from nutik import _nutik
@@ -93,6 +103,50 @@ class Stubs(unittest.TestCase):
             stated |= set(inspect.signature(function).parameters)
         besides = {"path", "source", "output", "times", "exposures", "name", "device", "memory", "renderer", "progress", "clip"}
         self.assertEqual(stated - besides, set(_nutik.clip_arguments()))
+
+    def test_examples_run(self):
+        """Those of all docstrings, with a small capture at hand."""
+        pictures = np.random.default_rng(1).integers(0, 256, (10, 24, 32), np.uint8)
+        count = 0
+        for module in (nutik, *(each for name, each in sorted(vars(nutik).items())
+                                if name.startswith("_") and inspect.ismodule(each) and each is not _nutik)):
+            capture = nutik.encode(pictures, rate=100)
+            found = doctest.testmod(module, extraglobs={"nutik": nutik, "np": np, "capture": capture})
+            self.assertEqual(found.failed, 0, module.__name__)
+            count += found.attempted
+        self.assertGreater(count, 25)
+
+    def test_nothing_is_typed_any(self):
+        """What users call, and the engine's stubs."""
+        self.assertNotRegex(Path(nutik.__file__).with_name("_nutik.pyi").read_text(), r"\bAny\b")
+        for name in nutik.__all__:
+            offered = getattr(nutik, name)
+            functions = [(name, offered)] if inspect.isfunction(offered) else inspect.getmembers(offered, inspect.isfunction)
+            for part, function in functions:
+                if not part.startswith("_") or part in ("__init__", "__getitem__", "__call__", "__iter__", "__array__"):
+                    for argument, kind in function.__annotations__.items():
+                        self.assertNotRegex(str(kind), r"\bAny\b", f"{name}.{part}: {argument}")
+
+    def test_mypy_finds_nothing(self):
+        """In strict mode: in the package, and in scripts as the page and the notebook have them."""
+        if shutil.which("mypy") is None:
+            self.skipTest("mypy is not installed")
+        root = Path(__file__).resolve().parents[2]
+        page = (root / "docs/reference/python.md").read_text(encoding="utf-8")
+        book = json.loads((root / "docs/notebooks/array-to-figure.ipynb").read_text(encoding="utf-8"))
+        with tempfile.TemporaryDirectory(prefix="nutik-") as folder:
+            scripts = {"page.py": "\n".join(re.findall(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)),
+                       "notebook.py": "\n".join("".join(cell["source"]) for cell in book["cells"]
+                                                if cell["cell_type"] == "code")}
+            for name, text in scripts.items():
+                (Path(folder) / name).write_text(text, encoding="utf-8")
+            # matplotlib of Debian 12 has no types.
+            (Path(folder) / "mypy.ini").write_text("[mypy]\n[mypy-matplotlib.*]\nignore_missing_imports = True\n")
+            for checked in ([str(root / "python/nutik")], [str(Path(folder) / name) for name in scripts]):
+                done = subprocess.run(["mypy", "--strict", "--python-executable", sys.executable, "--cache-dir", f"{folder}/cache",
+                                       *checked], capture_output=True, text=True, cwd=folder,
+                                      env={**os.environ, "MYPYPATH": str(root / "python")})
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
 
 if __name__ == "__main__":

@@ -59,8 +59,8 @@ Activity activity_of(CaptureSource& capture, const ActivityOptions& options,
   Activity activity(capture.format(), options);
   for_each_block(capture, [&](const BlockView& block) {
     const BlockExtent& extent = block.extent();
-    activity.add(block, [&](std::uint32_t y) {
-      const std::uint64_t samples = std::uint64_t{extent.sample_count} * y / capture.format().shape.height;
+    activity.add(block, [&](std::uint32_t rows) {
+      const std::uint64_t samples = std::uint64_t{extent.sample_count} * rows / capture.format().shape.height;
       if (progress) progress(extent.first_sample + samples, capture.timeline().sample_count());
     });
   });
@@ -148,7 +148,10 @@ MeasuredActivity measure_activity(Session& session, const ActivityRequest& reque
   ActivityOptions options = options_of(request, session.format().shape);
   const std::set<std::uint8_t> tags(options.tags.begin(), options.tags.end());
   MemoryNeeds needs = Activity::needs(session.format());
-  needs.add(Activity::needs_of_samples(session.timeline().sample_count(), tags.size()));
+  std::uint64_t block_samples = 0;
+  for (std::uint64_t block = 0; block < session.capture().block_count(); ++block)
+    block_samples = std::max<std::uint64_t>(block_samples, session.capture().block_extent(block).sample_count);
+  needs.add(Activity::needs_of_samples(session.timeline().sample_count(), tags.size(), block_samples));
   needs.add("a block", largest_block(session.capture()));
   needs.rest_of(session.devices().request().memory.bytes);
   return measured(session.capture(), std::move(options), request.counts_redrawn, progress);

@@ -100,6 +100,7 @@ void Encoding::read_first(std::uint64_t read_ahead_bytes) {
 }
 
 EncodedCapture Encoding::run(const ReportedProgress& progress, const std::stop_token& stop) {
+  writer_->stop_by(stop);
   auto storing = std::async(std::launch::async, [this] { store(); });
   const std::uint64_t samples = samples_ ? build(progress, stop) : build_of_changes(progress, stop);
   storing.get();

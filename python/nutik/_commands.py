@@ -1,0 +1,188 @@
+"""Commands of the program, each as a function: in a process of its own, with the arguments that the schema has."""
+
+from __future__ import annotations
+
+import atexit
+import inspect
+import json
+import re
+import signal
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from functools import cache
+from keyword import iskeyword
+from os import PathLike, fsdecode
+from os.path import dirname
+from threading import Event, Thread, current_thread, main_thread
+from time import sleep
+from typing import Any, Protocol, Union
+
+from . import _nutik
+from ._nutik import DeviceError, Error, ImpreciseError, InputError, MemoryTooLittle, OutputError, UsageError
+from ._told import Json
+from ._words import NutikNote, Path, Progress, bytes_word, is_list, number_word, time_word, warn
+
+# A value, several, or of a command's option that takes two words a list of pairs.
+Value = Union[str, int, float, Fraction, "PathLike[str]"]
+Option = Union[Value, Sequence[Union[Value, Sequence[Value]]], None]
+
+_ERRORS = {2: UsageError, 3: InputError, 4: DeviceError, 5: OutputError, 6: MemoryTooLittle, 7: ImpreciseError}
+_ANSWERED = 1, 3  # findings of a check, an arithmetic beyond its bound: what was asked for, and no failure
+_MAIN = "import sys; sys.path.insert(0, sys.argv[1]); import _nutik; sys.exit(_nutik.run_program(sys.argv[2:]))"
+_STOP_AFTER_S = 0.05
+_END_WITHIN_S = 5.0
+
+_running: set[subprocess.Popen[str]] = set()
+
+
+_is_over = Event()
+
+
+@cache
+def _end_at_exit() -> None:
+    """From the first command on."""
+    atexit.register(_end_all)
+
+
+def _end_all() -> None:
+    """Ends what threads wait for, and leaves these asleep: a thread that wakes up while Python ends may crash."""
+    _is_over.set()
+    for _ in range(int(_END_WITHIN_S / _STOP_AFTER_S)):
+        for process in list(_running):
+            process.terminate()
+        sleep(_STOP_AFTER_S)  # at least once, for threads between two calls
+        if not _running:
+            break
+
+
+def _sleep_at_the_end() -> None:
+    if _is_over.is_set() and current_thread() is not main_thread():
+        Event().wait()
+
+
+def _word(name: str, kind: str, value: Any) -> str:
+    """A value as the program reads it; `kind` is what its help has in that place."""
+    if isinstance(value, (str, PathLike)):
+        return fsdecode(value)
+    if "TIME" in kind:
+        return ",".join(time_word(each, name) for each in value) if is_list(value) else time_word(value, name)
+    if kind in ("RATE", "DEGREES"):
+        return number_word(value, name)
+    if kind == "SIZE":
+        return bytes_word(value, name)
+    if kind.startswith("WxH+") and is_list(value):
+        x, y, width, height = value
+        return f"{width}x{height}+{x}+{y}"
+    if is_list(value):
+        return ",".join(_word(name, "", each) for each in value)
+    return str(value) + ("px" if kind == "PIXELS" and name == "feather" else "")
+
+
+def _words(kind: str, name: str, value: Any) -> list[str]:
+    kinds = kind.split()
+    return [] if not kinds else [_word(name, kind, value)] if len(kinds) == 1 else [
+        _word(name, each, part) for each, part in zip(kinds, value)]
+
+
+def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Mapping[str, Any]) -> dict[str, Json]:
+    _, _, arguments = _nutik.described(command)
+    said: dict[str, list[list[str]]] = {"json": [[]]}
+    if progress is not None and "progress" in arguments:
+        said["progress"] = [[]]
+    for argument, value in stated.items():
+        name = argument[:-1] if iskeyword(argument[:-1]) else argument
+        kind, _, is_repeated = arguments.get(name, ("", "", False))
+        if value is None or value is False:
+            continue
+        said[name] = [_words(kind, name, each) for each in value] if is_repeated and is_list(value) else [
+            _words(kind, name, value)]
+    words = _nutik.command_words(command, said)
+    _sleep_at_the_end()
+    _end_at_exit()
+    process = subprocess.Popen([sys.executable, "-c", _MAIN, dirname(__file__), *words, "--", *map(fsdecode, operands)],
+                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    _running.add(process)
+    answer: list[str] = []
+    told: list[str] = []
+    readers = [Thread(target=lambda: answer.extend(process.stdout or ()), daemon=True),
+               Thread(target=lambda: told.extend(process.stderr or ()), daemon=True)]
+    for reader in readers:
+        reader.start()
+    try:
+        seen = 0
+        while any(reader.is_alive() for reader in readers):
+            readers[0].join(_STOP_AFTER_S)
+            readers[1].join(0 if readers[0].is_alive() else _STOP_AFTER_S)
+            for line in told[seen:]:
+                seen += 1
+                share = re.match(r"Progress: (\d+)%", line)
+                if share and progress is not None:
+                    progress(int(share[1]), 100)
+        process.wait()
+    except BaseException:
+        process.send_signal(signal.SIGINT)
+        process.wait()
+        raise
+    finally:
+        for reader, stream in zip(readers, (process.stdout, process.stderr)):
+            reader.join()
+            stream.close()  # type: ignore[union-attr]
+        _running.discard(process)
+    _sleep_at_the_end()
+    said_besides = [line for line in told if not line.startswith("Progress:")]
+    return _answer(command, process.returncode, "".join(answer), said_besides)
+
+
+def _in_python(text: str) -> str:
+    """Arguments in place of the command line's options."""
+    return re.sub(r"--([a-z][a-z-]*)", lambda option: option[1].replace("-", "_") + "=", text)
+
+
+def _answer(command: str, status: int, text: str, told: Sequence[str]) -> dict[str, Json]:
+    if status and not (text and status in _ANSWERED):
+        message = _in_python("".join(told).strip()).removeprefix("nutik-cl: ")
+        raise _ERRORS.get(status, Error)(message or f"{command} ended with status {status}")
+    found: dict[str, Any] = json.loads(text)
+    warn(_in_python(line.strip()) for line in told if status)  # what was wrong with a line of a list
+    warn(found["warnings"] if isinstance(found.get("warnings"), list) else [])
+    warn(found.get("notes", []), NutikNote)
+    return found
+
+
+class Command(Protocol):
+    def __call__(self, *files: Path, progress: Progress = None, **stated: Option) -> dict[str, Json]: ...
+
+
+def _function_of(command: str) -> Command:
+    summary, operands, arguments = _nutik.described(command)
+
+    def function(*files: Path, progress: Progress = None, **stated: Option) -> dict[str, Json]:
+        return _run(command, files, progress, stated)
+
+    offered = {name + "_" * iskeyword(name): row for name, row in arguments.items()
+               if name not in ("json", "progress", "quiet", "verbose")}
+    function.__name__ = function.__qualname__ = command
+    function.__module__ = "nutik"
+    function.__doc__ = _in_python(
+        f"{summary}\n\nfiles: {operands}. Returns what the command answers to scripts, a dict; what it says besides comes\n"
+        "as warnings. It runs in a process of its own, which Ctrl-C ends. progress: called with a percentage and 100.\n\n"
+        + "\n".join(f"{name}: {row[0] or 'True'}; {row[1]}" for name, row in offered.items()))
+    kinds = inspect.Parameter
+    function.__annotations__.update(dict.fromkeys(offered, "Option"))
+    signature = inspect.signature(function)
+    function.__signature__ = signature.replace(parameters=[  # type: ignore[attr-defined]
+        signature.parameters["files"], signature.parameters["progress"],
+        *(kinds(name, kinds.KEYWORD_ONLY, default=None, annotation="Option") for name in sorted(offered))])
+    return function
+
+
+batch = _function_of("batch")
+check = _function_of("check")
+contact = _function_of("contact")
+noise = _function_of("noise")
+recover = _function_of("recover")
+retime = _function_of("retime")
+validate = _function_of("validate")
+video = _function_of("video")

@@ -1,0 +1,114 @@
+"""Commands of the program from Python: their arguments are the schema's rows, they answer as to scripts, and errors are
+this package's."""
+
+import inspect
+import os
+import signal
+import threading
+import time
+import unittest
+
+import nutik
+import numpy as np
+from nutik import _nutik
+
+import support
+
+NAMES = ("batch", "check", "contact", "noise", "recover", "retime", "validate", "video")
+
+
+class Commands(support.TestCase):
+    def setUp(self):
+        super().setUp()
+        self.clip = self.path("clip.tik")
+        nutik.encode(support.moving_box(), self.clip, rate=support.RATE, codec="none", block_samples=10)
+
+    def test_arguments_are_rows_of_the_schema(self):
+        for name in NAMES:
+            function = getattr(nutik, name)
+            summary, _, rows = _nutik.described(name)
+            offered = set(inspect.signature(function).parameters) - {"files", "progress"}
+            rest = set(rows) - {each.rstrip("_") for each in offered}
+            self.assertLessEqual(rest, {"json", "progress", "quiet", "verbose"}, name)
+            self.assertTrue(function.__doc__.startswith(summary.split("--")[0]), name)
+            self.assertNotIn("--", function.__doc__)
+            for each in offered:
+                self.assertIn(f"\n{each}: ", function.__doc__)
+
+    def test_retime(self):
+        told = nutik.retime(self.clip, self.path("slow.tik"), rate=1000 / 3, shutter_angle=180)
+        self.assertEqual(told["samples_a_second"], "1000/3")
+        self.assertEqual(str(nutik.open(self.path("slow.tik")).rate), "1000/3")
+        nutik.retime(self.clip, in_place=True, rate=100)
+        self.assertEqual(nutik.open(self.clip).rate, 100)
+
+    def test_recover(self):
+        cut = self.folder / "cut.tik"
+        cut.write_bytes((self.folder / "clip.tik").read_bytes()[:-40_000])
+        told = nutik.recover(cut, self.path("whole.tik"))
+        whole = nutik.open(self.path("whole.tik"))
+        self.assertEqual(len(whole), told["samples"])
+        self.assert_same(whole[:], support.moving_box()[:len(whole)])
+
+    def test_check(self):
+        (self.folder / "f.fn").write_text("M0{[0:1], [5:1], [3:0]}\n")
+        told = nutik.check(self.clip, functions=self.folder / "f.fn")
+        self.assertEqual((told["mistakes"], len(told["findings"])), (1, 1))
+        self.assertEqual(nutik.check(self.clip)["mistakes"], 0)
+
+    def test_contact_and_video(self):
+        told = nutik.contact(self.clip, self.path("sheet.png"), exposure=0.01, columns=3)
+        self.assertEqual(told["columns"], 3)
+        self.assertTrue((self.folder / "sheet.png").exists())
+        steps = []
+        told = nutik.video(self.clip, self.path("film.mp4"), out_fps=240, from_=0, to="0.05s",
+                           progress=lambda done, total: steps.append((done, total)))
+        self.assertEqual(len(nutik.open(self.path("film.mp4"), rate=24)), told["frames"])
+        self.assertTrue(steps and all(0 <= done <= total == 100 for done, total in steps), steps)
+
+    def test_batch(self):
+        (self.folder / "list").write_text(f"--start 0s --exposure 10ms {self.path('a.png')}\n"
+                                          f"--start 9s --exposure 10ms {self.path('b.png')}\n")
+        with self.assertWarnsRegex(nutik.NutikWarning, "list:2"):
+            told = nutik.batch(self.folder / "list", self.clip)
+        self.assertEqual(told["failed_lines"], [2])
+        self.assertTrue((self.folder / "a.png").exists())
+
+    def test_validate_and_noise(self):
+        told = nutik.validate(self.clip, start=0, exposure=0.01, runs=1)
+        self.assertTrue(told["is_within_bounds"])
+        random = np.random.default_rng(1)
+        still = np.clip(np.linspace(20, 230, 64 * 64).reshape(64, 64) + random.normal(0, 3, (96, 64, 64)), 0, 255)
+        (self.folder / "still").mkdir()
+        for k, picture in enumerate(still.astype(np.uint8)):
+            support.write_pgm(self.folder / "still" / f"{k:03}.pgm", picture)
+        nutik.noise(self.folder / "still", transfer="linear", output=self.path("camera.noise"))
+        self.assertTrue((self.folder / "camera.noise").exists())
+
+    def test_errors(self):
+        self.assert_raises(nutik.UsageError, "no argument colour=", nutik.video, self.clip, colour=1)
+        self.assert_raises(nutik.UsageError, "columns 'many'", nutik.contact, self.clip, self.path("x.png"), columns="many")
+        self.assert_raises(nutik.UsageError, "in_place=", nutik.retime, self.clip)
+        self.assert_raises(nutik.InputError, "absent.tik", nutik.contact, self.path("absent.tik"), self.path("x.png"))
+        self.assert_raises(nutik.OutputError, "absent", nutik.contact, self.clip, self.path("absent/x.png"), exposure=0.01)
+
+    def test_ctrl_c_ends_it(self):
+        """Noise that is made a long film of: tens of seconds."""
+        noise = np.random.default_rng(1).integers(0, 256, (128, 384, 512, 3), np.uint8)
+        nutik.encode(noise, self.path("noise.tik"), rate=128)
+        sent = []
+
+        def interrupt():
+            sent.append(time.monotonic())
+            os.kill(os.getpid(), signal.SIGINT)
+
+        timer = threading.Timer(2, interrupt)
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            nutik.video(self.path("noise.tik"), self.path("film.mkv"), out_fps=1000, speed=0.1)
+        self.assertLess(time.monotonic() - sent[0], 1.0)
+        timer.join()
+
+
+if __name__ == "__main__":
+    unittest.main()
