@@ -221,6 +221,11 @@ MadeSamples plan_between(const ClipToFill& clip, const BetweenRequest& request, 
     follow(false);
   }
   follow(true);
+  if (pictures_read > 0 && request.first > 0 && request.first + 1 >= pictures_read) {
+    throw UsageError(format("between '{}' begins behind the last picture but one, {}f", request.text(),
+                            std::max<std::uint64_t>(pictures_read, 2) - 2),
+                     {Setting::between});
+  }
   if (pictures_read > 0) made.after.push_back(0);
   if (made.after.empty()) throw InputError(format("{} has no picture", clip.name));
   return made;

@@ -21,7 +21,7 @@ namespace nutik {
 
 struct BetweenRequest {
   std::optional<std::uint32_t> each = {};  // so many between any two; none: as many as the motion there needs
-  // From this picture of the clip to this one, and nowhere else.
+  // From this picture on, of those that are taken of the clip, to this one, and nowhere else.
   std::uint64_t first = 0, last = UINT64_MAX;
   std::optional<Shared<MadeSamples>> made = {};  // known already
   [[nodiscard]] std::string text() const;  // as parse_between() reads it

@@ -199,8 +199,8 @@ std::optional<FunctionFinding> missing_unit_finding(const GainFunction& function
   const bool is_short = last_ns > 1 && last_ns < std::min(domain.duration_ns, kSecondNs) / kShare;
   if (!domain.is_capture || !is_short || summary.exposes_to_the_end) return std::nullopt;
   return FunctionFinding{Kind::missing_unit,
-                         format("it ends {} ns after the start of a capture of {}: times without a unit are nanoseconds; "
-                                "were milliseconds meant, {}ms?",
+                         format("it ends {} ns after the start of a capture of {}; if its times were meant in "
+                                "milliseconds, write {}ms",
                                 last_ns, seconds_text(domain.duration_ns), last_ns),
                          function.points().size() - 1};
 }

@@ -113,7 +113,8 @@ std::optional<std::int64_t> time_with_unit(std::string_view word) {
   std::string digits = std::string(decimal->whole).append(decimal->fraction);
   digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size()));
   if (digits.empty()) return 0;
-  const long power = exponent_of(decimal->exponent) - static_cast<long>(decimal->fraction.size());
+  long power = exponent_of(decimal->exponent) - static_cast<long>(decimal->fraction.size());
+  for (; digits.size() > 1 && digits.back() == '0'; ++power) digits.pop_back();
   constexpr std::size_t kMostDigits = 18;
   if (digits.size() > kMostDigits || power < -static_cast<long>(kMostDigits)) return std::nullopt;
   if (power > static_cast<long>(kMostDigits)) return INT64_MAX;
@@ -122,8 +123,8 @@ std::optional<std::int64_t> time_with_unit(std::string_view word) {
   for (long i = 0; i < std::abs(power); ++i) ten *= 10;
   int128 above = static_cast<int128>(decimal->is_negative ? -mantissa : mantissa) * *unit_ns;
   if (power < 0) below *= ten;
-  if (power > 0 && above > kLargestTimeNs) return INT64_MAX;
-  if (power > 0 && above < -kLargestTimeNs) return INT64_MIN;
+  if (power > 0 && above / below > kLargestTimeNs / ten) return INT64_MAX;
+  if (power > 0 && above / below < -kLargestTimeNs / ten) return INT64_MIN;
   if (power > 0) above *= ten;
   if (above / below > kLargestTimeNs || above / below < -kLargestTimeNs) return above > 0 ? INT64_MAX : INT64_MIN;
   return round_half_up(above, below);
@@ -132,9 +133,9 @@ std::optional<std::int64_t> time_with_unit(std::string_view word) {
 // What to write for a time that is written in another way, as far as it can be guessed.
 std::string time_way_out(std::string_view word) {
   if (const auto decimal = decimal_at_start(word); decimal && decimal->length == word.size()) {
-    if (const auto whole = whole_number(*decimal, 0)) return format("write {}", *whole);
     // Few people think in fractions of a nanosecond.
     if (decimal->exponent.empty()) return format("is it {0}s, or {0}ms?", shown(word));
+    if (const auto whole = whole_number(*decimal, 0)) return format("write {}", *whole);
   }
   return "as in 10000000, 10ms, 0.4s or 1/30s";
 }
@@ -191,7 +192,7 @@ ReadNumber<std::int64_t> read_time(std::string_view word) {
                       time_way_out(word))};
   }
   const auto value = is_plain ? whole_number(*decimal_at_start(word), 0) : with_unit;
-  if (!value || std::abs(static_cast<double>(*value)) > static_cast<double>(kLargestTimeNs)) {
+  if (!value || *value > kLargestTimeNs || *value < -kLargestTimeNs) {
     return {0,
             format("time {} is further than {} ns from the start (126 years)", shown(word), kLargestTimeNs)};
   }

@@ -143,6 +143,7 @@ TEST(Between, ArePlannedBetweenThePicturesThatAreNamed) {
   EXPECT_EQ(planned_by("auto:1f..3f"), (std::vector<std::uint8_t>{0, 15, 15, 0, 0}));
   EXPECT_EQ(planned_by("2:0f..1f"), (std::vector<std::uint8_t>{2, 0, 0, 0, 0}));
   EXPECT_EQ(planned_by("2:3f..9f"), (std::vector<std::uint8_t>{0, 0, 0, 2, 0}));
+  EXPECT_THROW(planned_by("auto:4f..9f"), UsageError) << "behind the last pair";
   EXPECT_FALSE(parse_between("off"));
   for (const char* text : {"auto:", "auto:1f", "auto:3f..3f", "auto:4f..3f", "2:1..3", "0:1f..3f", "64", "auto:1f..3ff",
                            "off:1f..3f", "auto:1s..3s", "auto:-1f..3f"})

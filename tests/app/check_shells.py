@@ -78,7 +78,9 @@ def check_bash(program, work):
     offers("nutik-cl info --", {"--help", "--activity", "--json", "--overwrite", "--quiet"})
     offers("nutik-cl devices --json ", set())
     # What the table has, completion has: all options of all commands.
-    for command in re.findall(r"^  ([a-z]+) {2,}[A-Z]", output(program, "--help"), re.M):
+    overview = output(program, "--help")
+    also = re.search("Also: (.*), help", overview)[1].split(", ")
+    for command in re.findall(r"^  ([a-z]+) {2,}[A-Z]", overview, re.M) + also:
         page = output(program, command, "--help=all").split("\nFor experiments:")[0]
         offers(f"nutik-cl {command} --", set(re.findall(r"^(?:  -., |      )(--[a-z-]+)", page, re.M)) | {"--help"})
 

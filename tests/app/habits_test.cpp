@@ -85,12 +85,12 @@ TEST_F(Habits, RefusesHelpOnWhatIsNoCommand) {
 
 TEST_F(Habits, NoticesAMissingUnitAndACommaForAPoint) {
   scratch_.write("ns.fn", "M0 [39:0], [40:1], [80:1], [81:0]\n");
-  expect_says(run("check -k ns.fn clip.tik").out, "were milliseconds meant, 81ms?");
+  expect_says(run("check -k ns.fn clip.tik").out, "if its times were meant in milliseconds, write 81ms");
   expect_refused(2, {{"--start 0,1s --exposure 1f clip.tik a.png", "the decimal mark is a point"}});
-  expect_refused(3, {{"batch clip.tik", "batch takes the list first"}});
-  make("--start 0s --exposure 1f --ev 1/2 --no-recipe clip.tik third.pfm");
+  expect_refused(3, {{"batch clip.tik", "batch takes the list first, then the clip or capture"}});
+  make("--start 0s --exposure 1f --ev 1/2 --no-recipe clip.tik fraction.pfm");
   make("--start 0s --exposure 1f --ev 0.5 --no-recipe clip.tik half.pfm");
-  EXPECT_EQ(test::read_file(scratch_ / "third.pfm"), test::read_file(scratch_ / "half.pfm"));
+  EXPECT_EQ(test::read_file(scratch_ / "fraction.pfm"), test::read_file(scratch_ / "half.pfm"));
 }
 
 TEST_F(Habits, TakesTimesWithUnitsInFunctionFiles) {

@@ -103,6 +103,10 @@ TEST_F(StudyStyles, JoinTheTrailBetweenPictures) {
     EXPECT_EQ(test::run_shell(again + " --overwrite", scratch_.folder()).status, 0) << again;
     EXPECT_EQ(file("made.png"), made);
   }
+  // A scene in which nothing goes anywhere is one long exposure, with samples between its pictures or without.
+  DrawnClip still(scratch_ / "still");
+  for (int k = 0; k < 12; ++k) still.add(ground_of(7));
+  make("study -f 100 still --between auto -o still.png");
   expect_says(run(format("study -f 100 fast20 --moments 1f,{}f --trail even --overwrite", last)).err,
               format("every {} pixels", kStep));
 }

@@ -171,6 +171,11 @@ TEST(FrameRanges, ChooseFramesOfTheWholeFilm) {
   EXPECT_EQ(frames.count, 10u);
   EXPECT_EQ(frames.numbers, (std::vector<std::uint64_t>{8, 9}));
   EXPECT_EQ(frames.span(), (Exposure{800 * kMs, 950 * kMs}));
+  FunctionSet functions;
+  functions.emplace(std::uint8_t{0}, GainFunction({{0, 1}, {5 * kMs, 1}, {5 * kMs + 1, 0}}));
+  FramesRequest by_functions = request;
+  by_functions.exposure.gains = Shared(std::move(functions));
+  EXPECT_EQ(frames_of(by_functions, kFilmTimeline).span(), (Exposure{800 * kMs, 905 * kMs + 1})) << "whatever the angle";
   request.numbers = FrameRanges::parse("10-20", "--frames");
   EXPECT_EQ(test::message_of<UsageError>([&] { static_cast<void>(frames_of(request, kFilmTimeline)); }),
             "none of the frames 10-20 is there: the film has 10, numbered from 0 to 9");

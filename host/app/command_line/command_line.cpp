@@ -98,7 +98,8 @@ ParsedCommandLine parse_command_line(std::span<const std::string> words) {
     }
     if (found.command == nullptr && !found.topic.empty())
       throw UsageError(format("--help={0} is help on a command: nutik-cl COMMAND --help={0}", found.topic));
-    if (found.topic.empty() && rest.size() == 1 && is_help_topic(rest.front())) found.topic = rest.front();
+    const bool is_topic = rest.size() == 1 && (found.is_help_word || is_help_topic(rest.front()));
+    if (found.topic.empty() && is_topic) found.topic = rest.front();
     found.command != nullptr ? print_command_help(*found.command, found.topic) : print_help();
     return {};
   }

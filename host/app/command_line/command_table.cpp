@@ -50,7 +50,7 @@ constexpr Command kCommands[] = {
      "nutik-cl join part-*.tik -o whole.tik",
      run_join, kCaptures},
     {Id::thumbnail, "thumbnail", "CAPTURE.tik [PICTURE.png]",
-     "Write a capture's first sample as a small picture: as file managers show it.",
+     "Write a capture's first sample as a small picture, for file managers.",
      "nutik-cl thumbnail clip.tik\n"
      "nutik-cl thumbnail --width 512 clip.tik first.png",
      run_thumbnail, kCaptures},
@@ -74,7 +74,7 @@ constexpr Command kCommands[] = {
      "printf '%s\\n' '--start 0s --exposure 10ms a.png' '-k trail.fn b.png' | nutik-cl batch - clip.tik",
      run_batch, kPictures},
     {Id::check, "check", "[CAPTURE.tik|CLIP]",
-     "Name what is wrong in functions, masks and captures: what is suspicious, too, with each function's figures.",
+     "Name what is wrong or suspicious in functions, masks and captures: with each function's figures.",
      "nutik-cl check -k regions.fn\n"
      "nutik-cl check -m regions.pgm -k regions.fn clip.tik\n"
      "nutik-cl check --json -m regions.pgm -k regions.fn clip.tik\n"
@@ -134,8 +134,8 @@ constexpr Command kCommands[] = {
      "nutik-cl study --moments 0.36s,0.75s,1.27s --trail ramp clip.tik study.png",
      run_study, kPictures},
     {Id::solve, "solve", "CAPTURE.tik|CLIP [FUNCTIONS.fn]",
-     "Find the gains and times that make a picture as it is wished: those of a function file. What is to be found has a name in "
-     "place of its number, as in M0 [0:1], [1000000000:1], [1000000001:rest], [1010000000:rest], [1010000001:0].",
+     "Find the gains and times that make a picture as it is wished: in a function file, what is to be found has a name "
+     "in place of its number, as in M0 [0:1], [1000000000:1], [1000000001:rest], [1010000000:rest], [1010000001:0].",
      "nutik-cl solve -k named.fn --free rest=-50..0 --wish '300,150,60,60 gone at 0s' clip.tik solved.fn\n"
      "nutik-cl solve -m regions.pgm -k named-regions.fn --free rest=-50..0 --wish 'M0 = plate' clip.tik\n"
      "nutik-cl solve -k moved.fn --free when=0.2s..0.8s/1f --wish '300,150,60,60 >= 1.2 * plate' clip.tik",

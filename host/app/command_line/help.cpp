@@ -201,9 +201,14 @@ void print_command_help(const Command& command, std::string_view topic) {
       if (option->heading != heading) text += format("{}:\n", heading = option->heading);
       text += short_lines(*option);
     }
-    const bool is_all = own.size() == options_of(command.id).size();
-    text += is_all ? format("\nMore: nutik-cl {} --help=all", command.name)
-                   : format("\nMore: nutik-cl {0} --help=all, or =source, =computing, =output", command.name);
+    text += format("\nMore: nutik-cl {} --help=all", command.name);
+    for (const Topic& each : topics()) {
+      const auto of_topic = options_of_topic(command, each.name);
+      const bool is_shown = std::ranges::all_of(of_topic, [&](const Option* option) {
+        return std::ranges::find(own, option) != own.end();
+      });
+      if (!is_shown) text += format(", ={}", each.name);
+    }
   } else {
     for (const Option* option : options_of_topic(command, topic)) {
       if (option->heading != heading) text += format("\n{}:\n", heading = option->heading);

@@ -34,12 +34,7 @@ struct ListedExposure {
 std::vector<ListedExposure> read_list(const std::string& name) {
   constexpr std::size_t kMaxBytes = 16 << 20;  // some hundred thousand lines
   std::vector<ListedExposure> exposures;
-  std::string list = text_up_to(name, kMaxBytes);
-  if (list.find('\0') != list.npos) {
-    throw InputError(format("{} is no list: it is no text. batch takes the list first, then the clip or the capture",
-                            input_title(name)));
-  }
-  std::istringstream lines(std::move(list));
+  std::istringstream lines(text_up_to(name, kMaxBytes));
   std::string text;
   for (std::size_t line = 1; std::getline(lines, text); ++line) {
     if (!text.empty() && text.back() == '\r') text.pop_back();
@@ -53,7 +48,7 @@ std::vector<ListedExposure> read_list(const std::string& name) {
 Options line_options(const std::string& text, const Options& batch, const std::optional<std::string>& capture) {
   std::vector<std::string> words = shell_words(text);
   for (const std::string& word : words) {
-    if (word == "--help" || word == "-h" || word == "--version") {
+    if (word == "--help" || word == "-h" || word == "--version" || word == "-V" || word.starts_with("--help=")) {
       throw UsageError(format("{} is no exposure; see nutik-cl expose --help", word));
     }
   }
@@ -269,7 +264,8 @@ int run_batch(const Options& options) {
     Json json{{"exposures", exposures.size()}, {"failed_lines", batch.failed_lines()}, {"skipped", batch.skipped()}};
     json.update(batch.tally().saturation_json());
     json.update(batch.tally().uncertainty_json());
-    json.update({{"clips", batch.clips()}, {"seconds", seconds}, {"notes", batch.tally().notes()}});
+    json.update({{"clips", batch.clips()}, {"seconds", seconds}, {"notes", batch.tally().notes()},
+                 {"warnings", printed_warnings()}});
     print_json(json);
   } else if (!options.quiet) {
     const std::size_t made = done - batch.skipped();

@@ -126,6 +126,7 @@ int run_info(const Options& options) {
       write_activity(reader, *options.activity);
       json["activity"] = *options.activity;
     }
+    json["warnings"] = printed_warnings();
     print_json(json);
     return status;
   }

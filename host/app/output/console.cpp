@@ -20,7 +20,7 @@ constexpr const char* kPlain = "\x1b[0m";
 // Where lines of a result go.
 std::FILE* line_stream = stdout;
 
-std::mutex warning;
+std::mutex warnings_mutex;
 std::vector<std::string> warnings_so_far;
 
 void write_line(std::FILE* stream, const std::string& text) {
@@ -52,12 +52,12 @@ void print_text(const std::string& text) {
   std::fflush(stdout);
 }
 void print_warning(const std::string& text) {
-  const std::scoped_lock lock(warning);
+  const std::scoped_lock lock(warnings_mutex);
   write_message(kYellow, "warning:", text);
   warnings_so_far.push_back(text);
 }
 std::vector<std::string> printed_warnings() {
-  const std::scoped_lock lock(warning);
+  const std::scoped_lock lock(warnings_mutex);
   return warnings_so_far;
 }
 void print_error(const std::string& text) { write_message(kRed, "nutik-cl:", text); }

@@ -13,7 +13,7 @@ void print_warning(const std::string& text);  // to stderr, behind "warning:", i
 void print_error(const std::string& text);    // to stderr, behind "nutik-cl:", likewise
 void print_note(const std::string& text);     // to stderr
 void print_warnings(const std::vector<std::string>& texts);
-// All of them so far, for --json. Any thread may print.
+// All of them so far, for --json. Any thread may warn.
 [[nodiscard]] std::vector<std::string> printed_warnings();
 void print_notes(const std::vector<std::string>& texts);  // each behind "note:"
 

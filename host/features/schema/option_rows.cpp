@@ -459,7 +459,7 @@ constexpr Option kRows[] = {
     {0, "activity", "MAP.png", output, bit(Id::info), take<In<&Options::activity>>,
      "also write how often each pixel changes: a grey picture, black never, white most often, between them sRGB"},
     {0, "width", "PIXELS", output, bit(Id::thumbnail), take_whole<In<&Options::width>, 1, 4096>,
-     "width of the longer side (default: 256); no picture is enlarged"},
+     "length of the longer side (default: 256); no picture is enlarged"},
     {0, "points", "", answer, bit(Id::check), take<In<&Options::points>>,
      "print only the control points of -k: a line for each, mask value, nanoseconds, gain"},
     {0, "json", "", answer, kAll & ~kOnlyPrints, take<In<&Options::json>>, "answer with one JSON object, for scripts"},

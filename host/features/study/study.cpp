@@ -234,7 +234,7 @@ class StudyPlanner {
     all.selection = select::Whole{};
     study.mask.steps = {std::move(all)};
     study.regions = make_mask(study.mask, &capture_, name_);
-    study.functions = whole_time(timeline_);
+    study.functions = study.functions_between = whole_time(timeline_);
   }
 
   [[nodiscard]] std::vector<std::uint64_t> moments_of(std::size_t subject, std::vector<SubjectPlace>& taken,

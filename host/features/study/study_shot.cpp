@@ -292,10 +292,17 @@ PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request
       try {
         expose_between(between);
         planned.between = between.text();
+        const std::uint64_t part = planned.part ? planned.part->first : 0;  // numbers are the clip's
         text = format("the subject goes {:.0f} pixels from one picture to the next: so that its trail has no gaps, samples "
                       "were made between pictures {} … {}; off leaves it as it was filmed",
-                      step, way.first, last);
-      } catch (const UsageError&) {  // memory that is enough for the study alone; or events, each with its own time
+                      step, part + way.first, part + last);
+      } catch (const Error& error) {
+        // Memory or room that is enough for the study alone, or events, each with its own time.
+        const bool is_of_these = dynamic_cast<const UsageError*>(&error) != nullptr ||
+                                 dynamic_cast<const OutputError*>(&error) != nullptr ||
+                                 dynamic_cast<const InputError*>(&error) != nullptr;
+        if (!is_of_these) throw;
+        text += format("; here they cannot be made: {}", error.what());
       }
     }
     planned.notes.emplace_back(std::move(text), std::vector{Setting::between});

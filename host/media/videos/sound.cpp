@@ -68,8 +68,7 @@ class LibavSoundWriter final : public SoundWriter {
 
   [[nodiscard]] bool holds(AVCodecID codec) const {
     // FFmpeg does not write all that a container has a tag for.
-    const bool is_quicktime = std::string_view(film_.oformat->name) == "mov";
-    if (codec == AV_CODEC_ID_TRUEHD || codec == AV_CODEC_ID_FLAC || (is_quicktime && codec == AV_CODEC_ID_OPUS))
+    if (codec == AV_CODEC_ID_TRUEHD || codec == AV_CODEC_ID_FLAC)
       return film_.oformat->name == std::string_view("matroska");
     return avformat_query_codec(film_.oformat, codec, FF_COMPLIANCE_NORMAL) == 1;
   }

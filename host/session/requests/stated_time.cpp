@@ -77,7 +77,7 @@ StatedTime StatedTime::parse(std::string_view text, std::string_view what) {
   const std::string_view name = unit_at == std::string_view::npos ? std::string_view() : text.substr(unit_at);
   const auto unit = std::find_if(kUnits.begin(), kUnits.end(),
                                  [&](const Unit& candidate) { return candidate.name == name; });
-  if (text.find(',') != text.npos)
+  if (text.find(',') == unit_at && unit_at != text.npos && text.find('.') == text.npos)
     throw UsageError(format("{} '{}' is no time; the decimal mark is a point: 0.4s", what, text));
   if (unit == kUnits.end() || unit_at == 0) {
     throw UsageError(
