@@ -189,24 +189,6 @@ std::string_view to_text(Kind kind) {
   return {};
 }
 
-namespace {
-
-// Few people count in nanoseconds: [400:1] may stand for 400 ms.
-std::optional<FunctionFinding> missing_unit_finding(const GainFunction& function, const GainSummary& summary,
-                                                    const CheckedDomain& domain) {
-  constexpr std::int64_t kShare = 100'000;  // of the capture, and of a second: 10 us
-  const std::int64_t last_ns = function.points().back().time_ns;
-  const bool is_short = last_ns > 1 && last_ns < std::min(domain.duration_ns, kSecondNs) / kShare;
-  if (!domain.is_capture || !is_short || summary.exposes_to_the_end) return std::nullopt;
-  return FunctionFinding{Kind::missing_unit,
-                         format("it ends {} ns after the start of a capture of {}; if its times were meant in "
-                                "milliseconds, write {}ms",
-                                last_ns, seconds_text(domain.duration_ns), last_ns),
-                         function.points().size() - 1};
-}
-
-}  // namespace
-
 std::vector<FunctionFinding> check_domain(const GainFunction& function, const GainSummary& summary,
                                           const CheckedDomain& domain) {
   std::vector<FunctionFinding> findings;
@@ -241,8 +223,20 @@ std::vector<FunctionFinding> check_function(const GainFunction& function, const 
   for (const MistypedTime& mistyped : mistyped_times(function)) {
     findings.push_back(mistyped_finding(function, mistyped));
   }
-  if (auto missing = missing_unit_finding(function, summary, domain)) findings.push_back(std::move(*missing));
   return findings;
+}
+
+std::optional<FunctionFinding> check_units(const GainFunction& function, const GainSummary& summary,
+                                                    const CheckedDomain& domain) {
+  constexpr std::int64_t kShare = 100'000;  // of the capture, and of a second: 10 us
+  const std::int64_t last_ns = function.points().back().time_ns;
+  const bool is_short = last_ns > 1 && last_ns < std::min(domain.duration_ns, kSecondNs) / kShare;
+  if (!domain.is_capture || !is_short || summary.exposes_to_the_end) return std::nullopt;
+  return FunctionFinding{Kind::missing_unit,
+                         format("it ends {} ns after the start of a capture of {}; if its times were meant in "
+                                "milliseconds, write {}ms",
+                                last_ns, seconds_text(domain.duration_ns), last_ns),
+                         function.points().size() - 1};
 }
 
 Interval meant_interval(const GainFunction& function, const GainSummary& summary) {

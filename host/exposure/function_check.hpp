@@ -70,10 +70,14 @@ struct CheckedDomain {
                                                         const GainSummary& summary,
                                                         const CheckedDomain& domain);
 
-// All kinds.
+// All kinds, but that of units.
 [[nodiscard]] std::vector<FunctionFinding> check_function(const GainFunction& function,
                                                           const GainSummary& summary,
                                                           const CheckedDomain& domain);
+
+// Few people count in nanoseconds: [400:1] may stand for 400 ms.
+[[nodiscard]] std::optional<FunctionFinding> check_units(const GainFunction& function, const GainSummary& summary,
+                                                         const CheckedDomain& domain);
 
 // The live interval without the steps of 1 ns at its ends, which stand for jumps: what a person means who counts the
 // samples that a function exposes. A function that is nothing but such steps keeps them.

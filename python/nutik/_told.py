@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Literal, Optional, TypedDict, Union
+from typing import TYPE_CHECKING, Literal, Optional, TypedDict, Union
+
+if TYPE_CHECKING:
+    from ._nutik import Picture as HeldPicture
 
 Json = Union[None, bool, int, float, str, "list[Json]", "dict[str, Json]"]
 
@@ -98,6 +101,7 @@ class PictureFigures(TypedDict, total=False):
     precision: str
     error_bound: Optional[Bound]
     uncertainty: Uncertainty
+    bounds_map: "HeldPicture"
     saturated: Optional[tuple[int, int]]
     plan: Plan
     statistics: Statistics

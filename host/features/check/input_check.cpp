@@ -136,7 +136,9 @@ void InputCheck::check_functions() {
       finding.settings = error.settings();
       found.push_back(std::move(finding));
     }
-    for (const FunctionFinding& finding : check_function(read.function, summary, domain_)) {
+    std::vector<FunctionFinding> suspicious = check_function(read.function, summary, domain_);
+    if (auto units = check_units(read.function, summary, domain_)) suspicious.push_back(std::move(*units));
+    for (const FunctionFinding& finding : suspicious) {
       found.push_back(function_finding(std::string(to_text(finding.kind)), tag,
                                        finding.point ? read.time_at[*finding.point] : read.start_at,
                                        finding.message));
