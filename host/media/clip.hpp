@@ -37,8 +37,8 @@ struct ClipTiming {
   [[nodiscard]] bool is_known() const { return rate || !starts_ns.empty() || !exposures.empty(); }
 };
 
-// Of a clip with sound: when a player of its file shows the first and the last picture, and how long it is from the one to
-// the other as they were filmed (what opens the clip for a capture fills that in).
+// When a player of a file with sound shows the first and the last picture, and how long it is from the one to the other as
+// they were filmed (what opens the clip for a capture fills that in).
 struct ClipSound {
   double first_s = 0, last_s = 0;
   double filmed_s = 0;

@@ -290,7 +290,7 @@ std::uint64_t infinite_values(const Picture& picture) {
       std::ranges::count_if(picture.values<float>(), [](float value) { return !std::isfinite(value); }));
 }
 
-// Of light that was added up: what is doubtful about it.
+// Warns of light that became infinite when it was added up.
 void warn_of_infinite(Rendered& rendered) {
   const std::uint64_t count = infinite_values(rendered.picture);
   if (count == 0) return;

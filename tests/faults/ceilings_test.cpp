@@ -84,7 +84,9 @@ TEST_F(Ceilings, OfCaptures) {
 // What is no list may have no end, and no line either.
 TEST_F(Ceilings, OfLists) {
   test::write_made_up_tik(scratch_ / "c.tik", test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
-  expect_cheaply_refused({"batch", "/dev/zero", "c.tik"}, "/dev/zero is longer than 16 MiB; make several of it");
+  expect_cheaply_refused({"batch", "/dev/zero", "c.tik"}, "/dev/zero is no list: it is no text");
+  scratch_.write("long.txt", std::string((std::size_t{16} << 20) + 1, '#'));
+  expect_cheaply_refused({"batch", "long.txt", "c.tik"}, "long.txt is longer than 16 MiB; make several of it");
   expect_refused({"batch", ".", "c.tik"}, 3, ". is a folder, not a list");
 }
 
