@@ -119,7 +119,9 @@ std::vector<Picture> expose_in_one_pass(std::span<const RenderPlan> plans, Captu
   Rows rows(capture, rectangle);
   std::vector<double> light;
   BlockCursor blocks(source);
-  for (const auto& [number, wanted] : wanting) {
+  for (const auto& entry : wanting) {
+    const std::uint64_t number = entry.first;
+    const std::vector<std::size_t>& wanted = entry.second;
     throw_if_cancelled(control);
     const BlockView block = blocks.at(number);
     std::uint32_t first = block.extent().sample_count, last = 0;
