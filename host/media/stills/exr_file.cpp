@@ -13,8 +13,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <exception>
+#include <iterator>
+#include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "capture/error.hpp"
@@ -92,6 +96,40 @@ std::vector<half> halves(const Picture& picture) {
   return result;
 }
 
+// How many bytes the value of an attribute takes by its type, whatever it is said to have; OpenEXR reads these. None: as
+// many as are stated.
+std::optional<std::uint64_t> value_bytes_of(std::string_view type, std::string_view value) {
+  using Fixed = std::pair<std::string_view, std::uint64_t>;
+  constexpr Fixed kFixed[] = {{"box2i", 16},        {"box2f", 16},      {"chromaticities", 32}, {"compression", 1},
+                              {"deepImageState", 1}, {"double", 8},     {"envmap", 1},          {"float", 4},
+                              {"int", 4},           {"keycode", 28},    {"lineOrder", 1},       {"m33f", 36},
+                              {"m33d", 72},         {"m44f", 64},       {"m44d", 128},          {"rational", 8},
+                              {"tiledesc", 9},      {"timecode", 8},    {"v2i", 8},             {"v2f", 8},
+                              {"v2d", 16},          {"v3i", 12},        {"v3f", 12},            {"v3d", 24}};
+  if (const auto* fixed = std::ranges::find(kFixed, type, &Fixed::first); fixed != std::end(kFixed))
+    return fixed->second;
+  const auto number = [&](std::size_t at) {
+    std::uint64_t read = 0;
+    for (std::size_t i = 0; i < 4 && at + i < value.size(); ++i)
+      read |= std::uint64_t{static_cast<unsigned char>(value[at + i])} << (8 * i);
+    return read;
+  };
+  if (type == "preview")  // width, height, and four bytes for each pixel
+    return std::max(number(0), number(4)) > value.size() ? UINT64_MAX : 8 + 4 * number(0) * number(4);
+  std::uint64_t at = 0;
+  if (type == "chlist") {  // names, each with 16 bytes, and an empty one
+    constexpr std::uint64_t kChannelBytes = 16;
+    while (at < value.size() && value[at] != '\0')
+      at = std::min<std::uint64_t>(value.find('\0', at), value.size()) + 1 + kChannelBytes;
+    return at + 1;
+  }
+  if (type == "stringvector") {
+    while (at < value.size()) at += 4 + number(at);
+    return at;
+  }
+  return std::nullopt;
+}
+
 // Each attribute of each header must lie within the file: OpenEXR makes room for what it is said to have, and then reads.
 void check_attributes(std::string_view bytes) {
   constexpr std::size_t kMagicAndVersion = 8, kSizeBytes = 4, kFlags = 5;
@@ -101,9 +139,12 @@ void check_attributes(std::string_view bytes) {
   const auto in_header = [&] { return at < bytes.size() && bytes[at] != '\0'; };
   do {
     while (in_header()) {
+      std::string_view type;
       for (int word = 0; word < 2; ++word) {  // name and type
-        at = bytes.find('\0', at);
-        if (at++ == std::string_view::npos) throw InputError("its header has no end");
+        const std::size_t end = bytes.find('\0', at);
+        if (end == std::string_view::npos) throw InputError("its header has no end");
+        type = bytes.substr(at, end - at);
+        at = end + 1;
       }
       if (bytes.size() - at < kSizeBytes) throw InputError("its header has no end");
       std::uint32_t size = 0;
@@ -114,6 +155,8 @@ void check_attributes(std::string_view bytes) {
       if (size > bytes.size() - at) {
         throw InputError(format("an attribute of {} bytes does not fit into its {} bytes", size, bytes.size()));
       }
+      if (const auto needed = value_bytes_of(type, bytes.substr(at, size)); needed && *needed != size)
+        throw InputError(format("an attribute has {} bytes, and by its type {}", size, *needed));
       at += size;
     }
     ++at;
