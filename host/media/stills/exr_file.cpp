@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <iterator>
 #include <optional>
@@ -130,6 +131,13 @@ std::optional<std::uint64_t> value_bytes_of(std::string_view type, std::string_v
   return std::nullopt;
 }
 
+// OpenEXR makes room for as many as 256 rows before it reads the first.
+void check_rows(std::uint64_t width, std::uint64_t channels) {
+  constexpr std::uint64_t kMostValues = 1 << 17;
+  if (width > kMostValues || width * channels > kMostValues)
+    throw InputError(format("its rows have {} pixels of {} channels, more than are read", width, channels));
+}
+
 // Each attribute of each header must lie within the file: OpenEXR makes room for what it is said to have, and then reads.
 void check_attributes(std::string_view bytes) {
   constexpr std::size_t kMagicAndVersion = 8, kSizeBytes = 4, kFlags = 5;
@@ -137,6 +145,7 @@ void check_attributes(std::string_view bytes) {
   const bool several_parts = bytes.size() > kFlags && (bytes[kFlags] & kSeveralParts) != 0;
   std::size_t at = kMagicAndVersion;
   const auto in_header = [&] { return at < bytes.size() && bytes[at] != '\0'; };
+  std::uint64_t width = 0, channels = 1;
   do {
     while (in_header()) {
       std::string_view type;
@@ -157,6 +166,17 @@ void check_attributes(std::string_view bytes) {
       }
       if (const auto needed = value_bytes_of(type, bytes.substr(at, size)); needed && *needed != size)
         throw InputError(format("an attribute has {} bytes, and by its type {}", size, *needed));
+      if (type == "box2i") {
+        const auto corner = [&](std::size_t number) {
+          std::int32_t value = 0;
+          std::memcpy(&value, bytes.data() + at + number * sizeof value, sizeof value);
+          return std::int64_t{value};
+        };
+        width = std::max(width, static_cast<std::uint64_t>(std::max<std::int64_t>(corner(2) - corner(0) + 1, 0)));
+      }
+      // A channel has 17 bytes and more.
+      if (type == "chlist") channels = std::max<std::uint64_t>(channels, size / 18 + 1);
+      check_rows(width, channels);
       at += size;
     }
     ++at;
