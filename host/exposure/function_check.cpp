@@ -227,7 +227,7 @@ std::vector<FunctionFinding> check_function(const GainFunction& function, const 
 }
 
 std::optional<FunctionFinding> check_units(const GainFunction& function, const GainSummary& summary,
-                                                    const CheckedDomain& domain) {
+                                           const CheckedDomain& domain) {
   constexpr std::int64_t kShare = 100'000;  // of the capture, and of a second: 10 us
   const std::int64_t last_ns = function.points().back().time_ns;
   const bool is_short = last_ns > 1 && last_ns < std::min(domain.duration_ns, kSecondNs) / kShare;

@@ -82,7 +82,7 @@ class ShutterShape {
 
   std::string text_ = "box";
   std::vector<Corner> corners_{{{0, 1}, 1.0}, {{1, 1}, 1.0}};  // empty for a curve
-  // Empty for straight lines. A curve's gain is curve_ x 2^exponent_, so that what is reckoned with stays near 1
+  // Empty for straight lines. A curve's gain is curve_ x 2^exponent_, so that all that is computed stays near 1,
   // however large or small the gains are.
   std::function<double(double)> curve_;
   int exponent_ = 0;

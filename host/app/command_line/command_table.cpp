@@ -50,7 +50,7 @@ constexpr Command kCommands[] = {
      "nutik-cl join part-*.tik -o whole.tik",
      run_join, kCaptures},
     {Id::thumbnail, "thumbnail", "CAPTURE.tik [PICTURE.png]",
-     "Write a capture's first sample as a small picture: for file managers.",
+     "Write a capture's first sample as a small picture (for file managers).",
      "nutik-cl thumbnail clip.tik\n"
      "nutik-cl thumbnail --width 512 clip.tik first.png",
      run_thumbnail, kCaptures},
@@ -74,7 +74,7 @@ constexpr Command kCommands[] = {
      "printf '%s\\n' '--start 0s --exposure 10ms a.png' '-k trail.fn b.png' | nutik-cl batch - clip.tik",
      run_batch, kPictures},
     {Id::check, "check", "[CAPTURE.tik|CLIP]",
-     "Name what is wrong or suspicious in functions, masks, captures: with each function's figures.",
+     "Name what is wrong or suspicious in functions, masks, captures (and tell each function's figures).",
      "nutik-cl check -k regions.fn\n"
      "nutik-cl check -m regions.pgm -k regions.fn clip.tik\n"
      "nutik-cl check --json -m regions.pgm -k regions.fn clip.tik\n"
@@ -89,7 +89,7 @@ constexpr Command kCommands[] = {
      "nutik-cl trace --pixel 0,0 --start 0.4s --exposure 10ms clip.tik",
      run_trace, kUnderstanding},
     {Id::mask, "mask", "[CAPTURE.tik|CLIP] [MASK.pgm]",
-     "Make a mask from shapes, pictures and motion: without an image editor.",
+     "Make a mask from shapes, pictures and motion (no image editor is needed).",
      "nutik-cl mask --moving clip.tik mask.pgm --preview preview.png\n"
      "nutik-cl mask --moving --smooth 2 --largest --grow 4 clip.tik mask.pgm\n"
      "nutik-cl mask --tag 128 --changed-between 0.3s 0.5s --tag 255 --ellipse 320,180,60,40 clip.tik\n"
