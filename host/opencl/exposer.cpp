@@ -6,6 +6,7 @@
 
 #include "opencl/needed_tiles.hpp"
 #include "opencl/opencl_api.hpp"
+#include "system/mapped_file.hpp"
 
 namespace nutik {
 namespace {
@@ -244,11 +245,13 @@ void Exposer::launch(const cl::Buffer& payload, std::span<const BlockEntry> entr
       const Band& band = exposed.band;
       const ExposeLaunch launched{band.sum_tiles, static_cast<cl_uint>(part.size()),
                                   static_cast<cl_uint>(plan_.function_count()), is_first ? 1u : 0u};
+      keep_watching_mapped_files();  // what was launched before may have been compiled at that moment
       const cl::Event event =
           kernel(items(kernel, device_.queue, work_.shape, band.sum_tiles), payload, entries_of_part, tables.parts,
                  tables.gains, tables.weights, tables.boundaries, exposed.map.tiles, exposed.map.of_tile,
                  exposed.map.of_lane, exposes, light_, kept, exposed.bundles, exposed.sums, launched);
       event.wait();
+      keep_watching_mapped_files();
       const std::optional<double> took_ms = milliseconds(event);
       statistics_.expose_ms += took_ms.value_or(0.0);
       statistics_.is_timed &= took_ms.has_value();

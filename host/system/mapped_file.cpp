@@ -186,13 +186,20 @@ void MappedFile::release(std::span<const std::byte> part) const {
 
 void watch_mapped_files() {
   static_cast<void>(page_bytes());  // a handler may not be the first to ask
+  SharedState& state = shared_state();
+  if (!state.is_watching.exchange(true)) sigaction(SIGBUS, nullptr, &state.bus_action_before);
+  keep_watching_mapped_files();
+}
+
+void keep_watching_mapped_files() {
+  if (!shared_state().is_watching) return;
+  struct sigaction now {};
+  if (sigaction(SIGBUS, nullptr, &now) == 0 && now.sa_sigaction == replace_lost_pages) return;
   struct sigaction action {};
   action.sa_sigaction = replace_lost_pages;
   action.sa_flags = SA_SIGINFO | SA_ONSTACK;  // as whoever was asked before may need it
   sigemptyset(&action.sa_mask);
-  static const bool is_watching = sigaction(SIGBUS, nullptr, &shared_state().bus_action_before) == 0 &&
-                                  sigaction(SIGBUS, &action, nullptr) == 0;
-  static_cast<void>(is_watching);
+  sigaction(SIGBUS, &action, nullptr);
 }
 
 void do_one_work() { shared_state().is_one_work = true; }

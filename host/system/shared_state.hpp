@@ -24,6 +24,7 @@ struct SharedState {
   std::uint64_t mapped_losses = 0;
   std::string last_lost_file;
   std::atomic<bool> is_one_work{false};
+  std::atomic<bool> is_watching{false};  // an application has asked for it
   struct sigaction bus_action_before {};  // what is done where no file of ours was lost
   std::atomic<KnownTemporary*> temporaries{nullptr};
   std::mutex registering_temporaries;

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <thread>
 
@@ -10,6 +12,7 @@
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
+#include "system/mapped_file.hpp"
 
 namespace nutik {
 namespace {
@@ -58,6 +61,24 @@ void expect_rectangles(Renderer& renderer, const RandomCase& random, RenderContr
           << random.text();
     }
   }
+}
+
+// A driver that compiles while it launches has LLVM's handler in place of the program's.
+TEST(RenderControl, LostFilesAreWatchedAfterADriverHasCompiled) {
+  watch_mapped_files();
+  const auto handler = [] {
+    struct sigaction now {};
+    sigaction(SIGBUS, nullptr, &now);
+    return now.sa_sigaction;
+  };
+  const auto of_program = handler();
+  OpenClRenderer renderer(test::renderer_options(std::nullopt));
+  const RandomCase random(0, kColour);
+  MemoryCapture capture = random.encode();
+  const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
+  std::signal(SIGBUS, [](int) { std::_Exit(7); });
+  static_cast<void>(renderer.render(plan, capture, {ValueType::light64, 0}, {}));
+  EXPECT_EQ(handler(), of_program);
 }
 
 TEST(RenderControl, RectanglesArePartsOfThePicture) {

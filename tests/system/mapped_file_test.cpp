@@ -62,6 +62,19 @@ TEST_F(LostFile, IsZerosAndThenAnError) {
               "c.tik changed or could not be read any more while it was read");
 }
 
+TEST_F(LostFile, IsStillZerosAfterALibraryTookTheSignal) {
+  const auto run = [&] {
+    watch_mapped_files();
+    std::signal(SIGBUS, [](int) { std::_Exit(7); });
+    keep_watching_mapped_files();
+    const MappedFile file(path_);
+    fs::resize_file(path_, 0);
+    if (sum_of(file.bytes()) != 0) std::exit(1);
+    end_by_check();
+  };
+  EXPECT_EXIT(run(), testing::ExitedWithCode(3), "c.tik changed");
+}
+
 // Also of one that nobody read again: what was read before may be another file's already.
 TEST_F(LostFile, IsNoticedWhenItIsClosed) {
   for (const bool is_shorter : {true, false}) {
