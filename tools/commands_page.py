@@ -73,10 +73,6 @@ def items(text):
     return [(plain(term), plain(said)) for term, said in re.findall(r"^\.TP\n(.*)\n(.*)\n", text, re.MULTILINE)]
 
 
-def in_table(text):
-    return text.replace("|", "\\|")
-
-
 def anchor(heading):
     return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
 
@@ -88,6 +84,10 @@ def long_name(term):
 
 def folded(text, indent=""):
     return textwrap.fill(text, 120, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+
+
+def listed(pairs):
+    return "".join(folded(f"- `{term}`: {said}", "  ") + "\n" for term, said in pairs)
 
 
 def taken_by(command, options):
@@ -128,9 +128,9 @@ def page_of(man):
                 for title, body in groups(section(man, "EXAMPLES"))}
     usual = dict(usual_options(names, option_groups))
     text = PREFACE + "\n## Usual options\n\n"
-    text += "*As usual* stands for all of these; a heading that a command lists replaces its row.\n\n"
-    text += "| | |\n| --- | --- |\n"
-    text += "".join(f"| [{heading}](#{anchor(heading)}) | {', '.join(taken)} |\n" for heading, taken in usual.items())
+    text += "*As usual* stands for all of these; a heading that a command lists counts instead.\n\n"
+    text += "".join(folded(f"- [{heading}](#{anchor(heading)}): {', '.join(taken)}", "  ") + "\n"
+                    for heading, taken in usual.items())
     for title, commands in command_groups:
         text += f"\n## {title}\n"
         for term, summary in commands:
@@ -144,11 +144,9 @@ def page_of(man):
             text += "".join(f"\n{line}" for line in taken) + ("\n" if taken else "")
     text += "\n## Options\n"
     for heading, options in option_groups:
-        text += f"\n### {heading}\n\n| option | |\n| --- | --- |\n"
-        text += "".join(f"| `{in_table(term)}` | {in_table(said)} |\n" for term, said, _ in options)
+        text += f"\n### {heading}\n\n" + listed((term, said) for term, said, _ in options)
     for title in ("EXIT STATUS", "ENVIRONMENT"):
-        text += f"\n## {title.capitalize()}\n\n| | |\n| --- | --- |\n"
-        text += "".join(f"| `{term}` | {in_table(said)} |\n" for term, said in items(section(man, title)))
+        text += f"\n## {title.capitalize()}\n\n" + listed(items(section(man, title)))
     return text
 
 
