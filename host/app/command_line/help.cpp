@@ -149,8 +149,9 @@ std::string short_lines(const Option& option) {
   line += brief(option.help);
   std::string choices = ":";
   for (const std::string& choice : option.choices()) choices += " " + choice + (choice.ends_with(':') ? "…" : "");
-  if (choices.size() > 1 && columns(line + choices) <= kDefault) line += choices;
-  return line + '\n';
+  if (choices.size() > 1 && columns(line + choices) <= kDefault) return line + choices + '\n';
+  const std::string below = std::string(kOptionColumn, ' ') + choices.substr(std::min<std::size_t>(choices.size(), 2));
+  return line + (option.choices().size() > 1 && columns(below) <= kDefault ? ":\n" + below : "") + '\n';
 }
 
 }  // namespace
