@@ -124,11 +124,11 @@ class Session {
   void render_many(std::span<const ExposureRequest> requests, const OutputFormat& output, const RenderControl& control,
                    const RenderedOne& done);
 
-  // How the light of a pixel came about, and of the mean of all pixels of a mask value. Cancelled between blocks.
+  // How the light of a pixel came about, and of the mean of all pixels of a mask value.
   [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const TracedPixel& pixel,
-                                     std::stop_token stop = {});
+                                     const ReportedProgress& progress = {});
   [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const TracedTag& tag,
-                                     std::stop_token stop = {});
+                                     const ReportedProgress& progress = {});
 
   // Every arithmetic of the OpenCL device against the reference.
   [[nodiscard]] ValidatedExposure validate(const ExposureRequest& request, const OutputFormat& output,

@@ -151,8 +151,8 @@ class Capture:
         """[samples] float64: when each sample's exposure begins, in seconds; times_ns has it exactly."""
         return self.times_ns[:, 0] / 1e9
 
-    def records(self, region: Optional[Sequence[int]] = None, *, first: int = 0,
-                last: Optional[int] = None) -> NDArray[np.void]:
+    def records(self, region: Optional[Sequence[int]] = None, *, first: int = 0, last: Optional[int] = None,
+                progress: Progress = None) -> NDArray[np.void]:
         """What pixels hold, from one change to the next.
 
         Parameters
@@ -180,7 +180,7 @@ class Capture:
         end = len(self) if last is None else count_of(last, "last")
         if not count_of(first, "first") < end <= len(self):
             raise UsageError(f"there are no samples from {first} to {end}; the capture has {len(self)}")
-        places, samples, codes = self._held.records(box, first, end)
+        places, samples, codes = self._held.records(box, first, end, progress)
         code: Any = ("code", self.dtype, (3,)) if codes.shape[1] == 3 else ("code", self.dtype)
         made = np.empty(len(codes), [("x", np.uint32), ("y", np.uint32), ("start_ns", np.int64), ("end_ns", np.int64), code])
         times = self.times_ns
@@ -232,7 +232,7 @@ class Capture:
                unmapped: Optional[str] = None, precision: Optional[str] = None, codes: bool = False, dtype: DTypeLike = None,
                transfer: Optional[str] = None, negative: Optional[str] = None,
                region: Optional[Sequence[int]] = None, bounds: bool = False,
-               strict: bool = False) -> Picture:
+               strict: bool = False, progress: Progress = None) -> Picture:
         """Exposes a picture: of an interval, or with gain functions.
 
         Parameters
@@ -280,7 +280,8 @@ class Capture:
                                normalize, gain, unmapped, strict)
         output = self._output(codes, dtype, transfer, negative)
         box = None if region is None else box_of(region, "region")
-        held = _nutik.render(self._held, asked, output, box, None if precision is None else str(precision), bounds)
+        held = _nutik.render(self._held, asked, output, box, None if precision is None else str(precision), bounds,
+                             progress)
         picture = Picture(held)
         warn(held.figures["warnings"])
         if picture.dtype.kind == "u" and negative in (None, "saturate"):
@@ -349,7 +350,7 @@ class Capture:
               functions: Optional[Functions] = None, mask: Optional[MaskLike] = None, start: Optional[Time] = None,
               exposure: Optional[Time] = None, shutter: Optional[str] = None, shutter_error: Optional[float] = None,
               feather: Union[str, float, None] = None, delay: Optional[DelayLike] = None, normalize: str = "support",
-              gain: float = 1.0, unmapped: Optional[str] = None) -> list[Trace]:
+              gain: float = 1.0, unmapped: Optional[str] = None, progress: Progress = None) -> list[Trace]:
         """How the light of a pixel came about, or the mean of all pixels of a tag.
 
         Parameters
@@ -380,7 +381,7 @@ class Capture:
         asked = self._exposure(functions, mask, start, exposure, shutter, shutter_error, feather, delay,
                                normalize, gain, unmapped)
         pixel = None if x is None else (count_of(x, "x"), count_of(y, "y"))
-        traces, _, told = _nutik.trace(self._held, asked, pixel, None if tag is None else tag_of(tag))
+        traces, _, told = _nutik.trace(self._held, asked, pixel, None if tag is None else tag_of(tag), progress)
         warn(told)
         return [Trace._of(arrays) for arrays in traces]
 

@@ -13,8 +13,8 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import cache
 from keyword import iskeyword
-from os import PathLike, fsdecode
-from os.path import dirname
+from os import PathLike, fsdecode, remove
+from os.path import dirname, exists, isfile
 from threading import Event, Thread, current_thread, main_thread
 from time import sleep
 from typing import Any, Protocol, Union
@@ -99,6 +99,8 @@ def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Map
         said[name] = [_words(kind, name, each) for each in value] if is_repeated and is_list(value) else [
             _words(kind, name, value)]
     words = _nutik.command_words(command, said)
+    last = fsdecode(operands[-1]) if operands else ""
+    was_there = exists(last)
     _sleep_at_the_end()
     _end_at_exit()
     process = subprocess.Popen([sys.executable, "-c", _MAIN, dirname(__file__), *words, "--", *map(fsdecode, operands)],
@@ -124,6 +126,8 @@ def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Map
     except BaseException:
         process.send_signal(signal.SIGINT)
         process.wait()
+        if not was_there and isfile(last):  # the program keeps a film's frames so far
+            remove(last)
         raise
     finally:
         for reader, stream in zip(readers, (process.stdout, process.stderr)):

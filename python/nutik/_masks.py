@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import Array, Path, path_word, reading, tag_of, whole
+from ._words import Array, Path, Progress, path_word, reading, tag_of, whole
 
 
 class Mask:
@@ -37,23 +37,23 @@ class Mask:
         return mask
 
     @classmethod
-    def of_layers(cls, alphas: Mapping[int, ArrayLike], *, rest: int = 0) -> Mask:
+    def of_layers(cls, alphas: Mapping[int, ArrayLike], *, rest: int = 0, progress: Progress = None) -> Mask:
         """A soft mask. alphas: for each tag [height, width], the share of each pixel that it has: float in [0, 1],
         uint8 of 255, uint16 of 65535, or bool. `rest` is the tag that gets what they leave.
 
         Shares are kept in 65535ths. Raises InputError where they come to more than all of a pixel.
         """
         layers = {tag_of(tag): _shares(alpha, tag) for tag, alpha in alphas.items()}
-        return cls._of(_nutik.Mask.of_layers(layers, tag_of(rest)))
+        return cls._of(_nutik.Mask.of_layers(layers, tag_of(rest), progress))
 
-    def feathered(self, feather: Union[str, float]) -> Mask:
+    def feathered(self, feather: Union[str, float], *, progress: Progress = None) -> Mask:
         """A mask of tags, blended along its edges: pixels to either side, 6 or '6px', or '2px,M255=6px' for a tag of
         its own (docs/reference/masks.md).
 
         >>> nutik.Mask(np.eye(16, dtype=np.uint8)).feathered(2).is_soft
         True
         """
-        return Mask._of(self._held.feathered(feather if isinstance(feather, str) else f"{feather:g}px"))
+        return Mask._of(self._held.feathered(feather if isinstance(feather, str) else f"{feather:g}px", progress))
 
     @property
     def tags(self) -> Array:

@@ -76,7 +76,7 @@ RenderControl control_of(const AskedExposure& asked, const Region& region, const
 }
 
 HeldPicture render(const OpenCapture& capture, const AskedExposure& asked, const Settings& output, const Region& region,
-                   const std::optional<std::string>& precision, bool bounds) {
+                   const std::optional<std::string>& precision, bool bounds, const py::object& progress) {
   Session& session = *capture.session;
   const ExposureRequest request = exposure_request(asked);
   const OutputFormat format = output_of(output, session.format());
@@ -84,8 +84,9 @@ HeldPicture render(const OpenCapture& capture, const AskedExposure& asked, const
   control.maps_bounds = bounds;
   ExposedPicture exposed = without_lock([&](const Stopping& stopping) {
     control.stop = stopping.stop;
+    control.progress = stopping.progress();
     return session.render(request, format, control);
-  });
+  }, progress);
   py::dict figures = figures_of(exposed);
   if (exposed.bounds) {
     const Picture& whole = *exposed.bounds;
@@ -251,7 +252,7 @@ void bind_rendering(py::module_& module) {
            py::arg("functions"), py::arg("mask"), py::arg("settings"), py::arg("delays_ns"));
   module.def("devices", &devices);
   module.def("render", &render, py::arg("capture"), py::arg("exposure"), py::arg("output"), py::arg("region"),
-             py::arg("precision"), py::arg("bounds") = false);
+             py::arg("precision"), py::arg("bounds"), py::arg("progress"));
   module.def("render_many", &render_many, py::arg("capture"), py::arg("exposure"), py::arg("count"), py::arg("starts"),
              py::arg("lengths"), py::arg("functions"), py::arg("output"), py::arg("region"), py::arg("precision"),
              py::arg("progress"));
