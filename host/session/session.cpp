@@ -362,7 +362,7 @@ void Session::Implementation::render_many(std::span<const ExposureRequest> reque
       rendered.picture = stored(std::move(light[i]), plans[i].capture, output, rendered.saturation);
       state_values(rendered.picture, plans[i].capture, output);
       warn_of_infinite(rendered);
-      done(next++, rendered);
+      done(next++, rendered, plans[i].functions);
     }
     plans.clear();
     waiting.clear();
@@ -384,7 +384,8 @@ void Session::Implementation::render_many(std::span<const ExposureRequest> reque
       }
     }
     expose_waiting();
-    done(next++, render(request, output, control));
+    const ExposedPicture exposed = render(request, output, control);
+    done(next++, exposed, exposed.figures.functions);
   }
   expose_waiting();
 }

@@ -68,6 +68,12 @@ class Trace:
         return cls(**arrays)
 
 
+def _warn_of_black(still_gains: Mapping[int, float], negative: Optional[str]) -> None:
+    if negative in (None, "saturate"):
+        warn(f"M{tag}: the still gain is {gain:.6g}: whatever does not move comes out black; negative='offset' shows light "
+             "below 0, and light itself (codes=False) keeps it" for tag, gain in still_gains.items() if gain < 0)
+
+
 class Capture:
     """A capture that is open: nutik.open() and nutik.encode() make one.
 
@@ -284,10 +290,8 @@ class Capture:
                              progress)
         picture = Picture(held)
         warn(held.figures["warnings"])
-        if picture.dtype.kind == "u" and negative in (None, "saturate"):
-            warn(f"M{each['tag']}: the still gain is {each['still_gain']:.6g}: whatever does not move comes out black; "
-                 "negative='offset' shows light below 0, and light itself (codes=False) keeps it"
-                 for each in picture.plan["functions"] if each["still_gain"] < 0)
+        if picture.dtype.kind == "u":
+            _warn_of_black({each["tag"]: each["still_gain"] for each in picture.plan["functions"]}, negative)
         return picture
 
     def render_many(self, functions: Optional[Sequence[Functions]] = None, mask: Optional[MaskLike] = None, *,
@@ -340,11 +344,13 @@ class Capture:
         held = [{tag: function._held for tag, function in self._functions(each, mask is not None).items()}
                 for each in lists.get("functions", [])]
         box = None if region is None else box_of(region, "region")
-        array, bounds, told = _nutik.render_many(self._held, asked, count, words["starts"], words["exposures"], held,
+        array, bounds, saturated, told, still_gains = _nutik.render_many(self._held, asked, count, words["starts"], words["exposures"], held,
                                                  self._output(codes, dtype, transfer, negative), box,
                                                  None if precision is None else str(precision), progress)
         warn(told)
-        return Pictures._of(array, bounds)
+        if array.dtype.kind == "u":
+            _warn_of_black(still_gains, negative)
+        return Pictures._of(array, bounds, saturated)
 
     def trace(self, x: Optional[int] = None, y: Optional[int] = None, *, tag: Optional[int] = None,
               functions: Optional[Functions] = None, mask: Optional[MaskLike] = None, start: Optional[Time] = None,

@@ -35,11 +35,12 @@ class Pictures:
 
     array: Array         # [pictures, height, width] or [pictures, height, width, 3]: light or codes
     error_bounds: NDArray[np.float64]  # [pictures] float64: as error_bound of a Picture; NaN of the reference
+    saturated: Optional[NDArray[np.uint64]]  # [pictures, 2]: as saturated of a Picture; None where light is kept
 
     @classmethod
-    def _of(cls, array: Array, bounds: NDArray[np.float64]) -> Pictures:
+    def _of(cls, array: Array, bounds: NDArray[np.float64], saturated: NDArray[np.uint64]) -> Pictures:
         array.flags.writeable = False
-        return cls(array, _bounds(bounds, array))
+        return cls(array, _bounds(bounds, array), saturated if array.dtype.kind == "u" else None)
 
     def __array__(self, dtype: DTypeLike = None, copy: Optional[bool] = None) -> NDArray[np.generic]:
         return self.array if dtype is None and not copy else self.array.astype(dtype or self.array.dtype, copy=bool(copy))
