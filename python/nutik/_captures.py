@@ -18,8 +18,8 @@ from ._masks import Mask, MaskLike, mask_of
 from ._nutik import InputError, MemoryTooLittle, UsageError
 from ._pictures import Picture, Pictures
 from ._told import Figures
-from ._words import (Axes, DelayLike, Path, Progress, Time, axes_of, box_of, count_of, delays_ns, ellipsis, is_list,
-                     settings_of, tag_of, time_word, warn)
+from ._words import (Axes, DataArray, DelayLike, Path, Progress, Time, axes_of, box_of, count_of, delays_ns, ellipsis,
+                     is_list, labelled, settings_of, tag_of, time_word, warn)
 
 Codes = Union[NDArray[np.uint8], NDArray[np.uint16]]
 Index = Union[int, slice, ellipsis, tuple[Union[int, slice, ellipsis, None], ...]]
@@ -111,6 +111,11 @@ class Capture:
         return (len(self), *self._held.shape)
 
     @property
+    def ndim(self) -> int:
+        """3, or 4 of colour."""
+        return len(self.shape)
+
+    @property
     def dtype(self) -> np.dtype[Union[np.uint8, np.uint16]]:
         """Of its codes: uint8 or uint16."""
         return np.dtype(np.uint8 if self._held.code_bytes == 1 else np.uint16)
@@ -151,6 +156,13 @@ class Capture:
         if copy is False:
             raise ValueError("a capture holds no array: a copy of its codes is made")
         return self[:] if dtype is None else self[:].astype(dtype, copy=False)
+
+    def to_xarray(self, samples: slice = slice(None)) -> DataArray:
+        """The codes of samples as an xarray.DataArray [time, y, x(, channel)], a copy; `time` is when each begins, in
+        seconds, and attributes are `figures` and `facts`. Raises MemoryTooLittle as capture[samples] does."""
+        figures = {name: each if isinstance(each, str) else float(each) if isinstance(each, Fraction) else int(cast(int, each))
+                   for name, each in self.figures.items() if name != "tiles"}  # what files of arrays take
+        return labelled(self[samples], {"time": self.times[samples]}, facts=self.facts, **figures)
 
     @property
     def times(self) -> NDArray[np.float64]:

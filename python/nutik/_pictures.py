@@ -10,7 +10,7 @@ from os.path import exists, join
 from secrets import token_hex
 from shutil import copyfileobj
 from tempfile import TemporaryDirectory
-from typing import BinaryIO, Optional, Union
+from typing import BinaryIO, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -18,7 +18,7 @@ from numpy.typing import DTypeLike, NDArray
 from . import _nutik
 from ._nutik import OutputError, UsageError
 from ._told import Plan, Statistics, Uncertainty
-from ._words import Array, Path, path_word
+from ._words import Array, DataArray, Path, labelled, path_word
 
 
 def _bounds(light: Union[float, NDArray[np.float64]], pictures: Array) -> NDArray[np.float64]:
@@ -47,6 +47,11 @@ class Pictures:
 
     def __len__(self) -> int:
         return len(self.array)
+
+    def to_xarray(self, **first: Sequence[float]) -> DataArray:
+        """An xarray.DataArray [picture, y, x(, channel)], no copy. The first axis has the coordinate that is named,
+        to_xarray(start=starts), or numbers."""
+        return labelled(self.array, first or {"picture": range(len(self))})
 
 
 class Picture:
@@ -126,6 +131,10 @@ class Picture:
     def statistics(self) -> Statistics:
         """What the rendering took. Empty of a plate."""
         return deepcopy(self._held.figures.get("statistics", {}))
+
+    def to_xarray(self) -> DataArray:
+        """An xarray.DataArray [y, x(, channel)], no copy."""
+        return labelled(self._array, {}, error_bound=self.error_bound)
 
     def write(self, path: Union[Path, BinaryIO], *, kind: Optional[str] = None, quality: Optional[int] = None,
               keep_pixels: bool = False) -> None:

@@ -14,7 +14,7 @@ from fractions import Fraction
 from os import PathLike, fsdecode
 from os.path import dirname, exists, join
 from importlib import import_module
-from typing import (TYPE_CHECKING, Any, BinaryIO, Callable, Iterable, Iterator, Optional, Protocol, Sequence, Union, cast)
+from typing import (TYPE_CHECKING, Any, BinaryIO, Callable, Iterable, Iterator, Mapping, Optional, Protocol, Sequence, Union, cast)
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -79,6 +79,27 @@ class Axes(Protocol):
     def set_ylabel(self, text: str) -> object: ...
     def get_xlabel(self) -> str: ...
     def get_ylabel(self) -> str: ...
+
+
+class DataArray(Protocol):
+    """That of xarray, as far as its type is told here."""
+
+    @property
+    def dims(self) -> tuple[object, ...]: ...
+    @property
+    def values(self) -> NDArray[np.generic]: ...
+    def sel(self, indexers: None = None, method: Optional[str] = None, **where: object) -> DataArray: ...
+    def isel(self, indexers: None = None, **where: object) -> DataArray: ...
+    def mean(self, dim: Union[str, Sequence[str], None] = None) -> DataArray: ...
+
+
+def labelled(values: NDArray[np.generic], first: Mapping[str, Any], **attributes: object) -> DataArray:
+    """Pictures with the names of their axes, and coordinates: pixels, from the first one's middle; and those of `first`."""
+    axes = [*first, "y", "x", "channel"][:values.ndim]
+    coordinates = {"y": np.arange(values.shape[len(first)]), "x": np.arange(values.shape[len(first) + 1]),
+                   "channel": ["red", "green", "blue"], **first}
+    return cast(DataArray, import_module("xarray").DataArray(
+        values, dims=axes, coords={name: coordinates[name] for name in axes}, attrs=attributes))
 
 
 def axes_of(ax: Optional[Axes], x: str, y: str) -> Axes:
