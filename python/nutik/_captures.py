@@ -50,8 +50,7 @@ class Trace:
                                                 for name, value in vars(self).items())
 
     def plot(self, ax: Optional[Axes] = None, **style: object) -> Axes:
-        """Draws light over seconds with matplotlib, a line for each channel, into `ax` or the current axes, which it
-        returns."""
+        """Draws light over seconds with matplotlib, a line for each channel."""
         axes = axes_of(ax, "time, s", "light")
         for channel, colour in enumerate(("red", "green", "blue") if self.light.shape[2] == 3 else ("",)):
             named: dict[str, object] = {"color": colour} if colour and not {"c", "color"} & style.keys() else {}
@@ -159,7 +158,16 @@ class Capture:
 
     def to_xarray(self, samples: slice = slice(None)) -> DataArray:
         """The codes of samples as an xarray.DataArray [time, y, x(, channel)], a copy; `time` is when each begins, in
-        seconds, and attributes are `figures` and `facts`. Raises MemoryTooLittle as capture[samples] does."""
+        seconds, and attributes are `figures` and `facts`.
+
+        Parameters
+        ----------
+        samples : which, slice(10, 20) of those from 10 on and before 20; all without it.
+
+        Raises
+        ------
+        MemoryTooLittle where they take more than 4 GiB.
+        """
         figures = {name: each if isinstance(each, str) else float(each) if isinstance(each, Fraction) else int(cast(int, each))
                    for name, each in self.figures.items() if name != "tiles"}  # what files of arrays take
         return labelled(self[samples], {"time": self.times[samples]}, facts=self.facts, **figures)
@@ -324,8 +332,6 @@ class Capture:
         starts, exposures : one for all pictures, or one for each. What is a list has one length.
         progress : called with (pictures done, of how many).
 
-        The rest is as of render().
-
         Returns
         -------
         Pictures, whose array is [pictures, height, width] or [pictures, height, width, 3].
@@ -376,8 +382,6 @@ class Capture:
         x, y : the pixel, or
         tag : of the mask.
 
-        The rest is as of render().
-
         Returns
         -------
         A Trace for each function that has a share.
@@ -410,8 +414,7 @@ class Capture:
         Parameters
         ----------
         by : codes that the same light may differ by; None: by the capture's own noise.
-        codes, dtype, transfer : as of render(), but for float64.
-        progress : as of nutik.open().
+        dtype : float32 without codes. With codes uint8 or uint16, the capture's own without dtype.
 
         Returns
         -------
@@ -438,7 +441,6 @@ class Capture:
         mask, tag : only pixels of the mask with this tag count, or with any tag but 0.
         by : changes of no more than so many codes are none.
         count_redrawn : samples at which a codec drew its picture anew count as those beside them without it.
-        progress : as of nutik.open().
 
         Returns
         -------
@@ -462,14 +464,28 @@ class Capture:
               dtype: DTypeLike = None, transfer: Optional[str] = None, progress: Progress = None) -> _finds.Study:
         """A motion study that finds its subject by itself (docs/how-to/study.md).
 
-        style: 'trail', 'strobe', 'rear-curtain', 'frozen', 'clean' or 'slit'. moments: how many, or which times. spacing:
-        'time' or 'distance'. trail: 'even', 'fade', 'ramp' or 'none'. slit_from: 'left', 'right', 'top' or 'bottom'.
-        regions: (x, y, width, height) each with a subject of its own. by: codes that the subject must differ by more than
-        from the empty scene; None: 1/16 of white. feather: pixels that its border is blended over; None: 2; 0 for
-        slit's strips. progress: as of nutik.open().
+        Parameters
+        ----------
+        style : 'trail', 'strobe', 'rear-curtain', 'frozen', 'clean' or 'slit'.
+        moments : how many, or which times.
+        spacing : 'time' or 'distance'.
+        trail : 'even', 'fade', 'ramp' or 'none'.
+        slit_from : 'left', 'right', 'top' or 'bottom'.
+        regions : (x, y, width, height) each with a subject of its own.
+        by : codes that the subject must differ by more than from the empty scene; None: 1/16 of white.
+        feather : pixels that its border is blended over; None: 2; 0 for slit's strips.
 
-        Raises InputError where nothing moves or everything does: the camera must stand still (align='rigid' where it is
-        encoded).
+        Raises
+        ------
+        InputError where nothing moves or everything does: the camera must stand still (align='rigid' where it is encoded).
+
+        Examples
+        --------
+        >>> scene = np.full((40, 24, 96), 90, np.uint8)
+        >>> for k in range(40):
+        ...     scene[k, 8:16, 2 * k:2 * k + 8] = 250
+        >>> sorted(nutik.encode(scene, rate=100).study("strobe", moments=3).functions)
+        [0, 1, 2, 3]
         """
         asked: Union[int, list[str], None]
         if moments is None:
@@ -495,10 +511,19 @@ class Capture:
               unmapped: Optional[str] = None, progress: Progress = None) -> _finds.Solution:
         """Gains and times that make a picture as it is wished (docs/how-to/solve.md).
 
-        functions: the text of a function file with names in place of numbers, 'M0{[0:0], [1:1], [1000000000:rest]}'.
-        wishes: 'M0 = plate', '500,120,80,60 gone', 'R1 <= 0.5'. free: of a gain (least, most), of a time (from, to) or
-        (from, to, step). mask: whose tags M0 ... are; regions: a second mask, whose values R0 ... are.
-        progress: as of nutik.open().
+        Parameters
+        ----------
+        functions : the text of a function file with names in place of numbers, 'M0{[0:0], [1:1], [1000000000:rest]}'.
+        wishes : 'M0 = plate', '500,120,80,60 gone', 'R1 <= 0.5'.
+        free : of a gain (least, most), of a time (from, to) or (from, to, step).
+        mask : whose tags M0 ... are.
+        regions : a second mask, whose values R0 ... are.
+
+        Examples
+        --------
+        >>> wished = capture.solve("M0{[0:g], [50000000:g], [50000001:0]}", ["all = 0.25"], free={"g": (0, 9)})
+        >>> wished.is_kept, bool(0 < wished.gains["g"] < 9)
+        (True, True)
         """
         asked = self._asked(None, mask, feather, dict(start=start, normalize=normalize, gain=gain, unmapped=unmapped),
                             None)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime
 import errno
+import re
 import shutil
 import sys
 import tempfile
@@ -122,6 +123,11 @@ def as_file(source: Any, name: str) -> Iterator[str]:
         with open(path, "wb") as file:
             shutil.copyfileobj(source, file)
         yield path
+
+
+def in_python(text: str) -> str:
+    """Arguments in place of the command line's options."""
+    return re.sub(r"--([a-z][a-z-]*)", lambda option: option[1].replace("-", "_") + "=", text)
 
 
 def is_list(value: Any) -> bool:

@@ -38,7 +38,7 @@ class CaptureFormat(_Format):  # type: ignore[misc]
             return self._capture[index], {"time": float(self._capture.times[index])}
 
         def _get_meta_data(self, index: Any) -> dict[str, object]:
-            return dict(self._capture.figures) if index is None else self._get_data(index)[1]
+            return {**self._capture.figures} if index is None else {**self._get_data(index)[1]}
 
 
 import_module("imageio").formats.add_format(CaptureFormat("NUTIK", "Captures of nutik-cl", ".tik", "iIvV"),
