@@ -160,12 +160,9 @@ class Capture:
         """The codes of samples as an xarray.DataArray [time, y, x(, channel)], a copy; `time` is when each begins, in
         seconds, and attributes are `figures` and `facts`.
 
-        Parameters
-        ----------
+        Parameters:
         samples : which, slice(10, 20) of those from 10 on and before 20; all without it.
-
-        Raises
-        ------
+        Raises:
         MemoryTooLittle where they take more than 4 GiB.
         """
         figures = {name: each if isinstance(each, str) else float(each) if isinstance(each, Fraction) else int(cast(int, each))
@@ -181,21 +178,14 @@ class Capture:
                 progress: Progress = None) -> NDArray[np.void]:
         """What pixels hold, from one change to the next.
 
-        Parameters
-        ----------
+        Parameters:
         region : (x, y, width, height), only these pixels.
         first, last : only samples from `first` on and before `last`; what is held before or after is cut there.
-
-        Returns
-        -------
+        Returns:
         [records] with the fields x, y, start_ns, end_ns, code (of colour [3]); each pixel's in time order, row after row.
-
-        Raises
-        ------
+        Raises:
         UsageError where there are no such pixels or samples.
-
-        Examples
-        --------
+        Examples:
         >>> capture.records((3, 4, 1, 1), first=0, last=1)["end_ns"].tolist()
         [10000000]
         """
@@ -261,8 +251,7 @@ class Capture:
                strict: bool = False, progress: Progress = None) -> Picture:
         """Exposes a picture: of an interval, or with gain functions.
 
-        Parameters
-        ----------
+        Parameters:
         functions : one for all of the picture (a nutik.Function, a list of (time, gain), a callable over the whole
             capture), or one for each tag of `mask` ({0: ..., 128: ...}, or a function file).
         mask : [height, width] of tags, or {tag: alpha} of shares (the first function gets what they leave), a nutik.Mask,
@@ -282,18 +271,12 @@ class Capture:
         region : (x, y, width, height) in pixels, only these.
         bounds : also a map of what the arithmetic may be off by, Picture.bounds.
         strict : codes that may err by more than half of one raise ImpreciseError, and are no warning.
-
-        Returns
-        -------
+        Returns:
         Picture, whose array is [height, width] or [height, width, 3]: light, of which 1 is white, or codes.
-
-        Raises
-        ------
+        Raises:
         UsageError where the request does not fit the capture, InputError where mask and functions do not or the capture
         is damaged, DeviceError; KeyboardInterrupt at Ctrl-C.
-
-        Examples
-        --------
+        Examples:
         >>> capture.render(start="5f", exposure=0.02, codes=True).dtype
         dtype('uint8')
         >>> halves = np.zeros((24, 32), np.uint8)
@@ -326,22 +309,15 @@ class Capture:
         """Exposes many pictures in one call. Small ones (16384 values) with one function each are added up on the
         processor, in double, in one pass over the capture; others are made one by one.
 
-        Parameters
-        ----------
+        Parameters:
         functions : a list, of each picture those that render() takes.
         starts, exposures : one for all pictures, or one for each. What is a list has one length.
         progress : called with (pictures done, of how many).
-
-        Returns
-        -------
+        Returns:
         Pictures, whose array is [pictures, height, width] or [pictures, height, width, 3].
-
-        Raises
-        ------
+        Raises:
         UsageError where lists have different lengths or are empty; as render() does.
-
-        Examples
-        --------
+        Examples:
         >>> many = capture.render_many(starts=np.linspace(0, 0.05, 100), exposures="10ms")
         >>> many.array.shape, many.error_bounds.shape
         ((100, 24, 32), (100,))
@@ -377,21 +353,14 @@ class Capture:
               gain: float = 1.0, unmapped: Optional[str] = None, progress: Progress = None) -> list[Trace]:
         """How the light of a pixel came about, or the mean of all pixels of a tag.
 
-        Parameters
-        ----------
+        Parameters:
         x, y : the pixel, or
         tag : of the mask.
-
-        Returns
-        -------
+        Returns:
         A Trace for each function that has a share.
-
-        Raises
-        ------
+        Raises:
         UsageError where there is no such pixel or tag; as render() does.
-
-        Examples
-        --------
+        Examples:
         >>> trace, = capture.trace(3, 4, start=0, exposure="10ms")
         >>> bool(abs(trace.integral_ns.sum() / trace.support_ns - trace.exposed[0]) < 1e-12)
         True
@@ -411,21 +380,14 @@ class Capture:
               transfer: Optional[str] = None, progress: Progress = None) -> _finds.Plate:
         """The scene without what moves in it (docs/how-to/plate.md).
 
-        Parameters
-        ----------
+        Parameters:
         by : codes that the same light may differ by; None: by the capture's own noise.
         dtype : float32 without codes. With codes uint8 or uint16, the capture's own without dtype.
-
-        Returns
-        -------
+        Returns:
         Plate: a picture, and [height, width] of where it is a guess.
-
-        Raises
-        ------
+        Raises:
         UsageError, InputError where there is one sample; KeyboardInterrupt at Ctrl-C.
-
-        Examples
-        --------
+        Examples:
         >>> nutik.encode(np.full((9, 8, 8), 7, np.uint8), rate=9).plate(codes=True).picture.array[0, 0]
         7
         """
@@ -436,22 +398,15 @@ class Capture:
                  count_redrawn: bool = False, progress: Progress = None) -> _finds.Activity:
         """When it changes, and where.
 
-        Parameters
-        ----------
+        Parameters:
         mask, tag : only pixels of the mask with this tag count, or with any tag but 0.
         by : changes of no more than so many codes are none.
         count_redrawn : samples at which a codec drew its picture anew count as those beside them without it.
-
-        Returns
-        -------
+        Returns:
         Activity: changes by sample and by pixel.
-
-        Raises
-        ------
+        Raises:
         UsageError, InputError where no pixel counts; KeyboardInterrupt at Ctrl-C.
-
-        Examples
-        --------
+        Examples:
         >>> capture.activity().changed_pixels.shape
         (10,)
         """
@@ -464,8 +419,7 @@ class Capture:
               dtype: DTypeLike = None, transfer: Optional[str] = None, progress: Progress = None) -> _finds.Study:
         """A motion study that finds its subject by itself (docs/how-to/study.md).
 
-        Parameters
-        ----------
+        Parameters:
         style : 'trail', 'strobe', 'rear-curtain', 'frozen', 'clean' or 'slit'.
         moments : how many, or which times.
         spacing : 'time' or 'distance'.
@@ -474,13 +428,9 @@ class Capture:
         regions : (x, y, width, height) each with a subject of its own.
         by : codes that the subject must differ by more than from the empty scene; None: 1/16 of white.
         feather : pixels that its border is blended over; None: 2; 0 for slit's strips.
-
-        Raises
-        ------
+        Raises:
         InputError where nothing moves or everything does: the camera must stand still (align='rigid' where it is encoded).
-
-        Examples
-        --------
+        Examples:
         >>> scene = np.full((40, 24, 96), 90, np.uint8)
         >>> for k in range(40):
         ...     scene[k, 8:16, 2 * k:2 * k + 8] = 250
@@ -511,16 +461,13 @@ class Capture:
               unmapped: Optional[str] = None, progress: Progress = None) -> _finds.Solution:
         """Gains and times that make a picture as it is wished (docs/how-to/solve.md).
 
-        Parameters
-        ----------
+        Parameters:
         functions : the text of a function file with names in place of numbers, 'M0{[0:0], [1:1], [1000000000:rest]}'.
         wishes : 'M0 = plate', '500,120,80,60 gone', 'R1 <= 0.5'.
         free : of a gain (least, most), of a time (from, to) or (from, to, step).
         mask : whose tags M0 ... are.
         regions : a second mask, whose values R0 ... are.
-
-        Examples
-        --------
+        Examples:
         >>> wished = capture.solve("M0{[0:g], [50000000:g], [50000001:0]}", ["all = 0.25"], free={"g": (0, 9)})
         >>> wished.is_kept, bool(0 < wished.gains["g"] < 9)
         (True, True)

@@ -1,5 +1,6 @@
-"""Docstrings in NumPy's style. What a parameter is stands once: in the function's own docstring, in that of another one that
-takes it, too, or in the program's schema."""
+"""Docstrings in NumPy's style, made of those in the source, `Parameters:` and `name : what it is`, when the package is
+imported: types come from annotations, and what a parameter is stands once, in the function's own docstring, in that of
+another one that takes it, too, or in the program's schema."""
 
 from __future__ import annotations
 
@@ -16,7 +17,7 @@ from ._sources import open
 from ._words import in_python
 
 _ORDER = "Parameters", "Attributes", "Returns", "Raises", "Notes", "Examples"
-_SECTION = re.compile(rf"^({'|'.join(_ORDER)})\n-+\n", re.MULTILINE)
+_SECTION = re.compile(rf"^({'|'.join(_ORDER)}):\n", re.MULTILINE)
 _ENTRY = re.compile(r"^(\w+(?:, \w+)*) : (.*(?:\n[ \n].*)*)", re.MULTILINE)
 _WORKS = ("Works without Python's lock: any number of threads may use one capture. Ctrl-C ends it within half a second, with "
           "KeyboardInterrupt, and leaves no file that was not finished.")

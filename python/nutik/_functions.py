@@ -20,17 +20,12 @@ class Function:
     """A gain function: straight between its control points, held before the first and after the last. Functions do not
     change, and are equal where all points are.
 
-    Parameters
-    ----------
+    Parameters:
     times : [points], in time order; two may be equal, where the function jumps from the first gain to the second.
     gains : [points], any finite numbers, negative ones too.
-
-    Raises
-    ------
+    Raises:
     UsageError where times are out of order or a gain is not finite.
-
-    Examples
-    --------
+    Examples:
     >>> ramp = nutik.Function([0, "100ms"], [0, 1])
     >>> ramp(0.05), (2 * ramp.shifted(0.1) - ramp)(0.15)
     (0.5, 0.0)
@@ -50,13 +45,10 @@ class Function:
     def from_ns(cls, times_ns: ArrayLike, gains: ArrayLike) -> Function:
         """The same of whole nanoseconds.
 
-        Parameters
-        ----------
+        Parameters:
         times_ns : [points] of integers, in time order.
         gains : [points] of finite numbers.
-
-        Examples
-        --------
+        Examples:
         >>> nutik.Function.from_ns([0, 100], [0, 1])
         <nutik.Function [0:0], [100:1]>
         """
@@ -100,8 +92,7 @@ class Function:
     def shifted(self, by: Time) -> Function:
         """The same function later.
 
-        Parameters
-        ----------
+        Parameters:
         by : how much; negative: earlier.
         """
         return Function._of(self._held.shifted_ns(time_ns(by, "by")))
@@ -109,8 +100,7 @@ class Function:
     def scaled(self, factor: float) -> Function:
         """The same function with other gains.
 
-        Parameters
-        ----------
+        Parameters:
         factor : every gain is multiplied by it; f * 2 is the same.
         """
         return Function._of(self._held.scaled(factor))
@@ -166,8 +156,7 @@ class Function:
     def text(self, tag: int = 0) -> str:
         """Its line in a function file. Jumps become steps of 1 ns, for files have none.
 
-        Parameters
-        ----------
+        Parameters:
         tag : the mask value that it is for, M0.
         """
         return self._held.text(tag_of(tag))
@@ -196,13 +185,10 @@ FunctionLike = Union[Function, Sequence[tuple[Time, float]], Gain]
 def boxcar(start: Time, exposure: Time, gain: float = 1.0) -> Function:
     """A gain from a start for a length of time, 0 elsewhere.
 
-    Parameters
-    ----------
+    Parameters:
     start, exposure : when it begins, and how long it is.
     gain : in between.
-
-    Examples
-    --------
+    Examples:
     >>> function = nutik.boxcar("10ms", 0.02) + 0.5 * nutik.boxcar(0, "1s")
     >>> function(0.015), function(0.5)
     (1.5, 0.5)
@@ -216,18 +202,13 @@ def shutter(shape: str, start: Time, exposure: Time, *, error: float = 1e-3) -> 
     'spline:0=0,0.3=1,1=0' (docs/reference/shutters.md). Curves become the fewest straight pieces within `error`, a share of
     their largest gain.
 
-    Parameters
-    ----------
+    Parameters:
     shape : one of these.
     start, exposure : when it begins, and how long it is.
     error : as said above.
-
-    Raises
-    ------
+    Raises:
     UsageError where the shape is not known, or the exposure too short for it.
-
-    Examples
-    --------
+    Examples:
     >>> len(nutik.shutter("trapezoid:0.25", 0, "10ms").gains)
     4
     """
@@ -238,22 +219,17 @@ def shutter(shape: str, start: Time, exposure: Time, *, error: float = 1e-3) -> 
 def fit(gain: Gain, start: Time, end: Time, *, error: float = 1e-3) -> Function:
     """The fewest straight pieces that stay near a callable, from `start` to `end`; 0 outside.
 
-    Parameters
-    ----------
+    Parameters:
     gain : called with an array of times in seconds, returns as many gains; one that takes single times only is called
         once for each.
     start, end : where it is not 0.
     error : how far the pieces may lie from it, a share of its largest |gain|. It holds at every time that was looked at:
         1024 evenly, and more wherever the middle of two lies off the line between them, down to single nanoseconds. A
         jump becomes a step of 1 ns.
-
-    Raises
-    ------
+    Raises:
     UsageError where a gain is not finite, where it is 0 everywhere, or where it bends in more places than can be looked
     at: give such a function's pieces as points.
-
-    Examples
-    --------
+    Examples:
     >>> wave = nutik.fit(lambda t: np.sin(40 * t) ** 2, 0, 0.3, error=1e-3)
     >>> bool(abs(wave(0.1) - np.sin(4.0) ** 2) <= 1e-3)
     True
@@ -316,17 +292,12 @@ def fit(gain: Gain, start: Time, end: Time, *, error: float = 1e-3) -> Function:
 def parse_functions(text: str, *, name: str = "functions") -> dict[int, Function]:
     """Functions by mask value, from the text of a function file (docs/reference/functions.md).
 
-    Parameters
-    ----------
+    Parameters:
     text : the file's.
     name : what messages call it.
-
-    Raises
-    ------
+    Raises:
     InputError with every mistake of the text, its line and column; what is suspicious is warned of.
-
-    Examples
-    --------
+    Examples:
     >>> nutik.parse_functions("M0{[0:1], [20ms:0]}")[0](0.01)
     0.5
     """
@@ -338,16 +309,11 @@ def parse_functions(text: str, *, name: str = "functions") -> dict[int, Function
 def read_functions(path: Path) -> dict[int, Function]:
     """Functions by mask value, from a function file (docs/reference/functions.md).
 
-    Parameters
-    ----------
+    Parameters:
     path : the file.
-
-    Raises
-    ------
+    Raises:
     FileMissing, InputError with every mistake of the text, its line and column; what is suspicious is warned of.
-
-    Examples
-    --------
+    Examples:
     >>> nutik.write_functions("ramp.fn", {0: [(0, 0), (0.1, 1)]})
     >>> nutik.read_functions("ramp.fn")
     {0: <nutik.Function [0:0], [100000000:1]>}
@@ -361,17 +327,12 @@ def read_functions(path: Path) -> dict[int, Function]:
 def write_functions(path: Path, functions: Mapping[int, FunctionLike]) -> None:
     """Writes a function file, which the command line reads, too.
 
-    Parameters
-    ----------
+    Parameters:
     path : the file, which is replaced.
     functions : by mask value.
-
-    Raises
-    ------
+    Raises:
     OutputError where it cannot be written.
-
-    Examples
-    --------
+    Examples:
     >>> nutik.write_functions("box.fn", {128: nutik.boxcar(0, "10ms")})
     """
     lines = [function_of(function, f"functions[{tag}]").text(tag) for tag, function in sorted(functions.items())]

@@ -16,16 +16,11 @@ from ._words import Array, Path, Progress, path_word, reading, tag_of, whole
 class Mask:
     """One tag for each pixel, or shares of several. Masks do not change.
 
-    Parameters
-    ----------
+    Parameters:
     tags : [height, width] whole numbers 0 ... 255; bool is 0 and 1.
-
-    Raises
-    ------
+    Raises:
     UsageError where it is none.
-
-    Examples
-    --------
+    Examples:
     >>> nutik.Mask(np.eye(16, dtype=bool))
     <nutik.Mask 16 x 16, tags [0, 1]>
     """
@@ -53,19 +48,14 @@ class Mask:
     def of_layers(cls, alphas: Mapping[int, ArrayLike], *, rest: int = 0, progress: Progress = None) -> Mask:
         """A soft mask. Shares are kept in 65535ths.
 
-        Parameters
-        ----------
+        Parameters:
         alphas : for each tag [height, width], the share of each pixel that it has: float in [0, 1], uint8 of 255, uint16
             of 65535, or bool.
         rest : the tag that gets what they leave.
         progress : called with rows done, of how many.
-
-        Raises
-        ------
+        Raises:
         InputError where they come to more than all of a pixel.
-
-        Examples
-        --------
+        Examples:
         >>> nutik.Mask.of_layers({128: np.full((4, 4), 0.2)}).share(128)[0, 0] / 65535
         0.2
         """
@@ -75,13 +65,10 @@ class Mask:
     def feathered(self, feather: Union[str, float], *, progress: Progress = None) -> Mask:
         """A mask of tags, blended along its edges (docs/reference/masks.md).
 
-        Parameters
-        ----------
+        Parameters:
         feather : pixels to either side, 6 or '6px', or '2px,M255=6px' for a tag of its own.
         progress : called with steps done, of how many.
-
-        Examples
-        --------
+        Examples:
         >>> nutik.Mask(np.eye(16, dtype=np.uint8)).feathered(2).is_soft
         True
         """
@@ -95,8 +82,7 @@ class Mask:
     def share(self, tag: int) -> Array:
         """[height, width] uint16: how much of each pixel a tag has, in 65535ths.
 
-        Parameters
-        ----------
+        Parameters:
         tag : any, also one that no pixel has.
         """
         return self._held.share(tag_of(tag))
@@ -128,17 +114,12 @@ MaskLike = Union[Mask, NDArray[np.uint8], NDArray[np.int64], NDArray[np.bool_], 
 def read_mask(path: Path, *, rest: int = 0) -> Mask:
     """A mask from a grey picture of 8 bits, or from layers.
 
-    Parameters
-    ----------
+    Parameters:
     path : the picture; or, of a name with a number in it, 'layer-%d.png', layers.
     rest : the tag that gets what layers leave.
-
-    Raises
-    ------
+    Raises:
     FileMissing, InputError where it is no mask.
-
-    Examples
-    --------
+    Examples:
     >>> capture.render(start=0, exposure="1f", codes=True).write("tags.png")
     >>> nutik.read_mask("tags.png").tags.shape
     (24, 32)

@@ -51,8 +51,7 @@ class Pictures:
     def to_xarray(self, **first: Sequence[float]) -> DataArray:
         """An xarray.DataArray [picture, y, x(, channel)], no copy.
 
-        Parameters
-        ----------
+        Parameters:
         first : of the first axis its name and its coordinate, start=starts; without it numbers.
         """
         return labelled(self.array, first or {"picture": range(len(self))})
@@ -64,8 +63,7 @@ class Picture:
     `array` is the picture itself: numpy.asarray(picture) and matplotlib's imshow(picture) take it without a copy. Light
     is not clipped: it may be negative, and above 1.
 
-    Examples
-    --------
+    Examples:
     >>> picture = capture.render(start=0, exposure="5f")
     >>> picture, picture.error_bound < 1e-6
     (<nutik.Picture 32 x 24 grey, light, float32>, True)
@@ -150,20 +148,15 @@ class Picture:
               keep_pixels: bool = False) -> None:
         """Writes a file: .png, .tif, .jpg, .ppm, .pgm of codes, .exr, .tif, .pfm of light, .npy of any, float64 too.
 
-        Parameters
-        ----------
+        Parameters:
         path : or a file that is open for bytes, as io.BytesIO.
         kind : of an open file which one it becomes, '.png'.
         quality : of .jpg, 1 ... 100.
         keep_pixels : a .png or .jpg has the pixels of `array` also where they are not square; without it they are made so,
             for eyes. Other files keep them.
-
-        Raises
-        ------
+        Raises:
         UsageError where such a file cannot hold the picture, OutputError where it cannot be written.
-
-        Examples
-        --------
+        Examples:
         >>> capture.render(start=0, exposure="5f").write("light.exr")
         """
         if not isinstance(path, (str, bytes, PathLike)):

@@ -44,8 +44,7 @@ def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_
     """Opens a capture (.tik), or a clip, which is encoded into a temporary capture first: a video, a folder of stills,
     'frames/*.png', a table of stills (docs/reference/input.md); or what is open for bytes, as io.BytesIO.
 
-    Parameters
-    ----------
+    Parameters:
     path : a capture, a clip, or a file that is open for bytes.
     rate : pictures a second that the clip was filmed with: 120, 29.97, '30000/1001'; without it what the file says.
     white : the code that stands for white: 255, 4095 for 12 bits; without it what the file says.
@@ -61,13 +60,9 @@ def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_
     renderer : 'reference' computes without OpenCL, slowly.
     progress : called with (steps done, of how many; 0: not known), by the thread that asked and at most 20 times a second.
         What it raises ends the work, and comes through.
-
-    Raises
-    ------
+    Raises:
     FileMissing, InputError where it cannot be read, UsageError where what is stated does not fit, MemoryTooLittle.
-
-    Examples
-    --------
+    Examples:
     >>> capture = nutik.encode(np.zeros((30, 8, 8), np.uint8), "black.tik", rate=1000)
     >>> nutik.open("black.tik")
     <nutik.Capture black.tik: 8 x 8 grey, 30 samples, 1000 a second>
@@ -91,8 +86,7 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
            progress: Progress = None, name: str = "array", **clip: object) -> Capture:
     """Makes a capture of pictures, and opens it.
 
-    Parameters
-    ----------
+    Parameters:
     source : [samples, height, width] or [samples, height, width, 3] (red, green, blue) of uint8 or uint16 codes, however
         it is strided, or of floats that are light; or an iterable of such pictures; or the path of a clip, or one that is
         open for bytes (nutik.open() says more of these). Codes in the machine's order of bytes are read where they lie.
@@ -109,18 +103,12 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
     codec : of an output: 'none', 'rice', 'lz4', 'zstd', 'zstd:9'.
     name : what messages call an array.
     clip : of a path what nutik.open() takes besides: begin, crop, raw, ...
-
-    Returns
-    -------
+    Returns:
     Capture
-
-    Raises
-    ------
+    Raises:
     UsageError where arguments do not fit, InputError where pictures are unlike or times out of order, OutputError; what an
     iterable raises.
-
-    Examples
-    --------
+    Examples:
     >>> capture = nutik.encode(np.zeros((30, 8, 8, 3), np.uint8), times=np.arange(30) / 100, exposures="2ms")
     >>> capture.shape, capture.times_ns[1].tolist()
     ((30, 8, 8, 3), [10000000, 12000000])
@@ -159,20 +147,15 @@ def join(captures: Iterable[Path], output: Path, *, device: Optional[str] = None
          memory: Union[int, str, None] = None, renderer: Optional[str] = None, progress: Progress = None) -> Capture:
     """Makes one capture of captures of pictures that follow each other, and opens it (docs/how-to/farm.md).
 
-    Parameters
-    ----------
+    Parameters:
     captures : paths of two or more .tik that were encoded alike. Parts of a clip (begin= and end= of nutik.encode()) know
         their place and may come in any order; others follow each other at once, as they are named, if they have one
         constant rate, which a note tells.
     output : the .tik to write; its blocks are copies of theirs.
-
-    Raises
-    ------
+    Raises:
     InputError where one is damaged or does not follow the one before it, UsageError where there are fewer than two or
     output is one of them, OutputError.
-
-    Examples
-    --------
+    Examples:
     >>> for part in (0, 1):
     ...     capture = nutik.encode(np.zeros((30, 8, 8), np.uint8), f"{part}.tik", rate=1000)
     >>> len(nutik.join(["0.tik", "1.tik"], "both.tik"))
@@ -202,12 +185,9 @@ class Device:
 def devices() -> list[Device]:
     """The OpenCL devices of this machine, those first that are taken first.
 
-    Raises
-    ------
+    Raises:
     DeviceError where there are none.
-
-    Examples
-    --------
+    Examples:
     >>> [device.index for device in nutik.devices()][0]
     0
     """
