@@ -18,11 +18,10 @@ from ._masks import Mask, MaskLike, mask_of
 from ._nutik import InputError, MemoryTooLittle, UsageError
 from ._pictures import Picture, Pictures
 from ._told import Figures
-from ._words import (Axes, DataArray, DelayLike, Path, Progress, Time, axes_of, box_of, count_of, delays_ns, ellipsis,
-                     is_list, labelled, settings_of, tag_of, time_word, warn)
+from ._words import (Axes, DataArray, DelayLike, Index, Path, Progress, Time, axes_of, box_of, count_of, delays_ns,
+                     is_list, labelled, listed, settings_of, tag_of, time_word, warn)
 
 Codes = Union[NDArray[np.uint8], NDArray[np.uint16]]
-Index = Union[int, slice, ellipsis, tuple[Union[int, slice, ellipsis, None], ...]]
 Functions = Union[FunctionLike, Mapping[int, FunctionLike], Path]
 
 _MOST_AT_ONCE = 4 << 30  # bytes of samples that one array takes
@@ -167,7 +166,7 @@ class Capture:
         """
         figures = {name: each if isinstance(each, str) else float(each) if isinstance(each, Fraction) else int(cast(int, each))
                    for name, each in self.figures.items() if name != "tiles"}  # what files of arrays take
-        return labelled(self[samples], {"time": self.times[samples]}, facts=self.facts, **figures)
+        return labelled(self[samples], {"time": self.times[samples]}, facts="; ".join(self.facts), **figures)
 
     @property
     def times(self) -> NDArray[np.float64]:
@@ -253,7 +252,7 @@ class Capture:
 
         Parameters:
         functions : one for all of the picture (a nutik.Function, a list of (time, gain), a callable over the whole
-            capture), or one for each tag of `mask` ({0: ..., 128: ...}, or a function file).
+            capture, an array with a gain for each sample), or one for each tag of `mask` ({0: ..., 128: ...}, or a function file).
         mask : [height, width] of tags, or {tag: alpha} of shares (the first function gets what they leave), a nutik.Mask,
             or a file.
         start, exposure : the interval, in place of functions; 0 without a start. Of functions their time 0.
@@ -322,7 +321,7 @@ class Capture:
         >>> many.array.shape, many.error_bounds.shape
         ((100, 24, 32), (100,))
         """
-        lists: dict[str, list[Any]] = {name: list(cast(Iterable[Any], each)) if name == "functions" or is_list(each) else [each]
+        lists: dict[str, list[Any]] = {name: listed(each) if name == "functions" or is_list(each) else [each]
                  for name, each in (("functions", functions), ("starts", starts), ("exposures", exposures))
                  if each is not None}
         counts = {len(each) for each in lists.values()} - {1} or {1}
@@ -523,17 +522,28 @@ class Capture:
     def _functions(self, functions: Functions, has_mask: bool) -> dict[int, Function]:
         if isinstance(functions, (str, PathLike)):
             functions = read_functions(functions)
-        duration = np.timedelta64(self.duration_ns, "ns")
         if not isinstance(functions, Mapping):
-            return {0: function_of(functions, "functions", duration)}
+            return {0: self._function_of(functions, "functions")}
         if not functions:
             raise UsageError("functions= is empty; an exposure has one at least")
         if not has_mask and len(functions) > 1:
             raise UsageError(f"there are {len(functions)} functions; mask= says where each applies")
         made = {}
         for tag, each in functions.items():
-            made[tag_of(tag)] = function_of(each, f"functions[{tag}]", duration)
+            made[tag_of(tag)] = self._function_of(each, f"functions[{tag}]")
         return made
+
+    def _function_of(self, given: FunctionLike, what: str) -> Function:
+        if isinstance(given, np.ndarray) and given.ndim == 1:
+            if len(given) != len(self):
+                raise UsageError(f"{what} has {len(given)} gains for {len(self)} samples; of other times say "
+                                 "nutik.Function(times, gains)")
+            begins = self.times_ns[:, 0]
+            # A gain of 0 at both ends: nothing is exposed there.
+            edges = np.append(begins, self.duration_ns)
+            gains = np.concatenate([[0.0], np.repeat(np.asarray(given, np.float64), 2), [0.0]])
+            return Function.from_ns(np.repeat(edges, 2), gains)
+        return function_of(given, what, np.timedelta64(self.duration_ns, "ns"))
 
     def _output(self, codes: bool, dtype: DTypeLike, transfer: Optional[str],
                 negative: Optional[str]) -> dict[str, str]:

@@ -179,7 +179,7 @@ class Function:
 
 
 Gain = Union[Callable[[float], float], Callable[[NDArray[np.float64]], NDArray[np.float64]]]
-FunctionLike = Union[Function, Sequence[tuple[Time, float]], Gain]
+FunctionLike = Union[Function, Sequence[tuple[Time, float]], NDArray[np.float64], Gain]
 
 
 def boxcar(start: Time, exposure: Time, gain: float = 1.0) -> Function:
@@ -350,6 +350,7 @@ def function_of(given: FunctionLike, what: str, duration: Time = 0) -> Function:
     try:
         points = [(time, float(gain)) for time, gain in given]
     except (TypeError, ValueError):
-        raise UsageError(f"{what} is {given!r}, no function; give a nutik.Function, a list of (time, gain), or a "
-                         "callable") from None
+        shown = f"an array of shape {given.shape}" if isinstance(given, np.ndarray) else repr(given)
+        raise UsageError(f"{what} is {shown}, no function; give a nutik.Function, a list of (time, gain), or a callable; "
+                         "of an interval say start= and exposure=") from None
     return Function([time for time, _ in points], [gain for _, gain in points])

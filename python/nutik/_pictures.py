@@ -10,15 +10,15 @@ from os.path import exists, join
 from secrets import token_hex
 from shutil import copyfileobj
 from tempfile import TemporaryDirectory
-from typing import BinaryIO, Optional, Sequence, Union
+from typing import BinaryIO, Optional, Union
 
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from . import _nutik
 from ._nutik import OutputError, UsageError
 from ._told import Plan, Statistics, Uncertainty
-from ._words import Array, DataArray, Path, labelled, path_word
+from ._words import Array, DataArray, Index, Path, labelled, path_word
 
 
 def _bounds(light: Union[float, NDArray[np.float64]], pictures: Array) -> NDArray[np.float64]:
@@ -29,7 +29,7 @@ def _bounds(light: Union[float, NDArray[np.float64]], pictures: Array) -> NDArra
     return np.asarray(light + largest * 2.0 ** -24 + 2.0 ** -150, np.float64)  # the second: where floats are subnormal
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Pictures:
     """Many pictures of a capture."""
 
@@ -48,7 +48,18 @@ class Pictures:
     def __len__(self) -> int:
         return len(self.array)
 
-    def to_xarray(self, **first: Sequence[float]) -> DataArray:
+    def __getitem__(self, key: Index) -> Array:
+        return self.array[key]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of `array`."""
+        return self.array.shape
+
+    def __repr__(self) -> str:
+        return f"<nutik.Pictures {' x '.join(map(str, self.shape))}, {self.array.dtype}>"
+
+    def to_xarray(self, **first: ArrayLike) -> DataArray:
         """An xarray.DataArray [picture, y, x(, channel)], no copy.
 
         Parameters:

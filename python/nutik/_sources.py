@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _nutik
 from ._captures import Capture
 from ._nutik import InputError, UsageError
-from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, is_list, path_word, reading,
+from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, is_list, listed, path_word, reading,
                      seconds_of, settings_of, time_ns, times_ns, warn, whole)
 
 
@@ -299,7 +299,7 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
     if exposures is not None and shutter_angle is not None:
         raise UsageError("exposures= and shutter_angle= both say how long pictures were exposed; leave one out")
     if times is not None:
-        times = list(times)
+        times = listed(times)
         if times and isinstance(times[0], (np.datetime64, datetime.datetime)):
             times = [time - times[0] for time in times]  # dates: only what lies between them counts
     starts = [] if times is None else times_ns(times, "times").tolist()
@@ -313,7 +313,7 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
         raise UsageError("exposures= of each picture need times=, when each begins; with rate= give one for all")
     begins = [seconds_of(time, "times") for time in times]
     lengths = [_lasting(seconds_of(each, f"exposures[{i}]"), f"exposures[{i}]", each)
-               for i, each in enumerate(cast(Iterable[Time], exposures))]
+               for i, each in enumerate(listed(exposures))]
     if len(lengths) != len(begins):
         raise UsageError(f"there are {len(lengths)} exposures for {len(begins)} times")
     return [], [(start, half_up((begin + length) * 10 ** 9))

@@ -30,6 +30,7 @@ else:
 
 Time = Union[str, float, int, Fraction, Decimal, np.timedelta64, datetime.timedelta]
 DelayLike = Union[str, ArrayLike]
+Index = Union[int, slice, ellipsis, tuple[Union[int, slice, ellipsis, None], ...]]
 Number = Union[str, float, int, Fraction, Decimal]
 Path = Union[str, "PathLike[str]"]
 Array = Union[NDArray[np.uint8], NDArray[np.uint16], NDArray[np.float32], NDArray[np.float64]]  # codes, or light
@@ -133,6 +134,11 @@ def in_python(text: str) -> str:
 def is_list(value: Any) -> bool:
     """Whether it is several, and no word."""
     return not isinstance(value, str) and hasattr(value, "__iter__")
+
+
+def listed(values: Any) -> list[Any]:
+    """Its values one by one; of what NumPy takes for an array, NumPy's."""
+    return list(np.asarray(values) if hasattr(values, "__array__") else values)
 
 
 def whole(array: Any, what: str) -> Any:

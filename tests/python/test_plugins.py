@@ -37,7 +37,7 @@ class Plugins(support.TestCase):
         near = whole.sel(channel="green").sel(time=self.capture.times[5] + 1e-4, method="nearest")
         self.assert_same(near.values, self.pictures[5, :, :, 1])
         self.assertEqual(whole.attrs["white"], 255)
-        self.assertTrue(any("transfer" in fact for fact in whole.attrs["facts"]))
+        self.assertTrue("transfer" in whole.attrs["facts"])
         part = nutik.encode(self.pictures[..., 0], rate=10).to_xarray(slice(2, 9, 3))
         self.assertEqual(part.dims, ("time", "y", "x"))
         np.testing.assert_allclose(part["time"], [0.2, 0.5, 0.8])
