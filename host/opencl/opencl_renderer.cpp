@@ -236,10 +236,12 @@ class OpenClRenderer::Implementation {
       const ExposingDevice device{info_, queue_, *feed_, *tables_, options_.last_block_first};
       const auto expose = [&](const ExposedPlan& what, std::span<ExposedBand> exposed,
                               const Exposer::Develop& done) {
+        RenderControl control = request.control;
+        if (&what.plan != &plan) control.progress = {};  // sums that are made to be kept
         Exposer(device, work, what, request.source, shares,
                 cl::Kernel(expose_program(work, what.plan, light), "expose"), light.values, memory,
                 rendered.statistics)
-            .expose(exposed, request.control, done);
+            .expose(exposed, control, done);
       };
       if (&request.source == resident_) {
         const auto whole_picture = [&](const RenderPlan& of_light) {

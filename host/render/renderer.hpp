@@ -17,6 +17,7 @@
 #include "render/error_bound.hpp"
 #include "render/output_format.hpp"
 #include "render/render_plan.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 
@@ -48,6 +49,7 @@ struct PrecisionChoice {
 // What one render is asked for beside its picture.
 struct RenderControl {
   std::stop_token stop;                // looked at between launches: render() throws Cancelled
+  ReportedProgress progress;           // told how far it is; of several devices, how far the first one
   std::optional<Rectangle> rectangle;  // only these pixels, which are the whole picture's; none: all
   std::optional<Precision> precision;  // instead of what the renderer was made with
   bool maps_bounds = false;  // a session adds a map of what each pixel may err by

@@ -32,34 +32,6 @@ SessionIsSpent::SessionIsSpent()
 
 namespace {
 
-// A capture that lends no more blocks once it is stopped: Cancelled.
-class StoppableSource final : public CaptureSource {
- public:
-  StoppableSource(CaptureSource& source, std::stop_token stop) : source_(source), stop_(std::move(stop)) {}
-
-  [[nodiscard]] const CaptureFormat& format() const override { return source_.format(); }
-  [[nodiscard]] const Timeline& timeline() const override { return source_.timeline(); }
-  [[nodiscard]] std::uint64_t block_count() const override { return source_.block_count(); }
-  [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override {
-    return source_.block_extent(block);
-  }
-  [[nodiscard]] bool is_forward_only() const override { return source_.is_forward_only(); }
-  [[nodiscard]] std::uint64_t lent_bytes(std::uint64_t block) const override {
-    return source_.lent_bytes(block);
-  }
-  void preload(std::uint64_t block) override { source_.preload(block); }
-  void check_unchanged() const override { source_.check_unchanged(); }
-
- private:
-  BlockLease lend(std::uint64_t block, const LeaseTerms& terms) override {
-    if (stop_.stop_requested()) throw Cancelled();
-    return source_.acquire(block, terms);
-  }
-
-  CaptureSource& source_;
-  std::stop_token stop_;
-};
-
 }  // namespace
 
 class Session::Implementation {
@@ -90,7 +62,7 @@ class Session::Implementation {
   void render_many(std::span<const ExposureRequest> requests, const OutputFormat& output, const RenderControl& control,
                    const RenderedOne& done);
   template <typename Follow>
-  [[nodiscard]] TracedExposure trace(const ExposureRequest& request, std::stop_token stop, const Follow& follow);
+  [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const Follow& follow);
   [[nodiscard]] ValidatedExposure validate(const ExposureRequest& request, const OutputFormat& output,
                                            std::uint32_t runs, const ReportedProgress& progress);
   [[nodiscard]] SourceCheck compare_with(const SourceRequest& clip, const ReportedProgress& progress);
@@ -390,7 +362,7 @@ void Session::Implementation::render_many(std::span<const ExposureRequest> reque
       rendered.picture = stored(std::move(light[i]), plans[i].capture, output, rendered.saturation);
       state_values(rendered.picture, plans[i].capture, output);
       warn_of_infinite(rendered);
-      done(next++, rendered);
+      done(next++, rendered, plans[i].functions);
     }
     plans.clear();
     waiting.clear();
@@ -412,7 +384,8 @@ void Session::Implementation::render_many(std::span<const ExposureRequest> reque
       }
     }
     expose_waiting();
-    done(next++, render(request, output, control));
+    const ExposedPicture exposed = render(request, output, control);
+    done(next++, exposed, exposed.figures.functions);
   }
   expose_waiting();
 }
@@ -434,12 +407,10 @@ void keep_traced(RenderPlan& plan, std::vector<Trace>& traces) {
 }  // namespace
 
 template <typename Follow>
-TracedExposure Session::Implementation::trace(const ExposureRequest& request, std::stop_token stop,
-                                              const Follow& follow) {
+TracedExposure Session::Implementation::trace(const ExposureRequest& request, const Follow& follow) {
   RenderPlan planned = plan(request);
   check_reading(mask_needs(format_));
-  StoppableSource blocks(*reader_, std::move(stop));
-  std::vector<Trace> traces = follow(planned, blocks);
+  std::vector<Trace> traces = follow(planned, *reader_);
   if (const auto& made = reader_->header().made) {
     const std::vector<bool> marks = made->marks();
     for (Trace& trace : traces) {
@@ -524,15 +495,15 @@ void Session::render_many(std::span<const ExposureRequest> requests, const Outpu
 }
 
 TracedExposure Session::trace(const ExposureRequest& request, const TracedPixel& pixel,
-                              std::stop_token stop) {
-  return implementation_->trace(request, std::move(stop), [&](const RenderPlan& plan, CaptureSource& source) {
-    return trace_pixel(plan, source, pixel.x, pixel.y);
+                              const ReportedProgress& progress) {
+  return implementation_->trace(request, [&](const RenderPlan& plan, CaptureSource& source) {
+    return trace_pixel(plan, source, pixel.x, pixel.y, progress);
   });
 }
 
-TracedExposure Session::trace(const ExposureRequest& request, const TracedTag& tag, std::stop_token stop) {
-  return implementation_->trace(request, stop, [&](const RenderPlan& plan, CaptureSource& source) {
-    return std::vector{trace_region(plan, source, tag.tag, stop)};
+TracedExposure Session::trace(const ExposureRequest& request, const TracedTag& tag, const ReportedProgress& progress) {
+  return implementation_->trace(request, [&](const RenderPlan& plan, CaptureSource& source) {
+    return std::vector{trace_region(plan, source, tag.tag, progress)};
   });
 }
 

@@ -83,7 +83,7 @@ void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures
   std::span<const std::span<const std::byte>> stored = parts.parts();
   std::uint64_t stored_bytes = parts.bytes();
   if (codec_.id != CodecId::none) {
-    pack(codec_, geometry, block.payload, packed_, max_threads_, stop_);
+    pack(codec_, geometry, block.payload, packed_, max_threads_, packing_);
     packed_parts.assign(packed_.begin(), packed_.end());
     stored = packed_parts;
     stored_bytes = 0;

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
-#include <stop_token>
 #include <utility>
 #include <vector>
 
@@ -36,8 +35,8 @@ class Writer {
   static Writer from_raster(const std::filesystem::path& path, const Header& header,
                             std::span<const std::byte> raster);
 
-  // Packing ends when that is asked to stop: append() throws Cancelled.
-  void stop_by(std::stop_token stop) { stop_ = std::move(stop); }
+  // What pack() tells of each block that is appended.
+  void tell_of_packing(ReportedProgress packing) { packing_ = std::move(packing); }
 
   // Appends the next block; with an irregular timeline also its samples' exposures, times from the
   // first sample's start.
@@ -69,7 +68,7 @@ class Writer {
   Header header_;
   Codec codec_;
   std::uint32_t max_threads_;  // that pack
-  std::stop_token stop_;
+  ReportedProgress packing_;
   std::vector<std::vector<std::byte>> packed_;  // the last block, whose memory the next one is packed into
   std::vector<IndexEntry> index_;
   Checksum headers_;  // of all block headers so far

@@ -275,6 +275,21 @@ class Pictures(support.TestCase):
         many = self.capture.render_many([self.functions, self.functions], self.tags, feather=2)
         self.assert_same(many.array[1], self.capture.render(self.functions, self.tags, feather=2).array)
 
+    def test_many_warn_as_one_does(self):
+        both = [nutik.boxcar(0, 0.05, -1), nutik.boxcar(0, 0.05)]
+        for capture in (self.capture, nutik.encode(self.pictures[:, :16, :16], rate=support.RATE)):
+            for named in (dict(gain=3.0), dict(negative="abs"), dict(precision="double")):
+                with warnings.catch_warnings(record=True) as alone:
+                    warnings.simplefilter("always")
+                    pictures = [capture.render(each, codes=True, **named) for each in both]
+                with warnings.catch_warnings(record=True) as together:
+                    warnings.simplefilter("always")
+                    many = capture.render_many(both, codes=True, **named)
+                self.assertEqual({str(each.message) for each in together}, {str(each.message) for each in alone})
+                self.assertEqual(bool(alone), "negative" not in named)
+                self.assertEqual(many.saturated.tolist(), [list(each.saturated) for each in pictures])
+        self.assertIsNone(self.capture.render_many(both).saturated)
+
     def test_many_are_fast_and_tell(self):
         capture = nutik.encode(self.pictures[:, :16, :16, 0], rate=support.RATE)
         starts, told = np.linspace(0, 0.05, 400), []

@@ -4,6 +4,7 @@
 
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
+#include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "capture/error.hpp"
@@ -51,8 +52,10 @@ int run_expose(const Options& options) {
   Session session = open_session(options, {.reading = Reading::forward});
   RenderControl control;
   control.maps_bounds = options.bounds.has_value();
+  control.progress = progress_bar("exposing", options.quiet);
   const ExposedPicture exposed =
       session.render(request, output_format(options.picture, output, session.format()), control);
+  control.progress = {};  // the bar is gone before anything is said
   tally.add(exposed);
   print_warnings(exposure_warnings(exposed));
   const std::string made = recipe.text(tally.precision(), {}, tally.error_bound());
