@@ -1,12 +1,14 @@
 #include "opencl/combining.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "capture/format.hpp"
+#include "render/code_scale.hpp"
 #include "system/parallel.hpp"
 
 namespace nutik {
@@ -87,52 +89,133 @@ SliceTables Combining::tables(const TableSlice& slice, DeviceMemory& memory) con
   return {{}, {}, memory.upload(parts), memory.upload(gains)};
 }
 
-template <typename Result, typename LightOf>
-void Combining::add_results(const ExposedBand& combined, cl::CommandQueue& queue, const Rectangle& rectangle,
-                            Picture& picture, LightOf light_of) const {
-  const FunctionMap& map = *combined.map.host;
-  const std::uint32_t channels = plan_.capture.shape.channels, width = plan_.capture.shape.width;
-  std::vector<Result> results(combined.band.sum_tiles * channels * kTilePixels);
-  queue.enqueueReadBuffer(combined.sums, CL_TRUE, 0, results.size() * sizeof(Result), results.data());
-  const auto to = picture.values<double>();
-  parallel_for(combined.band.tile_count, [&](std::uint64_t tile) {
-    const std::uint64_t first = map.is_mixed() ? map.first_of[tile] : tile;
-    const std::uint64_t last = map.is_mixed() ? map.first_of[tile + 1] : tile + 1;
-    const auto light = [&](std::uint64_t of_tile, std::uint32_t channel, std::uint32_t lane, std::uint16_t function) {
-      return light_of(results[(of_tile * channels + channel) * kTilePixels + lane], function);
-    };
-    const auto add_pixel = [&](std::uint32_t lane, std::uint64_t pixel) {
-      const std::uint64_t x = pixel % width - rectangle.x, y = pixel / width - rectangle.y;
-      if (x >= rectangle.width || y >= rectangle.height) return;  // also what wraps around below 0
-      const bool is_blended = !plan_.shares_of(pixel).empty();
-      for (std::uint32_t channel = 0; channel < channels; ++channel) {
-        double sum = 0.0;
-        for (std::uint64_t k = first; k < last; ++k) {
-          const std::uint32_t share = last - first == 1 ? kWholeShare : map.shares[k * kTilePixels + lane];
-          if (share == 0) continue;
-          const auto function = last - first == 1 ? plan_.function_of(pixel) : map.of_lane[k * kTilePixels + lane];
-          sum += (is_blended ? share : 1) * light(k, channel, lane, function);
+namespace {
+
+// Rows of tiles whose light is there at a time.
+constexpr std::uint32_t kRowsAtOnce = 16 * kTileSide;
+
+// Calls visit(tile of the band, lane, pixel of the picture, pixel of the rectangle) for each pixel that both have.
+template <typename Visit>
+void for_each_pixel(const Band& band, const Shape& shape, const Rectangle& rectangle, Visit visit) {
+  const std::uint32_t columns = TileGrid(shape).columns();
+  parallel_for(band.tile_count / band.columns, [&](std::uint64_t row) {
+    for (std::uint64_t tile = row * band.columns; tile < (row + 1) * band.columns; ++tile) {
+      const std::uint64_t in_picture = band.tile_in_picture(tile);
+      const auto left = static_cast<std::uint32_t>(in_picture % columns) * kTileSide;
+      const auto top = static_cast<std::uint32_t>(in_picture / columns) * kTileSide;
+      const std::uint32_t right = std::min(left + kTileSide, rectangle.x + rectangle.width);
+      const std::uint32_t bottom = std::min(top + kTileSide, rectangle.y + rectangle.height);
+      for (std::uint32_t y = std::max(top, rectangle.y); y < bottom; ++y) {
+        for (std::uint32_t x = std::max(left, rectangle.x); x < right; ++x) {
+          visit(tile, TileGrid::lane_of(x, y), std::uint64_t{y} * shape.width + x,
+                std::uint64_t{y - rectangle.y} * rectangle.width + (x - rectangle.x));
         }
-        to[(y * rectangle.width + x) * channels + channel] = is_blended ? sum / kWholeShare : sum;
       }
-    };
-    TileGrid(plan_.capture.shape).for_each_lane(combined.band.tile_in_picture(tile), add_pixel);
+    }
   });
 }
 
-void Combining::add_light(const ExposedBand& combined, cl::CommandQueue& queue, const Rectangle& rectangle,
-                          Picture& picture) const {
-  const auto of_code = [this](std::uint32_t code, std::uint16_t function) {
-    const std::vector<double>& gains = gains_[function].gains;
-    return gains.empty() ? 0.0 : gains.front() * light_[code];
+}  // namespace
+
+// The light of a part of the picture.
+template <typename Result, typename LightOf>
+Picture Combining::light_of(const ExposedBand& combined, std::span<const Result> results, const Rectangle& part,
+                            LightOf light_of_result) const {
+  const FunctionMap& map = *combined.map.host;
+  const std::uint32_t channels = plan_.capture.shape.channels;
+  Picture picture({part.width, part.height, channels}, ValueType::light64, plan_.capture.white_code);
+  const auto to = picture.values<double>();
+  const auto add = [&](std::uint64_t tile, std::uint32_t lane, std::uint64_t pixel, std::uint64_t in_part) {
+    const std::uint64_t first = map.is_mixed() ? map.first_of[tile] : tile;
+    const std::uint64_t last = map.is_mixed() ? map.first_of[tile + 1] : tile + 1;
+    const bool is_one = last - first == 1, is_blended = !plan_.shares_of(pixel).empty();
+    for (std::uint32_t channel = 0; channel < channels; ++channel) {
+      double sum = 0.0;
+      for (std::uint64_t k = first; k < last; ++k) {
+        const std::uint32_t share = is_one ? kWholeShare : map.shares[k * kTilePixels + lane];
+        if (share == 0) continue;
+        const std::uint16_t function = is_one ? plan_.function_of(pixel) : map.of_lane[k * kTilePixels + lane];
+        sum += (is_blended ? share : 1) *
+               light_of_result(results[(k * channels + channel) * kTilePixels + lane], function);
+      }
+      to[in_part * channels + channel] = is_blended ? sum / kWholeShare : sum;
+    }
   };
+  for_each_pixel(combined.band, plan_.capture.shape, part, add);
+  return picture;
+}
+
+// Codes of 8 bits become codes by a table.
+template <typename Code>
+void Combining::develop_codes(const ExposedBand& combined, std::span<const std::uint8_t> results,
+                              const CombinedPicture& to) const {
+  const CodeMaking making = CodeMaking::of(plan_.capture, to.output);
+  const CodeScale scale(making.transfer, to.output);
+  const auto functions = static_cast<std::uint32_t>(gains_.size());
+  Picture lights({static_cast<std::uint32_t>(light_.size()), functions, 1}, ValueType::light64, 0);
+  for (std::size_t i = 0; i < lights.shape.value_count(); ++i)
+    lights.values<double>()[i] = light_of_code(static_cast<std::uint32_t>(i % light_.size()), i / light_.size());
+  to_shown_light(lights, making);
+  const Picture codes = encoded(lights, scale, to.output);
+  std::vector<std::uint8_t> ends;  // 1: saturates below, 2: above
+  for (const double light : lights.values<double>())
+    ends.push_back((scale.saturates_below(light) ? 1 : 0) | (scale.saturates_above(light) ? 2 : 0));
+  const auto table = codes.values<Code>();
+  const auto out = to.picture.values<Code>();
+  const std::uint32_t channels = plan_.capture.shape.channels;
+  std::atomic<std::uint64_t> below{0}, above{0};
+  for_each_pixel(combined.band, plan_.capture.shape, to.rectangle,
+                 [&](std::uint64_t tile, std::uint32_t lane, std::uint64_t pixel, std::uint64_t in_rectangle) {
+                   const std::size_t of_function = plan_.function_of(pixel) * light_.size();
+                   unsigned end = 0;
+                   for (std::uint32_t channel = 0; channel < channels; ++channel) {
+                     const std::size_t at = of_function + results[(tile * channels + channel) * kTilePixels + lane];
+                     out[in_rectangle * channels + channel] = table[at];
+                     end |= ends[at];
+                   }
+                   if ((end & 1) != 0) ++below;
+                   if ((end & 2) != 0) ++above;
+                 });
+  to.saturation += {below, above};
+}
+
+template <typename Result, typename LightOf>
+void Combining::develop_results(const ExposedBand& combined, cl::CommandQueue& queue, const CombinedPicture& to,
+                                LightOf light_of_result) const {
+  const Band& band = combined.band;
+  std::vector<Result> results(band.sum_tiles * plan_.capture.shape.channels * kTilePixels);
+  queue.enqueueReadBuffer(combined.sums, CL_TRUE, 0, results.size() * sizeof(Result), results.data());
+  const bool has_table = holds_codes(to.output.type) && plan_.map->mixed.empty() &&
+                         !CodeMaking::of(plan_.capture, to.output).conversion;
+  if constexpr (sizeof(Result) == 1) {
+    if (has_table && to.output.type == ValueType::code8) return develop_codes<std::uint8_t>(combined, results, to);
+    if (has_table) return develop_codes<std::uint16_t>(combined, results, to);
+  }
+  const std::uint64_t row_bytes = to.picture.bytes.size() / to.picture.shape.height;
+  const std::uint32_t top = std::max(band.first_row, to.rectangle.y);
+  const std::uint32_t bottom = std::min(band.first_row + band.shape.height, to.rectangle.y + to.rectangle.height);
+  for (std::uint32_t y = top; y < bottom; y += kRowsAtOnce) {
+    const Rectangle part{to.rectangle.x, y, to.rectangle.width, std::min(kRowsAtOnce, bottom - y)};
+    const Picture made = stored(light_of(combined, std::span<const Result>(results), part, light_of_result),
+                                plan_.capture, to.output, to.saturation);
+    std::ranges::copy(made.bytes, to.picture.bytes.begin() + static_cast<std::ptrdiff_t>((y - to.rectangle.y) * row_bytes));
+  }
+}
+
+double Combining::light_of_code(std::uint32_t code, std::size_t function) const {
+  const std::vector<double>& gains = gains_[function].gains;
+  return gains.empty() ? 0.0 : gains.front() * light_[code];
+}
+
+void Combining::develop(const ExposedBand& combined, cl::CommandQueue& queue, const CombinedPicture& to) const {
+  const auto of_code = [this](std::uint32_t code, std::size_t function) { return light_of_code(code, function); };
   if (scales_) {
-    add_results<double>(combined, queue, rectangle, picture,
-                        [](double light, std::uint16_t) { return std::isinf(light) ? 0.0 : light; });
+    develop_results<double>(combined, queue, to,
+                            [](double light, std::size_t) { return std::isinf(light) ? 0.0 : light; });
   } else if (plan_.capture.code_bytes == 1) {
-    add_results<std::uint8_t>(combined, queue, rectangle, picture, of_code);
+    develop_results<std::uint8_t>(combined, queue, to, of_code);
   } else {
-    add_results<std::uint16_t>(combined, queue, rectangle, picture, of_code);
+    develop_results<std::uint16_t>(combined, queue, to, of_code);
   }
 }
 

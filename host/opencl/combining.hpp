@@ -2,7 +2,7 @@
 // what it leaves becomes light.
 //
 //   in:      a plan that lightens or darkens, and the gains of its samples
-//   out:     tables for the kernel, a slice at a time; of a band that it went over the light
+//   out:     tables for the kernel, a slice at a time; of a band that it went over the picture
 //   always:  the reference's to the last bit (render/combining_renderer.hpp)
 #pragma once
 
@@ -16,6 +16,14 @@
 #include "render/combining_renderer.hpp"
 
 namespace nutik {
+
+// A picture of a rectangle, and how many of its pixels saturate.
+struct CombinedPicture {
+  const OutputFormat& output;
+  const Rectangle& rectangle;
+  Picture& picture;
+  Saturation& saturation;
+};
 
 class Combining {
  public:
@@ -39,14 +47,20 @@ class Combining {
   // Of each code; where nothing is scaled, what need not be read.
   [[nodiscard]] std::span<const double> light() const { return std::span(light_).first(scales_ ? light_.size() : 1); }
 
-  // What the kernel left of a band becomes part of a picture (light64) of the rectangle.
-  void add_light(const ExposedBand& combined, cl::CommandQueue& queue, const Rectangle& rectangle,
-                 Picture& picture) const;
+  // What the kernel left of a band becomes part of a picture.
+  void develop(const ExposedBand& combined, cl::CommandQueue& queue, const CombinedPicture& to) const;
 
  private:
+  [[nodiscard]] double light_of_code(std::uint32_t code, std::size_t function) const;
   template <typename Result, typename LightOf>
-  void add_results(const ExposedBand& combined, cl::CommandQueue& queue, const Rectangle& rectangle, Picture& picture,
-                   LightOf light_of) const;
+  [[nodiscard]] Picture light_of(const ExposedBand& combined, std::span<const Result> results, const Rectangle& part,
+                                 LightOf light_of_result) const;
+  template <typename Code>
+  void develop_codes(const ExposedBand& combined, std::span<const std::uint8_t> results,
+                     const CombinedPicture& to) const;
+  template <typename Result, typename LightOf>
+  void develop_results(const ExposedBand& combined, cl::CommandQueue& queue, const CombinedPicture& to,
+                       LightOf light_of_result) const;
 
   const RenderPlan& plan_;
   std::vector<SampleGains> gains_;

@@ -22,7 +22,6 @@
 #include "opencl/program_store.hpp"
 #include "opencl/render_memory.hpp"
 #include "opencl/self_test.hpp"
-#include "render/code_scale.hpp"
 #include "render/combining_renderer.hpp"
 
 namespace nutik {
@@ -255,8 +254,7 @@ class OpenClRenderer::Implementation {
       Rendered rendered;
       rendered.precision = Precision::double_;
       rendered.passed_self_test = verdict.is_right;
-      rendered.picture = stored(combined_light(combining, request, rendered.statistics), request.plan.capture,
-                                request.output, rendered.saturation);
+      combine(combining, request, rendered);
       programs_->save_new_binaries();
       return rendered;
     } catch (const cl::Error& error) {
@@ -281,21 +279,19 @@ class OpenClRenderer::Implementation {
       return self_test_combining(plan, combining.scales(), [&](const RenderPlan& scene, CaptureSource& source,
                                                                const OutputFormat& format) {
         const Rectangle whole = Rectangle::whole(scene.capture.shape);
-        RenderStatistics ignored;
-        return combined_light(Combining(scene, sample_gains(scene, source.timeline())),
-                              {scene, source, format, whole, {}}, ignored);
+        Rendered rendered;
+        combine(Combining(scene, sample_gains(scene, source.timeline())), {scene, source, format, whole, {}}, rendered);
+        return std::move(rendered.picture);
       });
     });
   }
 
-  Picture combined_light(const Combining& combining, const Request& request, RenderStatistics& statistics) {
+  void combine(const Combining& combining, const Request& request, Rendered& rendered) {
     const RenderPlan& plan = request.plan;
     const Work work = work_for(combining);
     DeviceMemory memory(context_, info_);
-    std::vector<ExposedBand> bands = bands_of(work, request, memory, statistics);
-    const OutputFormat of_light{ValueType::light64, 0};
-    const RenderMemory shares =
-        memory_for({plan, request.source, of_light, request.rectangle, request.control}, work.precision);
+    std::vector<ExposedBand> bands = bands_of(work, request, memory, rendered.statistics);
+    const RenderMemory shares = memory_for(request, work.precision);
     const cl::Buffer light = memory.upload(combining.light());
     CombineKernel kernel(
         cl::Kernel(programs_->get("combine", kernel_source("combine"), options_of_combining(work, plan, combining)),
@@ -313,14 +309,13 @@ class OpenClRenderer::Implementation {
                         light, band.map.tiles, band.map.of_tile, band.map.of_lane, band.sums, rows, launch);
         }};
     const std::vector<std::uint8_t> every = every_function(plan);
-    Picture picture({request.rectangle.width, request.rectangle.height, plan.capture.shape.channels},
-                    ValueType::light64, plan.capture.white_code);
+    rendered.picture = Picture({request.rectangle.width, request.rectangle.height, plan.capture.shape.channels},
+                               request.output.type, request.output.white_code);
+    const CombinedPicture to{request.output, request.rectangle, rendered.picture, rendered.saturation};
     Exposer({info_, queue_, *feed_, options_.last_block_first}, work, {plan, {}, every}, request.source, shares,
-            over_blocks, memory, statistics)
-        .expose(bands, request.control,
-                [&](const ExposedBand& band) { combining.add_light(band, queue_, request.rectangle, picture); });
-    statistics.device_bytes = memory.max_bytes();
-    return picture;
+            over_blocks, memory, rendered.statistics)
+        .expose(bands, request.control, [&](const ExposedBand& band) { combining.develop(band, queue_, to); });
+    rendered.statistics.device_bytes = memory.max_bytes();
   }
 
   void expose_and_develop(const Work& work, const Request& request, const cl::Program& develop,

@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """What the lightest, darkest and middle sample cost beside an exposure of the same interval: whole processes, from a
-capture, in turns whose order changes; medians, and their ratios to the exposure. `tail` lightens with a gain that falls.
+capture, in turns whose order changes; medians of the processor's time and of a clock's, and their ratios to the exposure's.
+`tail` lightens with a gain that falls.
 
     tools/bench/combining.py NUTIK_CL CLIP … [--seconds 2] [--runs 9]
 """
 import argparse
 import pathlib
 import random
+import resource
 import statistics
 import subprocess
 import tempfile
@@ -15,6 +17,11 @@ import time
 
 def run(*words):
     subprocess.run([str(word) for word in words], check=True, capture_output=True)
+
+
+def processor_time():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def measured(nutik, clip, seconds, runs, folder):
@@ -29,11 +36,11 @@ def measured(nutik, clip, seconds, runs, folder):
     for turn in range(runs + 1):  # the first is not counted: kernels are built
         random.Random(turn).shuffle(order)
         for name in order:
-            start = time.perf_counter()
+            start = time.perf_counter(), processor_time()
             run(nutik, "expose", "-q", "--overwrite", *ways[name], capture, picture)
             if turn > 0:
-                took[name].append(time.perf_counter() - start)
-    return {name: statistics.median(times) for name, times in took.items()}
+                took[name].append((time.perf_counter() - start[0], processor_time() - start[1]))
+    return {name: [statistics.median(each) for each in zip(*times)] for name, times in took.items()}
 
 
 def main():
@@ -46,9 +53,10 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for clip in given.clips:
             times = measured(given.nutik, clip, given.seconds, given.runs, pathlib.Path(folder))
-            exposure = times.pop("exposure")
-            ratios = ", ".join(f"{name} {value / exposure:.2f}" for name, value in times.items())
-            print(f"{clip.name}: exposure {1000 * exposure:.0f} ms; {ratios}", flush=True)
+            clock, processor = times.pop("exposure")
+            ratios = ", ".join(f"{name} {own / processor:.2f} ({by_clock / clock:.2f})"
+                               for name, (by_clock, own) in times.items())
+            print(f"{clip.name}: exposure {1000 * processor:.0f} ms of processor time; {ratios}", flush=True)
 
 
 if __name__ == "__main__":
