@@ -11,9 +11,12 @@ import re
 import subprocess
 import sys
 import textwrap
+from collections import Counter
 from pathlib import Path
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "reference" / "commands.md"
+
+USUAL = 4  # commands that take the same options of a heading
 
 # The page that goes on where a command's help ends.
 FURTHER = {
@@ -32,8 +35,7 @@ PREFACE = """\
 
 <!-- Written by tools/commands_page.py from `nutik-cl man`. -->
 
-Every command: what it does, examples, the options it takes. `nutik-cl COMMAND --help` shows the same in a terminal.
-New here? Start with [a tutorial](../tutorial/first-picture.md).
+`nutik-cl COMMAND --help` shows the same in a terminal. New here? Start with [a tutorial](../tutorial/first-picture.md).
 
 | you write | it means |
 | --- | --- |
@@ -71,10 +73,6 @@ def items(text):
     return [(plain(term), plain(said)) for term, said in re.findall(r"^\.TP\n(.*)\n(.*)\n", text, re.MULTILINE)]
 
 
-def in_table(text):
-    return text.replace("|", "\\|")
-
-
 def anchor(heading):
     return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
 
@@ -88,11 +86,31 @@ def folded(text, indent=""):
     return textwrap.fill(text, 120, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
 
 
-def options_of(command, option_groups):
-    """For each heading the command's options."""
+def listed(pairs):
+    return "".join(folded(f"- `{term}`: {said}", "  ") + "\n" for term, said in pairs)
+
+
+def taken_by(command, options):
+    return tuple(f"`{long_name(term)}`" for term, _, takers in options if command in takers)
+
+
+def usual_options(names, option_groups):
+    """For each heading the options that commands mostly take of it, if at least USUAL commands take just these."""
     for heading, options in option_groups:
-        taken = [f"`{long_name(term)}`" for term, _, takers in options if command in takers]
-        if taken:
+        taken, count = Counter(filter(None, (taken_by(name, options) for name in names))).most_common(1)[0]
+        if count >= USUAL and len(taken) > 1:
+            yield heading, taken
+
+
+def options_of(command, option_groups, usual):
+    """Whether the command takes what is usual; then for each other heading its options."""
+    taken_of = {heading: taken_by(command, options) for heading, options in option_groups}
+    is_usual = sum(taken_of[heading] == taken for heading, taken in usual.items()) > 2
+    if is_usual:
+        without = [heading for heading in usual if not taken_of[heading]]
+        yield folded("- [As usual](#usual-options)" + (f", without: {', '.join(without)}" if without else ""), "  ")
+    for heading, taken in taken_of.items():
+        if taken and not (is_usual and taken == usual.get(heading)):
             yield folded(f"- [{heading}](#{anchor(heading)}): {', '.join(taken)}", "  ")
 
 
@@ -108,7 +126,11 @@ def page_of(man):
         option_groups.append((heading, options))
     examples = {title: plain(re.sub(r"^\.(nf|fi)\n", "", body, flags=re.MULTILINE))
                 for title, body in groups(section(man, "EXAMPLES"))}
-    text = PREFACE
+    usual = dict(usual_options(names, option_groups))
+    text = PREFACE + "\n## Usual options\n\n"
+    text += "*As usual* stands for all of these; a heading that a command lists counts instead.\n\n"
+    text += "".join(folded(f"- [{heading}](#{anchor(heading)}): {', '.join(taken)}", "  ") + "\n"
+                    for heading, taken in usual.items())
     for title, commands in command_groups:
         text += f"\n## {title}\n"
         for term, summary in commands:
@@ -118,15 +140,13 @@ def page_of(man):
             text += f"\n### {name}\n\n`{f'nutik-cl {name} {operands}'.strip()}`\n\n"
             text += folded(f"{summary} ([more]({FURTHER[name]}))") + "\n"
             text += "\n```sh\n" + examples[name] + "```\n"
-            taken = list(options_of(name, option_groups))
+            taken = list(options_of(name, option_groups, usual))
             text += "".join(f"\n{line}" for line in taken) + ("\n" if taken else "")
     text += "\n## Options\n"
     for heading, options in option_groups:
-        text += f"\n### {heading}\n\n| option | |\n| --- | --- |\n"
-        text += "".join(f"| `{in_table(term)}` | {in_table(said)} |\n" for term, said, _ in options)
+        text += f"\n### {heading}\n\n" + listed((term, said) for term, said, _ in options)
     for title in ("EXIT STATUS", "ENVIRONMENT"):
-        text += f"\n## {title.capitalize()}\n\n| | |\n| --- | --- |\n"
-        text += "".join(f"| `{term}` | {in_table(said)} |\n" for term, said in items(section(man, title)))
+        text += f"\n## {title.capitalize()}\n\n" + listed(items(section(man, title)))
     return text
 
 

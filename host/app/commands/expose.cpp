@@ -10,6 +10,7 @@
 #include "capture/format.hpp"
 #include "features/schema/options.hpp"
 #include "features/series/series_making.hpp"
+#include "media/formats/numbered_name.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "session/text/number_text.hpp"
 
@@ -25,6 +26,9 @@ int run_expose(const Options& options) {
   if (options.frames) throw UsageError("--frames chooses pictures of a series; add --every, or leave it out");
   ExposureTally tally;
   const std::filesystem::path output = output_name(options, "expose", "-" + exposure_label(options) + ".png");
+  if (NumberedName::parse(output.filename().string()))
+    throw UsageError(format("{} numbers the pictures of a series, and this is one: add --every, or name it without %",
+                            output.string()));
   const ExposureRequest request = exposure_request(options);
   std::vector<std::string> inputs = input_files(options);
   check_output(output, OutputKind::picture, inputs, replacing(options));

@@ -62,7 +62,8 @@ int run_series(const Options& options) {
 
   Answer answer{{{"pictures", Json::array()}}};
   for (const SeriesPicture& picture : pictures) {
-    answer.json["pictures"].push_back({{"picture", picture.path.string()}, {"start", picture.start.text()}});
+    answer.json["pictures"].push_back({{"picture", picture.path.string()}, {"start", picture.start.text()},
+                                       {"start_ns", moment_ns(picture.start, session.timeline())}});
   }
   const Shape shape =
       written_shape(names[0], session.format().shape, session.format().pixel_aspect, file_wishes(wishes));
