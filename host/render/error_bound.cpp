@@ -257,6 +257,8 @@ double code_error(const Transfer& transfer, std::uint32_t white_code, const Ligh
 }
 
 ErrorBound error_bound(const RenderPlan& plan, Precision precision, const OutputFormat& output) {
+  if (plan.combine != Combine::integral)  // the reference's to the last bit
+    return {precision, std::vector<PictureError>(plan.functions.size()), {}, output};
   const Roundings roundings = roundings_of(precision, plan.capture.transfer);
   const FixedScale scale = precision == Precision::fixed ? fixed_scale(plan) : FixedScale{};
   ErrorBound bound{precision, {}, {}, output};

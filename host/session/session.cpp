@@ -13,7 +13,6 @@
 #include "imev/expected_values.hpp"
 #include "media/events/event_clip.hpp"
 #include "render/code_scale.hpp"
-#include "render/combining_renderer.hpp"
 #include "render/one_pass.hpp"
 #include "render/picture_memory.hpp"
 #include "render/plan_cache.hpp"
@@ -111,7 +110,6 @@ class Session::Implementation {
   std::optional<Timeline> announced_;
 
   PlanCache plans_;
-  CombiningRenderer combining_;
   std::atomic_flag warmed_up_;
   std::atomic<bool> is_spent_ = false;
 };
@@ -281,9 +279,10 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
   throw_if_cancelled(control);
   check_transfer(options.transfer);
   RenderPlan plan = plans_.plan(source, functions, mask, options);
-  const bool by_devices = plan.combine == Combine::integral;
-  if (by_devices && !warmed_up_.test_and_set()) warm_up(source, plan, output);
-  if (by_devices && reading_ == Reading::whole) devices_->keep_resident(reader_.get());
+  if (control.maps_bounds && plan.combine != Combine::integral)
+    throw UsageError(Advice{"`bounds` maps what sums may be off by, and `combine` adds nothing up; use one"});
+  if (plan.combine == Combine::integral && !warmed_up_.test_and_set()) warm_up(source, plan, output);
+  if (reading_ == Reading::whole) devices_->keep_resident(reader_.get());
   // In the mask and in its map.
   const std::uint64_t mixed_bytes = 2 * mask.mixed.bytes();
   const std::uint64_t line_bytes =
@@ -299,8 +298,7 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
         RenderControl limited = control;
         limited.strict |= devices_->request().strict;
         if (limited.memory_bytes == 0 || limited.memory_bytes > left) limited.memory_bytes = left;
-        return (by_devices ? devices_->renderer() : static_cast<Renderer&>(combining_))
-            .render(plan, source, output, limited);
+        return devices_->renderer().render(plan, source, output, limited);
       });
   rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
   warn_of_infinite(rendered);

@@ -37,8 +37,6 @@ int run_expose(const Options& options) {
   if (options.bounds) {
     if (names_standard_output(*options.bounds))
       throw UsageError("--bounds writes a file: standard output has one picture");
-    if (request.combine != Combine::integral)
-      throw UsageError("--bounds maps what sums may be off by, and --combine adds nothing up");
     check_output(*options.bounds, OutputKind::picture, inputs, replacing(options));
     static_cast<void>(value_type_for(*options.bounds, Depth::floating, ValueType::light32, 1));
   }

@@ -13,6 +13,11 @@
 
 namespace nutik::app {
 
+static Json sound_json(const ClipSound& of_clip, const FilmSound& of_film) {
+  return {{"codec", of_clip.codec},      {"track", of_clip.track},     {"tracks", of_clip.tracks},
+          {"start_s", of_film.start_s}, {"speed", of_film.speed}, {"seconds", of_film.seconds}};
+}
+
 int run_video(const Options& options) {
   ExposureTally tally;
   static_cast<void>(stated_output(options, "video"));  // files before what is asked of them
@@ -72,7 +77,8 @@ int run_video(const Options& options) {
                       {"skipped", wanted - frames.numbers.size()},
                       {"frames_a_second", request.rate.text()},
                       {"start_ns", start_ns},
-                      {"end_ns", end_ns}});
+                      {"end_ns", end_ns},
+                      {"sound", made.sound ? sound_json(*session.sound(), *made.sound) : nullptr}});
   answer.line = format("{}: {}, {} ({}), from {} to {} of the capture, {}", name, shape_text(shape),
                        counted(frames.numbers.size(), "frame"), request.text(), duration_text(start_ns),
                        duration_text(end_ns), output.kind() + codes);

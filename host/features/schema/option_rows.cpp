@@ -218,7 +218,7 @@ constexpr Option kRows[] = {
      "divide by the time with a gain (support), by its integral (integral: a still scene keeps its "
      "brightness), by that of its magnitude (absolute), or by seconds:S (default: support)",
      "support integral absolute seconds:"}),
-    {0, "combine", "HOW", exposure, set_of(Id::expose, Id::video), take<In<&Options::combining>>,
+    {0, "combine", "HOW", exposure, set_of(Id::expose, Id::video, Id::validate), take<In<&Options::combining>>,
      "what becomes of a pixel's light: its integral, its mean, or of its samples, each times its largest gain, the lightest "
      "(lighten: star trails, fireworks), the darkest or the middle one (darken, median: what moves is gone) (default: integral)",
      "integral mean lighten darken median"},
