@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Which arithmetic pictures of 16 bits take, and how far single is off.
 
-    tools/bench/sixteen_bits.py --build build --clips FOLDER [--only NAME ...] [--pictures 120] [--csv FILE]
+    tools/bench/sixteen_bits.py --build build --clips FOLDER [--only NAME ...] [--pictures 120] [--scale 1/2]
+                                [--csv FILE]
 
 The first pictures of each clip are exposed in several ways without negative gains, to sRGB codes of 16 bits, in every
 arithmetic (nutik-cl validate). Ends with status 1 where less than nine of ten take single, or a code is off by half of
@@ -24,9 +25,9 @@ WAYS = {
     "all of it": ("--start", "0s", "--exposure", "24h"),
     "a picture": ("--start", "3f", "--exposure", "1f"),
     "ten": ("--start", "2f", "--exposure", "10f"),
-    "Hann": ("--start", "0f", "--exposure", "20f", "--shutter", "hann"),
-    "a stop less": ("--start", "0f", "--exposure", "16f", "--ev", "-1"),
-    "delays": ("--start", "0f", "--exposure", "8f", "--delay", "rows:0f..8f"),
+    "Hann": ("--start", "0f", "--exposure", "12f", "--shutter", "hann"),
+    "a stop less": ("--start", "0f", "--exposure", "12f", "--ev", "-1"),
+    "delays": ("--start", "0f", "--exposure", "8f", "--delay", "rows:0s..20ms"),
 }
 
 
@@ -34,6 +35,8 @@ def measured(program, capture, how):
     """The row of one exposure."""
     done = subprocess.run((program, "validate", "-q", "--json", "--runs", "1", "--depth", "16", *how, capture),
                           capture_output=True, text=True)
+    if not done.stdout:
+        raise SystemExit(done.stderr)
     report = json.loads(done.stdout)
     variants = {each["precision"]: each for each in report["variants"]}
     single = variants["single"]
@@ -47,6 +50,7 @@ def main():
     parser.add_argument("--clips", type=pathlib.Path, required=True, help="folder of recorded clips")
     parser.add_argument("--only", nargs="*", default=CLIPS, metavar="NAME", help="of them")
     parser.add_argument("--pictures", type=int, default=120, help="of each clip")
+    parser.add_argument("--scale", default="1/2", help="of their pictures: the reference takes its time")
     arguments = parser.parse_args()
     program = arguments.build.resolve() / "nutik-cl"
     rows = []
@@ -55,7 +59,7 @@ def main():
         capture = pathlib.Path(scratch) / "clip.tik"
         for name in arguments.only:
             part = ("--to", f"{arguments.pictures}f")
-            encode = (program, "encode", "--overwrite", "-q", arguments.clips / name, capture)
+            encode = (program, "encode", "--overwrite", "-q", "--scale", arguments.scale, arguments.clips / name, capture)
             if subprocess.run((*encode, *part), capture_output=True).returncode:
                 run_once(*encode)  # it has fewer
             for way, how in WAYS.items():

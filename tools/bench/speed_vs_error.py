@@ -2,7 +2,8 @@
 """What each arithmetic and each tolerance costs, in time and in error, in one run.
 
     tools/bench/speed_vs_error.py --build build [--clips FOLDER [--only NAME ...]] [--size 640x360] [--frames 120]
-                                  [--runs 5] [--csv FILE] [--chart FILE.png] [--bounds-chart FILE.png]
+                                  [--tolerances 0 2 4 8] [--runs 5] [--csv FILE] [--chart FILE.png]
+                                  [--bounds-chart FILE.png]
 
 Captures of different kinds, each encoded with tolerances of 0, 2, 4 and 8 codes, are exposed as a whole in every
 arithmetic that the device has (nutik-cl validate). The error is the largest in light against the scalar reference of
@@ -133,13 +134,13 @@ def measure_tolerance(program, clip, folder, tolerance, runs, lossless):
     capture.unlink()
 
 
-def measure(program, clip, folder, runs):
+def measure(program, clip, folder, runs, tolerances):
     """Rows of one clip."""
     exact = folder / "exact.tik"
     run_once(program, "encode", "--overwrite", "-q", "--codec", "none", clip, exact)
     lossless = light_of(program, folder, exact, "--renderer", "reference")
     exact.unlink()
-    for tolerance in TOLERANCES:
+    for tolerance in tolerances:
         yield from measure_tolerance(program, clip, folder, tolerance, runs, lossless)
     yield measure_loop(clip, folder, runs, lossless)
 
@@ -244,7 +245,7 @@ def chart_bounds(path, rows):
             for key, marker, _ in marks:
                 panel.plot(row["render_ms"], row[key], marker=marker, color=colour, markersize=9, markeredgewidth=1.8)
         panel.axhline(0.5, color="#606060", linestyle=":", linewidth=1)
-        panel.text(0.02, 0.6, "half a code: what auto takes lies below", fontsize=8, color="#606060",
+        panel.text(0.98, 0.6, "half a code: what auto takes lies below", fontsize=8, color="#606060", ha="right",
                    transform=panel.get_yaxis_transform())
         panel.set_xscale("log")
         panel.set_yscale("log")
@@ -258,7 +259,9 @@ def chart_bounds(path, rows):
     handles = [Line2D([], [], color=colour, linewidth=3, label=name) for name, colour in colours.items()]
     handles += [Line2D([], [], marker=marker, color="black", linestyle="none", markersize=9, label=name)
                 for _, marker, name in marks]
-    figure.legend(handles=handles, loc="outside lower center", ncols=4, fontsize=9, frameon=False)
+    legend_share = 0.7 / figure.get_figheight()
+    figure.get_layout_engine().set(rect=(0, legend_share, 1, 1 - legend_share))
+    figure.legend(handles=handles, loc="lower center", ncols=4, fontsize=9, frameon=False)
     figure.savefig(path, dpi=100)
 
 
@@ -266,6 +269,7 @@ def main():
     parser = command_line(__doc__, runs=5, chart=True)
     parser.add_argument("--clips", type=pathlib.Path, help="folder of recorded clips; left out where it is missing")
     parser.add_argument("--only", nargs="*", default=CLIPS, metavar="NAME", help="of them")
+    parser.add_argument("--tolerances", type=int, nargs="*", default=TOLERANCES, metavar="CODES")
     parser.add_argument("--bounds-chart", type=pathlib.Path, metavar="FILE.png")
     parser.add_argument("--size", default="640x360")
     parser.add_argument("--frames", type=int, default=120)
@@ -285,7 +289,7 @@ def main():
             clips |= {pathlib.Path(name).stem: arguments.clips / name for name in arguments.only}
         for name, clip in clips.items():
             size = " × ".join(map(str, size_of(clip)))
-            for row in measure(program, clip, folder, arguments.runs):
+            for row in measure(program, clip, folder, arguments.runs, arguments.tolerances):
                 figures = " ".join(f"{row[key]:{width}.{digits}g}" if key in row else " " * width for key, width, digits in (
                     ("read_mb", 8, 4), ("arithmetic_worst", 10, 2), ("bound", 8, 2), ("capture_worst", 8, 2),
                     ("total_worst", 8, 2), ("total_rms", 8, 2), ("codes_worst", 22, 2), ("codes_bound", 8, 2),
