@@ -21,6 +21,7 @@
 #include "session/clips/forward_clip.hpp"
 #include "session/clips/scratch_capture.hpp"
 #include "session/preloading.hpp"
+#include "session/uncertainty_map.hpp"
 
 namespace nutik {
 
@@ -285,15 +286,14 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
   if (reading_ == Reading::whole) devices_->keep_resident(reader_.get());
   // In the mask and in its map.
   const std::uint64_t mixed_bytes = 2 * mask.mixed.bytes();
+  const std::uint64_t pictures = control.by_one_device ? line_length(output.type) : 1;
   const std::uint64_t line_bytes =
-      control.by_one_device
-          ? line_length(output.type) * format_.shape.value_count() * value_bytes(output.type)
-          : 0;
+      control.by_one_device ? pictures * format_.shape.value_count() * value_bytes(output.type) : 0;
   Rendered rendered = within(
       {{"reading the clip", stream_bytes},
        {"mixed pixels", mixed_bytes},
        {"pictures in line", line_bytes},
-       {"the map of bounds", control.maps_bounds ? sizeof(float) * format_.shape.pixel_count() : 0}},
+       {"the map of bounds", output.maps_bounds ? pictures * UncertaintyMap::bytes(format_.shape) : 0}},
       [&](std::uint64_t left) {
         RenderControl limited = control;
         limited.strict |= devices_->request().strict;
@@ -303,20 +303,23 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
   rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
   warn_of_infinite(rendered);
   const auto block_count = reader_ ? std::optional(reader_->block_count()) : std::nullopt;
-  std::optional<Picture> bounds;
-  if (control.maps_bounds)
-    bounds = bound_map(plan, rendered.choice ? rendered.choice->bound : reference_bound(plan, output));
+  CaptureErrors errors = errors_;
+  if (plan.capture.transfer != format_.transfer) {
+    errors = CaptureErrors::of(plan.capture, is_rounded_);  // by the function that was stated instead
+    errors.alignment_pixels = errors_.alignment_pixels;
+    errors.made = errors_.made;
+  }
+  std::vector<PictureLayer> bounds;
+  if (output.maps_bounds && by_devices) {
+    const Rectangle part = control.rectangle.value_or(Rectangle::whole(format_.shape));
+    const ErrorBound bound = rendered.choice ? rendered.choice->bound : reference_bound(plan, output);
+    bounds = UncertaintyMap(plan, source.timeline(), bound, errors).layers(rendered.picture, part);
+  }
   ExposureFigures figures = ExposureFigures::of(std::move(plan), source.timeline(), block_count);
   if (figures.functions.size() == 1) {
     rendered.picture.exposed_ns = figures.functions.front().summary.support_ns;
   }
   ExposedPicture exposed{std::move(rendered), std::move(figures), output};
-  CaptureErrors errors = errors_;
-  if (const CaptureFormat& read = exposed.figures.capture; read.transfer != format_.transfer) {
-    errors = CaptureErrors::of(read, is_rounded_);  // by the function that was stated instead
-    errors.alignment_pixels = errors_.alignment_pixels;
-    errors.made = errors_.made;
-  }
   exposed.uncertainty = Uncertainty::of(exposed, errors);
   exposed.bounds = std::move(bounds);
   return exposed;
@@ -346,7 +349,7 @@ void Session::Implementation::render_many(std::span<const ExposureRequest> reque
                                           const RenderControl& control, const RenderedOne& done) {
   const ComputingRequest& computing = devices_->request();
   const auto asked = control.precision ? control.precision : computing.precision;
-  const bool in_double = computing.renderer == RendererKind::opencl && !control.maps_bounds &&
+  const bool in_double = computing.renderer == RendererKind::opencl && !output.maps_bounds &&
                          asked.value_or(Precision::double_) == Precision::double_;
   const Rectangle rectangle = control.rectangle.value_or(Rectangle::whole(format_.shape));
   std::vector<RenderPlan> plans;

@@ -269,7 +269,7 @@ class Capture:
         transfer : of codes, sRGB without it; 'source': the capture's own.
         negative : what codes say of light below 0, 'saturate', 'offset' or 'abs'.
         region : (x, y, width, height) in pixels, only these.
-        bounds : also a map of what the arithmetic may be off by, Picture.bounds.
+        bounds : also maps of what each pixel may be off by, Picture.bounds.
         strict : codes that may err by more than half of one raise ImpreciseError, and are no warning.
         combine : what becomes of a pixel's light, its integral without it: 'mean', or of its samples, each times its
             largest gain, the lightest, darkest or middle one, 'lighten', 'darken', 'median'.
