@@ -37,15 +37,14 @@ PREFACE = """\
 
 `nutik-cl COMMAND --help` shows the same in a terminal. New here? Start with [a tutorial](../tutorial/first-picture.md).
 
-| you write | it means |
-| --- | --- |
-| `nutik-cl clip.mp4 clip.tik`, `nutik-cl -o clip.tik clip.mp4` | `encode` |
-| `nutik-cl -m mask.pgm -k functions.fn clip.tik` | `expose` |
-| `nutik-cl --start 0.4s --exposure 10ms clip.tik` | `expose` |
-| `nutik-cl clip.tik`, `nutik-cl --json clip.tik` | `info`, and a command to try |
+Without a command, these mean
 
-The first word that is neither an option nor an option's value can name a command. Options and operands come in any
-order; a short option's value may be attached (`-f120`). A file with a command's name is written `./info`, or after `--`.
+- `encode`: `nutik-cl clip.mp4 clip.tik`, `nutik-cl -o clip.tik clip.mp4`
+- `expose`: `nutik-cl -m mask.pgm -k functions.fn clip.tik`, `nutik-cl --start 0.4s --exposure 10ms clip.tik`
+- `info`, and a command to try: `nutik-cl clip.tik`
+
+Options and operands come in any order; a short option's value may be attached (`-f120`). A file with a command's name
+is written `./info`, or after `--`.
 """
 
 

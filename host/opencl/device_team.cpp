@@ -216,7 +216,7 @@ Rendered DeviceTeam::render_part(const RenderPlan& plan, CaptureSource& source, 
                                  const Rectangle& rectangle, const RenderControl& control) {
   const std::optional<Precision> asked = control.precision ? control.precision : precision_;
   Rendered chosen;
-  choose(plan, output, asked, control, chosen);
+  if (plan.combine == Combine::integral) choose(plan, output, asked, control, chosen);
   RenderControl of_part = control;
   of_part.precision = chosen.precision;
   std::optional<Rendered> rendered;
@@ -302,6 +302,7 @@ Rendered DeviceTeam::render_bands(const RenderPlan& plan, CaptureSource& source,
   const auto make_band = [&](std::size_t member, std::stop_token stop) {
     RenderControl of_band = control;
     of_band.stop = std::move(stop);
+    if (member != at_work.front()) of_band.progress = {};
     of_band.rectangle = bands[member];
     of_band.memory_bytes = shares[member];
     made[member] = members_[member].renderer->render(plan, source, output, of_band);

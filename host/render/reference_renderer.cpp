@@ -8,6 +8,7 @@
 #include "capture/memory_needs.hpp"
 #include "imev/each_block.hpp"
 #include "render/code_scale.hpp"
+#include "render/combining_renderer.hpp"
 #include "render/value_walk.hpp"
 #include "system/parallel.hpp"
 
@@ -142,6 +143,7 @@ Picture light_of(const RenderPlan& plan, CaptureSource& source, const Rectangle&
     const PlannedBlock& planned = plan.blocks[b];
     const bool follows = b > 0 && plan.blocks[b - 1].block + 1 == planned.block;
     reference.add_block(planned, cursor.at(planned.block), follows, control);
+    if (control.progress) control.progress((b + 1) * rectangle.height, plan.blocks.size() * rectangle.height);
   }
   throw_if_cancelled(control);
   Picture light({rectangle.width, rectangle.height, plan.capture.shape.channels}, ValueType::light64,
@@ -177,6 +179,11 @@ std::uint32_t rows_at_once(const RenderPlan& plan, const CaptureSource& source, 
 Rendered ReferenceRenderer::render_part(const RenderPlan& plan, CaptureSource& source,
                                         const OutputFormat& output, const Rectangle& rectangle,
                                         const RenderControl& control) {
+  if (plan.combine != Combine::integral) {
+    RenderControl of_part = control;
+    of_part.rectangle = rectangle;
+    return CombiningRenderer().render(plan, source, output, of_part);
+  }
   const Shape shape{rectangle.width, rectangle.height, plan.capture.shape.channels};
   const std::uint32_t rows = source.is_forward_only()
                                  ? shape.height
@@ -189,7 +196,13 @@ Rendered ReferenceRenderer::render_part(const RenderPlan& plan, CaptureSource& s
   }
   for (std::uint32_t y = 0; y < shape.height; y += rows) {
     const Rectangle strip{rectangle.x, rectangle.y + y, rectangle.width, std::min(rows, shape.height - y)};
-    Picture part = stored(light_of(plan, source, strip, control, output.white_code), plan.capture, output,
+    RenderControl of_strip = control;
+    if (control.progress) {
+      of_strip.progress = [&](std::uint64_t done, std::uint64_t) {
+        control.progress(y * plan.blocks.size() + done, plan.blocks.size() * shape.height);
+      };
+    }
+    Picture part = stored(light_of(plan, source, strip, of_strip, output.white_code), plan.capture, output,
                           rendered.saturation);
     if (rows == shape.height) {
       picture = std::move(part);
