@@ -17,6 +17,7 @@ from pathlib import Path
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "reference" / "commands.md"
 
 USUAL = 4  # commands that take the same options of a heading
+EXAMPLES = 3  # of a command, as its help has; its page has others
 
 # The page that goes on where a command's help ends.
 FURTHER = {
@@ -173,7 +174,7 @@ def page_of(man):
                 sys.exit(f"which page goes on with {name}? Name it in FURTHER of tools/commands_page.py")
             text += f"\n### {name}\n\n`{f'nutik-cl {name} {operands}'.strip()}`\n\n"
             text += folded(f"{summary} ([more]({FURTHER[name]}))") + "\n"
-            text += "\n```sh\n" + examples[name] + "```\n"
+            text += "\n```sh\n" + "".join(examples[name].splitlines(keepends=True)[:EXAMPLES]) + "```\n"
             text += "\n" + folded(f"Options: {'; '.join(options_of(name, option_groups, usual))}.") + "\n"
     text += "\n## Options\n"
     for heading, options in option_groups:
