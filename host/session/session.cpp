@@ -280,7 +280,7 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
   throw_if_cancelled(control);
   check_transfer(options.transfer);
   RenderPlan plan = plans_.plan(source, functions, mask, options);
-  if (control.maps_bounds && plan.combine != Combine::integral)
+  if (output.maps_bounds && plan.combine != Combine::integral)
     throw UsageError(Advice{"`bounds` maps what sums may be off by, and `combine` adds nothing up; use one"});
   if (plan.combine == Combine::integral && !warmed_up_.test_and_set()) warm_up(source, plan, output);
   if (reading_ == Reading::whole) devices_->keep_resident(reader_.get());
@@ -310,7 +310,7 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
     errors.made = errors_.made;
   }
   std::vector<PictureLayer> bounds;
-  if (output.maps_bounds && by_devices) {
+  if (output.maps_bounds) {
     const Rectangle part = control.rectangle.value_or(Rectangle::whole(format_.shape));
     const ErrorBound bound = rendered.choice ? rendered.choice->bound : reference_bound(plan, output);
     bounds = UncertaintyMap(plan, source.timeline(), bound, errors).layers(rendered.picture, part);
