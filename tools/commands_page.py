@@ -36,7 +36,7 @@ PREFACE = """\
 
 <!-- Written by tools/commands_page.py from `nutik-cl man`. -->
 
-`nutik-cl COMMAND --help` shows the same in a terminal. New here? Start with [a tutorial](../tutorial/first-picture.md).
+`nutik-cl COMMAND --help` shows the same in a terminal.
 
 Without a command, these mean
 
