@@ -73,10 +73,11 @@ def complete(function: Any, told: Mapping[str, str]) -> None:
             "Raises": has.get("Raises", "UsageError where an argument makes no sense." if arguments else ""),
             "Notes": has.get("Notes", fill(_WORKS, 110) if "progress : " in arguments else ""),
             "Examples": has.get("Examples", "")}
-    function.__doc__ = _joined(has[""], made)
+    function.__doc__ = joined(has[""], made)
 
 
-def _joined(summary: str, sections: Mapping[str, str]) -> str:
+def joined(summary: str, sections: Mapping[str, str]) -> str:
+    """NumPy's form."""
     return "\n\n".join([summary, *(f"{name}\n{'-' * len(name)}\n{text}" for name, text in sections.items() if text)])
 
 
@@ -91,7 +92,7 @@ def _complete_class(kind: type) -> None:
                                       for name, annotation, told in found)
     elif "Parameters" in has:
         has["Parameters"] = _parameters(kind, _entries(kind))
-    kind.__doc__ = _joined(has.pop(""), {name: has[name] for name in _ORDER if name in has})
+    kind.__doc__ = joined(has.pop(""), {name: has[name] for name in _ORDER if name in has})
 
 
 def complete_all(offered: Iterable[object]) -> None:
