@@ -11,9 +11,12 @@ import re
 import subprocess
 import sys
 import textwrap
+from collections import Counter
 from pathlib import Path
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "reference" / "commands.md"
+
+USUAL = 4  # commands that take the same options of a heading
 
 # The page that goes on where a command's help ends.
 FURTHER = {
@@ -32,8 +35,7 @@ PREFACE = """\
 
 <!-- Written by tools/commands_page.py from `nutik-cl man`. -->
 
-Every command: what it does, examples, the options it takes. `nutik-cl COMMAND --help` shows the same in a terminal.
-New here? Start with [a tutorial](../tutorial/first-picture.md).
+`nutik-cl COMMAND --help` shows the same in a terminal. New here? Start with [a tutorial](../tutorial/first-picture.md).
 
 | you write | it means |
 | --- | --- |
@@ -71,10 +73,6 @@ def items(text):
     return [(plain(term), plain(said)) for term, said in re.findall(r"^\.TP\n(.*)\n(.*)\n", text, re.MULTILINE)]
 
 
-def in_table(text):
-    return text.replace("|", "\\|")
-
-
 def anchor(heading):
     return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
 
@@ -88,12 +86,67 @@ def folded(text, indent=""):
     return textwrap.fill(text, 120, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
 
 
-def options_of(command, option_groups):
-    """For each heading the command's options."""
+def listed(pairs):
+    return "".join(folded(f"- `{term}`: {said}", "  ") + "\n" for term, said in pairs)
+
+
+def named(options):
+    """Options by their names; two of one name (--tag) count once."""
+    return list(dict.fromkeys(f"`{long_name(term)}`" for term, _, _ in options))
+
+
+def taken_by(command, options):
+    return named(option for option in options if command in option[2])
+
+
+def usual_options(names, option_groups):
+    """For each heading the options that commands mostly take of it, if at least USUAL commands take just these."""
     for heading, options in option_groups:
-        taken = [f"`{long_name(term)}`" for term, _, takers in options if command in takers]
-        if taken:
-            yield folded(f"- [{heading}](#{anchor(heading)}): {', '.join(taken)}", "  ")
+        counts = Counter(filter(None, (tuple(taken_by(name, options)) for name in names)))
+        taken, count = counts.most_common(1)[0]
+        if count >= USUAL and len(taken) > 1:
+            yield heading, list(taken)
+
+
+def link(heading):
+    """A heading's name, without what it says behind a comma."""
+    return f"[{heading.split(',')[0]}](#{anchor(heading)})"
+
+
+def without(options, left):
+    return [option for option in options if option not in left]
+
+
+def of_heading(heading, every, taken):
+    """The options that a command takes of a heading, or those that it does not, if these are fewer."""
+    left = without(every, taken)
+    if len(taken) > 1 and not left:
+        return f"all of {link(heading)}"
+    if 2 + len(left) < len(taken):
+        return f"all of {link(heading)} but {', '.join(left)}"
+    return f"{link(heading)}: {', '.join(taken)}"
+
+
+def options_of(command, option_groups, usual):
+    """How a command differs from what is usual; then its options of the other headings."""
+    taken_of = {heading: taken_by(command, options) for heading, options in option_groups}
+    if sum(taken_of[heading] == taken for heading, taken in usual.items()) > 2:
+        unused, less, more = [], [], []
+        for heading, taken in usual.items():
+            own = taken_of.pop(heading)
+            left = without(taken, own)
+            if own and len(left) <= len(own) + 1:
+                less += left
+                more += without(own, taken)
+            elif left:
+                unused.append(f"*{heading}*")
+                more += own
+        less = ", ".join(unused + less)
+        more = ", ".join(more)
+        yield "[as usual](#usual-options)" + (f" without {less}" if less else "") + (f", with {more}" if more else "")
+    for heading, options in option_groups:
+        if taken_of.get(heading):
+            yield of_heading(heading, named(options), taken_of[heading])
 
 
 def page_of(man):
@@ -108,7 +161,11 @@ def page_of(man):
         option_groups.append((heading, options))
     examples = {title: plain(re.sub(r"^\.(nf|fi)\n", "", body, flags=re.MULTILINE))
                 for title, body in groups(section(man, "EXAMPLES"))}
-    text = PREFACE
+    usual = dict(usual_options(names, option_groups))
+    text = PREFACE + "\n## Usual options\n\n"
+    text += "*As usual* stands for all of these:\n\n"
+    text += "".join(folded("- " + of_heading(heading, named(options), usual[heading]), "  ") + "\n"
+                    for heading, options in option_groups if heading in usual)
     for title, commands in command_groups:
         text += f"\n## {title}\n"
         for term, summary in commands:
@@ -118,15 +175,12 @@ def page_of(man):
             text += f"\n### {name}\n\n`{f'nutik-cl {name} {operands}'.strip()}`\n\n"
             text += folded(f"{summary} ([more]({FURTHER[name]}))") + "\n"
             text += "\n```sh\n" + examples[name] + "```\n"
-            taken = list(options_of(name, option_groups))
-            text += "".join(f"\n{line}" for line in taken) + ("\n" if taken else "")
+            text += "\n" + folded(f"Options: {'; '.join(options_of(name, option_groups, usual))}.") + "\n"
     text += "\n## Options\n"
     for heading, options in option_groups:
-        text += f"\n### {heading}\n\n| option | |\n| --- | --- |\n"
-        text += "".join(f"| `{in_table(term)}` | {in_table(said)} |\n" for term, said, _ in options)
+        text += f"\n### {heading}\n\n" + listed((term, said) for term, said, _ in options)
     for title in ("EXIT STATUS", "ENVIRONMENT"):
-        text += f"\n## {title.capitalize()}\n\n| | |\n| --- | --- |\n"
-        text += "".join(f"| `{term}` | {in_table(said)} |\n" for term, said in items(section(man, title)))
+        text += f"\n## {title.capitalize()}\n\n" + listed(items(section(man, title)))
     return text
 
 

@@ -67,8 +67,7 @@ Rational Rational::of(std::int64_t numerator, std::int64_t denominator) {
   return {numerator / divisor, denominator / divisor};
 }
 
-Rational Rational::parse(std::string_view text, std::string_view what) {
-  const std::string_view original = text;
+std::optional<Rational> Rational::read(std::string_view text) {
   const bool negative = !text.empty() && text.front() == '-';
   if (negative) text.remove_prefix(1);
   std::int64_t top = 0, top_scale = 1, bottom = 1, bottom_scale = 1;
@@ -79,11 +78,15 @@ Rational Rational::parse(std::string_view text, std::string_view what) {
   if (good && slash != std::string_view::npos) {
     good = read_decimal(text.substr(slash + 1), false, bottom, bottom_scale) && bottom != 0;
   }
-  if (!good) {
-    throw UsageError(format("{} '{}' is not a number; write 120, 29.97 or 30000/1001 (15 digits at most)",
-                            what, original));
-  }
+  if (!good) return std::nullopt;
   return of(negative ? -top : top, slash == std::string_view::npos ? top_scale : bottom);
+}
+
+Rational Rational::parse(std::string_view text, std::string_view what) {
+  const std::optional<Rational> number = read(text);
+  if (number) return *number;
+  throw UsageError(
+      format("{} '{}' is not a number; write 120, 29.97 or 30000/1001 (15 digits at most)", what, text));
 }
 
 std::string Rational::text() const {

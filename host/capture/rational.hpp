@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace nutik {
 
 inline constexpr std::int64_t kSecondNs = 1'000'000'000;
+// No time lies further from the start of a capture (126 years), so that differences of times fit.
+inline constexpr std::int64_t kLargestTimeNs = 4'000'000'000'000'000'000;
 
 __extension__ typedef __int128 int128;
 
@@ -20,8 +23,10 @@ struct Rational {
   // `numerator / denominator` in lowest terms. Throws UsageError where the denominator is 0.
   static Rational of(std::int64_t numerator, std::int64_t denominator);
 
-  // Reads `30000/1001`, `29.97` (exactly 2997/100), `120` or `1e-3`; a leading minus is allowed. Throws
-  // UsageError naming `what` ("frame rate") where the text is none of these or needs more than 15 digits.
+  // Reads `30000/1001`, `29.97` (exactly 2997/100), `120` or `1e-3`; a leading minus is allowed. Nothing where the text
+  // is none of these or needs more than 15 digits.
+  static std::optional<Rational> read(std::string_view text);
+  // The same. Throws UsageError naming `what` ("frame rate").
   static Rational parse(std::string_view text, std::string_view what);
 
   [[nodiscard]] double value() const {

@@ -160,13 +160,18 @@ class Parser {
     if (!is_word(peek())) fail_without_number("time", "whole nanoseconds");
     const Named named_time = take_name(&FunctionTemplate::Place::time);
     const std::int64_t time_ns =
-        named_time.name ? named_time.added_ns : number_or_fail(read_time(take_word()), time_at);
+        named_time.name ? named_time.added_ns : number_or_fail(read_time(take_time()), time_at);
     skip_blanks();
     if (peek() != ':') {
       const std::size_t rest = peek() == ',' ? behind_blanks(at_ + 1) : at_;
       const bool is_split = word_end(rest) > rest && text_[behind_blanks(word_end(rest))] == ':';
+      const std::string with_point =
+          std::string(text_.piece(time_at, at_)).append(".").append(text_.piece(rest, word_end(rest)));
+      const bool has_comma = is_split && peek() == ',' && read_time(with_point).mistake.empty();
       fail_at_other("where the ':' between time and gain should stand",
-                    is_split ? "; a time is one word: 10000000 or 10ms" : "");
+                    has_comma  ? format("; the decimal mark is a point: write {}", with_point)
+                    : is_split ? "; a time is one word: 10000000 or 10ms"
+                               : "");
     }
     ++at_;
     skip_blanks();
@@ -361,6 +366,14 @@ class Parser {
   void skip_blanks() { at_ = behind_blanks(at_); }
   std::string_view take_word() {
     const std::size_t start = std::exchange(at_, word_end(at_));
+    return text_.piece(start, at_);
+  }
+
+  // A word; of a time such as 0:01.5 all that stands before the last colon.
+  std::string_view take_time() {
+    const std::size_t start = at_;
+    take_word();
+    for (std::size_t end = 0; peek() == ':' && is_digit(peek(1)) && text_[end = word_end(at_ + 1)] == ':';) at_ = end;
     return text_.piece(start, at_);
   }
 

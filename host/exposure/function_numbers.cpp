@@ -1,16 +1,14 @@
 #include "exposure/function_numbers.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
-#include <utility>
 
 #include "capture/format.hpp"
-#include "capture/rational.hpp"
 #include "capture/source_text.hpp"
+#include "capture/stated_time.hpp"
 #include "exposure/gain_function.hpp"
 
 namespace nutik {
@@ -81,55 +79,6 @@ std::optional<std::int64_t> whole_number(const Decimal& decimal, long power) {
   return decimal.is_negative ? -value : value;
 }
 
-// A unit's nanoseconds.
-std::optional<std::int64_t> nanoseconds_of(std::string_view unit) {
-  using Unit = std::pair<std::string_view, std::int64_t>;
-  constexpr std::array<Unit, 8> kUnits = {
-      Unit{"ns", 1},         Unit{"us", 1'000}, Unit{"\u00B5s", 1'000},       Unit{"\u03BCs", 1'000},
-      Unit{"ms", 1'000'000}, Unit{"s", kSecondNs}, Unit{"min", 60 * kSecondNs}, Unit{"h", 3600 * kSecondNs},
-  };
-  const auto* const found = std::ranges::find(kUnits, unit, &Unit::first);
-  return found == kUnits.end() ? std::nullopt : std::optional(found->second);
-}
-
-// `0.4s`, `10ms`, `1/30s`: rounded half up to a nanosecond, once. Nothing for what is none of these, or has more digits
-// than a time needs; a value beyond kLargestTimeNs for what is further away.
-std::optional<std::int64_t> time_with_unit(std::string_view word) {
-  const auto decimal = decimal_at_start(word);
-  if (!decimal) return std::nullopt;
-  std::string_view rest = word.substr(decimal->length);
-  int128 below = 1;
-  if (rest.starts_with('/')) {
-    const std::string_view digits = rest.substr(1, digits_at(rest, 1));
-    std::int64_t parts = 0;
-    std::from_chars(digits.data(), digits.data() + digits.size(), parts);
-    constexpr std::size_t kMostDigits = 12;
-    if (digits.empty() || digits.size() > kMostDigits || parts == 0) return std::nullopt;
-    below = parts;
-    rest.remove_prefix(1 + digits.size());
-  }
-  const auto unit_ns = nanoseconds_of(rest);
-  if (!unit_ns) return std::nullopt;
-  std::string digits = std::string(decimal->whole).append(decimal->fraction);
-  digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size()));
-  if (digits.empty()) return 0;
-  long power = exponent_of(decimal->exponent) - static_cast<long>(decimal->fraction.size());
-  for (; digits.size() > 1 && digits.back() == '0'; ++power) digits.pop_back();
-  constexpr std::size_t kMostDigits = 18;
-  if (digits.size() > kMostDigits || power < -static_cast<long>(kMostDigits)) return std::nullopt;
-  if (power > static_cast<long>(kMostDigits)) return INT64_MAX;
-  std::int64_t mantissa = 0, ten = 1;
-  std::from_chars(digits.data(), digits.data() + digits.size(), mantissa);
-  for (long i = 0; i < std::abs(power); ++i) ten *= 10;
-  int128 above = static_cast<int128>(decimal->is_negative ? -mantissa : mantissa) * *unit_ns;
-  if (power < 0) below *= ten;
-  if (power > 0 && above / below > kLargestTimeNs / ten) return INT64_MAX;
-  if (power > 0 && above / below < -kLargestTimeNs / ten) return INT64_MIN;
-  if (power > 0) above *= ten;
-  if (above / below > kLargestTimeNs || above / below < -kLargestTimeNs) return above > 0 ? INT64_MAX : INT64_MIN;
-  return round_half_up(above, below);
-}
-
 // What to write for a time that is written in another way, as far as it can be guessed.
 std::string time_way_out(std::string_view word) {
   if (const auto decimal = decimal_at_start(word); decimal && decimal->length == word.size()) {
@@ -137,7 +86,7 @@ std::string time_way_out(std::string_view word) {
     if (decimal->exponent.empty()) return format("is it {0}s, or {0}ms?", shown(word));
     if (const auto whole = whole_number(*decimal, 0)) return format("write {}", *whole);
   }
-  return "as in 10000000, 10ms, 0.4s or 1/30s";
+  return "as in 10000000, 10ms, 0.4s, 1/30s or 0:01.5";
 }
 
 // The nearest double: 0 for what is too small, infinity for what is too large.
@@ -186,13 +135,21 @@ ReadNumber<std::int64_t> read_time(std::string_view word) {
   const std::size_t sign = !word.empty() && is_sign(word[0]) ? 1 : 0;
   const std::size_t digits = digits_at(word, sign);
   const bool is_plain = digits > 0 && sign + digits == word.size();
-  const auto with_unit = is_plain ? std::nullopt : time_with_unit(word);
-  if (!is_plain && !with_unit) {
+  const auto stated = is_plain ? std::nullopt : StatedTime::read(word);
+  if (stated && stated->counts_samples()) {
+    return {0, format("{} counts pictures, whose times a function file does not know; write seconds, as in 0.4s",
+                      quoted(word))};
+  }
+  if (!is_plain && !stated && word.find(';') != word.npos)
+    return {0, format("{} is no time; between time and gain stands a colon", quoted(word))};
+  if (!is_plain && !stated) {
     return {0, format("{} is no time; write whole nanoseconds, or a unit behind the number: {}", quoted(word),
                       time_way_out(word))};
   }
-  const auto value = is_plain ? whole_number(*decimal_at_start(word), 0) : with_unit;
-  if (!value || *value > kLargestTimeNs || *value < -kLargestTimeNs) {
+  const auto value = is_plain                ? whole_number(*decimal_at_start(word), 0)
+                     : stated->is_longest() ? std::nullopt
+                                             : std::optional(stated->nanoseconds());
+  if (!value) {
     return {0,
             format("time {} is further than {} ns from the start (126 years)", shown(word), kLargestTimeNs)};
   }

@@ -17,8 +17,8 @@ struct ReadNumber {
 // The digits behind an `M`: 0 … 255.
 [[nodiscard]] ReadNumber<std::uint8_t> read_mask_value(std::string_view word);
 
-// Nanoseconds as [+-] digits; or a decimal number or a fraction with a unit (ns, us, ms, s, min, h): 0.4s, 10ms, 1/30s,
-// rounded half up once. At most kLargestTimeNs from 0.
+// Nanoseconds as [+-] digits; or a stated time (capture/stated_time.hpp), rounded half up once. At most kLargestTimeNs
+// from 0.
 [[nodiscard]] ReadNumber<std::int64_t> read_time(std::string_view word);
 
 // The double nearest to a decimal number: 0 where it is too small, a mistake where it is too large.

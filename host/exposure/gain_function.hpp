@@ -14,9 +14,6 @@
 
 namespace nutik {
 
-// No time lies further from the start of a capture (126 years), so that differences of times fit.
-inline constexpr std::int64_t kLargestTimeNs = 4'000'000'000'000'000'000;
-
 struct ControlPoint {
   std::int64_t time_ns = 0;
   double gain = 0.0;

@@ -42,6 +42,8 @@ struct ClipTiming {
 struct ClipSound {
   double first_s = 0, last_s = 0;
   double filmed_s = 0;
+  std::string codec = {};
+  int track = 1, tracks = 1;  // which of the file's tracks of sound it is, from 1
 };
 
 struct ClipInfo {

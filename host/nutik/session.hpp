@@ -38,7 +38,7 @@
 #include "session/requests/function_input.hpp"
 #include "session/requests/output_request.hpp"
 #include "session/requests/source_request.hpp"
-#include "session/requests/stated_time.hpp"
+#include "session/requests/moments.hpp"
 #include "session/session.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/shared_warnings.hpp"

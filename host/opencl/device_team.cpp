@@ -216,7 +216,7 @@ Rendered DeviceTeam::render_part(const RenderPlan& plan, CaptureSource& source, 
                                  const Rectangle& rectangle, const RenderControl& control) {
   const std::optional<Precision> asked = control.precision ? control.precision : precision_;
   Rendered chosen;
-  choose(plan, output, asked, control, chosen);
+  if (plan.combine == Combine::integral) choose(plan, output, asked, control, chosen);
   RenderControl of_part = control;
   of_part.precision = chosen.precision;
   std::optional<Rendered> rendered;

@@ -115,15 +115,14 @@ SumsInUse IncrementalExposer::sums_in_use(const Means& means, const RenderPlan& 
 }
 
 void Exposer::expose(std::span<ExposedBand> bands, const RenderControl& control, const Develop& develop) {
-  const std::vector<TableSlice> slices =
-      cut_tables(plan_, work_.precision, device_.info, shares_.slice_bytes);
   const NeededTiles tiles(plan_, bands);
-  device_.feed.start(plan_, slices, source_, tiles, shares_.feed, kept_.skipped);
+  device_.feed.start(plan_, kernel_.slices, source_, tiles, shares_.feed, kept_.skipped);
   const StoppedAtEnd stopped(device_.feed);
   const DeviceMemory::Scope scope(memory_);
-  const bool has_bundles = work_.precision != Precision::fixed && plan_.has_bundles();
+  const bool has_bundles =
+      work_.precision != Precision::fixed && plan_.combine == Combine::integral && plan_.has_bundles();
   // Tables of several slices would have to be written anew for each band.
-  const bool are_all_there = bands.size() > 1 && slices.size() == 1 && fetch_all();
+  const bool are_all_there = bands.size() > 1 && kernel_.slices.size() == 1 && fetch_all();
   const std::size_t bands_at_once = are_all_there ? 1 : bands.size();
   to_read_ = read_blocks(0, plan_.blocks.size()) * ((bands.size() + bands_at_once - 1) / bands_at_once);
   for (std::size_t first = 0; first < bands.size(); first += bands_at_once) {
@@ -139,7 +138,7 @@ void Exposer::expose(std::span<ExposedBand> bands, const RenderControl& control,
       }
       each.bundles = has_bundles ? memory_.allocate(bytes, CL_MEM_READ_WRITE) : each.sums;
     }
-    sum_up(exposed, slices, control);
+    sum_up(exposed, control);
     throw_if_cancelled(control);
     memory_.count(device_.feed.bytes());
     for (ExposedBand& each : exposed) {
@@ -197,15 +196,13 @@ void Exposer::add_correction(const TableSlice& slice, std::size_t planned,
 
 // Σ_k v_k w_k of every pixel of the bands, slice by slice, chunk by chunk. Kept sums stand between the blocks around
 // them: each pixel's are added in time order.
-void Exposer::sum_up(std::span<const ExposedBand> bands, std::span<const TableSlice> slices,
-                     const RenderControl& control) {
+void Exposer::sum_up(std::span<const ExposedBand> bands, const RenderControl& control) {
   auto fetched = fetched_.begin();
   std::size_t next_kept = 0;
   bool is_first = true;
-  for (const TableSlice& slice : slices) {
+  for (const TableSlice& slice : kernel_.slices) {
     const DeviceMemory::Scope slice_scope(memory_);
-    const SliceTables tables =
-        device_.tables.slice(plan_, slice, work_.precision, work_.shape.table_rows(), memory_, statistics_.table_bytes_written);
+    const SliceTables tables = kernel_.tables(slice);
     for (std::size_t blocks = read_blocks(slice.first_block, slice.last_block); blocks > 0;) {
       throw_if_cancelled(control);
       const DeviceMemory::Scope chunk_scope(memory_);
@@ -238,23 +235,15 @@ void Exposer::sum_up(std::span<const ExposedBand> bands, std::span<const TableSl
 void Exposer::launch(const cl::Buffer& payload, std::span<const BlockEntry> entries,
                      const SliceTables& tables, std::span<const ExposedBand> bands,
                      const RenderControl& control, bool is_first) {
-  ExposeKernel kernel(kernel_);
   const std::uint64_t max_samples = max_samples_a_launch(device_.info, work_.shape);
-  // Every argument is a buffer, though it may not be read.
-  const cl::Buffer exposes = memory_.upload(exposes_);
-  const cl::Buffer& kept = kept_.entries.empty() ? light_ : kept_.sums;
   for (const std::span<const BlockEntry> part : launches_of(entries, max_samples)) {
     const cl::Buffer entries_of_part = memory_.upload(part);
     for (const ExposedBand& exposed : bands) {
       throw_if_cancelled(control);
-      const Band& band = exposed.band;
-      const ExposeLaunch launched{band.sum_tiles, static_cast<cl_uint>(part.size()),
+      const ExposeLaunch launched{exposed.band.sum_tiles, static_cast<cl_uint>(part.size()),
                                   static_cast<cl_uint>(plan_.function_count()), is_first ? 1u : 0u};
       keep_watching_mapped_files();  // what was launched before may have been compiled at that moment
-      const cl::Event event =
-          kernel(items(kernel, device_.queue, work_.shape, band.sum_tiles), payload, entries_of_part, tables.parts,
-                 tables.gains, tables.weights, tables.boundaries, exposed.map.tiles, exposed.map.of_tile,
-                 exposed.map.of_lane, exposes, light_, kept, exposed.bundles, exposed.sums, launched);
+      const cl::Event event = kernel_.launch(payload, entries_of_part, tables, exposed, launched);
       event.wait();
       keep_watching_mapped_files();
       const std::optional<double> took_ms = milliseconds(event);

@@ -1,4 +1,4 @@
-// Exposes a picture: the sums of its bands, with kernels/expose.cl.
+// Exposes a picture: the sums of its bands, with kernels/expose.cl, or what kernels/combine.cl makes of them.
 //
 //   in:      a plan, the capture it was made for, the bands of its picture
 //   out:     each band's sums, handed over to be developed
@@ -30,8 +30,17 @@ struct ExposingDevice {
   const DeviceInfo& info;
   cl::CommandQueue& queue;
   BlockFeed& feed;
-  DeviceTables& tables;
   bool last_block_first;  // OpenClOptions
+};
+
+// A kernel that goes over blocks, with what it reads beside them.
+struct BlockKernel {
+  std::vector<TableSlice> slices;
+  std::function<SliceTables(const TableSlice& slice)> tables;
+  // Over entries of a chunk, into the sums of a band.
+  std::function<cl::Event(const cl::Buffer& chunk, const cl::Buffer& entries, const SliceTables& tables,
+                          const ExposedBand& exposed, const ExposeLaunch& launch)>
+      launch;
 };
 
 // What is exposed: of a plan the pixels of some functions (of others the bands have the sums), and what need not be read.
@@ -43,20 +52,16 @@ struct ExposedPlan {
 
 class Exposer {
  public:
-  // `kernel` is that of kernels/expose.cl, built for the picture, `light` the values of its codes. The plan has blocks.
-  // All that is given must live as long.
+  // The plan has blocks. All that is given must live as long.
   Exposer(const ExposingDevice& device, const Work& work, const ExposedPlan& what, CaptureSource& source,
-          const RenderMemory& shares, cl::Kernel kernel, cl::Buffer light, DeviceMemory& memory,
-          RenderStatistics& statistics)
+          const RenderMemory& shares, const BlockKernel& kernel, DeviceMemory& memory, RenderStatistics& statistics)
       : device_(device),
         work_(work),
         plan_(what.plan),
         source_(source),
         shares_(shares),
         kept_(what.kept),
-        exposes_(what.exposes),
-        kernel_(std::move(kernel)),
-        light_(std::move(light)),
+        kernel_(kernel),
         memory_(memory),
         statistics_(statistics) {}
 
@@ -68,8 +73,7 @@ class Exposer {
  private:
   // Whether all of the plan's blocks are in `fetched_` now, to stay.
   bool fetch_all();
-  void sum_up(std::span<const ExposedBand> bands, std::span<const TableSlice> slices,
-              const RenderControl& control);
+  void sum_up(std::span<const ExposedBand> bands, const RenderControl& control);
   void launch(const cl::Buffer& payload, std::span<const BlockEntry> entries, const SliceTables& tables,
               std::span<const ExposedBand> bands, const RenderControl& control, bool is_first);
   // Planned blocks [first, last) that are read.
@@ -86,9 +90,7 @@ class Exposer {
   CaptureSource& source_;
   const RenderMemory& shares_;
   const SumsInUse& kept_;
-  std::span<const std::uint8_t> exposes_;
-  cl::Kernel kernel_;
-  cl::Buffer light_;
+  const BlockKernel& kernel_;
   DeviceMemory& memory_;
   RenderStatistics& statistics_;
   std::size_t read_ = 0, to_read_ = 0;     // blocks, each as often as bands are exposed

@@ -41,6 +41,10 @@ using ExposeKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl::B
                                        cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer,
                                        cl::Buffer, cl::Buffer, ExposeLaunch>;
 
+// kernels/combine.cl.
+using CombineKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer,
+                                        cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, ExposeLaunch>;
+
 // The work-items for so many tiles, in whole work-groups, which are smaller where a kernel needs more of the device.
 template <typename Functor>
 [[nodiscard]] cl::EnqueueArgs items(Functor& kernel, cl::CommandQueue& queue, const WorkShape& shape,

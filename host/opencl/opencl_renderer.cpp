@@ -10,6 +10,7 @@
 #include "opencl/allocation_cuts.hpp"
 #include "opencl/arithmetic_choice.hpp"
 #include "opencl/block_feed.hpp"
+#include "opencl/combining.hpp"
 #include "opencl/developer.hpp"
 #include "opencl/device_memory.hpp"
 #include "opencl/device_tables.hpp"
@@ -21,6 +22,7 @@
 #include "opencl/program_store.hpp"
 #include "opencl/render_memory.hpp"
 #include "opencl/self_test.hpp"
+#include "render/combining_renderer.hpp"
 
 namespace nutik {
 namespace {
@@ -117,6 +119,7 @@ class OpenClRenderer::Implementation {
   }
 
   Rendered render(const Request& request) {
+    if (request.plan.combine != Combine::integral) return combine(request);
     const std::optional<Precision> asked =
         request.control.precision ? request.control.precision : options_.precision;
     if (asked) check_precision(*asked);
@@ -200,25 +203,119 @@ class OpenClRenderer::Implementation {
     const TestedPrograms programs{precision, options_of_exposing(work, plan, light),
                                   options_of_developing(work, plan, output),
                                   kernels_make_codes(plan.capture, output)};
+    return verdict_on(programs, [&] {
+      return self_test(plan.capture, precision, output, {!plan.map->mixed.empty(), plan.map->has_delays()},
+                       [&](const RenderPlan& scene, CaptureSource& source, const OutputFormat& format) {
+                         const Rectangle whole = Rectangle::whole(scene.capture.shape);
+                         Rendered rendered;
+                         expose_and_develop(work, {scene, source, format, whole, {}}, develop, rendered);
+                         return std::move(rendered.picture);
+                       });
+    });
+  }
+
+  template <typename Test>
+  Verdict verdict_on(const TestedPrograms& programs, Test test) {
     const std::string key = programs.text();
     if (const auto known = verdict_on_.find(key); known != verdict_on_.end()) return known->second;
     std::optional<Verdict> verdict;
     if (!programs_->was_built("expose", programs.expose_options) &&
+        !programs_->was_built("combine", programs.expose_options) &&
         !programs_->was_built("develop", programs.develop_options)) {
       verdict = verdicts_.find(programs);
     }
     if (!verdict) {
-      verdict = self_test(plan.capture, precision, output, {!plan.map->mixed.empty(), plan.map->has_delays()},
-                          [&](const RenderPlan& scene, CaptureSource& source, const OutputFormat& format) {
-                            const Rectangle whole = Rectangle::whole(scene.capture.shape);
-                            Rendered rendered;
-                            expose_and_develop(work, {scene, source, format, whole, {}}, develop, rendered);
-                            return std::move(rendered.picture);
-                          });
+      verdict = test();
       programs_->save_new_binaries();
       verdicts_.keep(programs, *verdict);
     }
     return verdict_on_.emplace(key, *verdict).first->second;
+  }
+
+  // The middle one needs all samples of a pixel side by side: the processor has them there.
+  Rendered combine(const Request& request) {
+    const auto by_processor = [&] {
+      RenderControl control = request.control;
+      control.rectangle = request.rectangle;
+      return CombiningRenderer().render(request.plan, request.source, request.output, control);
+    };
+    if (request.plan.combine == Combine::median || request.plan.blocks.empty()) return by_processor();
+    const std::scoped_lock turn(turn_);
+    try {
+      const Combining combining(request.plan, sample_gains(request.plan, request.source.timeline()));
+      if (combining.scales() && !info_.has_double && !combining.has_normal_products()) return by_processor();
+      const Verdict verdict = verdict_on(combining, request.plan);
+      if (!verdict.is_right && !request.control.takes_wrong) {
+        Rendered rendered = by_processor();
+        rendered.warnings.push_back(format("{} combines light wrongly (self-test: {}): the processor did it",
+                                           info_.name, fault_text(verdict)));
+        return rendered;
+      }
+      Rendered rendered;
+      rendered.precision = Precision::double_;
+      rendered.passed_self_test = verdict.is_right;
+      combine(combining, request, rendered);
+      programs_->save_new_binaries();
+      return rendered;
+    } catch (const cl::Error& error) {
+      throw device_failed(error, format("{} failed", info_.name));
+    }
+  }
+
+  [[nodiscard]] Work work_for(const Combining& combining) const {
+    return work_for(!combining.scales() ? Precision::single_ : info_.has_double ? Precision::double_ : Precision::fixed);
+  }
+
+  [[nodiscard]] std::string options_of_combining(const Work& work, const RenderPlan& plan,
+                                                 const Combining& combining) const {
+    return expose_options(work, plan.capture, "NUTIK_LIGHT_LINEAR", false) + combining.options() +
+           fault_of(work.precision);
+  }
+
+  Verdict verdict_on(const Combining& combining, const RenderPlan& plan) {
+    if (!options_.tests_itself) return {};
+    const Work work = work_for(combining);
+    return verdict_on({work.precision, options_of_combining(work, plan, combining), "combine", false}, [&] {
+      return self_test_combining(plan, combining.scales(), [&](const RenderPlan& scene, CaptureSource& source,
+                                                               const OutputFormat& format) {
+        const Rectangle whole = Rectangle::whole(scene.capture.shape);
+        Rendered rendered;
+        combine(Combining(scene, sample_gains(scene, source.timeline())), {scene, source, format, whole, {}}, rendered);
+        return std::move(rendered.picture);
+      });
+    });
+  }
+
+  void combine(const Combining& combining, const Request& request, Rendered& rendered) {
+    const RenderPlan& plan = request.plan;
+    const Work work = work_for(combining);
+    DeviceMemory memory(context_, info_);
+    std::vector<ExposedBand> bands = bands_of(work, request, memory, rendered.statistics);
+    const RenderMemory shares = memory_for(request, work.precision);
+    const cl::Buffer light = memory.upload(combining.light());
+    CombineKernel kernel(
+        cl::Kernel(programs_->get("combine", kernel_source("combine"), options_of_combining(work, plan, combining)),
+                   "combine"));
+    std::uint32_t rows = 0;
+    const BlockKernel over_blocks{
+        combining.slices(info_, shares.slice_bytes),
+        [&](const TableSlice& slice) {
+          rows = combining.rows(slice);
+          return combining.tables(slice, memory);
+        },
+        [&](const cl::Buffer& chunk, const cl::Buffer& entries, const SliceTables& tables, const ExposedBand& band,
+            const ExposeLaunch& launch) {
+          return kernel(items(kernel, queue_, work.shape, launch.tile_count), chunk, entries, tables.parts, tables.gains,
+                        light, band.map.tiles, band.map.of_tile, band.map.of_lane, band.sums, rows, launch);
+        }};
+    const std::vector<std::uint8_t> every = every_function(plan);
+    rendered.picture = Picture({request.rectangle.width, request.rectangle.height, plan.capture.shape.channels},
+                               request.output.type, request.output.white_code);
+    const CombinedPicture to{request.output, request.rectangle, rendered.picture, rendered.saturation};
+    Exposer({info_, queue_, *feed_, options_.last_block_first}, work, {plan, {}, every}, request.source, shares,
+            over_blocks, memory, rendered.statistics)
+        .expose(bands, request.control, [&](const ExposedBand& band) { combining.develop(band, queue_, to); });
+    rendered.statistics.device_bytes = memory.max_bytes();
   }
 
   void expose_and_develop(const Work& work, const Request& request, const cl::Program& develop,
@@ -233,14 +330,28 @@ class OpenClRenderer::Implementation {
     } else {
       const DeviceLight& light = light_of(work, plan, memory);
       const RenderMemory shares = memory_for(request, work.precision);
-      const ExposingDevice device{info_, queue_, *feed_, *tables_, options_.last_block_first};
+      const ExposingDevice device{info_, queue_, *feed_, options_.last_block_first};
       const auto expose = [&](const ExposedPlan& what, std::span<ExposedBand> exposed,
                               const Exposer::Develop& done) {
         RenderControl control = request.control;
         if (&what.plan != &plan) control.progress = {};  // sums that are made to be kept
-        Exposer(device, work, what, request.source, shares,
-                cl::Kernel(expose_program(work, what.plan, light), "expose"), light.values, memory,
-                rendered.statistics)
+        ExposeKernel kernel(cl::Kernel(expose_program(work, what.plan, light), "expose"));
+        // Every argument is a buffer, though it may not be read.
+        const cl::Buffer exposes = memory.upload(what.exposes);
+        const cl::Buffer& kept = what.kept.entries.empty() ? light.values : what.kept.sums;
+        const BlockKernel over_blocks{
+            cut_tables(what.plan, work.precision, info_, shares.slice_bytes),
+            [&](const TableSlice& slice) {
+              return tables_->slice(what.plan, slice, work.precision, work.shape.table_rows(), memory,
+                                    rendered.statistics.table_bytes_written);
+            },
+            [&](const cl::Buffer& chunk, const cl::Buffer& entries, const SliceTables& tables,
+                const ExposedBand& band, const ExposeLaunch& launch) {
+              return kernel(items(kernel, queue_, work.shape, launch.tile_count), chunk, entries, tables.parts,
+                            tables.gains, tables.weights, tables.boundaries, band.map.tiles, band.map.of_tile,
+                            band.map.of_lane, exposes, light.values, kept, band.bundles, band.sums, launch);
+            }};
+        Exposer(device, work, what, request.source, shares, over_blocks, memory, rendered.statistics)
             .expose(exposed, control, done);
       };
       if (&request.source == resident_) {

@@ -1,4 +1,4 @@
-// The OpenCL renderer: exposes pictures with kernels/expose.cl and kernels/develop.cl.
+// The OpenCL renderer: exposes pictures with kernels/expose.cl and develop.cl, and combines samples with combine.cl.
 #pragma once
 
 #include <cstdint>

@@ -79,8 +79,9 @@ bool take_number(std::string_view& from, std::uint64_t& number) {
 }  // namespace
 
 VerdictStore::VerdictStore(const cl::Device& device, std::filesystem::path folder)
-    : device_key_(format("{}{}{:016x} {:016x}\n", kVerdictMagic, identity_of(device),
-                         checksum(kernel_source("expose")), checksum(kernel_source("develop")))),
+    : device_key_(format("{}{}{:016x} {:016x} {:016x}\n", kVerdictMagic, identity_of(device),
+                         checksum(kernel_source("expose")), checksum(kernel_source("combine")),
+                         checksum(kernel_source("develop")))),
       folder_(std::move(folder)) {}
 
 std::string VerdictStore::key_of(const TestedPrograms& programs) const {

@@ -9,6 +9,7 @@
 
 #include "capture/format.hpp"
 #include "opencl/kernel_tables.hpp"
+#include "render/combining_renderer.hpp"
 #include "render/picture_errors.hpp"
 #include "render/reference_renderer.hpp"
 
@@ -88,6 +89,21 @@ class TilesOfAllKinds {
       if (is_soft && y / kTileSide % 2 == 1 && mixed(pixel) % 3 > 0) mix(mask, pixel);
     }
     return mask;
+  }
+
+  // The same times, with gains that differ, or with one gain each.
+  [[nodiscard]] static FunctionSet functions_to_combine(bool scale) {
+    constexpr std::int64_t kMs = 1'000'000;
+    if (scale) {
+      return {{0, GainFunction({{0, 1.0}, {300 * kMs, 0.0}})},
+              {1, GainFunction::boxcar(271'300'000, 292'700'000, 14.0)},
+              {2, GainFunction({{0, 0.25}, {50 * kMs, 0.0}, {150 * kMs, 5.0}, {151 * kMs, 0.0}, {300 * kMs, 0.01}})},
+              {3, GainFunction({{0, 1.0 / 3000}, {300 * kMs, 1.0 / 5000}})}};
+    }
+    return {{0, GainFunction({{0, 1.0}})},
+            {1, GainFunction::boxcar(271'300'000, 292'700'000, 14.0)},
+            {2, GainFunction::boxcar(20 * kMs, 290 * kMs, 0.7)},
+            {3, GainFunction::boxcar(0, 261 * kMs)}};
   }
 
   // One for each row: more pairs with a function than a byte counts, and tiles with one delay and with several.
@@ -177,6 +193,27 @@ Verdict self_test(const CaptureFormat& like, Precision precision, const OutputFo
   verdict.light_error = worst.bounded_error;
   verdict.allowed_error = worst.bound;
   verdict.is_right = worst.share_of_bound <= 1.0 && verdict.wrong_codes == 0;
+  return verdict;
+}
+
+Verdict self_test_combining(const RenderPlan& like, bool scales, const RenderScene& render) {
+  Verdict verdict;
+  PlanOptions options;
+  options.combine = like.combine;
+  const auto judge = [&](CaptureSource& capture, const FunctionSet& functions, const Mask& mask) {
+    const RenderPlan plan = make_plan(capture, functions, mask, options);
+    const Picture expected = CombiningRenderer().render(plan, capture, kLight).picture;
+    const Picture light = render(plan, capture, kLight);
+    verdict.codes += light.shape.value_count();
+    for (std::size_t i = 0; i < light.shape.value_count(); ++i)
+      verdict.wrong_codes += expected.values<double>()[i] != light.values<double>()[i];
+  };
+  MemoryCapture endless = long_capture(like.capture);
+  judge(endless, {{0, GainFunction({{0, 1.0}, {66'000'000'000, scales ? 0.5 : 1.0}})}}, Mask::uniform(1, 1, 0));
+  const TilesOfAllKinds scene(like.capture);
+  MemoryCapture tiles = scene.capture();
+  judge(tiles, TilesOfAllKinds::functions_to_combine(scales), scene.mask(!like.map->mixed.empty()));
+  verdict.is_right = verdict.wrong_codes == 0;
   return verdict;
 }
 

@@ -45,4 +45,7 @@ struct TestedPixels {
 [[nodiscard]] Verdict self_test(const CaptureFormat& like, Precision precision, const OutputFormat& output,
                                 const TestedPixels& pixels, const RenderScene& render);
 
+// The same of a plan that lightens or darkens, `scales` by gains that differ or not: no value may differ.
+[[nodiscard]] Verdict self_test_combining(const RenderPlan& like, bool scales, const RenderScene& render);
+
 }  // namespace nutik

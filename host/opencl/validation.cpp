@@ -1,6 +1,7 @@
 #include "opencl/validation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 
 #include "render/reference_renderer.hpp"
@@ -41,7 +42,9 @@ Validation validate(const RenderPlan& plan, CaptureSource& capture, const Output
                     OpenClRenderer& renderer, std::uint32_t runs,
                     const std::function<void(std::uint64_t done, std::uint64_t total)>& progress,
                     std::uint64_t memory_bytes) {
-  const auto precisions = renderer.precisions();
+  static constexpr std::array kOfCombined{Precision::double_};
+  const auto precisions =
+      plan.combine == Combine::integral ? renderer.precisions() : std::span<const Precision>(kOfCombined);
   const std::uint64_t total = 1 + precisions.size() * (2 + std::uint64_t{runs});
   std::uint64_t done = 0;
   const auto step = [&] { progress(++done, total); };

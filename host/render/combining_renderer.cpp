@@ -1,6 +1,8 @@
 #include "render/combining_renderer.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "capture/error.hpp"
@@ -10,40 +12,32 @@
 #include "system/parallel.hpp"
 
 namespace nutik {
-namespace {
 
-// A function as its samples see it.
-struct SampleGains {
-  SampleRange samples;
-  std::vector<double> gains;  // of each: the largest while it is exposed
-  bool is_one;                // for all samples
-
-  SampleGains(const PlannedFunction& planned, const Timeline& timeline, std::int64_t duration_ns)
-      : samples(exposed_samples(planned, timeline)) {
-    const std::vector<GainPiece> pieces = planned.function.pieces(duration_ns);
-    std::size_t piece = 0;
-    for (std::uint64_t sample = samples.first; sample < samples.last; ++sample) {
-      const std::int64_t start_ns = timeline.start_ns(sample), end_ns = timeline.end_ns(sample);
-      while (piece + 1 < pieces.size() && pieces[piece].end_ns <= start_ns) ++piece;
-      double& largest = gains.emplace_back(0.0);
-      for (std::size_t p = piece; p < pieces.size() && pieces[p].begin_ns < end_ns; ++p) {
-        for (const std::int64_t time_ns :
-             {std::max(start_ns, pieces[p].begin_ns), std::min(end_ns, pieces[p].end_ns)}) {
-          const double gain = pieces[p].at(time_ns);
-          if (gain < 0.0) throw UsageError("light that is combined takes no gains below 0: they subtract it");
-          largest = std::max(largest, gain);
-        }
+SampleGains::SampleGains(const PlannedFunction& planned, const Timeline& timeline, std::int64_t duration_ns)
+    : samples(exposed_samples(planned, timeline)) {
+  const std::vector<GainPiece> pieces = planned.function.pieces(duration_ns);
+  std::size_t piece = 0;
+  for (std::uint64_t sample = samples.first; sample < samples.last; ++sample) {
+    const std::int64_t start_ns = timeline.start_ns(sample), end_ns = timeline.end_ns(sample);
+    while (piece + 1 < pieces.size() && pieces[piece].end_ns <= start_ns) ++piece;
+    double& largest = gains.emplace_back(0.0);
+    for (std::size_t p = piece; p < pieces.size() && pieces[p].begin_ns < end_ns; ++p) {
+      for (const std::int64_t time_ns : {std::max(start_ns, pieces[p].begin_ns), std::min(end_ns, pieces[p].end_ns)}) {
+        const double gain = pieces[p].at(time_ns);
+        if (gain < 0.0) throw UsageError("light that is combined takes no gains below 0: they subtract it");
+        largest = std::max(largest, gain);
       }
     }
-    is_one = gains.empty() ||
-             (gains.front() > 0.0 && std::ranges::all_of(gains, [&](double g) { return g == gains.front(); }));
   }
-};
-
-// Codes can be compared as they come where one gain holds for all, but for the middle one.
-bool keeps_all(const RenderPlan& plan, const SampleGains& gains) {
-  return plan.combine == Combine::median || !gains.is_one;
 }
+
+std::vector<SampleGains> sample_gains(const RenderPlan& plan, const Timeline& timeline) {
+  std::vector<SampleGains> gains;
+  for (const PlannedFunction& planned : plan.functions) gains.emplace_back(planned, timeline, plan.duration_ns);
+  return gains;
+}
+
+namespace {
 
 class Combiner {
  public:
@@ -66,7 +60,7 @@ class Combiner {
     std::uint64_t codes = 0, lights = 0;
     for (const std::vector<std::uint16_t>& functions : of_tile) {
       for (const std::uint16_t function : functions) {
-        codes += sizeof(std::uint16_t) * values_ * (keeps_all(function) ? gains_[function].gains.size() : 1);
+        codes += keeps_all() ? sizeof(std::uint16_t) * values_ * gains_[function].gains.size() : 0;
         lights += sizeof(double) * values_;
       }
     }
@@ -75,11 +69,9 @@ class Combiner {
     for (std::uint64_t tile = 0; tile < of_tile.size(); ++tile) {
       first_places_.push_back(places_.size());
       for (const std::uint16_t function : of_tile[tile]) {
-        const bool keeps = keeps_all(function);
-        const std::size_t samples = gains_[function].gains.size();
-        places_.push_back({tile, function, std::vector<std::uint16_t>(
-                                               values_ * (keeps ? samples : 1),
-                                               plan.combine == Combine::darken && !keeps ? 0xffff : 0)});
+        places_.push_back(
+            {tile, function, std::vector<std::uint16_t>(keeps_all() ? values_ * gains_[function].gains.size() : 0),
+             std::vector<double>(values_, darkens() ? std::numeric_limits<double>::infinity() : 0.0)});
       }
     }
   }
@@ -114,17 +106,17 @@ class Combiner {
   [[nodiscard]] Picture light() {
     const std::uint32_t channels = plan_.capture.shape.channels;
     Picture picture({rectangle_.width, rectangle_.height, channels}, ValueType::light64, plan_.capture.white_code);
-    std::vector<std::vector<double>> lights(places_.size());
-    parallel_for(places_.size(), [&](std::uint64_t i) { lights[i] = light_of(places_[i]); });
+    parallel_for(places_.size(), [&](std::uint64_t i) { finish(places_[i]); });
     for_each_pixel([&](std::uint64_t i, std::uint64_t tile, std::uint32_t lane, std::span<const Share> shares) {
       for (std::uint32_t channel = 0; channel < channels; ++channel) {
         double sum = 0.0;
         for (const Share& share : shares) {
           std::uint64_t place = first_places_[tile];
           while (places_[place].function != share.of) ++place;
-          sum += share.size * lights[place][channel * kTilePixels + lane];
+          const double light = places_[place].lights[channel * kTilePixels + lane];
+          sum += shares.size() == 1 ? light : share.size * light;
         }
-        picture.values<double>()[i * channels + channel] = sum / kWholeShare;
+        picture.values<double>()[i * channels + channel] = shares.size() == 1 ? sum : sum / kWholeShare;
       }
     });
     return picture;
@@ -135,10 +127,12 @@ class Combiner {
   struct Place {
     std::uint64_t tile;
     std::uint16_t function;
-    std::vector<std::uint16_t> codes;  // [value], or [value][sample]
+    std::vector<std::uint16_t> codes;  // of the middle one: [value][sample]
+    std::vector<double> lights;        // [value]
   };
 
-  [[nodiscard]] bool keeps_all(std::uint16_t function) const { return nutik::keeps_all(plan_, gains_[function]); }
+  [[nodiscard]] bool keeps_all() const { return plan_.combine == Combine::median; }
+  [[nodiscard]] bool darkens() const { return plan_.combine == Combine::darken; }
 
   // Calls visit(pixel of the rectangle, tile, lane, shares).
   template <typename Visit>
@@ -158,15 +152,21 @@ class Combiner {
   template <typename Code>
   void add_run(Place& place, std::uint64_t first, std::uint64_t last, const Code* codes, std::size_t begin,
                std::size_t step) const {
-    std::uint16_t* const to = place.codes.data();
-    if (keeps_all(place.function)) {
-      const std::size_t samples = gains_[place.function].gains.size();
-      for (std::size_t i = begin; i < values_; i += step)
-        std::fill(to + i * samples + first, to + i * samples + last, codes[i]);
-    } else if (plan_.combine == Combine::lighten) {
-      for (std::size_t i = begin; i < values_; i += step) to[i] = std::max<std::uint16_t>(to[i], codes[i]);
-    } else {
-      for (std::size_t i = begin; i < values_; i += step) to[i] = std::min<std::uint16_t>(to[i], codes[i]);
+    const std::vector<double>& gains = gains_[place.function].gains;
+    if (keeps_all()) {
+      for (std::size_t i = begin; i < values_; i += step) {
+        const auto of_value = place.codes.begin() + static_cast<std::ptrdiff_t>(i * gains.size());
+        std::fill_n(of_value + static_cast<std::ptrdiff_t>(first), last - first, codes[i]);
+      }
+      return;
+    }
+    for (std::uint64_t sample = first; sample < last; ++sample) {
+      const double gain = gains[sample];
+      if (gain <= 0.0 || (sample > first && gain == gains[sample - 1])) continue;
+      for (std::size_t i = begin; i < values_; i += step) {
+        const double light = gain * light_[codes[i]];
+        place.lights[i] = darkens() ? std::min(place.lights[i], light) : std::max(place.lights[i], light);
+      }
     }
   }
 
@@ -186,29 +186,25 @@ class Combiner {
     }
   }
 
-  // The light of each value; a sample without a gain does not count.
-  [[nodiscard]] std::vector<double> light_of(const Place& place) const {
-    const SampleGains& gains = gains_[place.function];
-    std::vector<double> result(values_, 0.0), lights;
-    for (std::size_t i = 0; i < values_ && !gains.gains.empty(); ++i) {
-      if (!keeps_all(place.function)) {
-        result[i] = gains.gains.front() * light_[place.codes[i]];
+  // A sample without a gain does not count.
+  void finish(Place& place) const {
+    const std::vector<double>& gains = gains_[place.function].gains;
+    std::vector<double> lights;
+    for (std::size_t i = 0; i < values_; ++i) {
+      double& light = place.lights[i];
+      if (!keeps_all()) {
+        if (std::isinf(light)) light = 0.0;
         continue;
       }
       lights.clear();
-      for (std::size_t sample = 0; sample < gains.gains.size(); ++sample) {
-        const double gain = gains.gains[sample];
-        if (gain > 0.0) lights.push_back(gain * light_[place.codes[i * gains.gains.size() + sample]]);
+      for (std::size_t sample = 0; sample < gains.size(); ++sample) {
+        if (gains[sample] > 0.0) lights.push_back(gains[sample] * light_[place.codes[i * gains.size() + sample]]);
       }
       if (lights.empty()) continue;
       const auto middle = lights.begin() + static_cast<std::ptrdiff_t>(lights.size() / 2);
       std::ranges::nth_element(lights, middle);
-      result[i] = plan_.combine == Combine::lighten  ? std::ranges::max(lights)
-                  : plan_.combine == Combine::darken ? std::ranges::min(lights)
-                  : lights.size() % 2 == 1           ? *middle
-                                                     : (*std::max_element(lights.begin(), middle) + *middle) / 2;
+      light = lights.size() % 2 == 1 ? *middle : (*std::max_element(lights.begin(), middle) + *middle) / 2;
     }
-    return result;
   }
 
   const RenderPlan& plan_;
@@ -222,10 +218,9 @@ class Combiner {
 };
 
 // Where all codes are kept, so many rows of pixels are made at a time.
-std::uint32_t rows_at_once(const RenderPlan& plan, const std::vector<SampleGains>& gains, const CaptureSource& source,
-                           const Rectangle& rectangle, std::uint64_t allowed) {
-  const bool keeps = std::ranges::any_of(gains, [&](const SampleGains& each) { return keeps_all(plan, each); });
-  if (!keeps || source.is_forward_only() || allowed == 0) return rectangle.height;
+std::uint32_t rows_at_once(const RenderPlan& plan, const CaptureSource& source, const Rectangle& rectangle,
+                           std::uint64_t allowed) {
+  if (plan.combine != Combine::median || source.is_forward_only() || allowed == 0) return rectangle.height;
   const std::uint64_t row_bytes = std::uint64_t{rectangle.width} * plan.capture.shape.channels * sizeof(std::uint16_t) *
                                   std::max<std::uint64_t>(plan.exposed_sample_count(), 1);
   const std::uint64_t rows = allowed / 2 / row_bytes / kTileSide * kTileSide;
@@ -238,10 +233,8 @@ std::uint32_t rows_at_once(const RenderPlan& plan, const std::vector<SampleGains
 Rendered CombiningRenderer::render_part(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output,
                                         const Rectangle& rectangle, const RenderControl& control) {
   Rendered rendered;
-  std::vector<SampleGains> gains;
-  for (const PlannedFunction& planned : plan.functions)
-    gains.emplace_back(planned, source.timeline(), plan.duration_ns);
-  const std::uint32_t rows = rows_at_once(plan, gains, source, rectangle, control.memory_bytes);
+  const std::vector<SampleGains> gains = sample_gains(plan, source.timeline());
+  const std::uint32_t rows = rows_at_once(plan, source, rectangle, control.memory_bytes);
   rendered.picture = Picture({rectangle.width, 0, plan.capture.shape.channels}, output.type, output.white_code);
   std::uint64_t added = 0;
   for (std::uint32_t y = 0; y < rectangle.height; y += rows) {

@@ -257,6 +257,8 @@ double code_error(const Transfer& transfer, std::uint32_t white_code, const Ligh
 }
 
 ErrorBound error_bound(const RenderPlan& plan, Precision precision, const OutputFormat& output) {
+  if (plan.combine != Combine::integral)  // the reference's to the last bit
+    return {precision, std::vector<PictureError>(plan.functions.size()), {}, output};
   const Roundings roundings = roundings_of(precision, plan.capture.transfer);
   const FixedScale scale = precision == Precision::fixed ? fixed_scale(plan) : FixedScale{};
   ErrorBound bound{precision, {}, {}, output};
@@ -300,19 +302,6 @@ ErrorBound reference_bound(const RenderPlan& plan, const OutputFormat& output) {
     bound.worst.steps = std::max(bound.worst.steps, error.steps);
   }
   return bound;
-}
-
-Picture bound_map(const RenderPlan& plan, const ErrorBound& bound) {
-  Picture map({plan.capture.shape.width, plan.capture.shape.height, 1}, ValueType::light32, 0);
-  const PixelErrors errors(plan, bound);
-  const auto values = map.values<float>();
-  for (std::uint64_t pixel = 0; pixel < values.size(); ++pixel) {
-    const PictureError error = errors.of(pixel);
-    // Rounded up: a bound is no smaller for being stored.
-    values[pixel] = std::nextafter(static_cast<float>(holds_codes(bound.output.type) ? error.steps : error.light),
-                                   std::numeric_limits<float>::infinity());
-  }
-  return map;
 }
 
 PixelErrors::PixelErrors(const RenderPlan& plan, const ErrorBound& bound)

@@ -8,6 +8,7 @@
 #include "capture/memory_needs.hpp"
 #include "imev/each_block.hpp"
 #include "render/code_scale.hpp"
+#include "render/combining_renderer.hpp"
 #include "render/value_walk.hpp"
 #include "system/parallel.hpp"
 
@@ -178,6 +179,11 @@ std::uint32_t rows_at_once(const RenderPlan& plan, const CaptureSource& source, 
 Rendered ReferenceRenderer::render_part(const RenderPlan& plan, CaptureSource& source,
                                         const OutputFormat& output, const Rectangle& rectangle,
                                         const RenderControl& control) {
+  if (plan.combine != Combine::integral) {
+    RenderControl of_part = control;
+    of_part.rectangle = rectangle;
+    return CombiningRenderer().render(plan, source, output, of_part);
+  }
   const Shape shape{rectangle.width, rectangle.height, plan.capture.shape.channels};
   const std::uint32_t rows = source.is_forward_only()
                                  ? shape.height

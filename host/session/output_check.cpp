@@ -163,7 +163,10 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
     throw UsageError(format("{}: gain functions are written as .fn", name));
   }
   if (is_picture && !is_picture_name(output)) {
-    throw UsageError(format("{}: pictures are written as {}", name, picture_extensions()));
+    const bool is_capture = output.extension() == ".tik";
+    throw UsageError(
+        format("{}: pictures are written as {}", name, picture_extensions()),
+        Advice{is_capture ? "; nutik-cl encode makes captures of clips" : "; nutik-cl video makes films"});
   }
   if (kind == OutputKind::table && output.extension() != ".csv") {
     throw UsageError(format("{}: tables are written as .csv", name), Advice{", or as - to standard output"});

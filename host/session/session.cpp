@@ -13,7 +13,6 @@
 #include "imev/expected_values.hpp"
 #include "media/events/event_clip.hpp"
 #include "render/code_scale.hpp"
-#include "render/combining_renderer.hpp"
 #include "render/one_pass.hpp"
 #include "render/picture_memory.hpp"
 #include "render/plan_cache.hpp"
@@ -22,6 +21,7 @@
 #include "session/clips/forward_clip.hpp"
 #include "session/clips/scratch_capture.hpp"
 #include "session/preloading.hpp"
+#include "session/uncertainty_map.hpp"
 
 namespace nutik {
 
@@ -111,7 +111,6 @@ class Session::Implementation {
   std::optional<Timeline> announced_;
 
   PlanCache plans_;
-  CombiningRenderer combining_;
   std::atomic_flag warmed_up_;
   std::atomic<bool> is_spent_ = false;
 };
@@ -281,44 +280,46 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
   throw_if_cancelled(control);
   check_transfer(options.transfer);
   RenderPlan plan = plans_.plan(source, functions, mask, options);
-  const bool by_devices = plan.combine == Combine::integral;
-  if (by_devices && !warmed_up_.test_and_set()) warm_up(source, plan, output);
-  if (by_devices && reading_ == Reading::whole) devices_->keep_resident(reader_.get());
+  if (output.maps_bounds && plan.combine != Combine::integral)
+    throw UsageError(Advice{"`bounds` maps what sums may be off by, and `combine` adds nothing up; use one"});
+  if (plan.combine == Combine::integral && !warmed_up_.test_and_set()) warm_up(source, plan, output);
+  if (reading_ == Reading::whole) devices_->keep_resident(reader_.get());
   // In the mask and in its map.
   const std::uint64_t mixed_bytes = 2 * mask.mixed.bytes();
+  const std::uint64_t pictures = control.by_one_device ? line_length(output.type) : 1;
   const std::uint64_t line_bytes =
-      control.by_one_device
-          ? line_length(output.type) * format_.shape.value_count() * value_bytes(output.type)
-          : 0;
+      control.by_one_device ? pictures * format_.shape.value_count() * value_bytes(output.type) : 0;
   Rendered rendered = within(
       {{"reading the clip", stream_bytes},
        {"mixed pixels", mixed_bytes},
        {"pictures in line", line_bytes},
-       {"the map of bounds", control.maps_bounds ? sizeof(float) * format_.shape.pixel_count() : 0}},
+       {"the map of bounds", output.maps_bounds ? pictures * UncertaintyMap::bytes(format_.shape) : 0}},
       [&](std::uint64_t left) {
         RenderControl limited = control;
         limited.strict |= devices_->request().strict;
         if (limited.memory_bytes == 0 || limited.memory_bytes > left) limited.memory_bytes = left;
-        return (by_devices ? devices_->renderer() : static_cast<Renderer&>(combining_))
-            .render(plan, source, output, limited);
+        return devices_->renderer().render(plan, source, output, limited);
       });
   rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
   warn_of_infinite(rendered);
   const auto block_count = reader_ ? std::optional(reader_->block_count()) : std::nullopt;
-  std::optional<Picture> bounds;
-  if (control.maps_bounds)
-    bounds = bound_map(plan, rendered.choice ? rendered.choice->bound : reference_bound(plan, output));
+  CaptureErrors errors = errors_;
+  if (plan.capture.transfer != format_.transfer) {
+    errors = CaptureErrors::of(plan.capture, is_rounded_);  // by the function that was stated instead
+    errors.alignment_pixels = errors_.alignment_pixels;
+    errors.made = errors_.made;
+  }
+  std::vector<PictureLayer> bounds;
+  if (output.maps_bounds) {
+    const Rectangle part = control.rectangle.value_or(Rectangle::whole(format_.shape));
+    const ErrorBound bound = rendered.choice ? rendered.choice->bound : reference_bound(plan, output);
+    bounds = UncertaintyMap(plan, source.timeline(), bound, errors).layers(rendered.picture, part);
+  }
   ExposureFigures figures = ExposureFigures::of(std::move(plan), source.timeline(), block_count);
   if (figures.functions.size() == 1) {
     rendered.picture.exposed_ns = figures.functions.front().summary.support_ns;
   }
   ExposedPicture exposed{std::move(rendered), std::move(figures), output};
-  CaptureErrors errors = errors_;
-  if (const CaptureFormat& read = exposed.figures.capture; read.transfer != format_.transfer) {
-    errors = CaptureErrors::of(read, is_rounded_);  // by the function that was stated instead
-    errors.alignment_pixels = errors_.alignment_pixels;
-    errors.made = errors_.made;
-  }
   exposed.uncertainty = Uncertainty::of(exposed, errors);
   exposed.bounds = std::move(bounds);
   return exposed;
@@ -348,7 +349,7 @@ void Session::Implementation::render_many(std::span<const ExposureRequest> reque
                                           const RenderControl& control, const RenderedOne& done) {
   const ComputingRequest& computing = devices_->request();
   const auto asked = control.precision ? control.precision : computing.precision;
-  const bool in_double = computing.renderer == RendererKind::opencl && !control.maps_bounds &&
+  const bool in_double = computing.renderer == RendererKind::opencl && !output.maps_bounds &&
                          asked.value_or(Precision::double_) == Precision::double_;
   const Rectangle rectangle = control.rectangle.value_or(Rectangle::whole(format_.shape));
   std::vector<RenderPlan> plans;

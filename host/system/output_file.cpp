@@ -15,6 +15,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "system/is_absent.hpp"
 #include "capture/source_text.hpp"
 #include "system/reused_entries.hpp"
 #include "system/shared_state.hpp"
@@ -46,8 +47,15 @@ void make_unknown(KnownTemporary* known) {
   known->is_free = true;
 }
 
+// What a system call said of a file, or which folder is missing.
+std::string reason_text(const std::filesystem::path& path, int reason) {
+  const std::filesystem::path folder = path.parent_path();
+  if (reason == ENOENT && !folder.empty() && is_absent(folder)) return format("there is no folder {}", folder.string());
+  return std::strerror(reason);
+}
+
 [[noreturn]] void refuse(const std::filesystem::path& path, int reason) {
-  throw OutputError(format("{} cannot be created: {}", path.string(), std::strerror(reason)));
+  throw OutputError(format("{} cannot be created: {}", path.string(), reason_text(path, reason)));
 }
 
 // Closed at the end of its block.
@@ -175,8 +183,7 @@ OutputFile::~OutputFile() {
 void OutputFile::fail(const char* what) const {
   const int reason = errno;
   check_mapped_files(losses_before_);  // what cannot be read cannot be written either
-  errno = reason;
-  throw OutputError(format("{} {}: {}", path_.string(), what, std::strerror(errno)));
+  throw OutputError(format("{} {}: {}", path_.string(), what, reason_text(path_, reason)));
 }
 
 void OutputFile::write(std::span<const std::byte> bytes) {

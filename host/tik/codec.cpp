@@ -304,11 +304,12 @@ std::string Codec::text() const {
   return {};
 }
 
-void pack(const Codec& codec, const BlockGeometry& geometry, std::span<const std::byte> payload,
-          std::vector<std::vector<std::byte>>& parts, std::uint32_t max_threads, const ReportedProgress& progress) {
+bool pack(const Codec& codec, const BlockGeometry& geometry, std::span<const std::byte> payload,
+          std::vector<std::vector<std::byte>>& parts, std::uint32_t max_threads, const ReportedProgress& progress,
+          std::uint64_t too_many) {
   if (codec.id == CodecId::none) {
     parts.assign(1, {payload.begin(), payload.end()});
-    return;
+    return payload.size() < too_many;
   }
   std::vector<TileEntry> entries(geometry.tile_count);
   std::memcpy(entries.data(), payload.data(), entries.size() * sizeof(TileEntry));
@@ -321,14 +322,18 @@ void pack(const Codec& codec, const BlockGeometry& geometry, std::span<const std
   for (std::size_t g = 1; g < sizes.size(); ++g) firsts[g] = firsts[g - 1] + sizes[g - 1];
   parts.resize(1 + sizes.size());
   PackedBytes packed_bytes(progress, payload.size());
+  std::atomic<std::uint64_t> bytes{0};
   parallel_for_with(
       sizes.size(), [&] { return PackingTools(packed_bytes); },
       [&](std::uint64_t g, PackingTools& tools) {
         packed_bytes.add(0);
         const TileGroup group{std::span(entries).subspan(firsts[g], sizes[g]), geometry};
+        if (bytes >= too_many) return;
         pack_group(codec, group, payload, tools, parts[1 + g]);
+        bytes += parts[1 + g].size();
       },
       max_threads);
+  if (bytes >= too_many) return false;
 
   std::vector<std::byte>& front = parts.front();
   front.clear();
@@ -344,6 +349,7 @@ void pack(const Codec& codec, const BlockGeometry& geometry, std::span<const std
   const std::array<std::uint32_t, 2> counts_head{static_cast<std::uint32_t>(packed_counts.size()), 0};
   append(front, counts_head.data(), sizeof counts_head);
   append(front, packed_counts.data(), packed_counts.size());
+  return bytes + front.size() < too_many;
 }
 
 std::vector<TileEntry> unpack_directory(CodecId codec, const BlockGeometry& geometry,

@@ -61,6 +61,9 @@ class Writer {
 
   void append(BlockHeader header, std::span<const std::span<const std::byte>> payload,
               std::span<const Exposure> exposures);
+  // Into packed_; returns the codec that did it. Codes that move by steps of a tolerance are counted by Rice's alone: it packs
+  // what it makes smaller than the codec that was asked for.
+  Codec pack_block(const BlockGeometry& geometry, std::span<const std::byte> payload);
   // Appends what lies in these parts; returns its checksum.
   std::uint64_t write_summed(std::span<const std::span<const std::byte>> parts);
 
@@ -69,7 +72,8 @@ class Writer {
   Codec codec_;
   std::uint32_t max_threads_;  // that pack
   ReportedProgress packing_;
-  std::vector<std::vector<std::byte>> packed_;  // the last block, whose memory the next one is packed into
+  // The last block, whose memory the next one is packed into; and the same where two codecs pack it.
+  std::vector<std::vector<std::byte>> packed_, other_;
   std::vector<IndexEntry> index_;
   Checksum headers_;  // of all block headers so far
   std::uint64_t front_checksum_ = 0;  // of what stands before the first block

@@ -7,7 +7,7 @@ from fractions import Fraction
 from html import escape
 from os import PathLike
 from operator import index
-from typing import Any, Iterable, Iterator, cast, Mapping, Optional, Sequence, Union
+from typing import Any, Iterable, Iterator, Literal, cast, Mapping, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -246,8 +246,9 @@ class Capture:
                delay: Optional[DelayLike] = None, normalize: str = "support", gain: float = 1.0,
                unmapped: Optional[str] = None, precision: Optional[str] = None, codes: bool = False, dtype: DTypeLike = None,
                transfer: Optional[str] = None, negative: Optional[str] = None,
-               region: Optional[Sequence[int]] = None, bounds: bool = False,
-               strict: bool = False, progress: Progress = None) -> Picture:
+               region: Optional[Sequence[int]] = None, bounds: bool = False, strict: bool = False,
+               combine: Optional[Literal["integral", "mean", "lighten", "darken", "median"]] = None,
+               progress: Progress = None) -> Picture:
         """Exposes a picture: of an interval, or with gain functions.
 
         Parameters:
@@ -269,8 +270,11 @@ class Capture:
         transfer : of codes, sRGB without it; 'source': the capture's own.
         negative : what codes say of light below 0, 'saturate', 'offset' or 'abs'.
         region : (x, y, width, height) in pixels, only these.
-        bounds : also a map of what the arithmetic may be off by, Picture.bounds.
+        bounds : also maps of what each pixel may be off by, Picture.bounds.
         strict : codes that may err by more than half of one raise ImpreciseError, and are no warning.
+        combine : what becomes of a pixel's light, its integral without it: 'mean', or of its samples, each times its
+            largest gain, the lightest, darkest or middle one, 'lighten', 'darken', 'median'.
+
         Returns:
         Picture, whose array is [height, width] or [height, width, 3]: light, of which 1 is white, or codes.
         Raises:
@@ -286,7 +290,7 @@ class Capture:
         ((24, 32), True)
         """
         asked = self._exposure(functions, mask, start, exposure, shutter, shutter_error, feather, delay,
-                               normalize, gain, unmapped, strict)
+                               normalize, gain, unmapped, strict, combine)
         output = self._output(codes, dtype, transfer, negative)
         box = None if region is None else box_of(region, "region")
         held = _nutik.render(self._held, asked, output, box, None if precision is None else str(precision), bounds,
@@ -507,9 +511,10 @@ class Capture:
     def _exposure(self, functions: Optional[Functions], mask: Optional[MaskLike], start: Optional[Time],
                   exposure: Optional[Time], shutter: Optional[str], shutter_error: Optional[float],
                   feather: Union[str, float, None], delay: Optional[DelayLike], normalize: str, gain: float,
-                  unmapped: Optional[str], strict: bool = False) -> _nutik.Exposure:
+                  unmapped: Optional[str], strict: bool = False, combine: Optional[str] = None) -> _nutik.Exposure:
+        divides = combine != "mean" or normalize != "support"  # a mean says by what
         stated = dict(start=start, exposure=exposure, shutter=shutter, shutter_error=shutter_error,
-                      normalize=normalize, gain=gain, unmapped=unmapped, strict=strict)
+                      normalize=normalize if divides else None, gain=gain, unmapped=unmapped, strict=strict, combine=combine)
         if functions is None:
             if mask is not None:
                 raise UsageError("a mask goes with functions=, not with a plain interval")

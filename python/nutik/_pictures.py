@@ -124,11 +124,11 @@ class Picture:
         return None if bound is None else bound["steps"]
 
     @property
-    def bounds(self) -> Optional[Array]:
-        """[height, width] float32: what the arithmetic may be off by at each pixel, in light, or in the picture's codes,
-        rounded up; of render(..., bounds=True), else None."""
-        held = self._held.figures.get("bounds_map")
-        return None if held is None else held.values()
+    def bounds(self) -> Optional[dict[str, Array]]:
+        """What each pixel may be off by, of render(..., bounds=True), else None: 'all_bounds' and each of its terms,
+        [height, width] float32, in light, or in the picture's codes (docs/explanation/uncertainty.md, "A map")."""
+        held = self._held.figures.get("bounds_maps")
+        return None if held is None else {term: each.values() for term, each in held.items()}
 
     @property
     def uncertainty(self) -> Uncertainty:

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -80,24 +81,19 @@ HeldPicture render(const OpenCapture& capture, const AskedExposure& asked, const
                    const std::optional<std::string>& precision, bool bounds, const py::object& progress) {
   Session& session = *capture.session;
   const ExposureRequest request = exposure_request(asked);
-  const OutputFormat format = output_of(output, session.format());
+  OutputFormat format = output_of(output, session.format());
+  format.maps_bounds = bounds;
   RenderControl control = control_of(asked, region, precision);
-  control.maps_bounds = bounds;
   ExposedPicture exposed = without_lock([&](const Stopping& stopping) {
     control.stop = stopping.stop;
     control.progress = stopping.progress();
     return session.render(request, format, control);
   }, progress);
   py::dict figures = figures_of(exposed);
-  if (exposed.bounds) {
-    const Picture& whole = *exposed.bounds;
-    const Rectangle part = control.rectangle.value_or(Rectangle::whole(whole.shape));
-    Picture map({part.width, part.height, 1}, whole.type, 0);
-    for (std::uint32_t y = 0; y < part.height; ++y) {
-      const auto row = whole.values<float>().subspan(std::size_t{part.y + y} * whole.shape.width + part.x, part.width);
-      std::ranges::copy(row, map.values<float>().begin() + static_cast<std::ptrdiff_t>(y) * part.width);
-    }
-    figures["bounds_map"] = HeldPicture{std::move(map), {}};
+  if (bounds) {
+    py::dict maps;
+    for (PictureLayer& layer : exposed.bounds) maps[py::str(layer.name)] = HeldPicture{std::move(layer.values), {}};
+    figures["bounds_maps"] = std::move(maps);
   }
   return {std::move(exposed.picture), std::move(figures)};
 }

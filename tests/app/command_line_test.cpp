@@ -189,7 +189,7 @@ TEST_F(CommandLine, ReplacesOnlyItsOwnKind) {
   expect_refused("-k one.fn clip.tik -o capture.ppm", 2, "exists and is no picture");
   std::filesystem::create_directory(scratch_ / "folder.tik");
   expect_refused("clip.avi folder.tik", 2, "is a folder");
-  expect_refused("-k one.fn clip.tik -o absent/x.png", 5, "cannot be created: No such file");
+  expect_refused("-k one.fn clip.tik -o absent/x.png", 5, "cannot be created: there is no folder absent");
   // Of its own kind what carries a recipe is replaced, the rest only if asked.
   make("-k one.fn clip.tik a.png");
   make("-k one.fn clip.tik a.png");

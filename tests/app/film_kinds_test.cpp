@@ -27,6 +27,17 @@ class FilmKinds : public test::AppTest {
                scratch_.folder())
         .out;
   }
+  // Of all frames, in seconds.
+  [[nodiscard]] std::vector<double> times(const std::string& name) const {
+    std::istringstream lines(test::run_shell("ffprobe -v error -select_streams v -show_entries "
+                                             "frame=best_effort_timestamp_time -of csv=p=0 " + name,
+                                             scratch_.folder())
+                                 .out);
+    std::vector<double> found;
+    for (std::string line; std::getline(lines, line);)
+      if (!line.empty()) found.push_back(std::stod(line));
+    return found;
+  }
   // All frames as others decode them, RGB of 8 bits.
   [[nodiscard]] std::string decoded(const std::string& name) const {
     ffmpeg("-i " + name + " -vsync 0 -f rawvideo -pix_fmt rgb24 decoded");
@@ -89,15 +100,47 @@ TEST_F(FilmKinds, AreDecodedAgain) {
     const std::string frames = decoded(kind.film);
     ASSERT_EQ(frames.size(), source.size());
     EXPECT_LE(mean_difference(frames, source), kind.most);
+    const std::vector<double> shown = times(kind.film);
+    ASSERT_EQ(shown.size(), std::size_t{kFrames});
+    for (std::size_t k = 0; k < shown.size(); ++k)
+      EXPECT_NEAR(shown[k] - shown[0], static_cast<double>(k) * 1001 / 24'000, is_coarse ? 0.011 : 0.00101);
+    // Below 720 lines.
+    const bool is_lossless = kind.codec == "ffv1" || is_coarse;
+    if (!is_lossless)
+      expect_says(told, "color_space=" + std::string(kind.is == "dnxhd"   ? "bt709"
+                                                     : kind.is == "mjpeg" ? "bt470bg"
+                                                                          : "smpte170m"));
     if (kind.codec.starts_with("prores-4444")) expect_says(told, "profile=4444\n");
     if (kind.codec == "dnxhr-hqx") expect_says(told, "profile=DNXHR HQX\n");
   }
   make("video --out-fps 24000/1001 --out-angle 360 clip.mkv web.webp");
   const std::string webp = file("web.webp");
   EXPECT_EQ(webp.substr(0, 4) + webp.substr(8, 4), "RIFFWEBP");
+  // FFmpeg reads no animation: the first picture, which is whole and lies behind a header of 16 bytes, as a file of its
+  // own. The others hold what changes.
   std::size_t frames = 0;
-  for (std::size_t at = webp.find("ANMF"); at != webp.npos; at = webp.find("ANMF", at + 4)) ++frames;
-  EXPECT_EQ(frames, 6u);
+  std::uint32_t shown_ms = 0;
+  const auto number_at = [&](std::size_t at, std::size_t size) {
+    std::uint32_t number = 0;
+    std::memcpy(&number, webp.data() + at, size);
+    return number;
+  };
+  for (std::size_t at = webp.find("ANMF"); at != webp.npos; at = webp.find("ANMF", at + 4)) {
+    if (frames == 0) {
+      const std::string picture = "WEBP" + webp.substr(at + 24, number_at(at + 4, 4) - 16);
+      const auto size = static_cast<std::uint32_t>(picture.size());
+      scratch_.write("one.webp", "RIFF" + std::string(reinterpret_cast<const char*>(&size), 4) + picture);
+      EXPECT_LE(mean_difference(decoded("one.webp"), source.substr(0, source.size() / kFrames)), 4);
+    }
+    EXPECT_NEAR(shown_ms, static_cast<double>(frames++) * 1001 / 24, 1.01);
+    shown_ms += number_at(at + 20, 3);
+  }
+  EXPECT_EQ(frames, std::size_t{kFrames});
+  // Stills lose nothing.
+  for (const std::string extension : {"png", "tif", "ppm"}) {
+    make("video --out-fps 24000/1001 --out-angle 360 clip.mkv still-%d." + extension);
+    EXPECT_EQ(decoded("still-%d." + extension), source) << extension;
+  }
 }
 
 TEST_F(FilmKinds, HaveTheQualityThatIsAskedFor) {
@@ -240,6 +283,28 @@ TEST_F(FilmSoundTest, LiesOnItsFrameWhateverIsTakenOfTheClip) {
   // Opus, which a copy would move: from film to film it stays where it is.
   ffmpeg("-i late.mkv -c:v libvpx-vp9 -c:a libopus opus0.webm");
   for (int film = 1; film < 4; ++film) lies_at(50, format("opus{}.webm", film - 1), format("opus{}.webm", film), 25);
+}
+
+// Of two tracks the one that players take, by name; a film says what it has.
+TEST_F(FilmSoundTest, IsToldOf) {
+  NEEDS_FFMPEG();
+  make_clap("clip.mp4", "aac");
+  ffmpeg("-i clip.mp4 -f lavfi -i anullsrc=r=48000:cl=mono -shortest -map 0:v -map 1:a -map 0:a -c:v copy -c:a:0 mp2 "
+         "-c:a:1 copy -disposition:a:0 0 -disposition:a:1 default two.mkv");
+  const nlohmann::json told = answer("video --out-fps 25 --out-angle 360 --from 1s --to 3.5s two.mkv two.mp4");
+  EXPECT_EQ(told["sound"]["codec"], "aac");
+  EXPECT_EQ(told["sound"]["track"], 2);
+  EXPECT_EQ(told["sound"]["tracks"], 2);
+  EXPECT_EQ(told["sound"]["speed"], 1.0);
+  EXPECT_NEAR(told["sound"]["start_s"].get<double>(), 1.0, 0.04);  // the file's, whose pictures begin later than 0
+  EXPECT_NEAR(told["sound"]["seconds"].get<double>(), 2.5, 0.05);
+  expect_says(told["notes"].dump(), "the clip has 2 tracks of sound, and the film track 2");
+  EXPECT_NEAR(clap("two.mp4", 25).second, 25, 1.0);
+  EXPECT_TRUE(answer("video --out-fps 25 --speed 0.5 two.mkv slow.mp4")["sound"].is_null());
+  ffmpeg("-i clip.mp4 -an -c copy silent.mp4");
+  EXPECT_TRUE(answer("video --out-fps 25 silent.mp4 none.mp4")["sound"].is_null());
+  const auto stretched = make("video --out-fps 25 --sound stretch --overwrite silent.mp4 none.mp4");
+  expect_says(stretched.out + stretched.err, "silent.mp4 has no sound to stretch");
 }
 
 TEST_F(FilmSoundTest, IsLeftOutAloudOrStretched) {

@@ -83,7 +83,7 @@ TEST(FilmCurve, NamesTheLineOfAMistake) {
             "ramp.csv:4: the film's time 1 s is not after 1 s; points are in order of the film's time");
   EXPECT_EQ(message("0.5s,0s\n1s,0.5s"), "ramp.csv:1: the first point is at 500 ms of the film; a curve begins at 0s");
   EXPECT_EQ(message("0s,0s\n1,0.5s"),
-            "ramp.csv:2: the film's time '1' is no time; write a number and a unit: 0.4s, 10ms, 250us, 1/100s, or 37f "
+            "ramp.csv:2: the film's time '1' is no time; write a number and a unit: 0.4s, 10ms, 250us, 1/100s, 0:01.5, or 37f "
             "for pictures of the clip");
   EXPECT_EQ(message("0s,0s\n1s 0.5s"),
             "ramp.csv:2: '1s 0.5s' is no point; write a time of the film and one of the capture: 1.5s,0.4s");

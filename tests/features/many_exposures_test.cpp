@@ -37,6 +37,14 @@ TEST(SharedWarnings, AreSaidOnceWhoeverAddsThem) {
             (std::vector<std::string>{"last: too bright", "first and 1000 more: too dark"}));
 }
 
+TEST(SharedWarnings, AreOneWhateverTheirFiguresAre) {
+  SharedWarnings warnings;
+  for (const char* said : {"M0: still gain -0.5", "M0: still gain -1.25e-05", "M1: still gain -3", "M1: gain 3"})
+    warnings.add("a", std::vector<std::string>{said});
+  EXPECT_EQ(warnings.lines(), (std::vector<std::string>{"a and 1 more: M0: still gain -0.5", "a: M1: gain 3",
+                                                        "a: M1: still gain -3"}));
+}
+
 // Pictures that nobody will write are exposed no further.
 TEST(PictureQueue, ThrowsWhatEndedItsThread) {
   const test::Scratch scratch;

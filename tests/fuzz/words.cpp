@@ -1,7 +1,7 @@
 // What people write on a command line: times, shutter shapes, rates.
 #include "exposure/shutter_shape.hpp"
 #include "fuzz/target.hpp"
-#include "session/requests/stated_time.hpp"
+#include "session/requests/moments.hpp"
 
 namespace nutik::fuzz {
 namespace {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Every place that opens, makes, empties, renames or removes a file by its name stands in the table of
-docs/explanation/reliability.md, with these calls and with why it is safe.
+tests/pages/calls.md, with these calls and with why it is safe.
 
     check_calls.py --root FOLDER
 """
@@ -34,7 +34,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=Path, required=True)
     root = parser.parse_args().root
-    page = (root / "docs/explanation/reliability.md").read_text(encoding="utf-8")
+    page = (root / "tests/pages/calls.md").read_text(encoding="utf-8")
     stated = {place: (set(re.findall(r"`([^`]+)`", calls)), why) for place, calls, why in TABLE_ROW.findall(page)}
     found = {}
     for folder in ("host", "python/src"):

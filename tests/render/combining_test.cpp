@@ -64,9 +64,11 @@ double combined(const RenderPlan& plan, const test::RandomCase& random, std::uin
     std::ranges::sort(lights);
     if (lights.empty()) continue;
     const std::size_t n = lights.size();
-    sum += share.size * (plan.combine == Combine::lighten  ? lights.back()
+    const double light = plan.combine == Combine::lighten  ? lights.back()
                          : plan.combine == Combine::darken ? lights.front()
-                                                           : (lights[(n - 1) / 2] + lights[n / 2]) / 2);
+                                                           : (lights[(n - 1) / 2] + lights[n / 2]) / 2;
+    if (shares.size() == 1) return light;
+    sum += share.size * light;
   }
   return sum / kWholeShare;
 }

@@ -1,4 +1,4 @@
-#include "session/requests/stated_time.hpp"
+#include "session/requests/moments.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,6 +18,18 @@ TEST(StatedTime, IsEqualToTheSameTimeInAnotherUnit) {
   EXPECT_EQ(parsed_time("3f"), StatedTime::of_pictures(3));
   EXPECT_NE(parsed_time("0.4s"), parsed_time("401ms"));
   EXPECT_NE(parsed_time("0s"), parsed_time("0f")) << "what pictures come to depends on the timeline";
+}
+
+TEST(StatedTime, IsReadAsPeopleWriteIt) {
+  EXPECT_EQ(parsed_time("0:01.5"), parsed_time("1500ms"));
+  EXPECT_EQ(parsed_time("-1:02:03.25"), parsed_time("-3723.25s"));
+  EXPECT_EQ(parsed_time("90:00"), parsed_time("1.5h"));
+  EXPECT_EQ(parsed_time("1/100"), parsed_time("10ms"));
+  EXPECT_EQ(parsed_time("+1s"), parsed_time("1e3ms"));
+  for (const char* none : {"", "s", "5", "0.4", "1:2", "1:60", "1:02:60", ":01", "1:02:03:04", "0:1.5", "1 s", "--1s",
+                           "+-1s", "1/0s", "0:01s", "1:0a", "f", "1/2/3s"}) {
+    EXPECT_THROW(static_cast<void>(parsed_time(none)), UsageError) << none;
+  }
 }
 
 TEST(StatedTime, IsCompared128BitsWide) {

@@ -112,12 +112,13 @@ std::vector<const Option*> options_of_topic(const Command& command, std::string_
 
 // What sets a command apart; all that it takes, where that is little.
 std::vector<const Option*> options_of_its_own(const Command& command) {
-  constexpr std::size_t kLittle = 22;
+  constexpr std::size_t kLittle = 11;
   std::vector<const Option*> found = options_of(command.id);
   std::erase_if(found, [](const Option* option) { return option->heading == kForExperiments; });
   if (found.size() <= kLittle) return found;
-  std::vector<std::string_view> shared{kClipCodes, kComputing, kOutputs};
-  if (command.id != CommandId::encode) shared.insert(shared.end(), {kSourceClip, kEventRecording, kMovingCamera});
+  std::vector<std::string_view> shared{kClipCodes, kEventRecording, kComputing, kOutputs};
+  const bool is_of_source = command.id == CommandId::encode || command.id == CommandId::noise;
+  if (!is_of_source) shared.insert(shared.end(), {kSourceClip, kMovingCamera});
   std::erase_if(found, [&](const Option* option) { return is_under(*option, shared); });
   return found;
 }
@@ -149,8 +150,9 @@ std::string short_lines(const Option& option) {
   line += brief(option.help);
   std::string choices = ":";
   for (const std::string& choice : option.choices()) choices += " " + choice + (choice.ends_with(':') ? "…" : "");
-  if (choices.size() > 1 && columns(line + choices) <= kDefault) line += choices;
-  return line + '\n';
+  if (choices.size() > 1 && columns(line + choices) <= kDefault) return line + choices + '\n';
+  const std::string below = std::string(kOptionColumn, ' ') + choices.substr(std::min<std::size_t>(choices.size(), 2));
+  return line + (option.choices().size() > 1 && columns(below) <= kDefault ? ":\n" + below : "") + '\n';
 }
 
 }  // namespace

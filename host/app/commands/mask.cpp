@@ -18,7 +18,7 @@
 #include "media/writers/picture_writer.hpp"
 #include "plot/canvas.hpp"
 #include "plot/graph.hpp"
-#include "session/requests/stated_time.hpp"
+#include "session/requests/moments.hpp"
 #include "session/text/number_text.hpp"
 #include "sheet/contact_sheet.hpp"
 #include "sheet/drawings.hpp"

@@ -12,7 +12,7 @@
 #include "features/schema/option.hpp"
 #include "features/schema/options.hpp"
 #include "session/clips/clip_source.hpp"
-#include "session/requests/stated_time.hpp"
+#include "session/requests/moments.hpp"
 #include "session/text/number_text.hpp"
 
 namespace nutik::app {

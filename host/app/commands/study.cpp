@@ -177,6 +177,7 @@ int run_study(const Options& stated) {
     write_picture(files.picture, plate.picture, {}, wishes);
     const Shape shape = written_shape(files.picture, plate.picture.shape, plate.picture.pixel_aspect, wishes);
     Answer answer{{{"picture", files.picture.string()}}};
+    answer.json.update(shape_json(shape));
     answer.line = format("{}: {}, the scene without moving things", files.picture.string(),
                          shape_text(shape));
     if (!files.is_alone()) {
@@ -205,6 +206,7 @@ int run_study(const Options& stated) {
   tally.wrote(session.format(), shape);
 
   Answer answer{{{"picture", files.picture.string()}}};
+  answer.json.update(shape_json(shape));
   if (!files.is_alone()) {
     files.write_commands(commands_text(options, files, study, request.style));
     answer.json["mask"] = files.mask.string();

@@ -47,9 +47,11 @@ namespace {
 std::optional<FilmSound> film_sound(const Session& session, const FramesRequest& request, const Frames& frames,
                                     const VideoOutput& output, FilmSoundWish wish, std::vector<std::string>& notes) {
   const auto& found = session.sound();
+  if (wish == FilmSoundWish::stretched && !found)
+    notes.push_back(format("{} has no sound to stretch", input_title(session.source().path.string())));
   if (wish == FilmSoundWish::none || !found) return {};
   const auto left_out = [&](const std::string& why) {
-    notes.push_back(format("the clip's sound is left out: {}", why));
+    notes.push_back(format("{}{}", kSoundLeftOut, why));
     return std::nullopt;
   };
   if (!output.holds_sound()) return left_out(format("{} holds none", output.path().extension().string()));
@@ -63,9 +65,13 @@ std::optional<FilmSound> film_sound(const Session& session, const FramesRequest&
   // Where both run as fast but for what half a frame comes to at the film's end, packets stay as they are.
   if (std::abs(sound.speed - 1.0) * sound.seconds * request.rate.value() < 0.5) sound.speed = 1.0;
   sound.is_asked = wish == FilmSoundWish::stretched;
-  if (sound.speed == 1.0 || wish == FilmSoundWish::stretched) return sound;
-  return left_out(
-      format("the film runs {:.4g} times as fast as the file, and stretching it was not asked for", sound.speed));
+  if (sound.speed != 1.0 && !sound.is_asked)
+    return left_out(
+        format("the film runs {:.4g} times as fast as the file, and stretching it was not asked for", sound.speed));
+  if (found->tracks > 1)
+    notes.push_back(format("the clip has {} tracks of sound, and the film track {}, which players take, too ({})",
+                           found->tracks, found->track, found->codec));
+  return sound;
 }
 
 }  // namespace
@@ -119,7 +125,11 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
   }
   queue.finish();
   made.notes = queue.notes();
-  std::ranges::move(sound_notes, std::back_inserter(made.notes));
+  const auto is_on_sound = [](const std::string& note) { return note.starts_with(kSoundLeftOut); };
+  if (std::ranges::none_of(made.notes, is_on_sound)) {
+    made.sound = sound;
+    std::ranges::move(sound_notes, std::back_inserter(made.notes));
+  }
   return made;
 }
 

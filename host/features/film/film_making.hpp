@@ -63,7 +63,8 @@ class VideoOutput {
 struct MadeVideo {
   std::uint64_t frames = 0;                 // that were written
   std::optional<Interrupted> interruption;  // what ended the video before its last frame
-  std::vector<std::string> notes;           // of the writer: whole sentences
+  std::vector<std::string> notes;           // of the writer, and on sound: whole sentences
+  std::optional<FilmSound> sound;           // that it has
 };
 
 // What the recipe of a frame's still states for itself: when it was exposed, and with keys what its functions (as a text

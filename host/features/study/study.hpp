@@ -23,7 +23,7 @@
 #include "scene/subject.hpp"
 #include "session/memory_budget.hpp"
 #include "session/requests/exposure_request.hpp"
-#include "session/requests/stated_time.hpp"
+#include "session/requests/moments.hpp"
 #include "system/interruption.hpp"
 
 namespace nutik {

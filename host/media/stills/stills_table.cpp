@@ -14,7 +14,6 @@
 namespace nutik {
 namespace {
 
-constexpr std::int64_t kLargestNs = 4'000'000'000'000'000'000;  // differences of two fit
 constexpr std::int64_t kLongestNs = std::int64_t{1} << 62;      // of a timeline
 
 constexpr std::string_view kColumns[] = {"file", "start_ns", "exposure_ns"};
@@ -71,9 +70,9 @@ std::optional<std::int64_t> nanoseconds(const std::filesystem::path& table, std:
   if (field.empty()) return std::nullopt;
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size() || value < least || value > kLargestNs) {
+  if (error != std::errc() || end != field.data() + field.size() || value < least || value > kLargestTimeNs) {
     fail(table, line,
-         format("{} '{}' is no whole number of nanoseconds from {} to {}", column, field, least, kLargestNs));
+         format("{} '{}' is no whole number of nanoseconds from {} to {}", column, field, least, kLargestTimeNs));
   }
   return value;
 }
@@ -111,7 +110,7 @@ std::vector<ListedStill> read_stills_table(const std::filesystem::path& path) {
     const std::string& name = (*fields)[0];
     if (name.empty()) fail(path, line, "the file's name is missing");
     ListedStill still{path.parent_path() / name, line, {}};
-    still.times.start_ns = nanoseconds(path, line, kColumns[1], (*fields)[1], -kLargestNs);
+    still.times.start_ns = nanoseconds(path, line, kColumns[1], (*fields)[1], -kLargestTimeNs);
     still.times.exposure_ns = nanoseconds(path, line, kColumns[2], (*fields)[2], 1);
     std::error_code error;
     if (!std::filesystem::is_regular_file(still.file, error)) {

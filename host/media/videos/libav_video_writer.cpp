@@ -218,17 +218,17 @@ class LibavVideoWriter final : public VideoWriter {
     }
   }
 
-  // A .webm tells players how many whole pixels wide its frames are shown, and no pixel aspect.
   void add_sound(const FilmSound& sound) {
     muxer_->max_interleave_delta = AV_TIME_BASE;  // pictures that wait for a late sound, or for one that has ended
     try {
       sound_ = open_sound(sound, *muxer_, name_);
     } catch (const OutputError& error) {
       if (sound.is_asked) throw;
-      notes_.push_back(format("the clip's sound is left out: {}", error.what()));
+      notes_.push_back(format("{}{}", kSoundLeftOut, error.what()));
     }
   }
 
+  // A .webm tells players how many whole pixels wide its frames are shown, and no pixel aspect.
   void note_rounded_pixels() {
     if (std::string_view(muxer_->oformat->name) != "webm") return;
     const auto& [across, down] = video_.pixel_aspect;

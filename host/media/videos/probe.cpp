@@ -438,9 +438,16 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   }
   if (lost) result.notes.push_back(warning_of(std::move(*lost)));
   const std::vector<std::int64_t> times = picture_times(path, opened, packets, result);
-  if (times.size() > 1 && best_sound(*opened.format) >= 0) {
+  if (const int sound = best_sound(*opened.format); times.size() > 1 && sound >= 0) {
     const double tick_s = av_q2d(stream.time_base);
-    result.sound = ClipSound{static_cast<double>(times.front()) * tick_s, static_cast<double>(times.back()) * tick_s};
+    const std::span streams(opened.format->streams, opened.format->nb_streams);
+    const auto tracks = [](std::span<AVStream* const> some) {
+      const auto type = [](const AVStream* each) { return each->codecpar->codec_type; };
+      return static_cast<int>(std::ranges::count(some, AVMEDIA_TYPE_AUDIO, type));
+    };
+    const auto first = streams.first(static_cast<std::size_t>(sound) + 1);
+    result.sound = ClipSound{static_cast<double>(times.front()) * tick_s, static_cast<double>(times.back()) * tick_s,
+                             0.0, avcodec_get_name(first.back()->codecpar->codec_id), tracks(first), tracks(streams)};
   }
   if (auto doubt = doubt_about_rate(*opened.format, stream, MappedFile(path).bytes())) {
     result.timing.rate_doubt = std::move(*doubt);

@@ -45,6 +45,9 @@ struct VideoCodec {
 [[nodiscard]] int codec_setting(const VideoCodec& codec, const std::optional<std::uint32_t>& crf,
                                 const std::optional<std::uint32_t>& quality);
 
+// How a note begins that says why a film has no sound.
+inline constexpr std::string_view kSoundLeftOut = "the clip's sound is left out: ";
+
 // A part of a clip's sound, in a film.
 struct FilmSound {
   std::filesystem::path clip;

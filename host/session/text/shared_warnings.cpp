@@ -1,22 +1,33 @@
 #include "session/text/shared_warnings.hpp"
 
+#include <regex>
+
 #include "capture/format.hpp"
 
 namespace nutik {
+namespace {
+
+// What is said, whatever its figures are; that of `M0` is a name.
+std::string shape_of(const std::string& warning) {
+  static const std::regex figure("([^A-Za-z0-9])[-+]?[0-9.]+(e[-+]?[0-9]+)?");
+  return std::regex_replace(warning, figure, "$1#");
+}
+
+}  // namespace
 
 void SharedWarnings::add(const std::string& label, std::span<const std::string> warnings) {
   const std::lock_guard lock(adding_);
   for (const std::string& warning : warnings) {
-    ++warnings_.try_emplace(warning, Exposures{label, 0}).first->second.count;
+    ++warnings_.try_emplace(shape_of(warning), Exposures{label, warning, 0}).first->second.count;
   }
 }
 
 std::vector<std::string> SharedWarnings::lines() const {
   const std::lock_guard lock(adding_);
   std::vector<std::string> lines;
-  for (const auto& [warning, exposures] : warnings_) {
+  for (const auto& [shape, exposures] : warnings_) {
     const std::string others = exposures.count > 1 ? format(" and {} more", exposures.count - 1) : "";
-    lines.push_back(format("{}{}: {}", exposures.first, others, warning));
+    lines.push_back(format("{}{}: {}", exposures.first, others, exposures.warning));
   }
   return lines;
 }

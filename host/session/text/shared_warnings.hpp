@@ -22,11 +22,11 @@ class SharedWarnings {
 
  private:
   struct Exposures {
-    std::string first;
+    std::string first, warning;
     std::uint64_t count = 0;
   };
   mutable std::mutex adding_;
-  std::map<std::string, Exposures> warnings_;
+  std::map<std::string, Exposures> warnings_;  // by their text but for its numbers
 };
 
 }  // namespace nutik

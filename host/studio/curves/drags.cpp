@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "capture/format.hpp"
-#include "session/requests/stated_time.hpp"
+#include "session/requests/moments.hpp"
 #include "studio/time/times.hpp"
 
 namespace nutik::studio {

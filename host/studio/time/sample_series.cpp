@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "session/requests/stated_time.hpp"
+#include "session/requests/moments.hpp"
 
 namespace nutik::studio {
 

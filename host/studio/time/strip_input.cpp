@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "session/requests/stated_time.hpp"
+#include "session/requests/moments.hpp"
 #include "studio/time/times.hpp"
 #include "studio/time/time_strip.hpp"
 

@@ -11,7 +11,7 @@
 #include "exposure/gain_function.hpp"
 #include "exposure/normalization.hpp"
 #include "exposure/shutter_shape.hpp"
-#include "session/requests/stated_time.hpp"
+#include "session/requests/moments.hpp"
 
 namespace nutik::studio {
 namespace {

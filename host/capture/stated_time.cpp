@@ -1,0 +1,162 @@
+#include "capture/stated_time.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <numeric>
+#include <utility>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+
+namespace nutik {
+namespace {
+
+struct Unit {
+  std::string_view name;
+  std::int64_t nanoseconds;
+};
+
+// The first of a length is the one that is written; times are written in those up to a second, the coarsest first.
+constexpr std::array<Unit, 9> kUnits{{{"s", 1'000'000'000},
+                                      {"ms", 1'000'000},
+                                      {"us", 1000},
+                                      {"\u00B5s", 1000},
+                                      {"\u03BCs", 1000},
+                                      {"ns", 1},
+                                      {"min", 60'000'000'000},
+                                      {"h", 3'600'000'000'000},
+                                      {"f", 0}}};
+
+bool is_digits(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+}
+
+// The last characters that are a unit's name.
+const Unit* unit_of(std::string_view text) {
+  const Unit* longest = nullptr;
+  for (const Unit& unit : kUnits) {
+    if (text.ends_with(unit.name) && (longest == nullptr || unit.name.size() > longest->name.size()))
+      longest = &unit;
+  }
+  return longest;
+}
+
+// `1:02:03.5`, without its sign, in seconds.
+std::optional<Rational> read_clock(std::string_view text) {
+  const std::string_view decimals = text.substr(std::min(text.find('.'), text.size()));
+  std::int64_t seconds = 0;
+  std::string_view whole = text.substr(0, text.size() - decimals.size());
+  for (int parts = 0; parts == 0 || !whole.empty(); ++parts) {
+    const std::size_t colon = std::min(whole.find(':'), whole.size());
+    const std::string_view part = whole.substr(0, colon);
+    std::int64_t value = 0;
+    if (!is_digits(part) || part.size() > 6 || parts > 2) return std::nullopt;
+    std::from_chars(part.data(), part.data() + part.size(), value);
+    if (parts > 0 && (part.size() != 2 || value > 59)) return std::nullopt;
+    seconds = seconds * 60 + value;
+    whole.remove_prefix(std::min(colon + 1, whole.size()));
+  }
+  return Rational::read(format("{}{}", seconds, decimals));
+}
+
+}  // namespace
+
+std::optional<StatedTime> StatedTime::read(std::string_view text) {
+  const std::string_view behind_sign = text.substr(text.starts_with('-') || text.starts_with('+') ? 1 : 0);
+  if (behind_sign.empty() || std::string_view(".0123456789").find(behind_sign[0]) == std::string_view::npos) return std::nullopt;
+  const auto signed_by = [&](std::optional<Rational> number, std::int64_t unit_ns) -> std::optional<StatedTime> {
+    if (!number) return std::nullopt;
+    if (text[0] == '-') number->numerator = -number->numerator;
+    return StatedTime{*number, unit_ns};
+  };
+  if (behind_sign.find(':') != behind_sign.npos) return signed_by(read_clock(behind_sign), kSecondNs);
+  const Unit* const unit = unit_of(behind_sign);
+  if (unit == nullptr) {
+    const bool is_fraction = behind_sign.find('/') != behind_sign.npos;
+    return is_fraction ? signed_by(Rational::read(behind_sign), kSecondNs) : std::nullopt;
+  }
+  const std::string_view number = behind_sign.substr(0, behind_sign.size() - unit->name.size());
+  // Nanoseconds of a long capture have more digits than other numbers may.
+  std::int64_t whole = 0;
+  if (unit->nanoseconds == 1 && is_digits(number)) {
+    const bool fits = std::from_chars(number.begin(), number.end(), whole).ec == std::errc();
+    return fits ? signed_by(Rational{whole, 1}, 1) : std::nullopt;
+  }
+  return signed_by(Rational::read(number), unit->nanoseconds);
+}
+
+StatedTime StatedTime::parse(std::string_view text, std::string_view what) {
+  const std::optional<StatedTime> time = read(text);
+  if (!time && text.find(',') != text.npos && text.find('.') == text.npos && text.find(',') == text.rfind(','))
+    throw UsageError(format("{} '{}' is no time; the decimal mark is a point: 0.4s", what, text));
+  if (!time) {
+    throw UsageError(
+        format("{} '{}' is no time; write a number and a unit: 0.4s, 10ms, 250us, 1/100s, 0:01.5, or "
+               "37f for pictures of the clip",
+               what, text));
+  }
+  if (time->is_longest()) throw UsageError(format("{} '{}' is longer than 126 years", what, text));
+  return *time;
+}
+
+bool StatedTime::is_longest() const {
+  const int128 magnitude = static_cast<int128>(number.numerator < 0 ? -number.numerator : number.numerator) * unit_ns;
+  return magnitude > static_cast<int128>(kLargestTimeNs) * number.denominator;
+}
+
+std::int64_t StatedTime::nanoseconds() const {
+  const ExactTime exact = exact_nanoseconds();
+  return round_half_up(exact.numerator, exact.denominator);
+}
+
+Rational StatedTime::modest_nanoseconds() const {
+  constexpr int128 kMax = 999'999'999'999'999;
+  constexpr std::int64_t kFinest = 999'999;
+  const std::int64_t shared = std::gcd(unit_ns, number.denominator);
+  const int128 above = static_cast<int128>(number.numerator) * (unit_ns / shared);
+  const std::int64_t below = number.denominator / shared;
+  if (above > kMax || above < -kMax || below > kFinest) return {nanoseconds(), 1};
+  return {static_cast<std::int64_t>(above), below};
+}
+
+StatedTime StatedTime::of_nanoseconds(std::int64_t nanoseconds) {
+  const auto unit = std::find_if(kUnits.begin(), kUnits.end(), [&](const Unit& candidate) {
+    return candidate.nanoseconds > 0 && nanoseconds % candidate.nanoseconds == 0;
+  });
+  return {{nanoseconds / unit->nanoseconds, 1}, unit->nanoseconds};
+}
+
+StatedTime StatedTime::of(const ExactTime& time) {
+  constexpr int128 kLargest = 999'999'999'999'999;  // Rational::parse() reads no more digits
+  if (time.denominator == 1) return of_nanoseconds(static_cast<std::int64_t>(time.numerator));
+  const auto shared =
+      static_cast<std::int64_t>(std::gcd(static_cast<std::int64_t>(time.numerator % kSecondNs), kSecondNs));
+  const int128 above = time.numerator / shared, below = time.denominator * (kSecondNs / shared);
+  if (above <= kLargest && above >= -kLargest && below <= kLargest)
+    return {Rational::of(static_cast<std::int64_t>(above), static_cast<std::int64_t>(below)), kSecondNs};
+  if (time.numerator <= kLargest && time.numerator >= -kLargest)
+    return {
+        Rational::of(static_cast<std::int64_t>(time.numerator), static_cast<std::int64_t>(time.denominator)),
+        1};
+  return of_nanoseconds(round_half_up(time.numerator, time.denominator));
+}
+
+std::string StatedTime::text() const {
+  const auto unit = std::ranges::find(kUnits, unit_ns, &Unit::nanoseconds);
+  return format("{}{}", number.text(), unit->name);
+}
+
+bool operator==(const StatedTime& a, const StatedTime& b) {
+  if (a.counts_samples() != b.counts_samples()) return false;
+  if (a.counts_samples()) return a.number == b.number;
+  // Both in lowest terms, in nanoseconds: products of the terms themselves could leave 128 bits.
+  const auto lowest = [](const StatedTime& time) {
+    const std::int64_t shared = std::gcd(time.unit_ns, time.number.denominator);
+    return std::pair(static_cast<int128>(time.number.numerator) * (time.unit_ns / shared),
+                     time.number.denominator / shared);
+  };
+  return lowest(a) == lowest(b);
+}
+
+}  // namespace nutik

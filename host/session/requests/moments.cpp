@@ -1,0 +1,100 @@
+#include "session/requests/moments.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+#include "session/text/number_text.hpp"
+
+namespace nutik {
+namespace {
+
+// The number of a picture that the timeline has.
+std::uint64_t existing_sample(std::int64_t sample, const Timeline& timeline) {
+  const auto count = static_cast<std::int64_t>(timeline.sample_count());
+  if (sample < 0 || sample >= count) {
+    throw UsageError(
+        format("picture {} is outside the capture, which has {} (0f … {}f)", sample, count, count - 1));
+  }
+  return static_cast<std::uint64_t>(sample);
+}
+
+std::int64_t whole_samples(const StatedTime& time, std::string_view what) {
+  if (time.number.denominator != 1) {
+    throw UsageError(format("{} {}f is not a whole number of pictures", what, time.number.text()));
+  }
+  return time.number.numerator;
+}
+
+std::int64_t rounded(const ExactTime& time) { return round_half_up(time.numerator, time.denominator); }
+
+[[noreturn]] void refuse_length(const StatedTime& length, std::string_view why) {
+  throw UsageError(format("exposure '{}' is {}", length.text(), why));
+}
+
+// GainFunction could not hold later times than the longest.
+Exposure checked(Exposure interval, const StatedTime& length) {
+  if (interval.end_ns <= interval.start_ns) refuse_length(length, "shorter than a nanosecond");
+  interval.end_ns = std::min(interval.end_ns, std::max(kLargestTimeNs, interval.start_ns));
+  return interval;
+}
+
+}  // namespace
+
+ExactTime periods_from(std::int64_t time_ns, std::int64_t count, const Timeline& timeline) {
+  const std::uint64_t first = sample_at(time_ns, timeline);
+  const std::uint64_t last = existing_sample(static_cast<std::int64_t>(first) + count - 1, timeline);
+  if (timeline.is_constant()) return ExactTime::of_sample(timeline, static_cast<std::uint64_t>(count));
+  const bool at_end = last + 1 == timeline.sample_count();
+  return {(at_end ? timeline.duration_ns() : timeline.start_ns(last + 1)) - timeline.start_ns(first), 1};
+}
+
+std::int64_t moment_ns(const StatedTime& time, const Timeline& timeline) {
+  if (!time.counts_samples()) return time.nanoseconds();
+  return timeline.start_ns(existing_sample(whole_samples(time, "start"), timeline));
+}
+
+Exposure plain_interval(const StatedTime& start, const StatedTime& length, const Timeline& timeline) {
+  if (!start.counts_samples()) return plain_interval(exact_time(start, "start", timeline), length, timeline);
+  if (length.number.numerator <= 0) refuse_length(length, "not longer than nothing");
+  const std::int64_t first = whole_samples(start, "start");
+  const std::uint64_t sample = existing_sample(first, timeline);
+  if (!length.counts_samples())
+    return plain_interval(ExactTime::of_sample(timeline, sample), length, timeline);
+  const std::int64_t last = first + whole_samples(length, "exposure") - 1;
+  return checked({timeline.start_ns(sample), timeline.end_ns(existing_sample(last, timeline))}, length);
+}
+
+Exposure plain_interval(const ExactTime& start, const StatedTime& length, const Timeline& timeline) {
+  if (length.number.numerator <= 0) refuse_length(length, "not longer than nothing");
+  const std::int64_t start_ns = rounded(start);
+  const ExactTime exact = length.counts_samples()
+                              ? periods_from(start_ns, whole_samples(length, "exposure"), timeline)
+                              : exact_time(length, "exposure", timeline);
+  return checked({start_ns, rounded_sum(start, exact)}, length);
+}
+
+std::uint64_t sample_at(std::int64_t time_ns, const Timeline& timeline) {
+  const std::int64_t inside_ns = std::clamp<std::int64_t>(time_ns, 0, timeline.duration_ns() - 1);
+  return timeline.samples_reaching(inside_ns, inside_ns + 1).first;
+}
+
+std::uint64_t sample_at(const StatedTime& time, std::string_view what, const Timeline& timeline) {
+  if (time.counts_samples()) return existing_sample(whole_samples(time, what), timeline);
+  const std::int64_t time_ns = time.nanoseconds();
+  if (time_ns < 0 || time_ns > timeline.duration_ns()) {
+    throw UsageError(format("{} {} lies outside the capture, which lasts {}", what, time.text(),
+                            duration_text(timeline.duration_ns())));
+  }
+  return sample_at(time_ns, timeline);
+}
+
+ExactTime exact_time(const StatedTime& time, std::string_view what, const Timeline& timeline) {
+  if (!time.counts_samples()) return time.exact_nanoseconds();
+  const std::int64_t sample = whole_samples(time, what);
+  if (sample == static_cast<std::int64_t>(timeline.sample_count())) return {timeline.duration_ns(), 1};
+  return ExactTime::of_sample(timeline, existing_sample(sample, timeline));
+}
+
+}  // namespace nutik
