@@ -56,7 +56,7 @@ class BuildWithCMake(build_ext):
         shutil.rmtree(target, ignore_errors=True)
         target.mkdir(parents=True)
         for file in (made / module, *made.glob("nutik-*.so"), *(ROOT / "python/nutik").glob("*.py*"),
-                     ROOT / "python/nutik/py.typed"):
+                     *(ROOT / "python/nutik" / name for name in ("py.typed", "napari.yaml"))):
             shutil.copy2(file, target)
 
     def get_outputs(self):

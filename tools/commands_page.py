@@ -90,28 +90,63 @@ def listed(pairs):
     return "".join(folded(f"- `{term}`: {said}", "  ") + "\n" for term, said in pairs)
 
 
+def named(options):
+    """Options by their names; two of one name (--tag) count once."""
+    return list(dict.fromkeys(f"`{long_name(term)}`" for term, _, _ in options))
+
+
 def taken_by(command, options):
-    return tuple(f"`{long_name(term)}`" for term, _, takers in options if command in takers)
+    return named(option for option in options if command in option[2])
 
 
 def usual_options(names, option_groups):
     """For each heading the options that commands mostly take of it, if at least USUAL commands take just these."""
     for heading, options in option_groups:
-        taken, count = Counter(filter(None, (taken_by(name, options) for name in names))).most_common(1)[0]
+        counts = Counter(filter(None, (tuple(taken_by(name, options)) for name in names)))
+        taken, count = counts.most_common(1)[0]
         if count >= USUAL and len(taken) > 1:
-            yield heading, taken
+            yield heading, list(taken)
+
+
+def link(heading):
+    """A heading's name, without what it says behind a comma."""
+    return f"[{heading.split(',')[0]}](#{anchor(heading)})"
+
+
+def without(options, left):
+    return [option for option in options if option not in left]
+
+
+def of_heading(heading, every, taken):
+    """The options that a command takes of a heading, or those that it does not, if these are fewer."""
+    left = without(every, taken)
+    if len(taken) > 1 and not left:
+        return f"all of {link(heading)}"
+    if 2 + len(left) < len(taken):
+        return f"all of {link(heading)} but {', '.join(left)}"
+    return f"{link(heading)}: {', '.join(taken)}"
 
 
 def options_of(command, option_groups, usual):
-    """Whether the command takes what is usual; then for each other heading its options."""
+    """How a command differs from what is usual; then its options of the other headings."""
     taken_of = {heading: taken_by(command, options) for heading, options in option_groups}
-    is_usual = sum(taken_of[heading] == taken for heading, taken in usual.items()) > 2
-    if is_usual:
-        without = [heading for heading in usual if not taken_of[heading]]
-        yield folded("- [As usual](#usual-options)" + (f", without: {', '.join(without)}" if without else ""), "  ")
-    for heading, taken in taken_of.items():
-        if taken and not (is_usual and taken == usual.get(heading)):
-            yield folded(f"- [{heading}](#{anchor(heading)}): {', '.join(taken)}", "  ")
+    if sum(taken_of[heading] == taken for heading, taken in usual.items()) > 2:
+        unused, less, more = [], [], []
+        for heading, taken in usual.items():
+            own = taken_of.pop(heading)
+            left = without(taken, own)
+            if own and len(left) <= len(own) + 1:
+                less += left
+                more += without(own, taken)
+            elif left:
+                unused.append(f"*{heading}*")
+                more += own
+        less = ", ".join(unused + less)
+        more = ", ".join(more)
+        yield "[as usual](#usual-options)" + (f" without {less}" if less else "") + (f", with {more}" if more else "")
+    for heading, options in option_groups:
+        if taken_of.get(heading):
+            yield of_heading(heading, named(options), taken_of[heading])
 
 
 def page_of(man):
@@ -128,9 +163,9 @@ def page_of(man):
                 for title, body in groups(section(man, "EXAMPLES"))}
     usual = dict(usual_options(names, option_groups))
     text = PREFACE + "\n## Usual options\n\n"
-    text += "*As usual* stands for all of these; a heading that a command lists counts instead.\n\n"
-    text += "".join(folded(f"- [{heading}](#{anchor(heading)}): {', '.join(taken)}", "  ") + "\n"
-                    for heading, taken in usual.items())
+    text += "*As usual* stands for all of these:\n\n"
+    text += "".join(folded("- " + of_heading(heading, named(options), usual[heading]), "  ") + "\n"
+                    for heading, options in option_groups if heading in usual)
     for title, commands in command_groups:
         text += f"\n## {title}\n"
         for term, summary in commands:
@@ -140,8 +175,7 @@ def page_of(man):
             text += f"\n### {name}\n\n`{f'nutik-cl {name} {operands}'.strip()}`\n\n"
             text += folded(f"{summary} ([more]({FURTHER[name]}))") + "\n"
             text += "\n```sh\n" + examples[name] + "```\n"
-            taken = list(options_of(name, option_groups, usual))
-            text += "".join(f"\n{line}" for line in taken) + ("\n" if taken else "")
+            text += "\n" + folded(f"Options: {'; '.join(options_of(name, option_groups, usual))}.") + "\n"
     text += "\n## Options\n"
     for heading, options in option_groups:
         text += f"\n### {heading}\n\n" + listed((term, said) for term, said, _ in options)

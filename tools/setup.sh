@@ -28,7 +28,7 @@ test_packages+=(mkdocs)
 test_packages+=(slurmctld slurmd slurm-client munge parallel)
 # The Python package, its wheel and its notebooks.
 test_packages+=(pybind11-dev python3-dev python3-pip python3-setuptools python3-wheel python3-venv
-  python3-nbclient python3-nbformat python3-ipykernel mypy)
+  python3-nbclient python3-nbformat python3-ipykernel python3-xarray python3-imageio mypy)
 # A screen that nobody sees, for the studio.
 test_packages+=(xvfb xauth)
 # What packages and archives are made and looked at with; reuse reads licences.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <mutex>
 #include <set>
 #include <utility>
 #include <vector>
@@ -211,7 +212,7 @@ Feather Feather::parse(const std::string& text) {
 
 // From the widest edge to the narrowest: those that reach as far, or less, share out anew what they have together. So
 // an edge between two tags is as wide as the wider of theirs.
-Mask feathered(const Mask& mask, const Feather& feather, const std::stop_token& stop) {
+Mask feathered(const Mask& mask, const Feather& feather, const ReportedProgress& progress) {
   std::set<std::int32_t, std::greater<>> reaches;
   const auto counts = mask.pixels_per_tag();
   for (const auto& [tag, reach] : feather.of_tag) {
@@ -225,16 +226,19 @@ Mask feathered(const Mask& mask, const Feather& feather, const std::stop_token& 
   tents.reserve(reaches.size());
   for (const std::int32_t reach : reaches) tents.emplace_back(reach);
   std::vector<MixedRow> rows(mask.height);
-  const auto throw_if_stopped = [&] {
-    if (stop.stop_requested()) throw Cancelled();
+  std::mutex telling;
+  std::uint64_t done = 0;
+  const auto tell = [&] {
+    const std::lock_guard lock(telling);
+    if (progress) progress(done++, 2 * std::uint64_t{mask.height});
   };
   parallel_for(mask.height, [&](std::uint64_t y) {
-    throw_if_stopped();
+    tell();
     rows[y] = feathered_row(mask, feather, tents, static_cast<std::int64_t>(y));
   });
   Mask soft{mask.width, mask.height, mask.tags, {}};
   for (const MixedRow& row : rows) {
-    throw_if_stopped();
+    tell();
     for (const auto& [pixel, shares] : row) put_shares(soft, pixel, shares);
   }
   return soft;

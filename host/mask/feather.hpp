@@ -8,10 +8,10 @@
 
 #include <cstdint>
 #include <map>
-#include <stop_token>
 #include <string>
 
 #include "exposure/mask.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 
@@ -33,6 +33,6 @@ struct Feather {
 };
 
 // Of a hard mask. Throws UsageError where no pixel has a tag with a feather of its own.
-[[nodiscard]] Mask feathered(const Mask& mask, const Feather& feather, const std::stop_token& stop = {});
+[[nodiscard]] Mask feathered(const Mask& mask, const Feather& feather, const ReportedProgress& progress = {});
 
 }  // namespace nutik

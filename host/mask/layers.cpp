@@ -48,7 +48,7 @@ void check_shape(const MaskLayer& layer, const MaskLayer& first) {
 
 }  // namespace
 
-Mask mask_of_layers(std::span<const MaskLayer> layers, std::uint8_t rest, const std::stop_token& stop) {
+Mask mask_of_layers(std::span<const MaskLayer> layers, std::uint8_t rest, const ReportedProgress& progress) {
   double rounding = 0x1p-30;  // of the sums here; and of each layer half a code
   for (const MaskLayer& layer : layers) {
     check_shape(layer, layers[0]);
@@ -59,7 +59,7 @@ Mask mask_of_layers(std::span<const MaskLayer> layers, std::uint8_t rest, const 
   std::uint64_t too_much = 0, first_too_much = 0;
   double first_sum = 0.0;
   for (std::uint64_t pixel = 0; pixel < shape.pixel_count(); ++pixel) {
-    if (pixel % shape.width == 0 && stop.stop_requested()) throw Cancelled();
+    if (progress && pixel % shape.width == 0) progress(pixel / shape.width, shape.height);
     std::array<double, kMaskValues> shares{};
     double sum = 0.0;
     for (const MaskLayer& layer : layers) {

@@ -8,11 +8,11 @@
 
 #include <cstdint>
 #include <span>
-#include <stop_token>
 #include <string>
 
 #include "capture/picture.hpp"
 #include "exposure/mask.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 
@@ -25,7 +25,7 @@ struct MaskLayer {
 // Throws InputError where sizes differ, or pixels have more than all of them: how many, and the first with what each
 // layer says.
 [[nodiscard]] Mask mask_of_layers(std::span<const MaskLayer> layers, std::uint8_t rest,
-                                  const std::stop_token& stop = {});
+                                  const ReportedProgress& progress = {});
 
 // Of 16 bits.
 [[nodiscard]] Picture layer_of(const Mask& mask, std::uint8_t tag);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "media/clip.hpp"
+#include "media/stills/picture_layer.hpp"
 #include "media/stills/stills_table.hpp"
 #include "media/writers/video_writer.hpp"
 #include "system/output_file.hpp"
@@ -43,6 +44,8 @@ struct StillModule {
   StillTimes (*read_exif_times)(const std::filesystem::path& file);
   // Light as OpenEXR has it (media/writers/picture_writer.hpp), and the text that such a file carries.
   void (*write_exr)(OutputFile& file, const Picture& picture, const std::string& text, bool as_half);
+  // The first is its picture Y, the others channels name.Y; an attribute of each one's name has its text.
+  void (*write_exr_layers)(OutputFile& file, std::span<const PictureLayer> layers);
   std::optional<std::string> (*read_exr_text)(const std::filesystem::path& file, const char* keyword);
   // A picture of codes in square pixels (media/writers/picture_writer.hpp).
   Picture (*enlarge)(const Picture& picture, const Shape& shape);

@@ -302,6 +302,7 @@ Rendered DeviceTeam::render_bands(const RenderPlan& plan, CaptureSource& source,
   const auto make_band = [&](std::size_t member, std::stop_token stop) {
     RenderControl of_band = control;
     of_band.stop = std::move(stop);
+    if (member != at_work.front()) of_band.progress = {};
     of_band.rectangle = bands[member];
     of_band.memory_bytes = shares[member];
     made[member] = members_[member].renderer->render(plan, source, output, of_band);

@@ -124,6 +124,7 @@ void Exposer::expose(std::span<ExposedBand> bands, const RenderControl& control,
   // Tables of several slices would have to be written anew for each band.
   const bool are_all_there = bands.size() > 1 && kernel_.slices.size() == 1 && fetch_all();
   const std::size_t bands_at_once = are_all_there ? 1 : bands.size();
+  to_read_ = read_blocks(0, plan_.blocks.size()) * ((bands.size() + bands_at_once - 1) / bands_at_once);
   for (std::size_t first = 0; first < bands.size(); first += bands_at_once) {
     const std::span<ExposedBand> exposed = bands.subspan(first, bands_at_once);
     const DeviceMemory::Scope sums_scope(memory_);
@@ -220,21 +221,25 @@ void Exposer::sum_up(std::span<const ExposedBand> bands, const RenderControl& co
         entries.push_back(entry);
         add_correction(slice, planned, entries);
       }
-      launch(chunk.payload, entries, tables, bands, std::exchange(is_first, false));
+      launch(chunk.payload, entries, tables, bands, control, std::exchange(is_first, false));
       blocks -= chunk.entries.size();
+      read_ += chunk.entries.size();
+      if (control.progress) control.progress(read_, to_read_);
     }
     std::vector<BlockEntry> entries;
     add_kept(slice, slice.last_block - 1, next_kept, entries);
-    if (!entries.empty()) launch(kept_.sums, entries, tables, bands, std::exchange(is_first, false));
+    if (!entries.empty()) launch(kept_.sums, entries, tables, bands, control, std::exchange(is_first, false));
   }
 }
 
 void Exposer::launch(const cl::Buffer& payload, std::span<const BlockEntry> entries,
-                     const SliceTables& tables, std::span<const ExposedBand> bands, bool is_first) {
+                     const SliceTables& tables, std::span<const ExposedBand> bands,
+                     const RenderControl& control, bool is_first) {
   const std::uint64_t max_samples = max_samples_a_launch(device_.info, work_.shape);
   for (const std::span<const BlockEntry> part : launches_of(entries, max_samples)) {
     const cl::Buffer entries_of_part = memory_.upload(part);
     for (const ExposedBand& exposed : bands) {
+      throw_if_cancelled(control);
       const ExposeLaunch launched{exposed.band.sum_tiles, static_cast<cl_uint>(part.size()),
                                   static_cast<cl_uint>(plan_.function_count()), is_first ? 1u : 0u};
       keep_watching_mapped_files();  // what was launched before may have been compiled at that moment

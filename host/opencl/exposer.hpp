@@ -75,7 +75,7 @@ class Exposer {
   bool fetch_all();
   void sum_up(std::span<const ExposedBand> bands, const RenderControl& control);
   void launch(const cl::Buffer& payload, std::span<const BlockEntry> entries, const SliceTables& tables,
-              std::span<const ExposedBand> bands, bool is_first);
+              std::span<const ExposedBand> bands, const RenderControl& control, bool is_first);
   // Planned blocks [first, last) that are read.
   [[nodiscard]] std::size_t read_blocks(std::size_t first, std::size_t last) const;
   // Those of a slice whose blocks are not behind planned block `last`, from `next` on.
@@ -93,6 +93,7 @@ class Exposer {
   const BlockKernel& kernel_;
   DeviceMemory& memory_;
   RenderStatistics& statistics_;
+  std::size_t read_ = 0, to_read_ = 0;     // blocks, each as often as bands are exposed
   std::vector<BlockFeed::Chunk> fetched_;  // the plan's first ones, ahead of any launch
 };
 

@@ -333,6 +333,8 @@ class OpenClRenderer::Implementation {
       const ExposingDevice device{info_, queue_, *feed_, options_.last_block_first};
       const auto expose = [&](const ExposedPlan& what, std::span<ExposedBand> exposed,
                               const Exposer::Develop& done) {
+        RenderControl control = request.control;
+        if (&what.plan != &plan) control.progress = {};  // sums that are made to be kept
         ExposeKernel kernel(cl::Kernel(expose_program(work, what.plan, light), "expose"));
         // Every argument is a buffer, though it may not be read.
         const cl::Buffer exposes = memory.upload(what.exposes);
@@ -350,7 +352,7 @@ class OpenClRenderer::Implementation {
                             band.map.of_lane, exposes, light.values, kept, band.bundles, band.sums, launch);
             }};
         Exposer(device, work, what, request.source, shares, over_blocks, memory, rendered.statistics)
-            .expose(exposed, request.control, done);
+            .expose(exposed, control, done);
       };
       if (&request.source == resident_) {
         const auto whole_picture = [&](const RenderPlan& of_light) {

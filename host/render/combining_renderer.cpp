@@ -236,6 +236,7 @@ Rendered CombiningRenderer::render_part(const RenderPlan& plan, CaptureSource& s
   const std::vector<SampleGains> gains = sample_gains(plan, source.timeline());
   const std::uint32_t rows = rows_at_once(plan, source, rectangle, control.memory_bytes);
   rendered.picture = Picture({rectangle.width, 0, plan.capture.shape.channels}, output.type, output.white_code);
+  std::uint64_t added = 0;
   for (std::uint32_t y = 0; y < rectangle.height; y += rows) {
     Combiner combiner(plan, gains,
                       {rectangle.x, rectangle.y + y, rectangle.width, std::min(rows, rectangle.height - y)},
@@ -244,6 +245,7 @@ Rendered CombiningRenderer::render_part(const RenderPlan& plan, CaptureSource& s
     for (const PlannedBlock& planned : plan.blocks) {
       throw_if_cancelled(control);
       combiner.add(cursor.at(planned.block));
+      if (control.progress) control.progress(++added, plan.blocks.size() * ((rectangle.height + rows - 1) / rows));
     }
     const Picture part = stored(combiner.light(), plan.capture, output, rendered.saturation);
     rendered.picture.bytes.insert(rendered.picture.bytes.end(), part.bytes.begin(), part.bytes.end());

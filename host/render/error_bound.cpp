@@ -304,19 +304,6 @@ ErrorBound reference_bound(const RenderPlan& plan, const OutputFormat& output) {
   return bound;
 }
 
-Picture bound_map(const RenderPlan& plan, const ErrorBound& bound) {
-  Picture map({plan.capture.shape.width, plan.capture.shape.height, 1}, ValueType::light32, 0);
-  const PixelErrors errors(plan, bound);
-  const auto values = map.values<float>();
-  for (std::uint64_t pixel = 0; pixel < values.size(); ++pixel) {
-    const PictureError error = errors.of(pixel);
-    // Rounded up: a bound is no smaller for being stored.
-    values[pixel] = std::nextafter(static_cast<float>(holds_codes(bound.output.type) ? error.steps : error.light),
-                                   std::numeric_limits<float>::infinity());
-  }
-  return map;
-}
-
 PixelErrors::PixelErrors(const RenderPlan& plan, const ErrorBound& bound)
     : plan_(plan), bound_(bound), fixed_blend_(fixed_blend_error(plan, bound)) {}
 

@@ -72,9 +72,6 @@ class PixelErrors {
   double fixed_blend_ = 0.0;  // in light
 };
 
-// The bounds as a grey picture of floats: in codes if the picture holds codes, else in light.
-[[nodiscard]] Picture bound_map(const RenderPlan& plan, const ErrorBound& bound);
-
 // What a step of floating point is, in S = ∫|g|/D of the function: 2^-23 for light32, the most that floats lie
 // apart below S; for light64 2e-12, so that half a step is what the arithmetic in double promises.
 [[nodiscard]] double format_step(ValueType type);

@@ -143,6 +143,7 @@ Picture light_of(const RenderPlan& plan, CaptureSource& source, const Rectangle&
     const PlannedBlock& planned = plan.blocks[b];
     const bool follows = b > 0 && plan.blocks[b - 1].block + 1 == planned.block;
     reference.add_block(planned, cursor.at(planned.block), follows, control);
+    if (control.progress) control.progress((b + 1) * rectangle.height, plan.blocks.size() * rectangle.height);
   }
   throw_if_cancelled(control);
   Picture light({rectangle.width, rectangle.height, plan.capture.shape.channels}, ValueType::light64,
@@ -195,7 +196,13 @@ Rendered ReferenceRenderer::render_part(const RenderPlan& plan, CaptureSource& s
   }
   for (std::uint32_t y = 0; y < shape.height; y += rows) {
     const Rectangle strip{rectangle.x, rectangle.y + y, rectangle.width, std::min(rows, shape.height - y)};
-    Picture part = stored(light_of(plan, source, strip, control, output.white_code), plan.capture, output,
+    RenderControl of_strip = control;
+    if (control.progress) {
+      of_strip.progress = [&](std::uint64_t done, std::uint64_t) {
+        control.progress(y * plan.blocks.size() + done, plan.blocks.size() * shape.height);
+      };
+    }
+    Picture part = stored(light_of(plan, source, strip, of_strip, output.white_code), plan.capture, output,
                           rendered.saturation);
     if (rows == shape.height) {
       picture = std::move(part);

@@ -17,6 +17,7 @@
 #include "render/error_bound.hpp"
 #include "render/output_format.hpp"
 #include "render/render_plan.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 
@@ -48,9 +49,9 @@ struct PrecisionChoice {
 // What one render is asked for beside its picture.
 struct RenderControl {
   std::stop_token stop;                // looked at between launches: render() throws Cancelled
+  ReportedProgress progress;           // told how far it is; of several devices, how far the first one
   std::optional<Rectangle> rectangle;  // only these pixels, which are the whole picture's; none: all
   std::optional<Precision> precision;  // instead of what the renderer was made with
-  bool maps_bounds = false;  // a session adds a map of what each pixel may err by
   bool strict = false;  // ImpreciseError where a warning would say that codes may err by more than kMaxSteps
   bool takes_wrong = false;  // to measure an arithmetic that its device computes wrongly; else it is refused
 

@@ -100,7 +100,7 @@ class LightSum {
 }  // namespace
 
 std::vector<Trace> trace_pixel(const RenderPlan& plan, CaptureSource& source, std::uint32_t x,
-                               std::uint32_t y) {
+                               std::uint32_t y, const ReportedProgress& progress) {
   const Shape& shape = plan.capture.shape;
   if (x >= shape.width || y >= shape.height) {
     throw UsageError(format("there is no pixel {},{}: the picture has 0,0 … {},{}", x, y, shape.width - 1,
@@ -110,8 +110,13 @@ std::vector<Trace> trace_pixel(const RenderPlan& plan, CaptureSource& source, st
   const std::uint64_t pixel = std::uint64_t{y} * shape.width + x;
   const std::uint64_t tile = grid.tile_of(x, y);
   const auto wants = [&](std::uint64_t first, std::uint64_t last) { return first <= tile && tile < last; };
+  const Share whole{plan.function_of(pixel), kWholeShare};
+  const std::span<const Share> several = plan.shares_of(pixel);
+  const std::span<const Share> shares = several.empty() ? std::span(&whole, 1) : several;
+  std::uint64_t blocks_read = 0;
   std::vector<ChangeRecord> history;
   const auto read = [&](const BlockView& block) {
+    if (progress) progress(blocks_read++, plan.blocks.size() * shares.size());
     block.read_history(tile, TileGrid::lane_of(x, y), history);
     std::vector<LightRecord> records;
     for (const ChangeRecord& change : history) {
@@ -123,10 +128,8 @@ std::vector<Trace> trace_pixel(const RenderPlan& plan, CaptureSource& source, st
     }
     return records;
   };
-  const Share whole{plan.function_of(pixel), kWholeShare};
-  const std::span<const Share> shares = plan.shares_of(pixel);
   std::vector<Trace> traces;
-  for (const Share& share : shares.empty() ? std::span(&whole, 1) : shares) {
+  for (const Share& share : shares) {
     traces.push_back(trace(plan, source, share.of, wants, read));
     traces.back().pixel_count = 1;
     traces.back().share = share.size;
@@ -145,7 +148,7 @@ std::array<double, 3> light_of(std::span<const Trace> traces) {
   return light;
 }
 
-Trace trace_region(const RenderPlan& plan, CaptureSource& source, std::uint8_t tag, const std::stop_token& stop) {
+Trace trace_region(const RenderPlan& plan, CaptureSource& source, std::uint8_t tag, const ReportedProgress& progress) {
   if (plan.map->has_delays()) {
     throw UsageError(
         "the pixels of a mask value have delays of their own, and no common function; follow one pixel");
@@ -177,11 +180,12 @@ Trace trace_region(const RenderPlan& plan, CaptureSource& source, std::uint8_t t
     while (first < last && !has_weight[first]) ++first;
     return first < last;
   };
+  std::uint64_t rows_read = 0;
   std::vector<ChangeRecord> history;
   Trace result = trace(plan, source, function, wants, [&](const BlockView& block) {
     LightSum sum(block.extent());
     for (std::uint64_t pixel = 0; pixel < shape.pixel_count(); ++pixel) {
-      if (pixel % shape.width == 0 && stop.stop_requested()) throw Cancelled();
+      if (progress && pixel % shape.width == 0) progress(rows_read++, plan.blocks.size() * shape.height);
       const double weight = weight_of(pixel);
       if (weight == 0.0) continue;
       const auto x = static_cast<std::uint32_t>(pixel % shape.width);

@@ -11,11 +11,11 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "imev/capture_source.hpp"
 #include "render/render_plan.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 
@@ -47,16 +47,16 @@ struct Trace {
 };
 
 // One for each function that exposes the pixel. Throws UsageError where the picture has no such pixel, InputError for a
-// damaged block.
+// damaged block. `progress` is told of blocks.
 [[nodiscard]] std::vector<Trace> trace_pixel(const RenderPlan& plan, CaptureSource& source, std::uint32_t x,
-                                             std::uint32_t y);
+                                             std::uint32_t y, const ReportedProgress& progress = {});
 
 // The light that a pixel's traces come to together, by channel.
 [[nodiscard]] std::array<double, 3> light_of(std::span<const Trace> traces);
 
 // The mean over all pixels with this mask value, each by the share that it has of the pixel: the walk along the mean of
-// their light. Throws UsageError where no pixel has it, Cancelled.
+// their light. Throws UsageError where no pixel has it. `progress` is told of rows of blocks.
 [[nodiscard]] Trace trace_region(const RenderPlan& plan, CaptureSource& source, std::uint8_t tag,
-                                 const std::stop_token& stop = {});
+                                 const ReportedProgress& progress = {});
 
 }  // namespace nutik

@@ -173,7 +173,7 @@ class PlateMaker {
     const std::size_t side = PlaceTimes::cell_side(capture_.format().shape);
     Region places = plate_.uncertain;
     fill_small_holes(places, side * side);
-    times_.emplace(capture_, places, band_, [&] { tell(0); });
+    times_.emplace(capture_, places, band_, [&] { tell(1, 2); });
     std::size_t pixel = 0;
     for (std::uint32_t y = 0; y < places.height; ++y) {
       for (std::uint32_t x = 0; x < places.width; ++x, ++pixel) {
@@ -189,12 +189,14 @@ class PlateMaker {
   [[nodiscard]] Plate finished() && { return std::move(plate_); }
 
  private:
-  // So many tiles more were made. Any thread tells, one after another: a row of tiles may take long.
-  void tell(std::uint64_t tiles) {
+  // So many tiles more were made, of so many passes. Any thread tells, one after another: a row of tiles may take long.
+  void tell(std::uint64_t tiles, std::uint64_t passes = kPasses) {
     check_interruption();
     if (!progress_) return;
     const std::scoped_lock lock(telling_);
-    progress_(tiles_ += tiles, kPasses * grid_.columns() * std::uint64_t{grid_.rows()});
+    const std::uint64_t all = grid_.columns() * std::uint64_t{grid_.rows()};
+    tiles_ = std::max(tiles_, std::min(tiles_ + tiles, passes * all));
+    progress_(tiles_, kPasses * all);
   }
 
   void make_row(const std::vector<BlockView>& blocks, std::uint32_t tile_row) {
@@ -298,7 +300,7 @@ class PlateMaker {
   }
 
   CaptureSource& capture_;
-  static constexpr std::uint64_t kPasses = 2;  // the second of what is uncertain
+  static constexpr std::uint64_t kPasses = 3;  // looking at places is the second, making them again the third
 
   const CodeBand& band_;
   const ReportedProgress& progress_;

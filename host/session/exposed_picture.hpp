@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "capture/timeline.hpp"
+#include "media/stills/picture_layer.hpp"
 #include "render/render_plan.hpp"
 #include "render/renderer.hpp"
 #include "session/uncertainty.hpp"
@@ -37,7 +38,7 @@ struct ExposedPicture : Rendered {
   ExposureFigures figures;
   OutputFormat output;
   Uncertainty uncertainty = {};
-  std::optional<Picture> bounds = std::nullopt;  // RenderControl::maps_bounds
+  std::vector<PictureLayer> bounds = {};  // UncertaintyMap::layers(); none without OutputFormat::maps_bounds
 
   // What the arithmetic may be off by, in words; empty where it was not chosen, as of the reference.
   [[nodiscard]] std::string error_bound() const {

@@ -21,6 +21,7 @@
 #include "session/clips/forward_clip.hpp"
 #include "session/clips/scratch_capture.hpp"
 #include "session/preloading.hpp"
+#include "session/uncertainty_map.hpp"
 
 namespace nutik {
 
@@ -30,34 +31,6 @@ SessionIsSpent::SessionIsSpent()
           "whole") {}
 
 namespace {
-
-// A capture that lends no more blocks once it is stopped: Cancelled.
-class StoppableSource final : public CaptureSource {
- public:
-  StoppableSource(CaptureSource& source, std::stop_token stop) : source_(source), stop_(std::move(stop)) {}
-
-  [[nodiscard]] const CaptureFormat& format() const override { return source_.format(); }
-  [[nodiscard]] const Timeline& timeline() const override { return source_.timeline(); }
-  [[nodiscard]] std::uint64_t block_count() const override { return source_.block_count(); }
-  [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override {
-    return source_.block_extent(block);
-  }
-  [[nodiscard]] bool is_forward_only() const override { return source_.is_forward_only(); }
-  [[nodiscard]] std::uint64_t lent_bytes(std::uint64_t block) const override {
-    return source_.lent_bytes(block);
-  }
-  void preload(std::uint64_t block) override { source_.preload(block); }
-  void check_unchanged() const override { source_.check_unchanged(); }
-
- private:
-  BlockLease lend(std::uint64_t block, const LeaseTerms& terms) override {
-    if (stop_.stop_requested()) throw Cancelled();
-    return source_.acquire(block, terms);
-  }
-
-  CaptureSource& source_;
-  std::stop_token stop_;
-};
 
 }  // namespace
 
@@ -89,7 +62,7 @@ class Session::Implementation {
   void render_many(std::span<const ExposureRequest> requests, const OutputFormat& output, const RenderControl& control,
                    const RenderedOne& done);
   template <typename Follow>
-  [[nodiscard]] TracedExposure trace(const ExposureRequest& request, std::stop_token stop, const Follow& follow);
+  [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const Follow& follow);
   [[nodiscard]] ValidatedExposure validate(const ExposureRequest& request, const OutputFormat& output,
                                            std::uint32_t runs, const ReportedProgress& progress);
   [[nodiscard]] SourceCheck compare_with(const SourceRequest& clip, const ReportedProgress& progress);
@@ -307,21 +280,20 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
   throw_if_cancelled(control);
   check_transfer(options.transfer);
   RenderPlan plan = plans_.plan(source, functions, mask, options);
-  if (control.maps_bounds && plan.combine != Combine::integral)
+  if (output.maps_bounds && plan.combine != Combine::integral)
     throw UsageError(Advice{"`bounds` maps what sums may be off by, and `combine` adds nothing up; use one"});
   if (plan.combine == Combine::integral && !warmed_up_.test_and_set()) warm_up(source, plan, output);
   if (reading_ == Reading::whole) devices_->keep_resident(reader_.get());
   // In the mask and in its map.
   const std::uint64_t mixed_bytes = 2 * mask.mixed.bytes();
+  const std::uint64_t pictures = control.by_one_device ? line_length(output.type) : 1;
   const std::uint64_t line_bytes =
-      control.by_one_device
-          ? line_length(output.type) * format_.shape.value_count() * value_bytes(output.type)
-          : 0;
+      control.by_one_device ? pictures * format_.shape.value_count() * value_bytes(output.type) : 0;
   Rendered rendered = within(
       {{"reading the clip", stream_bytes},
        {"mixed pixels", mixed_bytes},
        {"pictures in line", line_bytes},
-       {"the map of bounds", control.maps_bounds ? sizeof(float) * format_.shape.pixel_count() : 0}},
+       {"the map of bounds", output.maps_bounds ? pictures * UncertaintyMap::bytes(format_.shape) : 0}},
       [&](std::uint64_t left) {
         RenderControl limited = control;
         limited.strict |= devices_->request().strict;
@@ -331,20 +303,23 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
   rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
   warn_of_infinite(rendered);
   const auto block_count = reader_ ? std::optional(reader_->block_count()) : std::nullopt;
-  std::optional<Picture> bounds;
-  if (control.maps_bounds)
-    bounds = bound_map(plan, rendered.choice ? rendered.choice->bound : reference_bound(plan, output));
+  CaptureErrors errors = errors_;
+  if (plan.capture.transfer != format_.transfer) {
+    errors = CaptureErrors::of(plan.capture, is_rounded_);  // by the function that was stated instead
+    errors.alignment_pixels = errors_.alignment_pixels;
+    errors.made = errors_.made;
+  }
+  std::vector<PictureLayer> bounds;
+  if (output.maps_bounds) {
+    const Rectangle part = control.rectangle.value_or(Rectangle::whole(format_.shape));
+    const ErrorBound bound = rendered.choice ? rendered.choice->bound : reference_bound(plan, output);
+    bounds = UncertaintyMap(plan, source.timeline(), bound, errors).layers(rendered.picture, part);
+  }
   ExposureFigures figures = ExposureFigures::of(std::move(plan), source.timeline(), block_count);
   if (figures.functions.size() == 1) {
     rendered.picture.exposed_ns = figures.functions.front().summary.support_ns;
   }
   ExposedPicture exposed{std::move(rendered), std::move(figures), output};
-  CaptureErrors errors = errors_;
-  if (const CaptureFormat& read = exposed.figures.capture; read.transfer != format_.transfer) {
-    errors = CaptureErrors::of(read, is_rounded_);  // by the function that was stated instead
-    errors.alignment_pixels = errors_.alignment_pixels;
-    errors.made = errors_.made;
-  }
   exposed.uncertainty = Uncertainty::of(exposed, errors);
   exposed.bounds = std::move(bounds);
   return exposed;
@@ -374,7 +349,7 @@ void Session::Implementation::render_many(std::span<const ExposureRequest> reque
                                           const RenderControl& control, const RenderedOne& done) {
   const ComputingRequest& computing = devices_->request();
   const auto asked = control.precision ? control.precision : computing.precision;
-  const bool in_double = computing.renderer == RendererKind::opencl && !control.maps_bounds &&
+  const bool in_double = computing.renderer == RendererKind::opencl && !output.maps_bounds &&
                          asked.value_or(Precision::double_) == Precision::double_;
   const Rectangle rectangle = control.rectangle.value_or(Rectangle::whole(format_.shape));
   std::vector<RenderPlan> plans;
@@ -388,7 +363,7 @@ void Session::Implementation::render_many(std::span<const ExposureRequest> reque
       rendered.picture = stored(std::move(light[i]), plans[i].capture, output, rendered.saturation);
       state_values(rendered.picture, plans[i].capture, output);
       warn_of_infinite(rendered);
-      done(next++, rendered);
+      done(next++, rendered, plans[i].functions);
     }
     plans.clear();
     waiting.clear();
@@ -410,7 +385,8 @@ void Session::Implementation::render_many(std::span<const ExposureRequest> reque
       }
     }
     expose_waiting();
-    done(next++, render(request, output, control));
+    const ExposedPicture exposed = render(request, output, control);
+    done(next++, exposed, exposed.figures.functions);
   }
   expose_waiting();
 }
@@ -432,12 +408,10 @@ void keep_traced(RenderPlan& plan, std::vector<Trace>& traces) {
 }  // namespace
 
 template <typename Follow>
-TracedExposure Session::Implementation::trace(const ExposureRequest& request, std::stop_token stop,
-                                              const Follow& follow) {
+TracedExposure Session::Implementation::trace(const ExposureRequest& request, const Follow& follow) {
   RenderPlan planned = plan(request);
   check_reading(mask_needs(format_));
-  StoppableSource blocks(*reader_, std::move(stop));
-  std::vector<Trace> traces = follow(planned, blocks);
+  std::vector<Trace> traces = follow(planned, *reader_);
   if (const auto& made = reader_->header().made) {
     const std::vector<bool> marks = made->marks();
     for (Trace& trace : traces) {
@@ -522,15 +496,15 @@ void Session::render_many(std::span<const ExposureRequest> requests, const Outpu
 }
 
 TracedExposure Session::trace(const ExposureRequest& request, const TracedPixel& pixel,
-                              std::stop_token stop) {
-  return implementation_->trace(request, std::move(stop), [&](const RenderPlan& plan, CaptureSource& source) {
-    return trace_pixel(plan, source, pixel.x, pixel.y);
+                              const ReportedProgress& progress) {
+  return implementation_->trace(request, [&](const RenderPlan& plan, CaptureSource& source) {
+    return trace_pixel(plan, source, pixel.x, pixel.y, progress);
   });
 }
 
-TracedExposure Session::trace(const ExposureRequest& request, const TracedTag& tag, std::stop_token stop) {
-  return implementation_->trace(request, stop, [&](const RenderPlan& plan, CaptureSource& source) {
-    return std::vector{trace_region(plan, source, tag.tag, stop)};
+TracedExposure Session::trace(const ExposureRequest& request, const TracedTag& tag, const ReportedProgress& progress) {
+  return implementation_->trace(request, [&](const RenderPlan& plan, CaptureSource& source) {
+    return std::vector{trace_region(plan, source, tag.tag, progress)};
   });
 }
 

@@ -117,18 +117,19 @@ class Session {
                                       const PlanOptions& options, const OutputFormat& output,
                                       const RenderControl& control = {});
 
-  // Pictures one after another, each as soon as it is there handed to done(number, rendered). Those of few pixels, each with
+  // Pictures one after another, each as soon as it is there handed to done(number, rendered, functions). Those of few pixels, each with
   // one function and in the arithmetic that is chosen by itself, are made many at once, in one pass over the capture and
   // in double (render/one_pass.hpp). Throws as render() does.
-  using RenderedOne = std::function<void(std::size_t number, const Rendered& rendered)>;
+  using RenderedOne = std::function<void(std::size_t number, const Rendered& rendered,
+                                         std::span<const PlannedFunction> functions)>;
   void render_many(std::span<const ExposureRequest> requests, const OutputFormat& output, const RenderControl& control,
                    const RenderedOne& done);
 
-  // How the light of a pixel came about, and of the mean of all pixels of a mask value. Cancelled between blocks.
+  // How the light of a pixel came about, and of the mean of all pixels of a mask value.
   [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const TracedPixel& pixel,
-                                     std::stop_token stop = {});
+                                     const ReportedProgress& progress = {});
   [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const TracedTag& tag,
-                                     std::stop_token stop = {});
+                                     const ReportedProgress& progress = {});
 
   // Every arithmetic of the OpenCL device against the reference.
   [[nodiscard]] ValidatedExposure validate(const ExposureRequest& request, const OutputFormat& output,

@@ -21,13 +21,10 @@ double light_within(const Transfer& transfer, double fraction) {
 // Light of a capture's scale that is off by so much, as the picture's format has it.
 PictureError error_of(const ExposedPicture& exposed, double scale, double light) {
   PictureError error{light, 0.0};
-  if (!holds_codes(exposed.output.type)) {
-    error.steps = scale > 0.0 ? light / (scale * format_step(exposed.output.type)) : 0.0;
-    return error;
-  }
-  const CodeMaking making = CodeMaking::of(exposed.figures.capture, exposed.output);
-  const double seen = making.conversion ? converted_error(*making.conversion, light, scale) : light;
-  error.steps = code_error(making.transfer, exposed.output.white_code, {seen / making.white_light, 0.0});
+  error.steps = holds_codes(exposed.output.type)
+                    ? CodeErrors(exposed.figures.capture, exposed.output).anywhere(light, scale)
+                : scale > 0.0 ? light / (scale * format_step(exposed.output.type))
+                              : 0.0;
   return error;
 }
 
@@ -47,15 +44,22 @@ double largest_gain(const GainFunction& function) {
   return largest;
 }
 
-// Both ends of a sample are rounded to whole nanoseconds, and so is D: the integral misses half of one at each.
 double times_of(const ExposureFigures& figures) {
   double largest = 0.0;
-  for (const PlannedFunction& function : figures.functions) {
-    const GainSummary& gain = function.summary;
-    if (gain.support_ns == 0) continue;
-    const auto samples = static_cast<double>(exposed_samples(function, figures.timeline).size());
-    largest =
-        std::max(largest, (samples + 1) / static_cast<double>(gain.support_ns) * largest_gain(function.function));
+  for (const PlannedFunction& function : figures.functions)
+    largest = std::max(largest, times_error(function, figures.timeline));
+  return largest;
+}
+
+// In codes: what `constant` and, beside it, what is held of samples cost together where they cost most.
+double held_codes(const CodeErrors& codes, const Transfer& transfer, double scale, const LightCurve& held,
+                  double constant) {
+  constexpr int kParts = 1024;  // of the capture's codes
+  double largest = 0.0, from = 0.0;
+  for (int part = 1; part <= kParts; ++part) {
+    const double to = transfer.light_of(static_cast<double>(part) / kParts);
+    largest = std::max(largest, codes.between(scale * from, scale * to, scale * held.most(from, to) + constant));
+    from = to;
   }
   return largest;
 }
@@ -74,29 +78,92 @@ std::uint64_t made_of(const ExposureFigures& figures, const MadeSamples& made) {
 
 }  // namespace
 
+LightCurve::LightCurve(std::vector<Point> points) : points_(std::move(points)) {
+  for (const Point& point : points_) {
+    if (point.off >= top_.off) top_ = point;
+  }
+  if (top_.off == 0.0) points_.clear();
+}
+
+LightCurve LightCurve::above(const std::vector<Point>& points) {
+  std::vector<Point> hull;
+  for (const Point& point : points) {
+    const auto is_below = [&](const Point& a, const Point& b) {
+      return (b.off - a.off) * (point.light - a.light) <= (point.off - a.off) * (b.light - a.light);
+    };
+    while (hull.size() > 1 && is_below(hull[hull.size() - 2], hull.back())) hull.pop_back();
+    hull.push_back(point);
+  }
+  return LightCurve(std::move(hull));
+}
+
+double LightCurve::at(double light) const {
+  if (points_.empty()) return 0.0;
+  const auto behind = std::ranges::lower_bound(points_, light, {}, &Point::light);
+  if (behind == points_.begin()) return points_.front().off;
+  if (behind == points_.end()) return points_.back().off;
+  const Point &a = behind[-1], &b = *behind;
+  return a.off + (b.off - a.off) * ((light - a.light) / (b.light - a.light));
+}
+
+double LightCurve::most(double from, double to) const {
+  return from <= top_.light && top_.light <= to ? most() : std::max(at(from), at(to));
+}
+
 CaptureErrors CaptureErrors::of(const CaptureFormat& capture, bool is_rounded) {
   CaptureErrors errors;
   const NoiseModel& noise = capture.noise;
   const double white = capture.white_code;
   if (is_rounded) errors.rounded_light = light_within(capture.transfer, 0.5 / white);
-  errors.held_light = light_within(capture.transfer, noise.tolerance / white);
-  if (!noise.camera) return errors;
-  const CameraNoise& camera = *noise.camera;
-  for (std::uint32_t channel = 0; channel < camera.channels.size(); ++channel) {
-    const std::vector<float> deviations = camera.sd_of_codes(channel);
-    for (std::size_t code = 0; code < deviations.size(); ++code) {
-      const auto light_at = [&](double place) {
-        return capture.transfer.light_of(std::clamp(place / camera.white_code, 0.0, 1.0));
-      };
-      const double place = static_cast<double>(code), deviation = deviations[code];
-      const double up = light_at(place + noise.sigmas * deviation) - light_at(place);
-      const double down = light_at(place) - light_at(place - noise.sigmas * deviation);
-      errors.held_light = std::max({errors.held_light, up, down});
-      errors.noise_light =
-          std::max(errors.noise_light, (light_at(place + deviation) - light_at(place - deviation)) / 2);
-    }
+  if (noise.tolerance == 0 && !noise.camera) return errors;
+  const auto light_at = [&](double code) { return capture.transfer.light_of(std::clamp(code / white, 0.0, 1.0)); };
+  std::vector<std::vector<float>> deviations;  // by channel, for each of the noise's codes
+  const double scale = noise.camera ? white / noise.camera->white_code : 1.0;
+  if (noise.camera) {
+    for (std::uint32_t channel = 0; channel < noise.camera->channels.size(); ++channel)
+      deviations.push_back(noise.camera->sd_of_codes(channel));
   }
+  std::vector<LightCurve::Point> held, noisy;
+  for (std::uint32_t code = 0; code <= capture.white_code; ++code) {
+    double deviation = 0.0;
+    for (const std::vector<float>& each : deviations) {
+      const auto at = static_cast<std::size_t>(std::lround(code / scale));
+      deviation = std::max(deviation, scale * each[std::min(at, each.size() - 1)]);
+    }
+    const double light = light_at(code), off = std::max<double>(noise.tolerance, noise.sigmas * deviation);
+    held.push_back({light, std::max(light_at(code + off) - light, light - light_at(code - off))});
+    if (deviation > 0.0) noisy.push_back({light, (light_at(code + deviation) - light_at(code - deviation)) / 2});
+  }
+  errors.held = LightCurve::above(held);
+  errors.noise = LightCurve(std::move(noisy));
   return errors;
+}
+
+CodeErrors::CodeErrors(const CaptureFormat& capture, const OutputFormat& output)
+    : making_(CodeMaking::of(capture, output)), white_code_(output.white_code) {}
+
+double CodeErrors::between(double from, double to, double light) const {
+  const double white = making_.white_light, off = light / white;
+  const auto place = [&](double at) { return making_.transfer.fraction_of(std::clamp(at, 0.0, 1.0)); };
+  const double dark = std::clamp(from / white, 0.0, 1.0), bright = std::clamp(to / white, 0.0, 1.0);
+  // Nowhere between is the function steeper than at an end: it bends one way.
+  return white_code_ * std::max(place(dark + off) - place(dark), place(bright) - place(bright - off));
+}
+
+double CodeErrors::anywhere(double light, double scale) const {
+  const double seen = making_.conversion ? converted_error(*making_.conversion, light, scale) : light;
+  return code_error(making_.transfer, white_code_, {seen / making_.white_light, 0.0});
+}
+
+double times_error(const PlannedFunction& function, const Timeline& timeline) {
+  const GainSummary& gain = function.summary;
+  if (gain.support_ns == 0) return 0.0;
+  const auto samples = static_cast<double>(exposed_samples(function, timeline).size());
+  return (samples + 1) / static_cast<double>(gain.support_ns) * largest_gain(function.function);
+}
+
+bool is_mean(const PlannedFunction& function) {
+  return std::ranges::all_of(function.function.points(), [](const ControlPoint& point) { return point.gain >= 0.0; });
 }
 
 Uncertainty Uncertainty::of(const ExposedPicture& exposed, const CaptureErrors& capture) {
@@ -113,12 +180,23 @@ Uncertainty Uncertainty::of(const ExposedPicture& exposed, const CaptureErrors& 
       exposed.choice ? exposed.choice->bound.worst : error_of(exposed, scale, scale * kReferenceError));
   if (const auto rounding = rounding_of(exposed, scale)) add("rounding", Is::bound, *rounding);
   add("rounded_codes", Is::bound, error_of(exposed, scale, scale * capture.rounded_light));
-  add("held_samples", Is::bound, error_of(exposed, scale, scale * capture.held_light));
+  add("held_samples", Is::bound, error_of(exposed, scale, scale * capture.held.most()));
   if (adds_up) add("times", Is::bound, error_of(exposed, scale, times_of(exposed.figures)));
   PictureError sum;
+  double others = 0.0;  // light that is off wherever it lies
   for (const UncertaintyTerm& term : uncertainty.terms) {
     sum.light += term.error->light;
     sum.steps += term.error->steps;
+    if (term.name != "rounding" && term.name != "held_samples") others += term.error->light;
+  }
+  const CodeErrors codes(exposed.figures.capture, exposed.output);
+  if (holds_codes(exposed.output.type) && adds_up && !capture.held.is_zero() && codes.know_light() &&
+      std::ranges::all_of(exposed.figures.functions, is_mean)) {
+    // The dark is held closer than the bright, in light.
+    const Transfer& held_by = exposed.figures.capture.transfer;
+    const auto held = std::ranges::find(uncertainty.terms, "held_samples", &UncertaintyTerm::name);
+    held->error->steps = held_codes(codes, held_by, scale, capture.held, 0.0);
+    sum.steps = std::min(sum.steps, held_codes(codes, held_by, scale, capture.held, others) + 0.5);
   }
   if (holds_codes(exposed.output.type)) sum.steps = std::min<double>(sum.steps, exposed.output.white_code);
   uncertainty.bounds = {"all_bounds", Is::bound, sum};
@@ -126,8 +204,7 @@ Uncertainty Uncertainty::of(const ExposedPicture& exposed, const CaptureErrors& 
     term.figures = {{"share_of_bounds", std::isfinite(sum.light) ? term.error->light / sum.light : 1.0}};
     if (term.name == "arithmetic") term.text = to_text(exposed.precision);
   }
-  if (capture.noise_light > 0.0)
-    add("noise", Is::deviation, error_of(exposed, scale, scale * capture.noise_light));
+  add("noise", Is::deviation, error_of(exposed, scale, scale * capture.noise.most()));
   if (const auto pixels = capture.alignment_pixels) {
     uncertainty.terms.push_back({"alignment", Is::deviation, {}, {{"residual_pixels", *pixels}},
                                  format("half of the texture lies within {:.2g} pixels of its place", *pixels)});
@@ -142,16 +219,12 @@ Uncertainty Uncertainty::of(const ExposedPicture& exposed, const CaptureErrors& 
   return uncertainty;
 }
 
-namespace {
-
-constexpr std::string_view text_of(Is is) {
+std::string_view to_text(UncertaintyTerm::Is is) {
   return is == Is::bound ? "bound" : is == Is::deviation ? "deviation" : "count";
 }
 
-}  // namespace
-
 std::vector<UncertaintyTerm::Field> UncertaintyTerm::fields(const OutputFormat& output) const {
-  std::vector<Field> fields{{"term", name}, {"is", text_of(is)}};
+  std::vector<Field> fields{{"term", name}, {"is", to_text(is)}};
   if (error) {
     fields.emplace_back("light", error->light);
     fields.emplace_back(holds_codes(output.type) ? "codes" : "float_steps", error->steps);
@@ -167,7 +240,7 @@ std::vector<std::string> Uncertainty::lines(const OutputFormat& output) const {
     if (!term.text.empty()) text += (text.empty() ? "" : ", ") + term.text;
     std::string name(term.name);
     std::ranges::replace(name, '_', ' ');
-    lines.push_back(format("  {:<14}{:<11}{}", name, text_of(term.is), text));
+    lines.push_back(format("  {:<14}{:<11}{}", name, to_text(term.is), text));
   };
   std::ranges::for_each(terms, add);
   add(bounds);

@@ -21,16 +21,59 @@ namespace nutik {
 
 struct ExposedPicture;
 
+// What samples are off by, by their own light: straight between its points, of which there are two or none.
+class LightCurve {
+ public:
+  struct Point {
+    double light = 0.0, off = 0.0;
+  };
+
+  LightCurve() = default;
+  // By increasing light.
+  explicit LightCurve(std::vector<Point> points);
+  // The least that bends down everywhere and lies below none of them. A mean of samples, whose weights are not
+  // negative, is off by no more than the curve says of that mean.
+  [[nodiscard]] static LightCurve above(const std::vector<Point>& points);
+
+  [[nodiscard]] bool is_zero() const { return points_.empty(); }
+  [[nodiscard]] double at(double light) const;
+  // The most of what lies between two lights, if it bends down; of any.
+  [[nodiscard]] double most(double from, double to) const;
+  [[nodiscard]] double most() const { return points_.empty() ? 0.0 : top_.off; }
+  [[nodiscard]] const std::vector<Point>& points() const { return points_; }
+
+ private:
+  std::vector<Point> points_;
+  Point top_;
+};
+
 // What a capture is known to be off by before anything is exposed.
 struct CaptureErrors {
   double rounded_light = 0.0;  // between light and the code that it was rounded to: scaled or floating-point pictures
-  double held_light = 0.0;   // between what a sample had and what is held of it: its tolerance, its noise's sigmas
-  double noise_light = 0.0;  // a sample's standard deviation where it is largest; 0: not known
+  LightCurve held;   // between what a sample had and what is held of it: its tolerance, its noise's sigmas
+  LightCurve noise;  // a sample's standard deviation, in its noisiest channel; zero: not known
   std::optional<double> alignment_pixels = std::nullopt;
   std::optional<MadeSamples> made = std::nullopt;
 
   // `is_rounded`: its codes are light that was rounded.
   [[nodiscard]] static CaptureErrors of(const CaptureFormat& capture, bool is_rounded);
+};
+
+// Light that a picture of codes may be off by, by that light.
+class CodeErrors {
+ public:
+  CodeErrors(const CaptureFormat& capture, const OutputFormat& output);
+
+  // Whether errors are told by light: cameras' curves bend both ways, and other primaries mix channels.
+  [[nodiscard]] bool know_light() const { return !making_.conversion && making_.transfer.kind() != Transfer::Kind::log; }
+  [[nodiscard]] const CodeMaking& making() const { return making_; }
+  // In codes, where light between two others changes by so much; and wherever that is worst, `scale` being S.
+  [[nodiscard]] double between(double from, double to, double light) const;
+  [[nodiscard]] double anywhere(double light, double scale) const;
+
+ private:
+  CodeMaking making_;
+  std::uint32_t white_code_;
 };
 
 struct UncertaintyTerm {
@@ -47,14 +90,23 @@ struct UncertaintyTerm {
   [[nodiscard]] std::vector<Field> fields(const OutputFormat& output) const;
 };
 
+[[nodiscard]] std::string_view to_text(UncertaintyTerm::Is is);
+
 struct Uncertainty {
   double scale = 0.0;  // S: the largest ∫|g| / D of a function; of light that is combined the largest gain
   std::vector<UncertaintyTerm> terms;
-  UncertaintyTerm bounds;  // all of them, added up
+  // All of them: their lights added up. In codes it is what that sum costs where it costs most, which may be less than
+  // their codes added up.
+  UncertaintyTerm bounds;
 
   [[nodiscard]] static Uncertainty of(const ExposedPicture& exposed, const CaptureErrors& capture);
   // A line for each term.
   [[nodiscard]] std::vector<std::string> lines(const OutputFormat& output) const;
 };
+
+// Both ends of a sample are rounded to whole nanoseconds, and so is D: what the light of a function misses by that.
+[[nodiscard]] double times_error(const PlannedFunction& function, const Timeline& timeline);
+// Whether no gain is below 0: light is a mean of samples then, but for a factor.
+[[nodiscard]] bool is_mean(const PlannedFunction& function);
 
 }  // namespace nutik

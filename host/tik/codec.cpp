@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <new>
 #include <utility>
 
@@ -28,17 +29,36 @@ constexpr int kDefaultZstdLevel = 1;
 // What packs the counts of tiles and the heads of groups.
 Codec general_codec(const Codec& codec) { return codec.id == CodecId::rice ? Codec{CodecId::zstd, 0} : codec; }
 
+// How many bytes of a payload slow codecs have packed, which is told by one thread at a time.
+class PackedBytes {
+ public:
+  PackedBytes(const ReportedProgress& progress, std::uint64_t total) : progress_(progress), total_(total) {}
+
+  void add(std::uint64_t bytes) {
+    if (!progress_) return;
+    const std::lock_guard lock(telling_);
+    done_ = std::min(done_ + bytes, total_);  // a group's plain form has a few more than its payload
+    progress_(done_, total_);
+  }
+
+ private:
+  const ReportedProgress& progress_;
+  std::mutex telling_;
+  std::uint64_t done_ = 0, total_;
+};
+
 // What a thread packs with, one group after the other.
 struct PackingTools {
+  explicit PackingTools(PackedBytes& of) : packed(of) {}
+  PackedBytes& packed;
   RiceRoom room;
   std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd{ZSTD_createCCtx(), &ZSTD_freeCCtx};
 };
 
-// The bytes that it takes. A slow level is given its bytes little by little, so that a stop is heard: that makes the same
-// of them.
-std::size_t zstd_packed(int level, std::span<const std::byte> plain, std::span<std::byte> packed, PackingTools& tools,
-                        const std::stop_token& stop) {
-  constexpr int kFirstSlowLevel = 10;
+// The bytes that it takes. A slow level is given its bytes little by little, so that it can tell and be stopped: that makes
+// the same of them.
+std::size_t zstd_packed(const Codec& codec, std::span<const std::byte> plain, std::span<std::byte> packed,
+                        PackingTools& tools) {
   constexpr std::size_t kBytesAtOnce = 128 << 10;
   const auto checked = [](std::size_t result) {
     if (ZSTD_isError(result)) throw OutputError(format("zstd failed: {}", ZSTD_getErrorName(result)));
@@ -46,23 +66,23 @@ std::size_t zstd_packed(int level, std::span<const std::byte> plain, std::span<s
   };
   ZSTD_CCtx* const zstd = tools.zstd.get();
   if (zstd == nullptr) throw std::bad_alloc();
-  if (level < kFirstSlowLevel)
+  const int level = codec.level == 0 ? kDefaultZstdLevel : codec.level;
+  if (!codec.is_slow())
     return checked(ZSTD_compressCCtx(zstd, packed.data(), packed.size(), plain.data(), plain.size(), level));
   checked(ZSTD_CCtx_reset(zstd, ZSTD_reset_session_and_parameters));
   checked(ZSTD_CCtx_setParameter(zstd, ZSTD_c_compressionLevel, level));
   checked(ZSTD_CCtx_setPledgedSrcSize(zstd, plain.size()));
   ZSTD_outBuffer to{packed.data(), packed.size(), 0};
   while (true) {
-    if (stop.stop_requested()) throw Cancelled();
     ZSTD_inBuffer from{plain.data(), std::min(plain.size(), kBytesAtOnce), 0};
     plain = plain.subspan(from.size);
     checked(ZSTD_compressStream2(zstd, &to, &from, plain.empty() ? ZSTD_e_end : ZSTD_e_continue));
+    tools.packed.add(from.size);
     if (plain.empty()) return to.pos;
   }
 }
 
-std::vector<std::byte> compress(const Codec& codec, std::span<const std::byte> plain, PackingTools& tools,
-                                const std::stop_token& stop) {
+std::vector<std::byte> compress(const Codec& codec, std::span<const std::byte> plain, PackingTools& tools) {
   std::vector<std::byte> packed;
   if (codec.id == CodecId::lz4) {
     if (plain.size() > LZ4_MAX_INPUT_SIZE) {
@@ -77,7 +97,7 @@ std::vector<std::byte> compress(const Codec& codec, std::span<const std::byte> p
     packed.resize(static_cast<std::size_t>(bytes));
   } else {
     packed.resize(ZSTD_compressBound(plain.size()));
-    packed.resize(zstd_packed(codec.level == 0 ? kDefaultZstdLevel : codec.level, plain, packed, tools, stop));
+    packed.resize(zstd_packed(codec, plain, packed, tools));
   }
   return packed;
 }
@@ -110,7 +130,7 @@ using GroupSizes = std::array<std::uint32_t, 1 + kPlainParts>;
 void pack_rice_group(const TileGroup& group, std::span<const std::byte> payload, PackingTools& tools,
                      std::vector<std::byte>& packed) {
   const RiceGroup coded = encode_rice(group, payload, tools.room);
-  const std::vector<std::byte> head = compress({CodecId::zstd, 0}, coded.head, tools, {});
+  const std::vector<std::byte> head = compress({CodecId::zstd, 0}, coded.head, tools);
   const auto head_bytes = static_cast<std::uint32_t>(head.size());
   packed.clear();
   packed.reserve(sizeof head_bytes + head.size() + coded.planes.size() + coded.levels.size());
@@ -131,7 +151,7 @@ bool unpack_rice_group(const TileGroup& group, std::span<const std::byte> packed
 }
 
 void pack_group(const Codec& codec, const TileGroup& group, std::span<const std::byte> payload, PackingTools& tools,
-                const std::stop_token& stop, std::vector<std::byte>& packed) {
+                std::vector<std::byte>& packed) {
   if (codec.id == CodecId::rice) {
     pack_rice_group(group, payload, tools, packed);
     return;
@@ -141,7 +161,7 @@ void pack_group(const Codec& codec, const TileGroup& group, std::span<const std:
   packed.assign(sizeof sizes, std::byte{0});
   const auto add = [&](std::size_t at, std::span<const std::byte> part) {
     if (part.empty()) return;
-    const std::vector<std::byte> bytes = compress(codec, part, tools, stop);
+    const std::vector<std::byte> bytes = compress(codec, part, tools);
     sizes[at] = static_cast<std::uint32_t>(bytes.size());
     packed.insert(packed.end(), bytes.begin(), bytes.end());
   };
@@ -284,11 +304,12 @@ std::string Codec::text() const {
   return {};
 }
 
-void pack(const Codec& codec, const BlockGeometry& geometry, std::span<const std::byte> payload,
-          std::vector<std::vector<std::byte>>& parts, std::uint32_t max_threads, const std::stop_token& stop) {
+bool pack(const Codec& codec, const BlockGeometry& geometry, std::span<const std::byte> payload,
+          std::vector<std::vector<std::byte>>& parts, std::uint32_t max_threads, const ReportedProgress& progress,
+          std::uint64_t too_many) {
   if (codec.id == CodecId::none) {
     parts.assign(1, {payload.begin(), payload.end()});
-    return;
+    return payload.size() < too_many;
   }
   std::vector<TileEntry> entries(geometry.tile_count);
   std::memcpy(entries.data(), payload.data(), entries.size() * sizeof(TileEntry));
@@ -300,14 +321,19 @@ void pack(const Codec& codec, const BlockGeometry& geometry, std::span<const std
   std::vector<std::size_t> firsts(sizes.size(), 0);
   for (std::size_t g = 1; g < sizes.size(); ++g) firsts[g] = firsts[g - 1] + sizes[g - 1];
   parts.resize(1 + sizes.size());
+  PackedBytes packed_bytes(progress, payload.size());
+  std::atomic<std::uint64_t> bytes{0};
   parallel_for_with(
-      sizes.size(), [] { return PackingTools(); },
+      sizes.size(), [&] { return PackingTools(packed_bytes); },
       [&](std::uint64_t g, PackingTools& tools) {
-        if (stop.stop_requested()) throw Cancelled();
+        packed_bytes.add(0);
         const TileGroup group{std::span(entries).subspan(firsts[g], sizes[g]), geometry};
-        pack_group(codec, group, payload, tools, stop, parts[1 + g]);
+        if (bytes >= too_many) return;
+        pack_group(codec, group, payload, tools, parts[1 + g]);
+        bytes += parts[1 + g].size();
       },
       max_threads);
+  if (bytes >= too_many) return false;
 
   std::vector<std::byte>& front = parts.front();
   front.clear();
@@ -317,12 +343,13 @@ void pack(const Codec& codec, const BlockGeometry& geometry, std::span<const std
     const StoredGroup group{sizes[g], static_cast<std::uint32_t>(parts[1 + g].size())};
     append(front, &group, sizeof group);
   }
-  PackingTools tools;
+  PackingTools tools(packed_bytes);
   const std::vector<std::byte> packed_counts =
-      compress(general_codec(codec), std::as_bytes(std::span(counts)), tools, stop);
+      compress(general_codec(codec), std::as_bytes(std::span(counts)), tools);
   const std::array<std::uint32_t, 2> counts_head{static_cast<std::uint32_t>(packed_counts.size()), 0};
   append(front, counts_head.data(), sizeof counts_head);
   append(front, packed_counts.data(), packed_counts.size());
+  return bytes + front.size() < too_many;
 }
 
 std::vector<TileEntry> unpack_directory(CodecId codec, const BlockGeometry& geometry,

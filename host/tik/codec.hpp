@@ -18,13 +18,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "imev/block.hpp"
 #include "imev/block_lease.hpp"
+#include "system/interruption.hpp"
 #include "tik/format.hpp"
 
 namespace nutik::tik {
@@ -36,14 +36,17 @@ struct Codec {
   // `none`, `rice`, `lz4`, `zstd` or `zstd:9`; throws UsageError listing these.
   static Codec parse(std::string_view text);
   [[nodiscard]] std::string text() const;
+  [[nodiscard]] bool is_slow() const { return id == CodecId::zstd && level >= 10; }
   friend bool operator==(const Codec&, const Codec&) = default;
 };
 
 // Makes `parts` the stored form of a payload, one behind the other, in the memory that they have; `geometry` is its
-// block's. No more threads than these work on it. Cancelled where it is stopped.
-void pack(const Codec& codec, const BlockGeometry& geometry, std::span<const std::byte> payload,
+// block's. No more threads than these work on it. `progress` is called on any of them, one at a time: before each group of
+// tiles, and by slow codecs with how many bytes they have packed. False, and parts that say nothing, where it takes as
+// many bytes as `too_many`.
+bool pack(const Codec& codec, const BlockGeometry& geometry, std::span<const std::byte> payload,
           std::vector<std::vector<std::byte>>& parts, std::uint32_t max_threads = ~std::uint32_t{0},
-          const std::stop_token& stop = {});
+          const ReportedProgress& progress = {}, std::uint64_t too_many = ~std::uint64_t{0});
 
 // Writes the payload, whose size the block's header tells; with `wants` only its directory and those groups of tiles
 // of which any is wanted (imev/block_lease.hpp). Throws InputError where the stored form is damaged, as far as it was

@@ -14,6 +14,7 @@
 #include "capture/source_text.hpp"
 #include "imev/block.hpp"
 #include "imev/expected_values.hpp"
+#include "tik/codec.hpp"
 #include "tik/format.hpp"
 
 namespace nutik::tik {
@@ -326,8 +327,10 @@ std::vector<Field> Header::fields() const {
   if (alignment) fields.push_back({std::string(kAligned), false, text_of(*alignment)});
   if (is_scaled) fields.push_back({std::string(kMeans), false, "scaled"});
   if (is_rounded) fields.push_back({std::string(kRounded), false, "1"});
-  if (codec == kRice) fields.push_back({std::string(kRice), true, "1"});
-  if (codec == kRice && capture.noise.tolerance > 0) fields.push_back({std::string(kSteps), true, "1"});
+  // Where codes move by steps, every codec may leave blocks to Rice's.
+  const bool counts_steps = capture.noise.tolerance > 0 && !codec.empty() && codec != Codec().text();
+  if (codec == kRice || counts_steps) fields.push_back({std::string(kRice), true, "1"});
+  if (counts_steps) fields.push_back({std::string(kSteps), true, "1"});
   if (part) fields.push_back({std::string(kPart), false, text_of(*part)});
   if (made) fields.push_back({std::string(kMade), false, made->kept_text()});
   return fields;

@@ -82,8 +82,9 @@ void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures
   std::vector<std::span<const std::byte>> packed_parts;
   std::span<const std::span<const std::byte>> stored = parts.parts();
   std::uint64_t stored_bytes = parts.bytes();
+  Codec codec = codec_;
   if (codec_.id != CodecId::none) {
-    pack(codec_, geometry, block.payload, packed_, max_threads_, stop_);
+    codec = pack_block(geometry, block.payload);
     packed_parts.assign(packed_.begin(), packed_.end());
     stored = packed_parts;
     stored_bytes = 0;
@@ -92,11 +93,25 @@ void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures
   BlockHeader header{};
   header.first_sample = block.extent.first_sample;
   header.sample_count = block.extent.sample_count;
-  header.codec = static_cast<std::uint32_t>(codec_.id);
+  header.codec = static_cast<std::uint32_t>(codec.id);
   header.stored_bytes = stored_bytes;
   header.payload_bytes = parts.bytes();
   header.record_count = block.record_count;
   append(header, stored, exposures);
+}
+
+Codec Writer::pack_block(const BlockGeometry& geometry, std::span<const std::byte> payload) {
+  const Codec rice{CodecId::rice, 0};
+  if (codec_.id == CodecId::rice || header_.capture.noise.tolerance == 0) {
+    pack(codec_, geometry, payload, packed_, max_threads_, packing_);
+    return codec_;
+  }
+  pack(rice, geometry, payload, packed_, max_threads_, packing_);
+  std::uint64_t bytes = 0;
+  for (const std::vector<std::byte>& part : packed_) bytes += part.size();
+  if (!pack(codec_, geometry, payload, other_, max_threads_, packing_, bytes)) return rice;
+  std::swap(packed_, other_);
+  return codec_;
 }
 
 void Writer::append(const BlockHeader& stored, std::span<const std::byte> payload,

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
-#include <stop_token>
 #include <utility>
 #include <vector>
 
@@ -36,8 +35,8 @@ class Writer {
   static Writer from_raster(const std::filesystem::path& path, const Header& header,
                             std::span<const std::byte> raster);
 
-  // Packing ends when that is asked to stop: append() throws Cancelled.
-  void stop_by(std::stop_token stop) { stop_ = std::move(stop); }
+  // What pack() tells of each block that is appended.
+  void tell_of_packing(ReportedProgress packing) { packing_ = std::move(packing); }
 
   // Appends the next block; with an irregular timeline also its samples' exposures, times from the
   // first sample's start.
@@ -62,6 +61,9 @@ class Writer {
 
   void append(BlockHeader header, std::span<const std::span<const std::byte>> payload,
               std::span<const Exposure> exposures);
+  // Into packed_; returns the codec that did it. Codes that move by steps of a tolerance are counted by Rice's alone: it packs
+  // what it makes smaller than the codec that was asked for.
+  Codec pack_block(const BlockGeometry& geometry, std::span<const std::byte> payload);
   // Appends what lies in these parts; returns its checksum.
   std::uint64_t write_summed(std::span<const std::span<const std::byte>> parts);
 
@@ -69,8 +71,9 @@ class Writer {
   Header header_;
   Codec codec_;
   std::uint32_t max_threads_;  // that pack
-  std::stop_token stop_;
-  std::vector<std::vector<std::byte>> packed_;  // the last block, whose memory the next one is packed into
+  ReportedProgress packing_;
+  // The last block, whose memory the next one is packed into; and the same where two codecs pack it.
+  std::vector<std::vector<std::byte>> packed_, other_;
   std::vector<IndexEntry> index_;
   Checksum headers_;  // of all block headers so far
   std::uint64_t front_checksum_ = 0;  // of what stands before the first block

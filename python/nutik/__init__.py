@@ -23,6 +23,7 @@ should be known of it besides as one of its subclass NutikNote. Work runs withou
 may use one capture.
 """
 
+from . import _docs
 from ._captures import Capture, Trace
 from ._commands import batch, check, contact, noise, recover, retime, validate, video
 from ._finds import Activity, Plate, Solution, SolvedWish, Study
@@ -41,3 +42,5 @@ __all__ = [
     "boxcar", "check", "contact", "devices", "encode", "fit", "join", "noise", "open", "parse_functions",
     "read_functions", "read_mask", "recover", "retime", "shutter", "validate", "video", "write_functions",
 ]
+
+_docs.complete_all(map(globals().get, __all__))

@@ -18,11 +18,10 @@ from ._masks import Mask, MaskLike, mask_of
 from ._nutik import InputError, MemoryTooLittle, UsageError
 from ._pictures import Picture, Pictures
 from ._told import Figures
-from ._words import (Axes, DelayLike, Path, Progress, Time, axes_of, box_of, count_of, delays_ns, ellipsis, is_list,
-                     settings_of, tag_of, time_word, warn)
+from ._words import (Axes, DataArray, DelayLike, Index, Path, Progress, Time, axes_of, box_of, count_of, delays_ns,
+                     is_list, labelled, listed, settings_of, tag_of, time_word, warn)
 
 Codes = Union[NDArray[np.uint8], NDArray[np.uint16]]
-Index = Union[int, slice, ellipsis, tuple[Union[int, slice, ellipsis, None], ...]]
 Functions = Union[FunctionLike, Mapping[int, FunctionLike], Path]
 
 _MOST_AT_ONCE = 4 << 30  # bytes of samples that one array takes
@@ -50,8 +49,7 @@ class Trace:
                                                 for name, value in vars(self).items())
 
     def plot(self, ax: Optional[Axes] = None, **style: object) -> Axes:
-        """Draws light over seconds with matplotlib, a line for each channel, into `ax` or the current axes, which it
-        returns."""
+        """Draws light over seconds with matplotlib, a line for each channel."""
         axes = axes_of(ax, "time, s", "light")
         for channel, colour in enumerate(("red", "green", "blue") if self.light.shape[2] == 3 else ("",)):
             named: dict[str, object] = {"color": colour} if colour and not {"c", "color"} & style.keys() else {}
@@ -66,6 +64,12 @@ class Trace:
             if isinstance(each, np.ndarray):
                 each.flags.writeable = False
         return cls(**arrays)
+
+
+def _warn_of_black(still_gains: Mapping[int, float], negative: Optional[str]) -> None:
+    if negative in (None, "saturate"):
+        warn(f"M{tag}: the still gain is {gain:.6g}: whatever does not move comes out black; negative='offset' shows light "
+             "below 0, and light itself (codes=False) keeps it" for tag, gain in still_gains.items() if gain < 0)
 
 
 class Capture:
@@ -103,6 +107,11 @@ class Capture:
     def shape(self) -> tuple[int, ...]:
         """(samples, height, width) or (samples, height, width, 3)."""
         return (len(self), *self._held.shape)
+
+    @property
+    def ndim(self) -> int:
+        """3, or 4 of colour."""
+        return len(self.shape)
 
     @property
     def dtype(self) -> np.dtype[Union[np.uint8, np.uint16]]:
@@ -146,30 +155,36 @@ class Capture:
             raise ValueError("a capture holds no array: a copy of its codes is made")
         return self[:] if dtype is None else self[:].astype(dtype, copy=False)
 
+    def to_xarray(self, samples: slice = slice(None)) -> DataArray:
+        """The codes of samples as an xarray.DataArray [time, y, x(, channel)], a copy; `time` is when each begins, in
+        seconds, and attributes are `figures` and `facts`.
+
+        Parameters:
+        samples : which, slice(10, 20) of those from 10 on and before 20; all without it.
+        Raises:
+        MemoryTooLittle where they take more than 4 GiB.
+        """
+        figures = {name: each if isinstance(each, str) else float(each) if isinstance(each, Fraction) else int(cast(int, each))
+                   for name, each in self.figures.items() if name != "tiles"}  # what files of arrays take
+        return labelled(self[samples], {"time": self.times[samples]}, facts="; ".join(self.facts), **figures)
+
     @property
     def times(self) -> NDArray[np.float64]:
         """[samples] float64: when each sample's exposure begins, in seconds; times_ns has it exactly."""
         return self.times_ns[:, 0] / 1e9
 
-    def records(self, region: Optional[Sequence[int]] = None, *, first: int = 0,
-                last: Optional[int] = None) -> NDArray[np.void]:
+    def records(self, region: Optional[Sequence[int]] = None, *, first: int = 0, last: Optional[int] = None,
+                progress: Progress = None) -> NDArray[np.void]:
         """What pixels hold, from one change to the next.
 
-        Parameters
-        ----------
+        Parameters:
         region : (x, y, width, height), only these pixels.
         first, last : only samples from `first` on and before `last`; what is held before or after is cut there.
-
-        Returns
-        -------
+        Returns:
         [records] with the fields x, y, start_ns, end_ns, code (of colour [3]); each pixel's in time order, row after row.
-
-        Raises
-        ------
+        Raises:
         UsageError where there are no such pixels or samples.
-
-        Examples
-        --------
+        Examples:
         >>> capture.records((3, 4, 1, 1), first=0, last=1)["end_ns"].tolist()
         [10000000]
         """
@@ -180,7 +195,7 @@ class Capture:
         end = len(self) if last is None else count_of(last, "last")
         if not count_of(first, "first") < end <= len(self):
             raise UsageError(f"there are no samples from {first} to {end}; the capture has {len(self)}")
-        places, samples, codes = self._held.records(box, first, end)
+        places, samples, codes = self._held.records(box, first, end, progress)
         code: Any = ("code", self.dtype, (3,)) if codes.shape[1] == 3 else ("code", self.dtype)
         made = np.empty(len(codes), [("x", np.uint32), ("y", np.uint32), ("start_ns", np.int64), ("end_ns", np.int64), code])
         times = self.times_ns
@@ -232,13 +247,13 @@ class Capture:
                unmapped: Optional[str] = None, precision: Optional[str] = None, codes: bool = False, dtype: DTypeLike = None,
                transfer: Optional[str] = None, negative: Optional[str] = None,
                region: Optional[Sequence[int]] = None, bounds: bool = False, strict: bool = False,
-               combine: Optional[Literal["integral", "mean", "lighten", "darken", "median"]] = None) -> Picture:
+               combine: Optional[Literal["integral", "mean", "lighten", "darken", "median"]] = None,
+               progress: Progress = None) -> Picture:
         """Exposes a picture: of an interval, or with gain functions.
 
-        Parameters
-        ----------
+        Parameters:
         functions : one for all of the picture (a nutik.Function, a list of (time, gain), a callable over the whole
-            capture), or one for each tag of `mask` ({0: ..., 128: ...}, or a function file).
+            capture, an array with a gain for each sample), or one for each tag of `mask` ({0: ..., 128: ...}, or a function file).
         mask : [height, width] of tags, or {tag: alpha} of shares (the first function gets what they leave), a nutik.Mask,
             or a file.
         start, exposure : the interval, in place of functions; 0 without a start. Of functions their time 0.
@@ -254,22 +269,17 @@ class Capture:
         transfer : of codes, sRGB without it; 'source': the capture's own.
         negative : what codes say of light below 0, 'saturate', 'offset' or 'abs'.
         region : (x, y, width, height) in pixels, only these.
-        bounds : also a map of what the arithmetic may be off by, Picture.bounds.
+        bounds : also maps of what each pixel may be off by, Picture.bounds.
         strict : codes that may err by more than half of one raise ImpreciseError, and are no warning.
         combine : what becomes of a pixel's light, its integral without it: 'mean', or of its samples, each times its
             largest gain, the lightest, darkest or middle one, 'lighten', 'darken', 'median'.
 
-        Returns
-        -------
+        Returns:
         Picture, whose array is [height, width] or [height, width, 3]: light, of which 1 is white, or codes.
-
-        Raises
-        ------
+        Raises:
         UsageError where the request does not fit the capture, InputError where mask and functions do not or the capture
         is damaged, DeviceError; KeyboardInterrupt at Ctrl-C.
-
-        Examples
-        --------
+        Examples:
         >>> capture.render(start="5f", exposure=0.02, codes=True).dtype
         dtype('uint8')
         >>> halves = np.zeros((24, 32), np.uint8)
@@ -282,13 +292,12 @@ class Capture:
                                normalize, gain, unmapped, strict, combine)
         output = self._output(codes, dtype, transfer, negative)
         box = None if region is None else box_of(region, "region")
-        held = _nutik.render(self._held, asked, output, box, None if precision is None else str(precision), bounds)
+        held = _nutik.render(self._held, asked, output, box, None if precision is None else str(precision), bounds,
+                             progress)
         picture = Picture(held)
         warn(held.figures["warnings"])
-        if picture.dtype.kind == "u" and negative in (None, "saturate"):
-            warn(f"M{each['tag']}: the still gain is {each['still_gain']:.6g}: whatever does not move comes out black; "
-                 "negative='offset' shows light below 0, and light itself (codes=False) keeps it"
-                 for each in picture.plan["functions"] if each["still_gain"] < 0)
+        if picture.dtype.kind == "u":
+            _warn_of_black({each["tag"]: each["still_gain"] for each in picture.plan["functions"]}, negative)
         return picture
 
     def render_many(self, functions: Optional[Sequence[Functions]] = None, mask: Optional[MaskLike] = None, *,
@@ -303,29 +312,20 @@ class Capture:
         """Exposes many pictures in one call. Small ones (16384 values) with one function each are added up on the
         processor, in double, in one pass over the capture; others are made one by one.
 
-        Parameters
-        ----------
+        Parameters:
         functions : a list, of each picture those that render() takes.
         starts, exposures : one for all pictures, or one for each. What is a list has one length.
         progress : called with (pictures done, of how many).
-
-        The rest is as of render().
-
-        Returns
-        -------
+        Returns:
         Pictures, whose array is [pictures, height, width] or [pictures, height, width, 3].
-
-        Raises
-        ------
+        Raises:
         UsageError where lists have different lengths or are empty; as render() does.
-
-        Examples
-        --------
+        Examples:
         >>> many = capture.render_many(starts=np.linspace(0, 0.05, 100), exposures="10ms")
         >>> many.array.shape, many.error_bounds.shape
         ((100, 24, 32), (100,))
         """
-        lists: dict[str, list[Any]] = {name: list(cast(Iterable[Any], each)) if name == "functions" or is_list(each) else [each]
+        lists: dict[str, list[Any]] = {name: listed(each) if name == "functions" or is_list(each) else [each]
                  for name, each in (("functions", functions), ("starts", starts), ("exposures", exposures))
                  if each is not None}
         counts = {len(each) for each in lists.values()} - {1} or {1}
@@ -341,36 +341,29 @@ class Capture:
         held = [{tag: function._held for tag, function in self._functions(each, mask is not None).items()}
                 for each in lists.get("functions", [])]
         box = None if region is None else box_of(region, "region")
-        array, bounds, told = _nutik.render_many(self._held, asked, count, words["starts"], words["exposures"], held,
+        array, bounds, saturated, told, still_gains = _nutik.render_many(self._held, asked, count, words["starts"], words["exposures"], held,
                                                  self._output(codes, dtype, transfer, negative), box,
                                                  None if precision is None else str(precision), progress)
         warn(told)
-        return Pictures._of(array, bounds)
+        if array.dtype.kind == "u":
+            _warn_of_black(still_gains, negative)
+        return Pictures._of(array, bounds, saturated)
 
     def trace(self, x: Optional[int] = None, y: Optional[int] = None, *, tag: Optional[int] = None,
               functions: Optional[Functions] = None, mask: Optional[MaskLike] = None, start: Optional[Time] = None,
               exposure: Optional[Time] = None, shutter: Optional[str] = None, shutter_error: Optional[float] = None,
               feather: Union[str, float, None] = None, delay: Optional[DelayLike] = None, normalize: str = "support",
-              gain: float = 1.0, unmapped: Optional[str] = None) -> list[Trace]:
+              gain: float = 1.0, unmapped: Optional[str] = None, progress: Progress = None) -> list[Trace]:
         """How the light of a pixel came about, or the mean of all pixels of a tag.
 
-        Parameters
-        ----------
+        Parameters:
         x, y : the pixel, or
         tag : of the mask.
-
-        The rest is as of render().
-
-        Returns
-        -------
+        Returns:
         A Trace for each function that has a share.
-
-        Raises
-        ------
+        Raises:
         UsageError where there is no such pixel or tag; as render() does.
-
-        Examples
-        --------
+        Examples:
         >>> trace, = capture.trace(3, 4, start=0, exposure="10ms")
         >>> bool(abs(trace.integral_ns.sum() / trace.support_ns - trace.exposed[0]) < 1e-12)
         True
@@ -382,7 +375,7 @@ class Capture:
         asked = self._exposure(functions, mask, start, exposure, shutter, shutter_error, feather, delay,
                                normalize, gain, unmapped)
         pixel = None if x is None else (count_of(x, "x"), count_of(y, "y"))
-        traces, _, told = _nutik.trace(self._held, asked, pixel, None if tag is None else tag_of(tag))
+        traces, _, told = _nutik.trace(self._held, asked, pixel, None if tag is None else tag_of(tag), progress)
         warn(told)
         return [Trace._of(arrays) for arrays in traces]
 
@@ -390,22 +383,14 @@ class Capture:
               transfer: Optional[str] = None, progress: Progress = None) -> _finds.Plate:
         """The scene without what moves in it (docs/how-to/plate.md).
 
-        Parameters
-        ----------
+        Parameters:
         by : codes that the same light may differ by; None: by the capture's own noise.
-        codes, dtype, transfer : as of render(), but for float64.
-        progress : as of nutik.open().
-
-        Returns
-        -------
+        dtype : float32 without codes. With codes uint8 or uint16, the capture's own without dtype.
+        Returns:
         Plate: a picture, and [height, width] of where it is a guess.
-
-        Raises
-        ------
+        Raises:
         UsageError, InputError where there is one sample; KeyboardInterrupt at Ctrl-C.
-
-        Examples
-        --------
+        Examples:
         >>> nutik.encode(np.full((9, 8, 8), 7, np.uint8), rate=9).plate(codes=True).picture.array[0, 0]
         7
         """
@@ -416,23 +401,15 @@ class Capture:
                  count_redrawn: bool = False, progress: Progress = None) -> _finds.Activity:
         """When it changes, and where.
 
-        Parameters
-        ----------
+        Parameters:
         mask, tag : only pixels of the mask with this tag count, or with any tag but 0.
         by : changes of no more than so many codes are none.
         count_redrawn : samples at which a codec drew its picture anew count as those beside them without it.
-        progress : as of nutik.open().
-
-        Returns
-        -------
+        Returns:
         Activity: changes by sample and by pixel.
-
-        Raises
-        ------
+        Raises:
         UsageError, InputError where no pixel counts; KeyboardInterrupt at Ctrl-C.
-
-        Examples
-        --------
+        Examples:
         >>> capture.activity().changed_pixels.shape
         (10,)
         """
@@ -445,14 +422,23 @@ class Capture:
               dtype: DTypeLike = None, transfer: Optional[str] = None, progress: Progress = None) -> _finds.Study:
         """A motion study that finds its subject by itself (docs/how-to/study.md).
 
-        style: 'trail', 'strobe', 'rear-curtain', 'frozen', 'clean' or 'slit'. moments: how many, or which times. spacing:
-        'time' or 'distance'. trail: 'even', 'fade', 'ramp' or 'none'. slit_from: 'left', 'right', 'top' or 'bottom'.
-        regions: (x, y, width, height) each with a subject of its own. by: codes that the subject must differ by more than
-        from the empty scene; None: 1/16 of white. feather: pixels that its border is blended over; None: 2; 0 for
-        slit's strips. progress: as of nutik.open().
-
-        Raises InputError where nothing moves or everything does: the camera must stand still (align='rigid' where it is
-        encoded).
+        Parameters:
+        style : 'trail', 'strobe', 'rear-curtain', 'frozen', 'clean' or 'slit'.
+        moments : how many, or which times.
+        spacing : 'time' or 'distance'.
+        trail : 'even', 'fade', 'ramp' or 'none'.
+        slit_from : 'left', 'right', 'top' or 'bottom'.
+        regions : (x, y, width, height) each with a subject of its own.
+        by : codes that the subject must differ by more than from the empty scene; None: 1/16 of white.
+        feather : pixels that its border is blended over; None: 2; 0 for slit's strips.
+        Raises:
+        InputError where nothing moves or everything does: the camera must stand still (align='rigid' where it is encoded).
+        Examples:
+        >>> scene = np.full((40, 24, 96), 90, np.uint8)
+        >>> for k in range(40):
+        ...     scene[k, 8:16, 2 * k:2 * k + 8] = 250
+        >>> sorted(nutik.encode(scene, rate=100).study("strobe", moments=3).functions)
+        [0, 1, 2, 3]
         """
         asked: Union[int, list[str], None]
         if moments is None:
@@ -478,10 +464,16 @@ class Capture:
               unmapped: Optional[str] = None, progress: Progress = None) -> _finds.Solution:
         """Gains and times that make a picture as it is wished (docs/how-to/solve.md).
 
-        functions: the text of a function file with names in place of numbers, 'M0{[0:0], [1:1], [1000000000:rest]}'.
-        wishes: 'M0 = plate', '500,120,80,60 gone', 'R1 <= 0.5'. free: of a gain (least, most), of a time (from, to) or
-        (from, to, step). mask: whose tags M0 ... are; regions: a second mask, whose values R0 ... are.
-        progress: as of nutik.open().
+        Parameters:
+        functions : the text of a function file with names in place of numbers, 'M0{[0:0], [1:1], [1000000000:rest]}'.
+        wishes : 'M0 = plate', '500,120,80,60 gone', 'R1 <= 0.5'.
+        free : of a gain (least, most), of a time (from, to) or (from, to, step).
+        mask : whose tags M0 ... are.
+        regions : a second mask, whose values R0 ... are.
+        Examples:
+        >>> wished = capture.solve("M0{[0:g], [50000000:g], [50000001:0]}", ["all = 0.25"], free={"g": (0, 9)})
+        >>> wished.is_kept, bool(0 < wished.gains["g"] < 9)
+        (True, True)
         """
         asked = self._asked(None, mask, feather, dict(start=start, normalize=normalize, gain=gain, unmapped=unmapped),
                             None)
@@ -535,17 +527,28 @@ class Capture:
     def _functions(self, functions: Functions, has_mask: bool) -> dict[int, Function]:
         if isinstance(functions, (str, PathLike)):
             functions = read_functions(functions)
-        duration = np.timedelta64(self.duration_ns, "ns")
         if not isinstance(functions, Mapping):
-            return {0: function_of(functions, "functions", duration)}
+            return {0: self._function_of(functions, "functions")}
         if not functions:
             raise UsageError("functions= is empty; an exposure has one at least")
         if not has_mask and len(functions) > 1:
             raise UsageError(f"there are {len(functions)} functions; mask= says where each applies")
         made = {}
         for tag, each in functions.items():
-            made[tag_of(tag)] = function_of(each, f"functions[{tag}]", duration)
+            made[tag_of(tag)] = self._function_of(each, f"functions[{tag}]")
         return made
+
+    def _function_of(self, given: FunctionLike, what: str) -> Function:
+        if isinstance(given, np.ndarray) and given.ndim == 1:
+            if len(given) != len(self):
+                raise UsageError(f"{what} has {len(given)} gains for {len(self)} samples; of other times say "
+                                 "nutik.Function(times, gains)")
+            begins = self.times_ns[:, 0]
+            # A gain of 0 at both ends: nothing is exposed there.
+            edges = np.append(begins, self.duration_ns)
+            gains = np.concatenate([[0.0], np.repeat(np.asarray(given, np.float64), 2), [0.0]])
+            return Function.from_ns(np.repeat(edges, 2), gains)
+        return function_of(given, what, np.timedelta64(self.duration_ns, "ns"))
 
     def _output(self, codes: bool, dtype: DTypeLike, transfer: Optional[str],
                 negative: Optional[str]) -> dict[str, str]:

@@ -13,8 +13,8 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import cache
 from keyword import iskeyword
-from os import PathLike, fsdecode
-from os.path import dirname
+from os import PathLike, fsdecode, remove
+from os.path import dirname, exists, isfile
 from threading import Event, Thread, current_thread, main_thread
 from time import sleep
 from typing import Any, Protocol, Union
@@ -22,7 +22,7 @@ from typing import Any, Protocol, Union
 from . import _nutik
 from ._nutik import DeviceError, Error, ImpreciseError, InputError, MemoryTooLittle, OutputError, UsageError
 from ._told import Json
-from ._words import NutikNote, Path, Progress, bytes_word, is_list, number_word, time_word, warn
+from ._words import NutikNote, Path, Progress, bytes_word, in_python, is_list, number_word, time_word, warn
 
 # A value, several, or of a command's option that takes two words a list of pairs.
 Value = Union[str, int, float, Fraction, "PathLike[str]"]
@@ -99,6 +99,8 @@ def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Map
         said[name] = [_words(kind, name, each) for each in value] if is_repeated and is_list(value) else [
             _words(kind, name, value)]
     words = _nutik.command_words(command, said)
+    last = fsdecode(operands[-1]) if operands else ""
+    was_there = exists(last)
     _sleep_at_the_end()
     _end_at_exit()
     process = subprocess.Popen([sys.executable, "-c", _MAIN, dirname(__file__), *words, "--", *map(fsdecode, operands)],
@@ -124,6 +126,8 @@ def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Map
     except BaseException:
         process.send_signal(signal.SIGINT)
         process.wait()
+        if not was_there and isfile(last):  # the program keeps a film's frames so far
+            remove(last)
         raise
     finally:
         for reader, stream in zip(readers, (process.stdout, process.stderr)):
@@ -135,17 +139,12 @@ def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Map
     return _answer(command, process.returncode, "".join(answer), said_besides)
 
 
-def _in_python(text: str) -> str:
-    """Arguments in place of the command line's options."""
-    return re.sub(r"--([a-z][a-z-]*)", lambda option: option[1].replace("-", "_") + "=", text)
-
-
 def _answer(command: str, status: int, text: str, told: Sequence[str]) -> dict[str, Json]:
     if status and not (text and status in _ANSWERED):
-        message = _in_python("".join(told).strip()).removeprefix("nutik-cl: ")
+        message = in_python("".join(told).strip()).removeprefix("nutik-cl: ")
         raise _ERRORS.get(status, Error)(message or f"{command} ended with status {status}")
     found: dict[str, Any] = json.loads(text)
-    warn(_in_python(line.strip()) for line in told if status)  # what was wrong with a line of a list
+    warn(in_python(line.strip()) for line in told if status)  # what was wrong with a line of a list
     warn(found["warnings"] if isinstance(found.get("warnings"), list) else [])
     warn(found.get("notes", []), NutikNote)
     return found
@@ -155,7 +154,8 @@ class Command(Protocol):
     def __call__(self, *files: Path, progress: Progress = None, **stated: Option) -> dict[str, Json]: ...
 
 
-def _function_of(command: str) -> Command:
+def _function_of(command: str, example: str) -> Command:
+    example = f"{command}({example})"
     summary, operands, arguments = _nutik.described(command)
 
     def function(*files: Path, progress: Progress = None, **stated: Option) -> dict[str, Json]:
@@ -165,10 +165,12 @@ def _function_of(command: str) -> Command:
                if name not in ("json", "progress", "quiet", "verbose")}
     function.__name__ = function.__qualname__ = command
     function.__module__ = "nutik"
-    function.__doc__ = _in_python(
-        f"{summary}\n\nfiles: {operands}. Returns what the command answers to scripts, a dict; what it says besides comes\n"
-        "as warnings. It runs in a process of its own, which Ctrl-C ends. progress: called with a percentage and 100.\n\n"
-        + "\n".join(f"{name}: {row[0] or 'True'}; {row[1]}" for name, row in offered.items()))
+    function.__doc__ = in_python(
+        f"{summary}\n\nParameters\n----------\n*files : {operands}\nprogress : called with a percentage and 100\n"
+        + "\n".join(f"{name} : {row[0] or 'True'}\n    {row[1]}" for name, row in offered.items())
+        + "\n\nReturns\n-------\ndict, what the command answers to scripts; what it says besides comes as warnings.\n\n"
+        "Raises\n------\nThe error of nutik's that its exit status stands for.\n\nNotes\n-----\nIt runs in a process of its own, "
+        f"which Ctrl-C ends.\n\nExamples\n--------\n>>> answer = nutik.{example}")
     kinds = inspect.Parameter
     function.__annotations__.update(dict.fromkeys(offered, "Option"))
     signature = inspect.signature(function)
@@ -178,11 +180,11 @@ def _function_of(command: str) -> Command:
     return function
 
 
-batch = _function_of("batch")
-check = _function_of("check")
-contact = _function_of("contact")
-noise = _function_of("noise")
-recover = _function_of("recover")
-retime = _function_of("retime")
-validate = _function_of("validate")
-video = _function_of("video")
+batch = _function_of("batch", '"list.txt", "clip.tik"')
+check = _function_of("check", '"clip.tik"')
+contact = _function_of("contact", '"clip.tik", "sheet.png", exposure=0.01')
+noise = _function_of("noise", '"stills", transfer="linear", output="camera.noise"')
+recover = _function_of("recover", '"cut.tik", "whole.tik"')
+retime = _function_of("retime", '"clip.tik", rate=50, in_place=True')
+validate = _function_of("validate", '"clip.tik", start=0, exposure=0.01')
+video = _function_of("video", '"clip.tik", "film.mp4", out_fps=24')

@@ -45,8 +45,7 @@ class Activity:
     quietest: Optional[Stretch]
 
     def plot(self, ax: Optional[Axes] = None, **style: object) -> Axes:
-        """Draws the share of pixels that change at each sample with matplotlib, into `ax` or the current axes, which it
-        returns."""
+        """Draws the share of pixels that change at each sample with matplotlib."""
         axes = axes_of(ax, "sample", "share of pixels that change")
         axes.plot(self.changed_pixels / max(self.counted_pixels, 1), **style)
         return axes

@@ -17,14 +17,21 @@ _CHORD_SHARE = 0.1     # of the error, by which a callable may leave the chord o
 
 
 class Function:
-    """A gain function: straight between its control points, held before the first and after the last.
+    """A gain function: straight between its control points, held before the first and after the last. Functions do not
+    change, and are equal where all points are.
 
-    times: [points], in time order; two may be equal, where the function jumps from the first gain to the second.
-    gains: [points], any finite numbers, negative ones too. Functions do not change, and are equal where all points are.
+    Parameters:
+    times : [points], in time order; two may be equal, where the function jumps from the first gain to the second.
+    gains : [points], any finite numbers, negative ones too.
+    Raises:
+    UsageError where times are out of order or a gain is not finite.
+    Examples:
+    >>> ramp = nutik.Function([0, "100ms"], [0, 1])
+    >>> ramp(0.05), (2 * ramp.shifted(0.1) - ramp)(0.15)
+    (0.5, 0.0)
     """
 
     def __init__(self, times: Iterable[Time], gains: Iterable[float]) -> None:
-        """Raises UsageError where times are out of order or a gain is not finite."""
         at = times_ns(times, "times")
         self._held = _nutik.Function(at, np.asarray(list(gains), np.float64))
 
@@ -36,7 +43,15 @@ class Function:
 
     @classmethod
     def from_ns(cls, times_ns: ArrayLike, gains: ArrayLike) -> Function:
-        """The same of whole nanoseconds. Raises UsageError as above."""
+        """The same of whole nanoseconds.
+
+        Parameters:
+        times_ns : [points] of integers, in time order.
+        gains : [points] of finite numbers.
+        Examples:
+        >>> nutik.Function.from_ns([0, 100], [0, 1])
+        <nutik.Function [0:0], [100:1]>
+        """
         at = np.asarray(times_ns)
         if at.size and at.dtype.kind not in "iu":
             raise UsageError(f"times_ns has dtype {at.dtype}; whole nanoseconds are int64")
@@ -75,17 +90,25 @@ class Function:
         return self.times_ns / 1e9
 
     def shifted(self, by: Time) -> Function:
-        """The same function later; earlier where `by` is negative."""
+        """The same function later.
+
+        Parameters:
+        by : how much; negative: earlier.
+        """
         return Function._of(self._held.shifted_ns(time_ns(by, "by")))
 
     def scaled(self, factor: float) -> Function:
-        """The same function with every gain times `factor`."""
+        """The same function with other gains.
+
+        Parameters:
+        factor : every gain is multiplied by it; f * 2 is the same.
+        """
         return Function._of(self._held.scaled(factor))
 
     __array_ufunc__ = None  # numpy's numbers leave f * 2 to it
 
     def plot(self, ax: Optional[Axes] = None, **style: object) -> Axes:
-        """Draws gain over seconds with matplotlib, into `ax` or the current axes, which it returns."""
+        """Draws gain over seconds with matplotlib."""
         axes = axes_of(ax, "time, s", "gain")
         axes.plot(self.times, self.gains, **style)
         return axes
@@ -131,7 +154,11 @@ class Function:
                 np.where(is_point, gains[np.maximum(last - 1, 0)], value))
 
     def text(self, tag: int = 0) -> str:
-        """Its line in a function file. Jumps become steps of 1 ns, for files have none."""
+        """Its line in a function file. Jumps become steps of 1 ns, for files have none.
+
+        Parameters:
+        tag : the mask value that it is for, M0.
+        """
         return self._held.text(tag_of(tag))
 
     def __eq__(self, other: object) -> bool:
@@ -152,12 +179,16 @@ class Function:
 
 
 Gain = Union[Callable[[float], float], Callable[[NDArray[np.float64]], NDArray[np.float64]]]
-FunctionLike = Union[Function, Sequence[tuple[Time, float]], Gain]
+FunctionLike = Union[Function, Sequence[tuple[Time, float]], NDArray[np.float64], Gain]
 
 
 def boxcar(start: Time, exposure: Time, gain: float = 1.0) -> Function:
-    """`gain` from a start for a length of time, 0 elsewhere.
+    """A gain from a start for a length of time, 0 elsewhere.
 
+    Parameters:
+    start, exposure : when it begins, and how long it is.
+    gain : in between.
+    Examples:
     >>> function = nutik.boxcar("10ms", 0.02) + 0.5 * nutik.boxcar(0, "1s")
     >>> function(0.015), function(0.5)
     (1.5, 0.5)
@@ -171,8 +202,13 @@ def shutter(shape: str, start: Time, exposure: Time, *, error: float = 1e-3) -> 
     'spline:0=0,0.3=1,1=0' (docs/reference/shutters.md). Curves become the fewest straight pieces within `error`, a share of
     their largest gain.
 
-    Raises UsageError where the shape is not known, or the exposure too short for it.
-
+    Parameters:
+    shape : one of these.
+    start, exposure : when it begins, and how long it is.
+    error : as said above.
+    Raises:
+    UsageError where the shape is not known, or the exposure too short for it.
+    Examples:
     >>> len(nutik.shutter("trapezoid:0.25", 0, "10ms").gains)
     4
     """
@@ -183,21 +219,17 @@ def shutter(shape: str, start: Time, exposure: Time, *, error: float = 1e-3) -> 
 def fit(gain: Gain, start: Time, end: Time, *, error: float = 1e-3) -> Function:
     """The fewest straight pieces that stay near a callable, from `start` to `end`; 0 outside.
 
-    Parameters
-    ----------
+    Parameters:
     gain : called with an array of times in seconds, returns as many gains; one that takes single times only is called
         once for each.
+    start, end : where it is not 0.
     error : how far the pieces may lie from it, a share of its largest |gain|. It holds at every time that was looked at:
         1024 evenly, and more wherever the middle of two lies off the line between them, down to single nanoseconds. A
         jump becomes a step of 1 ns.
-
-    Raises
-    ------
+    Raises:
     UsageError where a gain is not finite, where it is 0 everywhere, or where it bends in more places than can be looked
     at: give such a function's pieces as points.
-
-    Examples
-    --------
+    Examples:
     >>> wave = nutik.fit(lambda t: np.sin(40 * t) ** 2, 0, 0.3, error=1e-3)
     >>> bool(abs(wave(0.1) - np.sin(4.0) ** 2) <= 1e-3)
     True
@@ -258,9 +290,16 @@ def fit(gain: Gain, start: Time, end: Time, *, error: float = 1e-3) -> Function:
 
 
 def parse_functions(text: str, *, name: str = "functions") -> dict[int, Function]:
-    """Functions by mask value, from the text of a function file (docs/reference/functions.md). `name` stands in messages.
+    """Functions by mask value, from the text of a function file (docs/reference/functions.md).
 
-    Raises InputError with every mistake of the text, its line and column; what is suspicious is warned of.
+    Parameters:
+    text : the file's.
+    name : what messages call it.
+    Raises:
+    InputError with every mistake of the text, its line and column; what is suspicious is warned of.
+    Examples:
+    >>> nutik.parse_functions("M0{[0:1], [20ms:0]}")[0](0.01)
+    0.5
     """
     functions, told = _nutik.parse_functions(text, name)
     warn([told] if told else [])
@@ -268,7 +307,17 @@ def parse_functions(text: str, *, name: str = "functions") -> dict[int, Function
 
 
 def read_functions(path: Path) -> dict[int, Function]:
-    """The same of a file."""
+    """Functions by mask value, from a function file (docs/reference/functions.md).
+
+    Parameters:
+    path : the file.
+    Raises:
+    FileMissing, InputError with every mistake of the text, its line and column; what is suspicious is warned of.
+    Examples:
+    >>> nutik.write_functions("ramp.fn", {0: [(0, 0), (0.1, 1)]})
+    >>> nutik.read_functions("ramp.fn")
+    {0: <nutik.Function [0:0], [100000000:1]>}
+    """
     with reading(path_word(path)):
         functions, told = _nutik.read_functions(path_word(path))
     warn([told] if told else [])
@@ -276,7 +325,16 @@ def read_functions(path: Path) -> dict[int, Function]:
 
 
 def write_functions(path: Path, functions: Mapping[int, FunctionLike]) -> None:
-    """Writes a function file that the command line reads. Raises OutputError where it cannot be written."""
+    """Writes a function file, which the command line reads, too.
+
+    Parameters:
+    path : the file, which is replaced.
+    functions : by mask value.
+    Raises:
+    OutputError where it cannot be written.
+    Examples:
+    >>> nutik.write_functions("box.fn", {128: nutik.boxcar(0, "10ms")})
+    """
     lines = [function_of(function, f"functions[{tag}]").text(tag) for tag, function in sorted(functions.items())]
     _nutik.write_text(path_word(path), "".join(line + "\n" for line in lines))
 
@@ -292,6 +350,7 @@ def function_of(given: FunctionLike, what: str, duration: Time = 0) -> Function:
     try:
         points = [(time, float(gain)) for time, gain in given]
     except (TypeError, ValueError):
-        raise UsageError(f"{what} is {given!r}, no function; give a nutik.Function, a list of (time, gain), or a "
-                         "callable") from None
+        shown = f"an array of shape {given.shape}" if isinstance(given, np.ndarray) else repr(given)
+        raise UsageError(f"{what} is {shown}, no function; give a nutik.Function, a list of (time, gain), or a callable; "
+                         "of an interval say start= and exposure=") from None
     return Function([time for time, _ in points], [gain for _, gain in points])

@@ -10,14 +10,22 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import Array, Path, path_word, reading, tag_of, whole
+from ._words import Array, Path, Progress, path_word, reading, tag_of, whole
 
 
 class Mask:
-    """One tag for each pixel, or shares of several. Masks do not change."""
+    """One tag for each pixel, or shares of several. Masks do not change.
+
+    Parameters:
+    tags : [height, width] whole numbers 0 ... 255; bool is 0 and 1.
+    Raises:
+    UsageError where it is none.
+    Examples:
+    >>> nutik.Mask(np.eye(16, dtype=bool))
+    <nutik.Mask 16 x 16, tags [0, 1]>
+    """
 
     def __init__(self, tags: ArrayLike) -> None:
-        """tags: [height, width] whole numbers 0 ... 255; bool is 0 and 1. Raises UsageError where it is none."""
         tags = np.asarray(whole(tags, "a mask's array of tags"))
         if tags.dtype == bool:
             tags = tags.astype(np.uint8)
@@ -37,23 +45,34 @@ class Mask:
         return mask
 
     @classmethod
-    def of_layers(cls, alphas: Mapping[int, ArrayLike], *, rest: int = 0) -> Mask:
-        """A soft mask. alphas: for each tag [height, width], the share of each pixel that it has: float in [0, 1],
-        uint8 of 255, uint16 of 65535, or bool. `rest` is the tag that gets what they leave.
+    def of_layers(cls, alphas: Mapping[int, ArrayLike], *, rest: int = 0, progress: Progress = None) -> Mask:
+        """A soft mask. Shares are kept in 65535ths.
 
-        Shares are kept in 65535ths. Raises InputError where they come to more than all of a pixel.
+        Parameters:
+        alphas : for each tag [height, width], the share of each pixel that it has: float in [0, 1], uint8 of 255, uint16
+            of 65535, or bool.
+        rest : the tag that gets what they leave.
+        progress : called with rows done, of how many.
+        Raises:
+        InputError where they come to more than all of a pixel.
+        Examples:
+        >>> nutik.Mask.of_layers({128: np.full((4, 4), 0.2)}).share(128)[0, 0] / 65535
+        0.2
         """
         layers = {tag_of(tag): _shares(alpha, tag) for tag, alpha in alphas.items()}
-        return cls._of(_nutik.Mask.of_layers(layers, tag_of(rest)))
+        return cls._of(_nutik.Mask.of_layers(layers, tag_of(rest), progress))
 
-    def feathered(self, feather: Union[str, float]) -> Mask:
-        """A mask of tags, blended along its edges: pixels to either side, 6 or '6px', or '2px,M255=6px' for a tag of
-        its own (docs/reference/masks.md).
+    def feathered(self, feather: Union[str, float], *, progress: Progress = None) -> Mask:
+        """A mask of tags, blended along its edges (docs/reference/masks.md).
 
+        Parameters:
+        feather : pixels to either side, 6 or '6px', or '2px,M255=6px' for a tag of its own.
+        progress : called with steps done, of how many.
+        Examples:
         >>> nutik.Mask(np.eye(16, dtype=np.uint8)).feathered(2).is_soft
         True
         """
-        return Mask._of(self._held.feathered(feather if isinstance(feather, str) else f"{feather:g}px"))
+        return Mask._of(self._held.feathered(feather if isinstance(feather, str) else f"{feather:g}px", progress))
 
     @property
     def tags(self) -> Array:
@@ -61,7 +80,11 @@ class Mask:
         return self._held.tags()
 
     def share(self, tag: int) -> Array:
-        """[height, width] uint16: how much of each pixel a tag has, in 65535ths."""
+        """[height, width] uint16: how much of each pixel a tag has, in 65535ths.
+
+        Parameters:
+        tag : any, also one that no pixel has.
+        """
         return self._held.share(tag_of(tag))
 
     @property
@@ -89,8 +112,18 @@ MaskLike = Union[Mask, NDArray[np.uint8], NDArray[np.int64], NDArray[np.bool_], 
 
 
 def read_mask(path: Path, *, rest: int = 0) -> Mask:
-    """A mask from a grey picture of 8 bits; or, of a name with a number in it, 'layer-%d.png', from its layers, of which
-    `rest` gets what they leave. Raises InputError where it is none."""
+    """A mask from a grey picture of 8 bits, or from layers.
+
+    Parameters:
+    path : the picture; or, of a name with a number in it, 'layer-%d.png', layers.
+    rest : the tag that gets what layers leave.
+    Raises:
+    FileMissing, InputError where it is no mask.
+    Examples:
+    >>> capture.render(start=0, exposure="1f", codes=True).write("tags.png")
+    >>> nutik.read_mask("tags.png").tags.shape
+    (24, 32)
+    """
     with reading(path_word(path)):
         return Mask._of(_nutik.Mask.read(path_word(path), tag_of(rest)))
 

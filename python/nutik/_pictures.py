@@ -13,12 +13,12 @@ from tempfile import TemporaryDirectory
 from typing import BinaryIO, Optional, Union
 
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from . import _nutik
 from ._nutik import OutputError, UsageError
 from ._told import Plan, Statistics, Uncertainty
-from ._words import Array, Path, path_word
+from ._words import Array, DataArray, Index, Path, labelled, path_word
 
 
 def _bounds(light: Union[float, NDArray[np.float64]], pictures: Array) -> NDArray[np.float64]:
@@ -29,17 +29,18 @@ def _bounds(light: Union[float, NDArray[np.float64]], pictures: Array) -> NDArra
     return np.asarray(light + largest * 2.0 ** -24 + 2.0 ** -150, np.float64)  # the second: where floats are subnormal
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Pictures:
     """Many pictures of a capture."""
 
     array: Array         # [pictures, height, width] or [pictures, height, width, 3]: light or codes
     error_bounds: NDArray[np.float64]  # [pictures] float64: as error_bound of a Picture; NaN of the reference
+    saturated: Optional[NDArray[np.uint64]]  # [pictures, 2]: as saturated of a Picture; None where light is kept
 
     @classmethod
-    def _of(cls, array: Array, bounds: NDArray[np.float64]) -> Pictures:
+    def _of(cls, array: Array, bounds: NDArray[np.float64], saturated: NDArray[np.uint64]) -> Pictures:
         array.flags.writeable = False
-        return cls(array, _bounds(bounds, array))
+        return cls(array, _bounds(bounds, array), saturated if array.dtype.kind == "u" else None)
 
     def __array__(self, dtype: DTypeLike = None, copy: Optional[bool] = None) -> NDArray[np.generic]:
         return self.array if dtype is None and not copy else self.array.astype(dtype or self.array.dtype, copy=bool(copy))
@@ -47,12 +48,36 @@ class Pictures:
     def __len__(self) -> int:
         return len(self.array)
 
+    def __getitem__(self, key: Index) -> Array:
+        return self.array[key]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of `array`."""
+        return self.array.shape
+
+    def __repr__(self) -> str:
+        return f"<nutik.Pictures {' x '.join(map(str, self.shape))}, {self.array.dtype}>"
+
+    def to_xarray(self, **first: ArrayLike) -> DataArray:
+        """An xarray.DataArray [picture, y, x(, channel)], no copy.
+
+        Parameters:
+        first : of the first axis its name and its coordinate, start=starts; without it numbers.
+        """
+        return labelled(self.array, first or {"picture": range(len(self))})
+
 
 class Picture:
     """A picture that was exposed, and what is known of it.
 
     `array` is the picture itself: numpy.asarray(picture) and matplotlib's imshow(picture) take it without a copy. Light
     is not clipped: it may be negative, and above 1.
+
+    Examples:
+    >>> picture = capture.render(start=0, exposure="5f")
+    >>> picture, picture.error_bound < 1e-6
+    (<nutik.Picture 32 x 24 grey, light, float32>, True)
     """
 
     def __init__(self, held: _nutik.Picture) -> None:
@@ -99,11 +124,11 @@ class Picture:
         return None if bound is None else bound["steps"]
 
     @property
-    def bounds(self) -> Optional[Array]:
-        """[height, width] float32: what the arithmetic may be off by at each pixel, in light, or in the picture's codes,
-        rounded up; of render(..., bounds=True), else None."""
-        held = self._held.figures.get("bounds_map")
-        return None if held is None else held.values()
+    def bounds(self) -> Optional[dict[str, Array]]:
+        """What each pixel may be off by, of render(..., bounds=True), else None: 'all_bounds' and each of its terms,
+        [height, width] float32, in light, or in the picture's codes (docs/explanation/uncertainty.md, "A map")."""
+        held = self._held.figures.get("bounds_maps")
+        return None if held is None else {term: each.values() for term, each in held.items()}
 
     @property
     def uncertainty(self) -> Uncertainty:
@@ -126,15 +151,24 @@ class Picture:
         """What the rendering took. Empty of a plate."""
         return deepcopy(self._held.figures.get("statistics", {}))
 
+    def to_xarray(self) -> DataArray:
+        """An xarray.DataArray [y, x(, channel)], no copy."""
+        return labelled(self._array, {}, error_bound=self.error_bound)
+
     def write(self, path: Union[Path, BinaryIO], *, kind: Optional[str] = None, quality: Optional[int] = None,
               keep_pixels: bool = False) -> None:
         """Writes a file: .png, .tif, .jpg, .ppm, .pgm of codes, .exr, .tif, .pfm of light, .npy of any, float64 too.
 
-        path: or a file that is open for bytes, as io.BytesIO; kind says then which, '.png'. quality: of .jpg, 1 ... 100.
-        keep_pixels: a .png or .jpg has the pixels of `array` also where they are not square; without it they are made so,
-        for eyes. Other files keep them.
-
-        Raises UsageError where such a file cannot hold the picture, OutputError where it cannot be written.
+        Parameters:
+        path : or a file that is open for bytes, as io.BytesIO.
+        kind : of an open file which one it becomes, '.png'.
+        quality : of .jpg, 1 ... 100.
+        keep_pixels : a .png or .jpg has the pixels of `array` also where they are not square; without it they are made so,
+            for eyes. Other files keep them.
+        Raises:
+        UsageError where such a file cannot hold the picture, OutputError where it cannot be written.
+        Examples:
+        >>> capture.render(start=0, exposure="5f").write("light.exr")
         """
         if not isinstance(path, (str, bytes, PathLike)):
             if kind is None or not kind.startswith("."):

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _nutik
 from ._captures import Capture
 from ._nutik import InputError, UsageError
-from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, is_list, path_word, reading,
+from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, is_list, listed, path_word, reading,
                      seconds_of, settings_of, time_ns, times_ns, warn, whole)
 
 
@@ -44,23 +44,28 @@ def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_
     """Opens a capture (.tik), or a clip, which is encoded into a temporary capture first: a video, a folder of stills,
     'frames/*.png', a table of stills (docs/reference/input.md); or what is open for bytes, as io.BytesIO.
 
-    Of a clip may be stated what its files do not say or say wrongly: rate in pictures a second ('30000/1001'),
-    shutter_angle in degrees, transfer, white, primaries, pixel_aspect; raw, matrix, range, chroma_at of video. Part of it:
-    begin and end, crop (x, y, width, height) or 'WxH+X+Y', scale '1/2'. align ('translation', 'rigid', 'homography')
-    moves pictures of a camera that moved onto the first one, or that at align_to; align_along, along a path that is known
-    (docs/how-to/align.md). between='auto' makes samples between pictures along the motion, as many as it needs, and a
-    number so many (docs/how-to/slow-clips.md). Changes are kept beyond `tolerance`
-    codes, or beyond `sigmas` of the camera's noise: 'auto', or a noise file. Of a recording of events: contrast, the step
-    of log light that an event is (0.2, '0.3:0.17'); start_picture, light before the first, a picture or a number; tick, in
-    which changes count together.
-
-    device: an OpenCL device, by number or part of its name, several as "0,1", or "all"; None: NUTIK_DEVICE, else the
-    first. memory: bytes or '2GB'; None: half of the machine's. renderer: 'reference' computes without OpenCL, slowly.
-    progress: called with (samples done, of how many; 0: not known) while a clip is read, by the thread that asked and at
-    most 20 times a second. What it raises ends the work, and comes through.
-
-    Raises InputError where it cannot be read, UsageError where what is stated does not fit, MemoryTooLittle;
-    KeyboardInterrupt at Ctrl-C.
+    Parameters:
+    path : a capture, a clip, or a file that is open for bytes.
+    rate : pictures a second that the clip was filmed with: 120, 29.97, '30000/1001'; without it what the file says.
+    white : the code that stands for white: 255, 4095 for 12 bits; without it what the file says.
+    crop : (x, y, width, height) of pixels, or 'WxH+X+Y': only this part of the pictures.
+    noise : the camera's noise, 'auto' or a noise file: changes within it are none, and samples are held as the light that
+        they are expected to have.
+    sigmas : how many deviations of the noise are no change; without it 3.
+    start_picture : light before the first event: a picture's file, or the same everywhere, 1 being white.
+    align_along : a .csv file, moves pictures along a path that is known (docs/how-to/align.md).
+    device : an OpenCL device, by number or part of its name, several as '0,1', or 'all'; None: NUTIK_DEVICE, else the
+        first.
+    memory : the most that may be held: bytes, or '2GB'; None: half of the machine's.
+    renderer : 'reference' computes without OpenCL, slowly.
+    progress : called with (steps done, of how many; 0: not known), by the thread that asked and at most 20 times a second.
+        What it raises ends the work, and comes through.
+    Raises:
+    FileMissing, InputError where it cannot be read, UsageError where what is stated does not fit, MemoryTooLittle.
+    Examples:
+    >>> capture = nutik.encode(np.zeros((30, 8, 8), np.uint8), "black.tik", rate=1000)
+    >>> nutik.open("black.tik")
+    <nutik.Capture black.tik: 8 x 8 grey, 30 samples, 1000 a second>
     """
     stated = {name: value for name, value in locals().items() if name not in (*_COMPUTING, "path", "progress")}
     computing = _computing(device, memory, renderer)
@@ -81,8 +86,7 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
            progress: Progress = None, name: str = "array", **clip: object) -> Capture:
     """Makes a capture of pictures, and opens it.
 
-    Parameters
-    ----------
+    Parameters:
     source : [samples, height, width] or [samples, height, width, 3] (red, green, blue) of uint8 or uint16 codes, however
         it is strided, or of floats that are light; or an iterable of such pictures; or the path of a clip, or one that is
         open for bytes (nutik.open() says more of these). Codes in the machine's order of bytes are read where they lie.
@@ -97,20 +101,14 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
     white : the code of white, 255 or 65535 without it; no code may be larger. Of floats the light of white, which must be
         stated: they become 16-bit codes, to the nearest of 65535 steps; none may be negative.
     codec : of an output: 'none', 'rice', 'lz4', 'zstd', 'zstd:9'.
-    tolerance, noise, sigmas, align, ... : as of nutik.open(), which takes more of a path: begin, crop, raw, ...
-    progress : as of nutik.open().
-
-    Returns
-    -------
+    name : what messages call an array.
+    clip : of a path what nutik.open() takes besides: begin, crop, raw, ...
+    Returns:
     Capture
-
-    Raises
-    ------
+    Raises:
     UsageError where arguments do not fit, InputError where pictures are unlike or times out of order, OutputError; what an
-    iterable raises; KeyboardInterrupt at Ctrl-C. No file is left behind then.
-
-    Examples
-    --------
+    iterable raises.
+    Examples:
     >>> capture = nutik.encode(np.zeros((30, 8, 8, 3), np.uint8), times=np.arange(30) / 100, exposures="2ms")
     >>> capture.shape, capture.times_ns[1].tolist()
     ((30, 8, 8, 3), [10000000, 12000000])
@@ -149,13 +147,19 @@ def join(captures: Iterable[Path], output: Path, *, device: Optional[str] = None
          memory: Union[int, str, None] = None, renderer: Optional[str] = None, progress: Progress = None) -> Capture:
     """Makes one capture of captures of pictures that follow each other, and opens it (docs/how-to/farm.md).
 
-    captures: paths of two or more .tik that were encoded alike. Parts of a clip (begin= and end= of nutik.encode()) know
+    Parameters:
+    captures : paths of two or more .tik that were encoded alike. Parts of a clip (begin= and end= of nutik.encode()) know
         their place and may come in any order; others follow each other at once, as they are named, if they have one
         constant rate, which a note tells.
-    output: the .tik to write; its blocks are copies of theirs. device, memory, renderer, progress: as of nutik.open().
-
-    Raises InputError where one is damaged or does not follow the one before it, UsageError where there are fewer than
-    two or output is one of them, OutputError; KeyboardInterrupt at Ctrl-C. No file is left behind then.
+    output : the .tik to write; its blocks are copies of theirs.
+    Raises:
+    InputError where one is damaged or does not follow the one before it, UsageError where there are fewer than two or
+    output is one of them, OutputError.
+    Examples:
+    >>> for part in (0, 1):
+    ...     capture = nutik.encode(np.zeros((30, 8, 8), np.uint8), f"{part}.tik", rate=1000)
+    >>> len(nutik.join(["0.tik", "1.tik"], "both.tik"))
+    60
     """
     if isinstance(captures, (str, PathLike)):
         raise UsageError(f"captures= is {captures!r}: give a list of two captures or more")
@@ -179,8 +183,11 @@ class Device:
 
 
 def devices() -> list[Device]:
-    """The OpenCL devices of this machine, those first that are taken first. Raises DeviceError where there are none.
+    """The OpenCL devices of this machine, those first that are taken first.
 
+    Raises:
+    DeviceError where there are none.
+    Examples:
     >>> [device.index for device in nutik.devices()][0]
     0
     """
@@ -292,7 +299,7 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
     if exposures is not None and shutter_angle is not None:
         raise UsageError("exposures= and shutter_angle= both say how long pictures were exposed; leave one out")
     if times is not None:
-        times = list(times)
+        times = listed(times)
         if times and isinstance(times[0], (np.datetime64, datetime.datetime)):
             times = [time - times[0] for time in times]  # dates: only what lies between them counts
     starts = [] if times is None else times_ns(times, "times").tolist()
@@ -306,7 +313,7 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
         raise UsageError("exposures= of each picture need times=, when each begins; with rate= give one for all")
     begins = [seconds_of(time, "times") for time in times]
     lengths = [_lasting(seconds_of(each, f"exposures[{i}]"), f"exposures[{i}]", each)
-               for i, each in enumerate(cast(Iterable[Time], exposures))]
+               for i, each in enumerate(listed(exposures))]
     if len(lengths) != len(begins):
         raise UsageError(f"there are {len(lengths)} exposures for {len(begins)} times")
     return [], [(start, half_up((begin + length) * 10 ** 9))

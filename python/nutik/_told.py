@@ -101,7 +101,7 @@ class PictureFigures(TypedDict, total=False):
     precision: str
     error_bound: Optional[Bound]
     uncertainty: Uncertainty
-    bounds_map: "HeldPicture"
+    bounds_maps: "dict[str, HeldPicture]"
     saturated: Optional[tuple[int, int]]
     plan: Plan
     statistics: Statistics

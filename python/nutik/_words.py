@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime
 import errno
+import re
 import shutil
 import sys
 import tempfile
@@ -14,7 +15,7 @@ from fractions import Fraction
 from os import PathLike, fsdecode
 from os.path import dirname, exists, join
 from importlib import import_module
-from typing import (TYPE_CHECKING, Any, BinaryIO, Callable, Iterable, Iterator, Optional, Protocol, Sequence, Union, cast)
+from typing import (TYPE_CHECKING, Any, BinaryIO, Callable, Iterable, Iterator, Mapping, Optional, Protocol, Sequence, Union, cast)
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -29,6 +30,7 @@ else:
 
 Time = Union[str, float, int, Fraction, Decimal, np.timedelta64, datetime.timedelta]
 DelayLike = Union[str, ArrayLike]
+Index = Union[int, slice, ellipsis, tuple[Union[int, slice, ellipsis, None], ...]]
 Number = Union[str, float, int, Fraction, Decimal]
 Path = Union[str, "PathLike[str]"]
 Array = Union[NDArray[np.uint8], NDArray[np.uint16], NDArray[np.float32], NDArray[np.float64]]  # codes, or light
@@ -81,6 +83,27 @@ class Axes(Protocol):
     def get_ylabel(self) -> str: ...
 
 
+class DataArray(Protocol):
+    """That of xarray, as far as its type is told here."""
+
+    @property
+    def dims(self) -> tuple[object, ...]: ...
+    @property
+    def values(self) -> NDArray[np.generic]: ...
+    def sel(self, indexers: None = None, method: Optional[str] = None, **where: object) -> DataArray: ...
+    def isel(self, indexers: None = None, **where: object) -> DataArray: ...
+    def mean(self, dim: Union[str, Sequence[str], None] = None) -> DataArray: ...
+
+
+def labelled(values: NDArray[np.generic], first: Mapping[str, Any], **attributes: object) -> DataArray:
+    """Pictures with the names of their axes, and coordinates: pixels, from the first one's middle; and those of `first`."""
+    axes = [*first, "y", "x", "channel"][:values.ndim]
+    coordinates = {"y": np.arange(values.shape[len(first)]), "x": np.arange(values.shape[len(first) + 1]),
+                   "channel": ["red", "green", "blue"], **first}
+    return cast(DataArray, import_module("xarray").DataArray(
+        values, dims=axes, coords={name: coordinates[name] for name in axes}, attrs=attributes))
+
+
 def axes_of(ax: Optional[Axes], x: str, y: str) -> Axes:
     """The axes, or matplotlib's current ones, labelled where they are not yet."""
     if ax is None:
@@ -103,9 +126,19 @@ def as_file(source: Any, name: str) -> Iterator[str]:
         yield path
 
 
+def in_python(text: str) -> str:
+    """Arguments in place of the command line's options."""
+    return re.sub(r"--([a-z][a-z-]*)", lambda option: option[1].replace("-", "_") + "=", text)
+
+
 def is_list(value: Any) -> bool:
     """Whether it is several, and no word."""
     return not isinstance(value, str) and hasattr(value, "__iter__")
+
+
+def listed(values: Any) -> list[Any]:
+    """Its values one by one; of what NumPy takes for an array, NumPy's."""
+    return list(np.asarray(values) if hasattr(values, "__array__") else values)
 
 
 def whole(array: Any, what: str) -> Any:

@@ -256,7 +256,7 @@ py::array sample(SampleReader& reader, std::uint64_t number) {
 // What pixels of a box hold between two samples, from one change to the next: of each record the pixel's place, the
 // samples at which it begins and ends, and its codes; of each pixel in time order.
 py::tuple records(const OpenCapture& capture, const std::vector<std::uint32_t>& box, std::uint64_t first,
-                  std::uint64_t last) {
+                  std::uint64_t last, const py::object& progress) {
   Session& session = *capture.session;
   const Shape& shape = session.format().shape;
   const Rectangle region{box[0], box[1], box[2], box[3]};
@@ -271,14 +271,16 @@ py::tuple records(const OpenCapture& capture, const std::vector<std::uint32_t>& 
   std::vector<std::uint64_t> times;
   std::vector<std::uint16_t> codes;
   without_lock([&](const Stopping& stopping) {
+    const ReportedProgress report = stopping.progress();
     std::vector<ChangeRecord> history;
     std::uint64_t count = 0;
     for_each_block(session.capture(), {first, last}, [&](const BlockView& block) {
       const SampleRange range = block.extent().range();
+      const std::uint64_t from = std::max(first, range.first);
       const TileGrid grid(shape);
       auto pixel = found.begin();
       for (std::uint32_t y = region.y; y < region.y + region.height; ++y) {
-        if (stopping.stop.stop_requested()) throw Cancelled();
+        report(from - first + (y - region.y) * (std::min(last, range.last) - from) / region.height, last - first);
         for (std::uint32_t x = region.x; x < region.x + region.width; ++x, ++pixel) {
           block.read_history(grid.tile_of(x, y), TileGrid::lane_of(x, y), history);
           for (std::size_t i = 0; i < history.size(); ++i) {
@@ -306,7 +308,7 @@ py::tuple records(const OpenCapture& capture, const std::vector<std::uint32_t>& 
       }
       found[pixel] = {};
     }
-  });
+  }, progress);
   const auto count = static_cast<py::ssize_t>(times.size() / 2);
   return py::make_tuple(array_of(places, {count, 2}), array_of(times, {count, 2}),
                         array_of(codes, {count, static_cast<py::ssize_t>(shape.channels)}));
@@ -346,7 +348,8 @@ void bind_captures(py::module_& module) {
       .def("samples", &samples, py::arg("numbers"))
       .def("reader",
            [](std::shared_ptr<OpenCapture> capture) { return std::make_unique<SampleReader>(std::move(capture)); })
-      .def("records", &records, py::arg("box"), py::arg("first"), py::arg("last"))
+      .def("records", &records, py::arg("box"), py::arg("first"), py::arg("last"),
+           py::arg("progress"))
       .def("moved_camera", &moved_camera_text);
   py::class_<SampleReader>(module, "SampleReader").def("sample", &sample, py::arg("number"));
   module.def("open", &open, py::arg("path"), py::arg("settings"), py::arg("computing"), py::arg("progress"));

@@ -30,13 +30,15 @@ HeldMask of_tags(const Codes<std::uint8_t>& tags) {
   return {Shared(Mask::from_picture(picture_of(tags, ValueType::code8, 255)))};
 }
 
-HeldMask of_layers(const std::map<std::uint8_t, Codes<std::uint16_t>>& shares, std::uint8_t rest) {
+HeldMask of_layers(const std::map<std::uint8_t, Codes<std::uint16_t>>& shares, std::uint8_t rest,
+                   const py::object& progress) {
   if (shares.empty()) throw UsageError("a mask of layers has one at least");
   std::vector<MaskLayer> layers;
   for (const auto& [tag, codes] : shares)
     layers.push_back({tag, format("layer {}", tag), picture_of(codes, ValueType::code16, kWholeShare)});
   return without_lock(
-      [&](const Stopping& stopping) { return HeldMask{Shared(mask_of_layers(layers, rest, stopping.stop))}; });
+      [&](const Stopping& stopping) { return HeldMask{Shared(mask_of_layers(layers, rest, stopping.progress()))}; },
+      progress);
 }
 
 HeldMask read_mask(const std::string& path, std::uint8_t rest) {
@@ -44,13 +46,14 @@ HeldMask read_mask(const std::string& path, std::uint8_t rest) {
   return {Shared(read_layered_mask_input(path, rest))};
 }
 
-HeldMask feathered_mask(const HeldMask& held, const std::string& feather) {
+HeldMask feathered_mask(const HeldMask& held, const std::string& feather, const py::object& progress) {
   const Feather how = Feather::parse(feather);
   if (held.mask->is_soft())
     throw UsageError(
         "feather= blends a mask of tags along its edges; one of layers says itself how it is blended");
   return without_lock(
-      [&](const Stopping& stopping) { return HeldMask{Shared(feathered(*held.mask, how, stopping.stop))}; });
+      [&](const Stopping& stopping) { return HeldMask{Shared(feathered(*held.mask, how, stopping.progress()))}; },
+      progress);
 }
 
 std::vector<py::ssize_t> axes(const Mask& mask) {
@@ -78,9 +81,9 @@ std::vector<std::uint8_t> tags_in_use(const HeldMask& held) {
 void bind_masks(py::module_& module) {
   py::class_<HeldMask>(module, "Mask")
       .def(py::init(&of_tags), py::arg("tags"))
-      .def_static("of_layers", &of_layers, py::arg("shares"), py::arg("rest"))
+      .def_static("of_layers", &of_layers, py::arg("shares"), py::arg("rest"), py::arg("progress"))
       .def_static("read", &read_mask, py::arg("path"), py::arg("rest"))
-      .def("feathered", &feathered_mask, py::arg("feather"))
+      .def("feathered", &feathered_mask, py::arg("feather"), py::arg("progress"))
       .def("tags", &tags)
       .def("share", &share, py::arg("tag"))
       .def("tags_in_use", &tags_in_use)

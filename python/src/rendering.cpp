@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <tuple>
+#include <utility>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -76,26 +78,22 @@ RenderControl control_of(const AskedExposure& asked, const Region& region, const
 }
 
 HeldPicture render(const OpenCapture& capture, const AskedExposure& asked, const Settings& output, const Region& region,
-                   const std::optional<std::string>& precision, bool bounds) {
+                   const std::optional<std::string>& precision, bool bounds, const py::object& progress) {
   Session& session = *capture.session;
   const ExposureRequest request = exposure_request(asked);
-  const OutputFormat format = output_of(output, session.format());
+  OutputFormat format = output_of(output, session.format());
+  format.maps_bounds = bounds;
   RenderControl control = control_of(asked, region, precision);
-  control.maps_bounds = bounds;
   ExposedPicture exposed = without_lock([&](const Stopping& stopping) {
     control.stop = stopping.stop;
+    control.progress = stopping.progress();
     return session.render(request, format, control);
-  });
+  }, progress);
   py::dict figures = figures_of(exposed);
-  if (exposed.bounds) {
-    const Picture& whole = *exposed.bounds;
-    const Rectangle part = control.rectangle.value_or(Rectangle::whole(whole.shape));
-    Picture map({part.width, part.height, 1}, whole.type, 0);
-    for (std::uint32_t y = 0; y < part.height; ++y) {
-      const auto row = whole.values<float>().subspan(std::size_t{part.y + y} * whole.shape.width + part.x, part.width);
-      std::ranges::copy(row, map.values<float>().begin() + static_cast<std::ptrdiff_t>(y) * part.width);
-    }
-    figures["bounds_map"] = HeldPicture{std::move(map), {}};
+  if (bounds) {
+    py::dict maps;
+    for (PictureLayer& layer : exposed.bounds) maps[py::str(layer.name)] = HeldPicture{std::move(layer.values), {}};
+    figures["bounds_maps"] = std::move(maps);
   }
   return {std::move(exposed.picture), std::move(figures)};
 }
@@ -115,7 +113,8 @@ struct Differences {
   }
 };
 
-// [count, height, width(, 3)], the bound of each picture's light (NaN of the reference), and warnings, each once.
+// [count, height, width(, 3)], the bound of each picture's light (NaN of the reference), of codes how many pixels hold
+// light below and above them, warnings, each once, and of each tag the least still gain.
 py::tuple render_many(const OpenCapture& capture, const AskedExposure& asked, std::size_t count,
                       std::vector<std::string> starts, std::vector<std::string> lengths,
                       std::vector<HeldFunctions> functions, const Settings& output, const Region& region,
@@ -132,22 +131,32 @@ py::tuple render_many(const OpenCapture& capture, const AskedExposure& asked, st
   py::array pictures(dtype_of(format.type), axes);
   auto* const bytes = static_cast<std::byte*>(pictures.mutable_data());
   std::vector<double> bounds;
+  std::vector<std::uint64_t> saturated;
   std::vector<std::string> warnings;
+  std::map<std::uint8_t, double> still_gains;
   without_lock([&](const Stopping& stopping) {
     const ReportedProgress report = stopping.progress();
     control.stop = stopping.stop;
     std::vector<ExposureRequest> requests;
     for (std::size_t number = 0; number < count; ++number) requests.push_back(differences.of(request, number));
-    session.render_many(requests, format, control, [&](std::size_t number, const Rendered& rendered) {
+    session.render_many(requests, format, control, [&](std::size_t number, const Rendered& rendered,
+                                                           std::span<const PlannedFunction> functions) {
       const auto& made = rendered.picture.bytes;
       std::memcpy(bytes + number * made.size(), made.data(), made.size());
       bounds.push_back(rendered.choice ? rendered.choice->bound.worst.light : std::numeric_limits<double>::quiet_NaN());
+      saturated.insert(saturated.end(), {rendered.saturation.below, rendered.saturation.above});
+      for (const PlannedFunction& function : functions) {
+        const double still_gain = function.summary.still_gain();
+        double& least = still_gains.try_emplace(function.tag, still_gain).first->second;
+        least = std::min(least, still_gain);
+      }
       for (const std::string& warning : rendered.warnings)
         if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
       report(number + 1, count);
     });
   }, progress);
-  return py::make_tuple(pictures, array_of(bounds), warnings);
+  return py::make_tuple(pictures, array_of(bounds), array_of(saturated, {static_cast<py::ssize_t>(count), 2}), warnings,
+                        still_gains);
 }
 
 // The time of each pixel in nanoseconds, [height, width].
@@ -251,7 +260,7 @@ void bind_rendering(py::module_& module) {
            py::arg("functions"), py::arg("mask"), py::arg("settings"), py::arg("delays_ns"));
   module.def("devices", &devices);
   module.def("render", &render, py::arg("capture"), py::arg("exposure"), py::arg("output"), py::arg("region"),
-             py::arg("precision"), py::arg("bounds") = false);
+             py::arg("precision"), py::arg("bounds"), py::arg("progress"));
   module.def("render_many", &render_many, py::arg("capture"), py::arg("exposure"), py::arg("count"), py::arg("starts"),
              py::arg("lengths"), py::arg("functions"), py::arg("output"), py::arg("region"), py::arg("precision"),
              py::arg("progress"));

@@ -47,13 +47,13 @@ py::dict arrays_of(const TracedExposure& exposure, const Trace& trace) {
 // Of a pixel (x, y), or of a mask value where there is none.
 py::tuple trace(const OpenCapture& capture, const AskedExposure& asked,
                 const std::optional<std::pair<std::uint32_t, std::uint32_t>>& pixel,
-                std::optional<std::uint8_t> tag) {
+                std::optional<std::uint8_t> tag, const py::object& progress) {
   const ExposureRequest request = exposure_request(asked);
   Session& session = *capture.session;
   const TracedExposure exposure = without_lock([&](const Stopping& stopping) {
-    return pixel ? session.trace(request, TracedPixel{pixel->first, pixel->second}, stopping.stop)
-                 : session.trace(request, TracedTag{tag.value_or(0)}, stopping.stop);
-  });
+    return pixel ? session.trace(request, TracedPixel{pixel->first, pixel->second}, stopping.progress())
+                 : session.trace(request, TracedTag{tag.value_or(0)}, stopping.progress());
+  }, progress);
   py::list traces;
   for (const Trace& each : exposure.traces) traces.append(arrays_of(exposure, each));
   const std::array<double, 3> light = light_of(exposure.traces);
@@ -65,7 +65,8 @@ py::tuple trace(const OpenCapture& capture, const AskedExposure& asked,
 }  // namespace
 
 void bind_tracing(py::module_& module) {
-  module.def("trace", &trace, py::arg("capture"), py::arg("exposure"), py::arg("pixel"), py::arg("tag"));
+  module.def("trace", &trace, py::arg("capture"), py::arg("exposure"), py::arg("pixel"), py::arg("tag"),
+             py::arg("progress"));
 }
 
 }  // namespace nutik::python

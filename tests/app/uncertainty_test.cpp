@@ -1,7 +1,9 @@
 // What a picture may be off by: told to scripts and people, as a map of pixels, and refused with --strict.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
@@ -27,6 +29,30 @@ class UncertaintyOf : public test::AppTest {
     for (int pixel = 0; pixel < 256; ++pixel) mask += pixel % 16 < 8 ? "0 " : "9 ";
     scratch_.write("mask.pgm", mask);
     scratch_.write("cancels.fn", "M0 [0:1e6], [99999999:1e6], [100000000:-1e6], [199999999:-1e6], [200000000:0]\n");
+  }
+
+  // [layers][pixels] of a file of NumPy's.
+  std::vector<std::vector<float>> read_layers(const std::string& name, std::size_t count) {
+    const std::string bytes = test::read_file(scratch_ / name);
+    std::vector<std::vector<float>> layers(count, std::vector<float>(256));
+    const std::size_t values = bytes.size() - count * 256 * sizeof(float);
+    EXPECT_NE(bytes.substr(0, values).find("(" + std::to_string(count) + ", 16, 16)"), std::string::npos);
+    for (std::size_t layer = 0; layer < count; ++layer)
+      std::memcpy(layers[layer].data(), bytes.data() + values + layer * 256 * sizeof(float), 256 * sizeof(float));
+    return layers;
+  }
+
+  // A grey picture's, from the top, of light or of codes.
+  std::vector<float> values_of(const std::string& name) {
+    const std::string bytes = test::read_file(scratch_ / name);
+    std::vector<float> values(256);
+    if (name.ends_with(".npy")) {
+      std::memcpy(values.data(), bytes.data() + bytes.size() - 256 * sizeof(float), 256 * sizeof(float));
+    } else {
+      std::ranges::transform(bytes.substr(bytes.size() - 256), values.begin(),
+                             [](char code) { return static_cast<float>(static_cast<unsigned char>(code)); });
+    }
+    return values;
   }
 
   static json term_of(const json& told, const std::string& name) {
@@ -58,6 +84,14 @@ TEST_F(UncertaintyOf, APictureIsToldTermByTerm) {
   EXPECT_NEAR(told["bounds"]["light"].get<double>(), light, 1e-12);
   EXPECT_NEAR(shares, 1.0, 1e-12);
   EXPECT_GT(held["share_of_bounds"], 0.5) << "the tolerance is the largest";
+  // No gain is negative: a mean of sRGB's codes that are 2 off is 2 off, a little more behind the straight toe.
+  EXPECT_GE(held["codes"], 2.0);
+  EXPECT_LT(held["codes"], 2.8);
+  EXPECT_LT(told["bounds"]["codes"], 3.3);
+  EXPECT_GT(told["bounds"]["codes"], 2.5);
+  scratch_.write("signs.fn", "M0 [0:1], [99999999:1], [100000000:-1], [199999999:-1], [200000000:0]\n");
+  const json signs = answer("-k signs.fn --negative offset --json clip.tik c.png")["uncertainty"];
+  EXPECT_GT(term_of(signs, "held_samples")["codes"], 30.0) << "a difference may be black";
   const json offset =
       answer("--start 0s --exposure 0.1s --negative offset --json clip.tik b.png")["uncertainty"];
   EXPECT_NEAR(term_of(offset, "rounding")["light"].get<double>(), 2.275 / 255, 1e-4) << "half of the codes";
@@ -127,21 +161,66 @@ TEST_F(UncertaintyOf, ARecipeKeepsWhatTheArithmeticMayBeOffBy) {
 
 // A function of gain 1e30 spoils its own pixels alone.
 TEST_F(UncertaintyOf, AMapHasTheBoundOfEachPixel) {
-  make("-m mask.pgm -k f.fn --bounds map.pfm clip.tik a.png");
-  const std::vector<float> map = test::read_pfm(scratch_ / "map.pfm");
-  ASSERT_EQ(map.size(), 256u);
-  for (std::size_t pixel = 0; pixel < map.size(); ++pixel) {
+  make("-m mask.pgm -k f.fn --bounds map.npy clip.tik a.png");
+  const auto layers = read_layers("map.npy", 5);  // all bounds, arithmetic, rounding, held samples, times
+  make("-m mask.pgm -k f.fn --bounds map.pfm clip.tik a.png --overwrite");
+  std::vector<float> alone = test::read_pfm(scratch_ / "map.pfm");  // from its bottom row
+  std::ranges::reverse(alone);
+  for (auto row = alone.begin(); row != alone.end(); row += 16) std::reverse(row, row + 16);
+  EXPECT_EQ(alone, layers[0]) << "one picture: all bounds";
+  for (std::size_t pixel = 0; pixel < 256; ++pixel) {
     if (pixel % 16 < 8) {
-      EXPECT_LT(map[pixel], 0.01f) << "in codes";
+      EXPECT_LT(layers[1][pixel], 0.01f) << "in codes";
+      EXPECT_NEAR(layers[3][pixel], 2.0f, 0.2f) << "the tolerance, with the codes that were rounded to this one";
+      EXPECT_LT(layers[0][pixel], 3.0f);
     } else {
-      EXPECT_GE(map[pixel], 255.0f);
+      EXPECT_GE(layers[1][pixel], 255.0f);
+      EXPECT_EQ(layers[0][pixel], std::nextafter(255.0f, 256.0f));
     }
+    EXPECT_EQ(layers[2][pixel], std::nextafter(0.5f, 1.0f));
   }
   make("-m mask.pgm -k f.fn --bounds map.tif --renderer reference clip.tik a.pfm --overwrite");
-  const cv::Mat light = cv::imread((scratch_ / "map.tif").string(), cv::IMREAD_UNCHANGED);
-  ASSERT_EQ(light.type(), CV_32FC1);
-  EXPECT_NEAR(light.at<float>(0, 0), 30 * 0x1p-53, 1e-20);
-  EXPECT_GT(light.at<float>(0, 15), 1e14);
+  std::vector<cv::Mat> light;
+  ASSERT_TRUE(cv::imreadmulti((scratch_ / "map.tif").string(), light, cv::IMREAD_UNCHANGED));
+  ASSERT_EQ(light.size(), 5u);
+  ASSERT_EQ(light[1].type(), CV_32FC1);
+  EXPECT_NEAR(light[1].at<float>(0, 0), 30 * 0x1p-53, 1e-20);
+  EXPECT_GT(light[1].at<float>(0, 15), 1e14);
+  for (int x = 0; x < 16; ++x) {
+    const float sum = light[1].at<float>(3, x) + light[2].at<float>(3, x) + light[3].at<float>(3, x) + light[4].at<float>(3, x);
+    EXPECT_FLOAT_EQ(light[0].at<float>(3, x), sum) << "light adds up";
+  }
+}
+
+// No pixel of a capture with a tolerance is further from the lossless one's than its map says.
+TEST_F(UncertaintyOf, AMapHoldsAgainstTheLosslessCapture) {
+  make("-f 100 frames lossless.tik");
+  for (const std::string how : {"--start 0s --exposure 0.1s ", "-k cancels.fn --gain 1e-6 "}) {
+    for (const std::string kind : {"pgm", "npy"}) {
+      const std::string negative = kind == "pgm" && how[0] == '-' && how[1] == 'k' ? "--negative offset " : "";
+      make(how + negative + "lossless.tik exact." + kind + " --overwrite --renderer reference");
+      make(how + negative + "clip.tik held." + kind + " --overwrite --bounds map.npy");
+      const auto map = read_layers("map.npy", 5);
+      const std::vector<float> exact = values_of("exact." + kind), held = values_of("held." + kind);
+      double most = 0.0;
+      for (std::size_t pixel = 0; pixel < 256; ++pixel) {
+        const double rounded = kind == "pgm" ? 0.5 : 0.0;  // of the other one
+        EXPECT_LE(std::fabs(exact[pixel] - held[pixel]), map[0][pixel] + rounded) << how << ", pixel " << pixel;
+        most = std::max(most, std::fabs(exact[pixel] - held[pixel]) / double{map[0][pixel]});
+      }
+      EXPECT_GT(most, 0.01) << "it says nothing";
+    }
+  }
+}
+
+// OpenEXR has a channel for each term, and says what each is.
+TEST_F(UncertaintyOf, AnExrHasLayersThatAreReadAgainAsOnePicture) {
+  make("-m mask.pgm -k f.fn --bounds map.exr clip.tik a.png");
+  const std::string bytes = test::read_file(scratch_ / "map.exr");
+  expect_says(bytes, {"arithmetic.Y", "rounding.Y", "held_samples.Y", "times.Y",
+                      "held_samples: a bound, in codes, of which 255 is white: no pixel is further off"});
+  make("encode -f 1 --white 300 map.exr again.tik");
+  expect_says(make("again map.exr", 3).err, "recipe");
 }
 
 TEST_F(UncertaintyOf, AMapHasANameOfItsOwnThatHoldsFloats) {
@@ -150,9 +229,28 @@ TEST_F(UncertaintyOf, AMapHasANameOfItsOwnThatHoldsFloats) {
   expect_refused(one + "map.jpg", 2, "map.jpg");
   expect_refused(one + "clip.tik", 2, "clip.tik");
   expect_refused("--start 0s --exposure 1f --every 5f clip.tik s%d.png --bounds map.tif", 2,
-                 "--bounds goes with one picture, not with --every");
-  scratch_.write("list", "--start 0s --exposure 1f a.png --bounds map.tif\n");
-  expect_says(make("batch list clip.tik", 1).err, "list:1: --bounds goes with one picture");
+                 "a series needs a number in its pictures' name");
+  expect_refused("--start 0s --exposure 1f --every 5f clip.tik s%d.tif --bounds s%d.tif", 2, "s0.tif");
+  expect_refused("video --out-fps 25 clip.tik f%d.png --bounds map.tif", 2,
+                 "a video needs a number in its pictures' name");
+  scratch_.write("list", "--start 0s --exposure 1f a.png --bounds map.tif\n--start 1f --exposure 1f b.png --bounds map.tif\n");
+  expect_says(make("batch list clip.tik", 1).err, "list:2: map.tif is written by line 1 already");
+}
+
+// A map for each picture, whatever makes it: the same one.
+TEST_F(UncertaintyOf, SeriesBatchesAndVideosHaveAMapOfEachPicture) {
+  make("--start 4f --exposure 4f clip.tik one.png --bounds one.npy");
+  const json series =
+      answer("--start 0s --exposure 4f --every 4f --count 2 --json clip.tik s%d.png --bounds smap%d.npy");
+  EXPECT_EQ(series["pictures"][1]["bounds_map"], "smap1.npy") << series;
+  scratch_.write("list", "--start 0s --exposure 4f b0.png\n--start 4f --exposure 4f b1.png --bounds bmap1.npy\n");
+  make("batch list clip.tik");
+  const json film = answer("video --json --out-fps 25 --out-angle 360 clip.tik film.mkv --bounds fmap%d.npy");
+  EXPECT_EQ(film["bounds_maps"], "fmap%d.npy") << film;
+  const std::string one = test::read_file(scratch_ / "one.npy");
+  for (const std::string map : {"smap1.npy", "bmap1.npy", "fmap1.npy"})
+    EXPECT_EQ(test::read_file(scratch_ / map), one) << map;
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "fmap6.npy"));
 }
 
 // The same bounds that are otherwise a warning.

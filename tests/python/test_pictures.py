@@ -158,14 +158,18 @@ class Pictures(support.TestCase):
             self.assertLessEqual(worst, ours.error_bound, precision)
         self.assertIsNone(ours.bounds)
         mapped = self.capture.render(self.functions, self.tags, dtype=np.float64, precision="fixed", bounds=True)
-        self.assertEqual((mapped.bounds.shape, mapped.bounds.dtype), (self.tags.shape, np.float32))
-        self.assertEqual(mapped.bounds.max(), np.nextafter(np.float32(mapped.error_bound), np.float32(1)))
+        self.assertEqual(list(mapped.bounds), ["all_bounds", "arithmetic", "times"])
+        arithmetic = mapped.bounds["arithmetic"]
+        self.assertEqual((arithmetic.shape, arithmetic.dtype), (self.tags.shape, np.float32))
+        self.assertEqual(arithmetic.max(), np.nextafter(np.float32(mapped.error_bound), np.float32(1)))
         off = np.abs(mapped.array - reference.array).reshape(*self.tags.shape, -1).max(axis=2)
-        self.assertTrue((off <= mapped.bounds).all())
+        self.assertTrue((off <= arithmetic).all())
+        np.testing.assert_allclose(mapped.bounds["all_bounds"], arithmetic + mapped.bounds["times"], rtol=1e-6)
         part = self.capture.render(self.functions, self.tags, dtype=np.float64, precision="fixed", bounds=True,
                                    region=(3, 2, 9, 5))
-        np.testing.assert_array_equal(part.bounds, mapped.bounds[2:7, 3:12])
-        np.testing.assert_array_equal(pickle.loads(pickle.dumps(part)).bounds, part.bounds)
+        for term, each in pickle.loads(pickle.dumps(part)).bounds.items():
+            np.testing.assert_array_equal(each, part.bounds[term])
+            np.testing.assert_array_equal(each, mapped.bounds[term][2:7, 3:12])
         terms = {each["term"]: each for each in ours.uncertainty["terms"]}
         self.assertEqual(terms["arithmetic"]["light"], ours.error_bound)
         self.assertEqual(terms["times"]["is"], "bound")
@@ -274,6 +278,21 @@ class Pictures(support.TestCase):
     def test_many_through_a_mask(self):
         many = self.capture.render_many([self.functions, self.functions], self.tags, feather=2)
         self.assert_same(many.array[1], self.capture.render(self.functions, self.tags, feather=2).array)
+
+    def test_many_warn_as_one_does(self):
+        both = [nutik.boxcar(0, 0.05, -1), nutik.boxcar(0, 0.05)]
+        for capture in (self.capture, nutik.encode(self.pictures[:, :16, :16], rate=support.RATE)):
+            for named in (dict(gain=3.0), dict(negative="abs"), dict(precision="double")):
+                with warnings.catch_warnings(record=True) as alone:
+                    warnings.simplefilter("always")
+                    pictures = [capture.render(each, codes=True, **named) for each in both]
+                with warnings.catch_warnings(record=True) as together:
+                    warnings.simplefilter("always")
+                    many = capture.render_many(both, codes=True, **named)
+                self.assertEqual({str(each.message) for each in together}, {str(each.message) for each in alone})
+                self.assertEqual(bool(alone), "negative" not in named)
+                self.assertEqual(many.saturated.tolist(), [list(each.saturated) for each in pictures])
+        self.assertIsNone(self.capture.render_many(both).saturated)
 
     def test_many_are_fast_and_tell(self):
         capture = nutik.encode(self.pictures[:, :16, :16, 0], rate=support.RATE)

@@ -289,6 +289,41 @@ class Errors(support.TestCase):
         for output in (None, self.path("a.tik")):
             self.assert_raises(nutik.UsageError, "gif", nutik.encode, support.moving_box(), output, rate=1, codec="gif")
 
+    def test_a_gain_for_each_sample(self):
+        codes = np.random.default_rng(1).integers(0, 65536, (50, 6, 8), np.uint16)
+        capture = nutik.encode(codes, rate=1000)
+        gains = np.random.default_rng(2).random((7, 50))
+        many = capture.render_many(gains, normalize="integral", dtype=np.float64)
+        for k in range(7):
+            wanted = np.average(codes / 65535, axis=0, weights=gains[k])
+            self.assertLessEqual(np.abs(many[k] - wanted).max(), many.error_bounds[k] + 1e-12)
+            alone = capture.render({0: gains[k]}, normalize="integral")
+            self.assertLessEqual(np.abs(alone.array - wanted).max(), alone.error_bound + 1e-12)
+        self.assert_raises(nutik.UsageError, ["49 gains for 50 samples", "Function(times, gains)"], capture.render, gains[0, 1:])
+        self.assert_raises(nutik.UsageError, "an array of shape (7, 50)", capture.render, gains)
+        self.assert_raises(nutik.UsageError, "say start= and exposure=", capture.render, 0.01)
+
+    def test_many_pictures_are_an_array(self):
+        many = nutik.encode(np.zeros((20, 4, 5), np.uint8), rate=100).render_many(starts=[0, 0.1], exposures=0.05)
+        self.assertEqual((many.shape, many[0].shape, [each.shape for each in many]), ((2, 4, 5), (4, 5), [(4, 5)] * 2))
+        self.assertEqual(repr(many), "<nutik.Pictures 2 x 4 x 5, float32>")
+
+    def test_times_are_what_numpy_makes_an_array_of(self):
+        class Labelled:  # as xarray's, whose items are arrays without a dimension
+            def __init__(self, values):
+                self.values = values
+
+            def __array__(self, dtype=None, copy=None):
+                return self.values
+
+            def __iter__(self):
+                return (Labelled(each) for each in self.values)
+
+        times = Labelled(np.arange(20) / 100)
+        capture = nutik.encode(np.zeros((20, 4, 5), np.uint8), times=times, exposures=Labelled(np.full(20, 0.005)))
+        self.assertEqual(capture.times_ns[3].tolist(), [30_000_000, 35_000_000])
+        self.assertEqual(len(capture.render_many(starts=times, exposures=0.01)), 20)
+
 
 class Wheels(support.TestCase):
     def test_a_build_that_failed_may_be_tried_again(self):

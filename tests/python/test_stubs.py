@@ -12,6 +12,7 @@ import sys
 import tempfile
 import typing
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -108,13 +109,52 @@ class Stubs(unittest.TestCase):
         """Those of all docstrings, with a small capture at hand."""
         pictures = np.random.default_rng(1).integers(0, 256, (10, 24, 32), np.uint8)
         count = 0
+        folder = tempfile.TemporaryDirectory(prefix="nutik-")
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(folder.name)
+        nutik.encode(pictures, "clip.tik", rate=100)
+        nutik.encode(pictures, "blocks.tik", rate=100, block_samples=4)
+        whole = Path("blocks.tik").read_bytes()
+        Path("cut.tik").write_bytes(whole[:-2000])
+        Path("list.txt").write_text("--start 0s --exposure 10ms a.png\n", encoding="utf-8")
+        os.mkdir("stills")
+        for k in range(96):
+            still = np.linspace(20, 230, 4096).reshape(64, 64) + np.random.default_rng(k).normal(0, 3, (64, 64))
+            Path(f"stills/{k:02}.pgm").write_bytes(b"P5 64 64 255 " + still.astype(np.uint8).tobytes())
         for module in (nutik, *(each for name, each in sorted(vars(nutik).items())
                                 if name.startswith("_") and inspect.ismodule(each) and each is not _nutik)):
             capture = nutik.encode(pictures, rate=100)
             found = doctest.testmod(module, extraglobs={"nutik": nutik, "np": np, "capture": capture})
             self.assertEqual(found.failed, 0, module.__name__)
             count += found.attempted
-        self.assertGreater(count, 25)
+        self.assertGreater(count, 50)
+
+    def test_docstrings_have_sections(self):
+        """NumPy's: every parameter with its type and what it is; what comes back, what is raised, an example."""
+        for name in nutik.__all__:
+            offered = getattr(nutik, name)
+            if name == "__version__" or inspect.isclass(offered) and issubclass(offered, BaseException):
+                continue
+            members = [(name, offered)] if inspect.isfunction(offered) else [
+                (f"{name}.{part}", getattr(offered, part)) for part in vars(offered) if not part.startswith("_")
+                and inspect.isroutine(getattr(offered, part))]
+            for part, function in members:
+                with self.subTest(part):
+                    doc = inspect.cleandoc(function.__doc__)
+                    sections = dict(zip(*[iter(re.split(r"^(\w+)\n-+\n", doc, flags=re.MULTILINE)[1:])] * 2))
+                    signature = inspect.signature(function)
+                    arguments = [each for each in signature.parameters if each not in ("self", "cls")]
+                    for argument in arguments:
+                        self.assertRegex(sections["Parameters"], rf"(?m)^\*?(\w+, )*{argument}(, \w+)* : .+", argument)
+                    self.assertNotRegex(sections.get("Parameters", ""), r"(?m)^\w+(, \w+)* : [^\n]+\n *(\n|\Z)", "nothing is said")
+                    self.assertTrue("Raises" in sections or not arguments)
+                    if signature.return_annotation not in ("None", None):
+                        self.assertTrue(sections["Returns"].strip())
+                    if "progress" in arguments:
+                        self.assertIn("Ctrl-C", sections["Notes"])
+                    if part == name or arguments and part.startswith("Capture.") and part != "Capture.to_xarray":
+                        self.assertIn(">>>", sections["Examples"])
 
     def test_nothing_is_typed_any(self):
         """What users call, and the engine's stubs."""

@@ -55,7 +55,7 @@ class SessionOfClip : public ::testing::Test {
 TEST_F(SessionOfClip, TellsWhatIsNoBoundByItsValues) {
   const ExposedPicture exposed = forward().render(request_, kFloats);
   CaptureErrors errors;
-  errors.noise_light = 0.01;
+  errors.noise = LightCurve({{0.0, 0.01}, {1.0, 0.01}});
   errors.alignment_pixels = 0.25;
   errors.made = MadeSamples{std::vector<std::uint8_t>(12, 1)};
   const Uncertainty told = Uncertainty::of(exposed, errors);
@@ -85,13 +85,42 @@ TEST(Session, KnowsNoiseByItsModel) {
   capture.noise.camera = CameraNoise{4095, Transfer::linear(), {{NoiseCurve::sensor, 0.001, 1e-4, {}}}};
   const CaptureErrors errors = CaptureErrors::of(capture, false);
   const double at_white = std::sqrt(1e-6 + 1e-4);
-  EXPECT_NEAR(errors.noise_light, at_white, 0.01 * at_white) << "within a deviation of white";
-  EXPECT_NEAR(errors.held_light, 3 * at_white, 1e-3 * at_white) << "down from white";
+  EXPECT_NEAR(errors.noise.most(), at_white, 0.01 * at_white) << "within a deviation of white";
+  EXPECT_NEAR(errors.held.most(), 3 * at_white, 1e-3 * at_white) << "down from white";
   capture.noise.camera.reset();
   capture.noise.tolerance = 6;
-  EXPECT_NEAR(CaptureErrors::of(capture, false).held_light, 6.0 / 65'535, 1e-15);
+  EXPECT_NEAR(CaptureErrors::of(capture, false).held.most(), 6.0 / 65'535, 1e-15);
   EXPECT_NEAR(CaptureErrors::of(capture, true).rounded_light, 0.5 / 65'535, 1e-15);
-  EXPECT_EQ(CaptureErrors::of(capture, true).noise_light, 0.0);
+  EXPECT_TRUE(CaptureErrors::of(capture, true).noise.is_zero());
+}
+
+// The curve bends down, lies below nothing that a sample may be off by, and of powers is that itself: means of samples are
+// off by as many codes as each of them.
+TEST_F(SessionOfClip, WhatIsHeldOfTheDarkIsHeldCloser) {
+  CaptureFormat capture;
+  capture.shape = {1, 1, 1};
+  for (const char* name : {"srgb", "bt709", "gamma:2.2", "gamma:0.5", "linear", "hlg", "pq", "slog3"}) {
+    capture.transfer = Transfer::parse(name);
+    for (const std::uint32_t tolerance : {1u, 4u, 100u}) {
+      capture.noise.tolerance = tolerance;
+      const LightCurve held = CaptureErrors::of(capture, false).held;
+      const auto light = [&](double code) { return capture.transfer.light_of(std::clamp(code / 255, 0.0, 1.0)); };
+      for (int code = 0; code < 256; ++code) {
+        const double up = light(code + tolerance) - light(code), down = light(code) - light(code - int(tolerance));
+        EXPECT_GE(held.at(light(code)) * (1 + 1e-12), std::max(up, down)) << name << ", code " << code;
+        if (name == std::string("gamma:2.2") && code + tolerance < 256) {
+          EXPECT_NEAR(held.at(light(code)), up, 0.02 * up) << "code " << code;
+        }
+      }
+      for (std::size_t i = 2; i < held.points().size(); ++i) {
+        const auto [a, b, c] = std::tuple(held.points()[i - 2], held.points()[i - 1], held.points()[i]);
+        EXPECT_GE((b.off - a.off) / (b.light - a.light) * (1 + 1e-9) + 1e-12, (c.off - b.off) / (c.light - b.light))
+            << name << " at " << i;
+      }
+      EXPECT_EQ(held.most(0.0, 1.0), held.most());
+      EXPECT_LE(held.most(0.0, 0.1), held.most());
+    }
+  }
 }
 
 TEST_F(SessionOfClip, AnswersTheSameReadForwardAndWhole) {
@@ -130,6 +159,32 @@ TEST_F(SessionOfClip, InWholeNumbersOrEqualBlocksIsTheSameReadForwardAndWhole) {
   };
   EXPECT_EQ(codes(Reading::forward, 7, Precision::fixed), codes(Reading::whole, 40, Precision::fixed));
   EXPECT_EQ(codes(Reading::forward, 7, Precision::single_), codes(Reading::whole, 7, Precision::single_));
+}
+
+// Rice's codes alone count the steps of a tolerance: no codec packs worse than these, and all are read.
+TEST_F(SessionOfClip, WithAToleranceEveryCodecPacksAsWellAsRices) {
+  source_.path = scratch_ / "noise";
+  std::filesystem::create_directory(source_.path);
+  test::Random random(3);
+  for (int k = 0; k < 20; ++k) {
+    std::string file = "P5 64 64 255\n";
+    for (int pixel = 0; pixel < 64 * 64; ++pixel) file += static_cast<char>(random.whole(90, 110) + pixel % 64);
+    scratch_.write(format("noise/{:02}.pgm", k), file);
+  }
+  const auto bytes_of = [&](const std::string& codec, std::uint32_t tolerance) {
+    source_.tolerance = tolerance;
+    const std::filesystem::path output = scratch_ / format("{}{}.tik", codec, tolerance);
+    const auto encoded = encode(source_, {output, tik::Codec::parse(codec)}, MemoryBudget::of_machine());
+    SourceRequest again;
+    again.path = output;
+    EXPECT_EQ(Session(again, reference()).compare_with(source_).comparison.values_beyond(), 0u) << codec;
+    return encoded.file_bytes;
+  };
+  for (const std::uint32_t tolerance : {1u, 4u}) {
+    const std::uint64_t rice = bytes_of("rice", tolerance);
+    for (const char* codec : {"lz4", "zstd"}) EXPECT_LE(bytes_of(codec, tolerance), rice + rice / 100) << codec;
+  }
+  EXPECT_LT(bytes_of("lz4", 4), 3 * bytes_of("lz4", 0) / 4);
 }
 
 TEST_F(SessionOfClip, ReadsAClipThatItsOwnerMakes) {

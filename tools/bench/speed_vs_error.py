@@ -2,7 +2,8 @@
 """What each arithmetic and each tolerance costs, in time and in error, in one run.
 
     tools/bench/speed_vs_error.py --build build [--clips FOLDER [--only NAME ...]] [--size 640x360] [--frames 120]
-                                  [--runs 5] [--csv FILE] [--chart FILE.png]
+                                  [--tolerances 0 2 4 8] [--runs 5] [--csv FILE] [--chart FILE.png]
+                                  [--bounds-chart FILE.png]
 
 Captures of different kinds, each encoded with tolerances of 0, 2, 4 and 8 codes, are exposed as a whole in every
 arithmetic that the device has (nutik-cl validate). The error is the largest in light against the scalar reference of
@@ -13,6 +14,9 @@ with OpenCV, on decoded frames, stand beside it.
 Made up are a dense capture (noise everywhere), a sparse one (a ball over what does not move but slowly fades) and
 a mixed one (noise in one half). The chart draws the Pareto front: what nothing else beats in both; and
 the one of devices that have no double.
+
+Lossless captures are also exposed to sRGB codes of 16 bits. The chart of bounds shows for each arithmetic what these are
+off by, its bound, and the bound before errors counted by the light itself: 12.92 · 65535 times that of light.
 """
 
 import json
@@ -33,7 +37,8 @@ WHOLE = ("--start", "0s", "--exposure", "24h")
 PAPER_MS = 6000  # the paper's own program for a picture, on its authors' machine
 REFERENCE_BOUND = 30 * 2.0 ** -53  # of light, docs/explanation/accuracy.md
 # Half a code where codes lie closest in light, the straight toe of sRGB.
-HALF_CODES = {"half a code of 8 bits": 0.5 / 255 / 12.92, "half a code of 16 bits": 0.5 / 65535 / 12.92}
+STEEPEST = 12.92
+HALF_CODES = {"half a code of 8 bits": 0.5 / 255 / STEEPEST, "half a code of 16 bits": 0.5 / 65535 / STEEPEST}
 
 
 def scene(kind, width, height, frames):
@@ -95,6 +100,15 @@ def measure_loop(clip, folder, runs, lossless):
             "total_worst": worst, "total_rms": rms}
 
 
+def measure_codes(program, capture, runs):
+    """Rows of pictures of 16-bit codes."""
+    report = json.loads(output_of(program, "validate", "-q", "--json", "--runs", str(runs), "--depth", "16", *WHOLE, capture))
+    for variant in report["variants"]:
+        yield {"what": f"{variant['precision']}, 16 bits", "tolerance": 0, "render_ms": variant["render_ms"],
+               "codes_worst": variant["worst_16_bit_codes"], "codes_bound": variant["bound_steps"],
+               "codes_bound_before": STEEPEST * 65535 * variant["bound_light"]}
+
+
 def measure_tolerance(program, clip, folder, tolerance, runs, lossless):
     """Rows of one capture: a variant each, and the reference."""
     capture = folder / "capture.tik"
@@ -113,18 +127,20 @@ def measure_tolerance(program, clip, folder, tolerance, runs, lossless):
                "arithmetic_worst": variant["worst_light"], "arithmetic_rms": variant["rms_light"],
                "bound": variant["bound_light"], "capture_worst": own_worst, "capture_rms": own_rms,
                "total_worst": total[0], "total_rms": total[1]}
+    if tolerance == 0:
+        yield from measure_codes(program, capture, runs)
     yield {"what": "reference", "tolerance": tolerance, "render_ms": report["reference_render_ms"],
            "total_worst": own_worst, "total_rms": own_rms}
     capture.unlink()
 
 
-def measure(program, clip, folder, runs):
+def measure(program, clip, folder, runs, tolerances):
     """Rows of one clip."""
     exact = folder / "exact.tik"
     run_once(program, "encode", "--overwrite", "-q", "--codec", "none", clip, exact)
     lossless = light_of(program, folder, exact, "--renderer", "reference")
     exact.unlink()
-    for tolerance in TOLERANCES:
+    for tolerance in tolerances:
         yield from measure_tolerance(program, clip, folder, tolerance, runs, lossless)
     yield measure_loop(clip, folder, runs, lossless)
 
@@ -208,10 +224,53 @@ def chart(path, rows):
     figure.savefig(path, dpi=100)
 
 
+def chart_bounds(path, rows):
+    """Error, bound and earlier bound of 16-bit codes against time, a panel for each clip."""
+    plt = pyplot()
+    from matplotlib.lines import Line2D
+
+    rows = [row for row in rows if row["codes_bound"] is not None]
+    clips = list(dict.fromkeys(row["clip"] for row in rows))
+    columns = min(3, len(clips))
+    figure, panels = plt.subplots(-(-len(clips) // columns), columns, sharex=True, sharey=True, squeeze=False,
+                                  figsize=(4.3 * columns, 3.4 * -(-len(clips) // columns) + 0.8), layout="constrained")
+    colours = dict(zip(PRECISIONS, ("#0072b2", "#d55e00", "#009e73", "#cc79a7")))
+    marks = (("codes_worst", "o", "measured"), ("codes_bound", "_", "bound"),
+             ("codes_bound_before", "x", "bound before, by all light"))
+    for panel, clip in zip(panels.flat, clips):
+        own = [row for row in rows if row["clip"] == clip]
+        for row in own:
+            colour = colours[row["what"].split(",")[0]]
+            panel.plot([row["render_ms"]] * 2, [row["codes_worst"], row["codes_bound_before"]], color=colour, linewidth=0.8)
+            for key, marker, _ in marks:
+                panel.plot(row["render_ms"], row[key], marker=marker, color=colour, markersize=9, markeredgewidth=1.8)
+        panel.axhline(0.5, color="#606060", linestyle=":", linewidth=1)
+        panel.text(0.98, 0.6, "half a code: what auto takes lies below", fontsize=8, color="#606060", ha="right",
+                   transform=panel.get_yaxis_transform())
+        panel.set_xscale("log")
+        panel.set_yscale("log")
+        panel.grid(color="#e4e4e4", linewidth=0.5)
+        panel.set_title(f"{clip}, {own[0]['size']}", fontsize=11)
+        panel.set_xlabel("milliseconds a render")
+    for place in range(len(clips), panels.size):
+        panels.flat[place].set_visible(False)
+    for line in panels:
+        line[0].set_ylabel("16-bit sRGB codes")
+    handles = [Line2D([], [], color=colour, linewidth=3, label=name) for name, colour in colours.items()]
+    handles += [Line2D([], [], marker=marker, color="black", linestyle="none", markersize=9, label=name)
+                for _, marker, name in marks]
+    legend_share = 0.7 / figure.get_figheight()
+    figure.get_layout_engine().set(rect=(0, legend_share, 1, 1 - legend_share))
+    figure.legend(handles=handles, loc="lower center", ncols=4, fontsize=9, frameon=False)
+    figure.savefig(path, dpi=100)
+
+
 def main():
     parser = command_line(__doc__, runs=5, chart=True)
     parser.add_argument("--clips", type=pathlib.Path, help="folder of recorded clips; left out where it is missing")
     parser.add_argument("--only", nargs="*", default=CLIPS, metavar="NAME", help="of them")
+    parser.add_argument("--tolerances", type=int, nargs="*", default=TOLERANCES, metavar="CODES")
+    parser.add_argument("--bounds-chart", type=pathlib.Path, metavar="FILE.png")
     parser.add_argument("--size", default="640x360")
     parser.add_argument("--frames", type=int, default=120)
     arguments = parser.parse_args()
@@ -219,7 +278,7 @@ def main():
 
     everything = []
     print(f"{'clip':20} {'what':18} {'tol.':>4} {'render ms':>9} {'MB read':>8} {'arithmetic':>10} {'bound':>8} "
-          f"{'capture':>8} {'total':>8} {'RMS':>8}")
+          f"{'capture':>8} {'total':>8} {'RMS':>8}  of 16 bits: {'codes':>8} {'bound':>8} {'before':>8}")
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         clips = {}
@@ -230,15 +289,18 @@ def main():
             clips |= {pathlib.Path(name).stem: arguments.clips / name for name in arguments.only}
         for name, clip in clips.items():
             size = " × ".join(map(str, size_of(clip)))
-            for row in measure(program, clip, folder, arguments.runs):
+            for row in measure(program, clip, folder, arguments.runs, arguments.tolerances):
                 figures = " ".join(f"{row[key]:{width}.{digits}g}" if key in row else " " * width for key, width, digits in (
                     ("read_mb", 8, 4), ("arithmetic_worst", 10, 2), ("bound", 8, 2), ("capture_worst", 8, 2),
-                    ("total_worst", 8, 2), ("total_rms", 8, 2)))
+                    ("total_worst", 8, 2), ("total_rms", 8, 2), ("codes_worst", 22, 2), ("codes_bound", 8, 2),
+                    ("codes_bound_before", 8, 2)))
                 print(f"{name:20} {row['what']:18} {row['tolerance']:4} {row['render_ms']:9.2f} {figures}", flush=True)
                 everything.append({"clip": name, "size": size, **row})
     columns = {key: None for row in everything for key in row}
     everything = [columns | row for row in everything]
     write_outputs(arguments, everything, chart)
+    if arguments.bounds_chart:
+        chart_bounds(arguments.bounds_chart, everything)
 
 
 if __name__ == "__main__":

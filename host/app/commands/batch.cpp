@@ -70,7 +70,6 @@ Options line_options(const std::string& text, const Options& batch, const std::o
     throw UsageError(format("--transfer holds for all exposures where --noise does, whose light it tells: "
                             "nutik-cl batch --transfer {} …", options.text("transfer")));
   }
-  if (options.bounds) throw UsageError("--bounds goes with one picture: nutik-cl expose --bounds MAP.tif …");
   if (options.every || options.count) {
     throw UsageError("--every and --count make a series; a line of a batch is one picture");
   }
@@ -124,7 +123,14 @@ class Batch {
       }
       const auto [earlier, is_new] = line_of_output_.try_emplace(led_to(output), listed.line);
       if (!is_new) throw UsageError(format("{} is the picture of line {} already", output.string(), earlier->second));
-      if (line.skip_existing) {
+      const BoundsMaps maps(line, request.combine, false, "a picture");
+      if (maps.are_asked()) {
+        const auto [its, is_first] = line_of_output_.try_emplace(led_to(maps.of(0)), listed.line);
+        if (!is_first && its->second != listed.line)
+          throw UsageError(format("{} is written by line {} already", maps.of(0).string(), its->second));
+        maps.check(0, input_files(line), output, replacing(line));
+      }
+      if (line.skip_existing && !maps.are_asked()) {
         require_recipes(line, output);
         if (is_made(output, stated_precision(line),
                     [&](const std::string& precision) { return recipe_text(line, precision); })) {
@@ -134,8 +140,8 @@ class Batch {
       }
       Session& session = session_of(line.operands.front());
       listed_->add(request, output_format(line.picture, output, session.format()),
-                   [this, number = listed.line, line, output](const ListedPictures::Take& take) {
-                     reported(number, [&] { write(number, line, output, take()); });
+                   [this, number = listed.line, line, output, maps](const ListedPictures::Take& take) {
+                     reported(number, [&] { write(number, line, output, maps, take()); });
                    });
     });
   }
@@ -155,14 +161,23 @@ class Batch {
   [[nodiscard]] bool was_imprecise() const { return was_imprecise_; }
   // The lines whose pictures are missing. After finish().
   [[nodiscard]] const std::set<std::size_t>& failed_lines() const { return failed_lines_; }
+  // Those that were made, in the order of the list.
+  [[nodiscard]] const Json& pictures() const { return exposures_told_; }
   // What each clip was taken for.
   [[nodiscard]] const Json& clips() const { return clips_; }
   // After an exposure that did not fail.
   [[nodiscard]] std::string renderer_name() const { return devices_->renderer().name(); }
 
  private:
-  void write(std::size_t number, const Options& line, const std::filesystem::path& output, ExposedPicture exposed) {
+  void write(std::size_t number, const Options& line, const std::filesystem::path& output, const BoundsMaps& maps,
+             ExposedPicture exposed) {
     tally_.add(exposed);
+    maps.write(0, exposed);
+    Json told{{"line", number}, {"picture", output.string()}};
+    if (maps.are_asked()) told["bounds_map"] = maps.of(0).string();
+    told["precision"] = tally_.precision();
+    told.update(uncertainty_json(exposed.uncertainty, exposed.output));
+    exposures_told_.push_back(std::move(told));
     for (const std::string& warning : exposure_warnings(exposed))
       print_warning(format("{}:{}: {}", list_title_, number, warning));
     if (options_.verbose && !options_.json) print_line(format("{}: {}", output.string(), tally_.report()));
@@ -223,7 +238,7 @@ class Batch {
   std::size_t exposures_;
   std::optional<Session> session_;
   std::optional<ListedPictures> listed_;
-  Json clips_ = Json::array();
+  Json clips_ = Json::array(), exposures_told_ = Json::array();
   std::map<std::filesystem::path, std::size_t> line_of_input_, line_of_output_;
   std::string last_capture_;
   std::mutex reporting_;
@@ -264,7 +279,7 @@ int run_batch(const Options& options) {
     Json json{{"exposures", exposures.size()}, {"failed_lines", batch.failed_lines()}, {"skipped", batch.skipped()}};
     json.update(batch.tally().saturation_json());
     json.update(batch.tally().uncertainty_json());
-    json.update({{"clips", batch.clips()}, {"seconds", seconds}, {"notes", batch.tally().notes()},
+    json.update({{"pictures", batch.pictures()}, {"clips", batch.clips()}, {"seconds", seconds}, {"notes", batch.tally().notes()},
                  {"warnings", printed_warnings()}});
     print_json(json);
   } else if (!options.quiet) {

@@ -4,6 +4,7 @@
 
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
+#include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "capture/error.hpp"
@@ -20,7 +21,6 @@ namespace nutik::app {
 int run_series(const Options& options);
 
 int run_expose(const Options& options) {
-  if (options.every && options.bounds) throw UsageError("--bounds goes with one picture, not with --every");
   if (options.every) return run_series(options);
   if (options.count) throw UsageError("--count goes with --every: a series needs both a step and a number");
   if (options.frames) throw UsageError("--frames chooses pictures of a series; add --every, or leave it out");
@@ -30,39 +30,35 @@ int run_expose(const Options& options) {
     throw UsageError(format("{} numbers the pictures of a series, and this is one: add --every, or name it without %",
                             output.string()));
   const ExposureRequest request = exposure_request(options);
-  std::vector<std::string> inputs = input_files(options);
+  const std::vector<std::string> inputs = input_files(options);
   check_output(output, OutputKind::picture, inputs, replacing(options));
-  inputs.push_back(output.string());
-  if (options.bounds) {
-    if (names_standard_output(*options.bounds))
-      throw UsageError("--bounds writes a file: standard output has one picture");
-    check_output(*options.bounds, OutputKind::picture, inputs, replacing(options));
-    static_cast<void>(value_type_for(*options.bounds, Depth::floating, ValueType::light32, 1));
-  }
+  const BoundsMaps maps(options, request.combine, false, "a picture");
+  maps.check(0, inputs, output, replacing(options));
 
   PictureRecipe recipe(recipe_sources(options));
-  if (options.skip_existing && !options.bounds) {
+  if (options.skip_existing && !maps.are_asked()) {
     require_recipes(options, output);
     if (is_made(output, stated_precision(options), [&](const std::string& precision) { return recipe.text(precision); }))
       return tell_all_made(options, output, 1, "picture");
   }
   Session session = open_session(options, {.reading = Reading::forward});
   RenderControl control;
-  control.maps_bounds = options.bounds.has_value();
+  control.progress = progress_bar("exposing", options.quiet);
   const ExposedPicture exposed =
       session.render(request, output_format(options.picture, output, session.format()), control);
+  control.progress = {};  // the bar is gone before anything is said
   tally.add(exposed);
   print_warnings(exposure_warnings(exposed));
   const std::string made = recipe.text(tally.precision(), {}, tally.error_bound());
   write_picture(output, exposed.picture, made, file_wishes(options.picture));
-  if (exposed.bounds) write_picture(*options.bounds, *exposed.bounds, {});  // no recipe: `again` would make the picture
+  maps.write(0, exposed);
 
   const ExposureFigures& figures = exposed.figures;
   const Shape shape =
       written_shape(output, exposed.picture.shape, exposed.picture.pixel_aspect, file_wishes(options.picture));
   const std::uint64_t samples = figures.timeline.sample_count();
   Answer answer{{{"picture", output.string()}}};
-  if (options.bounds) answer.json["bounds_map"] = *options.bounds;
+  if (maps.are_asked()) answer.json["bounds_map"] = maps.of(0).string();
   tally.wrote(figures.capture, shape);
   answer.json.update(shape_json(shape));
   answer.json.update(

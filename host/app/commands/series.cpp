@@ -21,7 +21,9 @@ int run_series(const Options& options) {
   const SeriesRequest series = series_request(options);
   const std::vector<std::string> inputs = input_files(options);
   check_output(names[0], OutputKind::picture, inputs, replacing(options));  // before a clip is read
-  if (options.skip_existing) require_recipes(options, names[0]);
+  const BoundsMaps maps(options, request.combine, true, "a series");
+  const bool skips = options.skip_existing && !maps.are_asked();
+  if (skips) require_recipes(options, names[0]);
   PictureRecipe recipe(recipe_sources(options));
   const OutputRequest wishes = options.picture;
   Session session = open_session(options, {.besides = PictureQueue::needs([&](const CaptureFormat& capture) {
@@ -31,13 +33,16 @@ int run_series(const Options& options) {
     return OwnRecipe{{{"start", picture.start.text()}}, {}};
   };
   std::vector<SeriesPicture> pictures;
+  std::vector<std::uint64_t> numbers;  // of them, where none is left out
   const std::vector<StatedTime> starts = starts_of(series, request, session.timeline());
   for (const std::uint64_t k : chosen_numbers(series.numbers, starts.size(), "exposures", "series")) {
     pictures.push_back({starts[k], names[k]});
     check_output(pictures.back().path, OutputKind::picture, inputs, replacing(options));
+    maps.check(k, inputs, names[k], replacing(options));
+    numbers.push_back(k);
   }
   const std::size_t wanted = pictures.size();
-  if (options.skip_existing) {
+  if (skips) {
     std::erase_if(pictures, [&](const SeriesPicture& picture) {
       return is_made(picture.path, stated_precision(options), [&](const std::string& precision) {
         return recipe.text(precision, own_recipe_of(picture));
@@ -49,21 +54,27 @@ int run_series(const Options& options) {
 
   ExposureTally tally;
   std::optional<ExposureFigures> first;
+  std::vector<Json> told;
   {
     WarningsAtEnd warnings;
     make_series(session, request, pictures, output, file_wishes(wishes),
                 progress_bar("exposing", options.quiet, progress_lines(options)), [&](std::uint64_t k, ExposedPicture& exposed) {
                   tally.add(exposed);
                   warnings.add(pictures[k].path.string(), exposure_warnings(exposed));
+                  maps.write(numbers[k], exposed);
+                  told.push_back(uncertainty_json(exposed.uncertainty, exposed.output));
                   if (k == 0) first = std::move(exposed.figures);
                   return recipe.text(tally.precision(), own_recipe_of(pictures[k]), tally.error_bound());
                 });
   }
 
   Answer answer{{{"pictures", Json::array()}}};
-  for (const SeriesPicture& picture : pictures) {
-    answer.json["pictures"].push_back({{"picture", picture.path.string()}, {"start", picture.start.text()},
-                                       {"start_ns", moment_ns(picture.start, session.timeline())}});
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    answer.json["pictures"].push_back({{"picture", pictures[k].path.string()},
+                                       {"start", pictures[k].start.text()},
+                                       {"start_ns", moment_ns(pictures[k].start, session.timeline())}});
+    if (maps.are_asked()) answer.json["pictures"].back()["bounds_map"] = maps.of(numbers[k]).string();
+    answer.json["pictures"].back().update(told[k]);
   }
   const Shape shape =
       written_shape(names[0], session.format().shape, session.format().pixel_aspect, file_wishes(wishes));

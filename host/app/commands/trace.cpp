@@ -8,6 +8,7 @@
 
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
+#include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "capture/error.hpp"
@@ -217,9 +218,10 @@ struct Traced {
     return traced;
   }
 
-  [[nodiscard]] TracedExposure follow(Session& session, const ExposureRequest& request) const {
-    return pixel ? session.trace(request, TracedPixel{pixel->first, pixel->second})
-                 : session.trace(request, TracedTag{tag});
+  [[nodiscard]] TracedExposure follow(Session& session, const ExposureRequest& request, bool quiet) const {
+    const ReportedProgress progress = progress_bar("tracing", quiet);
+    return pixel ? session.trace(request, TracedPixel{pixel->first, pixel->second}, progress)
+                 : session.trace(request, TracedTag{tag}, progress);
   }
 
   [[nodiscard]] std::string text(const Trace& trace) const {
@@ -282,7 +284,7 @@ int run_trace(const Options& options) {
   }
 
   Session session = open_session(input, options, make_devices(options));
-  const TracedExposure exposure = traced.follow(session, request);
+  const TracedExposure exposure = traced.follow(session, request, options.quiet);
   print_warnings(exposure.warnings);
   const std::vector<Trace>& traces = exposure.traces;
   const bool is_plain = !options.functions;

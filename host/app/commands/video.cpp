@@ -27,7 +27,9 @@ int run_video(const Options& options) {
   const VideoOutput output(output_name(options, "video", format("-{}fps.mp4", rate)), request.rate,
                            options.video_codec, options.picture);
   const std::vector<std::string> inputs = input_files(options);
-  if (options.skip_existing) require_recipes(options, output.writes_stills() ? output.still(0) : output.path());
+  const BoundsMaps maps(options, request.exposure.combine, true, "a video");
+  const bool skips = options.skip_existing && !maps.are_asked();
+  if (skips) require_recipes(options, output.writes_stills() ? output.still(0) : output.path());
   output.check({}, inputs, replacing(options));  // a container's name, before the clip is read
 
   Session session = open_session(
@@ -38,12 +40,14 @@ int run_video(const Options& options) {
   Frames frames = frames_of(request, session.timeline());
   if (!frames.warning.empty()) print_warning(frames.warning);
   output.check(frames.numbers, inputs, replacing(options));
+  for (const std::uint64_t frame : frames.numbers)
+    maps.check(frame, inputs, output.writes_stills() ? output.still(frame) : output.path(), replacing(options));
   PictureRecipe recipe(output.writes_stills() ? recipe_sources(options) : std::nullopt);
   const auto own_recipe_of = [&](std::uint64_t frame) {
     return frame_recipe(request, frames, frame, output.still(frame).stem().string() + ".fn");
   };
   const std::size_t wanted = frames.numbers.size();
-  if (options.skip_existing) {
+  if (skips) {
     std::erase_if(frames.numbers, [&](std::uint64_t frame) {
       return is_made(output.still(frame), stated_precision(options),
                      [&](const std::string& precision) { return recipe.text(precision, own_recipe_of(frame)); });
@@ -56,6 +60,7 @@ int run_video(const Options& options) {
     return make_video(session, request, frames, output, progress_bar("exposing", options.quiet, progress_lines(options)),
                       [&](std::uint64_t frame, const Exposure&, const ExposedPicture& exposed) {
                         tally.add(exposed);
+                        maps.write(frame, exposed);
                         codes = codes_text(exposed.figures.capture, exposed.output);
                         warnings.add(format("frame {}", frame), exposure_warnings(exposed));
                         return output.writes_stills()
@@ -71,6 +76,7 @@ int run_video(const Options& options) {
 
   const auto [start_ns, end_ns] = frames.span();
   Answer answer{{{"video", name}, {"kind", output.kind()}}};
+  if (maps.are_asked()) answer.json["bounds_maps"] = *options.picture.bounds;
   tally.wrote(session.format(), shape);
   answer.json.update(shape_json(shape));
   answer.json.update({{"frames", frames.numbers.size()},

@@ -49,6 +49,28 @@ bool writes_to_standard_output(const Options& options) {
   return writes;
 }
 
+BoundsMaps::BoundsMaps(const Options& options, Combine combine, bool has_many, std::string_view who) {
+  if (!options.picture.bounds) return;
+  stated_ = *options.picture.bounds;
+  if (names_standard_output(*stated_)) throw UsageError("--bounds writes a file: standard output has one picture");
+  if (combine != Combine::integral)
+    throw UsageError("--bounds maps what sums may be off by, and --combine adds nothing up");
+  static_cast<void>(value_type_for(*stated_, Depth::floating, ValueType::light32, 1));
+  if (has_many) names_.emplace(*stated_, who);
+}
+
+void BoundsMaps::check(std::uint64_t number, std::vector<std::string> inputs, const std::filesystem::path& picture,
+                       Replacing replacing) const {
+  if (!stated_) return;
+  inputs.push_back(picture.string());
+  check_output(of(number), OutputKind::picture, inputs, replacing);
+}
+
+void BoundsMaps::write(std::uint64_t number, const ExposedPicture& exposed) const {
+  // Without a recipe: `again` would make the picture.
+  if (!exposed.bounds.empty()) write_layers(of(number), exposed.bounds);
+}
+
 PictureNames::PictureNames(const std::filesystem::path& pattern, std::string_view who)
     : folder_(pattern.parent_path()) {
   const auto name = NumberedName::parse(pattern.filename().string());

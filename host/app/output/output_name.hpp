@@ -11,6 +11,7 @@
 
 #include "features/schema/options.hpp"
 #include "media/formats/numbered_name.hpp"
+#include "session/exposed_picture.hpp"
 #include "session/output_check.hpp"
 
 namespace nutik::app {
@@ -42,6 +43,26 @@ class PictureNames {
  private:
   std::filesystem::path folder_;
   NumberedName name_;
+};
+
+// Where --bounds puts the map of each picture: a file, or with `has_many` one with the picture's number.
+class BoundsMaps {
+ public:
+  // Throws UsageError where it cannot be told what each pixel is off by, or a name is that of no file of floats, or has no
+  // place for a number; `who` needs one.
+  BoundsMaps(const Options& options, Combine combine, bool has_many, std::string_view who);
+
+  [[nodiscard]] bool are_asked() const { return stated_.has_value(); }
+  [[nodiscard]] std::filesystem::path of(std::uint64_t number) const { return names_ ? (*names_)[number] : *stated_; }
+  // Throws UsageError where it is an input or the picture itself, or may not be replaced.
+  void check(std::uint64_t number, std::vector<std::string> inputs, const std::filesystem::path& picture,
+             Replacing replacing) const;
+  // Where it is asked for. Throws OutputError.
+  void write(std::uint64_t number, const ExposedPicture& exposed) const;
+
+ private:
+  std::optional<std::filesystem::path> stated_;
+  std::optional<PictureNames> names_;
 };
 
 // The files that a command reads, each still of a sequence among them: no output may replace one. Its first operand is

@@ -134,17 +134,17 @@ Json ExposureTally::saturation_json() const {
   return {{"saturated_below_pixels", saturation_.below}, {"saturated_above_pixels", saturation_.above}};
 }
 
-Json ExposureTally::uncertainty_json() const {
-  if (!worst_.bounds.error) return Json::object();  // nothing was exposed
+Json uncertainty_json(const Uncertainty& uncertainty, const OutputFormat& output) {
+  if (!uncertainty.bounds.error) return Json::object();  // nothing was exposed
   const auto json_of = [&](const UncertaintyTerm& term) {
     Json json;
-    for (const UncertaintyTerm::Field& field : term.fields(worst_output_))
+    for (const UncertaintyTerm::Field& field : term.fields(output))
       std::visit([&](const auto& each) { json[std::string(field.first)] = each; }, field.second);
     return json;
   };
   Json terms = Json::array();
-  for (const UncertaintyTerm& term : worst_.terms) terms.push_back(json_of(term));
-  return {{"uncertainty", {{"scale", worst_.scale}, {"terms", terms}, {"bounds", json_of(worst_.bounds)}}}};
+  for (const UncertaintyTerm& term : uncertainty.terms) terms.push_back(json_of(term));
+  return {{"uncertainty", {{"scale", uncertainty.scale}, {"terms", terms}, {"bounds", json_of(uncertainty.bounds)}}}};
 }
 
 std::vector<std::string> ExposureTally::notes() const {

@@ -52,6 +52,9 @@ struct Answer {
 int tell(const Options& options, const std::filesystem::path& output, const Answer& answer);
 int tell(const Options& options, const std::filesystem::path& output, const Answer& answer, bool was_named);
 
+// `uncertainty`, of a picture in this format.
+[[nodiscard]] Json uncertainty_json(const Uncertainty& uncertainty, const OutputFormat& output);
+
 // What is said of one exposure, or of many together, since it is there.
 class ExposureTally {
  public:
@@ -70,8 +73,8 @@ class ExposureTally {
   // hold light.
   [[nodiscard]] std::string saturation_text() const;
   [[nodiscard]] Json saturation_json() const;
-  // `uncertainty`: of the picture whose bounds are the largest.
-  [[nodiscard]] Json uncertainty_json() const;
+  // Of the picture whose bounds are the largest.
+  [[nodiscard]] Json uncertainty_json() const { return app::uncertainty_json(worst_, worst_output_); }
   // That codes to be seen end at white, where those of the capture go on behind it; square_notes() of the last one.
   [[nodiscard]] std::vector<std::string> notes() const;
 

@@ -249,8 +249,10 @@ tik::Header joined_header(const std::vector<Piece>& pieces, const Timeline& time
   header.shutter_angle = timeline.shutter_angle();
   // A word for people, and a field for programs: whether any block may be packed so.
   const std::string packed = tik::Codec::parse("rice").text();
-  if (std::ranges::any_of(pieces, [&](const Piece& piece) { return piece.header.codec == packed; }))
-    header.codec = packed;
+  for (const Piece& piece : pieces) {
+    const std::string& codec = piece.header.codec;
+    if (codec == packed || header.codec == tik::Codec().text()) header.codec = codec;
+  }
   std::erase_if(header.facts, [](std::string_view fact) { return fact.starts_with(kJoined); });
   for (std::string& fact : header.facts) {
     const auto state = [&](const std::string& text) { fact.replace(0, statement_of(fact).size(), text); };

@@ -431,9 +431,10 @@ constexpr Option kRows[] = {
      "bits of the picture: 8, 16, float, double (.tif, .npy) or half (.exr): light as it is, with negatives (default: "
      "the capture's own, 8 for .jpg, float for .exr, .pfm and .npy)",
      "8 16 half float double"}),
-    {0, "bounds", "MAP.tif", output, bit(Id::expose), take<In<&Options::bounds>>,
-     "also write what each pixel may be off by: as floats (.tif, .exr, .pfm, .npy): in codes, or in light if the "
-     "picture holds light"},
+    {0, "bounds", "MAP.tif", output, set_of(Id::expose, Id::video),
+     take<InPicture<&OutputRequest::bounds>>,
+     "also write what each pixel may be off by, in codes or in light, and each term of it: as floats, in layers of an "
+     ".exr, pages of a .tif, along the first axis of a .npy; of many pictures with a number, map-%04d.tif"},
     known(Setting::quality, {0, "quality", "N", exposure, kExposesFreely | set_of(Id::plate, Id::study),
      take_whole<InPicture<&OutputRequest::quality>, 1, 100>,
      "quality from 1 to 100: of .jpg pictures, and of films whose codec loses something (default: 90 of .jpg, of "
@@ -454,7 +455,8 @@ constexpr Option kRows[] = {
      "srgb source linear bt709 gamma:"}),
     {0, "codec", "NAME", encoding, bit(Id::encode), take<In<&Options::codec>>,
      "how blocks are packed: none (large, quickest to expose), rice (quick to pack and unpack), lz4, zstd (small)"
-     " or zstd:1 … zstd:19 (smaller, slower) (default: rice)",
+     " or zstd:1 … zstd:19 (smaller, slower); with a tolerance rice also packs blocks that it makes smaller than lz4 and "
+     "zstd (default: rice)",
      "none rice lz4 zstd zstd:"},
     {0, "activity", "MAP.png", output, bit(Id::info), take<In<&Options::activity>>,
      "also write how often each pixel changes: a grey picture, black never, white most often, between them sRGB"},

@@ -103,7 +103,7 @@ struct Options {
   bool counts_redrawn = false;
 
   // What is written.
-  Text output, activity, bounds;
+  Text output, activity;
   OutputRequest picture;
   bool points = false;  // of a function file, printed
   bool json = false, no_recipe = false, quiet = false, verbose = false;

@@ -1,4 +1,4 @@
-// OpenEXR: one part of scan lines, channels R, G and B or Y, packed by ZIP without loss.
+// OpenEXR: one part of scan lines, channels R, G and B or Y, and of layers name.Y, packed by ZIP without loss.
 #include <ImathBox.h>
 #include <ImfChannelList.h>
 #include <ImfChromaticities.h>
@@ -185,6 +185,24 @@ void check_attributes(std::string_view bytes) {
 
 }  // namespace
 
+namespace {
+
+// With the channels of a buffer.
+void write_file(OutputFile& file, const Imf::Header& header, const Imf::FrameBuffer& buffer) {
+  FileStream stream(file);
+  try {
+    Imf::OutputFile output(stream, header, 0);
+    output.setFrameBuffer(buffer);
+    output.writePixels(header.dataWindow().max.y + 1);
+  } catch (const std::exception& error) {
+    stream.check();
+    throw OutputError(format("the OpenEXR file cannot be written: {}", error.what()));
+  }
+  stream.check();
+}
+
+}  // namespace
+
 void write_exr(OutputFile& file, const Picture& picture, const std::string& text, bool as_half) {
   const Shape& shape = picture.shape;
   Imf::Header header = header_of(picture, text);
@@ -201,16 +219,21 @@ void write_exr(OutputFile& file, const Picture& picture, const std::string& text
     header.channels().insert(name, Imf::Channel(type));
     buffer.insert(name, Imf::Slice(type, first + channel * value, pixel, pixel * shape.width));
   }
-  FileStream stream(file);
-  try {
-    Imf::OutputFile output(stream, header, 0);
-    output.setFrameBuffer(buffer);
-    output.writePixels(static_cast<int>(shape.height));
-  } catch (const std::exception& error) {
-    stream.check();
-    throw OutputError(format("the OpenEXR file cannot be written: {}", error.what()));
+  write_file(file, header, buffer);
+}
+
+void write_exr_layers(OutputFile& file, std::span<const PictureLayer> layers) {
+  Imf::Header header = header_of(layers.front().values, {});
+  Imf::FrameBuffer buffer;
+  for (const PictureLayer& layer : layers) {
+    header.insert(layer.name, Imf::StringAttribute(layer.text));
+    const std::string name = &layer == layers.data() ? "Y" : layer.name + ".Y";
+    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    // OpenEXR only reads it.
+    auto* first = reinterpret_cast<char*>(const_cast<std::byte*>(layer.values.bytes.data()));
+    buffer.insert(name, Imf::Slice(Imf::FLOAT, first, sizeof(float), sizeof(float) * layer.values.shape.width));
   }
-  stream.check();
+  write_file(file, header, buffer);
 }
 
 namespace {
@@ -218,8 +241,10 @@ namespace {
 // The channels of a picture of light, in a raster's order. Throws where they are none.
 std::vector<std::string> channels_of(const Imf::ChannelList& channels) {
   std::string all;
-  for (auto channel = channels.begin(); channel != channels.end(); ++channel)
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+    if (channels.findChannel("Y") != nullptr && std::string_view(channel.name()).ends_with(".Y")) continue;  // a layer's
     all += (all.empty() ? "" : ", ") + std::string(channel.name());
+  }
   if (all == "B, G, R") return {"R", "G", "B"};
   if (!all.empty() && all.find(',') == std::string::npos) return {all};
   throw InputError(format("its channels are {}; R, G and B, or one of grey, are read, transparency is not", all));

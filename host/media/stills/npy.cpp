@@ -104,10 +104,14 @@ Picture read_npy(std::span<const std::byte> file, const std::string& name, std::
   return picture;
 }
 
-std::string npy_text(const Picture& picture) {
+namespace {
+
+// Up to the values; `axes` stand before those of a picture.
+std::string front_text(const Picture& picture, const std::string& axes) {
   const Shape& shape = picture.shape;
-  std::string front = format("{{'descr': '{}f{}', 'fortran_order': False, 'shape': ({}, {}{}), }}", kOrder,
-                             value_bytes(picture.type), shape.height, shape.width, shape.channels == 3 ? ", 3" : "");
+  std::string front =
+      format("{{'descr': '{}f{}', 'fortran_order': False, 'shape': ({}{}, {}{}), }}", kOrder, value_bytes(picture.type),
+             axes, shape.height, shape.width, shape.channels == 3 ? ", 3" : "");
   const std::size_t length_end = kLengthAt + 2;
   const std::size_t begin = (length_end + front.size()) / kAlignment * kAlignment + kAlignment;
   front.resize(begin - length_end - 1, ' ');
@@ -115,8 +119,24 @@ std::string npy_text(const Picture& picture) {
   std::string text(kMagic);
   for (const std::size_t byte : {std::size_t{1}, std::size_t{0}, front.size() % 256, front.size() / 256})
     text.push_back(static_cast<char>(byte));
-  text += front;
+  return text + front;
+}
+
+void append_values(std::string& text, const Picture& picture) {
   text.append(reinterpret_cast<const char*>(picture.bytes.data()), picture.bytes.size());
+}
+
+}  // namespace
+
+std::string npy_text(const Picture& picture) {
+  std::string text = front_text(picture, "");
+  append_values(text, picture);
+  return text;
+}
+
+std::string npy_text(std::span<const PictureLayer> layers) {
+  std::string text = front_text(layers.front().values, format("{}, ", layers.size()));
+  for (const PictureLayer& layer : layers) append_values(text, layer.values);
   return text;
 }
 

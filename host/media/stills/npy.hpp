@@ -8,6 +8,7 @@
 #include <string>
 
 #include "capture/picture.hpp"
+#include "media/stills/picture_layer.hpp"
 
 namespace nutik {
 
@@ -27,5 +28,7 @@ struct NpyFront {
 
 // A picture of light as [height, width] or [height, width, 3].
 [[nodiscard]] std::string npy_text(const Picture& picture);
+// Several as [layers, height, width].
+[[nodiscard]] std::string npy_text(std::span<const PictureLayer> layers);
 
 }  // namespace nutik

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "capture/picture.hpp"
+#include "media/stills/picture_layer.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik {
@@ -59,6 +60,8 @@ void write_jpeg(OutputFile& file, const Picture& picture, const std::string& tex
 // reads it bit for bit; what values mean as an ICC profile, pixels that are not square as resolution. `text` becomes
 // the ImageDescription; none where it is empty. Throws OutputError.
 void write_tiff(const std::filesystem::path& path, const Picture& picture, const std::string& text);
+// Each layer is a page, described by its text.
+void write_tiff(const std::filesystem::path& path, std::span<const PictureLayer> layers);
 
 // The ImageDescription of the first picture; nothing where there is none. Throws InputError where the file is no
 // TIFF.

@@ -12,6 +12,7 @@
 #include "capture/primaries.hpp"
 #include "capture/transfer.hpp"
 #include "media/clip.hpp"
+#include "media/stills/picture_layer.hpp"
 #include "media/stills/stills_table.hpp"
 #include "system/output_file.hpp"
 
@@ -39,6 +40,7 @@ struct PngTags {
 [[nodiscard]] unsigned exif_orientation(const std::filesystem::path& jpeg);
 
 void write_exr(OutputFile& file, const Picture& picture, const std::string& text, bool as_half);
+void write_exr_layers(OutputFile& file, std::span<const PictureLayer> layers);
 // Light in light32, and what its file says of it. Throws InputError where it has other channels than R, G and B or one,
 // or other pixels than its picture.
 struct ExrPicture {

@@ -31,45 +31,67 @@ std::optional<std::string> read_tiff_description(const std::filesystem::path& pa
   return text;
 }
 
-void write_tiff(const std::filesystem::path& path, const Picture& picture, const std::string& text) {
-  TIFFSetErrorHandler(nullptr);  // what matters is thrown
-  TIFFSetWarningHandler(nullptr);
-  const std::unique_ptr<TIFF, CloseTiff> tiff(
-      TIFFOpen(path.c_str(), picture.bytes.size() > kLargestClassicTiff ? "w8" : "w"));
-  const auto fail = [&] { throw OutputError(format("the TIFF cannot be written: {}", path.string())); };
-  if (!tiff) fail();
+namespace {
+
+// A page; false where it cannot be written.
+bool write_page(TIFF* tiff, const Picture& picture, const std::string& text) {
   const Shape& shape = picture.shape;
   const std::size_t bytes = value_bytes(picture.type);
-  TIFFSetField(tiff.get(), TIFFTAG_IMAGEWIDTH, shape.width);
-  TIFFSetField(tiff.get(), TIFFTAG_IMAGELENGTH, shape.height);
-  TIFFSetField(tiff.get(), TIFFTAG_SAMPLESPERPIXEL, shape.channels);
-  TIFFSetField(tiff.get(), TIFFTAG_BITSPERSAMPLE, static_cast<int>(bytes * 8));
-  TIFFSetField(tiff.get(), TIFFTAG_SAMPLEFORMAT,
+  TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, shape.width);
+  TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, shape.height);
+  TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, shape.channels);
+  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, static_cast<int>(bytes * 8));
+  TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT,
                holds_codes(picture.type) ? SAMPLEFORMAT_UINT : SAMPLEFORMAT_IEEEFP);
-  TIFFSetField(tiff.get(), TIFFTAG_PHOTOMETRIC,
+  TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC,
                shape.channels == 3 ? PHOTOMETRIC_RGB : PHOTOMETRIC_MINISBLACK);
-  TIFFSetField(tiff.get(), TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
-  TIFFSetField(tiff.get(), TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
-  TIFFSetField(tiff.get(), TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+  TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+  TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
+  TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE);
   if (picture.pixel_aspect != Rational{1, 1}) {
     // Pixels for the same length, of no unit: the wider a pixel, the fewer.
-    TIFFSetField(tiff.get(), TIFFTAG_RESOLUTIONUNIT, RESUNIT_NONE);
-    TIFFSetField(tiff.get(), TIFFTAG_XRESOLUTION, static_cast<double>(picture.pixel_aspect.denominator));
-    TIFFSetField(tiff.get(), TIFFTAG_YRESOLUTION, static_cast<double>(picture.pixel_aspect.numerator));
+    TIFFSetField(tiff, TIFFTAG_RESOLUTIONUNIT, RESUNIT_NONE);
+    TIFFSetField(tiff, TIFFTAG_XRESOLUTION, static_cast<double>(picture.pixel_aspect.denominator));
+    TIFFSetField(tiff, TIFFTAG_YRESOLUTION, static_cast<double>(picture.pixel_aspect.numerator));
   }
   const std::vector<std::byte> profile = colour_profile(picture);
   if (!profile.empty()) {
-    TIFFSetField(tiff.get(), TIFFTAG_ICCPROFILE, static_cast<std::uint32_t>(profile.size()), profile.data());
+    TIFFSetField(tiff, TIFFTAG_ICCPROFILE, static_cast<std::uint32_t>(profile.size()), profile.data());
   }
-  if (!text.empty()) TIFFSetField(tiff.get(), TIFFTAG_IMAGEDESCRIPTION, text.c_str());
-  TIFFSetField(tiff.get(), TIFFTAG_ROWSPERSTRIP, TIFFDefaultStripSize(tiff.get(), 0));
+  if (!text.empty()) TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION, text.c_str());
+  TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, TIFFDefaultStripSize(tiff, 0));
   const std::size_t row_bytes = std::size_t{shape.width} * shape.channels * bytes;
   std::vector<std::byte> row(row_bytes);  // libtiff may change what it is given
   for (std::uint32_t y = 0; y < shape.height; ++y) {
     std::copy_n(picture.bytes.begin() + static_cast<std::ptrdiff_t>(y * row_bytes), row_bytes, row.begin());
-    if (TIFFWriteScanline(tiff.get(), row.data(), y, 0) < 0) fail();
+    if (TIFFWriteScanline(tiff, row.data(), y, 0) < 0) return false;
   }
-  if (TIFFFlush(tiff.get()) == 0) fail();
+  return true;
+}
+
+// Writes `pages` pages of so many bytes each by `write_one`, which says whether it could.
+template <typename Write>
+void write_pages(const std::filesystem::path& path, std::uint64_t bytes, std::size_t pages, const Write& write_one) {
+  TIFFSetErrorHandler(nullptr);  // what matters is thrown
+  TIFFSetWarningHandler(nullptr);
+  const std::unique_ptr<TIFF, CloseTiff> tiff(TIFFOpen(path.c_str(), pages * bytes > kLargestClassicTiff ? "w8" : "w"));
+  bool is_written = tiff != nullptr;
+  for (std::size_t page = 0; is_written && page < pages; ++page)
+    is_written = write_one(tiff.get(), page) && (page + 1 == pages || TIFFWriteDirectory(tiff.get()) == 1);
+  if (!is_written || TIFFFlush(tiff.get()) == 0)
+    throw OutputError(format("the TIFF cannot be written: {}", path.string()));
+}
+
+}  // namespace
+
+void write_tiff(const std::filesystem::path& path, const Picture& picture, const std::string& text) {
+  write_pages(path, picture.bytes.size(), 1, [&](TIFF* tiff, std::size_t) { return write_page(tiff, picture, text); });
+}
+
+void write_tiff(const std::filesystem::path& path, std::span<const PictureLayer> layers) {
+  write_pages(path, layers.front().values.bytes.size(), layers.size(), [&](TIFF* tiff, std::size_t page) {
+    return write_page(tiff, layers[page].values, layers[page].text);
+  });
 }
 
 }  // namespace nutik

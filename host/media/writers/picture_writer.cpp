@@ -27,6 +27,7 @@ struct FileKind {
   bool is_for_eyes = false;         // shown by viewers that take pixels for square ones
   std::uint32_t only_channels = 0;  // 0: any
   void (*write)(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes& wishes);
+  void (*write_layers)(OutputFile& file, std::span<const PictureLayer> layers) = nullptr;  // null: it holds one picture
 };
 
 void write_png_file(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
@@ -50,20 +51,31 @@ void write_exr_file(OutputFile& file, const Picture& picture, const std::string&
   still_module().write_exr(file, picture, text, wishes.as_half);
 }
 
+void write_tiff_layers(OutputFile& file, std::span<const PictureLayer> layers) {
+  write_tiff(file.temporary_path(), layers);
+}
+void write_npy_layers(OutputFile& file, std::span<const PictureLayer> layers) { file.write(npy_text(layers)); }
+void write_exr_layers(OutputFile& file, std::span<const PictureLayer> layers) {
+  still_module().write_exr_layers(file, layers);
+}
+
 constexpr std::array<FileKind, 11> kFileKinds{{
     {.extension = ".png", .code_bits = 16, .is_for_eyes = true, .write = write_png_file},
-    {.extension = ".tif", .code_bits = 16, .holds_light = true, .holds_double = true, .write = write_tiff_file},
+    {.extension = ".tif", .code_bits = 16, .holds_light = true, .holds_double = true, .write = write_tiff_file,
+     .write_layers = write_tiff_layers},
     {.extension = ".tiff", .is_preferred = false, .code_bits = 16, .holds_light = true, .holds_double = true,
-     .write = write_tiff_file},
+     .write = write_tiff_file, .write_layers = write_tiff_layers},
     {.extension = ".jpg", .code_bits = 8, .is_lossy = true, .is_for_eyes = true, .write = write_jpeg_file},
     {.extension = ".jpeg", .is_preferred = false, .code_bits = 8, .is_lossy = true, .is_for_eyes = true,
      .write = write_jpeg_file},
-    {.extension = ".exr", .holds_light = true, .holds_half = true, .write = write_exr_file},
+    {.extension = ".exr", .holds_light = true, .holds_half = true, .write = write_exr_file,
+     .write_layers = write_exr_layers},
     {.extension = ".ppm", .code_bits = 16, .only_channels = 3, .write = write_netpbm},
     {.extension = ".pgm", .code_bits = 16, .only_channels = 1, .write = write_netpbm},
     {.extension = ".pnm", .is_preferred = false, .code_bits = 16, .write = write_netpbm},
     {.extension = ".pfm", .holds_light = true, .write = write_netpbm},
-    {.extension = ".npy", .holds_light = true, .holds_double = true, .write = write_npy},
+    {.extension = ".npy", .holds_light = true, .holds_double = true, .write = write_npy,
+     .write_layers = write_npy_layers},
 }};
 
 constexpr std::string_view kStandardOutput = "-", kBehindKind = ":-";
@@ -193,6 +205,14 @@ void write_picture(const std::filesystem::path& path, const Picture& picture, co
   }
   OutputFile file(path);
   kind.write(file, picture, text, wishes);
+  file.commit();
+}
+
+void write_layers(const std::filesystem::path& path, std::span<const PictureLayer> layers) {
+  const FileKind& kind = file_kind_of(path);
+  if (kind.write_layers == nullptr) return write_picture(path, layers.front().values);
+  OutputFile file(path);
+  kind.write_layers(file, layers);
   file.commit();
 }
 

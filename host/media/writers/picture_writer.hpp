@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "capture/picture.hpp"
+#include "media/stills/picture_layer.hpp"
 
 namespace nutik {
 
@@ -53,5 +55,7 @@ inline constexpr std::uint32_t kLargestSquaredSide = 65'500;
 // Throws OutputError, UsageError where such a file cannot hold the picture.
 void write_picture(const std::filesystem::path& path, const Picture& picture, const std::string& text = {},
                    const FileWishes& wishes = {});
+// The same of layers, of which a .pfm holds the first alone.
+void write_layers(const std::filesystem::path& path, std::span<const PictureLayer> layers);
 
 }  // namespace nutik

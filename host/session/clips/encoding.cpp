@@ -33,7 +33,7 @@ class Encoding {
   // Reads the first sample.
   Encoding(ClipSource source, const EncodeRequest& request, const ClipMemory& memory);
 
-  EncodedCapture run(const ReportedProgress& progress, const std::stop_token& stop);
+  EncodedCapture run(const ReportedProgress& told, const std::stop_token& stop);
 
  private:
   struct Block {
@@ -54,6 +54,8 @@ class Encoding {
   BlockBuilder builder_;
   Timeline times_;  // as announced
   std::optional<tik::Writer> writer_;
+  tik::Codec codec_;
+  std::uint64_t packed_ = 0, packing_ = 0;  // samples of the blocks before, and of the one that is packed
 
   std::optional<ReadAhead> samples_;  // none of a clip whose changes are read
   std::vector<std::byte> raster_;     // of such a clip
@@ -68,6 +70,7 @@ Encoding::Encoding(ClipSource source, const EncodeRequest& request, const ClipMe
       builder_(source_.capture, memory.blocks, source_.request.tiles),
       // Before anything is read, so that times that cannot be used are said at once.
       times_(source_.timeline(std::max<std::uint64_t>(source_.announced_samples(), 1))),
+      codec_(request.codec),
       blocks_(kPayloads),
       spare_payloads_(kPayloads) {
   read_first(memory.read_ahead_bytes);
@@ -99,11 +102,18 @@ void Encoding::read_first(std::uint64_t read_ahead_bytes) {
   if (source_.clip->read(raster_)) first_ = {&raster_span_, 1};
 }
 
-EncodedCapture Encoding::run(const ReportedProgress& progress, const std::stop_token& stop) {
-  writer_->stop_by(stop);
+EncodedCapture Encoding::run(const ReportedProgress& told, const std::stop_token& stop) {
+  // Reading waits for a slow codec, which tells itself how far it is: this thread is silent then.
+  const bool is_slow = codec_.is_slow();
+  const ReportedProgress progress = is_slow ? ReportedProgress() : told;
+  writer_->tell_of_packing([&](std::uint64_t done, std::uint64_t total) {
+    if (stop.stop_requested()) throw Cancelled();
+    if (is_slow && told) told(packed_ + done * packing_ / total, source_.announced_samples());
+  });
   auto storing = std::async(std::launch::async, [this] { store(); });
   const std::uint64_t samples = samples_ ? build(progress, stop) : build_of_changes(progress, stop);
   storing.get();
+  if (is_slow && told) told(samples, source_.announced_samples());
   Timeline timeline = source_.timeline(samples);
   writer_->finish(timeline);
   std::vector<Fact> facts = source_.facts(timeline);
@@ -179,6 +189,8 @@ void Encoding::store() {
     if (!times_.is_constant()) {
       exposures = times_.table().subspan(range.first, block->extent.sample_count);
     }
+    packed_ = range.first;
+    packing_ = block->extent.sample_count;
     writer_->append(
         {block->extent, block->payload.first(block->finished.span_bytes), block->finished.record_count},
         exposures);

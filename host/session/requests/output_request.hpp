@@ -25,6 +25,7 @@ struct OutputRequest {
   std::optional<std::variant<Transfer, SourceCodes>> transfer = std::nullopt;
   std::optional<int> quality = std::nullopt;  // of lossy files, 1 … 100
   std::optional<std::uint32_t> crf = std::nullopt;  // of films, on their codec's own scale
+  std::optional<std::string> bounds = std::nullopt;  // the file of a map of what each pixel may be off by
   bool keep_pixels = false;  // in files that people look at, too, whose pixels are made square otherwise
 
   friend bool operator==(const OutputRequest&, const OutputRequest&) = default;

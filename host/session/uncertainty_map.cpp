@@ -1,0 +1,227 @@
+#include "session/uncertainty_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+#include "capture/format.hpp"
+
+namespace nutik {
+namespace {
+
+struct TermText {
+  std::string_view name;
+  std::string_view kind;
+  std::string_view covers;
+};
+
+// By term.
+constexpr TermText kTexts[] = {
+    {"all_bounds", "bound", "no pixel is further off by all bounds together"},
+    {"arithmetic", "bound", "no pixel is further off"},
+    {"rounding", "bound", "no pixel is further off"},
+    {"rounded_codes", "bound", "no pixel is further off"},
+    {"held_samples", "bound", "no pixel is further off"},
+    {"times", "bound", "no pixel is further off"},
+    {"noise", "deviation", "one standard deviation (k = 1) of a sample as bright as the pixel, 68 % if it is normal"},
+    {"alignment", "deviation", "half of the texture is no further off: the residual times the slope of the picture"},
+    {"made_samples", "count", "the share of exposed samples that nobody filmed"},
+};
+
+double value_of(const Picture& picture, std::uint64_t at) {
+  switch (picture.type) {
+    case ValueType::code8: return picture.values<std::uint8_t>()[at];
+    case ValueType::code16: return picture.values<std::uint16_t>()[at];
+    case ValueType::light32: return double{picture.values<float>()[at]};
+    case ValueType::light64: return picture.values<double>()[at];
+  }
+  return 0.0;
+}
+
+double made_share(const PlannedFunction& function, const Timeline& timeline, const std::vector<bool>& is_made) {
+  const SampleRange samples = exposed_samples(function, timeline);
+  if (samples.size() == 0) return 0.0;
+  const auto begin = is_made.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(samples.first, is_made.size()));
+  const auto end = is_made.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(samples.last, is_made.size()));
+  return static_cast<double>(std::count(begin, end, true)) / static_cast<double>(samples.size());
+}
+
+}  // namespace
+
+UncertaintyMap::UncertaintyMap(const RenderPlan& plan, const Timeline& timeline, const ErrorBound& bound,
+                               const CaptureErrors& capture)
+    : plan_(plan),
+      capture_(capture),
+      output_(bound.output),
+      arithmetic_(plan, bound),
+      codes_(plan.capture, bound.output) {
+  const std::vector<bool> is_made = capture.made ? capture.made->marks() : std::vector<bool>();
+  for (const PlannedFunction& function : plan.functions) {
+    functions_.push_back({function.summary.error_scale(), times_error(function, timeline),
+                          made_share(function, timeline, is_made), nutik::is_mean(function)});
+  }
+}
+
+bool UncertaintyMap::has(Term term) const {
+  switch (term) {
+    case kRounding: return output_.type != ValueType::light64;
+    case kRoundedCodes: return capture_.rounded_light > 0.0;
+    case kHeldSamples: return !capture_.held.is_zero();
+    case kNoise: return !capture_.noise.is_zero();
+    case kAlignment: return capture_.alignment_pixels.has_value();
+    case kMadeSamples: return capture_.made.has_value();
+    default: return true;
+  }
+}
+
+UncertaintyMap::Function UncertaintyMap::function_of(std::uint64_t pixel) const {
+  const std::span<const Share> shares = plan_.shares_of(pixel);
+  if (shares.empty()) return functions_[plan_.function_of(pixel)];
+  Function mixed;
+  for (const Share& share : shares) {
+    const Function& own = functions_[share.of];
+    const double size = static_cast<double>(share.size) / kWholeShare;
+    mixed.scale += size * own.scale;
+    mixed.times += size * own.times;
+    mixed.made += size * own.made;
+    mixed.is_mean &= own.is_mean;
+  }
+  return mixed;
+}
+
+UncertaintyMap::Errors UncertaintyMap::of_code(double code, const Function& function,
+                                               const PictureError& arithmetic) const {
+  const CodeMaking& making = codes_.making();
+  const double white = output_.white_code, scale = function.scale;
+  const bool by_light = function.is_mean && codes_.know_light() && output_.negative != NegativeLight::offset;
+  // Where the light lay that became this code; codes end at black and white.
+  const auto light_of = [&](double place) {
+    return making.white_light * making.transfer.light_of(std::clamp(place / white, 0.0, 1.0));
+  };
+  const double from = by_light && code > 0 ? light_of(code - 0.5) : 0.0;
+  const double to = by_light && code < white ? light_of(code + 0.5) : std::max(scale, making.white_light);
+  const auto in_codes = [&](double light) {
+    return by_light ? codes_.between(from, to, light) : codes_.anywhere(light, scale);
+  };
+  const auto most = [&](const LightCurve& curve, double more) {
+    return scale == 0.0 ? 0.0
+           : by_light   ? scale * curve.most((from - more) / scale, (to + more) / scale)
+                        : scale * curve.most();
+  };
+  const double own = by_light ? arithmetic.of_light(to) : arithmetic.light;
+  const double rounded = scale * capture_.rounded_light, held = most(capture_.held, own);
+  Errors errors;
+  errors.of[kArithmetic] = arithmetic.steps;
+  errors.of[kRounding] = 0.5;
+  errors.of[kRoundedCodes] = in_codes(rounded);
+  errors.of[kHeldSamples] = in_codes(held);
+  errors.of[kTimes] = in_codes(function.times);
+  errors.of[kAllBounds] = std::min(white, 0.5 + in_codes(own + rounded + held + function.times));
+  if (!capture_.noise.is_zero() && scale > 0.0) {
+    const double light = light_of(code);
+    const double deviation = scale * (by_light ? capture_.noise.at(light / scale) : capture_.noise.most());
+    errors.of[kNoise] = by_light ? codes_.between(light, light, deviation) : codes_.anywhere(deviation, scale);
+  }
+  return errors;
+}
+
+UncertaintyMap::Errors UncertaintyMap::of_light(double light, const Function& function,
+                                                const PictureError& arithmetic) const {
+  Errors errors;
+  const double scale = function.scale;
+  errors.of[kArithmetic] = arithmetic.light;
+  // Half a step of the float that it became, the least one at the end.
+  if (output_.type == ValueType::light32) errors.of[kRounding] = std::fabs(light) * 0x1p-24 + 0x1p-150;
+  errors.of[kRoundedCodes] = scale * capture_.rounded_light;
+  errors.of[kTimes] = function.times;
+  const double near = errors.of[kArithmetic] + errors.of[kRounding];
+  if (function.is_mean && scale > 0.0) {
+    errors.of[kHeldSamples] = scale * capture_.held.most((light - near) / scale, (light + near) / scale);
+    errors.of[kNoise] = scale * capture_.noise.at(light / scale);
+  } else {
+    errors.of[kHeldSamples] = scale * capture_.held.most();
+    errors.of[kNoise] = scale * capture_.noise.most();
+  }
+  for (const Term term : {kArithmetic, kRounding, kRoundedCodes, kHeldSamples, kTimes})
+    errors.of[kAllBounds] += errors.of[term];
+  return errors;
+}
+
+double UncertaintyMap::slope_at(const Picture& exposed, std::uint32_t x, std::uint32_t y) {
+  const auto [width, height, channels] = exposed.shape;
+  const std::uint32_t left = x - (x > 0), right = std::min(x + 1, width - 1);
+  const std::uint32_t above = y - (y > 0), below = std::min(y + 1, height - 1);
+  double largest = 0.0;
+  for (std::uint32_t channel = 0; channel < channels; ++channel) {
+    const auto at = [&](std::uint32_t column, std::uint32_t row) {
+      return value_of(exposed, (std::uint64_t{row} * width + column) * channels + channel);
+    };
+    const double across = right > left ? (at(right, y) - at(left, y)) / (right - left) : 0.0;
+    const double down = below > above ? (at(x, below) - at(x, above)) / (below - above) : 0.0;
+    largest = std::max(largest, std::hypot(across, down));
+  }
+  return largest;
+}
+
+std::vector<PictureLayer> UncertaintyMap::layers(const Picture& exposed, const Rectangle& part) const {
+  const bool is_codes = holds_codes(output_.type);
+  const std::uint32_t channels = exposed.shape.channels;
+  std::vector<PictureLayer> layers;
+  std::array<float*, kTerms> values{};
+  for (std::size_t term = kAllBounds; term < kTerms; ++term) {
+    if (!has(static_cast<Term>(term))) continue;
+    PictureLayer layer{std::string(kTexts[term].name), text_of(static_cast<Term>(term)),
+                       Picture({part.width, part.height, 1}, ValueType::light32, 0)};
+    layer.values.pixel_aspect = exposed.pixel_aspect;
+    values[term] = layer.values.values<float>().data();  // which stay in place
+    layers.push_back(std::move(layer));
+  }
+  // Of pixels that one function has alone, by function and code.
+  std::unordered_map<std::uint64_t, Errors> known;
+  const auto errors_of = [&](double value, std::uint64_t pixel, const Function& function,
+                             const PictureError& arithmetic) {
+    if (!is_codes) return of_light(value, function, arithmetic);
+    if (!plan_.shares_of(pixel).empty()) return of_code(value, function, arithmetic);
+    const std::uint64_t key = std::uint64_t{plan_.function_of(pixel)} << 16 | static_cast<std::uint64_t>(value);
+    const auto [found, is_new] = known.try_emplace(key);
+    if (is_new) found->second = of_code(value, function, arithmetic);
+    return found->second;
+  };
+  for (std::uint32_t y = 0; y < part.height; ++y) {
+    for (std::uint32_t x = 0; x < part.width; ++x) {
+      const std::uint64_t pixel = std::uint64_t{part.y + y} * plan_.capture.shape.width + part.x + x;
+      const std::uint64_t at = std::uint64_t{y} * part.width + x;
+      const Function function = function_of(pixel);
+      const PictureError arithmetic = arithmetic_.of(pixel);
+      Errors worst;
+      for (std::uint32_t channel = 0; channel < channels; ++channel) {
+        const Errors errors = errors_of(value_of(exposed, at * channels + channel), pixel, function, arithmetic);
+        for (std::size_t term = 0; term < kTerms; ++term) worst.of[term] = std::max(worst.of[term], errors.of[term]);
+      }
+      if (capture_.alignment_pixels) worst.of[kAlignment] = *capture_.alignment_pixels * slope_at(exposed, x, y);
+      worst.of[kMadeSamples] = function.made;
+      for (std::size_t term = 0; term < kTerms; ++term) {
+        if (values[term] == nullptr) continue;
+        const auto value = static_cast<float>(worst.of[term]);
+        values[term][at] = value == 0.0F || term == kMadeSamples
+                               ? value
+                               : std::nextafter(value, std::numeric_limits<float>::infinity());
+      }
+    }
+  }
+  return layers;
+}
+
+std::string UncertaintyMap::text_of(Term term) const {
+  const TermText& text = kTexts[term];
+  const std::string unit = term == kMadeSamples         ? "samples"
+                           : !holds_codes(output_.type) ? "light, of which 1 is white"
+                                                       : format("codes, of which {} is white", output_.white_code);
+  return format("{}: a {}, in {}: {}", text.name, text.kind, unit, text.covers);
+}
+
+}  // namespace nutik

@@ -1,0 +1,63 @@
+// What each pixel of a picture may be off by, term by term (docs/explanation/uncertainty.md).
+//
+//   in:      a plan and its bound, what its capture is off by, the picture
+//   out:     a layer of all bounds together, and one for each term: in codes of a picture of codes, else in light
+//   always:  of the pixel's own function, of its own light if no gain is below 0, and of its channel that is off furthest;
+//            rounded up
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "capture/picture.hpp"
+#include "media/stills/picture_layer.hpp"
+#include "render/error_bound.hpp"
+#include "render/render_plan.hpp"
+#include "session/uncertainty.hpp"
+
+namespace nutik {
+
+class UncertaintyMap {
+ public:
+  // All of which must live as long.
+  UncertaintyMap(const RenderPlan& plan, const Timeline& timeline, const ErrorBound& bound, const CaptureErrors& capture);
+
+  // What maps of so many pixels take.
+  [[nodiscard]] static std::uint64_t bytes(const Shape& shape) { return kTerms * sizeof(float) * shape.pixel_count(); }
+
+  // Of a picture that has these pixels of the plan's.
+  [[nodiscard]] std::vector<PictureLayer> layers(const Picture& exposed, const Rectangle& part) const;
+
+ private:
+  enum Term : std::size_t {
+    kAllBounds, kArithmetic, kRounding, kRoundedCodes, kHeldSamples, kTimes, kNoise, kAlignment, kMadeSamples, kTerms
+  };
+  // Of what pixels share by their functions: a pixel's are its shares of theirs.
+  struct Function {
+    double scale = 0.0, times = 0.0, made = 0.0;
+    bool is_mean = true;
+  };
+  // By term, in the picture's steps; light64 counts in light, as floats do.
+  struct Errors {
+    double of[kTerms] = {};
+  };
+
+  [[nodiscard]] Function function_of(std::uint64_t pixel) const;
+  // Of one value that was made by a function, whose arithmetic may be off by so much.
+  [[nodiscard]] Errors of_code(double code, const Function& function, const PictureError& arithmetic) const;
+  [[nodiscard]] Errors of_light(double light, const Function& function, const PictureError& arithmetic) const;
+  // How much a value changes from one pixel to the next, at its place in the picture.
+  [[nodiscard]] static double slope_at(const Picture& exposed, std::uint32_t x, std::uint32_t y);
+  [[nodiscard]] bool has(Term term) const;
+  [[nodiscard]] std::string text_of(Term term) const;
+
+  const RenderPlan& plan_;
+  const CaptureErrors& capture_;
+  OutputFormat output_;
+  PixelErrors arithmetic_;
+  CodeErrors codes_;
+  std::vector<Function> functions_;
+};
+
+}  // namespace nutik
