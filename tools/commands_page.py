@@ -17,6 +17,7 @@ from pathlib import Path
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "reference" / "commands.md"
 
 USUAL = 4  # commands that take the same options of a heading
+EXAMPLES = 3  # of a command, as its help has; its page has others
 
 # The page that goes on where a command's help ends.
 FURTHER = {
@@ -35,17 +36,16 @@ PREFACE = """\
 
 <!-- Written by tools/commands_page.py from `nutik-cl man`. -->
 
-`nutik-cl COMMAND --help` shows the same in a terminal. New here? Start with [a tutorial](../tutorial/first-picture.md).
+`nutik-cl COMMAND --help` shows the same in a terminal.
 
-| you write | it means |
-| --- | --- |
-| `nutik-cl clip.mp4 clip.tik`, `nutik-cl -o clip.tik clip.mp4` | `encode` |
-| `nutik-cl -m mask.pgm -k functions.fn clip.tik` | `expose` |
-| `nutik-cl --start 0.4s --exposure 10ms clip.tik` | `expose` |
-| `nutik-cl clip.tik`, `nutik-cl --json clip.tik` | `info`, and a command to try |
+Without a command, these mean
 
-The first word that is neither an option nor an option's value can name a command. Options and operands come in any
-order; a short option's value may be attached (`-f120`). A file with a command's name is written `./info`, or after `--`.
+- `encode`: `nutik-cl clip.mp4 clip.tik`, `nutik-cl -o clip.tik clip.mp4`
+- `expose`: `nutik-cl -m mask.pgm -k functions.fn clip.tik`, `nutik-cl --start 0.4s --exposure 10ms clip.tik`
+- `info`, and a command to try: `nutik-cl clip.tik`
+
+Options and operands come in any order; a short option's value may be attached (`-f120`). A file with a command's name
+is written `./info`, or after `--`.
 """
 
 
@@ -174,7 +174,7 @@ def page_of(man):
                 sys.exit(f"which page goes on with {name}? Name it in FURTHER of tools/commands_page.py")
             text += f"\n### {name}\n\n`{f'nutik-cl {name} {operands}'.strip()}`\n\n"
             text += folded(f"{summary} ([more]({FURTHER[name]}))") + "\n"
-            text += "\n```sh\n" + examples[name] + "```\n"
+            text += "\n```sh\n" + "".join(examples[name].splitlines(keepends=True)[:EXAMPLES]) + "```\n"
             text += "\n" + folded(f"Options: {'; '.join(options_of(name, option_groups, usual))}.") + "\n"
     text += "\n## Options\n"
     for heading, options in option_groups:
