@@ -55,8 +55,8 @@ struct PackingTools {
   std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd{ZSTD_createCCtx(), &ZSTD_freeCCtx};
 };
 
-// The bytes that it takes. A slow level is given its bytes little by little, so that it can tell and be stopped: that makes
-// the same of them.
+// The bytes that it takes. A slow level is given its bytes little by little, so that it can tell and be stopped: that
+// makes the same of them.
 std::size_t zstd_packed(const Codec& codec, std::span<const std::byte> plain, std::span<std::byte> packed,
                         PackingTools& tools) {
   constexpr std::size_t kBytesAtOnce = 128 << 10;

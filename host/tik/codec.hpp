@@ -41,9 +41,9 @@ struct Codec {
 };
 
 // Makes `parts` the stored form of a payload, one behind the other, in the memory that they have; `geometry` is its
-// block's. No more threads than these work on it. `progress` is called on any of them, one at a time: before each group of
-// tiles, and by slow codecs with how many bytes they have packed. False, and parts that say nothing, where it takes as
-// many bytes as `too_many`.
+// block's. No more threads than these work on it. `progress` is called on any of them, one at a time: before each group
+// of tiles, and by slow codecs with how many bytes they have packed. False, and parts that say nothing, where it takes
+// as many bytes as `too_many`.
 bool pack(const Codec& codec, const BlockGeometry& geometry, std::span<const std::byte> payload,
           std::vector<std::vector<std::byte>>& parts, std::uint32_t max_threads = ~std::uint32_t{0},
           const ReportedProgress& progress = {}, std::uint64_t too_many = ~std::uint64_t{0});

@@ -68,8 +68,8 @@ class Trace:
 
 def _warn_of_black(still_gains: Mapping[int, float], negative: Optional[str]) -> None:
     if negative in (None, "saturate"):
-        warn(f"M{tag}: the still gain is {gain:.6g}: whatever does not move comes out black; negative='offset' shows light "
-             "below 0, and light itself (codes=False) keeps it" for tag, gain in still_gains.items() if gain < 0)
+        warn(f"M{tag}: the still gain is {gain:.6g}: whatever does not move comes out black; negative='offset' shows "
+             "light below 0, and light itself (codes=False) keeps it" for tag, gain in still_gains.items() if gain < 0)
 
 
 class Capture:
@@ -164,8 +164,8 @@ class Capture:
         Raises:
         MemoryTooLittle where they take more than 4 GiB.
         """
-        figures = {name: each if isinstance(each, str) else float(each) if isinstance(each, Fraction) else int(cast(int, each))
-                   for name, each in self.figures.items() if name != "tiles"}  # what files of arrays take
+        figures = {name: each if isinstance(each, str) else float(each) if isinstance(each, Fraction)
+                   else int(cast(int, each)) for name, each in self.figures.items() if name != "tiles"}  # netCDF takes these
         return labelled(self[samples], {"time": self.times[samples]}, facts="; ".join(self.facts), **figures)
 
     @property
@@ -253,7 +253,8 @@ class Capture:
 
         Parameters:
         functions : one for all of the picture (a nutik.Function, a list of (time, gain), a callable over the whole
-            capture, an array with a gain for each sample), or one for each tag of `mask` ({0: ..., 128: ...}, or a function file).
+            capture, an array with a gain for each sample), or one for each tag of `mask` ({0: ..., 128: ...}, or a
+            function file).
         mask : [height, width] of tags, or {tag: alpha} of shares (the first function gets what they leave), a nutik.Mask,
             or a file.
         start, exposure : the interval, in place of functions; 0 without a start. Of functions their time 0.
@@ -341,9 +342,9 @@ class Capture:
         held = [{tag: function._held for tag, function in self._functions(each, mask is not None).items()}
                 for each in lists.get("functions", [])]
         box = None if region is None else box_of(region, "region")
-        array, bounds, saturated, told, still_gains = _nutik.render_many(self._held, asked, count, words["starts"], words["exposures"], held,
-                                                 self._output(codes, dtype, transfer, negative), box,
-                                                 None if precision is None else str(precision), progress)
+        array, bounds, saturated, told, still_gains = _nutik.render_many(
+            self._held, asked, count, words["starts"], words["exposures"], held,
+            self._output(codes, dtype, transfer, negative), box, None if precision is None else str(precision), progress)
         warn(told)
         if array.dtype.kind == "u":
             _warn_of_black(still_gains, negative)
@@ -432,7 +433,8 @@ class Capture:
         by : codes that the subject must differ by more than from the empty scene; None: 1/16 of white.
         feather : pixels that its border is blended over; None: 2; 0 for slit's strips.
         Raises:
-        InputError where nothing moves or everything does: the camera must stand still (align='rigid' where it is encoded).
+        InputError where nothing moves or everything does: the camera must stand still (align='rigid' where it is
+        encoded).
         Examples:
         >>> scene = np.full((40, 24, 96), 90, np.uint8)
         >>> for k in range(40):

@@ -20,6 +20,7 @@ from time import sleep
 from typing import Any, Protocol, Union
 
 from . import _nutik
+from ._docs import joined
 from ._nutik import DeviceError, Error, ImpreciseError, InputError, MemoryTooLittle, OutputError, UsageError
 from ._told import Json
 from ._words import NutikNote, Path, Progress, bytes_word, in_python, is_list, number_word, time_word, warn
@@ -165,12 +166,14 @@ def _function_of(command: str, example: str) -> Command:
                if name not in ("json", "progress", "quiet", "verbose")}
     function.__name__ = function.__qualname__ = command
     function.__module__ = "nutik"
-    function.__doc__ = in_python(
-        f"{summary}\n\nParameters\n----------\n*files : {operands}\nprogress : called with a percentage and 100\n"
-        + "\n".join(f"{name} : {row[0] or 'True'}\n    {row[1]}" for name, row in offered.items())
-        + "\n\nReturns\n-------\ndict, what the command answers to scripts; what it says besides comes as warnings.\n\n"
-        "Raises\n------\nThe error of nutik's that its exit status stands for.\n\nNotes\n-----\nIt runs in a process of its own, "
-        f"which Ctrl-C ends.\n\nExamples\n--------\n>>> answer = nutik.{example}")
+    rows = [f"*files : {operands}", "progress : called with a percentage and 100",
+            *(f"{name} : {row[0] or 'True'}\n    {row[1]}" for name, row in offered.items())]
+    function.__doc__ = in_python(joined(summary, {
+        "Parameters": "\n".join(rows),
+        "Returns": "dict, what the command answers to scripts; what it says besides comes as warnings.",
+        "Raises": "The error of nutik's that its exit status stands for.",
+        "Notes": "It runs in a process of its own, which Ctrl-C ends.",
+        "Examples": f">>> answer = nutik.{example}"}))
     kinds = inspect.Parameter
     function.__annotations__.update(dict.fromkeys(offered, "Option"))
     signature = inspect.signature(function)

@@ -19,8 +19,8 @@ from ._words import in_python
 _ORDER = "Parameters", "Attributes", "Returns", "Raises", "Notes", "Examples"
 _SECTION = re.compile(rf"^({'|'.join(_ORDER)}):\n", re.MULTILINE)
 _ENTRY = re.compile(r"^(\w+(?:, \w+)*) : (.*(?:\n[ \n].*)*)", re.MULTILINE)
-_WORKS = ("Works without Python's lock: any number of threads may use one capture. Ctrl-C ends it within half a second, with "
-          "KeyboardInterrupt, and leaves no file that was not finished.")
+_WORKS = ("Works without Python's lock: any number of threads may use one capture. Ctrl-C ends it within half a second, "
+          "with KeyboardInterrupt, and leaves no file that was not finished.")
 
 
 _PLOTTED = {"ax": "axes of matplotlib, which are returned; None: the current ones.",
@@ -54,7 +54,8 @@ def _parameters(function: Callable[..., object], told: Mapping[str, str]) -> str
     for name, each in inspect.signature(function).parameters.items():
         if name in ("self", "cls"):
             continue
-        how = "" if each.default is each.empty else ", optional" if each.default is None else f", default {each.default!r}"
+        default = each.default
+        how = "" if default is each.empty else ", optional" if default is None else f", default {default!r}"
         kind = _type_of(str(each.annotation)) + how
         text = told.get(name, "")
         if lines and text and lines[-1][1:] == (kind, text):
@@ -73,10 +74,11 @@ def complete(function: Any, told: Mapping[str, str]) -> None:
             "Raises": has.get("Raises", "UsageError where an argument makes no sense." if arguments else ""),
             "Notes": has.get("Notes", fill(_WORKS, 110) if "progress : " in arguments else ""),
             "Examples": has.get("Examples", "")}
-    function.__doc__ = _joined(has[""], made)
+    function.__doc__ = joined(has[""], made)
 
 
-def _joined(summary: str, sections: Mapping[str, str]) -> str:
+def joined(summary: str, sections: Mapping[str, str]) -> str:
+    """NumPy's form."""
     return "\n\n".join([summary, *(f"{name}\n{'-' * len(name)}\n{text}" for name, text in sections.items() if text)])
 
 
@@ -85,13 +87,14 @@ def _complete_class(kind: type) -> None:
     has = _sections(kind.__doc__ or "")
     if is_dataclass(kind):
         source = "".join(linecache.getlines(inspect.getfile(kind)))
-        fields = re.search(rf"^class {kind.__name__}:\n((?:    .*)?\n)+?(?=\n    (?:def|@)|\n\n\S)", source, re.MULTILINE)
+        body = rf"^class {kind.__name__}:\n((?:    .*)?\n)+?(?=\n    (?:def|@)|\n\n\S)"
+        fields = re.search(body, source, re.MULTILINE)
         found = re.findall(r"^    (\w+): (.+?)(?:  +# (.*))?$", fields[0] if fields else "", re.MULTILINE)
         has["Attributes"] = "\n".join(f"{name} : {_type_of(annotation)}" + (f"\n    {told}" if told else "")
                                       for name, annotation, told in found)
     elif "Parameters" in has:
         has["Parameters"] = _parameters(kind, _entries(kind))
-    kind.__doc__ = _joined(has.pop(""), {name: has[name] for name in _ORDER if name in has})
+    kind.__doc__ = joined(has.pop(""), {name: has[name] for name in _ORDER if name in has})
 
 
 def complete_all(offered: Iterable[object]) -> None:

@@ -351,6 +351,6 @@ def function_of(given: FunctionLike, what: str, duration: Time = 0) -> Function:
         points = [(time, float(gain)) for time, gain in given]
     except (TypeError, ValueError):
         shown = f"an array of shape {given.shape}" if isinstance(given, np.ndarray) else repr(given)
-        raise UsageError(f"{what} is {shown}, no function; give a nutik.Function, a list of (time, gain), or a callable; "
-                         "of an interval say start= and exposure=") from None
+        raise UsageError(f"{what} is {shown}, no function; give a nutik.Function, a list of (time, gain), or a "
+                         "callable; of an interval say start= and exposure=") from None
     return Function([time for time, _ in points], [gain for _, gain in points])

@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import _nutik
 from ._captures import Capture
 from ._nutik import InputError, UsageError
-from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, is_list, listed, path_word, reading,
-                     seconds_of, settings_of, time_ns, times_ns, warn, whole)
+from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, is_list, listed, path_word,
+                     reading, seconds_of, settings_of, time_ns, times_ns, warn, whole)
 
 
 class HasArray(Protocol):
@@ -58,8 +58,8 @@ def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_
         first.
     memory : the most that may be held: bytes, or '2GB'; None: half of the machine's.
     renderer : 'reference' computes without OpenCL, slowly.
-    progress : called with (steps done, of how many; 0: not known), by the thread that asked and at most 20 times a second.
-        What it raises ends the work, and comes through.
+    progress : called with (steps done, of how many; 0: not known), by the thread that asked and at most 20 times a
+        second. Study and solve do several things, each with steps of its own. What it raises ends the work, and comes through.
     Raises:
     FileMissing, InputError where it cannot be read, UsageError where what is stated does not fit, MemoryTooLittle.
     Examples:

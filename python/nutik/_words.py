@@ -15,7 +15,8 @@ from fractions import Fraction
 from os import PathLike, fsdecode
 from os.path import dirname, exists, join
 from importlib import import_module
-from typing import (TYPE_CHECKING, Any, BinaryIO, Callable, Iterable, Iterator, Mapping, Optional, Protocol, Sequence, Union, cast)
+from typing import (TYPE_CHECKING, Any, BinaryIO, Callable, Iterable, Iterator, Mapping, Optional, Protocol, Sequence, Union,
+                    cast)
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -96,7 +97,7 @@ class DataArray(Protocol):
 
 
 def labelled(values: NDArray[np.generic], first: Mapping[str, Any], **attributes: object) -> DataArray:
-    """Pictures with the names of their axes, and coordinates: pixels, from the first one's middle; and those of `first`."""
+    """Pictures with the names of their axes, and coordinates: those of `first`, and pixels."""
     axes = [*first, "y", "x", "channel"][:values.ndim]
     coordinates = {"y": np.arange(values.shape[len(first)]), "x": np.arange(values.shape[len(first) + 1]),
                    "channel": ["red", "green", "blue"], **first}

@@ -25,8 +25,8 @@ def layers(path: Union[str, Sequence[str]]) -> list[Layer]:
     for each in [path] if isinstance(path, str) else path:
         capture = open(each)
         is_colour = len(capture.shape) == 4
-        named: dict[str, object] = {"name": basename(each), "rgb": is_colour, "scale": (float(1 / capture.rate), 1.0, 1.0),
-                                    "metadata": dict(capture.figures)}
+        named: dict[str, object] = {"name": basename(each), "rgb": is_colour, "metadata": dict(capture.figures),
+                                    "scale": (float(1 / capture.rate), 1.0, 1.0)}
         if not is_colour:
             named["contrast_limits"] = (0, capture.figures["white"])
         made.append((capture, named, "image"))

@@ -254,7 +254,7 @@ TEST(VideoWriter, SaysWhatCannotBeWritten) {
     const auto writer = open_video_writer("/nowhere/v.mkv", format_of(pictures[0], {24, 1}),
                                           video_codec_for("v.mkv", std::nullopt));
   });
-  EXPECT_EQ(message, "/nowhere/v.mkv cannot be created: No such file or directory");
+  EXPECT_EQ(message, "/nowhere/v.mkv cannot be created: there is no folder /nowhere");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-"""What other packages are handed: xarray's arrays, a reader for napari, a format of imageio. Each against the package itself
-where it is installed."""
+"""What other packages are handed: xarray's arrays, a reader for napari, a format of imageio. Each against the package
+itself where it is installed."""
 
 import importlib
 import importlib.util

@@ -50,6 +50,11 @@ pictures = np.random.default_rng(1).integers(0, 256, (40, 128, 128, 3), np.uint8
 capture = nutik.encode(pictures, rate=100)
 started = threading.Event()
 
+def busy(*_):
+    end = time.monotonic() + 0.15  # longer than a thread between two calls is waited for
+    while time.monotonic() < end:
+        pass
+
 def view():
     while True:
         started.set()
@@ -62,6 +67,8 @@ time.sleep(0.2)
 """
 WORKS = ['capture.render(exposure="40f")', 'nutik.encode(pictures, rate=100)', 'capture.activity()', 'capture.plate()',
          'capture.trace(tag=0, functions=[(0, 1), (0.4, 1)], mask=np.zeros((128, 128), np.uint8))',
+         'capture.trace(3, 4, start=0, exposure="40f", progress=busy)',
+         'capture.trace(3, 4, start=0, exposure="40f"); busy()',
          'nutik.encode((each for each in pictures), rate=100)',
          'nutik.Mask(np.arange(128 * 128).reshape(128, 128) % 200).feathered(20)']
 

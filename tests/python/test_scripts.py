@@ -299,7 +299,8 @@ class Errors(support.TestCase):
             self.assertLessEqual(np.abs(many[k] - wanted).max(), many.error_bounds[k] + 1e-12)
             alone = capture.render({0: gains[k]}, normalize="integral")
             self.assertLessEqual(np.abs(alone.array - wanted).max(), alone.error_bound + 1e-12)
-        self.assert_raises(nutik.UsageError, ["49 gains for 50 samples", "Function(times, gains)"], capture.render, gains[0, 1:])
+        self.assert_raises(nutik.UsageError, ["49 gains for 50 samples", "Function(times, gains)"], capture.render,
+                           gains[0, 1:])
         self.assert_raises(nutik.UsageError, "an array of shape (7, 50)", capture.render, gains)
         self.assert_raises(nutik.UsageError, "say start= and exposure=", capture.render, 0.01)
 
