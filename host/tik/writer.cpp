@@ -106,7 +106,7 @@ Codec Writer::pack_block(const BlockGeometry& geometry, std::span<const std::byt
     pack(codec_, geometry, payload, packed_, max_threads_, packing_);
     return codec_;
   }
-  pack(rice, geometry, payload, packed_, max_threads_, packing_);
+  pack(rice, geometry, payload, packed_, max_threads_);  // quick, and told of by what follows
   std::uint64_t bytes = 0;
   for (const std::vector<std::byte>& part : packed_) bytes += part.size();
   if (!pack(codec_, geometry, payload, other_, max_threads_, packing_, bytes)) return rice;

@@ -2,7 +2,6 @@
 
 import json
 import pickle
-import time
 import unittest
 import warnings
 
@@ -294,16 +293,10 @@ class Pictures(support.TestCase):
                 self.assertEqual(many.saturated.tolist(), [list(each.saturated) for each in pictures])
         self.assertIsNone(self.capture.render_many(both).saturated)
 
-    def test_many_are_fast_and_tell(self):
-        capture = nutik.encode(self.pictures[:, :16, :16, 0], rate=support.RATE)
-        starts, told = np.linspace(0, 0.05, 400), []
-        begin = time.perf_counter()
-        capture.render_many(starts=starts, exposures=0.01, progress=lambda *each: told.append(each))
-        many = time.perf_counter() - begin
-        begin = time.perf_counter()
-        for start in starts:
-            capture.render(start=start, exposure=0.01)
-        self.assertLess(5 * many, time.perf_counter() - begin)
+    def test_many_tell(self):
+        capture, told = nutik.encode(self.pictures[:, :16, :16, 0], rate=support.RATE), []
+        capture.render_many(starts=np.linspace(0, 0.05, 400), exposures=0.01,
+                            progress=lambda *each: told.append(each))
         self.assertEqual(told[-1], (400, 400))
 
     def test_many_that_make_no_sense(self):
