@@ -119,7 +119,10 @@ TEST_F(Aligning, WritesThePathThatMakesTheSameAgain) {
   EXPECT_EQ(encoded["camera"]["path"], "path.csv");
   const cv::Mat plot = cv::imread((scratch_ / "plot.png").string());
   EXPECT_EQ(plot.cols, 1200);
-  make(encoding("--align rigid frames b.tik"));
+  make(encoding("--align rigid --align-report seen frames b.tik"));
+  EXPECT_EQ(file("seen/path.csv"), file("path.csv"));
+  EXPECT_EQ(file("seen/plot.png"), file("plot.png"));
+  EXPECT_FALSE(file("seen/coverage.png").empty());
   make(encoding("--align-along path.csv frames c.tik"));
   EXPECT_EQ(file("a.tik"), file("b.tik"));
   EXPECT_EQ(file("a.tik"), file("c.tik"));

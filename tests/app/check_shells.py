@@ -81,7 +81,7 @@ def check_bash(program, work):
     overview = output(program, "--help")
     also = re.search("Also: (.*), help", overview)[1].split(", ")
     for command in re.findall(r"^  ([a-z]+) {2,}[A-Z]", overview, re.M) + also:
-        page = output(program, command, "--help=all").split("\nFor experiments:")[0]
+        page = output(program, command, "--help=all").split("\nSeldom needed:")[0]
         offers(f"nutik-cl {command} --", set(re.findall(r"^(?:  -., |      )(--[a-z-]+)", page, re.M)) | {"--help"})
 
 

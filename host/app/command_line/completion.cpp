@@ -111,7 +111,7 @@ std::string option_lines(const Command* command) {
     const bool is_taken =
         command != nullptr ? option.is_of(command->id)
                            : std::ranges::any_of(kShorthand, [&](CommandId id) { return option.is_of(id); });
-    if (is_taken && option.heading != kForExperiments && met.insert(option.long_name).second)
+    if (is_taken && option.heading != kSeldomNeeded && met.insert(option.long_name).second)
       lines += described(option.name(), option.help);
   }
   return lines;

@@ -114,7 +114,7 @@ std::vector<const Option*> options_of_topic(const Command& command, std::string_
 std::vector<const Option*> options_of_its_own(const Command& command) {
   constexpr std::size_t kLittle = 11;
   std::vector<const Option*> found = options_of(command.id);
-  std::erase_if(found, [](const Option* option) { return option->heading == kForExperiments; });
+  std::erase_if(found, [](const Option* option) { return option->heading == kSeldomNeeded; });
   if (found.size() <= kLittle) return found;
   std::vector<std::string_view> shared{kClipCodes, kEventRecording, kComputing, kOutputs};
   const bool is_of_source = command.id == CommandId::encode || command.id == CommandId::noise;

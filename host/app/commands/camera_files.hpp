@@ -22,7 +22,7 @@ class CameraFiles {
              Answer& answer) const;
 
  private:
-  std::optional<std::string> table_, plot_, coverage_;
+  std::optional<std::string> folder_, table_, plot_, coverage_;
 };
 
 }  // namespace nutik::app

@@ -32,7 +32,7 @@ enum class Scope {
 // Headings that many commands share, in help; the last one's rows are needed for no picture.
 inline constexpr std::string_view kSourceClip = "The source clip", kClipCodes = "What a clip's codes are",
                                   kEventRecording = "A recording of events", kMovingCamera = "A camera that moved",
-                                  kComputing = "Computing", kOutputs = "Output", kForExperiments = "For experiments";
+                                  kComputing = "Computing", kOutputs = "Output", kSeldomNeeded = "Seldom needed";
 
 // Sets the field of Options that a value is kept in. Throws UsageError naming `what` where the word makes no sense.
 using Take = void (*)(Options& options, std::string_view what, const std::string& word);
@@ -54,7 +54,7 @@ struct Option {
   std::string_view choice_list = {};
   std::optional<Setting> setting = {};  // that errors and notes know it as
   std::string_view python = {};         // its argument's name there, where that is not the long name
-  std::string_view heading = {};        // in help; kForExperiments: completion and short help leave it out
+  std::string_view heading = {};        // in help; kSeldomNeeded: completion and short help leave it out
 
   // `--fps`
   [[nodiscard]] std::string name() const { return "--" + std::string(long_name); }

@@ -52,7 +52,7 @@ struct Options {
   std::optional<CameraMotion> align;
   Time align_to;
   std::optional<Unseen> unseen;
-  Text align_along, camera_path, camera_plot, coverage;
+  Text align_along, align_report, camera_path, camera_plot, coverage;
   tik::Codec codec{tik::CodecId::rice, 0};
 
   // The exposure, and what is followed or counted: a pixel, or a tag of the mask.

@@ -20,7 +20,7 @@ namespace {
 
 std::optional<AlignRequest> align_request(const Options& options) {
   if (!options.align && !options.align_along) {
-    for (const char* name : {"align-to", "unseen", "camera-path", "camera-plot", "coverage"}) {
+    for (const char* name : {"align-to", "unseen", "align-report", "camera-path", "camera-plot", "coverage"}) {
       if (!options.has(name)) continue;
       throw UsageError(Advice{
           format("`{}` is said of pictures that are aligned: add `align rigid`, or another motion", name)});
