@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Random arrays from Python against NumPy: dtypes, layouts, times, functions and transfer functions as they come; each
-picture is held to the bound that it states, float32 included. NumPy integrates in its widest floats, by itself.
+picture is held to the bound that it states, float32 included, and of floats that are light to all of its bounds together.
+NumPy integrates in its widest floats, by itself.
 
     random_arrays.py [--cases 10000] [--first 0] [--build build]
 
@@ -127,11 +128,13 @@ def check(nutik, number):
     random = np.random.default_rng([44, number])
     codes, white = random_codes(random)
     transfer = str(random.choice(["linear", "srgb", "gamma:2.2", "bt709"]))
+    shown = None
     stated, exposed, end_ns = random_times(random, len(codes))
     if random.random() < 0.15:
         given = codes / white if random.random() < 0.5 else (codes / white).astype(np.float32)
         codes = (np.asarray(given, np.float64) * 65535 + 0.5).astype(np.uint16)
-        source, white, stated_white = given, 65535, 1.0
+        shown = light.light_of(given, transfer)  # of which the capture holds the nearest codes
+        source, white, stated_white = given if random.random() < 0.5 else iter(list(given)), 65535, 1.0
     else:
         source, stated_white = laid_out(random, codes), white
     points = [random_points(random, end_ns) for _ in range(int(random.integers(1, 4)))]
@@ -154,6 +157,11 @@ def check(nutik, number):
         slack = 4 * 2.0 ** -53 * float(np.abs(weights).sum() / (support or 1))
         error = float(np.abs(array.astype(WIDE) - wanted).max())
         share = max(0.0, error - slack) / bound if bound > 0 else 0.0 if error <= slack else np.inf
+        if shown is not None and k == 0 and array is picture.array:
+            scene = np.tensordot(weights, shown.astype(WIDE), 1) / (support or 1)
+            off = max(0.0, float(np.abs(array.astype(WIDE) - scene).max()) - slack)
+            all_bounds = picture.uncertainty["bounds"]["light"]
+            share = max(share, off / all_bounds if all_bounds > 0 else 0.0 if off == 0 else np.inf)
         if not share <= 1:
             print(f"case {number}: off by {error:.3g}, bound {bound:.3g}, {precision}, {np.dtype(dtype).name}, {transfer}, "
                   f"codes {codes.shape} {codes.dtype}, function {k}: {points[k]}")

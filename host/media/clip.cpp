@@ -18,6 +18,13 @@ void refuse_yuv_options(const ClipOptions& options) {
       {Setting::matrix, Setting::range, Setting::chroma_place});
 }
 
+void describe_light(ClipInfo& info, double white) {
+  info.holds_light = info.is_rounded = true;
+  info.format.white_code = kLightSteps;
+  info.facts.push_back({format("light {} is white, to the nearest of {} steps", white, kLightSteps), Origin::stated,
+                        Setting::white_code});
+}
+
 void describe_stored_codes(ClipInfo& info, const ClipOptions& options, const StoredCodes& codes) {
   refuse_yuv_options(options);
   CaptureFormat& capture = info.format;

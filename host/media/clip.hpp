@@ -217,6 +217,10 @@ struct StoredCodes {
 // Throws UsageError where something is stated that is said of YUV only.
 void refuse_yuv_options(const ClipOptions& options);
 
+// Codes of light of floating point: the nearest ones of equal steps up to `white`.
+inline constexpr std::uint32_t kLightSteps = 65'535;
+void describe_light(ClipInfo& info, double white);
+
 // Describes such codes, of a format whose shape and white code are known, as stated, as the files say, or as usual.
 // Throws UsageError where what is stated is said of YUV.
 void describe_stored_codes(ClipInfo& info, const ClipOptions& options, const StoredCodes& codes);

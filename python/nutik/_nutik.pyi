@@ -91,8 +91,8 @@ def encode_clip(path: str, output: Optional[str], codec: str, settings: Mapping[
                 computing: Mapping[str, str],
                 progress: Progress) -> tuple[Capture, list[str], list[str]]: ...
 def encode_pictures(pictures: object, first: Array, name: str, starts_ns: Sequence[int],
-                    exposures_ns: Sequence[tuple[int, int]], exposed_ns: Optional[int], output: Optional[str], codec: str,
-                    settings: Mapping[str, str], computing: Mapping[str, str],
+                    exposures_ns: Sequence[tuple[int, int]], exposed_ns: Optional[int], white_light: Optional[float],
+                    output: Optional[str], codec: str, settings: Mapping[str, str], computing: Mapping[str, str],
                     progress: Progress) -> tuple[Capture, list[str], list[str]]: ...
 def clip_arguments() -> list[str]: ...
 def join(captures: Sequence[str], output: str, computing: Mapping[str, str],

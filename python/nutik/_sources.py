@@ -29,7 +29,7 @@ Source = Union[ArrayLike, HasArray, Iterable[ArrayLike], Path, BinaryIO]
 
 
 def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_angle: Optional[Number] = None,
-         transfer: Optional[str] = None, white: Optional[int] = None, primaries: Optional[str] = None,
+         transfer: Optional[str] = None, white: Optional[float] = None, primaries: Optional[str] = None,
          pixel_aspect: Union[str, Number, None] = None, raw: Optional[str] = None, matrix: Optional[str] = None,
          range: Optional[str] = None, chroma_at: Optional[str] = None, begin: Optional[Time] = None,
          end: Optional[Time] = None, crop: Union[str, Sequence[int], None] = None, scale: Optional[str] = None,
@@ -47,7 +47,8 @@ def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_
     Parameters:
     path : a capture, a clip, or a file that is open for bytes.
     rate : pictures a second that the clip was filmed with: 120, 29.97, '30000/1001'; without it what the file says.
-    white : the code that stands for white: 255, 4095 for 12 bits; without it what the file says.
+    white : the code that stands for white: 255, 4095 for 12 bits; without it what the file says. Of floats the light of
+        white, 1.0.
     crop : (x, y, width, height) of pixels, or 'WxH+X+Y': only this part of the pictures.
     noise : the camera's noise, 'auto' or a noise file: changes within it are none, and samples are held as the light that
         they are expected to have.
@@ -139,8 +140,8 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
         stated["white"] = None  # of the codes it is the last one
     count = len(pictures) if isinstance(pictures, np.ndarray) else None
     starts, intervals, exposed = _timing(rate, times, exposures, shutter_angle, count)
-    return _told(_nutik.encode_pictures(pictures, first, name, starts, intervals, exposed, path, codec,
-                                        settings_of(stated), computing, progress))
+    return _told(_nutik.encode_pictures(pictures, first, name, starts, intervals, exposed,
+                                        float(white) if is_light and white else None, path, codec, settings_of(stated), computing, progress))
 
 
 def join(captures: Iterable[Path], output: Path, *, device: Optional[str] = None,

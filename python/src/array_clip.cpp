@@ -72,6 +72,7 @@ ClipInfo info_of(const PictureNotes& notes, const ClipOptions& options) {
   info.format.white_code = options.white_code.value_or(notes.code_bytes == 1 ? 255 : 65'535);
   info.timing = notes.timing;
   info.sample_count = notes.sample_count;
+  if (notes.white_light) describe_light(info, *notes.white_light);
   describe_stored_codes(info, options, {notes.code_bytes == 1 ? Transfer::srgb() : Transfer::linear()});
   return info;
 }

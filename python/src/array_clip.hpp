@@ -18,6 +18,7 @@ struct PictureNotes {
   Shape shape;
   std::uint32_t code_bytes = 1;
   std::uint64_t sample_count = 0;  // 0: an iterator does not say
+  std::optional<double> white_light = std::nullopt;  // where codes are light that was rounded to the nearest
 };
 
 [[nodiscard]] OpenClip open_array(const pybind11::array& pictures, PictureNotes notes, ClipOptions options,

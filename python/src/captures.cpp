@@ -118,9 +118,9 @@ py::tuple joined(const std::vector<std::string>& captures, const std::string& ou
 py::tuple encode_pictures(const py::object& pictures, const py::array& first, const std::string& name,
                           const std::vector<std::int64_t>& starts_ns,
                           const std::vector<std::pair<std::int64_t, std::int64_t>>& exposures_ns,
-                          std::optional<std::int64_t> exposed_ns, const std::optional<std::string>& output,
-                          const std::string& codec, const Settings& settings, const Settings& computing,
-                          const py::object& progress) {
+                          std::optional<std::int64_t> exposed_ns, std::optional<double> white_light,
+                          const std::optional<std::string>& output, const std::string& codec, const Settings& settings,
+                          const Settings& computing, const py::object& progress) {
   PictureNotes notes;
   notes.shape = {static_cast<std::uint32_t>(first.shape(1)), static_cast<std::uint32_t>(first.shape(0)),
                  first.ndim() == 3 ? static_cast<std::uint32_t>(first.shape(2)) : 1U};
@@ -129,6 +129,7 @@ py::tuple encode_pictures(const py::object& pictures, const py::array& first, co
   notes.timing.starts_ns = starts_ns;
   for (const auto& [start_ns, end_ns] : exposures_ns) notes.timing.exposures.push_back({start_ns, end_ns});
   notes.timing.exposed_ns = exposed_ns;
+  notes.white_light = white_light;
   Opening terms = opening_of(name, settings, computing);
   if (py::isinstance<py::array>(pictures)) {
     const auto array = pictures.cast<py::array>();
@@ -356,8 +357,8 @@ void bind_captures(py::module_& module) {
   module.def("encode_clip", &encode_clip, py::arg("path"), py::arg("output"), py::arg("codec"),
              py::arg("settings"), py::arg("computing"), py::arg("progress"));
   module.def("encode_pictures", &encode_pictures, py::arg("pictures"), py::arg("first"), py::arg("name"),
-             py::arg("starts_ns"), py::arg("exposures_ns"), py::arg("exposed_ns"), py::arg("output"),
-             py::arg("codec"), py::arg("settings"), py::arg("computing"), py::arg("progress"));
+             py::arg("starts_ns"), py::arg("exposures_ns"), py::arg("exposed_ns"),
+             py::arg("white_light"), py::arg("output"), py::arg("codec"), py::arg("settings"), py::arg("computing"), py::arg("progress"));
   module.def("join", &joined, py::arg("captures"), py::arg("output"), py::arg("computing"), py::arg("progress"));
 }
 

@@ -66,8 +66,6 @@ std::optional<Rational> aspect_of(double pixels_across, double pixels_down) {
   return Rational::of(std::llround(aspect * kParts), kParts);
 }
 
-constexpr std::uint32_t kLightSteps = 65'535;
-
 Still still_of(Picture&& picture, std::optional<std::uint32_t> maximum) {
   return {picture.shape, static_cast<std::uint32_t>(value_bytes(picture.type)), maximum,
           std::move(picture.bytes)};
@@ -303,14 +301,11 @@ class StillClip final : public Clip {
     stated_ = options;
     first_ = read_page(pages_.front());
     first_maximum_ = first_.maximum;
-    info_.holds_light = info_.is_rounded = first_.holds_light;
     CaptureFormat& capture = info_.format;
     capture.shape = first_.shape;
     capture.code_bytes = first_.code_bytes;
     if (first_.holds_light) {
-      capture.white_code = kLightSteps;
-      info_.facts.push_back({format("light {} is white, to the nearest of {} steps", *options.white_light, kLightSteps),
-                             Origin::stated, Setting::white_code});
+      describe_light(info_, *options.white_light);
     } else if (first_.code_bytes == 1) {
       capture.white_code = options.white_code.value_or(first_.maximum.value_or(255));
     } else {
