@@ -13,13 +13,14 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from . import _finds, _nutik
+from ._finds import Activity, Plate, Solution, Study
 from ._functions import Function, FunctionLike, function_of, read_functions
 from ._masks import Mask, MaskLike, mask_of
 from ._nutik import InputError, MemoryTooLittle, UsageError
 from ._pictures import Picture, Pictures
 from ._told import Figures
-from ._words import (Axes, DataArray, DelayLike, Index, Path, Progress, Time, axes_of, box_of, count_of, delays_ns,
-                     is_list, labelled, listed, settings_of, tag_of, time_word, warn)
+from ._words import (Axes, DataArray, DelayLike, Index, Path, Progress, Time, WrongType, axes_of, box_of, count_of, delays_ns,
+                     is_list, labelled, listed, settings_of, shortened, tag_of, time_word, warn)
 
 Codes = Union[NDArray[np.uint8], NDArray[np.uint16]]
 Functions = Union[FunctionLike, Mapping[int, FunctionLike], Path]
@@ -70,6 +71,10 @@ def _warn_of_black(still_gains: Mapping[int, float], negative: Optional[str]) ->
     if negative in (None, "saturate"):
         warn(f"M{tag}: the still gain is {gain:.6g}: whatever does not move comes out black; negative='offset' shows "
              "light below 0, and light itself (codes=False) keeps it" for tag, gain in still_gains.items() if gain < 0)
+
+
+def _corner_of(box: Optional[list[int]]) -> tuple[int, int]:
+    return (0, 0) if box is None else (box[0], box[1])
 
 
 class Capture:
@@ -162,11 +167,13 @@ class Capture:
         Parameters:
         samples : which, slice(10, 20) of those from 10 on and before 20; all without it.
         Raises:
-        MemoryTooLittle where they take more than 4 GiB.
+        MemoryTooLittle where they take more than 4 GiB, UsageError where `samples` is no slice.
         """
+        if not isinstance(samples, slice):
+            raise WrongType(f"samples is {samples!r}; give a slice: slice(10, 20), or slice(10, 11) of one sample")
         figures = {name: each if isinstance(each, str) else float(each) if isinstance(each, Fraction)
                    else int(cast(int, each)) for name, each in self.figures.items() if name != "tiles"}  # netCDF takes these
-        return labelled(self[samples], {"time": self.times[samples]}, facts="; ".join(self.facts), **figures)
+        return labelled(self[samples], {"time": self.times[samples]}, {"facts": "; ".join(self.facts), **figures})
 
     @property
     def times(self) -> NDArray[np.float64]:
@@ -183,7 +190,8 @@ class Capture:
         Returns:
         [records] with the fields x, y, start_ns, end_ns, code (of colour [3]); each pixel's in time order, row after row.
         Raises:
-        UsageError where there are no such pixels or samples.
+        UsageError where there are no such pixels or samples; MemoryTooLittle where records take more than 4 GiB, whatever
+        `memory` is: ask for a region, or for fewer samples.
         Examples:
         >>> capture.records((3, 4, 1, 1), first=0, last=1)["end_ns"].tolist()
         [10000000]
@@ -195,7 +203,12 @@ class Capture:
         end = len(self) if last is None else count_of(last, "last")
         if not count_of(first, "first") < end <= len(self):
             raise UsageError(f"there are no samples from {first} to {end}; the capture has {len(self)}")
-        places, samples, codes = self._held.records(box, first, end, progress)
+        try:
+            places, samples, codes = self._held.records(box, first, end, progress)
+        except MemoryTooLittle:
+            raise MemoryTooLittle(f"the records of {box[2] * box[3]} pixels over {end - first} samples take more than 4 GiB, "
+                                  "the most of one call: ask for a part, region=(x, y, width, height), or for fewer "
+                                  "samples, first= and last=") from None
         code: Any = ("code", self.dtype, (3,)) if codes.shape[1] == 3 else ("code", self.dtype)
         made = np.empty(len(codes), [("x", np.uint32), ("y", np.uint32), ("start_ns", np.int64), ("end_ns", np.int64), code])
         times = self.times_ns
@@ -295,13 +308,14 @@ class Capture:
         box = None if region is None else box_of(region, "region")
         held = _nutik.render(self._held, asked, output, box, None if precision is None else str(precision), bounds,
                              progress)
-        picture = Picture(held)
+        picture = Picture(held, _corner_of(box))
         warn(held.figures["warnings"])
         if picture.dtype.kind == "u":
             _warn_of_black({each["tag"]: each["still_gain"] for each in picture.plan["functions"]}, negative)
         return picture
 
-    def render_many(self, functions: Optional[Sequence[Functions]] = None, mask: Optional[MaskLike] = None, *,
+    def render_many(self, functions: Union[Sequence[Functions], NDArray[np.float32], NDArray[np.float64], None] = None,
+                    mask: Optional[MaskLike] = None, *,
                     starts: Union[Time, Iterable[Time], None] = None,
                     exposures: Union[Time, Iterable[Time], None] = None, shutter: Optional[str] = None,
                     shutter_error: Optional[float] = None, feather: Union[str, float, None] = None,
@@ -314,7 +328,7 @@ class Capture:
         processor, in double, in one pass over the capture; others are made one by one.
 
         Parameters:
-        functions : a list, of each picture those that render() takes.
+        functions : a list, of each picture those that render() takes; or [pictures, samples], gains.
         starts, exposures : one for all pictures, or one for each. What is a list has one length.
         progress : called with (pictures done, of how many).
         Returns:
@@ -326,6 +340,11 @@ class Capture:
         >>> many.array.shape, many.error_bounds.shape
         ((100, 24, 32), (100,))
         """
+        if functions is not None and (isinstance(functions, (str, PathLike, Mapping)) or not is_list(functions)
+                                      or np.ndim(cast(Any, functions) if isinstance(functions, np.ndarray) else [[]]) != 2):
+            each = "a dict {tag: function}" if isinstance(functions, Mapping) else "those of render()"
+            raise UsageError(f"functions is {shortened(functions)}; render_many() takes a list with {each} for each picture, "
+                             "[{0: ..., 128: ...}, ...], or an array [pictures, samples] of gains")
         lists: dict[str, list[Any]] = {name: listed(each) if name == "functions" or is_list(each) else [each]
                  for name, each in (("functions", functions), ("starts", starts), ("exposures", exposures))
                  if each is not None}
@@ -348,7 +367,7 @@ class Capture:
         warn(told)
         if array.dtype.kind == "u":
             _warn_of_black(still_gains, negative)
-        return Pictures._of(array, bounds, saturated)
+        return Pictures._of(array, bounds, saturated, _corner_of(box))
 
     def trace(self, x: Optional[int] = None, y: Optional[int] = None, *, tag: Optional[int] = None,
               functions: Optional[Functions] = None, mask: Optional[MaskLike] = None, start: Optional[Time] = None,
@@ -381,7 +400,7 @@ class Capture:
         return [Trace._of(arrays) for arrays in traces]
 
     def plate(self, *, by: Optional[int] = None, codes: bool = False, dtype: DTypeLike = None,
-              transfer: Optional[str] = None, progress: Progress = None) -> _finds.Plate:
+              transfer: Optional[str] = None, progress: Progress = None) -> Plate:
         """The scene without what moves in it (docs/how-to/plate.md).
 
         Parameters:
@@ -399,7 +418,7 @@ class Capture:
                             self._output(codes, dtype, transfer, None), progress)
 
     def activity(self, mask: Optional[MaskLike] = None, *, tag: Optional[int] = None, by: int = 0,
-                 count_redrawn: bool = False, progress: Progress = None) -> _finds.Activity:
+                 count_redrawn: bool = False, progress: Progress = None) -> Activity:
         """When it changes, and where.
 
         Parameters:
@@ -420,7 +439,7 @@ class Capture:
     def study(self, style: str = "trail", *, moments: Union[int, Sequence[Time], None] = None, spacing: str = "time",
               trail: Optional[str] = None, slit_from: str = "left", regions: Sequence[Sequence[int]] = (),
               by: Optional[int] = None, feather: Union[str, float, None] = None, codes: bool = False,
-              dtype: DTypeLike = None, transfer: Optional[str] = None, progress: Progress = None) -> _finds.Study:
+              dtype: DTypeLike = None, transfer: Optional[str] = None, progress: Progress = None) -> Study:
         """A motion study that finds its subject by itself (docs/how-to/study.md).
 
         Parameters:
@@ -463,7 +482,7 @@ class Capture:
               free: Mapping[str, Union[str, Sequence[Time]]] = {}, mask: Optional[MaskLike] = None,
               regions: Optional[MaskLike] = None, start: Optional[Time] = None,
               feather: Union[str, float, None] = None, normalize: str = "support", gain: float = 1.0,
-              unmapped: Optional[str] = None, progress: Progress = None) -> _finds.Solution:
+              unmapped: Optional[str] = None, progress: Progress = None) -> Solution:
         """Gains and times that make a picture as it is wished (docs/how-to/solve.md).
 
         Parameters:
@@ -530,6 +549,11 @@ class Capture:
         if isinstance(functions, (str, PathLike)):
             functions = read_functions(functions)
         if not isinstance(functions, Mapping):
+            several = listed(functions) if is_list(functions) and not isinstance(functions, Function) else []
+            if any(isinstance(each, Function) or callable(each) for each in several):
+                raise UsageError(f"functions is a list of {len(several)} functions; " + (
+                    "with mask= say which tag each is for, {tag: function}" if has_mask else
+                    "render_many() makes a picture with each, and of one picture {tag: function} goes with mask="))
             return {0: self._function_of(functions, "functions")}
         if not functions:
             raise UsageError("functions= is empty; an exposure has one at least")

@@ -17,7 +17,7 @@ from ._pictures import Picture
 from ._words import Axes, NutikNote, Progress, axes_of, time_word, warn
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Plate:
     """The scene without what moves in it."""
 
@@ -33,7 +33,7 @@ class Stretch:
     times_ns: tuple[int, int]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Activity:
     """When a capture changes, and where."""
 
@@ -51,7 +51,7 @@ class Activity:
         return axes
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Study:
     """A motion study, and what makes it by hand."""
 
@@ -72,7 +72,7 @@ class SolvedWish:
     is_kept: bool
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Solution:
     """The numbers that come nearest to wishes."""
 

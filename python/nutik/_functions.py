@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import Axes, Path, Time, axes_of, path_word, reading, tag_of, time_ns, time_word, times_ns, warn
+from ._words import Axes, Path, Time, axes_of, path_word, reading, shortened, tag_of, time_ns, time_word, times_ns, warn
 
 _MIN_SAMPLES = 1024  # of a callable, evenly, before it is looked at more closely where it bends
 _MAX_SAMPLES = 1 << 20
@@ -350,7 +350,6 @@ def function_of(given: FunctionLike, what: str, duration: Time = 0) -> Function:
     try:
         points = [(time, float(gain)) for time, gain in given]
     except (TypeError, ValueError):
-        shown = f"an array of shape {given.shape}" if isinstance(given, np.ndarray) else repr(given)
-        raise UsageError(f"{what} is {shown}, no function; give a nutik.Function, a list of (time, gain), or a "
+        raise UsageError(f"{what} is {shortened(given)}, no function; give a nutik.Function, a list of (time, gain), or a "
                          "callable; of an interval say start= and exposure=") from None
     return Function([time for time, _ in points], [gain for _, gain in points])

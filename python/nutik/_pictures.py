@@ -36,11 +36,12 @@ class Pictures:
     array: Array         # [pictures, height, width] or [pictures, height, width, 3]: light or codes
     error_bounds: NDArray[np.float64]  # [pictures] float64: as error_bound of a Picture; NaN of the reference
     saturated: Optional[NDArray[np.uint64]]  # [pictures, 2]: as saturated of a Picture; None where light is kept
+    corner: tuple[int, int] = (0, 0)   # x, y of their first pixel in the capture, of region=
 
     @classmethod
-    def _of(cls, array: Array, bounds: NDArray[np.float64], saturated: NDArray[np.uint64]) -> Pictures:
+    def _of(cls, array: Array, bounds: NDArray[np.float64], saturated: NDArray[np.uint64], corner: tuple[int, int]) -> Pictures:
         array.flags.writeable = False
-        return cls(array, _bounds(bounds, array), saturated if array.dtype.kind == "u" else None)
+        return cls(array, _bounds(bounds, array), saturated if array.dtype.kind == "u" else None, corner)
 
     def __array__(self, dtype: DTypeLike = None, copy: Optional[bool] = None) -> NDArray[np.generic]:
         return self.array if dtype is None and not copy else self.array.astype(dtype or self.array.dtype, copy=bool(copy))
@@ -60,12 +61,17 @@ class Pictures:
         return f"<nutik.Pictures {' x '.join(map(str, self.shape))}, {self.array.dtype}>"
 
     def to_xarray(self, **first: ArrayLike) -> DataArray:
-        """An xarray.DataArray [picture, y, x(, channel)], no copy.
+        """An xarray.DataArray [picture, y, x(, channel)], no copy; its attribute `error_bounds` has a bound for each picture.
 
         Parameters:
-        first : of the first axis its name and its coordinate, start=starts; without it numbers.
+        first : of the first axis its name and its coordinate, start=starts; without it numbers. `start` and `time` are seconds.
+        Raises:
+        UsageError where a coordinate is not a list with an entry for each picture.
         """
-        return labelled(self.array, first or {"picture": range(len(self))})
+        if len(first) > 1:
+            raise UsageError(f"{', '.join(first)}: the first axis has one name and one coordinate")
+        bounds = None if np.isnan(self.error_bounds).any() else self.error_bounds
+        return labelled(self.array, first or {"picture": range(len(self))}, {"error_bounds": bounds}, self.corner)
 
 
 class Picture:
@@ -80,8 +86,9 @@ class Picture:
     (<nutik.Picture 32 x 24 grey, light, float32>, True)
     """
 
-    def __init__(self, held: _nutik.Picture) -> None:
+    def __init__(self, held: _nutik.Picture, corner: tuple[int, int] = (0, 0)) -> None:
         self._held = held
+        self._corner = corner
         self._array = held.values()
 
     @property
@@ -104,6 +111,11 @@ class Picture:
         return self._array.dtype
 
     @property
+    def corner(self) -> tuple[int, int]:
+        """x, y of its first pixel in the capture, of region=."""
+        return self._corner
+
+    @property
     def precision(self) -> Optional[str]:
         """The arithmetic that computed it: 'single', 'compensated', 'double' or 'fixed'; None of a plate."""
         return self._held.figures.get("precision")
@@ -112,7 +124,8 @@ class Picture:
     def error_bound(self) -> Optional[float]:
         """How far the light of any pixel may lie from the exact integral, in light: of codes before it is rounded to
         them, of float32 with half a step of that for the largest light. All else was known before anything was computed
-        (docs/explanation/accuracy.md). None of a plate, and of the reference."""
+        (docs/explanation/accuracy.md). None of a plate, of the reference, and of combine='lighten', 'darken' and
+        'median', which add nothing up: `uncertainty` has what bounds their light."""
         bound = self._held.figures.get("error_bound")
         return None if bound is None else float(_bounds(bound["light"], self._array[None])[0])
 
@@ -152,8 +165,8 @@ class Picture:
         return deepcopy(self._held.figures.get("statistics", {}))
 
     def to_xarray(self) -> DataArray:
-        """An xarray.DataArray [y, x(, channel)], no copy."""
-        return labelled(self._array, {}, error_bound=self.error_bound)
+        """An xarray.DataArray [y, x(, channel)], no copy. Where there is an `error_bound`, it is an attribute."""
+        return labelled(self._array, {}, {"error_bound": self.error_bound}, self._corner)
 
     def write(self, path: Union[Path, BinaryIO], *, kind: Optional[str] = None, quality: Optional[int] = None,
               keep_pixels: bool = False) -> None:
@@ -191,8 +204,15 @@ class Picture:
                 raise OutputError(f"{name} cannot be written: {error.strerror or error}") from None
             return
         if self.dtype == np.float64:
-            raise UsageError(f"{name}: files of light hold float32; expose the picture with that dtype, or write .npy")
-        self._held.write(name, quality, keep_pixels)
+            raise UsageError(f"{name}: files of light hold float32; expose the picture with that dtype, or codes=True, or write "
+                             ".npy")
+        try:
+            self._held.write(name, quality, keep_pixels)
+        except UsageError as error:
+            if self.dtype.kind == "f" and "cannot hold the values" in str(error):
+                raise UsageError(f"{error}, which are light: expose it with codes=True, or write .exr, .tif, .pfm or .npy") \
+                    from None
+            raise
 
     def _repr_png_(self) -> bytes:
         """As notebooks show it: light as sRGB codes of 8 bits."""
@@ -201,7 +221,7 @@ class Picture:
         return file.getvalue()
 
     def __reduce__(self) -> tuple[object, ...]:
-        return Picture, (self._held,)
+        return Picture, (self._held, self._corner)
 
     def __repr__(self) -> str:
         size = " x ".join(str(side) for side in self.shape[1::-1])

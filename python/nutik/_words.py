@@ -29,10 +29,10 @@ if TYPE_CHECKING:
 else:
     ellipsis = type(...)
 
-Time = Union[str, float, int, Fraction, Decimal, np.timedelta64, datetime.timedelta]
+Time = Union[str, float, int, "np.floating[Any]", "np.integer[Any]", Fraction, Decimal, np.timedelta64, datetime.timedelta]
 DelayLike = Union[str, ArrayLike]
 Index = Union[int, slice, ellipsis, tuple[Union[int, slice, ellipsis, None], ...]]
-Number = Union[str, float, int, Fraction, Decimal]
+Number = Union[str, float, int, "np.floating[Any]", "np.integer[Any]", Fraction, Decimal]
 Path = Union[str, "PathLike[str]"]
 Array = Union[NDArray[np.uint8], NDArray[np.uint16], NDArray[np.float32], NDArray[np.float64]]  # codes, or light
 Progress = Optional[Callable[[int, int], object]]  # progress(done, total); total is 0 where it is not known
@@ -96,13 +96,35 @@ class DataArray(Protocol):
     def mean(self, dim: Union[str, Sequence[str], None] = None) -> DataArray: ...
 
 
-def labelled(values: NDArray[np.generic], first: Mapping[str, Any], **attributes: object) -> DataArray:
-    """Pictures with the names of their axes, and coordinates: those of `first`, and pixels."""
+def labelled(values: NDArray[np.generic], first: Mapping[str, Any], attributes: Mapping[str, object],
+             corner: tuple[int, int] = (0, 0)) -> DataArray:
+    """Pictures with the names of their axes, and coordinates: those of `first`, and pixels, whose x and y begin at `corner`.
+    Attributes that are None are left out, for no file holds them."""
+    if len(first) > values.ndim - 2:
+        raise UsageError(f"{', '.join(first)}: pictures have one axis before their own")
+    coordinates: dict[str, Any] = {}
+    for name, each in first.items():
+        if name in ("y", "x", "channel"):
+            raise UsageError(f"{name}= names an axis of the pictures themselves; the first one is another: start=starts")
+        if not is_list(each) or (coordinate := np.asarray(listed(each))).ndim != 1 or len(coordinate) != len(values):
+            raise UsageError(f"{name}= is {shortened(each)}: give a list of {len(values)}, one coordinate for each picture")
+        seconds = name in ("start", "time") and coordinate.dtype.kind in "iuf"
+        coordinates[name] = (name, coordinate, {"units": "s"} if seconds else {})
     axes = [*first, "y", "x", "channel"][:values.ndim]
-    coordinates = {"y": np.arange(values.shape[len(first)]), "x": np.arange(values.shape[len(first) + 1]),
-                   "channel": ["red", "green", "blue"], **first}
+    for name, begin in zip("xy", corner):
+        coordinates[name] = begin + np.arange(values.shape[axes.index(name)])
+    coordinates["channel"] = ["red", "green", "blue"]
     return cast(DataArray, import_module("xarray").DataArray(
-        values, dims=axes, coords={name: coordinates[name] for name in axes}, attrs=attributes))
+        values, dims=axes, coords={name: coordinates[name] for name in axes},
+        attrs={name: each for name, each in attributes.items() if each is not None}))
+
+
+def shortened(value: Any) -> str:
+    """As it is written, on one line and not without end."""
+    if isinstance(value, np.ndarray):
+        return f"an array of shape {value.shape}"
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 60 else f"{text[:50]} ..." + (f", {len(value)} in all" if hasattr(value, "__len__") else "")
 
 
 def axes_of(ax: Optional[Axes], x: str, y: str) -> Axes:

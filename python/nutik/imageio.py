@@ -27,18 +27,22 @@ class CaptureFormat(_Format):  # type: ignore[misc]
     class Reader(_Format.Reader):  # type: ignore[misc]
         def _open(self, **stated: Any) -> None:
             self._capture: Capture = open(self.request.get_local_filename(), **stated)
+            self._times = self._capture.times
+            self._is_volume = self.request.mode[1] in "vV"  # all samples are one
 
         def _close(self) -> None:
             self._capture.close()
 
         def _get_length(self) -> int:
-            return len(self._capture)
+            return 1 if self._is_volume else len(self._capture)
 
         def _get_data(self, index: int) -> tuple[Codes, dict[str, float]]:
-            return self._capture[index], {"time": float(self._capture.times[index])}
+            if not 0 <= index < self._get_length():
+                raise IndexError(f"sample {index} of {self._get_length()}")
+            return self._capture[:] if self._is_volume else self._capture[index], {"time": float(self._times[index])}
 
         def _get_meta_data(self, index: Any) -> dict[str, object]:
-            return {**self._capture.figures} if index is None else {**self._get_data(index)[1]}
+            return {**self._capture.figures} if index is None else {"time": float(self._times[index])}
 
 
 import_module("imageio").formats.add_format(CaptureFormat("NUTIK", "Captures of nutik-cl", ".tik", "iIvV"),

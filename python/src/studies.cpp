@@ -86,8 +86,16 @@ py::tuple plate(const OpenCapture& capture, std::optional<std::uint32_t> by, con
   Session& session = *capture.session;
   const OutputFormat format = output_of(output, session.format());
   MadePlate made = without_lock([&](const Stopping& stopping) {
-    return make_plate(session.capture(), capture.name, {by}, format, session.devices().request().memory,
-                      stopping.progress());
+    // Few plates need all steps: those that were not taken are done at the end.
+    const ReportedProgress report = stopping.progress();
+    std::uint64_t last = 0;
+    MadePlate found = make_plate(session.capture(), capture.name, {by}, format, session.devices().request().memory,
+                                 [&](std::uint64_t done, std::uint64_t total) {
+                                   last = total;
+                                   report(done, total);
+                                 });
+    report(last, last);
+    return found;
   }, progress);
   const Shape& shape = made.picture.shape;
   Mask uncertain = Mask::uniform(shape.width, shape.height, 0);

@@ -5,6 +5,7 @@ import itertools
 import os
 import subprocess
 import unittest
+import unittest.mock
 import warnings
 from decimal import Decimal
 from fractions import Fraction
@@ -45,6 +46,48 @@ class Arrays(support.TestCase):
             self.assertEqual(capture.shape, pictures.shape)
             for k in (0, 8):
                 self.assert_same(sample(capture, k), pictures[k])
+
+    def test_light_is_rounded_as_that_of_a_file(self):
+        """Floats in memory, from an iterable and in a .npy: the same facts, and the same bounds."""
+        light = np.random.default_rng(2).random((5, 6, 7))
+        np.save(self.path("light.npy"), light)
+        stated = dict(rate=100, white=1.5, transfer="linear")
+        file = nutik.open(self.path("light.npy"), **stated)
+        terms = file.render(exposure="20ms").uncertainty["terms"]
+        self.assertIn("rounded_codes", [each["term"] for each in terms])
+        for source in (light, light.astype(">f8"), list(light), iter(light)):
+            for output in (None, self.path("light.tik")):
+                capture = nutik.encode(source if not hasattr(source, "__next__") else iter(light), output, **stated)
+                self.assertIn("light 1.5 is white, to the nearest of 65535 steps, as stated", capture.facts)
+                self.assertEqual(sorted(capture.facts[-3:]), sorted(file.facts[-3:]))
+                self.assertEqual(capture.render(exposure="20ms").uncertainty["terms"], terms)
+        codes = nutik.encode(np.zeros((2, 8, 8), np.uint16), rate=1).render(exposure=1)
+        self.assertNotIn("rounded_codes", [each["term"] for each in codes.uncertainty["terms"]])
+
+    def test_integers_in_files_are_to_be_codes(self):
+        for dtype, advice in ((">u2", "astype('uint16')"), ("<i8", "astype('uint16')"), (">f4", "astype('float32')")):
+            np.save(self.path("wrong.npy"), np.zeros((2, 8, 8), dtype))
+            self.assert_raises(nutik.InputError, advice, nutik.open, self.path("wrong.npy"), rate=1, white=1.0)
+
+    def test_records_that_take_too_much(self):
+        """The engine's limit, 4 GiB, takes too long to reach here."""
+        capture = nutik.encode(support.moving_box(9, 20, 30), rate=100)
+        with unittest.mock.patch.object(capture, "_open_capture", unittest.mock.Mock(
+                wraps=capture._held, shape=(20, 30, 3), sample_count=9,
+                records=unittest.mock.Mock(side_effect=nutik.MemoryTooLittle))):
+            said = self.assert_raises(nutik.MemoryTooLittle, ["600 pixels over 9 samples", "region=", "4 GiB"],
+                                      capture.records)
+        self.assertNotIn("memory=", str(said))
+        self.assertIn("MemoryTooLittle", nutik.Capture.records.__doc__)
+
+    def test_numbers_of_numpy(self):
+        codes = np.zeros((4, 8, 8), np.uint8)
+        for rate in (np.float32(12.5), np.float64(12.5)):
+            self.assertEqual(nutik.encode(codes, rate=rate).rate, Fraction(25, 2))
+        self.assertEqual(nutik.encode(codes, rate=np.int64(12)).rate, 12)
+        np.save(self.path("light.npy"), np.full((2, 8, 8), 0.5))
+        for white in (1.0, np.float32(1)):
+            self.assertEqual(nutik.open(self.path("light.npy"), rate=1, white=white)[0][0, 0], 32768)
 
     def test_an_iterable_that_fails(self):
         def broken():

@@ -77,6 +77,19 @@ class Finds(support.TestCase):
         self.assert_raises(nutik.InputError, "no pixel with tag 3", self.capture.activity, mask, tag=3)
         self.assert_raises(nutik.UsageError, "mask=", self.capture.activity, tag=3)
 
+    def test_results_compare_by_identity(self):
+        made = lambda: (self.capture.activity(), self.capture.plate(), self.capture.study(moments=3))  # noqa: E731
+        for one, other in zip(made(), made()):
+            self.assertTrue(one == one and one != other)
+            self.assertEqual(len({one, one, other}), 2)
+
+    def test_a_plate_is_done_at_the_end(self):
+        told = []
+        self.capture.plate(progress=lambda done, total: told.append((done, total)))
+        self.assertEqual(told[-1][0], told[-1][1])
+        self.assertGreater(told[-1][1], 0)
+        self.assertEqual(sorted(done for done, _ in told), [done for done, _ in told])
+
     def test_studies(self):
         self.run_program("study", "-q", "--moments", "3", "clip.tik", "study.ppm")
         study = self.capture.study(moments=3, codes=True)

@@ -223,6 +223,40 @@ class Pictures(support.TestCase):
         self.assert_raises(usage, "0 ... 255", nutik.Mask, np.full((2, 2), 256))
         self.assert_raises(usage, "outside 0 ... 1", nutik.Mask.of_layers, {1: np.full((2, 2), 1.5)})
 
+    def test_messages_name_what_helps(self):
+        render, many, usage = self.capture.render, self.capture.render_many, nutik.UsageError
+        light, box = render(exposure="5ms"), nutik.boxcar(0, "5ms")
+        for name in ("light.png", "light.jpg", "light.ppm"):
+            self.assert_raises(usage, [name, "codes=True"], light.write, self.path(name))
+            self.assert_raises(usage, [name, "codes=True"], render(exposure="5ms", dtype=np.float64).write, self.path(name))
+        self.assert_raises(usage, ["2 functions", "{tag: function}", "with mask= say which"], render, [box, box], mask=self.tags)
+        self.assert_raises(usage, ["2 functions", "render_many()"], render, [box, box])
+        self.assert_raises(usage, ["{tag: function} for each", "takes a list"], many, {0: box, 128: box, 255: box},
+                           mask=self.tags)
+        for wrong in (box, np.sin, "gains.fn", np.ones(70)):
+            self.assert_raises(usage, "render_many() takes a list", many, wrong)
+        said = self.assert_raises(usage, ["500 in all", "no function"], render, [1.0] * 500)
+        self.assertLess(len(str(said)), 250)
+
+    def test_error_bound_of_combined_pictures(self):
+        for how in ("lighten", "darken", "median"):
+            picture = self.capture.render(exposure="10ms", combine=how)
+            self.assertIsNone(picture.error_bound)
+            self.assertIn("light", picture.uncertainty["bounds"])
+        self.assertIn("'lighten', 'darken'", nutik.Picture.error_bound.__doc__)
+
+    def test_only_negative_still_gains_are_warned_of(self):
+        """Of a positive one light may be below 0, too, where something moves: that is counted."""
+        moving = [(0, -1), (0.03, -1), (0.03, 1.2), (0.07, 1.2), (0.07, 0)]
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", nutik.NutikWarning)
+            picture = self.capture.render(moving, codes=True)
+            many = self.capture.render_many([moving], codes=True)
+        self.assertGreater(picture.saturated[0], 0)
+        self.assertEqual(tuple(many.saturated[0]), picture.saturated)
+        with self.assertWarnsRegex(nutik.NutikWarning, "M0: the still gain is -1"):
+            self.capture.render_many([moving, [(0, -1), (0.05, -1), (0.05, 0)]], codes=True)
+
     def test_black_is_warned_of(self):
         with self.assertWarnsRegex(nutik.NutikWarning, "still gain is -1: .* negative='offset'") as warned:
             self.capture.render([(0, -1), (0.05, -1), (0.05, 0)], codes=True)

@@ -1,10 +1,13 @@
 """What other packages are handed: xarray's arrays, a reader for napari, a format of imageio. Each against the package
 itself where it is installed."""
 
+import copy
 import importlib
 import importlib.util
+import pickle
 import re
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import numpy as np
@@ -49,6 +52,39 @@ class Plugins(support.TestCase):
         self.assertEqual(many.dims, ("start", "y", "x", "channel"))
         self.assertEqual(many.sel(start=0.01).shape, (10, 14, 3))
         self.assertEqual(many.mean("channel").dims, ("start", "y", "x"))
+        self.assertEqual((many["start"].attrs["units"], whole["time"].attrs["units"]), ("s", "s"))
+
+    @needs("xarray")
+    def test_xarray_of_a_region(self):
+        region = dict(region=(5, 3, 4, 6), exposure="20ms")
+        picture = self.capture.render(**region)
+        many = self.capture.render_many(starts=[0, 0.01], exposures="20ms", region=region["region"])
+        for each in (picture, pickle.loads(pickle.dumps(picture)), copy.deepcopy(picture), many):
+            array = each.to_xarray()
+            self.assertEqual((array["x"].values.tolist(), array["y"].values.tolist()), ([5, 6, 7, 8], [3, 4, 5, 6, 7, 8]))
+        whole = self.capture.render(exposure="20ms").to_xarray()
+        self.assert_same(whole.sel(x=7, y=5).values, picture.to_xarray().sel(x=7, y=5).values)
+
+    @needs("xarray")
+    def test_xarray_of_bounds(self):
+        starts = [0, 0.01, 0.02]
+        many = self.capture.render_many(starts=starts, exposures="10ms")
+        np.testing.assert_array_equal(many.to_xarray().attrs["error_bounds"], many.error_bounds)
+        darkest = self.capture.render(exposure="10ms", combine="darken").to_xarray()
+        self.assertNotIn("error_bound", darkest.attrs)
+        self.assertNotIn("error_bound", self.capture.plate().picture.to_xarray().attrs)
+        if importlib.util.find_spec("scipy") is not None:
+            for name, each in (("many.nc", many.to_xarray(start=starts)), ("darkest.nc", darkest)):
+                each.to_netcdf(self.path(name), engine="scipy")
+
+    @needs("xarray")
+    def test_xarray_of_wrong_arguments(self):
+        many = self.capture.render_many(starts=[0, 0.01, 0.02], exposures="10ms")
+        for wrong in (5, "abc", [1, 2], [[1, 2, 3]], np.zeros((3, 2))):
+            self.assert_raises(nutik.UsageError, "a list of 3", many.to_xarray, start=wrong)
+        self.assert_raises(nutik.UsageError, "one name", many.to_xarray, start=[1, 2, 3], end=[1, 2, 3])
+        self.assert_raises(nutik.UsageError, "x= names an axis", many.to_xarray, x=[1, 2, 3])
+        self.assert_raises(nutik.WrongType, "slice(10, 20)", self.capture.to_xarray, 10)
 
     @needs("imageio")
     def test_imageio(self):
@@ -61,6 +97,17 @@ class Plugins(support.TestCase):
             self.assertEqual(reader.get_data(7).meta["time"], self.capture.times[7])
             self.assertEqual(reader.get_meta_data()["white"], 255)
         self.assert_same(np.asarray(imageio.imread(self.file)), self.pictures[0])
+        self.assert_same(np.asarray(imageio.volread(self.file)), self.capture[:])
+        self.assertEqual(len(imageio.mvolread(self.file)), 1)
+
+    @needs("imageio")
+    def test_imageio_asks_for_times_once(self):
+        import imageio
+        importlib.import_module("nutik.imageio")
+        with unittest.mock.patch.object(nutik.Capture, "times_ns", new_callable=unittest.mock.PropertyMock,
+                                        return_value=self.capture.times_ns) as asked:
+            imageio.mimread(self.file)
+        self.assertEqual(asked.call_count, 1)
 
     def test_napari_reads_captures(self):
         self.assertIsNone(nutik.napari.reader("clip.mp4"))

@@ -151,6 +151,7 @@ class Stubs(unittest.TestCase):
                     self.assertTrue("Raises" in sections or not arguments)
                     if signature.return_annotation not in ("None", None):
                         self.assertTrue(sections["Returns"].strip())
+                        self.assertNotRegex(sections["Returns"], r"\b_\w+\.", "it names a module of the package's own")
                     if "progress" in arguments:
                         self.assertIn("Ctrl-C", sections["Notes"])
                     if part == name or arguments and part.startswith("Capture.") and part != "Capture.to_xarray":
@@ -177,7 +178,11 @@ class Stubs(unittest.TestCase):
         with tempfile.TemporaryDirectory(prefix="nutik-") as folder:
             scripts = {"page.py": "\n".join(re.findall(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)),
                        "notebook.py": "\n".join("".join(cell["source"]) for cell in book["cells"]
-                                                if cell["cell_type"] == "code")}
+                                                if cell["cell_type"] == "code"),
+                       "typed.py": "import numpy as np, nutik\n"
+                                   "capture = nutik.open('light.npy', rate=np.float32(12.5), white=1.0)\n"
+                                   "capture.render_many(np.ones((3, len(capture))))\n"
+                                   "capture.render(start=np.float32(0.5), exposure=np.int64(1))\n"}
             for name, text in scripts.items():
                 (Path(folder) / name).write_text(text, encoding="utf-8")
             # matplotlib of Debian 12 has no types.

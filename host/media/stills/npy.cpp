@@ -39,9 +39,10 @@ ValueType type_of(std::string_view word, const std::string& name) {
     if (kind == "f4") return ValueType::light32;
     if (kind == "f8") return ValueType::light64;
   }
+  const bool is_whole = word.size() > 1 && (word[1] == 'u' || word[1] == 'i');
   fail(name, format("its values are '{}'; uint8, uint16, float32 and float64 in this machine's order are read: "
-                    "numpy.save(file, array.astype('float32'))",
-                    word.substr(0, word.find('\''))));
+                    "numpy.save(file, array.astype('{}'))",
+                    word.substr(0, word.find('\'')), is_whole ? "uint16" : "float32"));
 }
 
 // `(2, 3), …`
