@@ -340,8 +340,8 @@ class Capture:
         >>> many.array.shape, many.error_bounds.shape
         ((100, 24, 32), (100,))
         """
-        if functions is not None and (isinstance(functions, (str, PathLike, Mapping)) or not is_list(functions)
-                                      or np.ndim(cast(Any, functions) if isinstance(functions, np.ndarray) else [[]]) != 2):
+        is_one = isinstance(functions, np.ndarray) and functions.ndim == 1 and functions.dtype != object
+        if functions is not None and (is_one or isinstance(functions, (str, PathLike, Mapping)) or not is_list(functions)):
             each = "a dict {tag: function}" if isinstance(functions, Mapping) else "those of render()"
             raise UsageError(f"functions is {shortened(functions)}; render_many() takes a list with {each} for each picture, "
                              "[{0: ..., 128: ...}, ...], or an array [pictures, samples] of gains")
@@ -549,7 +549,7 @@ class Capture:
         if isinstance(functions, (str, PathLike)):
             functions = read_functions(functions)
         if not isinstance(functions, Mapping):
-            several = listed(functions) if is_list(functions) and not isinstance(functions, Function) else []
+            several = functions if isinstance(functions, (list, tuple)) else []
             if any(isinstance(each, Function) or callable(each) for each in several):
                 raise UsageError(f"functions is a list of {len(several)} functions; " + (
                     "with mask= say which tag each is for, {tag: function}" if has_mask else

@@ -150,8 +150,12 @@ def as_file(source: Any, name: str) -> Iterator[str]:
 
 
 def in_python(text: str) -> str:
-    """Arguments in place of the command line's options."""
-    return re.sub(r"--([a-z][a-z-]*)", lambda option: option[1].replace("-", "_") + "=", text)
+    """Arguments in place of the command line's options, with the value that follows where it is none of the sentence's."""
+    def argument(option: re.Match[str]) -> str:
+        return option[1].replace("-", "_") + "=" + (f"'{option[2]}'" if option[2] else "")
+
+    value = r"(?: ((?:[+-]?\d[\w.,:/+-]*|[\w-]+\.(?=\w)[\w.]*)(?<=\w)|(?:auto|zero|float|integral)\b))?"
+    return re.sub(r"('[^' ]+') (?=\w+=')", r"\1, ", re.sub(r"--([a-z][a-z-]*)" + value, argument, text))
 
 
 def is_list(value: Any) -> bool:

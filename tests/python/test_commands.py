@@ -11,7 +11,7 @@ import unittest
 
 import nutik
 import numpy as np
-from nutik import _nutik
+from nutik import _nutik, _words
 
 import support
 
@@ -115,6 +115,16 @@ class Commands(support.TestCase):
         self.assert_raises(nutik.UsageError, "in_place=", nutik.retime, self.clip)
         self.assert_raises(nutik.InputError, "absent.tik", nutik.contact, self.path("absent.tik"), self.path("x.png"))
         self.assert_raises(nutik.OutputError, "absent", nutik.contact, self.clip, self.path("absent/x.png"), exposure=0.01)
+
+    def test_messages_state_arguments(self):
+        said = _words.in_python
+        self.assertEqual(said("an interval (--start 0.4s --exposure 10ms), or --functions"),
+                         "an interval (start='0.4s', exposure='10ms'), or functions=")
+        self.assertEqual(said("--mask-share says 3; --depth float, --moving clip.tik. --by 3; (--unmapped zero)"),
+                         "mask_share= says 3; depth='float', moving='clip.tik'. by='3'; (unmapped='zero')")
+        self.assertEqual(said("--polygon needs --tag. 3 or --ev"), "polygon= needs tag=. 3 or ev=")
+        told = self.assert_raises(nutik.UsageError, "start='0.4s', exposure='10ms'", nutik.validate, self.clip)
+        self.assertNotIn("= 0", str(told))
 
     def test_ctrl_c_ends_it(self):
         """Noise that is made a long film of: tens of seconds."""
