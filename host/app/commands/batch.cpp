@@ -122,7 +122,7 @@ class Batch {
         throw UsageError(format("{} is an input of line {}; choose another name", output.string(), reader->second));
       }
       const auto [earlier, is_new] = line_of_output_.try_emplace(led_to(output), listed.line);
-      if (!is_new) throw UsageError(format("{} is the picture of line {} already", output.string(), earlier->second));
+      if (!is_new) throw UsageError(format("{} is written by line {} already", output.string(), earlier->second));
       const BoundsMaps maps(line, request.combine, false, "a picture");
       if (maps.are_asked()) {
         const auto [its, is_first] = line_of_output_.try_emplace(led_to(maps.of(0)), listed.line);
@@ -250,7 +250,8 @@ class Batch {
 
 int run_batch(const Options& options) {
   if (options.operands.empty() || options.operands.size() > 2) {
-    throw UsageError("batch takes a list of exposures and, if they share one, a capture: nutik-cl batch list.txt clip.tik");
+    throw UsageError(
+        "batch takes a list of exposures and, if they share one, a capture: nutik-cl batch list.txt clip.tik");
   }
   const std::string& list = options.operands.front();
   const auto capture = options.operands.size() == 2 ? std::optional(options.operands[1]) : std::nullopt;
@@ -279,7 +280,10 @@ int run_batch(const Options& options) {
     Json json{{"exposures", exposures.size()}, {"failed_lines", batch.failed_lines()}, {"skipped", batch.skipped()}};
     json.update(batch.tally().saturation_json());
     json.update(batch.tally().uncertainty_json());
-    json.update({{"pictures", batch.pictures()}, {"clips", batch.clips()}, {"seconds", seconds}, {"notes", batch.tally().notes()},
+    json.update({{"pictures", batch.pictures()},
+                 {"clips", batch.clips()},
+                 {"seconds", seconds},
+                 {"notes", batch.tally().notes()},
                  {"warnings", printed_warnings()}});
     print_json(json);
   } else if (!options.quiet) {
