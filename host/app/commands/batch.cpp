@@ -171,8 +171,12 @@ class Batch {
  private:
   void write(std::size_t number, const Options& line, const std::filesystem::path& output, const BoundsMaps& maps,
              ExposedPicture exposed) {
+    try {
+      maps.write(0, exposed);
+    } catch (const OutputError& error) {
+      return report(number, error);
+    }
     tally_.add(exposed);
-    maps.write(0, exposed);
     Json told{{"line", number}, {"picture", output.string()}};
     if (maps.are_asked()) told["bounds_map"] = maps.of(0).string();
     told["precision"] = tally_.precision();
