@@ -17,7 +17,7 @@ from pathlib import Path
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "reference" / "commands.md"
 
 USUAL = 4  # commands that take the same options of a heading
-EXAMPLES = 3  # of a command, as its help has; its page has others
+EXAMPLES = 2  # of a command; its help has three, and its page others
 
 # The page that goes on where a command's help ends.
 FURTHER = {

@@ -45,10 +45,13 @@ const Unit* unit_of(std::string_view text) {
 // `1:02:03.5`, without its sign, in seconds.
 std::optional<Rational> read_clock(std::string_view text) {
   const std::string_view decimals = text.substr(std::min(text.find('.'), text.size()));
+  if (decimals.size() > 1 && !is_digits(decimals.substr(1))) return std::nullopt;
   std::int64_t seconds = 0;
   std::string_view whole = text.substr(0, text.size() - decimals.size());
-  for (int parts = 0; parts == 0 || !whole.empty(); ++parts) {
+  bool is_over = false;
+  for (int parts = 0; !is_over; ++parts) {
     const std::size_t colon = std::min(whole.find(':'), whole.size());
+    is_over = colon == whole.size();
     const std::string_view part = whole.substr(0, colon);
     std::int64_t value = 0;
     if (!is_digits(part) || part.size() > 6 || parts > 2) return std::nullopt;
@@ -64,7 +67,7 @@ std::optional<Rational> read_clock(std::string_view text) {
 
 std::optional<StatedTime> StatedTime::read(std::string_view text) {
   const std::string_view behind_sign = text.substr(text.starts_with('-') || text.starts_with('+') ? 1 : 0);
-  if (behind_sign.empty() || std::string_view(".0123456789").find(behind_sign[0]) == std::string_view::npos) return std::nullopt;
+  if (behind_sign.find_first_of(".0123456789") != 0) return std::nullopt;
   const auto signed_by = [&](std::optional<Rational> number, std::int64_t unit_ns) -> std::optional<StatedTime> {
     if (!number) return std::nullopt;
     if (text[0] == '-') number->numerator = -number->numerator;

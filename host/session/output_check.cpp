@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "capture/error.hpp"
@@ -9,6 +10,7 @@
 #include "exposure/function_file.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "media/writers/recipe.hpp"
+#include "media/writers/video_writer.hpp"
 #include "system/is_absent.hpp"
 #include "system/mapped_file.hpp"
 #include "tik/header.hpp"
@@ -163,10 +165,14 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
     throw UsageError(format("{}: gain functions are written as .fn", name));
   }
   if (is_picture && !is_picture_name(output)) {
-    const bool is_capture = output.extension() == ".tik";
-    throw UsageError(
-        format("{}: pictures are written as {}", name, picture_extensions()),
-        Advice{is_capture ? "; nutik-cl encode makes captures of clips" : "; nutik-cl video makes films"});
+    const std::string kind = format(" {} ", output.extension().string());
+    const bool is_film = std::ranges::any_of(video_codecs(), [&](const VideoCodec& codec) {
+      return codec.containers.find(kind) != std::string_view::npos;
+    });
+    throw UsageError(format("{}: pictures are written as {}", name, picture_extensions()),
+                     Advice{output.extension() == ".tik" ? "; nutik-cl encode makes captures of clips"
+                            : is_film                    ? "; nutik-cl video makes films"
+                                                         : ""});
   }
   if (kind == OutputKind::table && output.extension() != ".csv") {
     throw UsageError(format("{}: tables are written as .csv", name), Advice{", or as - to standard output"});

@@ -162,7 +162,7 @@ TEST_F(Batch, ReportsBadLinesAndGoesOn) {
   EXPECT_TRUE(batch.out.starts_with("2 of 10 pictures, ")) << batch.out;
   for (const char* message :
        {"list.txt:2: the interval from 9 s on lies outside the capture, which lasts 60 ms",
-        "list.txt:3: a.png is the picture of line 1 already", "list.txt:4: absent.fn cannot be read: ",
+        "list.txt:3: a.png is written by line 1 already", "list.txt:4: absent.fn cannot be read: ",
         "list.txt:5: --precision holds for all exposures: nutik-cl batch --precision single",
         "list.txt:6: there is no option --exposre; did you mean --exposure?",
         "list.txt:7: --help is no exposure",
@@ -192,8 +192,8 @@ TEST_F(Batch, ReplacesNoInputAndNoPictureOfAnotherLine) {
   EXPECT_EQ(batch.status, 1);
   for (const char* message : {"list.txt:2: d1/../late.pgm is an input of line 7; choose another name",
                               "list.txt:3: early.pgm is an input of line 1;",
-                              "list.txt:5: d2/x.png is the picture of line 4 already",
-                              "list.txt:6: d3/x.png is the picture of line 4 already"}) {
+                              "list.txt:5: d2/x.png is written by line 4 already",
+                              "list.txt:6: d3/x.png is written by line 4 already"}) {
     EXPECT_NE(batch.err.find(message), std::string::npos) << message << "\n" << batch.err;
   }
   EXPECT_TRUE(batch.out.starts_with("3 of 7 pictures, ")) << batch.out;

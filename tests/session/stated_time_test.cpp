@@ -27,7 +27,7 @@ TEST(StatedTime, IsReadAsPeopleWriteIt) {
   EXPECT_EQ(parsed_time("1/100"), parsed_time("10ms"));
   EXPECT_EQ(parsed_time("+1s"), parsed_time("1e3ms"));
   for (const char* none : {"", "s", "5", "0.4", "1:2", "1:60", "1:02:60", ":01", "1:02:03:04", "0:1.5", "1 s", "--1s",
-                           "+-1s", "1/0s", "0:01s", "1:0a", "f", "1/2/3s"}) {
+                           "+-1s", "1/0s", "0:01s", "1:0a", "1:", "0:01:", "0:01.5e2", "f", "1/2/3s"}) {
     EXPECT_THROW(static_cast<void>(parsed_time(none)), UsageError) << none;
   }
 }

@@ -122,7 +122,7 @@ class Batch {
         throw UsageError(format("{} is an input of line {}; choose another name", output.string(), reader->second));
       }
       const auto [earlier, is_new] = line_of_output_.try_emplace(led_to(output), listed.line);
-      if (!is_new) throw UsageError(format("{} is the picture of line {} already", output.string(), earlier->second));
+      if (!is_new) throw UsageError(format("{} is written by line {} already", output.string(), earlier->second));
       const BoundsMaps maps(line, request.combine, false, "a picture");
       if (maps.are_asked()) {
         const auto [its, is_first] = line_of_output_.try_emplace(led_to(maps.of(0)), listed.line);
@@ -171,8 +171,12 @@ class Batch {
  private:
   void write(std::size_t number, const Options& line, const std::filesystem::path& output, const BoundsMaps& maps,
              ExposedPicture exposed) {
+    try {
+      maps.write(0, exposed);
+    } catch (const OutputError& error) {
+      return report(number, error);
+    }
     tally_.add(exposed);
-    maps.write(0, exposed);
     Json told{{"line", number}, {"picture", output.string()}};
     if (maps.are_asked()) told["bounds_map"] = maps.of(0).string();
     told["precision"] = tally_.precision();
@@ -250,7 +254,8 @@ class Batch {
 
 int run_batch(const Options& options) {
   if (options.operands.empty() || options.operands.size() > 2) {
-    throw UsageError("batch takes a list of exposures and, if they share one, a capture: nutik-cl batch list.txt clip.tik");
+    throw UsageError(
+        "batch takes a list of exposures and, if they share one, a capture: nutik-cl batch list.txt clip.tik");
   }
   const std::string& list = options.operands.front();
   const auto capture = options.operands.size() == 2 ? std::optional(options.operands[1]) : std::nullopt;
@@ -279,7 +284,10 @@ int run_batch(const Options& options) {
     Json json{{"exposures", exposures.size()}, {"failed_lines", batch.failed_lines()}, {"skipped", batch.skipped()}};
     json.update(batch.tally().saturation_json());
     json.update(batch.tally().uncertainty_json());
-    json.update({{"pictures", batch.pictures()}, {"clips", batch.clips()}, {"seconds", seconds}, {"notes", batch.tally().notes()},
+    json.update({{"pictures", batch.pictures()},
+                 {"clips", batch.clips()},
+                 {"seconds", seconds},
+                 {"notes", batch.tally().notes()},
                  {"warnings", printed_warnings()}});
     print_json(json);
   } else if (!options.quiet) {

@@ -57,6 +57,8 @@ BoundsMaps::BoundsMaps(const Options& options, Combine combine, bool has_many, s
     throw UsageError("--bounds maps what sums may be off by, and --combine adds nothing up");
   static_cast<void>(value_type_for(*stated_, Depth::floating, ValueType::light32, 1));
   if (has_many) names_.emplace(*stated_, who);
+  if (!has_many && NumberedName::parse(stated_->filename().string()))
+    throw UsageError(format("{} numbers maps, and {} has one: name it without %", stated_->string(), who));
 }
 
 void BoundsMaps::check(std::uint64_t number, std::vector<std::string> inputs, const std::filesystem::path& picture,

@@ -446,10 +446,11 @@ class StillClip final : public Clip {
   void check_colours(const Still& still, const Page& page) const {
     const CaptureFormat& capture = info_.format;
     const Transfer transfer = still.transfer.value_or(default_transfer(still));
-    const Primaries primaries = still.primaries.value_or(Primaries::bt709);
+    const auto stated_by = [](const Still& each) { return each.primaries.value_or(Primaries::bt709); };
+    const Primaries primaries = stated_by(still);
     const bool other_transfer = !stated_.transfer && transfer != capture.transfer;
     const bool other_primaries =
-        !stated_.primaries && capture.shape.channels > 1 && primaries != capture.primaries;
+        !stated_.primaries && capture.shape.channels > 1 && primaries != stated_by(first_);
     if (!other_transfer && !other_primaries) return;
     throw InputError(
         format("{} has transfer {} and primaries {}, the first still, {}, {} and {}. All must be "

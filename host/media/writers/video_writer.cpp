@@ -134,6 +134,9 @@ int codec_setting(const VideoCodec& codec, const std::optional<std::uint32_t>& c
                   const std::optional<std::uint32_t>& quality) {
   const CodecScale& scale = codec.scale;
   if (!crf && !quality) return scale.usual;
+  if (crf && quality) {
+    throw UsageError("both say how good the film is to be, on two scales; state one", {Setting::crf, Setting::quality});
+  }
   if (scale.key.empty()) {
     throw UsageError(
         format("{} has no scale of quality{}", codec.name,

@@ -1,6 +1,7 @@
 #include "session/text/shared_warnings.hpp"
 
 #include <regex>
+#include <set>
 
 #include "capture/format.hpp"
 
@@ -9,7 +10,7 @@ namespace {
 
 // What is said, whatever its figures are; that of `M0` is a name.
 std::string shape_of(const std::string& warning) {
-  static const std::regex figure("([^A-Za-z0-9])[-+]?[0-9.]+(e[-+]?[0-9]+)?");
+  static const std::regex figure("(^|[ (])[-+]?[0-9][0-9.]*(e[-+]?[0-9]+)?");
   return std::regex_replace(warning, figure, "$1#");
 }
 
@@ -17,8 +18,11 @@ std::string shape_of(const std::string& warning) {
 
 void SharedWarnings::add(const std::string& label, std::span<const std::string> warnings) {
   const std::lock_guard lock(adding_);
+  std::set<std::string> shapes;
   for (const std::string& warning : warnings) {
-    ++warnings_.try_emplace(shape_of(warning), Exposures{label, warning, 0}).first->second.count;
+    const auto [shape, is_new] = shapes.insert(shape_of(warning));
+    Exposures& exposures = warnings_.try_emplace(*shape, Exposures{label, warning, 0}).first->second;
+    if (is_new) ++exposures.count;
   }
 }
 
