@@ -120,19 +120,12 @@ CaptureErrors CaptureErrors::of(const CaptureFormat& capture, bool is_rounded) {
   if (is_rounded) errors.rounded_light = light_within(capture.transfer, 0.5 / white);
   if (noise.tolerance == 0 && !noise.camera) return errors;
   const auto light_at = [&](double code) { return capture.transfer.light_of(std::clamp(code / white, 0.0, 1.0)); };
-  std::vector<std::vector<float>> deviations;  // by channel, for each of the noise's codes
   const double scale = noise.camera ? white / noise.camera->white_code : 1.0;
-  if (noise.camera) {
-    for (std::uint32_t channel = 0; channel < noise.camera->channels.size(); ++channel)
-      deviations.push_back(noise.camera->sd_of_codes(channel));
-  }
   std::vector<LightCurve::Point> held, noisy;
   for (std::uint32_t code = 0; code <= capture.white_code; ++code) {
     double deviation = 0.0;
-    for (const std::vector<float>& each : deviations) {
-      const auto at = static_cast<std::size_t>(std::lround(code / scale));
-      deviation = std::max(deviation, scale * each[std::min(at, each.size() - 1)]);
-    }
+    for (std::uint32_t channel = 0; noise.camera && channel < noise.camera->channels.size(); ++channel)
+      deviation = std::max(deviation, scale * noise.camera->sd(channel, code / scale));
     const double light = light_at(code), off = std::max<double>(noise.tolerance, noise.sigmas * deviation);
     held.push_back({light, std::max(light_at(code + off) - light, light - light_at(code - off))});
     if (deviation > 0.0) noisy.push_back({light, (light_at(code + deviation) - light_at(code - deviation)) / 2});
