@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cmath>
 #include <future>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -29,10 +31,6 @@ SessionIsSpent::SessionIsSpent()
     : UsageError(
           "the session reads its capture forward, for one picture and nothing else; open it to be read "
           "whole") {}
-
-namespace {
-
-}  // namespace
 
 class Session::Implementation {
  public:
@@ -89,6 +87,8 @@ class Session::Implementation {
                                       const RenderControl& control, std::uint64_t stream_bytes = 0);
   template <typename Work>
   auto within(const MemoryNeeds& more, Work work) const;
+  // By the function that the capture has, or that was stated instead.
+  [[nodiscard]] std::shared_ptr<const CaptureErrors> errors_of(const CaptureFormat& planned);
   void warm_up(CaptureSource& source, const RenderPlan& plan, const OutputFormat& output);
   void spend();
 
@@ -103,6 +103,9 @@ class Session::Implementation {
   std::vector<Note> notes_;
   std::vector<std::string> warnings_;
   CaptureErrors errors_;
+  // Those of the function that was stated last: a series states one for all of its pictures.
+  std::optional<std::pair<Transfer, std::shared_ptr<const CaptureErrors>>> stated_errors_;
+  std::mutex stated_errors_mutex_;
   bool is_rounded_ = false;  // codes are light that was rounded to the nearest
 
   // A capture, or a clip that has not been read yet and the timeline that its files announce.
@@ -303,26 +306,35 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
   rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
   warn_of_infinite(rendered);
   const auto block_count = reader_ ? std::optional(reader_->block_count()) : std::nullopt;
-  CaptureErrors errors = errors_;
-  if (plan.capture.transfer != format_.transfer) {
-    errors = CaptureErrors::of(plan.capture, is_rounded_);  // by the function that was stated instead
-    errors.alignment_pixels = errors_.alignment_pixels;
-    errors.made = errors_.made;
-  }
+  const std::shared_ptr<const CaptureErrors> errors = errors_of(plan.capture);
   std::vector<PictureLayer> bounds;
   if (output.maps_bounds) {
     const Rectangle part = control.rectangle.value_or(Rectangle::whole(format_.shape));
     const ErrorBound bound = rendered.choice ? rendered.choice->bound : reference_bound(plan, output);
-    bounds = UncertaintyMap(plan, source.timeline(), bound, errors).layers(rendered.picture, part);
+    bounds = UncertaintyMap(plan, source.timeline(), bound, *errors).layers(rendered.picture, part, control);
   }
   ExposureFigures figures = ExposureFigures::of(std::move(plan), source.timeline(), block_count);
   if (figures.functions.size() == 1) {
     rendered.picture.exposed_ns = figures.functions.front().summary.support_ns;
   }
   ExposedPicture exposed{std::move(rendered), std::move(figures), output};
-  exposed.uncertainty = Uncertainty::of(exposed, errors);
+  exposed.uncertainty = Uncertainty::of(exposed, *errors);
+  if (!bounds.empty() && holds_codes(output.type)) UncertaintyMap::limit(bounds, *exposed.uncertainty.bounds.error);
   exposed.bounds = std::move(bounds);
   return exposed;
+}
+
+std::shared_ptr<const CaptureErrors> Session::Implementation::errors_of(const CaptureFormat& planned) {
+  // Which live as long as the session.
+  if (planned.transfer == format_.transfer) return {std::shared_ptr<const CaptureErrors>(), &errors_};
+  const std::scoped_lock lock(stated_errors_mutex_);
+  if (!stated_errors_ || stated_errors_->first != planned.transfer) {
+    auto errors = std::make_shared<CaptureErrors>(CaptureErrors::of(planned, is_rounded_));
+    errors->alignment_pixels = errors_.alignment_pixels;
+    errors->made = errors_.made;
+    stated_errors_.emplace(planned.transfer, std::move(errors));
+  }
+  return stated_errors_->second;
 }
 
 ExposedPicture Session::Implementation::render(const ExposureRequest& request, const OutputFormat& output,

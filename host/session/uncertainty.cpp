@@ -12,6 +12,9 @@ namespace {
 
 using Is = UncertaintyTerm::Is;
 
+// At most so much of white lies between the two pieces of a function that has a toe: sRGB's standard rounds their ends.
+constexpr double kPiecesMiss = 3e-8;
+
 // The most that light changes where a code of [0, 1] changes by `fraction`: no function is steeper than at one of its ends.
 double light_within(const Transfer& transfer, double fraction) {
   if (!(fraction < 1.0)) return 1.0;
@@ -117,19 +120,12 @@ CaptureErrors CaptureErrors::of(const CaptureFormat& capture, bool is_rounded) {
   if (is_rounded) errors.rounded_light = light_within(capture.transfer, 0.5 / white);
   if (noise.tolerance == 0 && !noise.camera) return errors;
   const auto light_at = [&](double code) { return capture.transfer.light_of(std::clamp(code / white, 0.0, 1.0)); };
-  std::vector<std::vector<float>> deviations;  // by channel, for each of the noise's codes
   const double scale = noise.camera ? white / noise.camera->white_code : 1.0;
-  if (noise.camera) {
-    for (std::uint32_t channel = 0; channel < noise.camera->channels.size(); ++channel)
-      deviations.push_back(noise.camera->sd_of_codes(channel));
-  }
   std::vector<LightCurve::Point> held, noisy;
   for (std::uint32_t code = 0; code <= capture.white_code; ++code) {
     double deviation = 0.0;
-    for (const std::vector<float>& each : deviations) {
-      const auto at = static_cast<std::size_t>(std::lround(code / scale));
-      deviation = std::max(deviation, scale * each[std::min(at, each.size() - 1)]);
-    }
+    for (std::uint32_t channel = 0; noise.camera && channel < noise.camera->channels.size(); ++channel)
+      deviation = std::max(deviation, scale * noise.camera->sd(channel, code / scale));
     const double light = light_at(code), off = std::max<double>(noise.tolerance, noise.sigmas * deviation);
     held.push_back({light, std::max(light_at(code + off) - light, light - light_at(code - off))});
     if (deviation > 0.0) noisy.push_back({light, (light_at(code + deviation) - light_at(code - deviation)) / 2});
@@ -143,11 +139,18 @@ CodeErrors::CodeErrors(const CaptureFormat& capture, const OutputFormat& output)
     : making_(CodeMaking::of(capture, output)), white_code_(output.white_code) {}
 
 double CodeErrors::between(double from, double to, double light) const {
+  if (!(light > 0.0)) return 0.0;
+  const Transfer& transfer = making_.transfer;
   const double white = making_.white_light, off = light / white;
-  const auto place = [&](double at) { return making_.transfer.fraction_of(std::clamp(at, 0.0, 1.0)); };
+  const auto place = [&](double at) { return transfer.fraction_of(std::clamp(at, 0.0, 1.0)); };
   const double dark = std::clamp(from / white, 0.0, 1.0), bright = std::clamp(to / white, 0.0, 1.0);
-  // Nowhere between is the function steeper than at an end: it bends one way.
-  return white_code_ * std::max(place(dark + off) - place(dark), place(bright) - place(bright - off));
+  // Up and down from a light. Where the function bends down, the step up is largest at the darkest light, the step down
+  // at the darkest that has room for all of it; where it bends up, the step down is largest at the brightest light, the
+  // step up at the brightest that has room for all of it.
+  double largest = 0.0;
+  for (const double at : {dark, bright, std::clamp(off, dark, bright), std::clamp(1.0 - off, dark, bright)})
+    largest = std::max({largest, place(at + off) - place(at), place(at) - place(at - off)});
+  return white_code_ * (largest + (transfer.toe() ? kPiecesMiss : 0.0));
 }
 
 double CodeErrors::anywhere(double light, double scale) const {

@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 
 #include "capture/format.hpp"
+#include "system/parallel.hpp"
 
 namespace nutik {
 namespace {
@@ -40,6 +42,11 @@ double value_of(const Picture& picture, std::uint64_t at) {
     case ValueType::light64: return picture.values<double>()[at];
   }
   return 0.0;
+}
+
+float rounded_up(double value) {
+  const auto near = static_cast<float>(value);
+  return near == 0.0F ? near : std::nextafter(near, std::numeric_limits<float>::infinity());
 }
 
 double made_share(const PlannedFunction& function, const Timeline& timeline, const std::vector<bool>& is_made) {
@@ -167,7 +174,8 @@ double UncertaintyMap::slope_at(const Picture& exposed, std::uint32_t x, std::ui
   return largest;
 }
 
-std::vector<PictureLayer> UncertaintyMap::layers(const Picture& exposed, const Rectangle& part) const {
+std::vector<PictureLayer> UncertaintyMap::layers(const Picture& exposed, const Rectangle& part,
+                                                 const RenderControl& control) const {
   const bool is_codes = holds_codes(output_.type);
   const std::uint32_t channels = exposed.shape.channels;
   std::vector<PictureLayer> layers;
@@ -180,10 +188,10 @@ std::vector<PictureLayer> UncertaintyMap::layers(const Picture& exposed, const R
     values[term] = layer.values.values<float>().data();  // which stay in place
     layers.push_back(std::move(layer));
   }
-  // Of pixels that one function has alone, by function and code.
-  std::unordered_map<std::uint64_t, Errors> known;
-  const auto errors_of = [&](double value, std::uint64_t pixel, const Function& function,
-                             const PictureError& arithmetic) {
+  // Of pixels that one function has alone, by function and code: what a thread has found is known to it.
+  using Known = std::unordered_map<std::uint64_t, Errors>;
+  const auto errors_of = [&](double value, std::uint64_t pixel, const Function& function, const PictureError& arithmetic,
+                             Known& known) {
     if (!is_codes) return of_light(value, function, arithmetic);
     if (!plan_.shares_of(pixel).empty()) return of_code(value, function, arithmetic);
     const std::uint64_t key = std::uint64_t{plan_.function_of(pixel)} << 16 | static_cast<std::uint64_t>(value);
@@ -191,7 +199,7 @@ std::vector<PictureLayer> UncertaintyMap::layers(const Picture& exposed, const R
     if (is_new) found->second = of_code(value, function, arithmetic);
     return found->second;
   };
-  for (std::uint32_t y = 0; y < part.height; ++y) {
+  const auto make_row = [&](std::uint32_t y, Known& known) {
     for (std::uint32_t x = 0; x < part.width; ++x) {
       const std::uint64_t pixel = std::uint64_t{part.y + y} * plan_.capture.shape.width + part.x + x;
       const std::uint64_t at = std::uint64_t{y} * part.width + x;
@@ -199,21 +207,33 @@ std::vector<PictureLayer> UncertaintyMap::layers(const Picture& exposed, const R
       const PictureError arithmetic = arithmetic_.of(pixel);
       Errors worst;
       for (std::uint32_t channel = 0; channel < channels; ++channel) {
-        const Errors errors = errors_of(value_of(exposed, at * channels + channel), pixel, function, arithmetic);
+        const double value = value_of(exposed, at * channels + channel);
+        const Errors errors = errors_of(value, pixel, function, arithmetic, known);
         for (std::size_t term = 0; term < kTerms; ++term) worst.of[term] = std::max(worst.of[term], errors.of[term]);
       }
       if (capture_.alignment_pixels) worst.of[kAlignment] = *capture_.alignment_pixels * slope_at(exposed, x, y);
       worst.of[kMadeSamples] = function.made;
       for (std::size_t term = 0; term < kTerms; ++term) {
-        if (values[term] == nullptr) continue;
-        const auto value = static_cast<float>(worst.of[term]);
-        values[term][at] = value == 0.0F || term == kMadeSamples
-                               ? value
-                               : std::nextafter(value, std::numeric_limits<float>::infinity());
+        if (values[term] != nullptr)
+          values[term][at] = term == kMadeSamples ? static_cast<float>(worst.of[term]) : rounded_up(worst.of[term]);
       }
     }
-  }
+  };
+  std::mutex progress_mutex;
+  std::uint64_t rows = 0;
+  parallel_for_with(part.height, [] { return Known(); }, [&](std::uint64_t y, Known& known) {
+    throw_if_cancelled(control);
+    make_row(static_cast<std::uint32_t>(y), known);
+    if (!control.progress) return;
+    const std::scoped_lock lock(progress_mutex);
+    control.progress(++rows, part.height);
+  });
   return layers;
+}
+
+void UncertaintyMap::limit(std::vector<PictureLayer>& layers, const PictureError& bounds) {
+  const float most = rounded_up(bounds.steps);
+  for (float& value : layers.at(kAllBounds).values.values<float>()) value = std::min(value, most);
 }
 
 std::string UncertaintyMap::text_of(Term term) const {

@@ -14,6 +14,7 @@
 #include "media/stills/picture_layer.hpp"
 #include "render/error_bound.hpp"
 #include "render/render_plan.hpp"
+#include "render/renderer.hpp"
 #include "session/uncertainty.hpp"
 
 namespace nutik {
@@ -26,8 +27,13 @@ class UncertaintyMap {
   // What maps of so many pixels take.
   [[nodiscard]] static std::uint64_t bytes(const Shape& shape) { return kTerms * sizeof(float) * shape.pixel_count(); }
 
-  // Of a picture that has these pixels of the plan's.
-  [[nodiscard]] std::vector<PictureLayer> layers(const Picture& exposed, const Rectangle& part) const;
+  // Of a picture that has these pixels of the plan's, row by row on all cores: progress counts rows. Throws Cancelled.
+  [[nodiscard]] std::vector<PictureLayer> layers(const Picture& exposed, const Rectangle& part,
+                                                 const RenderControl& control = {}) const;
+
+  // Of a picture of codes all bounds together are never more than the whole picture's: both hold, and the picture's is
+  // found in finer parts of light than a code.
+  static void limit(std::vector<PictureLayer>& layers, const PictureError& bounds);
 
  private:
   enum Term : std::size_t {

@@ -87,6 +87,13 @@ TEST(Session, KnowsNoiseByItsModel) {
   const double at_white = std::sqrt(1e-6 + 1e-4);
   EXPECT_NEAR(errors.noise.most(), at_white, 0.01 * at_white) << "within a deviation of white";
   EXPECT_NEAR(errors.held.most(), 3 * at_white, 1e-3 * at_white) << "down from white";
+  // By steep points: a code that is held in parts of the camera's may be off by what the camera's curve has there.
+  const CameraNoise steep{255, Transfer::linear(), {{NoiseCurve::points, 0, 0, {{10, 0.5, 1}, {11, 8.0, 1}}}}};
+  capture.noise.camera = steep;
+  const LightCurve held = CaptureErrors::of(capture, false).held;
+  for (const double code : {10.1, 10.4, 10.6, 10.9})
+    EXPECT_GE(held.at(code / 255) * (1 + 1e-9), 3 * steep.sd(0, code) / 255) << "code " << code;
+  EXPECT_NEAR(CaptureErrors::of(capture, false).noise.at(10.4 / 255), steep.sd(0, 10.4) / 255, 0.02 / 255);
   capture.noise.camera.reset();
   capture.noise.tolerance = 6;
   EXPECT_NEAR(CaptureErrors::of(capture, false).held.most(), 6.0 / 65'535, 1e-15);
