@@ -159,7 +159,7 @@ UncertaintyMap::Errors UncertaintyMap::of_light(double light, const Function& fu
 }
 
 double UncertaintyMap::slope_at(const Picture& exposed, std::uint32_t x, std::uint32_t y) {
-  const auto [width, height, channels] = exposed.shape;
+  const std::uint32_t width = exposed.shape.width, height = exposed.shape.height, channels = exposed.shape.channels;
   const std::uint32_t left = x - (x > 0), right = std::min(x + 1, width - 1);
   const std::uint32_t above = y - (y > 0), below = std::min(y + 1, height - 1);
   double largest = 0.0;
