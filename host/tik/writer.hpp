@@ -35,7 +35,7 @@ class Writer {
   static Writer from_raster(const std::filesystem::path& path, const Header& header,
                             std::span<const std::byte> raster);
 
-  // What pack() tells of each block that is appended.
+  // What pack() tells of each block that is appended, by the codec that was asked for.
   void tell_of_packing(ReportedProgress packing) { packing_ = std::move(packing); }
 
   // Appends the next block; with an irregular timeline also its samples' exposures, times from the

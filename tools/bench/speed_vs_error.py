@@ -16,7 +16,7 @@ a mixed one (noise in one half). The chart draws the Pareto front: what nothing 
 the one of devices that have no double.
 
 Lossless captures are also exposed to sRGB codes of 16 bits. The chart of bounds shows for each arithmetic what these are
-off by, its bound, and the bound before errors counted by the light itself: 12.92 · 65535 times that of light.
+off by, its bound, and the bound that any light would have, white or black: 12.92 · 65535 times that of light.
 """
 
 import json
@@ -28,7 +28,7 @@ import tempfile
 import numpy as np
 
 from peers import LOOPS, PYTHON
-from tables import command_line, output_of, pyplot, run_once, size_of, write_outputs
+from tables import STEEPEST, command_line, output_of, pyplot, run_once, size_of, write_outputs
 
 CLIPS = ("BallTossOut.mp4", "bicycle-wheel.mp4", "bikes.mp4")
 TOLERANCES = (0, 2, 4, 8)
@@ -37,7 +37,6 @@ WHOLE = ("--start", "0s", "--exposure", "24h")
 PAPER_MS = 6000  # the paper's own program for a picture, on its authors' machine
 REFERENCE_BOUND = 30 * 2.0 ** -53  # of light, docs/explanation/accuracy.md
 # Half a code where codes lie closest in light, the straight toe of sRGB.
-STEEPEST = 12.92
 HALF_CODES = {"half a code of 8 bits": 0.5 / 255 / STEEPEST, "half a code of 16 bits": 0.5 / 65535 / STEEPEST}
 
 
@@ -106,7 +105,7 @@ def measure_codes(program, capture, runs):
     for variant in report["variants"]:
         yield {"what": f"{variant['precision']}, 16 bits", "tolerance": 0, "render_ms": variant["render_ms"],
                "codes_worst": variant["worst_16_bit_codes"], "codes_bound": variant["bound_steps"],
-               "codes_bound_before": STEEPEST * 65535 * variant["bound_light"]}
+               "codes_bound_of_white": STEEPEST * 65535 * variant["bound_light"]}
 
 
 def measure_tolerance(program, clip, folder, tolerance, runs, lossless):
@@ -236,12 +235,12 @@ def chart_bounds(path, rows):
                                   figsize=(4.3 * columns, 3.4 * -(-len(clips) // columns) + 0.8), layout="constrained")
     colours = dict(zip(PRECISIONS, ("#0072b2", "#d55e00", "#009e73", "#cc79a7")))
     marks = (("codes_worst", "o", "measured"), ("codes_bound", "_", "bound"),
-             ("codes_bound_before", "x", "bound before, by all light"))
+             ("codes_bound_of_white", "x", "bound of any light"))
     for panel, clip in zip(panels.flat, clips):
         own = [row for row in rows if row["clip"] == clip]
         for row in own:
             colour = colours[row["what"].split(",")[0]]
-            panel.plot([row["render_ms"]] * 2, [row["codes_worst"], row["codes_bound_before"]], color=colour, linewidth=0.8)
+            panel.plot([row["render_ms"]] * 2, [row["codes_worst"], row["codes_bound_of_white"]], color=colour, linewidth=0.8)
             for key, marker, _ in marks:
                 panel.plot(row["render_ms"], row[key], marker=marker, color=colour, markersize=9, markeredgewidth=1.8)
         panel.axhline(0.5, color="#606060", linestyle=":", linewidth=1)
@@ -278,7 +277,7 @@ def main():
 
     everything = []
     print(f"{'clip':20} {'what':18} {'tol.':>4} {'render ms':>9} {'MB read':>8} {'arithmetic':>10} {'bound':>8} "
-          f"{'capture':>8} {'total':>8} {'RMS':>8}  of 16 bits: {'codes':>8} {'bound':>8} {'before':>8}")
+          f"{'capture':>8} {'total':>8} {'RMS':>8}  of 16 bits: {'codes':>8} {'bound':>8} {'any':>8}")
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         clips = {}
@@ -293,7 +292,7 @@ def main():
                 figures = " ".join(f"{row[key]:{width}.{digits}g}" if key in row else " " * width for key, width, digits in (
                     ("read_mb", 8, 4), ("arithmetic_worst", 10, 2), ("bound", 8, 2), ("capture_worst", 8, 2),
                     ("total_worst", 8, 2), ("total_rms", 8, 2), ("codes_worst", 22, 2), ("codes_bound", 8, 2),
-                    ("codes_bound_before", 8, 2)))
+                    ("codes_bound_of_white", 8, 2)))
                 print(f"{name:20} {row['what']:18} {row['tolerance']:4} {row['render_ms']:9.2f} {figures}", flush=True)
                 everything.append({"clip": name, "size": size, **row})
     columns = {key: None for row in everything for key in row}

@@ -13,6 +13,8 @@ CLIPS = ("bicycle-wheel.mp4", "diabolo-cm-trajectory.mp4", "BallTossOut.mp4",
          "one-by-one-person-detection.mp4", "bottle-detection.mp4", "bulk-water.mov", "realshort.mp4",
          "bikes.mp4")
 
+STEEPEST = 12.92  # of sRGB codes in their light: in the dark
+
 
 def command_line(description, runs, chart=False, clips=False):
     """A parser with the options of every script: the build, how often, and where the figures go beside the terminal."""
