@@ -1,15 +1,15 @@
 // Combines pixels: the lightest or the darkest of their samples, each times its gain.
 //
-//   in:    chunk, entries, tiles and functions as expose.cl has them. Of each function the samples of a block that it
-//          exposes. Where it scales them, gains, all in the order of the largest [level][row][function]: level i has the
-//          extreme of 2^i samples, so that two of them make up any run. A sample that is not exposed has the gain that
-//          changes nothing; there is one row more than samples in each block, of those gains
+//   in:    chunk, entries, tiles and functions as expose.cl has them; the samples of a block that each function exposes.
+//          Where it scales them, gains [level][row][function]: level i has the extreme of 2^i samples, so that two of
+//          them make up any run. A sample that is not exposed has the gain that changes nothing; each block has one row
+//          more than samples, of those gains
 //   out:   results [tile][channel][64]: the extreme so far
 //   items: see items.clh
 //
-// One gain for all samples of the plan (NUTIK_SCALES is 0) rounds nothing: codes are compared as they come, and the host
-// turns the one that is left into light. Else products are, each rounded once, as IEEE 754 says, on devices without
-// double, too: the bits of doubles from 0 on are in the order of their values.
+// If all samples have one gain (NUTIK_SCALES is 0), nothing is rounded: codes are compared as they come, and the host
+// turns the one that is left into light. Else products are compared, each rounded once as IEEE 754 says, also on devices
+// without double: the bits of doubles from 0 on are in the order of their values.
 #include "items.clh"
 #include "tiles.clh"
 
@@ -93,8 +93,8 @@ typedef struct {
   global const result* light;      // of each code
 } Samples;
 
-// What a code that is held in samples [from, to) is scaled by in each lane. Codes that are compared as they come keep all
-// of their bits where some of the samples is exposed, and none elsewhere.
+// What a code that is held in samples [from, to) is scaled by in each lane. Codes that are compared as they come keep
+// all of their bits where some of the samples is exposed, and none elsewhere.
 NUTIK_INLINE results scales_of(const Samples* samples, const uints from, const uints to, const uints functions) {
 #if NUTIK_SCALES
   return gains_of(samples->gains, samples->rows, samples->function_count, from, to, functions);

@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "capture/noise_model.hpp"
@@ -139,6 +140,13 @@ struct Picture {
   void check_size(std::size_t size) const {
     if (size != value_bytes(type)) throw std::logic_error("a picture was read as another value type");
   }
+};
+
+// One of several grey pictures of light, all of one size, that a file holds.
+struct PictureLayer {
+  std::string name;
+  std::string text;  // what its values are
+  Picture values;
 };
 
 // The largest of a raster's codes; 0 where it has none.

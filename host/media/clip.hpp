@@ -37,8 +37,8 @@ struct ClipTiming {
   [[nodiscard]] bool is_known() const { return rate || !starts_ns.empty() || !exposures.empty(); }
 };
 
-// When a player of a file with sound shows the first and the last picture, and how long it is from the one to the other as
-// they were filmed (what opens the clip for a capture fills that in).
+// When a player of a file with sound shows the first and the last picture, and how long it is from the one to the other
+// as they were filmed (what opens the clip for a capture fills that in).
 struct ClipSound {
   double first_s = 0, last_s = 0;
   double filmed_s = 0;
@@ -219,6 +219,7 @@ void refuse_yuv_options(const ClipOptions& options);
 
 // Codes of light of floating point: the nearest ones of equal steps up to `white`.
 inline constexpr std::uint32_t kLightSteps = 65'535;
+// Describes a clip of such codes.
 void describe_light(ClipInfo& info, double white);
 
 // Describes such codes, of a format whose shape and white code are known, as stated, as the files say, or as usual.

@@ -39,6 +39,7 @@ class FrameQueue {
   void finish();
 
   // After finish().
+  [[nodiscard]] bool has_sound() const { return writer_->has_sound(); }
   [[nodiscard]] std::vector<std::string> notes() const { return writer_->notes(); }
 
  private:

@@ -8,8 +8,8 @@
 #include <span>
 #include <string>
 
+#include "capture/picture.hpp"
 #include "media/clip.hpp"
-#include "media/stills/picture_layer.hpp"
 #include "media/stills/stills_table.hpp"
 #include "media/writers/video_writer.hpp"
 #include "system/output_file.hpp"

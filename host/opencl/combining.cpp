@@ -17,7 +17,7 @@ namespace {
 // Elements of a table are counted in 32 bits.
 constexpr std::uint64_t kMaxTableBytes = 4ull << 30;
 
-// Of no sample, or one without a gain.
+// What changes no result: a sample without a gain is that, and so is none.
 double nothing(const RenderPlan& plan) {
   return plan.combine == Combine::darken ? std::numeric_limits<double>::infinity() : 0.0;
 }
@@ -83,7 +83,8 @@ SliceTables Combining::tables(const TableSlice& slice, DeviceMemory& memory) con
     for (std::size_t i = 0; i < level_size; ++i) {
       const double* const from = &gains[(level - 1) * level_size + i];
       const double first = from[0], second = from[i + half < level_size ? half : 0];
-      gains[level * level_size + i] = plan_.combine == Combine::darken ? std::min(first, second) : std::max(first, second);
+      const bool darkens = plan_.combine == Combine::darken;
+      gains[level * level_size + i] = darkens ? std::min(first, second) : std::max(first, second);
     }
   }
   return {{}, {}, memory.upload(parts), memory.upload(gains)};
@@ -198,7 +199,8 @@ void Combining::develop_results(const ExposedBand& combined, cl::CommandQueue& q
     const Rectangle part{to.rectangle.x, y, to.rectangle.width, std::min(kRowsAtOnce, bottom - y)};
     const Picture made = stored(light_of(combined, std::span<const Result>(results), part, light_of_result),
                                 plan_.capture, to.output, to.saturation);
-    std::ranges::copy(made.bytes, to.picture.bytes.begin() + static_cast<std::ptrdiff_t>((y - to.rectangle.y) * row_bytes));
+    const auto row = to.picture.bytes.begin() + static_cast<std::ptrdiff_t>((y - to.rectangle.y) * row_bytes);
+    std::ranges::copy(made.bytes, row);
   }
 }
 

@@ -1,5 +1,5 @@
-// The lightest or the darkest sample of each pixel, with kernels/combine.cl: what the kernel reads beside blocks, and how
-// what it leaves becomes light.
+// The lightest or the darkest sample of each pixel, with kernels/combine.cl: what the kernel reads beside blocks, and
+// how what it leaves becomes light.
 //
 //   in:      a plan that lightens or darkens, and the gains of its samples
 //   out:     tables for the kernel, a slice at a time; of a band that it went over the picture
@@ -44,7 +44,7 @@ class Combining {
   [[nodiscard]] std::uint32_t rows(const TableSlice& slice) const {
     return static_cast<std::uint32_t>(slice.last_row - slice.first_row);
   }
-  // Of each code; where nothing is scaled, what need not be read.
+  // The light of each code; where nothing is scaled, one that is not read.
   [[nodiscard]] std::span<const double> light() const { return std::span(light_).first(scales_ ? light_.size() : 1); }
 
   // What the kernel left of a band becomes part of a picture.

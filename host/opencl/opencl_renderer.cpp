@@ -263,7 +263,8 @@ class OpenClRenderer::Implementation {
   }
 
   [[nodiscard]] Work work_for(const Combining& combining) const {
-    return work_for(!combining.scales() ? Precision::single_ : info_.has_double ? Precision::double_ : Precision::fixed);
+    if (!combining.scales()) return work_for(Precision::single_);
+    return work_for(info_.has_double ? Precision::double_ : Precision::fixed);
   }
 
   [[nodiscard]] std::string options_of_combining(const Work& work, const RenderPlan& plan,
@@ -305,8 +306,8 @@ class OpenClRenderer::Implementation {
         },
         [&](const cl::Buffer& chunk, const cl::Buffer& entries, const SliceTables& tables, const ExposedBand& band,
             const ExposeLaunch& launch) {
-          return kernel(items(kernel, queue_, work.shape, launch.tile_count), chunk, entries, tables.parts, tables.gains,
-                        light, band.map.tiles, band.map.of_tile, band.map.of_lane, band.sums, rows, launch);
+          return kernel(items(kernel, queue_, work.shape, launch.tile_count), chunk, entries, tables.parts,
+                        tables.gains, light, band.map.tiles, band.map.of_tile, band.map.of_lane, band.sums, rows, launch);
         }};
     const std::vector<std::uint8_t> every = every_function(plan);
     rendered.picture = Picture({request.rectangle.width, request.rectangle.height, plan.capture.shape.channels},

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "capture/picture.hpp"
 #include "capture/timeline.hpp"
-#include "media/stills/picture_layer.hpp"
 #include "render/render_plan.hpp"
 #include "render/renderer.hpp"
 #include "session/uncertainty.hpp"

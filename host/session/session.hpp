@@ -117,9 +117,9 @@ class Session {
                                       const PlanOptions& options, const OutputFormat& output,
                                       const RenderControl& control = {});
 
-  // Pictures one after another, each as soon as it is there handed to done(number, rendered, functions). Those of few
-  // pixels, each with one function and in the arithmetic that is chosen by itself, are made many at once, in one pass over
-  // the capture and in double (render/one_pass.hpp). Throws as render() does.
+  // Hands pictures one after another to done(number, rendered, functions), each as soon as it is there. Those of few
+  // pixels, each with one function and in the arithmetic that is chosen by itself, are made many at once, in one pass
+  // over the capture and in double (render/one_pass.hpp). Throws as render() does.
   using RenderedOne = std::function<void(std::size_t number, const Rendered& rendered,
                                          std::span<const PlannedFunction> functions)>;
   void render_many(std::span<const ExposureRequest> requests, const OutputFormat& output, const RenderControl& control,

@@ -65,7 +65,9 @@ class CodeErrors {
   CodeErrors(const CaptureFormat& capture, const OutputFormat& output);
 
   // Whether errors are told by light: cameras' curves bend both ways, and other primaries mix channels.
-  [[nodiscard]] bool know_light() const { return !making_.conversion && making_.transfer.kind() != Transfer::Kind::log; }
+  [[nodiscard]] bool know_light() const {
+    return !making_.conversion && making_.transfer.kind() != Transfer::Kind::log;
+  }
   [[nodiscard]] const CodeMaking& making() const { return making_; }
   // In codes, where light between two others changes by so much; and wherever that is worst, `scale` being S.
   [[nodiscard]] double between(double from, double to, double light) const;

@@ -52,9 +52,11 @@ float rounded_up(double value) {
 double made_share(const PlannedFunction& function, const Timeline& timeline, const std::vector<bool>& is_made) {
   const SampleRange samples = exposed_samples(function, timeline);
   if (samples.size() == 0) return 0.0;
-  const auto begin = is_made.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(samples.first, is_made.size()));
-  const auto end = is_made.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(samples.last, is_made.size()));
-  return static_cast<double>(std::count(begin, end, true)) / static_cast<double>(samples.size());
+  const auto at = [&](std::uint64_t sample) {
+    return is_made.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(sample, is_made.size()));
+  };
+  const auto made = std::count(at(samples.first), at(samples.last), true);
+  return static_cast<double>(made) / static_cast<double>(samples.size());
 }
 
 }  // namespace
@@ -188,10 +190,10 @@ std::vector<PictureLayer> UncertaintyMap::layers(const Picture& exposed, const R
     values[term] = layer.values.values<float>().data();  // which stay in place
     layers.push_back(std::move(layer));
   }
-  // Of pixels that one function has alone, by function and code: what a thread has found is known to it.
+  // What a thread has found for pixels that one function has alone, by function and code.
   using Known = std::unordered_map<std::uint64_t, Errors>;
-  const auto errors_of = [&](double value, std::uint64_t pixel, const Function& function, const PictureError& arithmetic,
-                             Known& known) {
+  const auto errors_of = [&](double value, std::uint64_t pixel, const Function& function,
+                             const PictureError& arithmetic, Known& known) {
     if (!is_codes) return of_light(value, function, arithmetic);
     if (!plan_.shares_of(pixel).empty()) return of_code(value, function, arithmetic);
     const std::uint64_t key = std::uint64_t{plan_.function_of(pixel)} << 16 | static_cast<std::uint64_t>(value);

@@ -2,8 +2,8 @@
 //
 //   in:      a plan and its bound, what its capture is off by, the picture
 //   out:     a layer of all bounds together, and one for each term: in codes of a picture of codes, else in light
-//   always:  of the pixel's own function, of its own light if no gain is below 0, and of its channel that is off furthest;
-//            rounded up
+//   always:  by the pixel's own function, by its own light if no gain is below 0, and by the channel that is off
+//            furthest; rounded up
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "capture/picture.hpp"
-#include "media/stills/picture_layer.hpp"
 #include "render/error_bound.hpp"
 #include "render/render_plan.hpp"
 #include "render/renderer.hpp"
@@ -22,24 +21,25 @@ namespace nutik {
 class UncertaintyMap {
  public:
   // All of which must live as long.
-  UncertaintyMap(const RenderPlan& plan, const Timeline& timeline, const ErrorBound& bound, const CaptureErrors& capture);
+  UncertaintyMap(const RenderPlan& plan, const Timeline& timeline, const ErrorBound& bound,
+                 const CaptureErrors& capture);
 
   // What maps of so many pixels take.
   [[nodiscard]] static std::uint64_t bytes(const Shape& shape) { return kTerms * sizeof(float) * shape.pixel_count(); }
 
-  // Of a picture that has these pixels of the plan's, row by row on all cores: progress counts rows. Throws Cancelled.
+  // `exposed` has the plan's pixels of `part`. On all cores; progress counts rows. Throws Cancelled.
   [[nodiscard]] std::vector<PictureLayer> layers(const Picture& exposed, const Rectangle& part,
                                                  const RenderControl& control = {}) const;
 
-  // Of a picture of codes all bounds together are never more than the whole picture's: both hold, and the picture's is
-  // found in finer parts of light than a code.
+  // For a picture of codes: no pixel's bounds together are more than the whole picture's. Both hold, and the picture's
+  // are found in finer parts of light than a code.
   static void limit(std::vector<PictureLayer>& layers, const PictureError& bounds);
 
  private:
   enum Term : std::size_t {
     kAllBounds, kArithmetic, kRounding, kRoundedCodes, kHeldSamples, kTimes, kNoise, kAlignment, kMadeSamples, kTerms
   };
-  // Of what pixels share by their functions: a pixel's are its shares of theirs.
+  // What a function gives its pixels; a pixel that several share has its shares of theirs.
   struct Function {
     double scale = 0.0, times = 0.0, made = 0.0;
     bool is_mean = true;
@@ -50,7 +50,7 @@ class UncertaintyMap {
   };
 
   [[nodiscard]] Function function_of(std::uint64_t pixel) const;
-  // Of one value that was made by a function, whose arithmetic may be off by so much.
+  // What one value is off by, made by this function with this error of the arithmetic.
   [[nodiscard]] Errors of_code(double code, const Function& function, const PictureError& arithmetic) const;
   [[nodiscard]] Errors of_light(double light, const Function& function, const PictureError& arithmetic) const;
   // How much a value changes from one pixel to the next, at its place in the picture.

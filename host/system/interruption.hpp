@@ -13,8 +13,8 @@
 
 namespace nutik {
 
-// Called with how many steps are done of how many, 0 where that is not known, on any of the threads that do the work, never
-// on two at once. May be empty. What it throws ends the work and comes back to the caller.
+// Called with how many steps are done of how many, 0 where that is not known, on any of the threads that do the work,
+// never on two at once. May be empty. What it throws ends the work and comes back to the caller.
 using ReportedProgress = std::function<void(std::uint64_t done, std::uint64_t total)>;
 
 struct Interrupted : Error {

@@ -45,9 +45,8 @@ class MappedFile {
 // included. A program that does this asks check() or check_mapped_files() before it says that all went well. A SIGBUS
 // of anything else goes where it went before.
 void watch_mapped_files();
-// The same once more, where an application watches and a library may have put a handler of its own in this one's place,
-// as LLVM does when a driver compiles: LLVM's steps aside at the first SIGBUS, and the next thread's, a moment later, ends
-// the process.
+// Puts the handler back, if an application watches: a library may have taken its place, as LLVM does when a driver
+// compiles. LLVM's handler steps aside at the first SIGBUS; a second thread's, a moment later, would end the process.
 void keep_watching_mapped_files();
 
 // How many files were lost, made shorter or written to while they were mapped.

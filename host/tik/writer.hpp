@@ -61,7 +61,7 @@ class Writer {
 
   void append(BlockHeader header, std::span<const std::span<const std::byte>> payload,
               std::span<const Exposure> exposures);
-  // Into packed_; returns the codec that did it. Codes that move by steps of a tolerance are counted by Rice's alone: it packs
+  // Into packed_; returns the codec that did it. Rice's alone counts codes that move by steps of a tolerance: it packs
   // what it makes smaller than the codec that was asked for.
   Codec pack_block(const BlockGeometry& geometry, std::span<const std::byte> payload);
   // Appends what lies in these parts; returns its checksum.

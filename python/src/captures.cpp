@@ -358,7 +358,8 @@ void bind_captures(py::module_& module) {
              py::arg("settings"), py::arg("computing"), py::arg("progress"));
   module.def("encode_pictures", &encode_pictures, py::arg("pictures"), py::arg("first"), py::arg("name"),
              py::arg("starts_ns"), py::arg("exposures_ns"), py::arg("exposed_ns"),
-             py::arg("white_light"), py::arg("output"), py::arg("codec"), py::arg("settings"), py::arg("computing"), py::arg("progress"));
+             py::arg("white_light"), py::arg("output"), py::arg("codec"), py::arg("settings"),
+             py::arg("computing"), py::arg("progress"));
   module.def("join", &joined, py::arg("captures"), py::arg("output"), py::arg("computing"), py::arg("progress"));
 }
 

@@ -27,7 +27,7 @@ class FilmKinds : public test::AppTest {
                scratch_.folder())
         .out;
   }
-  // Of all frames, in seconds.
+  // When each frame is shown, in seconds.
   [[nodiscard]] std::vector<double> times(const std::string& name) const {
     std::istringstream lines(test::run_shell("ffprobe -v error -select_streams v -show_entries "
                                              "frame=best_effort_timestamp_time -of csv=p=0 " + name,
@@ -285,7 +285,7 @@ TEST_F(FilmSoundTest, LiesOnItsFrameWhateverIsTakenOfTheClip) {
   for (int film = 1; film < 4; ++film) lies_at(50, format("opus{}.webm", film - 1), format("opus{}.webm", film), 25);
 }
 
-// Of two tracks the one that players take, by name; a film says what it has.
+// A film says which of two tracks it has: the one that players take.
 TEST_F(FilmSoundTest, IsToldOf) {
   NEEDS_FFMPEG();
   make_clap("clip.mp4", "aac");

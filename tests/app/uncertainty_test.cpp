@@ -187,7 +187,8 @@ TEST_F(UncertaintyOf, AMapHasTheBoundOfEachPixel) {
   EXPECT_NEAR(light[1].at<float>(0, 0), 30 * 0x1p-53, 1e-20);
   EXPECT_GT(light[1].at<float>(0, 15), 1e14);
   for (int x = 0; x < 16; ++x) {
-    const float sum = light[1].at<float>(3, x) + light[2].at<float>(3, x) + light[3].at<float>(3, x) + light[4].at<float>(3, x);
+    float sum = 0;
+    for (int term = 1; term <= 4; ++term) sum += light[static_cast<std::size_t>(term)].at<float>(3, x);
     EXPECT_FLOAT_EQ(light[0].at<float>(3, x), sum) << "light adds up";
   }
 }
@@ -221,6 +222,13 @@ TEST_F(UncertaintyOf, AnExrHasLayersThatAreReadAgainAsOnePicture) {
                       "held_samples: a bound, in codes, of which 255 is white: no pixel is further off"});
   make("encode -f 1 --white 300 map.exr again.tik");
   expect_says(make("again map.exr", 3).err, "recipe");
+  // A channel that nothing describes may be anything.
+  std::string foreign = bytes;
+  const std::string described{"times\0string", 12};
+  ASSERT_NE(foreign.find(described), std::string::npos);
+  foreign.replace(foreign.find(described), 5, "other");
+  scratch_.write("foreign.exr", foreign);
+  expect_refused("encode -f 1 --white 300 foreign.exr foreign.tik", 3, "its channels are");
 }
 
 TEST_F(UncertaintyOf, AMapHasANameOfItsOwnThatHoldsFloats) {
@@ -233,7 +241,9 @@ TEST_F(UncertaintyOf, AMapHasANameOfItsOwnThatHoldsFloats) {
   expect_refused("--start 0s --exposure 1f --every 5f clip.tik s%d.tif --bounds s%d.tif", 2, "s0.tif");
   expect_refused("video --out-fps 25 clip.tik f%d.png --bounds map.tif", 2,
                  "a video needs a number in its pictures' name");
-  scratch_.write("list", "--start 0s --exposure 1f a.png --bounds map.tif\n--start 1f --exposure 1f b.png --bounds map.tif\n");
+  scratch_.write("list",
+                 "--start 0s --exposure 1f a.png --bounds map.tif\n"
+                 "--start 1f --exposure 1f b.png --bounds map.tif\n");
   expect_says(make("batch list clip.tik", 1).err, "list:2: map.tif is written by line 1 already");
 }
 

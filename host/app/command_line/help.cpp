@@ -148,11 +148,13 @@ std::string short_lines(const Option& option) {
   std::string line = names_of(option) + "  ";
   if (line.size() < kOptionColumn) line.resize(kOptionColumn, ' ');
   line += brief(option.help);
-  std::string choices = ":";
-  for (const std::string& choice : option.choices()) choices += " " + choice + (choice.ends_with(':') ? "…" : "");
-  if (choices.size() > 1 && columns(line + choices) <= kDefault) return line + choices + '\n';
-  const std::string below = std::string(kOptionColumn, ' ') + choices.substr(std::min<std::size_t>(choices.size(), 2));
-  return line + (option.choices().size() > 1 && columns(below) <= kDefault ? ":\n" + below : "") + '\n';
+  std::vector<std::string> choices = option.choices();
+  if (choices.empty()) return line + '\n';
+  for (std::string& choice : choices) choice += choice.ends_with(':') ? "…" : "";
+  const std::string list = joined(choices, " ");
+  if (columns(line) + 2 + columns(list) <= kDefault) return format("{}: {}\n", line, list);
+  const bool fits_below = choices.size() > 1 && kOptionColumn + columns(list) <= kDefault;
+  return fits_below ? format("{}:\n{:{}}{}\n", line, "", kOptionColumn, list) : line + '\n';
 }
 
 }  // namespace

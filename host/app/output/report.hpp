@@ -73,7 +73,7 @@ class ExposureTally {
   // hold light.
   [[nodiscard]] std::string saturation_text() const;
   [[nodiscard]] Json saturation_json() const;
-  // Of the picture whose bounds are the largest.
+  // That of the picture whose bounds are the largest.
   [[nodiscard]] Json uncertainty_json() const { return app::uncertainty_json(worst_, worst_output_); }
   // That codes to be seen end at white, where those of the capture go on behind it; square_notes() of the last one.
   [[nodiscard]] std::vector<std::string> notes() const;

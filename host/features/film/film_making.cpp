@@ -11,6 +11,7 @@
 #include "media/formats/numbered_name.hpp"
 #include "media/frame_queue.hpp"
 #include "media/input_checksum.hpp"
+#include "system/input_bytes.hpp"
 #include "system/is_absent.hpp"
 
 namespace nutik {
@@ -51,7 +52,7 @@ std::optional<FilmSound> film_sound(const Session& session, const FramesRequest&
     notes.push_back(format("{} has no sound to stretch", input_title(session.source().path.string())));
   if (wish == FilmSoundWish::none || !found) return {};
   const auto left_out = [&](const std::string& why) {
-    notes.push_back(format("{}{}", kSoundLeftOut, why));
+    notes.push_back(format("the clip's sound is left out: {}", why));
     return std::nullopt;
   };
   if (!output.holds_sound()) return left_out(format("{} holds none", output.path().extension().string()));
@@ -125,11 +126,9 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
   }
   queue.finish();
   made.notes = queue.notes();
-  const auto is_on_sound = [](const std::string& note) { return note.starts_with(kSoundLeftOut); };
-  if (std::ranges::none_of(made.notes, is_on_sound)) {
-    made.sound = sound;
-    std::ranges::move(sound_notes, std::back_inserter(made.notes));
-  }
+  if (queue.has_sound()) made.sound = sound;
+  // Where the writer left it out, its own note says so.
+  if (!sound || made.sound) std::ranges::move(sound_notes, std::back_inserter(made.notes));
   return made;
 }
 

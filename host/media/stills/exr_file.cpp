@@ -97,8 +97,8 @@ std::vector<half> halves(const Picture& picture) {
   return result;
 }
 
-// How many bytes the value of an attribute takes by its type, whatever it is said to have; OpenEXR reads these. None: as
-// many as are stated.
+// How many bytes the value of an attribute takes by its type: OpenEXR reads these, whatever is stated. None: as many as
+// are stated.
 std::optional<std::uint64_t> value_bytes_of(std::string_view type, std::string_view value) {
   using Fixed = std::pair<std::string_view, std::uint64_t>;
   constexpr Fixed kFixed[] = {{"box2i", 16},        {"box2f", 16},      {"chromaticities", 32}, {"compression", 1},
@@ -238,11 +238,19 @@ void write_exr_layers(OutputFile& file, std::span<const PictureLayer> layers) {
 
 namespace {
 
+// Whether it is a channel of write_exr_layers(), which gives each layer an attribute of its name.
+bool is_layer(const Imf::Header& header, std::string_view channel) {
+  if (!channel.ends_with(".Y")) return false;
+  channel.remove_suffix(2);
+  return header.findTypedAttribute<Imf::StringAttribute>(std::string(channel)) != nullptr;
+}
+
 // The channels of a picture of light, in a raster's order. Throws where they are none.
-std::vector<std::string> channels_of(const Imf::ChannelList& channels) {
+std::vector<std::string> channels_of(const Imf::Header& header) {
+  const Imf::ChannelList& channels = header.channels();
   std::string all;
   for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
-    if (channels.findChannel("Y") != nullptr && std::string_view(channel.name()).ends_with(".Y")) continue;  // a layer's
+    if (is_layer(header, channel.name())) continue;
     all += (all.empty() ? "" : ", ") + std::string(channel.name());
   }
   if (all == "B, G, R") return {"R", "G", "B"};
@@ -281,7 +289,7 @@ ExrPicture read_exr(const std::filesystem::path& file) {
     const Imath::Box2i window = header.dataWindow();
     if (window != header.displayWindow())
       throw InputError("its pixels are not those of its picture (data and display window)");
-    const std::vector<std::string> names = channels_of(header.channels());
+    const std::vector<std::string> names = channels_of(header);
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1,
                        height = std::int64_t{window.max.y} - window.min.y + 1;
     const Shape shape{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),

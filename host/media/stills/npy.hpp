@@ -8,7 +8,6 @@
 #include <string>
 
 #include "capture/picture.hpp"
-#include "media/stills/picture_layer.hpp"
 
 namespace nutik {
 

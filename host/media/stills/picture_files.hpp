@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "capture/picture.hpp"
-#include "media/stills/picture_layer.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik {

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <utility>
 
+#include "capture/picture.hpp"
 #include "capture/primaries.hpp"
 #include "capture/transfer.hpp"
 #include "media/clip.hpp"
-#include "media/stills/picture_layer.hpp"
 #include "media/stills/stills_table.hpp"
 #include "system/output_file.hpp"
 

@@ -130,6 +130,7 @@ class LibavVideoWriter final : public VideoWriter {
     file_.commit();
   }
 
+  [[nodiscard]] bool has_sound() const override { return sound_ != nullptr; }
   [[nodiscard]] std::vector<std::string> notes() const override { return notes_; }
 
  private:
@@ -224,7 +225,7 @@ class LibavVideoWriter final : public VideoWriter {
       sound_ = open_sound(sound, *muxer_, name_);
     } catch (const OutputError& error) {
       if (sound.is_asked) throw;
-      notes_.push_back(format("{}{}", kSoundLeftOut, error.what()));
+      notes_.push_back(format("the clip's sound is left out: {}", error.what()));
     }
   }
 

@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "capture/picture.hpp"
-#include "media/stills/picture_layer.hpp"
 
 namespace nutik {
 

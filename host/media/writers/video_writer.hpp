@@ -45,9 +45,6 @@ struct VideoCodec {
 [[nodiscard]] int codec_setting(const VideoCodec& codec, const std::optional<std::uint32_t>& crf,
                                 const std::optional<std::uint32_t>& quality);
 
-// How a note begins that says why a film has no sound.
-inline constexpr std::string_view kSoundLeftOut = "the clip's sound is left out: ";
-
 // A part of a clip's sound, in a film.
 struct FilmSound {
   std::filesystem::path clip;
@@ -92,6 +89,8 @@ class VideoWriter {
 
   // Ends the video after the frames so far, and gives the file its name. Throws OutputError.
   virtual void finish() = 0;
+
+  [[nodiscard]] virtual bool has_sound() const { return false; }
 
   // What a person should know of how it is written, whole sentences.
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
