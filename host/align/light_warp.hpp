@@ -39,9 +39,9 @@ class LightTables {
 
  private:
   std::vector<float> light_;               // of each code
-  std::vector<float> begins_;              // the least light of each; behind them, what no light reaches
-  std::vector<std::uint32_t> first_code_;  // at the start of each of many equal steps of light
-  std::uint32_t half_ = 1;  // a power of 2: no step has twice as many codes that begin within it
+  // Of singles that share all bits but the last: their first code, and the last bits with which the next one begins.
+  std::vector<std::uint32_t> cells_;
+  std::int32_t first_cell_ = 0, cell_bits_ = 0;
 };
 
 class LightWarp {
@@ -58,12 +58,17 @@ class LightWarp {
   template <typename Code>
   void read_light(const Code* raster);
   template <typename Code>
-  void write_row(const Warp& warp, std::uint32_t row, Code* warped) const;
+  [[nodiscard]] Code* codes_of_planes() {
+    return reinterpret_cast<Code*>(codes_.data());
+  }
+  template <typename Code>
+  void write_row(const Warp& warp, std::uint32_t row, Code* warped);
 
   CaptureFormat format_;
   Rectangle area_;
   LightTables tables_;
-  std::vector<float> light_;  // of the raster, a plane for each channel, with a border
+  std::vector<float> light_;      // of the raster, a plane for each channel, with a border
+  std::vector<std::byte> codes_;  // all channels of a pixel side by side, with a border
 };
 
 }  // namespace nutik
