@@ -34,7 +34,7 @@ class LightTables {
   void lights_of(const std::uint8_t* codes, std::size_t stride, std::span<float> lights) const;
   void lights_of(const std::uint16_t* codes, std::size_t stride, std::span<float> lights) const;
 
-  // The last codes that begin no later than lights of [0, 1]; `codes` has room for as many.
+  // The last codes that begin no later than lights, 0 if none does; `codes` has room for as many.
   void codes_of(std::span<const float> lights, std::uint32_t* codes) const;
 
  private:
@@ -50,25 +50,17 @@ class LightWarp {
   LightWarp(const CaptureFormat& format, const Rectangle& area);
 
   // On all cores. Throws CodeAboveWhite.
-  void take(std::span<const std::byte> raster, const Warp& warp, std::span<std::byte> warped);
+  void take(std::span<const std::byte> raster, const Warp& warp, std::span<std::byte> warped) const;
 
   [[nodiscard]] static std::uint64_t bytes(const CaptureFormat& format);
 
  private:
   template <typename Code>
-  void read_light(const Code* raster);
-  template <typename Code>
-  [[nodiscard]] Code* codes_of_planes() {
-    return reinterpret_cast<Code*>(codes_.data());
-  }
-  template <typename Code>
-  void write_row(const Warp& warp, std::uint32_t row, Code* warped);
+  class Part;
 
   CaptureFormat format_;
   Rectangle area_;
   LightTables tables_;
-  std::vector<float> light_;      // of the raster, a plane for each channel, with a border
-  std::vector<std::byte> codes_;  // all channels of a pixel side by side, with a border
 };
 
 }  // namespace nutik
