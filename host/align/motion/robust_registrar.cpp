@@ -27,6 +27,7 @@ namespace {
 
 constexpr std::size_t kMinPoints = 60;
 constexpr std::size_t kPoints = 20000;        // of the finest level
+constexpr std::size_t kMeanPoints = 10000;    // of one whose pixels are means: found as exactly with half as many
 constexpr std::size_t kLeadingPoints = 8000;  // of one that leads to a finer one
 constexpr std::size_t kPointsAhead = 8;       // whose surroundings are fetched while others are looked at
 constexpr double kMinSeen = 0.2;              // of the points
@@ -149,7 +150,7 @@ class RobustRegistrar final : public Registrar {
     for (std::size_t i = 0; i < pyramid.levels.size(); ++i) {
       const cv::Mat& grey = pyramid.levels[i];
       Level level{pyramid.finest + static_cast<int>(i), (std::ldexp(1.0, pyramid.finest) - 1) / 2, grey.size(),
-                  textured_points(grey, i == 0 ? kPoints : kLeadingPoints)};
+                  textured_points(grey, i > 0 ? kLeadingPoints : pyramid.finest > 0 ? kMeanPoints : kPoints)};
       if (i > 0 && level.points.size() < kMinPoints) break;
       if (i == 0) check_texture(level.points);
       levels_.push_back(std::move(level));
