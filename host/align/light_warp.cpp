@@ -34,8 +34,7 @@ std::uint32_t highest(const Code* codes, std::size_t count) {
 }
 
 template <typename Code>
-void look_up(const std::vector<float>& light, const Code* codes, std::size_t stride,
-             std::span<float> lights) {
+void look_up(const std::vector<float>& light, const Code* codes, std::size_t stride, std::span<float> lights) {
   if (light.size() <= std::numeric_limits<Code>::max()) {
     const std::uint32_t most = highest(codes, (lights.size() - 1) * stride + 1);
     if (most >= light.size()) throw CodeAboveWhite(most);
@@ -71,7 +70,7 @@ NUTIK_SIMD_CLONES void find_codes(const float* __restrict lights, std::uint32_t 
   }
 }
 
-constexpr std::uint32_t kTaps = 4;
+constexpr std::size_t kTaps = 4;
 constexpr std::uint32_t kMaxChannels = 3;
 // Pictures are moved in parts whose light stays in a core's cache. What a part comes from reaches a little further, and
 // of steep warps much further: then the part is halved.
@@ -96,19 +95,21 @@ struct Box {
   [[nodiscard]] std::uint64_t pixels() const { return std::uint64_t{width} * height; }
 };
 
+using OfTaps = float[kTaps * kTapsOfPixels];
+
 // Pixels side by side in a row: where in a plane of the box their first taps are, and what each tap counts.
 struct Taps {
   std::uint32_t first[kPixelsAtOnce];
-  float x[kTaps][kTapsOfPixels] = {}, y[kTaps][kTapsOfPixels] = {};
+  OfTaps x = {}, y = {};
 };
 
 // The cubic's taps at -1, 0, 1 and 2 for places t behind 0, 0 <= t < 1.
-[[gnu::always_inline]] inline void set_cubic(float (&taps)[kTaps][kTapsOfPixels], std::int32_t i, double t) {
+[[gnu::always_inline]] inline void set_cubic(OfTaps& taps, std::size_t i, double t) {
   const auto u = static_cast<float>(t);
-  taps[0][i] = ((-0.5f * u + 1) * u - 0.5f) * u;
-  taps[1][i] = (1.5f * u - 2.5f) * u * u + 1;
-  taps[2][i] = ((-1.5f * u + 2) * u + 0.5f) * u;
-  taps[3][i] = (0.5f * u - 0.5f) * u * u;
+  taps[i] = ((-0.5f * u + 1) * u - 0.5f) * u;
+  taps[kTapsOfPixels + i] = (1.5f * u - 2.5f) * u * u + 1;
+  taps[2 * kTapsOfPixels + i] = ((-1.5f * u + 2) * u + 0.5f) * u;
+  taps[3 * kTapsOfPixels + i] = (0.5f * u - 0.5f) * u * u;
 }
 
 // No branches: compilers make vectors of it.
@@ -128,15 +129,16 @@ template <typename PlaceOf>
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(count); ++i) {
     const Place place = beside(place_of(i), shape);
     const auto right = static_cast<std::int32_t>(place.x + 1), down = static_cast<std::int32_t>(place.y + 1);
-    set_cubic(taps.x, i, place.x - (right - 1));
-    set_cubic(taps.y, i, place.y - (down - 1));
+    set_cubic(taps.x, static_cast<std::size_t>(i), place.x - (right - 1));
+    set_cubic(taps.y, static_cast<std::size_t>(i), place.y - (down - 1));
     // The tap at -1.
-    taps.first[i] = static_cast<std::uint32_t>(down - 2 - box.y) * box.width + static_cast<std::uint32_t>(right - 2 - box.x);
+    taps.first[i] =
+        static_cast<std::uint32_t>(down - 2 - box.y) * box.width + static_cast<std::uint32_t>(right - 2 - box.x);
   }
 }
 
-NUTIK_SIMD_CLONES void set_taps(Warp warp, std::uint32_t x, std::uint32_t y, std::uint32_t count,
-                                const Shape& shape, const Box& box, Taps& __restrict taps) {
+NUTIK_SIMD_CLONES void set_taps(Warp warp, std::uint32_t x, std::uint32_t y, std::uint32_t count, const Shape& shape,
+                                const Box& box, Taps& __restrict taps) {
   const auto left = static_cast<std::int32_t>(x);
   const double row = y;
   const auto& m = warp.m;
@@ -156,7 +158,7 @@ NUTIK_SIMD_CLONES void add_taps(const float* __restrict from, std::size_t stride
                                 std::size_t end, float* __restrict lights) {
   const std::size_t count = whole_vectors(end - first, kLightsInVector);
   const float *const row1 = from + stride, *const row2 = row1 + stride, *const row3 = row2 + stride;
-  const auto *const x = &taps.x[0][first], *const y = &taps.y[0][first];
+  const float *const x = taps.x + first, *const y = taps.y + first;
   float* const to = lights + first;
   const auto along = [x](const float* row, std::size_t i) __attribute__((always_inline)) {
     return x[i] * row[i] + x[kTapsOfPixels + i] * row[i + 1] + x[2 * kTapsOfPixels + i] * row[i + 2] +
@@ -199,8 +201,8 @@ NUTIK_SIMD_CLONES void set_limits(const std::uint8_t* from, std::size_t stride, 
   find_limits(from, stride, channels, count, least, most);
 }
 
-NUTIK_SIMD_CLONES void set_limits(const std::uint16_t* from, std::size_t stride, std::size_t channels, std::size_t count,
-                                  std::uint16_t* least, std::uint16_t* most) {
+NUTIK_SIMD_CLONES void set_limits(const std::uint16_t* from, std::size_t stride, std::size_t channels,
+                                  std::size_t count, std::uint16_t* least, std::uint16_t* most) {
   find_limits(from, stride, channels, count, least, most);
 }
 
@@ -262,7 +264,7 @@ LightWarp::LightWarp(const CaptureFormat& format, const Rectangle& area)
     : format_(format), area_(area), tables_(format.transfer, format.white_code) {}
 
 std::uint64_t LightWarp::bytes(const CaptureFormat& format) {
-  return std::thread::hardware_concurrency() * kMaxBoxPixels * format.shape.channels *
+  return std::uint64_t{std::max(std::thread::hardware_concurrency(), 1U)} * kMaxBoxPixels * format.shape.channels *
          (sizeof(float) + format.code_bytes);
 }
 
@@ -338,10 +340,13 @@ class LightWarp::Part {
       Code* const codes = codes_.data() + row * width * channels;
       Code* to = codes;
       for (std::int32_t x = box_.x; x < first; ++x) to = std::copy_n(from, channels, to);
-      to = std::copy(from + static_cast<std::size_t>(first) * channels, from + static_cast<std::size_t>(end) * channels, to);
-      while (to < codes + width * channels) to = std::copy_n(from + static_cast<std::size_t>(last) * channels, channels, to);
+      to = std::copy(from + static_cast<std::size_t>(first) * channels, from + static_cast<std::size_t>(end) * channels,
+                     to);
+      while (to < codes + width * channels)
+        to = std::copy_n(from + static_cast<std::size_t>(last) * channels, channels, to);
       for (std::size_t channel = 0; channel < channels; ++channel) {
-        whole_.tables_.lights_of(codes + channel, channels, {light_.data() + channel * box_.pixels() + row * width, width});
+        whole_.tables_.lights_of(codes + channel, channels,
+                                 {light_.data() + channel * box_.pixels() + row * width, width});
       }
     }
   }
@@ -358,8 +363,8 @@ class LightWarp::Part {
           add_taps(light_.data() + channel * box_.pixels() + from, stride, taps_, first, end, lights_[channel].data());
         }
         const std::size_t values = first * channels;
-        set_limits(codes_.data() + from * channels, stride * channels, channels,
-                   (end - first) * channels, least_.data() + values, most_.data() + values);
+        set_limits(codes_.data() + from * channels, stride * channels, channels, (end - first) * channels,
+                   least_.data() + values, most_.data() + values);
       }
       for (std::size_t channel = 0; channel < channels; ++channel) {
         whole_.tables_.codes_of({lights_[channel].data(), count}, found_[channel].data());
@@ -398,11 +403,9 @@ void LightWarp::take(std::span<const std::byte> raster, const Warp& warp, std::s
         });
   };
   if (format_.code_bytes == 1) {
-    move(reinterpret_cast<const std::uint8_t*>(raster.data()),
-         reinterpret_cast<std::uint8_t*>(warped.data()));
+    move(reinterpret_cast<const std::uint8_t*>(raster.data()), reinterpret_cast<std::uint8_t*>(warped.data()));
   } else {
-    move(reinterpret_cast<const std::uint16_t*>(raster.data()),
-         reinterpret_cast<std::uint16_t*>(warped.data()));
+    move(reinterpret_cast<const std::uint16_t*>(raster.data()), reinterpret_cast<std::uint16_t*>(warped.data()));
   }
 }
 

@@ -8,20 +8,23 @@
 #include <functional>
 #include <opencv2/imgproc.hpp>
 
+#include "align/registrar.hpp"
+#include "system/simd_clones.hpp"
+
 namespace nutik::motion {
 namespace {
 
-// Of the finest level: a quarter of 1080p's, where places are found as well.
-constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 19;
 constexpr int kMinSide = 24;
 // So that a cubic between pixels goes through what it is fitted to, and noise counts less.
 constexpr double kBlurPixels = 1.0;
 constexpr int kFeatureSide = 480;
 
-// Sums of rows of codes, of which compilers make vectors.
-template <typename Code>
-void add_row(const Code* codes, std::vector<std::uint32_t>& sums) {
-  for (std::size_t i = 0; i < sums.size(); ++i) sums.data()[i] += codes[i];
+NUTIK_SIMD_CLONES void add_row(const std::uint8_t* codes, std::size_t count, float* __restrict sums) {
+  for (std::size_t i = 0; i < count; ++i) sums[i] += static_cast<float>(codes[i]);
+}
+
+NUTIK_SIMD_CLONES void add_row(const std::uint16_t* codes, std::size_t count, float* __restrict sums) {
+  for (std::size_t i = 0; i < count; ++i) sums[i] += static_cast<float>(codes[i]);
 }
 
 template <std::size_t channels, typename Code>
@@ -31,19 +34,18 @@ void write_grey(const CaptureFormat& format, const Code* codes, std::uint32_t si
   if (channels > 1) std::ranges::copy(kLuma, shares.begin());
   for (float& share : shares) share *= static_cast<float>(kGreyWhite / side / side / format.white_code);
   grey.create(static_cast<int>(format.shape.height / side), static_cast<int>(width / side), CV_32F);
-  std::vector<std::uint32_t> sums(width * channels);
+  std::vector<float> sums(width * channels);
   for (int y = 0; y < grey.rows; ++y) {
-    std::ranges::fill(sums, 0);
-    for (std::uint32_t row = 0; row < side; ++row, codes += sums.size()) add_row(codes, sums);
+    std::ranges::fill(sums, 0.0f);
+    for (std::uint32_t row = 0; row < side; ++row, codes += sums.size()) add_row(codes, sums.size(), sums.data());
     auto* const to = grey.ptr<float>(y);
-    const std::uint32_t* from = sums.data();
+    const float* from = sums.data();
     for (int x = 0; x < grey.cols; ++x) {
-      std::uint32_t sum[3] = {};
+      float sum[3] = {};
       for (std::uint32_t column = 0; column < side; ++column, from += channels) {
         for (std::size_t channel = 0; channel < channels; ++channel) sum[channel] += from[channel];
       }
-      to[x] = shares[0] * static_cast<float>(sum[0]) + shares[1] * static_cast<float>(sum[1]) +
-              shares[2] * static_cast<float>(sum[2]);
+      to[x] = shares[0] * sum[0] + shares[1] * sum[1] + shares[2] * sum[2];
     }
   }
 }
@@ -61,7 +63,7 @@ void GreyPyramid::take(const CaptureFormat& format, std::span<const std::byte> r
     cv::pyrDown(greys_[smallest++], half);
   };
   finest = 0;
-  while (format.shape.pixel_count() >> 2 * finest > kMaxPixels) ++finest;
+  while (format.shape.pixel_count() >> 2 * finest > kMaxRegisteredPixels) ++finest;
   const std::uint32_t side = 1U << finest;
   const auto write = [&]<typename Code>(const Code* codes) {
     format.shape.channels == 1 ? write_grey<1>(format, codes, side, grey_at(0))
