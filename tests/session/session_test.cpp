@@ -97,7 +97,7 @@ TEST(Session, KnowsNoiseByItsModel) {
   capture.noise.camera.reset();
   capture.noise.tolerance = 6;
   EXPECT_NEAR(CaptureErrors::of(capture, false).held.most(), 6.0 / 65'535, 1e-15);
-  EXPECT_NEAR(CaptureErrors::of(capture, true).rounded_light, 0.5 / 65'535, 1e-15);
+  EXPECT_NEAR(CaptureErrors::of(capture, true).rounded.most(), 0.5 / 65'535, 1e-15);
   EXPECT_TRUE(CaptureErrors::of(capture, true).noise.is_zero());
 }
 

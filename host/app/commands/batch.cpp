@@ -123,7 +123,7 @@ class Batch {
       }
       const auto [earlier, is_new] = line_of_output_.try_emplace(led_to(output), listed.line);
       if (!is_new) throw UsageError(format("{} is written by line {} already", output.string(), earlier->second));
-      const BoundsMaps maps(line, request.combine, false, "a picture");
+      const BoundsMaps maps(line, false, "a picture");
       if (maps.are_asked()) {
         const auto [its, is_first] = line_of_output_.try_emplace(led_to(maps.of(0)), listed.line);
         if (!is_first && its->second != listed.line)

@@ -32,7 +32,7 @@ int run_expose(const Options& options) {
   const ExposureRequest request = exposure_request(options);
   const std::vector<std::string> inputs = input_files(options);
   check_output(output, OutputKind::picture, inputs, replacing(options));
-  const BoundsMaps maps(options, request.combine, false, "a picture");
+  const BoundsMaps maps(options, false, "a picture");
   maps.check(0, inputs, output, replacing(options));
 
   PictureRecipe recipe(recipe_sources(options));

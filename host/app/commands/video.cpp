@@ -27,7 +27,7 @@ int run_video(const Options& options) {
   const VideoOutput output(output_name(options, "video", format("-{}fps.mp4", rate)), request.rate,
                            options.video_codec, options.picture);
   const std::vector<std::string> inputs = input_files(options);
-  const BoundsMaps maps(options, request.exposure.combine, true, "a video");
+  const BoundsMaps maps(options, true, "a video");
   const bool skips = options.skip_existing && !maps.are_asked();
   if (skips) require_recipes(options, output.writes_stills() ? output.still(0) : output.path());
   output.check({}, inputs, replacing(options));  // a container's name, before the clip is read
