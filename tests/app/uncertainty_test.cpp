@@ -162,6 +162,33 @@ TEST_F(UncertaintyOf, ARecipeKeepsWhatTheArithmeticMayBeOffBy) {
   expect_says(make("again a.pgm").out, " --precision single clip.tik");
 }
 
+// A map has no recipe: its picture's names it, in that picture's folder.
+TEST_F(UncertaintyOf, AgainMakesTheMapToo) {
+  const std::string one = "--start 0s --exposure 0.1s clip.tik ";
+  make(one + "a.png --bounds maps.npy");
+  const std::string picture = test::read_file(scratch_ / "a.png"), map = test::read_file(scratch_ / "maps.npy");
+  const std::string command = make("again a.png").out;
+  expect_says(command, " --precision single --bounds maps.npy clip.tik -o a.png");
+  std::filesystem::remove(scratch_ / "a.png");
+  std::filesystem::remove(scratch_ / "maps.npy");
+  make(command.substr(command.find(" expose ") + 1, command.size() - command.find(" expose ") - 2));
+  EXPECT_EQ(test::read_file(scratch_ / "a.png"), picture) << "to the last byte";
+  EXPECT_EQ(test::read_file(scratch_ / "maps.npy"), map);
+  expect_says(make("--skip-existing " + one + "a.png").out, "there already");
+  make("--start 0s --exposure 4f --every 4f --count 2 clip.tik s%d.png --bounds smap%d.npy");
+  expect_says(make("again s1.png").out, " --bounds smap1.npy clip.tik");
+  make("video --out-fps 25 clip.tik f%d.png --bounds fmap%d.npy");
+  expect_says(make("again f3.png").out, " --bounds fmap3.npy clip.tik");
+  scratch_.write("list", "--start 0s --exposure 4f b.png --bounds bmap.npy\n");
+  make("batch list clip.tik");
+  expect_says(make("again b.png").out, " --bounds bmap.npy clip.tik");
+  make(one + "c.pgm --bounds cmap.npy");
+  std::string foreign = test::read_file(scratch_ / "c.pgm");
+  foreign.replace(foreign.find("cmap.npy"), 8, "../x.npy");
+  scratch_.write("c.pgm", foreign);
+  expect_says(make("again c.pgm", 3).err, "names have no folders");
+}
+
 // A function of gain 1e30 spoils its own pixels alone.
 TEST_F(UncertaintyOf, AMapHasTheBoundOfEachPixel) {
   make("-m mask.pgm -k f.fn --bounds map.npy clip.tik a.png");

@@ -49,7 +49,7 @@ int run_expose(const Options& options) {
   control.progress = {};  // the bar is gone before anything is said
   tally.add(exposed);
   print_warnings(exposure_warnings(exposed));
-  const std::string made = recipe.text(tally.precision(), {}, tally.error_bound());
+  const std::string made = recipe.text(tally.precision(), {}, tally.error_bound(), maps.name_of(0));
   write_picture(output, exposed.picture, made, file_wishes(options.picture));
   maps.write(0, exposed);
 

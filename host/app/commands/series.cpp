@@ -64,7 +64,8 @@ int run_series(const Options& options) {
                   maps.write(numbers[k], exposed);
                   told.push_back(uncertainty_json(exposed.uncertainty, exposed.output));
                   if (k == 0) first = std::move(exposed.figures);
-                  return recipe.text(tally.precision(), own_recipe_of(pictures[k]), tally.error_bound());
+                  return recipe.text(tally.precision(), own_recipe_of(pictures[k]), tally.error_bound(),
+                                     maps.name_of(numbers[k]));
                 });
   }
 

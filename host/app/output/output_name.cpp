@@ -67,7 +67,6 @@ void BoundsMaps::check(std::uint64_t number, std::vector<std::string> inputs, co
 }
 
 void BoundsMaps::write(std::uint64_t number, const ExposedPicture& exposed) const {
-  // Without a recipe: `again` would make the picture.
   if (!exposed.bounds.empty()) write_layers(of(number), exposed.bounds);
 }
 

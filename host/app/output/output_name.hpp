@@ -54,6 +54,8 @@ class BoundsMaps {
 
   [[nodiscard]] bool are_asked() const { return stated_.has_value(); }
   [[nodiscard]] std::filesystem::path of(std::uint64_t number) const { return names_ ? (*names_)[number] : *stated_; }
+  // Without its folder, for recipes; empty where none is asked for.
+  [[nodiscard]] std::string name_of(std::uint64_t number) const { return stated_ ? of(number).filename().string() : ""; }
   // Throws UsageError where it is an input or the picture itself, or may not be replaced.
   void check(std::uint64_t number, std::vector<std::string> inputs, const std::filesystem::path& picture,
              Replacing replacing) const;
