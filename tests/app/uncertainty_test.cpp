@@ -299,6 +299,19 @@ TEST_F(UncertaintyOf, StrictlyTooLargeIsAnErrorWithAStatusOfItsOwn) {
   expect_says(make(single).err, "single is not sure to be right to 0.5 of a code here");
   expect_refused("--strict --overwrite " + single, 7, "single is not sure to be right to 0.5 of a code here");
   make("--strict --start 0s --exposure 0.1s --precision single clip.tik b.png");
+  // Floats are judged by half a step, as auto chooses for them.
+  const std::string floats = "--start 0s --exposure 0.1s --precision single clip.tik a.pfm";
+  EXPECT_EQ(make(floats).err.find("not sure"), std::string::npos) << "it was asked for";
+  expect_refused("--strict --overwrite " + floats, 7, "single is not sure to be right to 0.5 of a float's step here");
+  make("--strict --start 0s --exposure 0.1s clip.tik b.pfm");
+  // The reference, too, which says nothing otherwise; it makes what is combined.
+  for (const std::string how :
+       {"--renderer reference -m mask.pgm -k f.fn", "--combine lighten --start 0s --exposure 0.1s --gain 1e30"}) {
+    make(how + " clip.tik r.png --overwrite");
+    expect_refused("--strict " + how + " clip.tik s.png", 7, "the reference is not sure to be right to 0.5 of a code");
+  }
+  make("--strict --renderer reference --start 0s --exposure 0.1s clip.tik s.png");
+  make("--strict --combine lighten --start 0s --exposure 0.1s clip.tik t.png");
   // None is right enough for these.
   expect_refused("--strict -m mask.pgm -k f.fn clip.tik c.png", 7, "no arithmetic of ");
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "c.png"));
