@@ -145,6 +145,22 @@ TEST_F(UncertaintyOf, ABatchAndAVideoAreToldAsWell) {
   const json film = answer("video --json --out-fps 25 --out-angle 360 clip.tik film%d.png")["uncertainty"];
   EXPECT_EQ(film["scale"], 1.0) << film;
   EXPECT_GT(film["bounds"]["light"], 0.0);
+  // Gains that grow: each frame's own, of which the last is the largest.
+  scratch_.write("one.fn", "M0 [0:1], [39999999:1], [40000000:0]\n");
+  scratch_.write("four.fn", "M0 [0:4], [39999999:4], [40000000:0]\n");
+  const json grown =
+      answer("video --json --out-fps 25 --key 0s one.fn --key 200ms four.fn clip.tik grown%d.png");
+  const json frames = grown["pictures"];
+  ASSERT_EQ(frames.size(), grown["frames"]);
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    EXPECT_EQ(frames[k]["frame"], k);
+    const json own = frames[k]["uncertainty"];
+    EXPECT_LE(own["bounds"]["light"], grown["uncertainty"]["bounds"]["light"]);
+    if (k > 0 && k <= 5) {
+      EXPECT_GT(own["scale"], frames[k - 1]["uncertainty"]["scale"]);
+    }
+  }
+  EXPECT_EQ(frames.back()["uncertainty"], grown["uncertainty"]);
 }
 
 TEST_F(UncertaintyOf, PeopleAreToldInLines) {
