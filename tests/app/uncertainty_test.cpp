@@ -133,6 +133,9 @@ TEST_F(UncertaintyOf, FloatsAreInStepsAndTheReferenceHasTheLeast) {
   const json floats = answer("--start 0s --exposure 0.1s --json clip.tik a.pfm")["uncertainty"];
   EXPECT_LE(term_of(floats, "arithmetic")["float_steps"], 0.5);
   EXPECT_EQ(term_of(floats, "rounding")["float_steps"], 0.5);
+  for (const std::string kind : {"pfm", "exr", "tif --depth float"})
+    expect_says(make("--start 0s --exposure 0.1s --gain 1e200 clip.tik infinite." + kind).err,
+                "values are beyond floating point of 32 bits");
   const json reference =
       answer("--start 0s --exposure 0.1s --renderer reference --json clip.tik b.pfm")["uncertainty"];
   EXPECT_EQ(term_of(reference, "arithmetic")["light"], 30 * 0x1p-53);
