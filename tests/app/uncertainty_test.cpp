@@ -178,15 +178,15 @@ TEST_F(UncertaintyOf, ARecipeKeepsWhatTheArithmeticMayBeOffBy) {
   make(one);
   expect_says(test::read_file(scratch_ / "a.pgm"), R"("precision":"single","error_bound":"light within )");
   expect_says(make("--skip-existing " + one).out, "there already");
-  expect_says(make("again a.pgm").out, " --precision single clip.tik");
+  expect_says(make("reproduce a.pgm").out, " --precision single clip.tik");
 }
 
 // A map has no recipe: its picture's names it, in that picture's folder.
-TEST_F(UncertaintyOf, AgainMakesTheMapToo) {
+TEST_F(UncertaintyOf, ReproducingMakesTheMapToo) {
   const std::string one = "--start 0s --exposure 0.1s clip.tik ";
   make(one + "a.png --bounds maps.npy");
   const std::string picture = test::read_file(scratch_ / "a.png"), map = test::read_file(scratch_ / "maps.npy");
-  const std::string command = make("again a.png").out;
+  const std::string command = make("reproduce a.png").out;
   expect_says(command, " --precision single --bounds maps.npy clip.tik -o a.png");
   std::filesystem::remove(scratch_ / "a.png");
   std::filesystem::remove(scratch_ / "maps.npy");
@@ -195,17 +195,17 @@ TEST_F(UncertaintyOf, AgainMakesTheMapToo) {
   EXPECT_EQ(test::read_file(scratch_ / "maps.npy"), map);
   expect_says(make("--skip-existing " + one + "a.png").out, "there already");
   make("--start 0s --exposure 4f --every 4f --count 2 clip.tik s%d.png --bounds smap%d.npy");
-  expect_says(make("again s1.png").out, " --bounds smap1.npy clip.tik");
+  expect_says(make("reproduce s1.png").out, " --bounds smap1.npy clip.tik");
   make("video --out-fps 25 clip.tik f%d.png --bounds fmap%d.npy");
-  expect_says(make("again f3.png").out, " --bounds fmap3.npy clip.tik");
+  expect_says(make("reproduce f3.png").out, " --bounds fmap3.npy clip.tik");
   scratch_.write("list", "--start 0s --exposure 4f b.png --bounds bmap.npy\n");
   make("batch list clip.tik");
-  expect_says(make("again b.png").out, " --bounds bmap.npy clip.tik");
+  expect_says(make("reproduce b.png").out, " --bounds bmap.npy clip.tik");
   make(one + "c.pgm --bounds cmap.npy");
   std::string foreign = test::read_file(scratch_ / "c.pgm");
   foreign.replace(foreign.find("cmap.npy"), 8, "../x.npy");
   scratch_.write("c.pgm", foreign);
-  expect_says(make("again c.pgm", 3).err, "names have no folders");
+  expect_says(make("reproduce c.pgm", 3).err, "names have no folders");
 }
 
 // A function of gain 1e30 spoils its own pixels alone.
@@ -270,7 +270,7 @@ TEST_F(UncertaintyOf, AnExrHasLayersThatAreReadAgainAsOnePicture) {
   expect_says(bytes, {"arithmetic.Y", "rounding.Y", "held_samples.Y", "times.Y",
                       "held_samples: a bound, in codes, of which 255 is white: no pixel is further off"});
   make("encode -f 1 --white 300 map.exr again.tik");
-  expect_says(make("again map.exr", 3).err, "recipe");
+  expect_says(make("reproduce map.exr", 3).err, "recipe");
   // A channel that nothing describes may be anything.
   std::string foreign = bytes;
   const std::string described{"times\0string", 12};
