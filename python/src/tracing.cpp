@@ -1,11 +1,7 @@
 // How the light of a pixel, or the mean of a mask value's pixels, came about, as arrays.
-#include <pybind11/numpy.h>
-#include <pybind11/stl.h>
-
 #include <algorithm>
 
 #include "parts.hpp"
-#include "working.hpp"
 
 namespace nutik::python {
 namespace {
@@ -29,44 +25,34 @@ py::dict arrays_of(const TracedExposure& exposure, const Trace& trace) {
     }
   }
   const auto steps = static_cast<py::ssize_t>(trace.steps.size()), wide = static_cast<py::ssize_t>(channels);
-  py::dict arrays;
-  arrays["tag"] = exposure.function_of(trace).tag;
-  arrays["share"] = static_cast<double>(trace.share) / kWholeShare;
-  arrays["pixels"] = trace.pixel_count;
-  arrays["times_ns"] = array_of(edges_ns, {steps, 2});
-  arrays["gain"] = array_of(gain, {steps, 2});
-  arrays["light"] = array_of(light, {steps, 2, wide});
-  arrays["integral_ns"] = array_of(integral_ns, {steps, wide});
-  arrays["sum_ns"] = array_of(sum_ns, {steps, wide});
-  arrays["made"] = made;
-  arrays["exposed"] = array_of(std::vector<double>(trace.light.begin(), trace.light.begin() + wide));
-  arrays["support_ns"] = exposure.function_of(trace).summary.support_ns;
-  return arrays;
+  const PlannedFunction& function = exposure.function_of(trace);
+  return py::dict(
+      "tag"_a = function.tag, "share"_a = static_cast<double>(trace.share) / kWholeShare,
+      "pixels"_a = trace.pixel_count, "times_ns"_a = array_of(edges_ns, {steps, 2}), "gain"_a = array_of(gain, {steps, 2}),
+      "light"_a = array_of(light, {steps, 2, wide}), "integral_ns"_a = array_of(integral_ns, {steps, wide}),
+      "sum_ns"_a = array_of(sum_ns, {steps, wide}), "made"_a = made,
+      "exposed"_a = array_of(std::vector<double>(trace.light.begin(), trace.light.begin() + wide)),
+      "support_ns"_a = function.summary.support_ns);
 }
 
 // Of a pixel (x, y), or of a mask value where there is none.
 py::tuple trace(const OpenCapture& capture, const AskedExposure& asked,
                 const std::optional<std::pair<std::uint32_t, std::uint32_t>>& pixel,
                 std::optional<std::uint8_t> tag, const py::object& progress) {
-  const ExposureRequest request = exposure_request(asked);
   Session& session = *capture.session;
   const TracedExposure exposure = without_lock([&](const Stopping& stopping) {
-    return pixel ? session.trace(request, TracedPixel{pixel->first, pixel->second}, stopping.progress())
-                 : session.trace(request, TracedTag{tag.value_or(0)}, stopping.progress());
+    return pixel ? session.trace(asked.request, TracedPixel{pixel->first, pixel->second}, stopping.progress())
+                 : session.trace(asked.request, TracedTag{tag.value_or(0)}, stopping.progress());
   }, progress);
   py::list traces;
   for (const Trace& each : exposure.traces) traces.append(arrays_of(exposure, each));
-  const std::array<double, 3> light = light_of(exposure.traces);
-  const auto channels = static_cast<std::ptrdiff_t>(session.format().shape.channels);
-  return py::make_tuple(traces, array_of(std::vector<double>(light.begin(), light.begin() + channels)),
-                        exposure.warnings);
+  return py::make_tuple(traces, exposure.warnings);
 }
 
 }  // namespace
 
 void bind_tracing(py::module_& module) {
-  module.def("trace", &trace, py::arg("capture"), py::arg("exposure"), py::arg("pixel"), py::arg("tag"),
-             py::arg("progress"));
+  module.def("trace", &trace, "capture"_a, "exposure"_a, "pixel"_a, "tag"_a, "progress"_a);
 }
 
 }  // namespace nutik::python
