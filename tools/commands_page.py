@@ -21,10 +21,10 @@ EXAMPLES = 2  # of a command; its help has three, and its page others
 
 # The page that goes on where a command's help ends.
 FURTHER = {
-    "activity": "../how-to/find-the-moment.md", "again": "recipes.md", "batch": "../how-to/many-pictures.md",
+    "activity": "../how-to/find-the-moment.md", "background": "../how-to/background.md", "batch": "../how-to/many-pictures.md",
     "check": "../how-to/check-a-picture.md#checking-before-exposing", "contact": "../how-to/find-the-moment.md",
     "devices": "environment.md#devices", "info": "input.md#colour-shape-and-rate", "encode": "input.md", "expose": "picture.md", "mask": "masks.md",
-    "noise": "../how-to/reduce-noise.md", "plate": "../how-to/plate.md", "recover": "tik-format.md#damage",
+    "noise": "../how-to/reduce-noise.md", "recover": "tik-format.md#damage", "reproduce": "recipes.md",
     "join": "../how-to/farm.md#encoding-in-parts", "retime": "input.md#colour-shape-and-rate", "shutter": "shutters.md", "solve": "../how-to/solve.md",
     "study": "../how-to/study.md", "sweep": "../how-to/find-the-moment.md", "thumbnail": "../how-to/install.md#file-managers", "completion": "environment.md#shells",
     "trace": "../how-to/check-a-picture.md#following-a-pixel", "man": "environment.md#shells",

@@ -68,9 +68,9 @@ class Parser {
   // One line outside braces, or a whole function.
   void parse_line() {
     skip_blanks();
-    if (is_function_start(at_)) {
+    if (is_function_start(at_) || is_picture_length()) {
       try {
-        parse_function();
+        peek() == 'M' ? parse_function() : parse_picture_length();
       } catch (const Abandon&) {
         recover();
       }
@@ -97,6 +97,20 @@ class Parser {
       return format("{} stands before the M of a function", quoted(text_.piece(at_, at)));
     }
     return {};
+  }
+
+  // `1f = 1/240s`
+  [[nodiscard]] bool is_picture_length() const {
+    return peek() == '1' && peek(1) == 'f' && text_[behind_blanks(at_ + 2)] == '=';
+  }
+
+  void parse_picture_length() {
+    const std::size_t start = at_;
+    at_ = behind_blanks(behind_blanks(at_ + 2) + 1);
+    const std::size_t length_at = at_;
+    const StatedTime length = number_or_fail(read_picture_length(take_time()), length_at);
+    if (std::exchange(picture_, length)) fail(start, "the length of a picture is stated twice");
+    expect_line_end("a picture's length");
   }
 
   void parse_function() {
@@ -160,14 +174,14 @@ class Parser {
     if (!is_word(peek())) fail_without_number("time", "whole nanoseconds");
     const Named named_time = take_name(&FunctionTemplate::Place::time);
     const std::int64_t time_ns =
-        named_time.name ? named_time.added_ns : number_or_fail(read_time(take_time()), time_at);
+        named_time.name ? named_time.added_ns : number_or_fail(read_time(take_time(), picture_), time_at);
     skip_blanks();
     if (peek() != ':') {
       const std::size_t rest = peek() == ',' ? behind_blanks(at_ + 1) : at_;
       const bool is_split = word_end(rest) > rest && text_[behind_blanks(word_end(rest))] == ':';
       const std::string with_point =
           std::string(text_.piece(time_at, at_)).append(".").append(text_.piece(rest, word_end(rest)));
-      const bool has_comma = is_split && peek() == ',' && read_time(with_point).mistake.empty();
+      const bool has_comma = is_split && peek() == ',' && read_time(with_point, picture_).mistake.empty();
       fail_at_other("where the ':' between time and gain should stand",
                     has_comma  ? format("; the decimal mark is a point: write {}", with_point)
                     : is_split ? "; a time is one word: 10000000 or 10ms"
@@ -216,7 +230,7 @@ class Parser {
                quoted(word)));
     }
     Named named;
-    if (name != word) named.added_ns = number_or_fail(read_time(word.substr(name.size())), at);
+    if (name != word) named.added_ns = number_or_fail(read_time(word.substr(name.size()), picture_), at);
     std::vector<std::string>& known = is_time ? names_->times : names_->gains;
     if (std::ranges::count(is_time ? names_->gains : names_->times, name) > 0) {
       note(at, format("{} stands for a gain and for a time; give one of them another name", quoted(name)));
@@ -253,13 +267,13 @@ class Parser {
     return is_number ? format("; the decimal mark is a point: write {}", shown(with_point)) : "";
   }
 
-  void expect_line_end() {
+  void expect_line_end(std::string_view what = "a function") {
     skip_blanks();
     if (peek() == '#') at_ = text_.line_end(at_);
     if (peek() != '\n') {
-      fail_at_other("after the end of a function", is_function_start(at_)
-                                                       ? "; another function starts on a line of its own"
-                                                       : "; only a comment that starts with # may follow");
+      fail_at_other(format("after the end of {}", what), is_function_start(at_)
+                                                             ? "; another function starts on a line of its own"
+                                                             : "; only a comment that starts with # may follow");
     }
     ++at_;
   }
@@ -397,6 +411,7 @@ class Parser {
   std::size_t at_ = 0;
   FunctionFile file_;
   std::map<std::uint8_t, std::size_t> first_lines_;  // by mask value, also of functions with errors
+  std::optional<StatedTime> picture_;                // how long one is
 
   // Of the current function:
   std::optional<std::size_t> brace_;  // its opening brace, until it is closed

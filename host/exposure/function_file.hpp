@@ -3,6 +3,7 @@
 //   M0 [0:1], [10000000:1], [10000001:0]          one line without braces
 //   M128{[0:0], [399999999:0],                    or braces, over as many lines as it takes
 //        [400000000:1]}
+//   1f = 1/240s                                   how long a picture is, for times as 37f behind it
 //
 // Every mistake in a file is found, not just the first, each with its place and the line itself.
 // The time this takes grows with the file's length and no faster, whatever is in it.

@@ -117,6 +117,15 @@ bool is_infinity_or_nan(std::string_view word) {
          (word.size() == 8 && starts_like("infinity")) || starts_like("nan(");
 }
 
+// So many pictures; nothing where that is further than kLargestTimeNs.
+std::optional<std::int64_t> pictures_ns(const Rational& count, const StatedTime& picture) {
+  const Rational each = picture.modest_nanoseconds();
+  const int128 above = static_cast<int128>(count.numerator) * each.numerator;
+  const int128 below = static_cast<int128>(count.denominator) * each.denominator;
+  if ((above < 0 ? -above : above) / below >= kLargestTimeNs) return std::nullopt;
+  return round_half_up(above, below);
+}
+
 }  // namespace
 
 ReadNumber<std::uint8_t> read_mask_value(std::string_view word) {
@@ -131,14 +140,14 @@ ReadNumber<std::uint8_t> read_mask_value(std::string_view word) {
   return {static_cast<std::uint8_t>(value), {}};
 }
 
-ReadNumber<std::int64_t> read_time(std::string_view word) {
+ReadNumber<std::int64_t> read_time(std::string_view word, const std::optional<StatedTime>& picture) {
   const std::size_t sign = !word.empty() && is_sign(word[0]) ? 1 : 0;
   const std::size_t digits = digits_at(word, sign);
   const bool is_plain = digits > 0 && sign + digits == word.size();
   const auto stated = is_plain ? std::nullopt : StatedTime::read(word);
-  if (stated && stated->counts_samples()) {
-    return {0, format("{} counts pictures, whose times a function file does not know; write seconds, as in 0.4s",
-                      quoted(word))};
+  const bool counts = stated && stated->counts_samples();
+  if (counts && !picture) {
+    return {0, format("{} counts pictures; a line before it says how long one is: 1f = 1/240s", quoted(word))};
   }
   if (!is_plain && !stated && word.find(';') != word.npos)
     return {0, format("{} is no time; between time and gain stands a colon", quoted(word))};
@@ -146,14 +155,21 @@ ReadNumber<std::int64_t> read_time(std::string_view word) {
     return {0, format("{} is no time; write whole nanoseconds, or a unit behind the number: {}", quoted(word),
                       time_way_out(word))};
   }
-  const auto value = is_plain                ? whole_number(*decimal_at_start(word), 0)
+  const auto value = is_plain               ? whole_number(*decimal_at_start(word), 0)
+                     : counts               ? pictures_ns(stated->number, *picture)
                      : stated->is_longest() ? std::nullopt
-                                             : std::optional(stated->nanoseconds());
+                                            : std::optional(stated->nanoseconds());
   if (!value) {
     return {0,
             format("time {} is further than {} ns from the start (126 years)", shown(word), kLargestTimeNs)};
   }
   return {*value, {}};
+}
+
+ReadNumber<StatedTime> read_picture_length(std::string_view word) {
+  const auto stated = StatedTime::read(word);
+  if (stated && !stated->counts_samples() && stated->number.numerator > 0 && !stated->is_longest()) return {*stated, {}};
+  return {{}, format("{} is no length of a picture; write a time, as in 1f = 1/240s or 1f = 40ms", quoted(word))};
 }
 
 ReadNumber<double> read_gain(std::string_view word) {

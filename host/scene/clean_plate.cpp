@@ -320,7 +320,7 @@ class PlateMaker {
 
 MemoryNeeds plate_needs(const CaptureFormat& capture) {
   MemoryNeeds needs = PlaceTimes::needs(capture);
-  needs.add("the plate", capture.shape.pixel_count() * (capture.shape.channels * sizeof(double) + 4));
+  needs.add("the background", capture.shape.pixel_count() * (capture.shape.channels * sizeof(double) + 4));
   return needs;
 }
 

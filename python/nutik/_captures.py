@@ -365,7 +365,7 @@ class Capture:
 
     def plate(self, *, by: Optional[int] = None, codes: bool = False, dtype: DTypeLike = None,
               transfer: Optional[str] = None, progress: Progress = None) -> Plate:
-        """The scene without what moves in it (docs/how-to/plate.md).
+        """The scene without what moves in it (docs/how-to/background.md).
 
         Parameters:
         by : codes that the same light may differ by; None: by the capture's own noise.

@@ -33,7 +33,7 @@ def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_
          pixel_aspect: Union[str, Number, None] = None, raw: Optional[str] = None, matrix: Optional[str] = None,
          range: Optional[str] = None, chroma_at: Optional[str] = None, begin: Optional[Time] = None,
          end: Optional[Time] = None, crop: Union[str, Sequence[int], None] = None, scale: Optional[str] = None,
-         deinterlace: Optional[str] = None, as_far_as_it_goes: bool = False, align: Optional[str] = None,
+         deinterlace: Optional[str] = None, ignore_errors: bool = False, align: Optional[str] = None,
          align_to: Optional[Time] = None, align_along: Optional[Path] = None, unseen: Optional[str] = None,
          deflicker: bool = False, between: Union[int, str, None] = None,
          tolerance: Optional[int] = None, noise: Optional[Path] = None, sigmas: Optional[float] = None,

@@ -198,10 +198,10 @@ TEST_F(Aligning, IsMissedWhereTheCameraMoved) {
     EXPECT_FALSE(says({"study", capture, "-o", "s.png"})) << capture;
   }
   EXPECT_TRUE(says({"mask", "--moving", "plain.tik", "-o", "m.pgm"}));
-  EXPECT_TRUE(says({"plate", "plain.tik", "p.png"}));
-  EXPECT_FALSE(says({"plate", "a.tik", "p.png"}));
+  EXPECT_TRUE(says({"background", "plain.tik", "p.png"}));
+  EXPECT_FALSE(says({"background", "a.tik", "p.png"}));
   scratch_.write("all.fn", "M0{[0:all]}\n");
-  EXPECT_TRUE(says({"solve", "-k", "all.fn", "--wish", "all = plate", "plain.tik", "-o", "s.fn"}));
+  EXPECT_TRUE(says({"solve", "-k", "all.fn", "--wish", "all = background", "plain.tik", "-o", "s.fn"}));
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"mask", "--rectangle", "1,1,9,9", "plain.tik", "-o", "m.pgm"},
         {"solve", "-k", "all.fn", "--wish", "all = 0.2", "plain.tik", "-o", "s.fn"}})
@@ -262,7 +262,7 @@ TEST_F(Aligning, IsPartOfARecipe) {
   const cv::Mat mean = cv::imread((scratch_ / "mean.png").string()),
                 blurred = cv::imread((scratch_ / "blurred.png").string());
   EXPECT_LT(mean.cols, blurred.cols);
-  expect_says(run("again mean.png").out, " --align rigid ");
+  expect_says(run("reproduce mean.png").out, " --align rigid ");
 }
 
 TEST_F(Aligning, SaysWhatDoesNotGoTogether) {

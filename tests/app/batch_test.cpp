@@ -111,10 +111,10 @@ TEST_F(Batch, TakesWordsAsAShellDoes) {
 TEST_F(Batch, KeepsNoRecipesWhereNoneAreWanted) {
   scratch_.write("list", "-k trail.fn a.png\n-k trail.fn --no-recipe b.png\n");
   make("batch list scene.tik");
-  make("again a.png");
-  EXPECT_EQ(run("again b.png").status, 3);
+  make("reproduce a.png");
+  EXPECT_EQ(run("reproduce b.png").status, 3);
   make("batch --no-recipe --overwrite list scene.tik");
-  EXPECT_EQ(run("again a.png").status, 3);
+  EXPECT_EQ(run("reproduce a.png").status, 3);
 }
 
 TEST_F(Batch, SharesWhatDescribesTheClip) {

@@ -53,9 +53,9 @@ TEST_F(BetweenPictures, AreMadeAgainByARecipe) {
   const test::Words source("-f 20 --transfer srgb --between 3 --renderer reference frames");
   make(test::Words("expose --start 10ms --exposure 150ms") + source + "-o p.png");
   const std::string picture = file("p.png");
-  expect_says(run("again p.png").out, "--between 3");
+  expect_says(run("reproduce p.png").out, "--between 3");
   const std::string program = NUTIK_TEST_PROGRAM;
-  const auto again = test::run_shell(program + " again p.png > again.sh && rm p.png && sh again.sh", scratch_.folder());
+  const auto again = test::run_shell(program + " reproduce p.png > again.sh && rm p.png && sh again.sh", scratch_.folder());
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_TRUE(file("p.png") == picture);
   // A clip that is read forward and its capture.

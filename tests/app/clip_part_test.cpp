@@ -76,9 +76,9 @@ TEST_F(PartOfAClip, IsToldAndCheckedAndStatedInRecipes) {
   other.insert(other.end(), {"--from", "1f"});
   make(same);
   EXPECT_NE(run(other).status, 0);
-  expose("--start 0f --exposure 1f --from 1f --crop 8x8+0+0 --as-far-as-it-goes", "p.png");
-  const auto again = run("again p.png");
-  expect_says(again.out, {"--as-far-as-it-goes --crop 8x8+0+0", "--from 1f"});
+  expose("--start 0f --exposure 1f --from 1f --crop 8x8+0+0 --ignore-errors", "p.png");
+  const auto again = run("reproduce p.png");
+  expect_says(again.out, {"--ignore-errors --crop 8x8+0+0", "--from 1f"});
   expect_refused(2, {{"expose --from 1f --exposure 1f part.tik", "--from describes a clip"},
                      {"encode -f 100 --from 6f frames x.tik", "which has 6 pictures (0f … 5f) (--from)"},
                      {"encode -f 100 --from 1/3f frames x.tik", "is not a whole number of pictures"}});
@@ -150,8 +150,8 @@ TEST_F(PartOfAClip, EndsAtItsDamageWhereThatIsAsked) {
   std::string bytes = test::read_file(scratch_ / "a.mkv");
   bytes[bytes.size() * 2 / 3] = static_cast<char>(bytes[bytes.size() * 2 / 3] ^ 8);
   scratch_.write("a.mkv", bytes);
-  expect_refused("encode a.mkv a.tik", 3, "pictures before it can be taken (--as-far-as-it-goes)");
-  const auto encoded = make("encode --as-far-as-it-goes a.mkv a.tik");
+  expect_refused("encode a.mkv a.tik", 3, "pictures before it can be taken (--ignore-errors)");
+  const auto encoded = make("encode --ignore-errors a.mkv a.tik");
   expect_says(encoded.err, {"warning: a.mkv is taken as far as it goes, ", " of 30 pictures: "});
   // Straight from the clip it is the same picture, with the same warning; one before the damage has none.
   const test::Words all("--start 0s --exposure 5s --renderer reference --no-recipe");
@@ -160,7 +160,7 @@ TEST_F(PartOfAClip, EndsAtItsDamageWhereThatIsAsked) {
     words.insert(words.end(), {"-o", output});
     return run(words);
   };
-  test::Words words = "--as-far-as-it-goes a.mkv" + all;
+  test::Words words = "--ignore-errors a.mkv" + all;
   const auto straight = exposed(words, "clip.png");
   EXPECT_EQ(straight.status, 0) << straight.err;
   expect_says(straight.err, "is taken as far as it goes");

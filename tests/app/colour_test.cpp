@@ -74,7 +74,7 @@ TEST_F(Colour, OfTheSourceIsKeptWhereThatIsAskedFor) {
   for (std::size_t field = 0; field < 4; ++field) {
     EXPECT_EQ(codes.at<std::uint16_t>(32, static_cast<int>(field) * 64 + 32), kCodes[field]);
   }
-  const auto again = run("again codes.png");
+  const auto again = run("reproduce codes.png");
   expect_says(again.out, "--out-transfer source");
   expect_refused("--start 0s --exposure 1f -f 30 --out-transfer srgb scene x.pfm", 2, "(--out-transfer)");
 }
@@ -121,7 +121,7 @@ TEST_F(Colour, AboveWhiteIsNotCutOffInSilence) {
   }
   EXPECT_EQ(told("srgb", {"x.png"}).find(kSaid), std::string::npos);
   scratch_.write("list", "--start 0s --exposure 1f a.png\n--start 1f --exposure 1f b.png\n");
-  const auto plate = run("plate -f 30 --transfer hlg scene plate.png");
+  const auto plate = run("background -f 30 --transfer hlg scene plate.png");
   expect_says(plate.err, "4096 pixels hold more light than white and come out white; an .exr");
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"batch", "-f", "30", "--transfer", "hlg", "list", "scene"},
@@ -297,7 +297,7 @@ TEST_F(AnamorphicPixels, AreSquareForEyesAndKeptForMeasuring) {
 
 TEST_F(AnamorphicPixels, AreSquareInPlatesStudiesAndFilms) {
   NEEDS_FFMPEG();
-  succeed("plate --by 254 clip.tik plate.png");
+  succeed("background --by 254 clip.tik plate.png");
   EXPECT_EQ(size_of("plate.png"), cv::Size(128, 48));
   succeed("--every 2f --exposure 2f clip.tik s-%d.png");
   EXPECT_EQ(size_of("s-1.png"), cv::Size(128, 48));

@@ -4,6 +4,7 @@
 #include <set>
 #include <opencv2/videoio.hpp>
 
+#include "app/requests/requests.hpp"
 #include "support/app_test.hpp"
 
 namespace nutik {
@@ -254,6 +255,22 @@ TEST_F(CommandLine, HasHelpForEverything) {
   EXPECT_EQ(run("expose --help=source").out.find("--memory"), std::string::npos);
   expect_refused(2, {{"expose --help=sauce", "there is no help on 'sauce'; choose all, source, computing or output"},
                      {"help exposse", "no command 'exposse'; did you mean expose?"}});
+}
+
+TEST_F(CommandLine, TakesNamesOfEarlierVersions) {
+  make("plate clip.tik old.ppm");
+  make("background clip.tik new.ppm");
+  EXPECT_EQ(file("old.ppm"), file("new.ppm"));
+  make("--as-far-as-it-goes --start 0f --exposure 1f clip.avi p.png");
+  const std::string command = make("reproduce p.png").out;
+  expect_says(command, " --ignore-errors ");
+  EXPECT_EQ(make("again p.png").out, command);
+  EXPECT_TRUE(app::is_recipe_option("as-far-as-it-goes", "", RecipeOf::expose));
+  for (const char* page : {"--help", "encode --help=all", "man", "completion bash", "completion fish"}) {
+    const std::string text = make(page).out;
+    for (const char* old : {"nutik-cl plate", "nutik-cl again", "as-far-as-it-goes"})
+      EXPECT_EQ(text.find(old), std::string::npos) << page << ": " << old;
+  }
 }
 
 TEST_F(CommandLine, RecoversACutOffCapture) {

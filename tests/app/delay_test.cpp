@@ -135,13 +135,13 @@ TEST_F(DelayCommand, IsMadeAgainFromItsRecipe) {
   for (const std::string delay : {"rows:60ms", "radial:-5ms..20ms", "map.tif:20ms..70ms"}) {
     make(exposing(delay, {"--ev", "1", "clip.tik", "out.png"}));
     const std::string before = test::read_file(scratch_ / "out.png");
-    const std::string command = make("again out.png").out;
+    const std::string command = make("reproduce out.png").out;
     std::filesystem::remove(scratch_ / "out.png");
     EXPECT_EQ(test::run_shell(command, scratch_.folder()).status, 0) << command;
     EXPECT_TRUE(test::read_file(scratch_ / "out.png") == before) << command;
   }
   cv::imwrite((scratch_ / "map.tif").string(), cv::Mat(4, 6, CV_16UC1, cv::Scalar::all(7)));
-  expect_says(make("again out.png", 3).err, "map.tif is not the map of delays that the picture was made from");
+  expect_says(make("reproduce out.png", 3).err, "map.tif is not the map of delays that the picture was made from");
 }
 
 TEST_F(DelayCommand, GoesWithSeriesSweepsAndVideos) {

@@ -205,7 +205,7 @@ TEST_F(Facts, OfAClipAreToldToScriptsByEveryCommandThatReadsIt) {
       {"contact", "clip.mkv", "sheet.png"},
       {"sweep", "--start", "0s", "--exposure", "3f", "--shift", "0f..2f/1f", "clip.mkv", "sweep.png"},
       {"video", "--out-fps", "10", "clip.mkv", "film.mkv"},
-      {"plate", "clip.mkv", "plate.png"},
+      {"background", "clip.mkv", "plate.png"},
       {"mask", "--moving", "clip.mkv", "-o", "mask.pgm"},
       {"study", "clip.mkv", "-o", "study.png"},
       {"solve", "-k", "named.fn", "--wish", "all = 0.5s", "clip.mkv", "-o", "solved.fn"}};

@@ -71,7 +71,7 @@ class Film : public test::AppTest {
       const std::string name = pattern + std::to_string(k) + ".png";
       const std::string before = file(name);
       EXPECT_FALSE(before.empty()) << name;
-      command = make({"again", name}).out;
+      command = make({"reproduce", name}).out;
       std::filesystem::remove(scratch_ / name);
       scratch_.write("again.sh", command);
       EXPECT_EQ(test::run_shell("sh again.sh", scratch_.folder()).status, 0) << command;
@@ -123,9 +123,9 @@ TEST_F(Film, MovesTheEdgesOfAMask) {
   }
   make("video --mask-key 0s a.pgm --mask-key 4f b.pgm --feather 1px -k f.fn --out-fps 10 c.tik m-%d.png -q");
   expect_made_again("m-", 8);
-  const std::string between = make("again m-1.png").out;
+  const std::string between = make("reproduce m-1.png").out;
   expect_says(between, {" -m a.pgm --mask-to b.pgm ", " --mask-blend distance --mask-share 0.25 "});
-  const std::string at_key = make("again m-4.png").out;
+  const std::string at_key = make("reproduce m-4.png").out;
   expect_says(at_key, " -m b.pgm ");
   EXPECT_EQ(at_key.find("--mask-"), std::string::npos) << at_key;
 }

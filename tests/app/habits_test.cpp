@@ -58,7 +58,7 @@ TEST_F(Habits, ReadsFunctionsAndMasksFromStandardInput) {
   EXPECT_EQ(piped("mask.pgm", "mask --base - --invert -o d.pgm").status, 2);  // nothing to invert
   // The recipe has the functions' text.
   ASSERT_EQ(piped("one.fn", "-k - clip.tik e.png").status, 0);
-  expect_says(run("again e.png").out, "-k e-again/standard-input.fn");
+  expect_says(run("reproduce e.png").out, "-k e-again/standard-input.fn");
 }
 
 TEST_F(Habits, NamesStandardInput) {

@@ -22,7 +22,7 @@ class KeptSumsInFiles : public test::AppTest {
   void expect_same_again(const std::string& picture) const {
     const std::string before = file(picture);
     ASSERT_FALSE(before.empty()) << picture;
-    scratch_.write("again.sh", make({"again", picture}).out);
+    scratch_.write("again.sh", make({"reproduce", picture}).out);
     std::filesystem::remove(scratch_ / picture);
     EXPECT_EQ(test::run_shell("sh again.sh", scratch_.folder()).status, 0);
     EXPECT_TRUE(file(picture) == before) << picture;

@@ -136,7 +136,7 @@ TEST_P(Negative, SumsOverSeriesVideosBatchesAndSheets) {
 
 TEST_P(Negative, IsInTheRecipe) {
   ASSERT_EQ(expose("a.png", {"--negative", "offset"}).status, 0);
-  const ProgramResult again = run("again a.png");
+  const ProgramResult again = run("reproduce a.png");
   EXPECT_NE(again.out.find(" --negative offset "), std::string::npos) << again.out;
 }
 

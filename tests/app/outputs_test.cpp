@@ -69,7 +69,7 @@ TEST_F(Outputs, ReplaceWhatIsThereOnlyIfAsked) {
       {{"video", "--out-fps", "50", "clip.tik", "v.mkv"}, "v.mkv"},
       {{"video", "--out-fps", "50", "--no-recipe", "clip.tik", "v-%d.png"}, "v-0.png"},
       {{"mask", "--fill", "clip.tik", "m.pgm"}, "m.pgm"},
-      {{"plate", "clip.tik", "p.png"}, "p.png"},
+      {{"background", "clip.tik", "p.png"}, "p.png"},
       {{"activity", "--csv", "t.csv", "clip.tik"}, "t.csv"},
       {{"activity", "clip.tik", "g.png"}, "g.png"},
       {{"info", "--activity", "i.png", "clip.tik"}, "i.png"},

@@ -19,9 +19,9 @@ class Plates : public test::MovingSquareTest {
 };
 
 TEST_F(Plates, HoldWhatEachPixelHoldsMostOften) {
-  const auto json = answer("plate clip.tik --by 0 --uncertain unsure.pgm");
-  EXPECT_EQ(json["picture"], "clip-plate.png");
-  const cv::Mat plate = picture("clip-plate.png"), unsure = picture("unsure.pgm");
+  const auto json = answer("background clip.tik --by 0 --uncertain unsure.pgm");
+  EXPECT_EQ(json["picture"], "clip-background.png");
+  const cv::Mat plate = picture("clip-background.png"), unsure = picture("unsure.pgm");
   const std::size_t count = scene_.pictures.size();
   std::size_t uncertain = 0;
   for (std::size_t i = 0; i < scene_.pictures[0].size(); ++i) {
@@ -42,22 +42,22 @@ TEST_F(Plates, HoldWhatEachPixelHoldsMostOften) {
 }
 
 TEST_F(Plates, AreTheSameOfAClipAPackedCaptureAndWithLittleMemory) {
-  make("plate clip.tik -o a.pfm");
-  make("plate -f 100 frames -o b.pfm");
+  make("background clip.tik -o a.pfm");
+  make("background -f 100 frames -o b.pfm");
   make("encode -f 100 --codec none frames -o plain.tik");
-  make("plate plain.tik -o c.pfm");
+  make("background plain.tik -o c.pfm");
   EXPECT_EQ(test::read_file(scratch_ / "a.pfm"), test::read_file(scratch_ / "b.pfm"));
   EXPECT_EQ(test::read_file(scratch_ / "a.pfm"), test::read_file(scratch_ / "c.pfm"));
-  expect_refused(2, {{"plate --by 255 clip.tik -o d.pfm",
+  expect_refused(2, {{"background --by 255 clip.tik -o d.pfm",
                       "no codes of clip.tik differ by more than 255, for white is 255"},
-                     {"plate --memory 1kB clip.tik -o d.pfm", "uncertain places"}});
+                     {"background --memory 1kB clip.tik -o d.pfm", "uncertain places"}});
 }
 
 TEST_F(Plates, SayWhatTheyCannotBeMadeOf) {
   make("-f 100 frames/00.pgm one.tik");
-  expect_refused("plate one.tik", 3, "one.tik: a single sample does not tell what moves");
-  EXPECT_EQ(run("plate clip.tik --uncertain clip-plate.png").status, 2) << "both of one name";
-  expect_refused("plate clip.tik --uncertain unsure.jpg", 2, "masks are written as .pgm or .png");
+  expect_refused("background one.tik", 3, "one.tik: a single sample does not tell what moves");
+  EXPECT_EQ(run("background clip.tik --uncertain clip-background.png").status, 2) << "both of one name";
+  expect_refused("background clip.tik --uncertain unsure.jpg", 2, "masks are written as .pgm or .png");
 }
 
 }  // namespace

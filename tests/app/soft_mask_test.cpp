@@ -106,7 +106,7 @@ TEST_F(SoftMaskCommand, CarriesItsRecipe) {
   for (const std::string& mask : {std::string("mask.pgm"), std::string("soft-%d.png")}) {
     write_layer("soft-9.png", {0, 51, 102, 255, 255, 0});
     make(exposing({"clip.tik", "first.png"}, mask, mask == "mask.pgm" ? "1px,M9=2.5px" : ""));
-    const ProgramResult again = make("again first.png");
+    const ProgramResult again = make("reproduce first.png");
     EXPECT_NE(again.out.find(mask), std::string::npos) << again.out;
     const std::string bytes = test::read_file(scratch_ / "first.png");
     std::filesystem::remove(scratch_ / "first.png");
@@ -115,7 +115,7 @@ TEST_F(SoftMaskCommand, CarriesItsRecipe) {
     // A layer that was changed since is another mask.
     if (mask == "mask.pgm") continue;
     write_layer("soft-9.png", {0, 51, 103, 255, 255, 0});
-    EXPECT_EQ(run("again first.png").status, 3);
+    EXPECT_EQ(run("reproduce first.png").status, 3);
   }
 }
 

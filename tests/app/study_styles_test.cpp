@@ -98,7 +98,7 @@ TEST_F(StudyStyles, JoinTheTrailBetweenPictures) {
     EXPECT_EQ(by_hand.find("--between"), by_hand.rfind("--between")) << "of the picture, not of the mask:\n" << by_hand;
     // Made again by what it says, byte for byte.
     const std::string made = file("made.png");
-    std::string again = make("again made.png").out;
+    std::string again = make("reproduce made.png").out;
     again.erase(again.find_last_not_of('\n') + 1);
     EXPECT_EQ(test::run_shell(again + " --overwrite", scratch_.folder()).status, 0) << again;
     EXPECT_EQ(file("made.png"), made);

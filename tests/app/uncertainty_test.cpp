@@ -156,7 +156,7 @@ TEST_F(UncertaintyOf, ARecipeKeepsWhatTheArithmeticMayBeOffBy) {
   make(one);
   expect_says(test::read_file(scratch_ / "a.pgm"), R"("precision":"single","error_bound":"light within )");
   expect_says(make("--skip-existing " + one).out, "there already");
-  expect_says(make("again a.pgm").out, " --precision single clip.tik");
+  expect_says(make("reproduce a.pgm").out, " --precision single clip.tik");
 }
 
 // A function of gain 1e30 spoils its own pixels alone.
@@ -221,7 +221,7 @@ TEST_F(UncertaintyOf, AnExrHasLayersThatAreReadAgainAsOnePicture) {
   expect_says(bytes, {"arithmetic.Y", "rounding.Y", "held_samples.Y", "times.Y",
                       "held_samples: a bound, in codes, of which 255 is white: no pixel is further off"});
   make("encode -f 1 --white 300 map.exr again.tik");
-  expect_says(make("again map.exr", 3).err, "recipe");
+  expect_says(make("reproduce map.exr", 3).err, "recipe");
   // A channel that nothing describes may be anything.
   std::string foreign = bytes;
   const std::string described{"times\0string", 12};

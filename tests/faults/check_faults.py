@@ -65,7 +65,7 @@ COMMANDS = {
     "trace": ("trace --start 10ms --exposure 80ms --pixel 20,20 clip.tik {}", "new.csv"),
     "recover": ("recover cut.tik {}", "new.tik"),
     "retime": ("retime -f 50 clip.tik {}", "new.tik"),
-    "plate": ("plate clip.tik {}", "new.png"),
+    "background": ("background clip.tik {}", "new.png"),
     "join": ("join clip.tik packed.tik -o {}", "new.tik"),
     "thumbnail": ("thumbnail clip.tik {}", "new.png"),
     "noise": ("noise clip/*.pgm -o {}", "new.noise"),

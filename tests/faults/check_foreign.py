@@ -47,7 +47,7 @@ COMMANDS = (
     ("video clip.tik {}", "new.avi"),
     ("contact clip.tik {}", "new.png"),
     ("contact -f 100 clip/*.pgm {}", "new.png"),
-    ("plate clip.tik {}", "new.png"),
+    ("background clip.tik {}", "new.png"),
     ("study clip.tik {}", "new.png new.pgm new.fn new.txt"),
     ("activity clip.tik {}", "new.png"),
     ("mask --moving clip.tik {}", "new.pgm"),

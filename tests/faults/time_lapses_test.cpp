@@ -46,7 +46,7 @@ class TimeLapses : public test::ProgramTest, public testing::WithParamInterface<
                   .status,
               0);
     const std::string before = test::read_file(scratch_ / "each-1.png");
-    const ProgramResult again = run({"again", "each-1.png"});
+    const ProgramResult again = run({"reproduce", "each-1.png"});
     ASSERT_EQ(again.status, 0) << again.err;
     scratch_.write("again.sh", again.out);
     std::filesystem::remove(scratch_ / "each-1.png");
@@ -56,7 +56,7 @@ class TimeLapses : public test::ProgramTest, public testing::WithParamInterface<
   }
 
   void expect_said_plainly(const std::vector<std::string>& words) const {
-    const bool writes = words.front() != "check" && words.front() != "again";
+    const bool writes = words.front() != "check" && words.front() != "reproduce";
     const ProgramResult result = run(writes ? test::over(words) : words);
     EXPECT_EQ(result.status, 0) << words.front() << ": " << result.err;
     for (const char* odd : {"e+", " 0 samples", " 0 pictures", "every 0", "nan", "inf"}) {
@@ -83,7 +83,7 @@ TEST_P(TimeLapses, GoThroughEveryCommand) {
         {"expose", "--start", two, "--exposure", two, "c.tik", "e.png"},
         {"expose", "--functions", "lapse.fn", "c.tik", "g.png"},
         {"expose", "--start", "0f", "--exposure", "1f", "--every", "2f", "c.tik", "s-%02d.png"},
-        {"again", "e.png"},
+        {"reproduce", "e.png"},
         {"batch", "list.txt", "c.tik"},
         {"check", "--functions", "lapse.fn", "c.tik"},
         {"contact", "c.tik", "sheet.png"},
@@ -94,7 +94,7 @@ TEST_P(TimeLapses, GoThroughEveryCommand) {
         {"trace", "--pixel", "3,12", "--start", "0f", "--exposure", "4f", "c.tik"},
         {"trace", "--pixel", "3,12", "--start", "0f", "--exposure", "4f", "c.tik", "trace.png"},
         {"mask", "--moving", "c.tik", "mask.pgm"},
-        {"plate", "c.tik", "plate.png"},
+        {"background", "c.tik", "plate.png"},
         {"solve", "--functions", "named.fn", "--wish", "all = 0.1", "c.tik", "solved.fn"},
         {"thumbnail", "c.tik", "thumbnail.png"},
         {"retime", "--transfer", "linear", "c.tik", "linear.tik"},
@@ -105,7 +105,7 @@ TEST_P(TimeLapses, GoThroughEveryCommand) {
       const bool renders = words.front() != "info" && words.front() != "mask" &&
                            words.front() != "activity" && words.front() != "check" &&
                            words.front() != "validate" && words.front() != "trace" &&
-                           words.front() != "again" && words.front() != "plate" &&
+                           words.front() != "reproduce" && words.front() != "background" &&
                            words.front() != "thumbnail" && words.front() != "retime";
       if (renders) words.insert(words.begin() + 1, {"--renderer", "reference"});
       if (words.front() == "validate") {

@@ -31,7 +31,7 @@ TEST_F(VisibleText, IsAllThatIsPrintedOfNames) {
       {"check", "--json", name_},
       {"expose", "--renderer", "reference", "--start", "0s", "--exposure", "1s", name_,
        std::string("p") + kEvil + ".png"},
-      {"again", std::string("p") + kEvil + ".png"},
+      {"reproduce", std::string("p") + kEvil + ".png"},
       {"activity", name_, "a.png"},
       {"trace", "--pixel", "1,1", "--start", "0s", "--exposure", "1s", name_},
       {"contact", "--renderer", "reference", name_, "s.png"},
@@ -73,7 +73,7 @@ TEST_F(VisibleText, OfACommandIsWhatTheCommandDoes) {
   ASSERT_EQ(
       run({"expose", "--renderer", "reference", "--start", "0s", "--exposure", "1s", name_, "p.png"}).status,
       0);
-  const auto again = run({"again", "p.png"});
+  const auto again = run({"reproduce", "p.png"});
   ASSERT_EQ(again.status, 0) << again.err;
   EXPECT_NE(again.out.find("\"$(printf 'c\\033[1A\\033[2K\\302\\233\\342\\200\\256\\177\\007.tik')\""),
             std::string::npos)

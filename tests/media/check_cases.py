@@ -45,9 +45,9 @@ CASES = [
     Case("unsized-over-260kB/pad_260000.ts", said=(*RATED, "48 samples"), codes=RAMP, within=1),
     Case("unsized-over-260kB/pad_260111.ts", said=(*RATED, "48 samples"), codes=RAMP, within=1),
     # Cut within their ninth picture, on both sides of a limit that once was one.
-    *(Case(f"unsized-over-260kB/{name}.mjpeg", "-f 240 --as-far-as-it-goes", said=(*RATED, "8 samples", "warning: "))
+    *(Case(f"unsized-over-260kB/{name}.mjpeg", "-f 240 --ignore-errors", said=(*RATED, "8 samples", "warning: "))
       for name in ("z1", "z2")),
-    *(Case(f"unsized-over-260kB/{name}.mjpeg", "-f 240", 3, ("picture 8 ", "(--as-far-as-it-goes)"))
+    *(Case(f"unsized-over-260kB/{name}.mjpeg", "-f 240", 3, ("picture 8 ", "(--ignore-errors)"))
       for name in ("z1", "z2")),
     *(Case(f"edit-list/{name}", said=ONCE, codes=RAMP, within=1) for name in ("e_rate.mov", "e_loop.mp4", "e_back.mp4")),
     *(Case(f"rate-nobody-states/{name}", "", 3, UNTOLD) for name in ("pi_novui.h264", "pi.mjpeg", "b_nof.y4m")),
@@ -73,7 +73,7 @@ CASES = [
     Case("two-sequences-in-a-folder", "-f 100", 3, ("two sequences", "left_000.png", "right_000.png", "/*.png' takes all")),
     Case("name-with-colon/12:30:01.mkv", said=("120 pictures a second", "12 samples")),
     Case("no-index/nomoov.mp4", "", 3, ("its index (moov) is missing",)),
-    Case("no-index/mj_badidx.avi", "", 3, ("picture 1 cannot be decoded", "(--as-far-as-it-goes)")),
+    Case("no-index/mj_badidx.avi", "", 3, ("picture 1 cannot be decoded", "(--ignore-errors)")),
     Case("avi-industrial-fourcc/fc_Y16_64.avi", "", 3, ("which the file calls 'Y16 '", "(--raw)")),
     Case("avi-industrial-fourcc/fc_BA81_64.avi", "", 3, ("which the file calls 'BA81'", "(--raw)")),
     *(Case(f"other-still-kinds/{name}", "-f 100", 3, (f" is {kind}, " + TO_PNG,))

@@ -55,7 +55,7 @@ class Finds(support.TestCase):
         self.assert_raises(nutik.UsageError, "pixel 200,0", self.capture.trace, 200, 0, exposure="1ms")
 
     def test_plates(self):
-        self.run_program("plate", "-q", "clip.tik", "plate.ppm", "--uncertain", "uncertain.pgm")
+        self.run_program("background", "-q", "clip.tik", "plate.ppm", "--uncertain", "uncertain.pgm")
         plate = self.capture.plate(codes=True)
         self.assert_same(plate.picture.array, support.read_netpbm(self.path("plate.ppm")))
         self.assert_same(plate.uncertain, support.read_netpbm(self.path("uncertain.pgm")) == 255)

@@ -278,7 +278,7 @@ TEST_F(InteractionsTest, TheEmptySceneIsWrittenAsAPicture) {
       ASSERT_NEAR(qGreen(empty.pixel(x, y)), MovingSquare::kGround, MovingSquare::kNoise) << x << ", " << y;
     }
   }
-  const auto made = run_line("nutik-cl plate -f 100 frames/%02d.pgm line.png");
+  const auto made = run_line("nutik-cl background -f 100 frames/%02d.pgm line.png");
   ASSERT_EQ(made.status, 0) << made.err;
   EXPECT_EQ(difference(empty, QImage(path("line.png"))), "") << "the command's own";
 }

@@ -480,6 +480,9 @@ TEST_F(OpeningTest, ReadsAClipAsItIsTold) {
   EXPECT_GT(document().facts()->timeline.sample_count(), 20U) << "samples were made";
   ASSERT_TRUE(window_.save_project(path("read.nutik")));
   EXPECT_EQ(load_project(path("read.nutik")).stated, told);
+  const std::string text = test::read_file(scratch_ / "read.nutik");
+  scratch_.write("old.nutik", std::string(text).replace(text.find('{'), 1, "{\"as_far_as_it_goes\": true,"));
+  EXPECT_TRUE(load_project(path("old.nutik")).stated.contains("ignore-errors")) << "as earlier versions call it";
   const test::ProgramResult made = run_line(window_.command_for(path("read.png")));
   EXPECT_EQ(made.status, 0) << made.err;
 

@@ -1,6 +1,6 @@
 """Command lines of the program."""
 
-WRITE_NOTHING = {"again", "check", "validate"}
+WRITE_NOTHING = {"again", "reproduce", "check", "validate"}
 
 
 def over(words):

@@ -9,4 +9,4 @@ head -n 8 picture.fn > first-four.fn
 FnPlotter.py first-four.fn --duration 9s -o plot.png
 
 # The same in one command, which asks each pixel for itself.
-nutik-cl plate clip.tik plate.png
+nutik-cl background clip.tik plate.png

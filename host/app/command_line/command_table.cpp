@@ -6,8 +6,8 @@
 namespace nutik::app {
 
 // In app/commands; completion and man beside this file.
-Run run_activity, run_again, run_batch, run_check, run_completion, run_contact, run_devices, run_encode,
-    run_expose, run_info, run_join, run_man, run_mask, run_noise, run_plate, run_recover, run_retime, run_shutter,
+Run run_activity, run_background, run_batch, run_check, run_completion, run_contact, run_devices, run_encode,
+    run_expose, run_info, run_join, run_man, run_mask, run_noise, run_recover, run_reproduce, run_retime, run_shutter,
     run_solve, run_study, run_sweep, run_thumbnail, run_trace, run_validate, run_video;
 
 namespace {
@@ -137,15 +137,15 @@ constexpr Command kCommands[] = {
      "Find the gains and times that make a picture as it is wished: in a function file, what is to be found has a name "
      "in place of its number, as in M0 [0:1], [1000000000:1], [1000000001:rest], [1010000000:rest], [1010000001:0].",
      "nutik-cl solve -k named.fn --free rest=-50..0 --wish '300,150,60,60 gone at 0s' clip.tik solved.fn\n"
-     "nutik-cl solve -m regions.pgm -k named-regions.fn --free rest=-50..0 --wish 'M0 = plate' clip.tik\n"
-     "nutik-cl solve -k moved.fn --free when=0.2s..0.8s/1f --wish '300,150,60,60 >= 1.2 * plate' clip.tik",
+     "nutik-cl solve -m regions.pgm -k named-regions.fn --free rest=-50..0 --wish 'M0 = background' clip.tik\n"
+     "nutik-cl solve -k moved.fn --free when=0.2s..0.8s/1f --wish '300,150,60,60 >= 1.2 * background' clip.tik",
      run_solve, kUnderstanding},
-    {Id::plate, "plate", "CAPTURE.tik|CLIP [PLATE.png]",
+    {Id::background, "background", "CAPTURE.tik|CLIP [PICTURE.png]",
      "Show the scene without moving things: each pixel's light that it holds longest.",
-     "nutik-cl plate clip.tik\n"
-     "nutik-cl plate --uncertain unsure.pgm clip.mp4 empty.png\n"
-     "nutik-cl plate --depth float clip.tik -o empty.pfm",
-     run_plate, kPictures},
+     "nutik-cl background clip.tik\n"
+     "nutik-cl background --uncertain unsure.pgm clip.mp4 empty.png\n"
+     "nutik-cl background --depth float clip.tik -o empty.pfm",
+     run_background, kPictures, "plate"},
     {Id::shutter, "shutter", "SHAPE [CAPTURE.tik|CLIP]",
      "Write a shutter's shape as a gain function: a line for a function file. Shapes: box, trapezoid:R, "
      "triangle, gaussian, hann, strobe:N[,R], spline:0=G,…,1=G. Times that count pictures (32f) are those of "
@@ -155,14 +155,14 @@ constexpr Command kCommands[] = {
      "nutik-cl shutter spline:0=0,0.1=1,1=0 --exposure 1s > trail.fn\n"
      "nutik-cl shutter strobe:5 --start 30f --exposure 60f --fps 960",
      run_shutter, kUnderstanding},
-    {Id::again, "again", "PICTURE [FOLDER...]",
+    {Id::reproduce, "reproduce", "PICTURE [FOLDER...]",
      "Print the command that makes a picture again: byte for byte, from the recipe that the picture carries, "
      "by the program that was run. The files it was made from are looked for in the folders, the current one "
      "and the picture's.",
-     "nutik-cl again picture.png\n"
-     "nutik-cl again picture.png captures masks\n"
-     "nutik-cl again picture.png | sh",
-     run_again, kPictures},
+     "nutik-cl reproduce picture.png\n"
+     "nutik-cl reproduce picture.png captures masks\n"
+     "nutik-cl reproduce picture.png | sh",
+     run_reproduce, kPictures, "again"},
     {Id::completion, "completion", "bash|zsh|fish",
      "Print a script for completion in a shell: of commands, options and their values. cmake --install puts all "
      "three where shells look for them.",
@@ -206,7 +206,7 @@ const Command& command(CommandId id) {
 }
 
 const Command* find_command(std::string_view name) {
-  return first_command([&](const Command& entry) { return entry.name == name; });
+  return first_command([&](const Command& entry) { return entry.name == name || (entry.old_name == name && !name.empty()); });
 }
 
 }  // namespace nutik::app

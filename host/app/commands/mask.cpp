@@ -168,7 +168,7 @@ int run_mask(const Options& options) {
   MadeMask made =
       make_mask(job.request, session ? &session->capture() : nullptr, job.capture.value_or(""), [&] {
         return make_rough_plate(session->capture(), *job.capture, session->devices().request().memory,
-                                progress_bar("making the plate", options.quiet))
+                                progress_bar("finding the background", options.quiet))
             .picture;
       });
   print_warnings(warnings_of(made));

@@ -62,7 +62,7 @@ std::string commands_text(const Options& options, const StudyFiles& files, const
   };
   const std::string capture = shell_word(not_an_option(options.operands.front()));
   if (style == StudyStyle::clean) {
-    return format("nutik-cl plate{} --overwrite \\\n  {} {}\n", stated_words(options, CommandId::plate),
+    return format("nutik-cl background{} --overwrite \\\n  {} {}\n", stated_words(options, CommandId::background),
                   capture, name(files.picture));
   }
   std::string regions;

@@ -69,7 +69,7 @@ void BoundsMaps::check(std::uint64_t number, std::vector<std::string> inputs, co
 }
 
 void BoundsMaps::write(std::uint64_t number, const ExposedPicture& exposed) const {
-  // Without a recipe: `again` would make the picture.
+  // Without a recipe: `reproduce` would make the picture.
   if (!exposed.bounds.empty()) write_layers(of(number), exposed.bounds);
 }
 

@@ -33,7 +33,7 @@ Recipe::Text whole_text(const std::string& name, const char* extension) {
 
 bool is_recipe_option(std::string_view long_name, std::string_view value, RecipeOf of) {
   return std::ranges::any_of(schema(), [&](const Option& option) {
-    return option.long_name == long_name && is_stated(option, value, of);
+    return option.is_called(long_name) && is_stated(option, value, of);
   });
 }
 

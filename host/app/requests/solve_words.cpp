@@ -18,7 +18,7 @@ SolveRequest solve_request(const Options& options) {
     if (said.option == "wish") request.wishes.push_back(StatedWish::parse(said.words.front()));
   }
   if (request.wishes.empty()) {
-    throw UsageError("what is wished? Add --wish 'M0 = plate', or --wish '300,150,60,60 gone' for example");
+    throw UsageError("what is wished? Add --wish 'M0 = background', or --wish '300,150,60,60 gone' for example");
   }
   for (const StatedWish& wish : request.wishes) {
     const auto fail = [&](std::string_view letter, std::string_view what) {

@@ -259,7 +259,7 @@ MadeMask make_mask(const MaskRequest& request, CaptureSource* capture, const std
     if (step.reads_capture() && capture == nullptr)
       throw UsageError(format("{} looks at a capture, and none is given", step.name.text));
     if (step.needs_plate() && !plate)
-      throw UsageError(format("{} looks at the capture's plate, and nothing makes it", step.name.text));
+      throw UsageError(format("{} looks at the capture's background, and nothing makes it", step.name.text));
   }
   const MaskSize size = size_of(request, capture, capture_name);
   MaskMaker maker(request.base ? *request.base->mask : Mask::uniform(size.width, size.height, 0), capture,

@@ -76,7 +76,7 @@ std::string Option::written(Dialect dialect, std::string_view word) const {
 }
 
 const Option* find_option(std::string_view long_name) {
-  return first_option([&](const Option& option) { return option.long_name == long_name; });
+  return first_option([&](const Option& option) { return option.is_called(long_name); });
 }
 
 const Option* find_option(char short_name) {
@@ -86,7 +86,7 @@ const Option* find_option(char short_name) {
 
 const Option* option_of(CommandId command, std::string_view long_name) {
   return first_option(
-      [&](const Option& option) { return option.long_name == long_name && option.is_of(command); });
+      [&](const Option& option) { return option.is_called(long_name) && option.is_of(command); });
 }
 
 const Option* option_of_argument(CommandId command, std::string_view name) {

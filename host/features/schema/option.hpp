@@ -55,6 +55,7 @@ struct Option {
   std::optional<Setting> setting = {};  // that errors and notes know it as
   std::string_view python = {};         // its argument's name there, where that is not the long name
   std::string_view heading = {};        // in help; kSeldomNeeded: completion and short help leave it out
+  std::string_view old_name = {};       // its long name in earlier versions: still read, never shown
 
   // `--fps`
   [[nodiscard]] std::string name() const { return "--" + std::string(long_name); }
@@ -63,6 +64,9 @@ struct Option {
   // How many words its value takes.
   [[nodiscard]] std::size_t word_count() const;
   [[nodiscard]] bool is_flag() const { return value.empty(); }
+  [[nodiscard]] bool is_called(std::string_view name) const {
+    return name == long_name || (name == old_name && !name.empty());
+  }
   [[nodiscard]] bool is_of(CommandId command) const { return (commands & bit(command)) != 0; }
   [[nodiscard]] std::vector<std::string> choices() const;
   [[nodiscard]] bool knows(std::string_view word) const;

@@ -13,7 +13,7 @@ constexpr CommandSet kAll = ~CommandSet{0};
 // Those that read a clip, and so take what describes it.
 constexpr CommandSet kReadsClips =
     set_of(Id::encode, Id::expose, Id::batch, Id::check, Id::trace, Id::mask, Id::contact, Id::activity,
-           Id::sweep, Id::video, Id::validate, Id::plate, Id::study, Id::solve);
+           Id::sweep, Id::video, Id::validate, Id::background, Id::study, Id::solve);
 // Those that decode a clip, and so take what its codes are.
 constexpr CommandSet kDecodesClips = kReadsClips | bit(Id::noise);
 // Those of them that turn it into a capture, or expose it.
@@ -42,7 +42,7 @@ constexpr CommandSet kWrites =
 // Those that lay pictures out on a sheet.
 constexpr CommandSet kMakesSheets = set_of(Id::contact, Id::sweep);
 // Without --json: they print the result itself.
-constexpr CommandSet kOnlyPrints = set_of(Id::shutter, Id::again, Id::completion, Id::man);
+constexpr CommandSet kOnlyPrints = set_of(Id::shutter, Id::reproduce, Id::completion, Id::man);
 
 // A heading in help, for the rows after it.
 constexpr Option heading(std::string_view title) { return {.heading = title}; }
@@ -55,6 +55,12 @@ constexpr Option known(Setting setting, Option row) {
 constexpr Option known(Setting setting, std::string_view python, Option row) {
   row.python = python;
   return known(setting, row);
+}
+
+// A row that had another name in earlier versions.
+constexpr Option once(std::string_view old_name, Option row) {
+  row.old_name = old_name;
+  return row;
 }
 
 // A step of a mask, or of another command's: as often as is liked, in the order of the command line.
@@ -95,9 +101,9 @@ constexpr Option kRows[] = {
      "none where nothing moves), or how many, 1 … 63; auto:10f..20f, between these pictures alone; the clip is read "
      "twice (default: off; a study makes them where its trail has gaps)",
      "auto auto: off"}),
-    known(Setting::end_at_damage, {0, "as-far-as-it-goes", "", decoding, kDecodesClips,
+    once("as-far-as-it-goes", known(Setting::end_at_damage, {0, "ignore-errors", "", decoding, kDecodesClips,
      take<InClip<&ClipOptions::ends_at_damage>>,
-     "end a damaged clip before what cannot be read; a warning says where"}),
+     "take a damaged clip up to what cannot be read; a warning says where it ends"})),
     {0, "tolerance", "CODES", encoding, kEncodesClips, take_whole<InSource<&SourceRequest::tolerance>, 0, 65'535>,
      "differences up to this many codes are no change; 0 keeps every one (default: 0)"},
     {0, "noise", "FILE|auto", encoding, kReadsClips, take<In<&Options::noise>>,
@@ -270,8 +276,8 @@ constexpr Option kRows[] = {
          "pixels with a brightness in a range: 100..255 in codes, 100 for that and brighter, "
          "40%..100% of white. PICTURE is a file, or a time of the capture (0.3s, 12f)"),
     step("difference", "PICTURE PICTURE", "pixels in which two pictures differ: files, or times of the capture"),
-    step("subject", "TIME", "pixels that differ from the plate (nutik-cl plate) at a time: 0.3s, 37f"),
-    step("body", "TIME", "the same without soft shadows on the plate"),
+    step("subject", "TIME", "pixels that differ from the background (nutik-cl background) at a time: 0.3s, 37f"),
+    step("body", "TIME", "the same without soft shadows on the background"),
     step("moving", "", "pixels that change: within the capture, by more than its noise"),
     step("still", "", "pixels that do not change"),
     step("changed-between", "TIME TIME",
@@ -361,9 +367,9 @@ constexpr Option kRows[] = {
 
     heading("What is solved for"),
     step("wish", "WISH",
-         "what the picture should have: once for each wish, 'M0 = plate', 'R1 gone', 'M64 like 0.8s', "
+         "what the picture should have: once for each wish, 'M0 = background', 'R1 gone', 'M64 like 0.8s', "
          "'500,120,80,60 <= 0.5'. A region (all, M64, R1, X,Y,WIDTH,HEIGHT, M64 within X,Y,WIDTH,HEIGHT), then "
-         "gone, or =, <=, >=, like and light: a number, plate, a time, a region, also 1.5 times it: 1.5 * plate",
+         "gone, or =, <=, >=, like and light: a number, background, a time, a region, also 1.5 times it: 1.5 * background",
          Id::solve),
     step("free", "NAME=FROM..TO",
          "bounds of a gain or a time: rest=-100..0 (default: none), or when a time may be, when=0.6s..0.8s, in "
@@ -372,11 +378,11 @@ constexpr Option kRows[] = {
     {0, "regions", "MASK.pgm", subject, bit(Id::solve), take<In<&Options::regions>>,
      "a second mask: its values are the regions R0 … R255 of wishes"},
 
-    heading("The plate"),
-    {0, "by", "CODES", subject, bit(Id::plate), take_whole<In<&Options::by>, 0, 65'535>,
+    heading("The background"),
+    {0, "by", "CODES", subject, bit(Id::background), take_whole<In<&Options::by>, 0, 65'535>,
      "how far codes of the same light may differ: to either side (default: three standard deviations of the "
      "capture's noise, at least 1/32 of white)"},
-    {0, "uncertain", "MASK.pgm", output, bit(Id::plate), take<In<&Options::uncertain>>,
+    {0, "uncertain", "MASK.pgm", output, bit(Id::background), take<In<&Options::uncertain>>,
      "also write where it is uncertain: as tag 255 the pixels that hold their light for less than half of the "
      "time"},
 
@@ -407,7 +413,7 @@ constexpr Option kRows[] = {
      "where to write; without it the last operand, or a name made from the inputs. A picture goes to "
      "standard output as -, a PNG, or as exr:-, tif:-, …"},
     known(Setting::depth, "dtype", {0, "depth", "BITS", exposure, set_of(Id::expose, Id::video, Id::validate,
-     Id::plate, Id::study),
+     Id::background, Id::study),
      take<InPicture<&OutputRequest::depth>>,
      "bits of the picture: 8, 16, float, double (.tif, .npy) or half (.exr): light as it is, with negatives (default: "
      "the capture's own, 8 for .jpg, float for .exr, .pfm and .npy)",
@@ -416,12 +422,12 @@ constexpr Option kRows[] = {
      take<InPicture<&OutputRequest::bounds>>,
      "also write what each pixel may be off by, in codes or in light, and each term of it: as floats, in layers of an "
      ".exr, pages of a .tif, along the first axis of a .npy; of many pictures with a number, map-%04d.tif"},
-    known(Setting::quality, {0, "quality", "N", exposure, kExposesFreely | set_of(Id::plate, Id::study),
+    known(Setting::quality, {0, "quality", "N", exposure, kExposesFreely | set_of(Id::background, Id::study),
      take_whole<InPicture<&OutputRequest::quality>, 1, 100>,
      "quality from 1 to 100: of .jpg pictures, and of films whose codec loses something (default: 90 of .jpg, of "
      "films the codec's)"}),
     known(Setting::keep_pixels, {0, "keep-pixels", "", exposure,
-     set_of(Id::expose, Id::sweep, Id::video, Id::plate, Id::study), take<InPicture<&OutputRequest::keep_pixels>>,
+     set_of(Id::expose, Id::sweep, Id::video, Id::background, Id::study), take<InPicture<&OutputRequest::keep_pixels>>,
      "keep pixels that are not square: to measure in them (default: .png, .jpg and films of lossy codecs come in "
      "square ones, unless --depth 16 or --out-transfer source is stated; other files as they are)"}),
     {0, "negative", "HOW", exposure, kExposesFreely, take<InPicture<&OutputRequest::negative>>,
@@ -429,7 +435,7 @@ constexpr Option kRows[] = {
      "darker), abs (as bright as light above it) (default: saturate)",
      "saturate offset abs"},
     known(Setting::out_transfer, "transfer", {0, "out-transfer", "NAME", exposure,
-     set_of(Id::expose, Id::video, Id::sweep, Id::trace, Id::validate, Id::plate, Id::study),
+     set_of(Id::expose, Id::video, Id::sweep, Id::trace, Id::validate, Id::background, Id::study),
      take_by<InPicture<&OutputRequest::transfer>, parse_out_transfer>,
      "how the picture's codes stand for light: srgb, bt709, linear, gamma:G, or source: as in the capture, "
      "with its own white code (default: srgb, white being the largest code)",
@@ -447,7 +453,7 @@ constexpr Option kRows[] = {
      "print only the control points of -k: a line for each, mask value, nanoseconds, gain"},
     {0, "json", "", answer, kAll & ~kOnlyPrints, take<In<&Options::json>>, "answer with one JSON object, for scripts"},
     {0, "no-recipe", "", output, kExposes & ~bit(Id::mask), take<In<&Options::no_recipe>>,
-     "do not keep in the picture how it was made: names, functions and options (see nutik-cl again)"},
+     "do not keep in the picture how it was made: names, functions and options (see nutik-cl reproduce)"},
     {0, "skip-existing", "", output, kMakesMany, take<In<&Options::skip_existing>>,
      "leave out pictures that are there already: with the recipe that they would get"},
     {0, "overwrite", "", output, kWrites, take<In<&Options::overwrite>>,

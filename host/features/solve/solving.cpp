@@ -90,8 +90,8 @@ class Solver {
       if (const auto* other = std::get_if<LightRegion>(&wish.target)) check(*other, wish);
       if (wish.needs_plate() && is_light_restated) {
         throw UsageError(
-            format("the wish {}: a plate is made with the capture's own transfer function; correct that in "
-                   "the capture (retime), or name a time in place of the plate",
+            format("the wish {}: the background is found with the capture's own transfer function; correct that in "
+                   "the capture (retime), or name a time in place of the background",
                    nutik::quoted(wish.text)));
       }
     }
@@ -339,7 +339,7 @@ class Solver {
     if (2 * below <= pixels && 2 * above <= pixels) return;
     const bool is_black = below >= above;
     solved.warnings.push_back(
-        format("{} of the picture's {} pixels come out {}: bound the gains, or wish for what is to stay, too (all = plate)",
+        format("{} of the picture's {} pixels come out {}: bound the gains, or wish for what is to stay, too (all = background)",
                is_black ? below : above, pixels, is_black ? "below 0, which is black" : "above 1, which is white"));
   }
 

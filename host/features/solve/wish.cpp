@@ -162,14 +162,14 @@ class WishParser {
       }
       wish_.factor = *number;
     }
-    if (take("plate")) {
+    if (take("background") || take("plate")) {
       wish_.target = StatedWish::Plate{};
     } else if (const auto moment = take_moment()) {
       wish_.target = *moment;
     } else if (const auto region = take_region()) {
       wish_.target = *region;
     } else {
-      fail_at("where light should stand: a number, plate, a time (0.8s, 12f, 0s..0.1s) or another region");
+      fail_at("where light should stand: a number, background, a time (0.8s, 12f, 0s..0.1s) or another region");
     }
   }
 

@@ -253,7 +253,7 @@ void MainWindow::tell_way_out(const QString& path, const Stated& stated, const O
     label = tr("Open that part");
     way = [this, path, stated, origin] {
       Stated until_damage = stated;
-      until_damage.emplace("as-far-as-it-goes", "");
+      until_damage.emplace("ignore-errors", "");
       open_capture_file(path, until_damage, origin);
     };
   } else if (is_cut_off) {

@@ -15,6 +15,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "features/schema/option.hpp"
 #include "media/formats/numbered_name.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "media/writers/recipe.hpp"
@@ -58,7 +59,9 @@ constexpr const char* kUnwrittenKey = "unwritten";
 constexpr const char* kIdKey = "id";
 
 // The key of an option in a project.
-QString key_of(const std::string& name) { return QString::fromStdString(name).replace('-', '_'); }
+QString key_of(std::string_view name) {
+  return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())).replace('-', '_');
+}
 
 void write_text(const QString& path, std::string_view text) {
   OutputFile file(path.toStdString());
@@ -327,8 +330,9 @@ Project load_project(const QString& path) {
   };
   Project project;
   project.capture = resolved("capture");
-  for (const char* name : {"align", "as-far-as-it-goes", "between", "deflicker", "fps"}) {
-    const QJsonValue value = object[key_of(name)];
+  for (const char* name : {"align", "between", "deflicker", "fps", "ignore-errors"}) {
+    const QString key = key_of(name), old_key = key_of(find_option(name)->old_name);
+    const QJsonValue value = object[object.contains(key) ? key : old_key];
     if (value.isString() || value.toBool()) project.stated.emplace(name, value.toString().toStdString());
   }
   const CommandFiles free_files = free_files_beside(path);

@@ -1,1 +1,1 @@
-nutik-cl plate --deflicker one-by-one-person-detection.mp4 picture.png
+nutik-cl background --deflicker one-by-one-person-detection.mp4 picture.png

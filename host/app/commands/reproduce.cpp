@@ -55,7 +55,7 @@ class RecipeFiles {
     print_warning(
         other_folder ? format("{} is not the {} that the picture was made from: its checksum differs from {}",
                               (*other_folder / name).string(), what, shown(input.checksum))
-                     : format("the {} {} is not in {}; name its folder: nutik-cl again PICTURE FOLDER", what,
+                     : format("the {} {} is not in {}; name its folder: nutik-cl reproduce PICTURE FOLDER", what,
                               name, folders_text()));
     return other_folder.value_or(fs::path()) / input.name;
   }
@@ -121,7 +121,7 @@ std::vector<fs::path> folders_to_search(const Options& options) {
   for (std::size_t i = 1; i < options.operands.size(); ++i) {
     if (!fs::is_directory(options.operands[i])) {
       throw UsageError(
-          format("{} is no folder; again looks in folders for the files that the picture was made from",
+          format("{} is no folder; reproduce looks in folders for the files that the picture was made from",
                  options.operands[i]));
     }
     folders.emplace_back(options.operands[i]);
@@ -151,8 +151,8 @@ std::string operand(const fs::path& path) { return shell_word(not_an_option(path
 
 }  // namespace
 
-int run_again(const Options& options) {
-  if (options.operands.empty()) throw UsageError("again takes a picture: nutik-cl again picture.png");
+int run_reproduce(const Options& options) {
+  if (options.operands.empty()) throw UsageError("reproduce takes a picture: nutik-cl reproduce picture.png");
   const fs::path picture = options.operands.front();
   RecipeFiles files(folders_to_search(options));
   const std::optional<Recipe> recipe = read_recipe(picture);

@@ -24,9 +24,9 @@ MemoryNeeds plate_needs(const CaptureFormat& capture) {
 
 }  // namespace
 
-int run_plate(const Options& options) {
+int run_background(const Options& options) {
   const Stopwatch stopwatch;
-  const std::filesystem::path output = output_name(options, "plate", "-plate.png");
+  const std::filesystem::path output = output_name(options, "background", "-background.png");
   std::vector<std::string> inputs = input_files(options);
   check_output(output, OutputKind::picture, inputs, replacing(options));
   if (options.uncertain) {

@@ -7,7 +7,7 @@
 namespace nutik {
 namespace {
 
-class Again : public test::AppTest {
+class Reproduce : public test::AppTest {
  protected:
   void SetUp() override {
     test::write_still_clip(scratch_.folder(), 24, 40);
@@ -20,11 +20,11 @@ class Again : public test::AppTest {
   }
   test::ProgramResult run(const test::Words& words) const { return make(words); }
 
-  // Runs the command that again prints, which names the program as it was run.
+  // Runs the command that reproduce prints, which names the program as it was run.
   void expect_same_bytes(const std::string& picture, const std::string& made_by = "expose") const {
     const std::string before = file(picture);
     ASSERT_FALSE(before.empty());
-    const std::string command = run({"again", picture}).out;
+    const std::string command = run({"reproduce", picture}).out;
     ASSERT_NE(command.find(" " + made_by + " "), std::string::npos) << command;
     std::filesystem::remove(scratch_ / picture);
     scratch_.write("again.sh", command);
@@ -34,7 +34,7 @@ class Again : public test::AppTest {
   }
 };
 
-TEST_F(Again, MakesPixelsSquareOrKeepsThemAsBefore) {
+TEST_F(Reproduce, MakesPixelsSquareOrKeepsThemAsBefore) {
   make("-f 40 --pixel-aspect 2:1 frames wide.tik");
   make("--exposure 33ms wide.tik square.png");
   make("--exposure 33ms --keep-pixels wide.tik kept.png");
@@ -42,7 +42,7 @@ TEST_F(Again, MakesPixelsSquareOrKeepsThemAsBefore) {
   for (const char* picture : {"square.png", "kept.png"}) expect_same_bytes(picture);
 }
 
-TEST_F(Again, MakesTheSameBytes) {
+TEST_F(Reproduce, MakesTheSameBytes) {
   const std::vector<std::string> functions{"-k", "it's f.fn", "-m", "mask.pgm"};
   int number = 0;
   for (const std::string extension : {".png", ".tif", ".pgm"}) {
@@ -65,29 +65,29 @@ TEST_F(Again, MakesTheSameBytes) {
   expect_same_bytes("light.tif");
 }
 
-TEST_F(Again, NamesTheProgramAsItWasRun) {
+TEST_F(Reproduce, NamesTheProgramAsItWasRun) {
   run("--exposure 50ms clip.tik a.png");
   const std::filesystem::path program = NUTIK_TEST_PROGRAM;
   std::filesystem::create_directory(scratch_ / "my tools");
   std::filesystem::create_symlink(program, scratch_ / "my tools/nutik-cl");
   const auto found = test::run_shell(
-      "PATH='" + program.parent_path().string() + "':$PATH; nutik-cl again a.png", scratch_.folder());
+      "PATH='" + program.parent_path().string() + "':$PATH; nutik-cl reproduce a.png", scratch_.folder());
   EXPECT_TRUE(found.out.starts_with("nutik-cl expose ")) << found.out << found.err;
-  const auto quoted = test::run_shell("'my tools/nutik-cl' again a.png", scratch_.folder());
+  const auto quoted = test::run_shell("'my tools/nutik-cl' reproduce a.png", scratch_.folder());
   EXPECT_TRUE(quoted.out.starts_with("'my tools/nutik-cl' expose ")) << quoted.out << quoted.err;
-  EXPECT_EQ(test::run_shell("'my tools/nutik-cl' again a.png | sh", scratch_.folder()).status, 0);
+  EXPECT_EQ(test::run_shell("'my tools/nutik-cl' reproduce a.png | sh", scratch_.folder()).status, 0);
 }
 
-TEST_F(Again, MakesOnePictureOfASeries) {
+TEST_F(Reproduce, MakesOnePictureOfASeries) {
   run({"-k", "it's f.fn", "-m", "mask.pgm", "--every", "1/7s", "--count", "3", "clip.tik", "s-%d.png"});
-  expect_says(run("again s-2.png").out, " --start 2/7s ");
+  expect_says(run("reproduce s-2.png").out, " --start 2/7s ");
   expect_same_bytes("s-2.png");
   run("-f 40 --exposure 20ms --every 10f --start 1f frames t-%d.png");
   expect_same_bytes("t-3.png");
 }
 
 // As plain intervals where they are such, else from functions that the pictures carry.
-TEST_F(Again, MakesOnePictureOfASweep) {
+TEST_F(Reproduce, MakesOnePictureOfASweep) {
   const auto sweep = [&](test::Words words) {
     words.insert(words.begin(), "sweep");
     words.insert(words.end(), {"clip.tik", "sheet.png"});
@@ -96,7 +96,7 @@ TEST_F(Again, MakesOnePictureOfASweep) {
   EXPECT_EQ(sweep({"--start", "1f", "--exposure", "3f", "--shift", "-1f..5f/3f", "--scale-gain",
                    "0.3..1/0.35", "--ev", "0.5", "--normalize", "integral", "--each", "box-%d.png"}),
             "");
-  const std::string box = run("again box-4.png").out;
+  const std::string box = run("reproduce box-4.png").out;
   for (const char* part : {" --start 75ms ", " --exposure 75ms ", " --gain 0.9"})
     EXPECT_NE(box.find(part), std::string::npos) << box;
   EXPECT_EQ(sweep({"--exposure", "0.1s", "--shutter", "strobe:3", "--shift", "0..0.2s/0.1s", "--stretch",
@@ -104,7 +104,7 @@ TEST_F(Again, MakesOnePictureOfASweep) {
             "");
   sweep({"-k", "it's f.fn", "-m", "mask.pgm", "--start", "20ms", "--shift", "-60ms..0.1s/80ms", "--stretch",
          "0.7..2/1", "--each", "file-%d.pgm"});
-  expect_says(run("again file-5.pgm").err, "file-5.fn is not there; the functions");
+  expect_says(run("reproduce file-5.pgm").err, "file-5.fn is not there; the functions");
   EXPECT_EQ(
       sweep({"--exposure", "0.1s", "--shutter", "hann", "--stretch", "0.5..2/0.5", "--each", "hann-%d.png"}),
       "");
@@ -118,11 +118,11 @@ TEST_F(Again, MakesOnePictureOfASweep) {
       sweep({"--start", "0.9s", "--exposure", "0.1s", "--shift", "0..0.1s/0.1s", "--each", "no-%d.png"}),
       "warning: no-1.png: it carries no recipe: ");
   expect_same_bytes("no-0.png");
-  EXPECT_EQ(test::run_here({"again", "no-1.png"}, scratch_.folder()).status, 3);
+  EXPECT_EQ(test::run_here({"reproduce", "no-1.png"}, scratch_.folder()).status, 3);
 }
 
 // A sheet is made anew by the command that made it, with all that lies on it and how it lies.
-TEST_F(Again, MakesSheets) {
+TEST_F(Reproduce, MakesSheets) {
   run("contact --start 0.1s --every 1/7s --exposure 2f --columns 2 --width 300 --negative abs --transfer "
       "gamma:2 clip.tik contact.png");
   run({"contact", "-f", "40", "-a", "90", "--tolerance", "2", "frames", "-o", "whole clip.tif"});
@@ -137,13 +137,13 @@ TEST_F(Again, MakesSheets) {
   expect_same_bytes("one-2.png");
 
   run("contact --no-recipe clip.tik silent.png");
-  const auto none = test::run_here({"again", "silent.png"}, scratch_.folder());
+  const auto none = test::run_here({"reproduce", "silent.png"}, scratch_.folder());
   EXPECT_EQ(none.status, 3);
   expect_says(none.err, "silent.png carries no recipe. Exposures, sheets and a video's stills do");
 }
 
 // Whatever a stranger's sheet says, what is printed makes a sheet or a picture.
-TEST_F(Again, RefusesCommandsThatLeaveNoRecipes) {
+TEST_F(Reproduce, RefusesCommandsThatLeaveNoRecipes) {
   run("contact clip.tik a.ppm");
   std::string sheet = file("a.ppm");
   const auto replace = [&](const std::string& what, const std::string& by) {
@@ -153,7 +153,7 @@ TEST_F(Again, RefusesCommandsThatLeaveNoRecipes) {
     scratch_.write("a.ppm", sheet);
   };
   const auto refused = [&](const std::string& why) {
-    const auto result = test::run_here({"again", "a.ppm"}, scratch_.folder());
+    const auto result = test::run_here({"reproduce", "a.ppm"}, scratch_.folder());
     EXPECT_EQ(result.status, 3);
     EXPECT_EQ(result.out, "");
     EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
@@ -165,37 +165,37 @@ TEST_F(Again, RefusesCommandsThatLeaveNoRecipes) {
   refused("its recipe states '--shift 1f..2f/1f', which no recipe of nutik-cl");
 }
 
-TEST_F(Again, LooksForTheFilesItNeeds) {
+TEST_F(Reproduce, LooksForTheFilesItNeeds) {
   run({"-k", "it's f.fn", "-m", "mask.pgm", "clip.tik", "a.png"});
   const std::string picture = file("a.png");
   std::filesystem::create_directory(scratch_ / "kept");
   std::filesystem::rename(scratch_ / "clip.tik", scratch_ / "kept/clip.tik");
-  auto result = test::run_here({"again", "a.png"}, scratch_.folder());
+  auto result = test::run_here({"reproduce", "a.png"}, scratch_.folder());
   EXPECT_EQ(result.status, 3);
   EXPECT_EQ(result.err,
-            "warning: the capture clip.tik is not in the current folder; name its folder: nutik-cl again "
+            "warning: the capture clip.tik is not in the current folder; name its folder: nutik-cl reproduce "
             "PICTURE FOLDER\n");
-  expect_says(run("again a.png kept").out, " kept/clip.tik -o a.png");
+  expect_says(run("reproduce a.png kept").out, " kept/clip.tik -o a.png");
 
   // Another capture of the same name is not taken for it.
   run("-f 41 frames clip.tik");
-  expect_says(run("again a.png kept").out, " kept/clip.tik ");
-  result = test::run_here({"again", "a.png"}, scratch_.folder());
+  expect_says(run("reproduce a.png kept").out, " kept/clip.tik ");
+  result = test::run_here({"reproduce", "a.png"}, scratch_.folder());
   EXPECT_EQ(result.status, 3);
   expect_says(result.err, "clip.tik is not the capture that the picture was made from: its checksum differs");
   std::filesystem::rename(scratch_ / "kept/clip.tik", scratch_ / "clip.tik");
 
   scratch_.write("mask.pgm", "P2 24 24 255\n" + std::string(24 * 24 * 2, ' '));
-  result = test::run_here({"again", "a.png"}, scratch_.folder());
+  result = test::run_here({"reproduce", "a.png"}, scratch_.folder());
   EXPECT_EQ(result.status, 3);
   expect_says(result.err, "mask.pgm is not the mask that");
 }
 
-TEST_F(Again, WritesFunctionsThatAreGoneOrChanged) {
+TEST_F(Reproduce, WritesFunctionsThatAreGoneOrChanged) {
   run({"-k", "it's f.fn", "-m", "mask.pgm", "clip.tik", "a.png"});
   const std::string functions = file("it's f.fn");
   scratch_.write("it's f.fn", "M0 [0:0]\n");
-  auto result = run("again a.png");
+  auto result = run("reproduce a.png");
   EXPECT_EQ(
       result.err,
       "warning: it's f.fn was changed since; the functions that the picture was made with were written to "
@@ -204,16 +204,16 @@ TEST_F(Again, WritesFunctionsThatAreGoneOrChanged) {
   expect_same_bytes("a.png");
   std::filesystem::remove(scratch_ / "it's f.fn");
   std::filesystem::remove(scratch_ / "a-again/it's f.fn");
-  expect_says(run("again a.png").err, "is not there; the functions");
+  expect_says(run("reproduce a.png").err, "is not there; the functions");
   expect_same_bytes("a.png");
   scratch_.write("a-again/it's f.fn", "notes of mine");
-  result = test::run_here({"again", "a.png"}, scratch_.folder());
+  result = test::run_here({"reproduce", "a.png"}, scratch_.folder());
   EXPECT_EQ(result.status, 5);
   EXPECT_EQ(file("a-again/it's f.fn"), "notes of mine");
 }
 
 // A video's still is an exposure like another.
-TEST_F(Again, MakesAVideosStills) {
+TEST_F(Reproduce, MakesAVideosStills) {
   run("video --out-fps 30000/1001 --from 1/7s --speed 0.3 --shutter hann --ev 1 --out-transfer linear "
       "clip.tik plain-%02d.png");
   for (const std::string name : {"plain-00.png", "plain-07.png"}) expect_same_bytes(name);
@@ -224,29 +224,29 @@ TEST_F(Again, MakesAVideosStills) {
   EXPECT_EQ(file("bare-0.png").find("nutik"), std::string::npos);
 }
 
-TEST_F(Again, SaysWhereThereIsNoRecipe) {
+TEST_F(Reproduce, SaysWhereThereIsNoRecipe) {
   run("--exposure 33ms clip.tik private.png --no-recipe");
   EXPECT_EQ(file("private.png").find("nutik"), std::string::npos);
   EXPECT_EQ(file("private.png").find("clip.tik"), std::string::npos);
-  auto result = test::run_here({"again", "private.png"}, scratch_.folder());
+  auto result = test::run_here({"reproduce", "private.png"}, scratch_.folder());
   EXPECT_EQ(result.status, 3);
   expect_says(result.err, "private.png carries no recipe");
   run("activity clip.tik chart.png");
-  result = test::run_here({"again", "chart.png"}, scratch_.folder());
+  result = test::run_here({"reproduce", "chart.png"}, scratch_.folder());
   EXPECT_EQ(result.status, 3);
   expect_says(result.err, "not charts, traces, masks");
-  result = test::run_here({"again", "private.png", "clip.tik"}, scratch_.folder());
+  result = test::run_here({"reproduce", "private.png", "clip.tik"}, scratch_.folder());
   EXPECT_EQ(result.status, 2);
   expect_says(result.err, "clip.tik is no folder");
-  EXPECT_EQ(test::run_here({"again"}, scratch_.folder()).status, 2);
-  EXPECT_EQ(test::run_here({"again", "clip.tik"}, scratch_.folder()).status, 3);
+  EXPECT_EQ(test::run_here({"reproduce"}, scratch_.folder()).status, 2);
+  EXPECT_EQ(test::run_here({"reproduce", "clip.tik"}, scratch_.folder()).status, 3);
 }
 
 // A picture may come from anyone, and what is printed may be run.
-TEST_F(Again, TakesNoOrdersFromAPicture) {
+TEST_F(Reproduce, TakesNoOrdersFromAPicture) {
   const auto expect_no_order = [&](const std::string& recipe, const std::string& message) {
     scratch_.write("evil.pgm", "P5\n# " + recipe + "\n1 1\n255\nx");
-    expect_refused("again evil.pgm", 3, message);
+    expect_refused("reproduce evil.pgm", 3, message);
   };
   const auto recipe = [](const std::string& capture, const std::string& functions,
                          const std::string& options) {
@@ -271,12 +271,12 @@ TEST_F(Again, TakesNoOrdersFromAPicture) {
   }
   // What may be shown does not write to the terminal by itself.
   scratch_.write("sly.pgm", "P5\n# " + recipe("\\u001b[2Jclip.tik", "f.fn", "") + "\n1 1\n255\nx");
-  const auto result = test::run_here({"again", "sly.pgm"}, scratch_.folder());
+  const auto result = test::run_here({"reproduce", "sly.pgm"}, scratch_.folder());
   EXPECT_EQ(result.err.find('\x1b'), std::string::npos) << result.err;
 }
 
 // Who sends a picture may send a folder of links with it, and any text as its functions.
-TEST_F(Again, WritesOnlyWhatItReadsAndOnlyIntoItsOwnFolder) {
+TEST_F(Reproduce, WritesOnlyWhatItReadsAndOnlyIntoItsOwnFolder) {
   const auto again = [&](const std::string& name, const std::string& text) {
     scratch_.write("sent.pgm",
                    R"(P5
@@ -286,7 +286,7 @@ TEST_F(Again, WritesOnlyWhatItReadsAndOnlyIntoItsOwnFolder) {
 1 1
 255
 x)");
-    return test::run_here({"again", "sent.pgm"}, scratch_.folder());
+    return test::run_here({"reproduce", "sent.pgm"}, scratch_.folder());
   };
   const std::filesystem::path elsewhere = scratch_ / "elsewhere", folder = scratch_ / "sent-again";
   std::filesystem::create_directory(elsewhere);
@@ -320,7 +320,7 @@ x)");
   EXPECT_FALSE(std::filesystem::exists(folder / ".profile"));
 }
 
-TEST_F(Again, KeepsTheNoiseOfAClip) {
+TEST_F(Reproduce, KeepsTheNoiseOfAClip) {
   const std::string noise =
       "nutik noise 0\nwhite 255\ntransfer srgb\nchannel grey\nread 0.002\nshot 0.0001\n"
       "curve sensor\npoint 10 1.5 100\npoint 20.5 2 50\n";
@@ -330,7 +330,7 @@ TEST_F(Again, KeepsTheNoiseOfAClip) {
   ASSERT_EQ(exposed.status, 0) << exposed.err;
   expect_same_bytes("n.png");
   scratch_.write("camera.noise", "another");
-  expect_says(run("again n.png").err, "camera.noise was changed since; the noise values");
+  expect_says(run("reproduce n.png").err, "camera.noise was changed since; the noise values");
   EXPECT_EQ(file("n-again/camera.noise"), noise);
   expect_same_bytes("n.png");
   run("-f 40 --noise auto --exposure 0.2s frames m.png");
@@ -338,14 +338,14 @@ TEST_F(Again, KeepsTheNoiseOfAClip) {
 }
 
 // Each picture of a batch has what its line states and what the batch does.
-TEST_F(Again, MakesOnePictureOfABatch) {
+TEST_F(Reproduce, MakesOnePictureOfABatch) {
   run("noise frames -o camera.noise");
   for (const std::string noise : {"auto", "camera.noise"}) {
     scratch_.write("list", "--exposure 0.2s a.png\n-k \"it's f.fn\" -m mask.pgm b.png\n");
     run({"batch", "-f", "40", "--noise", noise, "--sigmas", "1.5", "--block-samples", "16", "--transfer",
          "gamma:2", "list", "frames"});
     for (const char* picture : {"a.png", "b.png"}) {
-      const std::string command = run({"again", picture}).out;
+      const std::string command = run({"reproduce", picture}).out;
       expect_says(command, {" --noise ", " --sigmas 1.5 "});
       expect_same_bytes(picture);
     }
@@ -353,7 +353,7 @@ TEST_F(Again, MakesOnePictureOfABatch) {
 }
 
 // What a picture says of where it was made: names of files, no folders.
-TEST_F(Again, KeepsFoldersToItself) {
+TEST_F(Reproduce, KeepsFoldersToItself) {
   run({"--exposure", "33ms", (scratch_ / "clip.tik").string(), (scratch_ / "a.png").string()});
   const std::string folder = scratch_.folder().filename().string();
   EXPECT_EQ(file("a.png").find(folder), std::string::npos);
