@@ -61,6 +61,15 @@ class Trace:
 
     __hash__ = None  # type: ignore[assignment]
 
+    @classmethod
+    def _of(cls, told: dict[str, Any]) -> Trace:
+        steps = told.pop("steps")
+        values = steps["values"][:, :len(told["exposed"])]
+        ends = {name: np.stack([of[f"begin_{name}"], of[f"end_{name}"]], 1)
+                for name, of in (("ns", steps), ("gain", steps), ("light", values))}
+        return cls(**frozen(dict(times_ns=ends["ns"], gain=ends["gain"], light=ends["light"],
+                                 integral_ns=values["integral_ns"], sum_ns=values["sum_ns"], made=steps["is_made"], **told)))
+
 
 def _warn_of_black(still_gains: Mapping[int, float], negative: Optional[str]) -> None:
     if negative in (None, "saturate"):
@@ -197,7 +206,7 @@ class Capture:
     @property
     def rate(self) -> Fraction:
         """Samples a second, exactly where constant, else on average."""
-        return self._held.rate
+        return Fraction(*self._held.rate)
 
     @property
     def duration_ns(self) -> int:
@@ -222,7 +231,8 @@ class Capture:
     @property
     def figures(self) -> Figures:
         """What it comes to, from `samples` to `codec`."""
-        return self._held.figures()
+        figures: dict[str, Any] = self._held.figures()
+        return cast(Figures, {name: Fraction(*each) if isinstance(each, tuple) else each for name, each in figures.items()})
 
     def render(self, functions: Optional[Functions] = None, mask: Optional[MaskLike] = None, *,
                start: Optional[Time] = None, exposure: Optional[Time] = None, shutter: Optional[str] = None,
@@ -242,23 +252,14 @@ class Capture:
         mask : [height, width] of tags, or {tag: alpha} of shares (the first function gets what they leave), a nutik.Mask,
             or a file.
         start, exposure : the interval, in place of functions; 0 without a start. Of functions their time 0.
-        shutter, shutter_error : its shape, as of nutik.shutter().
-        feather : pixels that tags are blended over, 6 or '6px'.
         delay : how much later each pixel is exposed (docs/how-to/delay.md): 'rows:15ms', 'columns:0s..0.5s',
             'radial:-20ms..20ms', 'map.tif:0s..1s', or [height, width] of seconds or timedelta64.
-        normalize : 'support', 'integral', 'absolute' or 'seconds:S' (docs/explanation/model.md).
-        gain : multiplies the light.
-        unmapped : 'zero' lets tags without a function expose to black.
         precision : 'single', 'compensated', 'double' or 'fixed'; None: the fastest whose error bound is small enough.
         codes, dtype : float32 without them, or float64. With codes uint8 or uint16, the capture's own without dtype.
         transfer : of codes, sRGB without it; 'source': the capture's own.
-        negative : what codes say of light below 0, 'saturate', 'offset' or 'abs'.
         region : (x, y, width, height) in pixels, only these.
         bounds : also maps of what each pixel may be off by, Picture.bounds.
         strict : codes that may err by more than half of one raise ImpreciseError, and are no warning.
-        combine : what becomes of a pixel's light, its integral without it: 'mean', or of its samples, each times its
-            largest gain, the lightest, darkest or middle one, 'lighten', 'darken', 'median'.
-
         Returns:
         Picture, whose array is [height, width] or [height, width, 3]: light, of which 1 is white, or codes.
         Raises:
@@ -361,14 +362,13 @@ class Capture:
         pixel = None if x is None else (count_of(x, "x"), count_of(y, "y"))
         traces, told = _nutik.trace(self._held, asked, pixel, None if tag is None else tag_of(tag), progress)
         warn(told)
-        return [Trace(**frozen(arrays)) for arrays in traces]
+        return [Trace._of(each) for each in traces]
 
     def plate(self, *, by: Optional[int] = None, codes: bool = False, dtype: DTypeLike = None,
               transfer: Optional[str] = None, progress: Progress = None) -> Plate:
         """The scene without what moves in it (docs/how-to/background.md).
 
         Parameters:
-        by : codes that the same light may differ by; None: by the capture's own noise.
         dtype : float32 without codes. With codes uint8 or uint16, the capture's own without dtype.
         Returns:
         Plate: a picture, and [height, width] of where it is a guess.
@@ -393,8 +393,6 @@ class Capture:
 
         Parameters:
         mask, tag : only pixels of the mask with this tag count, or with any tag but 0.
-        by : changes of no more than so many codes are none.
-        count_redrawn : samples at which a codec drew its picture anew count as those beside them without it.
         Returns:
         Activity: changes by sample and by pixel.
         Raises:
@@ -420,14 +418,8 @@ class Capture:
         """A motion study that finds its subject by itself (docs/how-to/study.md).
 
         Parameters:
-        style : 'trail', 'strobe', 'rear-curtain', 'frozen', 'clean' or 'slit'.
         moments : how many, or which times.
-        spacing : 'time' or 'distance'.
-        trail : 'even', 'fade', 'ramp' or 'none'.
-        slit_from : 'left', 'right', 'top' or 'bottom'.
         regions : (x, y, width, height) each with a subject of its own.
-        by : codes that the subject must differ by more than from the empty scene; None: 1/16 of white.
-        feather : pixels that its border is blended over; None: 2; 0 for slit's strips.
         Raises:
         InputError where nothing moves or everything does: the camera must stand still (align='rigid' where it is
         encoded).
@@ -438,13 +430,8 @@ class Capture:
         >>> sorted(nutik.encode(scene, rate=100).study("strobe", moments=3).functions)
         [0, 1, 2, 3]
         """
-        asked: Union[int, list[str], None]
-        if moments is None:
-            asked = None
-        elif isinstance(moments, (int, np.integer)):
-            asked = count_of(moments, "moments")
-        else:
-            asked = [time_word(time, "moments") for time in moments]
+        asked: Any = [time_word(each, "moments") for each in listed(moments)] if is_list(moments) else (
+            None if moments is None else count_of(moments, "moments"))
         moved = self._held.moved_camera()
         if moved:
             warn([f"{moved}; align='rigid' moves the clip's pictures back when it is encoded"])
@@ -469,7 +456,6 @@ class Capture:
         wishes : 'M0 = plate', '500,120,80,60 gone', 'R1 <= 0.5'.
         free : of a gain (least, most), of a time (from, to) or (from, to, step).
         mask : whose tags M0 ... are.
-        regions : a second mask, whose values R0 ... are.
         Examples:
         >>> wished = capture.solve("M0{[0:g], [50000000:g], [50000001:0]}", ["all = 0.25"], free={"g": (0, 9)})
         >>> wished.is_kept, bool(0 < wished.gains["g"] < 9)

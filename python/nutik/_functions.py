@@ -112,11 +112,9 @@ class Function:
             return NotImplemented
         times = np.union1d(self.times_ns, other.times_ns)
         before, after = (a + b for a, b in zip(self._beside(times), other._beside(times)))
-        is_twice = before != after
-        at = np.repeat(times, 1 + is_twice)
-        gains = np.repeat(after, 1 + is_twice)
-        gains[np.flatnonzero(np.diff(at, prepend=at[0] - 1, append=at[-1] + 1)[1:] == 0)] = before[is_twice]
-        return Function.from_ns(at, gains)
+        jumps = before != after
+        gains = np.stack([before, after], 1)[np.stack([jumps, np.ones_like(jumps)], 1)]
+        return Function.from_ns(np.repeat(times, 1 + jumps), gains)
 
     def __radd__(self, other: int) -> Function:
         if isinstance(other, int) and other == 0:  # sum() begins with it
@@ -275,11 +273,8 @@ def fit(gain: Gain, start: Time, end: Time, *, error: float = 1e-3) -> Function:
     if largest == 0:
         raise UsageError("the function is 0 everywhere; there is nothing to expose")
     fitted_times, fitted_gains = _nutik.fitted(times, gains, error * largest).points()
-    if fitted_gains[0] != 0:
-        fitted_times, fitted_gains = np.insert(fitted_times, 0, fitted_times[0]), np.insert(fitted_gains, 0, 0.0)
-    if fitted_gains[-1] != 0:
-        fitted_times, fitted_gains = np.append(fitted_times, fitted_times[-1]), np.append(fitted_gains, 0.0)
-    return Function.from_ns(fitted_times, fitted_gains)
+    opens, closes = int(fitted_gains[0] != 0), int(fitted_gains[-1] != 0)
+    return Function.from_ns(np.pad(fitted_times, (opens, closes), "edge"), np.pad(fitted_gains, (opens, closes)))
 
 
 def parse_functions(text: str, *, name: str = "functions") -> dict[int, Function]:

@@ -46,19 +46,8 @@ def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_
 
     Parameters:
     path : a capture, a clip, or a file that is open for bytes.
-    rate : pictures a second that the clip was filmed with: 120, 29.97, '30000/1001'; without it what the file says.
-    white : the code that stands for white: 255, 4095 for 12 bits; without it what the file says. Of floats the light of
-        white, 1.0.
     crop : (x, y, width, height) of pixels, or 'WxH+X+Y': only this part of the pictures.
-    noise : the camera's noise, 'auto' or a noise file: changes within it are none, and samples are held as the light that
-        they are expected to have.
-    sigmas : how many deviations of the noise are no change; without it 3.
-    start_picture : light before the first event: a picture's file, or the same everywhere, 1 being white.
     align_along : a .csv file, moves pictures along a path that is known (docs/how-to/align.md).
-    device : an OpenCL device, by number or part of its name, several as '0,1', or 'all'; None: NUTIK_DEVICE, else the
-        first.
-    memory : the most that may be held: bytes, or '2GB'; None: half of the machine's.
-    renderer : 'reference' computes without OpenCL, slowly.
     progress : called with (steps done, of how many; 0: not known), by the thread that asked and at most 20 times a
         second. Study and solve do several things, each with steps of its own. What it raises ends the work, and comes through.
     Raises:
@@ -101,7 +90,6 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
         without it 'srgb' of uint8, 'linear' of uint16.
     white : the code of white, 255 or 65535 without it; no code may be larger. Of floats the light of white, which must be
         stated: they become 16-bit codes, to the nearest of 65535 steps; none may be negative.
-    codec : of an output: 'none', 'rice', 'lz4', 'zstd', 'zstd:9'.
     name : what messages call an array.
     clip : of a path what nutik.open() takes besides: begin, crop, raw, ...
     Returns:

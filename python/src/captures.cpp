@@ -134,9 +134,8 @@ py::array times_ns(const OpenCapture& capture) {
   return times;
 }
 
-py::object fraction(const Rational& number) {
-  return py::module_::import("fractions").attr("Fraction")(number.numerator, number.denominator);
-}
+// No Fraction: that would run Python's code within ours, where its end may stop it.
+py::tuple fraction(const Rational& number) { return py::make_tuple(number.numerator, number.denominator); }
 
 py::dict figures(const OpenCapture& capture) {
   tik::Reader& reader = capture.session->capture();
@@ -147,7 +146,8 @@ py::dict figures(const OpenCapture& capture) {
   return py::dict(
       "samples"_a = timeline.sample_count(), "duration_ns"_a = timeline.duration_ns(),
       "rate"_a = fraction(timeline.rate()), "is_constant_rate"_a = timeline.is_constant(),
-      "shutter_angle"_a = fraction(timeline.shutter_angle()), "white"_a = format.white_code, "transfer"_a = format.transfer.text(), "primaries"_a = to_text(format.primaries),
+      "shutter_angle"_a = fraction(timeline.shutter_angle()), "white"_a = format.white_code,
+      "transfer"_a = format.transfer.text(), "primaries"_a = to_text(format.primaries),
       "pixel_aspect"_a = fraction(format.pixel_aspect), "tolerance"_a = format.noise.tolerance,
       "blocks"_a = reader.block_count(), "records"_a = held.record_count,
       "tiles"_a = py::dict("still"_a = still, "rows"_a = rows, "dense"_a = dense, "records"_a = records),
@@ -212,7 +212,7 @@ py::array samples(SampleReader& reader, const std::vector<std::uint64_t>& number
   return rasters;
 }
 
-// Calls found(pixel, begin, end, codes) for what each pixel of a region holds between two samples, from one change to
+// Calls found(pixel, samples, codes) for what each pixel of a region holds between two samples, from one change to
 // the next or to the next block; of each pixel in time order.
 template <typename Found>
 void for_each_record(tik::Reader& reader, const Rectangle& region, SampleRange asked, const ReportedProgress& report,
@@ -222,15 +222,14 @@ void for_each_record(tik::Reader& reader, const Rectangle& region, SampleRange a
   for_each_block(reader, asked, [&](const BlockView& block) {
     const SampleRange range = block.extent().range();
     for (std::uint32_t row = 0; row < region.height; ++row) {
-      report(std::max(asked.first, range.first) - asked.first, 2 * asked.size());
+      report(std::max(asked.first, range.first) - asked.first, asked.size());
       for (std::uint32_t column = 0; column < region.width; ++column) {
         const std::uint32_t x = region.x + column, y = region.y + row;
         block.read_history(grid.tile_of(x, y), TileGrid::lane_of(x, y), history);
         for (std::size_t i = 0; i < history.size(); ++i) {
           const std::uint64_t next = i + 1 < history.size() ? range.first + history[i + 1].sample : range.last;
-          const std::uint64_t begin = std::max(asked.first, range.first + history[i].sample);
-          const std::uint64_t end = std::min(asked.last, next);
-          if (begin < end) found(std::size_t{row} * region.width + column, begin, end, history[i].codes);
+          const SampleRange held{std::max(asked.first, range.first + history[i].sample), std::min(asked.last, next)};
+          if (held.first < held.last) found(std::size_t{row} * region.width + column, held, history[i].codes);
         }
       }
     }
@@ -251,49 +250,49 @@ py::array records(const OpenCapture& capture, const std::array<std::uint32_t, 4>
     std::array<std::uint16_t, 3> codes{};
   };
   tik::Reader& reader = capture.session->capture();
+  const Timeline& timeline = capture.timeline();
   const Rectangle region{box[0], box[1], box[2], box[3]};
   const auto row_bytes = static_cast<std::size_t>(type.itemsize());
   const std::size_t code_bytes = reader.format().code_bytes;
   const std::uint64_t allowed = capture.session->devices().request().memory.bytes;
   std::vector<Pixel> pixels(std::size_t{region.width} * region.height);
-  const auto begins = [&](Pixel& pixel, const std::array<std::uint16_t, 3>& codes) {
-    if (pixel.is_begun && pixel.codes == codes) return false;  // a block begins anew with what is held
-    pixel.is_begun = true;
-    pixel.codes = codes;
-    return true;
-  };
-  std::uint64_t count = 0;
-  without_lock([&](const Stopping& stopping) {
-    for_each_record(reader, region, {first, last}, stopping.progress(),
-                    [&](std::size_t pixel, std::uint64_t, std::uint64_t, const auto& codes) {
-                      pixels[pixel].next += begins(pixels[pixel], codes);
-                    });
-    for (Pixel& pixel : pixels) pixel = {std::exchange(count, count + pixel.next)};
-    const std::string what = format("the records of {} pixels over {} samples (take a part: region=, first= and last=)",
-                                    pixels.size(), last - first);
-    MemoryNeeds({{what, count * row_bytes}, {"what pixels were last", pixels.size() * sizeof(Pixel)}}).rest_of(allowed);
-  }, progress);
-  py::array made(type, Axes{static_cast<py::ssize_t>(count)});
-  auto* const rows = static_cast<std::byte*>(made.mutable_data());
+  py::array made;
   without_lock([&](const Stopping& stopping) {
     const ReportedProgress report = stopping.progress();
-    const Timeline& timeline = capture.timeline();
-    for_each_record(reader, region, {first, last}, [&](auto done, auto total) { report(total / 2 + done, total); },
-                    [&](std::size_t number, std::uint64_t begin, std::uint64_t end, const auto& codes) {
-      Pixel& pixel = pixels[number];
-      const std::int64_t end_ns = timeline.reach_end_ns(end - 1);
-      if (!begins(pixel, codes)) {
-        std::memcpy(rows + (pixel.next - 1) * row_bytes + offsetof(Head, end_ns), &end_ns, sizeof end_ns);
-        return;
+    std::byte* rows = nullptr;
+    for (const std::uint64_t pass : {0, 1}) {
+      std::uint64_t count = 0;
+      for (Pixel& pixel : pixels) pixel = {std::exchange(count, count + pixel.next)};
+      if (pass == 1) {
+        const std::string what = format("the records of {} pixels over {} samples", pixels.size(), last - first);
+        MemoryNeeds({{what + " (take a part: region=, first= and last=)", count * row_bytes},
+                     {"what pixels were last", pixels.size() * sizeof(Pixel)}})
+            .rest_of(allowed);
+        const py::gil_scoped_acquire locked;
+        made = py::array(type, Axes{static_cast<py::ssize_t>(count)});
+        rows = static_cast<std::byte*>(made.mutable_data());
       }
-      std::byte* const row = rows + pixel.next++ * row_bytes;
-      const auto x = static_cast<std::uint32_t>(number % region.width);
-      const auto y = static_cast<std::uint32_t>(number / region.width);
-      const Head head{region.x + x, region.y + y, timeline.start_ns(begin), end_ns};
-      std::memcpy(row, &head, sizeof head);
-      for (std::size_t c = 0; sizeof head + c * code_bytes < row_bytes; ++c)
-        std::memcpy(row + sizeof head + c * code_bytes, &codes[c], code_bytes);
-    });
+      const auto halfway = [&](std::uint64_t done, std::uint64_t total) { report(pass * total + done, 2 * total); };
+      const auto take = [&](std::size_t number, SampleRange held, const auto& codes) {
+        Pixel& pixel = pixels[number];
+        const bool begins = !pixel.is_begun || pixel.codes != codes;  // else a block begins anew with what is held
+        pixel = {pixel.next + begins, true, codes};
+        if (pass == 0) return;
+        std::byte* const row = rows + (pixel.next - 1) * row_bytes;
+        Head head{};
+        if (!begins) std::memcpy(&head, row, sizeof head);
+        if (begins) {
+          head.x = region.x + static_cast<std::uint32_t>(number % region.width);
+          head.y = region.y + static_cast<std::uint32_t>(number / region.width);
+          head.start_ns = timeline.start_ns(held.first);
+          for (std::size_t c = 0; sizeof head + c * code_bytes < row_bytes; ++c)
+            std::memcpy(row + sizeof head + c * code_bytes, &codes[c], code_bytes);
+        }
+        head.end_ns = timeline.reach_end_ns(held.last - 1);
+        std::memcpy(row, &head, sizeof head);
+      };
+      for_each_record(reader, region, {first, last}, halfway, take);
+    }
   }, progress);
   return made;
 }
@@ -311,7 +310,7 @@ void bind_captures(py::module_& module) {
   using Held = std::shared_ptr<OpenCapture>;
   py::class_<OpenCapture, Held>(module, "Capture")
       .def_readonly("name", &OpenCapture::name)
-      .def_property_readonly("shape", [](const OpenCapture& held) { return py::tuple(py::cast(axes_of(held.shape()))); })
+      .def_property_readonly("shape", [](const OpenCapture& it) { return py::tuple(py::cast(axes_of(it.shape()))); })
       .def_property_readonly("code_bytes", [](const OpenCapture& held) { return held.session->format().code_bytes; })
       .def_property_readonly("sample_count", [](const OpenCapture& held) { return held.timeline().sample_count(); })
       .def_property_readonly("duration_ns", [](const OpenCapture& held) { return held.timeline().duration_ns(); })

@@ -70,7 +70,8 @@ py::dict study(const OpenCapture& capture, const Settings& settings,
   if (!made.plate) mask = py::cast(HeldMask(std::move(made.study.regions.mask)));
   Picture& picture = made.exposed ? made.exposed->picture : made.plate->picture;
   return py::dict("moments"_a = made.study.moments, "functions"_a = made.study.functions,
-                  "notes"_a = made.study.notes, "mask"_a = mask, "picture"_a = HeldPicture{std::move(picture), figures});
+                  "notes"_a = made.study.notes, "mask"_a = mask,
+                  "picture"_a = HeldPicture{std::move(picture), figures});
 }
 
 py::tuple plate(const OpenCapture& capture, std::optional<std::uint32_t> by, const Settings& output,
@@ -92,7 +93,8 @@ py::tuple plate(const OpenCapture& capture, std::optional<std::uint32_t> by, con
   const Shape& shape = made.picture.shape;
   Mask uncertain = Mask::uniform(shape.width, shape.height, 0);
   paint(uncertain, made.uncertain, 1);
-  const auto is_uncertain = array_of(uncertain.tags, axes_of({shape.width, shape.height, 1})).attr("astype")("bool");
+  py::array_t<bool> is_uncertain(axes_of({shape.width, shape.height, 1}));
+  std::ranges::transform(uncertain.tags, is_uncertain.mutable_data(), [](std::uint8_t tag) { return tag != 0; });
   const auto figures = py::dict("saturated"_a = saturated_of(format.type, made.saturation));
   return py::make_tuple(HeldPicture{std::move(made.picture), figures}, is_uncertain, made.is_noise_known);
 }
@@ -167,7 +169,8 @@ py::dict solve(const OpenCapture& capture, const std::string& functions,
   std::vector<std::string> warnings = solved.warnings;
   if (!input.warnings.empty()) warnings.insert(warnings.begin(), input.warnings);
   return py::dict("text"_a = solved.text, "gains"_a = gains, "times_ns"_a = times, "wishes"_a = kept,
-                  "untold"_a = untold, "open_count"_a = solved.open_count, "tried"_a = solved.tried, "cost"_a = solved.cost(),
+                  "untold"_a = untold, "open_count"_a = solved.open_count, "tried"_a = solved.tried,
+                  "cost"_a = solved.cost(),
                   "is_kept"_a = solved.is_kept(), "warnings"_a = warnings);
 }
 
