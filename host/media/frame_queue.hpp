@@ -9,6 +9,7 @@
 #include <functional>
 #include <future>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,10 @@ class FrameQueue {
   // Enough that a frame which takes longer than others, to expose or to encode, stops nobody.
   static constexpr std::size_t kDefaultWaiting = 4;
 
-  // `open` is called on that thread: what encodes takes a while to load. So many frames may wait.
+  // `open` is called on that thread: what encodes takes a while to load. So many frames may wait. Frames of another
+  // shape are written in square pixels of `square`.
   explicit FrameQueue(std::function<std::unique_ptr<VideoWriter>()> open,
-                      std::size_t max_waiting = kDefaultWaiting);
+                      std::size_t max_waiting = kDefaultWaiting, std::optional<Shape> square = {});
   // Without finish() the video is dropped.
   ~FrameQueue();
   FrameQueue(const FrameQueue&) = delete;
@@ -51,6 +53,7 @@ class FrameQueue {
 
   void write(const std::function<std::unique_ptr<VideoWriter>()>& open);
 
+  std::optional<Shape> square_;
   Channel<Frame> frames_;
   std::unique_ptr<VideoWriter> writer_;
   std::future<void> writing_;

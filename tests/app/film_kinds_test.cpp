@@ -298,6 +298,10 @@ TEST_F(FilmSoundTest, IsToldOf) {
   EXPECT_EQ(told["sound"]["speed"], 1.0);
   EXPECT_NEAR(told["sound"]["start_s"].get<double>(), 1.0, 0.04);  // the file's, whose pictures begin later than 0
   EXPECT_NEAR(told["sound"]["seconds"].get<double>(), 2.5, 0.05);
+  const nlohmann::json squared =
+      answer("video --out-fps 25 --out-angle 360 --from 1s --to 3.5s --pixel-aspect 4:3 two.mkv squared.mp4");
+  EXPECT_GT(squared["width"], told["width"]);
+  EXPECT_EQ(squared["sound"]["codec"], "aac");
   expect_says(told["notes"].dump(), "the clip has 2 tracks of sound, and the film track 2");
   EXPECT_NEAR(clap("two.mp4", 25).second, 25, 1.0);
   EXPECT_TRUE(answer("video --out-fps 25 --speed 0.5 two.mkv slow.mp4")["sound"].is_null());

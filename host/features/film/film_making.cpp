@@ -94,7 +94,8 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
   const auto sound = film_sound(session, request, frames, output, wish, sound_notes);
   const TimeToEnd is_kept;  // the frames so far, whatever a frame takes
   FrameQueue queue([&] { return output.open(capture, frame_format, sound); },
-                   session.waiting_pictures(frame_format.type));
+                   session.waiting_pictures(frame_format.type),
+                   output.writes_stills() ? capture.shape : output.shape(capture));
   const std::size_t count = frames.numbers.size();
   PictureLine<ExposedPicture> line(session.pictures_at_once(frame_format.type, count));
   std::size_t asked = 0;
@@ -206,25 +207,6 @@ Shape VideoOutput::shape(const CaptureFormat& capture) const {
   return std::max(shape.width, shape.height) <= kLargestFrameSide ? shape : capture.shape;
 }
 
-namespace {
-
-// Frames in square pixels.
-class SquareWriter final : public VideoWriter {
- public:
-  SquareWriter(const Shape& shape, std::unique_ptr<VideoWriter> writer) : shape_(shape), writer_(std::move(writer)) {}
-  void write(const Picture& picture, const std::string& text, std::uint64_t number) override {
-    writer_->write(in_square_pixels(picture, shape_), text, number);
-  }
-  void finish() override { writer_->finish(); }
-  [[nodiscard]] std::vector<std::string> notes() const override { return writer_->notes(); }
-
- private:
-  Shape shape_;
-  std::unique_ptr<VideoWriter> writer_;
-};
-
-}  // namespace
-
 std::unique_ptr<VideoWriter> VideoOutput::open(const CaptureFormat& capture,
                                                const OutputFormat& format,
                                                const std::optional<FilmSound>& sound) const {
@@ -232,12 +214,10 @@ std::unique_ptr<VideoWriter> VideoOutput::open(const CaptureFormat& capture,
   const CodeMaking making = CodeMaking::of(capture, format);
   const Shape frame = shape(capture);
   const bool is_squared = frame != capture.shape;
-  auto writer = open_video_writer(path_,
-                                  {frame, format.type, format.white_code, making.transfer, rate_, making.primaries,
-                                   is_squared ? Rational{1, 1} : capture.pixel_aspect, codec_setting_, sound},
-                                  *codec_);
-  if (!is_squared) return writer;
-  return std::make_unique<SquareWriter>(frame, std::move(writer));
+  return open_video_writer(path_,
+                           {frame, format.type, format.white_code, making.transfer, rate_, making.primaries,
+                            is_squared ? Rational{1, 1} : capture.pixel_aspect, codec_setting_, sound},
+                           *codec_);
 }
 
 bool VideoOutput::holds_sound() const {
