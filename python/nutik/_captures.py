@@ -12,19 +12,21 @@ from typing import Any, Iterable, Iterator, Literal, cast, Mapping, Optional, Se
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from . import _finds, _nutik
-from ._finds import Activity, Plate, Solution, Study
-from ._functions import Function, FunctionLike, function_of, read_functions
+from . import _nutik
+from ._finds import Activity, Plate, Solution, SolvedWish, Stretch, Study, freedom_word
+from ._functions import Function, FunctionLike, function_of, parse_functions, read_functions
 from ._masks import Mask, MaskLike, mask_of
 from ._nutik import InputError, MemoryTooLittle, UsageError
 from ._pictures import Picture, Pictures
 from ._told import Figures
-from ._words import (Axes, DataArray, DelayLike, Index, Path, Progress, Time, WrongType, axes_of, box_of, count_of, delays_ns,
-                     is_list, labelled, listed, settings_of, shortened, tag_of, time_word, warn)
+from ._words import (Axes, DataArray, DelayLike, Index, NutikNote, Path, Progress, Time, WrongType, axes_of, box_of, count_of,
+                     delays_ns, frozen, is_list, labelled, listed, settings_of, shortened, tag_of, time_word, warn)
+
 
 Codes = Union[NDArray[np.uint8], NDArray[np.uint16]]
 Functions = Union[FunctionLike, Mapping[int, FunctionLike], Path]
 
+_SETTINGS = ("start", "exposure", "shutter", "shutter_error", "normalize", "gain", "unmapped", "precision", "strict", "combine")
 _MOST_AT_ONCE = 4 << 30  # bytes of samples that one array takes
 
 
@@ -60,21 +62,19 @@ class Trace:
     __hash__ = None  # type: ignore[assignment]
 
     @classmethod
-    def _of(cls, arrays: dict[str, Any]) -> Trace:
-        for each in arrays.values():
-            if isinstance(each, np.ndarray):
-                each.flags.writeable = False
-        return cls(**arrays)
+    def _of(cls, told: dict[str, Any]) -> Trace:
+        steps = told.pop("steps")
+        values = steps["values"][:, :len(told["exposed"])]
+        ends = {name: np.stack([of[f"begin_{name}"], of[f"end_{name}"]], 1)
+                for name, of in (("ns", steps), ("gain", steps), ("light", values))}
+        return cls(**frozen(dict(times_ns=ends["ns"], gain=ends["gain"], light=ends["light"],
+                                 integral_ns=values["integral_ns"], sum_ns=values["sum_ns"], made=steps["is_made"], **told)))
 
 
 def _warn_of_black(still_gains: Mapping[int, float], negative: Optional[str]) -> None:
     if negative in (None, "saturate"):
         warn(f"M{tag}: the still gain is {gain:.6g}: whatever does not move comes out black; negative='offset' shows "
              "light below 0, and light itself (codes=False) keeps it" for tag, gain in still_gains.items() if gain < 0)
-
-
-def _corner_of(box: Optional[list[int]]) -> tuple[int, int]:
-    return (0, 0) if box is None else (box[0], box[1])
 
 
 class Capture:
@@ -136,23 +136,19 @@ class Capture:
         """
         keys: tuple[Any, ...] = key if isinstance(key, tuple) else (key,)
         picked, rest = (keys[0], keys[1:]) if keys and keys[0] is not Ellipsis else (slice(None), keys)
-        if isinstance(picked, slice):
-            numbers = range(*picked.indices(len(self)))
-            bytes_asked = len(numbers) * int(np.prod(self.shape[1:])) * self.dtype.itemsize
-            if bytes_asked > _MOST_AT_ONCE:
-                raise MemoryTooLittle(f"{len(numbers)} samples are {bytes_asked / 1e9:.1f} GB; take fewer at a time, or "
-                                      "expose them with render()")
-            forward = numbers if numbers.step > 0 else numbers[::-1]
-            held = self._held.samples(forward)
-            return cast(Codes, (held if numbers.step > 0 else held[::-1])[(slice(None), *rest)])
-        number = index(picked)
-        if not -len(self) <= number < len(self):
-            raise IndexError(f"sample {number} of {len(self)}")
-        return cast(Codes, self._held.samples([number % len(self)])[(0, *rest)])
+        numbers = np.arange(len(self))[picked if isinstance(picked, slice) else index(picked)]
+        bytes_asked = numbers.size * int(np.prod(self.shape[1:])) * self.dtype.itemsize
+        if bytes_asked > _MOST_AT_ONCE:
+            raise MemoryTooLittle(f"{numbers.size} samples are {bytes_asked / 1e9:.1f} GB; take fewer at a time, or "
+                                  "expose them with render()")
+        held = self._held.reader().samples(np.sort(numbers, axis=None).tolist())
+        if not isinstance(picked, slice):
+            return cast(Codes, held[(0, *rest)])
+        return cast(Codes, (held if picked.step is None or picked.step > 0 else held[::-1])[(slice(None), *rest)])
 
     def __iter__(self) -> Iterator[Codes]:
         reader = self._held.reader()
-        return (reader.sample(number) for number in range(len(self)))
+        return (cast(Codes, reader.samples([number])[0]) for number in range(len(self)))
 
     def __array__(self, dtype: DTypeLike = None, copy: Optional[bool] = None) -> NDArray[np.generic]:
         """All samples, where they take no more than 4 GiB; a copy always."""
@@ -190,8 +186,8 @@ class Capture:
         Returns:
         [records] with the fields x, y, start_ns, end_ns, code (of colour [3]); each pixel's in time order, row after row.
         Raises:
-        UsageError where there are no such pixels or samples; MemoryTooLittle where records take more than 4 GiB, whatever
-        `memory` is: ask for a region, or for fewer samples.
+        UsageError where there are no such pixels or samples; MemoryTooLittle where records take more than `memory` of
+        open() or encode(): ask for a region, or for fewer samples.
         Examples:
         >>> capture.records((3, 4, 1, 1), first=0, last=1)["end_ns"].tolist()
         [10000000]
@@ -203,22 +199,9 @@ class Capture:
         end = len(self) if last is None else count_of(last, "last")
         if not count_of(first, "first") < end <= len(self):
             raise UsageError(f"there are no samples from {first} to {end}; the capture has {len(self)}")
-        try:
-            places, samples, codes = self._held.records(box, first, end, progress)
-        except MemoryTooLittle:
-            raise MemoryTooLittle(f"the records of {box[2] * box[3]} pixels over {end - first} samples take more than 4 GiB, "
-                                  "the most of one call: ask for a part, region=(x, y, width, height), or for fewer "
-                                  "samples, first= and last=") from None
-        code: Any = ("code", self.dtype, (3,)) if codes.shape[1] == 3 else ("code", self.dtype)
-        made = np.empty(len(codes), [("x", np.uint32), ("y", np.uint32), ("start_ns", np.int64), ("end_ns", np.int64), code])
-        times = self.times_ns
-        made["x"], made["y"] = places[:, 0], places[:, 1]
-        made["start_ns"] = times[samples[:, 0], 0]
-        # A sample is held until the next one begins.
-        begins = np.append(times[1:, 0], times[-1, 1])
-        made["end_ns"] = begins[samples[:, 1] - 1]
-        made["code"] = codes if codes.shape[1] == 3 else codes[:, 0]
-        return made
+        row = np.dtype([("x", np.uint32), ("y", np.uint32), ("start_ns", np.int64), ("end_ns", np.int64),
+                        ("code", self.dtype, self.shape[3:])])
+        return self._held.records(box, first, end, row, progress)
 
     @property
     def rate(self) -> Fraction:
@@ -249,9 +232,7 @@ class Capture:
     def figures(self) -> Figures:
         """What it comes to, from `samples` to `codec`."""
         figures: dict[str, Any] = self._held.figures()
-        for name in ("rate", "shutter_angle", "pixel_aspect"):
-            figures[name] = Fraction(*figures[name])
-        return cast(Figures, figures)
+        return cast(Figures, {name: Fraction(*each) if isinstance(each, tuple) else each for name, each in figures.items()})
 
     def render(self, functions: Optional[Functions] = None, mask: Optional[MaskLike] = None, *,
                start: Optional[Time] = None, exposure: Optional[Time] = None, shutter: Optional[str] = None,
@@ -271,23 +252,14 @@ class Capture:
         mask : [height, width] of tags, or {tag: alpha} of shares (the first function gets what they leave), a nutik.Mask,
             or a file.
         start, exposure : the interval, in place of functions; 0 without a start. Of functions their time 0.
-        shutter, shutter_error : its shape, as of nutik.shutter().
-        feather : pixels that tags are blended over, 6 or '6px'.
         delay : how much later each pixel is exposed (docs/how-to/delay.md): 'rows:15ms', 'columns:0s..0.5s',
             'radial:-20ms..20ms', 'map.tif:0s..1s', or [height, width] of seconds or timedelta64.
-        normalize : 'support', 'integral', 'absolute' or 'seconds:S' (docs/explanation/model.md).
-        gain : multiplies the light.
-        unmapped : 'zero' lets tags without a function expose to black.
         precision : 'single', 'compensated', 'double' or 'fixed'; None: the fastest whose error bound is small enough.
         codes, dtype : float32 without them, or float64. With codes uint8 or uint16, the capture's own without dtype.
         transfer : of codes, sRGB without it; 'source': the capture's own.
-        negative : what codes say of light below 0, 'saturate', 'offset' or 'abs'.
         region : (x, y, width, height) in pixels, only these.
         bounds : also maps of what each pixel may be off by, Picture.bounds.
         strict : codes that may err by more than half of one raise ImpreciseError, and are no warning.
-        combine : what becomes of a pixel's light, its integral without it: 'mean', or of its samples, each times its
-            largest gain, the lightest, darkest or middle one, 'lighten', 'darken', 'median'.
-
         Returns:
         Picture, whose array is [height, width] or [height, width, 3]: light, of which 1 is white, or codes.
         Raises:
@@ -302,13 +274,9 @@ class Capture:
         >>> picture.array.shape, picture.error_bound < 1e-6
         ((24, 32), True)
         """
-        asked = self._exposure(functions, mask, start, exposure, shutter, shutter_error, feather, delay,
-                               normalize, gain, unmapped, strict, combine)
-        output = self._output(codes, dtype, transfer, negative)
-        box = None if region is None else box_of(region, "region")
-        held = _nutik.render(self._held, asked, output, box, None if precision is None else str(precision), bounds,
-                             progress)
-        picture = Picture(held, _corner_of(box))
+        asked, corner = self._exposure(locals())
+        held = _nutik.render(self._held, asked, self._output(codes, dtype, transfer, negative), bounds, progress)
+        picture = Picture(held, corner)
         warn(held.figures["warnings"])
         if picture.dtype.kind == "u":
             _warn_of_black({each["tag"]: each["still_gain"] for each in picture.plan["functions"]}, negative)
@@ -322,10 +290,11 @@ class Capture:
                     delay: Optional[DelayLike] = None, normalize: str = "support", gain: float = 1.0,
                     unmapped: Optional[str] = None, precision: Optional[str] = None, codes: bool = False,
                     dtype: DTypeLike = None, transfer: Optional[str] = None, negative: Optional[str] = None,
-                    region: Optional[Sequence[int]] = None, strict: bool = False,
+                    region: Optional[Sequence[int]] = None, bounds: bool = False, strict: bool = False,
+                    combine: Optional[Literal["integral", "mean", "lighten", "darken", "median"]] = None,
                     progress: Progress = None) -> Pictures:
         """Exposes many pictures in one call. Small ones (16384 values) with one function each are added up on the
-        processor, in double, in one pass over the capture; others are made one by one.
+        processor, in double, in one pass over the capture; others are made one by one, as those with bounds=True.
 
         Parameters:
         functions : a list, of each picture those that render() takes; or [pictures, samples], gains.
@@ -352,22 +321,19 @@ class Capture:
         if len(counts) > 1 or 0 in counts:
             said = ", ".join(f"{len(each)} {name}" for name, each in lists.items())
             raise UsageError(f"there are {said}: lists have one length, or one for all pictures")
-        count = counts.pop()
-        first = {name: each[0] for name, each in lists.items()}
-        asked = self._exposure(first.get("functions"), mask, first.get("starts"), first.get("exposures"), shutter,
-                               shutter_error, feather, delay, normalize, gain, unmapped, strict)
-        words = {name: [time_word(each, f"{name}[{i}]") for i, each in enumerate(lists.get(name, []))]
-                 for name in ("starts", "exposures")}
+        first = {name: lists.get(f"{name}s", [None])[0] for name in ("function", "start", "exposure")}
+        asked, corner = self._exposure({**locals(), **first, "functions": first["function"]})
+        starts, exposures = ([time_word(each, f"{name}[{i}]") for i, each in enumerate(lists.get(name, []))]
+                             for name in ("starts", "exposures"))
         held = [{tag: function._held for tag, function in self._functions(each, mask is not None).items()}
                 for each in lists.get("functions", [])]
-        box = None if region is None else box_of(region, "region")
-        array, bounds, saturated, told, still_gains = _nutik.render_many(
-            self._held, asked, count, words["starts"], words["exposures"], held,
-            self._output(codes, dtype, transfer, negative), box, None if precision is None else str(precision), progress)
+        array, errors, saturated, told, still_gains, maps = _nutik.render_many(
+            self._held, asked, counts.pop(), starts, exposures, held, self._output(codes, dtype, transfer, negative), bounds,
+            progress)
         warn(told)
         if array.dtype.kind == "u":
             _warn_of_black(still_gains, negative)
-        return Pictures._of(array, bounds, saturated, _corner_of(box))
+        return Pictures._of(array, errors, saturated, corner, maps)
 
     def trace(self, x: Optional[int] = None, y: Optional[int] = None, *, tag: Optional[int] = None,
               functions: Optional[Functions] = None, mask: Optional[MaskLike] = None, start: Optional[Time] = None,
@@ -392,19 +358,17 @@ class Capture:
             raise UsageError("what should be followed? Either a pixel, x and y, or a tag of the mask, tag=")
         if tag is not None and mask is None:
             raise UsageError("tag= is a value of a mask; add mask=")
-        asked = self._exposure(functions, mask, start, exposure, shutter, shutter_error, feather, delay,
-                               normalize, gain, unmapped)
+        asked, _ = self._exposure(locals())
         pixel = None if x is None else (count_of(x, "x"), count_of(y, "y"))
-        traces, _, told = _nutik.trace(self._held, asked, pixel, None if tag is None else tag_of(tag), progress)
+        traces, told = _nutik.trace(self._held, asked, pixel, None if tag is None else tag_of(tag), progress)
         warn(told)
-        return [Trace._of(arrays) for arrays in traces]
+        return [Trace._of(each) for each in traces]
 
     def plate(self, *, by: Optional[int] = None, codes: bool = False, dtype: DTypeLike = None,
               transfer: Optional[str] = None, progress: Progress = None) -> Plate:
         """The scene without what moves in it (docs/how-to/background.md).
 
         Parameters:
-        by : codes that the same light may differ by; None: by the capture's own noise.
         dtype : float32 without codes. With codes uint8 or uint16, the capture's own without dtype.
         Returns:
         Plate: a picture, and [height, width] of where it is a guess.
@@ -414,8 +378,14 @@ class Capture:
         >>> nutik.encode(np.full((9, 8, 8), 7, np.uint8), rate=9).plate(codes=True).picture.array[0, 0]
         7
         """
-        return _finds.plate(self._held, None if by is None else count_of(by, "by"),
-                            self._output(codes, dtype, transfer, None), progress)
+        output = self._output(codes, dtype, transfer, is_plate=True)
+        picture, uncertain, is_noise_known = _nutik.plate(self._held, None if by is None else count_of(by, "by"), output,
+                                                          progress)
+        if not is_noise_known:
+            warn(["nothing in the capture is still for long enough to tell its noise: codes that differ by up to 1/32 of "
+                  "white were taken for the same light; by= states another difference"])
+        uncertain.flags.writeable = False
+        return Plate(Picture(picture), uncertain)
 
     def activity(self, mask: Optional[MaskLike] = None, *, tag: Optional[int] = None, by: int = 0,
                  count_redrawn: bool = False, progress: Progress = None) -> Activity:
@@ -423,8 +393,6 @@ class Capture:
 
         Parameters:
         mask, tag : only pixels of the mask with this tag count, or with any tag but 0.
-        by : changes of no more than so many codes are none.
-        count_redrawn : samples at which a codec drew its picture anew count as those beside them without it.
         Returns:
         Activity: changes by sample and by pixel.
         Raises:
@@ -433,8 +401,15 @@ class Capture:
         >>> capture.activity().changed_pixels.shape
         (10,)
         """
-        return _finds.activity(self._held, mask_of(mask), None if tag is None else tag_of(tag), count_of(by, "by"),
-                               count_redrawn, progress)
+        if tag is not None and mask is None:
+            raise UsageError("tag= is a value of a mask; add mask=")
+        made = mask_of(mask)
+        told: dict[str, Any] = _nutik.activity(self._held, None if made is None else made._held,
+                                               None if tag is None else tag_of(tag), count_of(by, "by"), count_redrawn, progress)
+        warn(told.pop("notes"), NutikNote)
+        for name in ("busiest", "quietest"):
+            told[name] = told[name] and Stretch(**told[name])
+        return Activity(**frozen(told))
 
     def study(self, style: str = "trail", *, moments: Union[int, Sequence[Time], None] = None, spacing: str = "time",
               trail: Optional[str] = None, slit_from: str = "left", regions: Sequence[Sequence[int]] = (),
@@ -443,14 +418,8 @@ class Capture:
         """A motion study that finds its subject by itself (docs/how-to/study.md).
 
         Parameters:
-        style : 'trail', 'strobe', 'rear-curtain', 'frozen', 'clean' or 'slit'.
         moments : how many, or which times.
-        spacing : 'time' or 'distance'.
-        trail : 'even', 'fade', 'ramp' or 'none'.
-        slit_from : 'left', 'right', 'top' or 'bottom'.
         regions : (x, y, width, height) each with a subject of its own.
-        by : codes that the subject must differ by more than from the empty scene; None: 1/16 of white.
-        feather : pixels that its border is blended over; None: 2; 0 for slit's strips.
         Raises:
         InputError where nothing moves or everything does: the camera must stand still (align='rigid' where it is
         encoded).
@@ -461,22 +430,19 @@ class Capture:
         >>> sorted(nutik.encode(scene, rate=100).study("strobe", moments=3).functions)
         [0, 1, 2, 3]
         """
-        asked: Union[int, list[str], None]
-        if moments is None:
-            asked = None
-        elif isinstance(moments, (int, np.integer)):
-            asked = count_of(moments, "moments")
-        else:
-            asked = [time_word(time, "moments") for time in moments]
+        asked: Any = [time_word(each, "moments") for each in listed(moments)] if is_list(moments) else (
+            None if moments is None else count_of(moments, "moments"))
         moved = self._held.moved_camera()
         if moved:
             warn([f"{moved}; align='rigid' moves the clip's pictures back when it is encoded"])
-        settings = settings_of({"style": style, "spacing": spacing, "trail": trail, "slit_from": slit_from,
-                                "by": None if by is None else str(count_of(by, "by")),
-                                "feather": f"{feather:g}px" if isinstance(feather, (int, float)) else feather})
-        boxes = [box_of(each, "a region") for each in regions]
-        return _finds.study(self._held, settings, asked, boxes, self._output(codes, dtype, transfer, None),
-                            progress)
+        settings = settings_of({"style": style, "spacing": spacing, "trail": trail, "slit_from": slit_from, "feather": feather,
+                                "by": None if by is None else count_of(by, "by")})
+        told: dict[str, Any] = _nutik.study(self._held, settings, asked, [box_of(each, "a region") for each in regions],
+                                            self._output(codes, dtype, transfer, is_plate=style == "clean"), progress)
+        warn(told["notes"], NutikNote)
+        warn(told["picture"].figures.get("warnings", []))
+        return Study(Picture(told["picture"]), None if told["mask"] is None else Mask._of(told["mask"]),
+                     {tag: Function._of(held) for tag, held in told["functions"].items()}, told["moments"])
 
     def solve(self, functions: str, wishes: Sequence[str], *,
               free: Mapping[str, Union[str, Sequence[Time]]] = {}, mask: Optional[MaskLike] = None,
@@ -490,60 +456,58 @@ class Capture:
         wishes : 'M0 = plate', '500,120,80,60 gone', 'R1 <= 0.5'.
         free : of a gain (least, most), of a time (from, to) or (from, to, step).
         mask : whose tags M0 ... are.
-        regions : a second mask, whose values R0 ... are.
         Examples:
         >>> wished = capture.solve("M0{[0:g], [50000000:g], [50000001:0]}", ["all = 0.25"], free={"g": (0, 9)})
         >>> wished.is_kept, bool(0 < wished.gains["g"] < 9)
         (True, True)
         """
-        asked = self._asked(None, mask, feather, dict(start=start, normalize=normalize, gain=gain, unmapped=unmapped),
-                            None)
-        words = [_finds.freedom_word(name, each, functions) for name, each in free.items()]
+        asked = self._asked(None, locals())
+        words = [freedom_word(name, each, functions) for name, each in free.items()]
         region_mask = mask_of(regions)
-        return _finds.solve(self._held, functions, list(wishes), words, asked,
-                            None if region_mask is None else region_mask._held, progress)
+        told: dict[str, Any] = _nutik.solve(self._held, functions, list(wishes), words, asked,
+                                            None if region_mask is None else region_mask._held, progress)
+        told["wishes"] = [SolvedWish(**wish) for wish in told["wishes"]]
+        warn([*told.pop("warnings"), *([] if told["is_kept"] else [
+            f"not all wishes could be kept: the numbers are those with the least cost of all, {told['cost']:.2g}"])])
+        return Solution(functions=parse_functions(told["text"], name="the solution"), **told)
 
-    def _asked(self, functions: Optional[dict[int, Function]], mask: Optional[MaskLike],
-               feather: Union[str, float, None], stated: dict[str, Any],
-               delay: Optional[DelayLike]) -> _nutik.Exposure:
+    def _asked(self, functions: Optional[dict[int, Function]], stated: Mapping[str, Any],
+               box: Optional[list[int]] = None) -> _nutik.Exposure:
+        mask, feather, delay = (stated.get(name) for name in ("mask", "feather", "delay"))
         if feather is not None and mask is None:
             raise UsageError("feather= blends functions along the edges of a mask; add mask= and functions=")
-        first = min(functions) if functions else 0
-        made = mask_of(mask, rest=first)
+        made = mask_of(mask, rest=min(functions) if functions else 0)
         if made is not None and feather is not None:
             made = made.feathered(feather)
-        if stated.get("unmapped") not in (None, "zero"):
-            raise UsageError(f"unmapped={stated['unmapped']!r} is not known; the only choice is 'zero'")
         held = None if functions is None else {tag: each._held for tag, each in functions.items()}
-        tags = [] if functions is None or made is None else made._held.tags_in_use()
-        bare = ", ".join(str(tag) for tag in tags if functions and tag not in functions)
+        bare = ", ".join(str(tag) for tag in made._held.tags_in_use() if tag not in functions) if functions and made else ""
         if bare and not stated.get("unmapped"):
             raised = InputError(f"mask tags without a function: {bare}; give each one in functions=, or expose them to "
                                 "black (unmapped='zero')")
             raised.settings = ("unmapped='zero'",)
             raise raised
+        settings = settings_of({name: stated[name] for name in _SETTINGS if name in stated})
         if isinstance(delay, str):
-            stated = {**stated, "delay": delay}
+            settings["delay"] = delay
         times = None if delay is None or isinstance(delay, str) else delays_ns(delay)
-        return _nutik.Exposure(held, None if made is None else made._held, settings_of(stated), times)
+        return _nutik.Exposure(held, None if made is None else made._held, settings, times, box)
 
-    def _exposure(self, functions: Optional[Functions], mask: Optional[MaskLike], start: Optional[Time],
-                  exposure: Optional[Time], shutter: Optional[str], shutter_error: Optional[float],
-                  feather: Union[str, float, None], delay: Optional[DelayLike], normalize: str, gain: float,
-                  unmapped: Optional[str], strict: bool = False, combine: Optional[str] = None) -> _nutik.Exposure:
-        divides = combine != "mean" or normalize != "support"  # a mean says by what
-        stated = dict(start=start, exposure=exposure, shutter=shutter, shutter_error=shutter_error,
-                      normalize=normalize if divides else None, gain=gain, unmapped=unmapped, strict=strict, combine=combine)
-        if functions is None:
-            if mask is not None:
-                raise UsageError("a mask goes with functions=, not with a plain interval")
-            if exposure is None:
-                raise UsageError("an exposure needs a plain interval (start='0.4s', exposure='10ms') or functions=")
-            return self._asked(None, None, feather, stated, delay)
-        for name in ("exposure", "shutter", "shutter_error"):
-            if stated[name] is not None:
-                raise UsageError(f"{name}= describes a plain interval, functions= say themselves how long; use one")
-        return self._asked(self._functions(functions, mask is not None), mask, feather, stated, delay)
+    def _exposure(self, stated: dict[str, Any]) -> tuple[_nutik.Exposure, tuple[int, int]]:
+        """As the arguments of render() state it; and where its region begins."""
+        box = None if stated.get("region") is None else box_of(stated["region"], "region")
+        if stated.get("combine") == "mean" and stated["normalize"] == "support":
+            stated = {**stated, "normalize": None}  # a mean says by what
+        functions = None
+        if stated["functions"] is not None:
+            for name in ("exposure", "shutter", "shutter_error"):
+                if stated[name] is not None:
+                    raise UsageError(f"{name}= describes a plain interval, functions= say themselves how long; use one")
+            functions = self._functions(stated["functions"], stated["mask"] is not None)
+        elif stated["mask"] is not None:
+            raise UsageError("a mask goes with functions=, not with a plain interval")
+        elif stated["exposure"] is None:
+            raise UsageError("an exposure needs a plain interval (start='0.4s', exposure='10ms') or functions=")
+        return self._asked(functions, stated, box), (box[0], box[1]) if box else (0, 0)
 
     def _functions(self, functions: Functions, has_mask: bool) -> dict[int, Function]:
         if isinstance(functions, (str, PathLike)):
@@ -559,10 +523,7 @@ class Capture:
             raise UsageError("functions= is empty; an exposure has one at least")
         if not has_mask and len(functions) > 1:
             raise UsageError(f"there are {len(functions)} functions; mask= says where each applies")
-        made = {}
-        for tag, each in functions.items():
-            made[tag_of(tag)] = self._function_of(each, f"functions[{tag}]")
-        return made
+        return {tag_of(tag): self._function_of(each, f"functions[{tag}]") for tag, each in functions.items()}
 
     def _function_of(self, given: FunctionLike, what: str) -> Function:
         if isinstance(given, np.ndarray) and given.ndim == 1:
@@ -576,14 +537,15 @@ class Capture:
             return Function.from_ns(np.repeat(edges, 2), gains)
         return function_of(given, what, np.timedelta64(self.duration_ns, "ns"))
 
-    def _output(self, codes: bool, dtype: DTypeLike, transfer: Optional[str],
-                negative: Optional[str]) -> dict[str, str]:
+    def _output(self, codes: bool, dtype: DTypeLike, transfer: Optional[str], negative: Optional[str] = None, *,
+                is_plate: bool = False) -> dict[str, str]:
         kinds = ("uint8", "uint16") if codes else ("float32", "float64")
         kind = np.dtype(dtype).name if dtype is not None else self.dtype.name if codes else kinds[0]
         if kind not in kinds:
             other = "codes=True gives uint8 and uint16" if not codes else "codes are uint8 or uint16"
-            raise UsageError(f"dtype={kind} holds no {'codes' if codes else 'light'}: light is float32 or float64; "
-                             f"{other}")
+            raise UsageError(f"dtype={kind} holds no {'codes' if codes else 'light'}: light is float32 or float64; {other}")
+        if is_plate and kind == "float64":
+            raise UsageError("a plate's light is float32")
         return settings_of({"dtype": kind, "transfer": transfer, "negative": negative})
 
     def _repr_html_(self) -> str:

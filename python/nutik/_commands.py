@@ -23,7 +23,7 @@ from . import _nutik
 from ._docs import joined
 from ._nutik import DeviceError, Error, ImpreciseError, InputError, MemoryTooLittle, OutputError, UsageError
 from ._told import Json
-from ._words import NutikNote, Path, Progress, bytes_word, in_python, is_list, number_word, time_word, warn
+from ._words import NutikNote, Path, Progress, in_python, is_list, warn, word_of
 
 # A value, several, or of a command's option that takes two words a list of pairs.
 Value = Union[str, int, float, Fraction, "PathLike[str]"]
@@ -63,28 +63,9 @@ def _sleep_at_the_end() -> None:
         Event().wait()
 
 
-def _word(name: str, kind: str, value: Any) -> str:
-    """A value as the program reads it; `kind` is what its help has in that place."""
-    if isinstance(value, (str, PathLike)):
-        return fsdecode(value)
-    if "TIME" in kind:
-        return ",".join(time_word(each, name) for each in value) if is_list(value) else time_word(value, name)
-    if kind in ("RATE", "DEGREES"):
-        return number_word(value, name)
-    if kind == "SIZE":
-        return bytes_word(value, name)
-    if kind.startswith("WxH+") and is_list(value):
-        x, y, width, height = value
-        return f"{width}x{height}+{x}+{y}"
-    if is_list(value):
-        return ",".join(_word(name, "", each) for each in value)
-    return str(value) + ("px" if kind == "PIXELS" and name == "feather" else "")
-
-
 def _words(kind: str, name: str, value: Any) -> list[str]:
     kinds = kind.split()
-    return [] if not kinds else [_word(name, kind, value)] if len(kinds) == 1 else [
-        _word(name, each, part) for each, part in zip(kinds, value)]
+    return [word_of(name, each, part) for each, part in zip(kinds, [value] if len(kinds) < 2 else value)]
 
 
 def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Mapping[str, Any]) -> dict[str, Json]:
@@ -94,7 +75,7 @@ def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Map
         said["progress"] = [[]]
     for argument, value in stated.items():
         name = argument[:-1] if iskeyword(argument[:-1]) else argument
-        kind, _, is_repeated = arguments.get(name, ("", "", False))
+        kind, _, is_repeated, _ = arguments.get(name, ("", "", False, False))
         if value is None or value is False:
             continue
         said[name] = [_words(kind, name, each) for each in value] if is_repeated and is_list(value) else [

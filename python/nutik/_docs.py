@@ -21,8 +21,7 @@ _SECTION = re.compile(rf"^({'|'.join(_ORDER)}):\n", re.MULTILINE)
 _ENTRY = re.compile(r"^(\w+(?:, \w+)*) : (.*(?:\n[ \n].*)*)", re.MULTILINE)
 _WORKS = ("Works without Python's lock: any number of threads may use one capture. Ctrl-C ends it within half a second, "
           "with KeyboardInterrupt, and leaves no file that was not finished.")
-
-
+_COMMANDS = {"open": "encode", "join": "encode", **{name: name for name in ("encode", "study", "solve", "activity", "plate")}}
 _PLOTTED = {"ax": "axes of matplotlib, which are returned; None: the current ones.",
             "style": "what matplotlib's plot() takes: label='left'."}
 
@@ -110,8 +109,8 @@ def complete_all(offered: Iterable[object]) -> None:
             if hasattr(function, "__signature__"):  # a command, which has it all
                 continue
             name = function.__name__
-            command = {"open": "encode", "encode": "encode", "join": "encode", "study": "study", "solve": "solve"}
             is_of_capture = vars(Capture).get(name) is function
-            rows = _nutik.described(command.get(name, "expose"))[2] if name in command or is_of_capture else {}
-            told = {argument: in_python(row[1]) for argument, row in rows.items()}
-            complete(function, {**told, **shared, **exposed} if is_of_capture else {**told, **shared})
+            told = {}
+            for command in ("expose", _COMMANDS.get(name, "expose")) if name in _COMMANDS or is_of_capture else ():
+                told.update({argument: in_python(row[1]) for argument, row in _nutik.described(command)[2].items()})
+            complete(function, {**told, **shared, **(exposed if is_of_capture else {})})

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import Any, Optional, Union
+from typing import Any, Optional
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _nutik
-from ._functions import Function, parse_functions
+from ._functions import Function
 from ._masks import Mask
 from ._nutik import UsageError
 from ._pictures import Picture
-from ._words import Axes, NutikNote, Progress, axes_of, time_word, warn
+from ._words import Axes, axes_of, time_word
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,43 +87,6 @@ class Solution:
     is_kept: bool               # whether every wish is
 
 
-def plate(capture: _nutik.Capture, by: Optional[int], output: dict[str, str],
-          progress: Progress = None) -> Plate:
-    if output["dtype"] == "float64":
-        raise UsageError("a plate's light is float32")
-    picture, uncertain, is_noise_known = _nutik.plate(capture, by, output, progress)
-    if not is_noise_known:
-        warn(["nothing in the capture is still for long enough to tell its noise: codes that differ by up to 1/32 of "
-              "white were taken for the same light; by= states another difference"])
-    uncertain.flags.writeable = False
-    return Plate(Picture(picture), uncertain)
-
-
-def activity(capture: _nutik.Capture, mask: Optional[Mask], tag: Optional[int], by: int,
-             count_redrawn: bool, progress: Progress = None) -> Activity:
-    if tag is not None and mask is None:
-        raise UsageError("tag= is a value of a mask; add mask=")
-    told: dict[str, Any] = _nutik.activity(capture, None if mask is None else mask._held, tag, by, count_redrawn, progress)
-    warn(told.pop("notes"), NutikNote)
-    for name in ("changed_pixels", "changes", "redrawn"):
-        told[name].flags.writeable = False
-    for name in ("busiest", "quietest"):
-        told[name] = None if told[name] is None else Stretch(**told[name])
-    return Activity(**told)
-
-
-def study(capture: _nutik.Capture, settings: dict[str, str], moments: Union[int, list[str], None], regions: list[list[int]],
-          output: dict[str, str], progress: Progress = None) -> Study:
-    if settings["style"] == "clean" and output["dtype"] == "float64":
-        raise UsageError("a plate's light is float32")
-    told: dict[str, Any] = _nutik.study(capture, settings, moments, regions, output, progress)
-    warn(told["notes"], NutikNote)
-    picture = Picture(told["picture"])
-    warn(picture._held.figures.get("warnings", []))
-    return Study(picture, None if told["mask"] is None else Mask._of(told["mask"]),
-                 {tag: Function._of(held) for tag, held in told["functions"].items()}, told["moments"])
-
-
 def freedom_word(name: str, free: Any, functions: str) -> str:
     """`rest=-100..0`, `when=0.6s..0.8s/1f`."""
     if isinstance(free, str):
@@ -138,15 +100,3 @@ def freedom_word(name: str, free: Any, functions: str) -> str:
         words = [time_word(each, f"free[{name!r}]") for each in free]
         return f"{name}={words[0]}..{words[1]}" + (f"/{words[2]}" if len(words) == 3 else "")
     return f"{name}={float(free[0])!r}..{float(free[1])!r}"
-
-
-def solve(capture: _nutik.Capture, functions: str, wishes: list[str], free: list[str], asked: _nutik.Exposure,
-          regions: Optional[_nutik.Mask], progress: Progress = None) -> Solution:
-    told: dict[str, Any] = _nutik.solve(capture, functions, wishes, free, asked, regions, progress)
-    told_wishes = [SolvedWish(**wish) for wish in told.pop("wishes")]
-    warnings = told.pop("warnings")
-    if not told["is_kept"]:
-        warnings.append(f"not all wishes could be kept: the numbers are those with the least cost of all, "
-                        f"{told['cost']:.2g}")
-    warn(warnings)
-    return Solution(functions=parse_functions(told["text"], name="the solution"), wishes=told_wishes, **told)

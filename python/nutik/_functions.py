@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from os import fsdecode
 from typing import Any, Callable, Iterable, Mapping, Optional, Sequence, Union, overload
 
 import numpy as np
@@ -9,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import Axes, Path, Time, axes_of, path_word, reading, shortened, tag_of, time_ns, time_word, times_ns, warn
+from ._words import Axes, Path, Time, axes_of, reading, shortened, tag_of, time_ns, time_word, times_ns, warn
 
 _MIN_SAMPLES = 1024  # of a callable, evenly, before it is looked at more closely where it bends
 _MAX_SAMPLES = 1 << 20
@@ -32,8 +33,7 @@ class Function:
     """
 
     def __init__(self, times: Iterable[Time], gains: Iterable[float]) -> None:
-        at = times_ns(times, "times")
-        self._held = _nutik.Function(at, np.asarray(list(gains), np.float64))
+        self._held = _nutik.Function(times_ns(times, "times"), np.asarray(list(gains), np.float64))
 
     @classmethod
     def _of(cls, held: _nutik.Function) -> Function:
@@ -74,15 +74,8 @@ class Function:
 
     def __call__(self, times: Union[float, NDArray[np.float64]]) -> Union[float, NDArray[np.float64]]:
         """The gain at times in seconds, an array of any shape or a number; at a jump that of its later side."""
-        at = np.asarray(times, np.float64) * 1e9
-        points, gains = self._held.points()
-        last = len(points) - 1
-        begin = np.clip(np.searchsorted(points, at, side="right") - 1, 0, last)
-        end = np.minimum(begin + 1, last)
-        length = (points[end] - points[begin]).astype(np.float64)
-        share = np.clip((at - points[begin]) / np.where(length > 0, length, 1), 0, 1)
-        value = np.where(length > 0, gains[begin] + (gains[end] - gains[begin]) * share, gains[begin])
-        return np.asarray(value, np.float64) if value.ndim else float(value)
+        value = self._beside(np.asarray(times, np.float64) * 1e9)[1]
+        return value if value.ndim else float(value)
 
     @property
     def times(self) -> NDArray[np.float64]:
@@ -119,11 +112,9 @@ class Function:
             return NotImplemented
         times = np.union1d(self.times_ns, other.times_ns)
         before, after = (a + b for a, b in zip(self._beside(times), other._beside(times)))
-        is_twice = before != after
-        at = np.repeat(times, 1 + is_twice)
-        gains = np.repeat(after, 1 + is_twice)
-        gains[np.flatnonzero(np.diff(at, prepend=at[0] - 1, append=at[-1] + 1)[1:] == 0)] = before[is_twice]
-        return Function.from_ns(at, gains)
+        jumps = before != after
+        gains = np.stack([before, after], 1)[np.stack([jumps, np.ones_like(jumps)], 1)]
+        return Function.from_ns(np.repeat(times, 1 + jumps), gains)
 
     def __radd__(self, other: int) -> Function:
         if isinstance(other, int) and other == 0:  # sum() begins with it
@@ -144,8 +135,8 @@ class Function:
     def __neg__(self) -> Function:
         return self * -1
 
-    def _beside(self, times: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """The gain just before and just behind each of these times, whole nanoseconds."""
+    def _beside(self, times: NDArray[Any]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The gain just before and just behind each of these times in nanoseconds."""
         points, gains = self._held.points()
         value = np.interp((times - points[0]).astype(np.float64), (points - points[0]).astype(np.float64), gains)
         first, last = np.searchsorted(points, times, "left"), np.searchsorted(points, times, "right")
@@ -282,11 +273,8 @@ def fit(gain: Gain, start: Time, end: Time, *, error: float = 1e-3) -> Function:
     if largest == 0:
         raise UsageError("the function is 0 everywhere; there is nothing to expose")
     fitted_times, fitted_gains = _nutik.fitted(times, gains, error * largest).points()
-    if fitted_gains[0] != 0:
-        fitted_times, fitted_gains = np.insert(fitted_times, 0, fitted_times[0]), np.insert(fitted_gains, 0, 0.0)
-    if fitted_gains[-1] != 0:
-        fitted_times, fitted_gains = np.append(fitted_times, fitted_times[-1]), np.append(fitted_gains, 0.0)
-    return Function.from_ns(fitted_times, fitted_gains)
+    opens, closes = int(fitted_gains[0] != 0), int(fitted_gains[-1] != 0)
+    return Function.from_ns(np.pad(fitted_times, (opens, closes), "edge"), np.pad(fitted_gains, (opens, closes)))
 
 
 def parse_functions(text: str, *, name: str = "functions") -> dict[int, Function]:
@@ -301,9 +289,7 @@ def parse_functions(text: str, *, name: str = "functions") -> dict[int, Function
     >>> nutik.parse_functions("M0{[0:1], [20ms:0]}")[0](0.01)
     0.5
     """
-    functions, told = _nutik.parse_functions(text, name)
-    warn([told] if told else [])
-    return {tag: Function._of(held) for tag, held in functions.items()}
+    return _told(_nutik.parse_functions(text, name))
 
 
 def read_functions(path: Path) -> dict[int, Function]:
@@ -318,10 +304,13 @@ def read_functions(path: Path) -> dict[int, Function]:
     >>> nutik.read_functions("ramp.fn")
     {0: <nutik.Function [0:0], [100000000:1]>}
     """
-    with reading(path_word(path)):
-        functions, told = _nutik.read_functions(path_word(path))
-    warn([told] if told else [])
-    return {tag: Function._of(held) for tag, held in functions.items()}
+    with reading(fsdecode(path)):
+        return _told(_nutik.read_functions(fsdecode(path)))
+
+
+def _told(read: tuple[dict[int, _nutik.Function], str]) -> dict[int, Function]:
+    warn([read[1]] if read[1] else [])
+    return {tag: Function._of(held) for tag, held in read[0].items()}
 
 
 def write_functions(path: Path, functions: Mapping[int, FunctionLike]) -> None:
@@ -336,7 +325,7 @@ def write_functions(path: Path, functions: Mapping[int, FunctionLike]) -> None:
     >>> nutik.write_functions("box.fn", {128: nutik.boxcar(0, "10ms")})
     """
     lines = [function_of(function, f"functions[{tag}]").text(tag) for tag, function in sorted(functions.items())]
-    _nutik.write_text(path_word(path), "".join(line + "\n" for line in lines))
+    _nutik.write_text(fsdecode(path), "".join(line + "\n" for line in lines))
 
 
 def function_of(given: FunctionLike, what: str, duration: Time = 0) -> Function:

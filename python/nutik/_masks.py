@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from os import PathLike
+from functools import partial
+from os import PathLike, fsdecode
 from typing import Mapping, Optional, Union
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import Array, Path, Progress, path_word, reading, tag_of, whole
+from ._words import Array, Path, Progress, reading, tag_of, whole
 
 
 class Mask:
@@ -27,16 +28,12 @@ class Mask:
 
     def __init__(self, tags: ArrayLike) -> None:
         tags = np.asarray(whole(tags, "a mask's array of tags"))
-        if tags.dtype == bool:
-            tags = tags.astype(np.uint8)
-        if tags.dtype != np.uint8:
-            fits = tags.dtype.kind in "iu" and tags.size and tags.min() >= 0 and tags.max() <= 255
-            if not fits:
-                raise UsageError(f"a mask's tags are whole numbers 0 ... 255, and this array has dtype {tags.dtype}"
-                                 f"{'' if not tags.size else f' and values {tags.min()} ... {tags.max()}'}; for "
-                                 "shares of pixels see nutik.Mask.of_layers()")
-            tags = tags.astype(np.uint8)
-        self._held = _nutik.Mask(tags)
+        if tags.dtype not in (bool, np.uint8) and not (
+                tags.dtype.kind in "iu" and tags.size and tags.min() >= 0 and tags.max() <= 255):
+            raise UsageError(f"a mask's tags are whole numbers 0 ... 255, and this array has dtype {tags.dtype}"
+                             f"{'' if not tags.size else f' and values {tags.min()} ... {tags.max()}'}; for "
+                             "shares of pixels see nutik.Mask.of_layers()")
+        self._held = _nutik.Mask(tags.astype(np.uint8, copy=False))
 
     @classmethod
     def _of(cls, held: _nutik.Mask) -> Mask:
@@ -101,7 +98,7 @@ class Mask:
         if not self.is_soft:
             return Mask, (self.tags,)
         rest, *others = self.tags_in_use
-        return _of_shares, ({tag: self.share(tag) for tag in others}, rest)
+        return partial(Mask.of_layers, rest=rest), ({tag: self.share(tag) for tag in others},)
 
     def __repr__(self) -> str:
         height, width = self.tags.shape
@@ -124,8 +121,8 @@ def read_mask(path: Path, *, rest: int = 0) -> Mask:
     >>> nutik.read_mask("tags.png").tags.shape
     (24, 32)
     """
-    with reading(path_word(path)):
-        return Mask._of(_nutik.Mask.read(path_word(path), tag_of(rest)))
+    with reading(fsdecode(path)):
+        return Mask._of(_nutik.Mask.read(fsdecode(path), tag_of(rest)))
 
 
 def mask_of(given: Optional[MaskLike], rest: int = 0) -> Optional[Mask]:
@@ -139,19 +136,12 @@ def mask_of(given: Optional[MaskLike], rest: int = 0) -> Optional[Mask]:
     return Mask(given)
 
 
-def _of_shares(shares: dict[int, Array], rest: int) -> Mask:
-    return Mask.of_layers(shares, rest=rest)
-
-
 def _shares(alpha: ArrayLike, tag: int) -> NDArray[np.uint16]:
     alpha = np.asarray(whole(alpha, f"the alpha of tag {tag}"))
     most = _nutik.WHOLE_SHARE
-    if alpha.dtype == bool:
-        return np.asarray(alpha * np.uint16(most))
-    if alpha.dtype == np.uint8:
-        return np.asarray(alpha * np.uint16(most // 255))
-    if alpha.dtype == np.uint16:
-        return np.asarray(alpha)
+    steps = {"bool": most, "uint8": most // 255, "uint16": 1}.get(alpha.dtype.name)
+    if steps is not None:
+        return np.asarray(alpha * np.uint16(steps))
     if alpha.dtype.kind == "f":
         if alpha.size and not (np.min(alpha) >= 0 and np.max(alpha) <= 1):
             raise UsageError(f"the alpha of tag {tag} lies outside 0 ... 1: {np.min(alpha)} ... {np.max(alpha)}")

@@ -5,20 +5,19 @@ from __future__ import annotations
 from copy import deepcopy
 from dataclasses import dataclass
 from io import BytesIO
-from os import PathLike, remove, replace
-from os.path import exists, join
-from secrets import token_hex
+from os import PathLike, fsdecode
+from os.path import join
 from shutil import copyfileobj
 from tempfile import TemporaryDirectory
-from typing import BinaryIO, Optional, Union
+from typing import BinaryIO, Mapping, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from . import _nutik
-from ._nutik import OutputError, UsageError
+from ._nutik import UsageError
 from ._told import Plan, Statistics, Uncertainty
-from ._words import Array, DataArray, Index, Path, labelled, path_word
+from ._words import Array, DataArray, Index, Path, labelled
 
 
 def _bounds(light: Union[float, NDArray[np.float64]], pictures: Array) -> NDArray[np.float64]:
@@ -29,33 +28,42 @@ def _bounds(light: Union[float, NDArray[np.float64]], pictures: Array) -> NDArra
     return np.asarray(light + largest * 2.0 ** -24 + 2.0 ** -150, np.float64)  # the second: where floats are subnormal
 
 
+class _HasArray:
+    """What NumPy takes for its `array`."""
+
+    array: Array
+
+    def __array__(self, dtype: DTypeLike = None, copy: Optional[bool] = None) -> NDArray[np.generic]:
+        return self.array if dtype is None and not copy else self.array.astype(dtype or self.array.dtype, copy=bool(copy))
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of `array`."""
+        return self.array.shape
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class Pictures:
+class Pictures(_HasArray):
     """Many pictures of a capture."""
 
     array: Array         # [pictures, height, width] or [pictures, height, width, 3]: light or codes
     error_bounds: NDArray[np.float64]  # [pictures] float64: as error_bound of a Picture; NaN of the reference
     saturated: Optional[NDArray[np.uint64]]  # [pictures, 2]: as saturated of a Picture; None where light is kept
     corner: tuple[int, int] = (0, 0)   # x, y of their first pixel in the capture, of region=
+    bounds: Optional[dict[str, NDArray[np.float32]]] = None  # each [pictures, height, width]: as bounds of a Picture
 
     @classmethod
-    def _of(cls, array: Array, bounds: NDArray[np.float64], saturated: NDArray[np.uint64], corner: tuple[int, int]) -> Pictures:
+    def _of(cls, array: Array, errors: NDArray[np.float64], saturated: NDArray[np.uint64], corner: tuple[int, int],
+            maps: Sequence[Mapping[str, _nutik.Picture]]) -> Pictures:
         array.flags.writeable = False
-        return cls(array, _bounds(bounds, array), saturated if array.dtype.kind == "u" else None, corner)
-
-    def __array__(self, dtype: DTypeLike = None, copy: Optional[bool] = None) -> NDArray[np.generic]:
-        return self.array if dtype is None and not copy else self.array.astype(dtype or self.array.dtype, copy=bool(copy))
+        bounds = {term: np.stack([each[term].values() for each in maps]) for term in maps[0]} if maps else None
+        return cls(array, _bounds(errors, array), saturated if array.dtype.kind == "u" else None, corner, bounds)
 
     def __len__(self) -> int:
         return len(self.array)
 
     def __getitem__(self, key: Index) -> Array:
         return self.array[key]
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """The shape of `array`."""
-        return self.array.shape
 
     def __repr__(self) -> str:
         return f"<nutik.Pictures {' x '.join(map(str, self.shape))}, {self.array.dtype}>"
@@ -74,7 +82,7 @@ class Pictures:
         return labelled(self.array, first or {"picture": range(len(self))}, {"error_bounds": bounds}, self.corner)
 
 
-class Picture:
+class Picture(_HasArray):
     """A picture that was exposed, and what is known of it.
 
     `array` is the picture itself: numpy.asarray(picture) and matplotlib's imshow(picture) take it without a copy. Light
@@ -92,23 +100,15 @@ class Picture:
         self._array = held.values()
 
     @property
-    def array(self) -> Array:
+    def array(self) -> Array:  # type: ignore[override]
         """[height, width] or [height, width, 3]: light (float32, float64) or codes (uint8, uint16). Read-only; it
         keeps the picture's memory alive by itself."""
         return self._array
 
-    def __array__(self, dtype: DTypeLike = None, copy: Optional[bool] = None) -> NDArray[np.generic]:
-        return self._array if dtype is None and not copy else self._array.astype(dtype or self.dtype, copy=bool(copy))
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """The shape of `array`."""
-        return self._array.shape
-
     @property
     def dtype(self) -> np.dtype[np.generic]:
         """The type of `array`."""
-        return self._array.dtype
+        return self.array.dtype
 
     @property
     def corner(self) -> tuple[int, int]:
@@ -127,7 +127,7 @@ class Picture:
         (docs/explanation/accuracy.md). None of a plate, of the reference, and of combine='lighten', 'darken' and
         'median', which add nothing up: `uncertainty` has what bounds their light."""
         bound = self._held.figures.get("error_bound")
-        return None if bound is None else float(_bounds(bound["light"], self._array[None])[0])
+        return None if bound is None else float(_bounds(bound["light"], self.array[None])[0])
 
     @property
     def error_bound_in_codes(self) -> Optional[float]:
@@ -166,7 +166,7 @@ class Picture:
 
     def to_xarray(self) -> DataArray:
         """An xarray.DataArray [y, x(, channel)], no copy. Where there is an `error_bound`, it is an attribute."""
-        return labelled(self._array, {}, {"error_bound": self.error_bound}, self._corner)
+        return labelled(self.array, {}, {"error_bound": self.error_bound}, self._corner)
 
     def write(self, path: Union[Path, BinaryIO], *, kind: Optional[str] = None, quality: Optional[int] = None,
               keep_pixels: bool = False) -> None:
@@ -191,17 +191,11 @@ class Picture:
                 with open(join(folder, f"picture{kind}"), "rb") as file:
                     copyfileobj(file, path)
             return
-        name = path_word(path)
+        name = fsdecode(path)
         if name.lower().endswith(".npy"):
-            whole = f"{name}.{token_hex(8)}.tmp"
-            try:
-                with open(whole, "xb") as file:
-                    np.save(file, self._array)
-                replace(whole, name)
-            except OSError as error:
-                if exists(whole):
-                    remove(whole)
-                raise OutputError(f"{name} cannot be written: {error.strerror or error}") from None
+            made = BytesIO()
+            np.save(made, self.array)
+            _nutik.write_text(name, made.getvalue())
             return
         if self.dtype == np.float64:
             raise UsageError(f"{name}: files of light hold float32; expose the picture with that dtype, or codes=True, or write "

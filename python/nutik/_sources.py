@@ -5,8 +5,8 @@ from __future__ import annotations
 import datetime
 import inspect
 from dataclasses import dataclass
-from itertools import chain
-from os import PathLike
+from itertools import chain, count
+from os import PathLike, fsdecode
 from typing import Any, BinaryIO, Iterable, Optional, Protocol, Sequence, Union, cast
 
 import numpy as np
@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import _nutik
 from ._captures import Capture
 from ._nutik import InputError, UsageError
-from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, is_list, listed, path_word,
-                     reading, seconds_of, settings_of, time_ns, times_ns, warn, whole)
+from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, is_list, listed, reading,
+                     seconds_of, settings_of, time_ns, times_ns, warn, whole)
 
 
 class HasArray(Protocol):
@@ -46,19 +46,8 @@ def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_
 
     Parameters:
     path : a capture, a clip, or a file that is open for bytes.
-    rate : pictures a second that the clip was filmed with: 120, 29.97, '30000/1001'; without it what the file says.
-    white : the code that stands for white: 255, 4095 for 12 bits; without it what the file says. Of floats the light of
-        white, 1.0.
     crop : (x, y, width, height) of pixels, or 'WxH+X+Y': only this part of the pictures.
-    noise : the camera's noise, 'auto' or a noise file: changes within it are none, and samples are held as the light that
-        they are expected to have.
-    sigmas : how many deviations of the noise are no change; without it 3.
-    start_picture : light before the first event: a picture's file, or the same everywhere, 1 being white.
     align_along : a .csv file, moves pictures along a path that is known (docs/how-to/align.md).
-    device : an OpenCL device, by number or part of its name, several as '0,1', or 'all'; None: NUTIK_DEVICE, else the
-        first.
-    memory : the most that may be held: bytes, or '2GB'; None: half of the machine's.
-    renderer : 'reference' computes without OpenCL, slowly.
     progress : called with (steps done, of how many; 0: not known), by the thread that asked and at most 20 times a
         second. Study and solve do several things, each with steps of its own. What it raises ends the work, and comes through.
     Raises:
@@ -101,7 +90,6 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
         without it 'srgb' of uint8, 'linear' of uint16.
     white : the code of white, 255 or 65535 without it; no code may be larger. Of floats the light of white, which must be
         stated: they become 16-bit codes, to the nearest of 65535 steps; none may be negative.
-    codec : of an output: 'none', 'rice', 'lz4', 'zstd', 'zstd:9'.
     name : what messages call an array.
     clip : of a path what nutik.open() takes besides: begin, crop, raw, ...
     Returns:
@@ -116,16 +104,13 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
     >>> len(nutik.encode((np.full((8, 8), k, np.uint8) for k in range(20)), rate="30000/1001"))
     20
     """
-    computing = _computing(device, memory, renderer)
-    path = None if output is None else path_word(output)
-    stated: dict[str, object] = dict(rate=rate, shutter_angle=shutter_angle, transfer=transfer, white=white, primaries=primaries,
-                  pixel_aspect=pixel_aspect, deflicker=deflicker, between=between, align=align, align_to=align_to, align_along=align_along,
-                  unseen=unseen,
-                  tolerance=tolerance, noise=noise, sigmas=sigmas, tiles=tiles, block_samples=block_samples)
-    of_files = set(inspect.signature(open).parameters) - {"path", "progress"} - set(_COMPUTING) - set(stated)
+    given = locals()
+    computing, path = _computing(device, memory, renderer), None if output is None else fsdecode(output)
+    of_clips = set(inspect.signature(open).parameters) - {"path", "progress", *_COMPUTING}
+    stated = {argument: given[argument] for argument in {*of_clips, "tiles", "block_samples"} & set(given)}
     is_clip = isinstance(source, (str, PathLike)) or hasattr(source, "read")
     for argument in clip:
-        if argument not in of_files:
+        if argument not in of_clips:
             raise TypeError(f"encode() has no argument {argument!r}")
         if not is_clip:
             raise UsageError(f"{argument}= is said of a clip's files; these are pictures in memory")
@@ -135,11 +120,11 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
             raise UsageError("times= and exposures= are those of arrays; a table of stills lists those of files")
         with as_file(source, "clip") as clip_name, reading(clip_name):
             return _told(_nutik.encode_clip(clip_name, path, codec, settings_of(stated), computing, progress))
-    pictures, first, is_light = _pictures_of(source, white)
+    pictures, first, is_light = _pictures_of(source, white, name)
     if is_light:
         stated["white"] = None  # of the codes it is the last one
-    count = len(pictures) if isinstance(pictures, np.ndarray) else None
-    starts, intervals, exposed = _timing(rate, times, exposures, shutter_angle, count)
+    starts, intervals, exposed = _timing(rate, times, exposures, shutter_angle,
+                                         len(pictures) if isinstance(pictures, np.ndarray) else None)
     return _told(_nutik.encode_pictures(pictures, first, name, starts, intervals, exposed,
                                         float(white) if is_light and white else None, path, codec, settings_of(stated), computing, progress))
 
@@ -164,9 +149,9 @@ def join(captures: Iterable[Path], output: Path, *, device: Optional[str] = None
     """
     if isinstance(captures, (str, PathLike)):
         raise UsageError(f"captures= is {captures!r}: give a list of two captures or more")
-    paths = [path_word(each) for each in captures]
+    paths = [fsdecode(each) for each in captures]
     with reading(*paths):
-        return _told(_nutik.join(paths, path_word(output), _computing(device, memory, renderer), progress))
+        return _told(_nutik.join(paths, fsdecode(output), _computing(device, memory, renderer), progress))
 
 
 @dataclass(frozen=True)
@@ -209,48 +194,31 @@ def _told(opened: tuple[_nutik.Capture, list[str], list[str]]) -> Capture:
     return Capture(capture, notes)
 
 
-def _native(picture: Array) -> Array:
-    """The same in the machine's order of bytes."""
-    return picture if picture.dtype.isnative else picture.astype(picture.dtype.newbyteorder("="))
-
-
-def _codes_of_light(picture: Array, white: float) -> Array:
-    """Light, where `white` is white, as the nearest of 65535 steps."""
-    share = np.asarray(picture, np.float64) / white
-    if not (share >= 0).all() or (share > 1).any():
-        raise InputError(f"a value of light is none between 0 and white={white:g}; clip it, or state a larger white")
-    return (share * 65535 + 0.5).astype(np.uint16)
-
-
-def _is_light(picture: Array) -> bool:
-    return picture.dtype.kind == "f"
-
-
-def _check_picture(picture: Array, what: str) -> None:
-    if picture.dtype.newbyteorder("=") not in (np.uint8, np.uint16) and not _is_light(picture):
-        raise UsageError(f"{what} has dtype {picture.dtype}; codes are uint8 or uint16, light is of floats: say which with "
-                         ".astype()")
-    if picture.ndim not in (2, 3) or (picture.ndim == 3 and picture.shape[2] not in (1, 3)) or not picture.size:
-        raise UsageError(f"{what} has shape {picture.shape}; pictures are [height, width] or [height, width, 3], not "
-                         "empty")
-
-
-def _pictures_of(source: Any, white: Optional[float]) -> tuple[Any, Array, bool]:
+def _pictures_of(source: Any, white: Optional[float], name: str) -> tuple[Any, Array, bool]:
     """An array of all, or an iterator; the first picture; whether they were light, which becomes codes."""
     kinds: set[bool] = set()
 
     def codes_of(picture: Array, what: str) -> Array:
         picture = np.asarray(whole(picture, what))
-        _check_picture(picture, what)
-        kinds.add(_is_light(picture))
+        is_light = picture.dtype.kind == "f"
+        if picture.dtype.newbyteorder("=") not in (np.uint8, np.uint16) and not is_light:
+            raise UsageError(f"{what} has dtype {picture.dtype}; codes are uint8 or uint16, light is of floats: say which with "
+                             ".astype()")
+        if picture.ndim not in (2, 3) or (picture.ndim == 3 and picture.shape[2] not in (1, 3)) or not picture.size:
+            raise UsageError(f"{what} has shape {picture.shape}; pictures are [height, width] or [height, width, 3], not "
+                             "empty")
+        kinds.add(is_light)
         if len(kinds) > 1:
             raise InputError(f"{what} has dtype {picture.dtype}; some pictures are codes, and some are light")
-        if not _is_light(picture):
-            return _native(picture)
+        if not is_light:
+            return picture.astype(picture.dtype.newbyteorder("="), copy=False)
         if not isinstance(white, (int, float, np.number)) or not 0 < white < np.inf:
             raise UsageError(f"{what} has dtype {picture.dtype}: which value is white? white=1.0; light becomes the nearest of "
                              "65535 steps up to it")
-        return _codes_of_light(picture, white)
+        share = np.asarray(picture, np.float64) / white
+        if not (share >= 0).all() or (share > 1).any():
+            raise InputError(f"a value of light is none between 0 and white={white:g}; clip it, or state a larger white")
+        return (share * 65535 + 0.5).astype(np.uint16)
 
     if isinstance(source, Capture):
         raise UsageError(f"{source.name} is a capture already; pictures of it are numpy.asarray(capture)")
@@ -264,7 +232,7 @@ def _pictures_of(source: Any, white: Optional[float]) -> tuple[Any, Array, bool]
         if pictures.ndim not in (3, 4) or not len(pictures):
             raise UsageError(f"the array has shape {pictures.shape}; it is [samples, height, width] or [samples, height, "
                              "width, 3], with one sample at least")
-        first, is_light = codes_of(pictures[0], "a picture of the array"), _is_light(pictures)
+        first, is_light = codes_of(pictures[0], "a picture of the array"), pictures.dtype.kind == "f"
         if pictures.dtype != first.dtype:
             codes = np.empty(pictures.shape, first.dtype)
             for into, picture in zip(codes, pictures):
@@ -281,7 +249,15 @@ def _pictures_of(source: Any, white: Optional[float]) -> tuple[Any, Array, bool]
     except StopIteration:
         raise InputError("the iterable holds no picture") from None
     first = codes_of(given, "the first picture")
-    return chain([first], (codes_of(picture, "a picture") for picture in iterator)), first, _is_light(np.asarray(given))
+
+    def alike(number: int, picture: Array) -> Array:
+        codes = codes_of(picture, f"picture {number}")
+        if (*codes.shape, 1)[:3] != (*first.shape, 1)[:3] or codes.dtype != first.dtype:
+            raise InputError(f"{name}: picture {number} has shape {codes.shape} and dtype {codes.dtype}, the first one {first.shape} "
+                             f"and {first.dtype}; all must be alike")
+        return codes
+
+    return chain([first], map(alike, count(1), iterator)), first, np.asarray(given).dtype.kind == "f"
 
 
 def _lasting(length: Any, what: str, said: Any) -> Any:

@@ -12,6 +12,7 @@ import warnings
 from contextlib import contextmanager
 from decimal import Decimal
 from fractions import Fraction
+from functools import cache
 from os import PathLike, fsdecode
 from os.path import dirname, exists, join
 from importlib import import_module
@@ -140,7 +141,7 @@ def axes_of(ax: Optional[Axes], x: str, y: str) -> Axes:
 def as_file(source: Any, name: str) -> Iterator[str]:
     """The path of a source, or of a file with the bytes of one that is open to be read, which is gone afterwards."""
     if not hasattr(source, "read"):
-        yield path_word(source)
+        yield fsdecode(source)
         return
     with tempfile.TemporaryDirectory(prefix="nutik-") as folder:
         path = join(folder, name)
@@ -214,29 +215,24 @@ def number_word(value: Number, what: str) -> str:
     return f"{number.numerator}/{number.denominator}"
 
 
+_UNITS_S = {"W": Fraction(604_800), "D": Fraction(86_400), "h": Fraction(3600), "m": Fraction(60),
+            **{unit: Fraction(1, 1000 ** k) for k, unit in enumerate(("s", "ms", "us", "ns", "ps", "fs", "as"))}}
+
+
 def seconds_of(time: Time, what: str) -> Fraction:
     """A time in seconds, exactly; of words only those that count no pictures."""
     if isinstance(time, np.timedelta64):
+        unit, count = np.datetime_data(time.dtype)
         if np.isnat(time):
             raise UsageError(f"{what} is NaT, which is no time")
-        return Fraction(nanoseconds_of_delta(time, what), _SECOND_NS)
+        if unit not in _UNITS_S:
+            raise UsageError(f"{what} {time!r} has no unit of a fixed length; say numpy.timedelta64(10, 'ms')")
+        return int(time.astype(np.int64)) * count * _UNITS_S[unit]
     if isinstance(time, datetime.timedelta):
         return Fraction(time // datetime.timedelta(microseconds=1), 10 ** 6)
     if isinstance(time, str):
         return Fraction(_nutik.nanoseconds(time, what), _SECOND_NS)
     return exact(time, what)
-
-
-_UNITS_NS = {"W": Fraction(604_800 * 10 ** 9), "D": Fraction(86_400 * 10 ** 9), "h": Fraction(3_600 * 10 ** 9),
-             "m": Fraction(60 * 10 ** 9), "s": Fraction(10 ** 9), "ms": Fraction(10 ** 6), "us": Fraction(10 ** 3),
-             "ns": Fraction(1), "ps": Fraction(1, 10 ** 3), "fs": Fraction(1, 10 ** 6), "as": Fraction(1, 10 ** 9)}
-
-
-def nanoseconds_of_delta(time: np.timedelta64, what: str) -> int:
-    unit = np.datetime_data(time.dtype)[0]
-    if unit in ("generic", "Y", "M"):
-        raise UsageError(f"{what} {time!r} has no unit of a fixed length; say numpy.timedelta64(10, 'ms')")
-    return half_up(int(time.astype(np.int64)) * np.datetime_data(time.dtype)[1] * _UNITS_NS[unit])
 
 
 def time_word(time: Time, what: str) -> str:
@@ -271,45 +267,32 @@ def times_ns(times: Any, what: str) -> NDArray[np.int64]:
 def delays_ns(delays: Any) -> NDArray[np.int64]:
     """The delay of each pixel, of seconds or timedelta64, in whole nanoseconds, int64."""
     delays = np.asarray(whole(delays, "delay="))
+    made: NDArray[Any]
     if delays.dtype.kind == "m":
-        if np.isnat(delays).any() or np.datetime_data(delays.dtype)[0] in ("generic", "Y", "M"):
+        if np.isnat(delays).any() or np.datetime_data(delays.dtype)[0] not in _UNITS_S:
             raise UsageError("delay=: an array of timedelta64 needs a unit of a fixed length, 'ns', and no NaT")
         different, place = np.unique(delays, return_inverse=True)
-        return _checked_delays(times_ns(different, "delay=")[place].reshape(delays.shape))
-    if delays.dtype.kind not in "iuf":
+        made = times_ns(different, "delay=")[place].reshape(delays.shape)
+    elif delays.dtype.kind in "iuf":
+        made = np.floor(delays.astype(np.float64) * _SECOND_NS + 0.5)
+    else:
         raise UsageError(f"delay= is 'rows:15ms', 'map.tif:0s..1s' or an array of seconds, and this has dtype {delays.dtype}")
-    return _checked_delays(np.floor(delays.astype(np.float64) * _SECOND_NS + 0.5))
-
-
-def _checked_delays(nanoseconds: Any) -> NDArray[np.int64]:
-    if not (np.abs(nanoseconds.astype(np.float64)) < 2.0 ** 62).all():
+    if not (np.abs(made.astype(np.float64)) < 2.0 ** 62).all():
         raise UsageError("delay=: some pixel's delay is no number of seconds, or further away than 146 years")
-    return np.asarray(nanoseconds, np.int64)
+    return np.asarray(made, np.int64)
 
 
 def bytes_word(size: Union[int, str], what: str) -> str:
     """500000000, '500MB', '2GB', '1GiB' -> the number of bytes."""
-    units = {"KB": 10 ** 3, "MB": 10 ** 6, "GB": 10 ** 9, "TB": 10 ** 12, "KIB": 2 ** 10, "MIB": 2 ** 20,
-             "GIB": 2 ** 30, "TIB": 2 ** 40, "B": 1}
-    number: Any = size
-    factor = 1
-    if isinstance(size, str):
-        for name in sorted(units, key=len, reverse=True):
-            if size.upper().endswith(name):
-                number, factor = size[:-len(name)].strip(), units[name]
-                break
+    written = re.fullmatch(r"(.*?)\s*(?:([KMGT]?)(I?)B)?", str(size), re.IGNORECASE | re.DOTALL)
+    number, prefix, binary = written.groups(default="") if written else ("", "", "")
     try:
-        count = int(exact(number, what) * factor)
+        count = int(exact(number, what) * (1024 if binary else 1000) ** " KMGT".index(prefix.upper() or " "))
     except UsageError:
         count = 0
     if not 1 <= count < 2 ** 63:
         raise UsageError(f"{what}={size!r} is no size; write 500_000_000, '500MB', '2GB' or '1GiB'")
     return str(count)
-
-
-def path_word(path: Any) -> str:
-    """A path as text."""
-    return fsdecode(path)
 
 
 def count_of(value: Any, what: str) -> int:
@@ -340,25 +323,44 @@ def box_of(value: Any, what: str) -> list[int]:
     return box
 
 
-def settings_of(stated: dict[str, Any]) -> dict[str, str]:
+def word_of(name: str, kind: str, value: Any) -> str:
+    """A value as the program reads it; `kind` is what its help has in that place."""
+    if kind == "SIZE":
+        return bytes_word(value, name)
+    if isinstance(value, (str, PathLike)):
+        return fsdecode(value)
+    if kind == "TIME" or "TIME" in kind and not is_list(value):
+        return time_word(value, name)
+    if kind in ("RATE", "DEGREES", "W:H"):
+        return number_word(value, name)
+    if kind in ("K", "G", "E"):
+        return repr(float(value))
+    if kind == "WxH+X+Y":
+        x, y, width, height = box_of(value, name)
+        return f"{width}x{height}+{x}+{y}"
+    if is_list(value):
+        return ",".join(word_of(name, kind if "TIME" in kind else "", each) for each in value)
+    if kind.startswith("FILE|"):
+        raise WrongType(f"{name} is {value!r}, no path")
+    return f"{value:g}px" if name == "feather" else "1" if value is True else str(value)
+
+
+@cache
+def _kinds() -> dict[str, str]:
+    """How the schema writes the value of each argument."""
+    rows = [_nutik.described(command)[2] for command in ("study", "expose", "encode")]
+    return {name: row[0] for each in rows for name, row in each.items()}
+
+
+def settings_of(stated: Mapping[str, Any]) -> dict[str, str]:
     """What is stated, as words: None and False are not."""
-    settings = {}
-    for name, value in stated.items():
-        if value is None or value is False:
-            continue
-        if name in ("rate", "shutter_angle", "pixel_aspect", "sigmas", "gain", "shutter_error") and not isinstance(
-                value, str):
-            settings[name] = number_word(value, name) if name not in ("sigmas", "gain", "shutter_error") else repr(
-                float(value))
-        elif name in ("begin", "end", "align_to", "start", "exposure", "tick"):
-            settings[name] = time_word(value, name)
-        elif name == "crop" and not isinstance(value, str):
-            x, y, width, height = box_of(value, name)
-            settings[name] = f"{width}x{height}+{x}+{y}"
-        elif name == "memory":
-            settings[name] = bytes_word(value, name)
-        elif name in ("noise", "align_along") or (name == "start_picture" and not isinstance(value, (int, float))):
-            settings[name] = path_word(value)
-        else:
-            settings[name] = "1" if value is True else str(value)
-    return settings
+    return {name: word_of(name, _kinds().get(name, ""), value) for name, value in stated.items()
+            if value is not None and value is not False}
+
+
+def frozen(told: dict[str, Any]) -> dict[str, Any]:
+    """The same, whose arrays nobody writes to."""
+    for each in told.values():
+        if isinstance(each, np.ndarray):
+            each.flags.writeable = False
+    return told

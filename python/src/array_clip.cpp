@@ -1,17 +1,15 @@
-#include "array_clip.hpp"
-
+// Clips that lie in memory or are made picture by picture: NumPy arrays, and iterators of them.
 #include <atomic>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <utility>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "parts.hpp"
 
 namespace nutik::python {
-
-namespace py = pybind11;
-
 namespace {
 
 // An object of Python's, for threads that do not hold its lock.
@@ -77,123 +75,67 @@ ClipInfo info_of(const PictureNotes& notes, const ClipOptions& options) {
   return info;
 }
 
-class PicturesClip : public Clip {
+class PicturesClip final : public Clip {
  public:
-  PicturesClip(PictureNotes notes, const ClipOptions& options, std::string name)
-      : notes_(std::move(notes)), info_(info_of(notes_, options)), name_(std::move(name)) {
-    const std::uint32_t last = notes_.code_bytes == 1 ? 255 : 65'535;
-    if (info_.format.white_code < last) white_code_ = info_.format.white_code;
-  }
+  using Next = std::function<std::optional<Raster>()>;  // none: there is no other
+
+  PicturesClip(const PictureNotes& notes, const ClipOptions& options, std::string name, Next next)
+      : notes_(notes), info_(info_of(notes, options)), name_(std::move(name)), next_(std::move(next)) {}
 
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
 
- protected:
-  void take(const Raster& picture, std::span<std::byte> raster) {
-    copy_raster(picture, notes_, raster);
-    if (white_code_) {
-      const std::uint32_t code = largest_code(raster, notes_.code_bytes);
-      if (code > *white_code_) {
-        throw InputError(
-            format("{}: picture {} has the code {}, above white, {}", name_, taken_, code, *white_code_),
-            {Setting::white_code});
-      }
-    }
+  bool read(std::span<std::byte> raster) override {
+    const std::optional<Raster> picture = next_();
+    if (!picture) return false;
+    copy_raster(*picture, notes_, raster);
+    const std::uint32_t white = info_.format.white_code, last = notes_.code_bytes == 1 ? 255 : 65'535;
+    const std::uint32_t code = white < last ? largest_code(raster, notes_.code_bytes) : 0;
+    if (code > white)
+      throw InputError(format("{}: picture {} has the code {}, above white, {}", name_, taken_, code, white),
+                       {Setting::white_code});
     ++taken_;
+    return true;
   }
 
+ private:
   PictureNotes notes_;
   ClipInfo info_;
   std::string name_;
+  Next next_;
   std::uint64_t taken_ = 0;
-
- private:
-  std::optional<std::uint32_t> white_code_;  // none: no code is larger
-};
-
-class ArrayClip final : public PicturesClip {
- public:
-  ArrayClip(Held array, Raster first, py::ssize_t stride, const PictureNotes& notes,
-            const ClipOptions& options, std::string name)
-      : PicturesClip(notes, options, std::move(name)),
-        array_(std::move(array)),
-        next_(first),
-        stride_(stride) {}
-
-  bool read(std::span<std::byte> raster) override {
-    if (taken_ == notes_.sample_count) return false;
-    take(next_, raster);
-    next_.first += stride_;
-    return true;
-  }
-
- private:
-  Held array_;
-  Raster next_;
-  py::ssize_t stride_;  // from one picture to the next
-};
-
-class IteratorClip final : public PicturesClip {
- public:
-  IteratorClip(Held pictures, const PictureNotes& notes, const ClipOptions& options, std::string name)
-      : PicturesClip(notes, options, std::move(name)), pictures_(std::move(pictures)) {}
-
-  bool read(std::span<std::byte> raster) override {
-    const py::gil_scoped_acquire locked;
-    PyObject* const next = PyIter_Next(pictures_->ptr());
-    if (next == nullptr) {
-      if (PyErr_Occurred() != nullptr) throw py::error_already_set();
-      return false;
-    }
-    const auto picture = py::array::ensure(py::reinterpret_steal<py::object>(next));
-    check(picture);
-    take(raster_of(picture, 0), raster);
-    return true;
-  }
-
- private:
-  void check(const py::array& picture) const {
-    if (!picture) throw py::error_already_set();
-    const Shape& shape = notes_.shape;
-    const auto is = [&](py::ssize_t axis, std::uint32_t size) {
-      return picture.shape(axis) == static_cast<py::ssize_t>(size);
-    };
-    const bool fits =
-        (picture.ndim() == 2 && shape.channels == 1 && is(0, shape.height) && is(1, shape.width)) ||
-        (picture.ndim() == 3 && is(0, shape.height) && is(1, shape.width) && is(2, shape.channels));
-    if (fits && is_of_native(picture)) return;
-    throw InputError(format(
-        "{}: picture {} has shape {} and dtype {}, the first one {} x {} pixels, {} channel{} "
-        "of {} bits; all must be alike",
-        name_, taken_, std::string(py::str(picture.attr("shape"))), std::string(py::str(picture.dtype())),
-        shape.width, shape.height, shape.channels, shape.channels == 1 ? "" : "s", 8 * notes_.code_bytes));
-  }
-  [[nodiscard]] bool is_of_native(const py::array& picture) const {
-    return notes_.code_bytes == 1 ? py::isinstance<py::array_t<std::uint8_t>>(picture)
-                                  : py::isinstance<py::array_t<std::uint16_t>>(picture);
-  }
-
-  Held pictures_;
 };
 
 }  // namespace
 
 OpenClip open_array(const py::array& pictures, PictureNotes notes, ClipOptions options, std::string name) {
-  const Raster first = raster_of(pictures, 1);
-  return [array = held(pictures), first, stride = pictures.strides(0), notes = std::move(notes),
-          options = std::move(options), name = std::move(name)]() -> std::unique_ptr<Clip> {
-    return std::make_unique<ArrayClip>(array, first, stride, notes, options, name);
+  return [array = held(pictures), first = raster_of(pictures, 1), stride = pictures.strides(0),
+          notes = std::move(notes), options = std::move(options), name = std::move(name)] {
+    return std::make_unique<PicturesClip>(
+        notes, options, name, [array, next = first, stride, left = notes.sample_count]() mutable {
+          const std::optional<Raster> picture = left > 0 ? std::optional(next) : std::nullopt;
+          next.first += left > 0 ? stride : 0;
+          left -= left > 0 ? 1 : 0;
+          return picture;
+        });
   };
 }
 
-OpenClip open_iterator(const py::iterator& pictures, PictureNotes notes, ClipOptions options,
-                       std::string name) {
+OpenClip open_iterator(const py::iterator& pictures, PictureNotes notes, ClipOptions options, std::string name) {
   return [iterator = held(pictures), is_open = std::make_shared<std::atomic_flag>(), notes = std::move(notes),
-          options = std::move(options), name = std::move(name)]() -> std::unique_ptr<Clip> {
-    if (is_open->test_and_set()) {
+          options = std::move(options), name = std::move(name)] {
+    if (is_open->test_and_set())
       throw UsageError(
           format("{} can be read once, and what is asked for reads it twice; pass an array", name));
-    }
-    return std::make_unique<IteratorClip>(iterator, notes, options, name);
+    return std::make_unique<PicturesClip>(
+        notes, options, name, [iterator, picture = Held()]() mutable -> std::optional<Raster> {
+          const py::gil_scoped_acquire locked;
+          picture.reset();  // before the next one is made
+          PyObject* const next = PyIter_Next(iterator->ptr());
+          if (next == nullptr && PyErr_Occurred() != nullptr) throw py::error_already_set();
+          if (next == nullptr) return std::nullopt;
+          picture = held(py::reinterpret_steal<py::object>(next));
+          return raster_of(py::reinterpret_borrow<py::array>(*picture), 0);
+        });
   };
 }
 

@@ -1,15 +1,12 @@
 // Captures: opened, encoded from clips and from arrays, and what is known of them.
-#include <pybind11/stl.h>
-
+#include <cstddef>
+#include <cstring>
 #include <deque>
 #include <mutex>
 
-#include "align/alignment.hpp"
-#include "array_clip.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/memory_needs.hpp"
-#include "errors.hpp"
 #include "features/captures/capture_figures.hpp"
 #include "features/captures/joining.hpp"
 #include "features/schema/option.hpp"
@@ -18,7 +15,6 @@
 #include "imev/sample_cursor.hpp"
 #include "parts.hpp"
 #include "session/clips/encoding.hpp"
-#include "working.hpp"
 
 namespace nutik::python {
 namespace {
@@ -48,8 +44,9 @@ Opening opening_of(const std::string& path, const Settings& settings, const Sett
   return {clip_request(stated_options(CommandId::encode, settings), path), devices_of(computing), {}};
 }
 
-std::shared_ptr<OpenCapture> opened(const Opening& terms, const py::object& progress) {
-  return without_lock([&](const Stopping& stopping) {
+// A capture, what is doubtful about it, and what a person should know of the clip.
+py::tuple opened(const Opening& terms, const py::object& progress) {
+  const auto capture = without_lock([&](const Stopping& stopping) {
     Session::Terms how;
     how.progress = stopping.progress();
     how.stop = stopping.stop;
@@ -57,18 +54,15 @@ std::shared_ptr<OpenCapture> opened(const Opening& terms, const py::object& prog
     auto session = std::make_unique<Session>(terms.source, terms.devices, how);
     return std::make_shared<OpenCapture>(OpenCapture{terms.source.path.string(), std::move(session)});
   }, progress);
-}
-
-// A capture, what is doubtful about it, and what a person should know of the clip.
-py::tuple told_of(std::shared_ptr<OpenCapture> capture, std::vector<std::string> warnings,
-                  const std::vector<Note>& notes) {
-  return py::make_tuple(std::move(capture), std::move(warnings), note_texts(notes, Dialect::python));
-}
-
-py::tuple opened_and_told(const Opening& terms, const py::object& progress) {
-  std::shared_ptr<OpenCapture> capture = opened(terms, progress);
   const Session& session = *capture->session;
-  return told_of(capture, session.warnings(), session.notes());
+  return py::make_tuple(capture, session.warnings(), note_texts(session.notes(), Dialect::python));
+}
+
+// The capture that a file now holds.
+py::object opened_file(const std::string& path, std::shared_ptr<Devices> devices) {
+  Opening terms{{}, std::move(devices), {}};
+  terms.source.path = path;
+  return opened(terms, py::none())[0];
 }
 
 // To a file, or to a temporary capture.
@@ -77,41 +71,29 @@ py::tuple encoded(const Opening& terms, const std::optional<std::string>& output
   const tik::Codec packed = tik::Codec::parse(codec);
   if (output && !is_tik(*output))
     throw UsageError(format("{} is no name for a capture, which ends in .tik", *output));
-  if (!output) return opened_and_told(terms, progress);
+  if (!output) return opened(terms, progress);
   const EncodeRequest request{*output, packed};
-  EncodedCapture made = without_lock([&](const Stopping& stopping) {
+  const EncodedCapture made = without_lock([&](const Stopping& stopping) {
     const MemoryBudget& memory = terms.devices->request().memory;
     return terms.open ? encode(terms.source, terms.open, request, memory, stopping.progress(), stopping.stop)
                       : encode(terms.source, request, memory, stopping.progress(), stopping.stop);
   }, progress);
-  Opening of_file;
-  of_file.source.path = *output;
-  of_file.devices = terms.devices;
-  return told_of(opened(of_file, py::none()), std::move(made.warnings), made.notes);
+  return py::make_tuple(opened_file(*output, terms.devices), made.warnings, note_texts(made.notes, Dialect::python));
 }
 
-py::tuple open(const std::string& path, const Settings& settings, const Settings& computing,
-               const py::object& progress) {
-  return opened_and_told(opening_of(path, settings, computing), progress);
-}
-
-py::tuple encode_clip(const std::string& path, const std::optional<std::string>& output,
-                      const std::string& codec, const Settings& settings, const Settings& computing,
-                      const py::object& progress) {
+py::tuple encode_clip(const std::string& path, const std::optional<std::string>& output, const std::string& codec,
+                      const Settings& settings, const Settings& computing, const py::object& progress) {
   if (is_tik(path)) throw UsageError(format("{} is a capture already; nutik.open() opens it", path));
-  return encoded(opening_of(path, settings, computing), output,
-                 codec, progress);
+  return encoded(opening_of(path, settings, computing), output, codec, progress);
 }
 
-py::tuple joined(const std::vector<std::string>& captures, const std::string& output,
-                 const Settings& computing, const py::object& progress) {
+py::tuple joined(const std::vector<std::string>& captures, const std::string& output, const Settings& computing,
+                 const py::object& progress) {
   const JoinRequest request{{captures.begin(), captures.end()}, output};
   const Joined made =
       without_lock([&](const Stopping& stopping) { return join(request, stopping.progress()); }, progress);
-  Opening of_file;
-  of_file.source.path = output;
-  of_file.devices = devices_of(computing);
-  return told_of(opened(of_file, py::none()), {}, made.notes);
+  const auto capture = opened_file(output, devices_of(computing));
+  return py::make_tuple(capture, py::list(), note_texts(made.notes, Dialect::python));
 }
 
 // `first` is a picture: of an iterator its first one, which it will return again. Times are those of ClipTiming.
@@ -143,53 +125,34 @@ py::tuple encode_pictures(const py::object& pictures, const py::array& first, co
 }
 
 py::array times_ns(const OpenCapture& capture) {
-  const Timeline& timeline = capture.session->timeline();
-  const std::uint64_t count = timeline.sample_count();
-  std::vector<std::int64_t> times;
-  times.reserve(2 * count);
-  for (std::uint64_t k = 0; k < count; ++k) {
-    times.push_back(timeline.start_ns(k));
-    times.push_back(timeline.end_ns(k));
+  const auto count = static_cast<py::ssize_t>(capture.timeline().sample_count());
+  py::array_t<std::int64_t> times({count, py::ssize_t{2}});
+  for (py::ssize_t k = 0; k < count; ++k) {
+    times.mutable_at(k, 0) = capture.timeline().start_ns(static_cast<std::uint64_t>(k));
+    times.mutable_at(k, 1) = capture.timeline().end_ns(static_cast<std::uint64_t>(k));
   }
-  return array_of(times, {static_cast<py::ssize_t>(count), 2});
+  return times;
 }
 
-std::vector<std::string> facts(const OpenCapture& capture) {
-  return capture.session->capture().header().facts;
-}
+// No Fraction: that would run Python's code within ours, where its end may stop it.
+py::tuple fraction(const Rational& number) { return py::make_tuple(number.numerator, number.denominator); }
 
 py::dict figures(const OpenCapture& capture) {
-  Session& session = *capture.session;
-  tik::Reader& reader = session.capture();
-  const CaptureFormat& format = session.format();
-  const Timeline& timeline = session.timeline();
+  tik::Reader& reader = capture.session->capture();
+  const CaptureFormat& format = capture.session->format();
+  const Timeline& timeline = capture.timeline();
   const CaptureFigures held = without_lock([&](const Stopping&) { return nutik::figures_of(reader); });
   const auto& [still, rows, dense, records] = held.tiles;
-  py::dict tiles;
-  tiles["still"] = still;
-  tiles["rows"] = rows;
-  tiles["dense"] = dense;
-  tiles["records"] = records;
-  py::dict told;
-  told["samples"] = timeline.sample_count();
-  told["duration_ns"] = timeline.duration_ns();
-  const auto pair = [](const Rational& number) { return py::make_tuple(number.numerator, number.denominator); };
-  told["rate"] = pair(timeline.rate());
-  told["is_constant_rate"] = timeline.is_constant();
-  told["shutter_angle"] = pair(timeline.shutter_angle());
-  told["white"] = format.white_code;
-  told["transfer"] = format.transfer.text();
-  told["primaries"] = std::string(to_text(format.primaries));
-  told["pixel_aspect"] = pair(format.pixel_aspect);
-  told["tolerance"] = format.noise.tolerance;
-  told["blocks"] = reader.block_count();
-  told["records"] = held.record_count;
-  told["tiles"] = tiles;
-  told["file_bytes"] = reader.file_bytes();
-  told["raw_bytes"] = held.raw_bytes;
-  told["memory_bytes"] = held.payload_bytes;
-  told["codec"] = reader.header().codec;
-  return told;
+  return py::dict(
+      "samples"_a = timeline.sample_count(), "duration_ns"_a = timeline.duration_ns(),
+      "rate"_a = fraction(timeline.rate()), "is_constant_rate"_a = timeline.is_constant(),
+      "shutter_angle"_a = fraction(timeline.shutter_angle()), "white"_a = format.white_code,
+      "transfer"_a = format.transfer.text(), "primaries"_a = to_text(format.primaries),
+      "pixel_aspect"_a = fraction(format.pixel_aspect), "tolerance"_a = format.noise.tolerance,
+      "blocks"_a = reader.block_count(), "records"_a = held.record_count,
+      "tiles"_a = py::dict("still"_a = still, "rows"_a = rows, "dense"_a = dense, "records"_a = records),
+      "file_bytes"_a = reader.file_bytes(), "raw_bytes"_a = held.raw_bytes, "memory_bytes"_a = held.payload_bytes,
+      "codec"_a = reader.header().codec);
 }
 
 // The codes that are held at samples. It keeps the block of the one before: samples in a row unpack each block once.
@@ -207,10 +170,9 @@ class SampleReader {
 
   [[nodiscard]] const CaptureFormat& format() const { return capture_->session->format(); }
   // [axes..., height, width(, 3)]
-  [[nodiscard]] py::array rasters(std::vector<py::ssize_t> axes) const {
-    const std::vector<py::ssize_t> sides = axes_of(format().shape);
-    axes.insert(axes.end(), sides.begin(), sides.end());
-    return {format().code_bytes == 1 ? py::dtype::of<std::uint8_t>() : py::dtype::of<std::uint16_t>(), axes};
+  [[nodiscard]] py::array rasters(Axes axes) const {
+    const ValueType type = format().code_bytes == 1 ? ValueType::code8 : ValueType::code16;
+    return {dtype_of(type), axes_of(format().shape, std::move(axes))};
   }
 
  private:
@@ -231,88 +193,108 @@ class SampleReader {
   std::uint64_t first_ = 0;  // a cursor only goes on
 };
 
-// At samples in increasing order, [samples, height, width(, 3)].
-py::array samples(std::shared_ptr<OpenCapture> capture, const std::vector<std::uint64_t>& numbers) {
-  SampleReader reader(std::move(capture));
+// At samples in increasing order, [samples, height, width(, 3)]. A single one is read without another thread.
+py::array samples(SampleReader& reader, const std::vector<std::uint64_t>& numbers) {
   py::array rasters = reader.rasters({static_cast<py::ssize_t>(numbers.size())});
-  auto* bytes = static_cast<std::byte*>(rasters.mutable_data());
-  without_lock([&](const Stopping& stopping) {
-    for (const std::uint64_t number : numbers) {
-      if (stopping.stop.stop_requested()) throw Cancelled();
-      reader.read(number, {bytes, reader.format().sample_bytes()});
-      bytes += reader.format().sample_bytes();
+  auto* const bytes = static_cast<std::byte*>(rasters.mutable_data());
+  const auto read = [&](const std::stop_token& stop) {
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (stop.stop_requested()) throw Cancelled();
+      reader.read(numbers[i], {bytes + i * reader.format().sample_bytes(), reader.format().sample_bytes()});
     }
-  });
+  };
+  if (numbers.size() > 1) {
+    without_lock([&](const Stopping& stopping) { read(stopping.stop); });
+  } else {
+    const Unlocked released;
+    read({});
+  }
   return rasters;
 }
 
-py::array sample(SampleReader& reader, std::uint64_t number) {
-  py::array raster = reader.rasters({});
-  auto* const bytes = static_cast<std::byte*>(raster.mutable_data());
-  const Unlocked released;
-  reader.read(number, {bytes, reader.format().sample_bytes()});
-  return raster;
-}
-
-// What pixels of a box hold between two samples, from one change to the next: of each record the pixel's place, the
-// samples at which it begins and ends, and its codes; of each pixel in time order.
-py::tuple records(const OpenCapture& capture, const std::vector<std::uint32_t>& box, std::uint64_t first,
-                  std::uint64_t last, const py::object& progress) {
-  Session& session = *capture.session;
-  const Shape& shape = session.format().shape;
-  const Rectangle region{box[0], box[1], box[2], box[3]};
-  struct Record {
-    std::uint64_t begin = 0, end = 0;
-    std::array<std::uint16_t, 3> codes{};
-  };
-  std::vector<std::vector<Record>> found(std::size_t{region.width} * region.height);
-  constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30;
-  constexpr std::uint64_t kBytes = 3 * sizeof(Record) + 40;  // of a record: growing, copied, and in the array
-  std::vector<std::uint32_t> places;
-  std::vector<std::uint64_t> times;
-  std::vector<std::uint16_t> codes;
-  without_lock([&](const Stopping& stopping) {
-    const ReportedProgress report = stopping.progress();
-    std::vector<ChangeRecord> history;
-    std::uint64_t count = 0;
-    for_each_block(session.capture(), {first, last}, [&](const BlockView& block) {
-      const SampleRange range = block.extent().range();
-      const std::uint64_t from = std::max(first, range.first);
-      const TileGrid grid(shape);
-      auto pixel = found.begin();
-      for (std::uint32_t y = region.y; y < region.y + region.height; ++y) {
-        report(from - first + (y - region.y) * (std::min(last, range.last) - from) / region.height, last - first);
-        for (std::uint32_t x = region.x; x < region.x + region.width; ++x, ++pixel) {
-          block.read_history(grid.tile_of(x, y), TileGrid::lane_of(x, y), history);
-          for (std::size_t i = 0; i < history.size(); ++i) {
-            const std::uint64_t begin = std::max(first, range.first + history[i].sample);
-            const std::uint64_t end =
-                std::min(last, i + 1 < history.size() ? range.first + history[i + 1].sample : range.last);
-            if (begin >= end) continue;
-            if (!pixel->empty() && pixel->back().codes == history[i].codes) {
-              pixel->back().end = end;  // a block begins anew with what is held
-            } else {
-              pixel->push_back({begin, end, history[i].codes});
-              if (++count * kBytes > kMostBytes)
-                throw MemoryTooLittle(kMostBytes, {{"records; ask for fewer pixels or samples", count * kBytes}});
-            }
-          }
+// Calls found(pixel, samples, codes) for what each pixel of a region holds between two samples, from one change to
+// the next or to the next block; of each pixel in time order.
+template <typename Found>
+void for_each_record(tik::Reader& reader, const Rectangle& region, SampleRange asked, const ReportedProgress& report,
+                     Found found) {
+  std::vector<ChangeRecord> history;
+  const TileGrid grid(reader.format().shape);
+  for_each_block(reader, asked, [&](const BlockView& block) {
+    const SampleRange range = block.extent().range();
+    for (std::uint32_t row = 0; row < region.height; ++row) {
+      report(std::max(asked.first, range.first) - asked.first, asked.size());
+      for (std::uint32_t column = 0; column < region.width; ++column) {
+        const std::uint32_t x = region.x + column, y = region.y + row;
+        block.read_history(grid.tile_of(x, y), TileGrid::lane_of(x, y), history);
+        for (std::size_t i = 0; i < history.size(); ++i) {
+          const std::uint64_t next = i + 1 < history.size() ? range.first + history[i + 1].sample : range.last;
+          const SampleRange held{std::max(asked.first, range.first + history[i].sample), std::min(asked.last, next)};
+          if (held.first < held.last) found(std::size_t{row} * region.width + column, held, history[i].codes);
         }
       }
-    });
-    for (std::size_t pixel = 0; pixel < found.size(); ++pixel) {
-      for (const Record& record : found[pixel]) {
-        places.push_back(region.x + static_cast<std::uint32_t>(pixel % region.width));
-        places.push_back(region.y + static_cast<std::uint32_t>(pixel / region.width));
-        times.insert(times.end(), {record.begin, record.end});
-        codes.insert(codes.end(), record.codes.begin(), record.codes.begin() + shape.channels);
+    }
+  });
+}
+
+// Rows of `type`: x, y, start_ns, end_ns, codes, packed. The capture is looked through twice, first to count them:
+// nothing but they and what each pixel was last is held.
+py::array records(const OpenCapture& capture, const std::array<std::uint32_t, 4>& box, std::uint64_t first,
+                  std::uint64_t last, const py::dtype& type, const py::object& progress) {
+  struct Head {
+    std::uint32_t x, y;
+    std::int64_t start_ns, end_ns;
+  };
+  struct Pixel {
+    std::uint64_t next = 0;  // row
+    bool is_begun = false;
+    std::array<std::uint16_t, 3> codes{};
+  };
+  tik::Reader& reader = capture.session->capture();
+  const Timeline& timeline = capture.timeline();
+  const Rectangle region{box[0], box[1], box[2], box[3]};
+  const auto row_bytes = static_cast<std::size_t>(type.itemsize());
+  const std::size_t code_bytes = reader.format().code_bytes;
+  const std::uint64_t allowed = capture.session->devices().request().memory.bytes;
+  std::vector<Pixel> pixels(std::size_t{region.width} * region.height);
+  py::array made;
+  without_lock([&](const Stopping& stopping) {
+    const ReportedProgress report = stopping.progress();
+    std::byte* rows = nullptr;
+    for (const std::uint64_t pass : {0, 1}) {
+      std::uint64_t count = 0;
+      for (Pixel& pixel : pixels) pixel = {std::exchange(count, count + pixel.next)};
+      if (pass == 1) {
+        const std::string what = format("the records of {} pixels over {} samples", pixels.size(), last - first);
+        MemoryNeeds({{what + " (take a part: region=, first= and last=)", count * row_bytes},
+                     {"what pixels were last", pixels.size() * sizeof(Pixel)}})
+            .rest_of(allowed);
+        const py::gil_scoped_acquire locked;
+        made = py::array(type, Axes{static_cast<py::ssize_t>(count)});
+        rows = static_cast<std::byte*>(made.mutable_data());
       }
-      found[pixel] = {};
+      const auto halfway = [&](std::uint64_t done, std::uint64_t total) { report(pass * total + done, 2 * total); };
+      const auto take = [&](std::size_t number, SampleRange held, const auto& codes) {
+        Pixel& pixel = pixels[number];
+        const bool begins = !pixel.is_begun || pixel.codes != codes;  // else a block begins anew with what is held
+        pixel = {pixel.next + begins, true, codes};
+        if (pass == 0) return;
+        std::byte* const row = rows + (pixel.next - 1) * row_bytes;
+        Head head{};
+        if (!begins) std::memcpy(&head, row, sizeof head);
+        if (begins) {
+          head.x = region.x + static_cast<std::uint32_t>(number % region.width);
+          head.y = region.y + static_cast<std::uint32_t>(number / region.width);
+          head.start_ns = timeline.start_ns(held.first);
+          for (std::size_t c = 0; sizeof head + c * code_bytes < row_bytes; ++c)
+            std::memcpy(row + sizeof head + c * code_bytes, &codes[c], code_bytes);
+        }
+        head.end_ns = timeline.reach_end_ns(held.last - 1);
+        std::memcpy(row, &head, sizeof head);
+      };
+      for_each_record(reader, region, {first, last}, halfway, take);
     }
   }, progress);
-  const auto count = static_cast<py::ssize_t>(times.size() / 2);
-  return py::make_tuple(array_of(places, {count, 2}), array_of(times, {count, 2}),
-                        array_of(codes, {count, static_cast<py::ssize_t>(shape.channels)}));
+  return made;
 }
 
 std::optional<std::string> moved_camera_text(const OpenCapture& capture) {
@@ -325,42 +307,28 @@ std::optional<std::string> moved_camera_text(const OpenCapture& capture) {
 }  // namespace
 
 void bind_captures(py::module_& module) {
-  py::class_<OpenCapture, std::shared_ptr<OpenCapture>>(module, "Capture")
-      .def_property_readonly("name", [](const OpenCapture& capture) { return capture.name; })
-      .def_property_readonly("shape",
-                             [](const OpenCapture& capture) {
-                               return py::tuple(py::cast(axes_of(capture.session->format().shape)));
-                             })
-      .def_property_readonly("code_bytes",
-                             [](const OpenCapture& capture) { return capture.session->format().code_bytes; })
-      .def_property_readonly(
-          "sample_count",
-          [](const OpenCapture& capture) { return capture.session->timeline().sample_count(); })
-      .def_property_readonly(
-          "duration_ns", [](const OpenCapture& capture) { return capture.session->timeline().duration_ns(); })
-      .def_property_readonly("rate",
-                             [](const OpenCapture& capture) {
-                               const Rational rate = capture.session->timeline().rate();
-                               return py::make_tuple(rate.numerator, rate.denominator);
-                             })
-      .def_property_readonly("facts", &facts)
+  using Held = std::shared_ptr<OpenCapture>;
+  py::class_<OpenCapture, Held>(module, "Capture")
+      .def_readonly("name", &OpenCapture::name)
+      .def_property_readonly("shape", [](const OpenCapture& it) { return py::tuple(py::cast(axes_of(it.shape()))); })
+      .def_property_readonly("code_bytes", [](const OpenCapture& held) { return held.session->format().code_bytes; })
+      .def_property_readonly("sample_count", [](const OpenCapture& held) { return held.timeline().sample_count(); })
+      .def_property_readonly("duration_ns", [](const OpenCapture& held) { return held.timeline().duration_ns(); })
+      .def_property_readonly("rate", [](const OpenCapture& held) { return fraction(held.timeline().rate()); })
+      .def_property_readonly("facts", [](const OpenCapture& held) { return held.session->capture().header().facts; })
       .def("times_ns", &times_ns)
       .def("figures", &figures)
-      .def("samples", &samples, py::arg("numbers"))
-      .def("reader",
-           [](std::shared_ptr<OpenCapture> capture) { return std::make_unique<SampleReader>(std::move(capture)); })
-      .def("records", &records, py::arg("box"), py::arg("first"), py::arg("last"),
-           py::arg("progress"))
+      .def("reader", [](Held held) { return std::make_unique<SampleReader>(std::move(held)); })
+      .def("records", &records, "box"_a, "first"_a, "last"_a, "dtype"_a, "progress"_a)
       .def("moved_camera", &moved_camera_text);
-  py::class_<SampleReader>(module, "SampleReader").def("sample", &sample, py::arg("number"));
-  module.def("open", &open, py::arg("path"), py::arg("settings"), py::arg("computing"), py::arg("progress"));
-  module.def("encode_clip", &encode_clip, py::arg("path"), py::arg("output"), py::arg("codec"),
-             py::arg("settings"), py::arg("computing"), py::arg("progress"));
-  module.def("encode_pictures", &encode_pictures, py::arg("pictures"), py::arg("first"), py::arg("name"),
-             py::arg("starts_ns"), py::arg("exposures_ns"), py::arg("exposed_ns"),
-             py::arg("white_light"), py::arg("output"), py::arg("codec"), py::arg("settings"),
-             py::arg("computing"), py::arg("progress"));
-  module.def("join", &joined, py::arg("captures"), py::arg("output"), py::arg("computing"), py::arg("progress"));
+  py::class_<SampleReader>(module, "SampleReader").def("samples", &samples, "numbers"_a);
+  module.def("open", [](const std::string& path, const Settings& settings, const Settings& computing,
+                        const py::object& progress) { return opened(opening_of(path, settings, computing), progress); },
+             "path"_a, "settings"_a, "computing"_a, "progress"_a);
+  module.def("encode_clip", &encode_clip, "path"_a, "output"_a, "codec"_a, "settings"_a, "computing"_a, "progress"_a);
+  module.def("encode_pictures", &encode_pictures, "pictures"_a, "first"_a, "name"_a, "starts_ns"_a, "exposures_ns"_a,
+             "exposed_ns"_a, "white_light"_a, "output"_a, "codec"_a, "settings"_a, "computing"_a, "progress"_a);
+  module.def("join", &joined, "captures"_a, "output"_a, "computing"_a, "progress"_a);
 }
 
 }  // namespace nutik::python

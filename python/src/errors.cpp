@@ -1,91 +1,81 @@
-#include "errors.hpp"
-
+// What the library throws, as Python's exceptions, in the words of its arguments.
+#include <algorithm>
+#include <array>
 #include <exception>
-#include <filesystem>
-#include <new>
+#include <ranges>
 
 #include "capture/error.hpp"
 #include "capture/memory_needs.hpp"
 #include "features/schema/option.hpp"
-#include "system/interruption.hpp"
+#include "parts.hpp"
 
 namespace nutik::python {
-
-namespace py = pybind11;
-
 namespace {
 
-// Kept for as long as the interpreter runs: translators have no other place to look.
-struct ErrorTypes {
-  PyObject *error, *usage, *input, *device, *output, *memory, *imprecise;
+struct ErrorType {
+  const char* name;
+  bool (*is_of)(const Error& error);
+  PyObject* builtin;  // the exception of Python's that it is, too
+  const char* doc;
+  py::handle type = {};
 };
-ErrorTypes& types() {
-  static ErrorTypes types{};
-  return types;
+
+template <typename Kind>
+bool is(const Error& error) {
+  return dynamic_cast<const Kind*>(&error) != nullptr;
 }
 
-void raise(PyObject* type, const Error& error) {
-  const py::str text(message_text(error, Dialect::python));
-  py::list settings;
-  for (const Setting setting : error.settings()) settings.append(written(setting, Dialect::python));
-  const py::object raised = py::reinterpret_borrow<py::object>(type)(text);
-  raised.attr("settings") = py::tuple(settings);
-  PyErr_SetObject(type, raised.ptr());
+// From the general to the special, for as long as the interpreter runs: translators have no other place to look.
+std::array<ErrorType, 7>& types() {
+  static std::array<ErrorType, 7> all{{
+      {"Error", [](const Error&) { return true; }, PyExc_Exception,
+       "What nutik raises. settings: the arguments that would help, as a tuple of str."},
+      {"UsageError", is<UsageError>, PyExc_ValueError,
+       "The request itself makes no sense: arguments that contradict each other, an unknown name."},
+      {"InputError", is<InputError>, PyExc_ValueError,
+       "Something that was read is wrong: a clip, a capture, pictures, a mask, a function."},
+      {"DeviceError", is<DeviceError>, PyExc_RuntimeError,
+       "The OpenCL device cannot do it: absent, too small, a failed build."},
+      {"OutputError", is<OutputError>, PyExc_OSError, "A file cannot be written."},
+      {"ImpreciseError", is<ImpreciseError>, PyExc_ArithmeticError,
+       "Light may err by more than half a code, and strict=True allows no more."},
+      {"MemoryTooLittle", is<MemoryTooLittle>, PyExc_MemoryError,
+       "Less memory is allowed than the work takes; the message says the least that does."},
+  }};
+  return all;
 }
 
 void translate(std::exception_ptr thrown) {
   try {
     std::rethrow_exception(thrown);
-  } catch (const MemoryTooLittle& error) {
-    raise(types().memory, error);
-  } catch (const UsageError& error) {
-    raise(types().usage, error);
-  } catch (const InputError& error) {
-    raise(types().input, error);
-  } catch (const DeviceError& error) {
-    raise(types().device, error);
-  } catch (const OutputError& error) {
-    raise(types().output, error);
-  } catch (const ImpreciseError& error) {
-    raise(types().imprecise, error);
   } catch (const Cancelled&) {
     PyErr_SetNone(PyExc_KeyboardInterrupt);
   } catch (const Error& error) {
-    raise(types().error, error);
+    py::list settings;
+    for (const Setting setting : error.settings()) settings.append(written(setting, Dialect::python));
+    const auto kinds = types() | std::views::reverse;
+    const auto is_of = [&](const ErrorType& kind) { return kind.is_of(error); };
+    const py::handle type = std::ranges::find_if(kinds, is_of)->type;
+    const py::object raised = type(message_text(error, Dialect::python));
+    raised.attr("settings") = py::tuple(settings);
+    PyErr_SetObject(type.ptr(), raised.ptr());
   }
-}
-
-PyObject* add_type(py::module_& module, const char* name, const py::tuple& bases, const char* doc) {
-  const std::string full = std::string("nutik.") + name;
-  PyObject* type = PyErr_NewExceptionWithDoc(full.c_str(), doc, bases.ptr(), nullptr);
-  if (type == nullptr) throw py::error_already_set();
-  module.attr(name) = py::reinterpret_borrow<py::object>(type);
-  return type;
 }
 
 }  // namespace
 
 void bind_errors(py::module_& module) {
-  const auto base = [](PyObject* type) { return py::reinterpret_borrow<py::object>(type); };
-  ErrorTypes& made = types();
-  made.error = add_type(module, "Error", py::make_tuple(base(PyExc_Exception)),
-                        "What nutik raises. settings: the arguments that would help, as a tuple of str.");
-  // Of those that Python code raises.
-  py::setattr(made.error, "settings", py::tuple());
-  const auto error = base(made.error);
-  made.usage =
-      add_type(module, "UsageError", py::make_tuple(error, base(PyExc_ValueError)),
-               "The request itself makes no sense: arguments that contradict each other, an unknown name.");
-  made.input = add_type(module, "InputError", py::make_tuple(error, base(PyExc_ValueError)),
-                        "Something that was read is wrong: a clip, a capture, pictures, a mask, a function.");
-  made.device = add_type(module, "DeviceError", py::make_tuple(error, base(PyExc_RuntimeError)),
-                         "The OpenCL device cannot do it: absent, too small, a failed build.");
-  made.output = add_type(module, "OutputError", py::make_tuple(error, base(PyExc_OSError)),
-                         "A file cannot be written.");
-  made.memory = add_type(module, "MemoryTooLittle", py::make_tuple(base(made.usage), base(PyExc_MemoryError)),
-                         "Less memory is allowed than the work takes; the message says the least that does.");
-  made.imprecise = add_type(module, "ImpreciseError", py::make_tuple(error, base(PyExc_ArithmeticError)),
-                            "Light may err by more than half a code, and strict=True allows no more.");
+  for (ErrorType& kind : types()) {
+    const py::handle builtin(kind.builtin);
+    const char* const base = kind.is_of == is<MemoryTooLittle> ? "UsageError" : "Error";
+    const py::tuple bases =
+        kind.builtin == PyExc_Exception ? py::make_tuple(builtin) : py::make_tuple(module.attr(base), builtin);
+    const std::string name = std::string("nutik.") + kind.name;
+    kind.type = PyErr_NewExceptionWithDoc(name.c_str(), kind.doc, bases.ptr(), nullptr);
+    if (!kind.type) throw py::error_already_set();
+    module.attr(kind.name) = kind.type;
+  }
+  module.attr("Error").attr("settings") = py::tuple();  // of those that Python code raises
   py::register_exception_translator(translate);
 }
 

@@ -1,6 +1,7 @@
 // Gain functions: their control points as arrays, the text of function files, shutters, fits.
-#include <pybind11/stl.h>
+#include <pybind11/operators.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "capture/error.hpp"
@@ -17,79 +18,56 @@ namespace {
 using Times = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 using Gains = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
+// Points that GainFunction takes.
 std::vector<ControlPoint> points_of(const Times& times_ns, const Gains& gains) {
   if (times_ns.ndim() != 1 || gains.ndim() != 1 || times_ns.size() != gains.size())
     throw UsageError("a function has as many times as gains, each an array of one axis");
+  if (times_ns.size() == 0) throw UsageError("a function has one control point at least");
   std::vector<ControlPoint> points;
-  points.reserve(static_cast<std::size_t>(times_ns.size()));
-  for (py::ssize_t i = 0; i < times_ns.size(); ++i) points.push_back({times_ns.at(i), gains.at(i)});
-  return points;
-}
-
-// What GainFunction takes for granted.
-void check(const std::vector<ControlPoint>& points) {
-  if (points.empty()) throw UsageError("a function has one control point at least");
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto& [time_ns, gain] = points[i];
+  for (py::ssize_t i = 0; i < times_ns.size(); ++i) {
+    const std::int64_t time_ns = times_ns.at(i);
+    const double gain = gains.at(i);
     if (!std::isfinite(gain)) throw UsageError(format("control point {}: gain {} is not finite", i, gain));
     if (time_ns > kLargestTimeNs || time_ns < -kLargestTimeNs)
       throw UsageError(format("control point {}: time {} ns lies further away than 126 years", i, time_ns));
-    if (i > 0 && time_ns < points[i - 1].time_ns) {
+    if (i > 0 && time_ns < points.back().time_ns) {
       throw UsageError(
-          format("control point {}: time {} ns is not after {} ns; control points must be in time "
-                 "order",
-                 i, time_ns, points[i - 1].time_ns));
+          format("control point {}: time {} ns is not after {} ns; control points must be in time order", i,
+                 time_ns, points.back().time_ns));
     }
-    if (i > 1 && time_ns == points[i - 2].time_ns) {
+    if (i > 1 && time_ns == points[points.size() - 2].time_ns)
       throw UsageError(format("control point {}: {} ns is the time of three; a jump has two", i, time_ns));
-    }
+    points.push_back({time_ns, gain});
   }
+  return points;
 }
 
-HeldFunction from_points(const Times& times_ns, const Gains& gains) {
-  std::vector<ControlPoint> points = points_of(times_ns, gains);
-  check(points);
-  return {GainFunction(std::move(points))};
-}
-
-HeldFunction fitted(const Times& times_ns, const Gains& gains, double error) {
+GainFunction fitted(const Times& times_ns, const Gains& gains, double error) {
   const std::vector<ControlPoint> samples = points_of(times_ns, gains);
-  check(samples);
   if (samples.size() < 2) throw UsageError("a fit needs two samples at least");
-  double low = samples[0].gain, high = low;
-  for (const ControlPoint& sample : samples) {
-    low = std::min(low, sample.gain);
-    high = std::max(high, sample.gain);
-  }
+  const auto [low, high] = std::ranges::minmax(samples, {}, &ControlPoint::gain);
   const Unlocked released;
-  return {GainFunction(fit_corridor(samples, error, low, high))};
+  return GainFunction(fit_corridor(samples, error, low.gain, high.gain));
 }
 
-py::tuple points(const HeldFunction& held) {
+py::tuple points(const GainFunction& function) {
   std::vector<std::int64_t> times;
   std::vector<double> gains;
-  for (const ControlPoint& point : held.function.points()) {
+  for (const ControlPoint& point : function.points()) {
     times.push_back(point.time_ns);
     gains.push_back(point.gain);
   }
   return py::make_tuple(array_of(times), array_of(gains));
 }
 
-HeldFunction shutter(const std::string& shape, std::int64_t begin_ns, std::int64_t end_ns, double error) {
+GainFunction shutter(const std::string& shape, std::int64_t begin_ns, std::int64_t end_ns, double error) {
   if (!(error >= ShutterShape::kMinError && error < 1.0))
     throw UsageError(format("error={} is no share from {} to 1", error, ShutterShape::kMinError));
-  return {ShutterShape::parse(shape).function({begin_ns, end_ns}, error)};
+  return ShutterShape::parse(shape).function({begin_ns, end_ns}, error);
 }
 
-py::tuple parsed(const std::string& text, const std::string& title) {
-  const FunctionInput input = read_functions(text, title);
-  return py::make_tuple(held_functions(*input.functions), input.warnings);
-}
-
-py::tuple read(const std::string& path) {
-  const FunctionInput input = read_function_input(path);
-  return py::make_tuple(held_functions(*input.functions), input.warnings);
-}
+// By tag, and what is suspicious about them.
+py::tuple told_of(const FunctionInput& input) { return py::make_tuple(*input.functions, input.warnings); }
 
 py::tuple interval_ns(const std::string& start, const std::string& length) {
   const StatedTime from = StatedTime::parse(start, "start"), stated = StatedTime::parse(length, "exposure");
@@ -111,33 +89,25 @@ std::int64_t nanoseconds(const std::string& time, const std::string& what) {
 }  // namespace
 
 void bind_functions(py::module_& module) {
-  py::class_<HeldFunction>(module, "Function")
-      .def(py::init(&from_points), py::arg("times_ns"), py::arg("gains"))
+  py::class_<GainFunction>(module, "Function")
+      .def(py::init([](const Times& times, const Gains& gains) { return GainFunction(points_of(times, gains)); }),
+           "times_ns"_a, "gains"_a)
       .def("points", &points)
-      .def(
-          "shifted_ns",
-          [](const HeldFunction& held, std::int64_t by) { return HeldFunction{held.function.shifted(by)}; },
-          py::arg("by_ns"))
-      .def(
-          "scaled",
-          [](const HeldFunction& held, double factor) { return HeldFunction{held.function.scaled(factor)}; },
-          py::arg("factor"))
-      .def(
-          "text",
-          [](const HeldFunction& held, std::uint8_t tag) { return function_text(tag, held.function); },
-          py::arg("tag"))
-      .def(
-          "__eq__", [](const HeldFunction& a, const HeldFunction& b) { return a.function == b.function; },
-          py::arg("other"), py::is_operator());
-  module.def("fitted", &fitted, py::arg("times_ns"), py::arg("gains"), py::arg("error"));
-  module.def("shutter", &shutter, py::arg("shape"), py::arg("begin_ns"), py::arg("end_ns"), py::arg("error"));
-  module.def("parse_functions", &parsed, py::arg("text"), py::arg("title"));
-  module.def("read_functions", &read, py::arg("path"));
-  module.def(
-      "write_text", [](const std::string& path, const std::string& text) { write_text(path, text); },
-      py::arg("path"), py::arg("text"));
-  module.def("interval_ns", &interval_ns, py::arg("start"), py::arg("length"));
-  module.def("nanoseconds", &nanoseconds, py::arg("time"), py::arg("what"));
+      .def("shifted_ns", &GainFunction::shifted, "by_ns"_a)
+      .def("scaled", &GainFunction::scaled, "factor"_a)
+      .def("text", [](const GainFunction& f, std::uint8_t tag) { return function_text(tag, f); }, "tag"_a)
+      .def(py::self == py::self);
+  module.def("fitted", &fitted, "times_ns"_a, "gains"_a, "error"_a);
+  module.def("shutter", &shutter, "shape"_a, "begin_ns"_a, "end_ns"_a, "error"_a);
+  module.def("parse_functions", [](const std::string& text, const std::string& title) {
+    return told_of(read_functions(text, title));
+  }, "text"_a, "title"_a);
+  module.def("read_functions", [](const std::string& name) { return told_of(read_function_input(name)); },
+             "path"_a);
+  module.def("write_text", [](const std::string& path, const std::string& text) { write_text(path, text); },
+             "path"_a, "text"_a);
+  module.def("interval_ns", &interval_ns, "start"_a, "length"_a);
+  module.def("nanoseconds", &nanoseconds, "time"_a, "what"_a);
   module.attr("MIN_ERROR") = ShutterShape::kMinError;
 }
 

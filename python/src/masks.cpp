@@ -1,6 +1,4 @@
 // Masks: tags, and shares of them, as arrays.
-#include <pybind11/stl.h>
-
 #include <algorithm>
 
 #include "capture/error.hpp"
@@ -8,7 +6,6 @@
 #include "mask/layers.hpp"
 #include "parts.hpp"
 #include "session/requests/function_input.hpp"
-#include "working.hpp"
 
 namespace nutik::python {
 namespace {
@@ -27,7 +24,7 @@ Picture picture_of(const Codes<Code>& codes, ValueType type, std::uint32_t white
 }
 
 HeldMask of_tags(const Codes<std::uint8_t>& tags) {
-  return {Shared(Mask::from_picture(picture_of(tags, ValueType::code8, 255)))};
+  return HeldMask(Mask::from_picture(picture_of(tags, ValueType::code8, 255)));
 }
 
 HeldMask of_layers(const std::map<std::uint8_t, Codes<std::uint16_t>>& shares, std::uint8_t rest,
@@ -37,42 +34,36 @@ HeldMask of_layers(const std::map<std::uint8_t, Codes<std::uint16_t>>& shares, s
   for (const auto& [tag, codes] : shares)
     layers.push_back({tag, format("layer {}", tag), picture_of(codes, ValueType::code16, kWholeShare)});
   return without_lock(
-      [&](const Stopping& stopping) { return HeldMask{Shared(mask_of_layers(layers, rest, stopping.progress()))}; },
-      progress);
+      [&](const Stopping& stopping) { return HeldMask(mask_of_layers(layers, rest, stopping.progress())); }, progress);
 }
 
 HeldMask read_mask(const std::string& path, std::uint8_t rest) {
   const Unlocked released;
-  return {Shared(read_layered_mask_input(path, rest))};
+  return HeldMask(read_layered_mask_input(path, rest));
 }
 
 HeldMask feathered_mask(const HeldMask& held, const std::string& feather, const py::object& progress) {
   const Feather how = Feather::parse(feather);
-  if (held.mask->is_soft())
-    throw UsageError(
-        "feather= blends a mask of tags along its edges; one of layers says itself how it is blended");
+  if (held->is_soft())
+    throw UsageError("feather= blends a mask of tags along its edges; one of layers says itself how it is blended");
   return without_lock(
-      [&](const Stopping& stopping) { return HeldMask{Shared(feathered(*held.mask, how, stopping.progress()))}; },
-      progress);
+      [&](const Stopping& stopping) { return HeldMask(feathered(*held, how, stopping.progress())); }, progress);
 }
 
-std::vector<py::ssize_t> axes(const Mask& mask) {
-  return {static_cast<py::ssize_t>(mask.height), static_cast<py::ssize_t>(mask.width)};
-}
+Axes axes(const Mask& mask) { return axes_of({mask.width, mask.height, 1}); }
 
 py::array tags(const py::object& self) {
-  const Mask& mask = *self.cast<const HeldMask&>().mask;
+  const Mask& mask = *self.cast<const HeldMask&>();
   return view_of(py::dtype::of<std::uint8_t>(), axes(mask), mask.tags.data(), self);
 }
 
 py::array_t<std::uint16_t> share(const HeldMask& held, std::uint8_t tag) {
-  const Picture layer = layer_of(*held.mask, tag);
-  return py::array_t<std::uint16_t>(axes(*held.mask), layer.values<std::uint16_t>().data());
+  return py::array_t<std::uint16_t>(axes(*held), layer_of(*held, tag).values<std::uint16_t>().data());
 }
 
 std::vector<std::uint8_t> tags_in_use(const HeldMask& held) {
   std::vector<std::uint8_t> used;
-  for (const MaskRegion& region : regions_of(*held.mask)) used.push_back(region.tag);
+  for (const MaskRegion& region : regions_of(*held)) used.push_back(region.tag);
   return used;
 }
 
@@ -80,14 +71,14 @@ std::vector<std::uint8_t> tags_in_use(const HeldMask& held) {
 
 void bind_masks(py::module_& module) {
   py::class_<HeldMask>(module, "Mask")
-      .def(py::init(&of_tags), py::arg("tags"))
-      .def_static("of_layers", &of_layers, py::arg("shares"), py::arg("rest"), py::arg("progress"))
-      .def_static("read", &read_mask, py::arg("path"), py::arg("rest"))
-      .def("feathered", &feathered_mask, py::arg("feather"), py::arg("progress"))
+      .def(py::init(&of_tags), "tags"_a)
+      .def_static("of_layers", &of_layers, "shares"_a, "rest"_a, "progress"_a)
+      .def_static("read", &read_mask, "path"_a, "rest"_a)
+      .def("feathered", &feathered_mask, "feather"_a, "progress"_a)
       .def("tags", &tags)
-      .def("share", &share, py::arg("tag"))
+      .def("share", &share, "tag"_a)
       .def("tags_in_use", &tags_in_use)
-      .def("is_soft", [](const HeldMask& held) { return held.mask->is_soft(); });
+      .def("is_soft", [](const HeldMask& held) { return held->is_soft(); });
   module.attr("WHOLE_SHARE") = kWholeShare;
 }
 

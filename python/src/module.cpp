@@ -1,15 +1,6 @@
 // nutik._nutik: the engine's session for Python. What its users see is the package around it, python/nutik.
-#include <pybind11/pybind11.h>
-#include <pybind11/stl.h>
-
-#include <string>
-#include <vector>
-
-#include "errors.hpp"
-#include "features/schema/option.hpp"
 #include "parts.hpp"
 #include "system/mapped_file.hpp"
-#include "working.hpp"
 
 PYBIND11_MODULE(_nutik, module) {
   module.doc() = "The engine. Use the package nutik, which says what its parts take and give.";
@@ -18,17 +9,6 @@ PYBIND11_MODULE(_nutik, module) {
   nutik::watch_mapped_files();
   const auto at_exit = pybind11::module_::import("atexit").attr("register");
   at_exit(pybind11::cpp_function(&nutik::python::end_work));
-  module.def(
-      "clip_arguments",
-      [] {
-        std::vector<std::string> names;
-        for (const nutik::Option* const option : nutik::options_of(nutik::CommandId::encode)) {
-          const std::string written = option->written(nutik::Dialect::python);
-          if (option->makes_picture()) names.push_back(written.substr(0, written.find('=')));
-        }
-        return names;
-      },
-      "What may be stated of a clip, by the schema.");
   nutik::python::bind_errors(module);
   nutik::python::bind_commands(module);
   nutik::python::bind_functions(module);

@@ -1,8 +1,6 @@
 // Pictures, which NumPy looks at where they lie.
 #include "media/writers/picture_writer.hpp"
 
-#include <pybind11/stl.h>
-
 #include <cstring>
 
 #include "capture/error.hpp"
@@ -10,7 +8,6 @@
 #include "parts.hpp"
 #include "session/output_check.hpp"
 #include "session/requests/output_request.hpp"
-#include "working.hpp"
 
 namespace nutik::python {
 
@@ -24,15 +21,13 @@ py::dtype dtype_of(ValueType type) {
   return {};
 }
 
-std::vector<py::ssize_t> axes_of(const Shape& shape) {
-  std::vector<py::ssize_t> axes{static_cast<py::ssize_t>(shape.height),
-                                static_cast<py::ssize_t>(shape.width)};
-  if (shape.channels > 1) axes.push_back(static_cast<py::ssize_t>(shape.channels));
-  return axes;
+Axes axes_of(const Shape& shape, Axes first) {
+  first.insert(first.end(), {static_cast<py::ssize_t>(shape.height), static_cast<py::ssize_t>(shape.width)});
+  if (shape.channels > 1) first.push_back(static_cast<py::ssize_t>(shape.channels));
+  return first;
 }
 
-py::array view_of(const py::dtype& type, std::vector<py::ssize_t> shape, const void* values,
-                  py::handle owner) {
+py::array view_of(const py::dtype& type, Axes shape, const void* values, py::handle owner) {
   py::array view(type, std::move(shape), values, owner);
   view.attr("flags").attr("writeable") = false;
   return view;
@@ -47,17 +42,10 @@ py::array values(const py::object& self) {
 
 py::buffer_info buffer_of(HeldPicture& held) {
   const py::dtype type = dtype_of(held.picture.type);
-  std::vector<py::ssize_t> shape = axes_of(held.picture.shape), strides(shape.size());
-  py::ssize_t stride = type.itemsize();
-  for (std::size_t axis = shape.size(); axis-- > 0;) {
-    strides[axis] = stride;
-    stride *= shape[axis];
-  }
+  const Axes axes = axes_of(held.picture.shape);
   constexpr bool kReadOnly = true;
-  const auto dimensions = static_cast<py::ssize_t>(shape.size());
-  return {
-      held.picture.bytes.data(), type.itemsize(), std::string(1, type.char_()), dimensions, std::move(shape),
-      std::move(strides),        kReadOnly};
+  return {held.picture.bytes.data(), type.itemsize(), std::string(1, type.char_()),
+          static_cast<py::ssize_t>(axes.size()), axes, py::detail::c_strides(axes, type.itemsize()), kReadOnly};
 }
 
 void write(const HeldPicture& held, const std::string& path, std::optional<int> quality, bool keep_pixels) {
@@ -88,27 +76,30 @@ HeldPicture for_eyes(const HeldPicture& held) {
 }
 
 // All that a picture is, for pickle.
-py::tuple state_of(const HeldPicture& held) {
+using State = std::tuple<std::array<std::uint32_t, 3>, int, std::uint32_t, std::optional<std::string>, int,
+                         std::array<std::int64_t, 2>, std::optional<std::int64_t>, py::dict, py::bytes>;
+
+State state_of(const HeldPicture& held) {
   const Picture& picture = held.picture;
+  const auto& [width, height, channels] = picture.shape;
   const auto transfer = picture.transfer ? std::optional(picture.transfer->text()) : std::nullopt;
-  return py::make_tuple(picture.shape.width, picture.shape.height, picture.shape.channels,
-                        static_cast<int>(picture.type), picture.white_code, transfer,
-                        static_cast<int>(picture.primaries), picture.pixel_aspect.numerator,
-                        picture.pixel_aspect.denominator, picture.exposed_ns, held.figures,
-                        py::bytes(reinterpret_cast<const char*>(picture.bytes.data()), picture.bytes.size()));
+  return {{width, height, channels}, static_cast<int>(picture.type), picture.white_code, transfer,
+          static_cast<int>(picture.primaries), {picture.pixel_aspect.numerator, picture.pixel_aspect.denominator},
+          picture.exposed_ns, held.figures,
+          py::bytes(reinterpret_cast<const char*>(picture.bytes.data()), picture.bytes.size())};
 }
 
-HeldPicture unpickled(const py::tuple& state) {
-  const Shape shape{state[0].cast<std::uint32_t>(), state[1].cast<std::uint32_t>(), state[2].cast<std::uint32_t>()};
-  Picture picture(shape, static_cast<ValueType>(state[3].cast<int>()), state[4].cast<std::uint32_t>());
-  if (const auto transfer = state[5].cast<std::optional<std::string>>()) picture.transfer = Transfer::parse(*transfer);
-  picture.primaries = static_cast<Primaries>(state[6].cast<int>());
-  picture.pixel_aspect = Rational::of(state[7].cast<std::int64_t>(), state[8].cast<std::int64_t>());
-  picture.exposed_ns = state[9].cast<std::optional<std::int64_t>>();
-  const auto values = state[11].cast<std::string_view>();
+HeldPicture unpickled(const State& state) {
+  const auto& [sides, type, white, transfer, primaries, aspect, exposed_ns, figures, bytes] = state;
+  Picture picture({sides[0], sides[1], sides[2]}, static_cast<ValueType>(type), white);
+  if (transfer) picture.transfer = Transfer::parse(*transfer);
+  picture.primaries = static_cast<Primaries>(primaries);
+  picture.pixel_aspect = Rational::of(aspect[0], aspect[1]);
+  picture.exposed_ns = exposed_ns;
+  const std::string_view values(bytes);
   if (values.size() != picture.bytes.size()) throw InputError("a pickled picture has another size than it says");
   std::memcpy(picture.bytes.data(), values.data(), values.size());
-  return {std::move(picture), state[10].cast<py::dict>()};
+  return {std::move(picture), figures};
 }
 
 }  // namespace
@@ -118,9 +109,9 @@ void bind_pictures(py::module_& module) {
       .def_buffer(&buffer_of)
       .def(py::pickle(&state_of, &unpickled))
       .def("values", &values)
-      .def("write", &write, py::arg("path"), py::arg("quality"), py::arg("keep_pixels"))
+      .def("write", &write, "path"_a, "quality"_a, "keep_pixels"_a)
       .def("for_eyes", &for_eyes)
-      .def_property_readonly("figures", [](const HeldPicture& held) { return held.figures; });
+      .def_readonly("figures", &HeldPicture::figures);
 }
 
 }  // namespace nutik::python

@@ -1,13 +1,8 @@
 // Exposures: what is asked for, the picture, and the plan's figures.
-#include <pybind11/stl.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <map>
-#include <tuple>
-#include <utility>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -15,24 +10,9 @@
 #include "features/schema/requests.hpp"
 #include "parts.hpp"
 #include "session/requests/output_request.hpp"
-#include "working.hpp"
 
 namespace nutik::python {
 namespace {
-
-ValueType value_type(const std::string& name) {
-  if (name == "uint8") return ValueType::code8;
-  if (name == "uint16") return ValueType::code16;
-  return name == "float64" ? ValueType::light64 : ValueType::light32;
-}
-
-py::object bound_of(const ExposedPicture& exposed) {
-  if (!exposed.choice) return py::none();
-  py::dict bound;
-  bound["light"] = exposed.choice->bound.worst.light;
-  bound["steps"] = exposed.choice->bound.worst.steps;
-  return bound;
-}
 
 py::dict fields_of(const UncertaintyTerm& term, const OutputFormat& output) {
   py::dict fields;
@@ -44,57 +24,38 @@ py::dict fields_of(const UncertaintyTerm& term, const OutputFormat& output) {
 py::dict uncertainty_of(const ExposedPicture& exposed) {
   py::list terms;
   for (const UncertaintyTerm& term : exposed.uncertainty.terms) terms.append(fields_of(term, exposed.output));
-  py::dict told;
-  told["scale"] = exposed.uncertainty.scale;
-  told["terms"] = std::move(terms);
-  told["bounds"] = fields_of(exposed.uncertainty.bounds, exposed.output);
-  return told;
+  return py::dict("scale"_a = exposed.uncertainty.scale, "terms"_a = terms,
+                  "bounds"_a = fields_of(exposed.uncertainty.bounds, exposed.output));
 }
 
 py::list functions_of_plan(const ExposureFigures& figures) {
   py::list functions;
   for (const PlannedFunction& planned : figures.functions) {
-    py::dict function;
-    function["tag"] = planned.tag;
-    function["pixels"] = planned.pixel_count;
-    function["live_ns"] = py::make_tuple(planned.summary.live.begin_ns, planned.summary.live.end_ns);
-    function["samples"] = exposed_samples(planned, figures.timeline).size();
-    function["still_gain"] = planned.summary.still_gain();
-    function["support_ns"] = planned.summary.support_ns;
-    function["integral_ns"] = std::scalbn(planned.summary.integral_ns, planned.summary.exponent);
-    functions.append(std::move(function));
+    const GainSummary& summary = planned.summary;
+    functions.append(py::dict(
+        "tag"_a = planned.tag, "pixels"_a = planned.pixel_count,
+        "live_ns"_a = py::make_tuple(summary.live.begin_ns, summary.live.end_ns),
+        "samples"_a = exposed_samples(planned, figures.timeline).size(), "still_gain"_a = summary.still_gain(),
+        "support_ns"_a = summary.support_ns, "integral_ns"_a = std::scalbn(summary.integral_ns, summary.exponent)));
   }
   return functions;
 }
 
-using Region = std::optional<std::array<std::uint32_t, 4>>;
-
-RenderControl control_of(const AskedExposure& asked, const Region& region, const std::optional<std::string>& precision) {
-  RenderControl control;
-  if (precision) control.precision = parse_precision(*precision);
-  if (region) control.rectangle = Rectangle{(*region)[0], (*region)[1], (*region)[2], (*region)[3]};
-  control.strict = asked.options.strict;
-  return control;
+py::dict maps_of(std::vector<PictureLayer>& layers) {
+  py::dict maps;
+  for (PictureLayer& layer : layers) maps[py::str(layer.name)] = HeldPicture{std::move(layer.values), {}};
+  return maps;
 }
 
-HeldPicture render(const OpenCapture& capture, const AskedExposure& asked, const Settings& output, const Region& region,
-                   const std::optional<std::string>& precision, bool bounds, const py::object& progress) {
-  Session& session = *capture.session;
-  const ExposureRequest request = exposure_request(asked);
-  OutputFormat format = output_of(output, session.format());
+HeldPicture render(const OpenCapture& capture, const AskedExposure& asked, const Settings& output, bool bounds,
+                   const py::object& progress) {
+  OutputFormat format = output_of(output, capture.session->format());
   format.maps_bounds = bounds;
-  RenderControl control = control_of(asked, region, precision);
   ExposedPicture exposed = without_lock([&](const Stopping& stopping) {
-    control.stop = stopping.stop;
-    control.progress = stopping.progress();
-    return session.render(request, format, control);
+    return capture.session->render(asked.request, format, asked.control_of(stopping));
   }, progress);
   py::dict figures = figures_of(exposed);
-  if (bounds) {
-    py::dict maps;
-    for (PictureLayer& layer : exposed.bounds) maps[py::str(layer.name)] = HeldPicture{std::move(layer.values), {}};
-    figures["bounds_maps"] = std::move(maps);
-  }
+  if (bounds) figures["bounds_maps"] = maps_of(exposed.bounds);
   return {std::move(exposed.picture), std::move(figures)};
 }
 
@@ -102,50 +63,47 @@ HeldPicture render(const OpenCapture& capture, const AskedExposure& asked, const
 // empty where it does not.
 struct Differences {
   std::vector<std::string> starts, lengths;
-  std::vector<HeldFunctions> functions;
+  std::vector<FunctionSet> functions;
 
   [[nodiscard]] ExposureRequest of(ExposureRequest request, std::size_t number) const {
     const auto at = [&](const auto& list) { return list[list.size() == 1 ? 0 : number]; };
     if (!starts.empty()) request.start = StatedTime::parse(at(starts), "start");
     if (!lengths.empty()) std::get<PlainInterval>(request.gains).length = StatedTime::parse(at(lengths), "exposure");
-    if (!functions.empty()) request.gains = Shared(set_of(at(functions)));
+    if (!functions.empty()) request.gains = Shared(at(functions));
     return request;
   }
 };
 
 // [count, height, width(, 3)], the bound of each picture's light (NaN of the reference), of codes how many pixels hold
-// light below and above them, warnings, each once, and of each tag the least still gain.
+// light below and above them, warnings, each once, of each tag the least still gain, and of each picture its maps, if
+// these are asked for: then pictures are made one by one.
 py::tuple render_many(const OpenCapture& capture, const AskedExposure& asked, std::size_t count,
                       std::vector<std::string> starts, std::vector<std::string> lengths,
-                      std::vector<HeldFunctions> functions, const Settings& output, const Region& region,
-                      const std::optional<std::string>& precision, const py::object& progress) {
+                      std::vector<FunctionSet> functions, const Settings& output, bool bounds,
+                      const py::object& progress) {
   Session& session = *capture.session;
   const Differences differences{std::move(starts), std::move(lengths), std::move(functions)};
-  const ExposureRequest request = exposure_request(asked);
-  const OutputFormat format = output_of(output, session.format());
-  RenderControl control = control_of(asked, region, precision);
-  Shape shape = session.format().shape;
-  if (region) std::tie(shape.width, shape.height) = std::pair((*region)[2], (*region)[3]);
-  std::vector<py::ssize_t> axes = axes_of(shape);
-  axes.insert(axes.begin(), static_cast<py::ssize_t>(count));
-  py::array pictures(dtype_of(format.type), axes);
+  OutputFormat format = output_of(output, session.format());
+  format.maps_bounds = bounds;
+  Shape shape = capture.shape();
+  if (const auto& only = asked.control.rectangle) shape = {only->width, only->height, shape.channels};
+  py::array pictures(dtype_of(format.type), axes_of(shape, {static_cast<py::ssize_t>(count)}));
   auto* const bytes = static_cast<std::byte*>(pictures.mutable_data());
-  std::vector<double> bounds;
+  std::vector<double> errors;
   std::vector<std::uint64_t> saturated;
   std::vector<std::string> warnings;
   std::map<std::uint8_t, double> still_gains;
+  std::vector<std::vector<PictureLayer>> maps;
   without_lock([&](const Stopping& stopping) {
-    const ReportedProgress report = stopping.progress();
+    RenderControl control = asked.control;
     control.stop = stopping.stop;
-    std::vector<ExposureRequest> requests;
-    for (std::size_t number = 0; number < count; ++number) requests.push_back(differences.of(request, number));
-    session.render_many(requests, format, control, [&](std::size_t number, const Rendered& rendered,
-                                                           std::span<const PlannedFunction> functions) {
+    const auto take = [&, report = stopping.progress()](std::size_t number, const Rendered& rendered,
+                                                        std::span<const PlannedFunction> planned) {
       const auto& made = rendered.picture.bytes;
       std::memcpy(bytes + number * made.size(), made.data(), made.size());
-      bounds.push_back(rendered.choice ? rendered.choice->bound.worst.light : std::numeric_limits<double>::quiet_NaN());
+      errors.push_back(rendered.choice ? rendered.choice->bound.worst.light : std::numeric_limits<double>::quiet_NaN());
       saturated.insert(saturated.end(), {rendered.saturation.below, rendered.saturation.above});
-      for (const PlannedFunction& function : functions) {
+      for (const PlannedFunction& function : planned) {
         const double still_gain = function.summary.still_gain();
         double& least = still_gains.try_emplace(function.tag, still_gain).first->second;
         least = std::min(least, still_gain);
@@ -153,10 +111,20 @@ py::tuple render_many(const OpenCapture& capture, const AskedExposure& asked, st
       for (const std::string& warning : rendered.warnings)
         if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
       report(number + 1, count);
-    });
+    };
+    std::vector<ExposureRequest> requests;
+    for (std::size_t number = 0; number < count; ++number) requests.push_back(differences.of(asked.request, number));
+    if (!bounds) return session.render_many(requests, format, control, take);
+    for (std::size_t number = 0; number < count; ++number) {
+      ExposedPicture exposed = session.render(requests[number], format, control);
+      take(number, exposed, exposed.figures.functions);
+      maps.push_back(std::move(exposed.bounds));
+    }
   }, progress);
-  return py::make_tuple(pictures, array_of(bounds), array_of(saturated, {static_cast<py::ssize_t>(count), 2}), warnings,
-                        still_gains);
+  py::list held_maps;
+  for (auto& layers : maps) held_maps.append(maps_of(layers));
+  return py::make_tuple(pictures, array_of(errors), array_of(saturated, {static_cast<py::ssize_t>(count), 2}), warnings,
+                        still_gains, held_maps);
 }
 
 // The time of each pixel in nanoseconds, [height, width].
@@ -171,20 +139,12 @@ DelayRequest delay_of(const DelayTimes& times_ns) {
 
 }  // namespace
 
-ExposureRequest exposure_request(const AskedExposure& asked) {
-  ExposureRequest request = weighed_exposure(asked.options);
-  request.start = asked.options.start.value_or(StatedTime());
-  if (asked.functions) {
-    request.gains = Shared(set_of(*asked.functions));
-  } else {
-    request.gains = PlainInterval{asked.options.exposure.value(), stated_shutter(asked.options)};
-  }
-  if (asked.mask) request.mask = Shared(MaskWithRegions(*asked.mask->mask));
-  return request;
-}
-
 OutputFormat output_of(const Settings& settings, const CaptureFormat& capture) {
-  const ValueType type = value_type(settings.at("dtype"));
+  const std::string& kind = settings.at("dtype");
+  const ValueType type = kind == "uint8"     ? ValueType::code8
+                         : kind == "uint16"  ? ValueType::code16
+                         : kind == "float64" ? ValueType::light64
+                                             : ValueType::light32;
   Options options;
   for (const auto& [argument, option] : {std::pair("transfer", "out-transfer"), std::pair("negative", "negative")}) {
     if (const auto stated = settings.find(argument); stated != settings.end())
@@ -203,38 +163,34 @@ OutputFormat output_of(const Settings& settings, const CaptureFormat& capture) {
   return format;
 }
 
+py::object saturated_of(ValueType type, const Saturation& saturation) {
+  if (!holds_codes(type)) return py::none();
+  return py::make_tuple(saturation.below, saturation.above);
+}
+
 py::dict figures_of(const ExposedPicture& exposed) {
   const ExposureFigures& figures = exposed.figures;
-  py::dict plan;
-  plan["samples"] = figures.timeline.sample_count();
-  plan["live_samples"] = figures.live_samples;
-  plan["samples_read"] = py::make_tuple(figures.read.first, figures.read.last);
-  plan["blocks_read"] = figures.blocks_read;
-  plan["blocks"] = figures.block_count ? py::cast(*figures.block_count) : py::none();
-  plan["table_bytes"] = figures.table_bytes;
-  plan["map_bytes"] = figures.map_bytes;
-  plan["functions"] = functions_of_plan(figures);
   const RenderStatistics& took = exposed.statistics;
-  py::dict statistics;
-  statistics["read_ms"] = took.read_ms;
-  statistics["expose_ms"] = took.is_timed ? py::cast(took.expose_ms) : py::none();
-  statistics["develop_ms"] = took.is_timed ? py::cast(took.develop_ms) : py::none();
-  statistics["payload_bytes"] = took.payload_bytes;
-  statistics["device_bytes"] = took.device_bytes;
-  statistics["blocks"] = took.blocks;
-  statistics["launches"] = took.launches;
-  py::dict told;
-  told["precision"] = to_text(exposed.precision);
-  told["error_bound"] = bound_of(exposed);
-  told["uncertainty"] = uncertainty_of(exposed);
-  told["saturated"] = holds_codes(exposed.output.type)
-                          ? py::object(py::make_tuple(exposed.saturation.below, exposed.saturation.above))
-                          : py::none();
-  told["plan"] = std::move(plan);
-  told["statistics"] = std::move(statistics);
-  told["warnings"] = exposed.warnings;
-  told["reference_white"] = figures.capture.transfer.reference_white();
-  return told;
+  const auto timed = [&](double ms) { return took.is_timed ? std::optional(ms) : std::nullopt; };
+  const auto plan = py::dict(
+      "samples"_a = figures.timeline.sample_count(), "live_samples"_a = figures.live_samples,
+      "samples_read"_a = py::make_tuple(figures.read.first, figures.read.last), "blocks_read"_a = figures.blocks_read,
+      "blocks"_a = figures.block_count, "table_bytes"_a = figures.table_bytes, "map_bytes"_a = figures.map_bytes,
+      "functions"_a = functions_of_plan(figures));
+  const auto statistics = py::dict(
+      "read_ms"_a = took.read_ms, "expose_ms"_a = timed(took.expose_ms), "develop_ms"_a = timed(took.develop_ms),
+      "payload_bytes"_a = took.payload_bytes, "device_bytes"_a = took.device_bytes, "blocks"_a = took.blocks,
+      "launches"_a = took.launches);
+  py::object bound = py::none();
+  if (exposed.choice) {
+    const PictureError& worst = exposed.choice->bound.worst;
+    bound = py::dict("light"_a = worst.light, "steps"_a = worst.steps);
+  }
+  return py::dict(
+      "precision"_a = to_text(exposed.precision), "error_bound"_a = bound, "uncertainty"_a = uncertainty_of(exposed),
+      "saturated"_a = saturated_of(exposed.output.type, exposed.saturation), "plan"_a = plan,
+      "statistics"_a = statistics, "warnings"_a = exposed.warnings,
+      "reference_white"_a = figures.capture.transfer.reference_white());
 }
 
 // Those of list_devices(), in its order.
@@ -251,19 +207,27 @@ py::list devices() {
 
 void bind_rendering(py::module_& module) {
   py::class_<AskedExposure>(module, "Exposure")
-      .def(py::init([](std::optional<HeldFunctions> functions, std::optional<HeldMask> mask,
-                       const Settings& settings, const std::optional<DelayTimes>& delays_ns) {
+      .def(py::init([](const std::optional<FunctionSet>& functions, const std::optional<HeldMask>& mask,
+                       const Settings& settings, const std::optional<DelayTimes>& delays_ns,
+                       const std::optional<std::array<std::uint32_t, 4>>& region) {
              Options options = stated_options(CommandId::expose, settings);
              if (delays_ns) options.delay = delay_of(*delays_ns);
-             return AskedExposure{std::move(functions), std::move(mask), std::move(options)};
+             ExposureRequest request = weighed_exposure(options);
+             request.start = options.start.value_or(StatedTime());
+             request.gains = PlainInterval{options.exposure.value_or(StatedTime()), stated_shutter(options)};
+             if (functions) request.gains = Shared(*functions);
+             if (mask) request.mask = Shared(MaskWithRegions(**mask));
+             RenderControl control;
+             control.precision = options.precision;
+             control.strict = options.strict;
+             if (region) control.rectangle = Rectangle{(*region)[0], (*region)[1], (*region)[2], (*region)[3]};
+             return AskedExposure{std::move(request), control};
            }),
-           py::arg("functions"), py::arg("mask"), py::arg("settings"), py::arg("delays_ns"));
+           "functions"_a, "mask"_a, "settings"_a, "delays_ns"_a, "region"_a);
   module.def("devices", &devices);
-  module.def("render", &render, py::arg("capture"), py::arg("exposure"), py::arg("output"), py::arg("region"),
-             py::arg("precision"), py::arg("bounds"), py::arg("progress"));
-  module.def("render_many", &render_many, py::arg("capture"), py::arg("exposure"), py::arg("count"), py::arg("starts"),
-             py::arg("lengths"), py::arg("functions"), py::arg("output"), py::arg("region"), py::arg("precision"),
-             py::arg("progress"));
+  module.def("render", &render, "capture"_a, "exposure"_a, "output"_a, "bounds"_a, "progress"_a);
+  module.def("render_many", &render_many, "capture"_a, "exposure"_a, "count"_a, "starts"_a, "lengths"_a, "functions"_a,
+             "output"_a, "bounds"_a, "progress"_a);
 }
 
 }  // namespace nutik::python

@@ -1,7 +1,4 @@
-#include "settings.hpp"
-
-#include <pybind11/stl.h>
-
+// What is stated by name, as the schema's options; and the program's commands, which have the same names.
 #include "app/command_line/command_table.hpp"
 #include "app/run.hpp"
 #include "capture/error.hpp"
@@ -28,17 +25,17 @@ const app::Command& command_of(const std::string& name) {
   return *found;
 }
 
-// What a command is for, its operands, and of each argument: how its value is written, what it says, and whether it may
-// be given several times.
+// What a command is for, its operands, and of each argument: how its value is written, what it says, whether it may be
+// given several times, and whether it says what a picture is made of.
 py::tuple described(const std::string& command) {
   const app::Command& row = command_of(command);
   py::dict arguments;
   for (const Option* const option : options_of(row.id)) {
     const std::string written = option->written(Dialect::python);
     arguments[py::str(written.substr(0, written.find('=')))] =
-        py::make_tuple(std::string(option->value), std::string(option->help), option->take == nullptr);
+        py::make_tuple(option->value, option->help, option->take == nullptr, option->makes_picture());
   }
-  return py::make_tuple(std::string(row.summary), std::string(row.operands), arguments);
+  return py::make_tuple(row.summary, row.operands, arguments);
 }
 
 // The words of a command line that states these, each once or several times.
@@ -51,8 +48,7 @@ std::vector<std::string> command_words(const std::string& command,
     const Option* const option = option_of_argument(id, name);
     if (option == nullptr) throw UsageError(command + " has no argument " + name + "=");
     for (const std::vector<std::string>& words : values) {
-      if (words.size() != option->word_count())
-        throw UsageError(name + "= takes " + std::string(option->value));
+      if (words.size() != option->word_count()) throw UsageError(name + "= takes " + std::string(option->value));
       option->state(options, name, words);
       line.push_back(option->name());
       line.insert(line.end(), words.begin(), words.end());
@@ -73,9 +69,9 @@ int run_program(std::vector<std::string> words) {
 }  // namespace
 
 void bind_commands(py::module_& module) {
-  module.def("described", &described, py::arg("command"));
-  module.def("command_words", &command_words, py::arg("command"), py::arg("stated"));
-  module.def("run_program", &run_program, py::arg("words"));
+  module.def("described", &described, "command"_a);
+  module.def("command_words", &command_words, "command"_a, "stated"_a);
+  module.def("run_program", &run_program, "words"_a);
 }
 
 }  // namespace nutik::python

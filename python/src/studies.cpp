@@ -1,19 +1,16 @@
 // What the engine finds in a capture by itself: motion studies, plates, activity, and the numbers that make a picture
 // as it is wished.
-#include <pybind11/stl.h>
-
 #include <algorithm>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "errors.hpp"
 #include "features/activity/activity.hpp"
 #include "features/plate/plate.hpp"
+#include "features/schema/option.hpp"
 #include "features/solve/solving.hpp"
 #include "features/study/study.hpp"
 #include "parts.hpp"
 #include "session/requests/output_request.hpp"
-#include "working.hpp"
 
 namespace nutik::python {
 namespace {
@@ -67,18 +64,14 @@ py::dict study(const OpenCapture& capture, const Settings& settings,
         session.render(study_exposure(found.study, request), format, control);
     return found;
   }, progress);
-  py::dict told;
-  told["moments"] = made.study.moments;
-  told["functions"] = held_functions(made.study.functions);
-  told["notes"] = made.study.notes;
-  told["mask"] = made.plate ? py::none() : py::cast(HeldMask{Shared(std::move(made.study.regions.mask))});
-  if (made.exposed) {
-    py::dict figures = figures_of(*made.exposed);
-    told["picture"] = HeldPicture{std::move(made.exposed->picture), std::move(figures)};
-  } else {
-    told["picture"] = HeldPicture{std::move(made.plate->picture), {}};
-  }
-  return told;
+  py::object mask = py::none();
+  py::dict figures;
+  if (made.exposed) figures = figures_of(*made.exposed);
+  if (!made.plate) mask = py::cast(HeldMask(std::move(made.study.regions.mask)));
+  Picture& picture = made.exposed ? made.exposed->picture : made.plate->picture;
+  return py::dict("moments"_a = made.study.moments, "functions"_a = made.study.functions,
+                  "notes"_a = made.study.notes, "mask"_a = mask,
+                  "picture"_a = HeldPicture{std::move(picture), figures});
 }
 
 py::tuple plate(const OpenCapture& capture, std::optional<std::uint32_t> by, const Settings& output,
@@ -100,26 +93,18 @@ py::tuple plate(const OpenCapture& capture, std::optional<std::uint32_t> by, con
   const Shape& shape = made.picture.shape;
   Mask uncertain = Mask::uniform(shape.width, shape.height, 0);
   paint(uncertain, made.uncertain, 1);
-  const std::vector<py::ssize_t> axes{static_cast<py::ssize_t>(shape.height),
-                                      static_cast<py::ssize_t>(shape.width)};
-  py::dict figures;
-  figures["saturated"] = holds_codes(format.type)
-                             ? py::object(py::make_tuple(made.saturation.below, made.saturation.above))
-                             : py::none();
-  const bool is_noise_known = made.is_noise_known;
-  return py::make_tuple(HeldPicture{std::move(made.picture), std::move(figures)},
-                        array_of(uncertain.tags, axes).attr("astype")("bool"), is_noise_known);
+  py::array_t<bool> is_uncertain(axes_of({shape.width, shape.height, 1}));
+  std::ranges::transform(uncertain.tags, is_uncertain.mutable_data(), [](std::uint8_t tag) { return tag != 0; });
+  const auto figures = py::dict("saturated"_a = saturated_of(format.type, made.saturation));
+  return py::make_tuple(HeldPicture{std::move(made.picture), figures}, is_uncertain, made.is_noise_known);
 }
 
 py::object stretch_of(const Timeline& timeline, const std::optional<ActivityMoments>& moments,
                       bool quietest) {
   if (!moments) return py::none();
   const SampleRange& samples = (quietest ? moments->quietest : moments->busiest).samples;
-  py::dict stretch;
-  stretch["samples"] = py::make_tuple(samples.first, samples.last);
-  stretch["times_ns"] =
-      py::make_tuple(timeline.start_ns(samples.first), timeline.reach_end_ns(samples.last - 1));
-  return stretch;
+  const auto times_ns = py::make_tuple(timeline.start_ns(samples.first), timeline.reach_end_ns(samples.last - 1));
+  return py::dict("samples"_a = py::make_tuple(samples.first, samples.last), "times_ns"_a = times_ns);
 }
 
 py::dict activity(const OpenCapture& capture, const std::optional<HeldMask>& mask,
@@ -127,37 +112,29 @@ py::dict activity(const OpenCapture& capture, const std::optional<HeldMask>& mas
                   const py::object& progress) {
   Session& session = *capture.session;
   ActivityRequest request;
-  if (mask) request.mask = mask->mask;
+  if (mask) request.mask = *mask;
   request.tag = tag;
   request.ignored_codes = ignored_codes;
   request.counts_redrawn = counts_redrawn;
   const MeasuredActivity measured = without_lock(
       [&](const Stopping& stopping) { return measure_activity(session, request, stopping.progress()); },
       progress);
-  const Shape& shape = session.format().shape;
-  py::dict told;
-  told["changed_pixels"] = array_of(measured.activity.changed_pixels());
-  told["changes"] = array_of(measured.activity.changes(),
-                             {static_cast<py::ssize_t>(shape.height), static_cast<py::ssize_t>(shape.width)});
-  told["counted_pixels"] = measured.activity.pixel_count();
-  told["redrawn"] = array_of(measured.redrawn);
-  told["busiest"] = stretch_of(measured.timeline, measured.moments, false);
-  told["quietest"] = stretch_of(measured.timeline, measured.moments, true);
-  told["notes"] = note_texts(measured.notes(), Dialect::python);
-  return told;
+  const Shape& shape = capture.shape();
+  return py::dict(
+      "changed_pixels"_a = array_of(measured.activity.changed_pixels()),
+      "changes"_a = array_of(measured.activity.changes(), axes_of({shape.width, shape.height, 1})),
+      "counted_pixels"_a = measured.activity.pixel_count(), "redrawn"_a = array_of(measured.redrawn),
+      "busiest"_a = stretch_of(measured.timeline, measured.moments, false),
+      "quietest"_a = stretch_of(measured.timeline, measured.moments, true),
+      "notes"_a = note_texts(measured.notes(), Dialect::python));
 }
 
 py::dict told_wish(const SolvedWish& wish, std::size_t channels) {
   const auto first = [&](const std::array<double, 3>& light) {
     return std::vector<double>(light.begin(), light.begin() + static_cast<std::ptrdiff_t>(channels));
   };
-  py::dict told;
-  told["wish"] = wish.text;
-  told["wanted"] = first(wish.light.wanted);
-  told["reached"] = first(wish.light.reached);
-  told["missed"] = wish.missed;
-  told["is_kept"] = wish.is_kept();
-  return told;
+  return py::dict("wish"_a = wish.text, "wanted"_a = first(wish.light.wanted),
+                  "reached"_a = first(wish.light.reached), "missed"_a = wish.missed, "is_kept"_a = wish.is_kept());
 }
 
 py::dict solve(const OpenCapture& capture, const std::string& functions,
@@ -174,10 +151,9 @@ py::dict solve(const OpenCapture& capture, const std::string& functions,
           format("{} stands for a time; say when it may be: free={{'{}': (0.6, 0.8)}}", time, time));
     }
   }
-  AskedExposure exposure = asked;
-  exposure.functions = held_functions(tags_of(request.functions));
-  request.exposure = exposure_request(exposure);
-  if (regions) request.marks = regions->mask;
+  request.exposure = asked.request;
+  request.exposure.gains = Shared(tags_of(request.functions));
+  request.marks = regions;
   const SolvedExposure solved = without_lock([&](const Stopping& stopping) {
     return nutik::solve(*capture.session, capture.name, request, stopping.progress(), stopping.progress());
   }, progress);
@@ -186,37 +162,27 @@ py::dict solve(const OpenCapture& capture, const std::string& functions,
     gains[py::str(request.functions.gains[i])] = solved.numbers.gains[i];
   for (std::size_t i = 0; i < request.functions.times.size(); ++i)
     times[py::str(request.functions.times[i])] = solved.numbers.times_ns[i];
-  const std::size_t channels = capture.session->format().shape.channels;
   py::list kept;
-  for (const SolvedWish& wish : solved.wishes) kept.append(told_wish(wish, channels));
+  for (const SolvedWish& wish : solved.wishes) kept.append(told_wish(wish, capture.shape().channels));
   std::vector<std::string> untold;
   for (const std::size_t gain : solved.untold) untold.push_back(request.functions.gains[gain]);
   std::vector<std::string> warnings = solved.warnings;
   if (!input.warnings.empty()) warnings.insert(warnings.begin(), input.warnings);
-  py::dict told;
-  told["text"] = solved.text;
-  told["gains"] = std::move(gains);
-  told["times_ns"] = std::move(times);
-  told["wishes"] = std::move(kept);
-  told["untold"] = untold;
-  told["open_count"] = solved.open_count;
-  told["tried"] = solved.tried;
-  told["cost"] = solved.cost();
-  told["is_kept"] = solved.is_kept();
-  told["warnings"] = warnings;
-  return told;
+  return py::dict("text"_a = solved.text, "gains"_a = gains, "times_ns"_a = times, "wishes"_a = kept,
+                  "untold"_a = untold, "open_count"_a = solved.open_count, "tried"_a = solved.tried,
+                  "cost"_a = solved.cost(),
+                  "is_kept"_a = solved.is_kept(), "warnings"_a = warnings);
 }
 
 }  // namespace
 
 void bind_studies(py::module_& module) {
-  module.def("study", &study, py::arg("capture"), py::arg("settings"), py::arg("moments"), py::arg("regions"),
-             py::arg("output"), py::arg("progress"));
-  module.def("plate", &plate, py::arg("capture"), py::arg("by"), py::arg("output"), py::arg("progress"));
-  module.def("activity", &activity, py::arg("capture"), py::arg("mask"), py::arg("tag"),
-             py::arg("ignored_codes"), py::arg("counts_redrawn"), py::arg("progress"));
-  module.def("solve", &solve, py::arg("capture"), py::arg("functions"), py::arg("wishes"), py::arg("free"),
-             py::arg("exposure"), py::arg("regions"), py::arg("progress"));
+  module.def("study", &study, "capture"_a, "settings"_a, "moments"_a, "regions"_a, "output"_a, "progress"_a);
+  module.def("plate", &plate, "capture"_a, "by"_a, "output"_a, "progress"_a);
+  module.def("activity", &activity, "capture"_a, "mask"_a, "tag"_a, "ignored_codes"_a, "counts_redrawn"_a,
+             "progress"_a);
+  module.def("solve", &solve, "capture"_a, "functions"_a, "wishes"_a, "free"_a, "exposure"_a, "regions"_a,
+             "progress"_a);
 }
 
 }  // namespace nutik::python

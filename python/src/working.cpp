@@ -68,9 +68,8 @@ ReportedProgress Stopping::progress() const {
   };
 }
 
-std::optional<py::error_already_set> wait_for(const std::function<bool()>& is_done,
-                                              std::stop_source& stopping, const Steps& steps,
-                                              const py::object& told) {
+void wait_for(const std::function<bool()>& is_done, std::stop_source& stopping, const Steps& steps,
+              const py::object& told) {
   std::optional<py::error_already_set> raised;
   std::uint64_t last = 0;
   const auto tell = [&] {
@@ -98,9 +97,13 @@ std::optional<py::error_already_set> wait_for(const std::function<bool()>& is_do
       }
       tell();
     }
+    // While the end waits for this thread: Python would end it within what it calls, and our frames with it.
+    if (!is_over()) {
+      const py::gil_scoped_acquire locked;
+      tell();
+    }
   }
-  tell();
-  return raised;
+  if (raised) throw *raised;
 }
 
 }  // namespace nutik::python

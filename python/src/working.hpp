@@ -55,11 +55,10 @@ class Unlocked {
 void end_work();
 
 // Waits without Python's lock until is_done(), which itself waits up to 50 ms at each call; asks for a stop at Ctrl-C.
-// Calls told(done, total), unless that is None, when steps were done, and at the end. Returns what a signal's handler or
+// Calls told(done, total), unless that is None, when steps were done, and at the end. Throws what a signal's handler or
 // that raised.
-[[nodiscard]] std::optional<py::error_already_set> wait_for(const std::function<bool()>& is_done,
-                                                            std::stop_source& stopping, const Steps& steps,
-                                                            const py::object& told);
+void wait_for(const std::function<bool()>& is_done, std::stop_source& stopping, const Steps& steps,
+              const py::object& told);
 // Calls work(Stopping) and returns what that does.
 template <typename Work>
 auto without_lock(Work work, const py::object& progress = py::none()) {
@@ -68,23 +67,10 @@ auto without_lock(Work work, const py::object& progress = py::none()) {
   std::stop_source source;
   const Stopping stopping{source.get_token(), std::make_shared<Steps>()};
   auto future = std::async(std::launch::async, [&] { return work(stopping); });
-  const auto raised = wait_for(
-      [&] { return future.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready; }, source,
-      *stopping.steps, progress);
-  if (raised) throw *raised;
-  try {
-    if constexpr (std::is_void_v<decltype(future.get())>) {
-      future.get();
-      check_mapped_files(losses);
-    } else {
-      auto result = future.get();
-      check_mapped_files(losses);
-      return result;
-    }
-  } catch (const InputError&) {
-    check_mapped_files(losses);  // what seems damaged may be a file that changed under our hands
-    throw;
-  }
+  wait_for([&] { return future.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready; }, source,
+           *stopping.steps, progress);
+  check_mapped_files(losses);  // what it made, or seems damaged, may be of a file that changed under our hands
+  return future.get();
 }
 
 }  // namespace nutik::python

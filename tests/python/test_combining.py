@@ -73,6 +73,28 @@ class Combining(TestCase):
         self.assert_raises(nutik.UsageError, ["combine", "delay"], capture.render, **interval, combine="darken",
                            delay="rows:5ms")
 
+    def test_many(self):
+        """Combined, and with maps of bounds: each picture and map that of render(), of one function and of masks."""
+        capture = nutik.encode(moving_box(samples=40), rate=100)
+        starts = [0, 0.1, 0.25]
+        for stated in ({}, {"region": (3, 4, 10, 7), "codes": True}):
+            for how in ("mean", *COMBINED):
+                many = capture.render_many(starts=starts, exposures="70ms", combine=how, **stated)
+                self.assertIsNone(many.bounds)
+                for start, picture in zip(starts, many):
+                    self.assert_same(picture, capture.render(start=start, exposure="70ms", combine=how, **stated).array)
+            many = capture.render_many(starts=starts, exposures="70ms", bounds=True, **stated)
+            for k, start in enumerate(starts):
+                one = capture.render(start=start, exposure="70ms", bounds=True, **stated)
+                self.assert_same(many[k], one.array)
+                self.assertEqual(many.bounds.keys(), one.bounds.keys())
+                for term, each in many.bounds.items():
+                    self.assert_same(each[k], one.bounds[term])
+        functions = [{0: nutik.boxcar(0, "0.2s"), 128: nutik.boxcar("0.1s", each), 255: nutik.boxcar(0, each)} for each in (0.1, 0.2)]
+        many = capture.render_many(functions, mask=tags(), bounds=True)
+        for k, each in enumerate(functions):
+            self.assert_same(many.bounds["all_bounds"][k], capture.render(each, mask=tags(), bounds=True).bounds["all_bounds"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -48,6 +48,7 @@ import numpy as np, nutik
 warnings.simplefilter("ignore")  # noise has no background
 pictures = np.random.default_rng(1).integers(0, 256, (40, 128, 128, 3), np.uint8)
 capture = nutik.encode(pictures, rate=100)
+blocks = nutik.encode(pictures, rate=100, block_samples=2)  # more than one step, which are told at the end
 started = threading.Event()
 
 def busy(*_):
@@ -68,6 +69,7 @@ time.sleep(0.2)
 WORKS = ['capture.render(exposure="40f")', 'nutik.encode(pictures, rate=100)', 'capture.activity()', 'capture.plate()',
          'capture.trace(tag=0, functions=[(0, 1), (0.4, 1)], mask=np.zeros((128, 128), np.uint8))',
          'capture.trace(3, 4, start=0, exposure="40f", progress=busy)',
+         'blocks.trace(3, 4, start=0, exposure="40f", progress=busy)',
          'capture.trace(3, 4, start=0, exposure="40f"); busy()',
          'nutik.encode((each for each in pictures), rate=100)',
          'nutik.Mask(np.arange(128 * 128).reshape(128, 128) % 200).feathered(20)']
