@@ -95,8 +95,8 @@ LightCurve LightCurve::above(const std::vector<Point>& points) {
   return LightCurve(std::move(hull));
 }
 
-// No sample that is less bright than the lightest may have been brighter than it can have been, and so on: the most that any
-// can have had up to a light, and the least from it on.
+// Another sample may have been the lightest, but was no brighter than any can have been that is held as no brighter than
+// the lightest; and so on.
 LightCurve LightCurve::of_order() const {
   std::vector<Point> points = points_;
   double brightest = 0.0, darkest = std::numeric_limits<double>::infinity();
@@ -174,7 +174,8 @@ double CodeErrors::between(double from, double to, double light) const {
     const double first = place(dark), last = place(bright);
     double below = dark;
     for (int part = 1; part <= kParts; ++part) {
-      const double above = part == kParts ? bright : std::max(below, transfer.light_of(std::lerp(first, last, static_cast<double>(part) / kParts)));
+      const double end = transfer.light_of(std::lerp(first, last, static_cast<double>(part) / kParts));
+      const double above = part == kParts ? bright : std::max(below, end);
       largest = std::max({largest, place(above + off) - place(below), place(above) - place(below - off)});
       below = above;
     }

@@ -68,8 +68,9 @@ class Combining(TestCase):
         self.assert_same(capture.render(**interval, combine="integral").array, capture.render(**interval).array)
         self.assert_raises(nutik.UsageError, "choose integral, mean, lighten, darken or median", capture.render,
                            **interval, combine="brighten")
-        self.assert_raises(nutik.UsageError, ["bounds", "combine= adds nothing up"], capture.render, **interval,
-                           combine="darken", bounds=True)
+        bounds = capture.render(**interval, combine="darken", bounds=True, codes=True).bounds
+        self.assertNotIn("times", bounds, "nothing is added up")
+        self.assertLess(np.max(bounds["all_bounds"]), 0.5001, "what is combined is a code of the capture")
         self.assert_raises(nutik.UsageError, ["combine", "delay"], capture.render, **interval, combine="darken",
                            delay="rows:5ms")
 

@@ -18,8 +18,8 @@
 namespace nutik {
 namespace {
 
-// How far a picture's codes are from the light that was filmed, in what its map and all of it are allowed: the largest share
-// of the map. Both hold.
+// How far a picture's codes are from the light that was filmed, in what its map allows: the largest share. That holds, and
+// the bound of all of it.
 double share_of_map(const ExposedPicture& picture, Picture filmed, const CaptureFormat& capture,
                     const std::string& what) {
   const CodeMaking making = CodeMaking::of(capture, picture.output);
@@ -59,7 +59,9 @@ class Held : public ::testing::Test {
     std::filesystem::create_directory(source_.path);
   }
 
-  void write(const std::string& file) { scratch_.write(format("{}/{}.ppm", source_.path.filename().string(), ++count_), file); }
+  void write(const std::string& file) {
+    scratch_.write(format("{}/{}.ppm", source_.path.filename().string(), ++count_), file);
+  }
 
   [[nodiscard]] Session session(std::uint32_t tolerance) {
     ComputingRequest computing;
@@ -209,8 +211,8 @@ class Scaled : public Held {
   }
 };
 
-// A mean of sRGB's codes that are half a code off is that off, and 1.4 times as much behind the straight toe, whatever the
-// picture's S: it was steps of black's, 15 codes.
+// A mean of sRGB's codes that are half a code off is that off, and 1.4 times as much behind the straight toe. By the codes
+// of black it was 15.
 TEST_F(Scaled, LightThatWasRoundedIsBoundByItsOwn) {
   Session filmed = session(0);
   source_.clip.scale = ClipScale{2, 0, 0};

@@ -32,7 +32,8 @@ inline constexpr double kCurveLightOfCommonWhites = 1.7e-7;
 inline double print_shares(const char* what, std::vector<double> shares) {
   std::ranges::sort(shares);
   const double median = shares[shares.size() / 2];
-  std::printf("%-32s %zu cases, share of the bound: median %.3g, most %.3g\n", what, shares.size(), median, shares.back());
+  std::printf("%-32s %zu cases, share of the bound: median %.3g, most %.3g\n", what, shares.size(), median,
+              shares.back());
   return median;
 }
 

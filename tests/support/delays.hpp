@@ -31,8 +31,8 @@ inline std::shared_ptr<const DelayMap> random_delays(Random& random, const Shape
   return std::make_shared<const DelayMap>(DelayMap::by_picture(picture, range, "a random map"));
 }
 
-// Functions get points outside the capture, at one end, at both, or all of them, and hold their gains from there on: held
-// gains count in the capture alone.
+// Functions get points outside the capture, at one end, at both, or all of them, and hold their gains from there on.
+// Held gains count in the capture alone.
 inline void hold_ends(Random& random, FunctionSet& functions, std::int64_t duration_ns) {
   const auto beyond = [&] { return random.whole(1, std::max<std::int64_t>(1, duration_ns)); };
   const std::int64_t ends = random.whole(1, 5);

@@ -67,7 +67,8 @@ int run_video(const Options& options) {
                         codes = codes_text(exposed.figures.capture, exposed.output);
                         warnings.add(format("frame {}", frame), exposure_warnings(exposed));
                         return output.writes_stills()
-                                   ? recipe.text(tally.precision(), own_recipe_of(frame), tally.error_bound(), maps.name_of(frame))
+                                   ? recipe.text(tally.precision(), own_recipe_of(frame), tally.error_bound(),
+                                                 maps.name_of(frame))
                                    : std::string();
                       }, options.sound);
   }();
