@@ -51,7 +51,7 @@ std::unique_ptr<Registrar> open_registrar(const CaptureFormat& format, CameraMot
 
 std::uint64_t registered_bytes(const CaptureFormat& format) {
   constexpr std::uint64_t kPyramidBytes = 12;  // a pixel: as it is, blurred, and all smaller ones
-  return kPyramidBytes * format.shape.pixel_count();
+  return kPyramidBytes * std::min(format.shape.pixel_count(), kMaxRegisteredPixels);
 }
 
 MemoryNeeds registrar_needs(const CaptureFormat& format, Reach reach) {

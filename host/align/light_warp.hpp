@@ -12,37 +12,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "align/light_tables.hpp"
 #include "align/warp.hpp"
-#include "capture/light_codes.hpp"
 #include "capture/memory_needs.hpp"
 #include "capture/picture.hpp"
-#include "capture/transfer.hpp"
 
 namespace nutik {
-
-// Codes as light of single precision, and light as the code next to it: many at once, by tables.
-//
-//   always:  the code of a light is that of LightCodes, which takes one at a time
-class LightTables {
- public:
-  LightTables(const Transfer& transfer, std::uint32_t white_code);
-
-  // Takes every `stride`-th code, as many as there is room for, at least one. Throws CodeAboveWhite, also for a code
-  // between them.
-  void lights_of(const std::uint8_t* codes, std::size_t stride, std::span<float> lights) const;
-  void lights_of(const std::uint16_t* codes, std::size_t stride, std::span<float> lights) const;
-
-  // The last codes that begin no later than lights of [0, 1]; `codes` has room for as many.
-  void codes_of(std::span<const float> lights, std::uint32_t* codes) const;
-
- private:
-  std::vector<float> light_;               // of each code
-  std::vector<float> begins_;              // the least light of each; behind them, what no light reaches
-  std::vector<std::uint32_t> first_code_;  // at the start of each of many equal steps of light
-  std::uint32_t half_ = 1;  // a power of 2: no step has twice as many codes that begin within it
-};
 
 class LightWarp {
  public:
@@ -50,20 +26,17 @@ class LightWarp {
   LightWarp(const CaptureFormat& format, const Rectangle& area);
 
   // On all cores. Throws CodeAboveWhite.
-  void take(std::span<const std::byte> raster, const Warp& warp, std::span<std::byte> warped);
+  void take(std::span<const std::byte> raster, const Warp& warp, std::span<std::byte> warped) const;
 
   [[nodiscard]] static std::uint64_t bytes(const CaptureFormat& format);
 
  private:
   template <typename Code>
-  void read_light(const Code* raster);
-  template <typename Code>
-  void write_row(const Warp& warp, std::uint32_t row, Code* warped) const;
+  class Part;
 
   CaptureFormat format_;
   Rectangle area_;
   LightTables tables_;
-  std::vector<float> light_;  // of the raster, a plane for each channel, with a border
 };
 
 }  // namespace nutik

@@ -44,6 +44,9 @@ struct TooLittleTexture : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Larger pictures are looked at as means of 2 x 2 pixels, of 4 x 4 and so on: places are found there as well.
+inline constexpr std::uint64_t kMaxRegisteredPixels = std::uint64_t{1} << 19;
+
 // How far from where it is expected a picture may lie.
 enum class Reach {
   near,     // a few percent of its size

@@ -32,6 +32,12 @@ GainFunction::GainFunction(std::vector<ControlPoint> points) : points_(std::move
   }
 }
 
+double GainFunction::largest_gain() const {
+  double largest = 0.0;
+  for (const ControlPoint& point : points_) largest = std::max(largest, std::fabs(point.gain));
+  return largest;
+}
+
 GainFunction GainFunction::boxcar(std::int64_t begin_ns, std::int64_t end_ns, double gain) {
   return GainFunction({{begin_ns, 0.0}, {begin_ns, gain}, {end_ns, gain}, {end_ns, 0.0}});
 }

@@ -51,6 +51,7 @@ class GainFunction {
   [[nodiscard]] std::span<const ControlPoint> points() const { return points_; }
   [[nodiscard]] double first_gain() const { return points_.front().gain; }  // held before the first point
   [[nodiscard]] double last_gain() const { return points_.back().gain; }    // held after the last
+  [[nodiscard]] double largest_gain() const;                                // of either sign, without it
 
   // The function on [0, duration_ns], piece by piece, without gaps. Gains at cut ends are exact to the
   // last place, however far outside the control points lie that they are interpolated from: everything

@@ -13,8 +13,6 @@ namespace nutik {
 // row for every sample, changed or not, `rows` and `records` use only that kind.
 enum class TilePolicy { automatic, dense, rows, records };
 
-// `auto`, `dense`, `rows` or `records`; throws UsageError listing these.
-TilePolicy parse_tile_policy(std::string_view text);
 std::string to_text(TilePolicy policy);
 
 // What reading costs, in bytes of a row tile streamed by the kernel. A slot gathers a boundary value for

@@ -86,13 +86,6 @@ StartLight parse_start_light(std::string_view text) {
       format("light {} at the start is outside {} … 1, of which 1 is white", text, kMinStart));
 }
 
-Interlaced parse_deinterlacing(std::string_view text) {
-  if (text == "frames") return Interlaced::frames;
-  if (text == "fields") return Interlaced::fields;
-  if (text == "no") return Interlaced::ignored;
-  throw UsageError(format("deinterlacing '{}' is not known; choose frames, fields or no", text));
-}
-
 std::string_view to_text(YuvMatrix matrix) {
   switch (matrix) {
     case YuvMatrix::bt601: return "bt601";
@@ -118,29 +111,6 @@ std::string_view to_text(ChromaPlace place) {
     case ChromaPlace::bottom: return "bottom";
   }
   return {};
-}
-
-YuvMatrix parse_yuv_matrix(std::string_view text) {
-  for (const YuvMatrix matrix : {YuvMatrix::bt601, YuvMatrix::bt709, YuvMatrix::bt2020, YuvMatrix::ycgco}) {
-    if (text == to_text(matrix)) return matrix;
-  }
-  throw UsageError(format("matrix '{}' is not known; choose bt601, bt709, bt2020 or ycgco", text));
-}
-
-CodeRange parse_code_range(std::string_view text) {
-  for (const CodeRange range : {CodeRange::limited, CodeRange::full}) {
-    if (text == to_text(range)) return range;
-  }
-  throw UsageError(format("range '{}' is not known; choose limited or full", text));
-}
-
-ChromaPlace parse_chroma_place(std::string_view text) {
-  for (const ChromaPlace place : {ChromaPlace::left, ChromaPlace::center, ChromaPlace::topleft,
-                                  ChromaPlace::top, ChromaPlace::bottomleft, ChromaPlace::bottom}) {
-    if (text == to_text(place)) return place;
-  }
-  throw UsageError(format(
-      "place of chroma '{}' is not known; choose left, center, topleft, top, bottomleft or bottom", text));
 }
 
 Rational parse_pixel_aspect(std::string_view text) {

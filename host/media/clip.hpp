@@ -68,10 +68,6 @@ enum class ChromaPlace { left, center, topleft, top, bottomleft, bottom };
 [[nodiscard]] std::string_view to_text(YuvMatrix matrix);
 [[nodiscard]] std::string_view to_text(CodeRange range);
 [[nodiscard]] std::string_view to_text(ChromaPlace place);
-// `bt601`, `bt709`, `bt2020` or `ycgco`; `limited` or `full`; `left` … `bottom`. Throw UsageError listing these.
-[[nodiscard]] YuvMatrix parse_yuv_matrix(std::string_view text);
-[[nodiscard]] CodeRange parse_code_range(std::string_view text);
-[[nodiscard]] ChromaPlace parse_chroma_place(std::string_view text);
 // `32:27`, from 1:64 to 64:1. Throws UsageError.
 [[nodiscard]] Rational parse_pixel_aspect(std::string_view text);
 
@@ -105,8 +101,6 @@ struct ClipScale {
 // What becomes of interlaced video: it is refused; a picture is made of each frame, or of each field; or frames are
 // taken as they are, where a file only says that they were interlaced.
 enum class Interlaced { refused, frames, fields, ignored };
-// `frames`, `fields` or `no`. Throws UsageError.
-[[nodiscard]] Interlaced parse_deinterlacing(std::string_view text);
 
 // What can be stated of recordings whose pixels keep their own time (media/events/event_clip.hpp).
 // By how much the natural logarithm of light changes with an event: up, and down.

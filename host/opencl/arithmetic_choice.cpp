@@ -9,18 +9,16 @@
 namespace nutik {
 namespace {
 
-// An arithmetic that was asked for is taken, however coarse it is; of codes that is said.
+// An arithmetic that was asked for is taken, however coarse it is; of codes that is said. Strictly none is.
 void doubt(Rendered& rendered, const OutputFormat& output, bool is_asked, const RenderControl& control,
            const std::string& device) {
   if (rendered.choice->is_right_enough()) return;
-  if (is_asked && ((control.precision && !control.strict) || !holds_codes(output.type))) return;
+  if (is_asked && !control.strict && (control.precision || !holds_codes(output.type))) return;
   const std::string name = to_text(rendered.precision), error = error_text(rendered.choice->bound.worst, output);
   std::string text =
-      is_asked ? format("{} is not sure to be right to {} of a code here: {}; auto takes an arithmetic that is, "
-                        "where there is one",
-                        name, kMaxSteps, error)
-               : format("no arithmetic of {} is sure to be right to {} of a code here; {} is the closest: {}",
-                        device, kMaxSteps, name, error);
+      is_asked ? format("{}: {}; auto takes an arithmetic that is, where there is one", not_sure_text(name, output), error)
+               : format("no arithmetic of {} is sure to be right to {} here; {} is the closest: {}", device,
+                        half_step_text(output), name, error);
   if (control.strict) throw ImpreciseError(text);
   rendered.warnings.push_back(std::move(text));
 }

@@ -21,9 +21,9 @@ void for_each_part(std::uint64_t count, Work work) {
                [&](std::uint64_t part) { work(part * kPart, std::min(count, (part + 1) * kPart)); });
 }
 
-// Where samples are combined few lights differ: what one had before takes less to find than its power to compute.
+// Of few lights what one had before takes less to find than its power to compute; where all differ an eighth is lost.
 template <typename Code>
-void encode(const Picture& light, const CodeScale& scale, Picture& codes) {
+void encode(const Picture& light, const CodeScale& scale, bool has_few, Picture& codes) {
   struct Known {
     double light = std::numeric_limits<double>::quiet_NaN();
     Code code = 0;
@@ -32,6 +32,10 @@ void encode(const Picture& light, const CodeScale& scale, Picture& codes) {
   const auto from = light.values<double>();
   const auto to = codes.values<Code>();
   for_each_part(from.size(), [&](std::uint64_t first, std::uint64_t last) {
+    if (!has_few) {
+      for (std::uint64_t i = first; i < last; ++i) to[i] = static_cast<Code>(scale.code_of(from[i]));
+      return;
+    }
     std::array<Known, std::size_t{1} << kKnownBits> known;
     for (std::uint64_t i = first; i < last; ++i) {
       Known& before = known[std::bit_cast<std::uint64_t>(from[i]) * 0x9e3779b97f4a7c15u >> (64 - kKnownBits)];
@@ -115,22 +119,22 @@ Saturation count_saturated(const Picture& light, const CodeScale& scale) {
   return {below, above};
 }
 
-Picture encoded(const Picture& light, const CodeScale& scale, const OutputFormat& output) {
+Picture encoded(const Picture& light, const CodeScale& scale, const OutputFormat& output, bool has_few) {
   Picture codes(light.shape, output.type, output.white_code);
-  output.type == ValueType::code8 ? encode<std::uint8_t>(light, scale, codes)
-                                  : encode<std::uint16_t>(light, scale, codes);
+  output.type == ValueType::code8 ? encode<std::uint8_t>(light, scale, has_few, codes)
+                                  : encode<std::uint16_t>(light, scale, has_few, codes);
   return codes;
 }
 
 Picture stored(Picture light, const CaptureFormat& capture, const OutputFormat& output,
-               Saturation& saturation) {
+               Saturation& saturation, bool has_few_lights) {
   if (output.type == ValueType::light64) return light;
   if (holds_codes(output.type)) {
     const CodeMaking making = CodeMaking::of(capture, output);
     const CodeScale scale(making.transfer, output);
     to_shown_light(light, making);
     saturation += count_saturated(light, scale);
-    return encoded(light, scale, output);
+    return encoded(light, scale, output, has_few_lights);
   }
   Picture narrow(light.shape, output.type, output.white_code);
   std::ranges::transform(light.values<double>(), narrow.values<float>().begin(),

@@ -247,7 +247,7 @@ Rendered CombiningRenderer::render_part(const RenderPlan& plan, CaptureSource& s
       combiner.add(cursor.at(planned.block));
       if (control.progress) control.progress(++added, plan.blocks.size() * ((rectangle.height + rows - 1) / rows));
     }
-    const Picture part = stored(combiner.light(), plan.capture, output, rendered.saturation);
+    const Picture part = stored(combiner.light(), plan.capture, output, rendered.saturation, true);
     rendered.picture.bytes.insert(rendered.picture.bytes.end(), part.bytes.begin(), part.bytes.end());
     rendered.picture.shape.height += part.shape.height;
   }

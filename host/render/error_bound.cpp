@@ -182,10 +182,6 @@ double take_best(const RenderPlan& plan, std::span<const LightLine> lines, const
   return least < kInfinite ? line_steps(plan, error.line, roundings, output) : kInfinite;
 }
 
-double threshold_error(const Roundings& roundings) {
-  return roundings.threshold + kThresholdRoundings * kRoundoff64;
-}
-
 // Its constant is infinite where light has no line.
 LightLine line_of(const PictureError& error) {
   return error.light > 0.0 && error.line.slope == 0.0 ? LightLine{kInfinite, 0.0} : error.line;
@@ -207,7 +203,7 @@ void add_blending(const RenderPlan& plan, const Roundings& roundings, ErrorBound
                        fixed_blend_error(plan, bound);
   bound.worst.light = light;
   if (holds_codes(bound.output.type)) {
-    bound.worst.steps = in_steps(plan, largest, light, threshold_error(roundings), bound.output);
+    bound.worst.steps = in_steps(plan, largest, light, threshold_error(bound.precision), bound.output);
     const LightLine seen = blended(line, blend_line(roundings, bound.output, functions));
     const double steps = take_best(plan, {&seen, 1}, roundings, bound.output, bound.worst);
     bound.worst.steps = std::min(bound.worst.steps, kFinely * steps);  // no pixel's may be found to be larger
@@ -220,6 +216,10 @@ void add_blending(const RenderPlan& plan, const Roundings& roundings, ErrorBound
 }
 
 }  // namespace
+
+double threshold_error(Precision precision) {
+  return roundings_of(precision, Transfer::linear()).threshold + kThresholdRoundings * kRoundoff64;
+}
 
 double converted_error(const ColourMatrix& matrix, double light, double scale) {
   constexpr double kMatrixRoundings = 4;  // in u₆₄ of what is added up
@@ -276,7 +276,7 @@ ErrorBound error_bound(const RenderPlan& plan, Precision precision, const Output
                          kCorrectedRoundings * course.corrected_magnitude + course.boundaries);
       const auto in_light = [&](double scaled) { return std::scalbn(scaled + tables, gain.exponent) + kSmallest; };
       error.light = in_light(sums);
-      error.steps = in_steps(plan, gain.error_scale(), error.light, threshold_error(roundings), output);
+      error.steps = in_steps(plan, gain.error_scale(), error.light, threshold_error(bound.precision), output);
       if (precision == Precision::single_) {
         std::vector<LightLine> lines = single_lines(course, roundings);
         for (LightLine& line : lines) line.constant = in_light(line.constant);
@@ -294,7 +294,7 @@ ErrorBound error_bound(const RenderPlan& plan, Precision precision, const Output
 ErrorBound reference_bound(const RenderPlan& plan, const OutputFormat& output) {
   ErrorBound bound{Precision::double_, {}, {}, output};
   for (const PlannedFunction& function : plan.functions) {
-    const double scale = function.summary.error_scale();
+    const double scale = error_scale(function, plan.combine);
     PictureError error{kReferenceError * scale, 0.0};
     error.steps = in_steps(plan, scale, error.light, 0.0, output);
     bound.functions.push_back(error);
@@ -323,7 +323,7 @@ PictureError PixelErrors::of(std::uint64_t pixel) const {
   PictureError error;
   error.light = of_functions + blend_error(roundings, bound_.output, shares.size(), scale + of_functions) +
                 fixed_blend_;
-  error.steps = in_steps(plan_, scale, error.light, threshold_error(roundings), bound_.output);
+  error.steps = in_steps(plan_, scale, error.light, threshold_error(bound_.precision), bound_.output);
   const LightLine seen = blended(line, blend_line(roundings, bound_.output, shares.size()));
   error.steps = std::min(error.steps, take_best(plan_, {&seen, 1}, roundings, bound_.output, error));
   return error;

@@ -72,6 +72,9 @@ class PixelErrors {
   double fixed_blend_ = 0.0;  // in light
 };
 
+// What codes are off by because the thresholds between them are rounded, in light of which 1 is white.
+[[nodiscard]] double threshold_error(Precision precision);
+
 // What a step of floating point is, in S = ∫|g|/D of the function: 2^-23 for light32, the most that floats lie
 // apart below S; for light64 2e-12, so that half a step is what the arithmetic in double promises.
 [[nodiscard]] double format_step(ValueType type);

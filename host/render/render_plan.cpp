@@ -30,12 +30,15 @@ bool RenderPlan::has_corrected() const {
                              [](const PlannedFunction& function) { return function.table->has_corrected(); });
 }
 
+double error_scale(const PlannedFunction& function, Combine combine) {
+  return combine == Combine::integral ? function.summary.error_scale() : function.function.largest_gain();
+}
+
 double RenderPlan::error_scale(std::uint64_t pixel) const {
   const std::span<const Share> shares = shares_of(pixel);
-  if (shares.empty()) return functions[function_of(pixel)].summary.error_scale();
+  if (shares.empty()) return nutik::error_scale(functions[function_of(pixel)], combine);
   double scale = 0.0;
-  for (const Share& share : shares)
-    scale += share.size * functions[share.of].summary.error_scale() / kWholeShare;
+  for (const Share& share : shares) scale += share.size * nutik::error_scale(functions[share.of], combine) / kWholeShare;
   return scale;
 }
 

@@ -58,6 +58,9 @@ struct PlannedFunction {
   std::int64_t delay_ns = 0;
 };
 
+// S, the most light that a function makes of white: ∫|g| / D; where samples are combined the largest of its gains.
+[[nodiscard]] double error_scale(const PlannedFunction& function, Combine combine);
+
 struct PlannedBlock {
   std::uint64_t block;  // in the capture
   BlockExtent extent;
@@ -86,7 +89,7 @@ struct RenderPlan {
   [[nodiscard]] std::uint16_t function_of(std::uint64_t pixel) const { return map->region_at(pixel); }
   // The functions of a mixed pixel with their shares; none where it has one function alone.
   [[nodiscard]] std::span<const Share> shares_of(std::uint64_t pixel) const { return map->mixed.of(pixel); }
-  // S = ∫|g| / D of a pixel's function; of a mixed pixel its shares of those of its functions.
+  // S of a pixel's function; of a mixed pixel its shares of those of its functions.
   [[nodiscard]] double error_scale(std::uint64_t pixel) const;
   // Of the tables of all functions for the planned blocks.
   [[nodiscard]] std::uint64_t row_count() const;

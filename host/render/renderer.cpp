@@ -37,6 +37,21 @@ PrecisionChoice choose_precision(const RenderPlan& plan, const OutputFormat& out
   return {std::move(bound), std::move(rejected)};
 }
 
+void check_reference_strictly(const RenderPlan& plan, const OutputFormat& output) {
+  const ErrorBound bound = reference_bound(plan, output);
+  if (bound.worst.steps <= kMaxSteps) return;
+  throw ImpreciseError(format("{}: {}; smaller gains, or gains that cancel less, may be",
+                              not_sure_text("the reference", output), error_text(bound.worst, output)));
+}
+
+std::string half_step_text(const OutputFormat& output) {
+  return format("{} of a {}", kMaxSteps, holds_codes(output.type) ? "code" : "float's step");
+}
+
+std::string not_sure_text(std::string_view who, const OutputFormat& output) {
+  return format("{} is not sure to be right to {} here", who, half_step_text(output));
+}
+
 std::string error_text(const PictureError& error, const OutputFormat& output) {
   const std::string light = format("light within {:.2g}", error.light);
   if (output.type == ValueType::light64) return light;

@@ -10,6 +10,7 @@
 #include <span>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "capture/picture.hpp"
@@ -43,6 +44,13 @@ struct PrecisionChoice {
 [[nodiscard]] PrecisionChoice choose_precision(const RenderPlan& plan, const OutputFormat& output,
                                                std::span<const Precision> available);
 
+// Throws ImpreciseError where what the reference makes, and whatever combines samples as it does, may err by more than
+// kMaxSteps.
+void check_reference_strictly(const RenderPlan& plan, const OutputFormat& output);
+
+// `0.5 of a code`; `single is not sure to be right to 0.5 of a code here`
+[[nodiscard]] std::string half_step_text(const OutputFormat& output);
+[[nodiscard]] std::string not_sure_text(std::string_view who, const OutputFormat& output);
 // `light within 3.1e-07, 0.01 of an 8-bit code`
 [[nodiscard]] std::string error_text(const PictureError& error, const OutputFormat& output);
 
@@ -52,7 +60,7 @@ struct RenderControl {
   ReportedProgress progress;           // told how far it is; of several devices, how far the first one
   std::optional<Rectangle> rectangle;  // only these pixels, which are the whole picture's; none: all
   std::optional<Precision> precision;  // instead of what the renderer was made with
-  bool strict = false;  // ImpreciseError where a warning would say that codes may err by more than kMaxSteps
+  bool strict = false;  // ImpreciseError where the picture may err by more than kMaxSteps
   bool takes_wrong = false;  // to measure an arithmetic that its device computes wrongly; else it is refused
 
   // Of several devices, that one makes all of it which is free first: pictures that are asked for at the same time are

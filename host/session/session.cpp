@@ -283,9 +283,11 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
   throw_if_cancelled(control);
   check_transfer(options.transfer);
   RenderPlan plan = plans_.plan(source, functions, mask, options);
-  if (output.maps_bounds && plan.combine != Combine::integral)
-    throw UsageError(Advice{"`bounds` maps what sums may be off by, and `combine` adds nothing up; use one"});
-  if (plan.combine == Combine::integral && !warmed_up_.test_and_set()) warm_up(source, plan, output);
+  const bool adds_up = plan.combine == Combine::integral;  // else a device's light is the reference's to the last bit
+  const bool strict = control.strict || devices_->request().strict;
+  if (strict && (!adds_up || devices_->request().renderer == RendererKind::reference))
+    check_reference_strictly(plan, output);
+  if (adds_up && !warmed_up_.test_and_set()) warm_up(source, plan, output);
   if (reading_ == Reading::whole) devices_->keep_resident(reader_.get());
   // In the mask and in its map.
   const std::uint64_t mixed_bytes = 2 * mask.mixed.bytes();
@@ -299,18 +301,19 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
        {"the map of bounds", output.maps_bounds ? pictures * UncertaintyMap::bytes(format_.shape) : 0}},
       [&](std::uint64_t left) {
         RenderControl limited = control;
-        limited.strict |= devices_->request().strict;
+        limited.strict = strict;
         if (limited.memory_bytes == 0 || limited.memory_bytes > left) limited.memory_bytes = left;
         return devices_->renderer().render(plan, source, output, limited);
       });
   rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
   warn_of_infinite(rendered);
   const auto block_count = reader_ ? std::optional(reader_->block_count()) : std::nullopt;
-  const std::shared_ptr<const CaptureErrors> errors = errors_of(plan.capture);
+  std::shared_ptr<const CaptureErrors> errors = errors_of(plan.capture);
+  if (!adds_up) errors = std::make_shared<CaptureErrors>(errors->of_order());
   std::vector<PictureLayer> bounds;
   if (output.maps_bounds) {
     const Rectangle part = control.rectangle.value_or(Rectangle::whole(format_.shape));
-    const ErrorBound bound = rendered.choice ? rendered.choice->bound : reference_bound(plan, output);
+    const ErrorBound bound = rendered.choice && adds_up ? rendered.choice->bound : reference_bound(plan, output);
     bounds = UncertaintyMap(plan, source.timeline(), bound, *errors).layers(rendered.picture, part, control);
   }
   ExposureFigures figures = ExposureFigures::of(std::move(plan), source.timeline(), block_count);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "capture/format.hpp"
 #include "render/renderer.hpp"
@@ -41,12 +42,6 @@ std::optional<PictureError> rounding_of(const ExposedPicture& exposed, double sc
   return PictureError{making.white_light * light_within(making.transfer, half_code), 0.5};
 }
 
-double largest_gain(const GainFunction& function) {
-  double largest = 0.0;
-  for (const ControlPoint& point : function.points()) largest = std::max(largest, std::fabs(point.gain));
-  return largest;
-}
-
 double times_of(const ExposureFigures& figures) {
   double largest = 0.0;
   for (const PlannedFunction& function : figures.functions)
@@ -54,14 +49,14 @@ double times_of(const ExposureFigures& figures) {
   return largest;
 }
 
-// In codes: what `constant` and, beside it, what is held of samples cost together where they cost most.
-double held_codes(const CodeErrors& codes, const Transfer& transfer, double scale, const LightCurve& held,
-                  double constant) {
+// What codes are off by where off_of(light, light behind it) costs most of a mean of samples between these.
+template <typename OffOf>
+double largest_codes(const CodeErrors& codes, const Transfer& captured, double scale, OffOf off_of) {
   constexpr int kParts = 1024;  // of the capture's codes
   double largest = 0.0, from = 0.0;
   for (int part = 1; part <= kParts; ++part) {
-    const double to = transfer.light_of(static_cast<double>(part) / kParts);
-    largest = std::max(largest, codes.between(scale * from, scale * to, scale * held.most(from, to) + constant));
+    const double to = captured.light_of(static_cast<double>(part) / kParts);
+    largest = std::max(largest, codes.between(scale * from, scale * to, off_of(from, to)));
     from = to;
   }
   return largest;
@@ -100,6 +95,22 @@ LightCurve LightCurve::above(const std::vector<Point>& points) {
   return LightCurve(std::move(hull));
 }
 
+// No sample that is less bright than the lightest may have been brighter than it can have been, and so on: the most that any
+// can have had up to a light, and the least from it on.
+LightCurve LightCurve::of_order() const {
+  std::vector<Point> points = points_;
+  double brightest = 0.0, darkest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    brightest = std::max(brightest, points_[i].light + points_[i].off);
+    points[i].off = brightest - points_[i].light;
+  }
+  for (std::size_t i = points.size(); i-- > 0;) {
+    darkest = std::min(darkest, points_[i].light - points_[i].off);
+    points[i].off = std::max(points[i].off, points_[i].light - darkest);
+  }
+  return above(points);
+}
+
 double LightCurve::at(double light) const {
   if (points_.empty()) return 0.0;
   const auto behind = std::ranges::lower_bound(points_, light, {}, &Point::light);
@@ -117,21 +128,33 @@ CaptureErrors CaptureErrors::of(const CaptureFormat& capture, bool is_rounded) {
   CaptureErrors errors;
   const NoiseModel& noise = capture.noise;
   const double white = capture.white_code;
-  if (is_rounded) errors.rounded_light = light_within(capture.transfer, 0.5 / white);
-  if (noise.tolerance == 0 && !noise.camera) return errors;
+  if (!is_rounded && noise.tolerance == 0 && !noise.camera) return errors;
   const auto light_at = [&](double code) { return capture.transfer.light_of(std::clamp(code / white, 0.0, 1.0)); };
+  const auto within = [&](double code, double off) {
+    const double light = light_at(code);
+    return LightCurve::Point{light, std::max(light_at(code + off) - light, light - light_at(code - off))};
+  };
   const double scale = noise.camera ? white / noise.camera->white_code : 1.0;
-  std::vector<LightCurve::Point> held, noisy;
+  std::vector<LightCurve::Point> rounded, held, noisy;
   for (std::uint32_t code = 0; code <= capture.white_code; ++code) {
     double deviation = 0.0;
     for (std::uint32_t channel = 0; noise.camera && channel < noise.camera->channels.size(); ++channel)
       deviation = std::max(deviation, scale * noise.camera->sd(channel, code / scale));
-    const double light = light_at(code), off = std::max<double>(noise.tolerance, noise.sigmas * deviation);
-    held.push_back({light, std::max(light_at(code + off) - light, light - light_at(code - off))});
-    if (deviation > 0.0) noisy.push_back({light, (light_at(code + deviation) - light_at(code - deviation)) / 2});
+    if (is_rounded) rounded.push_back(within(code, 0.5));
+    held.push_back(within(code, std::max<double>(noise.tolerance, noise.sigmas * deviation)));
+    if (deviation > 0.0)
+      noisy.push_back({held.back().light, (light_at(code + deviation) - light_at(code - deviation)) / 2});
   }
+  errors.rounded = LightCurve::above(rounded);
   errors.held = LightCurve::above(held);
   errors.noise = LightCurve(std::move(noisy));
+  return errors;
+}
+
+CaptureErrors CaptureErrors::of_order() const {
+  CaptureErrors errors = *this;
+  errors.rounded = rounded.of_order();
+  errors.held = held.of_order();
   return errors;
 }
 
@@ -144,10 +167,22 @@ double CodeErrors::between(double from, double to, double light) const {
   const double white = making_.white_light, off = light / white;
   const auto place = [&](double at) { return transfer.fraction_of(std::clamp(at, 0.0, 1.0)); };
   const double dark = std::clamp(from / white, 0.0, 1.0), bright = std::clamp(to / white, 0.0, 1.0);
+  double largest = 0.0;
+  if (transfer.kind() == Transfer::Kind::log) {
+    // Which bends both ways: between the ends of each part of a code.
+    constexpr int kParts = 32;
+    const double first = place(dark), last = place(bright);
+    double below = dark;
+    for (int part = 1; part <= kParts; ++part) {
+      const double above = part == kParts ? bright : std::max(below, transfer.light_of(std::lerp(first, last, static_cast<double>(part) / kParts)));
+      largest = std::max({largest, place(above + off) - place(below), place(above) - place(below - off)});
+      below = above;
+    }
+    return white_code_ * largest;
+  }
   // Up and down from a light. Where the function bends down, the step up is largest at the darkest light, the step down
   // at the darkest that has room for all of it; where it bends up, the step down is largest at the brightest light, the
   // step up at the brightest that has room for all of it.
-  double largest = 0.0;
   for (const double at : {dark, bright, std::clamp(off, dark, bright), std::clamp(1.0 - off, dark, bright)})
     largest = std::max({largest, place(at + off) - place(at), place(at) - place(at - off)});
   return white_code_ * (largest + (transfer.toe() ? kPiecesMiss : 0.0));
@@ -162,7 +197,7 @@ double times_error(const PlannedFunction& function, const Timeline& timeline) {
   const GainSummary& gain = function.summary;
   if (gain.support_ns == 0) return 0.0;
   const auto samples = static_cast<double>(exposed_samples(function, timeline).size());
-  return (samples + 1) / static_cast<double>(gain.support_ns) * largest_gain(function.function);
+  return (samples + 1) / static_cast<double>(gain.support_ns) * function.function.largest_gain();
 }
 
 bool is_mean(const PlannedFunction& function) {
@@ -171,35 +206,48 @@ bool is_mean(const PlannedFunction& function) {
 
 Uncertainty Uncertainty::of(const ExposedPicture& exposed, const CaptureErrors& capture) {
   Uncertainty uncertainty;
-  const bool adds_up = exposed.figures.combine == Combine::integral;
-  for (const PlannedFunction& function : exposed.figures.functions)
-    uncertainty.scale =
-        std::max(uncertainty.scale, adds_up ? function.summary.error_scale() : largest_gain(function.function));
+  const ExposureFigures& figures = exposed.figures;
+  const bool adds_up = figures.combine == Combine::integral;
+  for (const PlannedFunction& function : figures.functions)
+    uncertainty.scale = std::max(uncertainty.scale, error_scale(function, figures.combine));
   const double scale = uncertainty.scale;
   const auto add = [&](std::string_view name, Is is, const PictureError& error) {
     if (error.light > 0.0) uncertainty.terms.push_back({name, is, error});
+    return error.light;
   };
-  add("arithmetic", Is::bound,
-      exposed.choice ? exposed.choice->bound.worst : error_of(exposed, scale, scale * kReferenceError));
-  if (const auto rounding = rounding_of(exposed, scale)) add("rounding", Is::bound, *rounding);
-  add("rounded_codes", Is::bound, error_of(exposed, scale, scale * capture.rounded_light));
-  add("held_samples", Is::bound, error_of(exposed, scale, scale * capture.held.most()));
-  if (adds_up) add("times", Is::bound, error_of(exposed, scale, times_of(exposed.figures)));
-  PictureError sum;
   double others = 0.0;  // light that is off wherever it lies
+  others += add("arithmetic", Is::bound,
+                exposed.choice && adds_up ? exposed.choice->bound.worst
+                                          : error_of(exposed, scale, scale * kReferenceError));
+  if (const auto rounding = rounding_of(exposed, scale)) add("rounding", Is::bound, *rounding);
+  // The dark is closer to what it was than the bright, in light.
+  const CodeErrors codes(figures.capture, exposed.output);
+  const bool by_light = holds_codes(exposed.output.type) && !codes.making().conversion &&
+                        !(capture.held.is_zero() && capture.rounded.is_zero()) &&
+                        std::ranges::all_of(figures.functions, is_mean);
+  const auto add_by_light = [&](std::string_view name, const LightCurve& curve, auto off_of) {
+    PictureError error = error_of(exposed, scale, scale * curve.most());
+    if (by_light && error.light > 0.0)
+      error.steps = std::min(error.steps, largest_codes(codes, figures.capture.transfer, scale, off_of));
+    add(name, Is::bound, error);
+  };
+  const auto held = [&](double from, double to) { return scale * capture.held.most(from, to); };
+  const auto rounded = [&](double from, double to) {
+    const double before = capture.held.most(from, to);  // light that was rounded, and held after that
+    return scale * capture.rounded.most(from - before, to + before);
+  };
+  add_by_light("rounded_codes", capture.rounded, rounded);
+  add_by_light("held_samples", capture.held, held);
+  if (adds_up) others += add("times", Is::bound, error_of(exposed, scale, times_of(figures)));
+  PictureError sum;
   for (const UncertaintyTerm& term : uncertainty.terms) {
     sum.light += term.error->light;
     sum.steps += term.error->steps;
-    if (term.name != "rounding" && term.name != "held_samples") others += term.error->light;
   }
-  const CodeErrors codes(exposed.figures.capture, exposed.output);
-  if (holds_codes(exposed.output.type) && adds_up && !capture.held.is_zero() && codes.know_light() &&
-      std::ranges::all_of(exposed.figures.functions, is_mean)) {
-    // The dark is held closer than the bright, in light.
-    const Transfer& held_by = exposed.figures.capture.transfer;
-    const auto held = std::ranges::find(uncertainty.terms, "held_samples", &UncertaintyTerm::name);
-    held->error->steps = held_codes(codes, held_by, scale, capture.held, 0.0);
-    sum.steps = std::min(sum.steps, held_codes(codes, held_by, scale, capture.held, others) + 0.5);
+  if (by_light) {
+    others += codes.making().white_light * threshold_error(exposed.precision);
+    const auto all = [&](double from, double to) { return rounded(from, to) + held(from, to) + others; };
+    sum.steps = std::min(sum.steps, largest_codes(codes, figures.capture.transfer, scale, all) + 0.5);
   }
   if (holds_codes(exposed.output.type)) sum.steps = std::min<double>(sum.steps, exposed.output.white_code);
   uncertainty.bounds = {"all_bounds", Is::bound, sum};
@@ -213,7 +261,7 @@ Uncertainty Uncertainty::of(const ExposedPicture& exposed, const CaptureErrors& 
                                  format("half of the texture lies within {:.2g} pixels of its place", *pixels)});
   }
   if (capture.made) {
-    const std::uint64_t made = made_of(exposed.figures, *capture.made), of = exposed.figures.live_samples;
+    const std::uint64_t made = made_of(figures, *capture.made), of = figures.live_samples;
     uncertainty.terms.push_back(
         {"made_samples", Is::count, {},
          {{"made_samples", static_cast<double>(made)}, {"exposed_samples", static_cast<double>(of)}},

@@ -16,6 +16,7 @@
 
 #include "capture/made_samples.hpp"
 #include "render/error_bound.hpp"
+#include "render/render_plan.hpp"
 
 namespace nutik {
 
@@ -34,6 +35,8 @@ class LightCurve {
   // The least that bends down everywhere and lies below none of them. A mean of samples, whose weights are not
   // negative, is off by no more than the curve says of that mean.
   [[nodiscard]] static LightCurve above(const std::vector<Point>& points);
+  // The same of the lightest, darkest or middle sample: of a curve that bends down.
+  [[nodiscard]] LightCurve of_order() const;
 
   [[nodiscard]] bool is_zero() const { return points_.empty(); }
   [[nodiscard]] double at(double light) const;
@@ -49,14 +52,16 @@ class LightCurve {
 
 // What a capture is known to be off by before anything is exposed.
 struct CaptureErrors {
-  double rounded_light = 0.0;  // between light and the code that it was rounded to: scaled or floating-point pictures
-  LightCurve held;   // between what a sample had and what is held of it: its tolerance, its noise's sigmas
-  LightCurve noise;  // a sample's standard deviation, in its noisiest channel; zero: not known
+  LightCurve rounded;  // between light and the code that it was rounded to: scaled or floating-point pictures
+  LightCurve held;     // between what a sample had and what is held of it: its tolerance, its noise's sigmas
+  LightCurve noise;    // a sample's standard deviation, in its noisiest channel; zero: not known
   std::optional<double> alignment_pixels = std::nullopt;
   std::optional<MadeSamples> made = std::nullopt;
 
   // `is_rounded`: its codes are light that was rounded.
   [[nodiscard]] static CaptureErrors of(const CaptureFormat& capture, bool is_rounded);
+  // Of pictures whose samples are combined.
+  [[nodiscard]] CaptureErrors of_order() const;
 };
 
 // Light that a picture of codes may be off by, by that light.
@@ -64,12 +69,8 @@ class CodeErrors {
  public:
   CodeErrors(const CaptureFormat& capture, const OutputFormat& output);
 
-  // Whether errors are told by light: cameras' curves bend both ways, and other primaries mix channels.
-  [[nodiscard]] bool know_light() const {
-    return !making_.conversion && making_.transfer.kind() != Transfer::Kind::log;
-  }
   [[nodiscard]] const CodeMaking& making() const { return making_; }
-  // In codes, where light between two others changes by so much; and wherever that is worst, `scale` being S.
+  // In codes, where shown light between two others changes by so much; and wherever that is worst, `scale` being S.
   [[nodiscard]] double between(double from, double to, double light) const;
   [[nodiscard]] double anywhere(double light, double scale) const;
 

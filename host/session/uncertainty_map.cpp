@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -49,6 +50,19 @@ float rounded_up(double value) {
   return near == 0.0F ? near : std::nextafter(near, std::numeric_limits<float>::infinity());
 }
 
+ColourMatrix inverse(const ColourMatrix& matrix) {
+  const auto minor = [&](std::size_t row, std::size_t column) {
+    const std::size_t r = (row + 1) % 3, s = (row + 2) % 3, c = (column + 1) % 3, d = (column + 2) % 3;
+    return matrix[r][c] * matrix[s][d] - matrix[r][d] * matrix[s][c];
+  };
+  const double determinant = matrix[0][0] * minor(0, 0) + matrix[0][1] * minor(0, 1) + matrix[0][2] * minor(0, 2);
+  ColourMatrix result;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) result[row][column] = minor(column, row) / determinant;
+  }
+  return result;
+}
+
 double made_share(const PlannedFunction& function, const Timeline& timeline, const std::vector<bool>& is_made) {
   const SampleRange samples = exposed_samples(function, timeline);
   if (samples.size() == 0) return 0.0;
@@ -67,24 +81,33 @@ UncertaintyMap::UncertaintyMap(const RenderPlan& plan, const Timeline& timeline,
       capture_(capture),
       output_(bound.output),
       arithmetic_(plan, bound),
-      codes_(plan.capture, bound.output) {
+      codes_(plan.capture, bound.output),
+      threshold_(codes_.making().white_light * threshold_error(bound.precision)) {
   const std::vector<bool> is_made = capture.made ? capture.made->marks() : std::vector<bool>();
   for (const PlannedFunction& function : plan.functions) {
-    functions_.push_back({function.summary.error_scale(), times_error(function, timeline),
+    functions_.push_back({error_scale(function, plan.combine),
+                          plan.combine == Combine::integral ? times_error(function, timeline) : 0.0,
                           made_share(function, timeline, is_made), nutik::is_mean(function)});
   }
+  if (const auto& conversion = codes_.making().conversion) back_ = inverse(*conversion);
 }
 
 bool UncertaintyMap::has(Term term) const {
   switch (term) {
     case kRounding: return output_.type != ValueType::light64;
-    case kRoundedCodes: return capture_.rounded_light > 0.0;
+    case kRoundedCodes: return !capture_.rounded.is_zero();
     case kHeldSamples: return !capture_.held.is_zero();
+    case kTimes: return plan_.combine == Combine::integral;
     case kNoise: return !capture_.noise.is_zero();
     case kAlignment: return capture_.alignment_pixels.has_value();
     case kMadeSamples: return capture_.made.has_value();
     default: return true;
   }
+}
+
+UncertaintyMap::Errors UncertaintyMap::worst_of(Errors a, const Errors& b) {
+  for (std::size_t term = 0; term < kTerms; ++term) a.of[term] = std::max(a.of[term], b.of[term]);
+  return a;
 }
 
 UncertaintyMap::Function UncertaintyMap::function_of(std::uint64_t pixel) const {
@@ -102,59 +125,101 @@ UncertaintyMap::Function UncertaintyMap::function_of(std::uint64_t pixel) const 
   return mixed;
 }
 
-UncertaintyMap::Errors UncertaintyMap::of_code(double code, const Function& function,
-                                               const PictureError& arithmetic) const {
-  const CodeMaking& making = codes_.making();
-  const double white = output_.white_code, scale = function.scale;
-  const bool by_light = function.is_mean && codes_.know_light() && output_.negative != NegativeLight::offset;
-  // Where the light lay that became this code; codes end at black and white.
-  const auto light_of = [&](double place) {
-    return making.white_light * making.transfer.light_of(std::clamp(place / white, 0.0, 1.0));
-  };
-  const double from = by_light && code > 0 ? light_of(code - 0.5) : 0.0;
-  const double to = by_light && code < white ? light_of(code + 0.5) : std::max(scale, making.white_light);
-  const auto in_codes = [&](double light) {
-    return by_light ? codes_.between(from, to, light) : codes_.anywhere(light, scale);
-  };
+UncertaintyMap::Errors UncertaintyMap::lights(const Span& light, const Function& function, double own) const {
+  const double scale = function.scale;
   const auto most = [&](const LightCurve& curve, double more) {
-    return scale == 0.0 ? 0.0
-           : by_light   ? scale * curve.most((from - more) / scale, (to + more) / scale)
-                        : scale * curve.most();
+    return scale == 0.0       ? 0.0
+           : function.is_mean ? scale * curve.most((light.from - more) / scale, (light.to + more) / scale)
+                              : scale * curve.most();
   };
-  const double own = by_light ? arithmetic.of_light(to) : arithmetic.light;
-  const double rounded = scale * capture_.rounded_light, held = most(capture_.held, own);
+  Errors errors;
+  errors.of[kArithmetic] = own;
+  errors.of[kHeldSamples] = most(capture_.held, own);
+  errors.of[kRoundedCodes] = most(capture_.rounded, own + errors.of[kHeldSamples]);  // before they were held
+  errors.of[kTimes] = function.times;
+  if (scale > 0.0)
+    errors.of[kNoise] = scale * (function.is_mean ? capture_.noise.at(light.at / scale) : capture_.noise.most());
+  return errors;
+}
+
+UncertaintyMap::Span UncertaintyMap::shown(double code, const Span& all) const {
+  const CodeMaking& making = codes_.making();
+  const double white = output_.white_code;
+  const auto light_of = [&](double place) { return making.white_light * making.transfer.light_of(place / white); };
+  return {code > 0 ? light_of(code - 0.5) : all.from, light_of(std::min(code, white)),
+          code < white ? light_of(code + 0.5) : std::max(all.to, making.white_light)};
+}
+
+UncertaintyMap::Errors UncertaintyMap::in_codes(const std::optional<Span>& shown, const Errors& light, double scale,
+                                                const PictureError& arithmetic) const {
+  const auto steps = [&](double off) {
+    return shown ? codes_.between(shown->from, shown->to, off) : codes_.anywhere(off, scale);
+  };
   Errors errors;
   errors.of[kArithmetic] = arithmetic.steps;
   errors.of[kRounding] = 0.5;
-  errors.of[kRoundedCodes] = in_codes(rounded);
-  errors.of[kHeldSamples] = in_codes(held);
-  errors.of[kTimes] = in_codes(function.times);
-  errors.of[kAllBounds] = std::min(white, 0.5 + in_codes(own + rounded + held + function.times));
-  if (!capture_.noise.is_zero() && scale > 0.0) {
-    const double light = light_of(code);
-    const double deviation = scale * (by_light ? capture_.noise.at(light / scale) : capture_.noise.most());
-    errors.of[kNoise] = by_light ? codes_.between(light, light, deviation) : codes_.anywhere(deviation, scale);
+  double all = light.of[kArithmetic] + threshold_;
+  for (const Term term : {kRoundedCodes, kHeldSamples, kTimes}) {
+    errors.of[term] = steps(light.of[term]);
+    all += light.of[term];
   }
+  errors.of[kAllBounds] = std::min<double>(output_.white_code, 0.5 + steps(all));
+  errors.of[kNoise] = shown ? codes_.between(shown->at, shown->at, light.of[kNoise]) : steps(light.of[kNoise]);
   return errors;
+}
+
+UncertaintyMap::Errors UncertaintyMap::of_code(double code, const Function& function,
+                                               const PictureError& arithmetic) const {
+  if (!function.is_mean || codes_.making().conversion || output_.negative == NegativeLight::offset) {
+    const Span all{0.0, 0.0, function.scale};
+    return in_codes(std::nullopt, lights(all, function, arithmetic.light), function.scale, arithmetic);
+  }
+  const Span light = shown(code, {0.0, 0.0, function.scale});
+  return in_codes(light, lights(light, function, arithmetic.of_light(light.to)), function.scale, arithmetic);
+}
+
+UncertaintyMap::Errors UncertaintyMap::of_colour(const std::array<double, 3>& codes, const Function& function,
+                                                 const PictureError& arithmetic) const {
+  if (!function.is_mean || output_.negative != NegativeLight::saturate) return of_code(0.0, function, arithmetic);
+  const ColourMatrix& to_shown = *codes_.making().conversion;
+  const double own = converted_error(to_shown, arithmetic.light, function.scale);
+  std::array<Span, 3> seen, light;
+  for (std::size_t row = 0; row < 3; ++row) {
+    Span all;
+    for (const double entry : to_shown[row]) (entry < 0.0 ? all.from : all.to) += entry * function.scale;
+    seen[row] = shown(codes[row], all);
+  }
+  std::array<Errors, 3> of_light, of_shown{};
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      const double entry = back_[row][channel], from = seen[channel].from - own, to = seen[channel].to + own;
+      light[row].from += entry * (entry < 0.0 ? to : from);
+      light[row].at += entry * seen[channel].at;
+      light[row].to += entry * (entry < 0.0 ? from : to);
+    }
+    for (double* const end : {&light[row].from, &light[row].at, &light[row].to})
+      *end = std::clamp(*end, 0.0, function.scale);
+    of_light[row] = lights(light[row], function, arithmetic.light);
+  }
+  Errors worst;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      for (std::size_t term = 0; term < kTerms; ++term)
+        of_shown[row].of[term] += std::fabs(to_shown[row][channel]) * of_light[channel].of[term];
+    }
+    of_shown[row].of[kArithmetic] = own;
+    worst = worst_of(worst, in_codes(seen[row], of_shown[row], function.scale, arithmetic));
+  }
+  return worst;
 }
 
 UncertaintyMap::Errors UncertaintyMap::of_light(double light, const Function& function,
                                                 const PictureError& arithmetic) const {
-  Errors errors;
-  const double scale = function.scale;
-  errors.of[kArithmetic] = arithmetic.light;
   // Half a step of the float that it became, the least one at the end.
-  if (output_.type == ValueType::light32) errors.of[kRounding] = std::fabs(light) * 0x1p-24 + 0x1p-150;
-  errors.of[kRoundedCodes] = scale * capture_.rounded_light;
-  errors.of[kTimes] = function.times;
-  const double near = errors.of[kArithmetic] + errors.of[kRounding];
-  if (function.is_mean && scale > 0.0) {
-    errors.of[kHeldSamples] = scale * capture_.held.most((light - near) / scale, (light + near) / scale);
-    errors.of[kNoise] = scale * capture_.noise.at(light / scale);
-  } else {
-    errors.of[kHeldSamples] = scale * capture_.held.most();
-    errors.of[kNoise] = scale * capture_.noise.most();
-  }
+  const double rounding = output_.type == ValueType::light32 ? std::fabs(light) * 0x1p-24 + 0x1p-150 : 0.0;
+  Errors errors = lights({light, light, light}, function, arithmetic.light + rounding);
+  errors.of[kArithmetic] = arithmetic.light;
+  errors.of[kRounding] = rounding;
   for (const Term term : {kArithmetic, kRounding, kRoundedCodes, kHeldSamples, kTimes})
     errors.of[kAllBounds] += errors.of[term];
   return errors;
@@ -201,18 +266,18 @@ std::vector<PictureLayer> UncertaintyMap::layers(const Picture& exposed, const R
     if (is_new) found->second = of_code(value, function, arithmetic);
     return found->second;
   };
+  const bool has_colour = is_codes && codes_.making().conversion;
   const auto make_row = [&](std::uint32_t y, Known& known) {
     for (std::uint32_t x = 0; x < part.width; ++x) {
       const std::uint64_t pixel = std::uint64_t{part.y + y} * plan_.capture.shape.width + part.x + x;
       const std::uint64_t at = std::uint64_t{y} * part.width + x;
       const Function function = function_of(pixel);
       const PictureError arithmetic = arithmetic_.of(pixel);
+      const auto value = [&](std::uint32_t channel) { return value_of(exposed, at * channels + channel); };
       Errors worst;
-      for (std::uint32_t channel = 0; channel < channels; ++channel) {
-        const double value = value_of(exposed, at * channels + channel);
-        const Errors errors = errors_of(value, pixel, function, arithmetic, known);
-        for (std::size_t term = 0; term < kTerms; ++term) worst.of[term] = std::max(worst.of[term], errors.of[term]);
-      }
+      if (has_colour) worst = of_colour({value(0), value(1), value(2)}, function, arithmetic);
+      for (std::uint32_t channel = 0; channel < channels && !has_colour; ++channel)
+        worst = worst_of(worst, errors_of(value(channel), pixel, function, arithmetic, known));
       if (capture_.alignment_pixels) worst.of[kAlignment] = *capture_.alignment_pixels * slope_at(exposed, x, y);
       worst.of[kMadeSamples] = function.made;
       for (std::size_t term = 0; term < kTerms; ++term) {

@@ -6,7 +6,9 @@
 //            furthest; rounded up
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +22,7 @@ namespace nutik {
 
 class UncertaintyMap {
  public:
-  // All of which must live as long.
+  // All of which must live as long; `capture` is of_order() where the plan combines samples.
   UncertaintyMap(const RenderPlan& plan, const Timeline& timeline, const ErrorBound& bound,
                  const CaptureErrors& capture);
 
@@ -44,15 +46,31 @@ class UncertaintyMap {
     double scale = 0.0, times = 0.0, made = 0.0;
     bool is_mean = true;
   };
-  // By term, in the picture's steps; light64 counts in light, as floats do.
+  // By term, in light or in the picture's steps; light64 counts in light, as floats do.
   struct Errors {
     double of[kTerms] = {};
   };
+  // Light that lies between two others, `at` if it is where it seems to be.
+  struct Span {
+    double from = 0.0, at = 0.0, to = 0.0;
+  };
 
+  [[nodiscard]] static Errors worst_of(Errors a, const Errors& b);
   [[nodiscard]] Function function_of(std::uint64_t pixel) const;
-  // What one value is off by, made by this function with this error of the arithmetic.
+  // What light of the capture is off by, but for `own`, the arithmetic's error, where it lies.
+  [[nodiscard]] Errors lights(const Span& light, const Function& function, double own) const;
+  // Where shown light lay that became this code. Codes end at black and white: `all` light lies between its ends.
+  [[nodiscard]] Span shown(double code, const Span& all) const;
+  // What codes are off by whose shown light is off by so much; without `shown` wherever that is worst, by the capture's
+  // light.
+  [[nodiscard]] Errors in_codes(const std::optional<Span>& shown, const Errors& light, double scale,
+                                const PictureError& arithmetic) const;
+  // What a value is off by that is made by this function with this error of the arithmetic.
   [[nodiscard]] Errors of_code(double code, const Function& function, const PictureError& arithmetic) const;
   [[nodiscard]] Errors of_light(double light, const Function& function, const PictureError& arithmetic) const;
+  // The worst of a pixel's three codes in other primaries, each of which has shares of the errors of three lights.
+  [[nodiscard]] Errors of_colour(const std::array<double, 3>& codes, const Function& function,
+                                 const PictureError& arithmetic) const;
   // How much a value changes from one pixel to the next, at its place in the picture.
   [[nodiscard]] static double slope_at(const Picture& exposed, std::uint32_t x, std::uint32_t y);
   [[nodiscard]] bool has(Term term) const;
@@ -63,7 +81,9 @@ class UncertaintyMap {
   OutputFormat output_;
   PixelErrors arithmetic_;
   CodeErrors codes_;
+  double threshold_;  // in light: what thresholds between codes are rounded by
   std::vector<Function> functions_;
+  ColourMatrix back_{};  // to the capture's primaries from the picture's, where they differ
 };
 
 }  // namespace nutik

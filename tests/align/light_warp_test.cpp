@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -78,6 +80,58 @@ TEST(LightWarp, ShowsLightWhereItLies) {
       };
       ASSERT_NEAR(light(is), light(should), 0.005 + 2.5 / std::min(format.white_code, 255u)) << "value " << i;
     }
+  }
+}
+
+// The cubic through 4 x 4 pixels, kept within them, place by place and in double precision.
+std::uint32_t moved_code(const CaptureFormat& format, const LightCodes& light, const std::vector<std::byte>& raster,
+                         const Place& place, std::uint32_t channel) {
+  const auto taps = [](double t) {
+    return std::array<double, 4>{((-0.5 * t + 1) * t - 0.5) * t, (1.5 * t - 2.5) * t * t + 1,
+                                 ((-1.5 * t + 2) * t + 0.5) * t, (0.5 * t - 0.5) * t * t};
+  };
+  const double left = std::floor(place.x), top = std::floor(place.y);
+  const auto across = taps(place.x - left), down = taps(place.y - top);
+  double sum = 0, least = 1, most = 0;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      const auto x = static_cast<std::size_t>(std::clamp(left + column - 1, 0.0, format.shape.width - 1.0)),
+                 y = static_cast<std::size_t>(std::clamp(top + row - 1, 0.0, format.shape.height - 1.0));
+      const std::byte code = raster[(y * format.shape.width + x) * format.shape.channels + channel];
+      const double value = light.light_of(static_cast<std::uint32_t>(code));
+      sum += across[static_cast<std::size_t>(column)] * down[static_cast<std::size_t>(row)] * value;
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+  }
+  return light.code_of(std::clamp(sum, least, most));
+}
+
+// Pictures are moved in parts, and what a part comes from may be much larger than it, or lie beyond a side.
+TEST(LightWarp, MovesEveryPartOfALargePicture) {
+  std::mt19937 random(5);
+  CaptureFormat format = format_of(3, 1, Transfer::srgb());
+  format.shape.width = 700;
+  format.shape.height = 150;
+  const LightCodes light(format.transfer, format.white_code);
+  std::vector<std::byte> raster(format.sample_bytes());
+  for (std::byte& code : raster) code = static_cast<std::byte>(random() & 255);
+  const Warp slow{{0.99995, -0.01, 3.3, 0.01, 0.99995, -2.6, 0, 0, 1}}, turned{{0, -1, 400.3, 1, 0, -200.6, 0, 0, 1}},
+      shrunk{{6, 0.5, -1700.2, 0.2, 5, -300.7, 0, 0, 1}}, leaned{{1.1, 0.1, -30, 0.05, 0.9, 2, 1e-4, -4e-4, 1}},
+      flipped{{-1, 0, 699.5, 0, -1, 149.5, 0, 0, 1}};
+  for (const Warp& warp : {slow, turned, shrunk, leaned, flipped}) {
+    std::vector<std::byte> warped(raster.size());
+    LightWarp(format, Rectangle::whole(format.shape)).take(raster, warp, warped);
+    std::size_t seen = 0;
+    for (std::size_t i = 0; i < warped.size(); ++i) {
+      const std::size_t pixel = i / 3;
+      const Place place = warp.at(double(pixel % 700), double(pixel / 700));
+      if (!(place.x >= 0 && place.y >= 0 && place.x <= 699 && place.y <= 149)) continue;
+      ++seen;
+      const std::uint32_t should = moved_code(format, light, raster, place, static_cast<std::uint32_t>(i % 3));
+      ASSERT_NEAR(static_cast<double>(warped[i]), should, 1) << "value " << i << " at " << place.x << ", " << place.y;
+    }
+    EXPECT_GT(seen, 3000U);
   }
 }
 

@@ -157,7 +157,7 @@ TEST_F(CommandLine, RefusesWhatMakesNoSense) {
                   {"devices -m mask.pgm", "-m does not go with devices; it is an option of: expose"},
                   {"-f fast clip.avi x.tik", "--fps 'fast' is not a number"},
                   {"-a 400 clip.avi x.tik", "shutter angle 400 is outside 0 < angle <= 360"},
-                  {"--depth 12 -k one.fn clip.tik", "depth '12' is not known; choose 8, 16, half, float or double"},
+                  {"--depth 12 -k one.fn clip.tik", "--depth '12' is not known; choose 8, 16, half, float or double"},
                   {"--renderer cuda -k one.fn clip.tik", "choose opencl or reference"},
                   {"--unmapped black -k one.fn clip.tik", "the only choice is --unmapped zero"},
                   {"-k", "-k needs a value: -k FILE.fn"}});

@@ -250,7 +250,7 @@ TEST_F(Film, SaysWhatMakesNoSense) {
       {{"--mask-blend", "alpha"}, 2, "--mask-blend says how masks change; add --mask-key"},
       {{"--mask-key", "0s", "a.pgm", "--mask-key", "1s", "b.pgm", "-k", "f.fn", "--mask-blend", "fast"},
        2,
-       "--mask-blend fast is not known; choose distance or alpha"},
+       "--mask-blend 'fast' is not known; choose distance or alpha"},
       {{"--mask-key", "0s", "a.pgm", "--mask-key", "1s", "third.pgm", "-k", "f.fn", "--mask-blend", "alpha"},
        3,
        "third.pgm: mask value 3 has no function; add M3, or --unmapped zero"},

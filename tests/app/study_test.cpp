@@ -373,7 +373,7 @@ TEST_F(Study, ShowsEachStripOfASlitAtItsOwnMoment) {
   }
   expect_refused(2,
                  {{"study clip.tik --style slit --slit-from above",
-                   "--slit-from 'above' is unknown; there are left, right, top, bottom"},
+                   "--slit-from 'above' is not known; choose left, right, top or bottom"},
                   {"study clip.tik --slit-from top", "--slit-from goes with --style slit only; leave it out"},
                   {"study clip.tik --style slit --moments 1f,3f", "how many there are, not which"}});
   const auto trail = run("study clip.tik --style clean --trail fade");

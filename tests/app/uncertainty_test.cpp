@@ -122,7 +122,10 @@ TEST_F(UncertaintyOf, CombinedLightIsAsLargeAsTheLargestGain) {
   const json told = answer("--combine lighten -k ramp.fn --json clip.tik a.png")["uncertainty"];
   EXPECT_EQ(told["scale"], 2.0) << told;
   EXPECT_TRUE(term_of(told, "times").is_null());
-  expect_refused("--combine lighten --start 0s --exposure 0.1s --bounds m.tif clip.tik b.png", 2, "adds nothing up");
+  make("--combine darken --start 0s --exposure 0.1s --bounds m.npy clip.tik b.png");
+  const auto layers = read_layers("m.npy", 4);  // all bounds, arithmetic, rounding, held samples
+  EXPECT_LT(std::ranges::max(layers[1]), 1e-9f) << "nothing is added up";
+  EXPECT_NEAR(std::ranges::max(layers[3]), 2.0f, 0.8f);
   expect_refused("--start 0s --exposure 0.1s --bounds tif:- clip.tik b.png", 2, "standard output has one picture");
 }
 
@@ -130,6 +133,9 @@ TEST_F(UncertaintyOf, FloatsAreInStepsAndTheReferenceHasTheLeast) {
   const json floats = answer("--start 0s --exposure 0.1s --json clip.tik a.pfm")["uncertainty"];
   EXPECT_LE(term_of(floats, "arithmetic")["float_steps"], 0.5);
   EXPECT_EQ(term_of(floats, "rounding")["float_steps"], 0.5);
+  for (const std::string kind : {"pfm", "exr", "tif --depth float"})
+    expect_says(make("--start 0s --exposure 0.1s --gain 1e200 clip.tik infinite." + kind).err,
+                "values are beyond floating point of 32 bits");
   const json reference =
       answer("--start 0s --exposure 0.1s --renderer reference --json clip.tik b.pfm")["uncertainty"];
   EXPECT_EQ(term_of(reference, "arithmetic")["light"], 30 * 0x1p-53);
@@ -142,6 +148,22 @@ TEST_F(UncertaintyOf, ABatchAndAVideoAreToldAsWell) {
   const json film = answer("video --json --out-fps 25 --out-angle 360 clip.tik film%d.png")["uncertainty"];
   EXPECT_EQ(film["scale"], 1.0) << film;
   EXPECT_GT(film["bounds"]["light"], 0.0);
+  // Gains that grow: each frame's own, of which the last is the largest.
+  scratch_.write("one.fn", "M0 [0:1], [39999999:1], [40000000:0]\n");
+  scratch_.write("four.fn", "M0 [0:4], [39999999:4], [40000000:0]\n");
+  const json grown =
+      answer("video --json --out-fps 25 --key 0s one.fn --key 200ms four.fn clip.tik grown%d.png");
+  const json frames = grown["pictures"];
+  ASSERT_EQ(frames.size(), grown["frames"]);
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    EXPECT_EQ(frames[k]["frame"], k);
+    const json own = frames[k]["uncertainty"];
+    EXPECT_LE(own["bounds"]["light"], grown["uncertainty"]["bounds"]["light"]);
+    if (k > 0 && k <= 5) {
+      EXPECT_GT(own["scale"], frames[k - 1]["uncertainty"]["scale"]);
+    }
+  }
+  EXPECT_EQ(frames.back()["uncertainty"], grown["uncertainty"]);
 }
 
 TEST_F(UncertaintyOf, PeopleAreToldInLines) {
@@ -157,6 +179,33 @@ TEST_F(UncertaintyOf, ARecipeKeepsWhatTheArithmeticMayBeOffBy) {
   expect_says(test::read_file(scratch_ / "a.pgm"), R"("precision":"single","error_bound":"light within )");
   expect_says(make("--skip-existing " + one).out, "there already");
   expect_says(make("reproduce a.pgm").out, " --precision single clip.tik");
+}
+
+// A map has no recipe: its picture's names it, in that picture's folder.
+TEST_F(UncertaintyOf, ReproducingMakesTheMapToo) {
+  const std::string one = "--start 0s --exposure 0.1s clip.tik ";
+  make(one + "a.png --bounds maps.npy");
+  const std::string picture = test::read_file(scratch_ / "a.png"), map = test::read_file(scratch_ / "maps.npy");
+  const std::string command = make("reproduce a.png").out;
+  expect_says(command, " --precision single --bounds maps.npy clip.tik -o a.png");
+  std::filesystem::remove(scratch_ / "a.png");
+  std::filesystem::remove(scratch_ / "maps.npy");
+  make(command.substr(command.find(" expose ") + 1, command.size() - command.find(" expose ") - 2));
+  EXPECT_EQ(test::read_file(scratch_ / "a.png"), picture) << "to the last byte";
+  EXPECT_EQ(test::read_file(scratch_ / "maps.npy"), map);
+  expect_says(make("--skip-existing " + one + "a.png").out, "there already");
+  make("--start 0s --exposure 4f --every 4f --count 2 clip.tik s%d.png --bounds smap%d.npy");
+  expect_says(make("reproduce s1.png").out, " --bounds smap1.npy clip.tik");
+  make("video --out-fps 25 clip.tik f%d.png --bounds fmap%d.npy");
+  expect_says(make("reproduce f3.png").out, " --bounds fmap3.npy clip.tik");
+  scratch_.write("list", "--start 0s --exposure 4f b.png --bounds bmap.npy\n");
+  make("batch list clip.tik");
+  expect_says(make("reproduce b.png").out, " --bounds bmap.npy clip.tik");
+  make(one + "c.pgm --bounds cmap.npy");
+  std::string foreign = test::read_file(scratch_ / "c.pgm");
+  foreign.replace(foreign.find("cmap.npy"), 8, "../x.npy");
+  scratch_.write("c.pgm", foreign);
+  expect_says(make("reproduce c.pgm", 3).err, "names have no folders");
 }
 
 // A function of gain 1e30 spoils its own pixels alone.
@@ -269,6 +318,19 @@ TEST_F(UncertaintyOf, StrictlyTooLargeIsAnErrorWithAStatusOfItsOwn) {
   expect_says(make(single).err, "single is not sure to be right to 0.5 of a code here");
   expect_refused("--strict --overwrite " + single, 7, "single is not sure to be right to 0.5 of a code here");
   make("--strict --start 0s --exposure 0.1s --precision single clip.tik b.png");
+  // Floats are judged by half a step, as auto chooses for them.
+  const std::string floats = "--start 0s --exposure 0.1s --precision single clip.tik a.pfm";
+  EXPECT_EQ(make(floats).err.find("not sure"), std::string::npos) << "it was asked for";
+  expect_refused("--strict --overwrite " + floats, 7, "single is not sure to be right to 0.5 of a float's step here");
+  make("--strict --start 0s --exposure 0.1s clip.tik b.pfm");
+  // The reference, too, which says nothing otherwise; it makes what is combined.
+  for (const std::string how :
+       {"--renderer reference -m mask.pgm -k f.fn", "--combine lighten --start 0s --exposure 0.1s --gain 1e30"}) {
+    make(how + " clip.tik r.png --overwrite");
+    expect_refused("--strict " + how + " clip.tik s.png", 7, "the reference is not sure to be right to 0.5 of a code");
+  }
+  make("--strict --renderer reference --start 0s --exposure 0.1s clip.tik s.png");
+  make("--strict --combine lighten --start 0s --exposure 0.1s clip.tik t.png");
   // None is right enough for these.
   expect_refused("--strict -m mask.pgm -k f.fn clip.tik c.png", 7, "no arithmetic of ");
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "c.png"));

@@ -46,6 +46,31 @@ TEST(Schema, LeavesBackquotesThatNameNoOption) {
   }
 }
 
+// A row with more choices than values, or fewer, is a mistake of the table.
+TEST(Schema, TakesEveryChoiceAndNoOther) {
+  int rows = 0;
+  for (const Option& option : schema()) {
+    if (option.take == nullptr || option.choice_list.empty()) continue;
+    ++rows;
+    for (const std::string& choice : option.choices()) {
+      Options options;
+      if (choice.ends_with(':')) continue;
+      EXPECT_NO_THROW(option.state(options, option.name(), {choice})) << option.name() << ' ' << choice;
+    }
+  }
+  EXPECT_GE(rows, 25);
+  Options options;
+  const Option& depth = *option_of(CommandId::expose, "depth");
+  depth.state(options, "--depth", {"double"});
+  EXPECT_EQ(options.picture.depth, Depth::doubled);
+  try {
+    depth.restate(options, {"12"});
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_STREQ(error.what(), "--depth '12' is not known; choose 8, 16, half, float or double");
+  }
+}
+
 TEST(Schema, CountsWhatTheRowOfAnotherCommandStated) {
   Options options;
   option_of(CommandId::study, "feather")->state(options, "--feather", {"6px"});

@@ -187,12 +187,5 @@ TEST_F(InterlacedVideo, OfSixteenBitsAndColourIsDeinterlaced) {
   }
 }
 
-TEST(Deinterlacing, IsStatedInWords) {
-  EXPECT_EQ(parse_deinterlacing("frames"), Interlaced::frames);
-  EXPECT_EQ(parse_deinterlacing("fields"), Interlaced::fields);
-  EXPECT_EQ(parse_deinterlacing("no"), Interlaced::ignored);
-  EXPECT_THROW(static_cast<void>(parse_deinterlacing("yes")), UsageError);
-}
-
 }  // namespace
 }  // namespace nutik

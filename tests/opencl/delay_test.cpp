@@ -15,10 +15,11 @@ namespace {
 using test::kLight;
 using test::RandomCase;
 
-// Every third mask is soft.
+// Every third mask is soft, every other function holds its ends beyond the capture.
 void check_random_case(test::PrecisionCheck& check, std::uint64_t seed) {
   RandomCase random(seed);
   test::Random draw(seed * 31 + 7);
+  if (seed % 2 == 0) test::hold_ends(draw, random.functions, random.timeline.duration_ns());
   if (draw.chance(0.33)) test::soften(random.mask, random.functions, seed);
   MemoryCapture capture = random.encode();
   PlanOptions options;

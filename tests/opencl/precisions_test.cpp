@@ -137,11 +137,7 @@ TEST_F(Precisions, BoundOfSingleIsUseful) {
     shares.push_back(test::share_of_bound(plan, Precision::single_, light, expected).worst);
     ASSERT_LE(shares.back(), 1.0) << samples << " samples, case " << i;
   }
-  std::sort(shares.begin(), shares.end());
-  const double median = shares[shares.size() / 2];
-  std::printf("measured / bound of single: median %.3g, %.3g … %.3g\n", median, shares.front(),
-              shares.back());
-  EXPECT_GE(median, 0.01);
+  EXPECT_GE(test::print_shares("single, gains of one sign", shares), 0.01);
 }
 
 // Functions without negative gain, exposed to codes of 16 bits: boxcars and lines, cut anywhere; up to 1000 samples,
@@ -243,15 +239,10 @@ TEST_F(Precisions, SingleErrsByTheLightItselfWithoutNegativeGain) {
     chosen += bound.worst.steps <= kMaxSteps;
     chosen_before += whole_steps(plan, whole, bright.output) <= kMaxSteps;
   }
-  const auto print = [](const char* what, std::vector<double> shares) {
-    std::ranges::sort(shares);
-    std::printf("%s: median %.3g, %.3g … %.3g\n", what, shares[shares.size() / 2], shares.front(), shares.back());
-    return shares[shares.size() / 2];
-  };
-  print("of the bound of all light", of_light);
-  EXPECT_GE(print("of the bound by the light itself", by_light), 2 * 0.056);
-  const double before = print("of the bound of all light, in codes", of_codes_before);
-  EXPECT_GE(print("of the bound in codes", of_codes), 5 * before);
+  test::print_shares("single, all light", of_light);
+  EXPECT_GE(test::print_shares("single, by the light itself", by_light), 2 * 0.056);
+  const double before = test::print_shares("single in codes, all light", of_codes_before);
+  EXPECT_GE(test::print_shares("single in codes, by the light", of_codes), 5 * before);
   EXPECT_GT(chosen, 2 * chosen_before);
   std::printf("single is right enough in %llu cases, without the bound by light in %llu\n",
               static_cast<unsigned long long>(chosen), static_cast<unsigned long long>(chosen_before));

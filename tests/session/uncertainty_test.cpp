@@ -10,29 +10,56 @@
 #include <filesystem>
 
 #include "capture/format.hpp"
+#include "render/code_scale.hpp"
 #include "session/session.hpp"
+#include "support/random_case.hpp"
 #include "support/scratch.hpp"
 
 namespace nutik {
 namespace {
 
-// 16 x 16 pixels that have every code once. What is held is the first sample's; the second is darker by the tolerance
-// that it is held by, the third brighter.
-class Ramps : public ::testing::TestWithParam<std::uint32_t> {
+// How far a picture's codes are from the light that was filmed, in what its map and all of it are allowed: the largest share
+// of the map. Both hold.
+double share_of_map(const ExposedPicture& picture, Picture filmed, const CaptureFormat& capture,
+                    const std::string& what) {
+  const CodeMaking making = CodeMaking::of(capture, picture.output);
+  to_shown_light(filmed, making);
+  const std::uint32_t channels = filmed.shape.channels;
+  const auto map = picture.bounds.front().values.values<float>();
+  const auto codes = picture.picture.values<std::uint8_t>();
+  double share = 0.0;
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    const double light = std::clamp(filmed.values<double>()[i], 0.0, 1.0);
+    const double off = std::fabs(255 * making.transfer.fraction_of(light) - codes[i]), allowed = map[i / channels];
+    EXPECT_LE(off, allowed) << what << ", value " << i;
+    EXPECT_LE(off, picture.uncertainty.bounds.error->steps) << what << ", value " << i;
+    if (::testing::Test::HasFailure()) return share;
+    share = std::max(share, off / allowed);
+  }
+  return share;
+}
+
+const UncertaintyTerm& term_of(const ExposedPicture& picture, std::string_view name) {
+  return *std::ranges::find(picture.uncertainty.terms, name, &UncertaintyTerm::name);
+}
+
+// What a picture's layer has, its largest pixel's.
+float most_of(const ExposedPicture& picture, std::string_view layer) {
+  const auto found = std::ranges::find(picture.bounds, layer, &PictureLayer::name);
+  return std::ranges::max(found->values.values<float>());
+}
+
+class Held : public ::testing::Test {
  protected:
-  Ramps() {
+  explicit Held(const std::string& name) {
     const auto modules = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path();
     setenv("NUTIK_MODULES", modules.c_str(), 0);
-    source_.path = scratch_ / "ramps";
+    source_.path = scratch_ / name;
     source_.clip.rate = Rational{100, 1};
     std::filesystem::create_directory(source_.path);
-    const int tolerance = static_cast<int>(GetParam());
-    for (const int step : {0, -tolerance, tolerance}) {
-      std::string file = "P5 16 16 255\n";
-      for (int code = 0; code < 256; ++code) file += static_cast<char>(std::clamp(code + step, 0, 255));
-      scratch_.write(format("ramps/{}.pgm", ++count_), file);
-    }
   }
+
+  void write(const std::string& file) { scratch_.write(format("{}/{}.ppm", source_.path.filename().string(), ++count_), file); }
 
   [[nodiscard]] Session session(std::uint32_t tolerance) {
     ComputingRequest computing;
@@ -46,51 +73,182 @@ class Ramps : public ::testing::TestWithParam<std::uint32_t> {
   int count_ = 0;
 };
 
+constexpr std::int64_t kSampleNs = 10'000'000;
+
+// 16 x 16 pixels that have every code once. What is held is the first sample's; the second is darker by the tolerance
+// that it is held by, the third brighter.
+class Ramps : public Held, public ::testing::WithParamInterface<std::uint32_t> {
+ protected:
+  Ramps() : Held("ramps") {
+    const int tolerance = static_cast<int>(GetParam());
+    for (const int step : {0, -tolerance, tolerance}) {
+      std::string file = "P5 16 16 255\n";
+      for (int code = 0; code < 256; ++code) file += static_cast<char>(std::clamp(code + step, 0, 255));
+      write(file);
+    }
+  }
+};
+
 TEST_P(Ramps, NoPixelIsFurtherFromTheFilmedLightThanItsMap) {
   Session held = session(GetParam()), filmed = session(0);
   Mask mask = Mask::uniform(16, 16, 0);
   for (std::uint64_t pixel = 1; pixel < 256; pixel += 2)
     mask.mixed.add(pixel, std::array<Share, 2>{{{0, 40'000}, {9, 25'535}}});
   double most = 0.0;
-  for (const char* captured : {"linear", "srgb", "bt709", "gamma:2.2", "gamma:0.5", "hlg", "pq"}) {
+  for (const char* captured : {"linear", "srgb", "bt709", "gamma:2.2", "gamma:0.5", "hlg", "pq", "slog3", "applelog"}) {
     PlanOptions options;
     options.transfer = Transfer::parse(captured);
-    for (const char* shown : {"", "srgb", "linear", "gamma:2.2", "gamma:0.5", "pq"}) {
+    CaptureFormat capture = held.format();
+    capture.transfer = *options.transfer;
+    for (const char* shown : {"", "srgb", "linear", "gamma:2.2", "gamma:0.5", "pq", "slog3", "applelog"}) {
       OutputFormat output;
       if (*shown != '\0') output.transfer = Transfer::parse(shown);
       output.maps_bounds = true;
-      CaptureFormat capture = held.format();
-      capture.transfer = *options.transfer;
-      const CodeMaking making = CodeMaking::of(capture, output);
+      const std::string what = format("{} to {}", captured, shown);
       double share = 0.0;
       for (const double scale : {0.5, 1.0, 3.0}) {
-        for (const std::int64_t sample : {1, 2}) {
-          const auto from = sample * 10'000'000;
-          const FunctionSet functions{{0, GainFunction::boxcar(from, from + 10'000'000, scale)},
-                                      {9, GainFunction::boxcar(from, from + 10'000'000, scale / 3)}};
+        for (const std::int64_t from : {kSampleNs, 2 * kSampleNs}) {
+          const FunctionSet functions{{0, GainFunction::boxcar(from, from + kSampleNs, scale)},
+                                      {9, GainFunction::boxcar(from, from + kSampleNs, scale / 3)}};
           const ExposedPicture picture = held.render(functions, mask, options, output);
-          const auto light = filmed.render(functions, mask, options, {ValueType::light64, 0}).picture;
-          const auto map = picture.bounds.front().values.values<float>();
-          const auto codes = picture.picture.values<std::uint8_t>();
-          const double whole = picture.uncertainty.bounds.error->steps;
-          for (std::size_t pixel = 0; pixel < 256; ++pixel) {
-            const double shown_light = std::clamp(light.values<double>()[pixel] / making.white_light, 0.0, 1.0);
-            const double off = std::fabs(255 * making.transfer.fraction_of(shown_light) - codes[pixel]);
-            ASSERT_LE(off, map[pixel]) << captured << " to " << shown << ", S " << scale << ", pixel " << pixel;
-            ASSERT_LE(off, whole) << captured << " to " << shown << ", S " << scale << ", pixel " << pixel;
-            share = std::max(share, off / double{map[pixel]});
-          }
+          const Picture light = filmed.render(functions, mask, options, {ValueType::light64, 0}).picture;
+          share = std::max(share, share_of_map(picture, light, capture, what));
+          ASSERT_FALSE(HasFailure());
         }
       }
       most = std::max(most, share);
-      EXPECT_GT(share, 0.2) << captured << " to " << shown << ": the map says nothing";
+      EXPECT_GT(share, 0.2) << what << ": the map says nothing";
     }
   }
   std::printf("the largest share of a map that was used: %.3f\n", most);
   EXPECT_GT(most, 0.9);
 }
 
+// Samples that are combined are no mean: the lightest, darkest or middle one of each pixel.
+TEST_P(Ramps, CombinedSamplesAreNoFurtherFromTheFilmedOnes) {
+  Session held = session(GetParam()), filmed = session(0);
+  Mask mask = Mask::uniform(16, 16, 0);
+  for (std::uint64_t pixel = 1; pixel < 256; pixel += 2)
+    mask.mixed.add(pixel, std::array<Share, 2>{{{0, 40'000}, {9, 25'535}}});
+  const FunctionSet functions{{0, GainFunction({{0, 0.5}, {3 * kSampleNs, 2.0}})},
+                              {9, GainFunction::boxcar(kSampleNs, 3 * kSampleNs, 0.7)}};
+  double most = 0.0;
+  for (const char* captured : {"linear", "srgb", "gamma:2.2", "gamma:0.5", "pq"}) {
+    for (const Combine combine : {Combine::lighten, Combine::darken, Combine::median}) {
+      PlanOptions options;
+      options.transfer = Transfer::parse(captured);
+      options.combine = combine;
+      OutputFormat output;
+      output.maps_bounds = true;
+      CaptureFormat capture = held.format();
+      capture.transfer = *options.transfer;
+      const ExposedPicture picture = held.render(functions, mask, options, output);
+      const Picture light = filmed.render(functions, mask, options, {ValueType::light64, 0}).picture;
+      most = std::max(most, share_of_map(picture, light, capture, captured));
+      ASSERT_FALSE(HasFailure());
+      EXPECT_EQ(std::ranges::count(picture.bounds, "times", &PictureLayer::name), 0) << "nothing is added up";
+    }
+  }
+  EXPECT_GT(most, 0.7);
+}
+
 INSTANTIATE_TEST_SUITE_P(Tolerances, Ramps, ::testing::Values(1u, 4u, 8u));
+
+// 64 colours of BT.2020, shown in BT.709's primaries, which mix their errors: by the light of all three channels.
+class Colours : public Held {
+ protected:
+  Colours() : Held("colours") {
+    source_.clip.primaries = Primaries::bt2020;
+    for (const int step : {0, -4, 4}) {
+      std::string file = "P6 8 8 255\n";
+      for (int pixel = 0; pixel < 64; ++pixel) {
+        for (const int place : {pixel % 4, pixel / 4 % 4, pixel / 16}) {
+          const int sign = place % 2 == pixel % 2 ? 1 : -1;  // so that errors of channels add up and cancel
+          file += static_cast<char>(std::clamp(40 + 50 * place + sign * step, 0, 255));
+        }
+      }
+      write(file);
+    }
+  }
+};
+
+TEST_F(Colours, OtherPrimariesHaveTheErrorsOfTheLightsThatTheyMix) {
+  Session held = session(4), filmed = session(0);
+  const Mask mask = Mask::uniform(8, 8, 0);
+  double most = 0.0;
+  for (const char* shown : {"srgb", "gamma:2.2", "linear"}) {
+    for (const double scale : {0.4, 1.0}) {
+      OutputFormat output;
+      output.transfer = Transfer::parse(shown);
+      output.maps_bounds = true;
+      for (const std::int64_t from : {kSampleNs, 2 * kSampleNs}) {
+        const FunctionSet functions{{0, GainFunction::boxcar(from, from + kSampleNs, scale)}};
+        const ExposedPicture picture = held.render(functions, mask, {}, output);
+        const Picture light = filmed.render(functions, mask, {}, {ValueType::light64, 0}).picture;
+        most = std::max(most, share_of_map(picture, light, held.format(), shown));
+        ASSERT_FALSE(HasFailure());
+        const auto map = picture.bounds.front().values.values<float>();
+        EXPECT_LT(std::ranges::min(map), 0.5 * picture.uncertainty.bounds.error->steps) << "it is flat";
+      }
+    }
+  }
+  std::printf("the largest share of a map of colours that was used: %.3f\n", most);
+  EXPECT_GT(most, 0.5);
+}
+
+// Means of four pixels each, rounded to codes of 8 bits.
+class Scaled : public Held {
+ protected:
+  Scaled() : Held("scaled") {
+    test::Random random(5);
+    for (int k = 0; k < 4; ++k) {
+      std::string file = "P5 64 64 255\n";
+      for (int pixel = 0; pixel < 64 * 64; ++pixel) file += static_cast<char>(random.whole(0, pixel / 16));
+      write(file);
+    }
+  }
+};
+
+// A mean of sRGB's codes that are half a code off is that off, and 1.4 times as much behind the straight toe, whatever the
+// picture's S: it was steps of black's, 15 codes.
+TEST_F(Scaled, LightThatWasRoundedIsBoundByItsOwn) {
+  Session filmed = session(0);
+  source_.clip.scale = ClipScale{2, 0, 0};
+  Session rounded = session(0);
+  ASSERT_EQ(rounded.format().shape.width, 32u);
+  double most = 0.0, of_light = 0.0;
+  for (const std::int64_t samples : {1, 3}) {
+    const FunctionSet functions{{0, GainFunction::boxcar(0, samples * kSampleNs)}};
+    const Picture fine = filmed.render(functions, Mask::uniform(64, 64, 0), {}, {ValueType::light64, 0}).picture;
+    Picture light({32, 32, 1}, ValueType::light64, 0);
+    for (std::size_t i = 0; i < 32 * 32; ++i) {
+      const auto at = [&](std::size_t x, std::size_t y) {
+        return fine.values<double>()[(i / 32 * 2 + y) * 64 + i % 32 * 2 + x];
+      };
+      light.values<double>()[i] = (at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1)) / 4;
+    }
+    OutputFormat output;
+    output.maps_bounds = true;
+    const ExposedPicture codes = rounded.render(functions, Mask::uniform(32, 32, 0), {}, output);
+    most = std::max(most, share_of_map(codes, light, rounded.format(), "rounded"));
+    ASSERT_FALSE(HasFailure());
+    EXPECT_LE(term_of(codes, "rounded_codes").error->steps, 1.4 * 0.5);
+    EXPECT_LE(most_of(codes, "rounded_codes"), 1.4 * 0.5);
+    EXPECT_LE(codes.uncertainty.bounds.error->steps, 0.5 + 1.4 * 0.5 + 0.01);
+    output = {ValueType::light64, 0};
+    output.maps_bounds = true;
+    const ExposedPicture floats = rounded.render(functions, Mask::uniform(32, 32, 0), {}, output);
+    for (std::size_t i = 0; i < 32 * 32; ++i) {
+      const double off = std::fabs(floats.picture.values<double>()[i] - light.values<double>()[i]);
+      const double allowed = floats.bounds.front().values.values<float>()[i];
+      ASSERT_LE(off, allowed) << "pixel " << i;
+      of_light = std::max(of_light, off / allowed);
+    }
+  }
+  std::printf("the largest share that rounded light used: %.3f of codes, %.3f of light\n", most, of_light);
+  EXPECT_GT(most, 0.4);
+  EXPECT_GT(of_light, 0.9);
+}
 
 }  // namespace
 }  // namespace nutik

@@ -3,6 +3,10 @@
 // u is the unit roundoff of the arithmetic, S = ∫|g| / D.
 #pragma once
 
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
 namespace nutik::test {
 
 inline constexpr double kRoundoff64 = 0x1p-53;
@@ -23,5 +27,13 @@ inline constexpr double kDoubleAgainstReference = 1e-12;
 // Light of a code in single precision by a fitted curve: enumerated for whites of 2^b - 1, b = 8 … 16; whether
 // or not the device fuses multiplication and addition.
 inline constexpr double kCurveLightOfCommonWhites = 1.7e-7;
+
+// Says how much of their bound cases used, of which there is one at least. Returns the median.
+inline double print_shares(const char* what, std::vector<double> shares) {
+  std::ranges::sort(shares);
+  const double median = shares[shares.size() / 2];
+  std::printf("%-32s %zu cases, share of the bound: median %.3g, most %.3g\n", what, shares.size(), median, shares.back());
+  return median;
+}
 
 }  // namespace nutik::test

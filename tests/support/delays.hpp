@@ -31,4 +31,25 @@ inline std::shared_ptr<const DelayMap> random_delays(Random& random, const Shape
   return std::make_shared<const DelayMap>(DelayMap::by_picture(picture, range, "a random map"));
 }
 
+// Functions get points outside the capture, at one end, at both, or all of them, and hold their gains from there on: held
+// gains count in the capture alone.
+inline void hold_ends(Random& random, FunctionSet& functions, std::int64_t duration_ns) {
+  const auto beyond = [&] { return random.whole(1, std::max<std::int64_t>(1, duration_ns)); };
+  const std::int64_t ends = random.whole(1, 5);
+  for (auto& [tag, function] : functions) {
+    std::vector<ControlPoint> points(function.points().begin(), function.points().end());
+    const std::int64_t early_ns = std::min<std::int64_t>(0, points.front().time_ns) - beyond();
+    const std::int64_t late_ns = std::max(duration_ns, points.back().time_ns) + beyond();
+    if (ends == 4 || ends == 5) {
+      const std::int64_t move_ns = ends == 4 ? early_ns - points.back().time_ns : late_ns - points.front().time_ns;
+      for (ControlPoint& point : points) point.time_ns += move_ns;
+      (ends == 4 ? points.back() : points.front()).gain = random.real(0.1, 3.0);
+    } else {
+      if (ends & 1) points.insert(points.begin(), {early_ns, random.real(0.1, 3.0)});
+      if (ends & 2) points.push_back({late_ns, random.real(0.1, 3.0)});
+    }
+    function = GainFunction(std::move(points));
+  }
+}
+
 }  // namespace nutik::test

@@ -75,7 +75,7 @@ void PrecisionCheck::check(const RenderPlan& plan, const Render& render, const s
         EXPECT_LE(difference.worst, kDoubleAgainstReference);
       }
       seen.worst = std::max(seen.worst, difference.worst);
-      seen.tightest = std::max(seen.tightest, share.worst);
+      seen.shares.push_back(share.worst);
       if (precision == Precision::fixed) keep(light, name + ".light");
     }
     if (is_wanted("codes")) {
@@ -93,9 +93,9 @@ void PrecisionCheck::check(const RenderPlan& plan, const Render& render, const s
 
 void PrecisionCheck::print() const {
   for (const auto& [precision, seen] : seen_) {
-    if (seen.tightest == 0.0) continue;  // a test that looked in its own way
-    std::printf("%-11s worst difference %.3g of ∫|g|/D, %.3g of its bound\n", to_text(precision).c_str(),
-                seen.worst, seen.tightest);
+    if (seen.shares.empty()) continue;  // a test that looked in its own way
+    print_shares(to_text(precision).c_str(), seen.shares);
+    std::printf("%-32s worst difference %.3g of ∫|g|/D\n", "", seen.worst);
   }
 }
 

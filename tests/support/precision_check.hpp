@@ -37,14 +37,14 @@ class PrecisionCheck {
   // code and the bound in codes. `name` is that of the pictures that are kept; `rerun` says how to do it again.
   void check(const RenderPlan& plan, const Render& render, const std::string& name, const std::string& rerun);
 
-  // The worst of all checks, a line for each arithmetic.
+  // How much of its bound each arithmetic used, of light, and the worst difference.
   void print() const;
 
  private:
   struct Seen {
     std::unique_ptr<OpenClRenderer> renderer;
-    double worst = 0.0;     // in S
-    double tightest = 0.0;  // of the bound
+    double worst = 0.0;          // in S
+    std::vector<double> shares;  // of the bound, each check's largest
   };
 
   std::map<Precision, Seen> seen_;

@@ -1,33 +1,51 @@
 #include "align/motion/grey_pyramid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <opencv2/imgproc.hpp>
 
+#include "align/registrar.hpp"
+#include "system/simd_clones.hpp"
+
 namespace nutik::motion {
 namespace {
 
-constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 21;  // of the finest level: 1080p as it is
 constexpr int kMinSide = 24;
 // So that a cubic between pixels goes through what it is fitted to, and noise counts less.
 constexpr double kBlurPixels = 1.0;
 constexpr int kFeatureSide = 480;
 
-template <typename Code>
-void write_grey(const CaptureFormat& format, const Code* codes, cv::Mat& grey) {
-  const auto [width, height, channels] = format.shape;
-  const auto scale = static_cast<float>(kGreyWhite / format.white_code);
-  grey.create(static_cast<int>(height), static_cast<int>(width), CV_32F);
+NUTIK_SIMD_CLONES void add_row(const std::uint8_t* codes, std::size_t count, float* __restrict sums) {
+  for (std::size_t i = 0; i < count; ++i) sums[i] += static_cast<float>(codes[i]);
+}
+
+NUTIK_SIMD_CLONES void add_row(const std::uint16_t* codes, std::size_t count, float* __restrict sums) {
+  for (std::size_t i = 0; i < count; ++i) sums[i] += static_cast<float>(codes[i]);
+}
+
+template <std::size_t channels, typename Code>
+void write_grey(const CaptureFormat& format, const Code* codes, std::uint32_t side, cv::Mat& grey) {
+  const std::size_t width = format.shape.width;
+  std::array<float, 3> shares{1, 0, 0};
+  if (channels > 1) std::ranges::copy(kLuma, shares.begin());
+  for (float& share : shares) share *= static_cast<float>(kGreyWhite / side / side / format.white_code);
+  grey.create(static_cast<int>(format.shape.height / side), static_cast<int>(width / side), CV_32F);
+  std::vector<float> sums(width * channels);
   for (int y = 0; y < grey.rows; ++y) {
-    auto* const row = grey.ptr<float>(y);
-    for (int x = 0; x < grey.cols; ++x, codes += channels) {
-      row[x] = scale * (channels == 1 ? static_cast<float>(codes[0])
-                                      : static_cast<float>(kLuma[0]) * static_cast<float>(codes[0]) +
-                                            static_cast<float>(kLuma[1]) * static_cast<float>(codes[1]) +
-                                            static_cast<float>(kLuma[2]) * static_cast<float>(codes[2]));
+    std::ranges::fill(sums, 0.0f);
+    for (std::uint32_t row = 0; row < side; ++row, codes += sums.size()) add_row(codes, sums.size(), sums.data());
+    auto* const to = grey.ptr<float>(y);
+    const float* from = sums.data();
+    for (int x = 0; x < grey.cols; ++x) {
+      float sum[3] = {};
+      for (std::uint32_t column = 0; column < side; ++column, from += channels) {
+        for (std::size_t channel = 0; channel < channels; ++channel) sum[channel] += from[channel];
+      }
+      to[x] = shares[0] * sum[0] + shares[1] * sum[1] + shares[2] * sum[2];
     }
   }
 }
@@ -44,11 +62,15 @@ void GreyPyramid::take(const CaptureFormat& format, std::span<const std::byte> r
     cv::Mat& half = grey_at(smallest + 1);
     cv::pyrDown(greys_[smallest++], half);
   };
-  format.code_bytes == 1
-      ? write_grey(format, reinterpret_cast<const std::uint8_t*>(raster.data()), grey_at(0))
-      : write_grey(format, reinterpret_cast<const std::uint16_t*>(raster.data()), grey_at(0));
-  while (greys_[smallest].total() > kMaxPixels) halve();
-  finest = static_cast<int>(smallest);
+  finest = 0;
+  while (format.shape.pixel_count() >> 2 * finest > kMaxRegisteredPixels) ++finest;
+  const std::uint32_t side = 1U << finest;
+  const auto write = [&]<typename Code>(const Code* codes) {
+    format.shape.channels == 1 ? write_grey<1>(format, codes, side, grey_at(0))
+                               : write_grey<3>(format, codes, side, grey_at(0));
+  };
+  format.code_bytes == 1 ? write(reinterpret_cast<const std::uint8_t*>(raster.data()))
+                         : write(reinterpret_cast<const std::uint16_t*>(raster.data()));
   for (std::size_t level = 0;; ++level) {
     const cv::Mat& grey = greys_[smallest];
     if (level == levels.size()) levels.emplace_back();

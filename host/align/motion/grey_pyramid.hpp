@@ -22,11 +22,11 @@ struct GreyPyramid {
   [[nodiscard]] cv::Mat of_features() const;
   [[nodiscard]] double feature_scale() const;
 
-  int finest = 0;  // the pixels of levels[0] are 2^finest of the picture's, of levels[1] twice as many
+  int finest = 0;  // the pixels of levels[0] are squares of 2^finest of the picture's, of levels[1] twice as many
   std::vector<cv::Mat> levels;  // of floats; pixel (x, y) of each lies at a pixel of the one before
 
  private:
-  std::vector<cv::Mat> greys_;  // before they are blurred, the picture itself first
+  std::vector<cv::Mat> greys_;  // before they are blurred
 };
 
 struct Point {

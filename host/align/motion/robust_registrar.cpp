@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <mutex>
 #include <opencv2/imgproc.hpp>
@@ -26,6 +27,7 @@ namespace {
 
 constexpr std::size_t kMinPoints = 60;
 constexpr std::size_t kPoints = 20000;        // of the finest level
+constexpr std::size_t kMeanPoints = 10000;    // of one whose pixels are means: found as exactly with half as many
 constexpr std::size_t kLeadingPoints = 8000;  // of one that leads to a finer one
 constexpr std::size_t kPointsAhead = 8;       // whose surroundings are fetched while others are looked at
 constexpr double kMinSeen = 0.2;              // of the points
@@ -43,25 +45,28 @@ constexpr double kSettledPixels = 0.002;
 constexpr double kRoughlySettled = 0.05;  // pixels of a level that a finer one follows
 
 struct Level {
-  int number = 0;  // its pixels are 2^number of the picture's
+  int number = 0;     // its pixels are 2^number of the picture's
+  double offset = 0;  // where the middle of its first one lies in the picture
   cv::Size size;
   std::vector<Point> points;
   [[nodiscard]] double scale() const { return std::ldexp(1.0, number); }
+  // What lies within a pixel of the picture does, of large pictures within half of one of the level.
+  [[nodiscard]] double agreeing() const { return number == 0 ? 1 : 0.5; }
 };
+
+using Four = float __attribute__((vector_size(16)));
 
 // Catmull and Rom's cubic; the place lies two pixels from the border or further.
 float cubic_at(const cv::Mat& grey, double x, double y) {
   const int left = static_cast<int>(x), top = static_cast<int>(y);
   const auto u = static_cast<float>(x - left), v = static_cast<float>(y - top);
-  const auto between = [](float a, float b, float c, float d, float t) {
+  const auto between = [](auto a, auto b, auto c, auto d, float t) {
     return b + 0.5f * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
   };
-  float rows[4];
-  for (int j = 0; j < 4; ++j) {
-    const float* const row = grey.ptr<float>(top + j - 1) + left - 1;
-    rows[j] = between(row[0], row[1], row[2], row[3], u);
-  }
-  return between(rows[0], rows[1], rows[2], rows[3], v);
+  Four rows[4];
+  for (int j = 0; j < 4; ++j) std::memcpy(&rows[j], grey.ptr<float>(top + j - 1) + left - 1, sizeof rows[j]);
+  const Four along = between(rows[0], rows[1], rows[2], rows[3], v);
+  return between(along[0], along[1], along[2], along[3], u);
 }
 
 // Points lie too far from each other for their surroundings to be in a cache by themselves.
@@ -144,8 +149,8 @@ class RobustRegistrar final : public Registrar {
     pyramid.take(format, reference);
     for (std::size_t i = 0; i < pyramid.levels.size(); ++i) {
       const cv::Mat& grey = pyramid.levels[i];
-      Level level{pyramid.finest + static_cast<int>(i), grey.size(),
-                  textured_points(grey, i == 0 ? kPoints : kLeadingPoints)};
+      Level level{pyramid.finest + static_cast<int>(i), (std::ldexp(1.0, pyramid.finest) - 1) / 2, grey.size(),
+                  textured_points(grey, i > 0 ? kLeadingPoints : pyramid.finest > 0 ? kMeanPoints : kPoints)};
       if (i > 0 && level.points.size() < kMinPoints) break;
       if (i == 0) check_texture(level.points);
       levels_.push_back(std::move(level));
@@ -254,7 +259,7 @@ class RobustRegistrar final : public Registrar {
     for (std::size_t i = 0; i < followed.size(); ++i) {
       if (std::min(expected[i].size(), followed[i].size()) < kMinOfPart) continue;
       const double away = median(followed[i]);
-      parts += away <= 1 && median(expected[i]) > kClearlyBetter * away ? 1 : 0;
+      parts += away <= level.agreeing() && median(expected[i]) > kClearlyBetter * away ? 1 : 0;
     }
     return 4 * parts >= followed.size();
   }
@@ -283,9 +288,9 @@ class RobustRegistrar final : public Registrar {
     seen.reserve(level.points.size());
     const double scale = level.scale();
     for (const Point& point : level.points) {
-      const double x = scale * point.x, y = scale * point.y;
+      const double x = scale * point.x + level.offset, y = scale * point.y + level.offset;
       const Place there = warp.at(x, y);
-      const double px = there.x / scale, py = there.y / scale;
+      const double px = (there.x - level.offset) / scale, py = (there.y - level.offset) / scale;
       if (!(px >= 2 && py >= 2 && px < grey.cols - 3 && py < grey.rows - 3)) continue;
       seen.push_back({&point, x, y, px, py, 0});
     }
@@ -369,7 +374,7 @@ class RobustRegistrar final : public Registrar {
     std::size_t agreeing = 0;
     for (const Sampled& sample : seen) {
       away.push_back(std::abs(residual(sample, fit)) / (fit.gain * gradient_of(*sample.point)));
-      agreeing += away.back() <= 1 ? 1 : 0;
+      agreeing += away.back() <= level.agreeing() ? 1 : 0;
     }
     const double share = static_cast<double>(agreeing) / static_cast<double>(seen.size());
     return {fit.warp, share, level.scale() * median(away)};

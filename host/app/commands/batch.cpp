@@ -123,7 +123,7 @@ class Batch {
       }
       const auto [earlier, is_new] = line_of_output_.try_emplace(led_to(output), listed.line);
       if (!is_new) throw UsageError(format("{} is written by line {} already", output.string(), earlier->second));
-      const BoundsMaps maps(line, request.combine, false, "a picture");
+      const BoundsMaps maps(line, false, "a picture");
       if (maps.are_asked()) {
         const auto [its, is_first] = line_of_output_.try_emplace(led_to(maps.of(0)), listed.line);
         if (!is_first && its->second != listed.line)
@@ -189,14 +189,15 @@ class Batch {
     tally_.wrote(exposed.figures.capture,
                  written_shape(output, exposed.picture.shape, exposed.picture.pixel_aspect, wishes));
     pictures_.push(number, output, std::move(exposed.picture),
-                   recipe_text(line, tally_.precision(), tally_.error_bound()), wishes);
+                   recipe_text(line, tally_.precision(), tally_.error_bound(), maps.name_of(0)), wishes);
   }
 
-  std::string recipe_text(const Options& line, const std::string& precision, const std::string& error_bound = {}) {
+  std::string recipe_text(const Options& line, const std::string& precision, const std::string& error_bound = {},
+                          const std::string& bounds_map = {}) {
     if (line.no_recipe) return {};
     const std::string& name = line.operands.front();
     if (!capture_checksum_ || capture_checksum_->first != name) capture_checksum_ = {name, capture_checksum(name)};
-    return PictureRecipe(recipe_sources(line, capture_checksum_->second)).text(precision, {}, error_bound);
+    return PictureRecipe(recipe_sources(line, capture_checksum_->second)).text(precision, {}, error_bound, bounds_map);
   }
 
   // Any line may ask for floating point.

@@ -32,7 +32,7 @@ int run_expose(const Options& options) {
   const ExposureRequest request = exposure_request(options);
   const std::vector<std::string> inputs = input_files(options);
   check_output(output, OutputKind::picture, inputs, replacing(options));
-  const BoundsMaps maps(options, request.combine, false, "a picture");
+  const BoundsMaps maps(options, false, "a picture");
   maps.check(0, inputs, output, replacing(options));
 
   PictureRecipe recipe(recipe_sources(options));
@@ -49,7 +49,7 @@ int run_expose(const Options& options) {
   control.progress = {};  // the bar is gone before anything is said
   tally.add(exposed);
   print_warnings(exposure_warnings(exposed));
-  const std::string made = recipe.text(tally.precision(), {}, tally.error_bound());
+  const std::string made = recipe.text(tally.precision(), {}, tally.error_bound(), maps.name_of(0));
   write_picture(output, exposed.picture, made, file_wishes(options.picture));
   maps.write(0, exposed);
 

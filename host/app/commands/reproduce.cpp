@@ -158,8 +158,8 @@ int run_reproduce(const Options& options) {
   const std::optional<Recipe> recipe = read_recipe(picture);
   if (!recipe) {
     throw InputError(format(
-        "{} carries no recipe. Exposures, sheets and a video's stills do, but not charts, traces, masks "
-        "and .pfm files; --no-recipe leaves it out, and programs that write a picture anew lose it",
+        "{} carries no recipe. Exposures, sheets and a video's stills do, but not charts, traces, masks, "
+        "maps of bounds and .pfm files; --no-recipe leaves it out, and programs that write a picture anew lose it",
         picture.string()));
   }
   if (recipe->version != NUTIK_VERSION) {
@@ -192,6 +192,7 @@ int run_reproduce(const Options& options) {
   }
   command += recipe->renderer == "opencl" ? " --precision " + shell_word(recipe->precision)
                                           : " --renderer " + shell_word(recipe->renderer);
+  if (!recipe->bounds_map.empty()) command += " --bounds " + operand(picture.parent_path() / recipe->bounds_map);
   command += " " + operand(files.find(recipe->capture, "capture", capture_checksum));
   command += " -o " + operand(picture);
   print_line(command);

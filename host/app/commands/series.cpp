@@ -21,7 +21,7 @@ int run_series(const Options& options) {
   const SeriesRequest series = series_request(options);
   const std::vector<std::string> inputs = input_files(options);
   check_output(names[0], OutputKind::picture, inputs, replacing(options));  // before a clip is read
-  const BoundsMaps maps(options, request.combine, true, "a series");
+  const BoundsMaps maps(options, true, "a series");
   const bool skips = options.skip_existing && !maps.are_asked();
   if (skips) require_recipes(options, names[0]);
   PictureRecipe recipe(recipe_sources(options));
@@ -64,7 +64,8 @@ int run_series(const Options& options) {
                   maps.write(numbers[k], exposed);
                   told.push_back(uncertainty_json(exposed.uncertainty, exposed.output));
                   if (k == 0) first = std::move(exposed.figures);
-                  return recipe.text(tally.precision(), own_recipe_of(pictures[k]), tally.error_bound());
+                  return recipe.text(tally.precision(), own_recipe_of(pictures[k]), tally.error_bound(),
+                                     maps.name_of(numbers[k]));
                 });
   }
 

@@ -27,7 +27,7 @@ int run_video(const Options& options) {
   const VideoOutput output(output_name(options, "video", format("-{}fps.mp4", rate)), request.rate,
                            options.video_codec, options.picture);
   const std::vector<std::string> inputs = input_files(options);
-  const BoundsMaps maps(options, request.exposure.combine, true, "a video");
+  const BoundsMaps maps(options, true, "a video");
   const bool skips = options.skip_existing && !maps.are_asked();
   if (skips) require_recipes(options, output.writes_stills() ? output.still(0) : output.path());
   output.check({}, inputs, replacing(options));  // a container's name, before the clip is read
@@ -55,16 +55,19 @@ int run_video(const Options& options) {
     if (frames.numbers.empty()) return tell_all_made(options, output.path(), wanted, "frame");
   }
   std::string codes;  // how the frames differ from the capture
+  Json told = Json::array();
   const MadeVideo made = [&] {
     WarningsAtEnd warnings;
     return make_video(session, request, frames, output, progress_bar("exposing", options.quiet, progress_lines(options)),
                       [&](std::uint64_t frame, const Exposure&, const ExposedPicture& exposed) {
                         tally.add(exposed);
+                        told.push_back({{"frame", frame}});
+                        told.back().update(uncertainty_json(exposed.uncertainty, exposed.output));
                         maps.write(frame, exposed);
                         codes = codes_text(exposed.figures.capture, exposed.output);
                         warnings.add(format("frame {}", frame), exposure_warnings(exposed));
                         return output.writes_stills()
-                                   ? recipe.text(tally.precision(), own_recipe_of(frame), tally.error_bound())
+                                   ? recipe.text(tally.precision(), own_recipe_of(frame), tally.error_bound(), maps.name_of(frame))
                                    : std::string();
                       }, options.sound);
   }();
@@ -88,6 +91,7 @@ int run_video(const Options& options) {
   answer.line = format("{}: {}, {} ({}), from {} to {} of the capture, {}", name, shape_text(shape),
                        counted(frames.numbers.size(), "frame"), request.text(), duration_text(start_ns),
                        duration_text(end_ns), output.kind() + codes);
+  answer.json["pictures"] = std::move(told);
   if (wanted > frames.numbers.size())
     answer.line += format(", {} there already", counted(wanted - frames.numbers.size(), "frame"));
   tally.end(answer, session, options.verbose);

@@ -49,12 +49,10 @@ bool writes_to_standard_output(const Options& options) {
   return writes;
 }
 
-BoundsMaps::BoundsMaps(const Options& options, Combine combine, bool has_many, std::string_view who) {
+BoundsMaps::BoundsMaps(const Options& options, bool has_many, std::string_view who) {
   if (!options.picture.bounds) return;
   stated_ = *options.picture.bounds;
   if (names_standard_output(*stated_)) throw UsageError("--bounds writes a file: standard output has one picture");
-  if (combine != Combine::integral)
-    throw UsageError("--bounds maps what sums may be off by, and --combine adds nothing up");
   static_cast<void>(value_type_for(*stated_, Depth::floating, ValueType::light32, 1));
   if (has_many) names_.emplace(*stated_, who);
   if (!has_many && NumberedName::parse(stated_->filename().string()))
@@ -69,7 +67,6 @@ void BoundsMaps::check(std::uint64_t number, std::vector<std::string> inputs, co
 }
 
 void BoundsMaps::write(std::uint64_t number, const ExposedPicture& exposed) const {
-  // Without a recipe: `reproduce` would make the picture.
   if (!exposed.bounds.empty()) write_layers(of(number), exposed.bounds);
 }
 

@@ -48,12 +48,14 @@ class PictureNames {
 // Where --bounds puts the map of each picture: a file, or with `has_many` one with the picture's number.
 class BoundsMaps {
  public:
-  // `who` asks, in messages. Throws UsageError where it cannot be told what each pixel is off by, where the name is that
-  // of no file of floats, lacks a number, or has one for a single picture.
-  BoundsMaps(const Options& options, Combine combine, bool has_many, std::string_view who);
+  // `who` asks, in messages. Throws UsageError where the name is that of no file of floats, lacks a number, or has one for
+  // a single picture.
+  BoundsMaps(const Options& options, bool has_many, std::string_view who);
 
   [[nodiscard]] bool are_asked() const { return stated_.has_value(); }
   [[nodiscard]] std::filesystem::path of(std::uint64_t number) const { return names_ ? (*names_)[number] : *stated_; }
+  // Without its folder, for recipes; empty where none is asked for.
+  [[nodiscard]] std::string name_of(std::uint64_t number) const { return stated_ ? of(number).filename().string() : ""; }
   // Throws UsageError where it is an input or the picture itself, or may not be replaced.
   void check(std::uint64_t number, std::vector<std::string> inputs, const std::filesystem::path& picture,
              Replacing replacing) const;

@@ -35,12 +35,13 @@ PictureRecipe::PictureRecipe(std::optional<RecipeSources> sources) {
 }
 
 std::string PictureRecipe::text(const std::string& precision, const OwnRecipe& own,
-                                const std::string& error_bound) {
+                                const std::string& error_bound, const std::string& bounds_map) {
   if (reading_.valid()) recipe_ = reading_.get();
   if (!recipe_) return {};
   Recipe recipe = *recipe_;
   recipe.precision = precision;
   recipe.error_bound = error_bound;
+  recipe.bounds_map = bounds_map;
   if (own.functions) recipe.functions = own.functions;
   if (own.mask) recipe.mask = own.mask;
   if (own.mask_to) recipe.mask_to = own.mask_to;

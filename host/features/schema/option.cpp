@@ -57,7 +57,7 @@ void Option::state(Options& options, std::string_view what, std::vector<std::str
   if (take != nullptr) {
     if (!is_flag() && options.has(long_name)) throw UsageError(display_name() + " is given twice");
     static const std::string kFlag;
-    take(options, what, is_flag() ? kFlag : words.front());
+    take(options, *this, what, is_flag() ? kFlag : words.front());
   }
   options.said.push_back({long_name, std::move(words), this});
 }

@@ -35,7 +35,8 @@ inline constexpr std::string_view kSourceClip = "The source clip", kClipCodes = 
                                   kComputing = "Computing", kOutputs = "Output", kSeldomNeeded = "Seldom needed";
 
 // Sets the field of Options that a value is kept in. Throws UsageError naming `what` where the word makes no sense.
-using Take = void (*)(Options& options, std::string_view what, const std::string& word);
+struct Option;
+using Take = void (*)(Options& options, const Option& row, std::string_view what, const std::string& word);
 
 // How options are written: `--shutter-angle`, or `shutter_angle=`.
 enum class Dialect { command_line, python };

@@ -79,17 +79,19 @@ constexpr Option kRows[] = {
      "how long the shutter was open: 360 is all the time to the next picture (default: what the file says, else "
      "360)"}),
     known(Setting::from, "begin", {0, "from", "TIME", decoding, kDecodesClips & ~bit(Id::video),
-     take<InClip<&ClipOptions::from>>,
+     take_by<InClip<&ClipOptions::from>, parse_clip_moment>,
      "take pictures that start here or later: 1.5s, 32f; the first of them is at time 0 (default: all)"}),
     known(Setting::to, "end", {0, "to", "TIME", decoding, kDecodesClips & ~bit(Id::video),
-     take<InClip<&ClipOptions::to>>,
+     take_by<InClip<&ClipOptions::to>, parse_clip_moment>,
      "take pictures that start earlier: 2s, 48f (default: all)"}),
-    known(Setting::crop, {0, "crop", "WxH+X+Y", decoding, kDecodesClips, take<InClip<&ClipOptions::crop>>,
+    known(Setting::crop, {0, "crop", "WxH+X+Y", decoding, kDecodesClips,
+     take_by<InClip<&ClipOptions::crop>, parse_crop>,
      "take a rectangle of the clip's pictures: its size, and the place of its top left pixel"}),
-    known(Setting::scale, {0, "scale", "SCALE", decoding, kDecodesClips, take<InClip<&ClipOptions::scale>>,
+    known(Setting::scale, {0, "scale", "SCALE", decoding, kDecodesClips,
+     take_by<InClip<&ClipOptions::scale>, parse_scale>,
      "make pictures smaller: each pixel is the mean of the light it covers, 1/2, 1/3, …, or 640x360"}),
     known(Setting::deinterlace, {0, "deinterlace", "HOW", decoding, kDecodesClips,
-     take<InClip<&ClipOptions::interlaced>>,
+     take_choice<InClip<&ClipOptions::interlaced>, Interlaced::frames, Interlaced::fields, Interlaced::ignored>,
      "what becomes of interlaced video: frames (a picture from each frame), fields (one from each field, twice as"
      " many), or no (it only says that it is) (default: it is refused)",
      "frames fields no"}),
@@ -123,20 +125,23 @@ constexpr Option kRows[] = {
      "and grey video of more than 8 bits and for 16-bit colour; what a file names, but for bt709 in 8-bit "
      "video; a .tik's own)",
      "srgb bt709 linear gamma: hlg pq slog2 slog3 vlog clog2 clog3 logc3 logc4 flog flog2 nlog dlog applelog acescct"}),
-    known(Setting::matrix, {0, "matrix", "NAME", decoding, kDecodesClips, take<InClip<&ClipOptions::matrix>>,
+    known(Setting::matrix, {0, "matrix", "NAME", decoding, kDecodesClips,
+     take_choice<InClip<&ClipOptions::matrix>, YuvMatrix::bt601, YuvMatrix::bt709, YuvMatrix::bt2020, YuvMatrix::ycgco>,
      "how a video's YUV becomes RGB: bt601, bt709, bt2020 or ycgco (default: what the file says; else bt709 from "
      "720 lines on, bt601 below)",
      "bt601 bt709 bt2020 ycgco"}),
-    known(Setting::range, {0, "range", "NAME", decoding, kDecodesClips, take<InClip<&ClipOptions::range>>,
+    known(Setting::range, {0, "range", "NAME", decoding, kDecodesClips,
+     take_choice<InClip<&ClipOptions::range>, CodeRange::limited, CodeRange::full>,
      "which codes of YUV are black and white: limited or full (default: what the file says, else limited)",
      "limited full"}),
     known(Setting::chroma_place, {0, "chroma-at", "PLACE", decoding, kDecodesClips,
-     take<InClip<&ClipOptions::chroma_at>>,
+     take_choice<InClip<&ClipOptions::chroma_at>, ChromaPlace::left, ChromaPlace::center, ChromaPlace::topleft,
+     ChromaPlace::top, ChromaPlace::bottomleft, ChromaPlace::bottom>,
      "where chroma lies that pixels share: in deep video, left, center, topleft, top, bottomleft or bottom "
      "(default: what the file says, else left)",
      "left center topleft top bottomleft bottom"}),
     known(Setting::primaries, {0, "primaries", "NAME", decoding, kDecodesClips | bit(Id::retime),
-     take<InClip<&ClipOptions::primaries>>,
+     take_by<InClip<&ClipOptions::primaries>, parse_primaries>,
      "the colours of red, green and blue: bt709, bt2020, p3, or a camera's: sgamut3, sgamut3-cine, vgamut, cinema-gamut, "
      "arri-wg3, arri-wg4, dgamut, ap1 (default: the curve's, of cameras' curves; what the file says; else bt2020 if the "
      "matrix is, and bt709)",
@@ -145,15 +150,16 @@ constexpr Option kRows[] = {
      take_by<InClip<&ClipOptions::pixel_aspect>, parse_pixel_aspect>,
      "how much wider than high a pixel is: 32:27 (default: what the file says, else 1:1)"}),
     known(Setting::raw_layout, {0, "raw", "WxH:FORMAT", decoding, kDecodesClips | bit(Id::shutter),
-     take<InClip<&ClipOptions::raw>>,
+     take_by<InClip<&ClipOptions::raw>, parse_raw_video>,
      "a video without a header: its size and FFmpeg's name of its pixels, 480x270:yuv420p10le"}),
 
     heading(kEventRecording),
-    known(Setting::contrast, {0, "contrast", "STEP", decoding, kDecodesClips, take<InEvents<&EventOptions::contrast>>,
+    known(Setting::contrast, {0, "contrast", "STEP", decoding, kDecodesClips,
+     take_by<InEvents<&EventOptions::contrast>, parse_contrast>,
      "how much light changes with an event: the step of its natural logarithm, 0.2, or up and down apart, 0.3:0.17 "
      "(default: 0.2)"}),
     known(Setting::start_picture, {0, "start-picture", "FILE|LIGHT", decoding, bit(Id::encode),
-     take<InEvents<&EventOptions::start>>,
+     take_by<InEvents<&EventOptions::start>, parse_start_light>,
      "light before the first event: a picture's of the same pixels, or the same everywhere, 1 being white (default: "
      "0.18)"}),
     known(Setting::tick, {0, "tick", "TIME", decoding, kDecodesClips,
@@ -161,11 +167,12 @@ constexpr Option kRows[] = {
      "round events down to a tick: 100us, for fewer samples (default: the file's own times)"}),
 
     heading(kMovingCamera),
-    {0, "align", "MOTION", encoding, kEncodesClips, take<In<&Options::align>>,
+    {0, "align", "MOTION", encoding, kEncodesClips,
+     take_choice<In<&Options::align>, CameraMotion::translation, CameraMotion::rigid, CameraMotion::homography>,
      "keep the camera still: move each picture onto the first one by translation, rigid (turning, too) or "
      "homography (whatever a camera on the spot does); the clip is read twice",
      "translation rigid homography"},
-    {0, "unseen", "HOW", encoding, kEncodesClips, take<In<&Options::unseen>>,
+    {0, "unseen", "HOW", encoding, kEncodesClips, take_choice<In<&Options::unseen>, Unseen::cropped, Unseen::held>,
      "what becomes of places not always seen: crop cuts them away, hold shows what was seen there before "
      "(default: crop)",
      "crop hold"},
@@ -190,7 +197,8 @@ constexpr Option kRows[] = {
      "a second mask: that of -m on its way to it, as between two key frames of a video"},
     {0, "mask-share", "SHARE", exposure, kBlendsMasks, take_by<In<&Options::mask_way>, parse_share>,
      "how far the mask has become the second one: from 0 to 1, 3/8"},
-    {0, "mask-blend", "HOW", exposure, kBlendsMasks | bit(Id::video), take<In<&Options::mask_blend>>,
+    {0, "mask-blend", "HOW", exposure, kBlendsMasks | bit(Id::video),
+     take_choice<In<&Options::mask_blend>, MaskBlend::distance, MaskBlend::alpha>,
      "how one mask turns into the other: distance (edges move) or alpha (it fades) (default: distance)",
      "distance alpha"},
     {0, "start", "TIME", exposure, kTakesIntervals, take<In<&Options::start>>,
@@ -259,7 +267,8 @@ constexpr Option kRows[] = {
     known(Setting::crf, {0, "crf", "N", output, bit(Id::video), take_whole<InPicture<&OutputRequest::crf>, 0, 100>,
      "quality on the codec's own scale: h264, h265 0 … 51 (default: 17), av1, vp9 0 … 63, mjpeg 2 … 31, the less "
      "the better; webp 0 … 100"}),
-    known(Setting::sound, {0, "sound", "HOW", output, bit(Id::video), take<In<&Options::sound>>,
+    known(Setting::sound, {0, "sound", "HOW", output, bit(Id::video),
+     take_choice<In<&Options::sound>, FilmSoundWish::as_it_is, FilmSoundWish::stretched, FilmSoundWish::none>,
      "the clip's sound: clip (as it is, if the film runs as fast as the file), stretch (as slow or fast as the "
      "film) or no (default: clip)",
      "clip stretch no"}),
@@ -298,7 +307,7 @@ constexpr Option kRows[] = {
     heading("The mask"),
     {0, "base", "MASK.pgm", subject, bit(Id::mask), take<In<&Options::base>>,
      "start with this mask (default: 0 everywhere)"},
-    {0, "size", "WxH", subject, bit(Id::mask), take<In<&Options::size>>,
+    {0, "size", "WxH", subject, bit(Id::mask), take_by<In<&Options::size>, parse_mask_size>,
      "its size, if neither capture nor picture tells: 640x360"},
     {0, "feather", "PIXELS", subject, bit(Id::mask), take<In<&Options::feather>>,
      "blend tags along their edges: so far to either side, 6px, M255=6px, 2px,M255=6px; the output is layers of "
@@ -338,7 +347,10 @@ constexpr Option kRows[] = {
      "also write where it changes: as info --activity does, black never, white most often"},
 
     heading("The study"),
-    {0, "style", "NAME", subject, bit(Id::study), take<InStudy<&StudyRequest::style>>,
+    {0, "style", "NAME", subject, bit(Id::study),
+     take_choice<InStudy<&StudyRequest::style>, StudyStyle::trail, StudyStyle::strobe, StudyStyle::rear_curtain,
+     StudyStyle::frozen,
+     StudyStyle::clean, StudyStyle::slit>,
      "what the picture shows: trail (sharp moments over the whole way), strobe (moments alone), rear-curtain (the"
      " last moment, and a trail that grows towards it), frozen (one moment in a scene exposed for all of the "
      "time), clean (the scene without moving things) or slit (strips, each later than the one before it) "
@@ -350,9 +362,11 @@ constexpr Option kRows[] = {
     step("region", "X,Y,W,H",
          "look for a subject in this rectangle only; several times for as many subjects, each in its own",
          Id::study),
-    {0, "spacing", "time|distance", subject, bit(Id::study), take<InStudy<&StudyRequest::spacing>>,
+    {0, "spacing", "time|distance", subject, bit(Id::study),
+     take_choice<InStudy<&StudyRequest::spacing>, MomentSpacing::time, MomentSpacing::distance>,
      "how moments are evenly apart: in time, or along the way (default: time)", "time distance"},
-    {0, "trail", "SHAPE", subject, bit(Id::study), take<InStudy<&StudyRequest::trail>>,
+    {0, "trail", "SHAPE", subject, bit(Id::study),
+     take_choice<InStudy<&StudyRequest::trail>, TrailShape::even, TrailShape::fade, TrailShape::ramp, TrailShape::none>,
      "the trail's shape: even, fade (ends at nothing), ramp (begins at nothing) or none (default: even of trail "
      "and frozen, ramp of rear-curtain, none of strobe)",
      "even fade ramp none"},
@@ -362,7 +376,8 @@ constexpr Option kRows[] = {
      "outline)"},
     {0, "feather", "PIXELS", exposure, bit(Id::study), take<In<&Options::feather>>,
      "blend the edges of subject or strips: over so many pixels, 6px, at most 32px (default: 2px; strips: 0px)"},
-    {0, "slit-from", "SIDE", subject, bit(Id::study), take<InStudy<&StudyRequest::slit_from>>,
+    {0, "slit-from", "SIDE", subject, bit(Id::study),
+     take_choice<InStudy<&StudyRequest::slit_from>, SlitFrom::left, SlitFrom::right, SlitFrom::top, SlitFrom::bottom>,
      "where slit begins: left, right (columns), top or bottom (rows) (default: left)", "left right top bottom"},
 
     heading("What is solved for"),
@@ -387,19 +402,21 @@ constexpr Option kRows[] = {
      "time"},
 
     heading(kComputing),
-    known(Setting::renderer, {0, "renderer", "NAME", computing, kExposes, take<In<&Options::renderer>>,
+    known(Setting::renderer, {0, "renderer", "NAME", computing, kExposes,
+     take_choice<In<&Options::renderer>, RendererKind::opencl, RendererKind::reference>,
      "what computes: opencl, or reference, plain double precision on the processor, slow (default: opencl)",
      "opencl reference"}),
     {0, "device", "NAME", computing, kExposes | bit(Id::validate), take<In<&Options::device>>,
      "the OpenCL device: its number or part of its name; several that make each picture together: 0,1, or all; "
      "NUTIK_DEVICE does the same (default: the first GPU, else the first device)"},
-    known(Setting::precision, {0, "precision", "NAME", computing, kExposes, take<In<&Options::precision>>,
+    known(Setting::precision, {0, "precision", "NAME", computing, kExposes,
+     take_by<In<&Options::precision>, parse_wished_precision>,
      "the arithmetic: single, compensated, double, fixed (the same bytes on every device), or auto: the fastest "
      "that is sure to be right to half a code, or to half a float's step (default: auto; see -v)",
      "auto single compensated double fixed"}),
     {0, "strict", "", computing, kExposes, take<In<&Options::strict>>,
      "refuse what may err by more than half a code: an error with exit status 7 where a warning would say so"},
-    {0, "memory", "SIZE", computing, kDecodesClips | kExposes, take<In<&Options::memory>>,
+    {0, "memory", "SIZE", computing, kDecodesClips | kExposes, take_by<In<&Options::memory>, parse_memory>,
      "the most that may be held: 500MB, 2GB, 1GiB; libraries and drivers come on top (default: half of the "
      "machine's)"},
 
@@ -414,7 +431,8 @@ constexpr Option kRows[] = {
      "standard output as -, a PNG, or as exr:-, tif:-, …"},
     known(Setting::depth, "dtype", {0, "depth", "BITS", exposure, set_of(Id::expose, Id::video, Id::validate,
      Id::background, Id::study),
-     take<InPicture<&OutputRequest::depth>>,
+     take_choice<InPicture<&OutputRequest::depth>, Depth::bits8, Depth::bits16, Depth::half, Depth::floating,
+     Depth::doubled>,
      "bits of the picture: 8, 16, float, double (.tif, .npy) or half (.exr): light as it is, with negatives (default: "
      "the capture's own, 8 for .jpg, float for .exr, .pfm and .npy)",
      "8 16 half float double"}),
@@ -430,7 +448,9 @@ constexpr Option kRows[] = {
      set_of(Id::expose, Id::sweep, Id::video, Id::background, Id::study), take<InPicture<&OutputRequest::keep_pixels>>,
      "keep pixels that are not square: to measure in them (default: .png, .jpg and films of lossy codecs come in "
      "square ones, unless --depth 16 or --out-transfer source is stated; other files as they are)"}),
-    {0, "negative", "HOW", exposure, kExposesFreely, take<InPicture<&OutputRequest::negative>>,
+    {0, "negative", "HOW", exposure, kExposesFreely,
+     take_choice<InPicture<&OutputRequest::negative>, NegativeLight::saturate, NegativeLight::offset,
+     NegativeLight::absolute>,
      "what codes make of light below 0: saturate (black), offset (light 0 is mid-grey, light below it "
      "darker), abs (as bright as light above it) (default: saturate)",
      "saturate offset abs"},
@@ -495,7 +515,9 @@ constexpr Option kRows[] = {
     {0, "shutter-error", "E", exposure, kShapesExposures | bit(Id::shutter),
      take_by<In<&Options::shutter_error>, parse_shutter_error>,
      "how far a smooth shape may be from its gains: as a share of the largest (default: 0.001)"},
-    {0, "tiles", "KIND", encoding, kEncodesClips, take<InSource<&SourceRequest::tiles>>,
+    {0, "tiles", "KIND", encoding, kEncodesClips,
+     take_choice<InSource<&SourceRequest::tiles>, TilePolicy::automatic, TilePolicy::dense, TilePolicy::rows,
+     TilePolicy::records>,
      "auto, or all tiles as dense, rows or records, for experiments (default: auto)",
      "auto dense rows records"},
     known(Setting::block_samples, {0, "block-samples", "N", encoding, kEncodesClips,

@@ -112,6 +112,7 @@ SourceRequest clip_request(const Options& options, const std::string& name) {
 ComputingRequest computing_request(const Options& options) {
   ComputingRequest request = ComputingRequest::of_environment();
   if (options.memory) request.memory = *options.memory;
+  request.strict = options.strict;
   if (options.renderer == RendererKind::reference) {
     if (options.device)
       throw UsageError(Advice{"`device` chooses an OpenCL device; the reference uses none"});
@@ -123,7 +124,6 @@ ComputingRequest computing_request(const Options& options) {
   }
   if (options.device) request.device = *options.device;
   request.precision = options.precision;
-  request.strict = options.strict;
   return request;
 }
 

@@ -1,25 +1,13 @@
 #include "features/schema/taking.hpp"
 
 #include <algorithm>
-#include <initializer_list>
 
 #include "capture/format.hpp"
 #include "session/text/number_text.hpp"
+#include "session/text/text_table.hpp"
 
 namespace nutik {
 namespace {
-
-// The value that a name stands for.
-template <typename Value>
-Value named(std::string_view word, std::string_view what,
-            std::initializer_list<std::pair<std::string_view, Value>> values) {
-  std::string known;
-  for (const auto& [name, value] : values) {
-    if (word == name) return value;
-    known += (known.empty() ? "" : ", ") + std::string(name);
-  }
-  throw UsageError(format("{} '{}' is unknown; there are {}", what, word, known));
-}
 
 bool parse_only(std::string_view word, std::string_view what, std::string_view only) {
   if (word == only) return true;
@@ -28,58 +16,14 @@ bool parse_only(std::string_view word, std::string_view what, std::string_view o
 
 }  // namespace
 
-void read_word(std::string_view word, std::string_view, std::string& value) { value = word; }
-void read_word(std::string_view word, std::string_view what, Rational& value) {
-  value = Rational::parse(word, what);
+std::size_t choice_of(const Option& row, std::string_view what, std::string_view word) {
+  const std::vector<std::string> choices = row.choices();
+  const auto found = std::ranges::find(choices, word);
+  if (found == choices.end()) throw UsageError(format("{} '{}' is not known; choose {}", what, word, alternatives(choices)));
+  return static_cast<std::size_t>(found - choices.begin());
 }
-void read_word(std::string_view word, std::string_view what, StatedTime& value) {
-  value = StatedTime::parse(word, what);
-}
-void read_word(std::string_view word, std::string_view, std::optional<Transfer>& value) {
-  value = Transfer::parse(word);
-}
-void read_word(std::string_view word, std::string_view, YuvMatrix& value) { value = parse_yuv_matrix(word); }
-void read_word(std::string_view word, std::string_view, CodeRange& value) { value = parse_code_range(word); }
-void read_word(std::string_view word, std::string_view, ChromaPlace& value) {
-  value = parse_chroma_place(word);
-}
-void read_word(std::string_view word, std::string_view, Primaries& value) { value = parse_primaries(word); }
-void read_word(std::string_view word, std::string_view what, ClipMoment& value) {
-  value = clip_moment(StatedTime::parse(word, what), what);
-}
-void read_word(std::string_view word, std::string_view, Rectangle& value) { value = parse_crop(word); }
-void read_word(std::string_view word, std::string_view, ClipScale& value) { value = parse_scale(word); }
-void read_word(std::string_view word, std::string_view, Interlaced& value) {
-  value = parse_deinterlacing(word);
-}
-void read_word(std::string_view word, std::string_view, Contrast& value) { value = parse_contrast(word); }
-void read_word(std::string_view word, std::string_view, StartLight& value) {
-  value = parse_start_light(word);
-}
-void read_word(std::string_view word, std::string_view, TilePolicy& value) {
-  value = parse_tile_policy(word);
-}
-void read_word(std::string_view word, std::string_view, tik::Codec& value) {
-  value = tik::Codec::parse(word);
-}
-void read_word(std::string_view word, std::string_view, Feather& value) {
-  value = Feather::parse(std::string(word));
-}
-void read_word(std::string_view word, std::string_view what, DelayRequest& value) {
-  value = DelayRequest::parse(word, what);
-}
-void read_word(std::string_view word, std::string_view, ShutterShape& value) {
-  value = ShutterShape::parse(word);
-}
-void read_word(std::string_view word, std::string_view, Normalization& value) {
-  value = Normalization::parse(word);
-}
-void read_word(std::string_view word, std::string_view what, FrameRanges& value) {
-  value = FrameRanges::parse(word, what);
-}
-void read_word(std::string_view word, std::string_view, Depth& value) { value = parse_depth(word); }
 
-void read_word(std::string_view word, std::string_view, RawVideo& value) {
+RawVideo parse_raw_video(std::string_view word) {
   const auto colon = word.find(':');
   if (colon == std::string_view::npos || word.find('x') > colon) {
     throw UsageError(format(
@@ -88,101 +32,29 @@ void read_word(std::string_view word, std::string_view, RawVideo& value) {
   constexpr std::uint32_t kLargestSide = 65'536;
   const auto [width, height] =
       parse_pair(word.substr(0, colon), 'x', {"width", 1, kLargestSide}, {"height", 1, kLargestSide}, {});
-  value = {width, height, std::string(word.substr(colon + 1))};
+  return {width, height, std::string(word.substr(colon + 1))};
 }
 
-void read_word(std::string_view word, std::string_view what, CameraMotion& value) {
-  const auto motion = camera_motion_of(word);
-  if (!motion)
-    throw UsageError(format("{} '{}' is no motion; choose translation, rigid or homography", what, word));
-  value = *motion;
+ClipMoment parse_clip_moment(std::string_view word, std::string_view what) {
+  return clip_moment(StatedTime::parse(word, what), what);
 }
 
-void read_word(std::string_view word, std::string_view what, Unseen& value) {
-  if (word != "hold" && word != "crop")
-    throw UsageError(format("{} '{}' is neither crop nor hold", what, word));
-  value = word == "hold" ? Unseen::held : Unseen::cropped;
-}
-
-void read_word(std::string_view word, std::string_view, Combining& value) { value = Combining::parse(word); }
-
-void read_word(std::string_view word, std::string_view what, FilmSoundWish& value) {
-  if (word != "clip" && word != "stretch" && word != "no")
-    throw UsageError(format("{} {} is not known; choose clip, stretch or no", what, word));
-  value = word == "clip" ? FilmSoundWish::as_it_is : word == "no" ? FilmSoundWish::none : FilmSoundWish::stretched;
-}
-
-void read_word(std::string_view word, std::string_view what, MaskBlend& value) {
-  if (word != "distance" && word != "alpha")
-    throw UsageError(format("{} {} is not known; choose distance or alpha", what, word));
-  value = word == "alpha" ? MaskBlend::alpha : MaskBlend::distance;
-}
-
-void read_word(std::string_view word, std::string_view, MaskSize& value) {
+MaskSize parse_mask_size(std::string_view word) {
   constexpr std::uint32_t kLargestSide = 1u << 20;
   const auto [width, height] = parse_pair(word, 'x', {"width", 1, kLargestSide}, {"height", 1, kLargestSide},
                                           format("size '{}' is none; write WIDTHxHEIGHT: 640x360", word));
-  value = {width, height};
+  return {width, height};
 }
 
-void read_word(std::string_view word, std::string_view, RendererKind& value) {
-  if (word != "opencl" && word != "reference")
-    throw UsageError(format("renderer '{}' is not known; choose opencl or reference", word));
-  value = word == "reference" ? RendererKind::reference : RendererKind::opencl;
+std::optional<Precision> parse_wished_precision(std::string_view word) {
+  return word == "auto" ? std::nullopt : std::optional(parse_precision(word));
 }
 
-void read_word(std::string_view word, std::string_view, std::optional<Precision>& value) {
-  value = word == "auto" ? std::nullopt : std::optional(parse_precision(word));
-}
-
-void read_word(std::string_view word, std::string_view what, MemoryBudget& value) {
+MemoryBudget parse_memory(std::string_view word, std::string_view what) {
   const std::optional<std::uint64_t> bytes = parse_bytes(word);
   if (!bytes || *bytes == 0)
     throw UsageError(format("{} '{}' is no size; write 500MB, 2GB or 1GiB", what, word));
-  value = {*bytes};
-}
-
-void read_word(std::string_view word, std::string_view what, NegativeLight& value) {
-  if (word == "saturate") {
-    value = NegativeLight::saturate;
-  } else if (word == "offset") {
-    value = NegativeLight::offset;
-  } else if (word == "abs") {
-    value = NegativeLight::absolute;
-  } else {
-    throw UsageError(format("{} {} is not known; choose saturate, offset or abs", what, word));
-  }
-}
-
-void read_word(std::string_view word, std::string_view what, StudyStyle& value) {
-  value = named<StudyStyle>(word, what,
-                            {{"trail", StudyStyle::trail},
-                             {"strobe", StudyStyle::strobe},
-                             {"rear-curtain", StudyStyle::rear_curtain},
-                             {"frozen", StudyStyle::frozen},
-                             {"clean", StudyStyle::clean},
-                             {"slit", StudyStyle::slit}});
-}
-
-void read_word(std::string_view word, std::string_view what, MomentSpacing& value) {
-  value = named<MomentSpacing>(word, what,
-                               {{"time", MomentSpacing::time}, {"distance", MomentSpacing::distance}});
-}
-
-void read_word(std::string_view word, std::string_view what, TrailShape& value) {
-  value = named<TrailShape>(word, what,
-                            {{"even", TrailShape::even},
-                             {"fade", TrailShape::fade},
-                             {"ramp", TrailShape::ramp},
-                             {"none", TrailShape::none}});
-}
-
-void read_word(std::string_view word, std::string_view what, SlitFrom& value) {
-  value = named<SlitFrom>(word, what,
-                          {{"left", SlitFrom::left},
-                           {"right", SlitFrom::right},
-                           {"top", SlitFrom::top},
-                           {"bottom", SlitFrom::bottom}});
+  return {*bytes};
 }
 
 std::int64_t parse_tick(std::string_view word, std::string_view what) {
@@ -239,7 +111,7 @@ std::uint32_t parse_whole(std::string_view word, std::string_view what, std::uin
   return parse_whole_number(word, what, low, high);
 }
 
-void take_white(Options& options, std::string_view what, const std::string& word) {
+void take_white(Options& options, const Option&, std::string_view what, const std::string& word) {
   ClipOptions& clip = options.source.clip;
   const bool is_whole = word.find_first_not_of("0123456789") == word.npos;
   const auto light = is_whole ? std::nullopt : parse_number(word);
@@ -248,7 +120,7 @@ void take_white(Options& options, std::string_view what, const std::string& word
   clip.white_light = clip.white_code ? *clip.white_code : *light;
 }
 
-void take_activity_tag(Options& options, std::string_view what, const std::string& word) {
+void take_activity_tag(Options& options, const Option&, std::string_view what, const std::string& word) {
   options.each_tag = word == "all";
   if (!options.each_tag) options.tag = static_cast<std::uint8_t>(parse_whole(word, what, 0, 255));
 }

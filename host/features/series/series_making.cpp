@@ -76,7 +76,8 @@ bool is_made(const std::filesystem::path& picture, const std::optional<std::stri
     Recipe recipe = Recipe::parse(*text, picture.string());
     if (precision && recipe.precision != *precision) return false;
     if (recipe.text() != *text) return false;
-    recipe.error_bound.clear();  // follows from the rest
+    recipe.error_bound.clear();  // follows from the rest, as the map does
+    recipe.bounds_map.clear();
     return recipe_of(recipe.precision) == recipe.text();
   } catch (const InputError&) {
     return false;  // cut off, or no picture at all: whether it may be replaced is for check_output() to say

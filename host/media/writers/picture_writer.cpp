@@ -109,15 +109,6 @@ std::string extensions_of(Wanted wanted) {
 
 }  // namespace
 
-Depth parse_depth(std::string_view text) {
-  if (text == "8") return Depth::bits8;
-  if (text == "16") return Depth::bits16;
-  if (text == "half") return Depth::half;
-  if (text == "float") return Depth::floating;
-  if (text == "double") return Depth::doubled;
-  throw UsageError(format("depth '{}' is not known; choose 8, 16, half, float or double", text));
-}
-
 ValueType value_type_for(const std::filesystem::path& path, std::optional<Depth> wish, ValueType usual,
                          std::uint32_t channels) {
   const FileKind& kind = file_kind_of(path);

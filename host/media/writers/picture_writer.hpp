@@ -14,7 +14,6 @@ namespace nutik {
 
 // How many bits a person asked for: codes, or light as floating point of 16, 32 or 64 bits.
 enum class Depth { bits8, bits16, half, floating, doubled };
-[[nodiscard]] Depth parse_depth(std::string_view text);  // `8`, `16`, `half`, `float`, `double`; throws UsageError
 
 // The value type that a picture of `channels` takes in a file of this name. Without a wish it is `usual`
 // (codes of the capture's own depth, or 8 bits where the file holds no more) where the file holds codes, else light.

@@ -43,13 +43,14 @@ struct Recipe {
   std::vector<std::pair<std::string, std::string>> options;
   std::string renderer;
   std::string precision;
-  std::string error_bound;  // what its arithmetic may be off by, for people; empty: not known
+  // Beside the picture: what its arithmetic may be off by, for people; the file that says so of each pixel. Empty: none.
+  std::string error_bound, bounds_map;
 
   [[nodiscard]] std::string text() const;
 
   // Reads a text that text() wrote. Throws InputError naming `name` where it is none, makes what no recipe does, or the
   // name of functions
-  // or noise is not that of a file alone, or that of capture or mask has more than one plain folder.
+  // or noise or of a map is not that of a file alone, or that of capture or mask has more than one plain folder.
   static Recipe parse(std::string_view text, const std::string& name);
 };
 

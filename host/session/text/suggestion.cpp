@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "capture/format.hpp"
+#include "session/text/text_table.hpp"
 
 namespace nutik {
 namespace {
@@ -61,11 +62,7 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> kno
     if (nearest == nullptr) return {};
     meant.push_back(*nearest);
   }
-  std::string text;
-  for (std::size_t i = 0; i < meant.size(); ++i) {
-    text += (i == 0 ? "" : i + 1 == meant.size() ? " or " : ", ") + meant[i];
-  }
-  return format("; did you mean {}?", text);
+  return format("; did you mean {}?", alternatives(meant));
 }
 
 std::string lower_case(std::string text) {

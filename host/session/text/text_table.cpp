@@ -26,6 +26,13 @@ std::string joined(const std::vector<std::string>& parts, std::string_view betwe
   return text;
 }
 
+std::string alternatives(const std::vector<std::string>& parts) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == parts.size() ? " or " : ", ") + parts[i];
+  return text;
+}
+
 std::string table_text(const std::vector<std::vector<std::string>>& rows, std::string_view alignment) {
   constexpr std::string_view kBetween = "  ";
   std::vector<std::size_t> widths(alignment.size());

@@ -13,6 +13,8 @@ namespace nutik {
 
 // What stands between separators: lines, words. The parts again, with something between them.
 [[nodiscard]] std::vector<std::string> parts_of(std::string_view text, char separator);
+// `a, b or c`
+[[nodiscard]] std::string alternatives(const std::vector<std::string>& parts);
 [[nodiscard]] std::string joined(const std::vector<std::string>& parts, std::string_view between = ", ");
 
 // Rows of equal length, the first the heading; a letter of `alignment` for each column: l or r. Lines

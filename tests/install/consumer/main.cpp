@@ -28,7 +28,7 @@ bool renders(const nutik::ClipOptions& clip) {
 int main() {
   const auto timeline = nutik::Timeline::constant({960, 1}, nutik::Timeline::kFullShutter, 48);
   std::printf("%lld ns\n", static_cast<long long>(timeline.duration_ns()));
-  if (nutik::parse_depth("16") != nutik::Depth::bits16) return 1;
+  if (nutik::parse_primaries("p3") != nutik::Primaries::p3) return 1;
   try {
     std::printf("%zu devices\n", nutik::list_devices().size());
   } catch (const nutik::DeviceError& error) {
