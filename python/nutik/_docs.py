@@ -8,7 +8,7 @@ import inspect
 import linecache
 import re
 from dataclasses import is_dataclass
-from textwrap import fill
+from textwrap import fill, indent
 from typing import Any, Callable, Iterable, Mapping
 
 from . import _nutik
@@ -21,7 +21,8 @@ _SECTION = re.compile(rf"^({'|'.join(_ORDER)}):\n", re.MULTILINE)
 _ENTRY = re.compile(r"^(\w+(?:, \w+)*) : (.*(?:\n[ \n].*)*)", re.MULTILINE)
 _WORKS = ("Works without Python's lock: any number of threads may use one capture. Ctrl-C ends it within half a second, "
           "with KeyboardInterrupt, and leaves no file that was not finished.")
-_COMMANDS = {"open": "encode", "join": "encode", **{name: name for name in ("encode", "study", "solve", "activity", "plate")}}
+_COMMANDS = {"open": "encode", "join": "encode", "encode": "encode", "study": "study", "solve": "solve",
+             "activity": "activity", "plate": "background"}
 _PLOTTED = {"ax": "axes of matplotlib, which are returned; None: the current ones.",
             "style": "what matplotlib's plot() takes: label='left'."}
 
@@ -43,10 +44,6 @@ def _type_of(annotation: str) -> str:
     return re.sub(r", None$", "", inside[1]) if inside else annotation
 
 
-def _wrapped(text: str) -> str:
-    return fill(text, 110, initial_indent="    ", subsequent_indent="    ", break_on_hyphens=False)
-
-
 def _parameters(function: Callable[..., object], told: Mapping[str, str]) -> str:
     """Those with the same type and the same text stand together."""
     lines: list[tuple[list[str], str, str]] = []
@@ -61,7 +58,8 @@ def _parameters(function: Callable[..., object], told: Mapping[str, str]) -> str
             lines[-1][0].append(name)
         else:
             lines.append(([name], kind, text))
-    return "\n".join(f"{', '.join(names)} : {kind}\n{_wrapped(text)}" for names, kind, text in lines)
+    return "\n".join(f"{', '.join(names)} : {kind}\n{indent(fill(text, 106, break_on_hyphens=False), '    ')}"
+                     for names, kind, text in lines)
 
 
 def complete(function: Any, told: Mapping[str, str]) -> None:
@@ -104,11 +102,9 @@ def complete_all(offered: Iterable[object]) -> None:
         if inspect.isclass(each) and each.__module__.startswith("nutik._") and not issubclass(each, BaseException):
             _complete_class(each)
         for function in (member.__func__ if isinstance(member, classmethod) else member for member in members):
-            if not inspect.isfunction(function) or function.__name__.startswith("_"):
-                continue
-            if hasattr(function, "__signature__"):  # a command, which has it all
-                continue
-            name = function.__name__
+            name = getattr(function, "__name__", "_")
+            if not inspect.isfunction(function) or name.startswith("_") or hasattr(function, "__signature__"):
+                continue  # a command has it all
             is_of_capture = vars(Capture).get(name) is function
             told = {}
             for command in ("expose", _COMMANDS.get(name, "expose")) if name in _COMMANDS or is_of_capture else ():

@@ -132,9 +132,8 @@ using DelayTimes = py::array_t<std::int64_t, py::array::c_style | py::array::for
 DelayRequest delay_of(const DelayTimes& times_ns) {
   if (times_ns.ndim() != 2 || times_ns.size() == 0)
     throw UsageError("delay= is an array of two axes, the picture's height and its width, none of them empty");
-  return DelayRequest::of_times(static_cast<std::uint32_t>(times_ns.shape(1)),
-                                static_cast<std::uint32_t>(times_ns.shape(0)),
-                                {times_ns.data(), static_cast<std::size_t>(times_ns.size())});
+  const auto height = static_cast<std::uint32_t>(times_ns.shape(0)), width = static_cast<std::uint32_t>(times_ns.shape(1));
+  return DelayRequest::of_times(width, height, {times_ns.data(), std::size_t{width} * height});
 }
 
 }  // namespace

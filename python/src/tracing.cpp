@@ -8,7 +8,7 @@ py::dict arrays_of(const TracedExposure& exposure, const Trace& trace) {
   const PlannedFunction& function = exposure.function_of(trace);
   return py::dict("tag"_a = function.tag, "share"_a = static_cast<double>(trace.share) / kWholeShare,
                   "pixels"_a = trace.pixel_count, "steps"_a = array_of(trace.steps),
-                  "exposed"_a = array_of(std::vector<double>(trace.light.begin(), trace.light.begin() + trace.channels)),
+                  "exposed"_a = array_of(std::vector(trace.light.begin(), trace.light.begin() + trace.channels)),
                   "support_ns"_a = function.summary.support_ns);
 }
 
