@@ -364,7 +364,7 @@ class Capture:
         warn(told)
         return [Trace._of(each) for each in traces]
 
-    def plate(self, *, by: Optional[int] = None, codes: bool = False, dtype: DTypeLike = None,
+    def background(self, *, by: Optional[int] = None, codes: bool = False, dtype: DTypeLike = None,
               transfer: Optional[str] = None, progress: Progress = None) -> Plate:
         """The scene without what moves in it (docs/how-to/background.md).
 
@@ -375,7 +375,7 @@ class Capture:
         Raises:
         UsageError, InputError where there is one sample; KeyboardInterrupt at Ctrl-C.
         Examples:
-        >>> nutik.encode(np.full((9, 8, 8), 7, np.uint8), rate=9).plate(codes=True).picture.array[0, 0]
+        >>> nutik.encode(np.full((9, 8, 8), 7, np.uint8), rate=9).background(codes=True).picture.array[0, 0]
         7
         """
         output = self._output(codes, dtype, transfer, is_plate=True)
@@ -386,6 +386,8 @@ class Capture:
                   "white were taken for the same light; by= states another difference"])
         uncertain.flags.writeable = False
         return Plate(Picture(picture), uncertain)
+
+    plate = background  # its name in earlier versions
 
     def activity(self, mask: Optional[MaskLike] = None, *, tag: Optional[int] = None, by: int = 0,
                  count_redrawn: bool = False, progress: Progress = None) -> Activity:
@@ -453,7 +455,7 @@ class Capture:
 
         Parameters:
         functions : the text of a function file with names in place of numbers, 'M0{[0:0], [1:1], [1000000000:rest]}'.
-        wishes : 'M0 = plate', '500,120,80,60 gone', 'R1 <= 0.5'.
+        wishes : 'M0 = background', '500,120,80,60 gone', 'R1 <= 0.5'.
         free : of a gain (least, most), of a time (from, to) or (from, to, step).
         mask : whose tags M0 ... are.
         Examples:
@@ -545,7 +547,7 @@ class Capture:
             other = "codes=True gives uint8 and uint16" if not codes else "codes are uint8 or uint16"
             raise UsageError(f"dtype={kind} holds no {'codes' if codes else 'light'}: light is float32 or float64; {other}")
         if is_plate and kind == "float64":
-            raise UsageError("a plate's light is float32")
+            raise UsageError("the background's light is float32")
         return settings_of({"dtype": kind, "transfer": transfer, "negative": negative})
 
     def _repr_html_(self) -> str:

@@ -22,7 +22,7 @@ _ENTRY = re.compile(r"^(\w+(?:, \w+)*) : (.*(?:\n[ \n].*)*)", re.MULTILINE)
 _WORKS = ("Works without Python's lock: any number of threads may use one capture. Ctrl-C ends it within half a second, "
           "with KeyboardInterrupt, and leaves no file that was not finished.")
 _COMMANDS = {"open": "encode", "join": "encode", "encode": "encode", "study": "study", "solve": "solve",
-             "activity": "activity", "plate": "background"}
+             "activity": "activity", "background": "background"}
 _PLOTTED = {"ax": "axes of matplotlib, which are returned; None: the current ones.",
             "style": "what matplotlib's plot() takes: label='left'."}
 

@@ -56,12 +56,12 @@ class Finds(support.TestCase):
 
     def test_plates(self):
         self.run_program("background", "-q", "clip.tik", "plate.ppm", "--uncertain", "uncertain.pgm")
-        plate = self.capture.plate(codes=True)
+        plate = self.capture.background(codes=True)
         self.assert_same(plate.picture.array, support.read_netpbm(self.path("plate.ppm")))
         self.assert_same(plate.uncertain, support.read_netpbm(self.path("uncertain.pgm")) == 255)
         scene = self.pictures[0]
         self.assertLessEqual(np.max(np.abs(plate.picture.array[:40].astype(int) - scene[:40])), 8)
-        self.assertEqual(self.capture.plate().picture.dtype, np.float32)
+        self.assertEqual(self.capture.background().picture.dtype, np.float32)
 
     def test_activity(self):
         told = json.loads(self.run_program("activity", "--json", "clip.tik"))
@@ -78,14 +78,14 @@ class Finds(support.TestCase):
         self.assert_raises(nutik.UsageError, "mask=", self.capture.activity, tag=3)
 
     def test_results_compare_by_identity(self):
-        made = lambda: (self.capture.activity(), self.capture.plate(), self.capture.study(moments=3))  # noqa: E731
+        made = lambda: (self.capture.activity(), self.capture.background(), self.capture.study(moments=3))  # noqa: E731
         for one, other in zip(made(), made()):
             self.assertTrue(one == one and one != other)
             self.assertEqual(len({one, one, other}), 2)
 
     def test_a_plate_is_done_at_the_end(self):
         told = []
-        self.capture.plate(progress=lambda done, total: told.append((done, total)))
+        self.capture.background(progress=lambda done, total: told.append((done, total)))
         self.assertEqual(told[-1][0], told[-1][1])
         self.assertGreater(told[-1][1], 0)
         self.assertEqual(sorted(done for done, _ in told), [done for done, _ in told])
@@ -108,8 +108,8 @@ class Finds(support.TestCase):
                          support.read_netpbm(self.path("slit.ppm")))
         clean = self.capture.study("clean", codes=True)
         self.assertIsNone(clean.mask)
-        self.assert_same(clean.picture.array, self.capture.plate(codes=True).picture.array)
-        self.assert_raises(nutik.UsageError, "there are trail, strobe", self.capture.study, "blur")
+        self.assert_same(clean.picture.array, self.capture.background(codes=True).picture.array)
+        self.assert_raises(nutik.UsageError, "choose trail, strobe", self.capture.study, "blur")
         for style, moments, told in (("slit", ["0.1s"], "how many there are, not which"), ("slit", 300, "a study has 2 to 256"),
                                      ("frozen", 5, "shows a single moment"), ("trail", 51, "a study has 1 to 50"),
                                      ("trail", [], "a study has 1 to 50")):
@@ -118,7 +118,7 @@ class Finds(support.TestCase):
         with self.assertWarnsRegex(nutik.NutikNote, "nothing moves"):
             scene = still.study(codes=True)
         self.assertEqual((scene.moments, int(scene.mask.tags.max())), ([], 0))
-        self.assert_same(scene.picture.array, still.plate(codes=True).picture.array)
+        self.assert_same(scene.picture.array, still.background(codes=True).picture.array)
 
     def test_solutions(self):
         text = "M0{[0:0], [1:1], [100000000:1], [100000002:rest], [104000000:rest], [104000001:0]}\n"

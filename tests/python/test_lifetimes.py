@@ -39,7 +39,7 @@ class Views(support.TestCase):
         capture = nutik.encode(support.moving_box(), rate=960)
         picture = capture.render(start=0, exposure="10ms")
         for view in (picture.array, np.asarray(picture), np.asarray(memoryview(picture._held)),
-                     nutik.Mask(support.tags()).tags, capture.plate().uncertain, capture.activity().changes,
+                     nutik.Mask(support.tags()).tags, capture.background().uncertain, capture.activity().changes,
                      capture.trace(1, 2, exposure="10ms")[0].light):
             with self.assertRaises(ValueError):
                 view[...] = 0

@@ -72,7 +72,7 @@ class Plugins(support.TestCase):
         np.testing.assert_array_equal(many.to_xarray().attrs["error_bounds"], many.error_bounds)
         darkest = self.capture.render(exposure="10ms", combine="darken").to_xarray()
         self.assertNotIn("error_bound", darkest.attrs)
-        self.assertNotIn("error_bound", self.capture.plate().picture.to_xarray().attrs)
+        self.assertNotIn("error_bound", self.capture.background().picture.to_xarray().attrs)
         if importlib.util.find_spec("scipy") is not None:
             for name, each in (("many.nc", many.to_xarray(start=starts)), ("darkest.nc", darkest)):
                 each.to_netcdf(self.path(name), engine="scipy")

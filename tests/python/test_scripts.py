@@ -223,7 +223,7 @@ class Copies(support.TestCase):
         function = nutik.shutter("hann", 0, "10ms")
         soft = nutik.Mask(support.tags()).feathered(3)
         made = [function, nutik.Mask(support.tags()), soft, capture.render(exposure="3f"),
-                capture.render(exposure="3f", codes=True), capture.render(exposure="3f", dtype=np.float64), capture.plate()]
+                capture.render(exposure="3f", codes=True), capture.render(exposure="3f", dtype=np.float64), capture.background()]
         for given in made:
             for copied in (pickle.loads(pickle.dumps(given)), copy.deepcopy(given), copy.copy(given)):
                 self.assertIs(type(copied), type(given))
@@ -280,7 +280,7 @@ class Errors(support.TestCase):
         capture = nutik.encode(support.moving_box(), rate=960)
         for call in (lambda: nutik.encode(3, rate=1), lambda: nutik.encode(support.moving_box(), rate=[1]),
                      lambda: capture.render(start=object(), exposure="1f"), lambda: capture.trace("x", "y", exposure="1f"),
-                     lambda: capture.plate(by=1.5)):
+                     lambda: capture.background(by=1.5)):
             with self.assertRaises(TypeError) as raised:
                 call()
             self.assertIsInstance(raised.exception, nutik.UsageError)
