@@ -122,7 +122,8 @@ std::optional<std::int64_t> pictures_ns(const Rational& count, const StatedTime&
   const Rational each = picture.modest_nanoseconds();
   const int128 above = static_cast<int128>(count.numerator) * each.numerator;
   const int128 below = static_cast<int128>(count.denominator) * each.denominator;
-  if ((above < 0 ? -above : above) / below >= kLargestTimeNs) return std::nullopt;
+  const int128 magnitude = above < 0 ? -above : above, whole = magnitude / below;
+  if (whole > kLargestTimeNs || (whole == kLargestTimeNs && magnitude % below != 0)) return std::nullopt;
   return round_half_up(above, below);
 }
 
@@ -168,7 +169,15 @@ ReadNumber<std::int64_t> read_time(std::string_view word, const std::optional<St
 
 ReadNumber<StatedTime> read_picture_length(std::string_view word) {
   const auto stated = StatedTime::read(word);
-  if (stated && !stated->counts_samples() && stated->number.numerator > 0 && !stated->is_longest()) return {*stated, {}};
+  const bool is_length = stated && !stated->counts_samples() && stated->number.numerator > 0;
+  if (is_length && !stated->is_longest()) {
+    const Rational each = stated->modest_nanoseconds();
+    const ExactTime exact = stated->exact_nanoseconds();
+    // So many digits that multiples stay exact.
+    if (exact.numerator * each.denominator == exact.denominator * each.numerator) return {*stated, {}};
+    return {{}, format("{} has too many digits for times that are multiples of it; write it as in 1001/30000s",
+                       quoted(word))};
+  }
   return {{}, format("{} is no length of a picture; write a time, as in 1f = 1/240s or 1f = 40ms", quoted(word))};
 }
 

@@ -198,7 +198,7 @@ void Combining::develop_results(const ExposedBand& combined, cl::CommandQueue& q
   for (std::uint32_t y = top; y < bottom; y += kRowsAtOnce) {
     const Rectangle part{to.rectangle.x, y, to.rectangle.width, std::min(kRowsAtOnce, bottom - y)};
     const Picture made = stored(light_of(combined, std::span<const Result>(results), part, light_of_result),
-                                plan_.capture, to.output, to.saturation);
+                                plan_.capture, to.output, to.saturation, true);
     const auto row = to.picture.bytes.begin() + static_cast<std::ptrdiff_t>((y - to.rectangle.y) * row_bytes);
     std::ranges::copy(made.bytes, row);
   }

@@ -21,7 +21,7 @@ void for_each_part(std::uint64_t count, Work work) {
                [&](std::uint64_t part) { work(part * kPart, std::min(count, (part + 1) * kPart)); });
 }
 
-// Of few lights what one had before takes less to find than its power to compute; where all differ an eighth is lost.
+// Where few lights differ, finding a code again takes less time than a power; where all do, an eighth is lost.
 template <typename Code>
 void encode(const Picture& light, const CodeScale& scale, bool has_few, Picture& codes) {
   struct Known {

@@ -38,7 +38,8 @@ double RenderPlan::error_scale(std::uint64_t pixel) const {
   const std::span<const Share> shares = shares_of(pixel);
   if (shares.empty()) return nutik::error_scale(functions[function_of(pixel)], combine);
   double scale = 0.0;
-  for (const Share& share : shares) scale += share.size * nutik::error_scale(functions[share.of], combine) / kWholeShare;
+  for (const Share& share : shares)
+    scale += share.size * nutik::error_scale(functions[share.of], combine) / kWholeShare;
   return scale;
 }
 

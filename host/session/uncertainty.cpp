@@ -95,8 +95,8 @@ LightCurve LightCurve::above(const std::vector<Point>& points) {
   return LightCurve(std::move(hull));
 }
 
-// Another sample may have been the lightest, but was no brighter than any can have been that is held as no brighter than
-// the lightest; and so on.
+// The lightest sample that is held may not have been the lightest. The one that was is held as no brighter, and was
+// brighter by no more than such light may be off by. The darkest likewise.
 LightCurve LightCurve::of_order() const {
   std::vector<Point> points = points_;
   double brightest = 0.0, darkest = std::numeric_limits<double>::infinity();

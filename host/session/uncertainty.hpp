@@ -60,7 +60,7 @@ struct CaptureErrors {
 
   // `is_rounded`: its codes are light that was rounded.
   [[nodiscard]] static CaptureErrors of(const CaptureFormat& capture, bool is_rounded);
-  // Of pictures whose samples are combined.
+  // Where samples are combined.
   [[nodiscard]] CaptureErrors of_order() const;
 };
 

@@ -171,8 +171,9 @@ UncertaintyMap::Errors UncertaintyMap::in_codes(const std::optional<Span>& shown
 UncertaintyMap::Errors UncertaintyMap::of_code(double code, const Function& function,
                                                const PictureError& arithmetic) const {
   if (!function.is_mean || codes_.making().conversion || output_.negative == NegativeLight::offset) {
-    const Span all{0.0, 0.0, function.scale};
-    return in_codes(std::nullopt, lights(all, function, arithmetic.light), function.scale, arithmetic);
+    Function unknown = function;  // where its light lies
+    unknown.is_mean = false;
+    return in_codes(std::nullopt, lights({}, unknown, arithmetic.light), function.scale, arithmetic);
   }
   const Span light = shown(code, {0.0, 0.0, function.scale});
   return in_codes(light, lights(light, function, arithmetic.of_light(light.to)), function.scale, arithmetic);
@@ -255,16 +256,29 @@ std::vector<PictureLayer> UncertaintyMap::layers(const Picture& exposed, const R
     values[term] = layer.values.values<float>().data();  // which stay in place
     layers.push_back(std::move(layer));
   }
-  // What a thread has found for pixels that one function has alone, by function and code.
+  // What a thread has found for pixels that one function has alone, by function and codes.
   using Known = std::unordered_map<std::uint64_t, Errors>;
+  constexpr std::size_t kMostKnown = 1 << 16;
+  const auto known_or = [&](std::uint64_t key, Known& known, const auto& find) {
+    if (known.size() >= kMostKnown) known.clear();
+    const auto [found, is_new] = known.try_emplace(key);
+    if (is_new) found->second = find();
+    return found->second;
+  };
   const auto errors_of = [&](double value, std::uint64_t pixel, const Function& function,
                              const PictureError& arithmetic, Known& known) {
     if (!is_codes) return of_light(value, function, arithmetic);
     if (!plan_.shares_of(pixel).empty()) return of_code(value, function, arithmetic);
     const std::uint64_t key = std::uint64_t{plan_.function_of(pixel)} << 16 | static_cast<std::uint64_t>(value);
-    const auto [found, is_new] = known.try_emplace(key);
-    if (is_new) found->second = of_code(value, function, arithmetic);
-    return found->second;
+    return known_or(key, known, [&] { return of_code(value, function, arithmetic); });
+  };
+  const auto errors_of_colour = [&](const std::array<double, 3>& codes, std::uint64_t pixel, const Function& function,
+                                    const PictureError& arithmetic, Known& known) {
+    const auto find = [&] { return of_colour(codes, function, arithmetic); };
+    if (!plan_.shares_of(pixel).empty()) return find();
+    std::uint64_t key = plan_.function_of(pixel);
+    for (const double code : codes) key = key << 16 | static_cast<std::uint64_t>(code);
+    return known_or(key, known, find);
   };
   const bool has_colour = is_codes && codes_.making().conversion;
   const auto make_row = [&](std::uint32_t y, Known& known) {
@@ -275,7 +289,7 @@ std::vector<PictureLayer> UncertaintyMap::layers(const Picture& exposed, const R
       const PictureError arithmetic = arithmetic_.of(pixel);
       const auto value = [&](std::uint32_t channel) { return value_of(exposed, at * channels + channel); };
       Errors worst;
-      if (has_colour) worst = of_colour({value(0), value(1), value(2)}, function, arithmetic);
+      if (has_colour) worst = errors_of_colour({value(0), value(1), value(2)}, pixel, function, arithmetic, known);
       for (std::uint32_t channel = 0; channel < channels && !has_colour; ++channel)
         worst = worst_of(worst, errors_of(value(channel), pixel, function, arithmetic, known));
       if (capture_.alignment_pixels) worst.of[kAlignment] = *capture_.alignment_pixels * slope_at(exposed, x, y);

@@ -198,6 +198,34 @@ TEST_F(Colours, OtherPrimariesHaveTheErrorsOfTheLightsThatTheyMix) {
   EXPECT_GT(most, 0.5);
 }
 
+// A camera that is noisy in its brightest code alone.
+class Noisy : public Held {
+ protected:
+  Noisy() : Held("noisy") {
+    for (int k = 0; k < 3; ++k) write("P5 4 1 255\n" + std::string{'\x10', '\x40', '\x7f', '\xe0'});
+    source_.clip.transfer = Transfer::linear();
+    source_.noise = StatedNoise{
+        "camera", CameraNoise{255, Transfer::linear(), {{NoiseCurve::points, 0, 0, {{0, 0.25, 1}, {255, 8, 1}}}}}};
+  }
+};
+
+// An offset picture's codes do not say which light they are of: its noise is the largest that there is.
+TEST_F(Noisy, WhereLightIsNotKnownTheNoiseIsTheMost) {
+  Session held = session(0);
+  const FunctionSet functions{{0, GainFunction::boxcar(0, kSampleNs, 1.0)}};
+  OutputFormat output;
+  output.maps_bounds = true;
+  const auto noise_of = [&](NegativeLight negative) {
+    output.negative = negative;
+    const ExposedPicture picture = held.render(functions, Mask::uniform(4, 1, 0), {}, output);
+    const auto found = std::ranges::find(picture.bounds, "noise", &PictureLayer::name);
+    const auto values = found->values.values<float>();
+    return std::pair(std::ranges::min(values), std::ranges::max(values));
+  };
+  EXPECT_LT(noise_of(NegativeLight::saturate).first, 1.0F);
+  EXPECT_GE(noise_of(NegativeLight::offset).first, noise_of(NegativeLight::saturate).second);
+}
+
 // Means of four pixels each, rounded to codes of 8 bits.
 class Scaled : public Held {
  protected:

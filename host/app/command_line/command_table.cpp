@@ -206,7 +206,8 @@ const Command& command(CommandId id) {
 }
 
 const Command* find_command(std::string_view name) {
-  return first_command([&](const Command& entry) { return entry.name == name || (entry.old_name == name && !name.empty()); });
+  return first_command(
+      [&](const Command& entry) { return entry.name == name || (entry.old_name == name && !name.empty()); });
 }
 
 }  // namespace nutik::app

@@ -127,7 +127,7 @@ std::string man_page() {
       {"4", "the OpenCL device is absent or fails"},
       {"5", "an output cannot be written, or one of a batch"},
       {"6", "out of memory, or of threads"},
-      {"7", "with --strict: a picture may err by more than half a code"},
+      {"7", "with --strict: a picture may err by more than half a code, or half a float's step"},
       {"128+n", "ended by signal n"}};
   for (const auto& [status, meaning] : kStatuses) text += item(bold(status), meaning);
   text += section("ENVIRONMENT");

@@ -91,7 +91,7 @@ MadePlate make_plate(CaptureSource& capture, const std::string& capture_name, co
                               : CodeBand::of_codes(format, request.by_codes.value_or(least));
   Plate plate = make_plate(capture, band, memory.bytes, request.max_samples, progress);
   MadePlate made{{}, std::move(plate.uncertain), noise || request.by_codes, {}};
-  made.picture = stored(std::move(plate.light), format, output, made.saturation);
+  made.picture = stored(std::move(plate.light), format, output, made.saturation, true);
   state_values(made.picture, format, output);
   return made;
 }

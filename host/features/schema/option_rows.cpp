@@ -384,7 +384,7 @@ constexpr Option kRows[] = {
     step("wish", "WISH",
          "what the picture should have: once for each wish, 'M0 = background', 'R1 gone', 'M64 like 0.8s', "
          "'500,120,80,60 <= 0.5'. A region (all, M64, R1, X,Y,WIDTH,HEIGHT, M64 within X,Y,WIDTH,HEIGHT), then "
-         "gone, or =, <=, >=, like and light: a number, background, a time, a region, also 1.5 times it: 1.5 * background",
+         "gone, or =, <=, >=, like and light: a number, background, a time, a region, also 1.5 * background",
          Id::solve),
     step("free", "NAME=FROM..TO",
          "bounds of a gain or a time: rest=-100..0 (default: none), or when a time may be, when=0.6s..0.8s, in "
@@ -415,7 +415,7 @@ constexpr Option kRows[] = {
      "that is sure to be right to half a code, or to half a float's step (default: auto; see -v)",
      "auto single compensated double fixed"}),
     {0, "strict", "", computing, kExposes, take<In<&Options::strict>>,
-     "refuse what may err by more than half a code: an error with exit status 7 where a warning would say so"},
+     "refuse what may err by more than half a code, or half a float's step: an error with exit status 7"},
     {0, "memory", "SIZE", computing, kDecodesClips | kExposes, take_by<In<&Options::memory>, parse_memory>,
      "the most that may be held: 500MB, 2GB, 1GiB; libraries and drivers come on top (default: half of the "
      "machine's)"},

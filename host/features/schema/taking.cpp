@@ -19,7 +19,8 @@ bool parse_only(std::string_view word, std::string_view what, std::string_view o
 std::size_t choice_of(const Option& row, std::string_view what, std::string_view word) {
   const std::vector<std::string> choices = row.choices();
   const auto found = std::ranges::find(choices, word);
-  if (found == choices.end()) throw UsageError(format("{} '{}' is not known; choose {}", what, word, alternatives(choices)));
+  if (found == choices.end())
+    throw UsageError(format("{} '{}' is not known; choose {}", what, word, alternatives(choices)));
   return static_cast<std::size_t>(found - choices.begin());
 }
 

@@ -339,7 +339,8 @@ class Solver {
     if (2 * below <= pixels && 2 * above <= pixels) return;
     const bool is_black = below >= above;
     solved.warnings.push_back(
-        format("{} of the picture's {} pixels come out {}: bound the gains, or wish for what is to stay, too (all = background)",
+        format("{} of the picture's {} pixels come out {}: bound the gains, or wish for what is to stay, too (all = "
+               "background)",
                is_black ? below : above, pixels, is_black ? "below 0, which is black" : "above 1, which is white"));
   }
 

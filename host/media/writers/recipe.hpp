@@ -43,7 +43,7 @@ struct Recipe {
   std::vector<std::pair<std::string, std::string>> options;
   std::string renderer;
   std::string precision;
-  // Beside the picture: what its arithmetic may be off by, for people; the file that says so of each pixel. Empty: none.
+  // What arithmetic may be off by, for people; the file beside the picture that says so of each pixel. Empty: none.
   std::string error_bound, bounds_map;
 
   [[nodiscard]] std::string text() const;
