@@ -158,7 +158,7 @@ int run_reproduce(const Options& options) {
   const std::optional<Recipe> recipe = read_recipe(picture);
   if (!recipe) {
     throw InputError(format(
-        "{} carries no recipe. Exposures, sheets and a video's stills do, but not charts, traces, masks, "
+        "{} carries no recipe. Exposures, sheets and a video's stills do, but not backgrounds, charts, traces, masks, "
         "maps of bounds and .pfm files; --no-recipe leaves it out, and programs that write a picture anew lose it",
         picture.string()));
   }
