@@ -212,6 +212,19 @@ TEST(LightWarp, SaysThatACodeIsAboveWhite) {
   EXPECT_THROW(warp.take(raster, Warp(), warped), CodeAboveWhite);
 }
 
+TEST(LightWarp, SaysThatACodeIsAboveWhiteWhereNothingIsShownOfIt) {
+  for (const std::uint32_t code_bytes : {1U, 2U}) {
+    CaptureFormat format = format_of(3, code_bytes, Transfer::linear());
+    format.white_code = code_bytes == 1 ? 254 : 0xFEFF;
+    std::vector<std::byte> raster(format.sample_bytes(), std::byte{0xFE});
+    std::vector<std::byte> warped(std::size_t{8} * 8 * 3 * code_bytes);
+    const LightWarp warp(format, {4, 4, 8, 8});
+    EXPECT_NO_THROW(warp.take(raster, Warp(), warped));
+    std::fill(raster.end() - code_bytes, raster.end(), std::byte{0xFF});
+    EXPECT_THROW(warp.take(raster, Warp(), warped), CodeAboveWhite);
+  }
+}
+
 struct Codes {
   Transfer transfer;
   std::uint32_t white;
