@@ -234,23 +234,45 @@ struct Codes {
 const std::vector<Codes> kCodes{{Transfer::srgb(), 255},      {Transfer::srgb(), 65'535},
                                 {Transfer::linear(), 1},      {Transfer::linear(), 4095},
                                 {Transfer::linear(), 65'535}, {Transfer::gamma(2.2), 1000},
-                                {Transfer::pq(), 1023},       {Transfer::pq(), 65'535}};
+                                {Transfer::pq(), 1023},       {Transfer::pq(), 65'535},
+                                {Transfer::gamma(10), 255},   {Transfer::gamma(10), 65'535},
+                                {Transfer::gamma(0.1), 255},  {Transfer::gamma(0.1), 65'535},
+                                {Transfer::log("slog3"), 1023},   {Transfer::log("slog3"), 65'535}};
+
+// Between codes of other light the cubic counts one pixel only.
+TEST(LightWarp, MovesEveryCodeByWholePixelsAsItIs) {
+  for (const auto& [transfer, white] : kCodes) {
+    CaptureFormat format = format_of(1, 2, transfer);
+    format.shape.width = format.shape.height = 256;
+    format.white_code = white;
+    std::vector<std::uint16_t> raster(format.shape.value_count()), warped(raster.size());
+    for (std::size_t i = 0; i < raster.size(); ++i) raster[i] = static_cast<std::uint16_t>(i % (white + 1));
+    LightWarp(format, Rectangle::whole(format.shape))
+        .take(std::as_bytes(std::span(raster)), Warp{{1, 0, 1, 0, 1, 0, 0, 0, 1}},
+              std::as_writable_bytes(std::span(warped)));
+    for (std::size_t i = 0; i < raster.size(); ++i) {
+      if (i % 256 == 255) continue;
+      ASSERT_EQ(warped[i], raster[i + 1]) << "white " << white << ", value " << i;
+    }
+  }
+}
 
 TEST(LightTables, GiveTheCodesThatAreLookedUpOneByOne) {
   std::mt19937_64 random(7);
   for (const auto& [transfer, white] : kCodes) {
     const LightCodes single(transfer, white);
-    std::vector<float> lights{0, 1, std::nextafter(1.0f, 0.0f), 1e-30f};
+    constexpr float kWhite = LightTables::kWhite;
+    std::vector<float> lights{0, kWhite, std::nextafter(kWhite, 0.0f), 1e-30f * kWhite, 1e-30f};
     for (const double threshold : transfer.code_thresholds(white)) {
-      const auto light = static_cast<float>(threshold);
-      for (const float near : {std::nextafter(light, 0.0f), light, std::nextafter(light, 1.0f)})
+      const auto light = static_cast<float>(kWhite * threshold);
+      for (const float near : {std::nextafter(light, 0.0f), light, std::nextafter(light, kWhite)})
         lights.push_back(near);
     }
-    for (int i = 0; i < 5000; ++i) lights.push_back(static_cast<float>(random() >> 40) / (1 << 24));
+    for (int i = 0; i < 5000; ++i) lights.push_back(static_cast<float>(random() >> 40) / (1 << 24) * kWhite);
     std::vector<std::uint32_t> codes(lights.size());
     LightTables(transfer, white).codes_of(lights, codes.data());
     for (std::size_t i = 0; i < lights.size(); ++i) {
-      ASSERT_EQ(codes[i], single.code_of(double{lights[i]})) << "white " << white << ", light " << lights[i];
+      ASSERT_EQ(codes[i], single.code_of(double{lights[i]} / kWhite)) << "white " << white << ", light " << lights[i];
     }
   }
 }
@@ -262,7 +284,7 @@ TEST(LightTables, GiveTheLightOfEveryNthCode) {
   tables.lights_of(raster.data(), 3, lights);
   const LightCodes single(Transfer::srgb(), 4095);
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    EXPECT_EQ(lights[i], static_cast<float>(single.light_of(raster[3 * i])));
+    EXPECT_EQ(lights[i], static_cast<float>(LightTables::kWhite * single.light_of(raster[3 * i])));
   }
   const std::vector<std::uint16_t> above{1, 4096};
   EXPECT_THROW(tables.lights_of(above.data(), 1, {lights.data(), 2}), CodeAboveWhite);
