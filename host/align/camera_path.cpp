@@ -51,7 +51,8 @@ std::unique_ptr<Registrar> open_registrar(const CaptureFormat& format, CameraMot
 
 std::uint64_t registered_bytes(const CaptureFormat& format) {
   constexpr std::uint64_t kPyramidBytes = 12;  // a pixel: as it is, blurred, and all smaller ones
-  return kPyramidBytes * std::min(format.shape.pixel_count(), kMaxRegisteredPixels);
+  const std::uint64_t pixels = format.shape.pixel_count(), of_thin = pixels >> 2 * registered_halvings(format.shape);
+  return kPyramidBytes * std::max(std::min(pixels, kMaxRegisteredPixels), of_thin);
 }
 
 MemoryNeeds registrar_needs(const CaptureFormat& format, Reach reach) {

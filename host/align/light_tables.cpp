@@ -42,7 +42,7 @@ void look_up(const std::vector<float>& light, const Code* codes, std::size_t str
 
 // Positive singles are in the order of their bits.
 constexpr std::int32_t bits_of(float light) { return std::bit_cast<std::int32_t>(light); }
-constexpr std::int32_t kWhiteBits = bits_of(1);
+constexpr std::int32_t kWhiteBits = bits_of(LightTables::kWhite);
 
 constexpr std::uint32_t kLightsAtOnce = 128;
 
@@ -69,16 +69,11 @@ NUTIK_SIMD_CLONES void find_codes(const float* __restrict lights, std::uint32_t 
 }  // namespace
 
 LightTables::LightTables(const Transfer& transfer, std::uint32_t white_code) {
-  for (const double light : transfer.light_of_codes(white_code)) light_.push_back(static_cast<float>(light));
-  // What is darker than the least normal single is black.
+  for (const double light : transfer.light_of_codes(white_code)) light_.push_back(static_cast<float>(kWhite * light));
   std::vector<std::int32_t> begins;
-  const std::int32_t least = bits_of(std::numeric_limits<float>::min());
-  for (const double light : transfer.code_thresholds(white_code)) {
-    begins.push_back(std::max(bits_of(next_float(light)), least));
-  }
+  for (const double light : transfer.code_thresholds(white_code)) begins.push_back(bits_of(next_float(kWhite * light)));
   cell_bits_ = kMaxCellBits;
   for (std::uint32_t code = 2; code <= white_code; ++code) {
-    if (begins[code - 1] == least) continue;
     while (cell_bits_ > 0 && begins[code - 1] >> cell_bits_ == begins[code] >> cell_bits_) --cell_bits_;
   }
   first_cell_ = (begins[1] >> cell_bits_) - 1;  // is black

@@ -1,6 +1,7 @@
 // Codes as light of single precision, and light as the code next to it: many at once, by tables.
 //
-//   always:  the code of a light is that of LightCodes, which takes one at a time
+//   always:  the code of a light is that of LightCodes, which takes one at a time. Light of white is kWhite, so that the
+//            darkest codes of any transfer function are normal singles
 #pragma once
 
 #include <cstddef>
@@ -15,6 +16,8 @@ namespace nutik {
 
 class LightTables {
  public:
+  static constexpr float kWhite = 0x1p64F;
+
   LightTables(const Transfer& transfer, std::uint32_t white_code);
 
   // Takes every `stride`-th code, as many as there is room for, at least one. Throws CodeAboveWhite, also for a code

@@ -296,6 +296,10 @@ class LightWarp::Part {
 };
 
 void LightWarp::take(std::span<const std::byte> raster, const Warp& warp, std::span<std::byte> warped) const {
+  if (format_.white_code < (1U << 8 * format_.code_bytes) - 1) {
+    const std::uint32_t most = largest_code(raster, format_.code_bytes);
+    if (most > format_.white_code) throw CodeAboveWhite(most);
+  }
   const std::uint32_t columns = (area_.width - 1) / kPartWidth + 1, rows = (area_.height - 1) / kPartHeight + 1;
   const auto move = [&]<typename Code>(const Code* from, Code* to) {
     parallel_for_with(

@@ -25,7 +25,7 @@ class LightWarp {
   // Moves rasters of this format; `area` is what the new picture shows of the places that warps start from.
   LightWarp(const CaptureFormat& format, const Rectangle& area);
 
-  // On all cores. Throws CodeAboveWhite.
+  // On all cores. Throws CodeAboveWhite, also for a code that is not shown.
   void take(std::span<const std::byte> raster, const Warp& warp, std::span<std::byte> warped) const;
 
   [[nodiscard]] static std::uint64_t bytes(const CaptureFormat& format);

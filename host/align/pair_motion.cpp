@@ -399,7 +399,7 @@ InBetween::InBetween(const CaptureFormat& format)
       tables_(format.transfer, format.white_code),
       motion_(format.shape.width, format.shape.height) {
   for (const double light : format.transfer.light_of_codes(format.white_code))
-    light_.push_back(static_cast<float>(light));
+    light_.push_back(static_cast<float>(LightTables::kWhite * light));
 }
 
 std::uint64_t InBetween::bytes(const CaptureFormat& format) {
@@ -535,7 +535,7 @@ void InBetween::make_block(std::uint32_t column, std::uint32_t row, float share,
           light = (1 - flies[3]) * light + flies;
         }
         for (std::uint32_t channel = 0; channel < channels; ++channel) {
-          lights[i * channels + channel] = std::clamp(light[channel], 0.0F, 1.0F);
+          lights[i * channels + channel] = std::clamp(light[channel], 0.0F, LightTables::kWhite);
         }
       }
     } else {

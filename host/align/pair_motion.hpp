@@ -143,7 +143,7 @@ class InBetween {
   CaptureFormat format_;
   EvenGrey grey_;
   LightTables tables_;
-  std::vector<float> light_;  // of each code
+  std::vector<float> light_;  // of each code, as of the tables
   PairMotion motion_;
   std::span<const std::byte> first_, second_;
   std::vector<Light> first_light_, second_light_;  // within the motion's box, without what flies

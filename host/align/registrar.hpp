@@ -6,6 +6,7 @@
 //            brighter or darker as a whole. The same pictures give the same warps
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -44,8 +45,17 @@ struct TooLittleTexture : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Larger pictures are looked at as means of 2 x 2 pixels, of 4 x 4 and so on: places are found there as well.
+// Larger pictures are looked at as means of 2 x 2 pixels, of 4 x 4 and so on: places are found there as well. Thin ones
+// keep a row and a column.
 inline constexpr std::uint64_t kMaxRegisteredPixels = std::uint64_t{1} << 19;
+[[nodiscard]] inline int registered_halvings(const Shape& shape) {
+  int times = 0;
+  while (shape.pixel_count() >> 2 * times > kMaxRegisteredPixels &&
+         std::min(shape.width, shape.height) >> (times + 1) > 0) {
+    ++times;
+  }
+  return times;
+}
 
 // How far from where it is expected a picture may lie.
 enum class Reach {

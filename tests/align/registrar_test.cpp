@@ -306,9 +306,9 @@ TEST(Registrar, IsNotSureOfAnotherScene) {
   EXPECT_FALSE(is_sure(registrar->find(scene.seen(moved(5000, 3000, 0), 0), Warp())));
 }
 
-std::string why_not(const std::vector<std::byte>& reference) {
+std::string why_not(const CaptureFormat& format, const std::vector<std::byte>& reference) {
   try {
-    static_cast<void>(registrar_of(format_of({}), CameraMotion::rigid, reference));
+    static_cast<void>(registrar_of(format, CameraMotion::rigid, reference));
   } catch (const TooLittleTexture& error) {
     return error.what();
   }
@@ -317,11 +317,34 @@ std::string why_not(const std::vector<std::byte>& reference) {
 
 TEST(Registrar, SaysWhyNothingCanBeRegistered) {
   std::vector<std::byte> raster(kSceneWidth * kSceneHeight, std::byte{99});
-  EXPECT_EQ(why_not(raster), "it has 0 pixels whose surroundings can be recognized, and 60 are needed");
+  EXPECT_EQ(why_not(format_of({}), raster), "it has 0 pixels whose surroundings can be recognized, and 60 are needed");
   for (std::size_t i = 0; i < raster.size(); ++i)
     raster[i] = static_cast<std::byte>(100 + 50 * (i % 20 / 10));
-  EXPECT_EQ(why_not(raster),
+  EXPECT_EQ(why_not(format_of({}), raster),
             "all its edges run in one direction, along which nothing tells where a picture lies");
+}
+
+// Halved until there are few pixels, such pictures would have no row or no column.
+TEST(Registrar, SaysThatNothingCanBeRegisteredToThinPictures) {
+  constexpr std::uint32_t kLong = 1 << 20;
+  for (const Shape& shape : {Shape{kLong, 3, 3}, Shape{3, kLong, 1}, Shape{kLong / 2 + 1, 1, 1}, Shape{1, kLong, 1}}) {
+    CaptureFormat format;
+    format.shape = shape;
+    std::vector<std::byte> raster(format.sample_bytes());
+    for (std::size_t i = 0; i < raster.size(); ++i) raster[i] = static_cast<std::byte>(i * 7919 % 251);
+    EXPECT_EQ(why_not(format, raster), "it has 0 pixels whose surroundings can be recognized, and 60 are needed")
+        << shape.width << " x " << shape.height;
+  }
+}
+
+TEST(Registrar, CountsTheMemoryOfThinPictures) {
+  const auto bytes_of = [](std::uint32_t width, std::uint32_t height) {
+    CaptureFormat format;
+    format.shape = {width, height, 1};
+    return registered_bytes(format);
+  };
+  EXPECT_EQ(bytes_of(1 << 20, 1), 2 * bytes_of(1 << 19, 1));
+  EXPECT_EQ(bytes_of(1 << 10, 1 << 10), bytes_of(1 << 10, 1 << 9));
 }
 
 }  // namespace

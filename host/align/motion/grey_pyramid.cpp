@@ -62,8 +62,7 @@ void GreyPyramid::take(const CaptureFormat& format, std::span<const std::byte> r
     cv::Mat& half = grey_at(smallest + 1);
     cv::pyrDown(greys_[smallest++], half);
   };
-  finest = 0;
-  while (format.shape.pixel_count() >> 2 * finest > kMaxRegisteredPixels) ++finest;
+  finest = registered_halvings(format.shape);
   const std::uint32_t side = 1U << finest;
   const auto write = [&]<typename Code>(const Code* codes) {
     format.shape.channels == 1 ? write_grey<1>(format, codes, side, grey_at(0))
