@@ -18,9 +18,9 @@ for picture 37; or Fraction, Decimal, numpy.timedelta64, datetime.timedelta. Wha
 nanoseconds, int64. Light of white is 1. Pictures are [height, width] or [height, width, 3] (red, green, blue).
 
 Everything raises nutik.Error: UsageError, InputError, DeviceError, OutputError, MemoryTooLittle, ImpreciseError. Ctrl-C
-ends what takes long and raises KeyboardInterrupt. What is doubtful about a result comes as a warning of class NutikWarning, what
-should be known of it besides as one of its subclass NutikNote. Work runs without Python's lock; any number of threads
-may use one capture.
+ends what takes long and raises KeyboardInterrupt. What is doubtful about a result comes as a warning of class
+NutikWarning, what should be known of it besides as one of its subclass NutikNote. Work runs without Python's lock; any
+number of threads may use one capture.
 """
 
 from . import _docs

@@ -19,14 +19,16 @@ from ._masks import Mask, MaskLike, mask_of
 from ._nutik import InputError, MemoryTooLittle, UsageError
 from ._pictures import Picture, Pictures
 from ._told import Figures
-from ._words import (Axes, DataArray, DelayLike, Index, NutikNote, Path, Progress, Time, WrongType, axes_of, box_of, count_of,
-                     delays_ns, frozen, is_list, labelled, listed, settings_of, shortened, tag_of, time_word, warn)
+from ._words import (Axes, DataArray, DelayLike, Index, NutikNote, Path, Progress, Time, WrongType, axes_of, box_of,
+                     count_of, delays_ns, frozen, is_list, labelled, listed, settings_of, shortened, tag_of, time_word,
+                     warn)
 
 
 Codes = Union[NDArray[np.uint8], NDArray[np.uint16]]
 Functions = Union[FunctionLike, Mapping[int, FunctionLike], Path]
 
-_SETTINGS = ("start", "exposure", "shutter", "shutter_error", "normalize", "gain", "unmapped", "precision", "strict", "combine")
+_SETTINGS = ("start", "exposure", "shutter", "shutter_error", "normalize", "gain", "unmapped", "precision", "strict",
+             "combine")
 _MOST_AT_ONCE = 4 << 30  # bytes of samples that one array takes
 
 
@@ -68,7 +70,8 @@ class Trace:
         ends = {name: np.stack([of[f"begin_{name}"], of[f"end_{name}"]], 1)
                 for name, of in (("ns", steps), ("gain", steps), ("light", values))}
         return cls(**frozen(dict(times_ns=ends["ns"], gain=ends["gain"], light=ends["light"],
-                                 integral_ns=values["integral_ns"], sum_ns=values["sum_ns"], made=steps["is_made"], **told)))
+                                 integral_ns=values["integral_ns"], sum_ns=values["sum_ns"], made=steps["is_made"],
+                                 **told)))
 
 
 def _warn_of_black(still_gains: Mapping[int, float], negative: Optional[str]) -> None:
@@ -80,7 +83,8 @@ def _warn_of_black(still_gains: Mapping[int, float], negative: Optional[str]) ->
 class Capture:
     """A capture that is open: nutik.open() and nutik.encode() make one.
 
-    Any number of threads may ask it. It is closed when nothing refers to it any more, or by `with`; pictures of it stay.
+    Any number of threads may ask it. It is closed when nothing refers to it any more, or by `with`; pictures of it
+    stay.
     """
 
     def __init__(self, held: _nutik.Capture, notes: Sequence[str] = ()) -> None:
@@ -168,7 +172,8 @@ class Capture:
         if not isinstance(samples, slice):
             raise WrongType(f"samples is {samples!r}; give a slice: slice(10, 20), or slice(10, 11) of one sample")
         figures = {name: each if isinstance(each, str) else float(each) if isinstance(each, Fraction)
-                   else int(cast(int, each)) for name, each in self.figures.items() if name != "tiles"}  # netCDF takes these
+                   else int(cast(int, each))  # netCDF takes these
+                   for name, each in self.figures.items() if name != "tiles"}
         return labelled(self[samples], {"time": self.times[samples]}, {"facts": "; ".join(self.facts), **figures})
 
     @property
@@ -184,7 +189,8 @@ class Capture:
         region : (x, y, width, height), only these pixels.
         first, last : only samples from `first` on and before `last`; what is held before or after is cut there.
         Returns:
-        [records] with the fields x, y, start_ns, end_ns, code (of colour [3]); each pixel's in time order, row after row.
+        [records] with the fields x, y, start_ns, end_ns, code (of colour [3]); each pixel's in time order, row after
+        row.
         Raises:
         UsageError where there are no such pixels or samples; MemoryTooLittle where records take more than `memory` of
         open() or encode(): ask for a region, or for fewer samples.
@@ -232,14 +238,14 @@ class Capture:
     def figures(self) -> Figures:
         """What it comes to, from `samples` to `codec`."""
         figures: dict[str, Any] = self._held.figures()
-        return cast(Figures, {name: Fraction(*each) if isinstance(each, tuple) else each for name, each in figures.items()})
+        return cast(Figures, {name: Fraction(*of) if isinstance(of, tuple) else of for name, of in figures.items()})
 
     def render(self, functions: Optional[Functions] = None, mask: Optional[MaskLike] = None, *,
                start: Optional[Time] = None, exposure: Optional[Time] = None, shutter: Optional[str] = None,
                shutter_error: Optional[float] = None, feather: Union[str, float, None] = None,
                delay: Optional[DelayLike] = None, normalize: str = "support", gain: float = 1.0,
-               unmapped: Optional[str] = None, precision: Optional[str] = None, codes: bool = False, dtype: DTypeLike = None,
-               transfer: Optional[str] = None, negative: Optional[str] = None,
+               unmapped: Optional[str] = None, precision: Optional[str] = None, codes: bool = False,
+               dtype: DTypeLike = None, transfer: Optional[str] = None, negative: Optional[str] = None,
                region: Optional[Sequence[int]] = None, bounds: bool = False, strict: bool = False,
                combine: Optional[Literal["integral", "mean", "lighten", "darken", "median"]] = None,
                progress: Progress = None) -> Picture:
@@ -249,8 +255,8 @@ class Capture:
         functions : one for all of the picture (a nutik.Function, a list of (time, gain), a callable over the whole
             capture, an array with a gain for each sample), or one for each tag of `mask` ({0: ..., 128: ...}, or a
             function file).
-        mask : [height, width] of tags, or {tag: alpha} of shares (the first function gets what they leave), a nutik.Mask,
-            or a file.
+        mask : [height, width] of tags, or {tag: alpha} of shares (the first function gets what they leave), a
+            nutik.Mask, or a file.
         start, exposure : the interval, in place of functions; 0 without a start. Of functions their time 0.
         delay : how much later each pixel is exposed (docs/how-to/delay.md): 'rows:15ms', 'columns:0s..0.5s',
             'radial:-20ms..20ms', 'map.tif:0s..1s', or [height, width] of seconds or timedelta64.
@@ -259,7 +265,8 @@ class Capture:
         transfer : of codes, sRGB without it; 'source': the capture's own.
         region : (x, y, width, height) in pixels, only these.
         bounds : also maps of what each pixel may be off by, Picture.bounds.
-        strict : codes that may err by more than half of one raise ImpreciseError, and are no warning.
+        strict : light that may err by more than half a code, or half a float's step, raises ImpreciseError, and is no
+            warning.
         Returns:
         Picture, whose array is [height, width] or [height, width, 3]: light, of which 1 is white, or codes.
         Raises:
@@ -310,10 +317,10 @@ class Capture:
         ((100, 24, 32), (100,))
         """
         is_one = isinstance(functions, np.ndarray) and functions.ndim == 1 and functions.dtype != object
-        if functions is not None and (is_one or isinstance(functions, (str, PathLike, Mapping)) or not is_list(functions)):
+        if is_one or isinstance(functions, Mapping) or not (functions is None or is_list(functions)):
             each = "a dict {tag: function}" if isinstance(functions, Mapping) else "those of render()"
-            raise UsageError(f"functions is {shortened(functions)}; render_many() takes a list with {each} for each picture, "
-                             "[{0: ..., 128: ...}, ...], or an array [pictures, samples] of gains")
+            raise UsageError(f"functions is {shortened(functions)}; render_many() takes a list with {each} for each "
+                             "picture, [{0: ..., 128: ...}, ...], or an array [pictures, samples] of gains")
         lists: dict[str, list[Any]] = {name: listed(each) if name == "functions" or is_list(each) else [each]
                  for name, each in (("functions", functions), ("starts", starts), ("exposures", exposures))
                  if each is not None}
@@ -328,8 +335,8 @@ class Capture:
         held = [{tag: function._held for tag, function in self._functions(each, mask is not None).items()}
                 for each in lists.get("functions", [])]
         array, errors, saturated, told, still_gains, maps = _nutik.render_many(
-            self._held, asked, counts.pop(), starts, exposures, held, self._output(codes, dtype, transfer, negative), bounds,
-            progress)
+            self._held, asked, counts.pop(), starts, exposures, held, self._output(codes, dtype, transfer, negative),
+            bounds, progress)
         warn(told)
         if array.dtype.kind == "u":
             _warn_of_black(still_gains, negative)
@@ -365,7 +372,7 @@ class Capture:
         return [Trace._of(each) for each in traces]
 
     def background(self, *, by: Optional[int] = None, codes: bool = False, dtype: DTypeLike = None,
-              transfer: Optional[str] = None, progress: Progress = None) -> Plate:
+                   transfer: Optional[str] = None, progress: Progress = None) -> Plate:
         """The scene without what moves in it (docs/how-to/background.md).
 
         Parameters:
@@ -379,11 +386,11 @@ class Capture:
         7
         """
         output = self._output(codes, dtype, transfer, is_plate=True)
-        picture, uncertain, is_noise_known = _nutik.plate(self._held, None if by is None else count_of(by, "by"), output,
-                                                          progress)
+        picture, uncertain, is_noise_known = _nutik.plate(self._held, None if by is None else count_of(by, "by"),
+                                                          output, progress)
         if not is_noise_known:
-            warn(["nothing in the capture is still for long enough to tell its noise: codes that differ by up to 1/32 of "
-                  "white were taken for the same light; by= states another difference"])
+            warn(["nothing in the capture is still for long enough to tell its noise: codes that differ by up to 1/32 "
+                  "of white were taken for the same light; by= states another difference"])
         uncertain.flags.writeable = False
         return Plate(Picture(picture), uncertain)
 
@@ -407,7 +414,8 @@ class Capture:
             raise UsageError("tag= is a value of a mask; add mask=")
         made = mask_of(mask)
         told: dict[str, Any] = _nutik.activity(self._held, None if made is None else made._held,
-                                               None if tag is None else tag_of(tag), count_of(by, "by"), count_redrawn, progress)
+                                               None if tag is None else tag_of(tag), count_of(by, "by"), count_redrawn,
+                                               progress)
         warn(told.pop("notes"), NutikNote)
         for name in ("busiest", "quietest"):
             told[name] = told[name] and Stretch(**told[name])
@@ -437,8 +445,8 @@ class Capture:
         moved = self._held.moved_camera()
         if moved:
             warn([f"{moved}; align='rigid' moves the clip's pictures back when it is encoded"])
-        settings = settings_of({"style": style, "spacing": spacing, "trail": trail, "slit_from": slit_from, "feather": feather,
-                                "by": None if by is None else count_of(by, "by")})
+        settings = settings_of({"style": style, "spacing": spacing, "trail": trail, "slit_from": slit_from,
+                                "feather": feather, "by": None if by is None else count_of(by, "by")})
         told: dict[str, Any] = _nutik.study(self._held, settings, asked, [box_of(each, "a region") for each in regions],
                                             self._output(codes, dtype, transfer, is_plate=style == "clean"), progress)
         warn(told["notes"], NutikNote)
@@ -482,7 +490,8 @@ class Capture:
         if made is not None and feather is not None:
             made = made.feathered(feather)
         held = None if functions is None else {tag: each._held for tag, each in functions.items()}
-        bare = ", ".join(str(tag) for tag in made._held.tags_in_use() if tag not in functions) if functions and made else ""
+        used = made._held.tags_in_use() if functions and made else []
+        bare = ", ".join(str(tag) for tag in used if tag not in (functions or {}))
         if bare and not stated.get("unmapped"):
             raised = InputError(f"mask tags without a function: {bare}; give each one in functions=, or expose them to "
                                 "black (unmapped='zero')")
@@ -545,7 +554,8 @@ class Capture:
         kind = np.dtype(dtype).name if dtype is not None else self.dtype.name if codes else kinds[0]
         if kind not in kinds:
             other = "codes=True gives uint8 and uint16" if not codes else "codes are uint8 or uint16"
-            raise UsageError(f"dtype={kind} holds no {'codes' if codes else 'light'}: light is float32 or float64; {other}")
+            held = "codes" if codes else "light"
+            raise UsageError(f"dtype={kind} holds no {held}: light is float32 or float64; {other}")
         if is_plate and kind == "float64":
             raise UsageError("the background's light is float32")
         return settings_of({"dtype": kind, "transfer": transfer, "negative": negative})
@@ -554,7 +564,8 @@ class Capture:
         if self._open_capture is None:
             return escape(repr(self))
         rows = {"shape": " x ".join(map(str, self.shape)), "codes": f"{self.dtype}, white {self.figures['white']}",
-                "rate": f"{float(self.rate):g} a second", "lasts": f"{self.duration_ns / 1e9:g} s", "told": "; ".join(self.facts)}
+                "rate": f"{float(self.rate):g} a second", "lasts": f"{self.duration_ns / 1e9:g} s",
+                "told": "; ".join(self.facts)}
         return f"<b>{escape(self.name)}</b><table>" + "".join(
             f"<tr><th>{name}</th><td>{escape(text)}</td></tr>" for name, text in rows.items()) + "</table>"
 

@@ -19,8 +19,8 @@ from ._words import in_python
 _ORDER = "Parameters", "Attributes", "Returns", "Raises", "Notes", "Examples"
 _SECTION = re.compile(rf"^({'|'.join(_ORDER)}):\n", re.MULTILINE)
 _ENTRY = re.compile(r"^(\w+(?:, \w+)*) : (.*(?:\n[ \n].*)*)", re.MULTILINE)
-_WORKS = ("Works without Python's lock: any number of threads may use one capture. Ctrl-C ends it within half a second, "
-          "with KeyboardInterrupt, and leaves no file that was not finished.")
+_WORKS = ("Works without Python's lock: any number of threads may use one capture. Ctrl-C ends it within half a "
+          "second, with KeyboardInterrupt, and leaves no file that was not finished.")
 _COMMANDS = {"open": "encode", "join": "encode", "encode": "encode", "study": "study", "solve": "solve",
              "activity": "activity", "background": "background"}
 _PLOTTED = {"ax": "axes of matplotlib, which are returned; None: the current ones.",
@@ -98,13 +98,15 @@ def complete_all(offered: Iterable[object]) -> None:
     """What the package offers, and the methods of its classes."""
     shared, exposed = {**_entries(open), **_PLOTTED}, _entries(Capture.render)
     for each in offered:
-        members = [each] if inspect.isfunction(each) else [*vars(each).values()] if inspect.isclass(each) else []
+        members = {each.__name__: each} if inspect.isfunction(each) else vars(each) if inspect.isclass(each) else {}
         if inspect.isclass(each) and each.__module__.startswith("nutik._") and not issubclass(each, BaseException):
             _complete_class(each)
-        for function in (member.__func__ if isinstance(member, classmethod) else member for member in members):
-            name = getattr(function, "__name__", "_")
+        for name, member in members.items():
+            function = member.__func__ if isinstance(member, classmethod) else member
             if not inspect.isfunction(function) or name.startswith("_") or hasattr(function, "__signature__"):
                 continue  # a command has it all
+            if function.__name__ != name:
+                continue  # it is completed by its own name
             is_of_capture = vars(Capture).get(name) is function
             told = {}
             for command in ("expose", _COMMANDS.get(name, "expose")) if name in _COMMANDS or is_of_capture else ():

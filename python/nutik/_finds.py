@@ -92,8 +92,8 @@ def freedom_word(name: str, free: Any, functions: str) -> str:
     if isinstance(free, str):
         return f"{name}={free}"
     if len(free) not in (2, 3):
-        raise UsageError(f"free[{name!r}] is {free!r}; give (least, most) of a gain, (from, to) or (from, to, step) of a "
-                         "time")
+        raise UsageError(f"free[{name!r}] is {free!r}; give (least, most) of a gain, (from, to) or (from, to, step) "
+                         "of a time")
     if type(free[0]) is type(free[1]) and not isinstance(free[0], str) and free[0] > free[1]:
         raise UsageError(f"free[{name!r}] is {free!r}: the first is above the second")
     if re.search(rf"\[\s*{re.escape(name)}\b", functions):  # in the place of a time

@@ -190,8 +190,8 @@ def boxcar(start: Time, exposure: Time, gain: float = 1.0) -> Function:
 
 def shutter(shape: str, start: Time, exposure: Time, *, error: float = 1e-3) -> Function:
     """A shutter's shape over an exposure: 'box', 'trapezoid:0.25', 'triangle', 'gaussian', 'hann', 'strobe:5',
-    'spline:0=0,0.3=1,1=0' (docs/reference/shutters.md). Curves become the fewest straight pieces within `error`, a share of
-    their largest gain.
+    'spline:0=0,0.3=1,1=0' (docs/reference/shutters.md). Curves become the fewest straight pieces within `error`, a
+    share of their largest gain.
 
     Parameters:
     shape : one of these.
@@ -214,9 +214,9 @@ def fit(gain: Gain, start: Time, end: Time, *, error: float = 1e-3) -> Function:
     gain : called with an array of times in seconds, returns as many gains; one that takes single times only is called
         once for each.
     start, end : where it is not 0.
-    error : how far the pieces may lie from it, a share of its largest |gain|. It holds at every time that was looked at:
-        1024 evenly, and more wherever the middle of two lies off the line between them, down to single nanoseconds. A
-        jump becomes a step of 1 ns.
+    error : how far the pieces may lie from it, a share of its largest |gain|. It holds at every time that was looked
+        at: 1024 evenly, and more wherever the middle of two lies off the line between them, down to single nanoseconds.
+        A jump becomes a step of 1 ns.
     Raises:
     UsageError where a gain is not finite, where it is 0 everywhere, or where it bends in more places than can be looked
     at: give such a function's pieces as points.
@@ -339,6 +339,6 @@ def function_of(given: FunctionLike, what: str, duration: Time = 0) -> Function:
     try:
         points = [(time, float(gain)) for time, gain in given]
     except (TypeError, ValueError):
-        raise UsageError(f"{what} is {shortened(given)}, no function; give a nutik.Function, a list of (time, gain), or a "
-                         "callable; of an interval say start= and exposure=") from None
+        raise UsageError(f"{what} is {shortened(given)}, no function; give a nutik.Function, a list of (time, gain), "
+                         "or a callable; of an interval say start= and exposure=") from None
     return Function([time for time, _ in points], [gain for _, gain in points])

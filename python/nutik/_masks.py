@@ -46,8 +46,8 @@ class Mask:
         """A soft mask. Shares are kept in 65535ths.
 
         Parameters:
-        alphas : for each tag [height, width], the share of each pixel that it has: float in [0, 1], uint8 of 255, uint16
-            of 65535, or bool.
+        alphas : for each tag [height, width], the share of each pixel that it has: float in [0, 1], uint8 of 255,
+            uint16 of 65535, or bool.
         rest : the tag that gets what they leave.
         progress : called with rows done, of how many.
         Raises:

@@ -24,7 +24,8 @@ def _bounds(light: Union[float, NDArray[np.float64]], pictures: Array) -> NDArra
     """[pictures] of what is handed over: of float32 with half a step of the largest light of each."""
     if pictures.dtype != np.float32:
         return np.broadcast_to(np.asarray(light, np.float64), (len(pictures),))
-    largest: NDArray[np.float64] = np.abs(pictures).max(axis=tuple(range(1, pictures.ndim)), initial=0.0).astype(np.float64)
+    axes = tuple(range(1, pictures.ndim))
+    largest: NDArray[np.float64] = np.abs(pictures).max(axis=axes, initial=0.0).astype(np.float64)
     return np.asarray(light + largest * 2.0 ** -24 + 2.0 ** -150, np.float64)  # the second: where floats are subnormal
 
 
@@ -34,7 +35,8 @@ class _HasArray:
     array: Array
 
     def __array__(self, dtype: DTypeLike = None, copy: Optional[bool] = None) -> NDArray[np.generic]:
-        return self.array if dtype is None and not copy else self.array.astype(dtype or self.array.dtype, copy=bool(copy))
+        array = self.array
+        return array if dtype is None and not copy else array.astype(dtype or array.dtype, copy=bool(copy))
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -69,10 +71,12 @@ class Pictures(_HasArray):
         return f"<nutik.Pictures {' x '.join(map(str, self.shape))}, {self.array.dtype}>"
 
     def to_xarray(self, **first: ArrayLike) -> DataArray:
-        """An xarray.DataArray [picture, y, x(, channel)], no copy; its attribute `error_bounds` has a bound for each picture.
+        """An xarray.DataArray [picture, y, x(, channel)], no copy; its attribute `error_bounds` has a bound for each
+        picture.
 
         Parameters:
-        first : of the first axis its name and its coordinate, start=starts; without it numbers. `start` and `time` are seconds.
+        first : of the first axis its name and its coordinate, start=starts; without it numbers. `start` and `time` are
+            seconds.
         Raises:
         UsageError where a coordinate is not a list with an entry for each picture.
         """
@@ -117,14 +121,14 @@ class Picture(_HasArray):
 
     @property
     def precision(self) -> Optional[str]:
-        """The arithmetic that computed it: 'single', 'compensated', 'double' or 'fixed'; None of a plate."""
+        """The arithmetic that computed it: 'single', 'compensated', 'double' or 'fixed'; None of a background."""
         return self._held.figures.get("precision")
 
     @property
     def error_bound(self) -> Optional[float]:
         """How far the light of any pixel may lie from the exact integral, in light: of codes before it is rounded to
         them, of float32 with half a step of that for the largest light. All else was known before anything was computed
-        (docs/explanation/accuracy.md). None of a plate, of the reference, and of combine='lighten', 'darken' and
+        (docs/explanation/accuracy.md). None of a background, of the reference, and of combine='lighten', 'darken' and
         'median', which add nothing up: `uncertainty` has what bounds their light."""
         bound = self._held.figures.get("error_bound")
         return None if bound is None else float(_bounds(bound["light"], self.array[None])[0])
@@ -146,7 +150,7 @@ class Picture(_HasArray):
     @property
     def uncertainty(self) -> Uncertainty:
         """What the light of the picture may be off by, term by term (docs/explanation/uncertainty.md). Empty of a
-        plate."""
+        background."""
         return deepcopy(self._held.figures.get("uncertainty", {}))
 
     @property
@@ -156,12 +160,12 @@ class Picture(_HasArray):
 
     @property
     def plan(self) -> Plan:
-        """What the exposure touched, with `functions`, those that the mask uses. Empty of a plate."""
+        """What the exposure touched, with `functions`, those that the mask uses. Empty of a background."""
         return deepcopy(self._held.figures.get("plan", {}))
 
     @property
     def statistics(self) -> Statistics:
-        """What the rendering took. Empty of a plate."""
+        """What the rendering took. Empty of a background."""
         return deepcopy(self._held.figures.get("statistics", {}))
 
     def to_xarray(self) -> DataArray:
@@ -176,8 +180,8 @@ class Picture(_HasArray):
         path : or a file that is open for bytes, as io.BytesIO.
         kind : of an open file which one it becomes, '.png'.
         quality : of .jpg, 1 ... 100.
-        keep_pixels : a .png or .jpg has the pixels of `array` also where they are not square; without it they are made so,
-            for eyes. Other files keep them.
+        keep_pixels : a .png or .jpg has the pixels of `array` also where they are not square; without it they are made
+            so, for eyes. Other files keep them.
         Raises:
         UsageError where such a file cannot hold the picture, OutputError where it cannot be written.
         Examples:
@@ -198,14 +202,14 @@ class Picture(_HasArray):
             _nutik.write_text(name, made.getvalue())
             return
         if self.dtype == np.float64:
-            raise UsageError(f"{name}: files of light hold float32; expose the picture with that dtype, or codes=True, or write "
-                             ".npy")
+            raise UsageError(f"{name}: files of light hold float32; expose the picture with that dtype, or codes=True, "
+                             "or write .npy")
         try:
             self._held.write(name, quality, keep_pixels)
         except UsageError as error:
             if self.dtype.kind == "f" and "cannot hold the values" in str(error):
-                raise UsageError(f"{error}, which are light: expose it with codes=True, or write .exr, .tif, .pfm or .npy") \
-                    from None
+                raise UsageError(f"{error}, which are light: expose it with codes=True, or write .exr, .tif, .pfm or "
+                                 ".npy") from None
             raise
 
     def _repr_png_(self) -> bytes:

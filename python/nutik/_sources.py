@@ -5,9 +5,10 @@ from __future__ import annotations
 import datetime
 import inspect
 from dataclasses import dataclass
+from functools import wraps
 from itertools import chain, count
 from os import PathLike, fsdecode
-from typing import Any, BinaryIO, Iterable, Optional, Protocol, Sequence, Union, cast
+from typing import Any, BinaryIO, Callable, Iterable, Optional, Protocol, Sequence, TypeVar, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,8 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import _nutik
 from ._captures import Capture
 from ._nutik import InputError, UsageError
-from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, is_list, listed, reading,
-                     seconds_of, settings_of, time_ns, times_ns, warn, whole)
+from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, is_list, listed,
+                     reading, seconds_of, settings_of, time_ns, times_ns, warn, whole)
 
 
 class HasArray(Protocol):
@@ -26,8 +27,19 @@ class HasArray(Protocol):
 
 
 Source = Union[ArrayLike, HasArray, Iterable[ArrayLike], Path, BinaryIO]
+_Opens = TypeVar("_Opens", bound=Callable[..., Capture])
 
 
+def _by_old_names(function: _Opens) -> _Opens:
+    """Takes arguments by their names in earlier versions, too."""
+    @wraps(function)
+    def called(*given: Any, **stated: Any) -> Capture:
+        return function(*given, **{_nutik.argument_now(name): value for name, value in stated.items()})
+
+    return cast(_Opens, called)
+
+
+@_by_old_names
 def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_angle: Optional[Number] = None,
          transfer: Optional[str] = None, white: Optional[float] = None, primaries: Optional[str] = None,
          pixel_aspect: Union[str, Number, None] = None, raw: Optional[str] = None, matrix: Optional[str] = None,
@@ -49,7 +61,8 @@ def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_
     crop : (x, y, width, height) of pixels, or 'WxH+X+Y': only this part of the pictures.
     align_along : a .csv file, moves pictures along a path that is known (docs/how-to/align.md).
     progress : called with (steps done, of how many; 0: not known), by the thread that asked and at most 20 times a
-        second. Study and solve do several things, each with steps of its own. What it raises ends the work, and comes through.
+        second. Study and solve do several things, each with steps of its own. What it raises ends the work, and comes
+        through.
     Raises:
     FileMissing, InputError where it cannot be read, UsageError where what is stated does not fit, MemoryTooLittle.
     Examples:
@@ -63,6 +76,7 @@ def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_
         return _told(_nutik.open(name, settings_of(stated), computing, progress))
 
 
+@_by_old_names
 def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Number] = None,
            times: Optional[Iterable[Time]] = None, exposures: Union[Time, Iterable[Time], None] = None,
            shutter_angle: Optional[Number] = None, transfer: Optional[str] = None, white: Optional[float] = None,
@@ -77,26 +91,26 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
     """Makes a capture of pictures, and opens it.
 
     Parameters:
-    source : [samples, height, width] or [samples, height, width, 3] (red, green, blue) of uint8 or uint16 codes, however
-        it is strided, or of floats that are light; or an iterable of such pictures; or the path of a clip, or one that is
-        open for bytes (nutik.open() says more of these). Codes in the machine's order of bytes are read where they lie.
-        What has __dlpack__ is an array.
+    source : [samples, height, width] or [samples, height, width, 3] (red, green, blue) of uint8 or uint16 codes,
+        however it is strided, or of floats that are light; or an iterable of such pictures; or the path of a clip, or
+        one that is open for bytes (nutik.open() says more of these). Codes in the machine's order of bytes are read
+        where they lie. What has __dlpack__ is an array.
     output : a .tik to write; None: a temporary capture, gone when it is closed.
     rate : pictures a second.
     times : or when each picture's exposure begins, in seconds; of dates what lies between them counts.
-    exposures : how long each was exposed, one time or one for each; with neither that nor shutter_angle, all the time to
-        the next.
+    exposures : how long each was exposed, one time or one for each; with neither that nor shutter_angle, all the time
+        to the next.
     transfer : what codes stand for, 'srgb', 'bt709', 'linear', 'gamma:G', 'hlg', 'pq' or a camera's curve ('slog3');
         without it 'srgb' of uint8, 'linear' of uint16.
-    white : the code of white, 255 or 65535 without it; no code may be larger. Of floats the light of white, which must be
-        stated: they become 16-bit codes, to the nearest of 65535 steps; none may be negative.
+    white : the code of white, 255 or 65535 without it; no code may be larger. Of floats the light of white, which must
+        be stated: they become 16-bit codes, to the nearest of 65535 steps; none may be negative.
     name : what messages call an array.
     clip : of a path what nutik.open() takes besides: begin, crop, raw, ...
     Returns:
     Capture
     Raises:
-    UsageError where arguments do not fit, InputError where pictures are unlike or times out of order, OutputError; what an
-    iterable raises.
+    UsageError where arguments do not fit, InputError where pictures are unlike or times out of order, OutputError; what
+    an iterable raises.
     Examples:
     >>> capture = nutik.encode(np.zeros((30, 8, 8, 3), np.uint8), times=np.arange(30) / 100, exposures="2ms")
     >>> capture.shape, capture.times_ns[1].tolist()
@@ -107,7 +121,7 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
     given = locals()
     computing, path = _computing(device, memory, renderer), None if output is None else fsdecode(output)
     of_clips = set(inspect.signature(open).parameters) - {"path", "progress", *_COMPUTING}
-    stated = {argument: given[argument] for argument in {*of_clips, "tiles", "block_samples"} & set(given)}
+    stated = {argument: given[argument] for argument in given if argument in (*of_clips, "tiles", "block_samples")}
     is_clip = isinstance(source, (str, PathLike)) or hasattr(source, "read")
     for argument in clip:
         if argument not in of_clips:
@@ -126,7 +140,8 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
     starts, intervals, exposed = _timing(rate, times, exposures, shutter_angle,
                                          len(pictures) if isinstance(pictures, np.ndarray) else None)
     return _told(_nutik.encode_pictures(pictures, first, name, starts, intervals, exposed,
-                                        float(white) if is_light and white else None, path, codec, settings_of(stated), computing, progress))
+                                        float(white) if is_light and white else None, path, codec, settings_of(stated),
+                                        computing, progress))
 
 
 def join(captures: Iterable[Path], output: Path, *, device: Optional[str] = None,
@@ -134,9 +149,9 @@ def join(captures: Iterable[Path], output: Path, *, device: Optional[str] = None
     """Makes one capture of captures of pictures that follow each other, and opens it (docs/how-to/farm.md).
 
     Parameters:
-    captures : paths of two or more .tik that were encoded alike. Parts of a clip (begin= and end= of nutik.encode()) know
-        their place and may come in any order; others follow each other at once, as they are named, if they have one
-        constant rate, which a note tells.
+    captures : paths of two or more .tik that were encoded alike. Parts of a clip (begin= and end= of nutik.encode())
+        know their place and may come in any order; others follow each other at once, as they are named, if they have
+        one constant rate, which a note tells.
     output : the .tik to write; its blocks are copies of theirs.
     Raises:
     InputError where one is damaged or does not follow the one before it, UsageError where there are fewer than two or
@@ -202,22 +217,23 @@ def _pictures_of(source: Any, white: Optional[float], name: str) -> tuple[Any, A
         picture = np.asarray(whole(picture, what))
         is_light = picture.dtype.kind == "f"
         if picture.dtype.newbyteorder("=") not in (np.uint8, np.uint16) and not is_light:
-            raise UsageError(f"{what} has dtype {picture.dtype}; codes are uint8 or uint16, light is of floats: say which with "
-                             ".astype()")
+            raise UsageError(f"{what} has dtype {picture.dtype}; codes are uint8 or uint16, light is of floats: say "
+                             "which with .astype()")
         if picture.ndim not in (2, 3) or (picture.ndim == 3 and picture.shape[2] not in (1, 3)) or not picture.size:
-            raise UsageError(f"{what} has shape {picture.shape}; pictures are [height, width] or [height, width, 3], not "
-                             "empty")
+            raise UsageError(f"{what} has shape {picture.shape}; pictures are [height, width] or [height, width, 3], "
+                             "not empty")
         kinds.add(is_light)
         if len(kinds) > 1:
             raise InputError(f"{what} has dtype {picture.dtype}; some pictures are codes, and some are light")
         if not is_light:
             return picture.astype(picture.dtype.newbyteorder("="), copy=False)
         if not isinstance(white, (int, float, np.number)) or not 0 < white < np.inf:
-            raise UsageError(f"{what} has dtype {picture.dtype}: which value is white? white=1.0; light becomes the nearest of "
-                             "65535 steps up to it")
+            raise UsageError(f"{what} has dtype {picture.dtype}: which value is white? white=1.0; light becomes the "
+                             "nearest of 65535 steps up to it")
         share = np.asarray(picture, np.float64) / white
         if not (share >= 0).all() or (share > 1).any():
-            raise InputError(f"a value of light is none between 0 and white={white:g}; clip it, or state a larger white")
+            raise InputError(f"a value of light is none between 0 and white={white:g}; clip it, or state a larger "
+                             "white")
         return (share * 65535 + 0.5).astype(np.uint16)
 
     if isinstance(source, Capture):
@@ -230,8 +246,8 @@ def _pictures_of(source: Any, white: Optional[float], name: str) -> tuple[Any, A
     if isinstance(source, memoryview) or hasattr(source, "__array_interface__") or hasattr(source, "__array__"):
         pictures = np.asarray(whole(source, "the array"))
         if pictures.ndim not in (3, 4) or not len(pictures):
-            raise UsageError(f"the array has shape {pictures.shape}; it is [samples, height, width] or [samples, height, "
-                             "width, 3], with one sample at least")
+            raise UsageError(f"the array has shape {pictures.shape}; it is [samples, height, width] or [samples, "
+                             "height, width, 3], with one sample at least")
         first, is_light = codes_of(pictures[0], "a picture of the array"), pictures.dtype.kind == "f"
         if pictures.dtype != first.dtype:
             codes = np.empty(pictures.shape, first.dtype)
@@ -253,8 +269,8 @@ def _pictures_of(source: Any, white: Optional[float], name: str) -> tuple[Any, A
     def alike(number: int, picture: Array) -> Array:
         codes = codes_of(picture, f"picture {number}")
         if (*codes.shape, 1)[:3] != (*first.shape, 1)[:3] or codes.dtype != first.dtype:
-            raise InputError(f"{name}: picture {number} has shape {codes.shape} and dtype {codes.dtype}, the first one {first.shape} "
-                             f"and {first.dtype}; all must be alike")
+            raise InputError(f"{name}: picture {number} has shape {codes.shape} and dtype {codes.dtype}, the first one "
+                             f"{first.shape} and {first.dtype}; all must be alike")
         return codes
 
     return chain([first], map(alike, count(1), iterator)), first, np.asarray(given).dtype.kind == "f"

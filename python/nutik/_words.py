@@ -16,8 +16,8 @@ from functools import cache
 from os import PathLike, fsdecode
 from os.path import dirname, exists, join
 from importlib import import_module
-from typing import (TYPE_CHECKING, Any, BinaryIO, Callable, Iterable, Iterator, Mapping, Optional, Protocol, Sequence, Union,
-                    cast)
+from typing import (TYPE_CHECKING, Any, BinaryIO, Callable, Iterable, Iterator, Mapping, Optional, Protocol, Sequence,
+                    Union, cast)
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,7 +30,8 @@ if TYPE_CHECKING:
 else:
     ellipsis = type(...)
 
-Time = Union[str, float, int, "np.floating[Any]", "np.integer[Any]", Fraction, Decimal, np.timedelta64, datetime.timedelta]
+Time = Union[str, float, int, "np.floating[Any]", "np.integer[Any]", Fraction, Decimal, np.timedelta64,
+             datetime.timedelta]
 DelayLike = Union[str, ArrayLike]
 Index = Union[int, slice, ellipsis, tuple[Union[int, slice, ellipsis, None], ...]]
 Number = Union[str, float, int, "np.floating[Any]", "np.integer[Any]", Fraction, Decimal]
@@ -99,16 +100,18 @@ class DataArray(Protocol):
 
 def labelled(values: NDArray[np.generic], first: Mapping[str, Any], attributes: Mapping[str, object],
              corner: tuple[int, int] = (0, 0)) -> DataArray:
-    """Pictures with the names of their axes, and coordinates: those of `first`, and pixels, whose x and y begin at `corner`.
-    Attributes that are None are left out, for no file holds them."""
+    """Pictures with the names of their axes, and coordinates: those of `first`, and pixels, whose x and y begin at
+    `corner`. Attributes that are None are left out, for no file holds them."""
     if len(first) > values.ndim - 2:
         raise UsageError(f"{', '.join(first)}: pictures have one axis before their own")
     coordinates: dict[str, Any] = {}
     for name, each in first.items():
         if name in ("y", "x", "channel"):
-            raise UsageError(f"{name}= names an axis of the pictures themselves; the first one is another: start=starts")
+            raise UsageError(f"{name}= names an axis of the pictures themselves; the first one is another: "
+                             "start=starts")
         if not is_list(each) or (coordinate := np.asarray(listed(each))).ndim != 1 or len(coordinate) != len(values):
-            raise UsageError(f"{name}= is {shortened(each)}: give a list of {len(values)}, one coordinate for each picture")
+            raise UsageError(f"{name}= is {shortened(each)}: give a list of {len(values)}, one coordinate for each "
+                             "picture")
         seconds = name in ("start", "time") and coordinate.dtype.kind in "iuf"
         coordinates[name] = (name, coordinate, {"units": "s"} if seconds else {})
     axes = [*first, "y", "x", "channel"][:values.ndim]
@@ -125,7 +128,8 @@ def shortened(value: Any) -> str:
     if isinstance(value, np.ndarray):
         return f"an array of shape {value.shape}"
     text = " ".join(repr(value).split())
-    return text if len(text) <= 60 else f"{text[:50]} ..." + (f", {len(value)} in all" if hasattr(value, "__len__") else "")
+    count = f", {len(value)} in all" if hasattr(value, "__len__") else ""
+    return text if len(text) <= 60 else f"{text[:50]} ...{count}"
 
 
 def axes_of(ax: Optional[Axes], x: str, y: str) -> Axes:
@@ -151,7 +155,7 @@ def as_file(source: Any, name: str) -> Iterator[str]:
 
 
 def in_python(text: str) -> str:
-    """Arguments in place of the command line's options, with the value that follows where it is none of the sentence's."""
+    """Arguments for the command line's options, with the value that follows where it is none of the sentence's."""
     def argument(option: re.Match[str]) -> str:
         return option[1].replace("-", "_") + "=" + (f"'{option[2]}'" if option[2] else "")
 
@@ -276,7 +280,8 @@ def delays_ns(delays: Any) -> NDArray[np.int64]:
     elif delays.dtype.kind in "iuf":
         made = np.floor(delays.astype(np.float64) * _SECOND_NS + 0.5)
     else:
-        raise UsageError(f"delay= is 'rows:15ms', 'map.tif:0s..1s' or an array of seconds, and this has dtype {delays.dtype}")
+        raise UsageError("delay= is 'rows:15ms', 'map.tif:0s..1s' or an array of seconds, and this has dtype "
+                         f"{delays.dtype}")
     if not (np.abs(made.astype(np.float64)) < 2.0 ** 62).all():
         raise UsageError("delay=: some pixel's delay is no number of seconds, or further away than 146 years")
     return np.asarray(made, np.int64)
@@ -284,7 +289,7 @@ def delays_ns(delays: Any) -> NDArray[np.int64]:
 
 def bytes_word(size: Union[int, str], what: str) -> str:
     """500000000, '500MB', '2GB', '1GiB' -> the number of bytes."""
-    written = re.fullmatch(r"(.*?)\s*(?:([KMGT]?)(I?)B)?", str(size), re.IGNORECASE | re.DOTALL)
+    written = re.fullmatch(r"(.*?)\s*(?:(?:([KMGT])(I?))?B)?", str(size), re.IGNORECASE | re.DOTALL)
     number, prefix, binary = written.groups(default="") if written else ("", "", "")
     try:
         count = int(exact(number, what) * (1024 if binary else 1000) ** " KMGT".index(prefix.upper() or " "))
@@ -327,7 +332,7 @@ def word_of(name: str, kind: str, value: Any) -> str:
     """A value as the program reads it; `kind` is what its help has in that place."""
     if kind == "SIZE":
         return bytes_word(value, name)
-    if isinstance(value, (str, PathLike)):
+    if isinstance(value, (str, bytes, PathLike)):
         return fsdecode(value)
     if kind == "TIME" or "TIME" in kind and not is_list(value):
         return time_word(value, name)
@@ -335,12 +340,14 @@ def word_of(name: str, kind: str, value: Any) -> str:
         return number_word(value, name)
     if kind in ("K", "G", "E"):
         return repr(float(value))
+    if kind == "FILE|LIGHT":
+        return repr(float(exact(value, name)))
     if kind == "WxH+X+Y":
         x, y, width, height = box_of(value, name)
         return f"{width}x{height}+{x}+{y}"
     if is_list(value):
         return ",".join(word_of(name, kind if "TIME" in kind else "", each) for each in value)
-    if kind.startswith("FILE|"):
+    if kind == "FILE|auto":
         raise WrongType(f"{name} is {value!r}, no path")
     return f"{value:g}px" if name == "feather" else "1" if value is True else str(value)
 

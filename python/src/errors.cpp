@@ -38,7 +38,7 @@ std::array<ErrorType, 7>& types() {
        "The OpenCL device cannot do it: absent, too small, a failed build."},
       {"OutputError", is<OutputError>, PyExc_OSError, "A file cannot be written."},
       {"ImpreciseError", is<ImpreciseError>, PyExc_ArithmeticError,
-       "Light may err by more than half a code, and strict=True allows no more."},
+       "Light may err by more than half a code, or half a float's step, and strict=True allows no more."},
       {"MemoryTooLittle", is<MemoryTooLittle>, PyExc_MemoryError,
        "Less memory is allowed than the work takes; the message says the least that does."},
   }};

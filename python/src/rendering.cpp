@@ -132,7 +132,8 @@ using DelayTimes = py::array_t<std::int64_t, py::array::c_style | py::array::for
 DelayRequest delay_of(const DelayTimes& times_ns) {
   if (times_ns.ndim() != 2 || times_ns.size() == 0)
     throw UsageError("delay= is an array of two axes, the picture's height and its width, none of them empty");
-  const auto height = static_cast<std::uint32_t>(times_ns.shape(0)), width = static_cast<std::uint32_t>(times_ns.shape(1));
+  const auto height = static_cast<std::uint32_t>(times_ns.shape(0));
+  const auto width = static_cast<std::uint32_t>(times_ns.shape(1));
   return DelayRequest::of_times(width, height, {times_ns.data(), std::size_t{width} * height});
 }
 
@@ -151,7 +152,8 @@ OutputFormat output_of(const Settings& settings, const CaptureFormat& capture) {
   }
   OutputRequest request = options.picture;
   if (request.negative && !holds_codes(type))
-    throw UsageError(Advice{"`negative` says what codes make of light below 0, and an array of light keeps it; leave it out"});
+    throw UsageError(
+        Advice{"`negative` says what codes make of light below 0, and an array of light keeps it; leave it out"});
   request.depth = type == ValueType::code8    ? Depth::bits8
                   : type == ValueType::code16 ? Depth::bits16
                                               : Depth::floating;

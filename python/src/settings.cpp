@@ -25,17 +25,27 @@ const app::Command& command_of(const std::string& name) {
   return *found;
 }
 
+std::string argument_of(const Option& option) {
+  const std::string written = option.written(Dialect::python);
+  return written.substr(0, written.find('='));
+}
+
 // What a command is for, its operands, and of each argument: how its value is written, what it says, whether it may be
 // given several times, and whether it says what a picture is made of.
 py::tuple described(const std::string& command) {
   const app::Command& row = command_of(command);
   py::dict arguments;
   for (const Option* const option : options_of(row.id)) {
-    const std::string written = option->written(Dialect::python);
-    arguments[py::str(written.substr(0, written.find('=')))] =
+    arguments[py::str(argument_of(*option))] =
         py::make_tuple(option->value, option->help, option->take == nullptr, option->makes_picture());
   }
   return py::make_tuple(row.summary, row.operands, arguments);
+}
+
+// What an argument is called now; itself where no option is called that.
+std::string argument_now(const std::string& name) {
+  const Option* const option = option_of_argument(CommandId::encode, name);
+  return option == nullptr ? name : argument_of(*option);
 }
 
 // The words of a command line that states these, each once or several times.
@@ -70,6 +80,7 @@ int run_program(std::vector<std::string> words) {
 
 void bind_commands(py::module_& module) {
   module.def("described", &described, "command"_a);
+  module.def("argument_now", &argument_now, "name"_a);
   module.def("command_words", &command_words, "command"_a, "stated"_a);
   module.def("run_program", &run_program, "words"_a);
 }

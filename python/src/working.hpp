@@ -2,9 +2,10 @@
 //
 //   in:      what is to be done, on a thread of its own
 //   out:     what it returns or throws
-//   always:  Python's other threads go on meanwhile. At the interpreter's end work is stopped. Ctrl-C stops it and becomes KeyboardInterrupt, which only Python's
-//            main thread hears; nothing of a stopped piece of work is left running. Who wants to be told of progress is
-//            called on the thread that waits, and what that raises stops the work, too
+//   always:  Python's other threads go on meanwhile. At the interpreter's end work is stopped. Ctrl-C stops it and
+//            becomes KeyboardInterrupt, which only Python's main thread hears; nothing of a stopped piece of work is
+//            left running. Who wants to be told of progress is called on the thread that waits, and what that raises
+//            stops the work, too
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -39,8 +40,8 @@ struct Stopping {
   [[nodiscard]] ReportedProgress progress() const;
 };
 
-// Without Python's lock for as long as it lives. Once the interpreter ends, no thread but the ending one comes back: Python
-// would end the thread within our frames, and with it the process. It sleeps until the process is gone.
+// Without Python's lock for as long as it lives. Once the interpreter ends, no thread but the ending one comes back:
+// Python would end the thread within our frames, and with it the process. It sleeps until the process is gone.
 class Unlocked {
  public:
   Unlocked();

@@ -55,8 +55,8 @@ def main():
     def run(*words, **named):
         return subprocess.run([str(word) for word in words], check=True, cwd=arguments.work, text=True, **named)
 
-    run(sys.executable, "-m", "pip", "wheel", ROOT, "--no-build-isolation", "--no-deps", "--no-index", "-q", "-w", "wheels",
-        env=environment | {"NUTIK_BUILD_DIR": str(arguments.build)})
+    run(sys.executable, "-m", "pip", "wheel", ROOT, "--no-build-isolation", "--no-deps", "--no-index", "-q", "-w",
+        "wheels", env=environment | {"NUTIK_BUILD_DIR": str(arguments.build)})
     (wheel,) = (arguments.work / "wheels").glob("nutik-*.whl")
     # The sources as they are packed lack no file that a build begins with.
     subprocess.run([sys.executable, "setup.py", "-q", "sdist", "-d", arguments.work / "sources"], check=True, cwd=ROOT,

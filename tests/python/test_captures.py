@@ -4,14 +4,18 @@ import datetime
 import itertools
 import os
 import subprocess
+import sys
 import unittest
 import unittest.mock
 import warnings
 from decimal import Decimal
 from fractions import Fraction
+from pathlib import Path
 
 import nutik
 import numpy as np
+from nutik import _nutik
+from nutik._words import settings_of
 
 import support
 
@@ -28,7 +32,8 @@ class Arrays(support.TestCase):
         for name, array in {
             "backwards in time": base[::-1], "mirrored": base[:, :, ::-1], "BGR": base[..., ::-1],
             "every second": base[::2, ::2, ::2], "upside down": base[:, ::-1], "deep and mirrored": deep[:, ::-1, ::-1],
-            "one channel": grey[..., None], "a channel of colour": base[..., 1], "columns first": grey.transpose(0, 2, 1),
+            "one channel": grey[..., None], "a channel of colour": base[..., 1],
+            "columns first": grey.transpose(0, 2, 1),
             "Fortran's order": np.asfortranarray(deep), "one picture": base[:1],
         }.items():
             with self.subTest(name):
@@ -74,7 +79,8 @@ class Arrays(support.TestCase):
         noise = np.random.default_rng(5).integers(0, 256, (60, 200, 300), np.uint8)
         nutik.encode(noise, self.path("noise.tik"), rate=100)
         with nutik.open(self.path("noise.tik"), memory="80MB") as capture:
-            self.assert_raises(nutik.MemoryTooLittle, ["60000 pixels over 60 samples", "region=", "first="], capture.records)
+            self.assert_raises(nutik.MemoryTooLittle, ["60000 pixels over 60 samples", "region=", "first="],
+                               capture.records)
             held = capture.records((0, 0, 300, 20))
         self.assertEqual(len(held), 300 * 20 + np.count_nonzero(np.diff(noise[:, :20], axis=0)))
         with nutik.open(self.path("noise.tik"), memory="200MB") as capture:
@@ -114,7 +120,8 @@ class Arrays(support.TestCase):
             capture = nutik.encode(codes, rate=1, transfer=transfer, white=250)
             exposed = capture.render(start=0, exposure=1, dtype=np.float64).array
             np.testing.assert_allclose(exposed, light, atol=1e-12)
-        self.assert_raises(nutik.InputError, ["picture 0", "240", "100", "white="], nutik.encode, codes, rate=1, white=100)
+        self.assert_raises(nutik.InputError, ["picture 0", "240", "100", "white="], nutik.encode, codes, rate=1,
+                           white=100)
 
     def test_noise_is_left_out(self):
         pictures = np.full((40, 32, 32), 100, np.uint8)
@@ -188,7 +195,8 @@ class Arrays(support.TestCase):
                 capture = call()
             self.assertEqual(capture.notes, [str(warned.warning)])
             self.assertEqual(len(capture), 3)
-        self.assert_raises(nutik.UsageError, "nutik.open()", nutik.encode, self.path("stills.tik"), self.path("again.tik"))
+        self.assert_raises(nutik.UsageError, "nutik.open()", nutik.encode, self.path("stills.tik"),
+                           self.path("again.tik"))
 
     def test_a_part_of_a_clip(self):
         for k in range(6):
@@ -198,10 +206,48 @@ class Arrays(support.TestCase):
             part = call(begin="2f", end=0.5, crop=(1, 2, 6, 4))
             self.assertEqual(part.shape, (3, 4, 6))
             self.assert_same(sample(part, 0), np.full((4, 6), 18, np.uint8))
-        self.assert_raises(nutik.UsageError, "crop= is said of a clip's files", nutik.encode, np.zeros((2, 8, 8), np.uint8),
+        self.assert_raises(nutik.UsageError, "crop= is said of a clip's files", nutik.encode,
+                           np.zeros((2, 8, 8), np.uint8),
                            rate=1, crop=(0, 0, 4, 4))
         with self.assertRaisesRegex(TypeError, "'chop'"):
             nutik.encode(self.path("still-%d.pgm"), rate=1, chop=1)
+
+    def test_an_argument_by_its_name_in_earlier_versions(self):
+        for k in range(3):
+            support.write_pgm(self.path(f"still-{k}.pgm"), np.full((8, 8), k, np.uint8))
+        cut = self.folder / "still-2.pgm"
+        cut.write_bytes(cut.read_bytes()[:-9])
+        for call in (nutik.open, nutik.encode):
+            with self.assertWarns(nutik.NutikWarning):
+                self.assertEqual(len(call(self.path("still-%d.pgm"), rate=10, as_far_as_it_goes=True)), 2)
+            self.assertNotIn("as_far_as_it_goes", call.__doc__)
+            self.assertRaises(TypeError, call, self.path("still-%d.pgm"), rate=10, as_far_as_that=True)
+        self.assertEqual(_nutik.command_words("contact", {"as_far_as_it_goes": [[]]}), ["contact", "--ignore-errors"])
+
+    def test_words_of_values(self):
+        self.assertEqual(settings_of({"noise": b"a.json", "align_along": b"path.csv", "start_picture": b"dark.png"}),
+                         {"noise": "a.json", "align_along": "path.csv", "start_picture": "dark.png"})
+        for light in (0.18, np.float32(0.18), Fraction(18, 100), "0.18"):
+            self.assertEqual(settings_of({"start_picture": light}), {"start_picture": "0.18"})
+        for stated in ({"noise": 3}, {"start_picture": [0.5]}):
+            self.assert_raises(nutik.WrongType, next(iter(stated)), settings_of, stated)
+        for size, count in (("5B", "5"), ("5", "5"), ("5KB", "5000"), ("5kiB", "5120"), ("1GiB", str(1 << 30))):
+            self.assertEqual(settings_of({"memory": size}), {"memory": count})
+        self.assert_raises(nutik.UsageError, "'5IB' is no size", settings_of, {"memory": "5IB"})
+
+    def test_light_before_the_first_event(self):
+        words = [0x80000000, *(0x10000000 | k << 22 | (k % 4) << 11 | k % 3 for k in range(40))]  # EVT 2.0
+        Path(self.path("e.raw")).write_bytes(b"% evt 2.0\n% geometry 4x3\n% end\n" + np.array(words, "<u4").tobytes())
+        first = [float(nutik.open(self.path("e.raw"), start_picture=light).render(exposure="1f").array.max())
+                 for light in (0.5, 0.1)]
+        self.assertGreater(first[0], 3 * first[1])
+
+    def test_the_first_of_two_wrong_arguments_is_named(self):
+        script = "import nutik, numpy; nutik.encode(numpy.zeros((2, 8, 8), 'u1'), rate=[1], align_to=[], noise=3)"
+        for seed in "123456":
+            ran = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True,
+                                 env={**os.environ, "PYTHONHASHSEED": seed})
+            self.assertIn("WrongType: rate", ran.stderr)
 
     def test_parts_are_joined(self):
         """Pieces of a recording as they came, and parts of a clip in any order."""
@@ -294,7 +340,8 @@ class Times(support.TestCase):
         capture = nutik.encode(self.pictures, rate=2)
         for start, wanted in ((0.1, 100_000_000), (0.1 + 0.2, 300_000_000), (1e-9, 1), (Fraction(1, 3), 333_333_333),
                               (np.float64(0.25), 250_000_000), (np.timedelta64(2, "ms"), 2_000_000),
-                              (datetime.timedelta(microseconds=7), 7000), ("1/300s", 3_333_333), (Decimal("0.07"), 70_000_000)):
+                              (datetime.timedelta(microseconds=7), 7000), ("1/300s", 3_333_333),
+                              (Decimal("0.07"), 70_000_000)):
             plan = capture.render(start=start, exposure="100ms").plan
             self.assertEqual(plan["functions"][0]["live_ns"][0], wanted, start)
         for wrong in (float("nan"), None, True, np.timedelta64("NaT"), np.timedelta64(1, "Y"), "soon", [1]):

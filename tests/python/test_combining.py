@@ -91,10 +91,12 @@ class Combining(TestCase):
                 self.assertEqual(many.bounds.keys(), one.bounds.keys())
                 for term, each in many.bounds.items():
                     self.assert_same(each[k], one.bounds[term])
-        functions = [{0: nutik.boxcar(0, "0.2s"), 128: nutik.boxcar("0.1s", each), 255: nutik.boxcar(0, each)} for each in (0.1, 0.2)]
+        functions = [{0: nutik.boxcar(0, "0.2s"), 128: nutik.boxcar("0.1s", each), 255: nutik.boxcar(0, each)}
+                     for each in (0.1, 0.2)]
         many = capture.render_many(functions, mask=tags(), bounds=True)
         for k, each in enumerate(functions):
-            self.assert_same(many.bounds["all_bounds"][k], capture.render(each, mask=tags(), bounds=True).bounds["all_bounds"])
+            self.assert_same(many.bounds["all_bounds"][k],
+                             capture.render(each, mask=tags(), bounds=True).bounds["all_bounds"])
 
 
 if __name__ == "__main__":

@@ -80,9 +80,10 @@ class Commands(support.TestCase):
         terms = ["all_bounds", "arithmetic", "rounding", "held_samples", "times"]
         clip = self.path("held.tik")
         nutik.encode(support.moving_box(), clip, rate=support.RATE, tolerance=2)
-        (self.folder / "list").write_text(f"--start 0f --exposure 40f {self.path('b.png')} --bounds {self.path('b.npy')}\n")
-        expose = json.loads(self.run_program("expose", "--json", "--start", "0f", "--exposure", "40f", "--bounds", "e.npy",
-                                             clip, "e.png"))
+        (self.folder / "list").write_text(
+            f"--start 0f --exposure 40f {self.path('b.png')} --bounds {self.path('b.npy')}\n")
+        expose = json.loads(self.run_program("expose", "--json", "--start", "0f", "--exposure", "40f", "--bounds",
+                                             "e.npy", clip, "e.png"))
         batch = nutik.batch(self.folder / "list", clip)["pictures"][0]
         film = nutik.video(clip, self.path("film.mkv"), out_fps=24, out_angle=360, bounds=self.path("f%d.npy"))
         picture = nutik.open(clip).render(start="0f", exposure="40f", codes=True, bounds=True)
@@ -112,10 +113,12 @@ class Commands(support.TestCase):
 
     def test_errors(self):
         self.assert_raises(nutik.UsageError, "no argument colour=", nutik.video, self.clip, colour=1)
-        self.assert_raises(nutik.UsageError, "columns 'many'", nutik.contact, self.clip, self.path("x.png"), columns="many")
+        self.assert_raises(nutik.UsageError, "columns 'many'", nutik.contact, self.clip, self.path("x.png"),
+                           columns="many")
         self.assert_raises(nutik.UsageError, "in_place=", nutik.retime, self.clip)
         self.assert_raises(nutik.InputError, "absent.tik", nutik.contact, self.path("absent.tik"), self.path("x.png"))
-        self.assert_raises(nutik.OutputError, "absent", nutik.contact, self.clip, self.path("absent/x.png"), exposure=0.01)
+        self.assert_raises(nutik.OutputError, "absent", nutik.contact, self.clip, self.path("absent/x.png"),
+                           exposure=0.01)
 
     def test_messages_state_arguments(self):
         said = _words.in_python

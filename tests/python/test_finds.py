@@ -110,7 +110,8 @@ class Finds(support.TestCase):
         self.assertIsNone(clean.mask)
         self.assert_same(clean.picture.array, self.capture.background(codes=True).picture.array)
         self.assert_raises(nutik.UsageError, "choose trail, strobe", self.capture.study, "blur")
-        for style, moments, told in (("slit", ["0.1s"], "how many there are, not which"), ("slit", 300, "a study has 2 to 256"),
+        for style, moments, told in (("slit", ["0.1s"], "how many there are, not which"),
+                                     ("slit", 300, "a study has 2 to 256"),
                                      ("frozen", 5, "shows a single moment"), ("trail", 51, "a study has 1 to 50"),
                                      ("trail", [], "a study has 1 to 50")):
             self.assert_raises(nutik.UsageError, told, self.capture.study, style, moments=moments)

@@ -43,7 +43,8 @@ class Functions(support.TestCase):
         self.assertEqual(jump.times.tolist(), [0, 0, 1, 2, 2])
         self.assertEqual(sum([jump, jump]), 2 * jump)
         zeros = nutik.Function([0, 1], [0, -1])
-        self.assertEqual((zeros, hash(zeros)), (nutik.Function([0, 1], [0, 1]) * -1, hash(nutik.Function([0, 1], [0, 1]) * -1)))
+        self.assertEqual((zeros, hash(zeros)),
+                         (nutik.Function([0, 1], [0, 1]) * -1, hash(nutik.Function([0, 1], [0, 1]) * -1)))
         for wrong in (lambda: jump + 1, lambda: jump * jump, lambda: jump - 1, lambda: "2" * jump):
             self.assertRaises(TypeError, wrong)
 
@@ -56,7 +57,8 @@ class Functions(support.TestCase):
         self.assert_raises(usage, "one control point", make, [], [])
         self.assert_raises(usage, "as many times as gains", make, [0, 1], [0])
         self.assert_raises(usage, "int64", nutik.Function.from_ns, [0.5], [1])
-        self.assert_raises(usage, "functions is 7, no function", nutik.encode(np.zeros((2, 8, 8), np.uint8), rate=1).render, 7)
+        self.assert_raises(usage, "functions is 7, no function",
+                           nutik.encode(np.zeros((2, 8, 8), np.uint8), rate=1).render, 7)
 
     def test_files(self):
         functions = nutik.parse_functions(support.FUNCTIONS)
@@ -70,7 +72,8 @@ class Functions(support.TestCase):
 
     def test_shutters_are_the_command_lines(self):
         for shape in ("box", "trapezoid:0.25", "triangle", "gaussian", "hann", "strobe:5,0.1", "spline:0=0,0.3=1,1=0"):
-            text = self.run_program("shutter", shape, "--start", "0.4s", "--exposure", "10ms", "--shutter-error", "1e-4")
+            text = self.run_program("shutter", shape, "--start", "0.4s", "--exposure", "10ms", "--shutter-error",
+                                    "1e-4")
             ours = nutik.shutter(shape, 0.4, "10ms", error=1e-4)
             self.assertEqual(ours.text(), text.splitlines()[1])
         self.assert_raises(nutik.UsageError, "box, trapezoid:R", nutik.shutter, "round", 0, 1)

@@ -98,8 +98,8 @@ class Interruptions(support.TestCase):
         nutik.encode(support.moving_box(), rate=1).render(exposure="1f")  # and all works on
 
     def test_a_rendering_ends_while_other_threads_go_on(self):
-        """The scalar reference would take minutes for this. Another thread ends it, which waits for Python's lock; nobody
-        is made to give that up for 1000 s, so that it runs only where the work gives it up by itself."""
+        """The scalar reference would take minutes for this. Another thread ends it, which waits for Python's lock;
+        nobody is made to give that up for 1000 s, so that it runs only where the work gives it up by itself."""
         pictures = np.random.default_rng(1).integers(0, 256, (128, 384, 512, 3), np.uint8)
         capture = nutik.encode(pictures, rate=960, renderer="reference")
         tags = np.arange(384 * 512).reshape(384, 512) % 256
@@ -182,7 +182,8 @@ class Progress(support.TestCase):
         def end(done, total):
             raise Enough
 
-        for work in (nutik.encode(pictures, rate=960).plate, nutik.encode(pictures, rate=960, tiles="records").activity):
+        for work in (nutik.encode(pictures, rate=960).plate,
+                     nutik.encode(pictures, rate=960, tiles="records").activity):
             with self.subTest(work=work.__name__):
                 times = [time.monotonic()]
                 work(progress=lambda done, total: times.append(time.monotonic()))

@@ -31,8 +31,9 @@ shares = {{tag: (soft == tag) * 0.5 for tag in range(8)}}
 # Opened where they are first needed: a forked process needs its own.
 captures = {{}}
 def capture(name, pictures):
-    return captures.setdefault(name, None) or captures.__setitem__(name, nutik.encode(pictures, folder + name, rate=960)) \\
-        or captures[name]
+    if name not in captures:
+        captures[name] = nutik.encode(pictures, folder + name, rate=960)
+    return captures[name]
 def of_noise(): return capture("/noise.tik", noise)
 def of_box(): return capture("/box.tik", box)
 WORKS = dict(
@@ -57,11 +58,13 @@ WORKS = dict(
     batch=lambda told: nutik.batch(folder + "/list", folder + "/noise.tik", overwrite=True, progress=told),
     check=lambda told: nutik.check(folder + "/noise.tik", progress=told),
     contact=lambda told: nutik.contact(folder + "/noise.tik", folder + "/sheet.png", exposure=0.01, overwrite=True),
-    noise=lambda told: nutik.noise(folder + "/still", transfer="linear", output=folder + "/camera.noise", overwrite=True),
+    noise=lambda told: nutik.noise(folder + "/still", transfer="linear", output=folder + "/camera.noise",
+                                   overwrite=True),
     recover=lambda told: nutik.recover(folder + "/cut.tik", folder + "/whole.tik", overwrite=True),
     retime=lambda told: nutik.retime(folder + "/noise.tik", folder + "/slow.tik", rate=24, overwrite=True),
     validate=lambda told: nutik.validate(folder + "/noise.tik", start=0, exposure=0.03, runs=3, progress=told),
-    video=lambda told: nutik.video(folder + "/noise.tik", folder + "/film.mp4", out_fps=960, overwrite=True, progress=told),
+    video=lambda told: nutik.video(folder + "/noise.tik", folder + "/film.mp4", out_fps=960, overwrite=True,
+                                   progress=told),
 )
 still = np.linspace(20, 230, 4096).reshape(64, 64) + np.random.default_rng(2).normal(0, 3, (96, 64, 64))
 def prepare():
@@ -194,11 +197,13 @@ class Axes:
     get_xlabel = get_ylabel = lambda *_: ""
 CALLS = {{
     "boxcar": lambda: nutik.boxcar(0, 1), "shutter": lambda: nutik.shutter("gaussian", 0, 1, error=1e-4),
-    "fit": lambda: nutik.fit(lambda t: np.sin(40 * t), 0, 1), "parse_functions": lambda: nutik.parse_functions(ramp.text()),
+    "fit": lambda: nutik.fit(lambda t: np.sin(40 * t), 0, 1),
+    "parse_functions": lambda: nutik.parse_functions(ramp.text()),
     "write_functions": lambda: nutik.write_functions(folder + "/ramp.fn", {{0: ramp}}),
     "read_functions": lambda: nutik.read_functions(folder + "/ramp.fn"), "devices": nutik.devices,
     "read_mask": lambda: nutik.read_mask(folder + "/mask.png"),
-    "Function.from_ns": lambda: nutik.Function.from_ns(ramp.times_ns, ramp.gains), "Function.shifted": lambda: ramp.shifted(1),
+    "Function.from_ns": lambda: nutik.Function.from_ns(ramp.times_ns, ramp.gains),
+    "Function.shifted": lambda: ramp.shifted(1),
     "Function.scaled": lambda: ramp.scaled(2), "Function.text": ramp.text, "Function.plot": lambda: ramp.plot(Axes()),
     "Trace.plot": lambda: trace.plot(Axes()), "Activity.plot": lambda: activity.plot(Axes()),
     "Mask.share": lambda: mask.share(3), "Picture.write": lambda: picture.write(io.BytesIO(), kind=".tif"),

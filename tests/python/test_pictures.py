@@ -1,4 +1,4 @@
-"""A picture from Python is the command line's, bit for bit: codes and light, in every arithmetic, through every mask."""
+"""A picture from Python is the command line's, bit for bit: codes and light, in every arithmetic, every mask."""
 
 import json
 import pickle
@@ -91,7 +91,8 @@ class Pictures(support.TestCase):
     def test_delays_that_are_none(self):
         for delay, said in (("rows", "does not say where and by how much"), (np.zeros((3, 4)), "3 x 4|4 x 3"),
                             (np.full(self.tags.shape, np.nan), "no number of seconds"),
-                            (np.full(self.tags.shape, 200_000, "timedelta64[D]"), "126 years"), (np.zeros(5), "two axes"),
+                            (np.full(self.tags.shape, 200_000, "timedelta64[D]"), "126 years"),
+                            (np.zeros(5), "two axes"),
                             (np.zeros(self.tags.shape, bool), "dtype bool")):
             with self.subTest(delay=str(delay)), self.assertRaisesRegex(nutik.Error, said):
                 self.capture.render(start="5ms", exposure="12ms", delay=delay)
@@ -116,7 +117,8 @@ class Pictures(support.TestCase):
         pictures = support.moving_box(channels=1, dtype=np.uint16)
         self.capture = nutik.encode(pictures, self.path("clip.tik"), rate="30000/1001")
         self.assertEqual(self.capture.facts[2], "transfer linear, assumed")
-        picture = self.check(["--start", "3f", "--exposure", "8f"], "picture.pgm", start="3f", exposure="8f", codes=True)
+        picture = self.check(["--start", "3f", "--exposure", "8f"], "picture.pgm", start="3f", exposure="8f",
+                             codes=True)
         self.assertEqual(picture.dtype, np.uint16)
         self.check(["--start", "3f", "--exposure", "8f"], "light.pfm", start="3f", exposure="8f")
 
@@ -219,7 +221,8 @@ class Pictures(support.TestCase):
         found = self.assert_raises(nutik.InputError, ["128, 255; give each one", "unmapped='zero'"], render,
                                    {0: [(0, 1)]}, self.tags)
         self.assertEqual(found.settings, ("unmapped='zero'",))
-        self.assert_raises(nutik.InputError, "more than all", nutik.Mask.of_layers, {1: np.ones((2, 2)), 2: np.ones((2, 2))})
+        self.assert_raises(nutik.InputError, "more than all", nutik.Mask.of_layers,
+                           {1: np.ones((2, 2)), 2: np.ones((2, 2))})
         self.assert_raises(usage, "0 ... 255", nutik.Mask, np.full((2, 2), 256))
         self.assert_raises(usage, "outside 0 ... 1", nutik.Mask.of_layers, {1: np.full((2, 2), 1.5)})
 
@@ -228,8 +231,10 @@ class Pictures(support.TestCase):
         light, box = render(exposure="5ms"), nutik.boxcar(0, "5ms")
         for name in ("light.png", "light.jpg", "light.ppm"):
             self.assert_raises(usage, [name, "codes=True"], light.write, self.path(name))
-            self.assert_raises(usage, [name, "codes=True"], render(exposure="5ms", dtype=np.float64).write, self.path(name))
-        self.assert_raises(usage, ["2 functions", "{tag: function}", "with mask= say which"], render, [box, box], mask=self.tags)
+            self.assert_raises(usage, [name, "codes=True"], render(exposure="5ms", dtype=np.float64).write,
+                               self.path(name))
+        self.assert_raises(usage, ["2 functions", "{tag: function}", "with mask= say which"], render, [box, box],
+                           mask=self.tags)
         self.assert_raises(usage, ["2 functions", "render_many()"], render, [box, box])
         self.assert_raises(usage, ["{tag: function} for each", "takes a list"], many, {0: box, 128: box, 255: box},
                            mask=self.tags)
@@ -270,7 +275,8 @@ class Pictures(support.TestCase):
                 warnings.simplefilter("ignore")
                 self.capture.render(wild, **asked)
                 for call, functions in ((self.capture.render, wild), (self.capture.render_many, [wild] * 2)):
-                    raised = self.assert_raises(nutik.ImpreciseError, "0.5 of a code", call, functions, strict=True, **asked)
+                    raised = self.assert_raises(nutik.ImpreciseError, "0.5 of a code", call, functions, strict=True,
+                                                **asked)
                     self.assertIsInstance(raised, ArithmeticError)
 
     def test_many_in_one_call(self):
@@ -281,7 +287,8 @@ class Pictures(support.TestCase):
         for capture in (small, grey, self.capture, nutik.open(self.path("clip.tik"), renderer="reference")):
             for asked in (dict(starts=starts, exposures=lengths), dict(starts=starts, exposures="5ms", shutter="hann"),
                           dict(starts="1/960s", exposures=list(lengths)), dict(functions=functions)):
-                for output in (dict(), dict(dtype=np.float64), dict(codes=True), dict(region=(3, 2, 9, 5), precision="double")):
+                for output in (dict(), dict(dtype=np.float64), dict(codes=True),
+                               dict(region=(3, 2, 9, 5), precision="double")):
                     many = capture.render_many(**asked, **output)
                     self.assertEqual(len(many), 30)
                     self.assertFalse(many.array.flags.writeable)

@@ -61,7 +61,8 @@ class Plugins(support.TestCase):
         many = self.capture.render_many(starts=[0, 0.01], exposures="20ms", region=region["region"])
         for each in (picture, pickle.loads(pickle.dumps(picture)), copy.deepcopy(picture), many):
             array = each.to_xarray()
-            self.assertEqual((array["x"].values.tolist(), array["y"].values.tolist()), ([5, 6, 7, 8], [3, 4, 5, 6, 7, 8]))
+            self.assertEqual((array["x"].values.tolist(), array["y"].values.tolist()),
+                             ([5, 6, 7, 8], [3, 4, 5, 6, 7, 8]))
         whole = self.capture.render(exposure="20ms").to_xarray()
         self.assert_same(whole.sel(x=7, y=5).values, picture.to_xarray().sel(x=7, y=5).values)
 

@@ -66,7 +66,8 @@ for _ in range(3):
 started.wait()
 time.sleep(0.2)
 """
-WORKS = ['capture.render(exposure="40f")', 'nutik.encode(pictures, rate=100)', 'capture.activity()', 'capture.background()',
+WORKS = ['capture.render(exposure="40f")', 'nutik.encode(pictures, rate=100)', 'capture.activity()',
+         'capture.background()',
          'capture.trace(tag=0, functions=[(0, 1), (0.4, 1)], mask=np.zeros((128, 128), np.uint8))',
          'capture.trace(3, 4, start=0, exposure="40f", progress=busy)',
          'blocks.trace(3, 4, start=0, exposure="40f", progress=busy)',

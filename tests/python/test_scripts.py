@@ -30,7 +30,8 @@ class Numbers(support.TestCase):
         self.assertEqual(self.encoded(rate=np.float32(29.97)).rate, Fraction(2997, 100))
 
     def test_a_rate_that_is_a_quotient_is_that_quotient(self):
-        for rate, wanted in ((1000 / 3, Fraction(1000, 3)), (1 / 0.0003, Fraction(10_000, 3)), (24 / 1.001, Fraction(24_000, 1001)),
+        for rate, wanted in ((1000 / 3, Fraction(1000, 3)), (1 / 0.0003, Fraction(10_000, 3)),
+                             (24 / 1.001, Fraction(24_000, 1001)),
                              (np.float64(1000 / 7), Fraction(1000, 7))):
             self.assertEqual(self.encoded(rate=rate).rate, wanted)
         self.assert_raises(nutik.UsageError, "15 digits", self.encoded, rate=Fraction(10 ** 16, 3))
@@ -54,7 +55,8 @@ class Numbers(support.TestCase):
 
     def test_an_exposure_lasts_longer_than_nothing(self):
         for exposures in (-1, 0, "-1s", np.timedelta64(0, "ms")):
-            self.assert_raises(nutik.UsageError, ["exposures", "longer than 0"], self.encoded, rate=1, exposures=exposures)
+            self.assert_raises(nutik.UsageError, ["exposures", "longer than 0"], self.encoded, rate=1,
+                               exposures=exposures)
         self.assert_raises(nutik.UsageError, ["exposures[2]", "longer than 0"], self.encoded, times=[0, 1, 2, 3],
                            exposures=[1, 1, -1, 1])
 
@@ -105,7 +107,8 @@ class Arrays(support.TestCase):
         for shape in ((150, 17, 21), (150, 17, 21, 3)):
             pictures = np.repeat(rng.integers(0, 256, (30, *shape[1:]), np.uint8), 5, axis=0)
             pictures[:, 8:] = pictures[0, 8:]
-            capture = nutik.encode(pictures, times=np.cumsum(rng.integers(1, 9, 150)) / 1000, exposures=1e-4, block_samples=64)
+            capture = nutik.encode(pictures, times=np.cumsum(rng.integers(1, 9, 150)) / 1000, exposures=1e-4,
+                                   block_samples=64)
             begins = capture.times_ns[:, 0]
             first, last = 33, 149
             records = capture.records((2, 3, 9, 11), first=first, last=last)
@@ -132,13 +135,15 @@ class Arrays(support.TestCase):
                                      0.5 / 65535 + 1e-12)
                 self.assertIn("transfer linear, assumed", capture.facts)
         for wrong in (light - 0.1, light * 3, np.where(light > 0.4, np.nan, light)):
-            self.assert_raises(nutik.InputError, ["0 and white=1", "larger white"], nutik.encode, wrong, rate=1, white=1)
+            self.assert_raises(nutik.InputError, ["0 and white=1", "larger white"], nutik.encode, wrong, rate=1,
+                               white=1)
         self.assert_raises(nutik.UsageError, "white=1.0", nutik.encode, light, rate=1)
         self.assert_raises(nutik.UsageError, "white=1.0", nutik.encode, light, rate=1, white=np.inf)
         mixed = [np.zeros((8, 12), np.uint16), np.zeros((8, 12))]
         for pictures in (mixed, mixed[::-1]):
             self.assert_raises(nutik.InputError, "some pictures are codes", nutik.encode, pictures, rate=1, white=1)
-        self.assert_raises(nutik.UsageError, "a capture already", nutik.encode, nutik.encode(light, rate=1, white=1), rate=1)
+        self.assert_raises(nutik.UsageError, "a capture already", nutik.encode, nutik.encode(light, rate=1, white=1),
+                           rate=1)
 
     def test_other_orders_of_bytes_and_dlpack(self):
         pictures = support.moving_box().astype(np.uint16) * 200
@@ -159,7 +164,8 @@ class Arrays(support.TestCase):
         with open(self.path("a.tik"), "rb") as file:
             bytes_of_capture = file.read()
         self.assert_same(np.asarray(nutik.open(io.BytesIO(bytes_of_capture))), pictures)
-        self.assert_same(np.asarray(nutik.encode(io.BytesIO(b"P5 3 2 255\n" + bytes(6)), rate=1)), np.zeros((1, 2, 3), np.uint8))
+        self.assert_same(np.asarray(nutik.encode(io.BytesIO(b"P5 3 2 255\n" + bytes(6)), rate=1)),
+                         np.zeros((1, 2, 3), np.uint8))
         picture = nutik.open(self.path("a.tik")).render(exposure="3f", dtype=float)
         file = io.BytesIO()
         picture.write(file, kind=".npy")
@@ -167,7 +173,8 @@ class Arrays(support.TestCase):
         self.assert_same(np.load(file), picture.array)
         picture.write(self.path("p.npy"))
         self.assert_same(np.load(self.path("p.npy")), picture.array)
-        self.assert_raises(nutik.OutputError, ["p.npy cannot be", "no folder"], picture.write, self.path("absent/p.npy"))
+        self.assert_raises(nutik.OutputError, ["p.npy cannot be", "no folder"], picture.write,
+                           self.path("absent/p.npy"))
         self.assert_raises(nutik.UsageError, "kind='.png'", picture.write, file)
 
     def test_what_notebooks_show(self):
@@ -223,7 +230,8 @@ class Copies(support.TestCase):
         function = nutik.shutter("hann", 0, "10ms")
         soft = nutik.Mask(support.tags()).feathered(3)
         made = [function, nutik.Mask(support.tags()), soft, capture.render(exposure="3f"),
-                capture.render(exposure="3f", codes=True), capture.render(exposure="3f", dtype=np.float64), capture.background()]
+                capture.render(exposure="3f", codes=True), capture.render(exposure="3f", dtype=np.float64),
+                capture.background()]
         for given in made:
             for copied in (pickle.loads(pickle.dumps(given)), copy.deepcopy(given), copy.copy(given)):
                 self.assertIs(type(copied), type(given))
@@ -279,7 +287,8 @@ class Errors(support.TestCase):
     def test_a_wrong_type_is_a_typeerror_too(self):
         capture = nutik.encode(support.moving_box(), rate=960)
         for call in (lambda: nutik.encode(3, rate=1), lambda: nutik.encode(support.moving_box(), rate=[1]),
-                     lambda: capture.render(start=object(), exposure="1f"), lambda: capture.trace("x", "y", exposure="1f"),
+                     lambda: capture.render(start=object(), exposure="1f"),
+                     lambda: capture.trace("x", "y", exposure="1f"),
                      lambda: capture.background(by=1.5)):
             with self.assertRaises(TypeError) as raised:
                 call()
@@ -333,7 +342,8 @@ class Wheels(support.TestCase):
             shutil.copy(ROOT / part, self.folder)
         fake = self.folder / "bin" / "cmake"
         fake.parent.mkdir()
-        fake.write_text('#!/bin/sh\necho "$@" >>calls\nmkdir -p build-python\ntouch build-python/CMakeCache.txt\nexit 1\n')
+        fake.write_text('#!/bin/sh\necho "$@" >>calls\nmkdir -p build-python\n'
+                        'touch build-python/CMakeCache.txt\nexit 1\n')
         fake.chmod(0o755)
         environment = {**os.environ, "PATH": f"{fake.parent}:{os.environ['PATH']}"}
         environment.pop("NUTIK_BUILD_DIR", None)
@@ -344,7 +354,8 @@ class Wheels(support.TestCase):
             self.assertNotIn("Traceback", done.stderr)
             self.assertIn("cmake", done.stderr)
         calls = (self.folder / "calls").read_text().splitlines()
-        self.assertEqual([call.split()[0] for call in calls], ["--preset", "--preset"], "it went on without build.ninja")
+        self.assertEqual([call.split()[0] for call in calls], ["--preset", "--preset"],
+                         "it went on without build.ninja")
 
 
 if __name__ == "__main__":

@@ -65,7 +65,8 @@ class Stubs(unittest.TestCase):
 
     def check_class(self, stub, real, name):
         if issubclass(real, Exception):
-            self.assertEqual([ast.unparse(base) for base in stub.bases], [base.__name__ for base in real.__bases__], name)
+            self.assertEqual([ast.unparse(base) for base in stub.bases], [base.__name__ for base in real.__bases__],
+                             name)
             return
         members = stubs_of(stub.body)
         there = {each for each in vars(real) if not each.startswith("_") or each == "__init__"}
@@ -94,7 +95,8 @@ class Stubs(unittest.TestCase):
                 for argument in inspect.signature(function).parameters:
                     self.assertTrue(argument in hints or argument == "self", f"{name}.{part}: {argument} has no type")
                 self.assertIn("return", hints, f"{name}.{part}")
-        public = {each for each in vars(nutik) if not each.startswith("_") and not inspect.ismodule(getattr(nutik, each))}
+        public = {each for each in vars(nutik) if not each.startswith("_")
+                  and not inspect.ismodule(getattr(nutik, each))}
         self.assertEqual(public, set(nutik.__all__) - {"__version__"})
         self.assertTrue(Path(nutik.__file__).with_name("py.typed").exists())
 
@@ -102,7 +104,8 @@ class Stubs(unittest.TestCase):
         stated = set()
         for function in (nutik.open, nutik.encode):
             stated |= set(inspect.signature(function).parameters)
-        besides = {"path", "source", "output", "times", "exposures", "name", "device", "memory", "renderer", "progress", "clip"}
+        besides = {"path", "source", "output", "times", "exposures", "name", "device", "memory", "renderer", "progress",
+                   "clip"}
         rows = _nutik.described("encode")[2]
         self.assertEqual(stated - besides, {name for name, row in rows.items() if row[3]})
 
@@ -143,7 +146,9 @@ class Stubs(unittest.TestCase):
             for part, function in members:
                 with self.subTest(part):
                     doc = inspect.cleandoc(function.__doc__)
-                    sections = dict(zip(*[iter(re.split(r"^(\w+)\n-+\n", doc, flags=re.MULTILINE)[1:])] * 2))
+                    parts = re.split(r"^(\w+)\n-+\n", doc, flags=re.MULTILINE)[1:]
+                    self.assertEqual(len(set(parts[::2])), len(parts[::2]), parts[::2])
+                    sections = dict(zip(*[iter(parts)] * 2))
                     signature = inspect.signature(function)
                     arguments = [each for each in signature.parameters if each not in ("self", "cls")]
                     for argument in arguments:
@@ -163,7 +168,8 @@ class Stubs(unittest.TestCase):
         self.assertNotRegex(Path(nutik.__file__).with_name("_nutik.pyi").read_text(), r"\bAny\b")
         for name in nutik.__all__:
             offered = getattr(nutik, name)
-            functions = [(name, offered)] if inspect.isfunction(offered) else inspect.getmembers(offered, inspect.isfunction)
+            functions = [(name, offered)] if inspect.isfunction(offered) else inspect.getmembers(
+                offered, inspect.isfunction)
             for part, function in functions:
                 if not part.startswith("_") or part in ("__init__", "__getitem__", "__call__", "__iter__", "__array__"):
                     for argument, kind in function.__annotations__.items():
@@ -189,8 +195,8 @@ class Stubs(unittest.TestCase):
             # matplotlib of Debian 12 has no types.
             (Path(folder) / "mypy.ini").write_text("[mypy]\n[mypy-matplotlib.*]\nignore_missing_imports = True\n")
             for checked in ([str(root / "python/nutik")], [str(Path(folder) / name) for name in scripts]):
-                done = subprocess.run(["mypy", "--strict", "--python-executable", sys.executable, "--cache-dir", f"{folder}/cache",
-                                       *checked], capture_output=True, text=True, cwd=folder,
+                done = subprocess.run(["mypy", "--strict", "--python-executable", sys.executable, "--cache-dir",
+                                       f"{folder}/cache", *checked], capture_output=True, text=True, cwd=folder,
                                       env={**os.environ, "MYPYPATH": str(root / "python")})
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 

@@ -90,9 +90,12 @@ const Option* option_of(CommandId command, std::string_view long_name) {
 }
 
 const Option* option_of_argument(CommandId command, std::string_view name) {
+  std::string old_name(name);
+  std::ranges::replace(old_name, '_', '-');
   return first_option([&](const Option& option) {
     const std::string written = option.written(Dialect::python);
-    return option.is_of(command) && written.substr(0, written.find('=')) == name;
+    const bool is_old = old_name == option.old_name && !name.empty();
+    return option.is_of(command) && (is_old || written.substr(0, written.find('=')) == name);
   });
 }
 
