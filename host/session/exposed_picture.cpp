@@ -41,6 +41,10 @@ ExposureFigures ExposureFigures::of(RenderPlan&& plan, const Timeline& timeline,
   figures.table_bytes = 2 * plan.row_count() * plan.function_count() * sizeof(double);
   figures.map_bytes = plan.map->bytes();
   figures.combine = plan.combine;
+  for (const PlannedFunction& function : plan.functions) {
+    figures.error_scale = std::max(figures.error_scale, nutik::error_scale(function, plan.combine));
+    figures.times_error = std::max(figures.times_error, nutik::times_error(function, timeline));
+  }
   figures.functions = plan.map->has_delays() ? by_mask_value(plan) : std::move(plan.functions);
   for (PlannedFunction& function : figures.functions) function.table.reset();  // its memory is the session's
   return figures;

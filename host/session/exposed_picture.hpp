@@ -27,6 +27,8 @@ struct ExposureFigures {
   std::uint64_t table_bytes = 0;  // of gains
   std::uint64_t map_bytes = 0;    // of functions by pixel
   Combine combine = Combine::integral;
+  // The largest of any function, each with its own delay: S, and what rounding of times costs.
+  double error_scale = 0.0, times_error = 0.0;
 
   // Takes the functions out of the plan.
   static ExposureFigures of(RenderPlan&& plan, const Timeline& timeline,

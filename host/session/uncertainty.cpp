@@ -42,13 +42,6 @@ std::optional<PictureError> rounding_of(const ExposedPicture& exposed, double sc
   return PictureError{making.white_light * light_within(making.transfer, half_code), 0.5};
 }
 
-double times_of(const ExposureFigures& figures) {
-  double largest = 0.0;
-  for (const PlannedFunction& function : figures.functions)
-    largest = std::max(largest, times_error(function, figures.timeline));
-  return largest;
-}
-
 // What codes are off by where off_of(light, light behind it) costs most of a mean of samples between these.
 template <typename OffOf>
 double largest_codes(const CodeErrors& codes, const Transfer& captured, double scale, OffOf off_of) {
@@ -209,9 +202,7 @@ Uncertainty Uncertainty::of(const ExposedPicture& exposed, const CaptureErrors& 
   Uncertainty uncertainty;
   const ExposureFigures& figures = exposed.figures;
   const bool adds_up = figures.combine == Combine::integral;
-  for (const PlannedFunction& function : figures.functions)
-    uncertainty.scale = std::max(uncertainty.scale, error_scale(function, figures.combine));
-  const double scale = uncertainty.scale;
+  const double scale = uncertainty.scale = figures.error_scale;
   const auto add = [&](std::string_view name, Is is, const PictureError& error) {
     if (error.light > 0.0) uncertainty.terms.push_back({name, is, error});
     return error.light;
@@ -239,7 +230,7 @@ Uncertainty Uncertainty::of(const ExposedPicture& exposed, const CaptureErrors& 
   };
   add_by_light("rounded_codes", capture.rounded, rounded);
   add_by_light("held_samples", capture.held, held);
-  if (adds_up) others += add("times", Is::bound, error_of(exposed, scale, times_of(figures)));
+  if (adds_up) others += add("times", Is::bound, error_of(exposed, scale, figures.times_error));
   PictureError sum;
   for (const UncertaintyTerm& term : uncertainty.terms) {
     sum.light += term.error->light;

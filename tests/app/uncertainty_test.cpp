@@ -127,6 +127,8 @@ TEST_F(UncertaintyOf, CombinedLightIsAsLargeAsTheLargestGain) {
   EXPECT_LT(std::ranges::max(layers[1]), 1e-9f) << "nothing is added up";
   EXPECT_NEAR(std::ranges::max(layers[3]), 2.0f, 0.8f);
   expect_refused("--start 0s --exposure 0.1s --bounds tif:- clip.tik b.png", 2, "standard output has one picture");
+  expect_refused("--start 0s --exposure 0.1s --bounds m.npy clip.tik b.jpg", 2, "b.jpg loses more than a map counts");
+  expect_refused("--start 0s --exposure 0.1s --bounds m.npy --depth half clip.tik b.exr", 2, "--depth half loses more");
 }
 
 TEST_F(UncertaintyOf, FloatsAreInStepsAndTheReferenceHasTheLeast) {

@@ -154,6 +154,24 @@ TEST_P(Ramps, CombinedSamplesAreNoFurtherFromTheFilmedOnes) {
   EXPECT_GT(most, 0.7);
 }
 
+// A function that is held behind its end weighs more where it comes earlier: the row that is exposed first has the most
+// light.
+TEST_P(Ramps, HeldEndsOfDelayedFunctionsCountWhereTheyWeighMost) {
+  Session held = session(GetParam()), filmed = session(0);
+  const FunctionSet functions{{0, GainFunction({{0, 0.001}, {3 * kSampleNs, 0.001}, {3 * kSampleNs + 100'000, 1.0}})}};
+  PlanOptions options;
+  options.transfer = Transfer::linear();
+  options.delays = std::make_shared<const DelayMap>(DelayMap::by_rows({16, 16, 1}, {0, -5 * kSampleNs / 2}));
+  CaptureFormat capture = held.format();
+  capture.transfer = *options.transfer;
+  OutputFormat output;
+  output.maps_bounds = true;
+  const ExposedPicture picture = held.render(functions, Mask::uniform(16, 16, 0), options, output);
+  const Picture light = filmed.render(functions, Mask::uniform(16, 16, 0), options, {ValueType::light64, 0}).picture;
+  EXPECT_GT(share_of_map(picture, light, capture, "held"), 0.4);
+  EXPECT_GE(picture.uncertainty.scale, std::ranges::max(light.values<double>()));
+}
+
 INSTANTIATE_TEST_SUITE_P(Tolerances, Ramps, ::testing::Values(1u, 4u, 8u));
 
 // 64 colours of BT.2020, shown in BT.709's primaries, which mix their errors: by the light of all three channels.

@@ -4,6 +4,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/schema/option.hpp"
+#include "media/formats/extension.hpp"
 #include "media/formats/numbered_name.hpp"
 #include "media/stills/still_sequence.hpp"
 #include "media/writers/picture_writer.hpp"
@@ -52,6 +53,7 @@ bool writes_to_standard_output(const Options& options) {
 BoundsMaps::BoundsMaps(const Options& options, bool has_many, std::string_view who) {
   if (!options.picture.bounds) return;
   stated_ = *options.picture.bounds;
+  is_half_ = options.picture.depth == Depth::half;
   if (names_standard_output(*stated_)) throw UsageError("--bounds writes a file: standard output has one picture");
   static_cast<void>(value_type_for(*stated_, Depth::floating, ValueType::light32, 1));
   if (has_many) names_.emplace(*stated_, who);
@@ -62,6 +64,10 @@ BoundsMaps::BoundsMaps(const Options& options, bool has_many, std::string_view w
 void BoundsMaps::check(std::uint64_t number, std::vector<std::string> inputs, const std::filesystem::path& picture,
                        Replacing replacing) const {
   if (!stated_) return;
+  if (const std::string kind = extension_of(picture); is_half_ || kind == ".jpg" || kind == ".jpeg") {
+    throw UsageError(format("--bounds: {} loses more than a map counts; write a .png, a .tif, or floats of 32 bits",
+                            is_half_ ? "--depth half" : picture.string()));
+  }
   inputs.push_back(picture.string());
   check_output(of(number), OutputKind::picture, inputs, replacing);
 }

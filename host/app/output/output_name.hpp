@@ -58,7 +58,8 @@ class BoundsMaps {
   [[nodiscard]] std::string name_of(std::uint64_t number) const {
     return stated_ ? of(number).filename().string() : std::string();
   }
-  // Throws UsageError where it is an input or the picture itself, or may not be replaced.
+  // Throws UsageError where it is an input or the picture itself, or may not be replaced; where the picture's kind loses
+  // more than is counted.
   void check(std::uint64_t number, std::vector<std::string> inputs, const std::filesystem::path& picture,
              Replacing replacing) const;
   // Where it is asked for. Throws OutputError.
@@ -67,6 +68,7 @@ class BoundsMaps {
  private:
   std::optional<std::filesystem::path> stated_;
   std::optional<PictureNames> names_;
+  bool is_half_ = false;  // pictures of which lose more
 };
 
 // The files that a command reads, each still of a sequence among them: no output may replace one. Its first operand is
