@@ -290,8 +290,7 @@ class Capture:
         return picture
 
     def render_many(self, functions: Union[Sequence[Functions], NDArray[np.float32], NDArray[np.float64], None] = None,
-                    mask: Optional[MaskLike] = None, *,
-                    starts: Union[Time, Iterable[Time], None] = None,
+                    mask: Optional[MaskLike] = None, *, starts: Union[Time, Iterable[Time], None] = None,
                     exposures: Union[Time, Iterable[Time], None] = None, shutter: Optional[str] = None,
                     shutter_error: Optional[float] = None, feather: Union[str, float, None] = None,
                     delay: Optional[DelayLike] = None, normalize: str = "support", gain: float = 1.0,
@@ -454,9 +453,8 @@ class Capture:
         return Study(Picture(told["picture"]), None if told["mask"] is None else Mask._of(told["mask"]),
                      {tag: Function._of(held) for tag, held in told["functions"].items()}, told["moments"])
 
-    def solve(self, functions: str, wishes: Sequence[str], *,
-              free: Mapping[str, Union[str, Sequence[Time]]] = {}, mask: Optional[MaskLike] = None,
-              regions: Optional[MaskLike] = None, start: Optional[Time] = None,
+    def solve(self, functions: str, wishes: Sequence[str], *, free: Mapping[str, Union[str, Sequence[Time]]] = {},
+              mask: Optional[MaskLike] = None, regions: Optional[MaskLike] = None, start: Optional[Time] = None,
               feather: Union[str, float, None] = None, normalize: str = "support", gain: float = 1.0,
               unmapped: Optional[str] = None, progress: Progress = None) -> Solution:
         """Gains and times that make a picture as it is wished (docs/how-to/solve.md).

@@ -47,12 +47,10 @@ def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_
          end: Optional[Time] = None, crop: Union[str, Sequence[int], None] = None, scale: Optional[str] = None,
          deinterlace: Optional[str] = None, ignore_errors: bool = False, align: Optional[str] = None,
          align_to: Optional[Time] = None, align_along: Optional[Path] = None, unseen: Optional[str] = None,
-         deflicker: bool = False, between: Union[int, str, None] = None,
-         tolerance: Optional[int] = None, noise: Optional[Path] = None, sigmas: Optional[float] = None,
-         contrast: Union[str, Number, None] = None, start_picture: Union[Path, Number, None] = None,
-         tick: Optional[Time] = None,
-         device: Optional[str] = None, memory: Union[int, str, None] = None, renderer: Optional[str] = None,
-         progress: Progress = None) -> Capture:
+         deflicker: bool = False, between: Union[int, str, None] = None, tolerance: Optional[int] = None,
+         noise: Optional[Path] = None, sigmas: Optional[float] = None, contrast: Union[str, Number, None] = None,
+         start_picture: Union[Path, Number, None] = None, tick: Optional[Time] = None, device: Optional[str] = None,
+         memory: Union[int, str, None] = None, renderer: Optional[str] = None, progress: Progress = None) -> Capture:
     """Opens a capture (.tik), or a clip, which is encoded into a temporary capture first: a video, a folder of stills,
     'frames/*.png', a table of stills (docs/reference/input.md); or what is open for bytes, as io.BytesIO.
 
@@ -81,13 +79,12 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
            times: Optional[Iterable[Time]] = None, exposures: Union[Time, Iterable[Time], None] = None,
            shutter_angle: Optional[Number] = None, transfer: Optional[str] = None, white: Optional[float] = None,
            primaries: Optional[str] = None, pixel_aspect: Union[str, Number, None] = None, deflicker: bool = False,
-           between: Union[int, str, None] = None,
-           align: Optional[str] = None, align_to: Optional[Time] = None, align_along: Optional[Path] = None,
-           unseen: Optional[str] = None,
-           tolerance: Optional[int] = None, noise: Optional[Path] = None, sigmas: Optional[float] = None,
-           codec: str = "rice", tiles: Optional[str] = None, block_samples: Optional[int] = None,
-           device: Optional[str] = None, memory: Union[int, str, None] = None, renderer: Optional[str] = None,
-           progress: Progress = None, name: str = "array", **clip: object) -> Capture:
+           between: Union[int, str, None] = None, align: Optional[str] = None, align_to: Optional[Time] = None,
+           align_along: Optional[Path] = None, unseen: Optional[str] = None, tolerance: Optional[int] = None,
+           noise: Optional[Path] = None, sigmas: Optional[float] = None, codec: str = "rice",
+           tiles: Optional[str] = None, block_samples: Optional[int] = None, device: Optional[str] = None,
+           memory: Union[int, str, None] = None, renderer: Optional[str] = None, progress: Progress = None,
+           name: str = "array", **clip: object) -> Capture:
     """Makes a capture of pictures, and opens it.
 
     Parameters:

@@ -102,8 +102,7 @@ void bind_functions(py::module_& module) {
   module.def("parse_functions", [](const std::string& text, const std::string& title) {
     return told_of(read_functions(text, title));
   }, "text"_a, "title"_a);
-  module.def("read_functions", [](const std::string& name) { return told_of(read_function_input(name)); },
-             "path"_a);
+  module.def("read_functions", [](const std::string& name) { return told_of(read_function_input(name)); }, "path"_a);
   module.def("write_text", [](const std::string& path, const std::string& text) { write_text(path, text); },
              "path"_a, "text"_a);
   module.def("interval_ns", &interval_ns, "start"_a, "length"_a);

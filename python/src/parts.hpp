@@ -92,8 +92,7 @@ struct PictureNotes {
 };
 // An array [samples, height, width(, 3)] of uint8 or uint16, however it is strided, which is read where it lies,
 // without Python's lock, and lives as long as the clip.
-[[nodiscard]] OpenClip open_array(const py::array& pictures, PictureNotes notes, ClipOptions options,
-                                  std::string name);
+[[nodiscard]] OpenClip open_array(const py::array& pictures, PictureNotes notes, ClipOptions options, std::string name);
 // Such pictures one by one, all of one shape; to be opened once. It is called with the lock held, on the thread that
 // reads, and what it raises comes back to the caller.
 [[nodiscard]] OpenClip open_iterator(const py::iterator& pictures, PictureNotes notes, ClipOptions options,

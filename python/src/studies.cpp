@@ -38,8 +38,7 @@ StudyRequest study_request(const Settings& settings, const std::optional<Moments
 }
 
 // A study of a capture as it is, whose pictures lie on each other.
-py::dict study(const OpenCapture& capture, const Settings& settings,
-               const std::optional<Moments>& moments,
+py::dict study(const OpenCapture& capture, const Settings& settings, const std::optional<Moments>& moments,
                const std::vector<std::array<std::uint32_t, 4>>& regions, const Settings& output,
                const py::object& progress) {
   Session& session = *capture.session;
@@ -60,8 +59,7 @@ py::dict study(const OpenCapture& capture, const Settings& settings,
     }
     RenderControl control;
     control.stop = stopping.stop;
-    found.exposed =
-        session.render(study_exposure(found.study, request), format, control);
+    found.exposed = session.render(study_exposure(found.study, request), format, control);
     return found;
   }, progress);
   py::object mask = py::none();
@@ -117,8 +115,7 @@ py::dict activity(const OpenCapture& capture, const std::optional<HeldMask>& mas
   request.ignored_codes = ignored_codes;
   request.counts_redrawn = counts_redrawn;
   const MeasuredActivity measured = without_lock(
-      [&](const Stopping& stopping) { return measure_activity(session, request, stopping.progress()); },
-      progress);
+      [&](const Stopping& stopping) { return measure_activity(session, request, stopping.progress()); }, progress);
   const Shape& shape = capture.shape();
   return py::dict(
       "changed_pixels"_a = array_of(measured.activity.changed_pixels()),
@@ -170,8 +167,7 @@ py::dict solve(const OpenCapture& capture, const std::string& functions,
   if (!input.warnings.empty()) warnings.insert(warnings.begin(), input.warnings);
   return py::dict("text"_a = solved.text, "gains"_a = gains, "times_ns"_a = times, "wishes"_a = kept,
                   "untold"_a = untold, "open_count"_a = solved.open_count, "tried"_a = solved.tried,
-                  "cost"_a = solved.cost(),
-                  "is_kept"_a = solved.is_kept(), "warnings"_a = warnings);
+                  "cost"_a = solved.cost(), "is_kept"_a = solved.is_kept(), "warnings"_a = warnings);
 }
 
 }  // namespace
