@@ -28,7 +28,8 @@ struct BetweenRequest {
   friend bool operator==(const BetweenRequest&, const BetweenRequest&) = default;
 };
 
-// `auto`, `off`, or a number from 1 to MadeSamples::kMost; `auto:10f..20f` between these pictures alone. Throws UsageError.
+// `auto`, `off`, or a number from 1 to MadeSamples::kMost; `auto:10f..20f` between these pictures alone. Throws
+// UsageError.
 [[nodiscard]] std::optional<BetweenRequest> parse_between(std::string_view text);
 
 struct ClipToFill {

@@ -1,6 +1,6 @@
 // Codes as light of single precision, and light as the code next to it: many at once, by tables.
 //
-//   always:  the code of a light is that of LightCodes, which takes one at a time. Light of white is kWhite, so that the
+//   always:  the code of a light is that of LightCodes, which takes one at a time. White's light is kWhite, so that the
 //            darkest codes of any transfer function are normal singles
 #pragma once
 
@@ -30,7 +30,8 @@ class LightTables {
 
  private:
   std::vector<float> light_;  // of each code
-  // Of singles that share all bits but the last: their first code, and the last bits with which the next one begins.
+  // A cell holds singles that share all bits but the last: their first code, and the last bits with which the next one
+  // begins.
   std::vector<std::uint32_t> cells_;
   std::int32_t first_cell_ = 0, cell_bits_ = 0;
 };

@@ -20,7 +20,7 @@ constexpr std::uint32_t kMaxChannels = 3;
 constexpr std::uint32_t kPartWidth = 256, kPartHeight = 64;
 constexpr std::uint64_t kMaxBoxPixels = std::uint64_t{2} * kPartWidth * kPartHeight;
 
-// Of values behind those that are asked for there may be as many as make a vector whole.
+// Behind the values that are asked for there may be as many more as make a vector whole.
 constexpr std::size_t kLightsInVector = 16, kCodesInVector = 64;
 constexpr std::size_t whole_vectors(std::size_t count, std::size_t in_vector) {
   return (count + in_vector - 1) / in_vector * in_vector;
@@ -180,7 +180,7 @@ class LightWarp::Part {
   Part(const LightWarp& whole, const Warp& warp, const Code* raster, Code* warped)
       : whole_(whole), warp_(warp), raster_(raster), warped_(warped) {}
 
-  // Of the new picture.
+  // `part` lies in the new picture.
   void move(const Rectangle& part) {
     set_spans(part);
     if (box_.pixels() <= kMaxBoxPixels) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What aligning a clip costs beside ffmpeg's decoding of it, in processor time of whole processes: encoding with each codec
-and exposing, with and without --align, and a pair of pictures with a sample made between them (--between).
+"""What aligning a clip costs beside ffmpeg's decoding of it, in processor time of whole processes: encoding with each
+codec and exposing, with and without --align, and a pair of pictures with a sample made between them (--between).
 
     tools/bench/aligning.py CLIP … [--nutik build/nutik-cl OTHER …] [--motion rigid] [--runs 7]
 
@@ -21,8 +21,8 @@ PICTURES = 20  # of which pairs are made
 def measured(clip, programs, motion, runs, folder):
     capture, picture = folder / "clip.tik", folder / "picture.png"
     ways = {"ffmpeg": ["ffmpeg", "-v", "error", "-threads", "2", "-i", clip, "-f", "null", "-"],
-            "ffmpeg to RGB": ["ffmpeg", "-v", "error", "-threads", "2", "-i", clip, "-f", "rawvideo", "-pix_fmt", "rgb24",
-                              "-y", "/dev/null"]}
+            "ffmpeg to RGB": ["ffmpeg", "-v", "error", "-threads", "2", "-i", clip, "-f", "rawvideo",
+                              "-pix_fmt", "rgb24", "-y", "/dev/null"]}
     for program in programs:
         encode = [program, "encode", "-q", "--overwrite"]
         expose = [program, "expose", "-q", "--overwrite", "--start", "0s", "--exposure", "24h"]
