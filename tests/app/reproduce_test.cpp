@@ -234,7 +234,7 @@ TEST_F(Reproduce, SaysWhereThereIsNoRecipe) {
   run("activity clip.tik chart.png");
   result = test::run_here({"reproduce", "chart.png"}, scratch_.folder());
   EXPECT_EQ(result.status, 3);
-  expect_says(result.err, "not charts, traces, masks");
+  expect_says(result.err, "not backgrounds, charts, traces, masks");
   result = test::run_here({"reproduce", "private.png", "clip.tik"}, scratch_.folder());
   EXPECT_EQ(result.status, 2);
   expect_says(result.err, "clip.tik is no folder");
