@@ -34,8 +34,8 @@ inline constexpr std::string_view kSourceClip = "The source clip", kClipCodes = 
                                   kEventRecording = "A recording of events", kMovingCamera = "A camera that moved",
                                   kComputing = "Computing", kOutputs = "Output", kSeldomNeeded = "Seldom needed";
 
-// Sets the field of Options that a value is kept in. Throws UsageError naming `what` where the word makes no sense.
 struct Option;
+// Sets the field of Options that a value is kept in. Throws UsageError naming `what` where the word makes no sense.
 using Take = void (*)(Options& options, const Option& row, std::string_view what, const std::string& word);
 
 // How options are written: `--shutter-angle`, or `shutter_angle=`.

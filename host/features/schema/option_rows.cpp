@@ -349,8 +349,7 @@ constexpr Option kRows[] = {
     heading("The study"),
     {0, "style", "NAME", subject, bit(Id::study),
      take_choice<InStudy<&StudyRequest::style>, StudyStyle::trail, StudyStyle::strobe, StudyStyle::rear_curtain,
-     StudyStyle::frozen,
-     StudyStyle::clean, StudyStyle::slit>,
+     StudyStyle::frozen, StudyStyle::clean, StudyStyle::slit>,
      "what the picture shows: trail (sharp moments over the whole way), strobe (moments alone), rear-curtain (the"
      " last moment, and a trail that grows towards it), frozen (one moment in a scene exposed for all of the "
      "time), clean (the scene without moving things) or slit (strips, each later than the one before it) "
