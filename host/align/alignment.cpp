@@ -174,10 +174,10 @@ std::string alignment_text(const CameraPath& path, const Rectangle& area, Unseen
   const std::string shown =
       unseen == Unseen::held
           ? "what a picture did not see holds what was seen there before"
-          : format("all of them saw {} x {} pixels from {},{} on", area.width, area.height, area.x, area.y);
+          : format("cropped to what all of them saw, {} x {} pixels from {},{} on", area.width, area.height, area.x, area.y);
   return format(
-      "aligned to picture {} ({}), from which others are {}; half of the texture lies within {:.2f} "
-      "pixels of that; {}",
+      "aligned to picture {} ({}), from which others are {}; after that half of the texture is at most {:.2f} pixels "
+      "off; {}",
       path.reference, to_text(path.motion), path.summary(), path.residual_pixels(), shown);
 }
 
@@ -224,9 +224,8 @@ double furthest_corner(const Warp& warp, const Shape& shape) {
 
 std::string MovedCamera::text() const {
   return format(
-      "the camera moved: at sample {} its picture lies up to {:.1f} pixels from where it lay at first, "
-      "turned by {:.2f} degrees, and still things are not still",
-      sample, pixels, degrees);
+      "the camera moved by up to {:.1f} pixels and {:.2f} degrees, most at sample {}, and still things are not still",
+      pixels, degrees, sample);
 }
 
 MemoryNeeds camera_check_needs(const CaptureFormat& capture) {

@@ -120,4 +120,10 @@ struct Cancelled : Error {
   Cancelled() : Error("it was cancelled") {}
 };
 
+// Whether a request that asks for less may be granted.
+[[nodiscard]] inline bool is_refusal(const Error& error) {
+  return dynamic_cast<const UsageError*>(&error) != nullptr || dynamic_cast<const InputError*>(&error) != nullptr ||
+         dynamic_cast<const OutputError*>(&error) != nullptr;
+}
+
 }  // namespace nutik

@@ -10,6 +10,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/seconds_text.hpp"
 #include "media/light_means.hpp"
 #include "system/input_bytes.hpp"
 
@@ -177,13 +178,16 @@ class ClipPart final : public Clip {
     const std::uint64_t count = info.sample_count;
     if (options.from) first_ = sample_of(*options.from, name_, info, options);
     if (options.to) end_ = sample_of(*options.to, name_, info, options);
-    const std::string pictures =
-        count == 0 ? "" : format(", which has {} pictures (0f … {}f)", count, count - 1);
+    std::string pictures = count == 0 ? "" : format(", which has {} pictures (0f … {}f", count, count - 1);
+    if (count > 0 && (options.rate || info.timing.is_known()))
+      pictures += format(", the last from {} on", seconds_text(Starts(name_, info, options).of(count - 1)));
+    if (count > 0) pictures += ")";
     if (count > 0 && first_ >= count) {
-      throw UsageError(format("no picture begins there in {}{}", name_, pictures), {Setting::from});
+      throw UsageError(format("no picture begins that late in {}{}", name_, pictures), {Setting::from});
     }
     if (first_ >= end_) {
-      throw UsageError(format("no picture begins between the two in {}{}", name_, pictures),
+      const std::string_view what = first_ > end_ ? "the part ends before it begins" : "no picture begins between the two";
+      throw UsageError(format("{} in {}{}", what, name_, pictures),
                        {Setting::from, Setting::to});
     }
     if (count > 0 && options.to && options.to->is_picture && end_ > count) {

@@ -47,13 +47,13 @@ void DelayedCourse::warn(std::vector<std::string>& warnings, const std::string& 
   }
   if (dark_pixels_ > 0) {
     add(format(
-        "of {} of {} pixels the delay moves the whole function outside of the capture (0 … {}); they are 0",
+        "for {} of {} pixels the delay moves the whole function outside of the capture (0 … {}); they are 0",
         dark_pixels_, pixels_, end));
   }
   const auto add_part = [&](std::uint64_t pixels, const std::string& where) {
     if (pixels == 0) return;
     add(
-        format("of {} of {} pixels the delay moves a part of the function {}; nothing is added there, though "
+        format("for {} of {} pixels the delay moves a part of the function {}; nothing is added there, though "
                "D counts it, so they are darker",
                pixels, pixels_, where));
   };

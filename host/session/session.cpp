@@ -163,9 +163,9 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
     if (terms.open_clip) throw UsageError("a clip that its owner makes is read whole");
     clip_ = open_clip_source(source, memory(), terms.progress, terms.stop);
     announced_ = clip_->timeline(clip_->announced_samples());
-    facts_ = clip_->facts(*announced_);
+    facts_ = clip_->facts(announced_->sample_count());
     sound_ = clip_->sound();
-    notes_ = clip_->all_notes(*announced_);
+    notes_ = clip_->all_notes(announced_->sample_count());
     if (devices_->has_several()) {
       notes_.emplace_back(
           "a clip that is read for one picture is exposed by the first device alone; all of them expose pictures of its "

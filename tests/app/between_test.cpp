@@ -49,6 +49,24 @@ TEST_F(BetweenPictures, AreMarkedWhereverTheyAreTold) {
   EXPECT_TRUE(is_filmed && is_made);
 }
 
+TEST_F(BetweenPictures, JoinWhatFramesOfAVideoWouldShowTwice) {
+  const test::Words film("video -f 20 --transfer srgb --out-angle 360 --overwrite frames %d.png --out-fps 10");
+  const std::string note = "samples were made between pictures 0 … 3; off leaves it as it was filmed (--between)";
+  const auto joined = make(film);
+  expect_says(joined.err, note);
+  expect_says(run("reproduce 0.png").out, "--between auto:0f..3f");
+  const std::string picture = file("0.png");
+  make(film + test::Words("--between auto"));
+  EXPECT_TRUE(file("0.png") != picture) << "their recipes differ";
+  make(film + test::Words("--between auto:0f..3f"));
+  EXPECT_TRUE(file("0.png") == picture);
+  EXPECT_EQ(make(film + test::Words("--between off")).err.find(note), std::string::npos);
+  EXPECT_EQ(make("video -f 20 --out-angle 360 --out-fps 20 --overwrite frames %d.png").err.find(note), std::string::npos);
+  // A capture has what it was encoded with.
+  make("encode -f 20 --transfer srgb frames filmed.tik");
+  EXPECT_EQ(make("video --out-fps 10 --out-angle 360 --overwrite filmed.tik %d.png").err.find(note), std::string::npos);
+}
+
 TEST_F(BetweenPictures, AreMadeAgainByARecipe) {
   const test::Words source("-f 20 --transfer srgb --between 3 --renderer reference frames");
   make(test::Words("expose --start 10ms --exposure 150ms") + source + "-o p.png");

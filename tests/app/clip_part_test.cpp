@@ -134,7 +134,7 @@ TEST_F(PartOfAClip, ComesThroughAPipe) {
   EXPECT_EQ(senseless.status, 3);
   expect_says(senseless.err, "nutik-cl: standard input is a text, and no clip");
   const auto behind = shell("cat a.y4m | " + program + " encode --from 9s - x.tik");
-  expect_says(behind.err, "no picture begins there in standard input, which has 12");
+  expect_says(behind.err, "no picture begins that late in standard input, which has 12");
   const auto cut = shell("head -c 40000 a.y4m | " + program + " encode - cut.tik");
   EXPECT_EQ(cut.status, 0) << cut.err;
   expect_says(cut.err, "warning: it was cut off within picture ");

@@ -179,8 +179,8 @@ TEST_F(CommandLine, ReplacesOnlyItsOwnKind) {
   expect_refused(2,
                  {{"clip.tik clip.avi", "clip.tik is a capture already"},
                   {"x.tik clip.avi",
-                   "clip.avi is no name for a capture, which ends in .tik; nutik-cl video makes "
-                   "films"},
+                   "there is no file x.tik, and clip.avi is one; the input comes first: nutik-cl encode clip.avi x.tik"},
+                  {"clip.avi x.mp4", "x.mp4 is no name for a capture, which ends in .tik; nutik-cl video makes films"},
                   {"clip.avi x.png", "x.png is no name for a capture, which ends in .tik; for a picture say of when"},
                   {"-k one.fn clip.tik -o clip.tik", "is also an input"},
                   {"-k one.fn clip.tik -o ./one.fn", "is also an input"}});

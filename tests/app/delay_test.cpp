@@ -172,7 +172,7 @@ TEST_F(DelayCommand, WeighsFunctionsByTheirWholeCourse) {
 
 TEST_F(DelayCommand, WarnsOfPixelsThatLeaveTheCapture) {
   const ProgramResult out = make(exposing("rows:-30ms..60ms", {"clip.tik", "out.pgm"}));
-  expect_says(out.err, "of 6 of 24 pixels the delay moves the whole function outside of the capture");
+  expect_says(out.err, "for 6 of 24 pixels the delay moves the whole function outside of the capture");
   EXPECT_EQ(make(exposing("rows:60ms", {"clip.tik", "out.pgm"})).err.find("warning"), std::string::npos);
 }
 
@@ -189,7 +189,7 @@ TEST_F(DelayCommand, IsTracedAndChecked) {
   scratch_.write("f.fn", "M0 [0:0], [1:1], [9999999:1], [10000000:0]\n");
   EXPECT_EQ(make("check -k f.fn --delay rows:60ms clip.tik").out.find("delay"), std::string::npos);
   const ProgramResult check = make("check -k f.fn --delay rows:90ms clip.tik");
-  expect_says(check.out, "of 6 of 24 pixels the delay moves the whole function outside");
+  expect_says(check.out, "for 6 of 24 pixels the delay moves the whole function outside");
 }
 
 TEST_F(DelayCommand, SaysWhatIsWrong) {

@@ -250,7 +250,7 @@ TEST_F(MaskCommand, RefusesWhatMakesNoSense) {
           {"mask --tag 256 --moving clip.tik", "tag '256' is no whole number of 0 … 255"},
           {"mask --grow 2 clip.tik", "--grow changes the region before it: first select one"},
           {"mask --moving --tag 3 clip.tik",
-           "--tag 3 is of the regions behind it, and there is none: write --tag 3 before --moving"},
+           "--tag 3 has no region behind it: write --tag 3 before --moving"},
           {"mask --moving --tag 2 --grow 2 clip.tik", "after --tag there is none yet"},
           {"mask --moving --grow -1 clip.tik", "--grow '-1' is no number of pixels"},
           {"mask --fill --by 3 clip.tik", "--by says how much codes must change; --fill"},

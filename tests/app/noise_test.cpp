@@ -128,10 +128,10 @@ TEST_F(Noise, IsNotMeasuredOnWhatMoves) {
     return 0.4 + 0.1 * std::sin(0.2 * x + 0.1 * y + 2.1 * static_cast<double>(sample));
   });
   expect_refused("encode -f 100 --noise auto pour a.tik", 3,
-                 "pour: no noise can be measured on it: pixels 4 apart stray alike");
+                 "pour: no noise can be measured on it: pixels 4 apart vary together");
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "a.tik"));
   const auto measured = run("noise pour -o pour.noise");
-  expect_says(measured.err, "note: pixels 4 apart stray alike");
+  expect_says(measured.err, "note: pixels 4 apart vary together");
 }
 
 // Waves that stand still, or whose light does not: by less than noise, so that no pixel is seen to change.
@@ -165,7 +165,7 @@ TEST_F(Noise, IsNotMeasuredOnWhatMovesWithinIt) {
           "; or evened brightness (--deflicker), a part that stands still (--crop, --from, --to)");
   run("encode -q -f 100 --noise auto --deflicker flickers -o evened.tik");
   waves("poured", 0, 0, 0.03);
-  refused("poured", "standard deviations of the noise around what would be held for it, and may by 0.2");
+  refused("poured", "standard deviations of the noise, and the limit is 0.2");
   run("encode -q -f 100 --noise auto --crop 56x64+0+0 poured -o left.tik");
   // So little of it that the rest is worth it.
   waves("dripped", 0, 0, 0.012);
@@ -184,7 +184,7 @@ TEST_F(Noise, IsMeasuredOnRecordingsThatStandStillAlone) {
   if (!std::filesystem::exists(media / "README.md")) GTEST_SKIP() << "no clips in " << media;
   for (const char* name : {"realshort.mp4", "cine_781.cine"}) {
     expect_refused({"encode", "-f", "100", "--noise", "auto", (media / name).string(), "a.tik"}, 3,
-                   "% of the codes some pixels stray more than others, as noise of a sensor does not");
+                   "% of the codes some pixels vary more than others, as noise of a sensor does not");
   }
   expect_refused({"encode", "--noise", "auto", (media / "data_small_cine.cine").string(), "a.tik"}, 3,
                  "the brightness of the whole picture drifts or flickers");

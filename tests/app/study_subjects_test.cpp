@@ -183,7 +183,7 @@ TEST_F(StudySubjects, AreNotShownWithHolesOfThePlate) {
     const auto without = study("slow", {"--style", style});
     EXPECT_EQ(without.status, 0) << style;
     EXPECT_NE(without.err.find(why), std::string::npos) << without.err;
-    expect_says(without.err, "So all of the time is shown, exposed as one, and no moments of it");
+    expect_says(without.err, "So the picture exposes all of the time and shows no moments");
     EXPECT_EQ(cv::countNonZero(cv::imread((scratch_ / "study.pgm").string(), cv::IMREAD_UNCHANGED)), 0);
   }
   const auto named = study("slow", {"--moments", "0f,9f"});

@@ -240,7 +240,7 @@ TEST_F(Study, SaysOfAThingThatNeverLeavesItsPlaceThatItCannotBeShownTwice) {
       "Its box is [0-9]{2} pixels long and goes [0-9]{2}: a thing that goes less than its own size shows its edges only");
   EXPECT_TRUE(std::regex_search(result.err, cause)) << result.err;
   expect_says(result.err, "Take a clip in which it goes further");
-  expect_says(result.err, "So all of the time is shown, exposed as one");
+  expect_says(result.err, "So the picture exposes all of the time");
   EXPECT_EQ(cv::countNonZero(picture("falls.pgm")), 0) << "no moments";
 }
 
@@ -253,7 +253,7 @@ TEST_F(Study, ShowsOneMomentOfWhatFlickersHereAndThere) {
     clip.add(frame);
   }
   const auto result = make("study -f 100 flickers -o flickers.png");
-  expect_says(result.err, "nothing moves as one whole thing. What differs from the scene at rest flickers");
+  expect_says(result.err, "nothing moves as one whole thing. What differs from the scene at rest is scattered");
   expect_says(result.err, "So a single moment of it is shown");
   EXPECT_EQ(answer("study -f 100 flickers -o flickers.png")["moments"].size(), 1u);
   const cv::Mat seen = picture("flickers.png").clone().setTo(0, picture("flickers.pgm") != 1);
@@ -267,7 +267,7 @@ TEST_F(Study, ShowsAllOfTheTimeBeforeTheParallaxOfAMovingCamera) {
   const auto result = run({"study", clip.c_str(), "-o", "parallax.png"});
   EXPECT_EQ(result.status, 0);
   expect_says(result.err, "one motion of the camera does not explain the pictures");
-  expect_says(result.err, "So all of the time is shown, exposed as one");
+  expect_says(result.err, "So the picture exposes all of the time");
   EXPECT_EQ(result.err.find("The camera may have moved"), std::string::npos) << result.err;
   EXPECT_EQ(cv::countNonZero(picture("parallax.pgm")), 0) << "no moments";
 }

@@ -181,5 +181,20 @@ TEST(FrameRanges, ChooseFramesOfTheWholeFilm) {
             "none of the frames 10-20 is there: the film has 10, numbered from 0 to 9");
 }
 
+TEST(Frames, OfTwoOrThreePicturesShowWhatMovesSoOften) {
+  const auto seen = [](Rational filmed, const char* angle, Rational rate = {24, 1}) {
+    const Timeline timeline = Timeline::constant(filmed, {360, 1}, static_cast<std::uint64_t>(filmed.numerator));
+    FramesRequest request = film(angle);
+    request.rate = rate;
+    return seen_together(frames_of(request, timeline), timeline);
+  };
+  EXPECT_EQ(seen({30, 1}, "180"), (SampleRange{0, 29}));  // every other frame has two
+  EXPECT_EQ(seen({60, 1}, "180"), (SampleRange{0, 58}));
+  EXPECT_EQ(seen({60, 1}, "360", {30, 1}), (SampleRange{0, 59}));
+  EXPECT_EQ(seen({30, 1}, "360", {30, 1}), std::nullopt) << "each its own picture";
+  EXPECT_EQ(seen({24, 1}, "180"), std::nullopt);
+  EXPECT_EQ(seen({240, 1}, "180"), std::nullopt) << "five or six join";
+}
+
 }  // namespace
 }  // namespace nutik

@@ -292,14 +292,19 @@ TEST(ClipPart, IsRefusedWhereTheClipHasNone) {
            o.scale = ClipScale{0, 18, 9};
          }),
          "18 x 9 pixels cannot be made of 17 x 9");
-  expect(refusal([](ClipOptions& o) { o.from = ClipMoment{4, true}; }), "which has 4 pictures (0f … 3f)");
-  expect(refusal([](ClipOptions& o) { o.from = ClipMoment{30'000'001, false}; }), "no picture begins there");
+  expect(refusal([](ClipOptions& o) { o.from = ClipMoment{4, true}; }), "which has 4 pictures (0f … 3f, the last from 0.03 s on)");
+  expect(refusal([](ClipOptions& o) { o.from = ClipMoment{30'000'001, false}; }), "no picture begins that late");
   expect(refusal([](ClipOptions& o) { o.to = ClipMoment{5, true}; }), "picture 5 is not in");
   expect(refusal([](ClipOptions& o) {
            o.from = ClipMoment{2, true};
            o.to = ClipMoment{2, true};
          }),
          "no picture begins between the two");
+  expect(refusal([](ClipOptions& o) {
+           o.from = ClipMoment{3, true};
+           o.to = ClipMoment{2, true};
+         }),
+         "the part ends before it begins in");
   expect(refusal([](ClipOptions& o) { o.from = ClipMoment{-1, false}; }), "begins at its start or later");
   // Times need a rate, pictures do not.
   expect(refusal([](ClipOptions& o) {

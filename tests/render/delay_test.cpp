@@ -113,10 +113,10 @@ TEST_F(DelayedRows, AreWarnedOfWithNumbersOfPixels) {
   const RenderPlan out = plan(GainFunction::boxcar(0, 20 * kMs), {50 * kMs, 80 * kMs});
   ASSERT_EQ(out.warnings.size(), 2u);
   EXPECT_EQ(out.warnings[0],
-            "M0: of 1 of 4 pixels the delay moves the whole function outside of the capture (0 … 0.08 s); "
+            "M0: for 1 of 4 pixels the delay moves the whole function outside of the capture (0 … 0.08 s); "
             "they are 0");
   EXPECT_EQ(out.warnings[1],
-            "M0: of 1 of 4 pixels the delay moves a part of the function behind the capture's end at 0.08 s; "
+            "M0: for 1 of 4 pixels the delay moves a part of the function behind the capture's end at 0.08 s; "
             "nothing is "
             "added there, though D counts it, so they are darker");
   EXPECT_TRUE(plan(GainFunction::boxcar(0, 10 * kMs), {0, 70 * kMs}).warnings.empty());

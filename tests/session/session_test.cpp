@@ -237,7 +237,7 @@ TEST_F(SessionOfClip, DoubtsAnArithmeticThatIsAskedForAndTooCoarse) {
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_TRUE(warnings[0].starts_with("fixed is not sure to be right to 0.5 of a code here: light within "))
       << warnings[0];
-  EXPECT_TRUE(warnings[0].ends_with("; auto takes an arithmetic that is, where there is one")) << warnings[0];
+  EXPECT_TRUE(warnings[0].ends_with("; auto takes an arithmetic that is sure, where there is one")) << warnings[0];
   EXPECT_TRUE(session.render(request_, codes8).warnings.empty());
   EXPECT_TRUE(session.render(request_, kFloats).warnings.empty());
   EXPECT_TRUE(Session(source_, ComputingRequest()).render(request_, codes16).warnings.empty());

@@ -10,7 +10,7 @@ namespace {
 
 // Refinement ends at the level with no more pixels than this: 1080p at a quarter of its sides, for a fourth of the time
 // at half of them, small pictures at their own.
-constexpr double kFinestPixels = 200'000;
+constexpr double kFinestPixels = 130'000;
 
 class DenseFlow final : public FlowFinder {
  public:

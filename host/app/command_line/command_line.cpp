@@ -58,12 +58,14 @@ const Command& shorthand(const Words& words) {
 }
 
 [[noreturn]] void fail_other_command(const Option& option, const Command& command) {
-  std::vector<std::string> takers;
+  std::vector<std::string> takers, known;
   for (const Command& other : commands()) {
     if (option_of(other.id, option.long_name) != nullptr) takers.emplace_back(other.name);
   }
-  throw UsageError(format("{} does not go with {}; it is an option of: {}", option.display_name(),
-                          command.name, joined(takers)));
+  for (const Option* each : options_of(command.id)) known.push_back(each->name());
+  const std::string meant = did_you_mean(option.name(), known);
+  throw UsageError(format("{} does not go with {}{} an option of: {}", option.display_name(), command.name,
+                          meant.empty() ? "; it is" : meant + " It is", joined(takers)));
 }
 
 Options options_for(const Command& command, Words words) {

@@ -156,9 +156,8 @@ constexpr Command kCommands[] = {
      "nutik-cl shutter strobe:5 --start 30f --exposure 60f --fps 960",
      run_shutter, kUnderstanding},
     {Id::reproduce, "reproduce", "PICTURE [FOLDER...]",
-     "Print the command that makes a picture again: byte for byte, from the recipe that the picture carries, "
-     "by the program that was run. The files it was made from are looked for in the folders, the current one "
-     "and the picture's.",
+     "Print the command that makes a picture again: byte for byte, from the recipe that the picture carries. The "
+     "files it was made from are looked for in the folders, the current one and the picture's.",
      "nutik-cl reproduce picture.png\n"
      "nutik-cl reproduce picture.png captures masks\n"
      "nutik-cl reproduce picture.png | sh",

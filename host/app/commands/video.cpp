@@ -7,9 +7,11 @@
 #include "app/requests/requests.hpp"
 #include "capture/format.hpp"
 #include "features/film/film_making.hpp"
-#include "features/schema/options.hpp"
+#include "features/schema/option.hpp"
 #include "features/series/series_making.hpp"
+#include "media/events/event_clip.hpp"
 #include "session/text/number_text.hpp"
+#include "system/input_bytes.hpp"
 
 namespace nutik::app {
 
@@ -18,7 +20,32 @@ static Json sound_json(const ClipSound& of_clip, const FilmSound& of_film) {
           {"start_s", of_film.start_s}, {"speed", of_film.speed}, {"seconds", of_film.seconds}};
 }
 
-int run_video(const Options& options) {
+// Where frames would show what moves two or three times, samples are made between the pictures, unless that was stated.
+// `options` and the session get them; returns what is said of it.
+static std::string join_pictures(Options& options, Session& session, const Session::Terms& terms, const Frames& frames) {
+  const std::string& clip = options.operands.front();
+  const auto seen = seen_together(frames, session.timeline());
+  if (!session.is_clip() || options.has("between") || !seen || is_standard_input(clip) || is_event_recording(clip))
+    return {};
+  std::string text = format("frames are exposed from two or three pictures of the clip, and would show what moves so often: "
+                            "samples were made between pictures {} … {}; off leaves it as it was filmed",
+                            seen->first, seen->last);
+  Options joined = options;
+  option_of(CommandId::video, "between")->restate(joined, {BetweenRequest{.first = seen->first, .last = seen->last}.text()});
+  static_cast<void>(Session(std::move(session)));  // ended, before another takes its memory
+  try {
+    session = open_session(joined, terms);
+    options = std::move(joined);
+  } catch (const Error& error) {
+    if (!is_refusal(error)) throw;
+    session = open_session(options, terms);
+    text = format("frames show what moves two or three times, and samples that join it cannot be made: {}", error.what());
+  }
+  return text + written(std::vector{Setting::between}, Dialect::command_line);
+}
+
+int run_video(const Options& stated) {
+  Options options = stated;
   ExposureTally tally;
   static_cast<void>(stated_output(options, "video"));  // files before what is asked of them
   const FramesRequest request = frames_request(options);
@@ -32,16 +59,17 @@ int run_video(const Options& options) {
   if (skips) require_recipes(options, output.writes_stills() ? output.still(0) : output.path());
   output.check({}, inputs, replacing(options));  // a container's name, before the clip is read
 
-  Session session = open_session(
-      options, {.besides = video_needs(output.encoder_frames(), [&](const CaptureFormat& format) {
-                  return output.frame_format(format).type;
-                })});
+  const Session::Terms terms{.besides = video_needs(output.encoder_frames(), [&](const CaptureFormat& format) {
+                               return output.frame_format(format).type;
+                             })};
+  Session session = open_session(options, terms);
   const Shape shape = output.shape(session.format());
   Frames frames = frames_of(request, session.timeline());
   if (!frames.warning.empty()) print_warning(frames.warning);
   output.check(frames.numbers, inputs, replacing(options));
   for (const std::uint64_t frame : frames.numbers)
     maps.check(frame, inputs, output.writes_stills() ? output.still(frame) : output.path(), replacing(options));
+  const std::string joined = join_pictures(options, session, terms, frames);
   PictureRecipe recipe(output.writes_stills() ? recipe_sources(options) : std::nullopt);
   const auto own_recipe_of = [&](std::uint64_t frame) {
     return frame_recipe(request, frames, frame, output.still(frame).stem().string() + ".fn");
@@ -97,6 +125,7 @@ int run_video(const Options& options) {
     answer.line += format(", {} there already", counted(wanted - frames.numbers.size(), "frame"));
   tally.end(answer, session, options.verbose);
   answer.tell_source(session);
+  if (!joined.empty()) answer.notes.push_back(joined);
   std::ranges::copy(made.notes, std::back_inserter(answer.notes));
   if (output.writes_stills()) note_later(answer.notes, [&](std::uint64_t k) { return output.still(k); }, frames.count);
   return tell(options, output.path(), answer);

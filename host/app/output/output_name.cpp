@@ -13,7 +13,9 @@
 #include "session/requests/delay_request.hpp"
 #include "session/requests/function_input.hpp"
 #include "session/text/number_text.hpp"
+#include "session/text/shell_text.hpp"
 #include "system/input_bytes.hpp"
+#include "system/is_absent.hpp"
 
 namespace nutik::app {
 
@@ -26,6 +28,10 @@ std::optional<std::filesystem::path> stated_output(const Options& options, std::
         format("'{}' is one file too many; a sequence of stills is one operand: its folder, or a "
                "pattern in quotes such as 'frames/*.png'. See nutik-cl {} --help",
                operands[2], command));
+  }
+  if (operands.size() == 2 && is_absent(operands[0]) && !is_absent(operands[1])) {
+    throw UsageError(format("there is no file {}, and {} is one; the input comes first: nutik-cl {} {} {}", operands[0],
+                            operands[1], command, shell_word(operands[1]), shell_word(operands[0])));
   }
   if (option && operands.size() == 2) {
     throw UsageError(format("two outputs: -o {} and {}; leave one out", *option, operands[1]));

@@ -202,7 +202,7 @@ std::vector<MaskStep> steps_of(const Options& options) {
     }
   }
   if (tag && !has_region) {
-    throw UsageError(format("--tag {0} is of the regions behind it, and there is none: write --tag {0} before --moving, "
+    throw UsageError(format("--tag {0} has no region behind it: write --tag {0} before --moving, "
                             "--rectangle, …",
                             *tag));
   }

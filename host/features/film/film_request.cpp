@@ -235,6 +235,23 @@ Frames frames_of(const FramesRequest& request, const Timeline& timeline) {
   return frames;
 }
 
+std::optional<SampleRange> seen_together(const Frames& frames, const Timeline& timeline) {
+  constexpr std::uint64_t kFewest = 2, kMost = 3;  // samples
+  constexpr std::int64_t kUnseen = 16;             // a part of the exposure's light at either end
+  std::uint64_t torn = 0;
+  SampleRange all{UINT64_MAX, 0};
+  for (std::uint64_t frame = 0; frame < frames.count; ++frame) {
+    Exposure exposed = frames.exposure(frame);
+    if (frames.functions_ns) exposed.end_ns = exposed.start_ns + *frames.functions_ns;
+    const std::int64_t unseen_ns = (exposed.end_ns - exposed.start_ns) / kUnseen;
+    const SampleRange samples = timeline.samples_reaching(exposed.start_ns + unseen_ns, exposed.end_ns - unseen_ns);
+    if (samples.empty()) continue;
+    torn += samples.size() >= kFewest && samples.size() <= kMost ? 1 : 0;
+    all = {std::min(all.first, samples.first), std::max(all.last, samples.last - 1)};
+  }
+  return 4 * torn >= frames.count && all.first < all.last ? std::optional(all) : std::nullopt;
+}
+
 ExposureRequest exposure_of(const FramesRequest& request, const Frames& frames, std::uint64_t frame) {
   if (request.keys.empty()) return request.exposure;
   return request.keys.exposure_at(frames.film->start_ns(frame), request.exposure);

@@ -101,7 +101,7 @@ constexpr Option kRows[] = {
      take_by<InSource<&SourceRequest::between>, parse_between>,
      "make samples between pictures, along the motion: auto (as many as no step is longer than about a pixel, "
      "none where nothing moves), or how many, 1 … 63; auto:10f..20f, between these pictures alone; the clip is read "
-     "twice (default: off; a study makes them where its trail has gaps)",
+     "twice (default: off; a study makes them where its trail has gaps, a video where its frames mix pictures)",
      "auto auto: off"}),
     once("as-far-as-it-goes", known(Setting::end_at_damage, {0, "ignore-errors", "", decoding, kDecodesClips,
      take<InClip<&ClipOptions::ends_at_damage>>,
@@ -173,7 +173,7 @@ constexpr Option kRows[] = {
      "homography (whatever a camera on the spot does); the clip is read twice",
      "translation rigid homography"},
     {0, "unseen", "HOW", encoding, kEncodesClips, take_choice<In<&Options::unseen>, Unseen::cropped, Unseen::held>,
-     "what becomes of places not always seen: crop cuts them away, hold shows what was seen there before "
+     "places that some pictures did not see: crop cuts them away, hold shows what was seen there before "
      "(default: crop)",
      "crop hold"},
     {0, "align-report", "FOLDER", output, bit(Id::encode), take<In<&Options::align_report>>,

@@ -222,8 +222,8 @@ class StudyPlanner {
     for (const Followed& each : followed_) {
       if (why.empty()) why = each.verdict.why;
     }
-    study.notes.push_back(format("{}. So all of the time is shown, exposed as one, and no moments of it; the style "
-                                 "clean shows what is seen longest",
+    study.notes.push_back(format("{}. So the picture exposes all of the time and shows no moments; the style clean "
+                                 "shows the empty scene",
                                  why));
     study.falls_short = true;
     study.moments.clear();
@@ -455,7 +455,7 @@ Verdict verdict_of(const SubjectTrack& track, std::uint32_t by_codes, std::uint3
   if (track.is_scraps() && (track.fill < kMinFillOfMany || track.extent < length || track.flickers)) {
     return {Shows::nothing,
             format("nothing moves as one whole thing. What goes furthest fills {:.0f} % of its box, and is {:.0f} % of "
-                   "what differs from the scene at rest: of one of these a subject is half or more. {} shows its edges "
+                   "what differs from the scene at rest; one of the two must be half or more. {} shows its edges "
                    "only, and cannot be shown twice. Take a clip in which it goes further, name a region with a single "
                    "subject, or the moments to show",
                    100 * track.fill, 100 * track.share,
@@ -466,8 +466,8 @@ Verdict verdict_of(const SubjectTrack& track, std::uint32_t by_codes, std::uint3
   }
   if (track.flickers) {
     return {Shows::one,
-            format("nothing moves as one whole thing. What differs from the scene at rest flickers here and there over "
-                   "{:.0f} pixels, as light does that changes, leaves, or many things at once",
+            format("nothing moves as one whole thing. What differs from the scene at rest is scattered over {:.0f} pixels "
+                   "and flickers, as changing light, leaves or many small things do",
                    track.extent)};
   }
   return {};

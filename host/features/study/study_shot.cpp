@@ -118,10 +118,10 @@ class ShotPlanner {
     const double most = min_misplaced_pixels(capture.format().shape);
     if (!aligned || !looks_for_subject || aligned->residual_pixels < most) return std::nullopt;
     return Note(format(
-        "one motion of the camera does not explain the pictures: moved back, half of the "
-        "texture of one lies {:.2f} pixels or more from its place, and from {:.1f} on it is taken for what "
-        "moves. Near things move against far ones where a camera is carried on. Film from one place, take a "
-        "shorter part of the time, or name the moments to show",
+        "one motion of the camera does not explain the pictures: moved back, half of a picture's texture is still "
+        "{:.2f} pixels or more off, and from {:.1f} on that is taken for what moves. Where a camera is carried on, "
+        "near things move against far ones. Film from one place, take a shorter part of the time, or name the moments "
+        "to show",
         aligned->residual_pixels, most), {Setting::from, Setting::to});
   }
 
@@ -284,8 +284,8 @@ PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request
   } else if (planned.session.is_clip() && step >= kGhostPixels) {
     const SampleRange& way = planned.study.way;
     const std::uint64_t last = std::min(way.last, planned.session.timeline().sample_count() - 1);
-    std::string text = format("the trail shows the subject again every {:.0f} pixels, as far as it goes from one picture "
-                              "to the next: samples made between them join these",
+    std::string text = format("the trail is a row of copies, {:.0f} pixels apart, as far as the subject goes from one "
+                              "picture to the next: samples made between pictures join them",
                               step);
     if (request.joins_trail && planned.study.step_share >= kApart && way.first < last) {
       const BetweenRequest between{.first = way.first, .last = last};
@@ -298,10 +298,7 @@ PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request
                       step, part + way.first, part + last);
       } catch (const Error& error) {
         // Memory or room that is enough for the study alone, or events, each with its own time.
-        const bool is_of_these = dynamic_cast<const UsageError*>(&error) != nullptr ||
-                                 dynamic_cast<const OutputError*>(&error) != nullptr ||
-                                 dynamic_cast<const InputError*>(&error) != nullptr;
-        if (!is_of_these) throw;
+        if (!is_refusal(error)) throw;
         text += format("; here they cannot be made: {}", error.what());
       }
     }

@@ -235,8 +235,8 @@ class LibavClip final : public Clip {
     }
     if (is_interlaced || interlaced_ == Interlaced::refused || interlaced_ == Interlaced::ignored) return {};
     return format(
-        "nothing in the clip says that it is interlaced, and {} all the same: half of the lines are made up, "
-        "which is worse than its own pictures if that is so",
+        "nothing in the clip says that it is interlaced, and {} all the same: if it is not, half of the lines are made up "
+        "for nothing",
         interlaced_ == Interlaced::fields ? "two pictures are made of each"
                                           : "each picture is made of one field");
   }

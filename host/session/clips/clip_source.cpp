@@ -186,16 +186,19 @@ CaptureFormat clip_format(const Clip& clip, const ClipOptions& options) {
   return capture;
 }
 
-Timeline ClipSource::timeline(std::uint64_t sample_count) const {
-  const std::uint64_t filmed = made ? (*made)->after.size() : sample_count;
-  const Timeline timeline =
-      request.shutter_angle ? timeline_of(name(), clip->info(), request.clip, *request.shutter_angle, filmed)
-                            : timeline_of(name(), clip->info(), request.clip, filmed);
-  return made ? (*made)->times(timeline) : timeline;
+Timeline ClipSource::filmed(std::uint64_t sample_count) const {
+  const std::uint64_t count = made ? (*made)->after.size() : sample_count;
+  return request.shutter_angle ? timeline_of(name(), clip->info(), request.clip, *request.shutter_angle, count)
+                               : timeline_of(name(), clip->info(), request.clip, count);
 }
 
-std::vector<Fact> ClipSource::facts(const Timeline& timeline) const {
+Timeline ClipSource::timeline(std::uint64_t sample_count) const {
+  return made ? (*made)->times(filmed(sample_count)) : filmed(sample_count);
+}
+
+std::vector<Fact> ClipSource::facts(std::uint64_t sample_count) const {
   const ClipTiming& timing = clip->info().timing;
+  const Timeline timeline = filmed(sample_count);
   const bool is_stated = request.clip.rate.has_value();
   Fact rate{rate_text(timeline), is_stated ? Origin::stated : Origin::file, Setting::frame_rate};
   if (!is_stated) rate.source = timing.rate_from;
@@ -225,8 +228,9 @@ std::optional<ClipSound> ClipSource::sound() const {
   return sound->filmed_s > 0 && sound->last_s > sound->first_s ? sound : std::nullopt;
 }
 
-std::vector<Note> ClipSource::all_notes(const Timeline& timeline) const {
+std::vector<Note> ClipSource::all_notes(std::uint64_t sample_count) const {
   std::vector<Note> all = notes;
+  const Timeline timeline = filmed(sample_count);
   const ClipTiming& timing = clip->info().timing;
   const bool is_written_down = !timing.exposures.empty() || (timing.exposed_ns && !request.shutter_angle);
   if (!is_written_down && !made) {

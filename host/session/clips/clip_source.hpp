@@ -36,13 +36,13 @@ struct ClipSource {
   std::optional<Shared<MadeSamples>> made = std::nullopt;   // between its pictures
 
   // Everything that was read, stated or assumed of the clip, its times included, each with its origin.
-  [[nodiscard]] std::vector<Fact> facts(const Timeline& timeline) const;
+  [[nodiscard]] std::vector<Fact> facts(std::uint64_t sample_count) const;
 
   // None where it has none, or all pictures are at one time.
   [[nodiscard]] std::optional<ClipSound> sound() const;
 
   // `notes`, and that the rate may be one of playing: slow-motion files state that.
-  [[nodiscard]] std::vector<Note> all_notes(const Timeline& timeline) const;
+  [[nodiscard]] std::vector<Note> all_notes(std::uint64_t sample_count) const;
 
   // For messages.
   [[nodiscard]] std::string name() const { return input_title(request.path.string()); }
@@ -50,6 +50,8 @@ struct ClipSource {
   [[nodiscard]] std::uint64_t announced_samples() const { return clip->info().sample_count; }
   // Of a clip with so many samples. Throws InputError if its rate is unknown.
   [[nodiscard]] Timeline timeline(std::uint64_t sample_count) const;
+  // The same of its own pictures, without those made between them.
+  [[nodiscard]] Timeline filmed(std::uint64_t sample_count) const;
   // What its memory is shared out by.
   [[nodiscard]] ClipToRead clip_to_read() const;
 };

@@ -80,7 +80,7 @@ Encoding::Encoding(ClipSource source, const EncodeRequest& request, const ClipMe
   const std::optional<Rational>& stated_rate = source_.request.clip.rate;
   if (!source_.made) header.rate = stated_rate ? stated_rate : source_.clip->info().timing.rate;
   header.shutter_angle = times_.shutter_angle();
-  for (const Fact& fact : source_.facts(times_)) header.facts.push_back(fact.line());
+  for (const Fact& fact : source_.facts(times_.sample_count())) header.facts.push_back(fact.line());
   header.is_scaled = source_.request.clip.scale.has_value();
   header.is_rounded = source_.clip->info().is_rounded;
   header.part = source_.clip->info().part;
@@ -116,9 +116,9 @@ EncodedCapture Encoding::run(const ReportedProgress& told, const std::stop_token
   if (is_slow && told) told(samples, source_.announced_samples());
   Timeline timeline = source_.timeline(samples);
   writer_->finish(timeline);
-  std::vector<Fact> facts = source_.facts(timeline);
+  std::vector<Fact> facts = source_.facts(samples);
   for (std::string& remark : source_.clip->remarks()) source_.notes.emplace_back(std::move(remark));
-  std::vector<Note> notes = source_.all_notes(timeline);
+  std::vector<Note> notes = source_.all_notes(samples);
   return {source_.capture,  std::move(timeline), writer_->bytes_written(),
           std::move(facts), std::move(notes),    warnings(samples),
           source_.camera,   source_.sound()};

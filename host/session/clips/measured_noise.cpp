@@ -81,13 +81,13 @@ std::string reason_for_no_noise(const NoiseEstimate& estimate) {
   }
   if (shared > kMuchShared) {
     return format(
-        "pixels {} apart stray alike, as noise of a sensor does not: something moves in most of the picture, "
+        "pixels {} apart vary together, as noise of a sensor does not: something moves in most of the picture, "
         "or a codec took the noise away",
         kNeighbourPixels);
   }
   if (uneven > kMuchUneven) {
     return format(
-        "at {:.0f} % of the codes some pixels stray more than others, as noise of a sensor does not: the camera or the "
+        "at {:.0f} % of the codes some pixels vary more than others, as noise of a sensor does not: the camera or the "
         "scene moves, or a codec took the noise away",
         100 * uneven);
   }
@@ -106,8 +106,8 @@ std::optional<Note> check_stillness(const Stillness& stillness, const SourceRequ
   if (!stillness.is_brightness && !request.align) first = "an aligned camera (`align rigid`), ";
   if (stillness.stray > stillness.limit) {
     throw InputError(
-        format("{}: no noise can be measured on it: where pixels seem to stand still their light strays by "
-               "{:.2f} standard deviations of the noise around what would be held for it, and may by {:.2f} "
+        format("{}: no noise can be measured on it: where pixels seem to stand still their light strays from what "
+               "would be held for it by {:.2f} standard deviations of the noise, and the limit is {:.2f} "
                "(most at {}, by {:.2f}, and in {}): {}. {}",
                input_title(request.path.string()), stillness.stray, stillness.limit, where,
                stillness.max_stray, when, cause, kNoiseElsewhere),

@@ -44,6 +44,15 @@ std::vector<std::string> starting_with(std::string_view word, std::span<const st
   return found;
 }
 
+// `--fps-out` and `--out-fps`.
+bool has_same_parts(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  std::vector<std::string> of_a = parts_of(a, '-'), of_b = parts_of(b, '-');
+  std::ranges::sort(of_a);
+  std::ranges::sort(of_b);
+  return of_a == of_b;
+}
+
 }  // namespace
 
 std::string did_you_mean(std::string_view word, std::span<const std::string> known) {
@@ -54,7 +63,7 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> kno
     const std::string* nearest = nullptr;
     std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
     for (const std::string& candidate : known) {
-      const std::size_t distance = edit_distance(word, candidate);
+      const std::size_t distance = has_same_parts(word, candidate) ? 0 : edit_distance(word, candidate);
       if (distance >= least) continue;
       least = distance;
       nearest = &candidate;
