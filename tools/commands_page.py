@@ -162,7 +162,11 @@ def page_of(man):
     examples = {title: plain(re.sub(r"^\.(nf|fi)\n", "", body, flags=re.MULTILINE))
                 for title, body in groups(section(man, "EXAMPLES"))}
     usual = dict(usual_options(names, option_groups))
-    text = PREFACE + "\n## Usual options\n\n"
+    parts = [(title, [term.split()[0] for term, _ in commands]) for title, commands in command_groups]
+    parts += [("Options", [heading for heading, _ in option_groups]), ("Exit status", []), ("Environment", [])]
+    text = PREFACE + "\n" + folded(" · ".join(": ".join(filter(None, (link(title), ", ".join(map(link, below)))))
+                                              for title, below in parts)) + "\n"
+    text += "\n## Usual options\n\n"
     text += "*As usual* stands for all of these:\n\n"
     text += "".join(folded("- " + of_heading(heading, named(options), usual[heading]), "  ") + "\n"
                     for heading, options in option_groups if heading in usual)

@@ -181,7 +181,7 @@ class Stubs(unittest.TestCase):
             self.skipTest("mypy is not installed")
         root = Path(__file__).resolve().parents[2]
         page = (root / "docs/reference/python.md").read_text(encoding="utf-8")
-        book = json.loads((root / "docs/notebooks/array-to-figure.ipynb").read_text(encoding="utf-8"))
+        book = json.loads((root / "examples/array-to-figure.ipynb").read_text(encoding="utf-8"))
         with tempfile.TemporaryDirectory(prefix="nutik-") as folder:
             scripts = {"page.py": "\n".join(re.findall(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)),
                        "notebook.py": "\n".join("".join(cell["source"]) for cell in book["cells"]

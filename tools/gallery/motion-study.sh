@@ -3,7 +3,7 @@ nutik-cl encode --tolerance 2 clip.mkv clip.tik
 nutik-cl activity --by 16 clip.tik activity.png
 nutik-cl contact --every 0.2s clip.tik contact.png
 
-# At 0 s the room is empty: five times, the ball is what differs from that.
+# At 0 s the room is empty. At five times the ball is what differs from that.
 nutik-cl mask --tag 1 --difference 0.36s 0s --largest --smooth 1 --grow 1 \
               --tag 2 --difference 0.75s 0s --largest --smooth 1 --grow 1 \
               --tag 3 --difference 1.27s 0s --largest --smooth 1 --grow 1 \
@@ -11,7 +11,7 @@ nutik-cl mask --tag 1 --difference 0.36s 0s --largest --smooth 1 --grow 1 \
               --tag 5 --difference 2.20s 0s --largest --smooth 1 --grow 1 \
               clip.tik regions.pgm --preview preview.png
 
-# Its way, three times as strong: the empty room is taken away from it again.
+# Its way, three times as strong. The empty room is subtracted again.
 echo 'M0 [0:-51], [100000000:-51], [100000001:3], [2700000000:3], [2700000001:0]' > picture.fn
 nutik-cl shutter box --tag 1 --fps 240 --start 0.36s --exposure 1f >> picture.fn
 nutik-cl shutter box --tag 2 --fps 240 --start 0.75s --exposure 1f >> picture.fn

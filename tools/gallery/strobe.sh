@@ -6,8 +6,9 @@ nutik-cl --start 0.3s --exposure 0.5s clip.tik mean.png
 nutik-cl mask --tag 1 --rectangle 0,0,370,432 --tag 2 --rectangle 318,85,104,306 \
               --tag 255 --threshold mean.png 70 --largest --grow 2 clip.tik regions.pgm --preview preview.png
 
-# 24 flashes of a picture each, 10 times as bright, for each shows the club elsewhere; what is there anyway is taken away
-# 9 times: at the right as it is after the swing, at the left as it was before. Round the golfer the flashes count once.
+# 24 flashes of one picture each, 10 times as bright, because each shows the club in another place. The still scene is
+# subtracted 9 times: at the right as it is after the swing, at the left as it was before. Around the golfer flashes count
+# once.
 flashes() { nutik-cl shutter strobe:24,1/7 --fps 240 --start 48f --exposure 162f "$@"; }
 flashes --tag 0 --gain 20 |
   sed '$s/$/, [1100000000:0], [1100000001:-18], [1200000000:-18], [1200000001:0]/' > picture.fn
