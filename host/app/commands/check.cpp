@@ -151,8 +151,8 @@ void read_capture(InputCheck& check, const std::string& name, const Options& opt
     check.add_capture(clip);
     if (announced == 0) return;
     clip.timeline = source.timeline(announced);
-    clip.facts = source.facts(*clip.timeline);
-    clip.notes = source.all_notes(*clip.timeline);
+    clip.facts = source.facts(announced);
+    clip.notes = source.all_notes(announced);
     return check.add_capture(std::move(clip));
   }
   tik::Reader reader(name);
