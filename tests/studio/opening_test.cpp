@@ -431,7 +431,7 @@ TEST_F(OpeningTest, FilesAreChosenInDialogsByKeyboard) {
   const auto choose = [&](Qt::Key key, const char* name) {
     window_.activateWindow();
     ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
-    name_next_file(name);
+    key == Qt::Key_E ? name_next_export(name) : name_next_file(name);
     QTest::keyClick(&window_, key, Qt::ControlModifier);
     ASSERT_TRUE(settles());
     EXPECT_TRUE(is_asked_) << name;

@@ -1,7 +1,7 @@
 // Takes the pictures of docs/how-to/studio.md: nutik_studio_screenshots CLIP FOLDER. On the screen that QT_QPA_PLATFORM
 // names; without one where it names none.
 //
-//   FOLDER/*.png        the window at 1280 × 800, 2560 × 1600 and 1000 × 620, dark and light
+//   FOLDER/*.png        the window at 1280 × 800, 2560 × 1600 and 1024 × 640, dark and light
 //   FOLDER/drag/NN.png  a control point on its way there and back, with the hand that drags it
 #include <QAction>
 #include <QApplication>
@@ -19,6 +19,7 @@
 #include "studio/curves/curve_editor.hpp"
 #include "studio/window/appearance.hpp"
 #include "studio/window/main_window.hpp"
+#include "studio/window/started_work.hpp"
 
 using namespace nutik::studio;
 
@@ -39,7 +40,7 @@ class Photographer {
     if (!take("empty")) return false;
     window_.open(clip);
     if (!take("interval") || document.facts() == nullptr) return false;
-    window_.start_study(nutik::StudyStyle::trail);
+    window_.start_study(usual_study(nutik::StudyStyle::trail));
     if (!settles()) return false;
     const QSize picture = window_.canvas().image().size();
     document.set_probe(QPoint(picture.width() / 2, picture.height() / 2));
@@ -64,7 +65,7 @@ class Photographer {
     is_taken = is_taken && take("light-large");
     set_appearance(Appearance::dark);
     is_taken = is_taken && take("large");
-    window_.resize(1000, 620);
+    window_.resize(1024, 640);
     is_taken = is_taken && take("small");
     window_.findChild<QAction*>("tool_look")->trigger();
     window_.resize(size);

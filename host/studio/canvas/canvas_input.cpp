@@ -74,6 +74,7 @@ void Canvas::mouseMoveEvent(QMouseEvent* event) {
   } else if (is_stroking_) {
     tool_->drag(view_.to_picture(pointer_), event->modifiers());
   }
+  if (glance_.is_magnified) update();
   if (tool_ != nullptr && !is_panning_) was_here ? update_tool(before) : update();
   Q_EMIT pointed(pixel_at(pointer_));
 }
@@ -114,12 +115,14 @@ void Canvas::keyPressEvent(QKeyEvent* event) {
     case Qt::Key_Minus: return zoom_by(1 / kZoomByKey);
     case Qt::Key_Space:
     case Qt::Key_Backspace:
+      if (tool_ == nullptr) return event->ignore();  // it plays
       if (!event->isAutoRepeat())
         press_key(event->key() == Qt::Key_Backspace ? Qt::AltModifier : Qt::NoModifier);
       return;
     case Qt::Key_Return:
     case Qt::Key_Enter:
       if (tool_ != nullptr) tool_->finish();
+      if (tool_ == nullptr && is_workable()) document_.set_probe(pixel_at(key_pointer()));
       return update();
     case Qt::Key_Escape:
       if (!is_stroking_ && !document_.probe()) event->ignore();
@@ -153,7 +156,6 @@ void Canvas::follow_arrow(QPoint way) {
 void Canvas::press_key(Qt::KeyboardModifiers keys) {
   if (!is_workable() || (is_stroking_ && !is_key_stroke_)) return;
   if (is_key_stroke_) return end_key_stroke();
-  if (tool_ == nullptr) return document_.set_probe(pixel_at(key_pointer()));
   move_pointer(view_.to_picture(key_pointer()));
   is_stroking_ = is_key_stroke_ = true;
   stroke_keys_ = keys;

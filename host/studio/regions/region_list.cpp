@@ -11,6 +11,8 @@
 #include <QStyledItemDelegate>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "capture/error.hpp"
 #include "studio/regions/region_edits.hpp"
@@ -47,12 +49,17 @@ std::uint8_t tag_of(const QTreeWidgetItem& item) {
   return static_cast<std::uint8_t>(item.data(0, kTagRole).toUInt());
 }
 
-QString still_text(const DocumentState& state, std::uint8_t tag, std::int64_t duration_ns) {
+// Nothing where it is not known.
+std::optional<double> still_gain(const DocumentState& state, std::uint8_t tag, std::int64_t duration_ns) {
   try {
-    return QStringLiteral("%1×").arg(exposed_summary(state, tag, duration_ns).still_gain(), 0, 'f', 2);
+    return exposed_summary(state, tag, duration_ns).still_gain();
   } catch (const InputError&) {
-    return QStringLiteral("–");
+    return {};
   }
+}
+
+QString stops_text(double stops) {
+  return std::abs(stops) < 0.05 ? QStringLiteral("0.0") : QString::asprintf("%+.1f", stops);
 }
 
 QDoubleSpinBox* pixel_box(double most, double value, const QString& name, QWidget* parent) {
@@ -73,8 +80,8 @@ RegionList::RegionList(Document& document, QWidget* parent)
   list_->setObjectName("regions");
   list_->setAccessibleName(tr("Regions"));
   list_->setColumnCount(kColumns);
-  list_->setHeaderLabels({tr("Region"), tr("Tag"), tr("Still"), tr("White"), tr("Solo")});
-  list_->headerItem()->setToolTip(kTag, tr("The region's value in the mask, and its M in the function file"));
+  list_->setHeaderLabels({tr("Region"), tr("EV"), tr("Still"), tr("White"), tr("Solo")});
+  list_->headerItem()->setToolTip(kEv, tr("The same in stops: 0 is as bright as the capture, −1 half as bright"));
   list_->headerItem()->setToolTip(kStill, tr("What light that does not change is multiplied by"));
   list_->headerItem()->setToolTip(kWhite, tr("How many of its pixels have a channel at the last code, 255: just "
                                              "white, or saturated. More light would not be seen"));
@@ -84,7 +91,7 @@ RegionList::RegionList(Document& document, QWidget* parent)
   list_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
   list_->header()->setStretchLastSection(false);
   list_->header()->setSectionResizeMode(kName, QHeaderView::Stretch);
-  for (const int column : {kTag, kStill, kWhite, kSolo}) {
+  for (const int column : {kEv, kStill, kWhite, kSolo}) {
     list_->header()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
     list_->setItemDelegateForColumn(column, new NoEditor(list_));
   }
@@ -156,7 +163,7 @@ void RegionList::build_buttons() {
   for (QDoubleSpinBox* box : {radius_, feather_, own_feather_})
     numbers->labelForField(box)->setToolTip(box->toolTip());
   auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(6, 6, 6, 6);
+  column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(list_, 1);
   column->addLayout(first);
   column->addLayout(second);
@@ -206,6 +213,7 @@ void RegionList::follow() {
   }
   for (int row = 0; row < list_->topLevelItemCount(); ++row)
     fill(*list_->topLevelItem(row), tags[static_cast<std::size_t>(row)]);
+  list_->setColumnHidden(kWhite, std::ranges::all_of(white_, [](std::uint64_t pixels) { return pixels == 0; }));
   feather_->setValue(document_.state().feather.everywhere / 100.0);
   follow_selection();
 }
@@ -236,11 +244,14 @@ void RegionList::fill(QTreeWidgetItem& item, std::uint8_t tag) const {
   item.setText(kName, look->second.name);
   item.setIcon(kName, swatch(look->second.colour));
   item.setCheckState(kName, look->second.is_visible ? Qt::Checked : Qt::Unchecked);
-  item.setToolTip(kName, tr("Checked: its outline and its curve are shown"));
-  item.setText(kTag, QStringLiteral("M%1").arg(tag));
-  item.setText(kStill, still_text(document_.state(), tag, document_.duration_ns()));
+  item.setToolTip(kName, tr("%1, M%2 in mask and function file. Checked: its outline and its curve are shown")
+                             .arg(look->second.name)
+                             .arg(tag));
+  const auto still = still_gain(document_.state(), tag, document_.duration_ns());
+  item.setText(kStill, still ? QStringLiteral("%1×").arg(*still, 0, 'f', 2) : QStringLiteral("–"));
+  item.setText(kEv, still && *still > 0 ? stops_text(std::log2(*still)) : QStringLiteral("–"));
   item.setText(kWhite, white_[tag] == 0 ? QString() : QString::number(white_[tag]));
-  for (const int column : {kStill, kWhite}) item.setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
+  for (const int column : {kEv, kStill, kWhite}) item.setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
 }
 
 void RegionList::count_white(const ShownPicture& picture) {

@@ -34,7 +34,7 @@ class RegionList : public QWidget {
   void count_white(const ShownPicture& picture);
 
  private:
-  enum Column { kName, kTag, kStill, kWhite, kSolo, kColumns };
+  enum Column { kName, kEv, kStill, kWhite, kSolo, kColumns };
 
   void build_buttons();
   void follow();            // the document's state
