@@ -343,10 +343,10 @@ TEST_F(PanelsTest, TheWindowFitsItsScreenAndIsAsItWasClosed) {
     EXPECT_LT(window.width(), screen.width());
     EXPECT_LE(window.height(), screen.height() - 40) << "a frame's title";
     window.show();
-    window.resize(900, 640);
+    window.resize(960, 640);
     window.open(path("frames/%02d.pgm"), "100");
     ASSERT_TRUE(QTest::qWaitFor([&] { return window.is_settled(); }, kMaxWaitMs));
-    window.findChild<QSplitter*>("row")->setSizes({500, 360});
+    window.findChild<QSplitter*>("row")->setSizes({600, 320});
     window.findChild<QSplitter*>("column")->setSizes({180, 122, 260});
     QTest::keyClick(&window, Qt::Key_B);
     window.findChild<QDoubleSpinBox*>("brush_radius")->setValue(7.5);
@@ -359,7 +359,7 @@ TEST_F(PanelsTest, TheWindowFitsItsScreenAndIsAsItWasClosed) {
   window.show();
   window.open(path("frames/%02d.pgm"), "100");
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.is_settled(); }, kMaxWaitMs));
-  EXPECT_EQ(window.size(), QSize(900, 640));
+  EXPECT_EQ(window.size(), QSize(960, 640));
   EXPECT_EQ(sizes(window, "row"), row);
   EXPECT_EQ(sizes(window, "column"), column);
   EXPECT_TRUE(window.findChild<QAction*>("tool_brush")->isChecked());

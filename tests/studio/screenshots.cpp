@@ -12,6 +12,7 @@
 #include <QMenuBar>
 #include <QPainter>
 #include <QTest>
+#include <QTimer>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -45,7 +46,11 @@ class Photographer {
     const QSize picture = window_.canvas().image().size();
     document.set_probe(QPoint(picture.width() / 2, picture.height() / 2));
     document.select_tag(document.functions().rbegin()->first);
-    return take("studio") && take_looks() && take_dialogs("dark") && take_drag();
+    if (!take("studio")) return false;
+    window_.resize(1920, 1080);
+    if (!take("full-hd")) return false;
+    window_.resize(1280, 800);
+    return take_looks() && take_dialogs("dark") && take_drag();
   }
 
  private:
@@ -78,6 +83,19 @@ class Photographer {
     for (QAction* action : window_.menuBar()->actions()) {
       const QString name = action->text().remove('&').section(' ', 0, 0).toLower();
       is_taken = is_taken && save(action->menu()->grab().toImage(), QString("menu-%1-%2").arg(name, look));
+    }
+    // They ask in loops of their own.
+    for (const char* asking : {"Export picture", "Export film", "Study with"}) {
+      for (QAction* action : window_.findChildren<QAction*>()) {
+        if (!action->text().remove('&').startsWith(asking)) continue;
+        QTimer::singleShot(200, &window_, [&] {
+          QWidget* asked = QApplication::activeModalWidget();
+          is_taken = is_taken && asked != nullptr &&
+                     save(asked->grab().toImage(), QString("%1-%2").arg(asking).arg(look).toLower().replace(' ', '-'));
+          if (asked != nullptr) asked->close();
+        });
+        action->trigger();
+      }
     }
     // By its action and not by keys, which a screen without a window manager gives to no window.
     for (QAction* action : window_.findChildren<QAction*>()) {

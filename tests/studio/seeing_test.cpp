@@ -31,7 +31,10 @@ class SeeingTest : public StudioTest {
 
 TEST_F(SeeingTest, LightIsCountedBeforeCodesEndIt) {
   open_clip();
-  Session session(SourceRequest{.path = path("frames/%02d.pgm").toStdString()});
+  SourceRequest source;
+  source.path = path("frames/%02d.pgm").toStdString();
+  source.clip.rate = Rational::parse("100", "rate");
+  Session session(source);
   DocumentState state = document().state();
   state.brightness_ev = 2;  // the square, code 200, is then beyond white, and the ground is not
   const Job job{{}, {}};
@@ -212,9 +215,9 @@ TEST_F(SeeingTest, SpacePlaysTheIntervalAndStopsIt) {
 TEST_F(SeeingTest, AFilmIsExportedAsTheCommandMakesIt) {
   open_clip();
   child<QDoubleSpinBox>("film_speed").setValue(0.5);
-  window_.activateWindow();
-  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
   for (const char* name : {"film.mkv", "film-%05d.png"}) {
+    window_.activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
     name_next_export(name, [](QDialog& dialog) { dialog.findChild<QLineEdit*>("out-fps")->setText("25"); });
     QTest::keyClick(&window_, Qt::Key_E, Qt::ControlModifier | Qt::ShiftModifier);
     ASSERT_TRUE(settles());

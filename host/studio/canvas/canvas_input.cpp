@@ -16,6 +16,9 @@ constexpr double kZoomByKey = 1.25;
 constexpr double kZoomByNotch = 1.2;  // of a mouse wheel
 constexpr int kFastPixels = 10;       // of the picture, with Shift
 
+// Of the pixel there.
+QPointF middle_of(QPointF at) { return {std::floor(at.x()) + 0.5, std::floor(at.y()) + 0.5}; }
+
 // Where an arrow key leads, in pixels; null for other keys.
 QPoint way_of(const QKeyEvent& event) {
   const int by = (event.modifiers() & Qt::ShiftModifier) != 0 ? kFastPixels : 1;
@@ -159,13 +162,13 @@ void Canvas::press_key(Qt::KeyboardModifiers keys) {
   move_pointer(view_.to_picture(key_pointer()));
   is_stroking_ = is_key_stroke_ = true;
   stroke_keys_ = keys;
-  tool_->press(view_.to_picture(pointer_), keys);
+  tool_->press(middle_of(view_.to_picture(pointer_)), keys);
   update();
 }
 
 void Canvas::end_key_stroke() {
   is_stroking_ = is_key_stroke_ = false;
-  tool_->release(view_.to_picture(pointer_), stroke_keys_);
+  tool_->release(middle_of(view_.to_picture(pointer_)), stroke_keys_);
   update();
 }
 
@@ -177,8 +180,8 @@ QPointF Canvas::key_pointer() const {
 
 // To the middle of the pixel there.
 void Canvas::move_pointer(QPointF picture) {
-  const QPointF at(std::clamp(std::floor(picture.x()), 0.0, image_.width() - 1.0) + 0.5,
-                   std::clamp(std::floor(picture.y()), 0.0, image_.height() - 1.0) + 0.5);
+  const QPointF at = middle_of({std::clamp(picture.x(), 0.0, image_.width() - 1.0),
+                                std::clamp(picture.y(), 0.0, image_.height() - 1.0)});
   is_inside_ = is_by_keys_ = true;
   keep_in_sight(at);
   pointer_ = view_.to_widget(at);

@@ -129,7 +129,7 @@ void RegionList::build_buttons() {
   colour_ = button("region_colour", tr("Colour…"), tr("Of the region's outline and curve"));
   up_ = button("region_up", tr("Up"), tr("Before the region above it, which it then covers"));
   down_ = button("region_down", tr("Down"), tr("Behind the region below it, which then covers it"));
-  over_interval_ = button("over_interval", tr("Over interval"),
+  over_interval_ = button("over_interval", tr("Interval"),
                           tr("The interval of the time strip becomes the region's function"));
   grow_ = button("grow", tr("Grow"), tr("By so many pixels"));
   shrink_ = button("shrink", tr("Shrink"), tr("By so many pixels"));
@@ -156,10 +156,11 @@ void RegionList::build_buttons() {
   second->addWidget(grow_, 0, 0);
   second->addWidget(shrink_, 0, 1);
   second->addWidget(smooth_, 0, 2);
+  for (QGridLayout* grid : {first, second}) grid->setSpacing(4);
   auto* numbers = new QFormLayout;
-  numbers->addRow(tr("By"), radius_);
+  numbers->addRow(tr("Grow by"), radius_);
   numbers->addRow(tr("Feather edges"), feather_);
-  numbers->addRow(tr("Its own edges"), own_feather_);
+  numbers->addRow(tr("Own edges"), own_feather_);
   for (QDoubleSpinBox* box : {radius_, feather_, own_feather_})
     numbers->labelForField(box)->setToolTip(box->toolTip());
   auto* column = new QVBoxLayout(this);

@@ -111,7 +111,7 @@ void MainWindow::build_window() {
   side_ = new QWidget;
   side_->setObjectName("side");
   auto* side_column = new QVBoxLayout(side_);
-  side_column->setContentsMargins(6, 6, 6, 6);
+  side_column->setContentsMargins(4, 4, 4, 4);
   side_column->addWidget(histogram_);
   side_column->addWidget(build_exposure());
   side_column->addWidget(regions, 1);
@@ -185,7 +185,7 @@ void MainWindow::connect_parts() {
   connect(canvas_, &Canvas::visible_changed, &live_, &LiveView::set_visible);
   connect(canvas_, &Canvas::visible_changed, this, &MainWindow::follow_opening);
   connect(canvas_, &Canvas::visible_changed, status_,
-          [this](QRect, double screen_pixels) { status_->tell_zoom(screen_pixels); });
+          [this](QRect, double screen_pixels) { status_->tell_zoom(document_.facts() ? screen_pixels : 0); });
   connect(canvas_, &Canvas::pointed, this,
           [this](std::optional<QPoint> pixel) { status_->tell(pixel, canvas_->image()); });
   connect(&document_, &Document::probe_changed, this, &MainWindow::look_at_pixel);

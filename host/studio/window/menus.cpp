@@ -326,8 +326,9 @@ void MainWindow::build_view_menu() {
     action->setToolTip(tr("%1 (%2): shown or folded").arg(QString(text).remove('&'), action->shortcut().toString()));
     connect(action, &QAction::toggled, this, &MainWindow::follow_opening);
     folds_ += action;
+    needs_capture_ += action;
   };
-  fold("fold_time", tr("Time str&ip"), Qt::Key_F7, {2, 7, 12, 2});
+  fold("fold_time", tr("Time &strip"), Qt::Key_F7, {2, 7, 12, 2});
   fold("fold_curves", tr("C&urves"), Qt::Key_F8, {2, 9, 12, 4});
   fold("fold_side", tr("&Regions and exposure"), Qt::Key_F9, {10, 3, 4, 10});
   connect(folds_.back(), &QAction::toggled, this, [this] {

@@ -188,7 +188,9 @@ Jobs::Work filming(const Document& document, std::shared_ptr<Session> session, c
   const FramesRequest request = film_request(document, options);
   const VideoOutput output(film.toStdString(), request.rate, options.video_codec, options.picture);
   const Frames frames = frames_of(request, session->timeline());
-  output.check(frames.numbers, std::vector{document.facts()->path.toStdString()}, Replacing::all);
+  // Of numbered pictures nobody was asked.
+  output.check(frames.numbers, std::vector{document.facts()->path.toStdString()},
+               output.writes_stills() ? Replacing::made_by_recipe : Replacing::all);
   return [request, output, frames, session = std::move(session), film, told = std::move(told),
           sound = options.sound](const Job& job) -> Jobs::Finish {
     const MadeVideo made = make_video(*session, request, frames, output, job.progress, {}, sound);

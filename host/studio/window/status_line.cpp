@@ -69,7 +69,8 @@ StatusLine::StatusLine(const std::vector<Jobs*>& jobs, QWidget* parent)
       milliseconds_(new QLabel(this)),
       work_(new QLabel(this)),
       progress_(new QProgressBar(this)),
-      cancel_(new QToolButton(this)) {
+      cancel_(new QToolButton(this)),
+      shown_(jobs.front()) {
   pixel_->setObjectName("pixel");
   pixel_->setAccessibleName(tr("Pixel under the pointer"));
   arithmetic_->setObjectName("arithmetic");
@@ -126,7 +127,7 @@ void StatusLine::tell(const ShownPicture& picture) {
 }
 
 void StatusLine::tell_zoom(double screen_pixels) {
-  zoom_->setText(tr("%1 %").arg(100 * screen_pixels, 0, 'f', screen_pixels < 0.1 ? 1 : 0));
+  zoom_->setText(screen_pixels == 0 ? QString() : tr("%1 %").arg(100 * screen_pixels, 0, 'f', screen_pixels < 0.1 ? 1 : 0));
 }
 
 void StatusLine::tell(std::optional<QPoint> pixel, const QImage& image) {

@@ -46,7 +46,7 @@ class StatusLine : public QStatusBar {
   StatusLine(const std::vector<Jobs*>& jobs, QWidget* parent = nullptr);
 
   void tell(const ShownPicture& picture);
-  void tell_zoom(double screen_pixels);  // to a side of the capture's
+  void tell_zoom(double screen_pixels);  // to a side of the capture's; 0: none
   // The codes of a picture on the screen, and the light that they stand for.
   void tell(std::optional<QPoint> pixel, const QImage& image);
 
@@ -54,7 +54,7 @@ class StatusLine : public QStatusBar {
   QLabel *zoom_, *pixel_, *saturated_, *arithmetic_, *milliseconds_, *work_;
   QProgressBar* progress_;
   QToolButton* cancel_;
-  Jobs* shown_ = nullptr;  // whose progress is told
+  Jobs* shown_;  // whose progress is told
 };
 
 }  // namespace nutik::studio
