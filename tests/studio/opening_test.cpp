@@ -467,7 +467,7 @@ TEST_F(OpeningTest, ReadsAClipAsItIsTold) {
       EXPECT_EQ(question.findChild<QLineEdit*>("fps")->text(), "100");
       question.findChild<QComboBox*>("align")->setCurrentIndex(align);
       question.findChild<QCheckBox*>("deflicker")->setChecked(deflickers);
-      question.findChild<QCheckBox*>("between")->setChecked(makes_between);
+      question.findChild<QComboBox*>("between")->setCurrentText(makes_between ? "auto" : "");
       QTest::keyClick(&question, Qt::Key_Return);
     });
     (*action)->trigger();

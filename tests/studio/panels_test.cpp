@@ -28,7 +28,7 @@ namespace {
 
 class PanelsTest : public StudioTest {
  protected:
-  static constexpr int kName = 0, kStill = 2, kWhite = 3, kSolo = 4;
+  static constexpr int kName = 0, kStill = 2, kClipped = 3, kSolo = 4;
 
   // A region of 20 × 20 pixels at (10, 10).
   void add_square() {
@@ -184,25 +184,25 @@ TEST_F(PanelsTest, TheStatusTellsThePixelTheArithmeticAndTheTime) {
   EXPECT_TRUE(status("saturated").startsWith("4608 px saturated")) << status("saturated").toStdString();
 }
 
-TEST_F(PanelsTest, EachRegionTellsHowManyOfItsPixelsAreWhite) {
+TEST_F(PanelsTest, EachRegionTellsHowManyOfItsPixelsAreClipped) {
   ASSERT_NO_FATAL_FAILURE(add_square());
   QTreeWidgetItem &square = *list().topLevelItem(0), &background = *list().topLevelItem(1);
-  EXPECT_EQ(square.text(kWhite) + background.text(kWhite), "");
+  EXPECT_EQ(square.text(kClipped) + background.text(kClipped), "");
   document().set_points(kBackground, {{0, 0.25}, {document().duration_ns(), 0.25}}, "Shape");
   document().set_points(document().selected_tag(), {{0, 1.0}, {document().duration_ns(), 1.0}}, "Shape");
   type(child<QDoubleSpinBox>("brightness"),
        "5");  // of light 0.045: 1.4, and 0.36 where the gain is a quarter
   ASSERT_TRUE(settles());
-  EXPECT_EQ(square.text(kWhite), "400") << "all of it";
+  EXPECT_EQ(square.text(kClipped), "400") << "all of it";
   std::size_t white = 0;
   for (int y = 0; y < canvas().image().height(); ++y)
     for (int x = 0; x < canvas().image().width(); ++x)
       if (!QRect(10, 10, 20, 20).contains(x, y)) white += qRed(canvas().image().pixel(x, y)) == 255;
-  EXPECT_EQ(background.text(kWhite), white == 0 ? QString() : QString::number(white));
+  EXPECT_EQ(background.text(kClipped), white == 0 ? QString() : QString::number(white));
   EXPECT_LT(white, 1000u);
   QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
   ASSERT_TRUE(settles());
-  EXPECT_EQ(square.text(kWhite), "");
+  EXPECT_EQ(square.text(kClipped), "");
 }
 
 TEST_F(PanelsTest, NumbersHaveAPointAndAreTypedWithACommaToo) {

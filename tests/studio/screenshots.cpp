@@ -84,7 +84,8 @@ class Photographer {
       const QString name = action->text().remove('&').section(' ', 0, 0).toLower();
       is_taken = is_taken && save(action->menu()->grab().toImage(), QString("menu-%1-%2").arg(name, look));
     }
-    // They ask in loops of their own.
+    // They ask in loops of their own; an interval is exported without a project.
+    window_.document().set_mode(ExposureMode::boxcar);
     for (const char* asking : {"Export picture", "Export film", "Study with"}) {
       for (QAction* action : window_.findChildren<QAction*>()) {
         if (!action->text().remove('&').startsWith(asking)) continue;
@@ -97,6 +98,7 @@ class Photographer {
         action->trigger();
       }
     }
+    window_.document().set_mode(ExposureMode::functions);
     // By its action and not by keys, which a screen without a window manager gives to no window.
     for (QAction* action : window_.findChildren<QAction*>()) {
       if (action->shortcut() == QKeySequence(Qt::CTRL | Qt::Key_D)) action->trigger();

@@ -3,6 +3,7 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QListWidget>
+#include <QToolButton>
 #include <QTreeWidget>
 #include <set>
 
@@ -177,6 +178,21 @@ TEST_F(SeeingTest, AStudyHasTheChoicesOfTheCommand) {
       << window_.notice().text().toStdString();
 }
 
+TEST_F(SeeingTest, AStudyOfAHandHeldClipHoldsTheCameraStill) {
+  window_.open(QString(NUTIK_TEST_MEDIA) + "/realshort.mp4");
+  ASSERT_TRUE(settles());
+  window_.start_study(usual_study(StudyStyle::frozen));
+  ASSERT_TRUE(settles());
+  auto& way_out = *window_.notice().findChild<QToolButton*>("way_out");
+  ASSERT_EQ(way_out.text(), "Hold the camera still") << window_.notice().text().toStdString();
+  EXPECT_FALSE(document().facts()->stated.contains("align"));
+  QTest::mouseClick(&way_out, Qt::LeftButton);
+  ASSERT_TRUE(settles());
+  EXPECT_EQ(document().facts()->stated.at("align"), "rigid") << window_.notice().text().toStdString();
+  EXPECT_TRUE(document().functions().size() > 1 || window_.notice().text().contains("moves"))
+      << "the study goes on by itself: " << window_.notice().text().toStdString();
+}
+
 // ---- films ----
 
 TEST_F(SeeingTest, SpacePlaysTheIntervalAndStopsIt) {
@@ -224,7 +240,8 @@ TEST_F(SeeingTest, AFilmIsExportedAsTheCommandMakesIt) {
     EXPECT_TRUE(is_asked_);
     EXPECT_TRUE(window_.notice().text().contains("10 frame")) << window_.notice().text().toStdString();
   }
-  const auto made = run_line("nutik-cl video -f 100 --speed 0.5 --out-fps 25 --precision fixed frames/%02d.pgm by-%05d.png");
+  const auto made = run_line(
+      "nutik-cl video -f 100 --speed 0.5 --out-fps 25 --precision fixed frames/%02d.pgm by-%05d.png");
   ASSERT_EQ(made.status, 0) << made.err;
   for (int frame = 0; frame < 10; ++frame) {
     const QString number = QString("%1.png").arg(frame, 5, 10, QChar('0'));

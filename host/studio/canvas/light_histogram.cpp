@@ -43,7 +43,8 @@ MeasuredLight measured_light(Session& session, const DocumentState& state, const
         is_above = is_above || scale.saturates_above(light[channel]);
       }
       const std::uint8_t region = tag == nullptr ? std::uint8_t{0} : *tag++;
-      ++measured.regions[region][static_cast<std::size_t>(bin_of(*std::max_element(light, light + shape.channels)))];
+      const double brightest = *std::max_element(light, light + shape.channels);
+      ++measured.regions[region][static_cast<std::size_t>(bin_of(brightest))];
       if (!is_below && !is_above) continue;
       measured.saturated[region] += {is_below, is_above};
       mark[x] = is_above ? qRgb(255, 40, 30) : qRgb(50, 90, 255);
@@ -61,8 +62,8 @@ LightHistogram::LightHistogram(Document& document, QWidget* parent) : QWidget(pa
 
 void LightHistogram::show_light(std::shared_ptr<const MeasuredLight> light) {
   light_ = std::move(light);
-  QStringList lines{tr("How many pixels have which brightness, black to white, and %1 stops beyond: colours are those of "
-                       "the picture, the line is the selected region's brightest channel.")
+  QStringList lines{tr("How many pixels have which brightness, from black to white and %1 stops beyond. The line is "
+                       "the selected region's brightest channel.")
                         .arg(MeasuredLight::kStops)};
   if (light_) {
     for (const auto& [tag, pixels] : light_->saturated)

@@ -1,4 +1,4 @@
-// Light before codes end it at black and white: how much there is of each brightness, and which pixels codes cannot show.
+// Light before codes end it at black and white: how much there is of each brightness, and which pixels no code shows.
 #pragma once
 
 #include <QImage>

@@ -272,7 +272,8 @@ void Canvas::paintEvent(QPaintEvent* event) {
   if (image_.isNull()) return;  // it comes at once
   painter.setRenderHint(QPainter::SmoothPixmapTransform, view_.zoom() < 1);
   const bool is_another = !glance_.instead.isNull();
-  painter.drawImage(is_another ? view_.place() : place, is_another ? glance_.instead : reduced_.isNull() ? image_ : reduced_);
+  const QImage& exposed = reduced_.isNull() ? image_ : reduced_;
+  painter.drawImage(is_another ? view_.place() : place, is_another ? glance_.instead : exposed);
   if (document_.facts() == nullptr || is_first_look_) return;
   if (is_another) {
     painter.setPen(Qt::white);

@@ -80,18 +80,17 @@ RegionList::RegionList(Document& document, QWidget* parent)
   list_->setObjectName("regions");
   list_->setAccessibleName(tr("Regions"));
   list_->setColumnCount(kColumns);
-  list_->setHeaderLabels({tr("Region"), tr("EV"), tr("Still"), tr("White"), tr("Solo")});
+  list_->setHeaderLabels({tr("Region"), tr("EV"), tr("Still"), tr("Clipped"), tr("Solo")});
   list_->headerItem()->setToolTip(kEv, tr("The same in stops: 0 is as bright as the capture, −1 half as bright"));
   list_->headerItem()->setToolTip(kStill, tr("What light that does not change is multiplied by"));
-  list_->headerItem()->setToolTip(kWhite, tr("How many of its pixels have a channel at the last code, 255: just "
-                                             "white, or saturated. More light would not be seen"));
+  list_->headerItem()->setToolTip(kClipped, tr("How many of its pixels have light beyond white, which no code shows"));
   list_->headerItem()->setToolTip(kSolo, tr("Darkens all other regions"));
   list_->setRootIsDecorated(false);
   list_->setUniformRowHeights(true);
   list_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
   list_->header()->setStretchLastSection(false);
   list_->header()->setSectionResizeMode(kName, QHeaderView::Stretch);
-  for (const int column : {kEv, kStill, kWhite, kSolo}) {
+  for (const int column : {kEv, kStill, kClipped, kSolo}) {
     list_->header()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
     list_->setItemDelegateForColumn(column, new NoEditor(list_));
   }
@@ -109,7 +108,7 @@ RegionList::RegionList(Document& document, QWidget* parent)
     if (!(listed == listed_)) follow();
   });
   connect(&document_, &Document::capture_changed, this, [this] {
-    white_.fill(0);
+    clipped_.fill(0);
     follow();
   });
   connect(&document_, &Document::selection_changed, this, &RegionList::follow_selection);
@@ -214,7 +213,7 @@ void RegionList::follow() {
   }
   for (int row = 0; row < list_->topLevelItemCount(); ++row)
     fill(*list_->topLevelItem(row), tags[static_cast<std::size_t>(row)]);
-  list_->setColumnHidden(kWhite, std::ranges::all_of(white_, [](std::uint64_t pixels) { return pixels == 0; }));
+  list_->setColumnHidden(kClipped, std::ranges::all_of(clipped_, [](std::uint64_t pixels) { return pixels == 0; }));
   feather_->setValue(document_.state().feather.everywhere / 100.0);
   follow_selection();
 }
@@ -251,27 +250,13 @@ void RegionList::fill(QTreeWidgetItem& item, std::uint8_t tag) const {
   const auto still = still_gain(document_.state(), tag, document_.duration_ns());
   item.setText(kStill, still ? QStringLiteral("%1×").arg(*still, 0, 'f', 2) : QStringLiteral("–"));
   item.setText(kEv, still && *still > 0 ? stops_text(std::log2(*still)) : QStringLiteral("–"));
-  item.setText(kWhite, white_[tag] == 0 ? QString() : QString::number(white_[tag]));
-  for (const int column : {kEv, kStill, kWhite}) item.setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
+  item.setText(kClipped, clipped_[tag] == 0 ? QString() : QString::number(clipped_[tag]));
+  for (const int column : {kEv, kStill, kClipped}) item.setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
 }
 
-void RegionList::count_white(const ShownPicture& picture) {
-  const CaptureFacts* facts = document_.facts();
-  if (!picture.is_full || facts == nullptr) return;
-  const QImage& image = picture.image;
-  const Shape& shape = facts->format.shape;
-  if (image.size() != QSize(static_cast<int>(shape.width), static_cast<int>(shape.height))) return;
-  const auto& mask = document_.state().mask;
-  white_.fill(0);
-  for (int y = 0; y < image.height(); ++y) {
-    const auto* row = reinterpret_cast<const QRgb*>(image.constScanLine(y));
-    const std::uint8_t* tags =
-        mask ? (*mask)->mask.tags.data() + static_cast<std::size_t>(y) * shape.width : nullptr;
-    for (int x = 0; x < image.width(); ++x) {
-      const bool is_white = qRed(row[x]) == 255 || qGreen(row[x]) == 255 || qBlue(row[x]) == 255;
-      if (is_white) ++white_[tags == nullptr ? kBackground : tags[x]];
-    }
-  }
+void RegionList::count_clipped(const MeasuredLight& light) {
+  clipped_.fill(0);
+  for (const auto& [tag, pixels] : light.saturated) clipped_[tag] = pixels.above;
   follow();
 }
 

@@ -25,7 +25,7 @@
 #include "studio/regions/region_list.hpp"
 #include "studio/time/time_fields.hpp"
 #include "studio/time/time_strip.hpp"
-#include "studio/window/clip_dialog.hpp"
+#include "studio/window/options_dialog.hpp"
 #include "studio/window/project_file.hpp"
 #include "studio/window/start_page.hpp"
 #include "studio/window/started_work.hpp"
@@ -106,7 +106,7 @@ void MainWindow::build_window() {
   auto* row = new QSplitter(Qt::Horizontal);
   row->setObjectName("row");
   row->addWidget(column);
-  auto* regions = new RegionList(document_);
+  regions_ = new RegionList(document_);
   histogram_ = new LightHistogram(document_);
   side_ = new QWidget;
   side_->setObjectName("side");
@@ -114,9 +114,8 @@ void MainWindow::build_window() {
   side_column->setContentsMargins(4, 4, 4, 4);
   side_column->addWidget(histogram_);
   side_column->addWidget(build_exposure());
-  side_column->addWidget(regions, 1);
+  side_column->addWidget(regions_, 1);
   row->addWidget(side_);
-  connect(&live_, &LiveView::pictured, regions, &RegionList::count_white);
   row->setStretchFactor(0, 1);
   row->setChildrenCollapsible(false);
   row->setSizes({10'000, 262});
@@ -297,10 +296,16 @@ void MainWindow::tell_way_out(const QString& path, const Stated& stated, const O
 }
 
 void MainWindow::ask_how_to_read(const QString& path, const Stated& stated, const QString& why, const Origin& origin) {
-  const std::optional<Stated> answer = studio::ask_how_to_read(this, why, stated);
-  if (!answer) return;
+  const auto wanted = ask_options(this, {.command = CommandId::encode,
+                                         .title = tr("How the clip is read"),
+                                         .options = {"fps", "align", "deflicker", "between"},
+                                         .first = {{}, stated},
+                                         .filter = {},
+                                         .check = {},
+                                         .why = why});
+  if (!wanted) return;
   notice_->clear();
-  open_capture_file(path, *answer, origin);
+  open_capture_file(path, wanted->options, origin);
 }
 
 void MainWindow::take(Opened opened, Origin origin) {

@@ -34,6 +34,7 @@ class QToolBar;
 
 namespace nutik::studio {
 
+class RegionList;
 class StartPage;
 struct StartingPoint;
 
@@ -148,6 +149,7 @@ class MainWindow : public QMainWindow {
   void choose_export();
   void choose_film();
   void choose_study();
+  void offer_still_camera(StudyStyle style, const QString& why);
   void show_plate(const QImage& plate);
   [[nodiscard]] Stated film_options() const;
   void play_on();
@@ -222,6 +224,7 @@ class MainWindow : public QMainWindow {
   QWidget *time_ = nullptr, *curves_ = nullptr, *side_ = nullptr;
   StartPage* start_ = nullptr;
   LightHistogram* histogram_ = nullptr;
+  RegionList* regions_ = nullptr;
   StatusLine* status_ = nullptr;
   QActionGroup* tools_ = nullptr;
   QList<QAction*> needs_capture_, folds_;

@@ -311,7 +311,8 @@ void MainWindow::build_view_menu() {
   play->setToolTip(tr("Plays the interval through the capture, or from In to Out (Space)"));
   needs_capture_ += play;
   menu.addSeparator();
-  clipping_ = add_action(menu, tr("Mark &clipped light"), Qt::Key_C, [this] { light_ ? mark_clipped() : measure_light(); });
+  clipping_ = add_action(menu, tr("Mark &clipped light"), Qt::Key_C,
+                         [this] { light_ ? mark_clipped() : measure_light(); });
   clipping_->setCheckable(true);
   needs_capture_ += add_action(menu, tr("&Keep as snapshot A"), Qt::CTRL | Qt::Key_K, [this] { keep_snapshot(); });
   needs_capture_ +=
@@ -426,7 +427,8 @@ QWidget* MainWindow::build_exposure() {
     state.brightness_ev = stops;
     document_.apply(std::move(state), tr("Brightness"));
   });
-  const auto film_box = [this](QDoubleSpinBox*& box, const char* name, double least, double most, const QString& tip) {
+  const auto film_box = [this](QDoubleSpinBox*& box, const char* name, double least, double most,
+                               const QString& tip) {
     box = new NumberBox;
     box->setObjectName(name);
     box->setRange(least, most);
@@ -444,7 +446,7 @@ QWidget* MainWindow::build_exposure() {
   speed_->setDecimals(3);
   speed_->setPrefix(tr("Film "));
   speed_->setSuffix(QStringLiteral("×"));
-  film_box(angle_, "film_angle", 1, 3600, tr("Shutter angle of the film: 360° exposes each frame until the next begins"));
+  film_box(angle_, "film_angle", 1, 3600, tr("Shutter angle of the film: 360° is all of the time to the next frame"));
   angle_->setDecimals(0);
   angle_->setSuffix(QStringLiteral("°"));
   connect(&playing_, &QTimer::timeout, this, &MainWindow::play_on);

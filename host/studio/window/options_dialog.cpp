@@ -30,7 +30,7 @@ QString label_of(const Option& option) {
 // `24` of `… (default: 24)`.
 QString default_of(const Option& option) {
   constexpr std::string_view kBegin = "(default: ";
-  const auto at = option.help.rfind(kBegin);
+  const auto at = option.help.find(kBegin);
   if (at == std::string_view::npos) return {};
   const std::string_view rest = option.help.substr(at + kBegin.size());
   return text(rest.substr(0, rest.find(')')));
@@ -49,12 +49,22 @@ Field field_of(const Option& option, const QString& stated, QWidget* parent) {
   }
   const std::vector<std::string> choices = option.choices();
   const bool is_open = std::ranges::any_of(choices, [](const std::string& word) { return word.ends_with(':'); });
-  if (choices.empty() || is_open) {
-    auto* line = new QLineEdit(stated, parent);
+  const auto typed = [&](QLineEdit* line) {
+    line->setText(stated);
     line->setPlaceholderText(default_of(option));
-    return {line, [line] { return line->text().trimmed().isEmpty() ? QString() : line->text().trimmed(); }};
+    return [line] { return line->text().trimmed().isEmpty() ? QString() : line->text().trimmed(); };
+  };
+  if (choices.empty()) {
+    auto* line = new QLineEdit(parent);
+    return {line, typed(line)};
   }
   auto* box = new QComboBox(parent);
+  if (is_open) {
+    for (const std::string& word : choices)
+      if (!word.ends_with(':')) box->addItem(text(word));
+    box->setEditable(true);
+    return {box, typed(box->lineEdit())};
+  }
   box->addItem(default_of(option).isEmpty() ? Document::tr("as is usual") : default_of(option), QString());
   for (const std::string& word : choices) box->addItem(text(word), text(word));
   box->setCurrentIndex(std::max(box->findData(stated), 0));
@@ -79,6 +89,10 @@ std::optional<Wanted> ask_options(QWidget* parent, const Asked& asked) {
   QDialog dialog(parent);
   dialog.setWindowTitle(asked.title);
   auto* form = new QFormLayout(&dialog);
+  auto* why = new QLabel(asked.why, &dialog);
+  why->setWordWrap(true);
+  why->setVisible(!asked.why.isEmpty());
+  if (!asked.why.isEmpty()) form->addRow(why);
   auto* path = new QLineEdit(asked.first.path, &dialog);
   path->setObjectName("path");
   path->setVisible(!asked.first.path.isEmpty());
@@ -89,7 +103,9 @@ std::optional<Wanted> ask_options(QWidget* parent, const Asked& asked) {
     auto* row = new QHBoxLayout;
     row->addWidget(path, 1);
     row->addWidget(browse);
-    form->addRow(tr("&File"), row);
+    auto* label = new QLabel(tr("&File"), &dialog);
+    label->setBuddy(path);
+    form->addRow(label, row);
     QObject::connect(browse, &QPushButton::clicked, &dialog, [&] {
       const QString chosen = QFileDialog::getSaveFileName(&dialog, asked.title, path->text(), asked.filter, nullptr,
                                                           QFileDialog::DontConfirmOverwrite);
@@ -123,22 +139,24 @@ std::optional<Wanted> ask_options(QWidget* parent, const Asked& asked) {
   Wanted wanted;
   QObject::connect(buttons, &QDialogButtonBox::rejected, &dialog, &QDialog::reject);
   QObject::connect(buttons, &QDialogButtonBox::accepted, &dialog, [&] {
-    wanted = {path->text().trimmed(), {}};
+    wanted = {path->text().trimmed(), asked.first.options};
     const QFileInfo first(asked.first.path);
     if (!wanted.path.isEmpty() && QFileInfo(wanted.path).suffix().isEmpty()) wanted.path += "." + first.suffix();
     if (!wanted.path.isEmpty()) wanted.path = first.dir().absoluteFilePath(wanted.path);
-    for (const auto& [name, field] : fields)
+    for (const auto& [name, field] : fields) {
+      wanted.options.erase(name);
       if (const QString value = field.value(); !value.isNull()) wanted.options.emplace(name, value.toStdString());
+    }
     try {
-      asked.check(wanted, options_in(asked.command, wanted.options));
+      const Options options = options_in(asked.command, wanted.options);
+      if (asked.check) asked.check(wanted, options);
     } catch (...) {
       mistake->setText(sentence_of(std::current_exception()));
       return mistake->show();
     }
     const bool is_there = !wanted.path.isEmpty() && QFileInfo::exists(wanted.path);
-    if (!is_there || QMessageBox::question(&dialog, asked.title, tr("%1 is there already. Replace it?").arg(wanted.path)) ==
-                         QMessageBox::Yes)
-      dialog.accept();
+    const QString question = tr("%1 is there already. Replace it?").arg(wanted.path);
+    if (!is_there || QMessageBox::question(&dialog, asked.title, question) == QMessageBox::Yes) dialog.accept();
   });
   if (dialog.exec() != QDialog::Accepted) return std::nullopt;
   return wanted;

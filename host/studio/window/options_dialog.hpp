@@ -28,11 +28,12 @@ struct Asked {
   std::vector<const char*> options;
   Wanted first;    // what the fields begin with
   QString filter;  // of files, for a file dialog
-  // Throws where it cannot be done, which is said in the dialog.
+  // Throws where it cannot be done, which is said in the dialog; may be empty.
   std::function<void(const Wanted& wanted, const Options& options)> check;
+  QString why = {};  // it is asked; over the fields
 };
-// None where a person gave it up. A name without an ending gets that of the first one; what is there is replaced if a
-// person says so.
+// None where a person gave it up; what else was stated stays. A name without an ending gets that of the first one; what
+// is there is replaced if a person says so.
 [[nodiscard]] std::optional<Wanted> ask_options(QWidget* parent, const Asked& asked);
 
 }  // namespace nutik::studio

@@ -2,6 +2,7 @@
 #include <QAction>
 #include <QKeyEvent>
 
+#include "studio/regions/region_list.hpp"
 #include "studio/window/main_window.hpp"
 
 namespace nutik::studio {
@@ -15,6 +16,7 @@ void MainWindow::measure_light() {
                      return [this, light] {
                        light_ = light;
                        histogram_->show_light(light);
+                       regions_->count_clipped(*light);
                        mark_clipped();
                      };
                    });
@@ -24,12 +26,15 @@ void MainWindow::measure_light() {
 void MainWindow::forget_light() {
   measuring_.cancel();
   light_.reset();
-  let_go();
-  mark_clipped();
+  Glance glance = canvas_->glance();
+  if (glance.marks.isNull() && glance.instead.isNull()) return;  // nothing of the picture is painted anew
+  glance.marks = glance.instead = {};
+  canvas_->look(std::move(glance));
 }
 
 void MainWindow::mark_clipped() {
   Glance glance = canvas_->glance();
+  if (glance.marks.isNull() && !clipping_->isChecked()) return;
   glance.marks = light_ && clipping_->isChecked() ? light_->marks : QImage();
   canvas_->look(std::move(glance));
 }

@@ -94,7 +94,7 @@ StartPage::StartPage(QWidget* parent) : QWidget(parent), recent_(new QListWidget
   open->setToolTip(tr("Ctrl+O; or drop one here"));
   connect(open, &QPushButton::clicked, this, &StartPage::asked_for_clip);
   auto* cards = new QGridLayout;
-  cards->setColumnStretch(2, 1);
+  cards->setColumnStretch(3, 1);
   int card = 0;
   for (const StartingPoint& point : starting_points()) {
     auto* button = new QCommandLinkButton(Document::tr(point.name).remove('&'), Document::tr(point.tip), this);
@@ -102,7 +102,8 @@ StartPage::StartPage(QWidget* parent) : QWidget(parent), recent_(new QListWidget
     button->setIcon(QPixmap::fromImage(drawn(point.style)));
     button->setIconSize(kCard);
     connect(button, &QPushButton::clicked, this, [this, &point] { Q_EMIT started(point); });
-    cards->addWidget(button, card / 2, card % 2);
+    button->setMinimumWidth(290);
+    cards->addWidget(button, card / 3, card % 3);
     ++card;
   }
   recent_->setObjectName("recent");

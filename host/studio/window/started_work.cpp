@@ -151,8 +151,8 @@ Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session,
     if (document.state().mask) inputs.push_back(files.mask.toStdString());
   }
   check_output(path, OutputKind::picture, inputs);
-  return [state = document.state(), sources = recipe_sources(document, files, written), options, session = std::move(session),
-          path, told = std::move(told),
+  return [state = document.state(), sources = recipe_sources(document, files, written), options,
+          session = std::move(session), path, told = std::move(told),
           precision = document.facts()->precision](const Job& job) -> Jobs::Finish {
     const auto mask = state.mask && state.mode == ExposureMode::functions
                           ? std::optional(LiveView::feathered_mask(state))

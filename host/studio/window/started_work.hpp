@@ -27,7 +27,8 @@ struct StartingPoint {
 // Both look at what lies between the document's marks.
 
 // The document gets the study's regions, functions and mask as one step; `told` its notes.
-[[nodiscard]] Jobs::Work studying(Document& document, std::shared_ptr<Session> session, const StudyRequest& request, Told told);
+[[nodiscard]] Jobs::Work studying(Document& document, std::shared_ptr<Session> session,
+                                  const StudyRequest& request, Told told);
 // A style as it is usual here.
 [[nodiscard]] StudyRequest usual_study(StudyStyle style);
 // The scene without what moves, to be looked at.

@@ -1,6 +1,7 @@
 // What the window begins: studies, films, exports.
 #include <QDoubleSpinBox>
 #include <QFileInfo>
+#include <algorithm>
 
 #include "features/film/film_making.hpp"
 #include "features/schema/requests.hpp"
@@ -26,7 +27,8 @@ void MainWindow::start_from(const StartingPoint& point) {
     if (!opening_.isEmpty()) pending_ = &point;
   } else if (!point.style) {
     const std::int64_t start_ns = document_.mark_in().value_or(0);
-    document_.set_boxcar({start_ns, document_.mark_out().value_or(document_.duration_ns()) - start_ns}, tr("Long exposure"));
+    const std::int64_t end_ns = document_.mark_out().value_or(document_.duration_ns());
+    document_.set_boxcar({start_ns, end_ns - start_ns}, tr("Long exposure"));
   } else if (point.style == StudyStyle::clean) {
     jobs_.start(tr("Looking for the empty scene"),
                 making_plate(document_, session_, [this](const QImage& plate) { show_plate(plate); }));
@@ -38,7 +40,26 @@ void MainWindow::start_from(const StartingPoint& point) {
 void MainWindow::start_study(const StudyRequest& request) {
   if (!session_) return;
   notice_->clear();
-  jobs_.start(tr("Looking for a subject"), studying(document_, session_, request, told()));
+  jobs_.start(tr("Looking for a subject"),
+              [this, style = request.style, work = studying(document_, session_, request, told())](const Job& job) {
+                try {
+                  return work(job);
+                } catch (const EverythingMoves&) {
+                  const QString why = sentence_of(std::current_exception());
+                  return Jobs::Finish([this, style, why] { offer_still_camera(style, why); });
+                }
+              });
+}
+
+void MainWindow::offer_still_camera(StudyStyle style, const QString& why) {
+  if (!session_->is_clip()) return notice_->say(Notice::Kind::error, why);
+  notice_->say(Notice::Kind::error, why, tr("Hold the camera still"), [this, style] {
+    if (!may_leave()) return;
+    Stated still = document_.facts()->stated;
+    still["align"] = "rigid";
+    open_capture_file(document_.facts()->path, still, {});
+    pending_ = &*std::ranges::find(starting_points(), std::optional(style), &StartingPoint::style);
+  });
 }
 
 void MainWindow::choose_study() {
@@ -60,7 +81,8 @@ void MainWindow::show_plate(const QImage& plate) {
   glance.instead = plate;
   glance.title = tr("Without what moves. Escape: back to the picture");
   canvas_->look(std::move(glance));
-  notice_->say(Notice::Kind::note, tr("This scene is no exposure: it is kept as a picture of its own."), tr("Save…"), [this] {
+  const QString note = tr("This scene is no exposure: it is kept as a picture of its own.");
+  notice_->say(Notice::Kind::note, note, tr("Save…"), [this] {
     ask_for_name(tr("Write the empty scene"), "-empty.png", tr("Pictures (*.png *.tif *.jpg *.exr)"),
                  [this](const QString& path) { write_plate(path); });
   });
@@ -107,7 +129,7 @@ void MainWindow::choose_film() {
       this, {CommandId::video,
              tr("Export the interval as a film"),
              {"out-fps", "speed", "out-angle", "from", "to", "video-codec", "crf", "quality", "depth", "sound"},
-             {suggested(".mp4"), film_options()},
+             {suggested("-film.mp4"), film_options()},
              tr("Films and numbered pictures (*.mp4 *.mov *.mkv *.webm *.gif *.webp *-%05d.png)"),
              [&](const Wanted& asked, const Options& options) {
                static_cast<void>(filming(document_, session_, asked.path, options, {}));

@@ -127,7 +127,7 @@ void StatusLine::tell(const ShownPicture& picture) {
 }
 
 void StatusLine::tell_zoom(double screen_pixels) {
-  zoom_->setText(screen_pixels == 0 ? QString() : tr("%1 %").arg(100 * screen_pixels, 0, 'f', screen_pixels < 0.1 ? 1 : 0));
+  zoom_->setText(screen_pixels == 0 ? QString() : tr("%1 %").arg(100 * screen_pixels, 0, 'f', 0));
 }
 
 void StatusLine::tell(std::optional<QPoint> pixel, const QImage& image) {
