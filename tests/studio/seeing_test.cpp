@@ -3,10 +3,12 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QListWidget>
+#include <QPainter>
 #include <QToolButton>
 #include <QTreeWidget>
 #include <set>
 
+#include "capture/format.hpp"
 #include "studio/canvas/light_histogram.hpp"
 #include "studio/time/time_strip.hpp"
 #include "studio/window/start_page.hpp"
@@ -179,7 +181,23 @@ TEST_F(SeeingTest, AStudyHasTheChoicesOfTheCommand) {
 }
 
 TEST_F(SeeingTest, AStudyOfAHandHeldClipHoldsTheCameraStill) {
-  window_.open(QString(NUTIK_TEST_MEDIA) + "/realshort.mp4");
+  test::Random random(7);
+  const auto any = [&](int least, int most) { return static_cast<int>(random.whole(least, most)); };
+  QImage ground(260, 200, QImage::Format_Grayscale8);
+  ground.fill(90);
+  for (int patch = 0; patch < 200; ++patch) {
+    const int grey = any(30, 180);
+    QPainter(&ground).fillRect(any(0, 250), any(0, 190), any(4, 24), any(4, 24), QColor(grey, grey, grey));
+  }
+  for (int k = 0; k < 16; ++k) {
+    QImage picture = ground.copy(30 + k * 7 % 13, 20 + k * 5 % 11, 200, 150);
+    QPainter ball(&picture);
+    ball.setBrush(Qt::white);
+    ball.drawEllipse(QPoint(20 + 11 * k, 75), 8, 8);
+    ball.end();
+    ASSERT_TRUE(picture.save(path(format("shaken-{:02}.png", k).c_str())));
+  }
+  window_.open(path("shaken-%02d.png"), "100");
   ASSERT_TRUE(settles());
   window_.start_study(usual_study(StudyStyle::frozen));
   ASSERT_TRUE(settles());
@@ -188,8 +206,8 @@ TEST_F(SeeingTest, AStudyOfAHandHeldClipHoldsTheCameraStill) {
   EXPECT_FALSE(document().facts()->stated.contains("align"));
   QTest::mouseClick(&way_out, Qt::LeftButton);
   ASSERT_TRUE(settles());
-  EXPECT_EQ(document().facts()->stated.at("align"), "rigid") << window_.notice().text().toStdString();
-  EXPECT_TRUE(document().functions().size() > 1 || window_.notice().text().contains("moves"))
+  ASSERT_TRUE(document().facts()->stated.contains("align")) << window_.notice().text().toStdString();
+  EXPECT_GT(document().functions().size(), 1u)
       << "the study goes on by itself: " << window_.notice().text().toStdString();
 }
 
