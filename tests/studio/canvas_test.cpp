@@ -174,7 +174,7 @@ TEST_F(CanvasTest, ToolsPaintByKeyboard) {
 TEST_F(CanvasTest, APixelIsTakenAndMovedByKeyboard) {
   open_clip();
   QTest::mouseMove(&canvas(), at(30.5, 24.5));
-  QTest::keyClick(&canvas(), Qt::Key_Space);
+  QTest::keyClick(&canvas(), Qt::Key_Return);
   EXPECT_EQ(document().probe(), QPoint(30, 24));
   QTest::keyClick(&canvas(), Qt::Key_Right, Qt::ShiftModifier);
   QTest::keyClick(&canvas(), Qt::Key_Up);

@@ -153,7 +153,7 @@ TEST_F(LiveViewTest, WhatIsSeenSmallIsExposedSmall) {
     return pictures.empty() ? ShownPicture() : pictures.back();
   };
   document().begin_drag();
-  live_.set_visible(everything, 0.6);
+  live_.set_visible(everything, 1);
   ramp(right_, 0.9);
   EXPECT_EQ(exposed_now().divisor, 1) << "a screen that shows more";
   live_.set_visible(everything, 0.5);

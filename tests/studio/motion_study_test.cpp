@@ -115,7 +115,7 @@ TEST_F(MotionStudyTest, IsMadeByMouseAlone) {
   name_next_file("study.nutik");
   click_menu("File", "Save project");
   ASSERT_TRUE(window_.has_files()) << window_.notice().text().toStdString();
-  name_next_file("window.png");
+  name_next_export("window.png");
   click_menu("File", "Export picture…");
   ASSERT_TRUE(settles());
   click_menu("File", "Copy as command");

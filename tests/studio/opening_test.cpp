@@ -431,7 +431,7 @@ TEST_F(OpeningTest, FilesAreChosenInDialogsByKeyboard) {
   const auto choose = [&](Qt::Key key, const char* name) {
     window_.activateWindow();
     ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
-    name_next_file(name);
+    key == Qt::Key_E ? name_next_export(name) : name_next_file(name);
     QTest::keyClick(&window_, key, Qt::ControlModifier);
     ASSERT_TRUE(settles());
     EXPECT_TRUE(is_asked_) << name;
@@ -467,7 +467,7 @@ TEST_F(OpeningTest, ReadsAClipAsItIsTold) {
       EXPECT_EQ(question.findChild<QLineEdit*>("fps")->text(), "100");
       question.findChild<QComboBox*>("align")->setCurrentIndex(align);
       question.findChild<QCheckBox*>("deflicker")->setChecked(deflickers);
-      question.findChild<QCheckBox*>("between")->setChecked(makes_between);
+      question.findChild<QComboBox*>("between")->setCurrentText(makes_between ? "auto" : "");
       QTest::keyClick(&question, Qt::Key_Return);
     });
     (*action)->trigger();

@@ -1,7 +1,7 @@
 // Takes the pictures of docs/how-to/studio.md: nutik_studio_screenshots CLIP FOLDER. On the screen that QT_QPA_PLATFORM
 // names; without one where it names none.
 //
-//   FOLDER/*.png        the window at 1280 × 800, 2560 × 1600 and 1000 × 620, dark and light
+//   FOLDER/*.png        the window at 1280 × 800, 2560 × 1600 and 1024 × 640, dark and light
 //   FOLDER/drag/NN.png  a control point on its way there and back, with the hand that drags it
 #include <QAction>
 #include <QApplication>
@@ -12,6 +12,7 @@
 #include <QMenuBar>
 #include <QPainter>
 #include <QTest>
+#include <QTimer>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -19,6 +20,7 @@
 #include "studio/curves/curve_editor.hpp"
 #include "studio/window/appearance.hpp"
 #include "studio/window/main_window.hpp"
+#include "studio/window/started_work.hpp"
 
 using namespace nutik::studio;
 
@@ -39,12 +41,16 @@ class Photographer {
     if (!take("empty")) return false;
     window_.open(clip);
     if (!take("interval") || document.facts() == nullptr) return false;
-    window_.start_study(nutik::StudyStyle::trail);
+    window_.start_study(usual_study(nutik::StudyStyle::trail));
     if (!settles()) return false;
     const QSize picture = window_.canvas().image().size();
     document.set_probe(QPoint(picture.width() / 2, picture.height() / 2));
     document.select_tag(document.functions().rbegin()->first);
-    return take("studio") && take_looks() && take_dialogs("dark") && take_drag();
+    if (!take("studio")) return false;
+    window_.resize(1920, 1080);
+    if (!take("full-hd")) return false;
+    window_.resize(1280, 800);
+    return take_looks() && take_dialogs("dark") && take_drag();
   }
 
  private:
@@ -64,7 +70,7 @@ class Photographer {
     is_taken = is_taken && take("light-large");
     set_appearance(Appearance::dark);
     is_taken = is_taken && take("large");
-    window_.resize(1000, 620);
+    window_.resize(1024, 640);
     is_taken = is_taken && take("small");
     window_.findChild<QAction*>("tool_look")->trigger();
     window_.resize(size);
@@ -78,6 +84,21 @@ class Photographer {
       const QString name = action->text().remove('&').section(' ', 0, 0).toLower();
       is_taken = is_taken && save(action->menu()->grab().toImage(), QString("menu-%1-%2").arg(name, look));
     }
+    // They ask in loops of their own; an interval is exported without a project.
+    window_.document().set_mode(ExposureMode::boxcar);
+    for (const char* asking : {"Export picture", "Export film", "Study with"}) {
+      for (QAction* action : window_.findChildren<QAction*>()) {
+        if (!action->text().remove('&').startsWith(asking)) continue;
+        QTimer::singleShot(200, &window_, [&] {
+          QWidget* asked = QApplication::activeModalWidget();
+          is_taken = is_taken && asked != nullptr &&
+                     save(asked->grab().toImage(), QString("%1-%2").arg(asking).arg(look).toLower().replace(' ', '-'));
+          if (asked != nullptr) asked->close();
+        });
+        action->trigger();
+      }
+    }
+    window_.document().set_mode(ExposureMode::functions);
     // By its action and not by keys, which a screen without a window manager gives to no window.
     for (QAction* action : window_.findChildren<QAction*>()) {
       if (action->shortcut() == QKeySequence(Qt::CTRL | Qt::Key_D)) action->trigger();

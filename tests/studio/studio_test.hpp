@@ -118,6 +118,17 @@ class StudioTest : public ::testing::Test {
     });
   }
 
+  // Types a file's path into the export dialog that comes next, which `change` may change further.
+  void name_next_export(const char* name, const std::function<void(QDialog&)>& change = {}) {
+    answer_next<QDialog>([this, name, change](QDialog& dialog) {
+      auto* field = dialog.findChild<QLineEdit*>("path");
+      ASSERT_NE(field, nullptr);
+      field->setText(path(name));
+      if (change) change(dialog);
+      QTest::keyClick(field, Qt::Key_Return);
+    });
+  }
+
   // Runs a line that was copied, with the program that was built.
   [[nodiscard]] test::ProgramResult run_line(const QString& line) {
     const std::string words = line.toStdString();

@@ -108,5 +108,16 @@ int main(int count, char** words) {
   window.canvas().fit();
   if (!settles()) return 1;
   drag(window, curves, curves.frame().place(points[1]).toPoint(), "a control point, the whole picture in sight");
+  DocumentState plain = document.state();
+  plain.mask.reset();
+  std::erase_if(plain.functions, [](const auto& function) { return function.first != 0; });
+  document.apply(std::move(plain), "Background alone");
+  document.set_points(0, {{0, 0.0}, {duration_ns / 2, 1.0}, {duration_ns, 0.2}}, "Ramp");
+  if (!settles()) return 1;
+  for (const char* what : {"a control point of all of the picture", "the same, pixel for pixel"}) {
+    drag(window, curves, curves.frame().place(document.points(0)[1]).toPoint(), what, 1, kTurn);
+    window.canvas().show_actual_size();
+    if (!settles()) return 1;
+  }
   return 0;
 }

@@ -9,6 +9,7 @@
 #include "studio/regions/region_edits.hpp"
 #include "studio/time/times.hpp"
 #include "studio/window/project_file.hpp"
+#include "studio/window/started_work.hpp"
 #include "studio_test.hpp"
 
 namespace nutik::studio {
@@ -478,7 +479,7 @@ TEST_F(WindowTest, OpensWhatIsDropped) {
 TEST_F(WindowTest, StudiesAreStartingPoints) {
   open_clip();
   const DocumentState before = document().state();
-  window_.start_study(StudyStyle::frozen);
+  window_.start_study(usual_study(StudyStyle::frozen));
   ASSERT_TRUE(settles());
   ASSERT_NE(document().state(), before) << window_.notice().text().toStdString();
   EXPECT_GT(document().functions().size(), 1u);
@@ -495,7 +496,7 @@ TEST_F(WindowTest, WorkGoesOnBetweenTheMarks) {
   document().set_mark_in(kIn);
   document().set_mark_out(kOut);
   for (const StudyStyle style : {StudyStyle::trail, StudyStyle::frozen, StudyStyle::slit}) {
-    window_.start_study(style);
+    window_.start_study(usual_study(style));
     ASSERT_TRUE(settles());
     ASSERT_GT(document().functions().size(), 1u) << window_.notice().text().toStdString();
     for (const auto& [tag, function] : document().functions()) {
@@ -503,8 +504,8 @@ TEST_F(WindowTest, WorkGoesOnBetweenTheMarks) {
       EXPECT_GE(live.begin_ns, 20'000'000 - 1) << "the first picture from the mark on";
       EXPECT_LE(live.end_ns, 120'000'000 + 1);
       const QString& name = document().state().looks.at(tag).name;
-      if (!name.contains(" at ")) continue;
-      const auto at = read_typed_time(name.section(" at ", 1), "at", document().facts()->timeline);
+      if (!name.startsWith("At ")) continue;
+      const auto at = read_typed_time(name.mid(3), "at", document().facts()->timeline);
       ASSERT_TRUE(at.value) << name.toStdString();
       EXPECT_TRUE(*at.value >= kIn && *at.value < kOut) << name.toStdString();
       if (style != StudyStyle::slit) {
@@ -539,7 +540,7 @@ TEST_F(WindowTest, ListsRegionsAndTheirStillGain) {
   auto& list = child<QTreeWidget>("regions");
   ASSERT_EQ(list.topLevelItemCount(), 2);
   const std::uint8_t tag = document().selected_tag();
-  EXPECT_EQ(list.currentItem()->text(1), QString("M%1").arg(tag));
+  EXPECT_TRUE(list.currentItem()->toolTip(0).contains(QString("M%1 in mask").arg(tag)));
   list.currentItem()->setText(0, "Ball");
   EXPECT_EQ(document().state().looks.at(tag).name, "Ball");
   list.currentItem()->setCheckState(4, Qt::Checked);

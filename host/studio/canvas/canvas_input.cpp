@@ -16,6 +16,9 @@ constexpr double kZoomByKey = 1.25;
 constexpr double kZoomByNotch = 1.2;  // of a mouse wheel
 constexpr int kFastPixels = 10;       // of the picture, with Shift
 
+// Of the pixel there.
+QPointF middle_of(QPointF at) { return {std::floor(at.x()) + 0.5, std::floor(at.y()) + 0.5}; }
+
 // Where an arrow key leads, in pixels; null for other keys.
 QPoint way_of(const QKeyEvent& event) {
   const int by = (event.modifiers() & Qt::ShiftModifier) != 0 ? kFastPixels : 1;
@@ -74,6 +77,7 @@ void Canvas::mouseMoveEvent(QMouseEvent* event) {
   } else if (is_stroking_) {
     tool_->drag(view_.to_picture(pointer_), event->modifiers());
   }
+  if (glance_.is_magnified) update();
   if (tool_ != nullptr && !is_panning_) was_here ? update_tool(before) : update();
   Q_EMIT pointed(pixel_at(pointer_));
 }
@@ -114,12 +118,14 @@ void Canvas::keyPressEvent(QKeyEvent* event) {
     case Qt::Key_Minus: return zoom_by(1 / kZoomByKey);
     case Qt::Key_Space:
     case Qt::Key_Backspace:
+      if (tool_ == nullptr) return event->ignore();  // it plays
       if (!event->isAutoRepeat())
         press_key(event->key() == Qt::Key_Backspace ? Qt::AltModifier : Qt::NoModifier);
       return;
     case Qt::Key_Return:
     case Qt::Key_Enter:
       if (tool_ != nullptr) tool_->finish();
+      if (tool_ == nullptr && is_workable()) document_.set_probe(pixel_at(key_pointer()));
       return update();
     case Qt::Key_Escape:
       if (!is_stroking_ && !document_.probe()) event->ignore();
@@ -153,17 +159,16 @@ void Canvas::follow_arrow(QPoint way) {
 void Canvas::press_key(Qt::KeyboardModifiers keys) {
   if (!is_workable() || (is_stroking_ && !is_key_stroke_)) return;
   if (is_key_stroke_) return end_key_stroke();
-  if (tool_ == nullptr) return document_.set_probe(pixel_at(key_pointer()));
   move_pointer(view_.to_picture(key_pointer()));
   is_stroking_ = is_key_stroke_ = true;
   stroke_keys_ = keys;
-  tool_->press(view_.to_picture(pointer_), keys);
+  tool_->press(middle_of(view_.to_picture(pointer_)), keys);
   update();
 }
 
 void Canvas::end_key_stroke() {
   is_stroking_ = is_key_stroke_ = false;
-  tool_->release(view_.to_picture(pointer_), stroke_keys_);
+  tool_->release(middle_of(view_.to_picture(pointer_)), stroke_keys_);
   update();
 }
 
@@ -175,8 +180,8 @@ QPointF Canvas::key_pointer() const {
 
 // To the middle of the pixel there.
 void Canvas::move_pointer(QPointF picture) {
-  const QPointF at(std::clamp(std::floor(picture.x()), 0.0, image_.width() - 1.0) + 0.5,
-                   std::clamp(std::floor(picture.y()), 0.0, image_.height() - 1.0) + 0.5);
+  const QPointF at = middle_of({std::clamp(picture.x(), 0.0, image_.width() - 1.0),
+                                std::clamp(picture.y(), 0.0, image_.height() - 1.0)});
   is_inside_ = is_by_keys_ = true;
   keep_in_sight(at);
   pointer_ = view_.to_widget(at);

@@ -130,7 +130,7 @@ Canvas::Canvas(Document& document, QWidget* parent) : QWidget(parent), document_
   setAccessibleName(tr("Picture"));
   setAccessibleDescription(
       tr("The exposure. Plus and minus zoom, Ctrl+1 shows pixel for pixel, Ctrl+0 all of it; arrow keys pan. "
-         "Space takes a pixel, which arrow keys then move. With a tool arrow keys move the pointer, Space begins "
+         "Return takes a pixel, which arrow keys then move. With a tool arrow keys move the pointer, Space begins "
          "and ends a stroke, Backspace one that erases."));
   connect(&document_, &Document::changed, this, &Canvas::follow_mask);
   connect(&document_, &Document::selection_changed, this, [this] { follow_mask(Change::state); });
@@ -215,8 +215,8 @@ void Canvas::await_picture() {
   is_awaiting_ = true;
 }
 
-void Canvas::set_hint(const QString& hint) {
-  hint_ = hint;
+void Canvas::look(Glance glance) {
+  glance_ = std::move(glance);
   update();
 }
 
@@ -269,21 +269,49 @@ void Canvas::paintEvent(QPaintEvent* event) {
   const QRect covered = place.toAlignedRect().adjusted(1, 1, -1, -1);
   for (const QRect& around : event->region() - (image_.isNull() ? QRect() : covered))
     painter.fillRect(around, kSurround);
-  if (image_.isNull()) {
-    if (document_.facts() != nullptr) return;  // it comes at once
-    painter.setPen(QColor(190, 190, 190));
-    painter.drawText(rect().adjusted(24, 24, -24, -24), Qt::AlignCenter | Qt::TextWordWrap, hint_);
-    return;
-  }
+  if (image_.isNull()) return;  // it comes at once
   painter.setRenderHint(QPainter::SmoothPixmapTransform, view_.zoom() < 1);
-  painter.drawImage(place, reduced_.isNull() ? image_ : reduced_);
+  const bool is_another = !glance_.instead.isNull();
+  const QImage& exposed = reduced_.isNull() ? image_ : reduced_;
+  painter.drawImage(is_another ? view_.place() : place, is_another ? glance_.instead : exposed);
   if (document_.facts() == nullptr || is_first_look_) return;
+  if (is_another) {
+    painter.setPen(Qt::white);
+    const QRect box = painter.boundingRect(rect().adjusted(12, 12, -12, -12), Qt::AlignLeft, glance_.title);
+    painter.fillRect(box.adjusted(-6, -4, 6, 4), QColor(0, 0, 0, 170));
+    return painter.drawText(box, glance_.title);
+  }
+  painter.save();
   painter.translate(view_.place().topLeft());
   painter.scale(view_.zoom(), view_.zoom());
+  if (!glance_.marks.isNull()) painter.drawImage(0, 0, glance_.marks);
   paint_solo(painter);
-  paint_regions(painter);
+  if (!glance_.without_outlines) paint_regions(painter);
   if (tool_ != nullptr && is_inside_) tool_->paint(painter, view_.to_picture(pointer_));
   if (tool_ != nullptr && is_by_keys_) paint_cross(painter, view_.to_picture(pointer_));
+  painter.restore();
+  if (glance_.is_magnified && is_inside_) paint_magnifier(painter);
+}
+
+// The pixels round the pointer, large, with the codes of the middle one.
+void Canvas::paint_magnifier(QPainter& painter) {
+  constexpr int kAround = 6, kSide = 12, kText = 20, kAway = 24;
+  const auto pixel = pixel_at(pointer_);
+  if (!pixel) return;
+  const int side = (2 * kAround + 1) * kSide;
+  QRect lens(pointer_.toPoint() + QPoint(kAway, kAway), QSize(side, side + kText));
+  if (lens.right() > width()) lens.moveRight(pointer_.toPoint().x() - kAway);
+  if (lens.bottom() > height()) lens.moveBottom(pointer_.toPoint().y() - kAway);
+  painter.fillRect(lens, kSurround);
+  painter.setRenderHint(QPainter::SmoothPixmapTransform, false);
+  const QRect part(*pixel - QPoint(kAround, kAround), QSize(2 * kAround + 1, 2 * kAround + 1));
+  painter.drawImage(QRect(lens.topLeft(), QSize(side, side)), image_.copy(part));
+  painter.setPen(Qt::white);
+  painter.drawRect(lens);
+  painter.drawRect(QRect(lens.topLeft() + QPoint(kAround, kAround) * kSide, QSize(kSide, kSide)));
+  const QRgb codes = image_.pixel(*pixel);
+  painter.drawText(QRect(lens.left(), lens.top() + side, side, kText), Qt::AlignCenter,
+                   QString("%1  %2  %3").arg(qRed(codes)).arg(qGreen(codes)).arg(qBlue(codes)));
 }
 
 void Canvas::paint_regions(QPainter& painter) {

@@ -82,6 +82,14 @@ class CanvasTool {
   virtual void paint(QPainter& painter, QPointF pointer) const = 0;
 };
 
+// How the picture is looked at for a while.
+struct Glance {
+  bool without_outlines = false, is_magnified = false;
+  QImage instead = {};  // null: the picture itself
+  QString title = {};   // what is shown instead
+  QImage marks = {};    // over the picture; null: none
+};
+
 class Canvas : public QWidget {
   Q_OBJECT
 
@@ -96,8 +104,9 @@ class Canvas : public QWidget {
   void clear();
   // The document is another capture's: what is shown of a clip that was being opened stays until its first picture.
   void await_picture();
-  // Said where no picture is.
-  void set_hint(const QString& hint);
+
+  void look(Glance glance);
+  [[nodiscard]] const Glance& glance() const { return glance_; }
 
   // Null: the left button looks (a click takes the pixel, a drag pans). The tool is not owned.
   void set_tool(CanvasTool* tool);
@@ -134,6 +143,7 @@ class Canvas : public QWidget {
   void paint_regions(QPainter& painter);
   void paint_cross(QPainter& painter, QPointF at) const;
   void paint_solo(QPainter& painter);
+  void paint_magnifier(QPainter& painter);
 
   // canvas_input.cpp
   [[nodiscard]] bool is_workable() const;
@@ -149,7 +159,7 @@ class Canvas : public QWidget {
   QImage image_;
   QImage reduced_;      // with fewer pixels; shown in its place until the next of all pixels
   QSize reduced_size_;  // in pixels of the picture
-  QString hint_;
+  Glance glance_;
   View view_;
   CanvasTool* tool_ = nullptr;
   std::optional<Shared<MaskWithRegions>> outlined_;

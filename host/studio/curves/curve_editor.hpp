@@ -28,7 +28,7 @@ class CurveEditor : public TimeView {
   ~CurveEditor() override;
 
   [[nodiscard]] QSize sizeHint() const override { return {900, 260}; }
-  [[nodiscard]] QSize minimumSizeHint() const override { return {320, 140}; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {320, 96}; }
 
   // Where things lie at the moment.
   [[nodiscard]] PlotFrame frame() const;

@@ -61,6 +61,7 @@ void Document::start(CaptureFacts facts, std::optional<DocumentState> state, Mar
   probe_.reset();
   waveform_.reset();
   marks_ = {};
+  played_.reset();
   Q_EMIT capture_changed();
   Q_EMIT overview_changed();
   Q_EMIT probe_changed();
@@ -176,6 +177,12 @@ void Document::set_mark_out(std::optional<std::int64_t> time_ns) {
       time_ns ? std::optional(std::clamp<std::int64_t>(*time_ns, 0, duration_ns())) : std::nullopt;
   if (marks_.in_ns && marks_.out_ns && *marks_.out_ns <= *marks_.in_ns) marks_.in_ns.reset();
   Q_EMIT marks_changed();
+}
+
+void Document::set_played(std::optional<Boxcar> boxcar) {
+  if (boxcar == played_) return;
+  played_ = boxcar;
+  Q_EMIT played_changed();
 }
 
 void Document::set_probe(std::optional<QPoint> pixel) {

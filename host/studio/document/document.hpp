@@ -177,6 +177,10 @@ class Document : public QObject {
   void set_mark_in(std::optional<std::int64_t> time_ns);
   void set_mark_out(std::optional<std::int64_t> time_ns);
 
+  // The interval that a film shows at the moment, in place of all that is exposed.
+  [[nodiscard]] const std::optional<Boxcar>& played() const { return played_; }
+  void set_played(std::optional<Boxcar> boxcar);
+
   // The pixel that was clicked, and then its light once it has been read.
   [[nodiscard]] const std::optional<QPoint>& probe() const { return probe_; }
   void set_probe(std::optional<QPoint> pixel);
@@ -190,6 +194,7 @@ class Document : public QObject {
   void released();            // a drag ended: the full picture may follow
   void selection_changed();   // selected_tag(), selected_points(), solo()
   void marks_changed();
+  void played_changed();
   void probe_changed();       // probe(), waveform()
 
  private:
@@ -208,6 +213,7 @@ class Document : public QObject {
   std::set<std::size_t> selected_points_;
   std::optional<std::uint8_t> solo_;
   Marks marks_;
+  std::optional<Boxcar> played_;
   std::optional<QPoint> probe_;
   std::optional<Waveform> waveform_;
 };

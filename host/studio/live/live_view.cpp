@@ -36,7 +36,7 @@ ReducedCapture::ReducedCapture(std::shared_ptr<Session> session, int divisor)
     : session_(std::move(session)), divisor_(divisor) {}
 
 bool ReducedCapture::can_show(const ExposureRequest& exposure, double screen_pixels) const {
-  return screen_pixels * divisor_ <= 1 && !(exposure.mask && (*exposure.mask)->mask.is_soft());
+  return screen_pixels * divisor_ < 2 && !(exposure.mask && (*exposure.mask)->mask.is_soft());
 }
 
 LivePart ReducedCapture::part(ExposureRequest exposure, const QRect& pixels) {
@@ -59,6 +59,7 @@ LiveView::LiveView(Document& document, Jobs& jobs, QObject* parent)
     : QObject(parent), document_(document), jobs_(jobs) {
   connect(&document_, &Document::changed, this, [this] { ask(!document_.is_dragging()); });
   connect(&document_, &Document::released, this, [this] { ask(true); });
+  connect(&document_, &Document::played_changed, this, [this] { ask(!document_.is_dragging()); });
 }
 
 LiveView::~LiveView() = default;
@@ -97,7 +98,15 @@ bool LiveView::is_busy() const {
 void LiveView::ask(bool with_full) {
   if (!pictures_) return;
   bool is_final = true;
-  const ExposureRequest exposure = exposure_of(document_.state(), mask_of(document_.state(), is_final));
+  DocumentState state = document_.state();
+  if (const auto& played = document_.played()) {
+    state.mode = ExposureMode::boxcar;
+    state.boxcar = *played;
+    with_full = false;
+  }
+  ExposureRequest exposure = exposure_of(state, mask_of(state, is_final));
+  // While a drag lasts edges may be hard: fewer pixels suffice then.
+  if (reduced_ && !with_full && exposure.mask) exposure.mask = state.mask;
   const Shape& shape = session_->format().shape;
   const bool is_reduced = reduced_ && reduced_->can_show(exposure, screen_pixels_);
   const QRect outdated = outdated_.to_expose(exposure, seen(), is_reduced, last_shown_ == last_asked_);

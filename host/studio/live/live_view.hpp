@@ -32,7 +32,8 @@ class ReducedCapture {
   ReducedCapture(std::shared_ptr<Session> session, int divisor);
 
   [[nodiscard]] int divisor() const { return divisor_; }
-  // Whether a screen that shows a pixel of the capture with so many of its own to a side shows no more than this has.
+  // Whether a screen that shows a pixel of the capture with so many of its own to a side has less than two of them for
+  // one of this. It is a preview.
   // Never with soft masks, whose edges are blended of the capture's pixels.
   [[nodiscard]] bool can_show(const ExposureRequest& exposure, double screen_pixels) const;
   // The same exposure; of the squares that these pixels of the capture lie in.

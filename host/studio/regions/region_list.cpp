@@ -11,6 +11,8 @@
 #include <QStyledItemDelegate>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "capture/error.hpp"
 #include "studio/regions/region_edits.hpp"
@@ -47,12 +49,17 @@ std::uint8_t tag_of(const QTreeWidgetItem& item) {
   return static_cast<std::uint8_t>(item.data(0, kTagRole).toUInt());
 }
 
-QString still_text(const DocumentState& state, std::uint8_t tag, std::int64_t duration_ns) {
+// Nothing where it is not known.
+std::optional<double> still_gain(const DocumentState& state, std::uint8_t tag, std::int64_t duration_ns) {
   try {
-    return QStringLiteral("%1×").arg(exposed_summary(state, tag, duration_ns).still_gain(), 0, 'f', 2);
+    return exposed_summary(state, tag, duration_ns).still_gain();
   } catch (const InputError&) {
-    return QStringLiteral("–");
+    return {};
   }
+}
+
+QString stops_text(double stops) {
+  return std::abs(stops) < 0.05 ? QStringLiteral("0.0") : QString::asprintf("%+.1f", stops);
 }
 
 QDoubleSpinBox* pixel_box(double most, double value, const QString& name, QWidget* parent) {
@@ -73,18 +80,17 @@ RegionList::RegionList(Document& document, QWidget* parent)
   list_->setObjectName("regions");
   list_->setAccessibleName(tr("Regions"));
   list_->setColumnCount(kColumns);
-  list_->setHeaderLabels({tr("Region"), tr("Tag"), tr("Still"), tr("White"), tr("Solo")});
-  list_->headerItem()->setToolTip(kTag, tr("The region's value in the mask, and its M in the function file"));
+  list_->setHeaderLabels({tr("Region"), tr("EV"), tr("Still"), tr("Clipped"), tr("Solo")});
+  list_->headerItem()->setToolTip(kEv, tr("The same in stops: 0 is as bright as the capture, −1 half as bright"));
   list_->headerItem()->setToolTip(kStill, tr("What light that does not change is multiplied by"));
-  list_->headerItem()->setToolTip(kWhite, tr("How many of its pixels have a channel at the last code, 255: just "
-                                             "white, or saturated. More light would not be seen"));
+  list_->headerItem()->setToolTip(kClipped, tr("How many of its pixels have light beyond white, which no code shows"));
   list_->headerItem()->setToolTip(kSolo, tr("Darkens all other regions"));
   list_->setRootIsDecorated(false);
   list_->setUniformRowHeights(true);
   list_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
   list_->header()->setStretchLastSection(false);
   list_->header()->setSectionResizeMode(kName, QHeaderView::Stretch);
-  for (const int column : {kTag, kStill, kWhite, kSolo}) {
+  for (const int column : {kEv, kStill, kClipped, kSolo}) {
     list_->header()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
     list_->setItemDelegateForColumn(column, new NoEditor(list_));
   }
@@ -102,7 +108,7 @@ RegionList::RegionList(Document& document, QWidget* parent)
     if (!(listed == listed_)) follow();
   });
   connect(&document_, &Document::capture_changed, this, [this] {
-    white_.fill(0);
+    clipped_.fill(0);
     follow();
   });
   connect(&document_, &Document::selection_changed, this, &RegionList::follow_selection);
@@ -122,7 +128,7 @@ void RegionList::build_buttons() {
   colour_ = button("region_colour", tr("Colour…"), tr("Of the region's outline and curve"));
   up_ = button("region_up", tr("Up"), tr("Before the region above it, which it then covers"));
   down_ = button("region_down", tr("Down"), tr("Behind the region below it, which then covers it"));
-  over_interval_ = button("over_interval", tr("Over interval"),
+  over_interval_ = button("over_interval", tr("Interval"),
                           tr("The interval of the time strip becomes the region's function"));
   grow_ = button("grow", tr("Grow"), tr("By so many pixels"));
   shrink_ = button("shrink", tr("Shrink"), tr("By so many pixels"));
@@ -149,14 +155,15 @@ void RegionList::build_buttons() {
   second->addWidget(grow_, 0, 0);
   second->addWidget(shrink_, 0, 1);
   second->addWidget(smooth_, 0, 2);
+  for (QGridLayout* grid : {first, second}) grid->setSpacing(4);
   auto* numbers = new QFormLayout;
-  numbers->addRow(tr("By"), radius_);
+  numbers->addRow(tr("Grow by"), radius_);
   numbers->addRow(tr("Feather edges"), feather_);
-  numbers->addRow(tr("Its own edges"), own_feather_);
+  numbers->addRow(tr("Own edges"), own_feather_);
   for (QDoubleSpinBox* box : {radius_, feather_, own_feather_})
     numbers->labelForField(box)->setToolTip(box->toolTip());
   auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(6, 6, 6, 6);
+  column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(list_, 1);
   column->addLayout(first);
   column->addLayout(second);
@@ -206,6 +213,7 @@ void RegionList::follow() {
   }
   for (int row = 0; row < list_->topLevelItemCount(); ++row)
     fill(*list_->topLevelItem(row), tags[static_cast<std::size_t>(row)]);
+  list_->setColumnHidden(kClipped, std::ranges::all_of(clipped_, [](std::uint64_t pixels) { return pixels == 0; }));
   feather_->setValue(document_.state().feather.everywhere / 100.0);
   follow_selection();
 }
@@ -236,30 +244,19 @@ void RegionList::fill(QTreeWidgetItem& item, std::uint8_t tag) const {
   item.setText(kName, look->second.name);
   item.setIcon(kName, swatch(look->second.colour));
   item.setCheckState(kName, look->second.is_visible ? Qt::Checked : Qt::Unchecked);
-  item.setToolTip(kName, tr("Checked: its outline and its curve are shown"));
-  item.setText(kTag, QStringLiteral("M%1").arg(tag));
-  item.setText(kStill, still_text(document_.state(), tag, document_.duration_ns()));
-  item.setText(kWhite, white_[tag] == 0 ? QString() : QString::number(white_[tag]));
-  for (const int column : {kStill, kWhite}) item.setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
+  item.setToolTip(kName, tr("%1, M%2 in mask and function file. Checked: its outline and its curve are shown")
+                             .arg(look->second.name)
+                             .arg(tag));
+  const auto still = still_gain(document_.state(), tag, document_.duration_ns());
+  item.setText(kStill, still ? QStringLiteral("%1×").arg(*still, 0, 'f', 2) : QStringLiteral("–"));
+  item.setText(kEv, still && *still > 0 ? stops_text(std::log2(*still)) : QStringLiteral("–"));
+  item.setText(kClipped, clipped_[tag] == 0 ? QString() : QString::number(clipped_[tag]));
+  for (const int column : {kEv, kStill, kClipped}) item.setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
 }
 
-void RegionList::count_white(const ShownPicture& picture) {
-  const CaptureFacts* facts = document_.facts();
-  if (!picture.is_full || facts == nullptr) return;
-  const QImage& image = picture.image;
-  const Shape& shape = facts->format.shape;
-  if (image.size() != QSize(static_cast<int>(shape.width), static_cast<int>(shape.height))) return;
-  const auto& mask = document_.state().mask;
-  white_.fill(0);
-  for (int y = 0; y < image.height(); ++y) {
-    const auto* row = reinterpret_cast<const QRgb*>(image.constScanLine(y));
-    const std::uint8_t* tags =
-        mask ? (*mask)->mask.tags.data() + static_cast<std::size_t>(y) * shape.width : nullptr;
-    for (int x = 0; x < image.width(); ++x) {
-      const bool is_white = qRed(row[x]) == 255 || qGreen(row[x]) == 255 || qBlue(row[x]) == 255;
-      if (is_white) ++white_[tags == nullptr ? kBackground : tags[x]];
-    }
-  }
+void RegionList::count_clipped(const MeasuredLight& light) {
+  clipped_.fill(0);
+  for (const auto& [tag, pixels] : light.saturated) clipped_[tag] = pixels.above;
   follow();
 }
 

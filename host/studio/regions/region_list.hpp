@@ -7,8 +7,8 @@
 #include <array>
 #include <cstdint>
 
+#include "studio/canvas/light_histogram.hpp"
 #include "studio/document/document.hpp"
-#include "studio/live/live_view.hpp"
 
 class QPushButton;
 class QToolButton;
@@ -30,11 +30,11 @@ class RegionList : public QWidget {
  public:
   explicit RegionList(Document& document, QWidget* parent = nullptr);
 
-  // Tells beside each region how many of its pixels a full picture has at the last code.
-  void count_white(const ShownPicture& picture);
+  // Told beside each region.
+  void count_clipped(const MeasuredLight& light);
 
  private:
-  enum Column { kName, kTag, kStill, kWhite, kSolo, kColumns };
+  enum Column { kName, kEv, kStill, kClipped, kSolo, kColumns };
 
   void build_buttons();
   void follow();            // the document's state
@@ -49,7 +49,7 @@ class RegionList : public QWidget {
   QDoubleSpinBox *radius_, *feather_, *own_feather_;
   QPushButton *grow_, *shrink_, *smooth_;
   DocumentState listed_;
-  std::array<std::uint64_t, kMaskValues> white_{};  // pixels by tag
+  std::array<std::uint64_t, kMaskValues> clipped_{};  // pixels by tag
   bool is_following_ = false;
 };
 

@@ -41,6 +41,7 @@ TimeStrip::TimeStrip(Document& document, TimeAxis& axis, QWidget* parent)
   connect(&document_, &Document::changed, this, [this](Change what) {
     if (what != Change::mask) follow_document();
   });
+  connect(&document_, &Document::played_changed, this, [this] { update(); });
   follow_document();
 }
 
@@ -48,8 +49,9 @@ QRectF TimeStrip::track() const {
   return QRectF(rect()).adjusted(TimeAxis::kLeft, kRuler, -TimeAxis::kRight, -kStripFoot);
 }
 
-QRectF TimeStrip::boxcar_area() const {
-  const Boxcar& boxcar = document_.boxcar();
+QRectF TimeStrip::boxcar_area() const { return place_of(document_.boxcar()); }
+
+QRectF TimeStrip::place_of(const Boxcar& boxcar) const {
   const double begin = axis_.to_pixel(static_cast<double>(boxcar.start_ns), width());
   const double end = axis_.to_pixel(static_cast<double>(boxcar.start_ns + boxcar.length_ns), width());
   return {begin, track().top(), end - begin, track().height()};
@@ -157,11 +159,11 @@ void TimeStrip::paint_thumbnails(QPainter& painter, const QRectF& row) const {
 
 void TimeStrip::paint_boxcar(QPainter& painter, const TimeColours& colours) const {
   const QRectF track = this->track();
-  QRectF area = boxcar_area();
+  QRectF area = place_of(document_.played().value_or(document_.boxcar()));
   constexpr double kMin = 2;  // it can be seen however short it is
   if (area.width() < kMin) area.adjust(-(kMin - area.width()) / 2, 0, (kMin - area.width()) / 2, 0);
   if (area.right() < track.left() || area.left() > track.right()) return;
-  const bool is_exposed = document_.mode() == ExposureMode::boxcar;
+  const bool is_exposed = document_.mode() == ExposureMode::boxcar || document_.played();
   painter.save();
   painter.setClipRect(track);
   painter.fillRect(area, with_opacity(colours.boxcar, is_exposed ? 0.34 : 0.14));

@@ -24,8 +24,8 @@ class TimeStrip : public TimeView {
  public:
   TimeStrip(Document& document, TimeAxis& axis, QWidget* parent = nullptr);
 
-  [[nodiscard]] QSize sizeHint() const override { return {900, 106}; }
-  [[nodiscard]] QSize minimumSizeHint() const override { return {320, 92}; }
+  [[nodiscard]] QSize sizeHint() const override { return {900, 92}; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {320, 90}; }
 
   // Places of things, for whoever presses on them.
   [[nodiscard]] QRectF track() const;
@@ -62,6 +62,7 @@ class TimeStrip : public TimeView {
   void cancel_press();
   bool move_by_key(const QKeyEvent& event);
   bool look_by_key(const QKeyEvent& event);
+  [[nodiscard]] QRectF place_of(const Boxcar& boxcar) const;
   void follow_document();
   void paint_thumbnails(QPainter& painter, const QRectF& row) const;
   void paint_boxcar(QPainter& painter, const TimeColours& colours) const;

@@ -7,7 +7,6 @@
 #include <QLocale>
 #include <QMenu>
 #include <QMessageBox>
-#include <QSettings>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -16,17 +15,11 @@
 #include "studio/document/document.hpp"
 #include "studio/window/main_window.hpp"
 #include "studio/window/project_file.hpp"
+#include "studio/window/start_page.hpp"
 #include "studio/window/started_work.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik::studio {
-namespace {
-
-constexpr const char* kRecentKey = "recent";
-constexpr int kMaxRecent = 10;
-
-}  // namespace
-
 FileTimes times_of(const QStringList& files) {
   FileTimes times;
   for (const QString& file : files) times[file] = QFileInfo(file).lastModified();
@@ -82,7 +75,7 @@ bool MainWindow::save_project(const QString& path) {
   files_ = files;
   autosave_.begin();
   document_.undo_stack().setClean();
-  remember(path);
+  remember_file(path);
   follow_title();
   return true;
 }
@@ -196,7 +189,7 @@ bool MainWindow::has_files() const {
 bool MainWindow::ensure_files() { return document_.facts() != nullptr && (has_files() || save()); }
 
 QString MainWindow::command_for(const QString& picture) const {
-  return command_line(document_, files_, picture);
+  return command_line(document_, files_, picture, written_);
 }
 
 void MainWindow::copy_command() {
@@ -298,21 +291,12 @@ QString MainWindow::suggested(const QString& ending) const {
   return from.dir().filePath(from.completeBaseName() + ending);
 }
 
-void MainWindow::remember(const QString& path) {
-  QSettings settings;
-  QStringList recent = settings.value(kRecentKey).toStringList();
-  const QString absolute = QFileInfo(path).absoluteFilePath();
-  recent.removeAll(absolute);
-  recent.prepend(absolute);
-  settings.setValue(kRecentKey, recent.mid(0, kMaxRecent));
-}
-
 void MainWindow::fill_recent(QMenu& menu) {
   menu.clear();
-  for (const QString& path : QSettings().value(kRecentKey).toStringList()) {
-    QAction* action = menu.addAction(path);
-    action->setEnabled(QFileInfo::exists(path));
-    connect(action, &QAction::triggered, this, [this, path] {
+  for (const RecentFile& file : recent_files()) {
+    QAction* action = menu.addAction(file.path);
+    action->setEnabled(QFileInfo::exists(file.path));
+    connect(action, &QAction::triggered, this, [this, path = file.path] {
       if (may_leave()) open(path);
     });
   }

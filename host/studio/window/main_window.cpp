@@ -6,7 +6,6 @@
 #include <QDropEvent>
 #include <QFileInfo>
 #include <QGridLayout>
-#include <QKeyEvent>
 #include <QMimeData>
 #include <QScreen>
 #include <QSettings>
@@ -15,6 +14,7 @@
 #include <QUrl>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <cmath>
 
 #include "capture/error.hpp"
 #include "session/live/live_pictures.hpp"
@@ -25,8 +25,9 @@
 #include "studio/regions/region_list.hpp"
 #include "studio/time/time_fields.hpp"
 #include "studio/time/time_strip.hpp"
-#include "studio/window/clip_dialog.hpp"
+#include "studio/window/options_dialog.hpp"
 #include "studio/window/project_file.hpp"
+#include "studio/window/start_page.hpp"
 #include "studio/window/started_work.hpp"
 #include "tik/reader.hpp"
 
@@ -44,13 +45,13 @@ MainWindow::MainWindow(const ComputingRequest& computing)
   build_menus();
   connect_parts();
   restore_window();
-  follow_title();
+  follow_opening();
   follow_exposure();
 }
 
 // Jobs tell widgets that they ended, and widgets know the document: they go in that order.
 MainWindow::~MainWindow() {
-  for (Jobs* jobs : {&jobs_, &quick_, &writing_}) jobs->cancel();
+  for (Jobs* jobs : {&jobs_, &quick_, &measuring_, &writing_}) jobs->cancel();
   delete takeCentralWidget();
 }
 
@@ -63,7 +64,6 @@ void MainWindow::build_window() {
                 tr("There is unsaved work of a window that did not end well: File, Recover unsaved work."));
   canvas_ = new Canvas(document_);
   canvas_->setObjectName("canvas");
-  canvas_->set_hint(tr("Open a clip or a capture (Ctrl+O), or drop one here."));
   // Over the picture, which stays where it is whatever is said.
   auto* said = new QWidget;
   auto* said_column = new QVBoxLayout(said);
@@ -76,39 +76,51 @@ void MainWindow::build_window() {
   said_column->addWidget(offer_);
   said_column->addWidget(notice_);
   stack->addWidget(canvas_, 0, 0);
+  start_ = new StartPage;
+  connect(start_, &StartPage::asked_for_clip, this, [this] { choose_file(); });
+  connect(start_, &StartPage::chosen, this, [this](const QString& path) { open(path); });
+  connect(start_, &StartPage::started, this, &MainWindow::start_from);
+  stack->addWidget(start_, 0, 0);
   stack->addWidget(said, 0, 0, Qt::AlignTop);
 
   auto* strip = new TimeStrip(document_, axis_);
   strip->setObjectName("time_strip");
-  auto* curves = new CurveEditor(document_, axis_);
-  curves->setObjectName("curves");
+  curves_ = new CurveEditor(document_, axis_);
+  curves_->setObjectName("curves");
   time_ = new QWidget;
   auto* time_column = new QVBoxLayout(time_);
   time_column->setContentsMargins(0, 0, 0, 0);
   time_column->setSpacing(1);
   time_column->addWidget(new TimeFields(document_));
   time_column->addWidget(strip);
-  time_column->addWidget(curves, 1);
+  time_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
 
   auto* column = new QSplitter(Qt::Vertical);
   column->setObjectName("column");
   column->addWidget(picture);
   column->addWidget(time_);
+  column->addWidget(curves_);
   column->setStretchFactor(0, 1);
   column->setChildrenCollapsible(false);
-  column->setSizes({400, 330});
+  column->setSizes({10'000, 120, 100});  // the picture has what the others leave
   auto* row = new QSplitter(Qt::Horizontal);
   row->setObjectName("row");
   row->addWidget(column);
-  auto* regions = new RegionList(document_);
-  regions_ = regions;
-  row->addWidget(regions);
-  connect(&live_, &LiveView::pictured, regions, &RegionList::count_white);
+  regions_ = new RegionList(document_);
+  histogram_ = new LightHistogram(document_);
+  side_ = new QWidget;
+  side_->setObjectName("side");
+  auto* side_column = new QVBoxLayout(side_);
+  side_column->setContentsMargins(4, 4, 4, 4);
+  side_column->addWidget(histogram_);
+  side_column->addWidget(build_exposure());
+  side_column->addWidget(regions_, 1);
+  row->addWidget(side_);
   row->setStretchFactor(0, 1);
   row->setChildrenCollapsible(false);
-  row->setSizes({940, 340});
+  row->setSizes({10'000, 262});
   setCentralWidget(row);
-  status_ = new StatusLine(jobs_);
+  status_ = new StatusLine({&jobs_, &writing_});
   setStatusBar(status_);
 }
 
@@ -119,8 +131,11 @@ void MainWindow::restore_window() {
   QSettings kept;
   kept.beginGroup(kWindowKey);
   restoreGeometry(kept.value("geometry").toByteArray());
+  for (QAction* fold : folds_) fold->setChecked(kept.value(fold->objectName(), true).toBool());
   for (auto* splitter : findChildren<QSplitter*>())
     splitter->restoreState(kept.value(splitter->objectName()).toByteArray());
+  speed_->setValue(kept.value("speed", 1).toDouble());
+  angle_->setValue(kept.value("angle", 180).toDouble());
   radius_->setValue(kept.value("radius", tool_settings_.brush_radius).toDouble());
   codes_->setValue(kept.value("codes", tool_settings_.wand_codes).toInt());
   const QString tool = kept.value("tool").toString();
@@ -132,8 +147,11 @@ void MainWindow::keep_window() {
   QSettings kept;
   kept.beginGroup(kWindowKey);
   kept.setValue("geometry", saveGeometry());
+  for (const QAction* fold : folds_) kept.setValue(fold->objectName(), fold->isChecked());
   for (const auto* splitter : findChildren<QSplitter*>())
     kept.setValue(splitter->objectName(), splitter->saveState());
+  kept.setValue("speed", speed_->value());
+  kept.setValue("angle", angle_->value());
   kept.setValue("radius", radius_->value());
   kept.setValue("codes", codes_->value());
   kept.setValue("tool", tools_->checkedAction()->objectName());
@@ -143,12 +161,16 @@ void MainWindow::connect_parts() {
   connect(&live_, &LiveView::pictured, this, [this](const ShownPicture& picture) {
     canvas_->show_picture(picture);
     status_->tell(picture);
+    if (picture.is_full) measure_light();
+    if (!picture.is_full || snapshot_) return;
+    keep_snapshot();
+    remember_picture(project_.isEmpty() ? document_.facts()->path : project_, canvas_->image());
   });
   connect(&live_, &LiveView::failed, this, [this](const QString& why) {
     if (canvas_->shows_first_look()) canvas_->clear();
     notice_->say(Notice::Kind::error, why);
   });
-  for (Jobs* jobs : {&jobs_, &quick_, &writing_}) {
+  for (Jobs* jobs : {&jobs_, &quick_, &measuring_, &writing_}) {
     connect(jobs, &Jobs::failed, this, [this](const QString& what, const QString& why) {
       notice_->say(Notice::Kind::error, tr("%1: %2").arg(what, why));
     });
@@ -156,18 +178,27 @@ void MainWindow::connect_parts() {
   connect(&jobs_, &Jobs::ended, this, [this] {
     if (!opening_.isEmpty() && !jobs_.is_busy()) stay();
   });
+  connect(&writing_, &Jobs::ended, this, [this] {
+    if (!writing_.is_busy()) writes_on_.reset();
+  });
   connect(canvas_, &Canvas::visible_changed, &live_, &LiveView::set_visible);
   connect(canvas_, &Canvas::visible_changed, this, &MainWindow::follow_opening);
+  connect(canvas_, &Canvas::visible_changed, status_,
+          [this](QRect, double screen_pixels) { status_->tell_zoom(document_.facts() ? screen_pixels : 0); });
   connect(canvas_, &Canvas::pointed, this,
           [this](std::optional<QPoint> pixel) { status_->tell(pixel, canvas_->image()); });
   connect(&document_, &Document::probe_changed, this, &MainWindow::look_at_pixel);
-  connect(&document_, &Document::changed, this, &MainWindow::follow_exposure);
+  connect(&document_, &Document::changed, this, [this] {
+    follow_exposure();
+    forget_light();
+  });
   connect(&document_, &Document::capture_changed, this, &MainWindow::follow_exposure);
   connect(&document_.undo_stack(), &QUndoStack::cleanChanged, this, &MainWindow::follow_title);
 }
 
 void MainWindow::open(const QString& path, const QString& rate) {
   notice_->clear();
+  pending_ = nullptr;
   if (path.endsWith(QLatin1String(kProjectExtension), Qt::CaseInsensitive))
     return open_project(path);
   Stated stated;
@@ -201,6 +232,7 @@ void MainWindow::open_capture_file(const QString& path, const Stated& stated, Or
   opening_.clear();  // what is cancelled here gives way to this file, not to what is open
   jobs_.cancel();
   opening_ = path;
+  follow_opening();
   if (document_.facts() != nullptr) origin.left = document_.state();
   const auto first_look = [this](QImage image) {
     QMetaObject::invokeMethod(
@@ -264,10 +296,16 @@ void MainWindow::tell_way_out(const QString& path, const Stated& stated, const O
 }
 
 void MainWindow::ask_how_to_read(const QString& path, const Stated& stated, const QString& why, const Origin& origin) {
-  const std::optional<Stated> answer = studio::ask_how_to_read(this, why, stated);
-  if (!answer) return;
+  const auto wanted = ask_options(this, {.command = CommandId::encode,
+                                         .title = tr("How the clip is read"),
+                                         .options = {"fps", "align", "deflicker", "between"},
+                                         .first = {{}, stated},
+                                         .filter = {},
+                                         .check = {},
+                                         .why = why});
+  if (!wanted) return;
   notice_->clear();
-  open_capture_file(path, *answer, origin);
+  open_capture_file(path, wanted->options, origin);
 }
 
 void MainWindow::take(Opened opened, Origin origin) {
@@ -293,10 +331,13 @@ void MainWindow::take(Opened opened, Origin origin) {
   project_ = origin.project;
   files_ = origin.files;
   known_ = std::move(origin.known);
-  remember(project_.isEmpty() ? opened.facts.path : project_);
+  remember_file(project_.isEmpty() ? opened.facts.path : project_);
   autosave_.begin(std::move(origin.kept));
   canvas_->await_picture();
+  stop_playing();
   live_.show(nullptr);
+  snapshot_.reset();
+  forget_light();
   session_ = opened.session;
   document_.start(std::move(opened.facts), std::move(state), origin.marks);
   if (origin.kind == Origin::Kind::recovered || origin.is_unwritten || (origin.is_elsewhere && origin.state))
@@ -313,6 +354,7 @@ void MainWindow::take(Opened opened, Origin origin) {
   if (!opened.notes.isEmpty() && notice_->text().isEmpty())
     notice_->say(Notice::Kind::note, opened.notes.join('\n'));
   look_at_capture();
+  if (pending_ != nullptr) start_from(*std::exchange(pending_, nullptr));
 }
 
 // With what is open: another file was not opened, after all.
@@ -348,12 +390,15 @@ void MainWindow::look_along_capture() {
   });
 }
 
-// Where the screen shows fewer pixels than the capture has. Without it, for want of room, previews take longer.
+// What is seen while something is dragged: no more pixels than the screen has, nor than are exposed in no time; full
+// resolution follows. Without it, for want of room, previews take longer.
 void MainWindow::reduce_capture() {
   const Shape& shape = document_.facts()->format.shape;
   const QSizeF screen = QSizeF(canvas_->size()) * canvas_->devicePixelRatioF();
   const double ratio = std::max(shape.width / screen.width(), shape.height / screen.height());
-  const auto divisor = std::min({static_cast<std::uint32_t>(ratio), shape.width, shape.height});
+  constexpr double kQuickPixels = 600'000;
+  const double quick = std::ceil(std::sqrt(static_cast<double>(shape.pixel_count()) / kQuickPixels));
+  const auto divisor = std::min({static_cast<std::uint32_t>(std::max(ratio, quick)), shape.width, shape.height});
   if (divisor < 2) return;
   jobs_.start(tr("Making smaller pictures for the screen"),
               [this, session = session_, divisor](const Job& job) -> Jobs::Finish {
@@ -378,23 +423,6 @@ void MainWindow::look_at_pixel() {
                    if (session == session_) document_.set_waveform(std::move(*waveform));
                  };
                });
-}
-
-void MainWindow::export_picture(const QString& path) {
-  if (!session_) return;
-  if (!has_files())
-    return notice_->say(Notice::Kind::error,
-                        tr("Save the project first: the picture's recipe names its files."));
-  try_to([&] {
-    writing_.start(tr("Writing %1").arg(QFileInfo(path).fileName()),
-                   exporting(document_, session_, files_, path, told()));
-  });
-}
-
-void MainWindow::start_study(StudyStyle style) {
-  if (!session_) return;
-  notice_->clear();
-  jobs_.start(tr("Looking for a subject"), studying(document_, session_, style, told()));
 }
 
 bool MainWindow::has_region() {
@@ -428,7 +456,7 @@ void MainWindow::use_tool(ToolKind kind) {
 }
 
 bool MainWindow::is_settled() const {
-  return !jobs_.is_busy() && !quick_.is_busy() && !writing_.is_busy() && !live_.is_busy();
+  return !jobs_.is_busy() && !quick_.is_busy() && !measuring_.is_busy() && !writing_.is_busy() && !live_.is_busy();
 }
 
 void MainWindow::follow_title() {
@@ -446,25 +474,26 @@ void MainWindow::follow_title() {
 // Whose picture is shown: what stands round it says nothing of another capture.
 void MainWindow::follow_opening() {
   const bool is_another = canvas_->shows_first_look() && !opening_.isEmpty();
-  for (QWidget* of_document : {time_, regions_}) of_document->setEnabled(!is_another);
+  QWidget* const panels[] = {time_, curves_, side_};
+  for (qsizetype panel = 0; panel < folds_.size(); ++panel) {
+    panels[panel]->setEnabled(!is_another);
+    panels[panel]->setVisible(folds_[panel]->isChecked() && document_.facts() != nullptr);
+  }
+  start_->setVisible(document_.facts() == nullptr && opening_.isEmpty());
   follow_title();
 }
 
 bool MainWindow::event(QEvent* event) {
   if (event->type() == QEvent::WindowActivate) tell_changes();
+  if (event->type() == QEvent::WindowDeactivate) let_go();
   return QMainWindow::event(event);
-}
-
-// Escape that nothing in the window had a use for.
-void MainWindow::keyPressEvent(QKeyEvent* event) {
-  if (event->key() != Qt::Key_Escape) return QMainWindow::keyPressEvent(event);
-  (notice_->isVisible() ? notice_ : offer_)->clear();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   if (may_leave()) {
     keep_window();
     autosave_.begin();
+    if (writing_.is_busy()) writes_on_ = std::make_unique<QEventLoopLocker>();
     event->accept();
   } else {
     event->ignore();

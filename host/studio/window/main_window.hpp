@@ -5,12 +5,16 @@
 #pragma once
 
 #include <QDateTime>
+#include <QElapsedTimer>
+#include <QEventLoopLocker>
 #include <QMainWindow>
-#include <QPointer>
+#include <QTimer>
 #include <map>
 #include <memory>
 
+#include "features/film/film_request.hpp"
 #include "features/study/study.hpp"
+#include "studio/canvas/light_histogram.hpp"
 #include "studio/canvas/picture_canvas.hpp"
 #include "studio/document/document.hpp"
 #include "studio/live/jobs.hpp"
@@ -29,6 +33,10 @@ class QSpinBox;
 class QToolBar;
 
 namespace nutik::studio {
+
+class RegionList;
+class StartPage;
+struct StartingPoint;
 
 // When the window read or wrote files: later changes are somebody else's.
 using FileTimes = std::map<QString, QDateTime>;
@@ -67,8 +75,12 @@ class MainWindow : public QMainWindow {
   void write_functions(const QString& path);
   void write_mask(const QString& path);
   // In the background. Needs a saved project unless an interval is exposed.
-  void export_picture(const QString& path);
-  void start_study(StudyStyle style);
+  void export_picture(const QString& path, const Stated& written = {});
+  void export_film(const QString& path, const Stated& options);
+  void start_study(const StudyRequest& request);
+  void start_from(const StartingPoint& point);
+  // The interval through the capture, as a film.
+  void play_or_stop();
   void use_tool(ToolKind kind);
 
   // Whether mask and functions lie in files as they are, so that a command can name them.
@@ -90,6 +102,7 @@ class MainWindow : public QMainWindow {
  protected:
   bool event(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
+  void keyReleaseEvent(QKeyEvent* event) override;
   void closeEvent(QCloseEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
@@ -120,7 +133,7 @@ class MainWindow : public QMainWindow {
   // menus.cpp
   void build_menus();
   void build_tools(QToolBar& bar);
-  void build_exposure_bar(QToolBar& bar);
+  [[nodiscard]] QWidget* build_exposure();
   QAction* add_action(QMenu& menu, const QString& text, const QKeySequence& keys, std::function<void()> run);
   void build_file_menu();
   void build_view_menu();
@@ -130,6 +143,26 @@ class MainWindow : public QMainWindow {
   void show_keys();
   static void offer_beside(QWidget& widget, const QMenu& menu);
   void follow_exposure();
+
+  // starting.cpp
+  void choose_file();
+  void choose_export();
+  void choose_film();
+  void choose_study();
+  void offer_still_camera(StudyStyle style, const QString& why);
+  void show_plate(const QImage& plate);
+  [[nodiscard]] Stated film_options() const;
+  void play_on();
+  void stop_playing();
+
+  // seeing.cpp
+  void measure_light();
+  void forget_light();
+  void mark_clipped();
+  void keep_snapshot();
+  void swap_snapshot();
+  bool hold(int key, bool is_held);
+  void let_go();
 
   // files.cpp
   using Use = std::function<void(const QString& path)>;
@@ -146,7 +179,6 @@ class MainWindow : public QMainWindow {
   void copy_command();
   void write_plate(const QString& path);
   void save_whole_part(const QString& path, const Origin& origin);
-  void remember(const QString& path);
   void fill_recent(QMenu& menu);
   void fill_unsaved(QMenu& menu);
   void remove_unsaved();
@@ -159,7 +191,7 @@ class MainWindow : public QMainWindow {
   Document document_;
   // What a person waits for and may cancel; what is there in no time; pictures on their way to files, which opening
   // another capture does not stop.
-  Jobs jobs_, quick_, writing_;
+  Jobs jobs_, quick_, measuring_, writing_;
   LiveView live_;
   TimeAxis axis_;
   Autosave autosave_;
@@ -169,18 +201,34 @@ class MainWindow : public QMainWindow {
   QString project_;
   CommandFiles files_;
   FileTimes known_;  // of the project's files and the capture
+  const StartingPoint* pending_ = nullptr;  // once a clip is open
+  Stated written_;                          // how the last picture was exported
+  QTimer playing_;
+  QElapsedTimer played_since_;
+  std::optional<Frames> film_;
+  std::unique_ptr<QEventLoopLocker> writes_on_;  // of a closed window
+  std::shared_ptr<const MeasuredLight> light_;
+  struct Snapshot {
+    DocumentState state;
+    QImage image;
+  };
+  std::optional<Snapshot> snapshot_;  // A: first the picture that the window was opened with
   QString told_changes_;  // what was said of them
   ToolSettings tool_settings_;
   std::unique_ptr<CanvasTool> tool_;
-  QDoubleSpinBox* radius_ = nullptr;
+  QDoubleSpinBox *radius_ = nullptr, *speed_ = nullptr, *angle_ = nullptr;
   QSpinBox* codes_ = nullptr;
 
   Notice *notice_ = nullptr, *offer_ = nullptr;
   Canvas* canvas_ = nullptr;
-  QWidget *time_ = nullptr, *regions_ = nullptr;
+  QWidget *time_ = nullptr, *curves_ = nullptr, *side_ = nullptr;
+  StartPage* start_ = nullptr;
+  LightHistogram* histogram_ = nullptr;
+  RegionList* regions_ = nullptr;
   StatusLine* status_ = nullptr;
   QActionGroup* tools_ = nullptr;
-  QList<QAction*> needs_capture_;
+  QList<QAction*> needs_capture_, folds_;
+  QAction* clipping_ = nullptr;
   QComboBox *mode_ = nullptr, *normalization_ = nullptr;
   QDoubleSpinBox* brightness_ = nullptr;
 };

@@ -3,6 +3,7 @@
 #include <QApplication>
 #include <QComboBox>
 #include <QDialog>
+#include <QGridLayout>
 #include <QIconEngine>
 #include <QLabel>
 #include <QMenuBar>
@@ -48,6 +49,9 @@ constexpr ToolRow kTools[] = {
 class ToolIcon : public QIconEngine {
  public:
   explicit ToolIcon(ToolKind kind) : kind_(kind) {}
+  // A window with the panel that it folds.
+  explicit ToolIcon(const QRectF& panel) : shape_(panel) {}
+  explicit ToolIcon(const QPolygonF& shape) : shape_(shape), has_frame_(false) {}
 
   QIconEngine* clone() const override { return new ToolIcon(kind_); }
   void paint(QPainter* painter, const QRect& place, QIcon::Mode mode, QIcon::State) override {
@@ -71,6 +75,12 @@ class ToolIcon : public QIconEngine {
 
  private:
   void draw(QPainter& painter, const QColor& colour) const {
+    if (!shape_.isEmpty()) {
+      if (has_frame_) painter.drawRect(QRectF(1.5, 2.5, 13, 11));
+      painter.setPen(Qt::NoPen);
+      painter.setBrush(colour);
+      return painter.drawPolygon(shape_);
+    }
     switch (kind_) {
       case ToolKind::look:
         painter.drawEllipse(QPointF(6.5, 6.5), 4.5, 4.5);
@@ -90,15 +100,21 @@ class ToolIcon : public QIconEngine {
     }
   }
 
-  ToolKind kind_;
+  ToolKind kind_ = ToolKind::look;
+  QPolygonF shape_;  // in place of it
+  bool has_frame_ = true;
 };
 
 // What keys and the mouse do where no menu says it.
 constexpr std::pair<const char*, const char*> kElsewhere[] = {
     {QT_TR_NOOP("Picture: wheel, middle button"), QT_TR_NOOP("zooms to the pointer, pans")},
-    {QT_TR_NOOP("Picture: arrows, Space, Backspace"),
+    {QT_TR_NOOP("Space, Escape"), QT_TR_NOOP("plays the interval as a film and stops it; stops it")},
+    {QT_TR_NOOP("Picture: Return"), QT_TR_NOOP("takes a pixel, which arrows then move")},
+    {QT_TR_NOOP("Picture with a tool: arrows, Space, Backspace"),
      QT_TR_NOOP("move the pointer; begin and end a stroke, one that erases")},
     {QT_TR_NOOP("Alt with a tool"), QT_TR_NOOP("erases")},
+    {QT_TR_NOOP("H, M, A, held"),
+     QT_TR_NOOP("hides outlines; magnifies round the pointer, with codes; shows snapshot A")},
     {QT_TR_NOOP("Time: wheel, Shift and wheel, F"), QT_TR_NOOP("zooms, pans, shows all")},
     {QT_TR_NOOP("Strip: Left, Right, Up, Down"),
      QT_TR_NOOP("the interval later and earlier, longer and shorter, by a sample")},
@@ -137,11 +153,12 @@ void MainWindow::build_menus() {
   auto* bar = new QToolBar(tr("Tools"));
   bar->setObjectName("tools");
   bar->setMovable(false);
-  addToolBar(bar);
+  addToolBar(Qt::LeftToolBarArea, bar);
   build_tools(*bar);
   bar->addSeparator();
-  build_exposure_bar(*bar);
-  bar->setMinimumWidth(bar->sizeHint().width());  // nothing of it is hidden
+  bar->addAction(findChild<QAction*>("play"));
+  bar->addSeparator();
+  bar->addActions(folds_);
   const auto follow = [this] {
     for (QAction* action : std::as_const(needs_capture_)) action->setEnabled(document_.facts() != nullptr);
   };
@@ -152,11 +169,7 @@ void MainWindow::build_menus() {
 void MainWindow::build_file_menu() {
   QMenu& menu = *menuBar()->addMenu(tr("&File"));
   add_action(menu, tr("&Open…"), QKeySequence::Open, [this] {
-    if (may_leave())
-      ask_for_file(tr("Open"),
-                   tr("Clips, captures and projects (*.tik *.nutik *.mp4 *.mov *.mkv *.avi "
-                      "*.cine *.cihx *.csv);;All files (*)"),
-                   [this](const QString& path) { open(path); });
+    if (may_leave()) choose_file();
   });
   QMenu& recent = *menu.addMenu(tr("Open &recent"));
   connect(&recent, &QMenu::aboutToShow, this, [this, &recent] { fill_recent(recent); });
@@ -195,11 +208,10 @@ void MainWindow::build_file_menu() {
                  [this](const QString& path) { write_mask(path); });
   });
   menu.addSeparator();
-  needs_capture_ += add_action(menu, tr("&Export picture…"), Qt::CTRL | Qt::Key_E, [this] {
-    if (!ensure_files()) return;
-    ask_for_name(tr("Export the picture"), ".png", tr("Pictures (*.png *.tif *.jpg *.exr *.pfm *.ppm)"),
-                 [this](const QString& path) { export_picture(path); });
-  });
+  needs_capture_ +=
+      add_action(menu, tr("&Export picture…"), Qt::CTRL | Qt::Key_E, [this] { choose_export(); });
+  needs_capture_ +=
+      add_action(menu, tr("Export f&ilm…"), Qt::CTRL | Qt::SHIFT | Qt::Key_E, [this] { choose_film(); });
   needs_capture_ +=
       add_action(menu, tr("&Copy as command"), Qt::CTRL | Qt::SHIFT | Qt::Key_C, [this] { copy_command(); });
   menu.addSeparator();
@@ -223,7 +235,7 @@ void MainWindow::build_region_menu() {
       add_action(menu, tr("Select what &moves"), Qt::CTRL | Qt::Key_M, [this] { select_motion(); });
   needs_capture_ +=
       add_action(menu, tr("Select what di&ffers…"), Qt::CTRL | Qt::Key_D, [this] { choose_difference(); });
-  offer_beside(*regions_->findChild<QWidget*>("regions"), menu);
+  offer_beside(*side_->findChild<QWidget*>("regions"), menu);
 }
 
 // As the menu of a right click.
@@ -272,12 +284,12 @@ void MainWindow::build_start_menu() {
   QMenu& menu = *menuBar()->addMenu(tr("&Start from"));
   menu.setToolTipsVisible(true);
   for (const StartingPoint& point : starting_points()) {
-    QAction* action =
-        add_action(menu, Document::tr(point.name), {}, [this, style = point.style] { start_study(style); });
+    QAction* action = add_action(menu, Document::tr(point.name), {}, [this, &point] { start_from(point); });
     action->setToolTip(Document::tr(point.tip));
     needs_capture_ += action;
   }
   menu.addSeparator();
+  needs_capture_ += add_action(menu, tr("Study with &choices…"), {}, [this] { choose_study(); });
   needs_capture_ += add_action(menu, tr("&Empty scene, as a picture…"), {}, [this] {
     ask_for_name(tr("Write the empty scene"), "-empty.png", tr("Pictures (*.png *.tif *.jpg *.exr)"),
                  [this](const QString& path) { write_plate(path); });
@@ -293,6 +305,36 @@ void MainWindow::build_view_menu() {
   add_action(menu, tr("&Pixel for pixel"), Qt::CTRL | Qt::Key_1, [this] { canvas_->show_actual_size(); });
   offer_beside(*canvas_, menu);
   add_action(menu, tr("All of the &time"), Qt::CTRL | Qt::Key_T, [this] { axis_.show_all(); });
+  QAction* play = add_action(menu, tr("Pla&y or stop"), {}, [this] { play_or_stop(); });
+  play->setObjectName("play");
+  play->setIcon(QIcon(new ToolIcon(QPolygonF({{3, 2}, {14, 8}, {3, 14}}))));
+  play->setToolTip(tr("Plays the interval through the capture, or from In to Out (Space)"));
+  needs_capture_ += play;
+  menu.addSeparator();
+  clipping_ = add_action(menu, tr("Mark &clipped light"), Qt::Key_C,
+                         [this] { light_ ? mark_clipped() : measure_light(); });
+  clipping_->setCheckable(true);
+  needs_capture_ += add_action(menu, tr("&Keep as snapshot A"), Qt::CTRL | Qt::Key_K, [this] { keep_snapshot(); });
+  needs_capture_ +=
+      add_action(menu, tr("S&wap with snapshot A"), Qt::CTRL | Qt::SHIFT | Qt::Key_K, [this] { swap_snapshot(); });
+  menu.addSeparator();
+  const auto fold = [&](const char* name, const QString& text, Qt::Key key, const QRectF& icon) {
+    QAction* action = menu.addAction(QIcon(new ToolIcon(icon)), text);
+    action->setObjectName(name);
+    action->setShortcut(key);
+    action->setCheckable(true);
+    action->setChecked(true);
+    action->setToolTip(tr("%1 (%2): shown or folded").arg(QString(text).remove('&'), action->shortcut().toString()));
+    connect(action, &QAction::toggled, this, &MainWindow::follow_opening);
+    folds_ += action;
+    needs_capture_ += action;
+  };
+  fold("fold_time", tr("Time &strip"), Qt::Key_F7, {2, 7, 12, 2});
+  fold("fold_curves", tr("C&urves"), Qt::Key_F8, {2, 9, 12, 4});
+  fold("fold_side", tr("&Regions and exposure"), Qt::Key_F9, {10, 3, 4, 10});
+  connect(folds_.back(), &QAction::toggled, this, [this] {
+    if (!light_) measure_light();
+  });
   QMenu& looks = *menu.addMenu(tr("&Appearance"));
   auto* group = new QActionGroup(this);
   const std::pair<Appearance, QString> rows[] = {{Appearance::dark, tr("&Dark")},
@@ -325,6 +367,9 @@ void MainWindow::build_tools(QToolBar& bar) {
     });
     needs_capture_ += action;
   }
+}
+
+QWidget* MainWindow::build_exposure() {
   radius_ = new NumberBox;
   radius_->setObjectName("brush_radius");
   radius_->setRange(0.5, 500);
@@ -347,23 +392,20 @@ void MainWindow::build_tools(QToolBar& bar) {
       tr("How many codes of 255 a pixel may differ by from the one that the wand clicked"));
   codes_->setToolTip(codes_->accessibleName());
   connect(codes_, &QSpinBox::valueChanged, this, [this](int value) { tool_settings_.wand_codes = value; });
-  bar.addWidget(radius_);
-  bar.addWidget(codes_);
-}
-
-void MainWindow::build_exposure_bar(QToolBar& bar) {
   mode_ = new QComboBox;
   mode_->setObjectName("mode");
-  mode_->addItems({tr("Expose interval"), tr("Expose regions")});
+  mode_->addItems({tr("One interval for all"), tr("Each region its own")});
   mode_->setAccessibleName(tr("What is exposed: the interval everywhere, or each region's function"));
   mode_->setToolTip(mode_->accessibleName());
   connect(mode_, &QComboBox::activated, this, [this](int index) {
     document_.set_mode(index == 0 ? ExposureMode::boxcar : ExposureMode::functions);
   });
   normalization_ = new QComboBox;
+  normalization_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   normalization_->setObjectName("normalization");
-  normalization_->addItems({tr("by open time"), tr("by integral"), tr("by magnitude")});
-  normalization_->setAccessibleName(tr("Normalization: what the exposure is divided by"));
+  normalization_->addItems({tr("Average while open, as a camera"), tr("Still things keep their brightness"),
+                            tr("Average, whatever the gain's sign")});
+  normalization_->setAccessibleName(tr("Brightness: what the exposure is divided by"));
   normalization_->setToolTip(
       tr("What the exposure is divided by: the time with a gain; its integral, so that what rests keeps its "
          "brightness; that of its magnitude"));
@@ -385,7 +427,40 @@ void MainWindow::build_exposure_bar(QToolBar& bar) {
     state.brightness_ev = stops;
     document_.apply(std::move(state), tr("Brightness"));
   });
-  for (QWidget* widget : std::initializer_list<QWidget*>{mode_, normalization_, brightness_}) bar.addWidget(widget);
+  const auto film_box = [this](QDoubleSpinBox*& box, const char* name, double least, double most,
+                               const QString& tip) {
+    box = new NumberBox;
+    box->setObjectName(name);
+    box->setRange(least, most);
+    box->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+    box->setKeyboardTracking(false);
+    box->setAccessibleName(tip);
+    box->setToolTip(tip);
+    connect(box, &QDoubleSpinBox::valueChanged, this, [this] {
+      if (!playing_.isActive()) return;
+      stop_playing();
+      play_or_stop();
+    });
+  };
+  film_box(speed_, "film_speed", 0.001, 1000, tr("Speed of the film: 0.25 is four times slower than life"));
+  speed_->setDecimals(3);
+  speed_->setPrefix(tr("Film "));
+  speed_->setSuffix(QStringLiteral("×"));
+  film_box(angle_, "film_angle", 1, 3600, tr("Shutter angle of the film: 360° is all of the time to the next frame"));
+  angle_->setDecimals(0);
+  angle_->setSuffix(QStringLiteral("°"));
+  connect(&playing_, &QTimer::timeout, this, &MainWindow::play_on);
+  auto* exposure = new QWidget;
+  auto* grid = new QGridLayout(exposure);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->addWidget(mode_, 0, 0);
+  grid->addWidget(brightness_, 0, 1);
+  grid->addWidget(normalization_, 1, 0, 1, 2);
+  grid->addWidget(radius_, 2, 0);
+  grid->addWidget(codes_, 2, 1);
+  grid->addWidget(speed_, 3, 0);
+  grid->addWidget(angle_, 3, 1);
+  return exposure;
 }
 
 void MainWindow::follow_exposure() {

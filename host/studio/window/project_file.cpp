@@ -33,11 +33,13 @@ namespace {
 using NamedOptions = std::vector<std::pair<std::string, std::string>>;
 
 // All but the files, by name.
-NamedOptions options_of(const Document& document) {
+NamedOptions options_of(const Document& document, const Stated& written) {
   const DocumentState& state = document.state();
   const bool is_plain = state.mode == ExposureMode::boxcar;
   const Stated& stated = document.facts()->stated;
   NamedOptions options(stated.begin(), stated.end());
+  for (const auto& [name, value] : written)
+    if (option_of(CommandId::expose, name)->makes_picture()) options.emplace_back(name, value);
   if (state.brightness_ev != 0) options.emplace_back("ev", format("{}", state.brightness_ev));
   if (is_plain) options.emplace_back("exposure", StatedTime::of_nanoseconds(state.boxcar.length_ns).text());
   if (const Feather feather = feather_of(state); !is_plain && state.mask && feather != Feather())
@@ -213,7 +215,8 @@ void write_object(const QString& path, const QJsonObject& object) {
 
 }  // namespace
 
-QString command_line(const Document& document, const CommandFiles& files, const QString& picture) {
+QString command_line(const Document& document, const CommandFiles& files, const QString& picture,
+                     const Stated& written) {
   const DocumentState& state = document.state();
   std::string line = "nutik-cl expose";
   const auto add = [&](const std::string& option, const QString& file) {
@@ -223,19 +226,21 @@ QString command_line(const Document& document, const CommandFiles& files, const 
     add("-k", files.functions);
     if (state.mask) add("-m", files.mask);
   }
-  NamedOptions options = options_of(document);
+  NamedOptions options = options_of(document, written);
+  for (const auto& [name, value] : written)
+    if (!option_of(CommandId::expose, name)->makes_picture()) options.emplace_back(name, value);
   if (const auto& precision = document.facts()->precision) options.emplace_back("precision", to_text(*precision));
   for (const auto& [name, value] : options) line += " --" + name + (value.empty() ? "" : " " + shell_word(value));
   line += " " + shell_word(document.facts()->path.toStdString()) + " " + shell_word(picture.toStdString());
   return QString::fromStdString(line);
 }
 
-RecipeSources recipe_sources(const Document& document, const CommandFiles& files) {
+RecipeSources recipe_sources(const Document& document, const CommandFiles& files, const Stated& written) {
   const DocumentState& state = document.state();
   RecipeSources sources{{}, document.facts()->path.toStdString(), {}};
   Recipe& recipe = sources.made;
   recipe.version = NUTIK_VERSION;
-  recipe.options = options_of(document);
+  recipe.options = options_of(document, written);
   recipe.renderer = "opencl";
   if (state.mode == ExposureMode::functions) {
     recipe.functions = Recipe::Text{file_name(files.functions),

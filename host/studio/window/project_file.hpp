@@ -23,10 +23,12 @@ struct CommandFiles {
 
 // The command line that makes a document's picture, one line for a POSIX shell, and the recipe that the picture carries:
 // both come from one list of options, and nutik-cl writes the same bytes.
+// `written`: options of how the picture is written.
 [[nodiscard]] QString command_line(const Document& document, const CommandFiles& files,
-                                   const QString& picture);
+                                   const QString& picture, const Stated& written = {});
 // Reads both files.
-[[nodiscard]] RecipeSources recipe_sources(const Document& document, const CommandFiles& files);
+[[nodiscard]] RecipeSources recipe_sources(const Document& document, const CommandFiles& files,
+                                           const Stated& written = {});
 
 struct Project {
   QString capture;

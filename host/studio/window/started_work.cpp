@@ -3,6 +3,7 @@
 #include <span>
 
 #include "exposure/function_text.hpp"
+#include "features/film/film_making.hpp"
 #include "features/masks/mask_making.hpp"
 #include "features/plate/plate.hpp"
 #include "media/formats/numbered_name.hpp"
@@ -13,6 +14,7 @@
 #include "session/text/number_text.hpp"
 #include "studio/live/live_view.hpp"
 #include "studio/live/opening.hpp"
+#include "studio/window/options_dialog.hpp"
 
 namespace nutik::studio {
 namespace {
@@ -52,9 +54,7 @@ DocumentState state_of(const DocumentState& before, const Study& study, Mask mas
     const std::size_t moment = is_slit ? tag : tag - std::size_t{1};
     if (moment >= study.moments.size()) continue;  // what is left around the subject
     const std::string time = duration_text(stretch.start_ns + timeline.start_ns(study.moments[moment]));
-    state.looks[tag] = {(is_slit ? Document::tr("Strip at %1") : Document::tr("Subject at %1"))
-                            .arg(QString::fromStdString(time)),
-                        first_colour(tag), true};
+    state.looks[tag] = {Document::tr("At %1").arg(QString::fromStdString(time)), first_colour(tag), true};
   }
   state.mask = Shared(MaskWithRegions(std::move(mask)));
   state.mode = ExposureMode::functions;
@@ -78,23 +78,30 @@ std::span<const StartingPoint> starting_points() {
       {StudyStyle::frozen, QT_TRANSLATE_NOOP("Document", "&Frozen subject"),
        QT_TRANSLATE_NOOP("Document", "One moment in a scene that is exposed for all of the time")},
       {StudyStyle::slit, QT_TRANSLATE_NOOP("Document", "S&lit-scan"),
-       QT_TRANSLATE_NOOP("Document", "Strips side by side, each at a moment of its own")}};
+       QT_TRANSLATE_NOOP("Document", "Strips side by side, each at a moment of its own")},
+      {StudyStyle::clean, QT_TRANSLATE_NOOP("Document", "Remove &people"),
+       QT_TRANSLATE_NOOP("Document", "The empty scene, without what moves")},
+      {std::nullopt, QT_TRANSLATE_NOOP("Document", "Lon&g exposure"),
+       QT_TRANSLATE_NOOP("Document", "All of the time in one picture: silky water, trails of light")}};
   return kAll;
 }
 
-Jobs::Work studying(Document& document, std::shared_ptr<Session> session, StudyStyle style, Told told) {
-  return [&document, session = std::move(session), style, told = std::move(told), marks = document.marks(),
+StudyRequest usual_study(StudyStyle style) {
+  StudyRequest request;
+  request.style = style;
+  if (style != StudyStyle::slit) request.moments = usual_moments(style);  // few strips: each is edited by hand
+  return request;
+}
+
+Jobs::Work studying(Document& document, std::shared_ptr<Session> session, const StudyRequest& request, Told told) {
+  return [&document, session = std::move(session), request, told = std::move(told), marks = document.marks(),
           path = document.facts()->path](const Job& job) -> Jobs::Finish {
-    StudyRequest request;
-    request.style = style;
-    if (style != StudyStyle::slit)
-      request.moments = usual_moments(style);  // few strips: each is edited by hand
     const std::string name = path.toStdString();
     const MemoryBudget& memory = session->devices().request().memory;
     const Stretch stretch = stretch_between(marks, session, job);
     auto study =
         std::make_shared<Study>(plan_study(stretch.session->capture(), name, request, memory, job.progress));
-    return [&document, session, stretch, study, style, told] {
+    return [&document, session, stretch, study, style = request.style, told] {
       document.apply(state_of(document.state(), *study, std::move(study->regions.mask), stretch,
                               session->timeline(), style),
                      Document::tr("Starting point"));
@@ -103,6 +110,16 @@ Jobs::Work studying(Document& document, std::shared_ptr<Session> session, StudyS
                ? notes
                : notes + Document::tr("\nTimes and pictures count from In."));
     };
+  };
+}
+
+Jobs::Work making_plate(const Document& document, std::shared_ptr<Session> session,
+                        std::function<void(QImage)> show) {
+  return [session = std::move(session), show = std::move(show), marks = document.marks(),
+          name = document.facts()->path.toStdString()](const Job& job) -> Jobs::Finish {
+    const MadePlate plate = make_plate(stretch_between(marks, session, job).session->capture(), name, {},
+                                       screen_format(), session->devices().request().memory, job.progress);
+    return [show, image = image_of(plate.picture)] { show(image); };
   };
 }
 
@@ -124,16 +141,18 @@ Jobs::Work writing_plate(const Document& document, std::shared_ptr<Session> sess
 }
 
 Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session, const CommandFiles& files,
-                     const QString& picture, Told told) {
+                     const QString& picture, const Stated& written, Told told) {
   const std::filesystem::path path = picture.toStdString();
+  const Options options = options_in(CommandId::expose, written);
+  check_quality(options.picture, path);
   std::vector<std::string> inputs{document.facts()->path.toStdString()};
   if (document.mode() == ExposureMode::functions) {
     inputs.push_back(files.functions.toStdString());
     if (document.state().mask) inputs.push_back(files.mask.toStdString());
   }
   check_output(path, OutputKind::picture, inputs);
-  return [state = document.state(), sources = recipe_sources(document, files), session = std::move(session),
-          path, told = std::move(told),
+  return [state = document.state(), sources = recipe_sources(document, files, written), options,
+          session = std::move(session), path, told = std::move(told),
           precision = document.facts()->precision](const Job& job) -> Jobs::Finish {
     const auto mask = state.mask && state.mode == ExposureMode::functions
                           ? std::optional(LiveView::feathered_mask(state))
@@ -143,9 +162,9 @@ Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session,
     control.precision = precision;
     PictureRecipe recipe(sources);
     const ExposedPicture exposed =
-        session->render(exposure_of(state, mask), output_format({}, path, session->format()), control);
-    write_picture(path, exposed.picture,
-                  recipe.text(std::string(to_text(exposed.precision)), {}, exposed.error_bound()), file_wishes({}));
+        session->render(exposure_of(state, mask), output_format(options.picture, path, session->format()), control);
+    const std::string text = recipe.text(std::string(to_text(exposed.precision)), {}, exposed.error_bound());
+    write_picture(path, exposed.picture, options.no_recipe ? std::string() : text, file_wishes(options.picture));
     const bool is_within = exposed.saturation.below + exposed.saturation.above == 0;
     const QString line = Jobs::tr("%1: %2, %3")
                              .arg(QString::fromStdString(path.string()),
@@ -153,6 +172,31 @@ Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session,
                                   is_within ? Jobs::tr("no light beyond white")
                                             : QString::fromStdString(saturated_text(exposed.saturation)));
     return [told, line] { told(line); };
+  };
+}
+
+FramesRequest film_request(const Document& document, const Options& options) {
+  DocumentState state = document.state();
+  state.mode = ExposureMode::boxcar;
+  FramesRequest request = options.film;
+  request.exposure = exposure_of(state, {});
+  return request;
+}
+
+Jobs::Work filming(const Document& document, std::shared_ptr<Session> session, const QString& film,
+                   const Options& options, Told told) {
+  const FramesRequest request = film_request(document, options);
+  const VideoOutput output(film.toStdString(), request.rate, options.video_codec, options.picture);
+  const Frames frames = frames_of(request, session->timeline());
+  // Of numbered pictures nobody was asked.
+  output.check(frames.numbers, std::vector{document.facts()->path.toStdString()},
+               output.writes_stills() ? Replacing::made_by_recipe : Replacing::all);
+  return [request, output, frames, session = std::move(session), film, told = std::move(told),
+          sound = options.sound](const Job& job) -> Jobs::Finish {
+    const MadeVideo made = make_video(*session, request, frames, output, job.progress, {}, sound);
+    QStringList lines{Document::tr("%1: %n frame(s)", nullptr, static_cast<int>(made.frames)).arg(film)};
+    for (const std::string& note : made.notes) lines += sentence(note);
+    return [told, lines] { told(lines.join('\n')); };
   };
 }
 

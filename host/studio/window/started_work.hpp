@@ -2,10 +2,13 @@
 // pictures that are written.
 #pragma once
 
+#include <QImage>
 #include <functional>
 #include <memory>
 #include <span>
 
+#include "features/film/film_request.hpp"
+#include "features/schema/options.hpp"
 #include "features/study/study.hpp"
 #include "session/session.hpp"
 #include "studio/document/document.hpp"
@@ -15,7 +18,7 @@
 namespace nutik::studio {
 
 struct StartingPoint {
-  StudyStyle style;
+  std::optional<StudyStyle> style;  // none: all of the time is exposed
   const char* name;  // in the menu; to be translated
   const char* tip;
 };
@@ -24,13 +27,25 @@ struct StartingPoint {
 // Both look at what lies between the document's marks.
 
 // The document gets the study's regions, functions and mask as one step; `told` its notes.
-[[nodiscard]] Jobs::Work studying(Document& document, std::shared_ptr<Session> session, StudyStyle style, Told told);
-// The scene without what moves, as a picture file.
+[[nodiscard]] Jobs::Work studying(Document& document, std::shared_ptr<Session> session,
+                                  const StudyRequest& request, Told told);
+// A style as it is usual here.
+[[nodiscard]] StudyRequest usual_study(StudyStyle style);
+// The scene without what moves, to be looked at.
+[[nodiscard]] Jobs::Work making_plate(const Document& document, std::shared_ptr<Session> session,
+                                      std::function<void(QImage)> show);
+// The same as a picture file.
 [[nodiscard]] Jobs::Work writing_plate(const Document& document, std::shared_ptr<Session> session,
                                        const QString& picture, Told told);
 
 // The picture of a document, with the bytes and the recipe that nutik-cl gives it. `files` hold its mask and functions.
 [[nodiscard]] Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session,
-                                   const CommandFiles& files, const QString& picture, Told told);
+                                   const CommandFiles& files, const QString& picture, const Stated& written,
+                                   Told told);
+
+// The interval on its way through the capture, as `options` of the command for videos say.
+[[nodiscard]] FramesRequest film_request(const Document& document, const Options& options);
+[[nodiscard]] Jobs::Work filming(const Document& document, std::shared_ptr<Session> session, const QString& film,
+                                 const Options& options, Told told);
 
 }  // namespace nutik::studio

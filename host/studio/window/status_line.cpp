@@ -60,15 +60,17 @@ void Notice::clear() { say(Kind::note, {}); }
 
 QString Notice::text() const { return text_->text(); }
 
-StatusLine::StatusLine(Jobs& jobs, QWidget* parent)
+StatusLine::StatusLine(const std::vector<Jobs*>& jobs, QWidget* parent)
     : QStatusBar(parent),
+      zoom_(new QLabel(this)),
       pixel_(new QLabel(this)),
       saturated_(new QLabel(this)),
       arithmetic_(new QLabel(this)),
       milliseconds_(new QLabel(this)),
       work_(new QLabel(this)),
       progress_(new QProgressBar(this)),
-      cancel_(new QToolButton(this)) {
+      cancel_(new QToolButton(this)),
+      shown_(jobs.front()) {
   pixel_->setObjectName("pixel");
   pixel_->setAccessibleName(tr("Pixel under the pointer"));
   arithmetic_->setObjectName("arithmetic");
@@ -89,6 +91,9 @@ StatusLine::StatusLine(Jobs& jobs, QWidget* parent)
   addWidget(work_);
   addWidget(progress_);
   addWidget(cancel_);
+  zoom_->setObjectName("zoom");
+  zoom_->setToolTip(tr("How large the picture is shown: 100 % is pixel for pixel (Ctrl+1), Ctrl+0 shows all of it"));
+  addPermanentWidget(zoom_);
   addPermanentWidget(saturated_);
   addPermanentWidget(arithmetic_);
   addPermanentWidget(milliseconds_);
@@ -96,18 +101,21 @@ StatusLine::StatusLine(Jobs& jobs, QWidget* parent)
     for (QWidget* widget : std::initializer_list<QWidget*>{work_, progress_, cancel_}) widget->setVisible(is_shown);
   };
   show_work(false);
-  connect(&jobs, &Jobs::progressed, this,
-          [this, show_work](const QString& what, quint64 done, quint64 total) {
-            work_->setText(what);
-            progress_->setRange(0, total > 0 ? 1000 : 0);
-            if (total > 0) progress_->setValue(static_cast<int>(1000 * done / total));
-            progress_->setAccessibleName(what);
-            show_work(true);
-          });
-  connect(&jobs, &Jobs::ended, this, [&jobs, show_work] {
-    if (!jobs.is_busy()) show_work(false);
-  });
-  connect(cancel_, &QToolButton::clicked, &jobs, &Jobs::cancel);
+  for (Jobs* each : jobs) {
+    connect(each, &Jobs::progressed, this,
+            [this, each, show_work](const QString& what, quint64 done, quint64 total) {
+              shown_ = each;
+              work_->setText(what);
+              progress_->setRange(0, total > 0 ? 1000 : 0);
+              if (total > 0) progress_->setValue(static_cast<int>(1000 * done / total));
+              progress_->setAccessibleName(what);
+              show_work(true);
+            });
+    connect(each, &Jobs::ended, this, [this, each, show_work] {
+      if (shown_ == each && !each->is_busy()) show_work(false);
+    });
+  }
+  connect(cancel_, &QToolButton::clicked, this, [this] { shown_->cancel(); });
 }
 
 void StatusLine::tell(const ShownPicture& picture) {
@@ -116,6 +124,10 @@ void StatusLine::tell(const ShownPicture& picture) {
   if (!picture.is_of_all_seen) return;
   const std::uint64_t saturated = picture.pixels_above + picture.pixels_below;
   saturated_->setText(saturated == 0 ? QString() : tr("%1 px saturated").arg(saturated));
+}
+
+void StatusLine::tell_zoom(double screen_pixels) {
+  zoom_->setText(screen_pixels == 0 ? QString() : tr("%1 %").arg(100 * screen_pixels, 0, 'f', 0));
 }
 
 void StatusLine::tell(std::optional<QPoint> pixel, const QImage& image) {

@@ -8,6 +8,7 @@
 #include <QString>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "studio/live/jobs.hpp"
 #include "studio/live/live_view.hpp"
@@ -42,16 +43,18 @@ class StatusLine : public QStatusBar {
   Q_OBJECT
 
  public:
-  StatusLine(Jobs& jobs, QWidget* parent = nullptr);
+  StatusLine(const std::vector<Jobs*>& jobs, QWidget* parent = nullptr);
 
   void tell(const ShownPicture& picture);
+  void tell_zoom(double screen_pixels);  // to a side of the capture's; 0: none
   // The codes of a picture on the screen, and the light that they stand for.
   void tell(std::optional<QPoint> pixel, const QImage& image);
 
  private:
-  QLabel *pixel_, *saturated_, *arithmetic_, *milliseconds_, *work_;
+  QLabel *zoom_, *pixel_, *saturated_, *arithmetic_, *milliseconds_, *work_;
   QProgressBar* progress_;
   QToolButton* cancel_;
+  Jobs* shown_;  // whose progress is told
 };
 
 }  // namespace nutik::studio

@@ -1,0 +1,87 @@
+// How the window looks at a picture: its light, another one beside it, keys that are held.
+#include <QAction>
+#include <QKeyEvent>
+
+#include "studio/regions/region_list.hpp"
+#include "studio/window/main_window.hpp"
+
+namespace nutik::studio {
+
+void MainWindow::measure_light() {
+  measuring_.cancel();
+  if (!session_ || !(histogram_->isVisible() || clipping_->isChecked())) return;
+  measuring_.start(tr("Measuring the light"),
+                   [this, session = session_, state = document_.state()](const Job& job) -> Jobs::Finish {
+                     auto light = std::make_shared<const MeasuredLight>(measured_light(*session, state, job));
+                     return [this, light] {
+                       light_ = light;
+                       histogram_->show_light(light);
+                       regions_->count_clipped(*light);
+                       mark_clipped();
+                     };
+                   });
+}
+
+// It is another picture's.
+void MainWindow::forget_light() {
+  measuring_.cancel();
+  light_.reset();
+  Glance glance = canvas_->glance();
+  if (glance.marks.isNull() && glance.instead.isNull()) return;  // nothing of the picture is painted anew
+  glance.marks = glance.instead = {};
+  canvas_->look(std::move(glance));
+}
+
+void MainWindow::mark_clipped() {
+  Glance glance = canvas_->glance();
+  if (glance.marks.isNull() && !clipping_->isChecked()) return;
+  glance.marks = light_ && clipping_->isChecked() ? light_->marks : QImage();
+  canvas_->look(std::move(glance));
+}
+
+void MainWindow::keep_snapshot() { snapshot_ = {document_.state(), canvas_->image()}; }
+
+void MainWindow::swap_snapshot() {
+  if (!snapshot_) return;
+  const Snapshot before = *snapshot_;
+  keep_snapshot();
+  document_.apply(before.state, tr("Swap with snapshot A"));
+}
+
+// Whether the key has a meaning while it is held.
+bool MainWindow::hold(int key, bool is_held) {
+  Glance glance = canvas_->glance();
+  switch (key) {
+    case Qt::Key_H: glance.without_outlines = is_held; break;
+    case Qt::Key_M: glance.is_magnified = is_held; break;
+    case Qt::Key_A:
+      glance.instead = is_held && snapshot_ ? snapshot_->image : QImage();
+      glance.title = tr("A");
+      break;
+    default: return false;
+  }
+  canvas_->look(std::move(glance));
+  return true;
+}
+
+// A key that is released in another window is released all the same.
+void MainWindow::let_go() {
+  for (const int key : {Qt::Key_H, Qt::Key_M, Qt::Key_A}) hold(key, false);
+}
+
+void MainWindow::keyPressEvent(QKeyEvent* event) {
+  const bool is_plain = event->modifiers() == Qt::NoModifier;
+  if (is_plain && (event->isAutoRepeat() || hold(event->key(), true))) return;
+  if (event->key() == Qt::Key_Space) return play_or_stop();
+  if (event->key() != Qt::Key_Escape) return QMainWindow::keyPressEvent(event);
+  if (playing_.isActive()) return stop_playing();
+  if (!canvas_->glance().instead.isNull()) return let_go();
+  // Nothing in the window had a use for it.
+  (notice_->isVisible() ? notice_ : offer_)->clear();
+}
+
+void MainWindow::keyReleaseEvent(QKeyEvent* event) {
+  if (event->isAutoRepeat() || !hold(event->key(), false)) QMainWindow::keyReleaseEvent(event);
+}
+
+}  // namespace nutik::studio

@@ -1,0 +1,177 @@
+// What the window begins: studies, films, exports.
+#include <QDoubleSpinBox>
+#include <QFileInfo>
+#include <algorithm>
+
+#include "features/film/film_making.hpp"
+#include "features/schema/requests.hpp"
+#include "session/requests/output_request.hpp"
+#include "studio/window/main_window.hpp"
+#include "studio/window/options_dialog.hpp"
+#include "studio/window/started_work.hpp"
+
+namespace nutik::studio {
+
+void MainWindow::choose_file() {
+  ask_for_file(tr("Open"),
+               tr("Clips, captures and projects (*.tik *.nutik *.mp4 *.mov *.mkv *.avi "
+                  "*.cine *.cihx *.csv);;All files (*)"),
+               [this](const QString& path) { open(path); });
+}
+
+// ---- starting points ----
+
+void MainWindow::start_from(const StartingPoint& point) {
+  if (!session_) {
+    choose_file();
+    if (!opening_.isEmpty()) pending_ = &point;
+  } else if (!point.style) {
+    const std::int64_t start_ns = document_.mark_in().value_or(0);
+    const std::int64_t end_ns = document_.mark_out().value_or(document_.duration_ns());
+    document_.set_boxcar({start_ns, end_ns - start_ns}, tr("Long exposure"));
+  } else if (point.style == StudyStyle::clean) {
+    jobs_.start(tr("Looking for the empty scene"),
+                making_plate(document_, session_, [this](const QImage& plate) { show_plate(plate); }));
+  } else {
+    start_study(usual_study(*point.style));
+  }
+}
+
+void MainWindow::start_study(const StudyRequest& request) {
+  if (!session_) return;
+  notice_->clear();
+  jobs_.start(tr("Looking for a subject"),
+              [this, style = request.style, work = studying(document_, session_, request, told())](const Job& job) {
+                try {
+                  return work(job);
+                } catch (const EverythingMoves&) {
+                  const QString why = sentence_of(std::current_exception());
+                  return Jobs::Finish([this, style, why] { offer_still_camera(style, why); });
+                }
+              });
+}
+
+void MainWindow::offer_still_camera(StudyStyle style, const QString& why) {
+  if (!session_->is_clip()) return notice_->say(Notice::Kind::error, why);
+  notice_->say(Notice::Kind::error, why, tr("Hold the camera still"), [this, style] {
+    if (!may_leave()) return;
+    Stated still = document_.facts()->stated;
+    still["align"] = "rigid";
+    open_capture_file(document_.facts()->path, still, {});
+    pending_ = &*std::ranges::find(starting_points(), std::optional(style), &StartingPoint::style);
+  });
+}
+
+void MainWindow::choose_study() {
+  if (!session_) return;
+  StudyRequest request;
+  const auto wanted = ask_options(
+      this, {CommandId::study, tr("Motion study"), {"style", "moments", "spacing", "trail", "slit-from"}, {}, {},
+             [&](const Wanted&, const Options& options) {
+               request = study_request(options);
+               if (!options.moments) request.moments = usual_study(request.style).moments;
+               request.joins_trail = false;
+               if (request.style == StudyStyle::clean) throw UsageError("that is Start from, Remove people");
+             }});
+  if (wanted) start_study(request);
+}
+
+void MainWindow::show_plate(const QImage& plate) {
+  Glance glance = canvas_->glance();
+  glance.instead = plate;
+  glance.title = tr("Without what moves. Escape: back to the picture");
+  canvas_->look(std::move(glance));
+  const QString note = tr("This scene is no exposure: it is kept as a picture of its own.");
+  notice_->say(Notice::Kind::note, note, tr("Save…"), [this] {
+    ask_for_name(tr("Write the empty scene"), "-empty.png", tr("Pictures (*.png *.tif *.jpg *.exr)"),
+                 [this](const QString& path) { write_plate(path); });
+  });
+}
+
+// ---- films ----
+
+Stated MainWindow::film_options() const {
+  Stated options{{"speed", QString::number(speed_->value()).toStdString()},
+                 {"out-angle", QString::number(angle_->value()).toStdString()}};
+  if (const auto in = document_.mark_in()) options.emplace("from", StatedTime::of_nanoseconds(*in).text());
+  if (const auto out = document_.mark_out()) options.emplace("to", StatedTime::of_nanoseconds(*out).text());
+  return options;
+}
+
+void MainWindow::play_or_stop() {
+  if (playing_.isActive()) return stop_playing();
+  if (!session_) return;
+  try_to([&] {
+    const FramesRequest request = film_request(document_, options_in(CommandId::video, film_options()));
+    film_ = frames_of(request, document_.facts()->timeline);
+    played_since_.start();
+    playing_.start(static_cast<int>(1000 / request.rate.value()));
+    play_on();
+  });
+}
+
+// As many frames as the device exposes in time; the film keeps its speed, and begins again at its end.
+void MainWindow::play_on() {
+  if (live_.is_busy()) return;
+  const auto frame = static_cast<std::uint64_t>(played_since_.elapsed() / playing_.interval());
+  const Exposure exposure = film_->exposure(film_->numbers[frame % film_->numbers.size()]);
+  document_.set_played(Boxcar{exposure.start_ns, exposure.end_ns - exposure.start_ns});
+}
+
+void MainWindow::stop_playing() {
+  playing_.stop();
+  document_.set_played({});
+}
+
+void MainWindow::choose_film() {
+  if (!session_) return;
+  const auto wanted = ask_options(
+      this, {CommandId::video,
+             tr("Export the interval as a film"),
+             {"out-fps", "speed", "out-angle", "from", "to", "video-codec", "crf", "quality", "depth", "sound"},
+             {suggested("-film.mp4"), film_options()},
+             tr("Films and numbered pictures (*.mp4 *.mov *.mkv *.webm *.gif *.webp *-%05d.png)"),
+             [&](const Wanted& asked, const Options& options) {
+               static_cast<void>(filming(document_, session_, asked.path, options, {}));
+             }});
+  if (wanted) export_film(wanted->path, wanted->options);
+}
+
+void MainWindow::export_film(const QString& path, const Stated& options) {
+  if (!session_) return;
+  try_to([&] {
+    writing_.start(tr("Filming %1").arg(QFileInfo(path).fileName()),
+                   filming(document_, session_, path, options_in(CommandId::video, options), told()));
+  });
+}
+
+// ---- pictures ----
+
+void MainWindow::choose_export() {
+  if (!ensure_files()) return;
+  const auto wanted = ask_options(
+      this, {CommandId::expose,
+             tr("Export the picture"),
+             {"depth", "quality", "out-transfer", "negative", "keep-pixels", "no-recipe"},
+             {suggested(".png"), written_},
+             tr("Pictures (*.png *.tif *.jpg *.exr *.pfm *.ppm)"),
+             [&](const Wanted& asked, const Options& options) {
+               static_cast<void>(output_format(options.picture, asked.path.toStdString(), session_->format()));
+               static_cast<void>(exporting(document_, session_, files_, asked.path, asked.options, {}));
+             }});
+  if (wanted) export_picture(wanted->path, wanted->options);
+}
+
+void MainWindow::export_picture(const QString& path, const Stated& written) {
+  if (!session_) return;
+  if (!has_files())
+    return notice_->say(Notice::Kind::error,
+                        tr("Save the project first: the picture's recipe names its files."));
+  try_to([&] {
+    writing_.start(tr("Writing %1").arg(QFileInfo(path).fileName()),
+                   exporting(document_, session_, files_, path, written, told()));
+    written_ = written;
+  });
+}
+
+}  // namespace nutik::studio
