@@ -22,6 +22,7 @@ constexpr double kMinChange = 0.75 * kCode8;
 // Pictures that are exposed alike, for one that seems not to be: of noise whose sign is chance, independent in tiles.
 constexpr double kTrials = 10'000;
 constexpr std::size_t kTileBlocks = 3;  // to a side: what moves differs in neighbouring blocks together
+constexpr double kSteepest = 3;  // a camera neither swallows differences nor makes them larger than this
 // Codes, for one that counts: of rarer ones neither the exposure can be told nor what a correction makes of them.
 constexpr std::size_t kMaxSilent = 50;
 
@@ -128,6 +129,7 @@ class DeflickeredClip final : public Clip {
  public:
   explicit DeflickeredClip(std::unique_ptr<Clip> clip)
       : clip_(std::move(clip)), info_(clip_->info()), blocks_(info_.format) {
+    info_.roundings.add(0.5, kSteepest, "deflicker");
     info_.facts.push_back({std::string(kDeflickered), Origin::stated, Setting::deflicker});
     const CaptureFormat& format = info_.format;
     shifts_.resize(format.shape.channels);
@@ -321,10 +323,9 @@ std::optional<CodeShift> CodeShift::between(std::span<const double> codes, std::
   }
   constexpr double kMaxDeviation = 12 * kCode8;
   if (deviation > kMaxDeviation || 2 * trusted < telling) return std::nullopt;
-  // A camera neither swallows differences nor makes them several times as large.
   for (std::size_t knot = 1; knot < kKnots; ++knot) {
     const double slope = 1 + (shift.shifts_[knot] - shift.shifts_[knot - 1]) * (kKnots - 1);
-    if (slope < 1.0 / 3 || slope > 3) return std::nullopt;
+    if (slope < 1.0 / kSteepest || slope > kSteepest) return std::nullopt;
   }
   return shift;
 }

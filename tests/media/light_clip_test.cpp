@@ -58,7 +58,7 @@ void expect_comes_back(const std::string& extension, ValueType type) {
     EXPECT_EQ(clip->info().format.shape, shape);
     EXPECT_EQ(clip->info().format.white_code, 65'535u);
     EXPECT_EQ(clip->info().format.transfer, Transfer::linear());
-    EXPECT_TRUE(clip->info().is_rounded);
+    EXPECT_EQ(clip->info().roundings, CodeRoundings{0.5});
     EXPECT_EQ(test::facts_of(*clip).at(Setting::white_code).line(),
               "light 2.5 is white, to the nearest of 65535 steps, as stated");
     const auto rasters = read_all(*clip);

@@ -82,7 +82,7 @@ Encoding::Encoding(ClipSource source, const EncodeRequest& request, const ClipMe
   header.shutter_angle = times_.shutter_angle();
   for (const Fact& fact : source_.facts(times_)) header.facts.push_back(fact.line());
   header.is_scaled = source_.request.clip.scale.has_value();
-  header.is_rounded = source_.clip->info().is_rounded;
+  header.roundings = source_.clip->info().roundings;
   header.part = source_.clip->info().part;
   if (source_.camera) header.alignment = kept_alignment(**source_.camera, source_.request.align->unseen);
   if (source_.made) header.made = **source_.made;
