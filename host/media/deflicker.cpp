@@ -58,8 +58,8 @@ class Blocks {
                                    : means(reinterpret_cast<const std::uint16_t*>(raster.data()));
   }
 
-  // Noise that both pictures have alike gives each tile's difference either sign with the same chance: the pictures might
-  // be swapped. Looked at are all tiles together, and those of each quarter of the codes, for both signs.
+  // Noise that both pictures have alike gives each tile's difference either sign with the same chance: they might be
+  // swapped. All tiles together are looked at, and those of each quarter of the codes, for both signs.
   [[nodiscard]] bool are_exposed_alike(std::span<const double> codes, std::span<const double> wanted,
                                        double trials) const {
     constexpr std::size_t kQuarters = 4;

@@ -317,8 +317,8 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
     bounds = UncertaintyMap(plan, source.timeline(), bound, *errors).layers(rendered.picture, part, control);
     if (const std::uint64_t count = infinite_values(bounds.front().values); count > 0) {
       rendered.warnings.push_back(
-          nutik::format("the map has {} of {} bounds beyond floating point of 32 bits, which ends at 3.4e38: they are infinite",
-                 count, bounds.front().values.shape.pixel_count()));
+          nutik::format("the map has {} of {} bounds beyond floating point of 32 bits, which ends at 3.4e38: infinite",
+                        count, bounds.front().values.shape.pixel_count()));
     }
   }
   ExposureFigures figures = ExposureFigures::of(std::move(plan), source.timeline(), block_count);

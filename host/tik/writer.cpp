@@ -82,7 +82,8 @@ Writer::Writer(const std::filesystem::path& path, Header header, const Codec& co
   file_.write(front);
 }
 
-void Writer::append(const BuiltBlock& held, std::span<const Exposure> exposures, const std::optional<BuiltBlock>& exact) {
+void Writer::append(const BuiltBlock& held, std::span<const Exposure> exposures,
+                    const std::optional<BuiltBlock>& exact) {
   const BlockGeometry geometry(header_.capture, held.extent.sample_count);
   CaptureFormat lossless = header_.capture;
   lossless.noise.tolerance = 0;

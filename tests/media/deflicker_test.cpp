@@ -175,7 +175,8 @@ TEST(Deflicker, IsMisledByChanceNoMoreOftenThanItSays) {
     for (int trial = 0; trial < 2000; ++trial) {
       std::vector<double> differences;
       for (int i = 0; i < 40; ++i)
-        differences.push_back((random() % 2 == 0 ? 1 : -1) * std::exp(spread * std::normal_distribution<double>()(random)));
+        differences.push_back((random() % 2 == 0 ? 1 : -1) *
+                              std::exp(spread * std::normal_distribution<double>()(random)));
       misled += may_be_chance(differences, kTrials) ? 0 : 1;
     }
     std::printf("by sizes of spread %.0f misled in %d of 2000, stated %.0f\n", spread, misled, 2000 / kTrials);

@@ -7,6 +7,7 @@
 #include "media/clip.hpp"
 #include "media/settled_fact.hpp"
 #include "media/videos/deinterlacer.hpp"
+#include "media/videos/eight_bit_yuv.hpp"
 #include "media/videos/libav.hpp"
 #include "media/videos/phantom_packing.hpp"
 #include "media/videos/picture_decoder.hpp"

@@ -58,7 +58,7 @@ class Encoding {
 
   ClipSource source_;
   BlockBuilder builder_;
-  std::optional<BlockBuilder> exact_;  // where there is a tolerance: the same blocks without it, of which the smaller is kept
+  std::optional<BlockBuilder> exact_;  // where there is a tolerance: the same blocks without it
   Timeline times_;  // as announced
   std::optional<tik::Writer> writer_;
   tik::Codec codec_;
