@@ -336,10 +336,10 @@ TEST_F(UncertaintyOf, AMapHasANameOfItsOwnThatHoldsFloats) {
   expect_refused(one + "map.jpg", 2, "map.jpg");
   expect_refused(one + "clip.tik", 2, "clip.tik");
   expect_refused("--start 0s --exposure 1f --every 5f clip.tik s%d.png --bounds map.tif", 2,
-                 "a series needs a number in its pictures' name");
+                 "a series needs a number in its maps' name");
   expect_refused("--start 0s --exposure 1f --every 5f clip.tik s%d.tif --bounds s%d.tif", 2, "s0.tif");
   expect_refused("video --out-fps 25 clip.tik f%d.png --bounds map.tif", 2,
-                 "a video needs a number in its pictures' name");
+                 "a video needs a number in its maps' name");
   scratch_.write("list",
                  "--start 0s --exposure 1f a.png --bounds map.tif\n"
                  "--start 1f --exposure 1f b.png --bounds map.tif\n");
