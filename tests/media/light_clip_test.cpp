@@ -139,8 +139,8 @@ TEST(LightClip, ValuesThatNoCaptureHoldsAreRefusedByTheirPixel) {
   };
   refused(0.75, std::nullopt, "how much of it is white; the largest value is 0.75: state the light of white");
   refused(1.5, 1.0, "pixel 5,3 has light 1.5, and a capture holds what lies between 0 and white, 1; state a larger");
-  refused(-0.25, 1.0, "pixel 5,3 has light -0.25, and a capture holds what lies between 0 and white, 1; add as much to all of its light "
-                   "as the darkest lacks");
+  refused(-0.25, 1.0, "pixel 5,3 has light -0.25, and a capture holds what lies between 0 and white, 1; "
+                      "add as much to all of its light as the darkest lacks");
   refused(std::nan(""), 1.0, "pixel 5,3 has light nan");
   refused(std::numeric_limits<double>::infinity(), 1.0, "pixel 5,3 has light inf");
 }
