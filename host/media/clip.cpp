@@ -19,7 +19,8 @@ void refuse_yuv_options(const ClipOptions& options) {
 }
 
 void describe_light(ClipInfo& info, double white) {
-  info.holds_light = info.is_rounded = true;
+  info.holds_light = true;
+  info.roundings.add();
   info.format.white_code = kLightSteps;
   info.facts.push_back({format("light {} is white, to the nearest of {} steps", white, kLightSteps), Origin::stated,
                         Setting::white_code});

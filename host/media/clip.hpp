@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "capture/code_roundings.hpp"
 #include "capture/error.hpp"
 #include "capture/fact.hpp"
 #include "capture/part_of_clip.hpp"
@@ -57,7 +58,7 @@ struct ClipInfo {
   std::optional<PartOfClip> part = std::nullopt;  // which pictures these are, if not all of a clip's
   std::optional<ClipSound> sound = std::nullopt;  // none: it has none
   bool holds_light = false;  // its files do: codes are the nearest ones
-  bool is_rounded = false;   // codes are light that was rounded to the nearest
+  CodeRoundings roundings = {};  // by which codes were made
 };
 
 // How YUV becomes RGB, which codes stand for black and white, and where samples of chroma lie that pixels share, among

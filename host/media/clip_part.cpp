@@ -260,7 +260,7 @@ class ClipPart final : public Clip {
     info_.facts.push_back(
         {format("{} x {} as means of light", scaled.width, scaled.height), Origin::stated, Setting::scale});
     info_.format.shape = scaled;
-    info_.is_rounded = true;
+    info_.roundings.add();
     means_.emplace(whole_, crop_, scaled);
   }
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -12,11 +13,16 @@
 namespace nutik {
 namespace {
 
-constexpr std::uint32_t kBlockSide = 4;           // pixels; means of them have little noise
+// Pixels; means of them have little noise. Smaller ones of pictures that would have too few to tell chance from.
+std::uint32_t block_side(const Shape& shape) { return shape.pixel_count() < 4096 ? 2 : 4; }
 constexpr std::uint32_t kMaxBlocksToASide = 48;  // spread over the picture
 constexpr double kCode8 = 1.0 / 255;
 // A correction that would be this much another is left as it is, so that still pixels keep their codes.
 constexpr double kMinChange = 0.75 * kCode8;
+// Pictures that are exposed alike, for one that seems not to be: of noise whose sign is chance, independent in tiles.
+constexpr double kTrials = 10'000;
+constexpr std::size_t kTileBlocks = 3;  // to a side: what moves differs in neighbouring blocks together
+constexpr double kSteepest = 3;  // a camera neither swallows differences nor makes them larger than this
 // Codes, for one that counts: of rarer ones neither the exposure can be told nor what a correction makes of them.
 constexpr std::size_t kMaxSilent = 50;
 
@@ -42,20 +48,50 @@ bool tells_exposure(double code, double wanted) {
 class Blocks {
  public:
   explicit Blocks(const CaptureFormat& format)
-      : format_(format), columns_(places(format.shape.width)), rows_(places(format.shape.height)) {}
+      : format_(format),
+        side_(block_side(format.shape)),
+        columns_(places(format.shape.width)),
+        rows_(places(format.shape.height)) {}
 
   [[nodiscard]] std::vector<std::vector<double>> means(std::span<const std::byte> raster) const {
     return format_.code_bytes == 1 ? means(reinterpret_cast<const std::uint8_t*>(raster.data()))
                                    : means(reinterpret_cast<const std::uint16_t*>(raster.data()));
   }
 
+  // Noise that both pictures have alike gives each tile's difference either sign with the same chance: they might be
+  // swapped. All tiles together are looked at, and those of each quarter of the codes, for both signs.
+  [[nodiscard]] bool are_exposed_alike(std::span<const double> codes, std::span<const double> wanted,
+                                       double trials) const {
+    constexpr std::size_t kQuarters = 4;
+    std::vector<double> sizes;
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+      if (tells_exposure(codes[i], wanted[i])) sizes.push_back(std::abs(wanted[i] - codes[i]));
+    }
+    if (sizes.empty()) return true;
+    const double deviation = std::max(1.4826 * median(sizes), kCode8);
+    const std::size_t side = codes.size() < 576 ? 1 : kTileBlocks, across = (columns_.size() - 1) / side + 1;
+    std::array<std::vector<double>, 1 + kQuarters> tiles;
+    tiles.fill(std::vector<double>(across * ((rows_.size() - 1) / side + 1)));
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+      if (!tells_exposure(codes[i], wanted[i])) continue;
+      const double difference = wanted[i] - codes[i];
+      const double quarter = std::min((codes[i] + wanted[i]) / 2 * kQuarters, kQuarters - 1.0);
+      for (const std::size_t seen : {std::size_t{0}, 1 + static_cast<std::size_t>(quarter)})
+        tiles[seen][i / columns_.size() / side * across + i % columns_.size() / side] +=
+            trust(difference, deviation) * difference;
+    }
+    return std::ranges::all_of(tiles, [&](const std::vector<double>& differences) {
+      return may_be_chance(differences, trials * static_cast<double>(tiles.size()));
+    });
+  }
+
  private:
-  static std::vector<std::uint32_t> places(std::uint32_t length) {
-    const std::uint32_t blocks = std::max(length / kBlockSide, 1u);
+  [[nodiscard]] std::vector<std::uint32_t> places(std::uint32_t length) const {
+    const std::uint32_t blocks = std::max(length / side_, 1u);
     const std::uint32_t count = std::min(blocks, kMaxBlocksToASide);
     std::vector<std::uint32_t> starts;
     for (std::uint64_t i = 0; i < count; ++i) {
-      starts.push_back(static_cast<std::uint32_t>(i * blocks / count) * kBlockSide);
+      starts.push_back(static_cast<std::uint32_t>(i * blocks / count) * side_);
     }
     return starts;
   }
@@ -65,9 +101,9 @@ class Blocks {
     const auto [width, height, channels] = format_.shape;
     std::vector<std::vector<double>> means(channels);
     for (const std::uint32_t top : rows_) {
-      const std::uint32_t bottom = std::min(top + kBlockSide, height);
+      const std::uint32_t bottom = std::min(top + side_, height);
       for (const std::uint32_t left : columns_) {
-        const std::uint32_t right = std::min(left + kBlockSide, width);
+        const std::uint32_t right = std::min(left + side_, width);
         std::array<std::uint64_t, 3> sums{};
         for (std::uint32_t y = top; y < bottom; ++y) {
           const Code* code = codes + (std::size_t{y} * width + left) * channels;
@@ -85,6 +121,7 @@ class Blocks {
   }
 
   CaptureFormat format_;
+  std::uint32_t side_;
   std::vector<std::uint32_t> columns_, rows_;
 };
 
@@ -92,6 +129,7 @@ class DeflickeredClip final : public Clip {
  public:
   explicit DeflickeredClip(std::unique_ptr<Clip> clip)
       : clip_(std::move(clip)), info_(clip_->info()), blocks_(info_.format) {
+    info_.roundings.add(0.5, kSteepest, "deflicker");
     info_.facts.push_back({std::string(kDeflickered), Origin::stated, Setting::deflicker});
     const CaptureFormat& format = info_.format;
     shifts_.resize(format.shape.channels);
@@ -152,7 +190,13 @@ class DeflickeredClip final : public Clip {
       change = std::max(change, shift->distance_to(shifts_[channel], means[channel]));
       shifts.push_back(*shift);
     }
-    if (change < kMinChange) return true;
+    const bool is_new = change >= kMinChange;
+    if (!is_new && !is_shifted_) return true;
+    if (is_alike(means)) {
+      shifts.assign(shifts.size(), {});
+    } else if (!is_new || (is_shifted_ && is_alike(shifted(means)))) {
+      return true;
+    }
     shifts_ = std::move(shifts);
     is_shifted_ = false;
     double most = 0;
@@ -163,6 +207,22 @@ class DeflickeredClip final : public Clip {
     is_shifted_ = most >= kMinChange;
     if (most > max_) max_ = most;
     return true;
+  }
+
+  [[nodiscard]] bool is_alike(const std::vector<std::vector<double>>& means) const {
+    for (std::size_t channel = 0; channel < means.size(); ++channel) {
+      if (!blocks_.are_exposed_alike(means[channel], first_[channel], kTrials * static_cast<double>(means.size())))
+        return false;
+    }
+    return true;
+  }
+
+  // As they are corrected now.
+  [[nodiscard]] std::vector<std::vector<double>> shifted(std::vector<std::vector<double>> means) const {
+    for (std::size_t channel = 0; channel < means.size(); ++channel) {
+      for (double& mean : means[channel]) mean += shifts_[channel].at(mean);
+    }
+    return means;
   }
 
   void fill(std::vector<std::uint16_t>& table, const CodeShift& shift) const {
@@ -263,10 +323,9 @@ std::optional<CodeShift> CodeShift::between(std::span<const double> codes, std::
   }
   constexpr double kMaxDeviation = 12 * kCode8;
   if (deviation > kMaxDeviation || 2 * trusted < telling) return std::nullopt;
-  // A camera neither swallows differences nor makes them several times as large.
   for (std::size_t knot = 1; knot < kKnots; ++knot) {
     const double slope = 1 + (shift.shifts_[knot] - shift.shifts_[knot - 1]) * (kKnots - 1);
-    if (slope < 1.0 / 3 || slope > 3) return std::nullopt;
+    if (slope < 1.0 / kSteepest || slope > kSteepest) return std::nullopt;
   }
   return shift;
 }
@@ -284,6 +343,30 @@ double CodeShift::distance_to(const CodeShift& other, std::span<const double> co
   const auto rare = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / kMaxSilent);
   std::nth_element(distances.begin(), rare, distances.end(), std::greater<>());
   return *rare;
+}
+
+// For every λ, P(|Σ ±d| >= s) <= 2 exp(-λ s) Π cosh(λ d): least where Σ d tanh(λ d) = s.
+bool may_be_chance(std::span<const double> differences, double trials) {
+  double sum = 0, largest = 0;
+  for (const double difference : differences) {
+    sum += difference;
+    largest = std::max(largest, std::abs(difference));
+  }
+  if (sum == 0) return true;
+  double low = 0, high = 40 / largest;  // any will do
+  double logarithm = 0;
+  for (int step = 0; step < 24; ++step) {
+    const double lambda = (low + high) / 2;
+    double slope = -std::abs(sum);
+    logarithm = std::numbers::ln2 - lambda * std::abs(sum);
+    for (const double difference : differences) {
+      const double size = lambda * std::abs(difference), tail = std::exp(-2 * size);
+      slope += std::abs(difference) * (1 - tail) / (1 + tail);
+      logarithm += size + std::log1p(tail) - std::numbers::ln2;
+    }
+    (slope < 0 ? low : high) = lambda;
+  }
+  return logarithm > -std::log(trials);
 }
 
 std::unique_ptr<Clip> deflicker(std::unique_ptr<Clip> clip) {

@@ -2,7 +2,8 @@
 //
 //   in:      a clip
 //   out:     the same pictures, with codes as the same things have in the first one
-//   always:  within a channel equal codes of a picture stay equal, and greater ones do not become smaller
+//   always:  within a channel equal codes of a picture stay equal, and greater ones do not become smaller; a picture that
+//            may have been exposed as the first one, but for noise, keeps its codes
 #pragma once
 
 #include <array>
@@ -37,6 +38,10 @@ class CodeShift {
 
   std::array<double, kKnots> shifts_{};
 };
+
+// Whether differences whose signs are chance may add up to so much, up or down, more often than once in so many trials:
+// by Chernoff's bound, whatever sizes they have. Of fewer than 1 + log2(trials) they always may.
+[[nodiscard]] bool may_be_chance(std::span<const double> differences, double trials);
 
 // Its remarks say how many pictures were corrected, and how far.
 [[nodiscard]] std::unique_ptr<Clip> deflicker(std::unique_ptr<Clip> clip);

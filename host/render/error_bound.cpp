@@ -149,10 +149,7 @@ double in_steps(const RenderPlan& plan, double scale, double light, double thres
     const double seen = making.conversion ? converted_error(*making.conversion, light, scale) : light;
     return code_error(making.transfer, output.white_code, {seen / making.white_light + threshold, 0.0});
   }
-  // Numbers of the format have no smaller steps than its least one.
-  const double least = output.type == ValueType::light64 ? std::numeric_limits<double>::denorm_min()
-                                                         : std::numeric_limits<float>::denorm_min();
-  return scale > 0.0 ? light / std::max(scale * format_step(output.type), least) : 0.0;
+  return scale > 0.0 ? light / format_step(output, scale) : 0.0;
 }
 
 // In codes. Other primaries mix light of other channels into a channel's own, and cameras' curves bend both ways, which
@@ -230,7 +227,10 @@ double converted_error(const ColourMatrix& matrix, double light, double scale) {
   return largest_row * (light + kMatrixRoundings * kRoundoff64 * (scale + light));
 }
 
-double format_step(ValueType type) { return type == ValueType::light64 ? 2e-12 : 0x1p-23; }
+double format_step(const OutputFormat& output, double scale) {
+  if (output.type == ValueType::light64) return std::max(scale * 2e-12, std::numeric_limits<double>::denorm_min());
+  return output.is_half ? std::max(scale * 0x1p-10, 0x1p-24) : std::max(scale * 0x1p-23, 0x1p-149);
+}
 
 double code_error(const Transfer& transfer, std::uint32_t white_code, const LightLine& error) {
   // From the darker of two lights to the brighter one.

@@ -77,7 +77,7 @@ class PixelErrors {
 
 // What a step of floating point is, in S = ∫|g|/D of the function: 2^-23 for light32, the most that floats lie
 // apart below S; for light64 2e-12, so that half a step is what the arithmetic in double promises.
-[[nodiscard]] double format_step(ValueType type);
+[[nodiscard]] double format_step(const OutputFormat& output, double scale);
 
 // What light in other primaries errs by: a channel has shares of the errors of all three, and rounds entries, products and
 // sums.

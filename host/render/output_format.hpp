@@ -21,6 +21,7 @@ struct OutputFormat {
   // Of codes that are made to be seen: with this function, in BT.709's primaries, white being the capture's reference
   // white. None: the capture's own function and primaries, and white the light of its white code.
   std::optional<Transfer> transfer = std::nullopt;
+  bool is_half = false;      // light becomes floating point of 16 bits in its file
   bool maps_bounds = false;  // a session adds a map of what each pixel may be off by
 
   friend bool operator==(const OutputFormat&, const OutputFormat&) = default;

@@ -45,7 +45,8 @@ ExposureFigures ExposureFigures::of(RenderPlan&& plan, const Timeline& timeline,
     figures.error_scale = std::max(figures.error_scale, nutik::error_scale(function, plan.combine));
     figures.times_error = std::max(figures.times_error, nutik::times_error(function, timeline));
   }
-  figures.functions = plan.map->has_delays() ? by_mask_value(plan) : std::move(plan.functions);
+  figures.has_delays = plan.map->has_delays();
+  figures.functions = figures.has_delays ? by_mask_value(plan) : std::move(plan.functions);
   for (PlannedFunction& function : figures.functions) function.table.reset();  // its memory is the session's
   return figures;
 }

@@ -27,6 +27,7 @@ struct ExposureFigures {
   std::uint64_t table_bytes = 0;  // of gains
   std::uint64_t map_bytes = 0;    // of functions by pixel
   Combine combine = Combine::integral;
+  bool has_delays = false;  // functions are told as they are without theirs
   // The largest of any function, each with its own delay: S, and what rounding of times costs.
   double error_scale = 0.0, times_error = 0.0;
 

@@ -106,7 +106,7 @@ class Session::Implementation {
   // Those of the function that was stated last: a series states one for all of its pictures.
   std::optional<std::pair<Transfer, std::shared_ptr<const CaptureErrors>>> stated_errors_;
   std::mutex stated_errors_mutex_;
-  bool is_rounded_ = false;  // codes are light that was rounded to the nearest
+  CodeRoundings roundings_;
 
   // A capture, or a clip that has not been read yet and the timeline that its files announce.
   std::unique_ptr<tik::Reader> reader_;
@@ -173,8 +173,8 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
     }
   }
   format_ = reader_ ? reader_->format() : held_format(clip_->capture);
-  is_rounded_ = reader_ ? reader_->header().is_rounded : clip_->clip->info().is_rounded;
-  errors_ = CaptureErrors::of(format_, is_rounded_);
+  roundings_ = reader_ ? reader_->header().roundings : clip_->clip->info().roundings;
+  errors_ = CaptureErrors::of(format_, roundings_);
   std::optional<tik::Alignment> alignment;
   if (reader_) {
     alignment = reader_->header().alignment;
@@ -315,6 +315,11 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
     const Rectangle part = control.rectangle.value_or(Rectangle::whole(format_.shape));
     const ErrorBound bound = rendered.choice && adds_up ? rendered.choice->bound : reference_bound(plan, output);
     bounds = UncertaintyMap(plan, source.timeline(), bound, *errors).layers(rendered.picture, part, control);
+    if (const std::uint64_t count = infinite_values(bounds.front().values); count > 0) {
+      rendered.warnings.push_back(
+          nutik::format("the map has {} of {} bounds beyond floating point of 32 bits, which ends at 3.4e38: infinite",
+                        count, bounds.front().values.shape.pixel_count()));
+    }
   }
   ExposureFigures figures = ExposureFigures::of(std::move(plan), source.timeline(), block_count);
   if (figures.functions.size() == 1) {
@@ -332,7 +337,7 @@ std::shared_ptr<const CaptureErrors> Session::Implementation::errors_of(const Ca
   if (planned.transfer == format_.transfer) return {std::shared_ptr<const CaptureErrors>(), &errors_};
   const std::scoped_lock lock(stated_errors_mutex_);
   if (!stated_errors_ || stated_errors_->first != planned.transfer) {
-    auto errors = std::make_shared<CaptureErrors>(CaptureErrors::of(planned, is_rounded_));
+    auto errors = std::make_shared<CaptureErrors>(CaptureErrors::of(planned, roundings_));
     errors->alignment_pixels = errors_.alignment_pixels;
     errors->made = errors_.made;
     stated_errors_.emplace(planned.transfer, std::move(errors));

@@ -27,7 +27,7 @@ PictureError error_of(const ExposedPicture& exposed, double scale, double light)
   PictureError error{light, 0.0};
   error.steps = holds_codes(exposed.output.type)
                     ? CodeErrors(exposed.figures.capture, exposed.output).anywhere(light, scale)
-                : scale > 0.0 ? light / (scale * format_step(exposed.output.type))
+                : scale > 0.0 ? light / format_step(exposed.output, scale)
                               : 0.0;
   return error;
 }
@@ -35,7 +35,10 @@ PictureError error_of(const ExposedPicture& exposed, double scale, double light)
 std::optional<PictureError> rounding_of(const ExposedPicture& exposed, double scale) {
   const OutputFormat& output = exposed.output;
   if (output.type == ValueType::light64) return std::nullopt;
-  if (output.type == ValueType::light32) return PictureError{scale * 0x1p-24, 0.5};
+  if (output.type == ValueType::light32) {
+    const double light = format_step(output, scale) / 2 + (output.is_half ? scale * 0x1p-24 : 0.0);  // rounded twice
+    return PictureError{light, scale > 0.0 ? light / format_step(output, scale) : 0.0};
+  }
   const CodeMaking making = CodeMaking::of(exposed.figures.capture, output);
   const double signs = output.negative == NegativeLight::offset ? 2.0 : 1.0;  // each has half of the codes
   const double half_code = 0.5 * signs / std::max(output.white_code, 2u);
@@ -53,6 +56,21 @@ double largest_codes(const CodeErrors& codes, const Transfer& captured, double s
     from = to;
   }
   return largest;
+}
+
+// How codes were made, where nobody knows how far off that is: by the names that a capture's file has.
+UncertaintyTerm without_bound(std::string_view name) {
+  static constexpr std::pair<std::string_view, std::string_view> kTexts[] = {
+      {"chroma", "interpolated between the clip's pixels, by FFmpeg"},
+      {"deflicker", "curves that are estimates; their rounding is among the rounded codes"},
+      {"events", "light between two of a pixel's events, and how true the contrast is"},
+      {"fields", "lines between those of an interlaced clip's fields"},
+      {"interpolation", "light between pixels, of aligned pictures"},
+  };
+  for (const auto& [known, text] : kTexts) {
+    if (known == name) return {known, Is::no_bound, {}, {}, std::string(text)};
+  }
+  return {"other", Is::no_bound, {}, {}, "codes that another version made"};
 }
 
 // How many samples of those exposed were made.
@@ -117,11 +135,12 @@ double LightCurve::most(double from, double to) const {
   return from <= top_.light && top_.light <= to ? most() : std::max(at(from), at(to));
 }
 
-CaptureErrors CaptureErrors::of(const CaptureFormat& capture, bool is_rounded) {
+CaptureErrors CaptureErrors::of(const CaptureFormat& capture, const CodeRoundings& roundings) {
   CaptureErrors errors;
+  errors.unbounded = roundings.unbounded;
   const NoiseModel& noise = capture.noise;
   const double white = capture.white_code;
-  if (!is_rounded && noise.tolerance == 0 && !noise.camera) return errors;
+  if (roundings.are_none() && noise.tolerance == 0 && !noise.camera) return errors;
   const auto light_at = [&](double code) { return capture.transfer.light_of(std::clamp(code / white, 0.0, 1.0)); };
   const auto within = [&](double code, double off) {
     const double light = light_at(code);
@@ -133,7 +152,7 @@ CaptureErrors CaptureErrors::of(const CaptureFormat& capture, bool is_rounded) {
     double deviation = 0.0;
     for (std::uint32_t channel = 0; noise.camera && channel < noise.camera->channels.size(); ++channel)
       deviation = std::max(deviation, scale * noise.camera->sd(channel, code / scale));
-    if (is_rounded) rounded.push_back(within(code, 0.5));
+    if (!roundings.are_none()) rounded.push_back(within(code, roundings.codes));
     held.push_back(within(code, std::max<double>(noise.tolerance, noise.sigmas * deviation)));
     if (deviation > 0.0)
       noisy.push_back({held.back().light, (light_at(code + deviation) - light_at(code - deviation)) / 2});
@@ -252,6 +271,7 @@ Uncertainty Uncertainty::of(const ExposedPicture& exposed, const CaptureErrors& 
     uncertainty.terms.push_back({"alignment", Is::deviation, {}, {{"residual_pixels", *pixels}},
                                  format("half of the texture lies within {:.2g} pixels of its place", *pixels)});
   }
+  for (const std::string& name : capture.unbounded) uncertainty.terms.push_back(without_bound(name));
   if (capture.made) {
     const std::uint64_t made = made_of(figures, *capture.made), of = figures.live_samples;
     uncertainty.terms.push_back(
@@ -263,7 +283,7 @@ Uncertainty Uncertainty::of(const ExposedPicture& exposed, const CaptureErrors& 
 }
 
 std::string_view to_text(UncertaintyTerm::Is is) {
-  return is == Is::bound ? "bound" : is == Is::deviation ? "deviation" : "count";
+  return is == Is::bound ? "bound" : is == Is::deviation ? "deviation" : is == Is::count ? "count" : "no_bound";
 }
 
 std::vector<UncertaintyTerm::Field> UncertaintyTerm::fields(const OutputFormat& output) const {
@@ -283,7 +303,9 @@ std::vector<std::string> Uncertainty::lines(const OutputFormat& output) const {
     if (!term.text.empty()) text += (text.empty() ? "" : ", ") + term.text;
     std::string name(term.name);
     std::ranges::replace(name, '_', ' ');
-    lines.push_back(format("  {:<14}{:<11}{}", name, to_text(term.is), text));
+    std::string is(to_text(term.is));
+    std::ranges::replace(is, '_', ' ');
+    lines.push_back(format("  {:<14}{:<11}{}", name, is, text));
   };
   std::ranges::for_each(terms, add);
   add(bounds);

@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "capture/code_roundings.hpp"
 #include "capture/made_samples.hpp"
 #include "render/error_bound.hpp"
 #include "render/render_plan.hpp"
@@ -52,14 +53,14 @@ class LightCurve {
 
 // What a capture is known to be off by before anything is exposed.
 struct CaptureErrors {
-  LightCurve rounded;  // between light and the code that it was rounded to: scaled or floating-point pictures
+  LightCurve rounded;  // between light and the code that was made of it here
   LightCurve held;     // between what a sample had and what is held of it: its tolerance, its noise's sigmas
   LightCurve noise;    // a sample's standard deviation, in its noisiest channel; zero: not known
   std::optional<double> alignment_pixels = std::nullopt;
   std::optional<MadeSamples> made = std::nullopt;
+  std::vector<std::string> unbounded = {};  // how codes were made whose error nobody knows
 
-  // `is_rounded`: its codes are light that was rounded.
-  [[nodiscard]] static CaptureErrors of(const CaptureFormat& capture, bool is_rounded);
+  [[nodiscard]] static CaptureErrors of(const CaptureFormat& capture, const CodeRoundings& roundings);
   // Where samples are combined.
   [[nodiscard]] CaptureErrors of_order() const;
 };
@@ -80,7 +81,7 @@ class CodeErrors {
 };
 
 struct UncertaintyTerm {
-  enum class Is { bound, deviation, count };
+  enum class Is { bound, deviation, count, no_bound };
 
   std::string_view name;  // as scripts know it
   Is is = Is::bound;

@@ -263,7 +263,7 @@ void take_fields(std::span<const Field> fields, Header& header) {
     } else if (field.tag == kMeans) {
       header.is_scaled = true;
     } else if (field.tag == kRounded) {
-      header.is_rounded = true;
+      header.roundings = CodeRoundings::parse(field.data);
     } else if (field.tag == kPart) {
       header.part = parse_part(field.data);
     } else if (field.tag == kMade) {
@@ -327,7 +327,7 @@ std::vector<Field> Header::fields() const {
   if (!lines.empty()) fields.push_back({std::string(kFacts), false, lines});
   if (alignment) fields.push_back({std::string(kAligned), false, text_of(*alignment)});
   if (is_scaled) fields.push_back({std::string(kMeans), false, "scaled"});
-  if (is_rounded) fields.push_back({std::string(kRounded), false, "1"});
+  if (!roundings.are_none()) fields.push_back({std::string(kRounded), false, roundings.text()});
   // Where codes move by steps, every codec may leave blocks to Rice's.
   const bool counts_steps = capture.noise.tolerance > 0 && !codec.empty() && codec != Codec().text();
   if (codec == kRice || counts_steps) fields.push_back({std::string(kRice), true, "1"});

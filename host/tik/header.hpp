@@ -31,6 +31,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/code_roundings.hpp"
 #include "capture/made_samples.hpp"
 #include "capture/part_of_clip.hpp"
 #include "capture/picture.hpp"
@@ -62,7 +63,7 @@ struct Header {
   std::vector<std::string> facts;
   std::optional<Alignment> alignment = std::nullopt;
   bool is_scaled = false;  // codes are means of the light of a clip's smaller pixels
-  bool is_rounded = false;  // codes are light that was rounded to the nearest
+  CodeRoundings roundings = {};  // by which codes were made of a clip
   std::optional<PartOfClip> part = std::nullopt;  // where samples are not all of a clip's pictures
   std::optional<MadeSamples> made = std::nullopt;  // where some were filmed and some made
 

@@ -79,8 +79,9 @@ class Statistics(TypedDict, total=False):
 
 # What else a term has follows from its name (docs/explanation/uncertainty.md).
 Term = TypedDict("Term", {
-    "term": str, "is": Literal["bound", "deviation", "count"], "light": float, "codes": float, "float_steps": float,
-    "share_of_bounds": float, "residual_pixels": float, "made_samples": float, "exposed_samples": float,
+    "term": str, "is": Literal["bound", "deviation", "count", "no_bound"], "light": float, "codes": float,
+    "float_steps": float, "share_of_bounds": float, "residual_pixels": float, "made_samples": float,
+    "exposed_samples": float,
 }, total=False)
 
 

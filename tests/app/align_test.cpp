@@ -164,6 +164,8 @@ TEST_F(Aligning, TellsWhatWasDoneToPicturesBefore) {
 TEST_F(Aligning, IsToldByInfo) {
   make(encoding("--align rigid frames a.tik"));
   make(encoding("frames plain.tik"));
+  expect_says(make("-v --start 0s --exposure 1f a.tik a.png --overwrite").out,
+              {"\n  rounded codes bound ", "\n  interpolation no bound"});
   const json aligned = answer("info a.tik");
   EXPECT_EQ(aligned["alignment"]["motion"], "rigid");
   EXPECT_EQ(aligned["alignment"]["reference_sample"], 0);

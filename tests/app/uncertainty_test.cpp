@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <utility>
 
 #include "support/app_test.hpp"
 #include "support/still_clip.hpp"
@@ -129,6 +130,14 @@ TEST_F(UncertaintyOf, CombinedLightIsAsLargeAsTheLargestGain) {
   expect_refused("--start 0s --exposure 0.1s --bounds tif:- clip.tik b.png", 2, "standard output has one picture");
   expect_refused("--start 0s --exposure 0.1s --bounds m.npy clip.tik b.jpg", 2, "b.jpg loses more than a map counts");
   expect_refused("--start 0s --exposure 0.1s --bounds m.npy --depth half clip.tik b.exr", 2, "--depth half loses more");
+  expect_refused("video --bounds m%d.npy clip.tik v.mp4", 2, "h264 loses more than a map counts; write ffv1");
+  expect_refused("--start 0s --exposure 4f --every 4f --bounds m.npy clip.tik s%d.png", 2,
+                 "a series needs a number in its maps' name, as in m-%03d.npy");
+  expect_says(make("--start 0s --exposure 0.1s --gain 1e300 --depth double --bounds far.npy clip.tik far.tif").err,
+              "the map has 256 of 256 bounds beyond floating point of 32 bits");
+  make("-f 100 --pixel-aspect 2:1 frames wide.tik");
+  expect_says(make("--start 0s --exposure 0.1s --bounds w.npy wide.tik w.png").err,
+              "maps of bounds have the capture's 16 x 16 pixels");
 }
 
 TEST_F(UncertaintyOf, FloatsAreInStepsAndTheReferenceHasTheLeast) {
@@ -210,6 +219,45 @@ TEST_F(UncertaintyOf, ReproducingMakesTheMapToo) {
   expect_says(make("reproduce c.pgm", 3).err, "names have no folders");
 }
 
+// A map is as good as its picture: it is left, missed, and made again with it.
+TEST_F(UncertaintyOf, SkippingLeavesAPictureWithItsMap) {
+  scratch_.write("list", "--start 0s --exposure 4f b0.png --bounds b0.npy\n"
+                         "--start 4f --exposure 4f b1.png --bounds b1.npy\n");
+  const std::pair<std::string, std::string> cases[] = {
+      {"--start 0s --exposure 4f --every 4f --count 2 clip.tik s%d.png --bounds s%d.npy", "s"},
+      {"video --out-fps 25 --frames 0-1 clip.tik f%d.png --bounds f%d.npy", "f"},
+      {"batch list clip.tik", "b"}};
+  for (const auto& [command, name] : cases) {
+    make(command);
+    const std::string skipping = (command[0] == '-' ? "expose " : "") + command + " --skip-existing";
+    const std::string map = test::read_file(scratch_ / (name + "1.npy"));
+    expect_says(make(skipping).out, "there already");
+    std::filesystem::remove(scratch_ / (name + "1.npy"));
+    expect_says(make(skipping).out, "1 ");
+    EXPECT_EQ(test::read_file(scratch_ / (name + "1.npy")), map) << command;
+    // Of a picture that is made otherwise the map is, too; one that no picture there names is not replaced.
+    if (name == "b") continue;
+    make(skipping + " --gain 2");
+    EXPECT_NE(test::read_file(scratch_ / (name + "1.npy")), map) << command;
+    std::filesystem::remove(scratch_ / (name + "1.png"));
+    expect_says(make(skipping, 2).err, name + "1.npy is there already and is not replaced");
+  }
+  const std::string again = make("reproduce b1.png").out;
+  make(again.substr(again.find(" expose ") + 1, again.size() - again.find(" expose ") - 2));
+}
+
+// Codes that the program makes of a clip's are off by what it rounds; what has no bound is named.
+TEST_F(UncertaintyOf, RoundingsOfTheProgramAreTold) {
+  for (const auto& [how, codes] : {std::pair("--deflicker", 0.5), std::pair("--scale 1/2 --deflicker", 2.0)}) {
+    make(std::string("encode -f 100 --transfer linear --overwrite ") + how + " frames r.tik");
+    const std::string picture = "--start 0s --exposure 1f --overwrite r.tik a.npy";
+    const json told = answer("--json --depth double " + picture)["uncertainty"];
+    EXPECT_NEAR(term_of(told, "rounded_codes")["light"].get<double>() * 255, codes, 1e-3) << how << told;
+    EXPECT_EQ(term_of(told, "deflicker")["is"], "no_bound") << how << told;
+    expect_says(make("-v " + picture).out, "\n  deflicker     no bound");
+  }
+}
+
 // A function of gain 1e30 spoils its own pixels alone.
 TEST_F(UncertaintyOf, AMapHasTheBoundOfEachPixel) {
   make("-m mask.pgm -k f.fn --bounds map.npy clip.tik a.png");
@@ -288,10 +336,10 @@ TEST_F(UncertaintyOf, AMapHasANameOfItsOwnThatHoldsFloats) {
   expect_refused(one + "map.jpg", 2, "map.jpg");
   expect_refused(one + "clip.tik", 2, "clip.tik");
   expect_refused("--start 0s --exposure 1f --every 5f clip.tik s%d.png --bounds map.tif", 2,
-                 "a series needs a number in its pictures' name");
+                 "a series needs a number in its maps' name");
   expect_refused("--start 0s --exposure 1f --every 5f clip.tik s%d.tif --bounds s%d.tif", 2, "s0.tif");
   expect_refused("video --out-fps 25 clip.tik f%d.png --bounds map.tif", 2,
-                 "a video needs a number in its pictures' name");
+                 "a video needs a number in its maps' name");
   scratch_.write("list",
                  "--start 0s --exposure 1f a.png --bounds map.tif\n"
                  "--start 1f --exposure 1f b.png --bounds map.tif\n");
@@ -325,6 +373,7 @@ TEST_F(UncertaintyOf, StrictlyTooLargeIsAnErrorWithAStatusOfItsOwn) {
   EXPECT_EQ(make(floats).err.find("not sure"), std::string::npos) << "it was asked for";
   expect_refused("--strict --overwrite " + floats, 7, "single is not sure to be right to 0.5 of a float's step here");
   make("--strict --start 0s --exposure 0.1s clip.tik b.pfm");
+  make("--strict --start 0s --exposure 0.1s --precision single --depth half clip.tik b.exr");
   // The reference, too, which says nothing otherwise; it makes what is combined.
   for (const std::string how :
        {"--renderer reference -m mask.pgm -k f.fn", "--combine lighten --start 0s --exposure 0.1s --gain 1e30"}) {

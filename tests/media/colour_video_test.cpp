@@ -157,7 +157,9 @@ TEST(ColourVideo, IsShownWithTheCurveOfSrgb) {
   const Scratch scratch;
   test::make(scratch,
              "-f lavfi -i color=red:s=16x16:d=0.2 -c:v ffv1 -pix_fmt yuv420p -color_trc bt709 clip.mkv");
-  EXPECT_EQ(test::open_test_clip(scratch / "clip.mkv")->info().format.transfer, Transfer::srgb());
+  const auto clip = test::open_test_clip(scratch / "clip.mkv");
+  EXPECT_EQ(clip->info().format.transfer, Transfer::srgb());
+  EXPECT_EQ(clip->info().roundings, CodeRoundings{0.525}) << "of its RGB";
 }
 
 // Saturated colours, for which BT.601 and BT.709 are up to 29 codes apart.

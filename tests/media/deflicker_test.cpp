@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <random>
 
+#include "capture/format.hpp"
 #include "support/clips.hpp"
 #include "support/messages.hpp"
 #include "support/scratch.hpp"
@@ -121,26 +124,67 @@ TEST(Deflicker, LeavesASteadyClipAsItIs) {
 }
 
 // What moves is brighter than all else, so that the brightest codes are told by few pairs and those beyond by none.
-TEST(Deflicker, LeavesAClipAsItIsWhereOnlyThingsMove) {
-  std::mt19937 random(3);
-  std::normal_distribution<double> noise(0, 1.5);
-  std::vector<Picture> pictures;
-  for (std::uint32_t k = 0; k < 24; ++k) {
-    Picture& picture = pictures.emplace_back(Shape{320, 240, 1}, ValueType::code8, 255);
-    std::size_t index = 0;
-    for (std::uint32_t y = 0; y < 240; ++y) {
-      for (std::uint32_t x = 0; x < 320; ++x, ++index) {
-        const double slope = 90 + 10 * std::sin(x / 7.0) * std::cos(y / 9.0);
-        const double away = std::hypot(x - (40 + 10.0 * k), y - (120 + 40 * std::sin(k / 4.0)));
-        const double code = away < 45 ? 200 + 20 * std::sin(x / 4.0 - k) : slope;
-        picture.values<std::uint8_t>()[index] = static_cast<std::uint8_t>(std::lround(code + noise(random)));
+TEST(Deflicker, CorrectsNoiseNeitherWhereThingsMoveNorWhereNothingDoes) {
+  for (const double deviation : {1.5, 5.0, 9.0}) {
+    for (const double dimmed : {0.0, 0.1}) {
+      for (const double radius : {0.0, 45.0}) {
+        std::mt19937 random(3);
+        std::normal_distribution<double> noise(0, deviation);
+        std::vector<Picture> pictures;
+        std::vector<double> gains;
+        for (std::uint32_t k = 0; k < 24; ++k) {
+          Picture& picture = pictures.emplace_back(Shape{320, 240, 1}, ValueType::code8, 255);
+          gains.push_back(1 - dimmed * std::abs(std::sin(0.7 * k)));
+          std::size_t index = 0;
+          for (std::uint32_t y = 0; y < 240; ++y) {
+            for (std::uint32_t x = 0; x < 320; ++x, ++index) {
+              const double slope = 90 + 10 * std::sin(x / 7.0) * std::cos(y / 9.0);
+              const double away = std::hypot(x - (40 + 10.0 * k), y - (120 + 40 * std::sin(k / 4.0)));
+              const double code = away < radius ? 200 + 20 * std::sin(x / 4.0 - k) : slope;
+              picture.values<std::uint8_t>()[index] =
+                  static_cast<std::uint8_t>(std::lround(std::clamp(gains.back() * code + noise(random), 0.0, 255.0)));
+            }
+          }
+        }
+        std::vector<std::string> remarks;
+        const auto rasters = read_deflickered(pictures, remarks);
+        for (std::uint32_t k = 0; k < pictures.size(); ++k) {
+          const bool is_alike = 90 * (1 - gains[k]) < 0.75;
+          double off = 0;  // of the corner, which is background all along
+          for (std::size_t i = 0; i < 320 * 30; ++i)
+            off += code_at(rasters[k], 255, i) - code_at(pictures[k].bytes, 255, i) / gains[k];
+          const std::string which = format("picture {}, deviation {}, radius {}", k, deviation, radius);
+          if (dimmed == 0) {
+            EXPECT_EQ(rasters[k], pictures[k].bytes) << which;
+          } else if (!is_alike) {
+            EXPECT_NEAR(off / (320 * 30), 0, 1) << which;
+          }
+        }
+        EXPECT_EQ(remarks.empty(), dimmed == 0) << deviation << ", " << radius;
       }
     }
   }
-  std::vector<std::string> remarks;
-  const auto rasters = read_deflickered(pictures, remarks);
-  for (std::uint32_t k = 0; k < pictures.size(); ++k) EXPECT_EQ(rasters[k], pictures[k].bytes) << k;
-  EXPECT_TRUE(remarks.empty()) << remarks.front();
+}
+
+// Of signs that are thrown, no more than the stated share is taken for a correction; the bound is for any sizes.
+TEST(Deflicker, IsMisledByChanceNoMoreOftenThanItSays) {
+  constexpr double kTrials = 20;
+  std::mt19937 random(5);
+  for (const double spread : {0.0, 1.0, 3.0}) {
+    int misled = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+      std::vector<double> differences;
+      for (int i = 0; i < 40; ++i)
+        differences.push_back((random() % 2 == 0 ? 1 : -1) *
+                              std::exp(spread * std::normal_distribution<double>()(random)));
+      misled += may_be_chance(differences, kTrials) ? 0 : 1;
+    }
+    std::printf("by sizes of spread %.0f misled in %d of 2000, stated %.0f\n", spread, misled, 2000 / kTrials);
+    EXPECT_LE(misled, 2000 / kTrials) << spread;
+  }
+  EXPECT_TRUE(may_be_chance(std::vector<double>(14, 1.0), 10'000));
+  EXPECT_FALSE(may_be_chance(std::vector<double>(15, 1.0), 10'000));
+  EXPECT_FALSE(may_be_chance(std::vector<double>(15, -1.0), 10'000));
 }
 
 TEST(Deflicker, SaysOfWhichPicturesTheExposureCannotBeTold) {

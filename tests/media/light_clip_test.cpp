@@ -58,7 +58,7 @@ void expect_comes_back(const std::string& extension, ValueType type) {
     EXPECT_EQ(clip->info().format.shape, shape);
     EXPECT_EQ(clip->info().format.white_code, 65'535u);
     EXPECT_EQ(clip->info().format.transfer, Transfer::linear());
-    EXPECT_TRUE(clip->info().is_rounded);
+    EXPECT_EQ(clip->info().roundings, CodeRoundings{0.5});
     EXPECT_EQ(test::facts_of(*clip).at(Setting::white_code).line(),
               "light 2.5 is white, to the nearest of 65535 steps, as stated");
     const auto rasters = read_all(*clip);
@@ -139,7 +139,8 @@ TEST(LightClip, ValuesThatNoCaptureHoldsAreRefusedByTheirPixel) {
   };
   refused(0.75, std::nullopt, "how much of it is white; the largest value is 0.75: state the light of white");
   refused(1.5, 1.0, "pixel 5,3 has light 1.5, and a capture holds what lies between 0 and white, 1; state a larger");
-  refused(-0.25, 1.0, "pixel 5,3 has light -0.25, and a capture holds what lies between 0 and white, 1; clip it");
+  refused(-0.25, 1.0, "pixel 5,3 has light -0.25, and a capture holds what lies between 0 and white, 1; "
+                      "add as much to all of its light as the darkest lacks");
   refused(std::nan(""), 1.0, "pixel 5,3 has light nan");
   refused(std::numeric_limits<double>::infinity(), 1.0, "pixel 5,3 has light inf");
 }

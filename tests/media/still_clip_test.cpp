@@ -323,7 +323,7 @@ TEST(StillClip, SaysWhichStillDiffersAndHow) {
 
   auto pages = test::random_stills(kGreyShape, 65'535, 2, 1);
   pages.push_back(test::random_stills({9, 17, 1}, 65'535, 1, 1)[0]);
-  expect_refused(scratch.write("stack.tif", tiff_file(pages, {})), {"stack.tif, page 3, is 9 x 17 grey"});
+  expect_refused(scratch.write("stack.tif", tiff_file(pages, {})), {"page 3 of ", "stack.tif is 9 x 17 grey"});
 }
 
 TEST(StillClip, RefusesWhatIsDamagedOrOfAnotherKind) {
@@ -357,7 +357,7 @@ TEST(StillClip, RefusesWhatIsDamagedOrOfAnotherKind) {
   TiffOptions signed_values;
   signed_values.sample_format = 2;
   expect_refused(scratch.write("signed.tif", tiff_file(stills, signed_values)),
-                 {"signed.tif, page 1, cannot be read: it has 16-bit signed values"});
+                 {"page 1 of ", "signed.tif cannot be read: it has 16-bit signed values"});
 }
 
 TEST(StillClip, AStackThatIsCutOffNamesThePage) {
@@ -376,7 +376,7 @@ TEST(StillClip, AStackThatIsCutOffNamesThePage) {
     }
   }
   expect_refused(scratch.write("cut.tif", bytes),
-                 {"cut.tif, page 3, cannot be read: it is damaged or was cut off at row 0"});
+                 {"page 3 of ", "cut.tif cannot be read: it is damaged or was cut off at row 0"});
 }
 
 // A folder says that a picture is missing; a pattern is taken at its word. Neither loses a code.

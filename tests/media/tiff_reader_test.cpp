@@ -109,7 +109,7 @@ TEST_P(TiffKinds, AreRefusedWhereTheyAreDamaged) {
     static_cast<void>(reader.next());
     FAIL() << "it was read";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("b.tif, page 1, cannot be read: it is damaged"),
+    EXPECT_NE(std::string(error.what()).find("b.tif cannot be read: it is damaged"),
               std::string::npos)
         << error.what();
   }

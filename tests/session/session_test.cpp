@@ -83,22 +83,22 @@ TEST(Session, KnowsNoiseByItsModel) {
   capture.white_code = 65'535;
   capture.transfer = Transfer::linear();
   capture.noise.camera = CameraNoise{4095, Transfer::linear(), {{NoiseCurve::sensor, 0.001, 1e-4, {}}}};
-  const CaptureErrors errors = CaptureErrors::of(capture, false);
+  const CaptureErrors errors = CaptureErrors::of(capture, {});
   const double at_white = std::sqrt(1e-6 + 1e-4);
   EXPECT_NEAR(errors.noise.most(), at_white, 0.01 * at_white) << "within a deviation of white";
   EXPECT_NEAR(errors.held.most(), 3 * at_white, 1e-3 * at_white) << "down from white";
   // By steep points: a code that is held in parts of the camera's may be off by what the camera's curve has there.
   const CameraNoise steep{255, Transfer::linear(), {{NoiseCurve::points, 0, 0, {{10, 0.5, 1}, {11, 8.0, 1}}}}};
   capture.noise.camera = steep;
-  const LightCurve held = CaptureErrors::of(capture, false).held;
+  const LightCurve held = CaptureErrors::of(capture, {}).held;
   for (const double code : {10.1, 10.4, 10.6, 10.9})
     EXPECT_GE(held.at(code / 255) * (1 + 1e-9), 3 * steep.sd(0, code) / 255) << "code " << code;
-  EXPECT_NEAR(CaptureErrors::of(capture, false).noise.at(10.4 / 255), steep.sd(0, 10.4) / 255, 0.02 / 255);
+  EXPECT_NEAR(CaptureErrors::of(capture, {}).noise.at(10.4 / 255), steep.sd(0, 10.4) / 255, 0.02 / 255);
   capture.noise.camera.reset();
   capture.noise.tolerance = 6;
-  EXPECT_NEAR(CaptureErrors::of(capture, false).held.most(), 6.0 / 65'535, 1e-15);
-  EXPECT_NEAR(CaptureErrors::of(capture, true).rounded.most(), 0.5 / 65'535, 1e-15);
-  EXPECT_TRUE(CaptureErrors::of(capture, true).noise.is_zero());
+  EXPECT_NEAR(CaptureErrors::of(capture, {}).held.most(), 6.0 / 65'535, 1e-15);
+  EXPECT_NEAR(CaptureErrors::of(capture, {0.5}).rounded.most(), 0.5 / 65'535, 1e-15);
+  EXPECT_TRUE(CaptureErrors::of(capture, {0.5}).noise.is_zero());
 }
 
 // The curve bends down, lies below nothing that a sample may be off by, and of powers is that itself: means of samples are
@@ -110,7 +110,7 @@ TEST_F(SessionOfClip, WhatIsHeldOfTheDarkIsHeldCloser) {
     capture.transfer = Transfer::parse(name);
     for (const std::uint32_t tolerance : {1u, 4u, 100u}) {
       capture.noise.tolerance = tolerance;
-      const LightCurve held = CaptureErrors::of(capture, false).held;
+      const LightCurve held = CaptureErrors::of(capture, {}).held;
       const auto light = [&](double code) { return capture.transfer.light_of(std::clamp(code / 255, 0.0, 1.0)); };
       for (int code = 0; code < 256; ++code) {
         const double up = light(code + tolerance) - light(code), down = light(code) - light(code - int(tolerance));

@@ -298,5 +298,18 @@ TEST_F(Scaled, LightThatWasRoundedIsBoundByItsOwn) {
   EXPECT_GT(of_light, 0.9);
 }
 
+// As a capture's file keeps it; `1` is what older ones say of light that was rounded once.
+TEST(CodeRoundings, ComeBackFromTheirText) {
+  CodeRoundings roundings;
+  roundings.add(0.525, 1.0, "chroma");
+  roundings.add(0.5, 3.0, "deflicker");
+  EXPECT_DOUBLE_EQ(roundings.codes, 2.075);
+  const CodeRoundings read = CodeRoundings::parse(roundings.text());
+  EXPECT_GE(read.codes, roundings.codes);
+  EXPECT_NEAR(read.codes, roundings.codes, 1e-6);
+  EXPECT_EQ(read.unbounded, (std::vector<std::string>{"chroma", "deflicker"}));
+  EXPECT_EQ(CodeRoundings::parse("1"), CodeRoundings{0.5});
+}
+
 }  // namespace
 }  // namespace nutik

@@ -128,16 +128,16 @@ class Batch {
         const auto [its, is_first] = line_of_output_.try_emplace(led_to(maps.of(0)), listed.line);
         if (!is_first && its->second != listed.line)
           throw UsageError(format("{} is written by line {} already", maps.of(0).string(), its->second));
-        maps.check(0, input_files(line), output, replacing(line));
       }
-      if (line.skip_existing && !maps.are_asked()) {
+      if (line.skip_existing) {
         require_recipes(line, output);
-        if (is_made(output, stated_precision(line),
+        if (is_made(output, stated_precision(line), maps.of(0),
                     [&](const std::string& precision) { return recipe_text(line, precision); })) {
           ++skipped_;
           return;
         }
       }
+      maps.check(0, input_files(line), output, replacing(line));
       Session& session = session_of(line.operands.front());
       listed_->add(request, output_format(line.picture, output, session.format()),
                    [this, number = listed.line, line, output, maps](const ListedPictures::Take& take) {

@@ -33,14 +33,15 @@ int run_expose(const Options& options) {
   const std::vector<std::string> inputs = input_files(options);
   check_output(output, OutputKind::picture, inputs, replacing(options));
   const BoundsMaps maps(options, false, "a picture");
-  maps.check(0, inputs, output, replacing(options));
 
   PictureRecipe recipe(recipe_sources(options));
-  if (options.skip_existing && !maps.are_asked()) {
+  if (options.skip_existing) {
     require_recipes(options, output);
-    if (is_made(output, stated_precision(options), [&](const std::string& precision) { return recipe.text(precision); }))
+    if (is_made(output, stated_precision(options), maps.of(0),
+                [&](const std::string& precision) { return recipe.text(precision); }))
       return tell_all_made(options, output, 1, "picture");
   }
+  maps.check(0, inputs, output, replacing(options));
   Session session = open_session(options, {.reading = Reading::forward});
   RenderControl control;
   control.progress = progress_bar("exposing", options.quiet);

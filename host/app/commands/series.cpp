@@ -22,8 +22,7 @@ int run_series(const Options& options) {
   const std::vector<std::string> inputs = input_files(options);
   check_output(names[0], OutputKind::picture, inputs, replacing(options));  // before a clip is read
   const BoundsMaps maps(options, true, "a series");
-  const bool skips = options.skip_existing && !maps.are_asked();
-  if (skips) require_recipes(options, names[0]);
+  if (options.skip_existing) require_recipes(options, names[0]);
   PictureRecipe recipe(recipe_sources(options));
   const OutputRequest wishes = options.picture;
   Session session = open_session(options, {.besides = PictureQueue::needs([&](const CaptureFormat& capture) {
@@ -33,23 +32,22 @@ int run_series(const Options& options) {
     return OwnRecipe{{{"start", picture.start.text()}}, {}};
   };
   std::vector<SeriesPicture> pictures;
-  std::vector<std::uint64_t> numbers;  // of them, where none is left out
   const std::vector<StatedTime> starts = starts_of(series, request, session.timeline());
   for (const std::uint64_t k : chosen_numbers(series.numbers, starts.size(), "exposures", "series")) {
-    pictures.push_back({starts[k], names[k]});
+    pictures.push_back({starts[k], names[k], k});
     check_output(pictures.back().path, OutputKind::picture, inputs, replacing(options));
-    maps.check(k, inputs, names[k], replacing(options));
-    numbers.push_back(k);
   }
   const std::size_t wanted = pictures.size();
-  if (skips) {
+  if (options.skip_existing) {
     std::erase_if(pictures, [&](const SeriesPicture& picture) {
-      return is_made(picture.path, stated_precision(options), [&](const std::string& precision) {
+      return is_made(picture.path, stated_precision(options), maps.of(picture.number), [&](const std::string& precision) {
         return recipe.text(precision, own_recipe_of(picture));
       });
     });
     if (pictures.empty()) return tell_all_made(options, names[0], wanted, "exposure");
   }
+  for (const SeriesPicture& picture : pictures)
+    maps.check(picture.number, inputs, picture.path, replacing(options));
   const OutputFormat output = output_format(wishes, names[0], session.format());
 
   ExposureTally tally;
@@ -61,11 +59,11 @@ int run_series(const Options& options) {
                 progress_bar("exposing", options.quiet, progress_lines(options)), [&](std::uint64_t k, ExposedPicture& exposed) {
                   tally.add(exposed);
                   warnings.add(pictures[k].path.string(), exposure_warnings(exposed));
-                  maps.write(numbers[k], exposed);
+                  maps.write(pictures[k].number, exposed);
                   told.push_back(uncertainty_json(exposed.uncertainty, exposed.output));
                   if (k == 0) first = std::move(exposed.figures);
                   return recipe.text(tally.precision(), own_recipe_of(pictures[k]), tally.error_bound(),
-                                     maps.name_of(numbers[k]));
+                                     maps.name_of(pictures[k].number));
                 });
   }
 
@@ -74,7 +72,7 @@ int run_series(const Options& options) {
     answer.json["pictures"].push_back({{"picture", pictures[k].path.string()},
                                        {"start", pictures[k].start.text()},
                                        {"start_ns", moment_ns(pictures[k].start, session.timeline())}});
-    if (maps.are_asked()) answer.json["pictures"].back()["bounds_map"] = maps.of(numbers[k]).string();
+    if (maps.are_asked()) answer.json["pictures"].back()["bounds_map"] = maps.of(pictures[k].number).string();
     answer.json["pictures"].back().update(told[k]);
   }
   const Shape shape =

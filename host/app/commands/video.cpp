@@ -5,6 +5,7 @@
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
+#include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/film/film_making.hpp"
 #include "features/schema/option.hpp"
@@ -55,8 +56,11 @@ int run_video(const Options& stated) {
                            options.video_codec, options.picture);
   const std::vector<std::string> inputs = input_files(options);
   const BoundsMaps maps(options, true, "a video");
-  const bool skips = options.skip_existing && !maps.are_asked();
-  if (skips) require_recipes(options, output.writes_stills() ? output.still(0) : output.path());
+  if (maps.are_asked() && output.loses()) {
+    throw UsageError(format("--bounds: {} loses more than a map counts; write ffv1 in a .mkv, or numbered stills",
+                            output.kind()));
+  }
+  if (options.skip_existing) require_recipes(options, output.writes_stills() ? output.still(0) : output.path());
   output.check({}, inputs, replacing(options));  // a container's name, before the clip is read
 
   const Session::Terms terms{.besides = video_needs(output.encoder_frames(), [&](const CaptureFormat& format) {
@@ -67,21 +71,21 @@ int run_video(const Options& stated) {
   Frames frames = frames_of(request, session.timeline());
   if (!frames.warning.empty()) print_warning(frames.warning);
   output.check(frames.numbers, inputs, replacing(options));
-  for (const std::uint64_t frame : frames.numbers)
-    maps.check(frame, inputs, output.writes_stills() ? output.still(frame) : output.path(), replacing(options));
   const std::string joined = join_pictures(options, session, terms, frames);
   PictureRecipe recipe(output.writes_stills() ? recipe_sources(options) : std::nullopt);
   const auto own_recipe_of = [&](std::uint64_t frame) {
     return frame_recipe(request, frames, frame, output.still(frame).stem().string() + ".fn");
   };
   const std::size_t wanted = frames.numbers.size();
-  if (skips) {
+  if (options.skip_existing) {
     std::erase_if(frames.numbers, [&](std::uint64_t frame) {
-      return is_made(output.still(frame), stated_precision(options),
+      return is_made(output.still(frame), stated_precision(options), maps.of(frame),
                      [&](const std::string& precision) { return recipe.text(precision, own_recipe_of(frame)); });
     });
     if (frames.numbers.empty()) return tell_all_made(options, output.path(), wanted, "frame");
   }
+  for (const std::uint64_t frame : frames.numbers)
+    maps.check(frame, inputs, output.writes_stills() ? output.still(frame) : output.path(), replacing(options));
   std::string codes;  // how the frames differ from the capture
   Json told = Json::array();
   const MadeVideo made = [&] {

@@ -56,13 +56,23 @@ bool writes_to_standard_output(const Options& options) {
   return writes;
 }
 
+// Of a picture that is there and says so.
+static std::string map_named_by(const std::filesystem::path& picture) {
+  try {
+    const auto recipe = is_absent(picture) ? std::nullopt : read_recipe(picture);
+    return recipe ? recipe->bounds_map : std::string();
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 BoundsMaps::BoundsMaps(const Options& options, bool has_many, std::string_view who) {
   if (!options.picture.bounds) return;
   stated_ = *options.picture.bounds;
   is_half_ = options.picture.depth == Depth::half;
   if (names_standard_output(*stated_)) throw UsageError("--bounds writes a file: standard output has one picture");
   static_cast<void>(value_type_for(*stated_, Depth::floating, ValueType::light32, 1));
-  if (has_many) names_.emplace(*stated_, who);
+  if (has_many) names_.emplace(*stated_, who, "maps");
   if (!has_many && NumberedName::parse(stated_->filename().string()))
     throw UsageError(format("{} numbers maps, and {} has one: name it without %", stated_->string(), who));
 }
@@ -75,6 +85,9 @@ void BoundsMaps::check(std::uint64_t number, std::vector<std::string> inputs, co
                             is_half_ ? "--depth half" : picture.string()));
   }
   inputs.push_back(picture.string());
+  if (is_picture_name(picture) && led_to(of(number)) == led_to(picture.parent_path() / name_of(number)) &&
+      map_named_by(picture) == name_of(number))
+    replacing = Replacing::all;
   check_output(of(number), OutputKind::picture, inputs, replacing);
 }
 
@@ -82,12 +95,12 @@ void BoundsMaps::write(std::uint64_t number, const ExposedPicture& exposed) cons
   if (!exposed.bounds.empty()) write_layers(of(number), exposed.bounds);
 }
 
-PictureNames::PictureNames(const std::filesystem::path& pattern, std::string_view who)
+PictureNames::PictureNames(const std::filesystem::path& pattern, std::string_view who, std::string_view things)
     : folder_(pattern.parent_path()) {
   const auto name = NumberedName::parse(pattern.filename().string());
   if (!name) {
     throw UsageError(
-        format("{} needs a number in its pictures' name, as in {}; {} would be written again and again", who,
+        format("{} needs a number in its {}' name, as in {}; {} would be written again and again", who, things,
                (folder_ / (pattern.stem().string() + "-%03d" + pattern.extension().string())).string(),
                pattern.string()));
   }

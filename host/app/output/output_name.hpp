@@ -35,8 +35,8 @@ namespace nutik::app {
 // Names of many pictures, of a pattern like `motion-%03d.png`; numbers count from 0, as pictures of a clip do.
 class PictureNames {
  public:
-  // Throws UsageError where the pattern has no place for a number; `who` needs one.
-  PictureNames(const std::filesystem::path& pattern, std::string_view who);
+  // Throws UsageError where the pattern has no place for a number; `who` needs one in the name of these `things`.
+  PictureNames(const std::filesystem::path& pattern, std::string_view who, std::string_view things = "pictures");
 
   [[nodiscard]] std::filesystem::path operator[](std::uint64_t k) const { return folder_ / name_.with(k); }
 
@@ -53,13 +53,14 @@ class BoundsMaps {
   BoundsMaps(const Options& options, bool has_many, std::string_view who);
 
   [[nodiscard]] bool are_asked() const { return stated_.has_value(); }
-  [[nodiscard]] std::filesystem::path of(std::uint64_t number) const { return names_ ? (*names_)[number] : *stated_; }
-  // Without its folder, for recipes; empty where none is asked for.
-  [[nodiscard]] std::string name_of(std::uint64_t number) const {
-    return stated_ ? of(number).filename().string() : std::string();
+  // Empty where none is asked for.
+  [[nodiscard]] std::filesystem::path of(std::uint64_t number) const {
+    return names_ ? (*names_)[number] : stated_.value_or(std::filesystem::path());
   }
-  // Throws UsageError where it is an input or the picture itself, or may not be replaced; where the picture's kind loses
-  // more than is counted.
+  // Without its folder, for recipes.
+  [[nodiscard]] std::string name_of(std::uint64_t number) const { return of(number).filename().string(); }
+  // Throws UsageError where it is an input or the picture itself, or may not be replaced, as the map that the picture's
+  // recipe names beside it may; where the picture's kind loses more than is counted.
   void check(std::uint64_t number, std::vector<std::string> inputs, const std::filesystem::path& picture,
              Replacing replacing) const;
   // Where it is asked for. Throws OutputError.

@@ -123,6 +123,9 @@ void ExposureTally::add(const ExposedPicture& exposed) {
 
 void ExposureTally::wrote(const CaptureFormat& capture, const Shape& written) {
   squared_ = square_notes(capture, written);
+  if (squared_.empty() || !worst_output_.maps_bounds) return;
+  squared_.push_back(format("maps of bounds have the capture's {} x {} pixels, for which alone they hold",
+                            capture.shape.width, capture.shape.height));
 }
 
 std::string ExposureTally::saturation_text() const {
@@ -200,7 +203,8 @@ std::string still_gains_text(const ExposureFigures& figures, bool plain) {
     return plain ? format(" {:.6g}", still_gain) : format(" M{} {:.6g}", function.tag, still_gain);
   });
   return ", still gain" + joined(gains.texts, ",") +
-         (gains.left_out > 0 ? format(" and {} more", gains.left_out) : "");
+         (gains.left_out > 0 ? format(" and {} more", gains.left_out) : "") +
+         (figures.has_delays ? " without delay" : "");
 }
 
 std::string plan_text(const ExposureFigures& figures) {

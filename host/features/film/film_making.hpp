@@ -48,6 +48,7 @@ class VideoOutput {
   [[nodiscard]] std::uint32_t encoder_frames() const { return codec_ == nullptr ? 1 : codec_->held_frames; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] bool writes_stills() const { return codec_ == nullptr; }
+  [[nodiscard]] bool loses() const { return codec_ != nullptr && !codec_->is_lossless; }
   [[nodiscard]] bool holds_sound() const;
   // `h264`, or `stills`.
   [[nodiscard]] std::string kind() const;

@@ -117,6 +117,10 @@ void take_white(Options& options, const Option&, std::string_view what, const st
   const bool is_whole = word.find_first_not_of("0123456789") == word.npos;
   const auto light = is_whole ? std::nullopt : parse_number(word);
   clip.white_code.reset();
+  if (is_whole && parse_number(word).value_or(0) > 65'535) {
+    throw UsageError(format("{} '{}' is no whole number of 1 … 65535; light of floating-point clips has a point: {}.0",
+                            what, word, word));
+  }
   if (!light || !(*light > 0)) clip.white_code = parse_whole(word, what, 1, 65'535);
   clip.white_light = clip.white_code ? *clip.white_code : *light;
 }

@@ -67,7 +67,7 @@ void ListedPictures::hand_on() {
 }
 
 bool is_made(const std::filesystem::path& picture, const std::optional<std::string>& precision,
-             const std::function<std::string(const std::string& precision)>& recipe_of) {
+             const std::filesystem::path& map, const std::function<std::string(const std::string& precision)>& recipe_of) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(picture, error)) return false;
   try {
@@ -76,6 +76,8 @@ bool is_made(const std::filesystem::path& picture, const std::optional<std::stri
     Recipe recipe = Recipe::parse(*text, picture.string());
     if (precision && recipe.precision != *precision) return false;
     if (recipe.text() != *text) return false;
+    if (!map.empty() && (recipe.bounds_map != map.filename() || !std::filesystem::is_regular_file(map, error)))
+      return false;
     recipe.error_bound.clear();  // follows from the rest, as the map does
     recipe.bounds_map.clear();
     return recipe_of(recipe.precision) == recipe.text();

@@ -21,6 +21,7 @@ namespace nutik {
 struct SeriesPicture {
   StatedTime start;
   std::filesystem::path path;
+  std::uint64_t number = 0;  // in the series
 };
 
 // `exposure` says all but where each begins. `add`, which may be empty, is told each picture as it was exposed, and
@@ -77,8 +78,10 @@ class ListedPictures {
 
 // Whether `picture` is there with the very recipe, byte for byte, that `recipe_of` makes for its precision: the same
 // capture, functions, mask, options and version of the program. `precision`: the only one that counts; none: any, for
-// `auto` is settled when a picture is computed. What carries no recipe, or cannot be read, is not made yet.
+// `auto` is settled when a picture is computed. What carries no recipe, or cannot be read, is not made yet, nor without
+// `map`, which its recipe must name; empty: with a map or without.
 [[nodiscard]] bool is_made(const std::filesystem::path& picture, const std::optional<std::string>& precision,
+                           const std::filesystem::path& map,
                            const std::function<std::string(const std::string& precision)>& recipe_of);
 
 }  // namespace nutik

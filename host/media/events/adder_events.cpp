@@ -235,6 +235,7 @@ EventLight read_adder_file(Bytes file, const std::string& name, const ClipOption
   info.facts.push_back({format("ADΔER, {} x {}, {} ticks a second", header.width, header.height,
                                header.ticks_a_second),
                         Origin::file, Setting::tick});
+  info.roundings.add(0.5, 1.0, "events");
   const LightCodes codes(capture.transfer, capture.white_code);
   const std::uint32_t white = white_of(header, options, info);
   check_event_memory({sizeof(LightFrom), 0, 1}, capture.shape, options);  // of its pixels, before any is counted

@@ -112,6 +112,7 @@ EventLight light_of_events(const CameraEvents& recording, const std::string& nam
               Setting::tick};
   if (!recording.size_from.empty()) sensor.source = recording.size_from;
   info.facts.push_back(std::move(sensor));
+  info.roundings.add(0.5, 1.0, "events");
   const std::uint64_t pixels = capture.shape.pixel_count();
   const Contrast contrast = settle(info.facts, options.events.contrast, std::optional<Contrast>(),
                                    kDefaultContrast, Setting::contrast, contrast_text);

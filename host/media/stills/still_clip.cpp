@@ -34,7 +34,7 @@ struct Page {
   std::size_t begin = 0;    // of a Netpbm file's, in bytes
 
   [[nodiscard]] std::string name() const {
-    return count == 1 ? file.string() : format("{}, page {},", file.string(), number);
+    return count == 1 ? file.string() : format("page {} of {}", number, file.string());
   }
 };
 
@@ -74,14 +74,13 @@ Still still_of(Picture&& picture, std::optional<std::uint32_t> maximum) {
 // Light as the nearest of equal steps up to white. Throws InputError where a capture cannot hold a value.
 template <typename Value>
 Picture codes_of_light(const Picture& light, std::optional<double> white, const std::string& name) {
-  const std::vector<Setting> settings{Setting::white_code};
   const auto values = light.values<Value>();
   if (!white) {
     const double largest = *std::ranges::max_element(values);
     throw InputError(format("{} holds floating-point light, and nothing says how much of it is white; the largest "
                             "value is {:.6g}: state the light of white",
                             name, largest),
-                     settings);
+                     {Setting::white_code});
   }
   Picture codes(light.shape, ValueType::code16, kLightSteps);
   auto* code = codes.values<std::uint16_t>().data();
@@ -92,11 +91,14 @@ Picture codes_of_light(const Picture& light, std::optional<double> white, const 
       continue;
     }
     const std::size_t pixel = i / light.shape.channels;
+    const bool is_bright = value > *white && std::isfinite(value);
     throw InputError(format("{}: pixel {},{} has light {:.6g}, and a capture holds what lies between 0 and white, "
                             "{:.6g}; {}",
                             name, pixel % light.shape.width, pixel / light.shape.width, value, *white,
-                            value > *white && std::isfinite(value) ? "state a larger white" : "clip it"),
-                     settings);
+                            is_bright   ? "state a larger white"
+                            : value < 0 ? "add as much to all of its light as the darkest lacks"
+                                        : "it is no light"),
+                     is_bright ? std::vector{Setting::white_code} : std::vector<Setting>{});
   }
   return codes;
 }

@@ -390,7 +390,7 @@ void TiffReader::follow_story() {
 
 std::optional<TiffPage> TiffReader::next() {
   if (pages_read_ == page_count_) return std::nullopt;
-  const std::string page_name = format("{}, page {},", name_, pages_read_ + 1);
+  const std::string page_name = format("page {} of {}", pages_read_ + 1, name_);
   TIFF* const handle = file_->handle.get();
   const bool found = pages_read_ == 0 || is_in_one_ || TIFFReadDirectory(handle) != 0;
   std::optional<TiffPage> page;

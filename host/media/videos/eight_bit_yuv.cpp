@@ -22,7 +22,7 @@ namespace {
 // 299 codes either way), of which processors add and multiply twice as many at once as of 32.
 //
 // How far it may be off: half a code by its own rounding, half a 64th each by luma's part and chroma's, 239 * 2^-15 by
-// luma's weight and 2 * 128 * 2^-17 by chroma's: 0.525 of a code.
+// luma's weight and 2 * 128 * 2^-17 by chroma's: kMostOff.
 constexpr int kFraction = 6;         // bits of a code behind its point, while it is made
 constexpr int kLumaFraction = 14;    // those of luma's weight
 constexpr int kChromaFraction = 16;  // those of chroma's weights, and of what is added up of them

@@ -18,6 +18,8 @@ namespace nutik::videos {
 // The format with such planes that keeps as much chroma.
 [[nodiscard]] AVPixelFormat with_byte_planes(AVPixelFormat format);
 
+inline constexpr double kMostOff = 0.525;  // of a code
+
 // Writes RGB, three bytes a pixel, rows `stride` bytes apart.
 void eight_bit_rgb(const AVFrame& frame, const YuvCoding& coding, std::uint8_t* rgb, std::ptrdiff_t stride);
 

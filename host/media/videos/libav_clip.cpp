@@ -7,6 +7,7 @@
 #include "media/clip.hpp"
 #include "media/settled_fact.hpp"
 #include "media/videos/deinterlacer.hpp"
+#include "media/videos/eight_bit_yuv.hpp"
 #include "media/videos/libav.hpp"
 #include "media/videos/phantom_packing.hpp"
 #include "media/videos/picture_decoder.hpp"
@@ -71,6 +72,8 @@ void describe(ClipInfo& info, const Probe& probe, const ClipOptions& options) {
     const CodeRange range = settle(facts, options.range, probe.range, CodeRange::limited, Setting::range,
                                    [](CodeRange each) { return format("{} range", to_text(each)); });
     if (range == CodeRange::limited) capture.transfer = capture.transfer.scaled_from_video();
+    info.roundings.add(pixels.is_everyday() ? kMostOff : 0.5, 1.0,
+                       interpolates_chroma(probe.pixel_format, pixels) ? "chroma" : "");
   }
   if (interpolates_chroma(probe.pixel_format, pixels)) {
     settle(facts, options.chroma_at, probe.chroma_at, kDefaultChromaPlace, Setting::chroma_place,
@@ -219,6 +222,7 @@ class LibavClip final : public Clip {
     }
     if (wish != Interlaced::frames && wish != Interlaced::fields) return;
     info_.decoder_bytes += Deinterlacer::kHeldPictures * decoded_bytes(*decoder_.stream().codecpar);
+    info_.roundings.add(0.0, 1.0, "fields");
     if (wish == Interlaced::fields) info_ = of_fields(std::move(info_));
     info_.facts.push_back(
         {format("a picture from each {}, {}", wish == Interlaced::fields ? "field" : "frame",

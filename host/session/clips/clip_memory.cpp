@@ -19,9 +19,10 @@ constexpr std::uint64_t kPackingBytes = 8 << 20;
 
 // The memory of blocks while a clip is encoded, in units of the size at which a block closes. The block being built and
 // the one being packed may each reach twice that size (imev/tile_log.hpp); the packed one is no larger than its content.
-// With a camera's noise there are also the samples as they came, and three times what is held of them.
+// With a tolerance there are as many without it (encoding.cpp). With a camera's noise there are also the samples as they
+// came, and three times what is held of them.
 std::uint64_t block_units(const CaptureFormat& capture) {
-  if (!capture.noise.camera) return 5;
+  if (!capture.noise.camera) return capture.noise.tolerance > 0 ? 10 : 5;
   return 1 + 3 * held_format(capture).sample_bytes() / capture.sample_bytes();
 }
 
@@ -35,7 +36,8 @@ std::uint64_t min_block_bytes(const ClipToRead& clip) {
   if (clip.tells_changes && !clip.block_samples) {
     return kMinRastersOfChanges * block_units(clip.capture) * sample_bytes;
   }
-  return (clip.capture.noise.camera ? block_units(clip.capture) : 3) * sample_bytes;
+  const std::uint64_t least = clip.capture.noise.tolerance > 0 ? 6 : 3;
+  return (clip.capture.noise.camera ? block_units(clip.capture) : least) * sample_bytes;
 }
 
 void check_stated(const MemoryBudget& budget, const ClipToRead& clip, std::uint64_t closing_bytes) {

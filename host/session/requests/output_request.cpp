@@ -62,6 +62,7 @@ OutputFormat output_format(const OutputRequest& request, const std::filesystem::
                                    "keeps it; leave it out", output.string())});
   }
   chosen.negative = request.negative.value_or(NegativeLight::saturate);
+  chosen.is_half = request.depth == Depth::half;
   chosen.maps_bounds = request.bounds.has_value();
   return chosen;
 }

@@ -1,0 +1,53 @@
+// What codes of a capture were rounded by where they were made here, and not by a camera.
+#pragma once
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nutik {
+
+struct CodeRoundings {
+  double codes = 0.0;  // no code is further off by all of them that have a bound, one after another
+  // What has none, by names that scripts know (docs/explanation/uncertainty.md).
+  std::vector<std::string> unbounded = {};
+
+  // Codes were made of others: differences became up to `steeper` times as large, and codes were rounded.
+  void add(double rounded = 0.5, double steeper = 1.0, std::string_view without_bound = {}) {
+    codes = codes * steeper + rounded;
+    if (!without_bound.empty() && std::ranges::count(unbounded, without_bound) == 0)
+      unbounded.emplace_back(without_bound);
+  }
+
+  [[nodiscard]] bool are_none() const { return codes == 0.0; }
+
+  // `0.525 alignment deflicker`, rounded up.
+  [[nodiscard]] std::string text() const {
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%.6f", codes + 5e-7);
+    std::string text = digits;
+    for (const std::string& name : unbounded) text += " " + name;
+    return text;
+  }
+  // Of `1`, which captures had before: light that was rounded once.
+  [[nodiscard]] static CodeRoundings parse(std::string_view text) {
+    CodeRoundings roundings;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), roundings.codes);
+    if (error != std::errc() || text == "1" || !(roundings.codes >= 0.0 && roundings.codes <= 65'535.0))
+      roundings.codes = 0.5;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    while (!text.empty()) {
+      const std::string_view word = text.substr(0, text.find(' '));
+      if (!word.empty()) roundings.unbounded.emplace_back(word);
+      text.remove_prefix(std::min(word.size() + 1, text.size()));
+    }
+    return roundings;
+  }
+
+  friend bool operator==(const CodeRoundings&, const CodeRoundings&) = default;
+};
+
+}  // namespace nutik
