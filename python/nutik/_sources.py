@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import wraps
 from itertools import chain, count
 from os import PathLike, fsdecode
-from typing import Any, BinaryIO, Callable, Iterable, Optional, Protocol, Sequence, TypeVar, Union, cast
+from typing import Any, BinaryIO, Callable, Iterable, Iterator, Optional, Protocol, Sequence, TypeVar, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -81,10 +81,10 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
            primaries: Optional[str] = None, pixel_aspect: Union[str, Number, None] = None, deflicker: bool = False,
            between: Union[int, str, None] = None, align: Optional[str] = None, align_to: Optional[Time] = None,
            align_along: Optional[Path] = None, unseen: Optional[str] = None, tolerance: Optional[int] = None,
-           noise: Optional[Path] = None, sigmas: Optional[float] = None, codec: str = "rice",
+           noise: Optional[Path] = None, sigmas: Optional[float] = None, codec: Optional[str] = None,
            tiles: Optional[str] = None, block_samples: Optional[int] = None, device: Optional[str] = None,
            memory: Union[int, str, None] = None, renderer: Optional[str] = None, progress: Progress = None,
-           name: str = "array", **clip: object) -> Capture:
+           name: Optional[str] = None, **clip: object) -> Capture:
     """Makes a capture of pictures, and opens it.
 
     Parameters:
@@ -101,7 +101,7 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
         without it 'srgb' of uint8, 'linear' of uint16.
     white : the code of white, 255 or 65535 without it; no code may be larger. Of floats the light of white, which must
         be stated: they become 16-bit codes, to the nearest of 65535 steps; none may be negative.
-    name : what messages call an array.
+    name : what messages call pictures in memory, 'array'.
     clip : of a path what nutik.open() takes besides: begin, crop, raw, ...
     Returns:
     Capture
@@ -129,16 +129,18 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
         stated.update(clip)
         if times is not None or exposures is not None:
             raise UsageError("times= and exposures= are those of arrays; a table of stills lists those of files")
+        if name is not None:
+            raise UsageError("name= is what pictures in memory are called; a clip has its own")
         with as_file(source, "clip") as clip_name, reading(clip_name):
             return _told(_nutik.encode_clip(clip_name, path, codec, settings_of(stated), computing, progress))
-    pictures, first, is_light = _pictures_of(source, white, name)
+    name = name or "array"
+    pictures, first, length, is_light = _pictures_of(source, white, name)
     if is_light:
         stated["white"] = None  # of the codes it is the last one
-    starts, intervals, exposed = _timing(rate, times, exposures, shutter_angle,
-                                         len(pictures) if isinstance(pictures, np.ndarray) else None)
-    return _told(_nutik.encode_pictures(pictures, first, name, starts, intervals, exposed,
-                                        float(white) if is_light and white else None, path, codec, settings_of(stated),
-                                        computing, progress))
+    starts, intervals, exposed = _timing(rate, times, exposures, shutter_angle, length)
+    return _told(_nutik.encode_pictures(pictures, first, length or max(len(starts), len(intervals)), name, starts,
+                                        intervals, exposed, float(white) if is_light and white else None, path, codec,
+                                        settings_of(stated), computing, progress))
 
 
 def join(captures: Iterable[Path], output: Path, *, device: Optional[str] = None,
@@ -206,8 +208,8 @@ def _told(opened: tuple[_nutik.Capture, list[str], list[str]]) -> Capture:
     return Capture(capture, notes)
 
 
-def _pictures_of(source: Any, white: Optional[float], name: str) -> tuple[Any, Array, bool]:
-    """An array of all, or an iterator; the first picture; whether they were light, which becomes codes."""
+def _pictures_of(source: Any, white: Optional[float], name: str) -> tuple[Iterable[Array], Array, Optional[int], bool]:
+    """Pictures of codes, one by one; the first; how many, of an array; whether they were light, which becomes codes."""
     kinds: set[bool] = set()
 
     def codes_of(picture: Array, what: str) -> Array:
@@ -246,12 +248,14 @@ def _pictures_of(source: Any, white: Optional[float], name: str) -> tuple[Any, A
             raise UsageError(f"the array has shape {pictures.shape}; it is [samples, height, width] or [samples, "
                              "height, width, 3], with one sample at least")
         first, is_light = codes_of(pictures[0], "a picture of the array"), pictures.dtype.kind == "f"
-        if pictures.dtype != first.dtype:
-            codes = np.empty(pictures.shape, first.dtype)
-            for into, picture in zip(codes, pictures):
-                into[...] = codes_of(picture, "a picture of the array")
-            pictures = codes
-        return pictures, pictures[0], is_light
+        if pictures.dtype == first.dtype:
+            return pictures, first, len(pictures), is_light
+
+        class Codes:  # made anew each time that they are read
+            def __iter__(self) -> Iterator[Array]:
+                return (codes_of(picture, "a picture of the array") for picture in pictures)
+
+        return Codes(), first, len(pictures), is_light
     try:
         iterator = iter(source)
     except TypeError:
@@ -270,7 +274,7 @@ def _pictures_of(source: Any, white: Optional[float], name: str) -> tuple[Any, A
                              f"{first.shape} and {first.dtype}; all must be alike")
         return codes
 
-    return chain([first], map(alike, count(1), iterator)), first, np.asarray(given).dtype.kind == "f"
+    return chain([first], map(alike, count(1), iterator)), first, None, np.asarray(given).dtype.kind == "f"
 
 
 def _lasting(length: Any, what: str, said: Any) -> Any:

@@ -40,22 +40,18 @@ py::array values(const py::object& self) {
   return view_of(dtype_of(picture.type), axes_of(picture.shape), picture.bytes.data(), self);
 }
 
-py::buffer_info buffer_of(HeldPicture& held) {
-  const py::dtype type = dtype_of(held.picture.type);
-  const Axes axes = axes_of(held.picture.shape);
-  constexpr bool kReadOnly = true;
-  return {held.picture.bytes.data(), type.itemsize(), std::string(1, type.char_()),
-          static_cast<py::ssize_t>(axes.size()), axes, py::detail::c_strides(axes, type.itemsize()), kReadOnly};
-}
-
+// Looks for Ctrl-C between the parts that are written.
 void write(const HeldPicture& held, const std::string& path, std::optional<int> quality, bool keep_pixels) {
   check_output(path, OutputKind::picture, {});
   OutputRequest request;
   request.quality = quality;
   request.keep_pixels = keep_pixels;
   check_quality(request, path);
-  const Unlocked released;
-  write_picture(path, held.picture, {}, file_wishes(request));
+  without_lock([&](const Stopping& stopping) {
+    FileWishes wishes = file_wishes(request);
+    wishes.check = [progress = stopping.progress()] { progress(0, 0); };
+    write_picture(path, held.picture, {}, wishes);
+  });
 }
 
 // Light as codes of screens, whose white is the light that the capture's curve has for it.
@@ -105,8 +101,7 @@ HeldPicture unpickled(const State& state) {
 }  // namespace
 
 void bind_pictures(py::module_& module) {
-  py::class_<HeldPicture>(module, "Picture", py::buffer_protocol())
-      .def_buffer(&buffer_of)
+  py::class_<HeldPicture>(module, "Picture")
       .def(py::pickle(&state_of, &unpickled))
       .def("values", &values)
       .def("write", &write, "path"_a, "quality"_a, "keep_pixels"_a)

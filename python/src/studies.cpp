@@ -7,42 +7,21 @@
 #include "features/activity/activity.hpp"
 #include "features/plate/plate.hpp"
 #include "features/schema/option.hpp"
+#include "features/schema/requests.hpp"
 #include "features/solve/solving.hpp"
 #include "features/study/study.hpp"
 #include "parts.hpp"
-#include "session/requests/output_request.hpp"
 
 namespace nutik::python {
 namespace {
 
-using Moments = std::variant<std::uint32_t, std::vector<std::string>>;
-
-StudyRequest study_request(const Settings& settings, const std::optional<Moments>& moments,
-                           const std::vector<std::array<std::uint32_t, 4>>& regions) {
-  const Options options = stated_options(CommandId::study, settings);
-  StudyRequest request = options.study;
-  request.by_codes = options.by;
-  request.feather = options.feather;
-  if (!moments) {
-    request.moments = usual_moments(request.style);
-  } else if (const auto* count = std::get_if<std::uint32_t>(&*moments)) {
-    request.moments = *count;
-  } else {
-    std::vector<StatedTime> times;
-    for (const std::string& time : std::get<std::vector<std::string>>(*moments))
-      times.push_back(StatedTime::parse(time, "moments"));
-    request.moments = std::move(times);
-  }
-  for (const auto& [x, y, width, height] : regions) request.regions.push_back({x, y, width, height});
-  return request;
-}
-
-// A study of a capture as it is, whose pictures lie on each other.
-py::dict study(const OpenCapture& capture, const Settings& settings, const std::optional<Moments>& moments,
-               const std::vector<std::array<std::uint32_t, 4>>& regions, const Settings& output,
-               const py::object& progress) {
+// A study of a capture as it is, whose pictures lie on each other; `regions` as words.
+py::dict study(const OpenCapture& capture, const Settings& settings, const std::vector<std::string>& regions,
+               const Settings& output, const py::object& progress) {
   Session& session = *capture.session;
-  const StudyRequest request = study_request(settings, moments, regions);
+  Options options = stated_options(CommandId::study, settings);
+  for (const std::string& region : regions) option_of(CommandId::study, "region")->state(options, "regions", {region});
+  const StudyRequest request = study_request(options);
   const OutputFormat format = output_of(output, session.format());
   struct Made {
     Study study;
@@ -173,7 +152,7 @@ py::dict solve(const OpenCapture& capture, const std::string& functions,
 }  // namespace
 
 void bind_studies(py::module_& module) {
-  module.def("study", &study, "capture"_a, "settings"_a, "moments"_a, "regions"_a, "output"_a, "progress"_a);
+  module.def("study", &study, "capture"_a, "settings"_a, "regions"_a, "output"_a, "progress"_a);
   module.def("plate", &plate, "capture"_a, "by"_a, "output"_a, "progress"_a);
   module.def("activity", &activity, "capture"_a, "mask"_a, "tag"_a, "ignored_codes"_a, "counts_redrawn"_a,
              "progress"_a);

@@ -153,6 +153,8 @@ class Arrays(support.TestCase):
         self.assert_raises(usage, "rate", encode, pictures, rate=float("nan"))
         self.assert_raises(usage, "rate", encode, pictures, rate=-1)
         self.assert_raises(usage, "zstd:19", encode, pictures, self.path("x.tik"), rate=1, codec="zip")
+        self.assert_raises(usage, ["codec=", "output="], encode, pictures, rate=1, codec="zstd:19")
+        self.assert_raises(usage, "name=", encode, self.path("clip.mkv"), rate=1, name="clip")
         self.assert_raises(usage, "noise='auto'", encode, pictures, rate=1, sigmas=3)
         self.assert_raises(usage, "read once", encode, (each for each in pictures), rate=1, noise="auto")
         self.assert_raises(usage, "align='rigid'", encode, pictures, rate=1, align_to="1f")
@@ -183,7 +185,10 @@ class Arrays(support.TestCase):
         self.assert_raises(nutik.InputError, "text.tik", nutik.open, self.path("text.tik"))
         self.assert_raises(nutik.FileMissing, "no such file", nutik.open, self.path("absent.mp4"))
         nutik.encode(np.zeros((4, 8, 8), np.uint8), self.path("clip.tik"), rate=1)
-        self.assert_raises(nutik.UsageError, "encoded already", nutik.open, self.path("clip.tik"), rate=2)
+        for name, value, helps in (("rate", 2, "nutik.retime("), ("transfer", "srgb", "nutik.retime("),
+                                   ("noise", "a.noise", "Encode the clip again")):
+            self.assert_raises(nutik.UsageError, [f"{name}= describes a clip", "encoded already", helps], nutik.open,
+                               self.path("clip.tik"), **{name: value})
 
     def test_what_should_be_known_of_a_clip(self):
         """Of stills that are numbered with a hole, whether they are read or written to a file."""
@@ -323,6 +328,12 @@ class Times(support.TestCase):
                    exposures=np.array([10, 20, 30, 40], "timedelta64[ns]"))
         self.check([[0, 60], [100, 160], [300, 360], [700, 760]], times=[f"{each}ns" for each in (0, 100, 300, 700)],
                    exposures="60ns")
+        for times, rate in ((np.arange(4) / 100, 100), (np.arange(4) * 1001 / 30000, Fraction(2997, 100)),
+                            ([0, 0.01, 0.03, 0.06], 50)):
+            capture = nutik.encode(self.pictures, self.path("short.tik"), times=times, exposures="2ms")
+            self.assertEqual((capture.rate, nutik.open(self.path("short.tik")).rate), (rate, rate))
+            self.assertEqual(capture.figures["shutter_angle"], Fraction(round(720 * rate), 1000))
+            self.assertIn(f"{float(rate):g}", capture.facts[0])
         self.assert_raises(nutik.InputError, "sample 0", nutik.encode, self.pictures, times=[0, 1, 2, 3],
                            exposures=[1.5, 0.5, 0.5, 0.5])
         self.assert_raises(nutik.UsageError, "3 exposures for 4", nutik.encode, self.pictures, times=range(4),

@@ -1,5 +1,6 @@
 """A picture from Python is the command line's, bit for bit: codes and light, in every arithmetic, every mask."""
 
+import copy
 import json
 import pickle
 import unittest
@@ -278,6 +279,27 @@ class Pictures(support.TestCase):
                     raised = self.assert_raises(nutik.ImpreciseError, "0.5 of a code", call, functions, strict=True,
                                                 **asked)
                     self.assertIsInstance(raised, ArithmeticError)
+
+    def test_a_stated_arithmetic_is_doubted(self):
+        wild = [(0, 1e6), (0.01, -1e6), (0.02, 1e6), (0.03, 0)]
+        for call, functions in ((self.capture.render, wild), (self.capture.render_many, [wild])):
+            with self.assertWarnsRegex(nutik.NutikWarning, "single is not sure to be right to 0.5 of a code") as warned:
+                call(functions, codes=True, dtype=np.uint16, precision="single")
+            self.assertEqual(warned.filename, __file__)
+
+    def test_many_know_their_uncertainty(self):
+        starts = [0, "10ms", 0.03]
+        for capture in (self.capture, nutik.encode(self.pictures[:, :9, :9], rate=support.RATE, tolerance=3)):
+            for asked in (dict(), dict(codes=True), dict(precision="double", dtype=np.float64), dict(combine="mean")):
+                many = capture.render_many(starts=starts, exposures="5ms", **asked)
+                self.assertEqual(len(many.uncertainty), 3)
+                for start, alone, told in zip(starts, many.uncertainty, copy.deepcopy(many).uncertainty):
+                    self.assertEqual(alone, told)
+                    picture = capture.render(start=start, exposure="5ms", **{"precision": "double", **asked})
+                    self.assertEqual([each["term"] for each in alone["terms"]],
+                                     [each["term"] for each in picture.uncertainty["terms"]])
+                    if capture is not self.capture or "dtype" in asked:
+                        self.assertEqual(alone, picture.uncertainty)
 
     def test_many_in_one_call(self):
         starts, lengths = np.linspace(0, 0.05, 30), np.linspace(1e-3, 2e-2, 30)
