@@ -390,8 +390,7 @@ class Capture:
         if not is_noise_known:
             warn(["nothing in the capture is still for long enough to tell its noise: codes that differ by up to 1/32 "
                   "of white were taken for the same light; by= states another difference"])
-        uncertain.flags.writeable = False
-        return Plate(Picture(picture), uncertain)
+        return Plate(Picture(picture), Mask._of(uncertain).tags.view(np.bool_))
 
     plate = background  # its name in earlier versions
 
@@ -451,8 +450,11 @@ class Capture:
                                                                    for each in regions],
                                             self._output(codes, dtype, transfer, is_plate=style == "clean"), progress)
         warn(told["notes"], NutikNote)
-        warn(told["picture"].figures.get("warnings", []))
-        return Study(Picture(told["picture"]), None if told["mask"] is None else Mask._of(told["mask"]),
+        if "picture" not in told:
+            plate = self.background(codes=codes, dtype=dtype, transfer=transfer, progress=progress)
+            return Study(plate.picture, None, {}, [])
+        warn(told["picture"].figures["warnings"])
+        return Study(Picture(told["picture"]), Mask._of(told["mask"]),
                      {tag: Function._of(held) for tag, held in told["functions"].items()}, told["moments"])
 
     def solve(self, functions: str, wishes: Sequence[str], *, free: Mapping[str, Union[str, Sequence[Time]]] = {},

@@ -37,8 +37,6 @@ _STOP_AFTER_S = 0.05
 _END_WITHIN_S = 5.0
 
 _running: set[subprocess.Popen[str]] = set()
-
-
 _is_over = Event()
 
 
@@ -94,8 +92,9 @@ def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Map
     def tell(told: str) -> None:
         nonlocal seen
         shares = re.findall(r"^Progress: (\d+)%", told, re.MULTILINE)
-        for share in shares[seen:] if progress is not None else ():
-            progress(int(share), 100)
+        for share in shares[seen:]:
+            if progress is not None:
+                progress(int(share), 100)
         seen = len(shares)
 
     try:

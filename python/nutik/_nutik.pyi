@@ -9,7 +9,6 @@ from ._told import PictureFigures, Uncertainty
 from ._words import Array, Progress
 
 __version__: str
-MIN_ERROR: float
 WHOLE_SHARE: int
 
 class Error(Exception):
@@ -108,7 +107,7 @@ def trace(capture: Capture, exposure: Exposure, pixel: Optional[tuple[int, int]]
 def study(capture: Capture, settings: Mapping[str, str], regions: Sequence[str], output: Mapping[str, str],
           progress: Progress) -> dict[str, object]: ...
 def plate(capture: Capture, by: Optional[int], output: Mapping[str, str],
-          progress: Progress) -> tuple[Picture, NDArray[np.bool_], bool]: ...
+          progress: Progress) -> tuple[Picture, Mask, bool]: ...
 def activity(capture: Capture, mask: Optional[Mask], tag: Optional[int], ignored_codes: int,
              counts_redrawn: bool, progress: Progress) -> dict[str, object]: ...
 def solve(capture: Capture, functions: str, wishes: Sequence[str], free: Sequence[str], exposure: Exposure,

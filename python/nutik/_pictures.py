@@ -218,9 +218,8 @@ class Picture(_HasArray):
             self._held.write(name, quality, keep_pixels)
         except UsageError as error:
             if is_light and "cannot hold the values" in str(error):
-                others = "" if self.dtype == np.float64 else ".exr, .pfm, "
-                raise UsageError(f"{error}, {self.dtype} light: expose it with codes=True, or write {others}.tif or "
-                                 ".npy") from None
+                raise UsageError(f"{error}, {self.dtype} light: expose it with codes=True, or write .tif or .npy, of "
+                                 "float32 also .exr or .pfm") from None
             raise
 
     def _repr_png_(self) -> bytes:

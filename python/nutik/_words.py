@@ -16,7 +16,7 @@ from functools import cache
 from os import PathLike, fsdecode
 from os.path import dirname, exists, join
 from importlib import import_module
-from typing import (TYPE_CHECKING, Any, BinaryIO, Callable, Iterable, Iterator, Mapping, Optional, Protocol, Sequence,
+from typing import (TYPE_CHECKING, Any, BinaryIO, Callable, Iterable, Iterator, Mapping, Optional, Sequence,
                     Union, cast)
 
 import numpy as np
@@ -27,8 +27,11 @@ from ._nutik import InputError, UsageError
 
 if TYPE_CHECKING:
     from builtins import ellipsis as ellipsis
+
+    from matplotlib.axes import Axes as Axes
+    from xarray import DataArray as DataArray
 else:
-    ellipsis = type(...)
+    ellipsis, Axes, DataArray = type(...), object, object  # those are imported where they are used
 
 Time = Union[str, float, int, "np.floating[Any]", "np.integer[Any]", Fraction, Decimal, np.timedelta64,
              datetime.timedelta]
@@ -74,28 +77,6 @@ def reading(*paths: str) -> Iterator[None]:
         raised = FileMissing(str(error))
         raised.settings, raised.errno, raised.filename = error.settings, errno.ENOENT, missing[0]
         raise raised from None
-
-
-class Axes(Protocol):
-    """Those of matplotlib, as far as they are needed here."""
-
-    def plot(self, *values: object, **style: object) -> object: ...
-    def set_xlabel(self, text: str) -> object: ...
-    def set_ylabel(self, text: str) -> object: ...
-    def get_xlabel(self) -> str: ...
-    def get_ylabel(self) -> str: ...
-
-
-class DataArray(Protocol):
-    """That of xarray, as far as its type is told here."""
-
-    @property
-    def dims(self) -> tuple[object, ...]: ...
-    @property
-    def values(self) -> NDArray[np.generic]: ...
-    def sel(self, indexers: None = None, method: Optional[str] = None, **where: object) -> DataArray: ...
-    def isel(self, indexers: None = None, **where: object) -> DataArray: ...
-    def mean(self, dim: Union[str, Sequence[str], None] = None) -> DataArray: ...
 
 
 def labelled(values: NDArray[np.generic], first: Mapping[str, Any], attributes: Mapping[str, object],
@@ -287,19 +268,6 @@ def delays_ns(delays: Any) -> NDArray[np.int64]:
     return np.asarray(made, np.int64)
 
 
-def bytes_word(size: Union[int, str], what: str) -> str:
-    """500000000, '500MB', '2GB', '1GiB' -> the number of bytes."""
-    written = re.fullmatch(r"(.*?)\s*(?:(?:([KMGT])(I?))?B)?", str(size), re.IGNORECASE | re.DOTALL)
-    number, prefix, binary = written.groups(default="") if written else ("", "", "")
-    try:
-        count = int(exact(number, what) * (1024 if binary else 1000) ** " KMGT".index(prefix.upper() or " "))
-    except UsageError:
-        count = 0
-    if not 1 <= count < 2 ** 63:
-        raise UsageError(f"{what}={size!r} is no size; write 500_000_000, '500MB', '2GB' or '1GiB'")
-    return str(count)
-
-
 def count_of(value: Any, what: str) -> int:
     """A whole number that is not negative."""
     is_whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
@@ -330,10 +298,10 @@ def box_of(value: Any, what: str) -> list[int]:
 
 def word_of(name: str, kind: str, value: Any) -> str:
     """A value as the program reads it; `kind` is what its help has in that place."""
-    if kind == "SIZE":
-        return bytes_word(value, name)
     if isinstance(value, (str, bytes, PathLike)):
         return fsdecode(value)
+    if kind == "SIZE":
+        return str(int(exact(value, name)))
     if kind == "TIME" or "TIME" in kind and not is_list(value):
         return time_word(value, name)
     if kind in ("RATE", "DEGREES", "W:H"):

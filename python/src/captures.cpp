@@ -1,8 +1,11 @@
 // Captures: opened, encoded from clips and from arrays, and what is known of them.
+#include <atomic>
 #include <cstddef>
 #include <cstring>
 #include <deque>
+#include <memory>
 #include <mutex>
+#include <utility>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -60,7 +63,6 @@ py::tuple opened(const Opening& terms, const py::object& progress) {
 
 py::tuple open(const std::string& path, const Settings& settings, const Settings& computing,
                const py::object& progress) {
-  const Opening terms = opening_of(path, settings, computing);
   if (!settings.empty() && is_tik(path)) {
     const std::string& name = settings.begin()->first;
     const bool is_corrected = option_of_argument(CommandId::retime, name) != nullptr;
@@ -68,7 +70,7 @@ py::tuple open(const std::string& path, const Settings& settings, const Settings
                             is_corrected ? "To correct it: nutik.retime(capture, new, " + name + "=...)"
                                          : "Encode the clip again with it"));
   }
-  return opened(terms, progress);
+  return opened(opening_of(path, settings, computing), progress);
 }
 
 // The capture that a file now holds.
@@ -109,6 +111,68 @@ py::tuple joined(const std::vector<std::string>& captures, const std::string& ou
       without_lock([&](const Stopping& stopping) { return join(request, stopping.progress()); }, progress);
   const auto capture = opened_file(output, devices_of(computing));
   return py::make_tuple(capture, py::list(), note_texts(made.notes, Dialect::python));
+}
+
+// An object of Python's, for threads that do not hold its lock.
+using Held = std::shared_ptr<py::object>;
+Held held(py::object object) {
+  return {new py::object(std::move(object)), [](py::object* last) {
+            const py::gil_scoped_acquire locked;
+            delete last;
+          }};
+}
+
+class PicturesClip final : public Clip {
+ public:
+  PicturesClip(ClipInfo info, std::string name, Held iterator)
+      : info_(std::move(info)), name_(std::move(name)), iterator_(std::move(iterator)) {}
+
+  [[nodiscard]] const ClipInfo& info() const override { return info_; }
+
+  bool read(std::span<std::byte> raster) override {
+    const Held picture = next();
+    if (!picture) return false;
+    std::memcpy(raster.data(), static_cast<const py::array&>(*picture).data(), raster.size());
+    const std::uint32_t white = info_.format.white_code;
+    const bool is_last = white == (info_.format.code_bytes == 1 ? 255 : 65'535);
+    const std::uint32_t code = is_last ? 0 : largest_code(raster, info_.format.code_bytes);
+    if (code > white)
+      throw InputError(format("{}: picture {} has the code {}, above white, {}", name_, taken_, code, white),
+                       {Setting::white_code});
+    ++taken_;
+    return true;
+  }
+
+ private:
+  // An array without gaps, which is a copy only where it has some; none at the end.
+  [[nodiscard]] Held next() const {
+    const py::gil_scoped_acquire locked;
+    const auto given = py::reinterpret_steal<py::object>(PyIter_Next(iterator_->ptr()));
+    if (!given && PyErr_Occurred() != nullptr) throw py::error_already_set();
+    if (!given) return {};
+    const auto picture = py::array::ensure(given, py::array::c_style);
+    if (!picture) throw py::error_already_set();
+    return held(picture);
+  }
+
+  ClipInfo info_;
+  std::string name_;
+  Held iterator_;
+  std::uint64_t taken_ = 0;
+};
+
+// Pictures of uint8 or uint16, all of one shape: arrays that are read where they lie, of an iterable that is asked with
+// Python's lock held, on the thread that reads; what it raises comes back to the caller. An iterator is opened once.
+OpenClip open_pictures(const py::object& pictures, ClipInfo info, std::string name) {
+  return [pictures = held(pictures), was_open = std::make_shared<std::atomic_flag>(), info = std::move(info),
+          name = std::move(name)] {
+    const py::gil_scoped_acquire locked;
+    auto iterator = py::reinterpret_steal<py::object>(PyObject_GetIter(pictures->ptr()));
+    if (!iterator) throw py::error_already_set();
+    if (was_open->test_and_set() && iterator.is(*pictures))
+      throw UsageError(format("{} can be read once, and what is asked for reads it twice; pass an array", name));
+    return std::make_unique<PicturesClip>(info, name, held(std::move(iterator)));
+  };
 }
 
 // Of `first`, a picture, all others have the shape; `count` is 0 where nobody knows it, times are those of ClipTiming.
@@ -317,7 +381,7 @@ void bind_captures(py::module_& module) {
       .def("reader", [](Held held) { return std::make_unique<SampleReader>(std::move(held)); })
       .def("records", &records, "box"_a, "first"_a, "last"_a, "dtype"_a, "progress"_a)
       .def("moved_camera", &moved_camera_text);
-  py::class_<SampleReader>(module, "SampleReader").def("samples", &samples, "numbers"_a);
+  py::class_<SampleReader>(module, "SampleReader").def("samples", &SampleReader::samples, "numbers"_a);
   module.def("open", &open, "path"_a, "settings"_a, "computing"_a, "progress"_a);
   module.def("encode_clip", &encode_clip, "path"_a, "output"_a, "codec"_a, "settings"_a, "computing"_a, "progress"_a);
   module.def("encode_pictures", &encode_pictures, "pictures"_a, "first"_a, "count"_a, "name"_a, "starts_ns"_a,

@@ -43,14 +43,11 @@ struct HeldPicture {
 using HeldMask = Shared<Mask>;
 using Axes = std::vector<py::ssize_t>;
 
-// A copy, of the stated shape.
+// A copy, of the stated shape or of one axis.
 template <typename Value>
-[[nodiscard]] py::array_t<Value> array_of(const std::vector<Value>& values, Axes shape) {
+[[nodiscard]] py::array_t<Value> array_of(const std::vector<Value>& values, Axes shape = {}) {
+  if (shape.empty()) shape = {static_cast<py::ssize_t>(values.size())};
   return py::array_t<Value>(std::move(shape), values.data());
-}
-template <typename Value>
-[[nodiscard]] py::array_t<Value> array_of(const std::vector<Value>& values) {
-  return array_of(values, {static_cast<py::ssize_t>(values.size())});
 }
 
 [[nodiscard]] py::dtype dtype_of(ValueType type);
@@ -69,28 +66,14 @@ using Settings = std::map<std::string, std::string>;
 struct AskedExposure {
   ExposureRequest request;
   RenderControl control;
-
-  [[nodiscard]] RenderControl control_of(const Stopping& stopping) const {
-    RenderControl stopped = control;
-    stopped.stop = stopping.stop;
-    stopped.progress = stopping.progress();
-    return stopped;
-  }
 };
 // How values are stored: `dtype`, `transfer`, `negative`.
 [[nodiscard]] OutputFormat output_of(const Settings& settings, const CaptureFormat& capture);
 [[nodiscard]] py::dict figures_of(const ExposedPicture& exposed);
 [[nodiscard]] py::object saturated_of(ValueType type, const Saturation& saturation);
 
-// Pictures of uint8 or uint16, all of one shape: arrays that are read where they lie, of an iterable that is asked with
-// Python's lock held, on the thread that reads; what it raises comes back to the caller. An iterator is opened once.
-[[nodiscard]] OpenClip open_pictures(const py::object& pictures, ClipInfo info, std::string name);
-
-void bind_commands(py::module_& module);
 void bind_captures(py::module_& module);
 void bind_functions(py::module_& module);
-void bind_masks(py::module_& module);
-void bind_pictures(py::module_& module);
 void bind_rendering(py::module_& module);
 void bind_studies(py::module_& module);
 

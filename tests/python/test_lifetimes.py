@@ -39,7 +39,8 @@ class Views(support.TestCase):
         capture = nutik.encode(support.moving_box(), rate=960)
         picture = capture.render(start=0, exposure="10ms")
         for view in (picture.array, np.asarray(picture), nutik.Mask(support.tags()).tags,
-                     capture.background().uncertain, capture.activity().changes, capture.trace(1, 2, exposure="10ms")[0].light):
+                     capture.background().uncertain, capture.activity().changes,
+                     capture.trace(1, 2, exposure="10ms")[0].light):
             with self.assertRaises(ValueError):
                 view[...] = 0
         with self.assertRaises(ValueError):
