@@ -21,7 +21,7 @@ from ._pictures import Picture, Pictures
 from ._told import Figures
 from ._words import (Axes, DataArray, DelayLike, Index, NutikNote, Path, Progress, Time, WrongType, axes_of, box_of,
                      count_of, delays_ns, frozen, is_list, labelled, listed, settings_of, shortened, tag_of, time_word,
-                     warn, word_of)
+                     warn, whole, word_of)
 
 
 Codes = Union[NDArray[np.uint8], NDArray[np.uint16]]
@@ -546,7 +546,7 @@ class Capture:
             begins = self.times_ns[:, 0]
             # A gain of 0 at both ends: nothing is exposed there.
             edges = np.append(begins, self.duration_ns)
-            gains = np.concatenate([[0.0], np.repeat(np.asarray(given, np.float64), 2), [0.0]])
+            gains = np.concatenate([[0.0], np.repeat(np.asarray(whole(given, what), np.float64), 2), [0.0]])
             return Function.from_ns(np.repeat(edges, 2), gains)
         return function_of(given, what, np.timedelta64(self.duration_ns, "ns"))
 

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import cache
 from keyword import iskeyword
-from os import PathLike, fsdecode, remove
+from os import PathLike, remove
 from os.path import dirname, exists, isfile
 from threading import Event, current_thread, main_thread
 from time import sleep
@@ -23,7 +23,7 @@ from . import _nutik
 from ._docs import joined
 from ._nutik import DeviceError, Error, ImpreciseError, InputError, MemoryTooLittle, OutputError, UsageError
 from ._told import Json
-from ._words import NutikNote, Path, Progress, in_python, is_list, warn, word_of
+from ._words import NutikNote, Path, Progress, in_python, is_list, path_of, warn, word_of
 
 # A value, several, or of a command's option that takes two words a list of pairs.
 Value = Union[str, int, float, Fraction, "PathLike[str]"]
@@ -80,11 +80,11 @@ def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Map
         said[name] = [_words(kind, name, each) for each in value] if is_repeated and is_list(value) else [
             _words(kind, name, value)]
     words = _nutik.command_words(command, said)
-    last = fsdecode(operands[-1]) if operands else ""
+    last = path_of(operands[-1]) if operands else ""
     was_there = exists(last)
     _sleep_at_the_end()
     _end_at_exit()
-    process = subprocess.Popen([sys.executable, "-c", _MAIN, dirname(__file__), *words, "--", *map(fsdecode, operands)],
+    process = subprocess.Popen([sys.executable, "-c", _MAIN, dirname(__file__), *words, "--", *map(path_of, operands)],
                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     _running.add(process)
     seen = 0

@@ -6,7 +6,7 @@ from copy import deepcopy
 from dataclasses import dataclass
 from functools import partial
 from io import BytesIO
-from os import PathLike, fsdecode
+from os import PathLike
 from os.path import join
 from shutil import copyfileobj
 from tempfile import TemporaryDirectory
@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from . import _nutik
 from ._nutik import UsageError
 from ._told import Plan, Statistics, Uncertainty
-from ._words import Array, DataArray, Index, Path, labelled
+from ._words import Array, DataArray, Index, Path, labelled, path_of
 
 
 def _bounds(light: Union[float, NDArray[np.float64]], pictures: Array) -> NDArray[np.float64]:
@@ -207,8 +207,8 @@ class Picture(_HasArray):
                     copyfileobj(file, path)
             return
         if kind is not None:
-            raise UsageError(f"kind={kind!r} is said of an open file; {fsdecode(path)} says by its name what it is")
-        name, is_light = fsdecode(path), self.dtype.kind == "f"
+            raise UsageError(f"kind={kind!r} is said of an open file; {path_of(path)} says by its name what it is")
+        name, is_light = path_of(path), self.dtype.kind == "f"
         if name.lower().endswith(".npy") and not is_light:
             made = BytesIO()
             np.save(made, self.array)

@@ -7,7 +7,7 @@ import inspect
 from dataclasses import dataclass
 from functools import wraps
 from itertools import chain, count
-from os import PathLike, fsdecode
+from os import PathLike
 from typing import Any, BinaryIO, Callable, Iterable, Iterator, Optional, Protocol, Sequence, TypeVar, Union, cast
 
 import numpy as np
@@ -17,7 +17,7 @@ from . import _nutik
 from ._captures import Capture
 from ._nutik import InputError, UsageError
 from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, is_list, listed,
-                     reading, seconds_of, settings_of, time_ns, times_ns, warn, whole)
+                     path_of, reading, seconds_of, settings_of, time_ns, times_ns, warn, whole)
 
 
 class HasArray(Protocol):
@@ -116,10 +116,10 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
     20
     """
     given = locals()
-    computing, path = _computing(device, memory, renderer), None if output is None else fsdecode(output)
+    computing, path = _computing(device, memory, renderer), None if output is None else path_of(output)
     of_clips = set(inspect.signature(open).parameters) - {"path", "progress", *_COMPUTING}
     stated = {argument: given[argument] for argument in given if argument in (*of_clips, "tiles", "block_samples")}
-    is_clip = isinstance(source, (str, PathLike)) or hasattr(source, "read")
+    is_clip = isinstance(source, (str, bytes, PathLike)) or hasattr(source, "read")
     for argument in clip:
         if argument not in of_clips:
             raise TypeError(f"encode() has no argument {argument!r}")
@@ -163,9 +163,9 @@ def join(captures: Iterable[Path], output: Path, *, device: Optional[str] = None
     """
     if isinstance(captures, (str, PathLike)):
         raise UsageError(f"captures= is {captures!r}: give a list of two captures or more")
-    paths = [fsdecode(each) for each in captures]
+    paths = [path_of(each) for each in captures]
     with reading(*paths):
-        return _told(_nutik.join(paths, fsdecode(output), _computing(device, memory, renderer), progress))
+        return _told(_nutik.join(paths, path_of(output), _computing(device, memory, renderer), progress))
 
 
 @dataclass(frozen=True)
@@ -293,7 +293,7 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
     if exposures is not None and shutter_angle is not None:
         raise UsageError("exposures= and shutter_angle= both say how long pictures were exposed; leave one out")
     if times is not None:
-        times = listed(times)
+        times = listed(times, "times")
         if times and isinstance(times[0], (np.datetime64, datetime.datetime)):
             times = [time - times[0] for time in times]  # dates: only what lies between them counts
     starts = [] if times is None else times_ns(times, "times").tolist()
@@ -307,7 +307,7 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
         raise UsageError("exposures= of each picture need times=, when each begins; with rate= give one for all")
     begins = [seconds_of(time, "times") for time in times]
     lengths = [_lasting(seconds_of(each, f"exposures[{i}]"), f"exposures[{i}]", each)
-               for i, each in enumerate(listed(exposures))]
+               for i, each in enumerate(listed(exposures, "exposures"))]
     if len(lengths) != len(begins):
         raise UsageError(f"there are {len(lengths)} exposures for {len(begins)} times")
     return [], [(start, half_up((begin + length) * 10 ** 9))

@@ -126,12 +126,15 @@ def axes_of(ax: Optional[Axes], x: str, y: str) -> Axes:
 def as_file(source: Any, name: str) -> Iterator[str]:
     """The path of a source, or of a file with the bytes of one that is open to be read, which is gone afterwards."""
     if not hasattr(source, "read"):
-        yield fsdecode(source)
+        yield path_of(source)
         return
     with tempfile.TemporaryDirectory(prefix="nutik-") as folder:
         path = join(folder, name)
         with open(path, "wb") as file:
-            shutil.copyfileobj(source, file)
+            try:
+                shutil.copyfileobj(source, file)
+            except TypeError:
+                raise WrongType(f"{shortened(source)} is not open for bytes") from None
         yield path
 
 
@@ -149,9 +152,17 @@ def is_list(value: Any) -> bool:
     return not isinstance(value, str) and hasattr(value, "__iter__")
 
 
-def listed(values: Any) -> list[Any]:
+def listed(values: Any, what: str = "the array") -> list[Any]:
     """Its values one by one; of what NumPy takes for an array, NumPy's."""
-    return list(np.asarray(values) if hasattr(values, "__array__") else values)
+    return list(np.asarray(whole(values, what)) if hasattr(values, "__array__") else values)
+
+
+def path_of(path: Any) -> str:
+    """A path as text."""
+    try:
+        return fsdecode(path)
+    except TypeError:
+        raise WrongType(f"{shortened(path)} is no path") from None
 
 
 def whole(array: Any, what: str) -> Any:
@@ -206,6 +217,8 @@ _UNITS_S = {"W": Fraction(604_800), "D": Fraction(86_400), "h": Fraction(3600), 
 
 def seconds_of(time: Time, what: str) -> Fraction:
     """A time in seconds, exactly; of words only those that count no pictures."""
+    if isinstance(time, np.ndarray) and not time.ndim:
+        time = time[()]
     if isinstance(time, np.timedelta64):
         unit, count = np.datetime_data(time.dtype)
         if np.isnat(time):
@@ -237,16 +250,15 @@ def half_up(value: Fraction) -> int:
 
 def time_ns(time: Time, what: str) -> int:
     """A time in whole nanoseconds."""
-    return half_up(seconds_of(time, what) * _SECOND_NS)
+    nanoseconds = half_up(seconds_of(time, what) * _SECOND_NS)
+    if abs(nanoseconds) >= 2 ** 62:
+        raise UsageError(f"{what} lies further away than 126 years")
+    return nanoseconds
 
 
 def times_ns(times: Any, what: str) -> NDArray[np.int64]:
     """Times one after another in whole nanoseconds, int64."""
-    values = [time_ns(time, f"{what}[{i}]") for i, time in enumerate(times)]
-    try:
-        return np.array(values, np.int64)
-    except OverflowError:
-        raise UsageError(f"{what}: a time lies further away than 126 years") from None
+    return np.array([time_ns(time, f"{what}[{i}]") for i, time in enumerate(listed(times, what))], np.int64)
 
 
 def delays_ns(delays: Any) -> NDArray[np.int64]:
