@@ -61,8 +61,6 @@ class Trace:
             axes.plot(self.times_ns.ravel() / 1e9, self.light[:, :, channel].ravel(), **{**named, **style})
         return axes
 
-    __hash__ = None  # type: ignore[assignment]
-
     @classmethod
     def _of(cls, told: dict[str, Any]) -> Trace:
         steps = told.pop("steps")
@@ -422,7 +420,8 @@ class Capture:
     def study(self, style: str = "trail", *, moments: Union[int, Sequence[Time], None] = None,
               spacing: Optional[str] = None, trail: Optional[str] = None, slit_from: Optional[str] = None,
               regions: Sequence[Sequence[int]] = (), by: Optional[int] = None,
-              feather: Union[str, float, None] = None, codes: bool = False, dtype: DTypeLike = None, transfer: Optional[str] = None, progress: Progress = None) -> Study:
+              feather: Union[str, float, None] = None, codes: bool = False, dtype: DTypeLike = None,
+              transfer: Optional[str] = None, progress: Progress = None) -> Study:
         """A motion study that finds its subject by itself (docs/how-to/study.md).
 
         Parameters:
@@ -520,6 +519,9 @@ class Capture:
             raise UsageError("a mask goes with functions=, not with a plain interval")
         elif stated["exposure"] is None:
             raise UsageError("an exposure needs a plain interval (start='0.4s', exposure='10ms') or functions=")
+        for name, of in (("shutter_error", "shutter"), ("unmapped", "mask")):
+            if stated[name] is not None and stated[of] is None:
+                raise UsageError(f"{name}= says nothing without {of}=; leave it out")
         return self._asked(functions, stated, box), (box[0], box[1]) if box else (0, 0)
 
     def _functions(self, functions: Functions, has_mask: bool) -> dict[int, Function]:
@@ -555,9 +557,8 @@ class Capture:
         kinds = {"uint8": "8", "uint16": "16"} if codes else {"float32": "float", "float64": "double"}
         kind = np.dtype(dtype).name if dtype is not None else self.dtype.name if codes else "float32"
         if kind not in kinds:
-            other = "codes=True gives uint8 and uint16" if not codes else "codes are uint8 or uint16"
-            held = "codes" if codes else "light"
-            raise UsageError(f"dtype={kind} holds no {held}: light is float32 or float64; {other}")
+            raise UsageError(f"dtype={kind} holds no {'codes' if codes else 'light'}: light is float32 or float64, "
+                             "codes are uint8 or uint16 and come with codes=True")
         if is_plate and kind == "float64":
             raise UsageError("the background's light is float32")
         return settings_of({"dtype": kinds[kind], "transfer": transfer, "negative": negative})

@@ -106,7 +106,7 @@ def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Map
                 tell((so_far.stderr or b"").decode(errors="replace"))
         tell(told)
     except BaseException:
-        # Nobody reads its answer: it ends at once, without temporary files, where SIGINT alone would keep a film's frames.
+        # Nobody reads its answer: it ends at once, without temporary files. SIGINT alone would keep a film's frames.
         for number in (signal.SIGPIPE, signal.SIGINT):
             process.send_signal(number)
         process.communicate()
@@ -116,8 +116,8 @@ def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Map
     finally:
         _running.discard(process)
     _sleep_at_the_end()
-    lines = told.splitlines()
-    return _answer(command, process.returncode, answer, [each for each in lines if not each.startswith("Progress:")])
+    return _answer(command, process.returncode, answer, [line for line in told.splitlines()
+                                                         if not line.startswith("Progress:")])
 
 
 def _answer(command: str, status: int, text: str, told: Sequence[str]) -> dict[str, Json]:

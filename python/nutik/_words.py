@@ -318,9 +318,7 @@ def word_of(name: str, kind: str, value: Any) -> str:
         return time_word(value, name)
     if kind in ("RATE", "DEGREES", "W:H"):
         return number_word(value, name)
-    if kind in ("K", "G", "E"):
-        return repr(float(value))
-    if kind == "FILE|LIGHT":
+    if kind in ("K", "G", "E", "FILE|LIGHT"):
         return repr(float(exact(value, name)))
     if kind == "WxH+X+Y":
         x, y, width, height = box_of(value, name)

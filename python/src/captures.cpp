@@ -201,13 +201,11 @@ py::tuple encode_pictures(const py::object& pictures, const py::array& first, st
 }
 
 py::array times_ns(const OpenCapture& capture) {
-  const auto count = static_cast<py::ssize_t>(capture.timeline().sample_count());
-  py::array_t<std::int64_t> times({count, py::ssize_t{2}});
-  for (py::ssize_t k = 0; k < count; ++k) {
-    times.mutable_at(k, 0) = capture.timeline().start_ns(static_cast<std::uint64_t>(k));
-    times.mutable_at(k, 1) = capture.timeline().end_ns(static_cast<std::uint64_t>(k));
-  }
-  return times;
+  const Timeline& timeline = capture.timeline();
+  std::vector<std::int64_t> times;
+  for (std::uint64_t k = 0; k < timeline.sample_count(); ++k)
+    times.insert(times.end(), {timeline.start_ns(k), timeline.end_ns(k)});
+  return array_of(times, {static_cast<py::ssize_t>(timeline.sample_count()), 2});
 }
 
 // No Fraction: that would run Python's code within ours, where its end may stop it.
@@ -385,7 +383,8 @@ void bind_captures(py::module_& module) {
   module.def("open", &open, "path"_a, "settings"_a, "computing"_a, "progress"_a);
   module.def("encode_clip", &encode_clip, "path"_a, "output"_a, "codec"_a, "settings"_a, "computing"_a, "progress"_a);
   module.def("encode_pictures", &encode_pictures, "pictures"_a, "first"_a, "count"_a, "name"_a, "starts_ns"_a,
-             "exposures_ns"_a, "exposed_ns"_a, "white_light"_a, "output"_a, "codec"_a, "settings"_a, "computing"_a, "progress"_a);
+             "exposures_ns"_a, "exposed_ns"_a, "white_light"_a, "output"_a, "codec"_a, "settings"_a, "computing"_a,
+             "progress"_a);
   module.def("join", &joined, "captures"_a, "output"_a, "computing"_a, "progress"_a);
 }
 

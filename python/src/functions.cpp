@@ -1,5 +1,4 @@
-// Gain functions: their control points as arrays, the text of function files, shutters, fits. Masks: tags, and shares of
-// them, as arrays.
+// Gain functions: control points as arrays, the text of function files, shutters, fits. Masks: tags and their shares.
 #include <pybind11/operators.h>
 
 #include <algorithm>

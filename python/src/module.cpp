@@ -1,6 +1,5 @@
-// nutik._nutik: the engine's session for Python; what its users see is the package around it, python/nutik. What the
-// library throws, as Python's exceptions, in the words of its arguments; what is stated by name, as the schema's options;
-// and the program's commands, which have the same names.
+// nutik._nutik: the engine's session for Python; what its users see is the package around it, python/nutik. Here: what
+// the library throws, in the words of arguments; what is stated by name, as the schema's options; and the commands.
 #include <algorithm>
 #include <array>
 #include <exception>

@@ -1,4 +1,4 @@
-// Pictures, which NumPy looks at where they lie. Exposures: what is asked for, how light came about, the plan's figures.
+// Pictures, which NumPy looks at where they lie. Exposures: what is asked for, how light came about, their figures.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -284,7 +284,8 @@ py::dict figures_of(const ExposedPicture& exposed) {
   }
   return py::dict(
       "precision"_a = to_text(exposed.precision), "error_bound"_a = bound,
-      "uncertainty"_a = fields_of(exposed.uncertainty, exposed.output), "saturated"_a = saturated_of(exposed.output.type, exposed.saturation), "plan"_a = plan,
+      "uncertainty"_a = fields_of(exposed.uncertainty, exposed.output),
+      "saturated"_a = saturated_of(exposed.output.type, exposed.saturation), "plan"_a = plan,
       "statistics"_a = statistics, "warnings"_a = exposed.warnings,
       "reference_white"_a = figures.capture.transfer.reference_white());
 }

@@ -57,17 +57,15 @@ py::tuple plate(const OpenCapture& capture, std::optional<std::uint32_t> by, con
                         made.is_noise_known);
 }
 
-py::object stretch_of(const Timeline& timeline, const std::optional<ActivityMoments>& moments,
-                      bool quietest) {
+py::object stretch_of(const Timeline& timeline, const std::optional<ActivityMoments>& moments, bool quietest) {
   if (!moments) return py::none();
   const SampleRange& samples = (quietest ? moments->quietest : moments->busiest).samples;
   const auto times_ns = py::make_tuple(timeline.start_ns(samples.first), timeline.reach_end_ns(samples.last - 1));
   return py::dict("samples"_a = py::make_tuple(samples.first, samples.last), "times_ns"_a = times_ns);
 }
 
-py::dict activity(const OpenCapture& capture, const std::optional<HeldMask>& mask,
-                  std::optional<std::uint8_t> tag, std::uint32_t ignored_codes, bool counts_redrawn,
-                  const py::object& progress) {
+py::dict activity(const OpenCapture& capture, const std::optional<HeldMask>& mask, std::optional<std::uint8_t> tag,
+                  std::uint32_t ignored_codes, bool counts_redrawn, const py::object& progress) {
   Session& session = *capture.session;
   ActivityRequest request;
   if (mask) request.mask = *mask;
@@ -94,9 +92,9 @@ py::dict told_wish(const SolvedWish& wish, std::size_t channels) {
                   "reached"_a = first(wish.light.reached), "missed"_a = wish.missed, "is_kept"_a = wish.is_kept());
 }
 
-py::dict solve(const OpenCapture& capture, const std::string& functions,
-               const std::vector<std::string>& wishes, const std::vector<std::string>& free,
-               const AskedExposure& asked, const std::optional<HeldMask>& regions, const py::object& progress) {
+py::dict solve(const OpenCapture& capture, const std::string& functions, const std::vector<std::string>& wishes,
+               const std::vector<std::string>& free, const AskedExposure& asked, const std::optional<HeldMask>& regions,
+               const py::object& progress) {
   SolveRequest request;
   for (const std::string& wish : wishes) request.wishes.push_back(StatedWish::parse(wish));
   TemplateInput input = read_template(functions, "the functions");

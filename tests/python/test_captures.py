@@ -238,8 +238,8 @@ class Arrays(support.TestCase):
         for stated in ({"noise": 3}, {"start_picture": [0.5]}):
             self.assert_raises(nutik.WrongType, next(iter(stated)), settings_of, stated)
         encode = functools.partial(nutik.encode, np.zeros((4, 8, 8), np.uint8), rate=1)
-        for size in ("5000B", "5000", "5KB", "4.9kiB", 5000, 5e3, np.int64(5000), Fraction(5000)):
-            self.assert_raises(nutik.MemoryTooLittle, "5 kB of memory", encode, memory=size)
+        for size in ("5000B", "5000", "5KB", "0.005 MB", 5000, 5e3, np.int64(5000), Fraction(5000)):
+            self.assert_raises(nutik.MemoryTooLittle, "5000 bytes of memory", encode, memory=size)
         for size in ("5IB", "-5", -5, "inf"):
             self.assert_raises(nutik.UsageError, f"'{size}' is no size; write 500MB, 2GB", encode, memory=size)
 

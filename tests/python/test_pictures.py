@@ -197,7 +197,7 @@ class Pictures(support.TestCase):
         self.assert_raises(nutik.UsageError, ".pfm", picture.write, self.path("codes.pfm"))
         deep = self.capture.render(start=0, exposure="10ms", dtype=np.float64)
         self.assert_raises(nutik.UsageError, "float32", deep.write, self.path("light.exr"))
-        self.assert_raises(nutik.UsageError, "kind='.png'", deep.write, self.path("light.tif"), kind=".png")
+        self.assert_raises(nutik.UsageError, "kind='.png'", lambda: deep.write(self.path("light.tif"), kind=".png"))
         deep.write(self.path("light.tif"))
         self.assert_same(nutik.open(self.path("light.tif"), rate=1, white=1.0)[0],
                          (deep.array * 65535 + 0.5).clip(0, 65535).astype(np.uint16))
