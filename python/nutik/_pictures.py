@@ -6,11 +6,10 @@ from copy import deepcopy
 from dataclasses import dataclass
 from functools import partial
 from io import BytesIO
-from os import PathLike
 from os.path import join
 from shutil import copyfileobj
 from tempfile import TemporaryDirectory
-from typing import BinaryIO, Callable, Mapping, Optional, Sequence, Union
+from typing import BinaryIO, Callable, Mapping, Optional, Sequence, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
@@ -198,13 +197,13 @@ class Picture(_HasArray):
         Examples:
         >>> capture.render(start=0, exposure="5f").write("light.exr")
         """
-        if not isinstance(path, (str, bytes, PathLike)):
+        if hasattr(path, "write"):
             if kind is None or not kind.startswith("."):
                 raise UsageError("which kind of file? An open one has no name: kind='.png'")
             with TemporaryDirectory(prefix="nutik-") as folder:
                 self.write(join(folder, f"picture{kind}"), quality=quality, keep_pixels=keep_pixels)
                 with open(join(folder, f"picture{kind}"), "rb") as file:
-                    copyfileobj(file, path)
+                    copyfileobj(file, cast(BinaryIO, path))
             return
         if kind is not None:
             raise UsageError(f"kind={kind!r} is said of an open file; {path_of(path)} says by its name what it is")

@@ -16,8 +16,7 @@ from functools import cache
 from os import PathLike, fsdecode
 from os.path import dirname, exists, join
 from importlib import import_module
-from typing import (TYPE_CHECKING, Any, BinaryIO, Callable, Iterable, Iterator, Mapping, Optional, Sequence,
-                    Union, cast)
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, Optional, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
