@@ -30,12 +30,10 @@ std::int64_t constant_time_ns(Rational rate, Rational angle, std::uint64_t sampl
 constexpr Rational kNoDegrees{0, 1};
 
 // Samples a second: a mean, for people to read. To a thousandth, or of slower ones one in so many milliseconds.
-Rational mean_rate(std::uint64_t sample_count, std::int64_t duration_ns) {
-  const auto samples = static_cast<int128>(sample_count);
-  if (samples * kSecondNs >= duration_ns) {
-    return Rational::of(round_half_up(samples * kSecondNs * 1000, duration_ns), 1000);
-  }
-  return Rational::of(1000, round_half_up(duration_ns, samples * (kSecondNs / 1000)));
+Rational mean_rate(std::uint64_t periods, std::int64_t length_ns) {
+  const auto count = static_cast<int128>(periods);
+  if (count * kSecondNs >= length_ns) return Rational::of(round_half_up(count * kSecondNs * 1000, length_ns), 1000);
+  return Rational::of(1000, round_half_up(length_ns, count * (kSecondNs / 1000)));
 }
 
 // From `origin`, where sample k is; both may be any numbers at all.
@@ -121,7 +119,6 @@ Timeline Timeline::stored(std::vector<Exposure> exposures, std::int64_t duration
     throw InputError(format("the capture ends at {} ns; 146 years are the most that one lasts", duration_ns));
   }
   timeline.duration_ns_ = duration_ns;
-  timeline.rate_ = mean_rate(timeline.sample_count_, duration_ns);
   timeline.shutter_angle_ = shutter_angle;
   return timeline;
 }
@@ -144,14 +141,17 @@ Timeline Timeline::explicit_exposures(std::vector<Exposure> exposures) {
                  "first sample)",
                  k, exposure.start_ns, k - 1, exposures[k - 1].end_ns));
     }
-    exposed_ns += exposure.end_ns - exposure.start_ns;
+    if (k == 0 || k + 1 < exposures.size()) exposed_ns += exposure.end_ns - exposure.start_ns;
   }
   Timeline timeline;
   timeline.sample_count_ = exposures.size();
   timeline.duration_ns_ = exposures.back().end_ns;
-  timeline.rate_ = mean_rate(exposures.size(), timeline.duration_ns_);
+  // Nobody says how long the last sample's period is, unless it is the only one.
+  const std::uint64_t periods = std::max<std::uint64_t>(exposures.size() - 1, 1);
+  const std::int64_t length_ns = exposures.size() > 1 ? exposures.back().start_ns : timeline.duration_ns_;
+  timeline.rate_ = mean_rate(periods, length_ns);
   timeline.shutter_angle_ =
-      Rational::of(round_half_up(static_cast<int128>(exposed_ns) * 360'000, timeline.duration_ns_), 1000);
+      Rational::of(round_half_up(static_cast<int128>(exposed_ns) * 360'000, length_ns), 1000);
   timeline.exposures_ = std::move(exposures);
   return timeline;
 }

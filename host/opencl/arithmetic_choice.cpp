@@ -13,7 +13,7 @@ namespace {
 void doubt(Rendered& rendered, const OutputFormat& output, bool is_asked, const RenderControl& control,
            const std::string& device) {
   if (rendered.choice->is_right_enough()) return;
-  if (is_asked && !control.strict && (control.precision || !holds_codes(output.type))) return;
+  if (is_asked && !control.strict && (control.is_chosen || !holds_codes(output.type))) return;
   const std::string name = to_text(rendered.precision), error = error_text(rendered.choice->bound.worst, output);
   std::string text =
       is_asked ? format("{}: {}; auto takes an arithmetic that is sure, where there is one", not_sure_text(name, output),

@@ -219,6 +219,7 @@ Rendered DeviceTeam::render_part(const RenderPlan& plan, CaptureSource& source, 
   if (plan.combine == Combine::integral) choose(plan, output, asked, control, chosen);
   RenderControl of_part = control;
   of_part.precision = chosen.precision;
+  of_part.is_chosen = true;
   std::optional<Rendered> rendered;
   if (control.by_one_device && !source.is_forward_only()) {
     rendered = render_alone(plan, source, output, rectangle, of_part);

@@ -89,6 +89,9 @@ class Session::Implementation {
   auto within(const MemoryNeeds& more, Work work) const;
   // By the function that the capture has, or that was stated instead.
   [[nodiscard]] std::shared_ptr<const CaptureErrors> errors_of(const CaptureFormat& planned);
+  [[nodiscard]] std::shared_ptr<const CaptureErrors> errors_of(const RenderPlan& plan);
+  [[nodiscard]] ExposedPicture exposed_of(Rendered rendered, RenderPlan plan, const Timeline& timeline,
+                                          const OutputFormat& output);
   void warm_up(CaptureSource& source, const RenderPlan& plan, const OutputFormat& output);
   void spend();
 
@@ -307,29 +310,40 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
       });
   rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
   warn_of_infinite(rendered);
-  const auto block_count = reader_ ? std::optional(reader_->block_count()) : std::nullopt;
-  std::shared_ptr<const CaptureErrors> errors = errors_of(plan.capture);
-  if (!adds_up) errors = std::make_shared<CaptureErrors>(errors->of_order());
   std::vector<PictureLayer> bounds;
   if (output.maps_bounds) {
     const Rectangle part = control.rectangle.value_or(Rectangle::whole(format_.shape));
     const ErrorBound bound = rendered.choice && adds_up ? rendered.choice->bound : reference_bound(plan, output);
-    bounds = UncertaintyMap(plan, source.timeline(), bound, *errors).layers(rendered.picture, part, control);
+    bounds = UncertaintyMap(plan, source.timeline(), bound, *errors_of(plan)).layers(rendered.picture, part, control);
     if (const std::uint64_t count = infinite_values(bounds.front().values); count > 0) {
       rendered.warnings.push_back(
           nutik::format("the map has {} of {} bounds beyond floating point of 32 bits, which ends at 3.4e38: infinite",
                         count, bounds.front().values.shape.pixel_count()));
     }
   }
-  ExposureFigures figures = ExposureFigures::of(std::move(plan), source.timeline(), block_count);
+  ExposedPicture exposed = exposed_of(std::move(rendered), std::move(plan), source.timeline(), output);
+  if (!bounds.empty() && holds_codes(output.type)) UncertaintyMap::limit(bounds, *exposed.uncertainty.bounds.error);
+  exposed.bounds = std::move(bounds);
+  return exposed;
+}
+
+ExposedPicture Session::Implementation::exposed_of(Rendered rendered, RenderPlan plan, const Timeline& timeline,
+                                                   const OutputFormat& output) {
+  const std::shared_ptr<const CaptureErrors> errors = errors_of(plan);
+  const auto block_count = reader_ ? std::optional(reader_->block_count()) : std::nullopt;
+  ExposureFigures figures = ExposureFigures::of(std::move(plan), timeline, block_count);
   if (figures.functions.size() == 1) {
     rendered.picture.exposed_ns = figures.functions.front().summary.support_ns;
   }
   ExposedPicture exposed{std::move(rendered), std::move(figures), output};
   exposed.uncertainty = Uncertainty::of(exposed, *errors);
-  if (!bounds.empty() && holds_codes(output.type)) UncertaintyMap::limit(bounds, *exposed.uncertainty.bounds.error);
-  exposed.bounds = std::move(bounds);
   return exposed;
+}
+
+std::shared_ptr<const CaptureErrors> Session::Implementation::errors_of(const RenderPlan& plan) {
+  if (plan.combine != Combine::integral)
+    return std::make_shared<CaptureErrors>(errors_of(plan.capture)->of_order());
+  return errors_of(plan.capture);
 }
 
 std::shared_ptr<const CaptureErrors> Session::Implementation::errors_of(const CaptureFormat& planned) {
@@ -383,7 +397,7 @@ void Session::Implementation::render_many(std::span<const ExposureRequest> reque
       rendered.picture = stored(std::move(light[i]), plans[i].capture, output, rendered.saturation);
       state_values(rendered.picture, plans[i].capture, output);
       warn_of_infinite(rendered);
-      done(next++, rendered, plans[i].functions);
+      done(next++, exposed_of(std::move(rendered), std::move(plans[i]), timeline(), output));
     }
     plans.clear();
     waiting.clear();
@@ -405,8 +419,7 @@ void Session::Implementation::render_many(std::span<const ExposureRequest> reque
       }
     }
     expose_waiting();
-    const ExposedPicture exposed = render(request, output, control);
-    done(next++, exposed, exposed.figures.functions);
+    done(next++, render(request, output, control));
   }
   expose_waiting();
 }

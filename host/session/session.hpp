@@ -117,11 +117,10 @@ class Session {
                                       const PlanOptions& options, const OutputFormat& output,
                                       const RenderControl& control = {});
 
-  // Hands pictures one after another to done(number, rendered, functions), each as soon as it is there. Those of few
+  // Hands pictures one after another to done(number, exposed), each as soon as it is there. Those of few
   // pixels, each with one function and in the arithmetic that is chosen by itself, are made many at once, in one pass
   // over the capture and in double (render/one_pass.hpp). Throws as render() does.
-  using RenderedOne = std::function<void(std::size_t number, const Rendered& rendered,
-                                         std::span<const PlannedFunction> functions)>;
+  using RenderedOne = std::function<void(std::size_t number, ExposedPicture exposed)>;
   void render_many(std::span<const ExposureRequest> requests, const OutputFormat& output, const RenderControl& control,
                    const RenderedOne& done);
 

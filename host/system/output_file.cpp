@@ -187,6 +187,7 @@ void OutputFile::fail(const char* what) const {
 }
 
 void OutputFile::write(std::span<const std::byte> bytes) {
+  check();
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
     if (written < 0) {

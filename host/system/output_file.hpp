@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "system/mapped_file.hpp"
 
@@ -45,6 +47,13 @@ class OutputFile {
   // Where to write for a library that opens files itself.
   [[nodiscard]] const std::filesystem::path& temporary_path() const { return temporary_path_; }
 
+  // From now on called whenever something is written: what it throws ends the work.
+  void check_by(std::function<void()> check) { check_ = std::move(check); }
+  // For who writes to temporary_path().
+  void check() const {
+    if (check_) check_();
+  }
+
   // Appends; throws OutputError with the system's reason (disk full, …).
   void write(std::span<const std::byte> bytes);
   // The same of parts that lie apart in memory, one behind the other.
@@ -72,6 +81,7 @@ class OutputFile {
   std::filesystem::path path_;
   std::filesystem::path temporary_path_;
   Lasting lasting_;
+  std::function<void()> check_;
   std::optional<std::uint32_t> replaced_mode_;
   MappedLosses losses_before_ = losses_so_far();
   KnownTemporary* known_ = nullptr;

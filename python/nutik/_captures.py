@@ -21,7 +21,7 @@ from ._pictures import Picture, Pictures
 from ._told import Figures
 from ._words import (Axes, DataArray, DelayLike, Index, NutikNote, Path, Progress, Time, WrongType, axes_of, box_of,
                      count_of, delays_ns, frozen, is_list, labelled, listed, settings_of, shortened, tag_of, time_word,
-                     warn)
+                     warn, whole, word_of)
 
 
 Codes = Union[NDArray[np.uint8], NDArray[np.uint16]]
@@ -60,8 +60,6 @@ class Trace:
             named: dict[str, object] = {"color": colour} if colour and not {"c", "color"} & style.keys() else {}
             axes.plot(self.times_ns.ravel() / 1e9, self.light[:, :, channel].ravel(), **{**named, **style})
         return axes
-
-    __hash__ = None  # type: ignore[assignment]
 
     @classmethod
     def _of(cls, told: dict[str, Any]) -> Trace:
@@ -333,13 +331,13 @@ class Capture:
                              for name in ("starts", "exposures"))
         held = [{tag: function._held for tag, function in self._functions(each, mask is not None).items()}
                 for each in lists.get("functions", [])]
-        array, errors, saturated, told, still_gains, maps = _nutik.render_many(
+        array, errors, saturated, doubts, still_gains, maps, told = _nutik.render_many(
             self._held, asked, counts.pop(), starts, exposures, held, self._output(codes, dtype, transfer, negative),
             bounds, progress)
-        warn(told)
+        warn(doubts)
         if array.dtype.kind == "u":
             _warn_of_black(still_gains, negative)
-        return Pictures._of(array, errors, saturated, corner, maps)
+        return Pictures._of(array, errors, saturated, corner, maps, told)
 
     def trace(self, x: Optional[int] = None, y: Optional[int] = None, *, tag: Optional[int] = None,
               functions: Optional[Functions] = None, mask: Optional[MaskLike] = None, start: Optional[Time] = None,
@@ -390,8 +388,7 @@ class Capture:
         if not is_noise_known:
             warn(["nothing in the capture is still for long enough to tell its noise: codes that differ by up to 1/32 "
                   "of white were taken for the same light; by= states another difference"])
-        uncertain.flags.writeable = False
-        return Plate(Picture(picture), uncertain)
+        return Plate(Picture(picture), Mask._of(uncertain).tags.view(np.bool_))
 
     plate = background  # its name in earlier versions
 
@@ -420,10 +417,11 @@ class Capture:
             told[name] = told[name] and Stretch(**told[name])
         return Activity(**frozen(told))
 
-    def study(self, style: str = "trail", *, moments: Union[int, Sequence[Time], None] = None, spacing: str = "time",
-              trail: Optional[str] = None, slit_from: str = "left", regions: Sequence[Sequence[int]] = (),
-              by: Optional[int] = None, feather: Union[str, float, None] = None, codes: bool = False,
-              dtype: DTypeLike = None, transfer: Optional[str] = None, progress: Progress = None) -> Study:
+    def study(self, style: str = "trail", *, moments: Union[int, Sequence[Time], None] = None,
+              spacing: Optional[str] = None, trail: Optional[str] = None, slit_from: Optional[str] = None,
+              regions: Sequence[Sequence[int]] = (), by: Optional[int] = None,
+              feather: Union[str, float, None] = None, codes: bool = False, dtype: DTypeLike = None,
+              transfer: Optional[str] = None, progress: Progress = None) -> Study:
         """A motion study that finds its subject by itself (docs/how-to/study.md).
 
         Parameters:
@@ -439,18 +437,23 @@ class Capture:
         >>> sorted(nutik.encode(scene, rate=100).study("strobe", moments=3).functions)
         [0, 1, 2, 3]
         """
-        asked: Any = [time_word(each, "moments") for each in listed(moments)] if is_list(moments) else (
-            None if moments is None else count_of(moments, "moments"))
         moved = self._held.moved_camera()
         if moved:
             warn([f"{moved}; align='rigid' moves the clip's pictures back when it is encoded"])
-        settings = settings_of({"style": style, "spacing": spacing, "trail": trail, "slit_from": slit_from,
-                                "feather": feather, "by": None if by is None else count_of(by, "by")})
-        told: dict[str, Any] = _nutik.study(self._held, settings, asked, [box_of(each, "a region") for each in regions],
+        settings = settings_of({
+            "style": style, "spacing": spacing, "trail": trail, "slit_from": slit_from, "feather": feather,
+            "by": None if by is None else count_of(by, "by"),
+            "moments": None if moments is None else
+                       (listed(moments) or "0") if is_list(moments) else str(count_of(moments, "moments"))})
+        told: dict[str, Any] = _nutik.study(self._held, settings, [word_of("regions", "", box_of(each, "a region"))
+                                                                   for each in regions],
                                             self._output(codes, dtype, transfer, is_plate=style == "clean"), progress)
         warn(told["notes"], NutikNote)
-        warn(told["picture"].figures.get("warnings", []))
-        return Study(Picture(told["picture"]), None if told["mask"] is None else Mask._of(told["mask"]),
+        if "picture" not in told:
+            plate = self.background(codes=codes, dtype=dtype, transfer=transfer, progress=progress)
+            return Study(plate.picture, None, {}, [])
+        warn(told["picture"].figures["warnings"])
+        return Study(Picture(told["picture"]), Mask._of(told["mask"]),
                      {tag: Function._of(held) for tag, held in told["functions"].items()}, told["moments"])
 
     def solve(self, functions: str, wishes: Sequence[str], *, free: Mapping[str, Union[str, Sequence[Time]]] = {},
@@ -516,6 +519,9 @@ class Capture:
             raise UsageError("a mask goes with functions=, not with a plain interval")
         elif stated["exposure"] is None:
             raise UsageError("an exposure needs a plain interval (start='0.4s', exposure='10ms') or functions=")
+        for name, of in (("shutter_error", "shutter"), ("unmapped", "mask")):
+            if stated[name] is not None and stated[of] is None:
+                raise UsageError(f"{name}= says nothing without {of}=; leave it out")
         return self._asked(functions, stated, box), (box[0], box[1]) if box else (0, 0)
 
     def _functions(self, functions: Functions, has_mask: bool) -> dict[int, Function]:
@@ -542,21 +548,20 @@ class Capture:
             begins = self.times_ns[:, 0]
             # A gain of 0 at both ends: nothing is exposed there.
             edges = np.append(begins, self.duration_ns)
-            gains = np.concatenate([[0.0], np.repeat(np.asarray(given, np.float64), 2), [0.0]])
+            gains = np.concatenate([[0.0], np.repeat(np.asarray(whole(given, what), np.float64), 2), [0.0]])
             return Function.from_ns(np.repeat(edges, 2), gains)
         return function_of(given, what, np.timedelta64(self.duration_ns, "ns"))
 
     def _output(self, codes: bool, dtype: DTypeLike, transfer: Optional[str], negative: Optional[str] = None, *,
                 is_plate: bool = False) -> dict[str, str]:
-        kinds = ("uint8", "uint16") if codes else ("float32", "float64")
-        kind = np.dtype(dtype).name if dtype is not None else self.dtype.name if codes else kinds[0]
+        kinds = {"uint8": "8", "uint16": "16"} if codes else {"float32": "float", "float64": "double"}
+        kind = np.dtype(dtype).name if dtype is not None else self.dtype.name if codes else "float32"
         if kind not in kinds:
-            other = "codes=True gives uint8 and uint16" if not codes else "codes are uint8 or uint16"
-            held = "codes" if codes else "light"
-            raise UsageError(f"dtype={kind} holds no {held}: light is float32 or float64; {other}")
+            raise UsageError(f"dtype={kind} holds no {'codes' if codes else 'light'}: light is float32 or float64, "
+                             "codes are uint8 or uint16 and come with codes=True")
         if is_plate and kind == "float64":
             raise UsageError("the background's light is float32")
-        return settings_of({"dtype": kind, "transfer": transfer, "negative": negative})
+        return settings_of({"dtype": kinds[kind], "transfer": transfer, "negative": negative})
 
     def _repr_html_(self) -> str:
         if self._open_capture is None:

@@ -13,9 +13,9 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import cache
 from keyword import iskeyword
-from os import PathLike, fsdecode, remove
+from os import PathLike, remove
 from os.path import dirname, exists, isfile
-from threading import Event, Thread, current_thread, main_thread
+from threading import Event, current_thread, main_thread
 from time import sleep
 from typing import Any, Protocol, Union
 
@@ -23,7 +23,7 @@ from . import _nutik
 from ._docs import joined
 from ._nutik import DeviceError, Error, ImpreciseError, InputError, MemoryTooLittle, OutputError, UsageError
 from ._told import Json
-from ._words import NutikNote, Path, Progress, in_python, is_list, warn, word_of
+from ._words import NutikNote, Path, Progress, in_python, is_list, path_of, warn, word_of
 
 # A value, several, or of a command's option that takes two words a list of pairs.
 Value = Union[str, int, float, Fraction, "PathLike[str]"]
@@ -31,13 +31,12 @@ Option = Union[Value, Sequence[Union[Value, Sequence[Value]]], None]
 
 _ERRORS = {2: UsageError, 3: InputError, 4: DeviceError, 5: OutputError, 6: MemoryTooLittle, 7: ImpreciseError}
 _ANSWERED = 1, 3  # findings of a check, an arithmetic beyond its bound: what was asked for, and no failure
-_MAIN = "import sys; sys.path.insert(0, sys.argv[1]); import _nutik; sys.exit(_nutik.run_program(sys.argv[2:]))"
+_MAIN = ("import signal, sys; signal.signal(signal.SIGPIPE, signal.SIG_DFL); sys.path.insert(0, sys.argv[1]); "
+         "import _nutik; sys.exit(_nutik.run_program(sys.argv[2:]))")
 _STOP_AFTER_S = 0.05
 _END_WITHIN_S = 5.0
 
 _running: set[subprocess.Popen[str]] = set()
-
-
 _is_over = Event()
 
 
@@ -81,49 +80,49 @@ def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Map
         said[name] = [_words(kind, name, each) for each in value] if is_repeated and is_list(value) else [
             _words(kind, name, value)]
     words = _nutik.command_words(command, said)
-    last = fsdecode(operands[-1]) if operands else ""
+    last = path_of(operands[-1]) if operands else ""
     was_there = exists(last)
     _sleep_at_the_end()
     _end_at_exit()
-    process = subprocess.Popen([sys.executable, "-c", _MAIN, dirname(__file__), *words, "--", *map(fsdecode, operands)],
+    process = subprocess.Popen([sys.executable, "-c", _MAIN, dirname(__file__), *words, "--", *map(path_of, operands)],
                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     _running.add(process)
-    answer: list[str] = []
-    told: list[str] = []
-    readers = [Thread(target=lambda: answer.extend(process.stdout or ()), daemon=True),
-               Thread(target=lambda: told.extend(process.stderr or ()), daemon=True)]
-    for reader in readers:
-        reader.start()
+    seen = 0
+
+    def tell(told: str) -> None:
+        nonlocal seen
+        shares = re.findall(r"^Progress: (\d+)%", told, re.MULTILINE)
+        for share in shares[seen:]:
+            if progress is not None:
+                progress(int(share), 100)
+        seen = len(shares)
+
     try:
-        seen = 0
-        while any(reader.is_alive() for reader in readers):
-            readers[0].join(_STOP_AFTER_S)
-            readers[1].join(0 if readers[0].is_alive() else _STOP_AFTER_S)
-            for line in told[seen:]:
-                seen += 1
-                share = re.match(r"Progress: (\d+)%", line)
-                if share and progress is not None:
-                    progress(int(share[1]), 100)
-        process.wait()
+        while True:
+            try:
+                answer, told = process.communicate(timeout=_STOP_AFTER_S)
+                break
+            except subprocess.TimeoutExpired as so_far:
+                tell((so_far.stderr or b"").decode(errors="replace"))
+        tell(told)
     except BaseException:
-        process.send_signal(signal.SIGINT)
-        process.wait()
-        if not was_there and isfile(last):  # the program keeps a film's frames so far
+        # Nobody reads its answer: it ends at once, without temporary files. SIGINT alone would keep a film's frames.
+        for number in (signal.SIGPIPE, signal.SIGINT):
+            process.send_signal(number)
+        process.communicate()
+        if not was_there and isfile(last):  # a terminal sends it SIGINT, too
             remove(last)
         raise
     finally:
-        for reader, stream in zip(readers, (process.stdout, process.stderr)):
-            reader.join()
-            stream.close()  # type: ignore[union-attr]
         _running.discard(process)
     _sleep_at_the_end()
-    said_besides = [line for line in told if not line.startswith("Progress:")]
-    return _answer(command, process.returncode, "".join(answer), said_besides)
+    return _answer(command, process.returncode, answer, [line for line in told.splitlines()
+                                                         if not line.startswith("Progress:")])
 
 
 def _answer(command: str, status: int, text: str, told: Sequence[str]) -> dict[str, Json]:
     if status and not (text and status in _ANSWERED):
-        message = in_python("".join(told).strip()).removeprefix("nutik-cl: ")
+        message = in_python("\n".join(told).strip()).removeprefix("nutik-cl: ")
         raise _ERRORS.get(status, Error)(message or f"{command} ended with status {status}")
     found: dict[str, Any] = json.loads(text)
     warn(in_python(line.strip()) for line in told if status)  # what was wrong with a line of a list

@@ -103,10 +103,9 @@ def complete_all(offered: Iterable[object]) -> None:
             _complete_class(each)
         for name, member in members.items():
             function = member.__func__ if isinstance(member, classmethod) else member
-            if not inspect.isfunction(function) or name.startswith("_") or hasattr(function, "__signature__"):
-                continue  # a command has it all
-            if function.__name__ != name:
-                continue  # it is completed by its own name
+            if not inspect.isfunction(function) or name.startswith("_") or function.__name__ != name or hasattr(
+                    function, "__signature__"):
+                continue  # a second name of what is completed by its own; a command, which has it all
             is_of_capture = vars(Capture).get(name) is function
             told = {}
             for command in ("expose", _COMMANDS.get(name, "expose")) if name in _COMMANDS or is_of_capture else ():

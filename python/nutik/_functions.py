@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from os import fsdecode
 from typing import Any, Callable, Iterable, Mapping, Optional, Sequence, Union, overload
 
 import numpy as np
@@ -10,7 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import Axes, Path, Time, axes_of, reading, shortened, tag_of, time_ns, time_word, times_ns, warn
+from ._words import (Axes, Path, Time, axes_of, listed, path_of, reading, shortened, tag_of, time_ns, time_word,
+                     times_ns, warn, whole)
 
 _MIN_SAMPLES = 1024  # of a callable, evenly, before it is looked at more closely where it bends
 _MAX_SAMPLES = 1 << 20
@@ -33,7 +33,7 @@ class Function:
     """
 
     def __init__(self, times: Iterable[Time], gains: Iterable[float]) -> None:
-        self._held = _nutik.Function(times_ns(times, "times"), np.asarray(list(gains), np.float64))
+        self._held = _nutik.Function(times_ns(times, "times"), np.asarray(listed(gains, "gains"), np.float64))
 
     @classmethod
     def _of(cls, held: _nutik.Function) -> Function:
@@ -52,10 +52,10 @@ class Function:
         >>> nutik.Function.from_ns([0, 100], [0, 1])
         <nutik.Function [0:0], [100:1]>
         """
-        at = np.asarray(times_ns)
+        at = np.asarray(whole(times_ns, "times_ns"))
         if at.size and at.dtype.kind not in "iu":
             raise UsageError(f"times_ns has dtype {at.dtype}; whole nanoseconds are int64")
-        return cls._of(_nutik.Function(at.astype(np.int64), np.asarray(gains, np.float64)))
+        return cls._of(_nutik.Function(at.astype(np.int64), np.asarray(whole(gains, "gains"), np.float64)))
 
     @property
     def times_ns(self) -> NDArray[np.int64]:
@@ -304,8 +304,8 @@ def read_functions(path: Path) -> dict[int, Function]:
     >>> nutik.read_functions("ramp.fn")
     {0: <nutik.Function [0:0], [100000000:1]>}
     """
-    with reading(fsdecode(path)):
-        return _told(_nutik.read_functions(fsdecode(path)))
+    with reading(path_of(path)):
+        return _told(_nutik.read_functions(path_of(path)))
 
 
 def _told(read: tuple[dict[int, _nutik.Function], str]) -> dict[int, Function]:
@@ -325,7 +325,7 @@ def write_functions(path: Path, functions: Mapping[int, FunctionLike]) -> None:
     >>> nutik.write_functions("box.fn", {128: nutik.boxcar(0, "10ms")})
     """
     lines = [function_of(function, f"functions[{tag}]").text(tag) for tag, function in sorted(functions.items())]
-    _nutik.write_text(fsdecode(path), "".join(line + "\n" for line in lines))
+    _nutik.write_text(path_of(path), "".join(line + "\n" for line in lines))
 
 
 def function_of(given: FunctionLike, what: str, duration: Time = 0) -> Function:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
-from os import PathLike, fsdecode
+from os import PathLike
 from typing import Mapping, Optional, Union
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import Array, Path, Progress, reading, tag_of, whole
+from ._words import Array, Path, Progress, path_of, reading, tag_of, whole
 
 
 class Mask:
@@ -121,8 +121,8 @@ def read_mask(path: Path, *, rest: int = 0) -> Mask:
     >>> nutik.read_mask("tags.png").tags.shape
     (24, 32)
     """
-    with reading(fsdecode(path)):
-        return Mask._of(_nutik.Mask.read(fsdecode(path), tag_of(rest)))
+    with reading(path_of(path)):
+        return Mask._of(_nutik.Mask.read(path_of(path), tag_of(rest)))
 
 
 def mask_of(given: Optional[MaskLike], rest: int = 0) -> Optional[Mask]:

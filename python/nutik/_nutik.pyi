@@ -1,15 +1,14 @@
 """The engine, as the package's own modules call it."""
 
-from typing import Mapping, Optional, Sequence, Union
+from typing import Callable, Iterable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._told import PictureFigures
+from ._told import PictureFigures, Uncertainty
 from ._words import Array, Progress
 
 __version__: str
-MIN_ERROR: float
 WHOLE_SHARE: int
 
 class Error(Exception):
@@ -87,13 +86,13 @@ def interval_ns(start: str, length: str) -> tuple[int, int]: ...
 def nanoseconds(time: str, what: str) -> int: ...
 def open(path: str, settings: Mapping[str, str], computing: Mapping[str, str],
          progress: Progress) -> tuple[Capture, list[str], list[str]]: ...
-def encode_clip(path: str, output: Optional[str], codec: str, settings: Mapping[str, str],
+def encode_clip(path: str, output: Optional[str], codec: Optional[str], settings: Mapping[str, str],
                 computing: Mapping[str, str],
                 progress: Progress) -> tuple[Capture, list[str], list[str]]: ...
-def encode_pictures(pictures: object, first: Array, name: str, starts_ns: Sequence[int],
+def encode_pictures(pictures: Iterable[Array], first: Array, count: int, name: str, starts_ns: Sequence[int],
                     exposures_ns: Sequence[tuple[int, int]], exposed_ns: Optional[int], white_light: Optional[float],
-                    output: Optional[str], codec: str, settings: Mapping[str, str], computing: Mapping[str, str],
-                    progress: Progress) -> tuple[Capture, list[str], list[str]]: ...
+                    output: Optional[str], codec: Optional[str], settings: Mapping[str, str],
+                    computing: Mapping[str, str], progress: Progress) -> tuple[Capture, list[str], list[str]]: ...
 def join(captures: Sequence[str], output: str, computing: Mapping[str, str],
          progress: Progress) -> tuple[Capture, list[str], list[str]]: ...
 def devices() -> list[tuple[str, str, str, str, int, int, tuple[str, ...]]]: ...
@@ -102,14 +101,13 @@ def render(capture: Capture, exposure: Exposure, output: Mapping[str, str], boun
 def render_many(capture: Capture, exposure: Exposure, count: int, starts: Sequence[str], lengths: Sequence[str],
                 functions: Sequence[Mapping[int, Function]], output: Mapping[str, str], bounds: bool, progress: Progress
                 ) -> tuple[Array, NDArray[np.float64], NDArray[np.uint64], list[str], dict[int, float],
-                           list[dict[str, Picture]]]: ...
+                           list[dict[str, Picture]], Callable[[], list[Uncertainty]]]: ...
 def trace(capture: Capture, exposure: Exposure, pixel: Optional[tuple[int, int]],
           tag: Optional[int], progress: Progress) -> tuple[list[dict[str, object]], list[str]]: ...
-def study(capture: Capture, settings: Mapping[str, str], moments: Union[int, Sequence[str], None],
-          regions: Sequence[Sequence[int]], output: Mapping[str, str],
+def study(capture: Capture, settings: Mapping[str, str], regions: Sequence[str], output: Mapping[str, str],
           progress: Progress) -> dict[str, object]: ...
 def plate(capture: Capture, by: Optional[int], output: Mapping[str, str],
-          progress: Progress) -> tuple[Picture, NDArray[np.bool_], bool]: ...
+          progress: Progress) -> tuple[Picture, Mask, bool]: ...
 def activity(capture: Capture, mask: Optional[Mask], tag: Optional[int], ignored_codes: int,
              counts_redrawn: bool, progress: Progress) -> dict[str, object]: ...
 def solve(capture: Capture, functions: str, wishes: Sequence[str], free: Sequence[str], exposure: Exposure,

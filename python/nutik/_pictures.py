@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from copy import deepcopy
 from dataclasses import dataclass
+from functools import partial
 from io import BytesIO
-from os import PathLike, fsdecode
 from os.path import join
 from shutil import copyfileobj
 from tempfile import TemporaryDirectory
-from typing import BinaryIO, Mapping, Optional, Sequence, Union
+from typing import BinaryIO, Callable, Mapping, Optional, Sequence, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from . import _nutik
 from ._nutik import UsageError
 from ._told import Plan, Statistics, Uncertainty
-from ._words import Array, DataArray, Index, Path, labelled
+from ._words import Array, DataArray, Index, Path, labelled, path_of
 
 
 def _bounds(light: Union[float, NDArray[np.float64]], pictures: Array) -> NDArray[np.float64]:
@@ -53,13 +53,22 @@ class Pictures(_HasArray):
     saturated: Optional[NDArray[np.uint64]]  # [pictures, 2]: as saturated of a Picture; None where light is kept
     corner: tuple[int, int] = (0, 0)   # x, y of their first pixel in the capture, of region=
     bounds: Optional[dict[str, NDArray[np.float32]]] = None  # each [pictures, height, width]: as bounds of a Picture
+    _uncertainties: Callable[[], list[Uncertainty]] = list
 
     @classmethod
     def _of(cls, array: Array, errors: NDArray[np.float64], saturated: NDArray[np.uint64], corner: tuple[int, int],
-            maps: Sequence[Mapping[str, _nutik.Picture]]) -> Pictures:
+            maps: Sequence[Mapping[str, _nutik.Picture]], told: Callable[[], list[Uncertainty]]) -> Pictures:
         array.flags.writeable = False
         bounds = {term: np.stack([each[term].values() for each in maps]) for term in maps[0]} if maps else None
-        return cls(array, _bounds(errors, array), saturated if array.dtype.kind == "u" else None, corner, bounds)
+        return cls(array, _bounds(errors, array), saturated if array.dtype.kind == "u" else None, corner, bounds, told)
+
+    @property
+    def uncertainty(self) -> list[Uncertainty]:
+        """Of each picture what `uncertainty` of a Picture is."""
+        return self._uncertainties()
+
+    def __getstate__(self) -> dict[str, object]:
+        return {**vars(self), "_uncertainties": partial(deepcopy, self.uncertainty)}
 
     def __len__(self) -> int:
         return len(self.array)
@@ -174,7 +183,8 @@ class Picture(_HasArray):
 
     def write(self, path: Union[Path, BinaryIO], *, kind: Optional[str] = None, quality: Optional[int] = None,
               keep_pixels: bool = False) -> None:
-        """Writes a file: .png, .tif, .jpg, .ppm, .pgm of codes, .exr, .tif, .pfm of light, .npy of any, float64 too.
+        """Writes a file: .png, .tif, .jpg, .ppm, .pgm of codes, .exr, .tif, .pfm of light, .npy of any; float64 as .tif
+        or .npy.
 
         Parameters:
         path : or a file that is open for bytes, as io.BytesIO.
@@ -187,29 +197,28 @@ class Picture(_HasArray):
         Examples:
         >>> capture.render(start=0, exposure="5f").write("light.exr")
         """
-        if not isinstance(path, (str, bytes, PathLike)):
+        if hasattr(path, "write"):
             if kind is None or not kind.startswith("."):
                 raise UsageError("which kind of file? An open one has no name: kind='.png'")
             with TemporaryDirectory(prefix="nutik-") as folder:
                 self.write(join(folder, f"picture{kind}"), quality=quality, keep_pixels=keep_pixels)
                 with open(join(folder, f"picture{kind}"), "rb") as file:
-                    copyfileobj(file, path)
+                    copyfileobj(file, cast(BinaryIO, path))
             return
-        name = fsdecode(path)
-        if name.lower().endswith(".npy"):
+        if kind is not None:
+            raise UsageError(f"kind={kind!r} is said of an open file; {path_of(path)} says by its name what it is")
+        name, is_light = path_of(path), self.dtype.kind == "f"
+        if name.lower().endswith(".npy") and not is_light:
             made = BytesIO()
             np.save(made, self.array)
             _nutik.write_text(name, made.getvalue())
             return
-        if self.dtype == np.float64:
-            raise UsageError(f"{name}: files of light hold float32; expose the picture with that dtype, or codes=True, "
-                             "or write .npy")
         try:
             self._held.write(name, quality, keep_pixels)
         except UsageError as error:
-            if self.dtype.kind == "f" and "cannot hold the values" in str(error):
-                raise UsageError(f"{error}, which are light: expose it with codes=True, or write .exr, .tif, .pfm or "
-                                 ".npy") from None
+            if is_light and "cannot hold the values" in str(error):
+                raise UsageError(f"{error}, {self.dtype} light: expose it with codes=True, or write .tif or .npy, of "
+                                 "float32 also .exr or .pfm") from None
             raise
 
     def _repr_png_(self) -> bytes:

@@ -7,8 +7,8 @@ import inspect
 from dataclasses import dataclass
 from functools import wraps
 from itertools import chain, count
-from os import PathLike, fsdecode
-from typing import Any, BinaryIO, Callable, Iterable, Optional, Protocol, Sequence, TypeVar, Union, cast
+from os import PathLike
+from typing import Any, BinaryIO, Callable, Iterable, Iterator, Optional, Protocol, Sequence, TypeVar, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,7 +17,7 @@ from . import _nutik
 from ._captures import Capture
 from ._nutik import InputError, UsageError
 from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, is_list, listed,
-                     reading, seconds_of, settings_of, time_ns, times_ns, warn, whole)
+                     path_of, reading, seconds_of, settings_of, time_ns, times_ns, warn, whole)
 
 
 class HasArray(Protocol):
@@ -81,10 +81,10 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
            primaries: Optional[str] = None, pixel_aspect: Union[str, Number, None] = None, deflicker: bool = False,
            between: Union[int, str, None] = None, align: Optional[str] = None, align_to: Optional[Time] = None,
            align_along: Optional[Path] = None, unseen: Optional[str] = None, tolerance: Optional[int] = None,
-           noise: Optional[Path] = None, sigmas: Optional[float] = None, codec: str = "rice",
+           noise: Optional[Path] = None, sigmas: Optional[float] = None, codec: Optional[str] = None,
            tiles: Optional[str] = None, block_samples: Optional[int] = None, device: Optional[str] = None,
            memory: Union[int, str, None] = None, renderer: Optional[str] = None, progress: Progress = None,
-           name: str = "array", **clip: object) -> Capture:
+           name: Optional[str] = None, **clip: object) -> Capture:
     """Makes a capture of pictures, and opens it.
 
     Parameters:
@@ -101,7 +101,7 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
         without it 'srgb' of uint8, 'linear' of uint16.
     white : the code of white, 255 or 65535 without it; no code may be larger. Of floats the light of white, which must
         be stated: they become 16-bit codes, to the nearest of 65535 steps; none may be negative.
-    name : what messages call an array.
+    name : what messages call pictures in memory, 'array'.
     clip : of a path what nutik.open() takes besides: begin, crop, raw, ...
     Returns:
     Capture
@@ -116,10 +116,10 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
     20
     """
     given = locals()
-    computing, path = _computing(device, memory, renderer), None if output is None else fsdecode(output)
+    computing, path = _computing(device, memory, renderer), None if output is None else path_of(output)
     of_clips = set(inspect.signature(open).parameters) - {"path", "progress", *_COMPUTING}
     stated = {argument: given[argument] for argument in given if argument in (*of_clips, "tiles", "block_samples")}
-    is_clip = isinstance(source, (str, PathLike)) or hasattr(source, "read")
+    is_clip = isinstance(source, (str, bytes, PathLike)) or hasattr(source, "read")
     for argument in clip:
         if argument not in of_clips:
             raise TypeError(f"encode() has no argument {argument!r}")
@@ -129,16 +129,18 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
         stated.update(clip)
         if times is not None or exposures is not None:
             raise UsageError("times= and exposures= are those of arrays; a table of stills lists those of files")
+        if name is not None:
+            raise UsageError("name= is what pictures in memory are called; a clip has its own")
         with as_file(source, "clip") as clip_name, reading(clip_name):
             return _told(_nutik.encode_clip(clip_name, path, codec, settings_of(stated), computing, progress))
-    pictures, first, is_light = _pictures_of(source, white, name)
+    name = name or "array"
+    pictures, first, length, is_light = _pictures_of(source, white, name)
     if is_light:
         stated["white"] = None  # of the codes it is the last one
-    starts, intervals, exposed = _timing(rate, times, exposures, shutter_angle,
-                                         len(pictures) if isinstance(pictures, np.ndarray) else None)
-    return _told(_nutik.encode_pictures(pictures, first, name, starts, intervals, exposed,
-                                        float(white) if is_light and white else None, path, codec, settings_of(stated),
-                                        computing, progress))
+    starts, intervals, exposed = _timing(rate, times, exposures, shutter_angle, length)
+    return _told(_nutik.encode_pictures(pictures, first, length or max(len(starts), len(intervals)), name, starts,
+                                        intervals, exposed, float(white) if is_light and white else None, path, codec,
+                                        settings_of(stated), computing, progress))
 
 
 def join(captures: Iterable[Path], output: Path, *, device: Optional[str] = None,
@@ -161,9 +163,9 @@ def join(captures: Iterable[Path], output: Path, *, device: Optional[str] = None
     """
     if isinstance(captures, (str, PathLike)):
         raise UsageError(f"captures= is {captures!r}: give a list of two captures or more")
-    paths = [fsdecode(each) for each in captures]
+    paths = [path_of(each) for each in captures]
     with reading(*paths):
-        return _told(_nutik.join(paths, fsdecode(output), _computing(device, memory, renderer), progress))
+        return _told(_nutik.join(paths, path_of(output), _computing(device, memory, renderer), progress))
 
 
 @dataclass(frozen=True)
@@ -206,8 +208,8 @@ def _told(opened: tuple[_nutik.Capture, list[str], list[str]]) -> Capture:
     return Capture(capture, notes)
 
 
-def _pictures_of(source: Any, white: Optional[float], name: str) -> tuple[Any, Array, bool]:
-    """An array of all, or an iterator; the first picture; whether they were light, which becomes codes."""
+def _pictures_of(source: Any, white: Optional[float], name: str) -> tuple[Iterable[Array], Array, Optional[int], bool]:
+    """Pictures of codes, one by one; the first; how many, of an array; whether they were light, which becomes codes."""
     kinds: set[bool] = set()
 
     def codes_of(picture: Array, what: str) -> Array:
@@ -246,12 +248,14 @@ def _pictures_of(source: Any, white: Optional[float], name: str) -> tuple[Any, A
             raise UsageError(f"the array has shape {pictures.shape}; it is [samples, height, width] or [samples, "
                              "height, width, 3], with one sample at least")
         first, is_light = codes_of(pictures[0], "a picture of the array"), pictures.dtype.kind == "f"
-        if pictures.dtype != first.dtype:
-            codes = np.empty(pictures.shape, first.dtype)
-            for into, picture in zip(codes, pictures):
-                into[...] = codes_of(picture, "a picture of the array")
-            pictures = codes
-        return pictures, pictures[0], is_light
+        if pictures.dtype == first.dtype:
+            return pictures, first, len(pictures), is_light
+
+        class Codes:  # made anew each time that they are read
+            def __iter__(self) -> Iterator[Array]:
+                return (codes_of(picture, "a picture of the array") for picture in pictures)
+
+        return Codes(), first, len(pictures), is_light
     try:
         iterator = iter(source)
     except TypeError:
@@ -270,7 +274,7 @@ def _pictures_of(source: Any, white: Optional[float], name: str) -> tuple[Any, A
                              f"{first.shape} and {first.dtype}; all must be alike")
         return codes
 
-    return chain([first], map(alike, count(1), iterator)), first, np.asarray(given).dtype.kind == "f"
+    return chain([first], map(alike, count(1), iterator)), first, None, np.asarray(given).dtype.kind == "f"
 
 
 def _lasting(length: Any, what: str, said: Any) -> Any:
@@ -289,7 +293,7 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
     if exposures is not None and shutter_angle is not None:
         raise UsageError("exposures= and shutter_angle= both say how long pictures were exposed; leave one out")
     if times is not None:
-        times = listed(times)
+        times = listed(times, "times")
         if times and isinstance(times[0], (np.datetime64, datetime.datetime)):
             times = [time - times[0] for time in times]  # dates: only what lies between them counts
     starts = [] if times is None else times_ns(times, "times").tolist()
@@ -303,7 +307,7 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
         raise UsageError("exposures= of each picture need times=, when each begins; with rate= give one for all")
     begins = [seconds_of(time, "times") for time in times]
     lengths = [_lasting(seconds_of(each, f"exposures[{i}]"), f"exposures[{i}]", each)
-               for i, each in enumerate(listed(exposures))]
+               for i, each in enumerate(listed(exposures, "exposures"))]
     if len(lengths) != len(begins):
         raise UsageError(f"there are {len(lengths)} exposures for {len(begins)} times")
     return [], [(start, half_up((begin + length) * 10 ** 9))

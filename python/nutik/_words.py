@@ -16,8 +16,7 @@ from functools import cache
 from os import PathLike, fsdecode
 from os.path import dirname, exists, join
 from importlib import import_module
-from typing import (TYPE_CHECKING, Any, BinaryIO, Callable, Iterable, Iterator, Mapping, Optional, Protocol, Sequence,
-                    Union, cast)
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, Optional, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,8 +26,11 @@ from ._nutik import InputError, UsageError
 
 if TYPE_CHECKING:
     from builtins import ellipsis as ellipsis
+
+    from matplotlib.axes import Axes as Axes
+    from xarray import DataArray as DataArray
 else:
-    ellipsis = type(...)
+    ellipsis, Axes, DataArray = type(...), object, object  # those are imported where they are used
 
 Time = Union[str, float, int, "np.floating[Any]", "np.integer[Any]", Fraction, Decimal, np.timedelta64,
              datetime.timedelta]
@@ -74,28 +76,6 @@ def reading(*paths: str) -> Iterator[None]:
         raised = FileMissing(str(error))
         raised.settings, raised.errno, raised.filename = error.settings, errno.ENOENT, missing[0]
         raise raised from None
-
-
-class Axes(Protocol):
-    """Those of matplotlib, as far as they are needed here."""
-
-    def plot(self, *values: object, **style: object) -> object: ...
-    def set_xlabel(self, text: str) -> object: ...
-    def set_ylabel(self, text: str) -> object: ...
-    def get_xlabel(self) -> str: ...
-    def get_ylabel(self) -> str: ...
-
-
-class DataArray(Protocol):
-    """That of xarray, as far as its type is told here."""
-
-    @property
-    def dims(self) -> tuple[object, ...]: ...
-    @property
-    def values(self) -> NDArray[np.generic]: ...
-    def sel(self, indexers: None = None, method: Optional[str] = None, **where: object) -> DataArray: ...
-    def isel(self, indexers: None = None, **where: object) -> DataArray: ...
-    def mean(self, dim: Union[str, Sequence[str], None] = None) -> DataArray: ...
 
 
 def labelled(values: NDArray[np.generic], first: Mapping[str, Any], attributes: Mapping[str, object],
@@ -145,12 +125,15 @@ def axes_of(ax: Optional[Axes], x: str, y: str) -> Axes:
 def as_file(source: Any, name: str) -> Iterator[str]:
     """The path of a source, or of a file with the bytes of one that is open to be read, which is gone afterwards."""
     if not hasattr(source, "read"):
-        yield fsdecode(source)
+        yield path_of(source)
         return
     with tempfile.TemporaryDirectory(prefix="nutik-") as folder:
         path = join(folder, name)
         with open(path, "wb") as file:
-            shutil.copyfileobj(source, file)
+            try:
+                shutil.copyfileobj(source, file)
+            except TypeError:
+                raise WrongType(f"{shortened(source)} is not open for bytes") from None
         yield path
 
 
@@ -168,9 +151,17 @@ def is_list(value: Any) -> bool:
     return not isinstance(value, str) and hasattr(value, "__iter__")
 
 
-def listed(values: Any) -> list[Any]:
+def listed(values: Any, what: str = "the array") -> list[Any]:
     """Its values one by one; of what NumPy takes for an array, NumPy's."""
-    return list(np.asarray(values) if hasattr(values, "__array__") else values)
+    return list(np.asarray(whole(values, what)) if hasattr(values, "__array__") else values)
+
+
+def path_of(path: Any) -> str:
+    """A path as text."""
+    try:
+        return fsdecode(path)
+    except TypeError:
+        raise WrongType(f"{shortened(path)} is no path") from None
 
 
 def whole(array: Any, what: str) -> Any:
@@ -225,6 +216,8 @@ _UNITS_S = {"W": Fraction(604_800), "D": Fraction(86_400), "h": Fraction(3600), 
 
 def seconds_of(time: Time, what: str) -> Fraction:
     """A time in seconds, exactly; of words only those that count no pictures."""
+    if isinstance(time, np.ndarray) and not time.ndim:
+        time = time[()]
     if isinstance(time, np.timedelta64):
         unit, count = np.datetime_data(time.dtype)
         if np.isnat(time):
@@ -256,16 +249,15 @@ def half_up(value: Fraction) -> int:
 
 def time_ns(time: Time, what: str) -> int:
     """A time in whole nanoseconds."""
-    return half_up(seconds_of(time, what) * _SECOND_NS)
+    nanoseconds = half_up(seconds_of(time, what) * _SECOND_NS)
+    if abs(nanoseconds) >= 2 ** 62:
+        raise UsageError(f"{what} lies further away than 126 years")
+    return nanoseconds
 
 
 def times_ns(times: Any, what: str) -> NDArray[np.int64]:
     """Times one after another in whole nanoseconds, int64."""
-    values = [time_ns(time, f"{what}[{i}]") for i, time in enumerate(times)]
-    try:
-        return np.array(values, np.int64)
-    except OverflowError:
-        raise UsageError(f"{what}: a time lies further away than 126 years") from None
+    return np.array([time_ns(time, f"{what}[{i}]") for i, time in enumerate(listed(times, what))], np.int64)
 
 
 def delays_ns(delays: Any) -> NDArray[np.int64]:
@@ -285,19 +277,6 @@ def delays_ns(delays: Any) -> NDArray[np.int64]:
     if not (np.abs(made.astype(np.float64)) < 2.0 ** 62).all():
         raise UsageError("delay=: some pixel's delay is no number of seconds, or further away than 146 years")
     return np.asarray(made, np.int64)
-
-
-def bytes_word(size: Union[int, str], what: str) -> str:
-    """500000000, '500MB', '2GB', '1GiB' -> the number of bytes."""
-    written = re.fullmatch(r"(.*?)\s*(?:(?:([KMGT])(I?))?B)?", str(size), re.IGNORECASE | re.DOTALL)
-    number, prefix, binary = written.groups(default="") if written else ("", "", "")
-    try:
-        count = int(exact(number, what) * (1024 if binary else 1000) ** " KMGT".index(prefix.upper() or " "))
-    except UsageError:
-        count = 0
-    if not 1 <= count < 2 ** 63:
-        raise UsageError(f"{what}={size!r} is no size; write 500_000_000, '500MB', '2GB' or '1GiB'")
-    return str(count)
 
 
 def count_of(value: Any, what: str) -> int:
@@ -330,17 +309,15 @@ def box_of(value: Any, what: str) -> list[int]:
 
 def word_of(name: str, kind: str, value: Any) -> str:
     """A value as the program reads it; `kind` is what its help has in that place."""
-    if kind == "SIZE":
-        return bytes_word(value, name)
     if isinstance(value, (str, bytes, PathLike)):
         return fsdecode(value)
+    if kind == "SIZE":
+        return str(int(exact(value, name)))
     if kind == "TIME" or "TIME" in kind and not is_list(value):
         return time_word(value, name)
     if kind in ("RATE", "DEGREES", "W:H"):
         return number_word(value, name)
-    if kind in ("K", "G", "E"):
-        return repr(float(value))
-    if kind == "FILE|LIGHT":
+    if kind in ("K", "G", "E", "FILE|LIGHT"):
         return repr(float(exact(value, name)))
     if kind == "WxH+X+Y":
         x, y, width, height = box_of(value, name)

@@ -1,8 +1,11 @@
 // Captures: opened, encoded from clips and from arrays, and what is known of them.
+#include <atomic>
 #include <cstddef>
 #include <cstring>
 #include <deque>
+#include <memory>
 #include <mutex>
+#include <utility>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -58,6 +61,18 @@ py::tuple opened(const Opening& terms, const py::object& progress) {
   return py::make_tuple(capture, session.warnings(), note_texts(session.notes(), Dialect::python));
 }
 
+py::tuple open(const std::string& path, const Settings& settings, const Settings& computing,
+               const py::object& progress) {
+  if (!settings.empty() && is_tik(path)) {
+    const std::string& name = settings.begin()->first;
+    const bool is_corrected = option_of_argument(CommandId::retime, name) != nullptr;
+    throw UsageError(format("{}= describes a clip that is encoded; {} was encoded already. {}", name, path,
+                            is_corrected ? "To correct it: nutik.retime(capture, new, " + name + "=...)"
+                                         : "Encode the clip again with it"));
+  }
+  return opened(opening_of(path, settings, computing), progress);
+}
+
 // The capture that a file now holds.
 py::object opened_file(const std::string& path, std::shared_ptr<Devices> devices) {
   Opening terms{{}, std::move(devices), {}};
@@ -66,9 +81,10 @@ py::object opened_file(const std::string& path, std::shared_ptr<Devices> devices
 }
 
 // To a file, or to a temporary capture.
-py::tuple encoded(const Opening& terms, const std::optional<std::string>& output, const std::string& codec,
-                  const py::object& progress) {
-  const tik::Codec packed = tik::Codec::parse(codec);
+py::tuple encoded(const Opening& terms, const std::optional<std::string>& output,
+                  const std::optional<std::string>& codec, const py::object& progress) {
+  const tik::Codec packed = tik::Codec::parse(codec.value_or("rice"));
+  if (codec && !output) throw UsageError("codec= is said of a file that is kept: name it, output='clip.tik'");
   if (output && !is_tik(*output))
     throw UsageError(format("{} is no name for a capture, which ends in .tik", *output));
   if (!output) return opened(terms, progress);
@@ -81,8 +97,9 @@ py::tuple encoded(const Opening& terms, const std::optional<std::string>& output
   return py::make_tuple(opened_file(*output, terms.devices), made.warnings, note_texts(made.notes, Dialect::python));
 }
 
-py::tuple encode_clip(const std::string& path, const std::optional<std::string>& output, const std::string& codec,
-                      const Settings& settings, const Settings& computing, const py::object& progress) {
+py::tuple encode_clip(const std::string& path, const std::optional<std::string>& output,
+                      const std::optional<std::string>& codec, const Settings& settings, const Settings& computing,
+                      const py::object& progress) {
   if (is_tik(path)) throw UsageError(format("{} is a capture already; nutik.open() opens it", path));
   return encoded(opening_of(path, settings, computing), output, codec, progress);
 }
@@ -96,42 +113,99 @@ py::tuple joined(const std::vector<std::string>& captures, const std::string& ou
   return py::make_tuple(capture, py::list(), note_texts(made.notes, Dialect::python));
 }
 
-// `first` is a picture: of an iterator its first one, which it will return again. Times are those of ClipTiming.
-py::tuple encode_pictures(const py::object& pictures, const py::array& first, const std::string& name,
-                          const std::vector<std::int64_t>& starts_ns,
+// An object of Python's, for threads that do not hold its lock.
+using Held = std::shared_ptr<py::object>;
+Held held(py::object object) {
+  return {new py::object(std::move(object)), [](py::object* last) {
+            const py::gil_scoped_acquire locked;
+            delete last;
+          }};
+}
+
+class PicturesClip final : public Clip {
+ public:
+  PicturesClip(ClipInfo info, std::string name, Held iterator)
+      : info_(std::move(info)), name_(std::move(name)), iterator_(std::move(iterator)) {}
+
+  [[nodiscard]] const ClipInfo& info() const override { return info_; }
+
+  bool read(std::span<std::byte> raster) override {
+    const Held picture = next();
+    if (!picture) return false;
+    std::memcpy(raster.data(), static_cast<const py::array&>(*picture).data(), raster.size());
+    const std::uint32_t white = info_.format.white_code;
+    const bool is_last = white == (info_.format.code_bytes == 1 ? 255 : 65'535);
+    const std::uint32_t code = is_last ? 0 : largest_code(raster, info_.format.code_bytes);
+    if (code > white)
+      throw InputError(format("{}: picture {} has the code {}, above white, {}", name_, taken_, code, white),
+                       {Setting::white_code});
+    ++taken_;
+    return true;
+  }
+
+ private:
+  // An array without gaps, which is a copy only where it has some; none at the end.
+  [[nodiscard]] Held next() const {
+    const py::gil_scoped_acquire locked;
+    const auto given = py::reinterpret_steal<py::object>(PyIter_Next(iterator_->ptr()));
+    if (!given && PyErr_Occurred() != nullptr) throw py::error_already_set();
+    if (!given) return {};
+    const auto picture = py::array::ensure(given, py::array::c_style);
+    if (!picture) throw py::error_already_set();
+    return held(picture);
+  }
+
+  ClipInfo info_;
+  std::string name_;
+  Held iterator_;
+  std::uint64_t taken_ = 0;
+};
+
+// Pictures of uint8 or uint16, all of one shape: arrays that are read where they lie, of an iterable that is asked with
+// Python's lock held, on the thread that reads; what it raises comes back to the caller. An iterator is opened once.
+OpenClip open_pictures(const py::object& pictures, ClipInfo info, std::string name) {
+  return [pictures = held(pictures), was_open = std::make_shared<std::atomic_flag>(), info = std::move(info),
+          name = std::move(name)] {
+    const py::gil_scoped_acquire locked;
+    auto iterator = py::reinterpret_steal<py::object>(PyObject_GetIter(pictures->ptr()));
+    if (!iterator) throw py::error_already_set();
+    if (was_open->test_and_set() && iterator.is(*pictures))
+      throw UsageError(format("{} can be read once, and what is asked for reads it twice; pass an array", name));
+    return std::make_unique<PicturesClip>(info, name, held(std::move(iterator)));
+  };
+}
+
+// Of `first`, a picture, all others have the shape; `count` is 0 where nobody knows it, times are those of ClipTiming.
+py::tuple encode_pictures(const py::object& pictures, const py::array& first, std::uint64_t count,
+                          const std::string& name, const std::vector<std::int64_t>& starts_ns,
                           const std::vector<std::pair<std::int64_t, std::int64_t>>& exposures_ns,
                           std::optional<std::int64_t> exposed_ns, std::optional<double> white_light,
-                          const std::optional<std::string>& output, const std::string& codec, const Settings& settings,
-                          const Settings& computing, const py::object& progress) {
-  PictureNotes notes;
-  notes.shape = {static_cast<std::uint32_t>(first.shape(1)), static_cast<std::uint32_t>(first.shape(0)),
-                 first.ndim() == 3 ? static_cast<std::uint32_t>(first.shape(2)) : 1U};
-  notes.code_bytes = static_cast<std::uint32_t>(first.itemsize());
-  notes.timing.rate_from = "what the caller said";
-  notes.timing.starts_ns = starts_ns;
-  for (const auto& [start_ns, end_ns] : exposures_ns) notes.timing.exposures.push_back({start_ns, end_ns});
-  notes.timing.exposed_ns = exposed_ns;
-  notes.white_light = white_light;
+                          const std::optional<std::string>& output, const std::optional<std::string>& codec,
+                          const Settings& settings, const Settings& computing, const py::object& progress) {
   Opening terms = opening_of(name, settings, computing);
-  if (py::isinstance<py::array>(pictures)) {
-    const auto array = pictures.cast<py::array>();
-    notes.sample_count = static_cast<std::uint64_t>(array.shape(0));
-    terms.open = open_array(array, std::move(notes), terms.source.clip, name);
-  } else {
-    notes.sample_count = std::max(starts_ns.size(), exposures_ns.size());
-    terms.open = open_iterator(py::iter(pictures), std::move(notes), terms.source.clip, name);
-  }
+  ClipInfo info;
+  info.format.shape = {static_cast<std::uint32_t>(first.shape(1)), static_cast<std::uint32_t>(first.shape(0)),
+                       first.ndim() == 3 ? static_cast<std::uint32_t>(first.shape(2)) : 1U};
+  info.format.code_bytes = static_cast<std::uint32_t>(first.itemsize());
+  const bool is_short = info.format.code_bytes == 1;
+  info.format.white_code = terms.source.clip.white_code.value_or(is_short ? 255 : 65'535);
+  info.timing.rate_from = "what the caller said";
+  info.timing.starts_ns = starts_ns;
+  for (const auto& [start_ns, end_ns] : exposures_ns) info.timing.exposures.push_back({start_ns, end_ns});
+  info.timing.exposed_ns = exposed_ns;
+  info.sample_count = count;
+  if (white_light) describe_light(info, *white_light);
+  describe_stored_codes(info, terms.source.clip, {is_short ? Transfer::srgb() : Transfer::linear()});
+  terms.open = open_pictures(pictures, std::move(info), name);
   return encoded(terms, output, codec, progress);
 }
 
 py::array times_ns(const OpenCapture& capture) {
-  const auto count = static_cast<py::ssize_t>(capture.timeline().sample_count());
-  py::array_t<std::int64_t> times({count, py::ssize_t{2}});
-  for (py::ssize_t k = 0; k < count; ++k) {
-    times.mutable_at(k, 0) = capture.timeline().start_ns(static_cast<std::uint64_t>(k));
-    times.mutable_at(k, 1) = capture.timeline().end_ns(static_cast<std::uint64_t>(k));
-  }
-  return times;
+  const Timeline& timeline = capture.timeline();
+  std::vector<std::int64_t> times;
+  for (std::uint64_t k = 0; k < timeline.sample_count(); ++k)
+    times.insert(times.end(), {timeline.start_ns(k), timeline.end_ns(k)});
+  return array_of(times, {static_cast<py::ssize_t>(timeline.sample_count()), 2});
 }
 
 // No Fraction: that would run Python's code within ours, where its end may stop it.
@@ -161,29 +235,42 @@ class SampleReader {
   explicit SampleReader(std::shared_ptr<OpenCapture> capture)
       : capture_(std::move(capture)), blocks_(capture_->session->capture()) {}
 
-  void read(std::uint64_t sample, std::span<std::byte> raster) {
-    if (!block_ || sample < first_ || sample >= block_->extent().range().last) find_block(sample);
-    samples_->go_to(static_cast<std::uint32_t>(sample - block_->extent().first_sample));
-    samples_->read(raster);
-    first_ = sample;
-  }
-
-  [[nodiscard]] const CaptureFormat& format() const { return capture_->session->format(); }
-  // [axes..., height, width(, 3)]
-  [[nodiscard]] py::array rasters(Axes axes) const {
-    const ValueType type = format().code_bytes == 1 ? ValueType::code8 : ValueType::code16;
-    return {dtype_of(type), axes_of(format().shape, std::move(axes))};
+  // [samples, height, width(, 3)], of increasing numbers. A single one is read without another thread.
+  py::array samples(const std::vector<std::uint64_t>& numbers) {
+    const CaptureFormat& format = capture_->session->format();
+    py::array rasters(dtype_of(code_type(format)),
+                      axes_of(format.shape, {static_cast<py::ssize_t>(numbers.size())}));
+    auto* to = static_cast<std::byte*>(rasters.mutable_data());
+    const auto read = [&](const std::stop_token& stop) {
+      for (const std::uint64_t number : numbers) {
+        if (stop.stop_requested()) throw Cancelled();
+        cursor_at(number).read({to, format.sample_bytes()});
+        to += format.sample_bytes();
+      }
+    };
+    if (numbers.size() > 1) {
+      without_lock([&](const Stopping& stopping) { read(stopping.stop); });
+    } else {
+      const Unlocked released;
+      read({});
+    }
+    return rasters;
   }
 
  private:
-  void find_block(std::uint64_t sample) {
-    tik::Reader& reader = capture_->session->capture();
-    std::uint64_t block = 0;
-    while (reader.block_extent(block).range().last <= sample) ++block;
-    samples_.reset();
-    block_.reset();
-    block_.emplace(blocks_.at(block));
-    samples_.emplace(format().shape, *block_);
+  SampleCursor& cursor_at(std::uint64_t sample) {
+    if (!block_ || sample < first_ || sample >= block_->extent().range().last) {
+      tik::Reader& reader = capture_->session->capture();
+      std::uint64_t block = 0;
+      while (reader.block_extent(block).range().last <= sample) ++block;
+      samples_.reset();
+      block_.reset();
+      block_.emplace(blocks_.at(block));
+      samples_.emplace(reader.format().shape, *block_);
+    }
+    first_ = sample;
+    samples_->go_to(static_cast<std::uint32_t>(sample - block_->extent().first_sample));
+    return *samples_;
   }
 
   std::shared_ptr<OpenCapture> capture_;
@@ -192,49 +279,6 @@ class SampleReader {
   std::optional<SampleCursor> samples_;
   std::uint64_t first_ = 0;  // a cursor only goes on
 };
-
-// At samples in increasing order, [samples, height, width(, 3)]. A single one is read without another thread.
-py::array samples(SampleReader& reader, const std::vector<std::uint64_t>& numbers) {
-  py::array rasters = reader.rasters({static_cast<py::ssize_t>(numbers.size())});
-  auto* const bytes = static_cast<std::byte*>(rasters.mutable_data());
-  const auto read = [&](const std::stop_token& stop) {
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-      if (stop.stop_requested()) throw Cancelled();
-      reader.read(numbers[i], {bytes + i * reader.format().sample_bytes(), reader.format().sample_bytes()});
-    }
-  };
-  if (numbers.size() > 1) {
-    without_lock([&](const Stopping& stopping) { read(stopping.stop); });
-  } else {
-    const Unlocked released;
-    read({});
-  }
-  return rasters;
-}
-
-// Calls found(pixel, samples, codes) for what each pixel of a region holds between two samples, from one change to
-// the next or to the next block; of each pixel in time order.
-template <typename Found>
-void for_each_record(tik::Reader& reader, const Rectangle& region, SampleRange asked, const ReportedProgress& report,
-                     Found found) {
-  std::vector<ChangeRecord> history;
-  const TileGrid grid(reader.format().shape);
-  for_each_block(reader, asked, [&](const BlockView& block) {
-    const SampleRange range = block.extent().range();
-    for (std::uint32_t row = 0; row < region.height; ++row) {
-      report(std::max(asked.first, range.first) - asked.first, asked.size());
-      for (std::uint32_t column = 0; column < region.width; ++column) {
-        const std::uint32_t x = region.x + column, y = region.y + row;
-        block.read_history(grid.tile_of(x, y), TileGrid::lane_of(x, y), history);
-        for (std::size_t i = 0; i < history.size(); ++i) {
-          const std::uint64_t next = i + 1 < history.size() ? range.first + history[i + 1].sample : range.last;
-          const SampleRange held{std::max(asked.first, range.first + history[i].sample), std::min(asked.last, next)};
-          if (held.first < held.last) found(std::size_t{row} * region.width + column, held, history[i].codes);
-        }
-      }
-    }
-  });
-}
 
 // Rows of `type`: x, y, start_ns, end_ns, codes, packed. The capture is looked through twice, first to count them:
 // nothing but they and what each pixel was last is held.
@@ -251,48 +295,62 @@ py::array records(const OpenCapture& capture, const std::array<std::uint32_t, 4>
   };
   tik::Reader& reader = capture.session->capture();
   const Timeline& timeline = capture.timeline();
+  const TileGrid grid(capture.shape());
   const Rectangle region{box[0], box[1], box[2], box[3]};
   const auto row_bytes = static_cast<std::size_t>(type.itemsize());
   const std::size_t code_bytes = reader.format().code_bytes;
-  const std::uint64_t allowed = capture.session->devices().request().memory.bytes;
   std::vector<Pixel> pixels(std::size_t{region.width} * region.height);
+  std::vector<ChangeRecord> history;
   py::array made;
+  std::byte* rows = nullptr;  // while they are counted
+  // What a pixel holds between two samples, of each pixel in time order; a block begins anew with what is held.
+  const auto take = [&](std::size_t number, SampleRange held, const std::array<std::uint16_t, 3>& codes) {
+    Pixel& pixel = pixels[number];
+    const bool begins = !pixel.is_begun || pixel.codes != codes;
+    pixel = {pixel.next + begins, true, codes};
+    if (rows == nullptr) return;
+    std::byte* const row = rows + (pixel.next - 1) * row_bytes;
+    if (begins) {
+      const Head head{region.x + static_cast<std::uint32_t>(number % region.width),
+                      region.y + static_cast<std::uint32_t>(number / region.width), timeline.start_ns(held.first), 0};
+      std::memcpy(row, &head, sizeof head);
+      for (std::size_t c = 0; sizeof head + c * code_bytes < row_bytes; ++c)
+        std::memcpy(row + sizeof head + c * code_bytes, &codes[c], code_bytes);
+    }
+    const std::int64_t end_ns = timeline.reach_end_ns(held.last - 1);
+    std::memcpy(row + offsetof(Head, end_ns), &end_ns, sizeof end_ns);
+  };
   without_lock([&](const Stopping& stopping) {
     const ReportedProgress report = stopping.progress();
-    std::byte* rows = nullptr;
-    for (const std::uint64_t pass : {0, 1}) {
-      std::uint64_t count = 0;
-      for (Pixel& pixel : pixels) pixel = {std::exchange(count, count + pixel.next)};
-      if (pass == 1) {
-        const std::string what = format("the records of {} pixels over {} samples", pixels.size(), last - first);
-        MemoryNeeds({{what + " (take a part: region=, first= and last=)", count * row_bytes},
-                     {"what pixels were last", pixels.size() * sizeof(Pixel)}})
-            .rest_of(allowed);
-        const py::gil_scoped_acquire locked;
-        made = py::array(type, Axes{static_cast<py::ssize_t>(count)});
-        rows = static_cast<std::byte*>(made.mutable_data());
-      }
-      const auto halfway = [&](std::uint64_t done, std::uint64_t total) { report(pass * total + done, 2 * total); };
-      const auto take = [&](std::size_t number, SampleRange held, const auto& codes) {
-        Pixel& pixel = pixels[number];
-        const bool begins = !pixel.is_begun || pixel.codes != codes;  // else a block begins anew with what is held
-        pixel = {pixel.next + begins, true, codes};
-        if (pass == 0) return;
-        std::byte* const row = rows + (pixel.next - 1) * row_bytes;
-        Head head{};
-        if (!begins) std::memcpy(&head, row, sizeof head);
-        if (begins) {
-          head.x = region.x + static_cast<std::uint32_t>(number % region.width);
-          head.y = region.y + static_cast<std::uint32_t>(number / region.width);
-          head.start_ns = timeline.start_ns(held.first);
-          for (std::size_t c = 0; sizeof head + c * code_bytes < row_bytes; ++c)
-            std::memcpy(row + sizeof head + c * code_bytes, &codes[c], code_bytes);
+    const auto look_through = [&](std::uint64_t before) {
+      for_each_block(reader, {first, last}, [&](const BlockView& block) {
+        const SampleRange range = block.extent().range();
+        for (std::size_t number = 0; number < pixels.size(); ++number) {
+          if (number % region.width == 0) report(before + std::max(first, range.first) - first, 2 * (last - first));
+          const std::uint32_t x = region.x + static_cast<std::uint32_t>(number % region.width);
+          const std::uint32_t y = region.y + static_cast<std::uint32_t>(number / region.width);
+          block.read_history(grid.tile_of(x, y), TileGrid::lane_of(x, y), history);
+          for (std::size_t i = 0; i < history.size(); ++i) {
+            const std::uint64_t next = i + 1 < history.size() ? range.first + history[i + 1].sample : range.last;
+            const SampleRange held{std::max(first, range.first + history[i].sample), std::min(last, next)};
+            if (held.first < held.last) take(number, held, history[i].codes);
+          }
         }
-        head.end_ns = timeline.reach_end_ns(held.last - 1);
-        std::memcpy(row, &head, sizeof head);
-      };
-      for_each_record(reader, region, {first, last}, halfway, take);
+      });
+    };
+    look_through(0);
+    std::uint64_t count = 0;
+    for (Pixel& pixel : pixels) pixel = {std::exchange(count, count + pixel.next)};
+    const std::string what = format("the records of {} pixels over {} samples", pixels.size(), last - first);
+    MemoryNeeds({{what + " (take a part: region=, first= and last=)", count * row_bytes},
+                 {"what pixels were last", pixels.size() * sizeof(Pixel)}})
+        .rest_of(capture.session->devices().request().memory.bytes);
+    {
+      const py::gil_scoped_acquire locked;
+      made = py::array(type, Axes{static_cast<py::ssize_t>(count)});
+      rows = static_cast<std::byte*>(made.mutable_data());
     }
+    look_through(last - first);
   }, progress);
   return made;
 }
@@ -321,13 +379,12 @@ void bind_captures(py::module_& module) {
       .def("reader", [](Held held) { return std::make_unique<SampleReader>(std::move(held)); })
       .def("records", &records, "box"_a, "first"_a, "last"_a, "dtype"_a, "progress"_a)
       .def("moved_camera", &moved_camera_text);
-  py::class_<SampleReader>(module, "SampleReader").def("samples", &samples, "numbers"_a);
-  module.def("open", [](const std::string& path, const Settings& settings, const Settings& computing,
-                        const py::object& progress) { return opened(opening_of(path, settings, computing), progress); },
-             "path"_a, "settings"_a, "computing"_a, "progress"_a);
+  py::class_<SampleReader>(module, "SampleReader").def("samples", &SampleReader::samples, "numbers"_a);
+  module.def("open", &open, "path"_a, "settings"_a, "computing"_a, "progress"_a);
   module.def("encode_clip", &encode_clip, "path"_a, "output"_a, "codec"_a, "settings"_a, "computing"_a, "progress"_a);
-  module.def("encode_pictures", &encode_pictures, "pictures"_a, "first"_a, "name"_a, "starts_ns"_a, "exposures_ns"_a,
-             "exposed_ns"_a, "white_light"_a, "output"_a, "codec"_a, "settings"_a, "computing"_a, "progress"_a);
+  module.def("encode_pictures", &encode_pictures, "pictures"_a, "first"_a, "count"_a, "name"_a, "starts_ns"_a,
+             "exposures_ns"_a, "exposed_ns"_a, "white_light"_a, "output"_a, "codec"_a, "settings"_a, "computing"_a,
+             "progress"_a);
   module.def("join", &joined, "captures"_a, "output"_a, "computing"_a, "progress"_a);
 }
 

@@ -43,14 +43,11 @@ struct HeldPicture {
 using HeldMask = Shared<Mask>;
 using Axes = std::vector<py::ssize_t>;
 
-// A copy, of the stated shape.
+// A copy, of the stated shape or of one axis.
 template <typename Value>
-[[nodiscard]] py::array_t<Value> array_of(const std::vector<Value>& values, Axes shape) {
+[[nodiscard]] py::array_t<Value> array_of(const std::vector<Value>& values, Axes shape = {}) {
+  if (shape.empty()) shape = {static_cast<py::ssize_t>(values.size())};
   return py::array_t<Value>(std::move(shape), values.data());
-}
-template <typename Value>
-[[nodiscard]] py::array_t<Value> array_of(const std::vector<Value>& values) {
-  return array_of(values, {static_cast<py::ssize_t>(values.size())});
 }
 
 [[nodiscard]] py::dtype dtype_of(ValueType type);
@@ -69,43 +66,15 @@ using Settings = std::map<std::string, std::string>;
 struct AskedExposure {
   ExposureRequest request;
   RenderControl control;
-
-  [[nodiscard]] RenderControl control_of(const Stopping& stopping) const {
-    RenderControl stopped = control;
-    stopped.stop = stopping.stop;
-    stopped.progress = stopping.progress();
-    return stopped;
-  }
 };
 // How values are stored: `dtype`, `transfer`, `negative`.
 [[nodiscard]] OutputFormat output_of(const Settings& settings, const CaptureFormat& capture);
 [[nodiscard]] py::dict figures_of(const ExposedPicture& exposed);
 [[nodiscard]] py::object saturated_of(ValueType type, const Saturation& saturation);
 
-// What its owner says of the codes and times of pictures that lie in memory, beside a SourceRequest.
-struct PictureNotes {
-  ClipTiming timing;
-  Shape shape;
-  std::uint32_t code_bytes = 1;
-  std::uint64_t sample_count = 0;                    // 0: an iterator does not say
-  std::optional<double> white_light = std::nullopt;  // where codes are light that was rounded to the nearest
-};
-// An array [samples, height, width(, 3)] of uint8 or uint16, however it is strided, which is read where it lies,
-// without Python's lock, and lives as long as the clip.
-[[nodiscard]] OpenClip open_array(const py::array& pictures, PictureNotes notes, ClipOptions options, std::string name);
-// Such pictures one by one, all of one shape; to be opened once. It is called with the lock held, on the thread that
-// reads, and what it raises comes back to the caller.
-[[nodiscard]] OpenClip open_iterator(const py::iterator& pictures, PictureNotes notes, ClipOptions options,
-                                     std::string name);
-
-void bind_errors(py::module_& module);
-void bind_commands(py::module_& module);
 void bind_captures(py::module_& module);
 void bind_functions(py::module_& module);
-void bind_masks(py::module_& module);
-void bind_pictures(py::module_& module);
 void bind_rendering(py::module_& module);
-void bind_tracing(py::module_& module);
 void bind_studies(py::module_& module);
 
 }  // namespace nutik::python

@@ -1,4 +1,4 @@
-// Exposures: what is asked for, the picture, and the plan's figures.
+// Pictures, which NumPy looks at where they lie. Exposures: what is asked for, how light came about, their figures.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -6,13 +6,97 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/light_codes.hpp"
 #include "features/schema/option.hpp"
 #include "features/schema/requests.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "parts.hpp"
+#include "session/output_check.hpp"
 #include "session/requests/output_request.hpp"
 
 namespace nutik::python {
+
+py::dtype dtype_of(ValueType type) {
+  return py::dtype(type == ValueType::code8 ? "u1" : type == ValueType::code16 ? "u2"
+                   : type == ValueType::light32 ? "f4" : "f8");
+}
+
+Axes axes_of(const Shape& shape, Axes first) {
+  first.insert(first.end(), {static_cast<py::ssize_t>(shape.height), static_cast<py::ssize_t>(shape.width)});
+  if (shape.channels > 1) first.push_back(static_cast<py::ssize_t>(shape.channels));
+  return first;
+}
+
+py::array view_of(const py::dtype& type, Axes shape, const void* values, py::handle owner) {
+  py::array view(type, std::move(shape), values, owner);
+  view.attr("flags").attr("writeable") = false;
+  return view;
+}
+
 namespace {
+
+py::array values(const py::object& self) {
+  const Picture& picture = self.cast<const HeldPicture&>().picture;
+  return view_of(dtype_of(picture.type), axes_of(picture.shape), picture.bytes.data(), self);
+}
+
+// Looks for Ctrl-C between the parts that are written.
+void write(const HeldPicture& held, const std::string& path, std::optional<int> quality, bool keep_pixels) {
+  check_output(path, OutputKind::picture, {});
+  OutputRequest request;
+  request.quality = quality;
+  request.keep_pixels = keep_pixels;
+  check_quality(request, path);
+  without_lock([&](const Stopping& stopping) {
+    FileWishes wishes = file_wishes(request);
+    wishes.check = [progress = stopping.progress()] { progress(0, 0); };
+    write_picture(path, held.picture, {}, wishes);
+  });
+}
+
+// Light as codes of screens, whose white is the light that the capture's curve has for it.
+HeldPicture for_eyes(const HeldPicture& held) {
+  const Picture& light = held.picture;
+  const Transfer srgb = Transfer::srgb();
+  Picture codes(light.shape, ValueType::code8, 255);
+  codes.transfer = srgb;
+  codes.primaries = light.primaries;
+  codes.pixel_aspect = light.pixel_aspect;
+  const LightCodes table(srgb, 255);
+  const double white = held.figures.contains("reference_white") ? held.figures["reference_white"].cast<double>() : 1.0;
+  for (std::uint64_t i = 0; i < light.shape.value_count(); ++i) {
+    const double value = light.type == ValueType::light32 ? light.values<float>()[i] : light.values<double>()[i];
+    codes.values<std::uint8_t>()[i] = static_cast<std::uint8_t>(value > 0 ? table.code_of(value / white) : 0);
+  }
+  return {std::move(codes), {}};
+}
+
+// All that a picture is, for pickle.
+using State = std::tuple<std::array<std::uint32_t, 3>, int, std::uint32_t, std::optional<std::string>, int,
+                         std::array<std::int64_t, 2>, std::optional<std::int64_t>, py::dict, py::bytes>;
+
+State state_of(const HeldPicture& held) {
+  const Picture& picture = held.picture;
+  const auto& [width, height, channels] = picture.shape;
+  const auto transfer = picture.transfer ? std::optional(picture.transfer->text()) : std::nullopt;
+  return {{width, height, channels}, static_cast<int>(picture.type), picture.white_code, transfer,
+          static_cast<int>(picture.primaries), {picture.pixel_aspect.numerator, picture.pixel_aspect.denominator},
+          picture.exposed_ns, held.figures,
+          py::bytes(reinterpret_cast<const char*>(picture.bytes.data()), picture.bytes.size())};
+}
+
+HeldPicture unpickled(const State& state) {
+  const auto& [sides, type, white, transfer, primaries, aspect, exposed_ns, figures, bytes] = state;
+  Picture picture({sides[0], sides[1], sides[2]}, static_cast<ValueType>(type), white);
+  if (transfer) picture.transfer = Transfer::parse(*transfer);
+  picture.primaries = static_cast<Primaries>(primaries);
+  picture.pixel_aspect = Rational::of(aspect[0], aspect[1]);
+  picture.exposed_ns = exposed_ns;
+  const std::string_view values(bytes);
+  if (values.size() != picture.bytes.size()) throw InputError("a pickled picture has another size than it says");
+  std::memcpy(picture.bytes.data(), values.data(), values.size());
+  return {std::move(picture), figures};
+}
 
 py::dict fields_of(const UncertaintyTerm& term, const OutputFormat& output) {
   py::dict fields;
@@ -21,11 +105,10 @@ py::dict fields_of(const UncertaintyTerm& term, const OutputFormat& output) {
   return fields;
 }
 
-py::dict uncertainty_of(const ExposedPicture& exposed) {
+py::dict fields_of(const Uncertainty& uncertainty, const OutputFormat& output) {
   py::list terms;
-  for (const UncertaintyTerm& term : exposed.uncertainty.terms) terms.append(fields_of(term, exposed.output));
-  return py::dict("scale"_a = exposed.uncertainty.scale, "terms"_a = terms,
-                  "bounds"_a = fields_of(exposed.uncertainty.bounds, exposed.output));
+  for (const UncertaintyTerm& term : uncertainty.terms) terms.append(fields_of(term, output));
+  return py::dict("scale"_a = uncertainty.scale, "terms"_a = terms, "bounds"_a = fields_of(uncertainty.bounds, output));
 }
 
 py::list functions_of_plan(const ExposureFigures& figures) {
@@ -52,7 +135,10 @@ HeldPicture render(const OpenCapture& capture, const AskedExposure& asked, const
   OutputFormat format = output_of(output, capture.session->format());
   format.maps_bounds = bounds;
   ExposedPicture exposed = without_lock([&](const Stopping& stopping) {
-    return capture.session->render(asked.request, format, asked.control_of(stopping));
+    RenderControl control = asked.control;
+    control.stop = stopping.stop;
+    control.progress = stopping.progress();
+    return capture.session->render(asked.request, format, control);
   }, progress);
   py::dict figures = figures_of(exposed);
   if (bounds) figures["bounds_maps"] = maps_of(exposed.bounds);
@@ -75,8 +161,8 @@ struct Differences {
 };
 
 // [count, height, width(, 3)], the bound of each picture's light (NaN of the reference), of codes how many pixels hold
-// light below and above them, warnings, each once, of each tag the least still gain, and of each picture its maps, if
-// these are asked for: then pictures are made one by one.
+// light below and above them, warnings, each once, of each tag the least still gain, of each picture its maps, if these
+// are asked for, and what tells of each its uncertainty: a thousand of those take longer than the pictures.
 py::tuple render_many(const OpenCapture& capture, const AskedExposure& asked, std::size_t count,
                       std::vector<std::string> starts, std::vector<std::string> lengths,
                       std::vector<FunctionSet> functions, const Settings& output, bool bounds,
@@ -94,37 +180,62 @@ py::tuple render_many(const OpenCapture& capture, const AskedExposure& asked, st
   std::vector<std::string> warnings;
   std::map<std::uint8_t, double> still_gains;
   std::vector<std::vector<PictureLayer>> maps;
+  std::vector<Uncertainty> uncertainties;
   without_lock([&](const Stopping& stopping) {
     RenderControl control = asked.control;
     control.stop = stopping.stop;
-    const auto take = [&, report = stopping.progress()](std::size_t number, const Rendered& rendered,
-                                                        std::span<const PlannedFunction> planned) {
-      const auto& made = rendered.picture.bytes;
+    std::vector<ExposureRequest> requests;
+    for (std::size_t number = 0; number < count; ++number) requests.push_back(differences.of(asked.request, number));
+    session.render_many(requests, format, control, [&, report = stopping.progress()](std::size_t number,
+                                                                                     ExposedPicture exposed) {
+      const auto& made = exposed.picture.bytes;
       std::memcpy(bytes + number * made.size(), made.data(), made.size());
-      errors.push_back(rendered.choice ? rendered.choice->bound.worst.light : std::numeric_limits<double>::quiet_NaN());
-      saturated.insert(saturated.end(), {rendered.saturation.below, rendered.saturation.above});
-      for (const PlannedFunction& function : planned) {
+      errors.push_back(exposed.choice ? exposed.choice->bound.worst.light : std::numeric_limits<double>::quiet_NaN());
+      saturated.insert(saturated.end(), {exposed.saturation.below, exposed.saturation.above});
+      for (const PlannedFunction& function : exposed.figures.functions) {
         const double still_gain = function.summary.still_gain();
         double& least = still_gains.try_emplace(function.tag, still_gain).first->second;
         least = std::min(least, still_gain);
       }
-      for (const std::string& warning : rendered.warnings)
+      for (const std::string& warning : exposed.warnings)
         if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
+      if (bounds) maps.push_back(std::move(exposed.bounds));
+      uncertainties.push_back(std::move(exposed.uncertainty));
       report(number + 1, count);
-    };
-    std::vector<ExposureRequest> requests;
-    for (std::size_t number = 0; number < count; ++number) requests.push_back(differences.of(asked.request, number));
-    if (!bounds) return session.render_many(requests, format, control, take);
-    for (std::size_t number = 0; number < count; ++number) {
-      ExposedPicture exposed = session.render(requests[number], format, control);
-      take(number, exposed, exposed.figures.functions);
-      maps.push_back(std::move(exposed.bounds));
-    }
+    });
   }, progress);
   py::list held_maps;
   for (auto& layers : maps) held_maps.append(maps_of(layers));
+  const py::cpp_function told([format, known = std::move(uncertainties)] {
+    py::list all;
+    for (const Uncertainty& each : known) all.append(fields_of(each, format));
+    return all;
+  });
   return py::make_tuple(pictures, array_of(errors), array_of(saturated, {static_cast<py::ssize_t>(count), 2}), warnings,
-                        still_gains, held_maps);
+                        still_gains, held_maps, told);
+}
+
+// How the light of a pixel, or the mean of a mask value's pixels, came about, as arrays.
+py::dict arrays_of(const TracedExposure& exposure, const Trace& trace) {
+  const PlannedFunction& function = exposure.function_of(trace);
+  return py::dict("tag"_a = function.tag, "share"_a = static_cast<double>(trace.share) / kWholeShare,
+                  "pixels"_a = trace.pixel_count, "steps"_a = array_of(trace.steps),
+                  "exposed"_a = array_of(std::vector(trace.light.begin(), trace.light.begin() + trace.channels)),
+                  "support_ns"_a = function.summary.support_ns);
+}
+
+// Of a pixel (x, y), or of a mask value where there is none.
+py::tuple trace(const OpenCapture& capture, const AskedExposure& asked,
+                const std::optional<std::pair<std::uint32_t, std::uint32_t>>& pixel,
+                std::optional<std::uint8_t> tag, const py::object& progress) {
+  Session& session = *capture.session;
+  const TracedExposure exposure = without_lock([&](const Stopping& stopping) {
+    return pixel ? session.trace(asked.request, TracedPixel{pixel->first, pixel->second}, stopping.progress())
+                 : session.trace(asked.request, TracedTag{tag.value_or(0)}, stopping.progress());
+  }, progress);
+  py::list traces;
+  for (const Trace& each : exposure.traces) traces.append(arrays_of(exposure, each));
+  return py::make_tuple(traces, exposure.warnings);
 }
 
 // The time of each pixel in nanoseconds, [height, width].
@@ -140,28 +251,12 @@ DelayRequest delay_of(const DelayTimes& times_ns) {
 }  // namespace
 
 OutputFormat output_of(const Settings& settings, const CaptureFormat& capture) {
-  const std::string& kind = settings.at("dtype");
-  const ValueType type = kind == "uint8"     ? ValueType::code8
-                         : kind == "uint16"  ? ValueType::code16
-                         : kind == "float64" ? ValueType::light64
-                                             : ValueType::light32;
   Options options;
-  for (const auto& [argument, option] : {std::pair("transfer", "out-transfer"), std::pair("negative", "negative")}) {
-    if (const auto stated = settings.find(argument); stated != settings.end())
-      option_of(CommandId::expose, option)->state(options, argument, {stated->second});
+  for (const auto& [argument, word] : settings) {
+    const std::string_view name = argument == "dtype" ? "depth" : argument == "transfer" ? "out-transfer" : "negative";
+    option_of(CommandId::expose, name)->state(options, argument, {word});
   }
-  OutputRequest request = options.picture;
-  if (request.negative && !holds_codes(type))
-    throw UsageError(
-        Advice{"`negative` says what codes make of light below 0, and an array of light keeps it; leave it out"});
-  request.depth = type == ValueType::code8    ? Depth::bits8
-                  : type == ValueType::code16 ? Depth::bits16
-                                              : Depth::floating;
-  const auto negative = std::exchange(request.negative, std::nullopt);
-  OutputFormat format = output_format(request, capture);
-  format.type = type;
-  format.negative = negative.value_or(format.negative);
-  return format;
+  return output_format(options.picture, capture);
 }
 
 py::object saturated_of(ValueType type, const Saturation& saturation) {
@@ -188,7 +283,8 @@ py::dict figures_of(const ExposedPicture& exposed) {
     bound = py::dict("light"_a = worst.light, "steps"_a = worst.steps);
   }
   return py::dict(
-      "precision"_a = to_text(exposed.precision), "error_bound"_a = bound, "uncertainty"_a = uncertainty_of(exposed),
+      "precision"_a = to_text(exposed.precision), "error_bound"_a = bound,
+      "uncertainty"_a = fields_of(exposed.uncertainty, exposed.output),
       "saturated"_a = saturated_of(exposed.output.type, exposed.saturation), "plan"_a = plan,
       "statistics"_a = statistics, "warnings"_a = exposed.warnings,
       "reference_white"_a = figures.capture.transfer.reference_white());
@@ -207,6 +303,14 @@ py::list devices() {
 }
 
 void bind_rendering(py::module_& module) {
+  py::class_<HeldPicture>(module, "Picture")
+      .def(py::pickle(&state_of, &unpickled))
+      .def("values", &values)
+      .def("write", &write, "path"_a, "quality"_a, "keep_pixels"_a)
+      .def("for_eyes", &for_eyes)
+      .def_readonly("figures", &HeldPicture::figures);
+  PYBIND11_NUMPY_DTYPE(TraceStep::Value, begin_light, end_light, integral_ns, sum_ns);
+  PYBIND11_NUMPY_DTYPE(TraceStep, begin_ns, end_ns, begin_gain, end_gain, is_made, values);
   py::class_<AskedExposure>(module, "Exposure")
       .def(py::init([](const std::optional<FunctionSet>& functions, const std::optional<HeldMask>& mask,
                        const Settings& settings, const std::optional<DelayTimes>& delays_ns,
@@ -227,6 +331,7 @@ void bind_rendering(py::module_& module) {
            "functions"_a, "mask"_a, "settings"_a, "delays_ns"_a, "region"_a);
   module.def("devices", &devices);
   module.def("render", &render, "capture"_a, "exposure"_a, "output"_a, "bounds"_a, "progress"_a);
+  module.def("trace", &trace, "capture"_a, "exposure"_a, "pixel"_a, "tag"_a, "progress"_a);
   module.def("render_many", &render_many, "capture"_a, "exposure"_a, "count"_a, "starts"_a, "lengths"_a, "functions"_a,
              "output"_a, "bounds"_a, "progress"_a);
 }

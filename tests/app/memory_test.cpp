@@ -255,10 +255,10 @@ TEST(Memory, SaysWhatIsTooLittle) {
   EXPECT_EQ(blocks.status, 2);
   EXPECT_NE(blocks.err.find("(--block-samples 7)"), std::string::npos) << blocks.err;
   EXPECT_EQ(run({"--memory", "20MB", "--block-samples", "7"}).status, 0);
-  for (const char* size : {"20000000", "20 mb", "20000K", "20mIb", "1g"}) {
+  for (const char* size : {"20000000", "20 mb", "20000K", "20mIb", "1g", "0.5GB", "2e9"}) {
     EXPECT_EQ(run({"--memory", size}).status, 0) << size;
   }
-  for (const char* size : {"much", "0", "-3MB", "1.5GB", "2XB", "5i", "20EB", "1 0MB", "7kMB"}) {
+  for (const char* size : {"much", "0", "-3MB", "inf", "2XB", "5i", "20EB", "1 0MB", "7kMB"}) {
     const auto senseless = run({"--memory", size});
     EXPECT_EQ(senseless.status, 2) << size;
     EXPECT_NE(senseless.err.find(std::string("--memory '") + size + "' is no size"), std::string::npos)

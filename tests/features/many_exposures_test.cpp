@@ -60,6 +60,17 @@ TEST(PictureQueue, ThrowsWhatEndedItsThread) {
             "the capture changed");
 }
 
+TEST(PictureQueue, KeepsWhatIsMade) {
+  const test::Scratch scratch;
+  FileWishes wishes;
+  wishes.check = [] { throw Cancelled(); };  // as at a signal
+  PictureQueue queue([](std::size_t, const Error& error) { throw error; });
+  for (const char* name : {"a.png", "b.tif"})
+    queue.push(0, scratch / name, Picture({8, 8, 1}, ValueType::code8, 255), {}, wishes);
+  queue.finish();
+  EXPECT_TRUE(std::filesystem::exists(scratch / "a.png") && std::filesystem::exists(scratch / "b.tif"));
+}
+
 TEST(VideoOutput, RefusesACodecForStillsAndHoldsTheSetting) {
   EXPECT_EQ(VideoOutput("v-%02d.png", {24, 1}, {}, {}).kind(), "stills");
   try {

@@ -89,6 +89,26 @@ TEST(PictureWriter, WritesLargePngsRowByRow) {
   EXPECT_EQ(std::memcmp(read.data, picture.bytes.data(), picture.bytes.size()), 0);
 }
 
+// Each looks again and again whether it should end; one that ends leaves nothing.
+TEST(PictureWriter, EndsWhereItIsTold) {
+  const Scratch scratch;
+  for (const char* name : {"p.png", "p.tif", "p.jpg", "p.exr", "p.pfm", "p.npy"}) {
+    const bool is_light = value_type_for(name, {}, ValueType::code8, 3) == ValueType::light32;
+    const Picture picture = random_picture({640, 480, 3}, is_light ? ValueType::light32 : ValueType::code8, 1);
+    int looks = 0;
+    FileWishes wishes;
+    wishes.check = [&] { ++looks; };
+    write_picture(scratch / name, picture, {}, wishes);
+    EXPECT_GE(looks, 1) << name;
+    std::filesystem::remove(scratch / name);
+    wishes.check = [&] {
+      if (--looks == 0) throw Cancelled();
+    };
+    EXPECT_THROW(write_picture(scratch / name, picture, {}, wishes), Cancelled) << name;
+    EXPECT_TRUE(std::filesystem::is_empty(scratch.folder())) << name;
+  }
+}
+
 TEST(PictureWriter, ChoosesTheTypeByNameAndWish) {
   const auto type = [](const char* name, std::optional<Depth> wish) {
     return value_type_for(name, wish, ValueType::code16, 3);

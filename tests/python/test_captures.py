@@ -1,6 +1,7 @@
 """Captures of arrays and iterables: values, times, what is refused."""
 
 import datetime
+import functools
 import itertools
 import os
 import subprocess
@@ -153,12 +154,14 @@ class Arrays(support.TestCase):
         self.assert_raises(usage, "rate", encode, pictures, rate=float("nan"))
         self.assert_raises(usage, "rate", encode, pictures, rate=-1)
         self.assert_raises(usage, "zstd:19", encode, pictures, self.path("x.tik"), rate=1, codec="zip")
+        self.assert_raises(usage, ["codec=", "output="], encode, pictures, rate=1, codec="zstd:19")
+        self.assert_raises(usage, "name=", encode, self.path("clip.mkv"), rate=1, name="clip")
         self.assert_raises(usage, "noise='auto'", encode, pictures, rate=1, sigmas=3)
         self.assert_raises(usage, "read once", encode, (each for each in pictures), rate=1, noise="auto")
         self.assert_raises(usage, "align='rigid'", encode, pictures, rate=1, align_to="1f")
         self.assert_raises(nutik.InputError, "sample 2", encode, pictures, times=[0, 2, 1, 3])
         self.assert_raises(nutik.MemoryTooLittle, "memory='", encode, pictures, rate=1, memory="1kB")
-        self.assert_raises(usage, "'2GB'", encode, pictures, rate=1, memory="much")
+        self.assert_raises(usage, "2GB", encode, pictures, rate=1, memory="much")
         self.assert_raises(usage, "choose opencl or reference", encode, pictures, rate=1, renderer="gpu")
         self.assert_raises(nutik.DeviceError, "no such device",
                            lambda: encode(pictures, rate=1, device="no such device").render(exposure="1f"))
@@ -183,7 +186,10 @@ class Arrays(support.TestCase):
         self.assert_raises(nutik.InputError, "text.tik", nutik.open, self.path("text.tik"))
         self.assert_raises(nutik.FileMissing, "no such file", nutik.open, self.path("absent.mp4"))
         nutik.encode(np.zeros((4, 8, 8), np.uint8), self.path("clip.tik"), rate=1)
-        self.assert_raises(nutik.UsageError, "encoded already", nutik.open, self.path("clip.tik"), rate=2)
+        for name, value, helps in (("rate", 2, "nutik.retime("), ("transfer", "srgb", "nutik.retime("),
+                                   ("noise", "a.noise", "Encode the clip again")):
+            self.assert_raises(nutik.UsageError, [f"{name}= describes a clip", "encoded already", helps], nutik.open,
+                               self.path("clip.tik"), **{name: value})
 
     def test_what_should_be_known_of_a_clip(self):
         """Of stills that are numbered with a hole, whether they are read or written to a file."""
@@ -231,9 +237,11 @@ class Arrays(support.TestCase):
             self.assertEqual(settings_of({"start_picture": light}), {"start_picture": "0.18"})
         for stated in ({"noise": 3}, {"start_picture": [0.5]}):
             self.assert_raises(nutik.WrongType, next(iter(stated)), settings_of, stated)
-        for size, count in (("5B", "5"), ("5", "5"), ("5KB", "5000"), ("5kiB", "5120"), ("1GiB", str(1 << 30))):
-            self.assertEqual(settings_of({"memory": size}), {"memory": count})
-        self.assert_raises(nutik.UsageError, "'5IB' is no size", settings_of, {"memory": "5IB"})
+        encode = functools.partial(nutik.encode, np.zeros((4, 8, 8), np.uint8), rate=1)
+        for size in ("5000B", "5000", "5KB", "0.005 MB", 5000, 5e3, np.int64(5000), Fraction(5000)):
+            self.assert_raises(nutik.MemoryTooLittle, "5000 bytes of memory", encode, memory=size)
+        for size in ("5IB", "-5", -5, "inf"):
+            self.assert_raises(nutik.UsageError, f"'{size}' is no size; write 500MB, 2GB", encode, memory=size)
 
     def test_light_before_the_first_event(self):
         words = [0x80000000, *(0x10000000 | k << 22 | (k % 4) << 11 | k % 3 for k in range(40))]  # EVT 2.0
@@ -323,6 +331,12 @@ class Times(support.TestCase):
                    exposures=np.array([10, 20, 30, 40], "timedelta64[ns]"))
         self.check([[0, 60], [100, 160], [300, 360], [700, 760]], times=[f"{each}ns" for each in (0, 100, 300, 700)],
                    exposures="60ns")
+        for times, rate in ((np.arange(4) / 100, 100), (np.arange(4) * 1001 / 30000, Fraction(2997, 100)),
+                            ([0, 0.01, 0.03, 0.06], 50)):
+            capture = nutik.encode(self.pictures, self.path("short.tik"), times=times, exposures="2ms")
+            self.assertEqual((capture.rate, nutik.open(self.path("short.tik")).rate), (rate, rate))
+            self.assertEqual(capture.figures["shutter_angle"], Fraction(round(720 * rate), 1000))
+            self.assertIn(f"{float(rate):g}", capture.facts[0])
         self.assert_raises(nutik.InputError, "sample 0", nutik.encode, self.pictures, times=[0, 1, 2, 3],
                            exposures=[1.5, 0.5, 0.5, 0.5])
         self.assert_raises(nutik.UsageError, "3 exposures for 4", nutik.encode, self.pictures, times=range(4),

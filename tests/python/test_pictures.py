@@ -1,5 +1,6 @@
 """A picture from Python is the command line's, bit for bit: codes and light, in every arithmetic, every mask."""
 
+import copy
 import json
 import pickle
 import unittest
@@ -196,6 +197,10 @@ class Pictures(support.TestCase):
         self.assert_raises(nutik.UsageError, ".pfm", picture.write, self.path("codes.pfm"))
         deep = self.capture.render(start=0, exposure="10ms", dtype=np.float64)
         self.assert_raises(nutik.UsageError, "float32", deep.write, self.path("light.exr"))
+        self.assert_raises(nutik.UsageError, "kind='.png'", lambda: deep.write(self.path("light.tif"), kind=".png"))
+        deep.write(self.path("light.tif"))
+        self.assert_same(nutik.open(self.path("light.tif"), rate=1, white=1.0)[0],
+                         (deep.array * 65535 + 0.5).clip(0, 65535).astype(np.uint16))
         self.assert_raises(nutik.OutputError, "absent", picture.write, self.path("absent/ours.ppm"))
         wide = nutik.encode(self.pictures[:4], rate=support.RATE, pixel_aspect="2:1").render(exposure="1f", codes=True)
         for name, keep, width in (("eyes.png", False, 160), ("kept.png", True, 80)):
@@ -207,6 +212,11 @@ class Pictures(support.TestCase):
         render, usage = self.capture.render, nutik.UsageError
         self.assert_raises(usage, "functions=", render)
         self.assert_raises(usage, "functions=", render, mask=self.tags, exposure=1)
+        self.assert_raises(usage, "shutter_error= says nothing without shutter=", render, exposure=1, shutter_error=1e-3)
+        self.assert_raises(usage, "unmapped= says nothing without mask=", render, exposure=1, unmapped="zero")
+        self.assert_raises(usage, "by lies further away than 126 years", nutik.boxcar(0, 1).shifted, 1e12)
+        for call in (nutik.open, nutik.read_mask, nutik.read_functions, render(exposure="1f").write):
+            self.assert_raises(nutik.WrongType, "3 is no path", call, 3)
         self.assert_raises(usage, ["exposure=", "functions="], render, [(0, 1)], exposure=1)
         self.assert_raises(usage, "3 functions; mask=", render, self.functions)
         self.assert_raises(usage, "float32 or float64", render, exposure="1ms", dtype=np.uint8)
@@ -278,6 +288,27 @@ class Pictures(support.TestCase):
                     raised = self.assert_raises(nutik.ImpreciseError, "0.5 of a code", call, functions, strict=True,
                                                 **asked)
                     self.assertIsInstance(raised, ArithmeticError)
+
+    def test_a_stated_arithmetic_is_doubted(self):
+        wild = [(0, 1e6), (0.01, -1e6), (0.02, 1e6), (0.03, 0)]
+        for call, functions in ((self.capture.render, wild), (self.capture.render_many, [wild])):
+            with self.assertWarnsRegex(nutik.NutikWarning, "single is not sure to be right to 0.5 of a code") as warned:
+                call(functions, codes=True, dtype=np.uint16, precision="single")
+            self.assertEqual(warned.filename, __file__)
+
+    def test_many_know_their_uncertainty(self):
+        starts = [0, "10ms", 0.03]
+        for capture in (self.capture, nutik.encode(self.pictures[:, :9, :9], rate=support.RATE, tolerance=3)):
+            for asked in (dict(), dict(codes=True), dict(precision="double", dtype=np.float64), dict(combine="mean")):
+                many = capture.render_many(starts=starts, exposures="5ms", **asked)
+                self.assertEqual(len(many.uncertainty), 3)
+                for start, alone, told in zip(starts, many.uncertainty, copy.deepcopy(many).uncertainty):
+                    self.assertEqual(alone, told)
+                    picture = capture.render(start=start, exposure="5ms", **{"precision": "double", **asked})
+                    self.assertEqual([each["term"] for each in alone["terms"]],
+                                     [each["term"] for each in picture.uncertainty["terms"]])
+                    if capture is not self.capture or "dtype" in asked:
+                        self.assertEqual(alone, picture.uncertainty)
 
     def test_many_in_one_call(self):
         starts, lengths = np.linspace(0, 0.05, 30), np.linspace(1e-3, 2e-2, 30)

@@ -67,12 +67,16 @@ class Arrays(support.TestCase):
         wanted = nutik.encode(support.moving_box(), rate=960).render(exposure="3f").array
         self.assert_same(nutik.encode(pictures, rate=960).render(exposure="3f").array, wanted)
         pictures[3, 4, 5] = np.ma.masked
-        tags = np.ma.masked_equal(support.tags(), 128)
+        tags, gains = np.ma.masked_equal(support.tags(), 128), np.ma.masked_equal(np.arange(70.0), 9)
         capture = nutik.encode(support.moving_box(), rate=960)
         for call in (lambda: nutik.encode(pictures, rate=960), lambda: nutik.encode(iter(pictures[3:]), rate=960),
                      lambda: nutik.encode(iter(pictures), rate=960),
                      lambda: nutik.Mask(tags), lambda: nutik.Mask.of_layers({128: tags}),
-                     lambda: capture.render(exposure="1f", delay=np.ma.masked_equal(np.zeros((45, 80)), 0))):
+                     lambda: capture.render(exposure="1f", delay=np.ma.masked_equal(np.zeros((45, 80)), 0)),
+                     lambda: capture.render(gains), lambda: capture.render_many(gains[None]),
+                     lambda: capture.render_many(starts=gains, exposures="1f"), lambda: nutik.Function(gains, gains),
+                     lambda: nutik.Function.from_ns(np.arange(70), gains),
+                     lambda: nutik.encode(pictures.data, times=gains)):
             self.assert_raises(nutik.UsageError, ["mask", ".filled("], call)
 
     def test_a_memoryview_is_an_array(self):

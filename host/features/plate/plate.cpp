@@ -84,12 +84,18 @@ MadePlate make_plate(CaptureSource& capture, const std::string& capture_name, co
     throw UsageError(nutik::format("no codes of {} differ by more than {}, for white is {}; state fewer codes",
                                    capture_name, *request.by_codes, format.white_code));
   }
+  std::uint64_t steps = 0;  // few plates need all of them: those that were not taken are done at the end
+  const auto report = [&](std::uint64_t done, std::uint64_t total) {
+    steps = total;
+    if (progress) progress(done, total);
+  };
   std::optional<CameraNoise> noise;
-  if (!request.by_codes) noise = noise_of(capture, progress);
+  if (!request.by_codes) noise = noise_of(capture, report);
   const auto least = static_cast<std::uint32_t>(std::ceil(CodeBand::kMinShare * format.white_code));
   const CodeBand band = noise ? CodeBand::of_noise(format, *noise)
                               : CodeBand::of_codes(format, request.by_codes.value_or(least));
-  Plate plate = make_plate(capture, band, memory.bytes, request.max_samples, progress);
+  Plate plate = make_plate(capture, band, memory.bytes, request.max_samples, report);
+  report(steps, steps);
   MadePlate made{{}, std::move(plate.uncertain), noise || request.by_codes, {}};
   made.picture = stored(std::move(plate.light), format, output, made.saturation, true);
   state_values(made.picture, format, output);

@@ -58,7 +58,7 @@ void read_noise(SourceRequest& request, const Options& options) {
 }
 
 std::variant<std::uint32_t, std::vector<StatedTime>> parse_moments(const std::string& text) {
-  constexpr std::string_view kWhat = "--moments";
+  constexpr std::string_view kWhat = "moments";
   if (text.find_first_not_of("0123456789") == std::string::npos)
     return parse_whole_number(text, kWhat, 0, std::numeric_limits<std::uint32_t>::max());
   std::vector<StatedTime> times;

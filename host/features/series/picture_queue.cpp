@@ -24,7 +24,9 @@ PictureQueue::~PictureQueue() { jobs_.close(); }
 
 void PictureQueue::push(std::size_t number, std::filesystem::path path, Picture picture, std::string text,
                         const FileWishes& wishes) {
-  if (!jobs_.push({number, std::move(path), std::move(picture), std::move(text), wishes})) finish();
+  Job job{number, std::move(path), std::move(picture), std::move(text), wishes};
+  job.wishes.check = {};  // a picture that is made is kept
+  if (!jobs_.push(std::move(job))) finish();
 }
 
 void PictureQueue::finish() {

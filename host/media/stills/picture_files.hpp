@@ -58,9 +58,9 @@ void write_jpeg(OutputFile& file, const Picture& picture, const std::string& tex
 // Writes codes (8 or 16 bits) or light (32- or 64-bit floating point), uncompressed, so that every program
 // reads it bit for bit; what values mean as an ICC profile, pixels that are not square as resolution. `text` becomes
 // the ImageDescription; none where it is empty. Throws OutputError.
-void write_tiff(const std::filesystem::path& path, const Picture& picture, const std::string& text);
+void write_tiff(OutputFile& file, const Picture& picture, const std::string& text);
 // Each layer is a page, described by its text.
-void write_tiff(const std::filesystem::path& path, std::span<const PictureLayer> layers);
+void write_tiff(OutputFile& file, std::span<const PictureLayer> layers);
 
 // The ImageDescription of the first picture; nothing where there is none. Throws InputError where the file is no
 // TIFF.

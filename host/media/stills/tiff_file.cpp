@@ -34,7 +34,7 @@ std::optional<std::string> read_tiff_description(const std::filesystem::path& pa
 namespace {
 
 // A page; false where it cannot be written.
-bool write_page(TIFF* tiff, const Picture& picture, const std::string& text) {
+bool write_page(TIFF* tiff, const OutputFile& file, const Picture& picture, const std::string& text) {
   const Shape& shape = picture.shape;
   const std::size_t bytes = value_bytes(picture.type);
   TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, shape.width);
@@ -63,6 +63,7 @@ bool write_page(TIFF* tiff, const Picture& picture, const std::string& text) {
   const std::size_t row_bytes = std::size_t{shape.width} * shape.channels * bytes;
   std::vector<std::byte> row(row_bytes);  // libtiff may change what it is given
   for (std::uint32_t y = 0; y < shape.height; ++y) {
+    file.check();
     std::copy_n(picture.bytes.begin() + static_cast<std::ptrdiff_t>(y * row_bytes), row_bytes, row.begin());
     if (TIFFWriteScanline(tiff, row.data(), y, 0) < 0) return false;
   }
@@ -71,9 +72,10 @@ bool write_page(TIFF* tiff, const Picture& picture, const std::string& text) {
 
 // Writes `pages` pages of so many bytes each by `write_one`, which says whether it could.
 template <typename Write>
-void write_pages(const std::filesystem::path& path, std::uint64_t bytes, std::size_t pages, const Write& write_one) {
+void write_pages(const OutputFile& file, std::uint64_t bytes, std::size_t pages, const Write& write_one) {
   TIFFSetErrorHandler(nullptr);  // what matters is thrown
   TIFFSetWarningHandler(nullptr);
+  const std::filesystem::path& path = file.temporary_path();
   const std::unique_ptr<TIFF, CloseTiff> tiff(TIFFOpen(path.c_str(), pages * bytes > kLargestClassicTiff ? "w8" : "w"));
   bool is_written = tiff != nullptr;
   for (std::size_t page = 0; is_written && page < pages; ++page)
@@ -84,13 +86,14 @@ void write_pages(const std::filesystem::path& path, std::uint64_t bytes, std::si
 
 }  // namespace
 
-void write_tiff(const std::filesystem::path& path, const Picture& picture, const std::string& text) {
-  write_pages(path, picture.bytes.size(), 1, [&](TIFF* tiff, std::size_t) { return write_page(tiff, picture, text); });
+void write_tiff(OutputFile& file, const Picture& picture, const std::string& text) {
+  write_pages(file, picture.bytes.size(), 1,
+              [&](TIFF* tiff, std::size_t) { return write_page(tiff, file, picture, text); });
 }
 
-void write_tiff(const std::filesystem::path& path, std::span<const PictureLayer> layers) {
-  write_pages(path, layers.front().values.bytes.size(), layers.size(), [&](TIFF* tiff, std::size_t page) {
-    return write_page(tiff, layers[page].values, layers[page].text);
+void write_tiff(OutputFile& file, std::span<const PictureLayer> layers) {
+  write_pages(file, layers.front().values.bytes.size(), layers.size(), [&](TIFF* tiff, std::size_t page) {
+    return write_page(tiff, file, layers[page].values, layers[page].text);
   });
 }
 

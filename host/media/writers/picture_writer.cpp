@@ -40,7 +40,7 @@ void write_npy(OutputFile& file, const Picture& picture, const std::string&, con
   file.write(npy_text(picture));
 }
 void write_tiff_file(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
-  write_tiff(file.temporary_path(), picture, text);
+  write_tiff(file, picture, text);
 }
 void write_jpeg_file(OutputFile& file, const Picture& picture, const std::string& text,
                      const FileWishes& wishes) {
@@ -52,7 +52,7 @@ void write_exr_file(OutputFile& file, const Picture& picture, const std::string&
 }
 
 void write_tiff_layers(OutputFile& file, std::span<const PictureLayer> layers) {
-  write_tiff(file.temporary_path(), layers);
+  write_tiff(file, layers);
 }
 void write_npy_layers(OutputFile& file, std::span<const PictureLayer> layers) { file.write(npy_text(layers)); }
 void write_exr_layers(OutputFile& file, std::span<const PictureLayer> layers) {
@@ -190,11 +190,13 @@ void write_picture(const std::filesystem::path& path, const Picture& picture, co
     // Made whole before anything is sent; some of it is written by libraries that go back in their file.
     const NamelessFile nameless;
     OutputFile file(nameless.path(), OutputFile::Lasting::no);
+    file.check_by(wishes.check);
     kind.write(file, picture, text, wishes);
     file.send_to_standard_output();
     return;
   }
   OutputFile file(path);
+  file.check_by(wishes.check);
   kind.write(file, picture, text, wishes);
   file.commit();
 }

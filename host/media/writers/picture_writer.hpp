@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "capture/picture.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 
@@ -38,6 +40,8 @@ struct FileWishes {
   int quality = kDefaultQuality;  // 1 … 100, of lossy files
   bool as_half = false;         // light in 16 bits
   bool square_pixels = false;   // of files that people look at: .png and .jpg
+  // Called often while a file is written: what it throws leaves no file. Empty for pictures that a signal must not lose.
+  std::function<void()> check = check_interruption;
 };
 
 // That files hold where pixels are made square.

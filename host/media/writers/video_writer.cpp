@@ -84,7 +84,9 @@ class StillWriter final : public VideoWriter {
   StillWriter(const std::filesystem::path& path, const FileWishes& wishes)
       : folder_(path.parent_path()),
         name_(NumberedName::parse(path.filename().string()).value()),
-        wishes_(wishes) {}
+        wishes_(wishes) {
+    wishes_.check = {};  // the frames so far are kept
+  }
 
   void write(const Picture& picture, const std::string& text, std::uint64_t number) override {
     write_picture(folder_ / name_.with(number), picture, text, wishes_);

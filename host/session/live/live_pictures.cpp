@@ -15,7 +15,7 @@ ExposedPicture expose(const LivePart& part, const Rectangle& rectangle, bool in_
   control.stop = stop;
   control.rectangle = rectangle;
   control.precision = in_single ? Precision::single_ : part.precision;
-  control.takes_wrong = in_single;
+  control.takes_wrong = control.is_chosen = in_single;
   return part.session->render(part.exposure, part.output, control);
 }
 

@@ -80,7 +80,7 @@ OutputFormat output_format(const OutputRequest& request, const CaptureFormat& ca
                          : request.depth == Depth::bits16  ? ValueType::code16
                          : request.depth == Depth::doubled ? ValueType::light64
                                                            : ValueType::light32;
-  return format_of(request, type, capture);
+  return output_format(request, "a picture of light", type, capture);
 }
 
 std::string codes_text(const CaptureFormat& capture, const OutputFormat& output) {

@@ -44,7 +44,7 @@ double parse_number(std::string_view text, std::string_view what, double low, do
 }
 
 std::optional<std::uint64_t> parse_bytes(std::string_view text) {
-  std::uint64_t bytes = 0;
+  double bytes = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), bytes);
   if (error != std::errc()) return std::nullopt;
   std::string unit;  // in small letters, without the B of bytes
@@ -52,15 +52,13 @@ std::optional<std::uint64_t> parse_bytes(std::string_view text) {
     if (c != ' ' || !unit.empty()) unit += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   if (unit.ends_with('b')) unit.pop_back();
-  const std::uint64_t factor = unit.ends_with('i') ? 1024 : 1000;
+  const double factor = unit.ends_with('i') ? 1024 : 1000;
   if (factor == 1024) unit.pop_back();
-  if (unit.empty()) return factor == 1000 ? std::optional(bytes) : std::nullopt;
   const auto power = std::string_view("kmgtpe").find(unit);
-  if (unit.size() > 1 || power == std::string_view::npos) return std::nullopt;
-  for (std::size_t k = 0; k <= power; ++k) {
-    if (__builtin_mul_overflow(bytes, factor, &bytes)) return std::nullopt;
-  }
-  return bytes;
+  if (unit.size() > 1 || power == std::string_view::npos || (unit.empty() && factor == 1024)) return std::nullopt;
+  for (std::size_t k = 0; k <= power && !unit.empty(); ++k) bytes *= factor;
+  if (!(bytes >= 0 && bytes < 0x1p64)) return std::nullopt;
+  return static_cast<std::uint64_t>(bytes);
 }
 
 std::vector<double> parse_numbers(std::string_view text, std::string_view what) {
