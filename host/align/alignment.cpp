@@ -175,7 +175,8 @@ std::string alignment_text(const CameraPath& path, const Rectangle& area, Unseen
   const std::string shown =
       unseen == Unseen::held
           ? "what a picture did not see holds what was seen there before"
-          : format("cropped to what all of them saw, {} x {} pixels from {},{} on", area.width, area.height, area.x, area.y);
+          : format("cropped to what all of them saw, {} x {} pixels from {},{} on", area.width, area.height, area.x,
+                   area.y);
   return format(
       "aligned to picture {} ({}), from which others are {}; after that half of the texture is at most {:.2f} pixels "
       "off; {}",

@@ -186,7 +186,8 @@ class ClipPart final : public Clip {
       throw UsageError(format("no picture begins that late in {}{}", name_, pictures), {Setting::from});
     }
     if (first_ >= end_) {
-      const std::string_view what = first_ > end_ ? "the part ends before it begins" : "no picture begins between the two";
+      const std::string_view what =
+          first_ > end_ ? "the part ends before it begins" : "no picture begins between the two";
       throw UsageError(format("{} in {}{}", what, name_, pictures),
                        {Setting::from, Setting::to});
     }

@@ -16,8 +16,8 @@ void doubt(Rendered& rendered, const OutputFormat& output, bool is_asked, const 
   if (is_asked && !control.strict && (control.is_chosen || !holds_codes(output.type))) return;
   const std::string name = to_text(rendered.precision), error = error_text(rendered.choice->bound.worst, output);
   std::string text =
-      is_asked ? format("{}: {}; auto takes an arithmetic that is sure, where there is one", not_sure_text(name, output),
-                        error)
+      is_asked ? format("{}: {}; auto takes an arithmetic that is sure, where there is one",
+                        not_sure_text(name, output), error)
                : format("no arithmetic of {} is sure to be right to {} here; {} is the closest: {}", device,
                         half_step_text(output), name, error);
   if (control.strict) throw ImpreciseError(text);

@@ -113,7 +113,8 @@ TEST_F(Habits, SuggestsWhatWasMeant) {
   expect_refused(2, {{"shutter hann --expo 10ms", "did you mean --exposure?; see nutik-cl shutter --help"},
                      {"expose --shut hann", "did you mean --shutter-angle, --shutter or --shutter-error?"},
                      {"video --fps-out 24 clip.tik", "did you mean --out-fps?"},
-                     {"study --moment 0s clip.tik", "does not go with study; did you mean --moments? It is an option of: activity"},
+                     {"study --moment 0s clip.tik",
+                      "does not go with study; did you mean --moments? --moment is an option of: activity"},
                      {"enc clip.tik", "did you mean encode?"}});
   const auto expect_choice = [&](const char* option, const char* value, const char* meant) {
     expect_refused({"expose", option, value, "-k", "one.fn", "clip.tik"}, 2,
@@ -137,8 +138,10 @@ TEST_F(Habits, NoticesSwallowedWords) {
           {"-k clip.tik a.png", "-k needs a file of another kind, -k FILE.fn, and clip.tik is a capture"},
           {"--start --exposure 10ms clip.tik", "--start TIME, and --exposure behind it is an option"},
           {"encode --align --start 0s clip.tik", "a value, translation, rigid or homography, and --start behind it is"},
-          {"expose a.png clip.tik", "there is no file a.png, and clip.tik is one; the input comes first: nutik-cl expose "
-                                    "clip.tik a.png"}});
+          {"expose x.png frames", "there is no file x.png, and frames is one; the input comes first: nutik-cl expose "
+                                  "frames x.png"}});
+  // Patterns name no file.
+  for (int time = 0; time < 2; ++time) make("expose -f 25 --start 0s --exposure 40ms frames/*.pgm again.png");
   // A file that is named like a number is none of that.
   scratch_.write("1.5", "");
   make("--gain 1.5 -k one.fn clip.tik a.png");

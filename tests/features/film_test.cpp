@@ -188,9 +188,9 @@ TEST(Frames, OfTwoOrThreePicturesShowWhatMovesSoOften) {
     request.rate = rate;
     return seen_together(frames_of(request, timeline), timeline);
   };
-  EXPECT_EQ(seen({30, 1}, "180"), (SampleRange{0, 29}));  // every other frame has two
-  EXPECT_EQ(seen({60, 1}, "180"), (SampleRange{0, 58}));
-  EXPECT_EQ(seen({60, 1}, "360", {30, 1}), (SampleRange{0, 59}));
+  EXPECT_EQ(seen({30, 1}, "180"), (SampleRange{0, 30}));  // every other frame has two
+  EXPECT_EQ(seen({60, 1}, "180"), (SampleRange{0, 59}));
+  EXPECT_EQ(seen({60, 1}, "360", {30, 1}), (SampleRange{0, 60}));
   EXPECT_EQ(seen({30, 1}, "360", {30, 1}), std::nullopt) << "each its own picture";
   EXPECT_EQ(seen({24, 1}, "180"), std::nullopt);
   EXPECT_EQ(seen({240, 1}, "180"), std::nullopt) << "five or six join";

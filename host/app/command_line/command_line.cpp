@@ -64,8 +64,9 @@ const Command& shorthand(const Words& words) {
   }
   for (const Option* each : options_of(command.id)) known.push_back(each->name());
   const std::string meant = did_you_mean(option.name(), known);
-  throw UsageError(format("{} does not go with {}{} an option of: {}", option.display_name(), command.name,
-                          meant.empty() ? "; it is" : meant + " It is", joined(takers)));
+  throw UsageError(format("{0} does not go with {1}{2} an option of: {3}", option.display_name(), command.name,
+                          meant.empty() ? "; it is" : format("{} {} is", meant, option.display_name()),
+                          joined(takers)));
 }
 
 Options options_for(const Command& command, Words words) {

@@ -21,24 +21,29 @@ static Json sound_json(const ClipSound& of_clip, const FilmSound& of_film) {
           {"start_s", of_film.start_s}, {"speed", of_film.speed}, {"seconds", of_film.seconds}};
 }
 
-// Where frames would show what moves two or three times, samples are made between the pictures, unless that was stated.
-// `options` and the session get them; returns what is said of it.
-static std::string join_pictures(Options& options, Session& session, const Session::Terms& terms, const Frames& frames) {
+// Where frames would show what moves two or three times, samples are made between the clip's pictures, unless that was
+// stated. `options` and the session get them; returns what is said of it.
+static std::string join_pictures(Options& options, Session& session, const Session::Terms& terms,
+                                 const FramesRequest& request, const Frames& frames) {
   const std::string& clip = options.operands.front();
+  if (!session.is_clip() || options.has("between") || request.exposure.combine != Combine::integral) return {};
+  if (is_standard_input(clip) || is_event_recording(clip)) return {};
   const auto seen = seen_together(frames, session.timeline());
-  if (!session.is_clip() || options.has("between") || !seen || is_standard_input(clip) || is_event_recording(clip))
-    return {};
-  std::string text = format("frames are exposed from two or three pictures of the clip, and would show what moves so often: "
-                            "samples were made between pictures {} … {}; off leaves it as it was filmed",
-                            seen->first, seen->last);
+  if (!seen) return {};
+  const std::uint64_t last = seen->last - 1;
+  std::string text = format("frames are exposed from two or three pictures of the clip, and would show what moves two or "
+                            "three times: samples were made between pictures {} … {}; off leaves it as it was filmed",
+                            seen->first, last);
   Options joined = options;
-  option_of(CommandId::video, "between")->restate(joined, {BetweenRequest{.first = seen->first, .last = seen->last}.text()});
+  const std::string between = BetweenRequest{.first = seen->first, .last = last}.text();
+  option_of(CommandId::video, "between")->restate(joined, {between});
   static_cast<void>(Session(std::move(session)));  // ended, before another takes its memory
   try {
     session = open_session(joined, terms);
     options = std::move(joined);
   } catch (const Error& error) {
-    if (!is_refusal(error)) throw;
+    // Parts of one film are alike.
+    if (!is_refusal(error) || request.numbers || options.skip_existing) throw;
     session = open_session(options, terms);
     text = format("frames show what moves two or three times, and samples that join it cannot be made: {}", error.what());
   }
@@ -71,7 +76,7 @@ int run_video(const Options& stated) {
   Frames frames = frames_of(request, session.timeline());
   if (!frames.warning.empty()) print_warning(frames.warning);
   output.check(frames.numbers, inputs, replacing(options));
-  const std::string joined = join_pictures(options, session, terms, frames);
+  const std::string joined = join_pictures(options, session, terms, request, frames);
   PictureRecipe recipe(output.writes_stills() ? recipe_sources(options) : std::nullopt);
   const auto own_recipe_of = [&](std::uint64_t frame) {
     return frame_recipe(request, frames, frame, output.still(frame).stem().string() + ".fn");

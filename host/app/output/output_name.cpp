@@ -19,6 +19,16 @@
 
 namespace nutik::app {
 
+namespace {
+
+// A picture's or a capture's name, and no pattern.
+bool names_an_output(const std::string& name) {
+  const bool is_pattern = name.find_first_of("*?[%") != name.npos;
+  return !is_pattern && (is_picture_name(name) || std::filesystem::path(name).extension() == ".tik");
+}
+
+}  // namespace
+
 std::optional<std::filesystem::path> stated_output(const Options& options, std::string_view command) {
   const Options::Text& option = options.output;
   const std::vector<std::string>& operands = options.operands;
@@ -29,7 +39,9 @@ std::optional<std::filesystem::path> stated_output(const Options& options, std::
                "pattern in quotes such as 'frames/*.png'. See nutik-cl {} --help",
                operands[2], command));
   }
-  if (operands.size() == 2 && is_absent(operands[0]) && !is_absent(operands[1])) {
+  const bool are_swapped = operands.size() == 2 && names_an_output(operands[0]) && is_absent(operands[0]) &&
+                           !names_an_output(operands[1]) && !is_absent(operands[1]);
+  if (are_swapped) {
     throw UsageError(format("there is no file {}, and {} is one; the input comes first: nutik-cl {} {} {}", operands[0],
                             operands[1], command, shell_word(operands[1]), shell_word(operands[0])));
   }

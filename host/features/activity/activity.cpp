@@ -110,8 +110,8 @@ bool MeasuredActivity::is_redrawn(std::uint64_t sample) const {
 
 std::vector<Note> MeasuredActivity::notes() const {
   if (redrawn.empty()) return {};
-  return {{format("at {} ({}f{}) the whole picture changed a little at once, as with a codec's key frame or a camera's new "
-                  "exposure; each counts as its neighbours do",
+  return {{format("at {} ({}f{}) the whole picture changed a little at once, as with a codec's key frame or a camera's "
+                  "new exposure; each counts as its neighbours do",
                   counted(redrawn.size(), "sample"), redrawn.front(),
                   redrawn.size() > 1 ? format(" … {}f", redrawn.back()) : ""),
            {Setting::count_redrawn}}};

@@ -247,9 +247,9 @@ std::optional<SampleRange> seen_together(const Frames& frames, const Timeline& t
     const SampleRange samples = timeline.samples_reaching(exposed.start_ns + unseen_ns, exposed.end_ns - unseen_ns);
     if (samples.empty()) continue;
     torn += samples.size() >= kFewest && samples.size() <= kMost ? 1 : 0;
-    all = {std::min(all.first, samples.first), std::max(all.last, samples.last - 1)};
+    all = {std::min(all.first, samples.first), std::max(all.last, samples.last)};
   }
-  return 4 * torn >= frames.count && all.first < all.last ? std::optional(all) : std::nullopt;
+  return 4 * torn >= frames.count && torn > 0 ? std::optional(all) : std::nullopt;
 }
 
 ExposureRequest exposure_of(const FramesRequest& request, const Frames& frames, std::uint64_t frame) {

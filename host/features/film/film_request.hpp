@@ -113,8 +113,8 @@ struct Frames {
 [[nodiscard]] ExposureRequest exposure_of(const FramesRequest& request, const Frames& frames,
                                           std::uint64_t frame);
 
-// The samples of a clip, the first and the last, that the film is exposed from, if a quarter of its frames or more are
-// exposed from two or three of them: what moves is seen so often in such a frame. More of them join to a blur.
+// The samples of a clip that the film is exposed from, if a quarter of its frames or more are exposed from two or three
+// of them: such a frame shows what moves two or three times. More of them join to a blur.
 [[nodiscard]] std::optional<SampleRange> seen_together(const Frames& frames, const Timeline& timeline);
 
 // Throws UsageError where the capture has none, none of them is to be made, or times make no sense.

@@ -239,8 +239,8 @@ class LibavClip final : public Clip {
     }
     if (is_interlaced || interlaced_ == Interlaced::refused || interlaced_ == Interlaced::ignored) return {};
     return format(
-        "nothing in the clip says that it is interlaced, and {} all the same: if it is not, half of the lines are made up "
-        "for nothing",
+        "nothing in the clip says that it is interlaced, and {} all the same: if it is not, half of the lines are made "
+        "up for nothing",
         interlaced_ == Interlaced::fields ? "two pictures are made of each"
                                           : "each picture is made of one field");
   }
