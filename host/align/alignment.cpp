@@ -64,7 +64,7 @@ class AlignedClip final : public Clip {
         raster_(clip.format.sample_bytes()) {
     info_.format.shape.width = area.width;
     info_.format.shape.height = area.height;
-    info_.roundings.add(0.5, 1.0, "interpolation");
+    info_.roundings.add(0.5, 0.0, "interpolation");
     info_.decoder_bytes += raster_.size() + held_.size() + LightWarp::bytes(clip.format);
   }
 

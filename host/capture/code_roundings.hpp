@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "capture/error.hpp"
+#include "capture/format.hpp"
 
 namespace nutik {
 
@@ -24,24 +26,25 @@ struct CodeRoundings {
 
   [[nodiscard]] bool are_none() const { return codes == 0.0; }
 
-  // `0.525 alignment deflicker`, rounded up.
+  // `0.525000 interpolation deflicker`, rounded up.
   [[nodiscard]] std::string text() const {
-    char digits[32];
-    std::snprintf(digits, sizeof digits, "%.6f", codes + 5e-7);
-    std::string text = digits;
+    std::string text = format("{:.6f}", codes + 5e-7);
     for (const std::string& name : unbounded) text += " " + name;
     return text;
   }
-  // Of `1`, which captures had before: light that was rounded once.
+  // Captures had `1` before: light that was rounded once. Throws UsageError.
   [[nodiscard]] static CodeRoundings parse(std::string_view text) {
+    constexpr std::size_t kLongest = 256;
     CodeRoundings roundings;
+    if (text == "1") return {0.5};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), roundings.codes);
-    if (error != std::errc() || text == "1" || !(roundings.codes >= 0.0 && roundings.codes <= 65'535.0))
-      roundings.codes = 0.5;
+    const bool is_whole = error == std::errc() && (end == text.data() + text.size() || *end == ' ');
+    if (!is_whole || text.size() > kLongest || !(roundings.codes >= 0.0 && roundings.codes <= 65'535.0))
+      throw UsageError("what it says of its roundings is damaged");
     text.remove_prefix(static_cast<std::size_t>(end - text.data()));
     while (!text.empty()) {
       const std::string_view word = text.substr(0, text.find(' '));
-      if (!word.empty()) roundings.unbounded.emplace_back(word);
+      roundings.add(0.0, 1.0, word);
       text.remove_prefix(std::min(word.size() + 1, text.size()));
     }
     return roundings;

@@ -88,8 +88,8 @@ class Timeline {
   [[nodiscard]] std::span<const Exposure> table() const { return exposures_; }
   [[nodiscard]] bool is_constant() const { return exposures_.empty(); }
 
-  // Samples a second, above 0: exact where constant, else the mean from the first start to the last. The angle a constant
-  // or irregular timeline was made with; for explicit exposures the mean share of the period, in degrees.
+  // Samples a second, above 0: exact where constant, else the mean from the first start to the last. The angle that a
+  // constant or irregular timeline was made with; for explicit exposures the mean share of the period, in degrees.
   [[nodiscard]] Rational rate() const { return rate_; }
   [[nodiscard]] Rational shutter_angle() const { return shutter_angle_; }
 

@@ -59,8 +59,9 @@ class Blocks {
   }
 
   // Noise that both pictures have alike gives each tile's difference either sign with the same chance: they might be
-  // swapped. All tiles together are looked at, and those of each quarter of the codes, for both signs.
-  [[nodiscard]] bool are_exposed_alike(std::span<const double> codes, std::span<const double> wanted,
+  // swapped. All tiles together are looked at, and those of each quarter of the codes, for both signs. None where too
+  // few tell.
+  [[nodiscard]] std::optional<bool> are_exposed_alike(std::span<const double> codes, std::span<const double> wanted,
                                        double trials) const {
     constexpr std::size_t kQuarters = 4;
     std::vector<double> sizes;
@@ -69,19 +70,23 @@ class Blocks {
     }
     if (sizes.empty()) return true;
     const double deviation = std::max(1.4826 * median(sizes), kCode8);
-    const std::size_t side = codes.size() < 576 ? 1 : kTileBlocks, across = (columns_.size() - 1) / side + 1;
+    const std::size_t side = sizes.size() < 576 ? 1 : kTileBlocks, across = (columns_.size() - 1) / side + 1;
     std::array<std::vector<double>, 1 + kQuarters> tiles;
     tiles.fill(std::vector<double>(across * ((rows_.size() - 1) / side + 1)));
+    std::vector<bool> tells(tiles.front().size());
     for (std::size_t i = 0; i < codes.size(); ++i) {
       if (!tells_exposure(codes[i], wanted[i])) continue;
       const double difference = wanted[i] - codes[i];
       const double quarter = std::min((codes[i] + wanted[i]) / 2 * kQuarters, kQuarters - 1.0);
+      const std::size_t tile = i / columns_.size() / side * across + i % columns_.size() / side;
+      tells[tile] = true;
       for (const std::size_t seen : {std::size_t{0}, 1 + static_cast<std::size_t>(quarter)})
-        tiles[seen][i / columns_.size() / side * across + i % columns_.size() / side] +=
-            trust(difference, deviation) * difference;
+        tiles[seen][tile] += trust(difference, deviation) * difference;
     }
+    trials *= static_cast<double>(tiles.size());
+    if (static_cast<double>(std::ranges::count(tells, true)) < 1 + std::log2(trials)) return std::nullopt;
     return std::ranges::all_of(tiles, [&](const std::vector<double>& differences) {
-      return may_be_chance(differences, trials * static_cast<double>(tiles.size()));
+      return may_be_chance(differences, trials);
     });
   }
 
@@ -192,9 +197,11 @@ class DeflickeredClip final : public Clip {
     }
     const bool is_new = change >= kMinChange;
     if (!is_new && !is_shifted_) return true;
-    if (is_alike(means)) {
+    const std::optional<bool> alike = is_alike(means);
+    if (!alike) return !is_new;
+    if (*alike) {
       shifts.assign(shifts.size(), {});
-    } else if (!is_new || (is_shifted_ && is_alike(shifted(means)))) {
+    } else if (!is_new || (is_shifted_ && is_alike(shifted(means)) == true)) {
       return true;
     }
     shifts_ = std::move(shifts);
@@ -209,12 +216,16 @@ class DeflickeredClip final : public Clip {
     return true;
   }
 
-  [[nodiscard]] bool is_alike(const std::vector<std::vector<double>>& means) const {
+  // None where it cannot be told.
+  [[nodiscard]] std::optional<bool> is_alike(const std::vector<std::vector<double>>& means) const {
+    std::optional<bool> alike = true;
     for (std::size_t channel = 0; channel < means.size(); ++channel) {
-      if (!blocks_.are_exposed_alike(means[channel], first_[channel], kTrials * static_cast<double>(means.size())))
-        return false;
+      const double trials = kTrials * static_cast<double>(means.size());
+      const auto of_channel = blocks_.are_exposed_alike(means[channel], first_[channel], trials);
+      if (of_channel == false) return false;
+      if (!of_channel) alike.reset();
     }
-    return true;
+    return alike;
   }
 
   // As they are corrected now.

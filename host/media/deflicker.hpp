@@ -2,8 +2,8 @@
 //
 //   in:      a clip
 //   out:     the same pictures, with codes as the same things have in the first one
-//   always:  within a channel equal codes of a picture stay equal, and greater ones do not become smaller; a picture that
-//            may have been exposed as the first one, but for noise, keeps its codes
+//   always:  within a channel equal codes of a picture stay equal, and greater ones do not become smaller; a picture
+//            that may have been exposed as the first one, but for noise, keeps its codes
 #pragma once
 
 #include <array>
@@ -24,8 +24,8 @@ inline constexpr std::string_view kDeflickered = "exposed as its first picture";
 // How far codes of one picture lie from those of another for the same things: by codes, linear between knots.
 class CodeShift {
  public:
-  // Between pairs of codes of the same places. Of those that are neither black nor white in both less than half may show
-  // other things: none where more do, and no shift where nearly all are black or white. Codes are shares of white.
+  // Between pairs of codes of the same places. Of those that are neither black nor white in both less than half may
+  // show other things: none where more do, and no shift where nearly all are black or white. Codes are shares of white.
   static std::optional<CodeShift> between(std::span<const double> codes, std::span<const double> wanted);
 
   [[nodiscard]] double at(double code) const;

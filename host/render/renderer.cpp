@@ -45,7 +45,8 @@ void check_reference_strictly(const RenderPlan& plan, const OutputFormat& output
 }
 
 std::string half_step_text(const OutputFormat& output) {
-  return format("{} of a {}", kMaxSteps, holds_codes(output.type) ? "code" : output.is_half ? "half's step" : "float's step");
+  return format("{} of a {}", kMaxSteps,
+                holds_codes(output.type) ? "code" : output.is_half ? "half's step" : "float's step");
 }
 
 std::string not_sure_text(std::string_view who, const OutputFormat& output) {
@@ -58,10 +59,10 @@ std::string error_text(const PictureError& error, const OutputFormat& output) {
   const bool is_power_of_two = std::has_single_bit(output.white_code + 1);
   const bool is_one = error.steps < 1.0;
   const char* plural = is_one ? "" : "s";
-  const std::string step = output.type == ValueType::light32 ? format("{}'s step{}", output.is_half ? "half" : "float", plural)
-                           : is_power_of_two
-                               ? format("{}-bit code{}", std::bit_width(output.white_code), plural)
-                               : format("code{} of {}", plural, output.white_code);
+  const std::string step =
+      output.type == ValueType::light32 ? format("{}'s step{}", output.is_half ? "half" : "float", plural)
+      : is_power_of_two                 ? format("{}-bit code{}", std::bit_width(output.white_code), plural)
+                                        : format("code{} of {}", plural, output.white_code);
   const std::string_view article = step.starts_with('8') || step.starts_with("11-") ? "of an " : "of a ";
   return is_one ? format("{}, {:.2g} {}{}", light, error.steps, article, step)
                 : format("{}, {:.3g} {}", light, error.steps, step);

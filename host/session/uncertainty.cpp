@@ -61,11 +61,11 @@ double largest_codes(const CodeErrors& codes, const Transfer& captured, double s
 // How codes were made, where nobody knows how far off that is: by the names that a capture's file has.
 UncertaintyTerm without_bound(std::string_view name) {
   static constexpr std::pair<std::string_view, std::string_view> kTexts[] = {
-      {"chroma", "interpolated between the clip's pixels, by FFmpeg"},
+      {"chroma", "chroma that pixels share"},
       {"deflicker", "curves that are estimates; their rounding is among the rounded codes"},
       {"events", "light between two of a pixel's events, and how true the contrast is"},
       {"fields", "lines between those of an interlaced clip's fields"},
-      {"interpolation", "light between pixels, of aligned pictures"},
+      {"interpolation", "light between pixels of aligned pictures, and what their codes were rounded by before"},
   };
   for (const auto& [known, text] : kTexts) {
     if (known == name) return {known, Is::no_bound, {}, {}, std::string(text)};
@@ -152,7 +152,7 @@ CaptureErrors CaptureErrors::of(const CaptureFormat& capture, const CodeRounding
     double deviation = 0.0;
     for (std::uint32_t channel = 0; noise.camera && channel < noise.camera->channels.size(); ++channel)
       deviation = std::max(deviation, scale * noise.camera->sd(channel, code / scale));
-    if (!roundings.are_none()) rounded.push_back(within(code, roundings.codes));
+    if (!roundings.are_none()) rounded.push_back(within(code, scale * roundings.codes));
     held.push_back(within(code, std::max<double>(noise.tolerance, noise.sigmas * deviation)));
     if (deviation > 0.0)
       noisy.push_back({held.back().light, (light_at(code + deviation) - light_at(code - deviation)) / 2});

@@ -91,7 +91,7 @@ void Writer::append(const BuiltBlock& held, std::span<const Exposure> exposures,
   const BuiltBlock* block = &held;
   Codec codec = codec_;
   if (codec_.id == CodecId::none) {
-    if (exact && PayloadParts(exact_geometry, exact->payload).bytes() < PayloadParts(geometry, held.payload).bytes())
+    if (exact && PayloadParts(geometry, exact->payload).bytes() < PayloadParts(geometry, held.payload).bytes())
       block = &*exact;
   } else {
     const auto told = [&](std::uint64_t before) -> ReportedProgress {

@@ -235,8 +235,14 @@ TEST_F(UncertaintyOf, SkippingLeavesAPictureWithItsMap) {
     std::filesystem::remove(scratch_ / (name + "1.npy"));
     expect_says(make(skipping).out, "1 ");
     EXPECT_EQ(test::read_file(scratch_ / (name + "1.npy")), map) << command;
-    // Of a picture that is made otherwise the map is, too; one that no picture there names is not replaced.
     if (name == "b") continue;
+    // A map of that name in another folder is none of its pictures'.
+    std::filesystem::create_directory(scratch_ / "other");
+    std::filesystem::copy(scratch_ / (name + "0.npy"), scratch_ / "other" / (name + "0.npy"));
+    std::string elsewhere = skipping;
+    elsewhere.insert(elsewhere.find("--bounds ") + 9, "other/");
+    expect_says(make(elsewhere, 2).err, "other/" + name + "0.npy is there already and is not replaced");
+    // If a picture is made otherwise, so is its map; one that no picture there names is not replaced.
     make(skipping + " --gain 2");
     EXPECT_NE(test::read_file(scratch_ / (name + "1.npy")), map) << command;
     std::filesystem::remove(scratch_ / (name + "1.png"));

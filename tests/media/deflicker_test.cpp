@@ -198,6 +198,30 @@ TEST(Deflicker, SaysOfWhichPicturesTheExposureCannotBeTold) {
   EXPECT_EQ(rasters.size(), 4u);
 }
 
+// A lit square on black, and a picture of too few pixels to tell a dimmed one from chance.
+TEST(Deflicker, CorrectsASmallLitPartAndSaysWhatIsTooSmall) {
+  const auto dimmed = [](const Shape& shape, std::uint32_t lit_width, std::uint32_t lit_height, double gain) {
+    Picture picture(shape, ValueType::code8, 255);
+    for (std::uint32_t y = 0; y < lit_height; ++y) {
+      for (std::uint32_t x = 0; x < lit_width; ++x)
+        picture.values<std::uint8_t>()[y * shape.width + x] = static_cast<std::uint8_t>(gain * (100 + 7 * x % 50));
+    }
+    return picture;
+  };
+  for (const Shape& shape : {Shape{320, 240, 1}, Shape{8, 8, 1}}) {
+    const bool is_small = shape.width == 8;
+    const std::uint32_t width = is_small ? 8 : 60, height = is_small ? 8 : 45;
+    const std::vector<Picture> pictures = {dimmed(shape, width, height, 1), dimmed(shape, width, height, 0.7)};
+    std::vector<std::string> remarks;
+    const auto rasters = read_deflickered(pictures, remarks);
+    ASSERT_EQ(remarks.size(), 1u);
+    EXPECT_TRUE(remarks[0].starts_with(is_small ? "1 of 2 pictures show too little" : "the exposure of 1 of 2"))
+        << remarks[0];
+    for (std::size_t i = 0; i < shape.value_count(); ++i)
+      ASSERT_NEAR(code_at(rasters[1], 255, i), code_at(pictures[is_small ? 1 : 0].bytes, 255, i), is_small ? 0 : 2) << i;
+  }
+}
+
 TEST(Deflicker, KeepsTheOrderOfCodes) {
   std::vector<Picture> pictures = {picture_at(0, 0, 255), picture_at(1, 1, 255)};
   const auto codes = pictures[1].values<std::uint8_t>();

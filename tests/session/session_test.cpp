@@ -83,7 +83,8 @@ TEST(Session, KnowsNoiseByItsModel) {
   capture.white_code = 65'535;
   capture.transfer = Transfer::linear();
   capture.noise.camera = CameraNoise{4095, Transfer::linear(), {{NoiseCurve::sensor, 0.001, 1e-4, {}}}};
-  const CaptureErrors errors = CaptureErrors::of(capture, {});
+  const CaptureErrors errors = CaptureErrors::of(capture, {0.5});
+  EXPECT_NEAR(errors.rounded.most(), 0.5 / 4095, 1e-9) << "of the clip's codes";
   const double at_white = std::sqrt(1e-6 + 1e-4);
   EXPECT_NEAR(errors.noise.most(), at_white, 0.01 * at_white) << "within a deviation of white";
   EXPECT_NEAR(errors.held.most(), 3 * at_white, 1e-3 * at_white) << "down from white";

@@ -309,6 +309,8 @@ TEST(CodeRoundings, ComeBackFromTheirText) {
   EXPECT_NEAR(read.codes, roundings.codes, 1e-6);
   EXPECT_EQ(read.unbounded, (std::vector<std::string>{"chroma", "deflicker"}));
   EXPECT_EQ(CodeRoundings::parse("1"), CodeRoundings{0.5});
+  for (const char* damaged : {"", "x", "0,525000", "70000 x", "-1", "nan", "0.5x"})
+    EXPECT_THROW(static_cast<void>(CodeRoundings::parse(damaged)), UsageError) << damaged;
 }
 
 }  // namespace

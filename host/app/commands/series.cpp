@@ -40,9 +40,10 @@ int run_series(const Options& options) {
   const std::size_t wanted = pictures.size();
   if (options.skip_existing) {
     std::erase_if(pictures, [&](const SeriesPicture& picture) {
-      return is_made(picture.path, stated_precision(options), maps.of(picture.number), [&](const std::string& precision) {
+      const auto recipe_of = [&](const std::string& precision) {
         return recipe.text(precision, own_recipe_of(picture));
-      });
+      };
+      return is_made(picture.path, stated_precision(options), maps.of(picture.number), recipe_of);
     });
     if (pictures.empty()) return tell_all_made(options, names[0], wanted, "exposure");
   }

@@ -68,7 +68,7 @@ bool writes_to_standard_output(const Options& options) {
   return writes;
 }
 
-// Of a picture that is there and says so.
+// If a picture is there and says so.
 static std::string map_named_by(const std::filesystem::path& picture) {
   try {
     const auto recipe = is_absent(picture) ? std::nullopt : read_recipe(picture);

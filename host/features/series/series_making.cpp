@@ -8,6 +8,7 @@
 #include "features/series/picture_queue.hpp"
 #include "media/stills/picture_text.hpp"
 #include "media/writers/recipe.hpp"
+#include "session/output_check.hpp"
 
 namespace nutik {
 
@@ -67,7 +68,8 @@ void ListedPictures::hand_on() {
 }
 
 bool is_made(const std::filesystem::path& picture, const std::optional<std::string>& precision,
-             const std::filesystem::path& map, const std::function<std::string(const std::string& precision)>& recipe_of) {
+             const std::filesystem::path& map,
+             const std::function<std::string(const std::string& precision)>& recipe_of) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(picture, error)) return false;
   try {
@@ -76,8 +78,9 @@ bool is_made(const std::filesystem::path& picture, const std::optional<std::stri
     Recipe recipe = Recipe::parse(*text, picture.string());
     if (precision && recipe.precision != *precision) return false;
     if (recipe.text() != *text) return false;
-    if (!map.empty() && (recipe.bounds_map != map.filename() || !std::filesystem::is_regular_file(map, error)))
-      return false;
+    const bool has_map = recipe.bounds_map == map.filename() && std::filesystem::is_regular_file(map, error) &&
+                         led_to(map) == led_to(picture.parent_path() / map.filename());
+    if (!map.empty() && !has_map) return false;
     recipe.error_bound.clear();  // follows from the rest, as the map does
     recipe.bounds_map.clear();
     return recipe_of(recipe.precision) == recipe.text();

@@ -25,8 +25,8 @@ struct SeriesPicture {
 };
 
 // `exposure` says all but where each begins. `add`, which may be empty, is told each picture as it was exposed, and
-// returns the text that goes into its file. Throws what Session::render() does; OutputError at the first picture that cannot be written: the
-// next ones are not exposed.
+// returns the text that goes into its file. Throws what Session::render() does; OutputError at the first picture that
+// cannot be written: the next ones are not exposed.
 void make_series(Session& session, ExposureRequest exposure, const std::vector<SeriesPicture>& pictures,
                  const OutputFormat& output, const FileWishes& file, const ReportedProgress& progress,
                  const std::function<std::string(std::uint64_t number, ExposedPicture& exposed)>& add);

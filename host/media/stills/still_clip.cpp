@@ -95,9 +95,9 @@ Picture codes_of_light(const Picture& light, std::optional<double> white, const 
     throw InputError(format("{}: pixel {},{} has light {:.6g}, and a capture holds what lies between 0 and white, "
                             "{:.6g}; {}",
                             name, pixel % light.shape.width, pixel / light.shape.width, value, *white,
-                            is_bright   ? "state a larger white"
-                            : value < 0 ? "add as much to all of its light as the darkest lacks"
-                                        : "it is no light"),
+                            is_bright                           ? "state a larger white"
+                            : value < 0 && std::isfinite(value) ? "add as much to all of its light as the darkest lacks"
+                                                                : "it is no light"),
                      is_bright ? std::vector{Setting::white_code} : std::vector<Setting>{});
   }
   return codes;

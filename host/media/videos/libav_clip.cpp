@@ -73,7 +73,7 @@ void describe(ClipInfo& info, const Probe& probe, const ClipOptions& options) {
                                    [](CodeRange each) { return format("{} range", to_text(each)); });
     if (range == CodeRange::limited) capture.transfer = capture.transfer.scaled_from_video();
     info.roundings.add(pixels.is_everyday() ? kMostOff : 0.5, 1.0,
-                       interpolates_chroma(probe.pixel_format, pixels) ? "chroma" : "");
+                       shares_chroma(probe.pixel_format) ? "chroma" : "");
   }
   if (interpolates_chroma(probe.pixel_format, pixels)) {
     settle(facts, options.chroma_at, probe.chroma_at, kDefaultChromaPlace, Setting::chroma_place,

@@ -242,10 +242,13 @@ std::optional<ChromaPlace> named_chroma_place(const AVCodecParameters& codec) {
   return chroma_place(number_of(codec.chroma_location));
 }
 
-bool interpolates_chroma(AVPixelFormat format, const PixelKind& pixels) {
+bool shares_chroma(AVPixelFormat format) {
   const AVPixFmtDescriptor& planes = *av_pix_fmt_desc_get(format);
-  return is_yuv(format) && !pixels.is_grey && !pixels.is_everyday() &&
-         (planes.log2_chroma_w > 0 || planes.log2_chroma_h > 0);
+  return planes.log2_chroma_w > 0 || planes.log2_chroma_h > 0;
+}
+
+bool interpolates_chroma(AVPixelFormat format, const PixelKind& pixels) {
+  return is_yuv(format) && !pixels.is_grey && !pixels.is_everyday() && shares_chroma(format);
 }
 
 Upright upright_of(std::span<const std::uint8_t> display_matrix) {

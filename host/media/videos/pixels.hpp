@@ -67,6 +67,8 @@ struct ChromaWeights {
 [[nodiscard]] std::optional<YuvMatrix> named_matrix(unsigned space, unsigned primaries);
 [[nodiscard]] std::optional<CodeRange> named_range(const AVCodecParameters& codec);
 [[nodiscard]] std::optional<ChromaPlace> named_chroma_place(const AVCodecParameters& codec);
+// Whether several pixels have one sample of chroma.
+[[nodiscard]] bool shares_chroma(AVPixelFormat format);
 // Whether each pixel's chroma is made of samples that lie between pixels; that of everyday pixels is what they share.
 [[nodiscard]] bool interpolates_chroma(AVPixelFormat format, const PixelKind& pixels);
 

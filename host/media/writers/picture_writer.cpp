@@ -205,6 +205,7 @@ void write_layers(const std::filesystem::path& path, std::span<const PictureLaye
   const FileKind& kind = file_kind_of(path);
   if (kind.write_layers == nullptr) return write_picture(path, layers.front().values);
   OutputFile file(path);
+  file.check_by(check_interruption);
   kind.write_layers(file, layers);
   file.commit();
 }

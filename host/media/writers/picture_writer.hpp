@@ -40,7 +40,7 @@ struct FileWishes {
   int quality = kDefaultQuality;  // 1 … 100, of lossy files
   bool as_half = false;         // light in 16 bits
   bool square_pixels = false;   // of files that people look at: .png and .jpg
-  // Called often while a file is written: what it throws leaves no file. Empty for pictures that a signal must not lose.
+  // Called often while a file is written: what it throws leaves no file. Empty where a signal must not lose a picture.
   std::function<void()> check = check_interruption;
 };
 
@@ -52,8 +52,8 @@ inline constexpr std::uint32_t kLargestSquaredSide = 65'500;
 // The picture in square pixels, if their size is not its own.
 [[nodiscard]] Picture in_square_pixels(const Picture& picture, const Shape& shape);
 
-// Writes a picture whole or not at all, to a file or to standard output, with what its values mean and a line of text where its format has a place for
-// them (picture_text.hpp).
+// Writes a picture whole or not at all, to a file or to standard output, with what its values mean and a line of text
+// where its format has a place for them (picture_text.hpp).
 // Throws OutputError, UsageError where such a file cannot hold the picture.
 void write_picture(const std::filesystem::path& path, const Picture& picture, const std::string& text = {},
                    const FileWishes& wishes = {});
