@@ -72,6 +72,18 @@ TEST_F(SeeingTest, ClippedLightIsMarkedUntilTheKeyIsPressedAgain) {
   EXPECT_EQ(shown_pixel(10, 10), QColor(Qt::white));
 }
 
+TEST_F(SeeingTest, LightOfALoneRegionIsItsOwn) {
+  open_clip();
+  scratch_.write("lone.fn", "M1 [0:1], [1000000000:1]\n");
+  window_.use_functions(path("lone.fn"));
+  for (const ExposureMode mode : {ExposureMode::functions, ExposureMode::boxcar}) {
+    document().set_mode(mode);
+    ASSERT_NO_FATAL_FAILURE(brighten(mode == ExposureMode::functions ? 8 : 7));
+    EXPECT_TRUE(child<QWidget>("histogram").toolTip().contains("Region 1: 4608 px beyond white"))
+        << child<QWidget>("histogram").toolTip().toStdString();
+  }
+}
+
 TEST_F(SeeingTest, KeysThatAreHeldHideOutlinesMagnifyAndShowTheSnapshot) {
   open_clip();
   click_button("add_region");
@@ -157,6 +169,12 @@ TEST_F(SeeingTest, TheEmptySceneIsSeenUntilEscape) {
   const int ground = test::MovingSquare::kGround;
   EXPECT_NEAR(shown_pixel(22, 24).green(), ground, test::MovingSquare::kNoise) << "the square is gone";
   EXPECT_TRUE(window_.notice().isVisible()) << "and offers to save it";
+  QEvent leave(QEvent::WindowDeactivate);  // for the dialog that saves it, for example
+  QApplication::sendEvent(&window_, &leave);
+  QTest::keyPress(&canvas(), Qt::Key_A);
+  EXPECT_EQ(shown_pixel(22, 24), square) << "A over it";
+  QTest::keyRelease(&canvas(), Qt::Key_A);
+  EXPECT_NEAR(shown_pixel(22, 24).green(), ground, test::MovingSquare::kNoise) << "it is still seen";
   QTest::keyClick(&canvas(), Qt::Key_Escape);
   EXPECT_EQ(shown_pixel(22, 24), square);
 }
@@ -204,8 +222,10 @@ TEST_F(SeeingTest, AStudyOfAHandHeldClipHoldsTheCameraStill) {
   auto& way_out = *window_.notice().findChild<QToolButton*>("way_out");
   ASSERT_EQ(way_out.text(), "Hold the camera still") << window_.notice().text().toStdString();
   EXPECT_FALSE(document().facts()->stated.contains("align"));
+  document().set_mark_in(20'000'000);
   QTest::mouseClick(&way_out, Qt::LeftButton);
   ASSERT_TRUE(settles());
+  EXPECT_EQ(document().mark_in(), 20'000'000);
   ASSERT_TRUE(document().facts()->stated.contains("align")) << window_.notice().text().toStdString();
   EXPECT_GT(document().functions().size(), 1u)
       << "the study goes on by itself: " << window_.notice().text().toStdString();

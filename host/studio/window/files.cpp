@@ -259,9 +259,9 @@ void MainWindow::write_mask(const QString& path) {
   });
 }
 
-void MainWindow::write_plate(const QString& path) {
+void MainWindow::write_plate(const QString& path, const Marks& marks) {
   try_to([&] {
-    jobs_.start(tr("Looking for the empty scene"), writing_plate(document_, session_, path, told()));
+    jobs_.start(tr("Looking for the empty scene"), writing_plate(marks, session_, path, told()));
   });
 }
 

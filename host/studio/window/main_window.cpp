@@ -196,17 +196,19 @@ void MainWindow::connect_parts() {
   connect(&document_.undo_stack(), &QUndoStack::cleanChanged, this, &MainWindow::follow_title);
 }
 
-void MainWindow::open(const QString& path, const QString& rate) {
+void MainWindow::open(const QString& path, const QString& rate, const StartingPoint* then) {
   notice_->clear();
-  pending_ = nullptr;
   if (path.endsWith(QLatin1String(kProjectExtension), Qt::CaseInsensitive))
-    return open_project(path);
+    return open_project(path, {}, then);
   Stated stated;
   if (!rate.isEmpty()) stated.emplace("fps", rate.toStdString());
-  open_capture_file(QFileInfo(path).absoluteFilePath(), stated, {});
+  Origin origin;
+  origin.then = then;
+  open_capture_file(QFileInfo(path).absoluteFilePath(), stated, std::move(origin));
 }
 
-void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptProject> kept) {
+void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptProject> kept,
+                              const StartingPoint* then) {
   try_to([&] {
     Project project = load_project(path);
     Origin origin{.kind = Origin::Kind::recovered,
@@ -216,7 +218,8 @@ void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptPro
                   .state = std::move(project.state),
                   .marks = project.marks,
                   .left = {},
-                  .kept = std::move(kept)};
+                  .kept = std::move(kept),
+                  .then = then};
     if (!origin.kept) {
       origin.kind = Origin::Kind::project;
       origin.project = path;
@@ -354,7 +357,7 @@ void MainWindow::take(Opened opened, Origin origin) {
   if (!opened.notes.isEmpty() && notice_->text().isEmpty())
     notice_->say(Notice::Kind::note, opened.notes.join('\n'));
   look_at_capture();
-  if (pending_ != nullptr) start_from(*std::exchange(pending_, nullptr));
+  if (origin.then != nullptr) start_from(*origin.then);
 }
 
 // With what is open: another file was not opened, after all.

@@ -114,22 +114,21 @@ Jobs::Work studying(Document& document, std::shared_ptr<Session> session, const 
 }
 
 Jobs::Work making_plate(const Document& document, std::shared_ptr<Session> session,
-                        std::function<void(QImage)> show) {
+                        std::function<void(QImage, Marks)> show) {
   return [session = std::move(session), show = std::move(show), marks = document.marks(),
           name = document.facts()->path.toStdString()](const Job& job) -> Jobs::Finish {
     const MadePlate plate = make_plate(stretch_between(marks, session, job).session->capture(), name, {},
                                        screen_format(), session->devices().request().memory, job.progress);
-    return [show, image = image_of(plate.picture)] { show(image); };
+    return [show, image = image_of(plate.picture), marks] { show(image, marks); };
   };
 }
 
-Jobs::Work writing_plate(const Document& document, std::shared_ptr<Session> session, const QString& picture,
+Jobs::Work writing_plate(const Marks& marks, std::shared_ptr<Session> session, const QString& picture,
                          Told told) {
   const std::filesystem::path path = picture.toStdString();
   const std::string name = session->source().path.string();
   check_output(path, OutputKind::picture, std::vector{name});
-  return [session = std::move(session), path, name, told = std::move(told),
-          marks = document.marks()](const Job& job) -> Jobs::Finish {
+  return [session = std::move(session), path, name, told = std::move(told), marks](const Job& job) -> Jobs::Finish {
     const MadePlate plate = make_plate(stretch_between(marks, session, job).session->capture(), name, {},
                                        output_format({}, path, session->format()),
                                        session->devices().request().memory, job.progress);
@@ -184,7 +183,7 @@ FramesRequest film_request(const Document& document, const Options& options) {
 }
 
 Jobs::Work filming(const Document& document, std::shared_ptr<Session> session, const QString& film,
-                   const Options& options, Told told) {
+                   const Options& options, Told told, std::function<void(int signal)> end) {
   const FramesRequest request = film_request(document, options);
   const VideoOutput output(film.toStdString(), request.rate, options.video_codec, options.picture);
   const Frames frames = frames_of(request, session->timeline());
@@ -192,11 +191,17 @@ Jobs::Work filming(const Document& document, std::shared_ptr<Session> session, c
   output.check(frames.numbers, std::vector{document.facts()->path.toStdString()},
                output.writes_stills() ? Replacing::made_by_recipe : Replacing::all);
   return [request, output, frames, session = std::move(session), film, told = std::move(told),
-          sound = options.sound](const Job& job) -> Jobs::Finish {
+          end = std::move(end), sound = options.sound](const Job& job) -> Jobs::Finish {
     const MadeVideo made = make_video(*session, request, frames, output, job.progress, {}, sound);
-    QStringList lines{Document::tr("%1: %n frame(s)", nullptr, static_cast<int>(made.frames)).arg(film)};
+    const QString line = made.interruption
+                             ? Document::tr("%1: %2 of %3 frames were written")
+                             : Document::tr("%1: %n frame(s)", nullptr, static_cast<int>(made.frames));
+    QStringList lines{made.interruption ? line.arg(film).arg(made.frames).arg(frames.numbers.size()) : line.arg(film)};
     for (const std::string& note : made.notes) lines += sentence(note);
-    return [told, lines] { told(lines.join('\n')); };
+    return [told, lines, end, interruption = made.interruption] {
+      told(lines.join('\n'));
+      if (interruption) end(interruption->signal);
+    };
   };
 }
 

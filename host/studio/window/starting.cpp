@@ -12,26 +12,26 @@
 
 namespace nutik::studio {
 
-void MainWindow::choose_file() {
+void MainWindow::choose_file(const StartingPoint* then) {
   ask_for_file(tr("Open"),
                tr("Clips, captures and projects (*.tik *.nutik *.mp4 *.mov *.mkv *.avi "
                   "*.cine *.cihx *.csv);;All files (*)"),
-               [this](const QString& path) { open(path); });
+               [this, then](const QString& path) { open(path, {}, then); });
 }
 
 // ---- starting points ----
 
 void MainWindow::start_from(const StartingPoint& point) {
   if (!session_) {
-    choose_file();
-    if (!opening_.isEmpty()) pending_ = &point;
+    choose_file(&point);
   } else if (!point.style) {
     const std::int64_t start_ns = document_.mark_in().value_or(0);
     const std::int64_t end_ns = document_.mark_out().value_or(document_.duration_ns());
     document_.set_boxcar({start_ns, end_ns - start_ns}, tr("Long exposure"));
   } else if (point.style == StudyStyle::clean) {
     jobs_.start(tr("Looking for the empty scene"),
-                making_plate(document_, session_, [this](const QImage& plate) { show_plate(plate); }));
+                making_plate(document_, session_,
+                             [this](const QImage& plate, const Marks& marks) { show_plate(plate, marks); }));
   } else {
     start_study(usual_study(*point.style));
   }
@@ -52,13 +52,16 @@ void MainWindow::start_study(const StudyRequest& request) {
 }
 
 void MainWindow::offer_still_camera(StudyStyle style, const QString& why) {
-  if (!session_->is_clip()) return notice_->say(Notice::Kind::error, why);
+  if (!session_->is_clip() || document_.facts()->stated.contains("align"))
+    return notice_->say(Notice::Kind::error, why);
   notice_->say(Notice::Kind::error, why, tr("Hold the camera still"), [this, style] {
     if (!may_leave()) return;
     Stated still = document_.facts()->stated;
     still["align"] = "rigid";
-    open_capture_file(document_.facts()->path, still, {});
-    pending_ = &*std::ranges::find(starting_points(), std::optional(style), &StartingPoint::style);
+    Origin origin;
+    origin.marks = document_.marks();
+    origin.then = &*std::ranges::find(starting_points(), std::optional(style), &StartingPoint::style);
+    open_capture_file(document_.facts()->path, still, std::move(origin));
   });
 }
 
@@ -76,15 +79,15 @@ void MainWindow::choose_study() {
   if (wanted) start_study(request);
 }
 
-void MainWindow::show_plate(const QImage& plate) {
+void MainWindow::show_plate(const QImage& plate, const Marks& marks) {
   Glance glance = canvas_->glance();
   glance.instead = plate;
   glance.title = tr("Without what moves. Escape: back to the picture");
   canvas_->look(std::move(glance));
-  const QString note = tr("This scene is no exposure: it is kept as a picture of its own.");
-  notice_->say(Notice::Kind::note, note, tr("Save…"), [this] {
+  const QString note = tr("This scene is no exposure: it can be saved as a picture of its own.");
+  notice_->say(Notice::Kind::note, note, tr("Save…"), [this, marks] {
     ask_for_name(tr("Write the empty scene"), "-empty.png", tr("Pictures (*.png *.tif *.jpg *.exr)"),
-                 [this](const QString& path) { write_plate(path); });
+                 [this, marks](const QString& path) { write_plate(path, marks); });
   });
 }
 
@@ -132,7 +135,7 @@ void MainWindow::choose_film() {
              {suggested("-film.mp4"), film_options()},
              tr("Films and numbered pictures (*.mp4 *.mov *.mkv *.webm *.gif *.webp *-%05d.png)"),
              [&](const Wanted& asked, const Options& options) {
-               static_cast<void>(filming(document_, session_, asked.path, options, {}));
+               static_cast<void>(filming(document_, session_, asked.path, options, {}, {}));
              }});
   if (wanted) export_film(wanted->path, wanted->options);
 }
@@ -141,7 +144,8 @@ void MainWindow::export_film(const QString& path, const Stated& options) {
   if (!session_) return;
   try_to([&] {
     writing_.start(tr("Filming %1").arg(QFileInfo(path).fileName()),
-                   filming(document_, session_, path, options_in(CommandId::video, options), told()));
+                   filming(document_, session_, path, options_in(CommandId::video, options), told(),
+                           [this](int signal) { autosave_.end(signal); }));
   });
 }
 
