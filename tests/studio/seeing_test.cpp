@@ -278,8 +278,21 @@ TEST_F(SeeingTest, AFilmIsExportedAsTheCommandMakesIt) {
     EXPECT_TRUE(is_asked_);
     EXPECT_TRUE(window_.notice().text().contains("10 frame")) << window_.notice().text().toStdString();
   }
+  std::filesystem::remove(scratch_ / "film-00003.png");
+  name_next_export("film-%05d.png", [this](QDialog& dialog) {
+    dialog.findChild<QLineEdit*>("out-fps")->setText("25");
+    answer_next<QMessageBox>([](QMessageBox& question) {
+      EXPECT_EQ(question.text(), "9 of 10 pictures are there. Replace them?");
+      QTest::mouseClick(question.button(QMessageBox::Yes), Qt::LeftButton);
+    });
+  });
+  QTest::keyClick(&window_, Qt::Key_E, Qt::ControlModifier | Qt::ShiftModifier);
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(is_asked_) << window_.notice().text().toStdString();
+  window_.export_film(path("frames/%02d.pgm"), {});
+  EXPECT_TRUE(window_.notice().text().contains("input")) << window_.notice().text().toStdString();
   const auto made = run_line(
-      "nutik-cl video -f 100 --speed 0.5 --out-fps 25 --precision fixed frames/%02d.pgm by-%05d.png");
+      "nutik-cl video -f 100 --speed 0.5 --out-fps 25 frames/%02d.pgm by-%05d.png");
   ASSERT_EQ(made.status, 0) << made.err;
   for (int frame = 0; frame < 10; ++frame) {
     const QString number = QString("%1.png").arg(frame, 5, 10, QChar('0'));
@@ -291,9 +304,14 @@ TEST_F(SeeingTest, AFilmIsExportedAsTheCommandMakesIt) {
 
 TEST_F(SeeingTest, AFilmIsWrittenAlthoughTheWindowIsClosed) {
   open_clip();
-  window_.export_film(path("film.mkv"), {{"speed", "0.02"}});
-  ASSERT_TRUE(window_.close());
-  ASSERT_TRUE(settles());
+  QTimer::singleShot(0, &window_, [this] {
+    window_.export_film(path("film.mkv"), {{"speed", "0.02"}});
+    EXPECT_TRUE(window_.close());
+  });
+  QTimer too_late;
+  too_late.callOnTimeout([] { QApplication::exit(1); });
+  too_late.start(kMaxWaitMs);
+  ASSERT_EQ(QApplication::exec(), 0) << "the program ends after the film";
   EXPECT_TRUE(window_.notice().text().contains("240 frame")) << window_.notice().text().toStdString();
   EXPECT_TRUE(std::filesystem::exists(scratch_ / "film.mkv"));
 }
@@ -319,6 +337,31 @@ TEST_F(SeeingTest, OneDialogExportsWithTheOptionsOfTheCommand) {
   const test::ProgramResult made = run_line(window_.command_for(path("command.jpg")));
   ASSERT_EQ(made.status, 0) << made.err;
   EXPECT_TRUE(by_window == test::read_file(scratch_ / "command.jpg")) << "byte for byte, with its recipe";
+}
+
+TEST_F(SeeingTest, AWindowThatIsClosedComesBackWithWhatFailed) {
+  open_clip();
+  std::filesystem::create_directory(scratch_ / "gone");
+  window_.export_film(path("gone/film.mkv"), {{"speed", "0.02"}});
+  std::filesystem::remove_all(scratch_ / "gone");
+  ASSERT_TRUE(window_.close());
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(window_.isVisible());
+  EXPECT_TRUE(window_.notice().text().contains("Filming")) << window_.notice().text().toStdString();
+}
+
+TEST_F(SeeingTest, TheCommandWritesTheKindThatWasExported) {
+  ASSERT_EQ(run_line("nutik-cl encode -f 100 frames/%02d.pgm clip.tik").status, 0);
+  window_.open(path("clip.tik"));
+  ASSERT_TRUE(settles());
+  window_.export_picture(path("window.jpg"), {{"quality", "40"}});
+  ASSERT_TRUE(settles());
+  click_menu("File", "Copy as command");
+  const test::ProgramResult made = run_line(QGuiApplication::clipboard()->text());
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_TRUE(test::read_file(scratch_ / "window.jpg") == test::read_file(scratch_ / "clip.jpg"));
+  open_clip();
+  EXPECT_FALSE(window_.command_for(path("next.png")).contains("quality")) << "of another clip";
 }
 
 }  // namespace

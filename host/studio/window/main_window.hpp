@@ -161,7 +161,7 @@ class MainWindow : public QMainWindow {
   void measure_light();
   void forget_light();
   void mark_clipped();
-  void keep_snapshot();
+  bool keep_snapshot();  // false: a film is shown
   void swap_snapshot();
   bool hold(int key, bool is_held);
   void let_go();
@@ -185,6 +185,7 @@ class MainWindow : public QMainWindow {
   void fill_unsaved(QMenu& menu);
   void remove_unsaved();
   [[nodiscard]] QString suggested(const QString& ending) const;
+  [[nodiscard]] QString suggested_picture() const;  // of the kind that was exported last
   bool try_to(const std::function<void()>& what);
   [[nodiscard]] Told told() {
     return [this](const QString& line) { notice_->say(Notice::Kind::note, line); };
@@ -204,7 +205,9 @@ class MainWindow : public QMainWindow {
   CommandFiles files_;
   FileTimes known_;  // of the project's files and the capture
   Stated written_;   // how the last picture was exported
+  QString exported_;  // which; empty: none yet
   QTimer playing_;
+  double played_rate_ = 0;  // frames a second
   QElapsedTimer played_since_;
   std::optional<Frames> film_;
   std::unique_ptr<QEventLoopLocker> writes_on_;  // of a closed window

@@ -40,12 +40,19 @@ void MainWindow::mark_clipped() {
   canvas_->look(std::move(glance));
 }
 
-void MainWindow::keep_snapshot() { snapshot_ = {document_.state(), canvas_->image()}; }
+bool MainWindow::keep_snapshot() {
+  if (document_.played()) {
+    notice_->say(Notice::Kind::note, tr("Stop the film first: snapshot A is of the picture."));
+    return false;
+  }
+  snapshot_ = {document_.state(), canvas_->image()};
+  return true;
+}
 
 void MainWindow::swap_snapshot() {
   if (!snapshot_) return;
   const Snapshot before = *snapshot_;
-  keep_snapshot();
+  if (!keep_snapshot()) return;
   document_.apply(before.state, tr("Swap with snapshot A"));
 }
 

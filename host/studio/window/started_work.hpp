@@ -45,6 +45,9 @@ struct StartingPoint {
 
 // The interval on its way through the capture, as `options` of the command for videos say.
 [[nodiscard]] FramesRequest film_request(const Document& document, const Options& options);
+// Asks whether pictures that are there may be replaced by the film's; empty where none are.
+[[nodiscard]] QString stills_question(const Document& document, const Session& session, const QString& film,
+                                      const Options& options);
 // `end` is told of a signal that ended the film before its last frame.
 [[nodiscard]] Jobs::Work filming(const Document& document, std::shared_ptr<Session> session, const QString& film,
                                  const Options& options, Told told, std::function<void(int signal)> end);

@@ -1,6 +1,7 @@
 // What the window begins: studies, films, exports.
 #include <QDoubleSpinBox>
 #include <QFileInfo>
+#include <QMessageBox>
 #include <algorithm>
 
 #include "features/film/film_making.hpp"
@@ -11,6 +12,13 @@
 #include "studio/window/started_work.hpp"
 
 namespace nutik::studio {
+namespace {
+
+const StartingPoint& point_of(StudyStyle style) {
+  return *std::ranges::find(starting_points(), std::optional(style), &StartingPoint::style);
+}
+
+}  // namespace
 
 void MainWindow::choose_file(const StartingPoint* then) {
   ask_for_file(tr("Open"),
@@ -60,7 +68,7 @@ void MainWindow::offer_still_camera(StudyStyle style, const QString& why) {
     still["align"] = "rigid";
     Origin origin;
     origin.marks = document_.marks();
-    origin.then = &*std::ranges::find(starting_points(), std::optional(style), &StartingPoint::style);
+    origin.then = &point_of(style);
     open_capture_file(document_.facts()->path, still, std::move(origin));
   });
 }
@@ -68,15 +76,16 @@ void MainWindow::offer_still_camera(StudyStyle style, const QString& why) {
 void MainWindow::choose_study() {
   if (!session_) return;
   StudyRequest request;
+  const auto session = session_;
   const auto wanted = ask_options(
       this, {CommandId::study, tr("Motion study"), {"style", "moments", "spacing", "trail", "slit-from"}, {}, {},
              [&](const Wanted&, const Options& options) {
                request = study_request(options);
                if (!options.moments) request.moments = usual_study(request.style).moments;
                request.joins_trail = false;
-               if (request.style == StudyStyle::clean) throw UsageError("that is Start from, Remove people");
              }});
-  if (wanted) start_study(request);
+  if (!wanted || session != session_) return;
+  request.style == StudyStyle::clean ? start_from(point_of(request.style)) : start_study(request);
 }
 
 void MainWindow::show_plate(const QImage& plate, const Marks& marks) {
@@ -108,7 +117,8 @@ void MainWindow::play_or_stop() {
     const FramesRequest request = film_request(document_, options_in(CommandId::video, film_options()));
     film_ = frames_of(request, document_.facts()->timeline);
     played_since_.start();
-    playing_.start(static_cast<int>(1000 / request.rate.value()));
+    played_rate_ = request.rate.value();
+    playing_.start(std::max(static_cast<int>(1000 / played_rate_), 1));
     play_on();
   });
 }
@@ -116,7 +126,7 @@ void MainWindow::play_or_stop() {
 // As many frames as the device exposes in time; the film keeps its speed, and begins again at its end.
 void MainWindow::play_on() {
   if (live_.is_busy()) return;
-  const auto frame = static_cast<std::uint64_t>(played_since_.elapsed() / playing_.interval());
+  const auto frame = static_cast<std::uint64_t>(static_cast<double>(played_since_.elapsed()) * played_rate_ / 1000);
   const Exposure exposure = film_->exposure(film_->numbers[frame % film_->numbers.size()]);
   document_.set_played(Boxcar{exposure.start_ns, exposure.end_ns - exposure.start_ns});
 }
@@ -128,6 +138,8 @@ void MainWindow::stop_playing() {
 
 void MainWindow::choose_film() {
   if (!session_) return;
+  const auto session = session_;
+  QString question;
   const auto wanted = ask_options(
       this, {CommandId::video,
              tr("Export the interval as a film"),
@@ -136,8 +148,12 @@ void MainWindow::choose_film() {
              tr("Films and numbered pictures (*.mp4 *.mov *.mkv *.webm *.gif *.webp *-%05d.png)"),
              [&](const Wanted& asked, const Options& options) {
                static_cast<void>(filming(document_, session_, asked.path, options, {}, {}));
+               question = stills_question(document_, *session_, asked.path, options);
              }});
-  if (wanted) export_film(wanted->path, wanted->options);
+  if (!wanted || session != session_) return;
+  if (question.isEmpty() ||
+      QMessageBox::question(this, tr("Export the interval as a film"), question) == QMessageBox::Yes)
+    export_film(wanted->path, wanted->options);
 }
 
 void MainWindow::export_film(const QString& path, const Stated& options) {
@@ -153,17 +169,18 @@ void MainWindow::export_film(const QString& path, const Stated& options) {
 
 void MainWindow::choose_export() {
   if (!ensure_files()) return;
+  const auto session = session_;
   const auto wanted = ask_options(
       this, {CommandId::expose,
              tr("Export the picture"),
              {"depth", "quality", "out-transfer", "negative", "keep-pixels", "no-recipe"},
-             {suggested(".png"), written_},
+             {suggested_picture(), written_},
              tr("Pictures (*.png *.tif *.jpg *.exr *.pfm *.ppm)"),
              [&](const Wanted& asked, const Options& options) {
                static_cast<void>(output_format(options.picture, asked.path.toStdString(), session_->format()));
                static_cast<void>(exporting(document_, session_, files_, asked.path, asked.options, {}));
              }});
-  if (wanted) export_picture(wanted->path, wanted->options);
+  if (wanted && session == session_) export_picture(wanted->path, wanted->options);
 }
 
 void MainWindow::export_picture(const QString& path, const Stated& written) {
@@ -175,6 +192,7 @@ void MainWindow::export_picture(const QString& path, const Stated& written) {
     writing_.start(tr("Writing %1").arg(QFileInfo(path).fileName()),
                    exporting(document_, session_, files_, path, written, told()));
     written_ = written;
+    exported_ = path;
   });
 }
 
