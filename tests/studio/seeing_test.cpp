@@ -279,6 +279,8 @@ TEST_F(SeeingTest, AFilmIsExportedAsTheCommandMakesIt) {
     EXPECT_TRUE(window_.notice().text().contains("10 frame")) << window_.notice().text().toStdString();
   }
   std::filesystem::remove(scratch_ / "film-00003.png");
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
   name_next_export("film-%05d.png", [this](QDialog& dialog) {
     dialog.findChild<QLineEdit*>("out-fps")->setText("25");
     answer_next<QMessageBox>([](QMessageBox& question) {
