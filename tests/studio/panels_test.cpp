@@ -344,12 +344,12 @@ TEST_F(PanelsTest, TheWindowFitsItsScreenAndIsAsItWasClosed) {
     window.open(path("frames/%02d.pgm"), "100");
     ASSERT_TRUE(QTest::qWaitFor([&] { return window.is_settled(); }, kMaxWaitMs));
     window.findChild<QSplitter*>("row")->setSizes({600, 320});
-    window.findChild<QSplitter*>("column")->setSizes({180, 122, 260});
+    window.findChild<QSplitter*>("panes")->setSizes({180, 122, 260});
     QTest::keyClick(&window, Qt::Key_B);
     window.findChild<QDoubleSpinBox*>("brush_radius")->setValue(7.5);
     window.findChild<QSpinBox*>("wand_codes")->setValue(9);
     row = sizes(window, "row");
-    column = sizes(window, "column");
+    column = sizes(window, "panes");
     ASSERT_TRUE(window.close());
   }
   MainWindow window;
@@ -358,7 +358,7 @@ TEST_F(PanelsTest, TheWindowFitsItsScreenAndIsAsItWasClosed) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.is_settled(); }, kMaxWaitMs));
   EXPECT_EQ(window.size(), QSize(1000, 640));
   EXPECT_EQ(sizes(window, "row"), row);
-  EXPECT_EQ(sizes(window, "column"), column);
+  EXPECT_EQ(sizes(window, "panes"), column);
   EXPECT_TRUE(window.findChild<QAction*>("tool_brush")->isChecked());
   EXPECT_EQ(window.findChild<QDoubleSpinBox*>("brush_radius")->value(), 7.5);
   EXPECT_EQ(window.findChild<QSpinBox*>("wand_codes")->value(), 9);

@@ -72,6 +72,18 @@ TEST_F(SeeingTest, ClippedLightIsMarkedUntilTheKeyIsPressedAgain) {
   EXPECT_EQ(shown_pixel(10, 10), QColor(Qt::white));
 }
 
+TEST_F(SeeingTest, LightOfALoneRegionIsItsOwn) {
+  open_clip();
+  scratch_.write("lone.fn", "M1 [0:1], [1000000000:1]\n");
+  window_.use_functions(path("lone.fn"));
+  for (const ExposureMode mode : {ExposureMode::functions, ExposureMode::boxcar}) {
+    document().set_mode(mode);
+    ASSERT_NO_FATAL_FAILURE(brighten(mode == ExposureMode::functions ? 8 : 7));
+    EXPECT_TRUE(child<QWidget>("histogram").toolTip().contains("Region 1: 4608 px beyond white"))
+        << child<QWidget>("histogram").toolTip().toStdString();
+  }
+}
+
 TEST_F(SeeingTest, KeysThatAreHeldHideOutlinesMagnifyAndShowTheSnapshot) {
   open_clip();
   click_button("add_region");
@@ -157,6 +169,12 @@ TEST_F(SeeingTest, TheEmptySceneIsSeenUntilEscape) {
   const int ground = test::MovingSquare::kGround;
   EXPECT_NEAR(shown_pixel(22, 24).green(), ground, test::MovingSquare::kNoise) << "the square is gone";
   EXPECT_TRUE(window_.notice().isVisible()) << "and offers to save it";
+  QEvent leave(QEvent::WindowDeactivate);  // for the dialog that saves it, for example
+  QApplication::sendEvent(&window_, &leave);
+  QTest::keyPress(&canvas(), Qt::Key_A);
+  EXPECT_EQ(shown_pixel(22, 24), square) << "A over it";
+  QTest::keyRelease(&canvas(), Qt::Key_A);
+  EXPECT_NEAR(shown_pixel(22, 24).green(), ground, test::MovingSquare::kNoise) << "it is still seen";
   QTest::keyClick(&canvas(), Qt::Key_Escape);
   EXPECT_EQ(shown_pixel(22, 24), square);
 }
@@ -204,8 +222,10 @@ TEST_F(SeeingTest, AStudyOfAHandHeldClipHoldsTheCameraStill) {
   auto& way_out = *window_.notice().findChild<QToolButton*>("way_out");
   ASSERT_EQ(way_out.text(), "Hold the camera still") << window_.notice().text().toStdString();
   EXPECT_FALSE(document().facts()->stated.contains("align"));
+  document().set_mark_in(20'000'000);
   QTest::mouseClick(&way_out, Qt::LeftButton);
   ASSERT_TRUE(settles());
+  EXPECT_EQ(document().mark_in(), 20'000'000);
   ASSERT_TRUE(document().facts()->stated.contains("align")) << window_.notice().text().toStdString();
   EXPECT_GT(document().functions().size(), 1u)
       << "the study goes on by itself: " << window_.notice().text().toStdString();
@@ -258,8 +278,23 @@ TEST_F(SeeingTest, AFilmIsExportedAsTheCommandMakesIt) {
     EXPECT_TRUE(is_asked_);
     EXPECT_TRUE(window_.notice().text().contains("10 frame")) << window_.notice().text().toStdString();
   }
+  std::filesystem::remove(scratch_ / "film-00003.png");
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  name_next_export("film-%05d.png", [this](QDialog& dialog) {
+    dialog.findChild<QLineEdit*>("out-fps")->setText("25");
+    answer_next<QMessageBox>([](QMessageBox& question) {
+      EXPECT_EQ(question.text(), "9 of 10 pictures are there. Replace them?");
+      QTest::mouseClick(question.button(QMessageBox::Yes), Qt::LeftButton);
+    });
+  });
+  QTest::keyClick(&window_, Qt::Key_E, Qt::ControlModifier | Qt::ShiftModifier);
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(is_asked_) << window_.notice().text().toStdString();
+  window_.export_film(path("frames/%02d.pgm"), {});
+  EXPECT_TRUE(window_.notice().text().contains("input")) << window_.notice().text().toStdString();
   const auto made = run_line(
-      "nutik-cl video -f 100 --speed 0.5 --out-fps 25 --precision fixed frames/%02d.pgm by-%05d.png");
+      "nutik-cl video -f 100 --speed 0.5 --out-fps 25 frames/%02d.pgm by-%05d.png");
   ASSERT_EQ(made.status, 0) << made.err;
   for (int frame = 0; frame < 10; ++frame) {
     const QString number = QString("%1.png").arg(frame, 5, 10, QChar('0'));
@@ -271,9 +306,14 @@ TEST_F(SeeingTest, AFilmIsExportedAsTheCommandMakesIt) {
 
 TEST_F(SeeingTest, AFilmIsWrittenAlthoughTheWindowIsClosed) {
   open_clip();
-  window_.export_film(path("film.mkv"), {{"speed", "0.02"}});
-  ASSERT_TRUE(window_.close());
-  ASSERT_TRUE(settles());
+  QTimer::singleShot(0, &window_, [this] {
+    window_.export_film(path("film.mkv"), {{"speed", "0.02"}});
+    EXPECT_TRUE(window_.close());
+  });
+  QTimer too_late;
+  too_late.callOnTimeout([] { QApplication::exit(1); });
+  too_late.start(kMaxWaitMs);
+  ASSERT_EQ(QApplication::exec(), 0) << "the program ends after the film";
   EXPECT_TRUE(window_.notice().text().contains("240 frame")) << window_.notice().text().toStdString();
   EXPECT_TRUE(std::filesystem::exists(scratch_ / "film.mkv"));
 }
@@ -299,6 +339,31 @@ TEST_F(SeeingTest, OneDialogExportsWithTheOptionsOfTheCommand) {
   const test::ProgramResult made = run_line(window_.command_for(path("command.jpg")));
   ASSERT_EQ(made.status, 0) << made.err;
   EXPECT_TRUE(by_window == test::read_file(scratch_ / "command.jpg")) << "byte for byte, with its recipe";
+}
+
+TEST_F(SeeingTest, AWindowThatIsClosedComesBackWithWhatFailed) {
+  open_clip();
+  std::filesystem::create_directory(scratch_ / "gone");
+  window_.export_film(path("gone/film.mkv"), {{"speed", "0.02"}});
+  std::filesystem::remove_all(scratch_ / "gone");
+  ASSERT_TRUE(window_.close());
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(window_.isVisible());
+  EXPECT_TRUE(window_.notice().text().contains("Filming")) << window_.notice().text().toStdString();
+}
+
+TEST_F(SeeingTest, TheCommandWritesTheKindThatWasExported) {
+  ASSERT_EQ(run_line("nutik-cl encode -f 100 frames/%02d.pgm clip.tik").status, 0);
+  window_.open(path("clip.tik"));
+  ASSERT_TRUE(settles());
+  window_.export_picture(path("window.jpg"), {{"quality", "40"}});
+  ASSERT_TRUE(settles());
+  click_menu("File", "Copy as command");
+  const test::ProgramResult made = run_line(QGuiApplication::clipboard()->text());
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_TRUE(test::read_file(scratch_ / "window.jpg") == test::read_file(scratch_ / "clip.jpg"));
+  open_clip();
+  EXPECT_FALSE(window_.command_for(path("next.png")).contains("quality")) << "of another clip";
 }
 
 }  // namespace

@@ -31,7 +31,8 @@ MeasuredLight measured_light(Session& session, const DocumentState& state, const
   measured.marks = QImage(static_cast<int>(shape.width), static_cast<int>(shape.height),
                           QImage::Format_ARGB32_Premultiplied);
   measured.marks.fill(0);
-  const std::uint8_t* tag = has_mask ? (*state.mask)->mask.tags.data() : nullptr;
+  const std::uint8_t* tag = state.mask ? (*state.mask)->mask.tags.data() : nullptr;
+  const std::uint8_t everywhere = state.functions.begin()->first;  // without a mask there is one
   const double* light = picture.values<double>().data();
   for (std::uint32_t y = 0; y < shape.height; ++y) {
     auto* mark = reinterpret_cast<QRgb*>(measured.marks.scanLine(static_cast<int>(y)));
@@ -42,7 +43,7 @@ MeasuredLight measured_light(Session& session, const DocumentState& state, const
         is_below = is_below || scale.saturates_below(light[channel]);
         is_above = is_above || scale.saturates_above(light[channel]);
       }
-      const std::uint8_t region = tag == nullptr ? std::uint8_t{0} : *tag++;
+      const std::uint8_t region = tag == nullptr ? everywhere : *tag++;
       const double brightest = *std::max_element(light, light + shape.channels);
       ++measured.regions[region][static_cast<std::size_t>(bin_of(brightest))];
       if (!is_below && !is_above) continue;
@@ -66,11 +67,14 @@ void LightHistogram::show_light(std::shared_ptr<const MeasuredLight> light) {
                        "the selected region's brightest channel.")
                         .arg(MeasuredLight::kStops)};
   if (light_) {
-    for (const auto& [tag, pixels] : light_->saturated)
+    const auto& looks = document_.state().looks;
+    for (const auto& [tag, pixels] : light_->saturated) {
+      const auto look = looks.find(tag);
       lines += tr("%1: %2 px beyond white, %3 px below 0")
-                   .arg(document_.state().looks.at(tag).name)
+                   .arg(look == looks.end() ? QString("M%1").arg(tag) : look->second.name)
                    .arg(pixels.above)
                    .arg(pixels.below);
+    }
   }
   setToolTip(lines.join('\n'));
   setAccessibleDescription(lines.join('\n'));

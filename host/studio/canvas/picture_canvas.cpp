@@ -271,15 +271,18 @@ void Canvas::paintEvent(QPaintEvent* event) {
     painter.fillRect(around, kSurround);
   if (image_.isNull()) return;  // it comes at once
   painter.setRenderHint(QPainter::SmoothPixmapTransform, view_.zoom() < 1);
-  const bool is_another = !glance_.instead.isNull();
+  const bool is_held = !glance_.held.isNull();
+  const QImage& other = is_held ? glance_.held : glance_.instead;
+  const bool is_another = !other.isNull() && !is_first_look_;
   const QImage& exposed = reduced_.isNull() ? image_ : reduced_;
-  painter.drawImage(is_another ? view_.place() : place, is_another ? glance_.instead : exposed);
+  painter.drawImage(is_another ? view_.place() : place, is_another ? other : exposed);
   if (document_.facts() == nullptr || is_first_look_) return;
   if (is_another) {
     painter.setPen(Qt::white);
-    const QRect box = painter.boundingRect(rect().adjusted(12, 12, -12, -12), Qt::AlignLeft, glance_.title);
+    const QString title = is_held ? tr("A") : glance_.title;
+    const QRect box = painter.boundingRect(rect().adjusted(12, 12, -12, -12), Qt::AlignLeft, title);
     painter.fillRect(box.adjusted(-6, -4, 6, 4), QColor(0, 0, 0, 170));
-    return painter.drawText(box, glance_.title);
+    return painter.drawText(box, title);
   }
   painter.save();
   painter.translate(view_.place().topLeft());

@@ -85,8 +85,9 @@ class CanvasTool {
 // How the picture is looked at for a while.
 struct Glance {
   bool without_outlines = false, is_magnified = false;
-  QImage instead = {};  // null: the picture itself
-  QString title = {};   // what is shown instead
+  QImage held = {};     // while a key is; null: what follows
+  QImage instead = {};  // until it is looked away from; null: the picture itself
+  QString title = {};   // of `instead`
   QImage marks = {};    // over the picture; null: none
 };
 

@@ -106,7 +106,9 @@ void LiveView::ask(bool with_full) {
   }
   ExposureRequest exposure = exposure_of(state, mask_of(state, is_final));
   // While a drag lasts edges may be hard: fewer pixels suffice then.
-  if (reduced_ && !with_full && exposure.mask) exposure.mask = state.mask;
+  ExposureRequest hard = exposure;
+  hard.mask = state.mask;
+  if (reduced_ && !with_full && exposure.mask && reduced_->can_show(hard, screen_pixels_)) exposure = std::move(hard);
   const Shape& shape = session_->format().shape;
   const bool is_reduced = reduced_ && reduced_->can_show(exposure, screen_pixels_);
   const QRect outdated = outdated_.to_expose(exposure, seen(), is_reduced, last_shown_ == last_asked_);

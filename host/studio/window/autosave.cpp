@@ -109,13 +109,17 @@ void Autosave::keep_at_signals() {
     try {
       check_interruption();
     } catch (const Interrupted& asked) {
-      constexpr int kSignalStatus = 128;
       clear_interruption();
-      keep();
-      QCoreApplication::exit(kSignalStatus + asked.signal);
+      end(asked.signal);
     }
   });
   looking->start(std::chrono::milliseconds(200));
+}
+
+void Autosave::end(int signal) {
+  constexpr int kSignalStatus = 128;
+  keep();
+  QCoreApplication::exit(kSignalStatus + signal);
 }
 
 void Autosave::begin(std::shared_ptr<const KeptProject> kept) {

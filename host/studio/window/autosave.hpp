@@ -55,6 +55,8 @@ class Autosave : public QObject {
   void keep();
   // From now on whoever asks the program to end (SIGTERM, at a shutdown for example) gets no question for an answer.
   void keep_at_signals();
+  // Keeps what there is, and ends the program as that signal asks.
+  void end(int signal);
   // What this window kept was saved or given up. From now on this is kept: nothing yet, or what it has taken over.
   void begin(std::shared_ptr<const KeptProject> kept = {});
 

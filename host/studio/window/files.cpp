@@ -194,7 +194,7 @@ QString MainWindow::command_for(const QString& picture) const {
 
 void MainWindow::copy_command() {
   if (!ensure_files()) return;
-  const QString line = command_for(suggested(".png"));
+  const QString line = command_for(suggested_picture());
   QGuiApplication::clipboard()->setText(line);
   notice_->say(Notice::Kind::note, tr("Copied: %1").arg(line));
 }
@@ -259,9 +259,9 @@ void MainWindow::write_mask(const QString& path) {
   });
 }
 
-void MainWindow::write_plate(const QString& path) {
+void MainWindow::write_plate(const QString& path, const Marks& marks) {
   try_to([&] {
-    jobs_.start(tr("Looking for the empty scene"), writing_plate(document_, session_, path, told()));
+    jobs_.start(tr("Looking for the empty scene"), writing_plate(marks, session_, path, told()));
   });
 }
 
@@ -289,6 +289,10 @@ void MainWindow::save_whole_part(const QString& path, const Origin& origin) {
 QString MainWindow::suggested(const QString& ending) const {
   const QFileInfo from(project_.isEmpty() ? document_.facts()->path : project_);
   return from.dir().filePath(from.completeBaseName() + ending);
+}
+
+QString MainWindow::suggested_picture() const {
+  return suggested("." + (exported_.isEmpty() ? QString("png") : QFileInfo(exported_).suffix()));
 }
 
 void MainWindow::fill_recent(QMenu& menu) {

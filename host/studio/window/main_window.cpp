@@ -96,7 +96,7 @@ void MainWindow::build_window() {
   time_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
 
   auto* column = new QSplitter(Qt::Vertical);
-  column->setObjectName("column");
+  column->setObjectName("panes");  // "column" was kept of two
   column->addWidget(picture);
   column->addWidget(time_);
   column->addWidget(curves_);
@@ -162,7 +162,7 @@ void MainWindow::connect_parts() {
     canvas_->show_picture(picture);
     status_->tell(picture);
     if (picture.is_full) measure_light();
-    if (!picture.is_full || snapshot_) return;
+    if (!picture.is_full || snapshot_ || canvas_->shows_first_look()) return;
     keep_snapshot();
     remember_picture(project_.isEmpty() ? document_.facts()->path : project_, canvas_->image());
   });
@@ -170,11 +170,14 @@ void MainWindow::connect_parts() {
     if (canvas_->shows_first_look()) canvas_->clear();
     notice_->say(Notice::Kind::error, why);
   });
-  for (Jobs* jobs : {&jobs_, &quick_, &measuring_, &writing_}) {
-    connect(jobs, &Jobs::failed, this, [this](const QString& what, const QString& why) {
+  for (Jobs* jobs : {&jobs_, &quick_, &writing_}) {
+    connect(jobs, &Jobs::failed, this, [this, jobs](const QString& what, const QString& why) {
+      if (jobs == &writing_ && !isVisible()) show();  // it was closed
       notice_->say(Notice::Kind::error, tr("%1: %2").arg(what, why));
     });
   }
+  // The picture itself fails likewise, and that is said.
+  connect(&measuring_, &Jobs::failed, this, [this] { histogram_->show_light(nullptr); });
   connect(&jobs_, &Jobs::ended, this, [this] {
     if (!opening_.isEmpty() && !jobs_.is_busy()) stay();
   });
@@ -196,17 +199,19 @@ void MainWindow::connect_parts() {
   connect(&document_.undo_stack(), &QUndoStack::cleanChanged, this, &MainWindow::follow_title);
 }
 
-void MainWindow::open(const QString& path, const QString& rate) {
+void MainWindow::open(const QString& path, const QString& rate, const StartingPoint* then) {
   notice_->clear();
-  pending_ = nullptr;
   if (path.endsWith(QLatin1String(kProjectExtension), Qt::CaseInsensitive))
-    return open_project(path);
+    return open_project(path, {}, then);
   Stated stated;
   if (!rate.isEmpty()) stated.emplace("fps", rate.toStdString());
-  open_capture_file(QFileInfo(path).absoluteFilePath(), stated, {});
+  Origin origin;
+  origin.then = then;
+  open_capture_file(QFileInfo(path).absoluteFilePath(), stated, std::move(origin));
 }
 
-void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptProject> kept) {
+void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptProject> kept,
+                              const StartingPoint* then) {
   try_to([&] {
     Project project = load_project(path);
     Origin origin{.kind = Origin::Kind::recovered,
@@ -216,7 +221,8 @@ void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptPro
                   .state = std::move(project.state),
                   .marks = project.marks,
                   .left = {},
-                  .kept = std::move(kept)};
+                  .kept = std::move(kept),
+                  .then = then};
     if (!origin.kept) {
       origin.kind = Origin::Kind::project;
       origin.project = path;
@@ -296,13 +302,13 @@ void MainWindow::tell_way_out(const QString& path, const Stated& stated, const O
 }
 
 void MainWindow::ask_how_to_read(const QString& path, const Stated& stated, const QString& why, const Origin& origin) {
-  const auto wanted = ask_options(this, {.command = CommandId::encode,
-                                         .title = tr("How the clip is read"),
-                                         .options = {"fps", "align", "deflicker", "between"},
-                                         .first = {{}, stated},
-                                         .filter = {},
-                                         .check = {},
-                                         .why = why});
+  Asked asked{CommandId::encode, tr("How the clip is read"), {"fps", "align", "deflicker", "between"}, {{}, stated}, {}, {},
+              why};
+  asked.words = {{"align", tr("no: it stood still")},
+                 {"translation", tr("it shifted")},
+                 {"rigid", tr("it shifted and turned")},
+                 {"homography", tr("it tilted, too")}};
+  const auto wanted = ask_options(this, asked);
   if (!wanted) return;
   notice_->clear();
   open_capture_file(path, wanted->options, origin);
@@ -337,6 +343,8 @@ void MainWindow::take(Opened opened, Origin origin) {
   stop_playing();
   live_.show(nullptr);
   snapshot_.reset();
+  written_.clear();
+  exported_.clear();
   forget_light();
   session_ = opened.session;
   document_.start(std::move(opened.facts), std::move(state), origin.marks);
@@ -354,7 +362,7 @@ void MainWindow::take(Opened opened, Origin origin) {
   if (!opened.notes.isEmpty() && notice_->text().isEmpty())
     notice_->say(Notice::Kind::note, opened.notes.join('\n'));
   look_at_capture();
-  if (pending_ != nullptr) start_from(*std::exchange(pending_, nullptr));
+  if (origin.then != nullptr) start_from(*origin.then);
 }
 
 // With what is open: another file was not opened, after all.
@@ -493,6 +501,9 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   if (may_leave()) {
     keep_window();
     autosave_.begin();
+    stop_playing();
+    opening_.clear();
+    for (Jobs* jobs : {&jobs_, &quick_, &measuring_}) jobs->cancel();
     if (writing_.is_busy()) writes_on_ = std::make_unique<QEventLoopLocker>();
     event->accept();
   } else {

@@ -55,6 +55,7 @@ struct Origin {
   std::shared_ptr<const KeptProject> kept = {};  // of Kind::recovered
   bool is_unwritten = false;                     // of Kind::project: its last save was ended in the middle
   bool is_elsewhere = false;                     // the capture, than where the project says
+  const StartingPoint* then = nullptr;           // is started once it is open
 };
 
 class MainWindow : public QMainWindow {
@@ -64,8 +65,8 @@ class MainWindow : public QMainWindow {
   explicit MainWindow(const ComputingRequest& computing = {});
   ~MainWindow() override;
 
-  // A capture, a clip or a project, in the background. `rate`, pictures a second, is stated of a clip.
-  void open(const QString& path, const QString& rate = {});
+  // A capture, a clip or a project, in the background; `rate`, pictures a second, is stated of a clip.
+  void open(const QString& path, const QString& rate = {}, const StartingPoint* then = nullptr);
   // False: it failed, and why is said above the picture.
   bool save_project(const QString& path);
   // For an open capture. The reason why a file is refused is said above the picture.
@@ -113,7 +114,8 @@ class MainWindow : public QMainWindow {
   void connect_parts();
   void restore_window();
   void keep_window();
-  void open_project(const QString& path, std::shared_ptr<const KeptProject> kept = {});
+  void open_project(const QString& path, std::shared_ptr<const KeptProject> kept = {},
+                    const StartingPoint* then = nullptr);
   void open_capture_file(const QString& path, const Stated& stated, Origin origin);
   void tell_way_out(const QString& path, const Stated& stated, const Origin& origin,
                     const std::exception_ptr& error);
@@ -145,12 +147,12 @@ class MainWindow : public QMainWindow {
   void follow_exposure();
 
   // starting.cpp
-  void choose_file();
+  void choose_file(const StartingPoint* then = nullptr);
   void choose_export();
   void choose_film();
   void choose_study();
   void offer_still_camera(StudyStyle style, const QString& why);
-  void show_plate(const QImage& plate);
+  void show_plate(const QImage& plate, const Marks& marks);
   [[nodiscard]] Stated film_options() const;
   void play_on();
   void stop_playing();
@@ -159,7 +161,7 @@ class MainWindow : public QMainWindow {
   void measure_light();
   void forget_light();
   void mark_clipped();
-  void keep_snapshot();
+  bool keep_snapshot();  // false: a film is shown
   void swap_snapshot();
   bool hold(int key, bool is_held);
   void let_go();
@@ -177,12 +179,13 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] QStringList changed_outside() const;
   void tell_changes();
   void copy_command();
-  void write_plate(const QString& path);
+  void write_plate(const QString& path, const Marks& marks);
   void save_whole_part(const QString& path, const Origin& origin);
   void fill_recent(QMenu& menu);
   void fill_unsaved(QMenu& menu);
   void remove_unsaved();
   [[nodiscard]] QString suggested(const QString& ending) const;
+  [[nodiscard]] QString suggested_picture() const;  // of the kind that was exported last
   bool try_to(const std::function<void()>& what);
   [[nodiscard]] Told told() {
     return [this](const QString& line) { notice_->say(Notice::Kind::note, line); };
@@ -201,9 +204,10 @@ class MainWindow : public QMainWindow {
   QString project_;
   CommandFiles files_;
   FileTimes known_;  // of the project's files and the capture
-  const StartingPoint* pending_ = nullptr;  // once a clip is open
-  Stated written_;                          // how the last picture was exported
+  Stated written_;   // how the last picture was exported
+  QString exported_;  // which; empty: none yet
   QTimer playing_;
+  double played_rate_ = 0;  // frames a second
   QElapsedTimer played_since_;
   std::optional<Frames> film_;
   std::unique_ptr<QEventLoopLocker> writes_on_;  // of a closed window

@@ -53,7 +53,7 @@ class ToolIcon : public QIconEngine {
   explicit ToolIcon(const QRectF& panel) : shape_(panel) {}
   explicit ToolIcon(const QPolygonF& shape) : shape_(shape), has_frame_(false) {}
 
-  QIconEngine* clone() const override { return new ToolIcon(kind_); }
+  QIconEngine* clone() const override { return new ToolIcon(*this); }
   void paint(QPainter* painter, const QRect& place, QIcon::Mode mode, QIcon::State) override {
     const auto group = mode == QIcon::Disabled ? QPalette::Disabled : QPalette::Active;
     const QColor colour = QApplication::palette().color(group, QPalette::ButtonText);
@@ -292,7 +292,7 @@ void MainWindow::build_start_menu() {
   needs_capture_ += add_action(menu, tr("Study with &choices…"), {}, [this] { choose_study(); });
   needs_capture_ += add_action(menu, tr("&Empty scene, as a picture…"), {}, [this] {
     ask_for_name(tr("Write the empty scene"), "-empty.png", tr("Pictures (*.png *.tif *.jpg *.exr)"),
-                 [this](const QString& path) { write_plate(path); });
+                 [this](const QString& path) { write_plate(path, document_.marks()); });
   });
 }
 

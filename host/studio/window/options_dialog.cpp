@@ -33,7 +33,7 @@ QString default_of(const Option& option) {
   const auto at = option.help.find(kBegin);
   if (at == std::string_view::npos) return {};
   const std::string_view rest = option.help.substr(at + kBegin.size());
-  return text(rest.substr(0, rest.find(')')));
+  return text(rest.substr(0, rest.find_first_of(";)")));
 }
 
 struct Field {
@@ -41,7 +41,8 @@ struct Field {
   std::function<QString()> value;  // null: not stated
 };
 
-Field field_of(const Option& option, const QString& stated, QWidget* parent) {
+Field field_of(const Option& option, const QString& stated, const std::map<std::string, QString>& words,
+               QWidget* parent) {
   if (option.is_flag()) {
     auto* box = new QCheckBox(label_of(option), parent);
     box->setChecked(!stated.isNull());
@@ -65,8 +66,13 @@ Field field_of(const Option& option, const QString& stated, QWidget* parent) {
     box->setEditable(true);
     return {box, typed(box->lineEdit())};
   }
-  box->addItem(default_of(option).isEmpty() ? Document::tr("as is usual") : default_of(option), QString());
-  for (const std::string& word : choices) box->addItem(text(word), text(word));
+  const auto said = [&](const std::string& word, const QString& otherwise) {
+    const auto found = words.find(word);
+    return found == words.end() ? otherwise : found->second;
+  };
+  const QString usual = default_of(option).isEmpty() ? Document::tr("as is usual") : default_of(option);
+  box->addItem(said(std::string(option.long_name), usual), QString());
+  for (const std::string& word : choices) box->addItem(said(word, text(word)), text(word));
   box->setCurrentIndex(std::max(box->findData(stated), 0));
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   box->setMinimumContentsLength(24);
@@ -117,7 +123,7 @@ std::optional<Wanted> ask_options(QWidget* parent, const Asked& asked) {
     const Option& option = *option_of(asked.command, name);
     const auto stated = asked.first.options.find(name);
     const bool is_stated = stated != asked.first.options.end();
-    Field field = field_of(option, is_stated ? text(stated->second) + QString("") : QString(), &dialog);
+    Field field = field_of(option, is_stated ? text(stated->second) + QString("") : QString(), asked.words, &dialog);
     field.widget->setObjectName(name);
     field.widget->setToolTip(text(option.help));
     if (option.is_flag()) {

@@ -3,7 +3,9 @@
 
 #include <QString>
 #include <functional>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "features/schema/command_id.hpp"
@@ -31,6 +33,7 @@ struct Asked {
   // Throws where it cannot be done, which is said in the dialog; may be empty.
   std::function<void(const Wanted& wanted, const Options& options)> check;
   QString why = {};  // it is asked; over the fields
+  std::map<std::string, QString> words = {};  // for choices; by an option's name where nothing is chosen
 };
 // None where a person gave it up; what else was stated stays. A name without an ending gets that of the first one; what
 // is there is replaced if a person says so.

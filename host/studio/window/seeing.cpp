@@ -27,8 +27,9 @@ void MainWindow::forget_light() {
   measuring_.cancel();
   light_.reset();
   Glance glance = canvas_->glance();
-  if (glance.marks.isNull() && glance.instead.isNull()) return;  // nothing of the picture is painted anew
-  glance.marks = glance.instead = {};
+  if (glance.marks.isNull() && glance.held.isNull() && glance.instead.isNull())
+    return;  // nothing of the picture is painted anew
+  glance.marks = glance.held = glance.instead = {};
   canvas_->look(std::move(glance));
 }
 
@@ -39,12 +40,19 @@ void MainWindow::mark_clipped() {
   canvas_->look(std::move(glance));
 }
 
-void MainWindow::keep_snapshot() { snapshot_ = {document_.state(), canvas_->image()}; }
+bool MainWindow::keep_snapshot() {
+  if (document_.played()) {
+    notice_->say(Notice::Kind::note, tr("Stop the film first: snapshot A is of the picture."));
+    return false;
+  }
+  snapshot_ = {document_.state(), canvas_->image()};
+  return true;
+}
 
 void MainWindow::swap_snapshot() {
   if (!snapshot_) return;
   const Snapshot before = *snapshot_;
-  keep_snapshot();
+  if (!keep_snapshot()) return;
   document_.apply(before.state, tr("Swap with snapshot A"));
 }
 
@@ -54,10 +62,7 @@ bool MainWindow::hold(int key, bool is_held) {
   switch (key) {
     case Qt::Key_H: glance.without_outlines = is_held; break;
     case Qt::Key_M: glance.is_magnified = is_held; break;
-    case Qt::Key_A:
-      glance.instead = is_held && snapshot_ ? snapshot_->image : QImage();
-      glance.title = tr("A");
-      break;
+    case Qt::Key_A: glance.held = is_held && snapshot_ ? snapshot_->image : QImage(); break;
     default: return false;
   }
   canvas_->look(std::move(glance));
@@ -75,7 +80,10 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
   if (event->key() == Qt::Key_Space) return play_or_stop();
   if (event->key() != Qt::Key_Escape) return QMainWindow::keyPressEvent(event);
   if (playing_.isActive()) return stop_playing();
-  if (!canvas_->glance().instead.isNull()) return let_go();
+  if (Glance glance = canvas_->glance(); !glance.instead.isNull()) {
+    glance.instead = {};
+    return canvas_->look(std::move(glance));
+  }
   // Nothing in the window had a use for it.
   (notice_->isVisible() ? notice_ : offer_)->clear();
 }

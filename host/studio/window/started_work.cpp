@@ -6,7 +6,7 @@
 #include "features/film/film_making.hpp"
 #include "features/masks/mask_making.hpp"
 #include "features/plate/plate.hpp"
-#include "media/formats/numbered_name.hpp"
+#include "media/stills/still_sequence.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "media/writers/recipe.hpp"
 #include "session/output_check.hpp"
@@ -15,6 +15,7 @@
 #include "studio/live/live_view.hpp"
 #include "studio/live/opening.hpp"
 #include "studio/window/options_dialog.hpp"
+#include "system/is_absent.hpp"
 
 namespace nutik::studio {
 namespace {
@@ -23,6 +24,14 @@ QString text_of(std::span<const std::string> lines) {
   QStringList texts;
   for (const std::string& line : lines) texts += QString::fromStdString(line);
   return texts.join('\n');
+}
+
+// Each of a clip's stills is one.
+std::vector<std::string> inputs_of(const Document& document) {
+  std::vector<std::string> inputs{document.facts()->path.toStdString()};
+  for (const auto& still : list_stills(inputs.front()).value_or(std::vector<std::filesystem::path>{}))
+    inputs.push_back(still.string());
+  return inputs;
 }
 
 // A function of a stretch in the whole capture's time: nothing outside of it.
@@ -114,22 +123,21 @@ Jobs::Work studying(Document& document, std::shared_ptr<Session> session, const 
 }
 
 Jobs::Work making_plate(const Document& document, std::shared_ptr<Session> session,
-                        std::function<void(QImage)> show) {
+                        std::function<void(QImage, Marks)> show) {
   return [session = std::move(session), show = std::move(show), marks = document.marks(),
           name = document.facts()->path.toStdString()](const Job& job) -> Jobs::Finish {
     const MadePlate plate = make_plate(stretch_between(marks, session, job).session->capture(), name, {},
                                        screen_format(), session->devices().request().memory, job.progress);
-    return [show, image = image_of(plate.picture)] { show(image); };
+    return [show, image = image_of(plate.picture), marks] { show(image, marks); };
   };
 }
 
-Jobs::Work writing_plate(const Document& document, std::shared_ptr<Session> session, const QString& picture,
+Jobs::Work writing_plate(const Marks& marks, std::shared_ptr<Session> session, const QString& picture,
                          Told told) {
   const std::filesystem::path path = picture.toStdString();
   const std::string name = session->source().path.string();
   check_output(path, OutputKind::picture, std::vector{name});
-  return [session = std::move(session), path, name, told = std::move(told),
-          marks = document.marks()](const Job& job) -> Jobs::Finish {
+  return [session = std::move(session), path, name, told = std::move(told), marks](const Job& job) -> Jobs::Finish {
     const MadePlate plate = make_plate(stretch_between(marks, session, job).session->capture(), name, {},
                                        output_format({}, path, session->format()),
                                        session->devices().request().memory, job.progress);
@@ -145,7 +153,7 @@ Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session,
   const std::filesystem::path path = picture.toStdString();
   const Options options = options_in(CommandId::expose, written);
   check_quality(options.picture, path);
-  std::vector<std::string> inputs{document.facts()->path.toStdString()};
+  std::vector<std::string> inputs = inputs_of(document);
   if (document.mode() == ExposureMode::functions) {
     inputs.push_back(files.functions.toStdString());
     if (document.state().mask) inputs.push_back(files.mask.toStdString());
@@ -183,20 +191,40 @@ FramesRequest film_request(const Document& document, const Options& options) {
   return request;
 }
 
+QString stills_question(const Document& document, const Session& session, const QString& film,
+                        const Options& options) {
+  const FramesRequest request = film_request(document, options);
+  const VideoOutput output(film.toStdString(), request.rate, options.video_codec, options.picture);
+  if (!output.writes_stills()) return {};
+  const std::vector<std::uint64_t> numbers = frames_of(request, session.timeline()).numbers;
+  const auto there = std::ranges::count_if(numbers, [&](auto number) { return !is_absent(output.still(number)); });
+  if (there == 0) return {};
+  return Document::tr("%1 of %2 pictures are there. Replace them?").arg(there).arg(numbers.size());
+}
+
 Jobs::Work filming(const Document& document, std::shared_ptr<Session> session, const QString& film,
-                   const Options& options, Told told) {
+                   const Options& options, Told told, std::function<void(int signal)> end) {
   const FramesRequest request = film_request(document, options);
   const VideoOutput output(film.toStdString(), request.rate, options.video_codec, options.picture);
   const Frames frames = frames_of(request, session->timeline());
-  // Of numbered pictures nobody was asked.
-  output.check(frames.numbers, std::vector{document.facts()->path.toStdString()},
-               output.writes_stills() ? Replacing::made_by_recipe : Replacing::all);
+  output.check(frames.numbers, inputs_of(document), Replacing::all);
+  const bool shows_twice = session->is_clip() && !document.facts()->stated.contains("between") &&
+                           seen_together(frames, session->timeline());
   return [request, output, frames, session = std::move(session), film, told = std::move(told),
-          sound = options.sound](const Job& job) -> Jobs::Finish {
+          end = std::move(end), shows_twice, sound = options.sound](const Job& job) -> Jobs::Finish {
     const MadeVideo made = make_video(*session, request, frames, output, job.progress, {}, sound);
-    QStringList lines{Document::tr("%1: %n frame(s)", nullptr, static_cast<int>(made.frames)).arg(film)};
+    const QString line = made.interruption
+                             ? Document::tr("%1: %2 of %3 frames were written")
+                             : Document::tr("%1: %n frame(s)", nullptr, static_cast<int>(made.frames));
+    QStringList lines{made.interruption ? line.arg(film).arg(made.frames).arg(frames.numbers.size()) : line.arg(film)};
     for (const std::string& note : made.notes) lines += sentence(note);
-    return [told, lines] { told(lines.join('\n')); };
+    if (shows_twice)
+      lines += Document::tr("Its frames show what moves two or three times: File, How the clip is read can make "
+                            "samples between pictures.");
+    return [told, lines, end, interruption = made.interruption] {
+      told(lines.join('\n'));
+      if (interruption) end(interruption->signal);
+    };
   };
 }
 

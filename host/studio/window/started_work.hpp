@@ -24,18 +24,18 @@ struct StartingPoint {
 };
 [[nodiscard]] std::span<const StartingPoint> starting_points();
 
-// Both look at what lies between the document's marks.
+// These look at what lies between marks: the document's, or those that are given.
 
 // The document gets the study's regions, functions and mask as one step; `told` its notes.
 [[nodiscard]] Jobs::Work studying(Document& document, std::shared_ptr<Session> session,
                                   const StudyRequest& request, Told told);
 // A style as it is usual here.
 [[nodiscard]] StudyRequest usual_study(StudyStyle style);
-// The scene without what moves, to be looked at.
+// The scene without what moves, to be looked at, and the marks that it was found between.
 [[nodiscard]] Jobs::Work making_plate(const Document& document, std::shared_ptr<Session> session,
-                                      std::function<void(QImage)> show);
+                                      std::function<void(QImage, Marks)> show);
 // The same as a picture file.
-[[nodiscard]] Jobs::Work writing_plate(const Document& document, std::shared_ptr<Session> session,
+[[nodiscard]] Jobs::Work writing_plate(const Marks& marks, std::shared_ptr<Session> session,
                                        const QString& picture, Told told);
 
 // The picture of a document, with the bytes and the recipe that nutik-cl gives it. `files` hold its mask and functions.
@@ -45,7 +45,11 @@ struct StartingPoint {
 
 // The interval on its way through the capture, as `options` of the command for videos say.
 [[nodiscard]] FramesRequest film_request(const Document& document, const Options& options);
+// Asks whether pictures that are there may be replaced by the film's; empty where none are.
+[[nodiscard]] QString stills_question(const Document& document, const Session& session, const QString& film,
+                                      const Options& options);
+// `end` is told of a signal that ended the film before its last frame.
 [[nodiscard]] Jobs::Work filming(const Document& document, std::shared_ptr<Session> session, const QString& film,
-                                 const Options& options, Told told);
+                                 const Options& options, Told told, std::function<void(int signal)> end);
 
 }  // namespace nutik::studio

@@ -1,6 +1,7 @@
 // What the window begins: studies, films, exports.
 #include <QDoubleSpinBox>
 #include <QFileInfo>
+#include <QMessageBox>
 #include <algorithm>
 
 #include "features/film/film_making.hpp"
@@ -11,27 +12,34 @@
 #include "studio/window/started_work.hpp"
 
 namespace nutik::studio {
+namespace {
 
-void MainWindow::choose_file() {
+const StartingPoint& point_of(StudyStyle style) {
+  return *std::ranges::find(starting_points(), std::optional(style), &StartingPoint::style);
+}
+
+}  // namespace
+
+void MainWindow::choose_file(const StartingPoint* then) {
   ask_for_file(tr("Open"),
                tr("Clips, captures and projects (*.tik *.nutik *.mp4 *.mov *.mkv *.avi "
                   "*.cine *.cihx *.csv);;All files (*)"),
-               [this](const QString& path) { open(path); });
+               [this, then](const QString& path) { open(path, {}, then); });
 }
 
 // ---- starting points ----
 
 void MainWindow::start_from(const StartingPoint& point) {
   if (!session_) {
-    choose_file();
-    if (!opening_.isEmpty()) pending_ = &point;
+    choose_file(&point);
   } else if (!point.style) {
     const std::int64_t start_ns = document_.mark_in().value_or(0);
     const std::int64_t end_ns = document_.mark_out().value_or(document_.duration_ns());
     document_.set_boxcar({start_ns, end_ns - start_ns}, tr("Long exposure"));
   } else if (point.style == StudyStyle::clean) {
     jobs_.start(tr("Looking for the empty scene"),
-                making_plate(document_, session_, [this](const QImage& plate) { show_plate(plate); }));
+                making_plate(document_, session_,
+                             [this](const QImage& plate, const Marks& marks) { show_plate(plate, marks); }));
   } else {
     start_study(usual_study(*point.style));
   }
@@ -52,39 +60,43 @@ void MainWindow::start_study(const StudyRequest& request) {
 }
 
 void MainWindow::offer_still_camera(StudyStyle style, const QString& why) {
-  if (!session_->is_clip()) return notice_->say(Notice::Kind::error, why);
+  if (!session_->is_clip() || document_.facts()->stated.contains("align"))
+    return notice_->say(Notice::Kind::error, why);
   notice_->say(Notice::Kind::error, why, tr("Hold the camera still"), [this, style] {
     if (!may_leave()) return;
     Stated still = document_.facts()->stated;
     still["align"] = "rigid";
-    open_capture_file(document_.facts()->path, still, {});
-    pending_ = &*std::ranges::find(starting_points(), std::optional(style), &StartingPoint::style);
+    Origin origin;
+    origin.marks = document_.marks();
+    origin.then = &point_of(style);
+    open_capture_file(document_.facts()->path, still, std::move(origin));
   });
 }
 
 void MainWindow::choose_study() {
   if (!session_) return;
   StudyRequest request;
+  const auto session = session_;
   const auto wanted = ask_options(
       this, {CommandId::study, tr("Motion study"), {"style", "moments", "spacing", "trail", "slit-from"}, {}, {},
              [&](const Wanted&, const Options& options) {
                request = study_request(options);
                if (!options.moments) request.moments = usual_study(request.style).moments;
                request.joins_trail = false;
-               if (request.style == StudyStyle::clean) throw UsageError("that is Start from, Remove people");
              }});
-  if (wanted) start_study(request);
+  if (!wanted || session != session_) return;
+  request.style == StudyStyle::clean ? start_from(point_of(request.style)) : start_study(request);
 }
 
-void MainWindow::show_plate(const QImage& plate) {
+void MainWindow::show_plate(const QImage& plate, const Marks& marks) {
   Glance glance = canvas_->glance();
   glance.instead = plate;
   glance.title = tr("Without what moves. Escape: back to the picture");
   canvas_->look(std::move(glance));
-  const QString note = tr("This scene is no exposure: it is kept as a picture of its own.");
-  notice_->say(Notice::Kind::note, note, tr("Save…"), [this] {
+  const QString note = tr("This scene is no exposure: it can be saved as a picture of its own.");
+  notice_->say(Notice::Kind::note, note, tr("Save…"), [this, marks] {
     ask_for_name(tr("Write the empty scene"), "-empty.png", tr("Pictures (*.png *.tif *.jpg *.exr)"),
-                 [this](const QString& path) { write_plate(path); });
+                 [this, marks](const QString& path) { write_plate(path, marks); });
   });
 }
 
@@ -105,7 +117,8 @@ void MainWindow::play_or_stop() {
     const FramesRequest request = film_request(document_, options_in(CommandId::video, film_options()));
     film_ = frames_of(request, document_.facts()->timeline);
     played_since_.start();
-    playing_.start(static_cast<int>(1000 / request.rate.value()));
+    played_rate_ = request.rate.value();
+    playing_.start(std::max(static_cast<int>(1000 / played_rate_), 1));
     play_on();
   });
 }
@@ -113,7 +126,7 @@ void MainWindow::play_or_stop() {
 // As many frames as the device exposes in time; the film keeps its speed, and begins again at its end.
 void MainWindow::play_on() {
   if (live_.is_busy()) return;
-  const auto frame = static_cast<std::uint64_t>(played_since_.elapsed() / playing_.interval());
+  const auto frame = static_cast<std::uint64_t>(static_cast<double>(played_since_.elapsed()) * played_rate_ / 1000);
   const Exposure exposure = film_->exposure(film_->numbers[frame % film_->numbers.size()]);
   document_.set_played(Boxcar{exposure.start_ns, exposure.end_ns - exposure.start_ns});
 }
@@ -125,6 +138,8 @@ void MainWindow::stop_playing() {
 
 void MainWindow::choose_film() {
   if (!session_) return;
+  const auto session = session_;
+  QString question;
   const auto wanted = ask_options(
       this, {CommandId::video,
              tr("Export the interval as a film"),
@@ -132,16 +147,21 @@ void MainWindow::choose_film() {
              {suggested("-film.mp4"), film_options()},
              tr("Films and numbered pictures (*.mp4 *.mov *.mkv *.webm *.gif *.webp *-%05d.png)"),
              [&](const Wanted& asked, const Options& options) {
-               static_cast<void>(filming(document_, session_, asked.path, options, {}));
+               static_cast<void>(filming(document_, session_, asked.path, options, {}, {}));
+               question = stills_question(document_, *session_, asked.path, options);
              }});
-  if (wanted) export_film(wanted->path, wanted->options);
+  if (!wanted || session != session_) return;
+  if (question.isEmpty() ||
+      QMessageBox::question(this, tr("Export the interval as a film"), question) == QMessageBox::Yes)
+    export_film(wanted->path, wanted->options);
 }
 
 void MainWindow::export_film(const QString& path, const Stated& options) {
   if (!session_) return;
   try_to([&] {
     writing_.start(tr("Filming %1").arg(QFileInfo(path).fileName()),
-                   filming(document_, session_, path, options_in(CommandId::video, options), told()));
+                   filming(document_, session_, path, options_in(CommandId::video, options), told(),
+                           [this](int signal) { autosave_.end(signal); }));
   });
 }
 
@@ -149,17 +169,18 @@ void MainWindow::export_film(const QString& path, const Stated& options) {
 
 void MainWindow::choose_export() {
   if (!ensure_files()) return;
+  const auto session = session_;
   const auto wanted = ask_options(
       this, {CommandId::expose,
              tr("Export the picture"),
              {"depth", "quality", "out-transfer", "negative", "keep-pixels", "no-recipe"},
-             {suggested(".png"), written_},
+             {suggested_picture(), written_},
              tr("Pictures (*.png *.tif *.jpg *.exr *.pfm *.ppm)"),
              [&](const Wanted& asked, const Options& options) {
                static_cast<void>(output_format(options.picture, asked.path.toStdString(), session_->format()));
                static_cast<void>(exporting(document_, session_, files_, asked.path, asked.options, {}));
              }});
-  if (wanted) export_picture(wanted->path, wanted->options);
+  if (wanted && session == session_) export_picture(wanted->path, wanted->options);
 }
 
 void MainWindow::export_picture(const QString& path, const Stated& written) {
@@ -171,6 +192,7 @@ void MainWindow::export_picture(const QString& path, const Stated& written) {
     writing_.start(tr("Writing %1").arg(QFileInfo(path).fileName()),
                    exporting(document_, session_, files_, path, written, told()));
     written_ = written;
+    exported_ = path;
   });
 }
 

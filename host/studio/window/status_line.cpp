@@ -104,6 +104,7 @@ StatusLine::StatusLine(const std::vector<Jobs*>& jobs, QWidget* parent)
   for (Jobs* each : jobs) {
     connect(each, &Jobs::progressed, this,
             [this, each, show_work](const QString& what, quint64 done, quint64 total) {
+              if (shown_ != each && shown_->is_busy()) return;
               shown_ = each;
               work_->setText(what);
               progress_->setRange(0, total > 0 ? 1000 : 0);
