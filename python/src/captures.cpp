@@ -63,7 +63,7 @@ py::tuple opened(const Opening& terms, const py::object& progress) {
 
 py::tuple open(const std::string& path, const Settings& settings, const Settings& computing,
                const py::object& progress) {
-  if (!settings.empty() && is_tik(path) && std::filesystem::exists(path)) {
+  if (!settings.empty() && is_tik(path)) {
     const std::string& name = settings.begin()->first;
     const bool is_corrected = option_of_argument(CommandId::retime, name) != nullptr;
     throw UsageError(format("{}= describes a clip that is encoded; {} was encoded already. {}", name, path,
