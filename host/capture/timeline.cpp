@@ -119,6 +119,7 @@ Timeline Timeline::stored(std::vector<Exposure> exposures, std::int64_t duration
     throw InputError(format("the capture ends at {} ns; 146 years are the most that one lasts", duration_ns));
   }
   timeline.duration_ns_ = duration_ns;
+  if (timeline.sample_count_ == 1) timeline.rate_ = mean_rate(1, duration_ns);
   timeline.shutter_angle_ = shutter_angle;
   return timeline;
 }

@@ -122,7 +122,7 @@ class Capture:
 
     @property
     def dtype(self) -> np.dtype[Union[np.uint8, np.uint16]]:
-        """Of its codes: uint8 or uint16."""
+        """The type of its codes: uint8 or uint16."""
         return np.dtype(np.uint8 if self._held.code_bytes == 1 else np.uint16)
 
     def __len__(self) -> int:

@@ -64,7 +64,7 @@ class Pictures(_HasArray):
 
     @property
     def uncertainty(self) -> list[Uncertainty]:
-        """Of each picture what `uncertainty` of a Picture is."""
+        """The `uncertainty` of each picture, as a Picture has it."""
         return self._uncertainties()
 
     def __getstate__(self) -> dict[str, object]:

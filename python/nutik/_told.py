@@ -19,7 +19,7 @@ class Tiles(TypedDict):
 
 
 class Figures(TypedDict):
-    """Of a capture. Times are nanoseconds, rate is samples a second, shutter_angle degrees."""
+    """What a capture is. Times are nanoseconds, rate is samples a second, shutter_angle degrees."""
 
     samples: int
     duration_ns: int
@@ -41,7 +41,7 @@ class Figures(TypedDict):
 
 
 class PlannedFunction(TypedDict):
-    """Of a tag of the mask; live_ns is (first, last), support_ns D, by which the integral is divided."""
+    """A tag of the mask; live_ns is (first, last), support_ns D, by which the integral is divided."""
 
     tag: int
     pixels: int

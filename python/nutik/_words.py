@@ -250,7 +250,7 @@ def half_up(value: Fraction) -> int:
 def time_ns(time: Time, what: str) -> int:
     """A time in whole nanoseconds."""
     nanoseconds = half_up(seconds_of(time, what) * _SECOND_NS)
-    if abs(nanoseconds) >= 2 ** 62:
+    if abs(nanoseconds) > 4 * 10 ** 18:
         raise UsageError(f"{what} lies further away than 126 years")
     return nanoseconds
 
@@ -274,8 +274,8 @@ def delays_ns(delays: Any) -> NDArray[np.int64]:
     else:
         raise UsageError("delay= is 'rows:15ms', 'map.tif:0s..1s' or an array of seconds, and this has dtype "
                          f"{delays.dtype}")
-    if not (np.abs(made.astype(np.float64)) < 2.0 ** 62).all():
-        raise UsageError("delay=: some pixel's delay is no number of seconds, or further away than 146 years")
+    if not (np.abs(made.astype(np.float64)) <= 4e18).all():
+        raise UsageError("delay=: some pixel's delay is no number of seconds, or further away than 126 years")
     return np.asarray(made, np.int64)
 
 

@@ -107,16 +107,14 @@ py::tuple encode_clip(const std::string& path, const std::optional<std::string>&
 py::tuple joined(const std::vector<std::string>& captures, const std::string& output, const Settings& computing,
                  const py::object& progress) {
   const JoinRequest request{{captures.begin(), captures.end()}, output};
-  const Joined made =
-      without_lock([&](const Stopping& stopping) { return join(request, stopping.progress()); }, progress);
-  const auto capture = opened_file(output, devices_of(computing));
-  return py::make_tuple(capture, py::list(), note_texts(made.notes, Dialect::python));
+  const auto one = without_lock([&](const Stopping& stopping) { return join(request, stopping.progress()); }, progress);
+  return py::make_tuple(opened_file(output, devices_of(computing)), py::list(), note_texts(one.notes, Dialect::python));
 }
 
-// An object of Python's, for threads that do not hold its lock.
-using Held = std::shared_ptr<py::object>;
-Held held(py::object object) {
-  return {new py::object(std::move(object)), [](py::object* last) {
+// Python's objects, for threads that do not hold its lock.
+template <typename Objects>
+std::shared_ptr<Objects> held(Objects objects) {
+  return {new Objects(std::move(objects)), [](Objects* last) {
             const py::gil_scoped_acquire locked;
             delete last;
           }};
@@ -124,15 +122,15 @@ Held held(py::object object) {
 
 class PicturesClip final : public Clip {
  public:
-  PicturesClip(ClipInfo info, std::string name, Held iterator)
-      : info_(std::move(info)), name_(std::move(name)), iterator_(std::move(iterator)) {}
+  PicturesClip(ClipInfo info, std::string name, py::object given, bool is_array)
+      : info_(std::move(info)), name_(std::move(name)), iterator_(held(std::move(given))), most_(is_array ? 64 : 1) {}
 
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
 
   bool read(std::span<std::byte> raster) override {
-    const Held picture = next();
-    if (!picture) return false;
-    std::memcpy(raster.data(), static_cast<const py::array&>(*picture).data(), raster.size());
+    if (!arrays_ || next_ == arrays_->size()) take();
+    if (arrays_->empty()) return false;
+    std::memcpy(raster.data(), (*arrays_)[next_++].data(), raster.size());
     const std::uint32_t white = info_.format.white_code;
     const bool is_last = white == (info_.format.code_bytes == 1 ? 255 : 65'535);
     const std::uint32_t code = is_last ? 0 : largest_code(raster, info_.format.code_bytes);
@@ -144,20 +142,26 @@ class PicturesClip final : public Clip {
   }
 
  private:
-  // An array without gaps, which is a copy only where it has some; none at the end.
-  [[nodiscard]] Held next() const {
+  // The next arrays without gaps, which are copies only where they have some: none at the end; one, or several views of
+  // a whole array, for Python's other threads may keep its lock for 5 ms each time.
+  void take() {
     const py::gil_scoped_acquire locked;
-    const auto given = py::reinterpret_steal<py::object>(PyIter_Next(iterator_->ptr()));
-    if (!given && PyErr_Occurred() != nullptr) throw py::error_already_set();
-    if (!given) return {};
-    const auto picture = py::array::ensure(given, py::array::c_style);
-    if (!picture) throw py::error_already_set();
-    return held(picture);
+    arrays_ = held(std::vector<py::array>());
+    for (next_ = 0; arrays_->size() < most_;) {
+      const auto given = py::reinterpret_steal<py::object>(PyIter_Next(iterator_->ptr()));
+      if (!given && PyErr_Occurred() != nullptr) throw py::error_already_set();
+      if (!given) return;
+      arrays_->push_back(py::array::ensure(given, py::array::c_style));
+      if (!arrays_->back()) throw std::bad_alloc();
+      if (!arrays_->back().is(given)) return;
+    }
   }
 
   ClipInfo info_;
   std::string name_;
-  Held iterator_;
+  std::shared_ptr<py::object> iterator_;
+  std::shared_ptr<std::vector<py::array>> arrays_;
+  std::size_t most_, next_ = 0;
   std::uint64_t taken_ = 0;
 };
 
@@ -167,15 +171,14 @@ OpenClip open_pictures(const py::object& pictures, ClipInfo info, std::string na
   return [pictures = held(pictures), was_open = std::make_shared<std::atomic_flag>(), info = std::move(info),
           name = std::move(name)] {
     const py::gil_scoped_acquire locked;
-    auto iterator = py::reinterpret_steal<py::object>(PyObject_GetIter(pictures->ptr()));
-    if (!iterator) throw py::error_already_set();
+    py::object iterator = py::iter(*pictures);
     if (was_open->test_and_set() && iterator.is(*pictures))
       throw UsageError(format("{} can be read once, and what is asked for reads it twice; pass an array", name));
-    return std::make_unique<PicturesClip>(info, name, held(std::move(iterator)));
+    return std::make_unique<PicturesClip>(info, name, std::move(iterator), py::isinstance<py::array>(*pictures));
   };
 }
 
-// Of `first`, a picture, all others have the shape; `count` is 0 where nobody knows it, times are those of ClipTiming.
+// All pictures have the shape of `first`; `count` is 0 where nobody knows it, times are those of ClipTiming.
 py::tuple encode_pictures(const py::object& pictures, const py::array& first, std::uint64_t count,
                           const std::string& name, const std::vector<std::int64_t>& starts_ns,
                           const std::vector<std::pair<std::int64_t, std::int64_t>>& exposures_ns,
@@ -238,8 +241,7 @@ class SampleReader {
   // [samples, height, width(, 3)], of increasing numbers. A single one is read without another thread.
   py::array samples(const std::vector<std::uint64_t>& numbers) {
     const CaptureFormat& format = capture_->session->format();
-    py::array rasters(dtype_of(code_type(format)),
-                      axes_of(format.shape, {static_cast<py::ssize_t>(numbers.size())}));
+    py::array rasters(dtype_of(code_type(format)), axes_of(format.shape, {static_cast<py::ssize_t>(numbers.size())}));
     auto* to = static_cast<std::byte*>(rasters.mutable_data());
     const auto read = [&](const std::stop_token& stop) {
       for (const std::uint64_t number : numbers) {

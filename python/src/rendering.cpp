@@ -145,8 +145,7 @@ HeldPicture render(const OpenCapture& capture, const AskedExposure& asked, const
   return {std::move(exposed.picture), std::move(figures)};
 }
 
-// Of `count` exposures what differs from `asked`: starts, lengths, functions, each a list of one or of all of them, or
-// empty where it does not.
+// What differs from `asked` in `count` exposures: starts, lengths, functions, each a list of one or of all, or empty.
 struct Differences {
   std::vector<std::string> starts, lengths;
   std::vector<FunctionSet> functions;
@@ -224,7 +223,7 @@ py::dict arrays_of(const TracedExposure& exposure, const Trace& trace) {
                   "support_ns"_a = function.summary.support_ns);
 }
 
-// Of a pixel (x, y), or of a mask value where there is none.
+// Traces a pixel (x, y), or a mask value where there is none.
 py::tuple trace(const OpenCapture& capture, const AskedExposure& asked,
                 const std::optional<std::pair<std::uint32_t, std::uint32_t>>& pixel,
                 std::optional<std::uint8_t> tag, const py::object& progress) {

@@ -82,7 +82,8 @@ TEST_F(Study, TakesTheMomentsThatAreNamed) {
   expect_refused(2, {{"study clip.tik --moments 8f,2f", "state moments in the order of time"},
                      {"study clip.tik --style frozen --moments 3", "--style frozen shows a single moment; leave --moments out"},
                      {"study clip.tik --moments 51", "--moments says 51; a study has 1 to 50"},
-                     {"study clip.tik --moments 0", "--moments says 0; a study has 1 to 50"}});
+                     {"study clip.tik --moments 0", "--moments says 0; a study has 1 to 50"},
+                     {"study clip.tik --moments 8f,last", "--moments 'last' is no time"}});
 }
 
 // A square crosses the picture, is gone, and another thing stands there for a while.

@@ -142,6 +142,7 @@ TEST(Timeline, TellsAMeanRateHoweverSlow) {
     EXPECT_GT(timeline.rate().numerator, 0);
   }
   EXPECT_EQ(Timeline::irregular({0, 3'600'000'000'000}, {360, 1}).rate(), (Rational{1, 3600}));
+  EXPECT_EQ(Timeline::stored({{0, 25'000'000}}, 100'000'000, {90, 1}).rate(), (Rational{10, 1}));
 }
 
 // 2^62 ns are documented. Beyond them differences of times leave 64 bits.

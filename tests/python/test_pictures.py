@@ -214,7 +214,7 @@ class Pictures(support.TestCase):
         self.assert_raises(usage, "functions=", render, mask=self.tags, exposure=1)
         self.assert_raises(usage, "shutter_error= says nothing without shutter=", render, exposure=1, shutter_error=0.1)
         self.assert_raises(usage, "unmapped= says nothing without mask=", render, exposure=1, unmapped="zero")
-        self.assert_raises(usage, "by lies further away than 126 years", nutik.boxcar(0, 1).shifted, 1e12)
+        self.assert_raises(usage, "by lies further away than 126 years", nutik.boxcar(0, 1).shifted, 4.2e9)
         for call in (nutik.open, nutik.read_mask, nutik.read_functions, render(exposure="1f").write):
             self.assert_raises(nutik.WrongType, "3 is no path", call, 3)
         self.assert_raises(usage, ["exposure=", "functions="], render, [(0, 1)], exposure=1)

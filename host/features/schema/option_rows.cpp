@@ -355,7 +355,7 @@ constexpr Option kRows[] = {
      "time), clean (the scene without moving things) or slit (strips, each later than the one before it) "
      "(default: trail)",
      "trail strobe rear-curtain frozen clean slit"},
-    {0, "moments", "N|TIMES", subject, bit(Id::study), take<In<&Options::moments>>,
+    {0, "moments", "N|TIMES", subject, bit(Id::study), take_by<InStudy<&StudyRequest::moments>, parse_moments>,
      "how many moments, or which: up to 50, 7, or 0.36s,0.75s,1.27s (default: 5; of rear-curtain and frozen 1); "
      "of slit how many strips, up to 256 (default: 256)"},
     step("region", "X,Y,W,H",

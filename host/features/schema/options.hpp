@@ -93,7 +93,6 @@ struct Options {
 
   // A study; what is solved for.
   StudyRequest study;  // its style, spacing, trail and slit
-  Text moments;        // how many there may be is the style's business
   Text regions;
 
   // Masks, plates, and changes over time.

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "capture/error.hpp"
@@ -55,19 +54,6 @@ void read_noise(SourceRequest& request, const Options& options) {
   } else if (options.noise) {
     request.noise = StatedNoise{*options.noise, read_noise_file(*options.noise)};
   }
-}
-
-std::variant<std::uint32_t, std::vector<StatedTime>> parse_moments(const std::string& text) {
-  constexpr std::string_view kWhat = "moments";
-  if (text.find_first_not_of("0123456789") == std::string::npos)
-    return parse_whole_number(text, kWhat, 0, std::numeric_limits<std::uint32_t>::max());
-  std::vector<StatedTime> times;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    times.push_back(StatedTime::parse(text.substr(begin, end - begin), kWhat));
-    begin = end + 1;
-  }
-  return times;
 }
 
 Rectangle region_of(const std::string& text) {
@@ -195,8 +181,7 @@ StudyRequest study_request(const Options& options) {
   request.joins_trail = !options.has("between");
   request.by_codes = options.by;
   request.feather = options.feather;
-  request.moments = usual_moments(request.style);
-  if (options.moments) request.moments = parse_moments(*options.moments);
+  if (!options.has("moments")) request.moments = usual_moments(request.style);
   check_study(request);
   return request;
 }

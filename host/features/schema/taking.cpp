@@ -1,6 +1,7 @@
 #include "features/schema/taking.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "capture/format.hpp"
 #include "session/text/number_text.hpp"
@@ -97,6 +98,18 @@ double parse_signed(std::string_view word, std::string_view what) {
   const auto below = slash == number.npos ? std::optional(1.0) : parse_number(number.substr(slash + 1));
   if (!above || !below || *below == 0.0) throw UsageError(format("{} {} is no number", what, word));
   return *above / *below;
+}
+
+std::variant<std::uint32_t, std::vector<StatedTime>> parse_moments(std::string_view word, std::string_view what) {
+  if (word.find_first_not_of("0123456789") == word.npos)
+    return parse_whole_number(word, what, 0, std::numeric_limits<std::uint32_t>::max());
+  std::vector<StatedTime> times;
+  for (std::size_t begin = 0; begin <= word.size();) {
+    const std::size_t end = std::min(word.find(',', begin), word.size());
+    times.push_back(StatedTime::parse(word.substr(begin, end - begin), what));
+    begin = end + 1;
+  }
+  return times;
 }
 
 StatedTime parse_step(std::string_view word, std::string_view what) {

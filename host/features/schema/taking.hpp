@@ -11,6 +11,8 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "features/schema/option.hpp"
 
@@ -31,6 +33,9 @@ namespace nutik {
                                                                   std::string_view what);
 [[nodiscard]] double parse_shutter_error(std::string_view word, std::string_view what);
 [[nodiscard]] double parse_signed(std::string_view word, std::string_view what);
+// How many there may be is the style's business.
+[[nodiscard]] std::variant<std::uint32_t, std::vector<StatedTime>> parse_moments(std::string_view word,
+                                                                                 std::string_view what);
 [[nodiscard]] StatedTime parse_step(std::string_view word, std::string_view what);  // longer than nothing
 // A whole number of low … high.
 [[nodiscard]] std::uint32_t parse_whole(std::string_view word, std::string_view what, std::uint32_t low,
