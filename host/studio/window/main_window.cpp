@@ -302,8 +302,8 @@ void MainWindow::tell_way_out(const QString& path, const Stated& stated, const O
 }
 
 void MainWindow::ask_how_to_read(const QString& path, const Stated& stated, const QString& why, const Origin& origin) {
-  Asked asked{CommandId::encode, tr("How the clip is read"), {"fps", "align", "deflicker", "between"}, {{}, stated}, {}, {},
-              why};
+  Asked asked{CommandId::encode, tr("How the clip is read"), {"fps", "align", "deflicker", "between"}, {{}, stated}, {},
+              {}, why};
   asked.words = {{"align", tr("no: it stood still")},
                  {"translation", tr("it shifted")},
                  {"rigid", tr("it shifted and turned")},
