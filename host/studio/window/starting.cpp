@@ -81,7 +81,7 @@ void MainWindow::choose_study() {
       this, {CommandId::study, tr("Motion study"), {"style", "moments", "spacing", "trail", "slit-from"}, {}, {},
              [&](const Wanted&, const Options& options) {
                request = study_request(options);
-               if (!options.moments) request.moments = usual_study(request.style).moments;
+               if (!options.has("moments")) request.moments = usual_study(request.style).moments;
                request.joins_trail = false;
              }});
   if (!wanted || session != session_) return;
