@@ -6,6 +6,7 @@
 
 #include "capture/error.hpp"
 #include "media/writers/picture_writer.hpp"
+#include "support/clips.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 
@@ -91,6 +92,7 @@ TEST(PictureWriter, WritesLargePngsRowByRow) {
 
 // Each looks again and again whether it should end; one that ends leaves nothing.
 TEST(PictureWriter, EndsWhereItIsTold) {
+  test::use_modules();
   const Scratch scratch;
   for (const char* name : {"p.png", "p.tif", "p.jpg", "p.exr", "p.pfm", "p.npy"}) {
     const bool is_light = value_type_for(name, {}, ValueType::code8, 3) == ValueType::light32;

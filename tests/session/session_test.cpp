@@ -242,9 +242,11 @@ TEST_F(SessionOfClip, DoubtsAnArithmeticThatIsAskedForAndTooCoarse) {
   EXPECT_TRUE(session.render(request_, codes8).warnings.empty());
   EXPECT_TRUE(session.render(request_, kFloats).warnings.empty());
   EXPECT_TRUE(Session(source_, ComputingRequest()).render(request_, codes16).warnings.empty());
-  RenderControl preview;  // by a program's own choice
-  preview.precision = Precision::fixed;
-  EXPECT_TRUE(session.render(request_, codes16, preview).warnings.empty());
+  RenderControl control;
+  control.precision = Precision::fixed;
+  EXPECT_EQ(session.render(request_, codes16, control).warnings, warnings);
+  control.is_chosen = true;  // by a program
+  EXPECT_TRUE(session.render(request_, codes16, control).warnings.empty());
 }
 
 // Whoever made a request: what the command line refuses is refused here, and nothing is written.

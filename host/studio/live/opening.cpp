@@ -36,6 +36,7 @@ QImage first_picture(const SourceRequest& source, const std::shared_ptr<Devices>
   RenderControl control;
   control.stop = job.stop;
   control.precision = precision;
+  control.is_chosen = true;
   return image_of(forward.render(exposure, screen_format(), control).picture);
 }
 

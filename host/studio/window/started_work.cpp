@@ -168,6 +168,7 @@ Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session,
     RenderControl control;
     control.stop = job.stop;
     control.precision = precision;
+    control.is_chosen = true;
     PictureRecipe recipe(sources);
     const ExposedPicture exposed =
         session->render(exposure_of(state, mask), output_format(options.picture, path, session->format()), control);
