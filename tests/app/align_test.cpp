@@ -188,7 +188,7 @@ TEST_F(Aligning, IsMissedWhereTheCameraMoved) {
   make(encoding("--align rigid frames a.tik"));
   write("still", [](int) { return Shift(); });
   make(encoding("still still.tik"));
-  const std::string told = "the camera moved: at sample";
+  const std::string told = "the camera moved by up to ";
   const auto says = [&](const test::Words& words) {
     const auto result = make(words.front() == "check" ? words : test::Words(test::over(words)));
     return (result.out + result.err).find(told) != std::string::npos;
