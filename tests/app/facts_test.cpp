@@ -246,7 +246,7 @@ TEST_F(Facts, OfACaptureAreToldToScriptsWithWhatCorrectsThem) {
     return options;
   };
   auto info = options_of({"info", "--json", "clip.tik"});
-  const std::string rate = "irregular times, 27.94 pictures a second on average, from the file";
+  const std::string rate = "irregular times, 27.84 pictures a second on average, from the file";
   EXPECT_EQ(info.size(), 7u);
   EXPECT_EQ(info[rate], "--fps");
   EXPECT_EQ(info["transfer srgb, assumed"], "--transfer");
@@ -256,7 +256,7 @@ TEST_F(Facts, OfACaptureAreToldToScriptsWithWhatCorrectsThem) {
   EXPECT_EQ(retimed[rate], "--fps");
   EXPECT_EQ(retimed["shutter 180 degrees, as stated"], "--shutter-angle");
   const auto told = run("retime --in-place -a 90 clip.tik");
-  expect_says(told.out, "samples, irregular times, 27.94 pictures a second on average, shutter 90 degrees");
+  expect_says(told.out, "samples, irregular times, 27.84 pictures a second on average, shutter 90 degrees");
 }
 
 // A check of a clip lists them, too.

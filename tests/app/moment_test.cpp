@@ -165,8 +165,7 @@ TEST_F(Moment, ActivityTakesAStepOfTheExposureForNoMotion) {
     EXPECT_EQ(json["samples"][k]["changed_pixels"], 2 * 6 * 8) << k;
   }
   expect_says(run("activity -f 100 steps").err,
-              "as where a codec draws it anew or a camera changes its "
-              "exposure");
+              "as with a codec's key frame or a camera's new exposure");
   const std::string help = std::regex_replace(run("activity --help=all").out, std::regex("\\s+"), " ");
   expect_says(help, "or the camera changed");
 }

@@ -155,7 +155,8 @@ TEST_F(Noise, IsNotMeasuredOnWhatMovesWithinIt) {
   waves("panned", 0.1, 0, 0);
   refused(
       "panned",
-      "panned: no noise can be measured on it: where pixels seem to stand still their light strays by 0.");
+      "panned: no noise can be measured on it: where pixels seem to stand still their light strays from what would be "
+      "held for it by 0.");
   refused("panned",
           "in pictures 0 … 63): the camera or the scene moves, or a codec holds what it thinks is still. "
           "Take the "

@@ -22,8 +22,8 @@ TEST_F(StillsTableProgram, KeepsTheListedExposures) {
   scratch_.write("stills.csv",
                 "file,start_ns,exposure_ns\ndark.pgm,7,10000000\nbright.pgm,40000007,10000000\n");
   const test::ProgramResult encoded = make("--transfer linear stills.csv c.tik");
-  expect_says(encoded.out, "shutter 144 degrees (from the mean of the listed exposures)");
-  expect_says(make("info c.tik").out, "(irregular), shutter 144 degrees");
+  expect_says(encoded.out, "shutter 90 degrees (from the mean of the listed exposures)");
+  expect_says(make("info c.tik").out, "(irregular), shutter 90 degrees");
   const auto code_of = [&](test::Words words) {
     words.insert(words.end(), {"-q", "--out-transfer", "source", "p.pgm"});
     make(words);

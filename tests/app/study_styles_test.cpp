@@ -108,7 +108,7 @@ TEST_F(StudyStyles, JoinTheTrailBetweenPictures) {
   for (int k = 0; k < 12; ++k) still.add(ground_of(7));
   make("study -f 100 still --between auto -o still.png");
   expect_says(run(format("study -f 100 fast20 --moments 1f,{}f --trail even --overwrite", last)).err,
-              format("every {} pixels", kStep));
+              format("a row of copies, {} pixels apart", kStep));
 }
 
 TEST_F(StudyStyles, HaveNoStepAlongRegionsEdges) {
