@@ -4,9 +4,8 @@
 //   out:     a block's payload each time it is full or the capture ends (layout: imev/block.hpp)
 //   always:  memory for one block besides those handed out, whatever the capture's length, and for no more than what
 //            the block really holds, unless a camera's noise is known. With a tolerance the codes held at a block's
-//            end go over into the next, so that blocks change nothing about what is a change (but tik/writer.hpp
-//            stores one without the tolerance if that is smaller); with a camera's noise each block stands on its own
-//            samples (imev/expected_values.hpp)
+//            end go over into the next, so that blocks change nothing about what is a change; with a camera's noise
+//            each block stands on its own samples (imev/expected_values.hpp)
 #pragma once
 
 #include <cstdint>

@@ -17,12 +17,6 @@ std::span<const std::byte> bytes_of(const T& value) {
   return std::as_bytes(std::span(&value, 1));
 }
 
-std::uint64_t bytes_together(const std::vector<std::vector<std::byte>>& parts) {
-  std::uint64_t bytes = 0;
-  for (const std::vector<std::byte>& part : parts) bytes += part.size();
-  return bytes;
-}
-
 // Netpbm has one byte a value up to a maximum of 255, above that two, the high one first.
 std::vector<std::byte> netpbm_raster(const CaptureFormat& capture, std::span<const std::byte> sample) {
   const bool wide = capture.white_code > 255;
@@ -82,51 +76,40 @@ Writer::Writer(const std::filesystem::path& path, Header header, const Codec& co
   file_.write(front);
 }
 
-void Writer::append(const BuiltBlock& held, std::span<const Exposure> exposures,
-                    const std::optional<BuiltBlock>& exact) {
-  const BlockGeometry geometry(header_.capture, held.extent.sample_count);
-  CaptureFormat lossless = header_.capture;
-  lossless.noise.tolerance = 0;
-  const BlockGeometry exact_geometry(lossless, held.extent.sample_count);
-  const BuiltBlock* block = &held;
+void Writer::append(const BuiltBlock& block, std::span<const Exposure> exposures) {
+  const BlockGeometry geometry(header_.capture, block.extent.sample_count);
+  const PayloadParts parts(geometry, block.payload);
+  std::vector<std::span<const std::byte>> packed_parts;
+  std::span<const std::span<const std::byte>> stored = parts.parts();
+  std::uint64_t stored_bytes = parts.bytes();
   Codec codec = codec_;
-  if (codec_.id == CodecId::none) {
-    if (exact && PayloadParts(geometry, exact->payload).bytes() < PayloadParts(geometry, held.payload).bytes())
-      block = &*exact;
-  } else {
-    const auto told = [&](std::uint64_t before) -> ReportedProgress {
-      if (!exact || !packing_) return packing_;
-      return [this, before](std::uint64_t done, std::uint64_t total) { packing_(before * total + done, 2 * total); };
-    };
-    codec = pack_block(geometry, held.payload, told(0));
-    if (exact && pack(codec_, exact_geometry, exact->payload, other_, max_threads_, told(1), bytes_together(packed_))) {
-      std::swap(packed_, other_);
-      codec = codec_;
-      block = &*exact;
-    }
+  if (codec_.id != CodecId::none) {
+    codec = pack_block(geometry, block.payload);
+    packed_parts.assign(packed_.begin(), packed_.end());
+    stored = packed_parts;
+    stored_bytes = 0;
+    for (const std::span<const std::byte> part : stored) stored_bytes += part.size();
   }
-  const PayloadParts parts(geometry, block->payload);
-  std::vector<std::span<const std::byte>> stored(parts.parts().begin(), parts.parts().end());
-  if (codec_.id != CodecId::none) stored.assign(packed_.begin(), packed_.end());
   BlockHeader header{};
-  header.first_sample = block->extent.first_sample;
-  header.sample_count = block->extent.sample_count;
+  header.first_sample = block.extent.first_sample;
+  header.sample_count = block.extent.sample_count;
   header.codec = static_cast<std::uint32_t>(codec.id);
-  for (const std::span<const std::byte> part : stored) header.stored_bytes += part.size();
+  header.stored_bytes = stored_bytes;
   header.payload_bytes = parts.bytes();
-  header.record_count = block->record_count;
+  header.record_count = block.record_count;
   append(header, stored, exposures);
 }
 
-Codec Writer::pack_block(const BlockGeometry& geometry, std::span<const std::byte> payload,
-                         const ReportedProgress& progress) {
+Codec Writer::pack_block(const BlockGeometry& geometry, std::span<const std::byte> payload) {
   const Codec rice{CodecId::rice, 0};
   if (codec_.id == CodecId::rice || header_.capture.noise.tolerance == 0) {
-    pack(codec_, geometry, payload, packed_, max_threads_, progress);
+    pack(codec_, geometry, payload, packed_, max_threads_, packing_);
     return codec_;
   }
   pack(rice, geometry, payload, packed_, max_threads_);  // quick, and told of by what follows
-  if (!pack(codec_, geometry, payload, other_, max_threads_, progress, bytes_together(packed_))) return rice;
+  std::uint64_t bytes = 0;
+  for (const std::vector<std::byte>& part : packed_) bytes += part.size();
+  if (!pack(codec_, geometry, payload, other_, max_threads_, packing_, bytes)) return rice;
   std::swap(packed_, other_);
   return codec_;
 }

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -40,9 +39,8 @@ class Writer {
   void tell_of_packing(ReportedProgress packing) { packing_ = std::move(packing); }
 
   // Appends the next block; with an irregular timeline also its samples' exposures, times from the
-  // first sample's start. `exact` has the same samples without the tolerance: it is stored where it takes less.
-  void append(const BuiltBlock& held, std::span<const Exposure> exposures = {},
-              const std::optional<BuiltBlock>& exact = std::nullopt);
+  // first sample's start.
+  void append(const BuiltBlock& block, std::span<const Exposure> exposures = {});
 
   // The same of a block as it lay in another .tik.
   void append(const BlockHeader& stored, std::span<const std::byte> payload,
@@ -65,7 +63,7 @@ class Writer {
               std::span<const Exposure> exposures);
   // Into packed_; returns the codec that did it. Rice's alone counts codes that move by steps of a tolerance: it packs
   // what it makes smaller than the codec that was asked for.
-  Codec pack_block(const BlockGeometry& geometry, std::span<const std::byte> payload, const ReportedProgress& progress);
+  Codec pack_block(const BlockGeometry& geometry, std::span<const std::byte> payload);
   // Appends what lies in these parts; returns its checksum.
   std::uint64_t write_summed(std::span<const std::span<const std::byte>> parts);
 

@@ -1,11 +1,8 @@
 // A camera's noise through the program: measuring it, encoding with it, exposing with it.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
-#include <random>
 
 #include "capture/noise_file.hpp"
 #include "support/app_test.hpp"
@@ -193,50 +190,6 @@ TEST_F(Noise, IsMeasuredOnRecordingsThatStandStillAlone) {
   expect_refused({"encode", "--noise", "auto", (media / "data_small_cine.cine").string(), "a.tik"}, 3,
                  "the brightness of the whole picture drifts or flickers");
   run({"encode", "-f", "100", "--noise", "auto", (media / "stuck.tif").string(), "a.tik"});
-}
-
-// What repeats is found by general codecs where it is whole: made-up rows, a saw tooth. The smaller block is stored.
-TEST_F(Noise, ATolerancesBlocksTakeNoMoreThanLosslessOnes) {
-  constexpr int kSide = 64, kPictures = 40;
-  std::mt19937 random(4);
-  std::array<std::array<int, kSide>, 4> rows{};
-  for (auto& row : rows) std::ranges::generate(row, [&] { return 40 + static_cast<int>(random() % 160); });
-  std::filesystem::create_directory(scratch_ / "saw");
-  std::filesystem::create_directory(scratch_ / "rows");
-  for (int k = 0; k < kPictures; ++k) {
-    std::string saw = "P5 64 64 255\n", made = saw;
-    for (int pixel = 0; pixel < kSide * kSide; ++pixel) {
-      const int x = pixel % kSide, y = pixel / kSide;
-      saw += static_cast<char>(40 + (3 * k + 2 * x + y) % 16);
-      made += static_cast<char>(rows[static_cast<std::size_t>(k % 4)][static_cast<std::size_t>((x + 5 * y) % kSide)] +
-                                k % 3);
-    }
-    scratch_.write("saw/" + std::to_string(1000 + k) + ".pgm", saw);
-    scratch_.write("rows/" + std::to_string(1000 + k) + ".pgm", made);
-  }
-  const auto stored = [&](const std::string& name) {
-    const tik::Reader reader(scratch_ / name);
-    std::uint64_t bytes = 0;
-    for (const tik::IndexEntry& block : reader.index()) bytes += block.stored_bytes;
-    return bytes;
-  };
-  for (const std::string folder : {"saw", "rows"}) {
-    for (const std::string codec : {"none", "rice", "lz4", "zstd", "zstd:15"}) {
-      make("encode --overwrite -f 100 --codec " + codec + " " + folder + " lossless.tik");
-      for (const char* tolerance : {"1", "2", "5"}) {
-        make("encode --overwrite -f 100 --tolerance " + std::string(tolerance) + " --codec " + codec + " " + folder +
-             " held.tik");
-        EXPECT_LE(stored("held.tik"), stored("lossless.tik")) << folder << ", " << codec << ", " << tolerance;
-        make("--overwrite --start 17f --exposure 1f --out-transfer source held.tik held.pgm");
-        const std::string held = test::read_file(scratch_ / "held.pgm"),
-                          exact = test::read_file(scratch_ / (folder + "/1017.pgm"));
-        for (std::size_t i = 1; i <= kSide * kSide; ++i) {
-          const auto code = [i](const std::string& file) { return static_cast<unsigned char>(file[file.size() - i]); };
-          ASSERT_LE(std::abs(code(held) - code(exact)), std::stoi(tolerance)) << folder << ", " << codec << ", " << i;
-        }
-      }
-    }
-  }
 }
 
 TEST_F(Noise, SaysWhatCannotBe) {

@@ -17,31 +17,25 @@ constexpr std::uint64_t kMaxReadAhead = 64 << 20;
 // Of a thread that packs: a group of tiles (tik/codec.cpp) plain, in parts, and packed, and the codec's own.
 constexpr std::uint64_t kPackingBytes = 8 << 20;
 
-bool is_built_twice(const ClipToRead& clip) { return clip.capture.noise.tolerance > 0 && !clip.tells_changes; }
-
-// The memory of blocks while a clip is encoded, in units of the size at which a block closes. The block being built
-// and the one being packed may each reach twice that size (imev/tile_log.hpp); the packed one is no larger than its
-// content.
-// With a tolerance pictures are also built into as many without it (encoding.cpp). With a camera's noise there are also
-// the samples as they came, and three times what is held of them.
-std::uint64_t block_units(const ClipToRead& clip) {
-  const CaptureFormat& capture = clip.capture;
-  if (!capture.noise.camera) return is_built_twice(clip) ? 10 : 5;
+// The memory of blocks while a clip is encoded, in units of the size at which a block closes. The block being built and
+// the one being packed may each reach twice that size (imev/tile_log.hpp); the packed one is no larger than its content.
+// With a camera's noise there are also the samples as they came, and three times what is held of them.
+std::uint64_t block_units(const CaptureFormat& capture) {
+  if (!capture.noise.camera) return 5;
   return 1 + 3 * held_format(capture).sample_bytes() / capture.sample_bytes();
 }
 
-// If little changes from sample to sample, a block has room for four rasters: its first sample, changes as large as
-// two, and the sample that is one too many (default_block_limits()). With less, each sample would be written whole.
+// If little changes from sample to sample, a block has room for four rasters: its first sample, changes as large as two,
+// and the sample that is one too many (default_block_limits()). With less, each sample would be written whole.
 constexpr std::uint64_t kMinRastersOfChanges = 4;
 
 // Blocks of one sample, in each of the places where there is one.
 std::uint64_t min_block_bytes(const ClipToRead& clip) {
   const std::uint64_t sample_bytes = clip.capture.sample_bytes();
   if (clip.tells_changes && !clip.block_samples) {
-    return kMinRastersOfChanges * block_units(clip) * sample_bytes;
+    return kMinRastersOfChanges * block_units(clip.capture) * sample_bytes;
   }
-  const std::uint64_t least = is_built_twice(clip) ? 6 : 3;
-  return (clip.capture.noise.camera ? block_units(clip) : least) * sample_bytes;
+  return (clip.capture.noise.camera ? block_units(clip.capture) : 3) * sample_bytes;
 }
 
 void check_stated(const MemoryBudget& budget, const ClipToRead& clip, std::uint64_t closing_bytes) {
@@ -51,8 +45,7 @@ void check_stated(const MemoryBudget& budget, const ClipToRead& clip, std::uint6
   throw UsageError(
       format("blocks of {} samples take {} each, and several are held: more than the {} of memory allowed",
              *clip.block_samples, bytes_text(*clip.block_samples * sample_bytes), bytes_text(budget.bytes)),
-      Advice{format(" (`memory`); use fewer samples a block (`block-samples {}`)",
-                    std::max<std::uint64_t>(1, closing_bytes / sample_bytes))});
+      Advice{format(" (`memory`); use fewer samples a block (`block-samples {}`)", std::max<std::uint64_t>(1, closing_bytes / sample_bytes))});
 }
 
 std::uint32_t announced(const ClipToRead& clip, std::uint32_t samples) {
@@ -104,9 +97,9 @@ ClipMemory memory_for_encoding(const MemoryBudget& budget, const ClipToRead& cli
       std::max(std::thread::hardware_concurrency(), 1u) - 1, rest / 8 / kPackingBytes);
   memory.threads = static_cast<std::uint32_t>(1 + more_threads);
   rest -= more_threads * kPackingBytes;
-  std::uint64_t closing = (rest + min_blocks) / block_units(clip);
+  std::uint64_t closing = (rest + min_blocks) / block_units(clip.capture);
   if (!clip.capture.noise.camera && !clip.tells_changes) {
-    closing = std::max(sample_bytes, rest / block_units(clip));
+    closing = std::max(sample_bytes, rest / block_units(clip.capture));
   }
   if (!rendering.parts().empty()) closing = std::min(closing, budget.bytes - rendering.bytes());
   check_stated(budget, clip, closing);
@@ -129,7 +122,7 @@ ClipMemory memory_for_streaming(const MemoryBudget& budget, const ClipToRead& cl
   memory.read_ahead_bytes = read_ahead(min_ahead, rest);
   rest -= memory.read_ahead_bytes - min_ahead;
   // Half of the rest: tables and maps share the other one.
-  const std::uint64_t closing = (rest / 2 + min_blocks) / block_units(clip);
+  const std::uint64_t closing = (rest / 2 + min_blocks) / block_units(clip.capture);
   check_stated(budget, clip, closing);
   set_blocks(memory, clip, closing);
   memory.bytes = clip.decoder_bytes + memory.read_ahead_bytes + min_blocks + rest / 2;

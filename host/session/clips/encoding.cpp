@@ -36,13 +36,10 @@ class Encoding {
   EncodedCapture run(const ReportedProgress& told, const std::stop_token& stop);
 
  private:
-  struct Payloads {
-    PageBuffer held, exact;
-  };
   struct Block {
     BlockExtent extent;
-    Payloads payloads;
-    FinishedBlock held, exact;
+    PageBuffer payload;
+    FinishedBlock finished;
   };
 
   [[nodiscard]] std::vector<std::string> warnings(std::uint64_t samples) const;
@@ -50,15 +47,11 @@ class Encoding {
   std::uint64_t build(const ReportedProgress& progress, const std::stop_token& stop);
   std::uint64_t build_of_changes(const ReportedProgress& progress, const std::stop_token& stop);
   void read_first(std::uint64_t read_ahead_bytes);
-  [[nodiscard]] std::uint32_t room() const {
-    return exact_ ? std::min(builder_.room(), exact_->room()) : builder_.room();
-  }
   bool hand_over_block();  // false where nobody stores blocks any more
   void store();
 
   ClipSource source_;
   BlockBuilder builder_;
-  std::optional<BlockBuilder> exact_;  // where there is a tolerance: the same blocks without it
   Timeline times_;  // as announced
   std::optional<tik::Writer> writer_;
   tik::Codec codec_;
@@ -69,7 +62,7 @@ class Encoding {
   std::span<const std::byte> raster_span_;
   std::span<const std::span<const std::byte>> first_;  // the first sample, until the next are asked for
   Channel<Block> blocks_;                              // built
-  Channel<Payloads> spare_payloads_;
+  Channel<PageBuffer> spare_payloads_;
 };
 
 Encoding::Encoding(ClipSource source, const EncodeRequest& request, const ClipMemory& memory)
@@ -82,11 +75,6 @@ Encoding::Encoding(ClipSource source, const EncodeRequest& request, const ClipMe
       spare_payloads_(kPayloads) {
   read_first(memory.read_ahead_bytes);
   if (first_.empty()) throw InputError(format("{} has no picture", source_.name()));
-  if (samples_ && source_.capture.noise.tolerance > 0) {
-    CaptureFormat lossless = source_.capture;
-    lossless.noise = {};
-    exact_.emplace(lossless, memory.blocks, source_.request.tiles);
-  }
   tik::Header header;
   header.capture = held_format(source_.capture);
   const std::optional<Rational>& stated_rate = source_.request.clip.rate;
@@ -100,7 +88,7 @@ Encoding::Encoding(ClipSource source, const EncodeRequest& request, const ClipMe
   if (source_.made) header.made = **source_.made;
   writer_.emplace(request.output, header, request.codec, to_held_codes(source_.capture, first_.front()),
                   memory.threads, request.lasting);
-  for (std::size_t i = 0; i < kPayloads; ++i) spare_payloads_.push({});
+  for (std::size_t i = 0; i < kPayloads; ++i) spare_payloads_.push(PageBuffer());
 }
 
 void Encoding::read_first(std::uint64_t read_ahead_bytes) {
@@ -146,14 +134,13 @@ std::uint64_t Encoding::build(const ReportedProgress& progress, const std::stop_
   const ClosedAtEnd closed(blocks_);
   std::uint64_t samples = 0;
   for (auto rasters = first_; !rasters.empty();
-       rasters = samples_->next(std::min(room(), BlockBuilder::kSamplesAtOnce))) {
+       rasters = samples_->next(std::min(builder_.room(), BlockBuilder::kSamplesAtOnce))) {
     check_interruption();
     if (stop.stop_requested()) throw Cancelled();
     samples += rasters.size();
     if (progress) progress(samples, source_.announced_samples());
     builder_.add(rasters);
-    if (exact_) exact_->add(rasters);
-    if (room() == 0 && !hand_over_block()) return samples;
+    if (builder_.is_full() && !hand_over_block()) return samples;
   }
   if (!builder_.is_empty()) hand_over_block();
   return samples;
@@ -186,11 +173,10 @@ std::uint64_t Encoding::build_of_changes(const ReportedProgress& progress, const
 }
 
 bool Encoding::hand_over_block() {
-  auto payloads = spare_payloads_.pop();
-  if (!payloads) return false;
-  Block block{builder_.extent(), std::move(*payloads), {}, {}};
-  block.held = builder_.finish(block.payloads.held);
-  if (exact_) block.exact = exact_->finish(block.payloads.exact);
+  auto payload = spare_payloads_.pop();
+  if (!payload) return false;
+  Block block{builder_.extent(), std::move(*payload), {}};
+  block.finished = builder_.finish(block.payload);
   return blocks_.push(std::move(block));
 }
 
@@ -205,12 +191,10 @@ void Encoding::store() {
     }
     packed_ = range.first;
     packing_ = block->extent.sample_count;
-    const auto built = [&](PageBuffer& payload, const FinishedBlock& finished) {
-      return tik::BuiltBlock{block->extent, payload.first(finished.span_bytes), finished.record_count};
-    };
-    writer_->append(built(block->payloads.held, block->held), exposures,
-                    exact_ ? std::optional(built(block->payloads.exact, block->exact)) : std::nullopt);
-    spare_payloads_.push(std::move(block->payloads));
+    writer_->append(
+        {block->extent, block->payload.first(block->finished.span_bytes), block->finished.record_count},
+        exposures);
+    spare_payloads_.push(std::move(block->payload));
   }
 }
 
