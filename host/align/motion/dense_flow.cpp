@@ -9,7 +9,7 @@ namespace nutik::motion {
 namespace {
 
 // Refinement ends at the level with no more pixels than this: 1080p at a quarter of its sides, for a fourth of the time
-// at half of them, small pictures at their own.
+// at half of them, 640 x 272 at half, pictures of 320 x 240 at their own.
 constexpr double kFinestPixels = 130'000;
 
 class DenseFlow final : public FlowFinder {

@@ -16,7 +16,7 @@ constexpr double kZoomByKey = 1.25;
 constexpr double kZoomByNotch = 1.2;  // of a mouse wheel
 constexpr int kFastPixels = 10;       // of the picture, with Shift
 
-// Of the pixel there.
+// The middle of the pixel there.
 QPointF middle_of(QPointF at) { return {std::floor(at.x()) + 0.5, std::floor(at.y()) + 0.5}; }
 
 // Where an arrow key leads, in pixels; null for other keys.

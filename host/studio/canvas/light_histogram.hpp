@@ -25,7 +25,7 @@ struct MeasuredLight {
   std::map<std::uint8_t, Saturation> saturated;
   QImage marks;  // red beyond white, blue below 0; elsewhere nothing
 };
-// Of the picture that the document's state exposes.
+// The light of the picture that the document's state exposes.
 [[nodiscard]] MeasuredLight measured_light(Session& session, const DocumentState& state, const Job& job);
 
 // Channels as areas, the selected region as a line.
