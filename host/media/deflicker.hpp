@@ -40,7 +40,7 @@ class CodeShift {
 };
 
 // Whether differences whose signs are chance may add up to so much, up or down, more often than once in so many trials:
-// by Chernoff's bound, whatever sizes they have. Fewer than 1 + log2(trials) always may be.
+// by Chernoff's bound, whatever sizes they have. Fewer than 1 + log2(trials) of them always may.
 [[nodiscard]] bool may_be_chance(std::span<const double> differences, double trials);
 
 // Its remarks say how many pictures were corrected, and how far.
