@@ -56,53 +56,20 @@ ClipInfo of_fields(ClipInfo&& info) {
 }
 
 Deinterlacer::Deinterlacer(const AVFrame& like, bool of_each_field, const std::string& name)
-    : name_(name), graph_(allocated(avfilter_graph_alloc())) {
-  graph_->nb_threads = 1;  // decoding has the others
-  const std::string pictures = format("video_size={}x{}:pix_fmt={}:time_base=1/2:pixel_aspect=1/1",
-                                      like.width, like.height, like.format);
-  const std::string how =
-      format("mode={}:parity=auto:deint=all", of_each_field ? "send_field" : "send_frame");
-  const auto make = [&](AVFilterContext*& filter, const char* kind, const char* arguments) {
-    const int code = avfilter_graph_create_filter(&filter, avfilter_get_by_name(kind), kind, arguments,
-                                                  nullptr, graph_.get());
-    if (code < 0) fail(code);
-  };
-  AVFilterContext* filter = nullptr;
-  make(source_, "buffer", pictures.c_str());
-  make(filter, "bwdif", how.c_str());
-  make(sink_, "buffersink", nullptr);
-  for (const auto& [from, to] : {std::pair(source_, filter), std::pair(filter, sink_)}) {
-    if (const int code = avfilter_link(from, 0, to, 0); code < 0) fail(code);
+    : filters_(like, format("bwdif=mode={}:parity=auto:deint=all", of_each_field ? "send_field" : "send_frame"),
+               [name](int code) {
+                 throw InputError(format("{}: it cannot be deinterlaced: {}", name, error_text(code)));
+               }) {
+  if (!is_alike(static_cast<AVPixelFormat>(like.format), filters_.pixels())) {
+    throw InputError(format("{}: pixels of {} are not deinterlaced; convert them with ffmpeg -pix_fmt {}", name,
+                            av_get_pix_fmt_name(static_cast<AVPixelFormat>(like.format)),
+                            av_get_pix_fmt_name(filters_.pixels())));
   }
-  if (const int code = avfilter_graph_config(graph_.get(), nullptr); code < 0) fail(code);
-  if (!is_alike(static_cast<AVPixelFormat>(like.format),
-                static_cast<AVPixelFormat>(av_buffersink_get_format(sink_)))) {
-    throw InputError(
-        format("{}: pixels of {} are not deinterlaced; convert them with ffmpeg -pix_fmt {}", name_,
-               av_get_pix_fmt_name(static_cast<AVPixelFormat>(like.format)),
-               av_get_pix_fmt_name(static_cast<AVPixelFormat>(av_buffersink_get_format(sink_)))));
-  }
-}
-
-void Deinterlacer::fail(int code) const {
-  throw InputError(format("{}: it cannot be deinterlaced: {}", name_, error_text(code)));
 }
 
 void Deinterlacer::add(AVFrame& frame) {
   frame.pts = 2 * frames_++;
-  if (const int code = av_buffersrc_add_frame(source_, &frame); code < 0) fail(code);
-}
-
-void Deinterlacer::end() {
-  if (const int code = av_buffersrc_add_frame(source_, nullptr); code < 0) fail(code);
-}
-
-bool Deinterlacer::take(AVFrame& picture) {
-  av_frame_unref(&picture);
-  const int code = av_buffersink_get_frame(sink_, &picture);
-  if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return false;
-  if (code < 0) fail(code);
-  return true;
+  filters_.add(&frame);
 }
 
 }  // namespace nutik::videos

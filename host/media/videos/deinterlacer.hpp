@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "media/clip.hpp"
-#include "media/videos/libav.hpp"
+#include "media/videos/filters.hpp"
 
 namespace nutik::videos {
 
@@ -31,17 +31,12 @@ class Deinterlacer {
   Deinterlacer(const AVFrame& like, bool of_each_field, const std::string& name);
 
   void add(AVFrame& frame);
-  void end();
+  void end() { filters_.add(nullptr); }
   // The next picture; false where more frames are needed, or none is left.
-  bool take(AVFrame& picture);
+  bool take(AVFrame& picture) { return filters_.take(picture); }
 
  private:
-  [[noreturn]] void fail(int code) const;
-
-  std::string name_;
-  GraphPointer graph_;
-  AVFilterContext* source_ = nullptr;
-  AVFilterContext* sink_ = nullptr;
+  Filters filters_;
   std::int64_t frames_ = 0;
 };
 

@@ -2,14 +2,15 @@
 // the rate to thousandths, in which 30000/1001 drifts, and takes 8 bits of BGR only.
 //
 //   codes in   8 or 16 bits, grey or RGB, over the full range
-//   pixels     ffv1: as they are; gif: 256 colours, which are always the same; the others: YUV as the codec's row says, by the matrix
-//              that the primaries of BT.2020 have or that is usual for so many lines, and that the file names; mjpeg and
-//              webp: BT.601's, which JPEG and WebP always have
+//   pixels     ffv1: as they are; gif: up to 256 colours, chosen for each frame; the others: YUV as the codec's row says, by
+//              the matrix that the primaries of BT.2020 have or that is usual for so many lines, and that the file names;
+//              mjpeg and webp: BT.601's, which JPEG and WebP always have
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 #include "media/formats/coding_points.hpp"
-#include "media/videos/libav.hpp"
+#include "media/videos/filters.hpp"
 #include "media/videos/pixels.hpp"
 #include "media/videos/sound.hpp"
 #include "system/output_file.hpp"
@@ -85,7 +86,11 @@ class LibavVideoWriter final : public VideoWriter {
     open_encoder(codec);
     picture_ = new_frame(source_pixels(video), width_, height_);
     const auto pixels = encoder_->pix_fmt;
-    if (pixels != source_pixels(video)) {
+    if (pixels == AV_PIX_FMT_PAL8) {
+      encoded_ = FramePointer(allocated(av_frame_alloc()));
+      colours_.emplace(*picture_, "split[all],palettegen=stats_mode=single[colours],[all][colours]paletteuse=new=1",
+                       [this](int code) { check(code); });
+    } else if (pixels != source_pixels(video)) {
       encoded_ = new_frame(pixels, width_, height_);
       open_scaler();
     }
@@ -100,6 +105,12 @@ class LibavVideoWriter final : public VideoWriter {
     check(av_frame_make_writable(picture_.get()));
     copy(picture);
     AVFrame* frame = picture_.get();
+    if (colours_) {
+      frame->pts = frames_written_++;
+      const FramePointer given(allocated(av_frame_clone(frame)));
+      colours_->add(given.get());
+      return encode_coloured();
+    }
     if (scaler_) {
       frame = encoded_.get();
       check(av_frame_make_writable(frame));
@@ -123,6 +134,10 @@ class LibavVideoWriter final : public VideoWriter {
   }
 
   void finish() override {
+    if (colours_) {
+      colours_->add(nullptr);
+      encode_coloured();
+    }
     encode(nullptr);
     if (sound_) sound_->write_to(static_cast<double>(frames_written_) / video_.rate.value());
     check(av_write_trailer(muxer_.get()));
@@ -267,6 +282,10 @@ class LibavVideoWriter final : public VideoWriter {
     }
   }
 
+  void encode_coloured() {
+    while (colours_->take(*encoded_)) encode(encoded_.get());
+  }
+
   // Null: no frame follows.
   void encode(const AVFrame* frame) {
     check(avcodec_send_frame(encoder_.get(), frame));
@@ -291,6 +310,7 @@ class LibavVideoWriter final : public VideoWriter {
   AVStream* stream_ = nullptr;
   CodecPointer encoder_;
   ScalerPointer scaler_;
+  std::optional<Filters> colours_;  // of a GIF
   FramePointer picture_;
   FramePointer encoded_;
   PacketPointer packet_;

@@ -47,7 +47,7 @@ constexpr VideoCodec kCodecs[] = {
     {"dnxhr-444", "dnxhd", " .mov .mxf ", false, true, false, 40, true, "yuv444p10le", kNone,
      "profile=dnxhr_444"},
     {"mjpeg", "mjpeg", " .avi .mov .mkv ", true, false, false, 16, true, "yuvj420p", kMjpeg},
-    {"gif", "gif", " .gif ", true, false, false, 16, false, "rgb8", kNone},
+    {"gif", "gif", " .gif ", true, false, false, 16, false, "pal8", kNone},
     {"webp", "libwebp_anim", " .webp ", true, false, false, 16, true, "yuv420p", kWebp},
 };
 
