@@ -51,7 +51,7 @@ TEST_F(BetweenPictures, AreMarkedWhereverTheyAreTold) {
 
 TEST_F(BetweenPictures, JoinWhatFramesOfAVideoWouldShowTwice) {
   const test::Words film("video -f 20 --transfer srgb --out-angle 360 --overwrite frames %d.png --out-fps 10");
-  const std::string note = "samples were made between pictures 0 … 3; off leaves it as it was filmed (--between)";
+  const std::string note = "samples are made between pictures 0 … 3, which takes most of the time; --between off leaves them out";
   const auto joined = make(film);
   expect_says(joined.err, note);
   expect_says(run("reproduce 0.png").out, "--between auto:0f..3f");
@@ -65,6 +65,15 @@ TEST_F(BetweenPictures, JoinWhatFramesOfAVideoWouldShowTwice) {
   // A capture has what it was encoded with.
   make("encode -f 20 --transfer srgb frames filmed.tik");
   EXPECT_EQ(make("video --out-fps 10 --out-angle 360 --overwrite filmed.tik %d.png").err.find(note), std::string::npos);
+}
+
+TEST_F(BetweenPictures, AreMadeOnlyWhereAnIntervalInSecondsLies) {
+  const test::Words source("-f 20 --transfer srgb --renderer reference --start 60ms --exposure 30ms --no-recipe frames");
+  make(source + "--between 3 part.pfm");
+  make(source + "--between 3:0f..3f all.pfm");
+  EXPECT_TRUE(file("part.pfm") == file("all.pfm"));
+  expect_says(run("-f 20 --between 3 --start 60ms --exposure 30ms frames part.png").out, "between 4 filmed");
+  expect_says(run("reproduce part.png").out, "--between 3:0f..2f");
 }
 
 TEST_F(BetweenPictures, AreMadeAgainByARecipe) {

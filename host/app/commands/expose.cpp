@@ -9,19 +9,51 @@
 #include "app/requests/requests.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "features/schema/option.hpp"
 #include "features/schema/options.hpp"
 #include "features/series/series_making.hpp"
+#include "media/events/event_clip.hpp"
 #include "media/formats/numbered_name.hpp"
 #include "media/writers/picture_writer.hpp"
+#include "session/clips/clip_source.hpp"
 #include "session/text/number_text.hpp"
+#include "system/input_bytes.hpp"
 
 namespace nutik::app {
 
 // A series (series.cpp).
 int run_series(const Options& options);
 
-int run_expose(const Options& options) {
-  if (options.every) return run_series(options);
+// A plain interval stated in seconds sees no picture but those that it reaches: samples are made between these and their
+// neighbours alone. `options` say so, as a recipe does.
+static void make_between_seen(Options& options, const ExposureRequest& request) {
+  const std::string& clip = options.operands.front();
+  const auto* plain = std::get_if<PlainInterval>(&request.gains);
+  if (!options.source.between || plain == nullptr || request.delay || request.start.counts_samples() ||
+      plain->length.counts_samples() || is_standard_input(clip) || is_event_recording(clip) || is_tik(clip))
+    return;
+  BetweenRequest between = *options.source.between;
+  if (between.first != 0 || between.last != UINT64_MAX) return;
+  SourceRequest filmed;
+  filmed.path = clip;
+  filmed.clip = options.source.clip;
+  filmed.shutter_angle = options.source.shutter_angle;
+  try {
+    const Timeline timeline = known_timeline(filmed, memory_budget(options));
+    const std::int64_t start_ns = request.start.nanoseconds();
+    const SampleRange seen = timeline.samples_reaching(start_ns, start_ns + plain->length.nanoseconds());
+    if (seen.empty()) return;
+    between.first = seen.first - std::min<std::uint64_t>(seen.first, 1);
+    between.last = std::min(seen.last, timeline.sample_count() - 1);
+    option_of(CommandId::expose, "between")->restate(options, {between.text()});
+  } catch (const InputError&) {
+    return;  // not known before it is decoded
+  }
+}
+
+int run_expose(const Options& stated) {
+  if (stated.every) return run_series(stated);
+  Options options = stated;
   if (options.count) throw UsageError("--count goes with --every: a series needs both a step and a number");
   if (options.frames) throw UsageError("--frames chooses pictures of a series; add --every, or leave it out");
   ExposureTally tally;
@@ -33,6 +65,7 @@ int run_expose(const Options& options) {
   const std::vector<std::string> inputs = input_files(options);
   check_output(output, OutputKind::picture, inputs, replacing(options));
   const BoundsMaps maps(options, false, "a picture");
+  make_between_seen(options, request);
 
   PictureRecipe recipe(recipe_sources(options));
   if (options.skip_existing) {
