@@ -178,8 +178,8 @@ std::string alignment_text(const CameraPath& path, const Rectangle& area, Unseen
           : format("cropped to what all of them saw, {} x {} pixels from {},{} on", area.width, area.height, area.x,
                    area.y);
   return format(
-      "aligned to picture {} ({}), from which others are {}; after that half of the texture is at most {:.2f} pixels "
-      "off; {}",
+      "aligned to picture {} ({}), from which others are {}; half of what has texture is now within {:.2f} pixels of its "
+      "place; {}",
       path.reference, to_text(path.motion), path.summary(), path.residual_pixels(), shown);
 }
 

@@ -85,8 +85,13 @@ std::optional<Rational> Rational::read(std::string_view text) {
 Rational Rational::parse(std::string_view text, std::string_view what) {
   const std::optional<Rational> number = read(text);
   if (number) return *number;
-  throw UsageError(
-      format("{} '{}' is not a number; write 120, 29.97 or 30000/1001 (15 digits at most)", what, text));
+  throw UsageError(format("{} '{}' is not a number; write digits alone, 180, 29.97 or 30000/1001, 15 at most{}", what, text,
+                          decimal_mark_hint(text)));
+}
+
+std::string_view decimal_mark_hint(std::string_view text) {
+  const bool is_one = text.find('.') == text.npos && std::ranges::count(text, ',') == 1;
+  return is_one ? "; the decimal mark is a point" : "";
 }
 
 std::string Rational::text() const {

@@ -39,6 +39,9 @@ struct Rational {
   friend bool operator==(const Rational&, const Rational&) = default;
 };
 
+// What is wrong with `29,97`; empty of any other text.
+[[nodiscard]] std::string_view decimal_mark_hint(std::string_view text);
+
 // numerator / denominator rounded to the nearest whole number, halves upward. denominator > 0.
 std::int64_t round_half_up(int128 numerator, int128 denominator);
 

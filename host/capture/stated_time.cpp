@@ -91,8 +91,8 @@ std::optional<StatedTime> StatedTime::read(std::string_view text) {
 
 StatedTime StatedTime::parse(std::string_view text, std::string_view what) {
   const std::optional<StatedTime> time = read(text);
-  if (!time && text.find(',') != text.npos && text.find('.') == text.npos && text.find(',') == text.rfind(','))
-    throw UsageError(format("{} '{}' is no time; the decimal mark is a point: 0.4s", what, text));
+  if (const std::string_view hint = decimal_mark_hint(text); !time && !hint.empty())
+    throw UsageError(format("{} '{}' is no time{}", what, text, hint));
   if (!time) {
     throw UsageError(
         format("{} '{}' is no time; write a number and a unit: 0.4s, 10ms, 250us, 1/100s, 0:01.5, or "

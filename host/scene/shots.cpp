@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 
+#include "capture/format.hpp"
 #include "scene/looks.hpp"
 
 namespace nutik {
@@ -169,6 +170,14 @@ std::vector<SampleRange> shots_of(CaptureSource& capture) {
   }
   shots.push_back({first, count});
   return shots;
+}
+
+std::string starts_of(std::span<const SampleRange> shots, std::uint64_t part) {
+  std::string text;
+  for (const SampleRange& shot : shots) {
+    text += format("{}{}{}", text.empty() ? "" : ", ", part + shot.first, shot.size() == 1 ? " (a single one)" : "");
+  }
+  return text;
 }
 
 }  // namespace nutik

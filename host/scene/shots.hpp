@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "capture/picture.hpp"
@@ -19,6 +20,9 @@ namespace nutik {
 
 // Looks at every sample. Throws InputError where the capture is damaged.
 [[nodiscard]] std::vector<SampleRange> shots_of(CaptureSource& capture);
+
+// The samples that they begin with, as text; `part` is the number of the first.
+[[nodiscard]] std::string starts_of(std::span<const SampleRange> shots, std::uint64_t part = 0);
 
 // Every so many pixels of a row and every so many rows of a sample, for what needs no more of it.
 class ThinRaster {

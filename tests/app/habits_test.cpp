@@ -86,7 +86,9 @@ TEST_F(Habits, RefusesHelpOnWhatIsNoCommand) {
 TEST_F(Habits, NoticesAMissingUnitAndACommaForAPoint) {
   scratch_.write("ns.fn", "M0 [39:0], [40:1], [80:1], [81:0]\n");
   expect_says(run("check -k ns.fn clip.tik").out, "if its times were meant in milliseconds, write 81ms");
-  expect_refused(2, {{"--start 0,1s --exposure 1f clip.tik a.png", "the decimal mark is a point"}});
+  expect_refused(2, {{"--start 0,1s --exposure 1f clip.tik a.png", "the decimal mark is a point"},
+                     {"--start 0s --exposure 1f --ev 1,5 clip.tik a.png", "--ev 1,5 is no number; the decimal mark is a point"},
+                     {"-f 29,97 clip.tik a.tik", "; the decimal mark is a point"}});
   expect_refused(3, {{"batch clip.tik", "batch takes the list first, then the clip or capture"}});
   make("--start 0s --exposure 1f --ev 1/2 --no-recipe clip.tik fraction.pfm");
   make("--start 0s --exposure 1f --ev 0.5 --no-recipe clip.tik half.pfm");
@@ -104,7 +106,10 @@ TEST_F(Habits, SuggestsWhatWasMeant) {
   expect_refused("--expo 10ms clip.tik", 2, "there is no option --expo; did you mean --exposure?");
   for (const auto& [words, said] : std::vector<std::pair<std::vector<std::string>, std::string>>{
            {{"encode", "--exposur", "1s", "c.mp4"}, "there is no option --exposur; see nutik-cl encode --help"},
-           {{"-ss", "1", "clip.tik", "a.png"}, "there is no option -ss; see nutik-cl --help"},
+           {{"-ss", "1", "clip.tik", "a.png"}, "there is no option -ss; that is --start, of a video --from"},
+           {{"clip.tik", "study"}, "the command comes first: nutik-cl study clip.tik"},
+           {{"--style", "strobe", "clip.tik", "a.png"}, "--style is an option of study: nutik-cl study --style …"},
+           {{"study", "--moments", "abc", "clip.tik"}, "'abc' is neither a number of moments, 7, nor their times"},
            {{"-vX", "clip.tik", "a.png"}, "there is no option -X; see nutik-cl --help"},
            {{"video", "--quality", "50", "clip.tik", "a.mkv"},
             "ffv1 has no scale of quality: it loses nothing (--quality)"}}) {

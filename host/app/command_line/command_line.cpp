@@ -39,6 +39,10 @@ const Command& shorthand(const Words& words) {
   if (words.operands.empty()) throw UsageError("a clip or a capture is missing: nutik-cl clip.mp4 clip.tik");
   const std::string& first = words.operands.front();
   fail_misspelt_command(first);
+  for (const std::string& later : std::span(words.operands).subspan(1)) {
+    if (find_command(later) != nullptr && is_absent(later))
+      throw UsageError(format("the command comes first: nutik-cl {} {}", later, shell_word(first)));
+  }
   const auto is_given = [&](std::string_view name) {
     return std::ranges::any_of(words.given,
                                [&](const Given& given) { return given.option->long_name == name; });
@@ -57,24 +61,30 @@ const Command& shorthand(const Words& words) {
              first, shell_word(first)));
 }
 
-[[noreturn]] void fail_other_command(const Option& option, const Command& command) {
+// `is_named`: the command was, and is not what a line without one means.
+[[noreturn]] void fail_other_command(const Option& option, const Command& command, bool is_named) {
   std::vector<std::string> takers, known;
   for (const Command& other : commands()) {
     if (option_of(other.id, option.long_name) != nullptr) takers.emplace_back(other.name);
   }
+  if (!is_named && takers.size() == 1)
+    throw UsageError(format("{0} is an option of {1}: nutik-cl {1} {0} …", option.display_name(), takers.front()));
+  // What says there what this says elsewhere.
+  const bool is_interval = option.long_name == "start" || option.long_name == "exposure";
+  const bool has_part = is_interval && option_of(command.id, "from") != nullptr;
   for (const Option* each : options_of(command.id)) known.push_back(each->name());
-  const std::string meant = did_you_mean(option.name(), known);
+  const std::string meant = has_part ? "; --from and --to say which part." : did_you_mean(option.name(), known);
   throw UsageError(format("{0} does not go with {1}{2} an option of: {3}", option.display_name(), command.name,
                           meant.empty() ? "; it is" : format("{} {} is", meant, option.display_name()),
                           joined(takers)));
 }
 
-Options options_for(const Command& command, Words words) {
+Options options_for(const Command& command, Words words, bool is_named) {
   Options options;
   options.operands = std::move(words.operands);
   for (Given& given : words.given) {
     const Option* option = option_of(command.id, given.option->long_name);
-    if (option == nullptr) fail_other_command(*given.option, command);
+    if (option == nullptr) fail_other_command(*given.option, command, is_named);
     option->state(options, option->name(), std::move(given.words));
   }
   return options;
@@ -93,6 +103,7 @@ ParsedCommandLine parse_command_line(std::span<const std::string> words) {
     print_version();
     return {};
   }
+  found.help |= found.command != nullptr && found.operands == std::vector<std::string>{"help"} && is_absent("help");
   if (found.help) {
     const auto& rest = found.operands;
     if (found.command == nullptr && found.is_help_word && !rest.empty()) {
@@ -115,7 +126,8 @@ ParsedCommandLine parse_command_line(std::span<const std::string> words) {
     throw UsageError("say what to do: nutik-cl clip.mp4 clip.tik encodes a clip; nutik-cl --help says more");
   }
   const Command& chosen = found.command != nullptr ? *found.command : shorthand(found);
-  ParsedCommandLine parsed{&chosen, options_for(chosen, std::move(found))};
+  const bool is_named = found.command != nullptr;
+  ParsedCommandLine parsed{&chosen, options_for(chosen, std::move(found), is_named)};
   static_cast<void>(reads_standard_input(parsed.options));  // by two at a time is refused
   return parsed;
 }

@@ -11,6 +11,7 @@
 #include "capture/format.hpp"
 #include "features/schema/options.hpp"
 #include "media/writers/picture_writer.hpp"
+#include "scene/shots.hpp"
 #include "session/text/number_text.hpp"
 
 namespace nutik::app {
@@ -65,11 +66,17 @@ int run_background(const Options& options) {
                       {"uncertain_pixels", uncertain},
                       {"seconds", stopwatch.seconds()}});
   answer.line =
-      format("{}: {}, {} samples, {:.3g} % of the pixels uncertain, {:.2f} s", output.string(),
-             shape_text(shape), session.timeline().sample_count(),
-             100.0 * static_cast<double>(uncertain) / static_cast<double>(capture.shape.pixel_count()),
-             stopwatch.seconds());
+      format("{}: {}, {} samples, {} of the pixels uncertain, {:.2f} s", output.string(), shape_text(shape),
+             session.timeline().sample_count(), percent_text(uncertain, capture.shape.pixel_count()), stopwatch.seconds());
   answer.notes = square_notes(capture, shape);
+  // Every picture is looked at for this, which would take long where nothing is wrong.
+  if (2 * uncertain > capture.shape.pixel_count()) {
+    if (const auto shots = shots_of(session.capture()); shots.size() > 1) {
+      answer.notes.push_back(format("the clip has {} shots, which begin at pictures {}, and the background is of all of "
+                                    "them: take one (--from, --to)",
+                                    shots.size(), starts_of(shots)));
+    }
+  }
   std::ranges::move(camera_notes(moved), std::back_inserter(answer.notes));
   answer.tell_source(session);
   if (made.saturation.above > 0) {

@@ -81,8 +81,9 @@ int run_series(const Options& options) {
   tally.wrote(session.format(), shape);
   answer.json.update(shape_json(shape));
   answer.json["functions"] = functions_json(*first);
-  answer.line = format("{} … {}: {} exposures every {}, {}{}{}", pictures.front().path.string(),
-                       pictures.back().path.filename().string(), pictures.size(), series.every.text(),
+  const std::string last = pictures.size() == 1 ? "" : " … " + pictures.back().path.filename().string();
+  answer.line = format("{}{}: {} every {}, {}{}{}", pictures.front().path.string(), last,
+                       counted(pictures.size(), "exposure"), series.every.text(),
                        shape_text(shape), still_gains_text(*first, request.is_plain()),
                        codes_text(first->capture, output));
   answer.json["skipped"] = wanted - pictures.size();

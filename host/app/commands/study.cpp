@@ -178,8 +178,9 @@ int run_study(const Options& stated) {
     const Shape shape = written_shape(files.picture, plate.picture.shape, plate.picture.pixel_aspect, wishes);
     Answer answer{{{"picture", files.picture.string()}}};
     answer.json.update(shape_json(shape));
-    answer.line = format("{}: {}, the scene without moving things", files.picture.string(),
-                         shape_text(shape));
+    answer.line = format("{}: {}, the scene without moving things, {} of the pixels uncertain", files.picture.string(),
+                         shape_text(shape),
+                         percent_text(plate.uncertain.pixel_count(), session.format().shape.pixel_count()));
     if (!files.is_alone()) {
       files.write_commands(commands_text(options, files, study, request.style));
       answer.json["commands"] = files.commands.string();

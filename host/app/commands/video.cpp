@@ -31,9 +31,11 @@ static std::string join_pictures(Options& options, Session& session, const Sessi
   const auto seen = seen_together(frames, session.timeline());
   if (!seen) return {};
   const std::uint64_t last = seen->last - 1;
-  std::string text = format("frames are exposed from two or three pictures of the clip, and would show what moves two or "
-                            "three times: samples were made between pictures {} … {}; off leaves it as it was filmed",
+  std::string text = format("each frame is exposed from two or three pictures of the clip and would show what moves as "
+                            "often: samples are made between pictures {} … {}, which takes most of the time; --between "
+                            "off leaves them out",
                             seen->first, last);
+  if (!options.quiet && !options.json) print_note("note: " + text);
   Options joined = options;
   const std::string between = BetweenRequest{.first = seen->first, .last = last}.text();
   option_of(CommandId::video, "between")->restate(joined, {between});
@@ -46,8 +48,9 @@ static std::string join_pictures(Options& options, Session& session, const Sessi
     if (!is_refusal(error) || request.numbers || options.skip_existing) throw;
     session = open_session(options, terms);
     text = format("frames show what moves two or three times, and samples that join it cannot be made: {}", error.what());
+    if (!options.json) print_note("note: " + text);
   }
-  return text + written(std::vector{Setting::between}, Dialect::command_line);
+  return text;
 }
 
 int run_video(const Options& stated) {
@@ -134,7 +137,7 @@ int run_video(const Options& stated) {
     answer.line += format(", {} there already", counted(wanted - frames.numbers.size(), "frame"));
   tally.end(answer, session, options.verbose);
   answer.tell_source(session);
-  if (!joined.empty()) answer.notes.push_back(joined);
+  if (!joined.empty() && options.json) answer.notes.push_back(joined);  // else it was said in time
   std::ranges::copy(made.notes, std::back_inserter(answer.notes));
   if (output.writes_stills()) note_later(answer.notes, [&](std::uint64_t k) { return output.still(k); }, frames.count);
   return tell(options, output.path(), answer);

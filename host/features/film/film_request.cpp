@@ -105,6 +105,10 @@ void put_evenly(Frames& frames, const FramesRequest& request, const Timeline& ti
     throw UsageError(format("the video's start {} lies outside the capture, which lasts {}",
                             request.from.text(), duration_text(timeline.duration_ns())));
   }
+  if (end_ns <= start_ns) {
+    throw UsageError(format("the video would end at {}, which is not after its start at {}", request.to->text(),
+                            request.from.text()));
+  }
   const bool is_plain = request.exposure.is_plain();
   const std::int64_t length_ns = is_plain ? frames.times.end_ns(0) - start_ns : functions_end_ns(request);
   frames.count = is_plain ? frames.times.count_ending_by(end_ns)
@@ -113,7 +117,7 @@ void put_evenly(Frames& frames, const FramesRequest& request, const Timeline& ti
   if (frames.count == 0) {
     throw UsageError(
         format("no frame fits: {} is exposed for {}, and between the video's start and end are {}",
-               is_plain ? "each" : "the longest", duration_text(length_ns), duration_text(std::max<std::int64_t>(end_ns - start_ns, 0))));
+               is_plain ? "each" : "the longest", duration_text(length_ns), duration_text(end_ns - start_ns)));
   }
 }
 

@@ -96,7 +96,7 @@ double parse_signed(std::string_view word, std::string_view what) {
   const auto slash = number.find('/');  // a third of a stop is 1/3
   const auto above = parse_number(number.substr(0, slash));
   const auto below = slash == number.npos ? std::optional(1.0) : parse_number(number.substr(slash + 1));
-  if (!above || !below || *below == 0.0) throw UsageError(format("{} {} is no number", what, word));
+  if (!above || !below || *below == 0.0) throw UsageError(format("{} {} is no number{}", what, word, decimal_mark_hint(word)));
   return *above / *below;
 }
 
@@ -106,7 +106,10 @@ std::variant<std::uint32_t, std::vector<StatedTime>> parse_moments(std::string_v
   std::vector<StatedTime> times;
   for (std::size_t begin = 0; begin <= word.size();) {
     const std::size_t end = std::min(word.find(',', begin), word.size());
-    times.push_back(StatedTime::parse(word.substr(begin, end - begin), what));
+    const std::string_view one = word.substr(begin, end - begin);
+    if (begin == 0 && end == word.size() && !StatedTime::read(one))
+      throw UsageError(format("{} '{}' is neither a number of moments, 7, nor their times, 0.4s,12f,1.5s", what, word));
+    times.push_back(StatedTime::parse(one, what));
     begin = end + 1;
   }
   return times;

@@ -30,15 +30,6 @@ MemoryNeeds study_needs(const CaptureFormat& capture) {
   return needs;
 }
 
-// Numbered as in the clip, whose part begins with picture `part`.
-std::string starts_of(const std::vector<SampleRange>& shots, std::uint64_t part = 0) {
-  std::string text;
-  for (const SampleRange& shot : shots) {
-    text += format("{}{}{}", text.empty() ? "" : ", ", part + shot.first, shot.size() == 1 ? " (a single one)" : "");
-  }
-  return text;
-}
-
 ClipMoment picture(std::uint64_t number) { return {static_cast<std::int64_t>(number), true}; }
 
 class ShotPlanner {

@@ -78,6 +78,10 @@ std::string counted(std::uint64_t count, std::string_view name) {
   return format("{} {}{}", count, name, count == 1 ? "" : "s");
 }
 
+std::string percent_text(std::uint64_t part, std::uint64_t whole) {
+  return format("{:.3g} %", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
+}
+
 std::string saturated_text(const Saturation& saturation) {
   const auto [below, above] = saturation;
   if (below == 0 && above == 0) return "no pixel saturated";
