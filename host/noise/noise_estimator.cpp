@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "system/parallel.hpp"
 
 namespace nutik {
@@ -133,12 +133,7 @@ StillPixels still_pixels(std::span<const PixelNoise> group, double degrees) {
   return still;
 }
 
-double six_digits(double value) {
-  const std::string text = format("{:.6g}", value);
-  double rounded = value;
-  std::from_chars(text.data(), text.data() + text.size(), rounded);
-  return rounded;
-}
+double six_digits(double value) { return parsed<double>(format("{:.6g}", value)).value_or(value); }
 
 // Points of several clips that lie close together become one.
 std::vector<MeasuredPoint> joined(std::vector<MeasuredPoint> points, std::uint32_t white_code) {

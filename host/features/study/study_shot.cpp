@@ -6,6 +6,7 @@
 
 #include "align/alignment.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "features/masks/mask_making.hpp"
 #include "features/plate/plate.hpp"
 #include "imev/each_block.hpp"
@@ -32,11 +33,9 @@ MemoryNeeds study_needs(const CaptureFormat& capture) {
 
 // Numbered as in the clip, whose part begins with picture `part`.
 std::string starts_of(const std::vector<SampleRange>& shots, std::uint64_t part = 0) {
-  std::string text;
-  for (const SampleRange& shot : shots) {
-    text += format("{}{}{}", text.empty() ? "" : ", ", part + shot.first, shot.size() == 1 ? " (a single one)" : "");
-  }
-  return text;
+  return joined(shots, ", ", [part](const SampleRange& shot) {
+    return format("{}{}", part + shot.first, shot.size() == 1 ? " (a single one)" : "");
+  });
 }
 
 ClipMoment picture(std::uint64_t number) { return {static_cast<std::int64_t>(number), true}; }
