@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "capture/format.hpp"
+#include "capture/median.hpp"
 #include "capture/text.hpp"
 #include "system/parallel.hpp"
 
@@ -107,9 +108,7 @@ bool is_uneven(std::span<const PixelNoise> group, const StillPixels& still, doub
 StillPixels still_pixels(std::span<const PixelNoise> group, double degrees) {
   std::vector<float> variances;
   for (const PixelNoise& pixel : group) variances.push_back(pixel.variance);
-  const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
-  std::ranges::nth_element(variances, middle);
-  StillPixels still{*middle / variance_quantile(degrees, 0), 0, 0};
+  StillPixels still{median(std::move(variances)) / variance_quantile(degrees, 0), 0, 0};
   const double outlier = variance_quantile(degrees, kOutlier);
   for (int pass = 0; pass < kPasses; ++pass) {
     const std::uint64_t before = still.count;
