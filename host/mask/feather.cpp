@@ -179,7 +179,8 @@ Feather Feather::parse(const std::string& text) {
     std::string_view tag = std::string_view(part).substr(0, equals);
     if (tag.starts_with('M') || tag.starts_with('m')) tag.remove_prefix(1);
     const auto value = parsed<std::uint8_t>(tag);
-    if (!value) throw UsageError(format("the feather {} names no mask value: M0=6px … M255=6px", quoted(text)));
+    if (!value || tag.size() > 3)
+      throw UsageError(format("the feather {} names no mask value: M0=6px … M255=6px", quoted(text)));
     const std::int32_t reach = parse_reach(std::string_view(part).substr(equals + 1), text);
     if (!feather.of_tag.emplace(*value, reach).second)
       throw UsageError(format("the feather {} names M{} twice", quoted(text), *value));

@@ -62,7 +62,7 @@ TEST_F(InterlacedVideo, IsRefusedWithTheWayOut) {
     const auto error = test::error_of<InputError>([&] { read_all(*open_test_clip(scratch_ / name)); });
     ASSERT_TRUE(error) << "it was read";
     // Each way out in the word that states it.
-    for (const char* word : {part, "'frames'", "'fields'", "'no'"})
+    for (const std::string& word : std::vector<std::string>{part, "'frames'", "'fields'", "'no'"})
       EXPECT_NE(std::string(error->what()).find(word), std::string::npos) << error->what();
     EXPECT_EQ(error->settings(), std::vector{Setting::deinterlace});
   }
