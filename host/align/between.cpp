@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <deque>
 #include <vector>
 
 #include "align/pair_motion.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "media/read_ahead.hpp"
 #include "system/interruption.hpp"
 #include "system/parallel.hpp"
@@ -128,9 +128,7 @@ std::optional<BetweenRequest> parse_between(std::string_view text) {
   const std::string_view how = text.substr(0, colon);
   std::string_view pictures = colon == text.npos ? std::string_view() : text.substr(colon + 1);
   const auto take = [](std::string_view& from, auto& number, std::string_view mark) {
-    const auto [end, error] = std::from_chars(from.data(), from.data() + from.size(), number);
-    from.remove_prefix(static_cast<std::size_t>(end - from.data()));
-    if (error != std::errc() || !from.starts_with(mark)) return false;
+    if (!take_number(from, number) || !from.starts_with(mark)) return false;
     from.remove_prefix(mark.size());
     return true;
   };

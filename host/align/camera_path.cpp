@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/source_text.hpp"
+#include "capture/text.hpp"
 #include "media/module.hpp"
 
 namespace nutik {
@@ -259,12 +259,10 @@ class PathParser {
   template <typename Number>
   Number take(std::string_view what) {
     const std::string_view word = next_word();
-    Number number{};
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    bool is_right = error == std::errc() && end == word.data() + word.size();
-    if constexpr (std::is_floating_point_v<Number>) is_right &= std::isfinite(number);
-    if (!is_right) fail(format("{} is {}, which is no number that it can be", what, quoted(word)));
-    return number;
+    const auto number = parsed<Number>(word);
+    if (!number || !std::isfinite(*number))
+      fail(format("{} is {}, which is no number that it can be", what, quoted(word)));
+    return *number;
   }
 
   std::string_view rest_, line_left_;

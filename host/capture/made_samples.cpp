@@ -1,11 +1,11 @@
 #include "capture/made_samples.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <numeric>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 
 namespace nutik {
 
@@ -86,10 +86,8 @@ MadeSamples MadeSamples::parse(std::string_view text) {
   MadeSamples made;
   const auto take = [&](char behind) {
     std::uint64_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-    const bool goes_on = text.starts_with(behind);
-    if (error != std::errc() || number > kMostFilmed || !(goes_on || (behind == ' ' && text.empty())))
+    const bool is_number = take_number(text, number), goes_on = text.starts_with(behind);
+    if (!is_number || number > kMostFilmed || !(goes_on || (behind == ' ' && text.empty())))
       throw UsageError("what it says of its made samples is damaged");
     if (goes_on) text.remove_prefix(1);
     return number;

@@ -1,7 +1,6 @@
 #include "capture/noise_file.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -9,6 +8,7 @@
 #include "capture/format.hpp"
 #include "capture/picture.hpp"
 #include "capture/source_text.hpp"
+#include "capture/text.hpp"
 
 namespace nutik {
 namespace {
@@ -31,11 +31,7 @@ class Parser {
       parse_line(at);
     }
     if (mistakes_.empty()) check_whole();
-    if (!mistakes_.empty()) {
-      std::string message;
-      for (const std::string& mistake : mistakes_) message += (message.empty() ? "" : "\n") + mistake;
-      throw InputError(message);
-    }
+    if (!mistakes_.empty()) throw InputError(joined(mistakes_, "\n"));
     return std::move(noise_);
   }
 
@@ -64,11 +60,10 @@ class Parser {
     const std::string_view key = words.front().text;
     if (!has_first_line_) {
       has_first_line_ = true;
-      std::string joined;
-      for (const Word& word : words) joined.append(joined.empty() ? "" : " ").append(word.text);
-      if (joined != kFirstLine) {
+      const std::string said = joined(words, " ", &Word::text);
+      if (said != kFirstLine) {
         report(words.front().at, format("a noise file starts with the line '{}'; this one with {}",
-                                        kFirstLine, quoted(joined)));
+                                        kFirstLine, quoted(said)));
       }
     } else if (key == "white") {
       parse_white(words);
@@ -100,11 +95,8 @@ class Parser {
 
   // A number of [low, high].
   std::optional<double> number(const Word& word, std::string_view what, double low, double high) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(word.text.data(), word.text.data() + word.text.size(), value);
-    if (error == std::errc() && end == word.text.data() + word.text.size() && value >= low && value <= high) {
-      return value;
-    }
+    const auto value = parsed<double>(word.text);
+    if (value && *value >= low && *value <= high) return value;
     report(word.at, format("{} {} is no number of {} … {}", what, quoted(word.text), low, high));
     return std::nullopt;
   }

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <numeric>
 #include <utility>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 
 namespace nutik {
 namespace {
@@ -53,9 +53,8 @@ std::optional<Rational> read_clock(std::string_view text) {
     const std::size_t colon = std::min(whole.find(':'), whole.size());
     is_over = colon == whole.size();
     const std::string_view part = whole.substr(0, colon);
-    std::int64_t value = 0;
     if (!is_digits(part) || part.size() > 6 || parts > 2) return std::nullopt;
-    std::from_chars(part.data(), part.data() + part.size(), value);
+    const std::int64_t value = *parsed<std::int64_t>(part);
     if (parts > 0 && (part.size() != 2 || value > 59)) return std::nullopt;
     seconds = seconds * 60 + value;
     whole.remove_prefix(std::min(colon + 1, whole.size()));
@@ -81,10 +80,9 @@ std::optional<StatedTime> StatedTime::read(std::string_view text) {
   }
   const std::string_view number = behind_sign.substr(0, behind_sign.size() - unit->name.size());
   // Nanoseconds of a long capture have more digits than other numbers may.
-  std::int64_t whole = 0;
   if (unit->nanoseconds == 1 && is_digits(number)) {
-    const bool fits = std::from_chars(number.begin(), number.end(), whole).ec == std::errc();
-    return fits ? signed_by(Rational{whole, 1}, 1) : std::nullopt;
+    const auto whole = parsed<std::int64_t>(number);
+    return whole ? signed_by(Rational{*whole, 1}, 1) : std::nullopt;
   }
   return signed_by(Rational::read(number), unit->nanoseconds);
 }

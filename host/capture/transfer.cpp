@@ -1,11 +1,11 @@
 #include "capture/transfer.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 
 namespace nutik {
 namespace {
@@ -106,10 +106,7 @@ Transfer Transfer::parse(std::string_view text) {
   if (text == "pq") return pq();
   constexpr std::string_view kGamma = "gamma:";
   if (text.starts_with(kGamma)) {
-    const std::string_view number = text.substr(kGamma.size());
-    double exponent = 0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), exponent);
-    if (error == std::errc() && end == number.data() + number.size()) return gamma(exponent);
+    if (const auto exponent = parsed<double>(text.substr(kGamma.size()))) return gamma(*exponent);
   }
   std::string names;
   for (const LogCurve& curve : log_curves()) {

@@ -1,7 +1,6 @@
 #include "exposure/function_check.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -9,6 +8,7 @@
 
 #include "capture/format.hpp"
 #include "capture/seconds_text.hpp"
+#include "capture/text.hpp"
 
 namespace nutik {
 namespace {
@@ -31,10 +31,9 @@ template <typename Visit>
 void for_each_candidate(std::int64_t time_ns, Visit visit) {
   const std::string digits = std::to_string(std::abs(time_ns));
   const auto offer = [&](const std::string& text, bool is_digit_lost, bool is_in_run) {
-    std::int64_t magnitude = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), magnitude);
-    if (error != std::errc() || magnitude > kLargestTimeNs) return;
-    visit(Candidate{time_ns < 0 ? -magnitude : magnitude, is_digit_lost, is_in_run});
+    const auto magnitude = parsed<std::int64_t>(text);
+    if (!magnitude || *magnitude > kLargestTimeNs) return;
+    visit(Candidate{time_ns < 0 ? -*magnitude : *magnitude, is_digit_lost, is_in_run});
   };
   for (std::size_t at = 0; at <= digits.size(); ++at) {
     for (char digit = '0'; digit <= '9'; ++digit) {

@@ -9,6 +9,7 @@
 #include "capture/format.hpp"
 #include "capture/source_text.hpp"
 #include "capture/stated_time.hpp"
+#include "capture/text.hpp"
 #include "exposure/gain_function.hpp"
 
 namespace nutik {
@@ -73,10 +74,9 @@ std::optional<std::int64_t> whole_number(const Decimal& decimal, long power) {
   for (; power < 0 && digits.back() == '0'; ++power) digits.pop_back();
   if (power < 0 || power > 18 || digits.size() > 19) return std::nullopt;
   digits.append(static_cast<std::size_t>(power), '0');
-  std::int64_t value = 0;
-  const auto error = std::from_chars(digits.data(), digits.data() + digits.size(), value).ec;
-  if (error != std::errc() || value > kLargestTimeNs) return std::nullopt;
-  return decimal.is_negative ? -value : value;
+  const auto value = parsed<std::int64_t>(digits);
+  if (!value || *value > kLargestTimeNs) return std::nullopt;
+  return decimal.is_negative ? -*value : *value;
 }
 
 // What to write for a time that is written in another way, as far as it can be guessed.

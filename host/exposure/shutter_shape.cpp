@@ -1,7 +1,6 @@
 #include "exposure/shutter_shape.hpp"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -9,6 +8,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "exposure/corridor_fit.hpp"
 #include "exposure/function_numbers.hpp"
 
@@ -160,9 +160,8 @@ ShutterShape ShutterShape::parse(std::string_view text) {
 ShutterShape ShutterShape::strobe(std::string_view text) {
   const auto comma = text.find(',');
   const std::string_view count = text.substr(0, comma);
-  std::uint32_t flashes = 0;
-  const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), flashes);
-  if (error != std::errc() || end != count.data() + count.size() || flashes < 1 || flashes > kMaxFlashes) {
+  const std::uint32_t flashes = parsed<std::uint32_t>(count).value_or(0);
+  if (flashes < 1 || flashes > kMaxFlashes) {
     throw UsageError(format("the strobe's number of flashes '{}' is no whole number of 1 … {}: strobe:5",
                             count, kMaxFlashes));
   }

@@ -12,6 +12,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/source_text.hpp"
+#include "capture/text.hpp"
 #include "mask/whole_shares.hpp"
 #include "system/parallel.hpp"
 
@@ -94,8 +95,6 @@ class RowUnderTent {
   std::vector<std::int64_t> uniform_;
 };
 
-using Wanted = std::vector<std::pair<std::uint8_t, double>>;
-
 // Shares out among the tags of an edge what they have together so far, in proportion to `weights`.
 void share_out(const TagWeights& weights, const std::function<bool(std::uint8_t)>& takes_part,
                std::array<double, kMaskValues>& shares) {
@@ -133,39 +132,27 @@ MixedRow feathered_row(const Mask& mask, const Feather& feather, const std::vect
       share_out(
           weights, [&](std::uint8_t tag) { return feather.of(tag) <= tents[i].reach(); }, shares);
     }
-    Wanted wanted;
-    for (std::size_t tag = 0; tag < kMaskValues; ++tag) {
-      if (shares[tag] > 0.0) wanted.emplace_back(static_cast<std::uint8_t>(tag), shares[tag]);
-    }
-    mixed.emplace_back(static_cast<std::uint64_t>(y * mask.width + x), whole_shares(wanted));
+    mixed.emplace_back(static_cast<std::uint64_t>(y * mask.width + x), whole_shares(shares));
   }
   return mixed;
 }
 
 std::int32_t parse_reach(std::string_view text, const std::string& all) {
-  std::string_view number = text.ends_with("px") ? text.substr(0, text.size() - 2) : std::string_view();
-  std::int64_t hundredths = 0;
-  std::size_t decimals = 0;
-  bool has_point = false, is_number = !number.empty() && number.front() != '.' && number.back() != '.';
-  for (const char c : number) {
-    if (c == '.' && !has_point) {
-      has_point = true;
-    } else if (c >= '0' && c <= '9' && hundredths <= Feather::kMax) {
-      hundredths = hundredths * 10 + (c - '0');
-      decimals += has_point;
-    } else {
-      is_number = is_number && c >= '0' && c <= '9';
-    }
-  }
-  if (!is_number || decimals > 2) {
+  const std::string_view number = text.ends_with("px") ? text.substr(0, text.size() - 2) : std::string_view();
+  const std::size_t point = number.find('.');
+  const std::string_view decimals = point == number.npos ? "0" : number.substr(point + 1);
+  const auto whole = parsed<std::uint64_t>(number.substr(0, point));
+  const auto part = parsed<std::uint32_t>(decimals);
+  if (!whole || !part || decimals.size() > 2) {
     throw UsageError(
         format("the feather {} is no width of an edge; write how far edges reach in pixels, with two "
                "decimals at most: "
                "6px, 2.5px; of one mask value M255=6px, of several 2px,M255=6px",
                quoted(all)));
   }
-  for (; decimals < 2; ++decimals) hundredths *= 10;
-  if (hundredths > Feather::kMax) {
+  const std::uint64_t most = Feather::kMax;
+  const std::uint64_t hundredths = 100 * std::min(*whole, most) + (decimals.size() == 1 ? 10 * *part : *part);
+  if (hundredths > most) {
     throw UsageError(
         format("the feather {} reaches too far; at most {} pixels", quoted(all), Feather::kMax / 100));
   }
@@ -191,21 +178,12 @@ Feather Feather::parse(const std::string& text) {
     }
     std::string_view tag = std::string_view(part).substr(0, equals);
     if (tag.starts_with('M') || tag.starts_with('m')) tag.remove_prefix(1);
-    std::uint32_t value = 0;
-    bool is_tag = !tag.empty() && tag.size() <= 3;
-    for (const char c : tag) {
-      is_tag = is_tag && c >= '0' && c <= '9';
-      value = value * 10 + static_cast<std::uint32_t>(c - '0');
-    }
-    if (!is_tag || value >= kMaskValues) {
+    const auto value = parsed<std::uint8_t>(tag);
+    if (!value || tag.size() > 3)
       throw UsageError(format("the feather {} names no mask value: M0=6px … M255=6px", quoted(text)));
-    }
-    if (!feather.of_tag
-             .emplace(static_cast<std::uint8_t>(value),
-                      parse_reach(std::string_view(part).substr(equals + 1), text))
-             .second) {
-      throw UsageError(format("the feather {} names M{} twice", quoted(text), value));
-    }
+    const std::int32_t reach = parse_reach(std::string_view(part).substr(equals + 1), text);
+    if (!feather.of_tag.emplace(*value, reach).second)
+      throw UsageError(format("the feather {} names M{} twice", quoted(text), *value));
   }
   return feather;
 }

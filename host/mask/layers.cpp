@@ -72,11 +72,7 @@ Mask mask_of_layers(std::span<const MaskLayer> layers, std::uint8_t rest, const 
       first_sum = sum;
     }
     if (sum < 1.0) shares[rest] += 1.0 - sum;
-    std::vector<std::pair<std::uint8_t, double>> wanted;
-    for (std::size_t tag = 0; tag < kMaskValues; ++tag) {
-      if (shares[tag] > 0.0) wanted.emplace_back(static_cast<std::uint8_t>(tag), shares[tag]);
-    }
-    put_shares(mask, pixel, whole_shares(wanted));
+    put_shares(mask, pixel, whole_shares(shares));
   }
   if (too_much > 0) refuse(layers, too_much, first_too_much, first_sum);
   return mask;

@@ -92,11 +92,7 @@ Mask by_alpha(const Mask& a, const Mask& b, std::uint32_t way) {
     std::array<double, kMaskValues> sums{};  // whole numbers below 2^32
     add_shares(sums, a, next_of_a, pixel, kWholeWay - way);
     add_shares(sums, b, next_of_b, pixel, way);
-    std::vector<std::pair<std::uint8_t, double>> wanted;
-    for (std::size_t tag = 0; tag < kMaskValues; ++tag) {
-      if (sums[tag] > 0.0) wanted.emplace_back(static_cast<std::uint8_t>(tag), sums[tag]);
-    }
-    put_shares(between, pixel, whole_shares(wanted));
+    put_shares(between, pixel, whole_shares(sums));
   }
   return between;
 }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -11,19 +13,19 @@
 
 namespace nutik {
 
-// What each tag shall have, in parts of what all have together: at least one that is not 0, by increasing tag. Each is
-// rounded down, and what is left goes to those that lost most, of equals to the lowest tag. None that is 0 remains.
-inline std::vector<Share> whole_shares(const std::vector<std::pair<std::uint8_t, double>>& wanted) {
-  double all = 0.0;
-  for (const auto& [tag, part] : wanted) all += part;
+// What each tag shall have, in parts of what all have together: at least one that is not 0. Each is rounded down, and
+// what is left goes to those that lost most, of equals to the lowest tag. None that is 0 remains.
+inline std::vector<Share> whole_shares(const std::array<double, kMaskValues>& wanted) {
+  const double all = std::accumulate(wanted.begin(), wanted.end(), 0.0);
   std::vector<Share> shares;
   std::vector<std::pair<double, std::size_t>> lost;
   std::uint32_t left = kWholeShare;
-  for (const auto& [tag, part] : wanted) {
-    const double share = part / all * kWholeShare;
+  for (std::size_t tag = 0; tag < kMaskValues; ++tag) {
+    if (wanted[tag] == 0.0) continue;
+    const double share = wanted[tag] / all * kWholeShare;
     const double whole = std::min(std::floor(share), static_cast<double>(left));
     lost.emplace_back(whole - share, shares.size());  // the most negative first
-    shares.push_back({tag, static_cast<std::uint16_t>(whole)});
+    shares.push_back({static_cast<std::uint8_t>(tag), static_cast<std::uint16_t>(whole)});
     left -= shares.back().size;
   }
   std::ranges::sort(lost);

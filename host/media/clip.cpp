@@ -1,12 +1,12 @@
 #include "media/clip.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/seconds_text.hpp"
+#include "capture/text.hpp"
 #include "media/settled_fact.hpp"
 
 namespace nutik {
@@ -50,14 +50,6 @@ void describe_stored_codes(ClipInfo& info, const ClipOptions& options, const Sto
 
 namespace {
 
-// A number that is all of the text.
-std::optional<double> number_of(std::string_view text) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
-
 constexpr double kMinContrast = 0.001, kMaxContrast = 10;
 constexpr double kMinStart = 0.0001;
 
@@ -65,8 +57,8 @@ constexpr double kMinStart = 0.0001;
 
 Contrast parse_contrast(std::string_view text) {
   const auto colon = text.find(':');
-  const auto up = number_of(text.substr(0, colon));
-  const auto down = colon == text.npos ? up : number_of(text.substr(colon + 1));
+  const auto up = parsed<double>(text.substr(0, colon));
+  const auto down = colon == text.npos ? up : parsed<double>(text.substr(colon + 1));
   const auto is_possible = [](std::optional<double> step) {
     return step && *step >= kMinContrast && *step <= kMaxContrast;
   };
@@ -80,7 +72,7 @@ Contrast parse_contrast(std::string_view text) {
 }
 
 StartLight parse_start_light(std::string_view text) {
-  const auto light = number_of(text);
+  const auto light = parsed<double>(text);
   if (!light) return std::filesystem::path(text);
   if (*light >= kMinStart && *light <= 1) return *light;
   throw UsageError(

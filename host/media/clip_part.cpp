@@ -1,7 +1,6 @@
 #include "media/clip_part.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <numeric>
@@ -11,6 +10,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/seconds_text.hpp"
+#include "capture/text.hpp"
 #include "media/light_means.hpp"
 #include "system/input_bytes.hpp"
 
@@ -19,14 +19,6 @@ namespace {
 
 // A clip without an announced end may go on for so long.
 constexpr std::uint64_t kMaxSamples = std::uint64_t{1} << 40;
-
-// A whole number at the start of a text, which is cut off; false where there is none.
-bool take_number(std::string_view& text, std::uint32_t& number) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc()) return false;
-  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-  return true;
-}
 
 bool take_letter(std::string_view& text, char letter) {
   if (!text.starts_with(letter)) return false;

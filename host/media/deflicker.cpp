@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "capture/format.hpp"
+#include "capture/median.hpp"
 
 namespace nutik {
 namespace {
@@ -30,12 +31,6 @@ constexpr std::size_t kMaxSilent = 50;
 double trust(double error, double deviation) {
   const double share = error / (4.685 * deviation);
   return std::abs(share) >= 1 ? 0.0 : (1 - share * share) * (1 - share * share);
-}
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Black stays black and white stays white, however they are exposed; what noise adds to black is no light.

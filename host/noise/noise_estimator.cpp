@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "capture/format.hpp"
+#include "capture/median.hpp"
+#include "capture/text.hpp"
 #include "system/parallel.hpp"
 
 namespace nutik {
@@ -107,9 +108,7 @@ bool is_uneven(std::span<const PixelNoise> group, const StillPixels& still, doub
 StillPixels still_pixels(std::span<const PixelNoise> group, double degrees) {
   std::vector<float> variances;
   for (const PixelNoise& pixel : group) variances.push_back(pixel.variance);
-  const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
-  std::ranges::nth_element(variances, middle);
-  StillPixels still{*middle / variance_quantile(degrees, 0), 0, 0};
+  StillPixels still{median(std::move(variances)) / variance_quantile(degrees, 0), 0, 0};
   const double outlier = variance_quantile(degrees, kOutlier);
   for (int pass = 0; pass < kPasses; ++pass) {
     const std::uint64_t before = still.count;
@@ -133,12 +132,7 @@ StillPixels still_pixels(std::span<const PixelNoise> group, double degrees) {
   return still;
 }
 
-double six_digits(double value) {
-  const std::string text = format("{:.6g}", value);
-  double rounded = value;
-  std::from_chars(text.data(), text.data() + text.size(), rounded);
-  return rounded;
-}
+double six_digits(double value) { return parsed<double>(format("{:.6g}", value)).value_or(value); }
 
 // Points of several clips that lie close together become one.
 std::vector<MeasuredPoint> joined(std::vector<MeasuredPoint> points, std::uint32_t white_code) {

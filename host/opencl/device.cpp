@@ -3,12 +3,12 @@
 #include <dlfcn.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <utility>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "opencl/cache_folder.hpp"
 #include "opencl/opencl_api.hpp"
 #include "system/is_absent.hpp"
@@ -31,30 +31,19 @@ std::uint32_t loop_limit_of(const DeviceInfo& info) {
 }
 
 // Some drivers pad names with blanks and end them with a zero.
-std::string trimmed(std::string text) {
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.pop_back();
-  const auto start = text.find_first_not_of(' ');
-  return start == std::string::npos ? std::string() : text.substr(start);
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return result;
-}
+constexpr std::string_view kPadding(" \0", 2);
 
 // The devices whose name or platform contains the text, in any case.
 std::vector<std::size_t> named(std::span<const DeviceInfo> devices, std::string_view wanted) {
   std::vector<std::size_t> matches;
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    const std::string text = lower(devices[i].name) + '\n' + lower(devices[i].platform);
-    if (text.find(lower(wanted)) != std::string::npos) matches.push_back(i);
+    const std::string text = in_small_letters(devices[i].name) + '\n' + in_small_letters(devices[i].platform);
+    if (text.find(in_small_letters(wanted)) != std::string::npos) matches.push_back(i);
   }
   return matches;
 }
 
-bool means_all(std::string_view wanted) { return lower(trimmed(std::string(wanted))) == "all"; }
+bool means_all(std::string_view wanted) { return in_small_letters(trimmed(wanted)) == "all"; }
 
 std::string list_text(std::span<const DeviceInfo> devices) {
   std::string text;
@@ -178,10 +167,10 @@ std::vector<cl::Device> all_devices() {
 
 DeviceInfo describe_device(const cl::Device& device) {
   DeviceInfo info;
-  info.name = trimmed(device.getInfo<CL_DEVICE_NAME>());
-  info.platform = trimmed(cl::Platform(device.getInfo<CL_DEVICE_PLATFORM>()).getInfo<CL_PLATFORM_NAME>());
-  info.driver_version = trimmed(device.getInfo<CL_DRIVER_VERSION>());
-  info.opencl_version = trimmed(device.getInfo<CL_DEVICE_VERSION>());
+  info.name = trimmed(device.getInfo<CL_DEVICE_NAME>(), kPadding);
+  info.platform = trimmed(cl::Platform(device.getInfo<CL_DEVICE_PLATFORM>()).getInfo<CL_PLATFORM_NAME>(), kPadding);
+  info.driver_version = trimmed(device.getInfo<CL_DRIVER_VERSION>(), kPadding);
+  info.opencl_version = trimmed(device.getInfo<CL_DEVICE_VERSION>(), kPadding);
   info.kind = kind_of(device.getInfo<CL_DEVICE_TYPE>());
   info.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
   info.memory_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
@@ -212,10 +201,8 @@ std::vector<DeviceInfo> list_devices() {
 
 std::size_t choose_device(std::span<const DeviceInfo> devices, std::string_view wanted) {
   if (wanted.empty()) return 0;
-  std::size_t index = 0;
-  const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
-  if (error == std::errc() && end == wanted.data() + wanted.size()) {
-    if (index < devices.size()) return index;
+  if (const auto index = parsed<std::size_t>(wanted)) {
+    if (*index < devices.size()) return *index;
     throw DeviceError(
         format("there is no OpenCL device {}; these were found:{}", wanted, list_text(devices)));
   }

@@ -14,6 +14,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "opencl/arithmetic_choice.hpp"
 #include "opencl/render_memory.hpp"
 
@@ -176,11 +177,9 @@ std::string DeviceTeam::names_of(std::span<const std::size_t> members) const {
       ++same->second;
     }
   }
-  std::string text;
-  for (const auto& [name, count] : counts) {
-    text += (text.empty() ? "" : " and ") + (count == 1 ? name : format("{} x {}", count, name));
-  }
-  return text;
+  return joined(counts, " and ", [](const auto& each) {
+    return each.second == 1 ? each.first : format("{} x {}", each.second, each.first);
+  });
 }
 
 void DeviceTeam::choose(const RenderPlan& plan, const OutputFormat& output, std::optional<Precision> asked,

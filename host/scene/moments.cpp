@@ -3,19 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture/median.hpp"
+
 namespace nutik {
 namespace {
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 double median_size(const Places& places) {
   std::vector<double> sizes;
   for (const SubjectPlace* place : places) sizes.push_back(static_cast<double>(place->cells.size()));
-  return median_of(std::move(sizes));
+  return median(std::move(sizes));
 }
 
 void erase_smaller(Places& places, double cells, bool only_cut_off) {
@@ -44,7 +40,7 @@ Places telling_places(const std::vector<SubjectPlace>& places) {
     contrasts.push_back(place.contrast);
   }
   if (telling.empty()) return telling;
-  const double size = median_size(telling), contrast = median_of(std::move(contrasts));
+  const double size = median_size(telling), contrast = median(std::move(contrasts));
   erase_smaller(telling, kMinSize * size, false);
   std::erase_if(telling,
                 [&](const SubjectPlace* place) { return place->contrast < kMinContrast * contrast; });

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "scene/looks.hpp"
 
 namespace nutik {
@@ -173,11 +174,9 @@ std::vector<SampleRange> shots_of(CaptureSource& capture) {
 }
 
 std::string starts_of(std::span<const SampleRange> shots, std::uint64_t part) {
-  std::string text;
-  for (const SampleRange& shot : shots) {
-    text += format("{}{}{}", text.empty() ? "" : ", ", part + shot.first, shot.size() == 1 ? " (a single one)" : "");
-  }
-  return text;
+  return joined(shots, ", ", [part](const SampleRange& shot) {
+    return format("{}{}", part + shot.first, shot.size() == 1 ? " (a single one)" : "");
+  });
 }
 
 }  // namespace nutik

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "capture/median.hpp"
 #include "scene/differing_cells.hpp"
 #include "scene/looks.hpp"
 #include "scene/moments.hpp"
@@ -29,10 +30,7 @@ double usual(const std::vector<SubjectPlace>& places,
              const std::function<double(const SubjectPlace&)>& measure) {
   std::vector<double> values;
   for (const SubjectPlace& place : places) values.push_back(measure(place));
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
+  return values.empty() ? 0 : median(std::move(values));
 }
 
 // What hangs together at one sample.

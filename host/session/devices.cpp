@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "capture/text.hpp"
 #include "opencl/cache_folder.hpp"
 #include "opencl/device_succession.hpp"
 #include "opencl/device_team.hpp"
@@ -23,9 +24,9 @@ std::vector<std::string> words_of(const std::vector<DeviceInfo>& devices) {
   std::vector<std::string> words;
   for (const DeviceInfo& device : devices) {
     std::string word;
-    for (const char c : device.name + " " + device.platform + " ") {
+    for (const char c : in_small_letters(device.name + " " + device.platform + " ")) {
       if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
-        word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        word += c;
       } else if (!word.empty()) {
         words.push_back(std::exchange(word, {}));
       }
@@ -39,8 +40,8 @@ std::vector<std::size_t> chosen(const std::vector<DeviceInfo>& devices, const st
     return choose_devices(devices, wanted);
   } catch (const DeviceError& error) {
     const std::vector<std::string> words = words_of(devices);
-    const bool is_one_of_them = std::ranges::count(words, lower_case(wanted)) > 0;  // of several devices
-    const std::string meant = wanted.size() < 3 || is_one_of_them ? "" : did_you_mean(lower_case(wanted), words);
+    const bool is_one_of_them = std::ranges::count(words, in_small_letters(wanted)) > 0;  // of several devices
+    const std::string meant = wanted.size() < 3 || is_one_of_them ? "" : did_you_mean(in_small_letters(wanted), words);
     throw DeviceError(error.what(), Advice{meant.empty() ? "" : "\n" + meant.substr(2)});
   }
 }

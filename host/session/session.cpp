@@ -32,43 +32,21 @@ SessionIsSpent::SessionIsSpent()
           "the session reads its capture forward, for one picture and nothing else; open it to be read "
           "whole") {}
 
-class Session::Implementation {
+class Session::State {
  public:
-  Implementation(const SourceRequest& source, std::shared_ptr<Devices> devices, const Terms& terms);
-  ~Implementation() {
+  State(const SourceRequest& source, std::shared_ptr<Devices> devices, const Terms& terms);
+  ~State() {
     if (reader_) devices_->release(reader_.get());
   }
-  Implementation(const Implementation&) = delete;
-  Implementation& operator=(const Implementation&) = delete;
-
-  [[nodiscard]] const SourceRequest& source() const { return source_; }
-  [[nodiscard]] Devices& devices() const { return *devices_; }
-  [[nodiscard]] bool is_clip() const { return is_clip_; }
-  [[nodiscard]] const CaptureFormat& format() const { return format_; }
-  [[nodiscard]] const Timeline& timeline() const { return reader_ ? reader_->timeline() : *announced_; }
-  [[nodiscard]] const std::vector<Fact>& facts() const { return facts_; }
-  [[nodiscard]] const std::optional<ClipSound>& sound() const { return sound_; }
-  [[nodiscard]] const std::vector<Note>& notes() const { return notes_; }
-  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
-  [[nodiscard]] tik::Reader& capture();
-
-  [[nodiscard]] ExposedPicture render(const ExposureRequest& request, const OutputFormat& output,
-                                      const RenderControl& control);
-  [[nodiscard]] ExposedPicture render(const FunctionSet& functions, const Mask& mask,
-                                      const PlanOptions& options, const OutputFormat& output,
-                                      const RenderControl& control);
-  void render_many(std::span<const ExposureRequest> requests, const OutputFormat& output, const RenderControl& control,
-                   const RenderedOne& done);
-  template <typename Follow>
-  [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const Follow& follow);
-  [[nodiscard]] ValidatedExposure validate(const ExposureRequest& request, const OutputFormat& output,
-                                           std::uint32_t runs, const ReportedProgress& progress);
-  [[nodiscard]] SourceCheck compare_with(const SourceRequest& clip, const ReportedProgress& progress);
-
-  [[nodiscard]] const MemoryBudget& memory() const { return devices_->request().memory; }
-  [[nodiscard]] std::size_t pictures_at_once(ValueType type, std::size_t count) const;
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
 
  private:
+  friend class Session;
+
+  [[nodiscard]] const Timeline& timeline() const { return reader_ ? reader_->timeline() : *announced_; }
+  [[nodiscard]] tik::Reader& capture();
+  [[nodiscard]] const MemoryBudget& memory() const { return devices_->request().memory; }
   [[nodiscard]] MemoryNeeds besides_of(const CaptureFormat& format) const {
     return besides_ ? besides_(format) : MemoryNeeds();
   }
@@ -82,6 +60,8 @@ class Session::Implementation {
     if (reader_) check_stated_transfer(reader_->header(), source_.path.string(), stated);
   }
   [[nodiscard]] RenderPlan plan(const ExposureRequest& request);
+  template <typename Follow>
+  [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const Follow& follow);
   [[nodiscard]] ExposedPicture expose(CaptureSource& source, const FunctionSet& functions, const Mask& mask,
                                       const PlanOptions& options, const OutputFormat& output,
                                       const RenderControl& control, std::uint64_t stream_bytes = 0);
@@ -130,8 +110,7 @@ std::shared_ptr<Devices> needed(std::shared_ptr<Devices> devices) {
 
 }  // namespace
 
-Session::Implementation::Implementation(const SourceRequest& source, std::shared_ptr<Devices> devices,
-                                        const Terms& terms)
+Session::State::State(const SourceRequest& source, std::shared_ptr<Devices> devices, const Terms& terms)
     : source_(source),
       devices_(needed(std::move(devices))),
       // Events are read whole: only a file lets an exposure skip what does not change.
@@ -190,13 +169,13 @@ Session::Implementation::Implementation(const SourceRequest& source, std::shared
   if (reader_ && !terms.renders) check_reading({});
 }
 
-MemoryNeeds Session::Implementation::held_needs() const {
+MemoryNeeds Session::State::held_needs() const {
   MemoryNeeds needs = mask_needs(format_);
   needs.add(besides_of(format_));
   return needs;
 }
 
-void Session::Implementation::check_reading(const MemoryNeeds& more) const {
+void Session::State::check_reading(const MemoryNeeds& more) const {
   MemoryNeeds needs = more;
   needs.add(besides_of(format_));
   needs.add("a block", largest_block(*reader_));
@@ -206,7 +185,7 @@ void Session::Implementation::check_reading(const MemoryNeeds& more) const {
 // Calls work(bytes) with what the budget leaves beside held_needs() and `more`. A MemoryTooLittle of its own is thrown
 // again with these added.
 template <typename Work>
-auto Session::Implementation::within(const MemoryNeeds& more, Work work) const {
+auto Session::State::within(const MemoryNeeds& more, Work work) const {
   MemoryNeeds held = held_needs();
   held.add(more);
   try {
@@ -219,40 +198,28 @@ auto Session::Implementation::within(const MemoryNeeds& more, Work work) const {
 
 // Four per device: a fast one need not wait for a slow one. At most a sixteenth of the memory, so that waiting pictures
 // refuse none that bands could make.
-std::size_t Session::Implementation::line_length(ValueType type) const {
+std::size_t Session::State::line_length(ValueType type) const {
   const std::uint64_t room = memory().bytes / 16 / (format_.shape.value_count() * value_bytes(type));
   return static_cast<std::size_t>(std::min<std::uint64_t>(4 * devices_->count(), room));
 }
 
-// Devices make pictures of their own unless blocks are packed: with bands a device unpacks only its own tiles,
-// otherwise every device unpacks all.
-std::size_t Session::Implementation::pictures_at_once(ValueType type, std::size_t count) const {
-  const std::size_t devices = devices_->count();
-  if (devices == 1 || count < devices || !reader_ || line_length(type) < devices) return 1;
-  for (std::uint64_t block = 0; block < reader_->block_count(); ++block) {
-    if (reader_->lent_bytes(block) > 0) return 1;
-  }
-  return line_length(type);
-}
-
-void Session::Implementation::spend() {
+void Session::State::spend() {
   if (is_spent_.exchange(reading_ == Reading::forward)) throw SessionIsSpent();
 }
 
-tik::Reader& Session::Implementation::capture() {
+tik::Reader& Session::State::capture() {
   if (reading_ == Reading::forward) throw SessionIsSpent();
   return *reader_;
 }
 
-RenderPlan Session::Implementation::plan(const ExposureRequest& request) {
+RenderPlan Session::State::plan(const ExposureRequest& request) {
   check_transfer(request.transfer);
   return plans_.plan(capture(), functions_of(request, timeline()), mask_of(request, format_.shape),
                      plan_options_of(request, format_.shape));
 }
 
 // A device that is still starting loads its kernels beside the first blocks.
-void Session::Implementation::warm_up(CaptureSource& source, const RenderPlan& plan,
-                                      const OutputFormat& output) {
+void Session::State::warm_up(CaptureSource& source, const RenderPlan& plan, const OutputFormat& output) {
   if (devices_->is_ready()) return;
   auto ready = std::async(std::launch::async, [&] { devices_->renderer().prepare(plan, output); });
   preload_until(ready, source, plan, memory().bytes / 4);
@@ -279,10 +246,9 @@ void warn_of_infinite(Rendered& rendered) {
 
 }  // namespace
 
-ExposedPicture Session::Implementation::expose(CaptureSource& source, const FunctionSet& functions,
-                                               const Mask& mask, const PlanOptions& options,
-                                               const OutputFormat& output, const RenderControl& control,
-                                               std::uint64_t stream_bytes) {
+ExposedPicture Session::State::expose(CaptureSource& source, const FunctionSet& functions, const Mask& mask,
+                                      const PlanOptions& options, const OutputFormat& output,
+                                      const RenderControl& control, std::uint64_t stream_bytes) {
   throw_if_cancelled(control);
   check_transfer(options.transfer);
   RenderPlan plan = plans_.plan(source, functions, mask, options);
@@ -327,8 +293,8 @@ ExposedPicture Session::Implementation::expose(CaptureSource& source, const Func
   return exposed;
 }
 
-ExposedPicture Session::Implementation::exposed_of(Rendered rendered, RenderPlan plan, const Timeline& timeline,
-                                                   const OutputFormat& output) {
+ExposedPicture Session::State::exposed_of(Rendered rendered, RenderPlan plan, const Timeline& timeline,
+                                          const OutputFormat& output) {
   const std::shared_ptr<const CaptureErrors> errors = errors_of(plan);
   const auto block_count = reader_ ? std::optional(reader_->block_count()) : std::nullopt;
   ExposureFigures figures = ExposureFigures::of(std::move(plan), timeline, block_count);
@@ -340,13 +306,13 @@ ExposedPicture Session::Implementation::exposed_of(Rendered rendered, RenderPlan
   return exposed;
 }
 
-std::shared_ptr<const CaptureErrors> Session::Implementation::errors_of(const RenderPlan& plan) {
+std::shared_ptr<const CaptureErrors> Session::State::errors_of(const RenderPlan& plan) {
   if (plan.combine != Combine::integral)
     return std::make_shared<CaptureErrors>(errors_of(plan.capture)->of_order());
   return errors_of(plan.capture);
 }
 
-std::shared_ptr<const CaptureErrors> Session::Implementation::errors_of(const CaptureFormat& planned) {
+std::shared_ptr<const CaptureErrors> Session::State::errors_of(const CaptureFormat& planned) {
   // Which live as long as the session.
   if (planned.transfer == format_.transfer) return {std::shared_ptr<const CaptureErrors>(), &errors_};
   const std::scoped_lock lock(stated_errors_mutex_);
@@ -357,71 +323,6 @@ std::shared_ptr<const CaptureErrors> Session::Implementation::errors_of(const Ca
     stated_errors_.emplace(planned.transfer, std::move(errors));
   }
   return stated_errors_->second;
-}
-
-ExposedPicture Session::Implementation::render(const ExposureRequest& request, const OutputFormat& output,
-                                               const RenderControl& control) {
-  spend();
-  if (reader_) {
-    return expose(*reader_, functions_of(request, timeline()), mask_of(request, format_.shape),
-                  plan_options_of(request, format_.shape), output, control);
-  }
-  return expose_forward(std::move(*clip_), memory(), request, output.type, besides_of(format_),
-                        [&](CaptureSource& stream, const FunctionSet& functions, const Mask& mask,
-                            const PlanOptions& options, std::uint64_t stream_bytes) {
-                          return expose(stream, functions, mask, options, output, control, stream_bytes);
-                        });
-}
-
-ExposedPicture Session::Implementation::render(const FunctionSet& functions, const Mask& mask,
-                                               const PlanOptions& options, const OutputFormat& output,
-                                               const RenderControl& control) {
-  return expose(capture(), functions, mask, options, output, control);
-}
-
-void Session::Implementation::render_many(std::span<const ExposureRequest> requests, const OutputFormat& output,
-                                          const RenderControl& control, const RenderedOne& done) {
-  const ComputingRequest& computing = devices_->request();
-  const auto asked = control.precision ? control.precision : computing.precision;
-  const bool in_double = computing.renderer == RendererKind::opencl && !output.maps_bounds &&
-                         asked.value_or(Precision::double_) == Precision::double_;
-  const Rectangle rectangle = control.rectangle.value_or(Rectangle::whole(format_.shape));
-  std::vector<RenderPlan> plans;
-  std::vector<Rendered> waiting;
-  std::size_t next = 0;
-  const auto expose_waiting = [&] {
-    if (plans.empty()) return;
-    std::vector<Picture> light = expose_in_one_pass(plans, *reader_, rectangle, control);
-    for (std::size_t i = 0; i < plans.size(); ++i) {
-      Rendered& rendered = waiting[i];
-      rendered.picture = stored(std::move(light[i]), plans[i].capture, output, rendered.saturation);
-      state_values(rendered.picture, plans[i].capture, output);
-      warn_of_infinite(rendered);
-      done(next++, exposed_of(std::move(rendered), std::move(plans[i]), timeline(), output));
-    }
-    plans.clear();
-    waiting.clear();
-  };
-  for (const ExposureRequest& request : requests) {
-    throw_if_cancelled(control);
-    if (in_double && rectangle.lies_in(format_.shape)) {
-      RenderPlan planned = plan(request);
-      Rendered rendered;
-      rendered.renderer = "the processor";
-      rendered.warnings = planned.warnings;
-      if (suits_one_pass(planned) &&
-          (rendered.choice = PrecisionChoice{error_bound(planned, Precision::double_, output), {}})->is_right_enough()) {
-        if (!plans.empty() && plans.front().capture != planned.capture) expose_waiting();
-        plans.push_back(std::move(planned));
-        waiting.push_back(std::move(rendered));
-        if (plans.size() >= pictures_in_one_pass(plans.front(), rectangle, memory().bytes / 16)) expose_waiting();
-        continue;
-      }
-    }
-    expose_waiting();
-    done(next++, render(request, output, control));
-  }
-  expose_waiting();
 }
 
 namespace {
@@ -441,7 +342,7 @@ void keep_traced(RenderPlan& plan, std::vector<Trace>& traces) {
 }  // namespace
 
 template <typename Follow>
-TracedExposure Session::Implementation::trace(const ExposureRequest& request, const Follow& follow) {
+TracedExposure Session::State::trace(const ExposureRequest& request, const Follow& follow) {
   RenderPlan planned = plan(request);
   check_reading(mask_needs(format_));
   std::vector<Trace> traces = follow(planned, *reader_);
@@ -458,36 +359,8 @@ TracedExposure Session::Implementation::trace(const ExposureRequest& request, co
           std::move(warnings)};
 }
 
-ValidatedExposure Session::Implementation::validate(const ExposureRequest& request,
-                                                    const OutputFormat& output, std::uint32_t runs,
-                                                    const ReportedProgress& progress) {
-  if (runs == 0) throw UsageError("a validation runs once at least");
-  RenderPlan planned = plan(request);
-  devices_->keep_resident(reader_.get());
-  const auto ignored = [](std::uint64_t, std::uint64_t) {};
-  const std::uint64_t light_bytes = format_.shape.value_count() * value_bytes(ValueType::light64);
-  Validation validation = within({{"the reference's picture", light_bytes}}, [&](std::uint64_t left) {
-    // Of the widest arithmetic, which comes late.
-    MemoryNeeds needs = picture_needs(format_.shape, ValueType::light64);
-    needs.add("a block", largest_block(*reader_));
-    needs.rest_of(left);
-    const auto device = devices_->opencl();
-    return nutik::validate(planned, *reader_, output, *device, runs,
-                           progress ? progress : ReportedProgress(ignored), left);
-  });
-  std::vector<std::string> warnings = std::move(planned.warnings);
-  return {std::move(validation), ExposureFigures::of(std::move(planned), timeline(), reader_->block_count()),
-          std::move(warnings)};
-}
-
-SourceCheck Session::Implementation::compare_with(const SourceRequest& clip,
-                                                  const ReportedProgress& progress) {
-  tik::Reader& reader = capture();
-  return compare_with_source(reader, clip, memory(), progress);
-}
-
 Session::Session(const SourceRequest& source, std::shared_ptr<Devices> devices, const Terms& terms)
-    : implementation_(std::make_unique<Implementation>(source, std::move(devices), terms)) {}
+    : state_(std::make_unique<State>(source, std::move(devices), terms)) {}
 Session::Session(const SourceRequest& source, std::shared_ptr<Devices> devices)
     : Session(source, std::move(devices), Terms{}) {}
 Session::Session(const SourceRequest& source, const ComputingRequest& computing)
@@ -496,58 +369,133 @@ Session::~Session() = default;
 Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 
-const SourceRequest& Session::source() const { return implementation_->source(); }
-Devices& Session::devices() const { return implementation_->devices(); }
-bool Session::is_clip() const { return implementation_->is_clip(); }
-const CaptureFormat& Session::format() const { return implementation_->format(); }
-const Timeline& Session::timeline() const { return implementation_->timeline(); }
-const std::vector<Fact>& Session::facts() const { return implementation_->facts(); }
-const std::optional<ClipSound>& Session::sound() const { return implementation_->sound(); }
-const std::vector<Note>& Session::notes() const { return implementation_->notes(); }
-const std::vector<std::string>& Session::warnings() const { return implementation_->warnings(); }
+const SourceRequest& Session::source() const { return state_->source_; }
+Devices& Session::devices() const { return *state_->devices_; }
+bool Session::is_clip() const { return state_->is_clip_; }
+const CaptureFormat& Session::format() const { return state_->format_; }
+const Timeline& Session::timeline() const { return state_->timeline(); }
+const std::vector<Fact>& Session::facts() const { return state_->facts_; }
+const std::optional<ClipSound>& Session::sound() const { return state_->sound_; }
+const std::vector<Note>& Session::notes() const { return state_->notes_; }
+const std::vector<std::string>& Session::warnings() const { return state_->warnings_; }
+tik::Reader& Session::capture() { return state_->capture(); }
 std::uint32_t Session::waiting_pictures(ValueType type) const {
   return nutik::waiting_pictures(format().shape.value_count() * value_bytes(type));
 }
+
+// Devices make pictures of their own unless blocks are packed: with bands a device unpacks only its own tiles,
+// otherwise every device unpacks all.
 std::size_t Session::pictures_at_once(ValueType type, std::size_t count) const {
-  return implementation_->pictures_at_once(type, count);
+  const std::size_t members = devices().count();
+  if (members == 1 || count < members || !state_->reader_ || state_->line_length(type) < members) return 1;
+  for (std::uint64_t block = 0; block < state_->reader_->block_count(); ++block) {
+    if (state_->reader_->lent_bytes(block) > 0) return 1;
+  }
+  return state_->line_length(type);
 }
-tik::Reader& Session::capture() { return implementation_->capture(); }
 
 ExposedPicture Session::render(const ExposureRequest& request, const OutputFormat& output,
                                const RenderControl& control) {
-  return implementation_->render(request, output, control);
+  state_->spend();
+  if (state_->reader_) {
+    return state_->expose(*state_->reader_, functions_of(request, timeline()), mask_of(request, format().shape),
+                          plan_options_of(request, format().shape), output, control);
+  }
+  return expose_forward(std::move(*state_->clip_), state_->memory(), request, output.type,
+                        state_->besides_of(format()),
+                        [&](CaptureSource& stream, const FunctionSet& functions, const Mask& mask,
+                            const PlanOptions& options, std::uint64_t stream_bytes) {
+                          return state_->expose(stream, functions, mask, options, output, control, stream_bytes);
+                        });
 }
 
 ExposedPicture Session::render(const FunctionSet& functions, const Mask& mask, const PlanOptions& options,
                                const OutputFormat& output, const RenderControl& control) {
-  return implementation_->render(functions, mask, options, output, control);
+  return state_->expose(capture(), functions, mask, options, output, control);
 }
 
 void Session::render_many(std::span<const ExposureRequest> requests, const OutputFormat& output,
                           const RenderControl& control, const RenderedOne& done) {
-  implementation_->render_many(requests, output, control, done);
+  const ComputingRequest& computing = devices().request();
+  const auto asked = control.precision ? control.precision : computing.precision;
+  const bool in_double = computing.renderer == RendererKind::opencl && !output.maps_bounds &&
+                         asked.value_or(Precision::double_) == Precision::double_;
+  const Rectangle rectangle = control.rectangle.value_or(Rectangle::whole(format().shape));
+  std::vector<RenderPlan> plans;
+  std::vector<Rendered> waiting;
+  std::size_t next = 0;
+  const auto expose_waiting = [&] {
+    if (plans.empty()) return;
+    std::vector<Picture> light = expose_in_one_pass(plans, *state_->reader_, rectangle, control);
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+      Rendered& rendered = waiting[i];
+      rendered.picture = stored(std::move(light[i]), plans[i].capture, output, rendered.saturation);
+      state_values(rendered.picture, plans[i].capture, output);
+      warn_of_infinite(rendered);
+      done(next++, state_->exposed_of(std::move(rendered), std::move(plans[i]), timeline(), output));
+    }
+    plans.clear();
+    waiting.clear();
+  };
+  for (const ExposureRequest& request : requests) {
+    throw_if_cancelled(control);
+    if (in_double && rectangle.lies_in(format().shape)) {
+      RenderPlan planned = state_->plan(request);
+      Rendered rendered;
+      rendered.renderer = "the processor";
+      rendered.warnings = planned.warnings;
+      if (suits_one_pass(planned) &&
+          (rendered.choice = PrecisionChoice{error_bound(planned, Precision::double_, output), {}})->is_right_enough()) {
+        if (!plans.empty() && plans.front().capture != planned.capture) expose_waiting();
+        plans.push_back(std::move(planned));
+        waiting.push_back(std::move(rendered));
+        if (plans.size() >= pictures_in_one_pass(plans.front(), rectangle, state_->memory().bytes / 16))
+          expose_waiting();
+        continue;
+      }
+    }
+    expose_waiting();
+    done(next++, render(request, output, control));
+  }
+  expose_waiting();
 }
 
 TracedExposure Session::trace(const ExposureRequest& request, const TracedPixel& pixel,
                               const ReportedProgress& progress) {
-  return implementation_->trace(request, [&](const RenderPlan& plan, CaptureSource& source) {
+  return state_->trace(request, [&](const RenderPlan& plan, CaptureSource& source) {
     return trace_pixel(plan, source, pixel.x, pixel.y, progress);
   });
 }
 
 TracedExposure Session::trace(const ExposureRequest& request, const TracedTag& tag, const ReportedProgress& progress) {
-  return implementation_->trace(request, [&](const RenderPlan& plan, CaptureSource& source) {
+  return state_->trace(request, [&](const RenderPlan& plan, CaptureSource& source) {
     return std::vector{trace_region(plan, source, tag.tag, progress)};
   });
 }
 
 ValidatedExposure Session::validate(const ExposureRequest& request, const OutputFormat& output,
                                     std::uint32_t runs, const ReportedProgress& progress) {
-  return implementation_->validate(request, output, runs, progress);
+  if (runs == 0) throw UsageError("a validation runs once at least");
+  RenderPlan planned = state_->plan(request);
+  devices().keep_resident(state_->reader_.get());
+  const auto ignored = [](std::uint64_t, std::uint64_t) {};
+  const std::uint64_t light_bytes = format().shape.value_count() * value_bytes(ValueType::light64);
+  Validation validation = state_->within({{"the reference's picture", light_bytes}}, [&](std::uint64_t left) {
+    // Of the widest arithmetic, which comes late.
+    MemoryNeeds needs = picture_needs(format().shape, ValueType::light64);
+    needs.add("a block", largest_block(*state_->reader_));
+    needs.rest_of(left);
+    const auto device = devices().opencl();
+    return nutik::validate(planned, *state_->reader_, output, *device, runs,
+                           progress ? progress : ReportedProgress(ignored), left);
+  });
+  std::vector<std::string> warnings = std::move(planned.warnings);
+  return {std::move(validation), ExposureFigures::of(std::move(planned), timeline(), state_->reader_->block_count()),
+          std::move(warnings)};
 }
 
 SourceCheck Session::compare_with(const SourceRequest& clip, const ReportedProgress& progress) {
-  return implementation_->compare_with(clip, progress);
+  return compare_with_source(capture(), clip, state_->memory(), progress);
 }
 
 }  // namespace nutik

@@ -148,8 +148,8 @@ class Session {
   [[nodiscard]] tik::Reader& capture();
 
  private:
-  class Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  class State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace nutik

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "capture/error.hpp"
+#include "support/messages.hpp"
 
 namespace nutik {
 namespace {
@@ -39,12 +40,7 @@ TEST(CameraPath, IsReadAsItWasWritten) {
 }
 
 std::string complaint(const std::string& text) {
-  try {
-    static_cast<void>(parse_camera_path(text, "path.csv"));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return test::message_of<InputError>([&] { return parse_camera_path(text, "path.csv"); });
 }
 
 TEST(CameraPath, SaysWhatIsWrongInAFile) {

@@ -5,6 +5,7 @@
 
 #include "capture/error.hpp"
 #include "support/exact.hpp"
+#include "support/messages.hpp"
 #include "support/random_case.hpp"
 
 namespace nutik {
@@ -122,12 +123,7 @@ TEST(ExactTime, IsRoundedOnceWhenItIsAdded) {
 
 TEST(FrameTimes, RefuseWhatMakesNoSense) {
   const auto expect_refused = [](Rational rate, Rational speed, Rational angle, const std::string& part) {
-    try {
-      const FrameTimes frames(kFromTheStart, rate, speed, angle);
-      FAIL() << "accepted; expected: " << part;
-    } catch (const UsageError& error) {
-      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-    }
+    test::expect_error<UsageError>([&] { return FrameTimes(kFromTheStart, rate, speed, angle); }, {part});
   };
   expect_refused({0, 1}, {1, 1}, {180, 1}, "frame rate 0 is not positive");
   expect_refused({24, 1}, {-1, 4}, {180, 1}, "speed -0.25 is not positive");

@@ -18,12 +18,14 @@
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
 #include "support/soft_mask.hpp"
+#include "support/watched_capture.hpp"
 
 namespace nutik {
 namespace {
 
 using test::kLight;
 using test::RandomCase;
+using test::WatchedCapture;
 
 constexpr std::array<std::size_t, 2> kTwice{0, 0};
 constexpr std::array<std::size_t, 3> kThrice{0, 0, 0};
@@ -178,32 +180,6 @@ TEST(DeviceTeam, SaysWhoMadeThePicture) {
   one_row.rectangle = Rectangle{0, 16, 21, 8};
   EXPECT_EQ(team.render(plan, capture, kCodes, one_row).renderer, name);
 }
-
-// A capture that does something when its blocks are asked for.
-class WatchedCapture final : public CaptureSource {
- public:
-  using OnBlock = std::function<void(std::uint64_t block)>;
-  WatchedCapture(MemoryCapture& capture, OnBlock on_block, bool is_forward_only = false)
-      : capture_(capture), on_block_(std::move(on_block)), is_forward_only_(is_forward_only) {}
-
-  [[nodiscard]] const CaptureFormat& format() const override { return capture_.format(); }
-  [[nodiscard]] const Timeline& timeline() const override { return capture_.timeline(); }
-  [[nodiscard]] std::uint64_t block_count() const override { return capture_.block_count(); }
-  [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override {
-    return capture_.block_extent(block);
-  }
-  [[nodiscard]] bool is_forward_only() const override { return is_forward_only_; }
-
- private:
-  BlockLease lend(std::uint64_t block, const LeaseTerms& terms) override {
-    on_block_(block);
-    return capture_.acquire(block, terms);
-  }
-
-  MemoryCapture& capture_;
-  OnBlock on_block_;
-  bool is_forward_only_;
-};
 
 OpenClOptions block_by_block() {
   OpenClOptions options = test::renderer_options(Precision::fixed);

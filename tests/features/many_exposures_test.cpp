@@ -73,12 +73,9 @@ TEST(PictureQueue, KeepsWhatIsMade) {
 
 TEST(VideoOutput, RefusesACodecForStillsAndHoldsTheSetting) {
   EXPECT_EQ(VideoOutput("v-%02d.png", {24, 1}, {}, {}).kind(), "stills");
-  try {
-    static_cast<void>(VideoOutput("v-%02d.png", {24, 1}, "ffv1", {}));
-    FAIL() << "stills have no video codec";
-  } catch (const UsageError& error) {
-    EXPECT_EQ(error.settings(), std::vector{Setting::video_codec});
-  }
+  const auto error = test::error_of<UsageError>([] { VideoOutput("v-%02d.png", {24, 1}, "ffv1", {}); });
+  ASSERT_TRUE(error) << "stills have no video codec";
+  EXPECT_EQ(error->settings(), std::vector{Setting::video_codec});
 }
 
 // 12 stills of 16 x 16 pixels, 100 a second.

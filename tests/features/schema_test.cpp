@@ -6,6 +6,7 @@
 
 #include "capture/error.hpp"
 #include "features/schema/option.hpp"
+#include "support/messages.hpp"
 
 namespace nutik {
 namespace {
@@ -63,12 +64,8 @@ TEST(Schema, TakesEveryChoiceAndNoOther) {
   const Option& depth = *option_of(CommandId::expose, "depth");
   depth.state(options, "--depth", {"double"});
   EXPECT_EQ(options.picture.depth, Depth::doubled);
-  try {
-    depth.restate(options, {"12"});
-    FAIL();
-  } catch (const UsageError& error) {
-    EXPECT_STREQ(error.what(), "--depth '12' is not known; choose 8, 16, half, float or double");
-  }
+  EXPECT_EQ(test::message_of<UsageError>([&] { depth.restate(options, {"12"}); }),
+            "--depth '12' is not known; choose 8, 16, half, float or double");
 }
 
 TEST(Schema, CountsWhatTheRowOfAnotherCommandStated) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "features/sheets/sheet_request.hpp"
+#include "support/messages.hpp"
 
 namespace nutik {
 namespace {
@@ -70,12 +71,10 @@ TEST(ContactRequest, OfTimesBesideEachOtherLeavesNoGaps) {
 }
 
 TEST(ContactRequest, SaysWhichStepFitsASheet) {
-  try {
-    static_cast<void>(exposures_of({stated("0s"), stated("1us"), {}}, kSheetTimeline));
-    FAIL() << "a sheet has no room for 100 000 pictures";
-  } catch (const UsageError& error) {
-    EXPECT_NE(error.advice().find("take `every 250us` or more"), std::string::npos) << error.advice();
-  }
+  const auto error = test::error_of<UsageError>(
+      [&] { return exposures_of({stated("0s"), stated("1us"), {}}, kSheetTimeline); });
+  ASSERT_TRUE(error) << "a sheet has no room for 100 000 pictures";
+  EXPECT_NE(error->advice().find("take `every 250us` or more"), std::string::npos) << error->advice();
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "capture/format.hpp"
 #include "imev/capture_source.hpp"
 #include "imev/sample_cursor.hpp"
+#include "support/messages.hpp"
 #include "support/random_case.hpp"
 
 namespace nutik {
@@ -218,12 +219,8 @@ TEST(BlockBuilder, RefusesCodesAboveWhite) {
   capture.white_code = 4095;
   BlockBuilder builder(capture, 4, TilePolicy::automatic);
   const std::vector<std::byte> raster{std::byte{0x00}, std::byte{0x10}};  // 4096
-  try {
-    builder.add(raster);
-    FAIL() << "4096 was accepted";
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "sample 0 has a code of 4096, above the white code 4095; state the right one");
-  }
+  EXPECT_EQ(test::message_of<InputError>([&] { builder.add(raster); }),
+            "sample 0 has a code of 4096, above the white code 4095; state the right one");
 }
 
 TEST(BlockBuilder, RefusesBlocksThatMayComeToMoreThanAnOffsetReaches) {
@@ -232,12 +229,7 @@ TEST(BlockBuilder, RefusesBlocksThatMayComeToMoreThanAnOffsetReaches) {
   capture.code_bytes = 2;
   capture.white_code = 65'535;
   const auto message = [&](std::uint32_t samples, TilePolicy policy) {
-    try {
-      BlockBuilder(capture, samples, policy);
-    } catch (const UsageError& error) {
-      return std::string(error.what());
-    }
-    return std::string("nothing was thrown");
+    return test::message_of<UsageError>([&] { BlockBuilder(capture, samples, policy); });
   };
   // 129600 tiles: 2120998 bytes each, less 72 for entry and padding. 5494 rows of 384 bytes and room for their
   // index take 2120704, one more 2121088.
@@ -278,15 +270,10 @@ TEST(BlockView, TellsWhatATileCannotHave) {
   const auto message = [&](std::uint32_t count) {
     std::vector<std::byte> damaged(view.payload().begin(), view.payload().end());
     std::memcpy(damaged.data() + offsetof(TileEntry, count), &count, sizeof count);
-    try {
-      BlockView(capture.format(), view.extent(), damaged);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("nothing was thrown");
+    return test::message_of<InputError>([&] { BlockView(capture.format(), view.extent(), damaged); });
   };
   const std::string block = "the block of samples 0 to 7 is damaged: tile 0 ";
-  EXPECT_EQ(message(1), "nothing was thrown");
+  EXPECT_EQ(message(1), "");
   EXPECT_EQ(message(0), block + "has no row");
   EXPECT_EQ(message(9), block + "has 9 rows; 8 samples have at most as many");
   EXPECT_EQ(message(8 | TileEntry::kRecordsFlag),
@@ -323,19 +310,10 @@ class CraftedBlock {
   // What reading pixel 63, or sample 1, ends with.
   [[nodiscard]] std::string message() const {
     const BlockView view(capture_, extent_, payload_);
-    std::string of_history, of_sample;
-    try {
-      std::vector<ChangeRecord> history;
-      view.read_history(0, 63, history);
-    } catch (const InputError& error) {
-      of_history = error.what();
-    }
-    try {
-      std::vector<std::byte> raster(64);
-      view.read_sample(1, raster);
-    } catch (const InputError& error) {
-      of_sample = error.what();
-    }
+    std::vector<ChangeRecord> history;
+    std::vector<std::byte> raster(64);
+    const std::string of_history = test::message_of<InputError>([&] { view.read_history(0, 63, history); });
+    const std::string of_sample = test::message_of<InputError>([&] { view.read_sample(1, raster); });
     EXPECT_EQ(of_history.empty(), of_sample.empty()) << of_history << " | " << of_sample;
     return of_history;
   }

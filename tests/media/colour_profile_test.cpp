@@ -12,6 +12,7 @@
 #include "capture/error.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "support/clips.hpp"
+#include "support/messages.hpp"
 #include "support/scratch.hpp"
 #include "support/stills.hpp"
 
@@ -179,13 +180,10 @@ TEST(ColourProfile, OfOneStillIsThatOfAll) {
   write_jpeg_with(scratch / "1.jpg", bytes_of(cmsCreate_sRGBProfile(), "sRGB"));
   write_jpeg_with(scratch / "2.jpg", rgb_profile("linear", linear.get(), kSrgb));
   const auto clip = open_test_clip(scratch.folder());
-  try {
-    test::read_all(*clip);
-    FAIL() << "both were read";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("2.jpg has transfer linear"), std::string::npos) << error.what();
-    EXPECT_EQ(error.settings(), std::vector{Setting::transfer});
-  }
+  const auto error = test::error_of<InputError>([&] { test::read_all(*clip); });
+  ASSERT_TRUE(error) << "both were read";
+  EXPECT_NE(std::string(error->what()).find("2.jpg has transfer linear"), std::string::npos) << error->what();
+  EXPECT_EQ(error->settings(), std::vector{Setting::transfer});
   ClipOptions stated;
   stated.transfer = Transfer::srgb();
   EXPECT_EQ(test::read_all(*open_test_clip(scratch.folder(), stated)).size(), 2u);

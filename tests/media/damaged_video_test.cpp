@@ -135,12 +135,9 @@ TEST_F(DamagedVideo, IsTakenAsFarAsItGoesWhereThatIsAsked) {
   std::string damaged = whole;
   damaged[whole.size() * 2 / 3] = static_cast<char>(damaged[whole.size() * 2 / 3] ^ 8);
   const auto path = scratch_.write("damaged.mkv", damaged);
-  try {
-    read_all(*open_test_clip(path));
-    FAIL() << "it was read";
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.settings(), std::vector{Setting::end_at_damage}) << error.what();
-  }
+  const auto error = test::error_of<InputError>([&] { read_all(*open_test_clip(path)); });
+  ASSERT_TRUE(error) << "it was read";
+  EXPECT_EQ(error->settings(), std::vector{Setting::end_at_damage}) << error->what();
   ClipOptions options;
   options.ends_at_damage = true;
   const auto clip = open_test_clip(path, options);
@@ -173,20 +170,16 @@ TEST_F(DamagedVideo, NamesThePicturesThatCanBeTaken) {
         k == 2 ? "P5\n8 8\n255\nshort" : test::netpbm_file(stills[static_cast<std::size_t>(k)], true));
   }
   const auto refusal = [&](const std::string& pattern) {
-    try {
-      read_all(*open_test_clip(scratch_ / pattern));
-    } catch (const InputError& error) {
-      return std::pair(std::string(error.what()), error.settings());
-    }
-    return std::pair(std::string("it was read"), std::vector<Setting>());
+    const auto error = test::error_of<InputError>([&] { read_all(*open_test_clip(scratch_ / pattern)); });
+    return error.value_or(InputError("it was read"));
   };
-  const auto [third, settings] = refusal("s*.pgm");
+  const InputError of_third = refusal("s*.pgm"), of_first = refusal("s[23].pgm");
+  const std::string third = of_third.what(), first = of_first.what();
   EXPECT_NE(third.find("s2.pgm cannot be read: it was cut off"), std::string::npos) << third;
   EXPECT_NE(third.find("; the 2 pictures before it can be taken"), std::string::npos) << third;
-  EXPECT_EQ(settings, std::vector{Setting::end_at_damage});
-  const auto [first, none] = refusal("s[23].pgm");
+  EXPECT_EQ(of_third.settings(), std::vector{Setting::end_at_damage});
   EXPECT_EQ(first.find("can be taken"), std::string::npos) << first;
-  EXPECT_EQ(none, std::vector<Setting>());
+  EXPECT_EQ(of_first.settings(), std::vector<Setting>());
 }
 
 // Where a container tells how long it lasts, or has whole pictures only, a note says what is missing; elsewhere the

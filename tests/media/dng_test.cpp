@@ -8,6 +8,7 @@
 
 #include "capture/error.hpp"
 #include "support/clips.hpp"
+#include "support/messages.hpp"
 #include "support/scratch.hpp"
 
 namespace nutik {
@@ -313,12 +314,7 @@ std::string with_value(std::string file, int tag, int type, std::int64_t value) 
 
 void expect_refused(const std::string& file, const std::string& part) {
   const Scratch scratch;
-  try {
-    static_cast<void>(read_all(*open_test_clip(scratch.write("a.dng", file))));
-    ADD_FAILURE() << "it is read, and not refused: " << part;
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-  }
+  test::expect_error<InputError>([&] { return read_all(*open_test_clip(scratch.write("a.dng", file))); }, {part});
 }
 
 TEST(Dng, ThatStatesMoreThanItsBytesHoldIsRefused) {

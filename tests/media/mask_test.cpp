@@ -89,12 +89,7 @@ TEST(Mask, IsOpaqueWhereNoPixelHasTheClearCode) {
 }
 
 std::string message_of(const std::filesystem::path& path) {
-  try {
-    static_cast<void>(read_mask(path));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "it was read";
+  return test::message_of<InputError>([&] { return read_mask(path); });
 }
 
 TEST(Mask, SaysWhatIsWrong) {

@@ -7,6 +7,7 @@
 #include "capture/error.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "support/clips.hpp"
+#include "support/messages.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 
@@ -120,12 +121,7 @@ TEST(PictureWriter, ChoosesTheTypeByNameAndWish) {
   EXPECT_EQ(type("a.pfm", {}), ValueType::light32);
   EXPECT_EQ(type("a.tif", Depth::floating), ValueType::light32);
   const auto refused = [&](const char* name, std::optional<Depth> wish, const char* part) {
-    try {
-      type(name, wish);
-      FAIL() << name;
-    } catch (const UsageError& error) {
-      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-    }
+    test::expect_error<UsageError>([&] { return type(name, wish); }, {part});
   };
   refused("a.png", Depth::floating, "cannot hold floating point; write a .tif, .exr, .pfm or .npy");
   refused("a.pfm", Depth::bits8, "holds floating point only");

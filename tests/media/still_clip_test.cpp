@@ -9,6 +9,7 @@
 #include "media/writers/picture_writer.hpp"
 #include "support/clips.hpp"
 #include "support/hostile.hpp"
+#include "support/messages.hpp"
 #include "support/scratch.hpp"
 #include "support/stills.hpp"
 #include "system/interruption.hpp"
@@ -36,15 +37,8 @@ void expect_still_codes(Clip& clip, const std::vector<Picture>& stills) {
 
 void expect_refused(const std::filesystem::path& path, const std::vector<std::string>& parts,
                     const ClipOptions& options = {}) {
-  try {
-    const auto clip = open_test_clip(path, options);
-    read_all(*clip);
-    FAIL() << path << " was read";
-  } catch (const InputError& error) {
-    for (const std::string& part : parts) {
-      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-    }
-  }
+  SCOPED_TRACE(path);
+  test::expect_error<InputError>([&] { return read_all(*open_test_clip(path, options)); }, parts);
 }
 
 void write_with_opencv(const std::filesystem::path& path, const Picture& still) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "capture/error.hpp"
+#include "support/messages.hpp"
 #include "support/scratch.hpp"
 
 namespace nutik {
@@ -28,14 +29,8 @@ class StillSequence : public testing::Test {
   }
 
   void expect_refused(const std::string& path, const std::vector<std::string>& parts) const {
-    try {
-      const std::string files = listed(path);
-      FAIL() << path << " gave " << files;
-    } catch (const InputError& error) {
-      for (const std::string& part : parts) {
-        EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-      }
-    }
+    SCOPED_TRACE(path);
+    test::expect_error<InputError>([&] { return listed(path); }, parts);
   }
 
   test::Scratch scratch_;

@@ -9,6 +9,7 @@
 #include "support/chromaticity.hpp"
 #include "support/clips.hpp"
 #include "support/ffmpeg.hpp"
+#include "support/messages.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 
@@ -30,17 +31,14 @@ TEST(MatrixOfYuv, OfAMatrixThatIsNotKnownIsRefused) {
   for (const char* named :
        {"ictcp", "smpte2085", "chroma-derived-c", "bt2020c", "chroma-derived-nc -color_primaries film"}) {
     test::make(scratch, coloured_picture("64x48") + "-colorspace " + named + " clip.mkv");
-    try {
-      static_cast<void>(test::open_test_clip(scratch / "clip.mkv"));
-      FAIL() << named << " was read";
-    } catch (const InputError& error) {
-      const std::string message = error.what(), words = named;
-      EXPECT_NE(message.find("clip.mkv names a matrix by which no RGB is made here, " +
-                             words.substr(0, words.find(' ')) + ":"),
-                std::string::npos)
-          << message;
-      EXPECT_EQ(error.settings(), std::vector{Setting::matrix});
-    }
+    const auto error = test::error_of<InputError>([&] { return test::open_test_clip(scratch / "clip.mkv"); });
+    ASSERT_TRUE(error) << named << " was read";
+    const std::string message = error->what(), words = named;
+    EXPECT_NE(message.find("clip.mkv names a matrix by which no RGB is made here, " +
+                           words.substr(0, words.find(' ')) + ":"),
+              std::string::npos)
+        << message;
+    EXPECT_EQ(error->settings(), std::vector{Setting::matrix});
     ClipOptions options;
     options.matrix = YuvMatrix::bt709;
     EXPECT_EQ(matrix_of(*test::open_test_clip(scratch / "clip.mkv", options)), "matrix bt709, as stated");

@@ -9,6 +9,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "support/messages.hpp"
 #include "support/noisy_scene.hpp"
 
 namespace nutik {
@@ -249,12 +250,7 @@ TEST(NoiseEstimator, RoundingIsTheLeastNoise) {
 TEST(NoiseEstimator, SaysWhyItCannot) {
   const NoisyCamera camera = camera_of(1, 255, Transfer::srgb());
   const auto message = [&](const Rasters& rasters) {
-    try {
-      static_cast<void>(estimate(camera, rasters));
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("nothing was thrown");
+    return test::message_of<InputError>([&] { return estimate(camera, rasters); });
   };
   const Light wedge = still_wedge(camera, 0.1, 0.9);
   EXPECT_EQ(message(film(camera, 2, 1, wedge)),

@@ -8,6 +8,7 @@
 #include "support/random_case.hpp"
 #include "support/raster_stream.hpp"
 #include "support/rendering.hpp"
+#include "support/watched_capture.hpp"
 
 namespace nutik {
 namespace {
@@ -16,27 +17,15 @@ using test::kLight;
 using test::RandomCase;
 
 // A capture that counts how often its blocks are read, and may have a damaged one.
-class CountingCapture final : public CaptureSource {
+class CountingCapture final : public test::WatchedCapture {
  public:
-  explicit CountingCapture(MemoryCapture& capture) : capture_(capture) {}
-
-  [[nodiscard]] const CaptureFormat& format() const override { return capture_.format(); }
-  [[nodiscard]] const Timeline& timeline() const override { return capture_.timeline(); }
-  [[nodiscard]] std::uint64_t block_count() const override { return capture_.block_count(); }
-  [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override {
-    return capture_.block_extent(block);
-  }
+  explicit CountingCapture(MemoryCapture& capture)
+      : WatchedCapture(capture, [this](std::uint64_t block) {
+          if (block == damaged) throw InputError("damaged");
+          ++reads;
+        }) {}
   std::atomic<std::uint64_t> reads = 0;
   std::uint64_t damaged = ~std::uint64_t{0};
-
- private:
-  BlockLease lend(std::uint64_t block, const LeaseTerms& terms) override {
-    if (block == damaged) throw InputError("damaged");
-    ++reads;
-    return capture_.acquire(block, terms);
-  }
-
-  MemoryCapture& capture_;
 };
 
 // A capture of 90 samples in blocks of 4, and functions that need different parts of it.

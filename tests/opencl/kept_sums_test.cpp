@@ -102,6 +102,33 @@ bool has_halves(const RenderPlan& plan) {
 
 class KeptSumsOf : public test::OfPrecision {
  protected:
+  // What it takes to render a boxcar that begins at one time after another, over blocks of so many samples of 1 ms.
+  std::vector<RenderStatistics> statistics_of_moved_boxcar(std::uint64_t blocks, std::uint32_t block_samples,
+                                                           std::initializer_list<std::int64_t> starts_ms,
+                                                           std::int64_t length_ms) {
+    CaptureFormat format;
+    format.shape = {24, 16, 1};
+    const std::uint64_t samples = blocks * block_samples;
+    test::Random random(3);
+    MemoryCapture capture(format, Timeline::constant({1000, 1}, {180, 1}, samples),
+                          test::random_rasters(random, format, samples), block_samples);
+    OpenClOptions options = test::renderer_options(GetParam());
+    options.allocation_bytes = 0;  // that all sums have room
+    OpenClRenderer renderer(options);
+    renderer.keep_resident(&capture);
+    PlanCache plans;
+    std::vector<RenderStatistics> all;
+    for (const std::int64_t start_ms : starts_ms) {
+      const GainFunction boxcar = GainFunction::boxcar(start_ms * 1'000'000, (start_ms + length_ms) * 1'000'000);
+      const RenderPlan plan = plans.plan(capture, {{0, boxcar}}, Mask::uniform(24, 16, 0), {});
+      const Rendered rendered = renderer.render(plan, capture, kLight);
+      EXPECT_EQ(rendered.picture.bytes, fresh_.render(plan, capture, kLight).picture.bytes);
+      all.push_back(rendered.statistics);
+    }
+    renderer.keep_resident(nullptr);
+    return all;
+  }
+
   OpenClRenderer fresh_{options()};
   OpenClRenderer renderer_{options()};
 };
@@ -161,25 +188,7 @@ TEST_P(KeptSumsOf, RandomCasesAreWithinTheBoundAndTheSameBits) {
 
 // A long boxcar that is moved reads the blocks at its ends alone, once sums are kept.
 TEST_P(KeptSumsOf, AMovedBoxcarReadsItsEnds) {
-  CaptureFormat format;
-  format.shape = {24, 16, 1};
-  constexpr std::uint64_t kSamples = 100 * 16;
-  test::Random random(3);
-  MemoryCapture capture(format, Timeline::constant({1000, 1}, {180, 1}, kSamples),
-                        test::random_rasters(random, format, kSamples), 16);
-  OpenClOptions options = test::renderer_options(GetParam());
-  options.allocation_bytes = 0;  // that all sums have room
-  OpenClRenderer renderer(options);
-  renderer.keep_resident(&capture);
-  PlanCache plans;
-  std::vector<RenderStatistics> all;
-  for (const std::int64_t start_ms : {100, 101, 102, 118}) {
-    const GainFunction boxcar = GainFunction::boxcar(start_ms * 1'000'000, (start_ms + 1234) * 1'000'000);
-    const RenderPlan plan = plans.plan(capture, {{0, boxcar}}, Mask::uniform(24, 16, 0), {});
-    const Rendered rendered = renderer.render(plan, capture, kLight);
-    EXPECT_EQ(rendered.picture.bytes, fresh_.render(plan, capture, kLight).picture.bytes);
-    all.push_back(rendered.statistics);
-  }
+  const auto all = statistics_of_moved_boxcar(100, 16, {100, 101, 102, 118}, 1234);
   if (GetParam() == Precision::fixed) {
     for (const RenderStatistics& each : all) EXPECT_EQ(each.kept_sums + each.made_sums, 0u);
     return;
@@ -195,32 +204,14 @@ TEST_P(KeptSumsOf, AMovedBoxcarReadsItsEnds) {
 // Blocks of 32 samples, cut near their middles: what is read are few samples beside it.
 TEST_P(KeptSumsOf, HalvesOfCutBlocksAreKept) {
   if (GetParam() == Precision::fixed) GTEST_SKIP() << "knows nothing of steady gains";
-  CaptureFormat format;
-  format.shape = {24, 16, 1};
-  constexpr std::uint64_t kSamples = 50 * 32;
-  test::Random random(4);
-  MemoryCapture capture(format, Timeline::constant({1000, 1}, {180, 1}, kSamples),
-                        test::random_rasters(random, format, kSamples), 32);
-  OpenClOptions options = test::renderer_options(GetParam());
-  options.allocation_bytes = 0;  // that all sums have room
-  OpenClRenderer renderer(options);
-  renderer.keep_resident(&capture);
-  PlanCache plans;
-  std::vector<RenderStatistics> all;
-  for (const std::int64_t start_ms : {110, 111, 112, 114}) {  // in block 3, ends in block 42
-    const GainFunction boxcar = GainFunction::boxcar(start_ms * 1'000'000, (start_ms + 1250) * 1'000'000);
-    const RenderPlan plan = plans.plan(capture, {{0, boxcar}}, Mask::uniform(24, 16, 0), {});
-    const Rendered rendered = renderer.render(plan, capture, kLight);
-    EXPECT_EQ(rendered.picture.bytes, fresh_.render(plan, capture, kLight).picture.bytes);
-    all.push_back(rendered.statistics);
-  }
+  // It begins in block 3, and ends in block 42.
+  const auto all = statistics_of_moved_boxcar(50, 32, {110, 111, 112, 114}, 1250);
   EXPECT_EQ(all[0].made_sums, 0u);
   for (const std::size_t later : {2u, 3u}) {
     EXPECT_EQ(all[later].made_sums, 0u);
     EXPECT_EQ(all[later].kept_sums, 2u + 3u) << "halves, and bundles between them";
     EXPECT_EQ(all[later].blocks, 2u) << "samples beside the halves";
   }
-  renderer.keep_resident(nullptr);
 }
 
 // Of several functions only those that changed are exposed again, and pictures are those of all.

@@ -12,6 +12,7 @@
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
+#include "support/watched_capture.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik {
@@ -117,31 +118,6 @@ TEST(RenderControl, RefusesRectanglesThatAreNoPart) {
   }
 }
 
-// Asks for the end of the render while its blocks are read.
-class CancellingCapture final : public CaptureSource {
- public:
-  CancellingCapture(MemoryCapture& capture, std::uint64_t block) : capture_(capture), block_(block) {}
-
-  [[nodiscard]] const CaptureFormat& format() const override { return capture_.format(); }
-  [[nodiscard]] const Timeline& timeline() const override { return capture_.timeline(); }
-  [[nodiscard]] std::uint64_t block_count() const override { return capture_.block_count(); }
-  [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override {
-    return capture_.block_extent(block);
-  }
-
-  [[nodiscard]] std::stop_token stop() const { return source_.get_token(); }
-
- private:
-  BlockLease lend(std::uint64_t block, const LeaseTerms& terms) override {
-    if (block == block_) source_.request_stop();
-    return capture_.acquire(block, terms);
-  }
-
-  MemoryCapture& capture_;
-  std::uint64_t block_;
-  std::stop_source source_;
-};
-
 TEST(RenderControl, EndsWhenItIsCancelled) {
   const RandomCase random(3, kColour);
   MemoryCapture capture = random.encode(1, TilePolicy::automatic);
@@ -156,9 +132,12 @@ TEST(RenderControl, EndsWhenItIsCancelled) {
   const OutputFormat output{ValueType::code8, 255};
   for (Renderer* renderer : {static_cast<Renderer*>(&opencl), static_cast<Renderer*>(&reference)}) {
     for (const std::uint64_t block : {std::uint64_t{0}, last / 2}) {
-      CancellingCapture cancelling(capture, block);
+      std::stop_source stop;
+      test::WatchedCapture cancelling(capture, [&](std::uint64_t asked) {
+        if (asked == block) stop.request_stop();
+      });
       RenderControl control;
-      control.stop = cancelling.stop();
+      control.stop = stop.get_token();
       EXPECT_THROW(static_cast<void>(renderer->render(plan, cancelling, output, control)), Cancelled);
     }
     // The next render starts anew.

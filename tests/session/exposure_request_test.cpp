@@ -6,6 +6,7 @@
 #include "features/film/film_request.hpp"
 #include "features/series/series_request.hpp"
 #include "session/requests/function_input.hpp"
+#include "support/messages.hpp"
 
 namespace nutik {
 namespace {
@@ -112,12 +113,10 @@ TEST(SeriesRequest, OfTimesBesideEachOtherLeavesNoGaps) {
 }
 
 TEST(SeriesRequest, SaysHowManyWouldFit) {
-  try {
-    static_cast<void>(starts_of({time("2f"), 9}, plain("1f", "1f"), kTimeline));
-    FAIL() << "more exposures than the capture has room for";
-  } catch (const UsageError& error) {
-    EXPECT_EQ(error.advice(), "; `count 5` at most");
-  }
+  const auto error =
+      test::error_of<UsageError>([] { return starts_of({time("2f"), 9}, plain("1f", "1f"), kTimeline); });
+  ASSERT_TRUE(error) << "more exposures than the capture has room for";
+  EXPECT_EQ(error->advice(), "; `count 5` at most");
   EXPECT_THROW(static_cast<void>(starts_of({time("2f"), {}}, plain("0s", "1s"), kTimeline)),
                UsageError);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "capture/error.hpp"
+#include "support/messages.hpp"
 
 namespace nutik::sheet {
 namespace {
@@ -34,12 +35,7 @@ TEST(SheetLayout, DoesAsAsked) {
 }
 
 std::string refusal(const Shape& shape, std::uint32_t count, const SheetWishes& wishes) {
-  try {
-    static_cast<void>(lay_out(shape, count, wishes));
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "it was laid out";
+  return test::message_of<UsageError>([&] { return lay_out(shape, count, wishes); });
 }
 
 TEST(SheetLayout, RefusesWhatCannotBeSeenOrDrawn) {

@@ -10,6 +10,7 @@
 #include "render/reference_renderer.hpp"
 #include "support/one_pixel.hpp"
 #include "support/random_case.hpp"
+#include "support/watched_capture.hpp"
 
 namespace nutik {
 namespace {
@@ -18,31 +19,6 @@ using test::OnePixel;
 using test::Random;
 using test::RandomCase;
 using Kind = LightWish::Kind;
-
-// A capture whose blocks are counted as they are lent.
-class CountingCapture final : public CaptureSource {
- public:
-  explicit CountingCapture(MemoryCapture capture)
-      : capture_(std::move(capture)), lent(capture_.block_count()) {}
-
-  [[nodiscard]] const CaptureFormat& format() const override { return capture_.format(); }
-  [[nodiscard]] const Timeline& timeline() const override { return capture_.timeline(); }
-  [[nodiscard]] std::uint64_t block_count() const override { return capture_.block_count(); }
-  [[nodiscard]] BlockExtent block_extent(std::uint64_t block) const override {
-    return capture_.block_extent(block);
-  }
-
- private:
-  BlockLease lend(std::uint64_t block, const LeaseTerms& terms) override {
-    ++lent[block];
-    return capture_.acquire(block, terms);
-  }
-
-  MemoryCapture capture_;
-
- public:
-  std::vector<int> lent;  // how often each block was
-};
 
 Picture exposed(CaptureSource& capture, const FunctionSet& functions, const Mask& mask) {
   PlanOptions options;
@@ -134,20 +110,24 @@ TEST(RegionLight, ComesToTheLightOfAnExposure) {
 
 TEST(RegionLight, TakesOneLookAtEachBlock) {
   const RandomCase random(7);
-  CountingCapture capture(random.encode());
+  MemoryCapture encoded = random.encode();
+  std::vector<int> lent(encoded.block_count());
+  test::WatchedCapture capture(encoded, [&](std::uint64_t block) { ++lent[block]; });
   static_cast<void>(measure_regions(capture, random.capture.transfer, random.mask, nullptr,
                                     regions_of_case(random), nullptr, all_of(capture)));
-  for (const int lent : capture.lent) EXPECT_EQ(lent, 1);
+  for (const int times : lent) EXPECT_EQ(times, 1);
 }
 
 TEST(GainSearch, ReachesConstructedWishes) {
   double worst = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     const RandomCase random(seed);
-    CountingCapture capture(random.encode());
+    MemoryCapture encoded = random.encode();
+    std::vector<int> lent(encoded.block_count());
+    test::WatchedCapture capture(encoded, [&](std::uint64_t block) { ++lent[block]; });
     const std::vector<LightRegion> regions = regions_of_case(random);
     const Picture picture = exposed(capture, random.functions, random.mask);
-    std::ranges::fill(capture.lent, 0);
+    std::ranges::fill(lent, 0);
     Constructed constructed =
         with_names(random, measure_regions(capture, random.capture.transfer, random.mask, nullptr, regions,
                                            nullptr, all_of(capture)));
@@ -165,7 +145,7 @@ TEST(GainSearch, ReachesConstructedWishes) {
     GainSearch search(constructed.wished);
     const auto found = search.find({});
     ASSERT_TRUE(found) << seed;
-    for (const int lent : capture.lent) ASSERT_EQ(lent, 1) << "no candidate takes another look";
+    for (const int times : lent) ASSERT_EQ(times, 1) << "no candidate takes another look";
 
     // By an exposure with what was found.
     FunctionSet functions = random.functions;

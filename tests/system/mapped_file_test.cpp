@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "capture/error.hpp"
+#include "support/messages.hpp"
 #include "support/scratch.hpp"
 #include "system/output_file.hpp"
 
@@ -34,13 +35,9 @@ class LostFile : public testing::Test {
 
   // Ends with the message of check_mapped_files(), status 3.
   [[noreturn]] static void end_by_check() {
-    try {
-      check_mapped_files();
-    } catch (const InputError& error) {
-      std::fputs(error.what(), stderr);
-      std::exit(3);
-    }
-    std::exit(0);
+    const std::string message = test::message_of<InputError>([] { check_mapped_files(); });
+    std::fputs(message.c_str(), stderr);
+    std::exit(message.empty() ? 0 : 3);
   }
 
   Scratch scratch_;
@@ -120,12 +117,7 @@ TEST_F(LostFile, ConcernsOnlyWhatWasMadeOfIt) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     std::fstream(path_, std::ios::in | std::ios::out).write("other", 5);
     const auto throws = [](const auto& call) {
-      try {
-        call();
-      } catch (const InputError& error) {
-        return std::string_view(error.what()).find("c.tik changed") != std::string_view::npos;
-      }
-      return false;
+      return test::message_of<InputError>(call).find("c.tik changed") != std::string::npos;
     };
     if (!throws([&] { begun.commit(); })) std::exit(1);
     for (int again = 0; again < 2; ++again) {

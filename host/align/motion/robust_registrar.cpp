@@ -21,6 +21,7 @@
 #include "align/registrar.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/median.hpp"
 
 namespace nutik::motion {
 namespace {
@@ -305,12 +306,6 @@ class RobustRegistrar final : public Registrar {
 
   [[nodiscard]] static double residual(const Sampled& sample, const Fit& fit) {
     return sample.grey - fit.gain * sample.point->grey - fit.offset;
-  }
-
-  [[nodiscard]] static double median(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
   }
 
   // How much brighter most of them are than the reference.

@@ -9,6 +9,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/source_text.hpp"
+#include "capture/text.hpp"
 #include "session/text/suggestion.hpp"
 #include "session/text/text_table.hpp"
 #include "system/is_absent.hpp"
@@ -40,7 +41,7 @@ void check_choice(std::string_view what, const std::string& value, const Option&
   // A number is another number, not a mistyped one.
   if (std::ranges::count_if(value, is_letter) < 2) return;
   std::vector<std::string> known = option.choices();
-  const std::string suggestion = did_you_mean(lower_case(value), known);  // no choice has capitals
+  const std::string suggestion = did_you_mean(in_small_letters(value), known);  // no choice has capitals
   if (suggestion.empty()) return;
   for (std::string& choice : known) choice += choice.ends_with(':') ? "…" : "";
   throw UsageError(format("{} {} is not known{} It is one of: {}", what, value, suggestion, joined(known)));

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <string>
 #include <utility>
 
-#include "app/commands/findings.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"
 #include "app/run.hpp"
@@ -31,6 +31,89 @@
 
 namespace nutik::app {
 namespace {
+
+// What a check found, mistakes and warnings, for people or for a script.
+
+using Severity = Finding::Severity;
+
+constexpr std::size_t kMaxOfAKind = 20;
+
+std::string text_of(const Finding& finding) {
+  if (finding.place) {
+    return Diagnostic{finding.severity, *finding.place, finding.message, finding.excerpt}.text(finding.file);
+  }
+  return format("{}: {}{}{}", finding.file, finding.severity == Severity::warning ? "warning: " : "",
+                finding.message, written(finding.settings, Dialect::command_line));
+}
+
+Json details_json(const std::vector<BlendedValue>& blended) {
+  Json values = Json::array();
+  for (const BlendedValue& value : blended) {
+    values.push_back(
+        {{"mask_value", value.value}, {"pixels", value.pixel_count}, {"x", value.x}, {"y", value.y}});
+  }
+  return Json{{"values", values}};
+}
+
+Json details_json(const std::vector<MaskSpeck>& specks) {
+  Json places = Json::array();
+  for (const MaskSpeck& speck : specks) {
+    places.push_back({{"x", speck.x}, {"y", speck.y}, {"pixels", speck.pixel_count}});
+  }
+  return Json{{"mask_value", specks.front().tag}, {"specks", places}};
+}
+
+Json details_json(std::uint8_t tag) { return Json{{"mask_value", tag}}; }
+Json details_json(std::monostate) { return Json::object(); }
+
+Json json_of(const Finding& finding) {
+  Json json{{"severity", finding.severity == Severity::warning ? "warning" : "error"},
+            {"kind", finding.kind},
+            {"file", finding.file},
+            {"message", finding.message + written(finding.settings, Dialect::command_line)}};
+  if (finding.place) {
+    json["line"] = finding.place->line;
+    json["column"] = finding.place->column;
+  }
+  json.update(std::visit([](const auto& details) { return details_json(details); }, finding.details));
+  return json;
+}
+
+std::size_t count_of(const std::vector<Finding>& findings, Severity severity) {
+  return static_cast<std::size_t>(std::ranges::count(findings, severity, &Finding::severity));
+}
+
+// All of them, one below the other; of each kind at most 20 in each file, then how many more there are.
+std::string findings_text(const std::vector<Finding>& findings) {
+  std::string text;
+  std::map<std::pair<std::string, std::string>, std::size_t> counts;
+  for (const Finding& finding : findings) {
+    if (++counts[{finding.file, finding.kind}] > kMaxOfAKind) continue;
+    text += (text.empty() ? "" : "\n") + text_of(finding);
+  }
+  for (const auto& [of, count] : counts) {
+    if (count <= kMaxOfAKind) continue;
+    text += format("\n{}: and {} more like these ({}); --json lists all", of.first, count - kMaxOfAKind,
+                   of.second);
+  }
+  return text;
+}
+
+Json findings_json(const std::vector<Finding>& findings) {
+  Json json = Json::array();
+  for (const Finding& finding : findings) json.push_back(json_of(finding));
+  return json;
+}
+
+// `1 mistake, 2 warnings`, `nothing wrong`.
+std::string verdict(const std::vector<Finding>& findings) {
+  const std::size_t mistakes = count_of(findings, Severity::error);
+  const std::size_t warnings = count_of(findings, Severity::warning);
+  if (mistakes == 0 && warnings == 0) return "nothing wrong";
+  if (mistakes == 0) return counted(warnings, "warning");
+  if (warnings == 0) return counted(mistakes, "mistake");
+  return counted(mistakes, "mistake") + ", " + counted(warnings, "warning");
+}
 
 // What a check looked at and what it came to, as text and as JSON.
 
@@ -117,8 +200,8 @@ Json check_json(const InputCheck& check) {
                   {"samples", figures.samples ? Json(*figures.samples) : Json()}};
     functions.push_back(std::move(function));
   }
-  return Json{{"mistakes", count_of(check.findings(), Finding::Severity::error)},
-              {"warnings", count_of(check.findings(), Finding::Severity::warning)},
+  return Json{{"mistakes", count_of(check.findings(), Severity::error)},
+              {"warnings", count_of(check.findings(), Severity::warning)},
               {"findings", findings_json(check.findings())},
               {"domain_end_ns", check.domain().duration_ns},
               {"domain_is_capture", check.domain().is_capture},
@@ -166,7 +249,7 @@ void read_capture(InputCheck& check, const std::string& name, const Options& opt
       attempt(check, name, "capture_block", [&] { static_cast<void>(blocks.at(block)); });
     }
   }
-  if (count_of(check.findings(), Finding::Severity::error) > 0) return;
+  if (count_of(check.findings(), Severity::error) > 0) return;
   const auto look = [&] {
     if (const auto moved = moved_camera(reader))
       check.add({Finding::Severity::warning, "camera_moved", name,
@@ -256,7 +339,7 @@ int run_check(const Options& options) {
   if (check.capture()) answer.tell_source(check.capture()->facts, check.capture()->notes);
   if (!options.json) print_check(check, options.quiet);
   tell(options, {}, answer, true);
-  return count_of(check.findings(), Finding::Severity::error) > 0 ? ExitStatus::input : ExitStatus::ok;
+  return count_of(check.findings(), Severity::error) > 0 ? ExitStatus::input : ExitStatus::ok;
 }
 
 }  // namespace nutik::app

@@ -10,6 +10,7 @@
 #include "capture/noise_file.hpp"
 #include "capture/picture.hpp"
 #include "capture/source_text.hpp"
+#include "capture/text.hpp"
 #include "exposure/function_check.hpp"
 #include "exposure/mask.hpp"
 #include "features/schema/option.hpp"
@@ -104,12 +105,9 @@ class RecipeFiles {
   }
 
   [[nodiscard]] std::string folders_text() const {
-    std::string text;
-    for (const fs::path& folder : folders_) {
-      text +=
-          format("{}{}", text.empty() ? "" : ", ", folder.empty() ? "the current folder" : folder.string());
-    }
-    return text;
+    return joined(folders_, ", ", [](const fs::path& folder) {
+      return folder.empty() ? "the current folder" : folder.string();
+    });
   }
 
   std::vector<fs::path> folders_;  // empty: the current one

@@ -18,7 +18,7 @@ int run_series(const Options& options) {
   const PictureNames names(output_name(options, "expose", "-" + exposure_label(options) + "-%04d.png"),
                            "a series");
   const ExposureRequest request = exposure_request(options);
-  const SeriesRequest series = series_request(options);
+  const SeriesRequest series{*options.every, options.count, options.frames};
   const std::vector<std::string> inputs = input_files(options);
   check_output(names[0], OutputKind::picture, inputs, replacing(options));  // before a clip is read
   const BoundsMaps maps(options, true, "a series");

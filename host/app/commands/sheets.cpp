@@ -119,10 +119,17 @@ std::pair<std::string, Json> varied_json(const SweepRange& range, std::uint64_t 
   return {range.parameter == SweepParameter::gain ? "gain_factor" : "stretch_factor", value.value()};
 }
 
+sheet::SheetWishes sheet_wishes(const Options& options) {
+  sheet::SheetWishes wishes;
+  wishes.columns = options.columns;
+  wishes.width = options.width;
+  return wishes;
+}
+
 }  // namespace
 
 int run_contact(const Options& options) {
-  const ContactRequest contact = contact_request(options);
+  const ContactRequest contact{options.start.value_or(StatedTime()), options.every, options.exposure};
   SheetRequest request;
   request.wishes = sheet_wishes(options);
   SheetJob job(options, RecipeOf::contact, "-contact.png");

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "capture/picture.hpp"
 #include "session/output_check.hpp"
 
 namespace nutik::app {

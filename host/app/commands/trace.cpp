@@ -63,38 +63,29 @@ std::string steps_text(const Trace& trace, const PlannedFunction& function, bool
       {"from ns", "to ns", "gain", trace.channels == 1 ? "light" : "light: red  green  blue", "adds", "sum"}};
   const bool has_marks = has_made(trace);
   if (has_marks) rows.front().emplace_back("sample");
-  const auto add_step = [&](const TraceStep& step) {
-    rows.push_back(
-        {format("{}", step.begin_ns), format("{}", step.end_ns), line_text(step.begin_gain, step.end_gain),
-         by_channel(trace,
-                    [&](std::uint32_t channel) {
-                      return line_text(step.values[channel].begin_light, step.values[channel].end_light);
-                    }),
-         by_channel(
-             trace,
-             [&](std::uint32_t channel) { return number(step.values[channel].integral_ns / support_ns); }),
-         by_channel(trace, [&](std::uint32_t channel) {
-           return number(step.values[channel].sum_ns / support_ns);
-         })});
-    if (has_marks) rows.back().emplace_back(step.is_made ? "made" : "filmed");
-  };
   // Steps [first, last) as one row.
-  const auto add_fold = [&](std::size_t first, std::size_t last) {
-    const TraceStep& begin = trace.steps[first];
-    const TraceStep& end = trace.steps[last - 1];
+  const auto add_row = [&](std::size_t first, std::size_t last, const std::string& light, const char* mark) {
+    const TraceStep &begin = trace.steps[first], &end = trace.steps[last - 1];
     std::array<double, 3> added{};
     for (std::size_t i = first; i < last; ++i) {
-      for (std::uint32_t channel = 0; channel < trace.channels; ++channel) {
+      for (std::uint32_t channel = 0; channel < trace.channels; ++channel)
         added[channel] += trace.steps[i].values[channel].integral_ns;
-      }
     }
+    const auto sum = [&](std::uint32_t channel) { return number(end.values[channel].sum_ns / support_ns); };
     rows.push_back(
-        {format("{}", begin.begin_ns), format("{}", end.end_ns), line_text(begin.begin_gain, end.end_gain),
-         format("({} steps)", last - first),
+        {format("{}", begin.begin_ns), format("{}", end.end_ns), line_text(begin.begin_gain, end.end_gain), light,
          by_channel(trace, [&](std::uint32_t channel) { return number(added[channel] / support_ns); }),
-         by_channel(trace,
-                    [&](std::uint32_t channel) { return number(end.values[channel].sum_ns / support_ns); })});
-    if (has_marks) rows.back().emplace_back();
+         by_channel(trace, sum)});
+    if (has_marks) rows.back().emplace_back(mark);
+  };
+  const auto add_steps = [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const TraceStep& step = trace.steps[i];
+      const auto light = [&](std::uint32_t channel) {
+        return line_text(step.values[channel].begin_light, step.values[channel].end_light);
+      };
+      add_row(i, i + 1, by_channel(trace, light), step.is_made ? "made" : "filmed");
+    }
   };
 
   const auto points = function.function.points();
@@ -110,11 +101,11 @@ std::string steps_text(const Trace& trace, const PlannedFunction& function, bool
     const bool is_dark = is_zero(trace.steps[first]) && is_zero(trace.steps[last - 1]);
     const std::size_t shown = is_dark ? 0 : kShownAtEnds;
     if (all || last - first <= 2 * shown + 1) {
-      for (std::size_t i = first; i < last; ++i) add_step(trace.steps[i]);
+      add_steps(first, last);
     } else {
-      for (std::size_t i = first; i < first + shown; ++i) add_step(trace.steps[i]);
-      add_fold(first + shown, last - shown);
-      for (std::size_t i = last - shown; i < last; ++i) add_step(trace.steps[i]);
+      add_steps(first, first + shown);
+      add_row(first + shown, last - shown, format("({} steps)", last - first - 2 * shown), "");
+      add_steps(last - shown, last);
     }
     first = last;
   }
@@ -253,11 +244,10 @@ Picture picture_of(const TracedExposure& exposure, const std::string& title, boo
   return stacked(pictures);
 }
 
-// What each function came to.
-std::string function_line(const TracedExposure& exposure, const Trace& trace, bool plain) {
+// What a function came to.
+std::string sums_text(const TracedExposure& exposure, const Trace& trace) {
   const GainSummary& summary = exposure.function_of(trace).summary;
-  return format("{}: light {}; {} steps, D {}, ∫g {}", function_name(exposure, trace, plain),
-                light_text({&trace, 1}), trace.steps.size(),
+  return format("{} steps, D {}, ∫g {}", trace.steps.size(),
                 integral_text(static_cast<double>(summary.support_ns)),
                 integral_text(std::scalbn(summary.integral_ns, summary.exponent)));
 }
@@ -311,13 +301,13 @@ int run_trace(const Options& options) {
     if (is_mixed) {
       print_line(
           format("{}: light {}, code {}, of {} functions", place, light_text(traces), codes, traces.size()));
-      for (const Trace& trace : traces) print_line("  " + function_line(exposure, trace, is_plain));
+      for (const Trace& trace : traces) {
+        print_line(format("  {}: light {}; {}", function_name(exposure, trace, is_plain), light_text({&trace, 1}),
+                          sums_text(exposure, trace)));
+      }
     } else {
-      const GainSummary& summary = exposure.function_of(traces[0]).summary;
-      print_line(format("{}, {}: light {}, code {}; {} steps, D {}, ∫g {}", place,
-                        function_name(exposure, traces[0], is_plain), light_text(traces), codes,
-                        traces[0].steps.size(), integral_text(static_cast<double>(summary.support_ns)),
-                        integral_text(std::scalbn(summary.integral_ns, summary.exponent))));
+      print_line(format("{}, {}: light {}, code {}; {}", place, function_name(exposure, traces[0], is_plain),
+                        light_text(traces), codes, sums_text(exposure, traces[0])));
     }
   }
   answer.tell_source(session);

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <variant>
 
-#include "app/output/timing_text.hpp"
 #include "capture/format.hpp"
 #include "capture/source_text.hpp"
 #include "exposure/function_check.hpp"
@@ -36,7 +35,64 @@ struct FunctionTexts {
   std::size_t left_out = 0;
 };
 
+enum class About { times, part, events, colour };
+
+About subject_of(const Fact& fact) {
+  switch (fact.setting) {
+    case Setting::frame_rate:
+    case Setting::shutter_angle: return About::times;
+    case Setting::from:
+    case Setting::to:
+    case Setting::crop:
+    case Setting::between:
+    case Setting::deflicker:
+    case Setting::scale: return About::part;
+    case Setting::contrast:
+    case Setting::start_picture:
+    case Setting::tick: return About::events;
+    case Setting::deinterlace: return fact.origin == Origin::assumed ? About::colour : About::part;
+    default: return About::colour;
+  }
+}
+
+// Each fact with who said it, those of one subject.
+std::string facts_text(std::span<const Fact> facts, About subject) {
+  std::string text;
+  for (const Fact& fact : facts) {
+    if (subject_of(fact) != subject) continue;
+    const std::string who = fact.origin == Origin::file     ? format(" (from {}", fact.source)
+                            : fact.origin == Origin::stated ? written(std::vector{fact.setting}, Dialect::command_line)
+                                                            : std::string(" (assumed");
+    text += format("{}{}{}", text.empty() ? "" : ", ", fact.text, who);
+    if (fact.origin != Origin::stated) text += format("{}{})", fact.remark.empty() ? "" : ": ", fact.remark);
+  }
+  return text;
+}
+
+// A line each, where there are facts: source: (times), part:, events:, colour: with the options that change what is
+// assumed.
+std::vector<std::string> fact_lines(std::span<const Fact> facts) {
+  std::vector<std::string> lines;
+  if (const std::string times = facts_text(facts, About::times); !times.empty()) lines.push_back("source: " + times);
+  if (const std::string part = facts_text(facts, About::part); !part.empty())
+    lines.push_back("part: " + part);
+  std::vector<Setting> assumed;
+  for (const Fact& fact : facts) {
+    if (fact.origin == Origin::assumed) assumed.push_back(fact.setting);
+  }
+  if (const std::string events = facts_text(facts, About::events); !events.empty())
+    lines.push_back("events: " + events);
+  if (const std::string colours = facts_text(facts, About::colour); !colours.empty()) {
+    const std::string others = written(assumed, Dialect::command_line);
+    lines.push_back(
+        format("colour: {}{}", colours, others.empty() ? "" : "; what is assumed can be stated" + others));
+  }
+  return lines;
+}
+
 }  // namespace
+
+std::string timing_text(std::span<const Fact> facts) { return facts_text(facts, About::times); }
 
 void print_json(const Json& json) {
   constexpr auto kReplace = Json::error_handler_t::replace;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+// `120 pictures a second (--fps), shutter 180 degrees (--shutter-angle)`: what times were made from.
+[[nodiscard]] std::string timing_text(std::span<const Fact> facts);
 
 struct Answer {
   Json json;

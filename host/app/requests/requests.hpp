@@ -15,16 +15,10 @@
 #include "features/recipe/picture_recipe.hpp"
 #include "features/schema/options.hpp"
 #include "features/schema/requests.hpp"
-#include "features/series/series_request.hpp"
-#include "features/sheets/sheet_request.hpp"
-#include "features/solve/solving.hpp"
-#include "features/study/study.hpp"
-#include "plot/canvas.hpp"
 #include "session/devices.hpp"
 #include "session/requests/exposure_request.hpp"
 #include "session/requests/output_request.hpp"
 #include "session/requests/source_request.hpp"
-#include "sheet/contact_sheet.hpp"
 
 namespace nutik::app {
 
@@ -42,33 +36,17 @@ namespace nutik::app {
 // For naming the picture: `FnFile`, `0.4s-10ms`.
 [[nodiscard]] std::string exposure_label(const Options& options);
 
-// Many exposures: a series, a sheet of moments, a video.
-[[nodiscard]] SeriesRequest series_request(const Options& options);
-[[nodiscard]] ContactRequest contact_request(const Options& options);
+// The many exposures of a video.
 [[nodiscard]] FramesRequest frames_request(const Options& options);
-
-// What changes along a film: functions, masks (of their first key the name alone), and when the capture is shown.
-[[nodiscard]] std::vector<FunctionKey> function_keys(const Options& options, const FramesRequest& request);
-[[nodiscard]] std::optional<std::string> first_mask_key(const Options& options);
-void read_mask_keys(FramesRequest& request, const Options& options, std::uint8_t rest);
-[[nodiscard]] std::optional<FilmCurve> film_curve(const Options& options, const FramesRequest& request);
 
 // The stated mask, on its way to the second one and with blended edges where that was asked for; of layers the tag
 // `rest` gets what they leave.
 [[nodiscard]] Mask exposure_mask(const Options& options, std::uint8_t rest);
 // The file that it is, or both and what lies between them.
 [[nodiscard]] std::string exposure_mask_name(const Options& options);
-// One mask by its name.
-[[nodiscard]] Mask unfeathered_mask(const Options& options, const std::string& name, std::uint8_t rest);
-
-// What --columns and --width ask for.
-[[nodiscard]] sheet::SheetWishes sheet_wishes(const Options& options);
 
 // What was stated of the clip and of the picture, as far as another command knows it: as words of that.
 [[nodiscard]] std::string stated_words(const Options& options, CommandId command);
-
-// What gains and times are to be found for.
-[[nodiscard]] SolveRequest solve_request(const Options& options);
 
 // What a mask is made of:
 //

@@ -6,17 +6,12 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "exposure/between.hpp"
 #include "session/text/number_text.hpp"
 
 namespace nutik {
 namespace {
-
-std::string_view without_blanks(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 FilmCurve::Point parse_point(std::string_view line, const FrameTimes& film) {
   const auto comma = line.find(',');
@@ -24,9 +19,9 @@ FilmCurve::Point parse_point(std::string_view line, const FrameTimes& film) {
     throw UsageError(
         format("'{}' is no point; write a time of the film and one of the capture: 1.5s,0.4s", line));
   }
-  const auto film_time = StatedTime::parse(without_blanks(line.substr(0, comma)), "the film's time");
+  const auto film_time = StatedTime::parse(trimmed(line.substr(0, comma)), "the film's time");
   return {film_moment_ns(film_time, "the film's time", film),
-          StatedTime::parse(without_blanks(line.substr(comma + 1)), "the capture's time")};
+          StatedTime::parse(trimmed(line.substr(comma + 1)), "the capture's time")};
 }
 
 void check_order(const std::vector<FilmCurve::Point>& points) {
@@ -135,7 +130,7 @@ FilmCurve FilmCurve::parse(std::string_view text, const std::string& title, cons
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     const std::string_view whole = text.substr(begin, end - begin);
-    const std::string_view line = without_blanks(whole.substr(0, whole.find('#')));
+    const std::string_view line = trimmed(whole.substr(0, whole.find('#')));
     begin = end + 1;
     ++number;
     if (line.empty()) continue;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "session/text/number_text.hpp"
 
 namespace nutik {
@@ -83,16 +84,11 @@ std::vector<StatedTime> starts_of(const SeriesRequest& series, const ExposureReq
 
 namespace {
 
-constexpr std::size_t kMaxDigits = 12;
-
-// Digits at the start of a text, which loses them.
-std::optional<std::uint64_t> take_number(std::string_view& text) {
-  const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
-  if (digits == 0 || digits > kMaxDigits) return std::nullopt;
-  std::uint64_t number = 0;
-  for (const char c : text.substr(0, digits)) number = number * 10 + static_cast<std::uint64_t>(c - '0');
-  text.remove_prefix(digits);
-  return number;
+// A number at the start of a text, which loses it.
+std::optional<std::uint64_t> take_frame(std::string_view& text) {
+  constexpr std::uint64_t kMost = 999'999'999'999;
+  std::uint64_t frame = 0;
+  return take_number(text, frame) && frame <= kMost ? std::optional(frame) : std::nullopt;
 }
 
 }  // namespace
@@ -111,19 +107,19 @@ FrameRanges FrameRanges::parse(std::string_view text, std::string_view what) {
     begin = end + 1;
     if (part.empty()) continue;
     std::string_view rest = part;
-    const auto first = take_number(rest);
+    const auto first = take_frame(rest);
     if (!first) fail(part);
     Range range{*first, *first, *first, 1, false};
     if (rest.starts_with('-')) {
       rest.remove_prefix(1);
-      const auto last = take_number(rest);
+      const auto last = take_frame(rest);
       if (!last) fail(part);
       range.least = std::min(*first, *last);
       range.most = std::max(*first, *last);
       if (!rest.empty()) {
         const char kind = rest.front();
         rest.remove_prefix(1);
-        const auto step = take_number(rest);
+        const auto step = take_frame(rest);
         if (!step || *step == 0 || (kind != 'x' && kind != 'y' && kind != ':')) fail(part);
         if (kind != ':') range.step = *step;
         range.leaves_out = kind == 'y';

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/source_text.hpp"
+#include "capture/text.hpp"
 #include "exposure/function_numbers.hpp"
 #include "session/text/number_text.hpp"
 
@@ -57,15 +57,13 @@ std::optional<std::uint8_t> tag_of(const std::string& word, char letter) {
 std::optional<Rectangle> rectangle_of(const std::string& word) {
   if (std::ranges::count(word, ',') != 3) return std::nullopt;
   std::array<std::uint32_t, 4> numbers{};
-  const char* at = word.data();
-  const char* const end = at + word.size();
+  std::string_view rest = word;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const auto read = std::from_chars(at, end, numbers[i]);
-    if (read.ec != std::errc() || (i < 3 ? read.ptr == end || *read.ptr != ',' : read.ptr != end)) {
+    if (!take_number(rest, numbers[i]) || !(i < 3 ? rest.starts_with(',') : rest.empty())) {
       throw UsageError(
           format("{} is no rectangle; write X,Y,WIDTH,HEIGHT in whole pixels: 500,120,80,60", word));
     }
-    at = read.ptr + 1;
+    rest.remove_prefix(std::min<std::size_t>(1, rest.size()));
   }
   if (numbers[2] == 0 || numbers[3] == 0) throw UsageError(format("the rectangle {} holds no pixel", word));
   return Rectangle{numbers[0], numbers[1], numbers[2], numbers[3]};

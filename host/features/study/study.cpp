@@ -7,6 +7,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/median.hpp"
 #include "features/masks/mask_making.hpp"
 #include "features/plate/plate.hpp"
 #include "features/study/study_trail.hpp"
@@ -358,9 +359,7 @@ class StudyPlanner {
         if (step > kResting) steps.push_back(step);
       }
     }
-    if (steps.empty()) return 0;
-    std::ranges::nth_element(steps, steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2));
-    return steps[steps.size() / 2];
+    return steps.empty() ? 0 : median(std::move(steps));
   }
 
   // Those of moments come last.

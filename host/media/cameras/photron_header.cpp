@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <system_error>
 #include <vector>
 
 #include "capture/error.hpp"
+#include "capture/text.hpp"
 #include "media/formats/extension.hpp"
 #include "system/input_bytes.hpp"
 #include "system/mapped_file.hpp"
@@ -21,13 +20,6 @@ struct Names {
   std::string_view line;
   std::array<std::string_view, 3> elements;
 };
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kSpace = " \t\r\n";
-  const auto first = text.find_first_not_of(kSpace);
-  return first == text.npos ? std::string_view()
-                            : text.substr(first, text.find_last_not_of(kSpace) + 1 - first);
-}
 
 // Behind the name at a line's start and its colon; `Total Frame` is no part of `Original Total Frame`.
 std::string_view behind_line(std::string_view text, std::string_view name) {
@@ -58,19 +50,10 @@ std::string_view value_of(std::string_view text, const Names& names) {
 }
 
 std::uint64_t number_of(std::string_view text, const Names& names) {
-  const std::string_view value = value_of(text, names);
-  std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-  constexpr std::uint64_t kMax = std::uint64_t{1} << 32;
-  return error == std::errc() && end == value.data() + value.size() && number < kMax ? number : 0;
+  return parsed<std::uint32_t>(value_of(text, names)).value_or(0);
 }
 
-std::string word_of(std::string_view text, const Names& names) {
-  std::string word(value_of(text, names));
-  std::ranges::transform(word, word.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return word;
-}
+std::string word_of(std::string_view text, const Names& names) { return in_small_letters(value_of(text, names)); }
 
 std::optional<Rational> fraction_of(std::string_view text, const Names& names) {
   const std::string_view value_text = value_of(text, names);

@@ -1,8 +1,9 @@
 #include "media/events/prophesee_events.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <string_view>
+
+#include "capture/text.hpp"
 
 namespace nutik {
 namespace {
@@ -11,30 +12,17 @@ namespace {
 constexpr std::size_t kLongestLine = 1024;
 constexpr std::uint32_t kLargestSensorSide = 1u << 14;
 
-std::string small(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return result;
-}
-
-std::string_view without_blanks(std::string_view text) {
-  while (!text.empty() && (text.back() == '\r' || text.back() == ' ')) text.remove_suffix(1);
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  return text;
-}
-
 // `EVT3;height=720;width=1280`: a name, and settings of its own.
 void add_format(PropheseeHeader& header, std::string_view text) {
   bool is_name = true;
   while (!text.empty()) {
     const auto end = std::min(text.find(';'), text.size());
-    const std::string_view part = without_blanks(text.substr(0, end));
+    const std::string_view part = trimmed(text.substr(0, end));
     const auto equals = part.find('=');
     if (is_name) {
       header.values["format"] = std::string(part);
     } else if (equals != part.npos) {
-      header.values[small(part.substr(0, equals))] = std::string(part.substr(equals + 1));
+      header.values[in_small_letters(part.substr(0, equals))] = std::string(part.substr(equals + 1));
     }
     is_name = false;
     text.remove_prefix(std::min(end + 1, text.size()));
@@ -44,11 +32,8 @@ void add_format(PropheseeHeader& header, std::string_view text) {
 }  // namespace
 
 std::uint32_t PropheseeHeader::pixels(const std::string& keyword) const {
-  const std::string& text = of(keyword);
-  std::uint32_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool is_whole = error == std::errc() && end == text.data() + text.size();
-  return is_whole && number <= kLargestSensorSide ? number : 0;
+  const std::uint32_t number = parsed<std::uint32_t>(of(keyword)).value_or(0);
+  return number <= kLargestSensorSide ? number : 0;
 }
 
 PropheseeHeader read_prophesee_header(std::span<const std::byte> file) {
@@ -57,12 +42,12 @@ PropheseeHeader read_prophesee_header(std::span<const std::byte> file) {
   while (text.substr(header.bytes, 2) == "% ") {
     const auto length = text.substr(header.bytes, kLongestLine).find('\n');
     if (length == text.npos) break;
-    const std::string_view line = without_blanks(text.substr(header.bytes + 2, length - 2));
+    const std::string_view line = trimmed(text.substr(header.bytes + 2, length - 2));
     header.bytes += length + 1;
     if (line == "end") break;
     const auto blank = std::min(line.find(' '), line.size());
-    const std::string keyword = small(line.substr(0, blank));
-    const std::string_view value = without_blanks(line.substr(blank));
+    const std::string keyword = in_small_letters(line.substr(0, blank));
+    const std::string_view value = trimmed(line.substr(blank));
     if (keyword == "format") {
       add_format(header, value);
     } else {

@@ -2,12 +2,12 @@
 #include <libexif/exif-utils.h>
 
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <memory>
 #include <string>
 
 #include "capture/rational.hpp"
+#include "capture/text.hpp"
 #include "media/formats/file_kinds.hpp"
 #include "media/stills/raw_file.hpp"
 #include "media/stills/stills.hpp"
@@ -45,9 +45,9 @@ std::optional<std::int64_t> date_ns(const std::string& text) {
   std::array<unsigned, 6> part{};
   if (text.size() < 19) return std::nullopt;
   for (std::size_t i = 0; i < part.size(); ++i) {
-    const char* const begin = text.data() + kAt[i];
-    const auto [end, error] = std::from_chars(begin, begin + kDigits[i], part[i]);
-    if (error != std::errc() || end != begin + kDigits[i]) return std::nullopt;
+    const auto number = parsed<unsigned>(std::string_view(text).substr(kAt[i], kDigits[i]));
+    if (!number) return std::nullopt;
+    part[i] = *number;
   }
   const std::chrono::year_month_day day{std::chrono::year(static_cast<int>(part[0])),
                                         std::chrono::month(part[1]), std::chrono::day(part[2])};

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <string_view>
 #include <vector>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 
 namespace nutik {
 namespace {
@@ -51,10 +51,8 @@ std::vector<std::uint64_t> axes_of(std::string_view text) {
   if (!text.starts_with('(')) return axes;
   for (text.remove_prefix(1); !text.empty() && text.front() != ')';) {
     std::uint64_t length = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), length);
-    if (error != std::errc()) return {};
+    if (!take_number(text, length)) return {};
     axes.push_back(length);
-    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
     text.remove_prefix(std::min(text.find_first_not_of(", "), text.size()));
   }
   return axes;

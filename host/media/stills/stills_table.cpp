@@ -1,6 +1,5 @@
 #include "media/stills/stills_table.hpp"
 
-#include <charconv>
 #include <fstream>
 #include <string_view>
 #include <system_error>
@@ -8,6 +7,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/rational.hpp"
+#include "capture/text.hpp"
 #include "media/formats/readers.hpp"
 #include "system/input_bytes.hpp"
 
@@ -23,11 +23,7 @@ constexpr std::string_view kColumns[] = {"file", "start_ns", "exposure_ns"};
   throw InputError(format("{}:{}: {}", table.string(), line, why), std::move(settings));
 }
 
-std::string_view trimmed_field(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
+std::string_view trimmed_field(std::string_view text) { return trimmed(text, " \t"); }
 
 // The fields of a row. Empty where a quote is not closed.
 std::optional<std::vector<std::string>> fields_of(std::string_view row) {
@@ -68,9 +64,8 @@ std::optional<std::int64_t> nanoseconds(const std::filesystem::path& table, std:
                                         std::string_view column, const std::string& field,
                                         std::int64_t least) {
   if (field.empty()) return std::nullopt;
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size() || value < least || value > kLargestTimeNs) {
+  const auto value = parsed<std::int64_t>(field);
+  if (!value || *value < least || *value > kLargestTimeNs) {
     fail(table, line,
          format("{} '{}' is no whole number of nanoseconds from {} to {}", column, field, least, kLargestTimeNs));
   }

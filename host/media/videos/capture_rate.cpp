@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "capture/error.hpp"
+#include "capture/median.hpp"
 #include "media/formats/extension.hpp"
 #include "system/mapped_file.hpp"
 
@@ -145,12 +146,6 @@ bool is_mp4(Bytes file) { return file.size() >= 8 && std::memcmp(file.data() + 4
 double mean_rate(const std::vector<std::int64_t>& starts_ns) {
   return static_cast<double>(starts_ns.size() - 1) * static_cast<double>(kSecondNs) /
          static_cast<double>(starts_ns.back() - starts_ns.front());
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // How many pictures a second times show where none is missing between them: pictures that were dropped leave gaps of

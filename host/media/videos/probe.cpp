@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "capture/median.hpp"
 #include "media/formats/coding_points.hpp"
 #include "media/videos/capture_rate.hpp"
 #include "media/videos/cine_header.hpp"
@@ -52,10 +53,7 @@ std::size_t first_senseless(const std::vector<std::int64_t>& starts_ns) {
   constexpr std::int64_t kLongestPause = 1000;  // usual periods
   std::vector<std::int64_t> periods;
   for (std::size_t k = 1; k < starts_ns.size(); ++k) periods.push_back(starts_ns[k] - starts_ns[k - 1]);
-  std::vector<std::int64_t> sorted = periods;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
-                   sorted.end());
-  const std::int64_t usual = sorted[sorted.size() / 2];
+  const std::int64_t usual = median(periods);
   for (std::size_t k = 1; k < starts_ns.size(); ++k) {
     if (periods[k - 1] <= 0 || periods[k - 1] / kLongestPause > usual) return k;
   }

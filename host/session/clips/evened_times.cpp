@@ -4,18 +4,12 @@
 #include <span>
 
 #include "capture/format.hpp"
+#include "capture/median.hpp"
 #include "session/text/number_text.hpp"
 
 namespace nutik {
 
 namespace {
-
-// The middle one of the steps, which are put into another order.
-std::int64_t median_step(std::vector<std::int64_t>& steps) {
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::ranges::nth_element(steps, middle);
-  return *middle;
-}
 
 // Players show a part of a clip slower: steps of two lengths, the longer a whole number of times the shorter, many of them
 // one after another where dropped pictures leave single ones.
@@ -52,7 +46,7 @@ std::optional<Note> evened_note(const std::vector<std::int64_t>& starts_ns) {
   std::vector<std::int64_t> steps;
   for (std::size_t k = 1; k < starts_ns.size(); ++k) steps.push_back(starts_ns[k] - starts_ns[k - 1]);
   const std::size_t count = steps.size();
-  const std::int64_t usual = median_step(steps);
+  const std::int64_t usual = median(steps);
   // Less may be what a container's clock rounds.
   std::erase_if(steps,
                 [usual](std::int64_t step) { return std::max(step - usual, usual - step) <= usual / 10; });
@@ -79,7 +73,7 @@ std::optional<Note> gap_note(const Timeline& timeline) {
   for (std::size_t k = 1; k < exposures.size(); ++k)
     steps.push_back(exposures[k].start_ns - exposures[k - 1].start_ns);
   if (auto ramp = ramp_note(steps)) return ramp;
-  const std::int64_t usual = median_step(steps);
+  const std::int64_t usual = median(steps);
   const auto gaps =
       std::ranges::count_if(steps, [usual](std::int64_t step) { return step - usual >= usual / 2; });
   if (gaps == 0) return std::nullopt;

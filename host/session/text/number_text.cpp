@@ -1,23 +1,20 @@
 #include "session/text/number_text.hpp"
 
-#include <cctype>
-#include <charconv>
 #include <cmath>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "session/text/text_table.hpp"
 
 namespace nutik {
 
 std::uint32_t parse_whole_number(std::string_view text, std::string_view what, std::uint32_t low,
                                  std::uint32_t high) {
-  std::uint32_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < low || value > high) {
+  const auto value = parsed<std::uint32_t>(text);
+  if (!value || *value < low || *value > high)
     throw UsageError(format("{} '{}' is no whole number of {} … {}", what, text, low, high));
-  }
-  return value;
+  return *value;
 }
 
 std::pair<std::uint32_t, std::uint32_t> parse_pair(std::string_view text, char between,
@@ -30,10 +27,8 @@ std::pair<std::uint32_t, std::uint32_t> parse_pair(std::string_view text, char b
 }
 
 std::optional<double> parse_number(std::string_view text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+  const auto value = parsed<double>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 double parse_number(std::string_view text, std::string_view what, double low, double high) {
@@ -45,12 +40,9 @@ double parse_number(std::string_view text, std::string_view what, double low, do
 
 std::optional<std::uint64_t> parse_bytes(std::string_view text) {
   double bytes = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), bytes);
-  if (error != std::errc()) return std::nullopt;
-  std::string unit;  // in small letters, without the B of bytes
-  for (const char c : text.substr(static_cast<std::size_t>(end - text.data()))) {
-    if (c != ' ' || !unit.empty()) unit += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
+  if (!take_number(text, bytes)) return std::nullopt;
+  // Without blanks before it and the B of bytes.
+  std::string unit = in_small_letters(text.substr(std::min(text.find_first_not_of(' '), text.size())));
   if (unit.ends_with('b')) unit.pop_back();
   const double factor = unit.ends_with('i') ? 1024 : 1000;
   if (factor == 1024) unit.pop_back();

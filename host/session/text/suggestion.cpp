@@ -1,7 +1,6 @@
 #include "session/text/suggestion.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <numeric>
 #include <vector>
 
@@ -72,11 +71,6 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> kno
     meant.push_back(*nearest);
   }
   return format("; did you mean {}?", alternatives(meant));
-}
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
 }
 
 }  // namespace nutik

@@ -11,7 +11,4 @@ namespace nutik {
 // nearest one where it is near enough, else nothing.
 [[nodiscard]] std::string did_you_mean(std::string_view word, std::span<const std::string> known);
 
-// Of letters of ASCII, for what is known in small ones.
-[[nodiscard]] std::string lower_case(std::string text);
-
 }  // namespace nutik

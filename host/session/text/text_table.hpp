@@ -6,16 +6,17 @@
 #include <string_view>
 #include <vector>
 
+#include "capture/text.hpp"
+
 namespace nutik {
 
 // How many columns of a terminal a text takes: bytes that continue a UTF-8 character take none.
 [[nodiscard]] std::size_t columns(std::string_view text);
 
-// What stands between separators: lines, words. The parts again, with something between them.
+// What stands between separators: lines, words. joined() puts it together again.
 [[nodiscard]] std::vector<std::string> parts_of(std::string_view text, char separator);
 // `a, b or c`
 [[nodiscard]] std::string alternatives(const std::vector<std::string>& parts);
-[[nodiscard]] std::string joined(const std::vector<std::string>& parts, std::string_view between = ", ");
 
 // Rows of equal length, the first the heading; a letter of `alignment` for each column: l or r. Lines
 // without blanks at their ends and without a line end behind the last.
