@@ -99,7 +99,7 @@ void CurveEditor::press_curve(QPointF at) {
   if (snap) added = with_point(points_, {snap->time_ns, gain_at(points_, snap->time_ns)});
   if (!added) added = with_point(points_, {time_ns, gain_at(points_, time_ns)});
   if (!added) {
-    message_ = "There is a point at this time already";
+    message_ = tr("There is a point at this time already");
     return update();
   }
   Press press{Press::Kind::drag, at, at, {}, nullptr};
@@ -108,7 +108,7 @@ void CurveEditor::press_curve(QPointF at) {
   press.has_moved = true;
   press_ = std::move(press);
   document_.begin_drag();
-  use(added->points, "Add point");
+  use(added->points, tr("Add point"));
   select({added->index}, added->index);
   press_->drag = drag_points(points_, {added->index}, added->index, snapper({added->index}));
 }
@@ -224,7 +224,7 @@ void CurveEditor::cancel_press() {
   press_.reset();
   dragged_.reset();
   if (press.kind == Press::Kind::drag && press.has_moved && document_.is_dragging()) {
-    document_.apply(press.before, "Move point");
+    document_.apply(press.before, tr("Move point"));
     document_.end_drag();
   }
   update();
@@ -235,14 +235,14 @@ void CurveEditor::remove_at(QPointF at) {
   if (!point) return;
   const auto left = without(points_, {*point});
   if (!left) {
-    message_ = "A function keeps one point at least";
+    message_ = tr("A function keeps one point at least");
     return update();
   }
   PointIndices chosen;
   for (const std::size_t i : selected())
     if (i != *point) chosen.push_back(i < *point ? i : i - 1);
   select({}, std::nullopt);
-  use(*left, "Remove point");
+  use(*left, tr("Remove point"));
   select(chosen, std::nullopt);
 }
 

@@ -117,7 +117,7 @@ constexpr std::pair<const char*, const char*> kElsewhere[] = {
      QT_TR_NOOP("hides outlines; magnifies round the pointer, with codes; shows snapshot A")},
     {QT_TR_NOOP("Time: wheel, Shift and wheel, F"), QT_TR_NOOP("zooms, pans, shows all")},
     {QT_TR_NOOP("Strip: Left, Right, Up, Down"),
-     QT_TR_NOOP("the interval later and earlier, longer and shorter, by a sample")},
+     QT_TR_NOOP("the interval earlier and later, longer and shorter, by a sample")},
     {QT_TR_NOOP("Strip: I, O, X, Z"),
      QT_TR_NOOP("In and Out at its ends; exposes between them; shows what lies there")},
     {QT_TR_NOOP("Curve: click, right click"), QT_TR_NOOP("adds a point, takes it away")},
@@ -125,6 +125,9 @@ constexpr std::pair<const char*, const char*> kElsewhere[] = {
      QT_TR_NOOP("the same, and types numbers; arrows move a point")},
     {QT_TR_NOOP("Shift, Ctrl while dragging"), QT_TR_NOOP("a tenth as fast; not drawn to samples")},
     {QT_TR_NOOP("Escape"), QT_TR_NOOP("takes back what is not finished, closes a message")}};
+
+// Of these tables.
+QString said(const char* words) { return QCoreApplication::translate("nutik::studio", words); }
 
 constexpr const char* kNormalizations[] = {"support", "integral", "absolute"};
 
@@ -267,7 +270,7 @@ void MainWindow::show_keys() {
     const QString keys = action->shortcut().toString(QKeySequence::NativeText);
     if (!keys.isEmpty()) add(keys, action->text().remove('&').remove(QChar(0x2026)));
   }
-  for (const auto& [keys, what] : kElsewhere) add(tr(keys), tr(what));
+  for (const auto& [keys, what] : kElsewhere) add(said(keys), said(what));
   auto* dialog = new QDialog(this);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setWindowTitle(tr("Keys and mouse"));
@@ -354,13 +357,13 @@ void MainWindow::build_view_menu() {
 void MainWindow::build_tools(QToolBar& bar) {
   tools_ = new QActionGroup(this);
   for (const ToolRow& row : kTools) {
-    QAction* action = bar.addAction(tr(row.name));
+    QAction* action = bar.addAction(said(row.name));
     action->setObjectName(row.object);
     action->setCheckable(true);
     action->setChecked(row.kind == ToolKind::look);
     action->setShortcut(row.key);
     action->setIcon(QIcon(new ToolIcon(row.kind)));
-    action->setToolTip(tr("%1 (%2): %3").arg(tr(row.name), action->shortcut().toString(), tr(row.tip)));
+    action->setToolTip(tr("%1 (%2): %3").arg(said(row.name), action->shortcut().toString(), said(row.tip)));
     tools_->addAction(action);
     connect(action, &QAction::toggled, this, [this, kind = row.kind](bool is_chosen) {
       if (is_chosen) use_tool(kind);

@@ -78,20 +78,20 @@ DocumentState state_of(const DocumentState& before, const Study& study, Mask mas
 
 std::span<const StartingPoint> starting_points() {
   static constexpr StartingPoint kAll[] = {
-      {StudyStyle::trail, QT_TRANSLATE_NOOP("Document", "&Motion study"),
-       QT_TRANSLATE_NOOP("Document", "Sharp moments over the trail of the whole way")},
-      {StudyStyle::strobe, QT_TRANSLATE_NOOP("Document", "&Strobe"),
-       QT_TRANSLATE_NOOP("Document", "Sharp moments, and nothing between them")},
-      {StudyStyle::rear_curtain, QT_TRANSLATE_NOOP("Document", "&Rear curtain"),
-       QT_TRANSLATE_NOOP("Document", "The last moment, and a trail that grows towards it")},
-      {StudyStyle::frozen, QT_TRANSLATE_NOOP("Document", "&Frozen subject"),
-       QT_TRANSLATE_NOOP("Document", "One moment in a scene that is exposed for all of the time")},
-      {StudyStyle::slit, QT_TRANSLATE_NOOP("Document", "S&lit-scan"),
-       QT_TRANSLATE_NOOP("Document", "Strips side by side, each at a moment of its own")},
-      {StudyStyle::clean, QT_TRANSLATE_NOOP("Document", "Remove &people"),
-       QT_TRANSLATE_NOOP("Document", "The empty scene, without what moves")},
-      {std::nullopt, QT_TRANSLATE_NOOP("Document", "Lon&g exposure"),
-       QT_TRANSLATE_NOOP("Document", "All of the time in one picture: silky water, trails of light")}};
+      {StudyStyle::trail, QT_TRANSLATE_NOOP("nutik::studio::Document", "&Motion study"),
+       QT_TRANSLATE_NOOP("nutik::studio::Document", "Sharp moments over the trail of the whole way")},
+      {StudyStyle::strobe, QT_TRANSLATE_NOOP("nutik::studio::Document", "&Strobe"),
+       QT_TRANSLATE_NOOP("nutik::studio::Document", "Sharp moments, and nothing between them")},
+      {StudyStyle::rear_curtain, QT_TRANSLATE_NOOP("nutik::studio::Document", "&Rear curtain"),
+       QT_TRANSLATE_NOOP("nutik::studio::Document", "The last moment, and a trail that grows towards it")},
+      {StudyStyle::frozen, QT_TRANSLATE_NOOP("nutik::studio::Document", "&Frozen subject"),
+       QT_TRANSLATE_NOOP("nutik::studio::Document", "One moment in a scene that is exposed for all of the time")},
+      {StudyStyle::slit, QT_TRANSLATE_NOOP("nutik::studio::Document", "S&lit-scan"),
+       QT_TRANSLATE_NOOP("nutik::studio::Document", "Strips side by side, each at a moment of its own")},
+      {StudyStyle::clean, QT_TRANSLATE_NOOP("nutik::studio::Document", "Remove &people"),
+       QT_TRANSLATE_NOOP("nutik::studio::Document", "The empty scene, without what moves")},
+      {std::nullopt, QT_TRANSLATE_NOOP("nutik::studio::Document", "Lon&g exposure"),
+       QT_TRANSLATE_NOOP("nutik::studio::Document", "All of the time in one picture: silky water, trails of light")}};
   return kAll;
 }
 
