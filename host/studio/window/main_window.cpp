@@ -411,9 +411,14 @@ void MainWindow::reduce_capture() {
   jobs_.start(tr("Making smaller pictures for the screen"),
               [this, session = session_, divisor](const Job& job) -> Jobs::Finish {
                 try {
-                  auto reduced = reduced_session(*session, divisor, job.progress, job.stop);
-                  return [this, session, reduced, divisor] {
-                    if (session == session_) live_.set_reduced(reduced, static_cast<int>(divisor));
+                  const auto reduced = reduced_session(*session, divisor, job.progress, job.stop);
+                  const Shape& shape = reduced->format().shape;
+                  const bool is_small = shape.width < 2 || shape.height < 2;
+                  const auto coarse = is_small ? nullptr : reduced_session(*reduced, 2, job.progress, job.stop);
+                  return [this, session, reduced, coarse, divisor = static_cast<int>(divisor)] {
+                    if (session != session_) return;
+                    live_.add_reduced(reduced, divisor);
+                    if (coarse) live_.add_reduced(coarse, 2 * divisor);
                   };
                 } catch (const MemoryTooLittle&) {
                 } catch (const OutputError&) {
