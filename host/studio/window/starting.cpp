@@ -147,7 +147,7 @@ void MainWindow::choose_film() {
              {suggested("-film.mp4"), film_options()},
              tr("Films and numbered pictures (*.mp4 *.mov *.mkv *.webm *.gif *.webp *-%05d.png)"),
              [&](const Wanted& asked, const Options& options) {
-               static_cast<void>(filming(document_, session_, asked.path, options, {}, {}));
+               static_cast<void>(filming(document_, session_, devices_, asked.path, options, {}, {}));
                question = stills_question(document_, *session_, asked.path, options);
              }});
   if (!wanted || session != session_) return;
@@ -160,7 +160,7 @@ void MainWindow::export_film(const QString& path, const Stated& options) {
   if (!session_) return;
   try_to([&] {
     writing_.start(tr("Filming %1").arg(QFileInfo(path).fileName()),
-                   filming(document_, session_, path, options_in(CommandId::video, options), told(),
+                   filming(document_, session_, devices_, path, options_in(CommandId::video, options), told(),
                            [this](int signal) { autosave_.end(signal); }));
   });
 }
