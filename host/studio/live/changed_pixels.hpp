@@ -29,7 +29,8 @@ class TagBoxes {
 // Which pixels of the picture that is shown differ, or may differ, from what was asked for last.
 class OutdatedPixels {
  public:
-  // Those of a request that are seen, of a picture with one pixel for `divisor` to a side; a single one where there are none.
+  // Those of a request that are seen, of a picture with one pixel for `divisor` to a side; a single one where there are
+  // none.
   // `is_shown`: the request before was answered, and shown.
   [[nodiscard]] QRect to_expose(const ExposureRequest& request, const QRect& seen, int divisor, bool is_shown);
   // All of them.

@@ -323,69 +323,6 @@
     </message>
 </context>
 <context>
-    <name>nutik::studio::DifferenceDialog</name>
-    <message>
-        <source>Only the &amp;largest part</source>
-        <translation>Nur das &amp;größte Stück</translation>
-    </message>
-    <message>
-        <source>Select what differs</source>
-        <translation>Abweichendes auswählen</translation>
-    </message>
-    <message>
-        <source>A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for sample 37</source>
-        <translation>Eine Zahl mit Einheit: 0.4 s, 10 ms, 250 us, 1/100 s, oder 37f für Sample 37</translation>
-    </message>
-    <message>
-        <source>as the noise is</source>
-        <translation>nach dem Rauschen</translation>
-    </message>
-    <message>
-        <source> codes</source>
-        <translation> Codes</translation>
-    </message>
-    <message>
-        <source>Smaller differences are none. 0: what the sensor&apos;s noise explains, told from the pictures</source>
-        <translation>Kleinere Unterschiede zählen nicht. 0: was das Sensorrauschen erklärt, aus den Bildern ermittelt</translation>
-    </message>
-    <message>
-        <source>Select</source>
-        <translation>Auswählen</translation>
-    </message>
-    <message>
-        <source>The selected region gets the pixels in which the capture&apos;s pictures at two moments differ.</source>
-        <translation>Die ausgewählte Region erhält die Pixel, in denen sich die Bilder der Aufnahme zu zwei Zeitpunkten unterscheiden.</translation>
-    </message>
-    <message>
-        <source>&amp;From</source>
-        <translation>&amp;Von</translation>
-    </message>
-    <message>
-        <source>&amp;To</source>
-        <translation>&amp;Bis</translation>
-    </message>
-    <message>
-        <source>&amp;More than</source>
-        <translation>&amp;Mehr als</translation>
-    </message>
-    <message>
-        <source>The one moment</source>
-        <translation>Der eine Zeitpunkt</translation>
-    </message>
-    <message>
-        <source>The other moment</source>
-        <translation>Der andere Zeitpunkt</translation>
-    </message>
-    <message>
-        <source>How many codes a difference has to exceed</source>
-        <translation>Wie viele Codes ein Unterschied übersteigen muss</translation>
-    </message>
-    <message>
-        <source>The capture has pictures from 0 s to %1: %2 is not within</source>
-        <translation>Die Aufnahme hat Bilder von 0 s bis %1: %2 liegt außerhalb</translation>
-    </message>
-</context>
-<context>
     <name>nutik::studio::Document</name>
     <message>
         <source>end of the capture</source>
@@ -689,12 +626,72 @@ Zeiten und Bilder zählen ab In.</translation>
         </translation>
     </message>
     <message>
-        <source>Its frames show what moves two or three times: File, How the clip is read can make samples between pictures.</source>
-        <translation>Seine Bilder zeigen Bewegtes zwei- oder dreifach: „Datei, Wie der Clip gelesen wird“ kann Samples zwischen den Bildern erzeugen.</translation>
-    </message>
-    <message>
         <source>(default: </source>
         <translation>(Standard: </translation>
+    </message>
+    <message>
+        <source>The selected region gets the pixels in which the capture&apos;s pictures at two moments differ.</source>
+        <translation>Die ausgewählte Region erhält die Pixel, in denen sich die Bilder der Aufnahme zu zwei Zeitpunkten unterscheiden.</translation>
+    </message>
+    <message>
+        <source>A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for the start of sample 37</source>
+        <translation>Eine Zahl mit Einheit: 0.4 s, 10 ms, 250 us, 1/100 s, oder 37f für den Anfang von Sample 37</translation>
+    </message>
+    <message>
+        <source>&amp;From</source>
+        <translation>&amp;Von</translation>
+    </message>
+    <message>
+        <source>The one moment</source>
+        <translation>Der eine Zeitpunkt</translation>
+    </message>
+    <message>
+        <source>&amp;To</source>
+        <translation>&amp;Bis</translation>
+    </message>
+    <message>
+        <source>The other moment</source>
+        <translation>Der andere Zeitpunkt</translation>
+    </message>
+    <message>
+        <source>&amp;More than</source>
+        <translation>&amp;Mehr als</translation>
+    </message>
+    <message>
+        <source>How many codes a difference has to exceed</source>
+        <translation>Wie viele Codes ein Unterschied übersteigen muss</translation>
+    </message>
+    <message>
+        <source>Smaller differences are none. 0: what the sensor&apos;s noise explains, told from the pictures</source>
+        <translation>Kleinere Unterschiede zählen nicht. 0: was das Sensorrauschen erklärt, aus den Bildern ermittelt</translation>
+    </message>
+    <message>
+        <source>as the noise is</source>
+        <translation>nach dem Rauschen</translation>
+    </message>
+    <message>
+        <source> codes</source>
+        <translation> Codes</translation>
+    </message>
+    <message>
+        <source>Only the &amp;largest part</source>
+        <translation>Nur das &amp;größte Stück</translation>
+    </message>
+    <message>
+        <source>Select</source>
+        <translation>Auswählen</translation>
+    </message>
+    <message>
+        <source>The capture has pictures from 0 s to %1: %2 is not within</source>
+        <translation>Die Aufnahme hat Bilder von 0 s bis %1: %2 liegt außerhalb</translation>
+    </message>
+    <message>
+        <source>They would show what moves two or three times: samples were made between pictures %1 … %2.</source>
+        <translation>Sie würden Bewegtes zwei- oder dreifach zeigen: Zwischen den Bildern %1 … %2 wurden Samples erzeugt.</translation>
+    </message>
+    <message>
+        <source>They show what moves two or three times: %1</source>
+        <translation>Sie zeigen Bewegtes zwei- oder dreifach: %1</translation>
     </message>
 </context>
 <context>

@@ -452,14 +452,11 @@ void MainWindow::select_motion() {
 
 void MainWindow::choose_difference() {
   if (!session_ || !has_region()) return;
-  auto* dialog = new DifferenceDialog(document_.facts()->timeline, document_.mark_in().value_or(0),
-                                      document_.boxcar().start_ns, this);
-  connect(dialog, &QDialog::accepted, this, [this, dialog, session = session_] {
-    if (session != session_) return;
-    jobs_.start(tr("Looking for what differs"),
-                selecting_difference(document_, session_, dialog->chosen(), told()));
+  const Difference first{document_.mark_in().value_or(0), document_.boxcar().start_ns, {}};
+  ask_difference(this, document_.facts()->timeline, first, [this, session = session_](const Difference& chosen) {
+    if (session == session_)
+      jobs_.start(tr("Looking for what differs"), selecting_difference(document_, session_, chosen, told()));
   });
-  dialog->open();
 }
 
 void MainWindow::use_tool(ToolKind kind) {

@@ -374,57 +374,47 @@ void MainWindow::build_tools(QToolBar& bar) {
 
 QWidget* MainWindow::build_exposure() {
   radius_ = new NumberBox;
-  radius_->setObjectName("brush_radius");
+  describe(*radius_, "brush_radius", tr("Radius of the brush, in pixels"));
   radius_->setRange(0.5, 500);
   radius_->setDecimals(1);
   radius_->setValue(tool_settings_.brush_radius);
   radius_->setPrefix(tr("Brush "));
   radius_->setSuffix(tr(" px"));
-  radius_->setAccessibleName(tr("Radius of the brush, in pixels"));
-  radius_->setToolTip(radius_->accessibleName());
   connect(radius_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
     tool_settings_.brush_radius = value;
     canvas_->update();
   });
   codes_ = new QSpinBox;
-  codes_->setObjectName("wand_codes");
+  describe(*codes_, "wand_codes",
+           tr("How many codes of 255 a pixel may differ by from the one that the wand clicked"));
   codes_->setRange(0, 255);
   codes_->setValue(tool_settings_.wand_codes);
   codes_->setPrefix(tr("Wand ± "));
-  codes_->setAccessibleName(
-      tr("How many codes of 255 a pixel may differ by from the one that the wand clicked"));
-  codes_->setToolTip(codes_->accessibleName());
   connect(codes_, &QSpinBox::valueChanged, this, [this](int value) { tool_settings_.wand_codes = value; });
   mode_ = new QComboBox;
-  mode_->setObjectName("mode");
+  describe(*mode_, "mode", tr("What is exposed: the interval everywhere, or each region's function"));
   mode_->addItems({tr("One interval for all"), tr("Each region its own")});
-  mode_->setAccessibleName(tr("What is exposed: the interval everywhere, or each region's function"));
-  mode_->setToolTip(mode_->accessibleName());
   connect(mode_, &QComboBox::activated, this, [this](int index) {
     document_.set_mode(index == 0 ? ExposureMode::boxcar : ExposureMode::functions);
   });
   normalization_ = new QComboBox;
   normalization_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  normalization_->setObjectName("normalization");
   normalization_->addItems({tr("Average while open, as a camera"), tr("Still things keep their brightness"),
                             tr("Average, whatever the gain's sign")});
-  normalization_->setAccessibleName(tr("Brightness: what the exposure is divided by"));
-  normalization_->setToolTip(
-      tr("What the exposure is divided by: the time with a gain; its integral, so that what rests keeps its "
-         "brightness; that of its magnitude"));
+  describe(*normalization_, "normalization", tr("Brightness: what the exposure is divided by"),
+           tr("What the exposure is divided by: the time with a gain; its integral, so that what rests keeps its "
+              "brightness; that of its magnitude"));
   connect(normalization_, &QComboBox::activated, this, [this](int index) {
     DocumentState state = document_.state();
     state.normalization = Normalization::parse(kNormalizations[index]);
     document_.apply(std::move(state), tr("Normalize"));
   });
   brightness_ = new NumberBox;
-  brightness_->setObjectName("brightness");
+  describe(*brightness_, "brightness", tr("Brightness, in stops"));
   brightness_->setRange(-16, 16);
   brightness_->setSingleStep(0.25);
   brightness_->setKeyboardTracking(false);  // 2.5 is one step, and not 2 first
   brightness_->setPrefix(tr("EV "));
-  brightness_->setAccessibleName(tr("Brightness, in stops"));
-  brightness_->setToolTip(brightness_->accessibleName());
   connect(brightness_, &QDoubleSpinBox::valueChanged, this, [this](double stops) {
     DocumentState state = document_.state();
     state.brightness_ev = stops;
@@ -433,12 +423,10 @@ QWidget* MainWindow::build_exposure() {
   const auto film_box = [this](QDoubleSpinBox*& box, const char* name, double least, double most,
                                const QString& tip) {
     box = new NumberBox;
-    box->setObjectName(name);
+    describe(*box, name, tip);
     box->setRange(least, most);
     box->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
     box->setKeyboardTracking(false);
-    box->setAccessibleName(tip);
-    box->setToolTip(tip);
     connect(box, &QDoubleSpinBox::valueChanged, this, [this] {
       if (!playing_.isActive()) return;
       stop_playing();
