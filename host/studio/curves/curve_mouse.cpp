@@ -265,20 +265,10 @@ void CurveEditor::leaveEvent(QEvent*) {
 }
 
 void CurveEditor::wheelEvent(QWheelEvent* event) {
-  constexpr double kPerNotch = 0.8, kNotch = 120.0, kPannedPixels = 60;
-  const QPointF at = event->position();
-  // Some systems turn the wheel sideways while Shift or Alt is down.
-  const double turned =
-      (event->angleDelta().y() != 0 ? event->angleDelta().y() : event->angleDelta().x()) / kNotch;
-  if (turned == 0) return event->ignore();
-  if (event->modifiers() & Qt::ControlModifier) {
-    if (!press_) gains_.zoom(std::pow(kPerNotch, turned), frame().gain_at(at.y()));
-    refresh_backdrop();
-  } else if (event->modifiers() & Qt::ShiftModifier || event->angleDelta().y() == 0) {
-    axis_.pan(-turned * kPannedPixels, width());
-  } else {
-    axis_.zoom(std::pow(kPerNotch, turned), at.x(), width());
-  }
+  const double turned = notches_of(*event);
+  if (turned == 0 || !(event->modifiers() & Qt::ControlModifier)) return TimeView::wheelEvent(event);
+  if (!press_) gains_.zoom(std::pow(kPerNotch, turned), frame().gain_at(event->position().y()));
+  refresh_backdrop();
   event->accept();
 }
 

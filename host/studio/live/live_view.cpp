@@ -152,13 +152,13 @@ std::optional<Shared<MaskWithRegions>> LiveView::mask_of(const DocumentState& st
   }
   if (!is_made) {
     soft_ = {*state.mask, feather, std::nullopt};
-    jobs_.start(tr("Feathering"), [this, wanted = state](const Job&) -> Jobs::Finish {
-      return [this, wanted, made = feathered_mask(wanted)] {
-        if (!soft_ || !(soft_->hard == *wanted.mask) || soft_->feather != feather_of(wanted)) return;
-        soft_->mask = made;
-        ask(!document_.is_dragging());
-      };
-    });
+    jobs_.start(
+        tr("Feathering"), [state](const Job&) { return feathered_mask(state); },
+        [this, wanted = state](const Shared<MaskWithRegions>& made) {
+          if (!soft_ || !(soft_->hard == *wanted.mask) || soft_->feather != feather_of(wanted)) return;
+          soft_->mask = made;
+          ask(!document_.is_dragging());
+        });
   }
   is_final = soft_->mask.has_value();
   return is_final ? soft_->mask : state.mask;

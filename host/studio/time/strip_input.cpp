@@ -156,18 +156,6 @@ void TimeStrip::cancel_press() {
   }
 }
 
-void TimeStrip::wheelEvent(QWheelEvent* event) {
-  constexpr double kPerNotch = 0.8, kNotch = 120.0, kPannedPixels = 60;
-  const double turned =
-      (event->angleDelta().y() != 0 ? event->angleDelta().y() : event->angleDelta().x()) / kNotch;
-  if (turned == 0) return event->ignore();
-  if (event->modifiers() & Qt::ShiftModifier || event->angleDelta().y() == 0)
-    axis_.pan(-turned * kPannedPixels, width());
-  else
-    axis_.zoom(std::pow(kPerNotch, turned), event->position().x(), width());
-  event->accept();
-}
-
 void TimeStrip::keyPressEvent(QKeyEvent* event) {
   if (event->key() == Qt::Key_Escape && press_) return cancel_press();
   if (press_ || document_.facts() == nullptr) return event->ignore();

@@ -383,19 +383,16 @@ void MainWindow::look_at_capture() {
 }
 
 void MainWindow::look_along_capture() {
-  auto overview = std::make_shared<CaptureOverview>();
-  jobs_.start(tr("Making thumbnails"), [this, session = session_, overview](const Job& job) -> Jobs::Finish {
-    *overview = thumbnails_of(*session, job);
-    return [this, overview] { document_.set_overview(*overview); };
-  });
-  jobs_.start(tr("Looking for motion"), [this, session = session_](const Job& job) -> Jobs::Finish {
-    auto shares = std::make_shared<std::vector<double>>(changed_shares_of(*session, job));
-    return [this, shares] {
-      CaptureOverview both = document_.overview();
-      both.changed_share = std::move(*shares);
-      document_.set_overview(std::move(both));
-    };
-  });
+  jobs_.start(
+      tr("Making thumbnails"), [session = session_](const Job& job) { return thumbnails_of(*session, job); },
+      [this](CaptureOverview overview) { document_.set_overview(std::move(overview)); });
+  jobs_.start(
+      tr("Looking for motion"), [session = session_](const Job& job) { return changed_shares_of(*session, job); },
+      [this](std::vector<double> shares) {
+        CaptureOverview both = document_.overview();
+        both.changed_share = std::move(shares);
+        document_.set_overview(std::move(both));
+      });
 }
 
 // What is seen while something is dragged: no more pixels than the screen has, nor than are exposed in no time; full
@@ -429,13 +426,12 @@ void MainWindow::reduce_capture() {
 
 void MainWindow::look_at_pixel() {
   if (!document_.probe() || document_.waveform() || !session_) return;
-  quick_.start(tr("Reading a pixel"),
-               [this, session = session_, pixel = *document_.probe()](const Job&) -> Jobs::Finish {
-                 auto waveform = std::make_shared<Waveform>(waveform_of(*session, pixel));
-                 return [this, waveform, session] {
-                   if (session == session_) document_.set_waveform(std::move(*waveform));
-                 };
-               });
+  quick_.start(
+      tr("Reading a pixel"),
+      [session = session_, pixel = *document_.probe()](const Job&) { return waveform_of(*session, pixel); },
+      [this, session = session_](Waveform waveform) {
+        if (session == session_) document_.set_waveform(std::move(waveform));
+      });
 }
 
 bool MainWindow::has_region() {

@@ -293,10 +293,8 @@ void MainWindow::build_start_menu() {
   }
   menu.addSeparator();
   needs_capture_ += add_action(menu, tr("Study with &choices…"), {}, [this] { choose_study(); });
-  needs_capture_ += add_action(menu, tr("&Empty scene, as a picture…"), {}, [this] {
-    ask_for_name(tr("Write the empty scene"), "-empty.png", tr("Pictures (*.png *.tif *.jpg *.exr)"),
-                 [this](const QString& path) { write_plate(path, document_.marks()); });
-  });
+  needs_capture_ +=
+      add_action(menu, tr("&Empty scene, as a picture…"), {}, [this] { save_plate(document_.marks()); });
 }
 
 void MainWindow::build_view_menu() {

@@ -94,10 +94,12 @@ void MainWindow::show_plate(const QImage& plate, const Marks& marks) {
   glance.title = tr("Without what moves. Escape: back to the picture");
   canvas_->look(std::move(glance));
   const QString note = tr("This scene is no exposure: it can be saved as a picture of its own.");
-  notice_->say(Notice::Kind::note, note, tr("Save…"), [this, marks] {
-    ask_for_name(tr("Write the empty scene"), "-empty.png", tr("Pictures (*.png *.tif *.jpg *.exr)"),
-                 [this, marks](const QString& path) { write_plate(path, marks); });
-  });
+  notice_->say(Notice::Kind::note, note, tr("Save…"), [this, marks] { save_plate(marks); });
+}
+
+void MainWindow::save_plate(const Marks& marks) {
+  ask_for_name(tr("Write the empty scene"), "-empty.png", tr("Pictures (*.png *.tif *.jpg *.exr)"),
+               [this, marks](const QString& path) { write_plate(path, marks); });
 }
 
 // ---- films ----
