@@ -61,7 +61,7 @@ if(TARGET nutik-studio)
     SUMMARY "window to draw gain functions and masks in"
     TEXT "Regions are painted on a picture of a clip, each gets a gain function of\ntime, and the picture follows while they are drawn. Projects, function files\nand masks are those that nutik-cl reads."
     DEPENDS "nutik-modules ${same}, pocl-opencl-icd | opencl-icd"
-    RECOMMENDS "nutik-cl")
+    RECOMMENDS "nutik-cl, qt6-translations-l10n")
 endif()
 nutik_package(plotters NAME nutik-plotters ANY_ARCHITECTURE SCRIPTS postinst prerm
   SUMMARY "plots of nutik's gain functions and noise files"

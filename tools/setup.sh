@@ -13,7 +13,7 @@ program_packages=(
   libexif-dev libdeflate-dev libpng-dev libjpeg-dev libtiff-dev libopenexr-dev libraw-dev liblcms2-dev
   libzstd-dev liblz4-dev libxxhash-dev libcairo2-dev fonts-dejavu-core
   libeigen3-dev nlohmann-json3-dev
-  qt6-base-dev
+  qt6-base-dev qt6-l10n-tools qt6-translations-l10n
 )
 # The scene generator and the plotter.
 script_packages=(python3 python3-numpy python3-opencv python3-matplotlib)

@@ -2,6 +2,8 @@
 #include <QApplication>
 #include <QCommandLineParser>
 #include <QIcon>
+#include <QLocale>
+#include <clocale>
 #include <string>
 
 #include "session/devices.hpp"
@@ -16,6 +18,7 @@ int main(int count, char** words) {
   nutik::use_own_fonts();
   nutik::watch_mapped_files();  // a capture that somebody cuts off must not end the window
   QApplication application(count, words);
+  std::setlocale(LC_NUMERIC, "C");  // of libraries that read and write files; Qt has set it to the person's
   QApplication::setApplicationName("nutik-studio");
   QApplication::setOrganizationName("nutik");
   QApplication::setApplicationVersion(NUTIK_VERSION);
@@ -34,6 +37,7 @@ int main(int count, char** words) {
                                "[CAPTURE.tik|CLIP|PROJECT.nutik]");
   parser.process(application);
 
+  nutik::studio::use_language(QLocale::system().uiLanguages());
   nutik::studio::set_appearance(nutik::studio::kept_appearance());
   nutik::ComputingRequest computing;
   using nutik::studio::MainWindow;

@@ -143,7 +143,7 @@ TEST_F(LiveViewTest, WhatIsSeenSmallIsExposedSmall) {
   ASSERT_TRUE(answered());
   const QRect everything(0, 0, kWidth, kHeight);
   const auto reduced = reduced_session(*session_, 2);
-  live_.set_reduced(reduced, 2);
+  live_.add_reduced(reduced, 2);
   std::vector<ShownPicture> pictures;
   QObject::connect(&live_, &LiveView::pictured,
                    [&](const ShownPicture& picture) { pictures.push_back(picture); });
@@ -182,6 +182,32 @@ TEST_F(LiveViewTest, WhatIsSeenSmallIsExposedSmall) {
   EXPECT_TRUE(full.is_full);
   EXPECT_EQ(full.divisor, 1);
   EXPECT_EQ(difference(full.image, fresh_picture()), "");
+}
+
+TEST_F(LiveViewTest, ADragThatIsNotPromptIsExposedCoarser) {
+  ASSERT_NO_FATAL_FAILURE(begin());
+  document().end_drag();
+  ASSERT_TRUE(answered());
+  for (const int divisor : {2, 4})
+    live_.add_reduced(reduced_session(*session_, static_cast<std::uint32_t>(divisor)), divisor);
+  int shown_divisor = 0;
+  QObject::connect(&live_, &LiveView::pictured, [&](const ShownPicture& picture) { shown_divisor = picture.divisor; });
+  const auto divisor_at = [&](double gain) {
+    ramp(right_, gain);
+    EXPECT_TRUE(answered());
+    return shown_divisor;
+  };
+  for (const auto& [prompt_ms, screen_pixels, second] : {std::tuple(0.0, 0.5, 4), {1e9, 0.5, 2}, {0.0, 1.0, 2}}) {
+    live_.set_prompt(prompt_ms);
+    live_.set_visible({0, 0, kWidth, kHeight}, screen_pixels);
+    document().begin_drag();
+    EXPECT_EQ(divisor_at(0.9), screen_pixels < 1 ? 2 : 1);
+    EXPECT_EQ(divisor_at(0.8), second) << prompt_ms << ", " << screen_pixels;
+    document().end_drag();
+    EXPECT_TRUE(answered());
+    EXPECT_EQ(shown_divisor, 1);
+  }
+  EXPECT_EQ(difference(shown_, fresh_picture()), "");
 }
 
 TEST(ChangedPixels, AreThoseWithOtherTags) {

@@ -8,6 +8,7 @@
 #include <QDialog>
 #include <QDir>
 #include <QLineEdit>
+#include <QLocale>
 #include <QMenu>
 #include <QMenuBar>
 #include <QPainter>
@@ -86,13 +87,14 @@ class Photographer {
     }
     // They ask in loops of their own; an interval is exported without a project.
     window_.document().set_mode(ExposureMode::boxcar);
-    for (const char* asking : {"Export picture", "Export film", "Study with"}) {
+    for (const char* asking : {"&Export picture…", "Export f&ilm…", "Study with &choices…"}) {
+      const QString name = QString(asking).remove('&').section(' ', 0, 1).toLower().replace(' ', '-').remove("…");
       for (QAction* action : window_.findChildren<QAction*>()) {
-        if (!action->text().remove('&').startsWith(asking)) continue;
+        if (action->text() != MainWindow::tr(asking)) continue;
         QTimer::singleShot(200, &window_, [&] {
           QWidget* asked = QApplication::activeModalWidget();
           is_taken = is_taken && asked != nullptr &&
-                     save(asked->grab().toImage(), QString("%1-%2").arg(asking).arg(look).toLower().replace(' ', '-'));
+                     save(asked->grab().toImage(), name + "-" + look);
           if (asked != nullptr) asked->close();
         });
         action->trigger();
@@ -178,6 +180,7 @@ int main(int count, char** words) {
     return 2;
   }
   set_appearance(Appearance::dark);
+  use_language(QLocale::system().uiLanguages());
   if (Photographer(arguments[2]).take_all(arguments[1])) return 0;
   std::fputs("nutik_studio_screenshots: a picture could not be taken; the last one may say why\n", stderr);
   return 1;

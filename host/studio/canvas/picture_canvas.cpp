@@ -167,9 +167,9 @@ void Canvas::show_picture(const ShownPicture& picture) {
 
 void Canvas::show_reduced(const ShownPicture& picture) {
   const int divisor = picture.divisor;
-  if (reduced_.isNull()) {
-    // What is left over at the right and at the bottom no square of pixels shows.
-    const QSize size(image_.width() / divisor, image_.height() / divisor);
+  // What is left over at the right and at the bottom no square of pixels shows.
+  const QSize size(image_.width() / divisor, image_.height() / divisor);
+  if (reduced_.size() != size) {
     reduced_ = image_.copy(QRect({0, 0}, size * divisor))
                    .scaled(size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
     update();

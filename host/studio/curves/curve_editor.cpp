@@ -20,7 +20,7 @@ Points points_of(const GainFunction& function) {
 
 CurveEditor::CurveEditor(Document& document, TimeAxis& axis, QWidget* parent)
     : TimeView(document, axis, parent), numbers_(new NumberEditor(this)) {
-  setAccessibleName("Gain curve");
+  setAccessibleName(tr("Gain curve"));
   setObjectName("curves");
   connect(&document_, &Document::capture_changed, this, [this] {
     cancel_press();
@@ -46,13 +46,13 @@ CurveEditor::CurveEditor(Document& document, TimeAxis& axis, QWidget* parent)
       const QString before = *current_ == 0 ? QString() : exact_time_text(points_[*current_ - 1].time_ns);
       const QString after =
           *current_ + 1 == points_.size() ? QString() : exact_time_text(points_[*current_ + 1].time_ns);
-      return numbers_->refuse(QString("Points keep their order: the time must be %1%2%3")
-                                  .arg(before.isEmpty() ? "" : "after " + before,
-                                       before.isEmpty() || after.isEmpty() ? "" : " and ",
-                                       after.isEmpty() ? "" : "before " + after));
+      return numbers_->refuse(before.isEmpty()  ? tr("Points keep their order: the time must be before %1").arg(after)
+                              : after.isEmpty() ? tr("Points keep their order: the time must be after %1").arg(before)
+                                                : tr("Points keep their order: the time must be after %1 and before %2")
+                                                      .arg(before, after));
     }
     numbers_->close_editor();
-    use(*set, "Set point");
+    use(*set, tr("Set point"));
   });
   follow_document();
 }
@@ -71,7 +71,7 @@ QString CurveEditor::function_name() const {
   const std::uint8_t tag = document_.selected_tag();
   const auto look = document_.state().looks.find(tag);
   const QString name = look == document_.state().looks.end() ? QString() : look->second.name;
-  return name.isEmpty() ? QString("M%1").arg(tag) : QString("%1 (M%2)").arg(name).arg(tag);
+  return name.isEmpty() ? QString("M%1").arg(tag) : tr("%1 (M%2)").arg(name).arg(tag);
 }
 
 void CurveEditor::follow_document() {
@@ -123,10 +123,10 @@ void CurveEditor::refresh_findings() {
 }
 
 void CurveEditor::describe() {
-  QString text = QString("%1, %2 control points").arg(function_name()).arg(points_.size());
-  if (current_) text += QString("; point %1: %2").arg(*current_ + 1).arg(point_text(points_[*current_]));
+  QString text = tr("%1, %2 control points").arg(function_name()).arg(points_.size());
+  if (current_) text += tr("; point %1: %2").arg(*current_ + 1).arg(point_text(points_[*current_]));
   if (document_.selected_points().size() > 1)
-    text += QString("; %1 selected").arg(document_.selected_points().size());
+    text += tr("; %1 selected").arg(document_.selected_points().size());
   for (const FunctionFinding& finding : findings_) text += "; " + QString::fromStdString(finding.message);
   if (text != accessibleDescription()) setAccessibleDescription(text);
 }
@@ -151,12 +151,12 @@ Snapper CurveEditor::snapper(const PointIndices& moved) const {
   const CaptureFacts* facts = document_.facts();
   Snapper made(facts == nullptr ? nullptr : &facts->timeline, document_.functions(),
                document_.selected_tag());
-  if (document_.mark_in()) made.add_time(*document_.mark_in(), "in mark");
-  if (document_.mark_out()) made.add_time(*document_.mark_out(), "out mark");
+  if (document_.mark_in()) made.add_time(*document_.mark_in(), tr("in mark"));
+  if (document_.mark_out()) made.add_time(*document_.mark_out(), tr("out mark"));
   // Whoever moves in one direction need not hold the hand still in the other.
   for (const std::size_t i : moved) {
-    made.add_time(points_[i].time_ns, "where it was");
-    made.add_gain(points_[i].gain, "as it was");
+    made.add_time(points_[i].time_ns, tr("where it was"));
+    made.add_gain(points_[i].gain, tr("as it was"));
   }
   return made;
 }
@@ -229,7 +229,7 @@ void CurveEditor::paint_header(QPainter& painter, const TimeColours& colours) co
   painter.drawEllipse(QRectF(line.left() + 1, line.center().y() - kDot / 2, kDot, kDot));
   line.setLeft(line.left() + kDot + 8);
   painter.setPen(colours.label);
-  painter.drawText(QRectF(0, 0, TimeAxis::kLeft - 7, kHeader - 2), Qt::AlignRight | Qt::AlignVCenter, "gain");
+  painter.drawText(QRectF(0, 0, TimeAxis::kLeft - 7, kHeader - 2), Qt::AlignRight | Qt::AlignVCenter, tr("gain"));
   painter.setPen(palette().color(QPalette::WindowText));
   const QString name = metrics.elidedText(function_name(), Qt::ElideRight, line.width() / 3);
   painter.drawText(line, Qt::AlignVCenter, name);
@@ -239,7 +239,7 @@ void CurveEditor::paint_header(QPainter& painter, const TimeColours& colours) co
     const QPoint pixel = document_.waveform()->pixel;
     const Series::Range light = waveform_.over(0, waveform_.values().size());
     aside =
-        QString("light of pixel %1, %2, up to %3").arg(pixel.x()).arg(pixel.y()).arg(light.high, 0, 'g', 3);
+        tr("light of pixel %1, %2, up to %3").arg(pixel.x()).arg(pixel.y()).arg(light.high, 0, 'g', 3);
   }
   if (!aside.isEmpty()) {
     const double wide = std::min(metrics.horizontalAdvance(aside), line.width() / 2);
@@ -252,10 +252,10 @@ void CurveEditor::paint_header(QPainter& painter, const TimeColours& colours) co
   bool is_warning = !message_.isEmpty();
   if (said.isEmpty() && !findings_.empty()) {
     said = QString::fromStdString(findings_.front().message);
-    if (findings_.size() > 1) said = QString("(1 of %1) ").arg(findings_.size()) + said;
+    if (findings_.size() > 1) said = tr("(1 of %1) ").arg(findings_.size()) + said;
     is_warning = true;
   }
-  if (points_.empty()) said = "This region has no function yet: press Insert for a first point";
+  if (points_.empty()) said = tr("This region has no function yet: press Insert for a first point");
   if (is_warning) {
     paint_warning(painter, {line.left() + 6, line.center().y() + 6}, colours);
     line.setLeft(line.left() + 18);

@@ -118,7 +118,7 @@ void CurveEditor::nudge(std::int64_t samples, std::int64_t ns) {
   const std::int64_t from = points_[step_anchor(points_, current_.value_or(chosen.front()))].time_ns;
   const std::int64_t by =
       samples == 0 ? ns : samples_later(from, samples, document_.facts()->timeline) - from;
-  use(moved(points_, chosen, {by, 0.0}), "Move point");
+  use(moved(points_, chosen, {by, 0.0}), tr("Move point"));
 }
 
 void CurveEditor::raise(double by) {
@@ -126,7 +126,7 @@ void CurveEditor::raise(double by) {
   if (chosen.empty()) return;
   Points points = moved(points_, chosen, {0, by});
   for (const std::size_t i : chosen) points[i].gain = tidy(points[i].gain);
-  use(points, "Change gain");
+  use(points, tr("Change gain"));
 }
 
 void CurveEditor::remove_selected() {
@@ -134,12 +134,12 @@ void CurveEditor::remove_selected() {
   if (chosen.empty()) return;
   const auto left = without(points_, chosen);
   if (!left) {
-    message_ = "A function keeps one point at least";
+    message_ = tr("A function keeps one point at least");
     return update();
   }
   const std::size_t next = std::min(chosen.front(), left->size() - 1);
   select({}, std::nullopt);
-  use(*left, chosen.size() == 1 ? QString("Remove point") : QString("Remove %1 points").arg(chosen.size()));
+  use(*left, chosen.size() == 1 ? tr("Remove point") : tr("Remove %1 points").arg(chosen.size()));
   select({next}, next);
 }
 
@@ -147,7 +147,7 @@ void CurveEditor::remove_selected() {
 void CurveEditor::insert_point() {
   std::int64_t time_ns = std::llround((axis_.begin_ns() + axis_.end_ns()) / 2);
   if (points_.empty()) {
-    use({{std::max<std::int64_t>(time_ns, 0), 1.0}}, "Add point");
+    use({{std::max<std::int64_t>(time_ns, 0), 1.0}}, tr("Add point"));
     return select({0}, std::size_t{0});
   }
   if (current_ && *current_ + 1 < points_.size()) {
@@ -156,10 +156,10 @@ void CurveEditor::insert_point() {
   }
   const auto added = with_point(points_, {time_ns, gain_at(points_, time_ns)});
   if (!added) {
-    message_ = "There is no room for a point between these two";
+    message_ = tr("There is no room for a point between these two");
     return update();
   }
-  use(added->points, "Add point");
+  use(added->points, tr("Add point"));
   select({added->index}, added->index);
 }
 
@@ -177,33 +177,33 @@ QString CurveEditor::text_at(QPointF at) const {
     return said;
   }
   if (at.x() < TimeAxis::kLeft - kReachPixels)
-    return "Gain: what the light of a moment is multiplied by. Ctrl and wheel zoom, a double click shows all "
-           "gains";
+    return tr("Gain: what the light of a moment is multiplied by. Ctrl and wheel zoom, a double click shows all "
+              "gains");
   if (const auto point = point_under(frame, points_, selected(), at)) {
-    say(QString("Point %1 of M%2: %3")
+    say(tr("Point %1 of M%2: %3")
             .arg(*point + 1)
             .arg(document_.selected_tag())
             .arg(point_text(points_[*point])));
     for (const FunctionFinding& finding : findings_)
       if (finding.point == *point) say(QString::fromStdString(finding.message));
-    say("Drag to move it, double click to type, right click to take it away");
+    say(tr("Drag to move it, double click to type, right click to take it away"));
     return said;
   }
   if (const auto hit = boxcar_under(frame, boxcars_, lane_top(), at)) {
     switch (hit->part) {
-      case BoxcarPart::whole: return "Drag to move this boxcar";
-      case BoxcarPart::begin: return "Drag to move the boxcar's begin";
-      case BoxcarPart::end: return "Drag to move the boxcar's end";
-      case BoxcarPart::gain: return "Drag to change the boxcar's gain";
+      case BoxcarPart::whole: return tr("Drag to move this boxcar");
+      case BoxcarPart::begin: return tr("Drag to move the boxcar's begin");
+      case BoxcarPart::end: return tr("Drag to move the boxcar's end");
+      case BoxcarPart::gain: return tr("Drag to change the boxcar's gain");
     }
   }
   const auto box = this->box();
   const auto part = box ? box->part_under(at) : std::nullopt;
-  if (part == BoxPart::left || part == BoxPart::right) return "Drag to stretch the selected points in time";
-  if (part == BoxPart::top || part == BoxPart::bottom) return "Drag to multiply the selected points' gains";
-  if (is_on_curve(frame, points_, at)) return "Click for a new point";
-  if (part == BoxPart::inside) return "Drag to move the selected points";
-  if (part) return "Drag to stretch the selected points in time and to multiply their gains";
+  if (part == BoxPart::left || part == BoxPart::right) return tr("Drag to stretch the selected points in time");
+  if (part == BoxPart::top || part == BoxPart::bottom) return tr("Drag to multiply the selected points' gains");
+  if (is_on_curve(frame, points_, at)) return tr("Click for a new point");
+  if (part == BoxPart::inside) return tr("Drag to move the selected points");
+  if (part) return tr("Drag to stretch the selected points in time and to multiply their gains");
   return said;
 }
 

@@ -99,7 +99,7 @@ void CurveEditor::press_curve(QPointF at) {
   if (snap) added = with_point(points_, {snap->time_ns, gain_at(points_, snap->time_ns)});
   if (!added) added = with_point(points_, {time_ns, gain_at(points_, time_ns)});
   if (!added) {
-    message_ = "There is a point at this time already";
+    message_ = tr("There is a point at this time already");
     return update();
   }
   Press press{Press::Kind::drag, at, at, {}, nullptr};
@@ -108,7 +108,7 @@ void CurveEditor::press_curve(QPointF at) {
   press.has_moved = true;
   press_ = std::move(press);
   document_.begin_drag();
-  use(added->points, "Add point");
+  use(added->points, tr("Add point"));
   select({added->index}, added->index);
   press_->drag = drag_points(points_, {added->index}, added->index, snapper({added->index}));
 }
@@ -224,7 +224,7 @@ void CurveEditor::cancel_press() {
   press_.reset();
   dragged_.reset();
   if (press.kind == Press::Kind::drag && press.has_moved && document_.is_dragging()) {
-    document_.apply(press.before, "Move point");
+    document_.apply(press.before, tr("Move point"));
     document_.end_drag();
   }
   update();
@@ -235,14 +235,14 @@ void CurveEditor::remove_at(QPointF at) {
   if (!point) return;
   const auto left = without(points_, {*point});
   if (!left) {
-    message_ = "A function keeps one point at least";
+    message_ = tr("A function keeps one point at least");
     return update();
   }
   PointIndices chosen;
   for (const std::size_t i : selected())
     if (i != *point) chosen.push_back(i < *point ? i : i - 1);
   select({}, std::nullopt);
-  use(*left, "Remove point");
+  use(*left, tr("Remove point"));
   select(chosen, std::nullopt);
 }
 
@@ -265,20 +265,10 @@ void CurveEditor::leaveEvent(QEvent*) {
 }
 
 void CurveEditor::wheelEvent(QWheelEvent* event) {
-  constexpr double kPerNotch = 0.8, kNotch = 120.0, kPannedPixels = 60;
-  const QPointF at = event->position();
-  // Some systems turn the wheel sideways while Shift or Alt is down.
-  const double turned =
-      (event->angleDelta().y() != 0 ? event->angleDelta().y() : event->angleDelta().x()) / kNotch;
-  if (turned == 0) return event->ignore();
-  if (event->modifiers() & Qt::ControlModifier) {
-    if (!press_) gains_.zoom(std::pow(kPerNotch, turned), frame().gain_at(at.y()));
-    refresh_backdrop();
-  } else if (event->modifiers() & Qt::ShiftModifier || event->angleDelta().y() == 0) {
-    axis_.pan(-turned * kPannedPixels, width());
-  } else {
-    axis_.zoom(std::pow(kPerNotch, turned), at.x(), width());
-  }
+  const double turned = notches_of(*event);
+  if (turned == 0 || !(event->modifiers() & Qt::ControlModifier)) return TimeView::wheelEvent(event);
+  if (!press_) gains_.zoom(std::pow(kPerNotch, turned), frame().gain_at(event->position().y()));
+  refresh_backdrop();
   event->accept();
 }
 

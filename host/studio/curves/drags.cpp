@@ -5,6 +5,7 @@
 
 #include "capture/format.hpp"
 #include "session/requests/moments.hpp"
+#include "studio/document/document.hpp"
 #include "studio/time/times.hpp"
 
 namespace nutik::studio {
@@ -16,10 +17,10 @@ constexpr std::size_t kMaxPoints = 10'000;
 bool is_earlier(const TimeSnap& a, const TimeSnap& b) { return a.time_ns < b.time_ns; }
 
 QString sample_text(std::int64_t time_ns, const Timeline& timeline) {
-  if (time_ns >= timeline.duration_ns()) return "end of the capture";
+  if (time_ns >= timeline.duration_ns()) return Document::tr("end of the capture");
   const std::uint64_t sample = sample_at(time_ns, timeline);
-  if (timeline.start_ns(sample) == time_ns) return QString("start of sample %1").arg(sample);
-  return QString("end of sample %1").arg(sample);
+  if (timeline.start_ns(sample) == time_ns) return Document::tr("start of sample %1").arg(sample);
+  return Document::tr("end of sample %1").arg(sample);
 }
 
 std::int64_t whole(double ns) {
@@ -72,7 +73,7 @@ class PointDrag : public Drag {
     return dragged;
   }
   QString name() const override {
-    return chosen_.size() == 1 ? QString("Move point") : QString("Move %1 points").arg(chosen_.size());
+    return chosen_.size() == 1 ? Document::tr("Move point") : Document::tr("Move %1 points").arg(chosen_.size());
   }
 
  private:
@@ -94,15 +95,15 @@ class BoxDrag : public Drag {
   }
   QString name() const override {
     switch (part_) {
-      case BoxPart::inside: return QString("Move %1 points").arg(chosen_.size());
+      case BoxPart::inside: return Document::tr("Move %1 points").arg(chosen_.size());
       case BoxPart::left:
-      case BoxPart::right: return "Stretch points in time";
+      case BoxPart::right: return Document::tr("Stretch points in time");
       case BoxPart::top:
-      case BoxPart::bottom: return "Multiply gains";
+      case BoxPart::bottom: return Document::tr("Multiply gains");
       case BoxPart::top_left:
       case BoxPart::top_right:
       case BoxPart::bottom_left:
-      case BoxPart::bottom_right: return "Stretch points in time and gain";
+      case BoxPart::bottom_right: return Document::tr("Stretch points in time and gain");
     }
     return {};
   }
@@ -126,7 +127,7 @@ class BoxDrag : public Drag {
     const std::int64_t length = dragged.points[end].time_ns - dragged.points[begin].time_ns;
     const double times =
         static_cast<double>(length) / static_cast<double>(points_[end].time_ns - points_[begin].time_ns);
-    dragged.text = QString("%1 long, × %2").arg(exact_time_text(length), short_gain(times));
+    dragged.text = Document::tr("%1 long, × %2").arg(exact_time_text(length), short_gain(times));
     return dragged;
   }
 
@@ -137,7 +138,7 @@ class BoxDrag : public Drag {
     dragged.gain_snap = snapper_.gain(to, shift.gain_reach);
     if (dragged.gain_snap) to = dragged.gain_snap->gain;
     if (to != held) dragged.points = amplified(dragged.points, chosen_, to / held);
-    const QString text = QString("gain %1, × %2").arg(short_gain(to), short_gain(to / held));
+    const QString text = Document::tr("gain %1, × %2").arg(short_gain(to), short_gain(to / held));
     dragged.text = dragged.text.isEmpty() ? text : dragged.text + "; " + text;
   }
 
@@ -158,7 +159,7 @@ class BoxcarDrag : public Drag {
       double to = higher(boxcar.gain, shift);
       dragged.gain_snap = snapper_.gain(to, shift.gain_reach);
       if (dragged.gain_snap) to = dragged.gain_snap->gain;
-      dragged.text = QString("gain %1").arg(short_gain(to));
+      dragged.text = Document::tr("gain %1").arg(short_gain(to));
       dragged.points = points_;
       for (const std::size_t i : {boxcar.first, boxcar.last}) dragged.points[i].gain = to;
       return dragged;
@@ -171,16 +172,16 @@ class BoxcarDrag : public Drag {
     const std::size_t added = dragged.points.size() - points_.size();
     const std::int64_t begin = dragged.points[boxcar.first + added].time_ns;
     const std::int64_t end = dragged.points[boxcar.last + added].time_ns;
-    dragged.text = QString("%1 to %2, %3 long")
+    dragged.text = Document::tr("%1 to %2, %3 long")
                        .arg(exact_time_text(begin), exact_time_text(end), exact_time_text(end - begin));
     return dragged;
   }
   QString name() const override {
     switch (hit_.part) {
-      case BoxcarPart::whole: return "Move boxcar";
-      case BoxcarPart::begin: return "Move boxcar's begin";
-      case BoxcarPart::end: return "Move boxcar's end";
-      case BoxcarPart::gain: return "Change boxcar's gain";
+      case BoxcarPart::whole: return Document::tr("Move boxcar");
+      case BoxcarPart::begin: return Document::tr("Move boxcar's begin");
+      case BoxcarPart::end: return Document::tr("Move boxcar's end");
+      case BoxcarPart::gain: return Document::tr("Change boxcar's gain");
     }
     return {};
   }
@@ -210,13 +211,13 @@ class BoxcarDrag : public Drag {
 }  // namespace
 
 Snapper::Snapper(const Timeline* timeline, const FunctionSet& functions, std::uint8_t moved_tag)
-    : timeline_(timeline), gains_{{0.0, "gain 0"}, {1.0, "gain 1"}} {
+    : timeline_(timeline), gains_{{0.0, Document::tr("gain 0")}, {1.0, Document::tr("gain 1")}} {
   if (timeline != nullptr) {
-    times_ = {{0, "start of the capture"}, {timeline->duration_ns(), "end of the capture"}};
+    times_ = {{0, Document::tr("start of the capture")}, {timeline->duration_ns(), Document::tr("end of the capture")}};
   }
   for (const auto& [tag, function] : functions) {
     if (tag == moved_tag) continue;
-    const QString what = QString("point of M%1").arg(tag);
+    const QString what = Document::tr("point of M%1").arg(tag);
     const auto points = function.points();
     for (const ControlPoint& point : points.first(std::min(points.size(), kMaxPoints))) {
       times_.push_back({point.time_ns, what});
@@ -270,13 +271,13 @@ std::unique_ptr<Drag> drag_boxcar(Points points, const BoxcarHit& hit, Snapper s
 }
 
 QString point_text(const ControlPoint& point) {
-  return QString("%1, gain %2").arg(exact_time_text(point.time_ns), short_gain(point.gain));
+  return Document::tr("%1, gain %2").arg(exact_time_text(point.time_ns), short_gain(point.gain));
 }
 
 QString pointer_text(const ControlPoint& at, double ns_per_pixel) {
   const auto step = std::max<std::int64_t>(1, whole(std::pow(10.0, std::floor(std::log10(ns_per_pixel)))));
   const QString gain = QString::fromStdString(format("{:.3g}", at.gain));
-  return QString("%1, gain %2").arg(exact_time_text(at.time_ns / step * step), gain);
+  return Document::tr("%1, gain %2").arg(exact_time_text(at.time_ns / step * step), gain);
 }
 
 }  // namespace nutik::studio

@@ -17,14 +17,14 @@ NumberEditor::NumberEditor(QWidget* parent)
   auto* form = new QFormLayout(this);
   form->setContentsMargins(8, 8, 8, 8);
   form->setVerticalSpacing(4);
-  form->addRow("&Time", time_);
-  form->addRow("&Gain", gain_);
+  form->addRow(tr("&Time"), time_);
+  form->addRow(tr("&Gain"), gain_);
   form->addRow(mistake_);
-  time_->setAccessibleName("Time of the point");
+  time_->setAccessibleName(tr("Time of the point"));
   time_->setToolTip(
-      "A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for the start of sample 37");
-  gain_->setAccessibleName("Gain of the point");
-  gain_->setToolTip("Any number, also below 0: what the light of this moment is multiplied by");
+      tr("A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for the start of sample 37"));
+  gain_->setAccessibleName(tr("Gain of the point"));
+  gain_->setToolTip(tr("Any number, also below 0: what the light of this moment is multiplied by"));
   mistake_->setWordWrap(true);
   for (QLineEdit* line : {time_, gain_}) {
     line->setMinimumWidth(170);
@@ -83,7 +83,7 @@ void NumberEditor::keyPressEvent(QKeyEvent* event) {
 void NumberEditor::enter() {
   ControlPoint typed = point_;
   if (time_->isModified()) {
-    if (timeline_ == nullptr) return refuse("Open a capture first");
+    if (timeline_ == nullptr) return refuse(tr("Open a capture first"));
     const auto time = read_typed_time(time_->text(), "time", *timeline_);
     if (!time.value) {
       time_->setFocus();

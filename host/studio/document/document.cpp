@@ -166,16 +166,14 @@ void Document::set_solo(std::optional<std::uint8_t> tag) {
   Q_EMIT selection_changed();
 }
 
-void Document::set_mark_in(std::optional<std::int64_t> time_ns) {
-  marks_.in_ns = time_ns ? std::optional(std::clamp<std::int64_t>(*time_ns, 0, duration_ns())) : std::nullopt;
-  if (marks_.in_ns && marks_.out_ns && *marks_.out_ns <= *marks_.in_ns) marks_.out_ns.reset();
-  Q_EMIT marks_changed();
-}
+void Document::set_mark_in(std::optional<std::int64_t> time_ns) { set_mark(marks_.in_ns, marks_.out_ns, time_ns); }
+void Document::set_mark_out(std::optional<std::int64_t> time_ns) { set_mark(marks_.out_ns, marks_.in_ns, time_ns); }
 
-void Document::set_mark_out(std::optional<std::int64_t> time_ns) {
-  marks_.out_ns =
-      time_ns ? std::optional(std::clamp<std::int64_t>(*time_ns, 0, duration_ns())) : std::nullopt;
-  if (marks_.in_ns && marks_.out_ns && *marks_.out_ns <= *marks_.in_ns) marks_.in_ns.reset();
+void Document::set_mark(std::optional<std::int64_t>& mark, std::optional<std::int64_t>& other,
+                        std::optional<std::int64_t> time_ns) {
+  mark = time_ns;
+  if (mark) mark = std::clamp<std::int64_t>(*mark, 0, duration_ns());
+  if (marks_.in_ns && marks_.out_ns && *marks_.out_ns <= *marks_.in_ns) other.reset();
   Q_EMIT marks_changed();
 }
 

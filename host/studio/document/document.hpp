@@ -200,6 +200,8 @@ class Document : public QObject {
  private:
   friend class StateStep;
   void take(const DocumentState& state);
+  void set_mark(std::optional<std::int64_t>& mark, std::optional<std::int64_t>& other,
+                std::optional<std::int64_t> time_ns);
   void keep_selection_within();
   void complete(DocumentState& state) const;
 

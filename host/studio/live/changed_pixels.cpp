@@ -66,8 +66,8 @@ QRect TagBoxes::of(const SharedMask& mask, std::uint8_t tag, const QRect& everyt
   return boxes_[tag];
 }
 
-QRect OutdatedPixels::since_last(const ExposureRequest& request, const QRect& seen, bool is_reduced) {
-  if (!last_ || last_->seen != seen || last_->is_reduced != is_reduced) return seen;
+QRect OutdatedPixels::since_last(const ExposureRequest& request, const QRect& seen, int divisor) {
+  if (!last_ || last_->seen != seen || last_->divisor != divisor) return seen;
   if (request.is_plain() || last_->request.is_plain()) return seen;
   ExposureRequest same = last_->request;
   same.mask = request.mask;
@@ -79,12 +79,11 @@ QRect OutdatedPixels::since_last(const ExposureRequest& request, const QRect& se
   return changed;
 }
 
-QRect OutdatedPixels::to_expose(const ExposureRequest& request, const QRect& seen, bool is_reduced,
-                                bool is_shown) {
-  const QRect changed = since_last(request, seen, is_reduced);
+QRect OutdatedPixels::to_expose(const ExposureRequest& request, const QRect& seen, int divisor, bool is_shown) {
+  const QRect changed = since_last(request, seen, divisor);
   // Only the last of several waiting requests is answered.
   outdated_ = is_shown ? changed : outdated_ | changed;
-  last_ = Last{request, seen, is_reduced};
+  last_ = Last{request, seen, divisor};
   const QRect asked = outdated_ & seen;
   // An answer is waited for, whatever it shows.
   return asked.isEmpty() ? QRect(seen.topLeft(), QSize(1, 1)) : asked;

@@ -29,10 +29,10 @@ class TagBoxes {
 // Which pixels of the picture that is shown differ, or may differ, from what was asked for last.
 class OutdatedPixels {
  public:
-  // Those of a request that are seen, of a picture that is reduced or not; a single one where there are none.
+  // Those of a request that are seen, of a picture with one pixel for `divisor` to a side; a single one where there are
+  // none.
   // `is_shown`: the request before was answered, and shown.
-  [[nodiscard]] QRect to_expose(const ExposureRequest& request, const QRect& seen, bool is_reduced,
-                                bool is_shown);
+  [[nodiscard]] QRect to_expose(const ExposureRequest& request, const QRect& seen, int divisor, bool is_shown);
   // All of them.
   void forget() { last_.reset(); }
 
@@ -40,9 +40,9 @@ class OutdatedPixels {
   struct Last {
     ExposureRequest request;
     QRect seen;
-    bool is_reduced;
+    int divisor;
   };
-  [[nodiscard]] QRect since_last(const ExposureRequest& request, const QRect& seen, bool is_reduced);
+  [[nodiscard]] QRect since_last(const ExposureRequest& request, const QRect& seen, int divisor);
 
   std::optional<Last> last_;
   QRect outdated_;

@@ -9,6 +9,7 @@
 #include <condition_variable>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <stop_token>
 #include <string>
@@ -35,6 +36,13 @@ class Jobs : public QObject {
   ~Jobs() override;  // cancels
 
   void start(const QString& what, Work work);
+  // `finish` gets what `work` returns.
+  template <typename Making, typename Using>
+  void start(const QString& what, Making work, Using finish) {
+    start(what, [work, finish](const Job& job) -> Finish {
+      return [finish, made = std::make_shared<decltype(work(job))>(work(job))] { finish(std::move(*made)); };
+    });
+  }
   // The one that runs and those that wait. What the one that runs would have returned is dropped.
   void cancel();
   [[nodiscard]] bool is_busy() const { return open_ > 0; }

@@ -58,7 +58,10 @@ LivePart ReducedCapture::part(ExposureRequest exposure, const QRect& pixels) {
 LiveView::LiveView(Document& document, Jobs& jobs, QObject* parent)
     : QObject(parent), document_(document), jobs_(jobs) {
   connect(&document_, &Document::changed, this, [this] { ask(!document_.is_dragging()); });
-  connect(&document_, &Document::released, this, [this] { ask(true); });
+  connect(&document_, &Document::released, this, [this] {
+    least_divisor_ = 1;
+    ask(true);
+  });
   connect(&document_, &Document::played_changed, this, [this] { ask(!document_.is_dragging()); });
 }
 
@@ -66,7 +69,7 @@ LiveView::~LiveView() = default;
 
 void LiveView::show(std::shared_ptr<Session> session) {
   pictures_.reset();
-  if (session != session_) reduced_.reset();
+  if (session != session_) reduced_.clear();
   session_ = std::move(session);
   soft_.reset();
   outdated_.forget();
@@ -87,8 +90,18 @@ void LiveView::set_visible(QRect pixels, double screen_pixels) {
   screen_pixels_ = screen_pixels;
 }
 
-void LiveView::set_reduced(std::shared_ptr<Session> session, int divisor) {
-  reduced_.emplace(std::move(session), divisor);
+void LiveView::add_reduced(std::shared_ptr<Session> session, int divisor) {
+  reduced_.emplace_back(std::move(session), divisor);
+}
+
+ReducedCapture* LiveView::reduced_for(const ExposureRequest& exposure) {
+  ReducedCapture* chosen = nullptr;
+  for (ReducedCapture& each : reduced_) {
+    if (!each.can_show(exposure, least_divisor_ > 1 ? screen_pixels_ / 2 : screen_pixels_)) break;
+    chosen = &each;
+    if (each.divisor() >= least_divisor_) break;
+  }
+  return chosen;
 }
 
 bool LiveView::is_busy() const {
@@ -108,12 +121,13 @@ void LiveView::ask(bool with_full) {
   // While a drag lasts edges may be hard: fewer pixels suffice then.
   ExposureRequest hard = exposure;
   hard.mask = state.mask;
-  if (reduced_ && !with_full && exposure.mask && reduced_->can_show(hard, screen_pixels_)) exposure = std::move(hard);
+  if (!with_full && exposure.mask && reduced_for(hard) != nullptr) exposure = std::move(hard);
   const Shape& shape = session_->format().shape;
-  const bool is_reduced = reduced_ && reduced_->can_show(exposure, screen_pixels_);
-  const QRect outdated = outdated_.to_expose(exposure, seen(), is_reduced, last_shown_ == last_asked_);
-  LivePart preview = is_reduced
-                         ? reduced_->part(exposure, outdated)
+  ReducedCapture* const reduced = reduced_for(exposure);
+  const int divisor = reduced != nullptr ? reduced->divisor() : 1;
+  const QRect outdated = outdated_.to_expose(exposure, seen(), divisor, last_shown_ == last_asked_);
+  LivePart preview = reduced != nullptr
+                         ? reduced->part(exposure, outdated)
                          : LivePart{session_.get(), exposure, screen_format(), rectangle_of(outdated, shape)};
   std::optional<LivePart> full;
   if (with_full && is_final)
@@ -122,7 +136,7 @@ void LiveView::ask(bool with_full) {
   full_shown_ = false;
   const std::scoped_lock lock(mutex_);
   last_asked_ = pictures_->ask({std::move(preview), std::move(full)});
-  requests_[last_asked_] = {Clock::now(), is_reduced ? reduced_->divisor() : 1};
+  requests_[last_asked_] = {Clock::now(), divisor};
 }
 
 QRect LiveView::seen() const { return rectangle_of(rectangle_of(visible_, session_->format().shape)); }
@@ -138,13 +152,13 @@ std::optional<Shared<MaskWithRegions>> LiveView::mask_of(const DocumentState& st
   }
   if (!is_made) {
     soft_ = {*state.mask, feather, std::nullopt};
-    jobs_.start(tr("Feathering"), [this, wanted = state](const Job&) -> Jobs::Finish {
-      return [this, wanted, made = feathered_mask(wanted)] {
-        if (!soft_ || !(soft_->hard == *wanted.mask) || soft_->feather != feather_of(wanted)) return;
-        soft_->mask = made;
-        ask(!document_.is_dragging());
-      };
-    });
+    jobs_.start(
+        tr("Feathering"), [state](const Job&) { return feathered_mask(state); },
+        [this, wanted = state](const Shared<MaskWithRegions>& made) {
+          if (!soft_ || !(soft_->hard == *wanted.mask) || soft_->feather != feather_of(wanted)) return;
+          soft_->mask = made;
+          ask(!document_.is_dragging());
+        });
   }
   is_final = soft_->mask.has_value();
   return is_final ? soft_->mask : state.mask;
@@ -202,6 +216,8 @@ void LiveView::take() {
   last_shown_ = found->request;
   const ShownPicture& picture = found->picture;
   found->picture.is_of_all_seen = !found->is_preview || (picture.divisor == 1 && picture.place == seen());
+  if (found->is_preview && document_.is_dragging() && picture.milliseconds > prompt_ms_)
+    least_divisor_ = 2 * picture.divisor;
   if (found->request == last_asked_ && (!found->is_preview || !found->error.isEmpty())) full_shown_ = true;
   if (found->error.isEmpty()) {
     Q_EMIT pictured(found->picture);

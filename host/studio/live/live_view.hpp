@@ -67,9 +67,11 @@ class LiveView : public QObject {
   void show(std::shared_ptr<Session> session);
   // `screen_pixels`: how many of them a pixel of the capture has to a side.
   void set_visible(QRect pixels, double screen_pixels);
-  // The same capture with fewer pixels, for previews that show no more of them.
-  void set_reduced(std::shared_ptr<Session> session, int divisor);
-  [[nodiscard]] bool has_reduced() const { return reduced_.has_value(); }
+  // The same capture with fewer pixels, for previews that show no more of them; the finest first. While a drag lasts
+  // whose previews were not there in so many milliseconds, a screen may have up to four of its pixels for one of them.
+  void add_reduced(std::shared_ptr<Session> session, int divisor);
+  [[nodiscard]] bool has_reduced() const { return !reduced_.empty(); }
+  void set_prompt(double milliseconds) { prompt_ms_ = milliseconds; }
   // Whether a picture is on its way that nothing has delivered yet: for tests and for who wants to write it.
   [[nodiscard]] bool is_busy() const;
   // The document's mask as pictures are exposed with it; none while it is being feathered.
@@ -88,6 +90,7 @@ class LiveView : public QObject {
   using Clock = std::chrono::steady_clock;
 
   void ask(bool with_full);
+  [[nodiscard]] ReducedCapture* reduced_for(const ExposureRequest& exposure);  // null: the capture itself
   [[nodiscard]] QRect seen() const;
   [[nodiscard]] std::optional<Shared<MaskWithRegions>> mask_of(const DocumentState& state, bool& is_final);
   void deliver(LiveAnswer answer);
@@ -96,7 +99,8 @@ class LiveView : public QObject {
   Document& document_;
   Jobs& jobs_;
   QRect visible_;
-  double screen_pixels_ = 1;
+  double screen_pixels_ = 1, prompt_ms_ = 40;
+  int least_divisor_ = 1;  // of this drag's previews
   std::optional<Soft> soft_;
   OutdatedPixels outdated_;
   std::uint64_t last_asked_ = 0, last_shown_ = 0;
@@ -118,7 +122,7 @@ class LiveView : public QObject {
   std::optional<Delivered> delivered_;
 
   std::shared_ptr<Session> session_;
-  std::optional<ReducedCapture> reduced_;
+  std::vector<ReducedCapture> reduced_;
   std::unique_ptr<LivePictures> pictures_;  // last: it delivers into what is above
 };
 

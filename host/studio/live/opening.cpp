@@ -26,18 +26,22 @@ std::uint64_t left_in(const std::filesystem::path& folder) {
   return error ? std::numeric_limits<std::uint64_t>::max() : space.available;
 }
 
-// The first picture, of a session that reads no further.
-QImage first_picture(const SourceRequest& source, const std::shared_ptr<Devices>& devices,
-                     std::optional<Precision> precision, const Job& job) {
-  Session forward(source, devices, {.reading = Reading::forward, .progress = {}, .stop = job.stop});
+QImage image_at(Session& session, std::uint64_t sample, std::optional<Precision> precision, const Job& job) {
   ExposureRequest exposure;
-  exposure.start = StatedTime::of_pictures(0);
+  exposure.start = StatedTime::of_pictures(static_cast<std::int64_t>(sample));
   exposure.gains = PlainInterval{StatedTime::of_pictures(1), Shutter()};
   RenderControl control;
   control.stop = job.stop;
   control.precision = precision;
   control.is_chosen = true;
-  return image_of(forward.render(exposure, screen_format(), control).picture);
+  return image_of(session.render(exposure, screen_format(), control).picture);
+}
+
+// The first picture, of a session that reads no further.
+QImage first_picture(const SourceRequest& source, const std::shared_ptr<Devices>& devices,
+                     std::optional<Precision> precision, const Job& job) {
+  Session forward(source, devices, {.reading = Reading::forward, .progress = {}, .stop = job.stop});
+  return image_at(forward, 0, precision, job);
 }
 
 }  // namespace
@@ -120,12 +124,7 @@ CaptureOverview thumbnails_of(Session& session, const Job& job) {
   for (std::uint64_t k = 0; k < count; ++k) {
     job.progress(k, count);
     const std::uint64_t sample = (2 * k + 1) * timeline.sample_count() / (2 * count);
-    ExposureRequest exposure;
-    exposure.start = StatedTime::of_pictures(static_cast<std::int64_t>(sample));
-    exposure.gains = PlainInterval{StatedTime::of_pictures(1), Shutter()};
-    RenderControl control;
-    control.stop = job.stop;
-    const QImage image = image_of(session.render(exposure, screen_format(), control).picture);
+    const QImage image = image_at(session, sample, {}, job);
     overview.thumbnails.push_back(
         {timeline.start_ns(sample), image.scaledToHeight(kThumbnailHeight, Qt::SmoothTransformation)});
   }

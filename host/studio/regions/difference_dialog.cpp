@@ -1,6 +1,7 @@
 #include "studio/regions/difference_dialog.hpp"
 
 #include <QCheckBox>
+#include <QDialog>
 #include <QDialogButtonBox>
 #include <QFormLayout>
 #include <QLabel>
@@ -13,6 +14,7 @@
 #include "features/masks/mask_making.hpp"
 #include "studio/live/opening.hpp"
 #include "studio/regions/region_edits.hpp"
+#include "studio/regions/region_list.hpp"
 #include "studio/time/times.hpp"
 
 namespace nutik::studio {
@@ -72,83 +74,74 @@ Jobs::Work selecting_difference(Document& document, std::shared_ptr<Session> ses
                    std::move(told));
 }
 
-DifferenceDialog::DifferenceDialog(const Timeline& timeline, std::int64_t from_ns, std::int64_t to_ns,
-                                   QWidget* parent)
-    : QDialog(parent),
-      timeline_(timeline),
-      from_(new QLineEdit(exact_time_text(from_ns), this)),
-      to_(new QLineEdit(exact_time_text(to_ns), this)),
-      codes_(new QSpinBox(this)),
-      largest_(new QCheckBox(tr("Only the &largest part"), this)),
-      mistake_(new QLabel(this)) {
-  setWindowTitle(tr("Select what differs"));
-  setAttribute(Qt::WA_DeleteOnClose);
-  const QString times = tr("A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for sample 37");
-  for (QLineEdit* field : {from_, to_}) field->setToolTip(times);
-  from_->setObjectName("difference_from");
-  to_->setObjectName("difference_to");
-  codes_->setObjectName("difference_codes");
-  codes_->setRange(0, 65534);
-  codes_->setSpecialValueText(tr("as the noise is"));
-  codes_->setSuffix(tr(" codes"));
-  codes_->setToolTip(
-      tr("Smaller differences are none. 0: what the sensor's noise explains, told from the pictures"));
-  largest_->setObjectName("difference_largest");
-  mistake_->setObjectName("difference_mistake");
-  mistake_->hide();
-  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
-  buttons->setObjectName("difference_buttons");
-  buttons->button(QDialogButtonBox::Ok)->setText(tr("Select"));
-  connect(buttons, &QDialogButtonBox::accepted, this, &DifferenceDialog::accept);
-  connect(buttons, &QDialogButtonBox::rejected, this, &DifferenceDialog::reject);
+void ask_difference(QWidget* parent, const Timeline& timeline, const Difference& first,
+                    std::function<void(const Difference&)> use) {
+  auto* dialog = new QDialog(parent);
+  dialog->setWindowTitle(Document::tr("Select what differs"));
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
   auto* told = new QLabel(
-      tr("The selected region gets the pixels in which the capture's pictures at two moments differ."), this);
+      Document::tr("The selected region gets the pixels in which the capture's pictures at two moments differ."));
+  auto* form = new QFormLayout(dialog);
+  form->addRow(told);
+  const auto add = [&](const QString& label, auto* field, const char* object, const QString& name, const QString& tip) {
+    describe(*field, object, name, tip);
+    form->addRow(label, field);
+    return field;
+  };
+  const QString times =
+      Document::tr("A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for the start of sample 37");
+  auto* from = add(Document::tr("&From"), new QLineEdit(exact_time_text(first.from_ns)), "difference_from",
+                   Document::tr("The one moment"), times);
+  auto* to = add(Document::tr("&To"), new QLineEdit(exact_time_text(first.to_ns)), "difference_to",
+                 Document::tr("The other moment"), times);
+  auto* codes = add(
+      Document::tr("&More than"), new QSpinBox, "difference_codes",
+      Document::tr("How many codes a difference has to exceed"),
+      Document::tr("Smaller differences are none. 0: what the sensor's noise explains, told from the pictures"));
+  codes->setRange(0, 65534);
+  codes->setSpecialValueText(Document::tr("as the noise is"));
+  codes->setSuffix(Document::tr(" codes"));
+  auto* largest = new QCheckBox(Document::tr("Only the &largest part"));
+  largest->setObjectName("difference_largest");
+  auto* mistake = new QLabel;
+  mistake->setObjectName("difference_mistake");
   // Labels that wrap know their height by their width alone.
   constexpr int kTextPixels = 380;
-  for (QLabel* text : {told, mistake_}) {
+  for (QLabel* text : {told, mistake}) {
     text->setWordWrap(true);
     text->setFixedWidth(kTextPixels);
   }
-  auto* form = new QFormLayout(this);
-  form->addRow(told);
-  form->addRow(tr("&From"), from_);
-  form->addRow(tr("&To"), to_);
-  form->addRow(tr("&More than"), codes_);
-  form->addRow(largest_);
-  form->addRow(mistake_);
-  form->addRow(buttons);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel);
+  buttons->setObjectName("difference_buttons");
+  buttons->button(QDialogButtonBox::Ok)->setText(Document::tr("Select"));
+  for (QWidget* row : std::initializer_list<QWidget*>{largest, mistake, buttons}) form->addRow(row);
+  mistake->hide();
   form->setSizeConstraint(QLayout::SetFixedSize);
-  for (const auto& [widget, name] : {std::pair<QWidget*, QString>{from_, tr("The one moment")},
-                                     {to_, tr("The other moment")},
-                                     {codes_, tr("How many codes a difference has to exceed")}}) {
-    widget->setAccessibleName(name);
-    widget->setAccessibleDescription(widget->toolTip());
-  }
-  from_->selectAll();
-}
-
-std::optional<std::int64_t> DifferenceDialog::read(QLineEdit& field, const QString& what) {
-  const auto typed = read_typed_time(field.text(), what, timeline_);
-  const std::int64_t last_ns = timeline_.duration_ns() - 1;
-  if (typed.value && *typed.value >= 0 && *typed.value <= last_ns) return typed.value;
-  mistake_->setText(typed.value ? tr("The capture has pictures from 0 s to %1: %2 is not within")
-                                      .arg(exact_time_text(last_ns), exact_time_text(*typed.value))
-                                : typed.mistake);
-  mistake_->show();
-  field.setAccessibleDescription(mistake_->text());
-  field.setFocus();
-  field.selectAll();
-  return std::nullopt;
-}
-
-void DifferenceDialog::accept() {
-  const auto from_ns = read(*from_, "from");
-  if (!from_ns) return;
-  const auto to_ns = read(*to_, "to");
-  if (!to_ns) return;
-  chosen_ = {*from_ns, *to_ns, std::nullopt, largest_->isChecked()};
-  if (codes_->value() > 0) chosen_.by_codes = static_cast<std::uint32_t>(codes_->value());
-  QDialog::accept();
+  from->selectAll();
+  const auto read = [mistake, timeline](QLineEdit& field, const QString& what) -> std::optional<std::int64_t> {
+    const auto typed = read_typed_time(field.text(), what, timeline);
+    const std::int64_t last_ns = timeline.duration_ns() - 1;
+    if (typed.value && *typed.value >= 0 && *typed.value <= last_ns) return typed.value;
+    mistake->setText(typed.value ? Document::tr("The capture has pictures from 0 s to %1: %2 is not within")
+                                       .arg(exact_time_text(last_ns), exact_time_text(*typed.value))
+                                 : typed.mistake);
+    mistake->show();
+    field.setAccessibleDescription(mistake->text());
+    field.setFocus();
+    field.selectAll();
+    return std::nullopt;
+  };
+  QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
+  QObject::connect(buttons, &QDialogButtonBox::accepted, dialog, [=, use = std::move(use)] {
+    const auto from_ns = read(*from, "from");
+    if (!from_ns) return;
+    const auto to_ns = read(*to, "to");
+    if (!to_ns) return;
+    const auto least = static_cast<std::uint32_t>(codes->value());
+    dialog->accept();
+    use({*from_ns, *to_ns, least > 0 ? std::optional(least) : std::nullopt, largest->isChecked()});
+  });
+  dialog->open();
 }
 
 }  // namespace nutik::studio

@@ -1,12 +1,6 @@
-// Asks which two moments a region is to be told from.
-//
-//   in:      a capture's timeline, and times to begin with
-//   out:     accepted(), and then what was chosen
-//   always:  what cannot be read is explained in the dialog, which stays open
+// Pixels that are found in the capture, for the selected region: as jobs, since they read it.
 #pragma once
 
-#include <QDialog>
-#include <QString>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -17,14 +11,9 @@
 #include "studio/document/document.hpp"
 #include "studio/live/jobs.hpp"
 
-class QCheckBox;
-class QLabel;
-class QLineEdit;
-class QSpinBox;
+class QWidget;
 
 namespace nutik::studio {
-
-// Pixels that are found in the capture, for the selected region: as jobs, since they read it.
 
 // Between the capture's pictures at two times.
 struct Difference {
@@ -39,26 +28,8 @@ struct Difference {
 [[nodiscard]] Jobs::Work selecting_difference(Document& document, std::shared_ptr<Session> session,
                                               const Difference& difference, Told told);
 
-class DifferenceDialog : public QDialog {
-  Q_OBJECT
-
- public:
-  DifferenceDialog(const Timeline& timeline, std::int64_t from_ns, std::int64_t to_ns, QWidget* parent);
-
-  [[nodiscard]] const Difference& chosen() const { return chosen_; }
-
- public Q_SLOTS:
-  void accept() override;
-
- private:
-  [[nodiscard]] std::optional<std::int64_t> read(QLineEdit& field, const QString& what);
-
-  Timeline timeline_;
-  Difference chosen_;
-  QLineEdit *from_, *to_;
-  QSpinBox* codes_;
-  QCheckBox* largest_;
-  QLabel* mistake_;
-};
+// Asks which two moments these are. What cannot be read is explained in the dialog, which stays open.
+void ask_difference(QWidget* parent, const Timeline& timeline, const Difference& first,
+                    std::function<void(const Difference&)> use);
 
 }  // namespace nutik::studio

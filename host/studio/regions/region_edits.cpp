@@ -77,7 +77,7 @@ void move_region(Document& document, std::uint8_t tag, Move move) {
   Covering covering(document);
   if (!covering.move_up(*place)) return;
   document.apply(std::move(covering).state(),
-                 Document::tr(move == Move::up ? "Move region up" : "Move region down"));
+                 move == Move::up ? Document::tr("Move region up") : Document::tr("Move region down"));
 }
 
 void set_look(Document& document, std::uint8_t tag, const RegionLook& look, const QString& what) {

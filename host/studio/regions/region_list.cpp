@@ -62,18 +62,24 @@ QString stops_text(double stops) {
   return std::abs(stops) < 0.05 ? QStringLiteral("0.0") : QString::asprintf("%+.1f", stops);
 }
 
-QDoubleSpinBox* pixel_box(double most, double value, const QString& name, QWidget* parent) {
+QDoubleSpinBox* pixel_box(const char* object, double most, double value, const QString& name, QWidget* parent) {
   auto* box = new NumberBox(parent);
   box->setRange(0, most);
   box->setDecimals(1);
   box->setSuffix(QStringLiteral(" px"));
   box->setValue(value);
-  box->setAccessibleName(name);
-  box->setToolTip(name);
+  describe(*box, object, name);
   return box;
 }
 
 }  // namespace
+
+void describe(QWidget& widget, const char* object, const QString& name, const QString& tip) {
+  widget.setObjectName(object);
+  widget.setAccessibleName(name);
+  widget.setAccessibleDescription(tip);
+  widget.setToolTip(tip.isEmpty() ? name : tip);
+}
 
 RegionList::RegionList(Document& document, QWidget* parent)
     : QWidget(parent), document_(document), list_(new QTreeWidget(this)) {
@@ -116,46 +122,46 @@ RegionList::RegionList(Document& document, QWidget* parent)
 }
 
 void RegionList::build_buttons() {
-  const auto button = [&](const char* name, const QString& text, const QString& tip) {
+  const auto button = [&](const char* object, const QString& text, const QString& tip, auto run) {
     auto* made = new QPushButton(text, this);
-    made->setObjectName(name);
-    made->setToolTip(tip);
-    made->setAccessibleDescription(tip);
+    describe(*made, object, {}, tip);
+    connect(made, &QPushButton::clicked, this, run);
     return made;
   };
-  add_ = button("add_region", tr("Add"), tr("A new region, exposed over the interval; paint it with a tool"));
-  remove_ = button("remove_region", tr("Remove"), tr("Its pixels fall to the background"));
-  colour_ = button("region_colour", tr("Colour…"), tr("Of the region's outline and curve"));
-  up_ = button("region_up", tr("Up"), tr("Before the region above it, which it then covers"));
-  down_ = button("region_down", tr("Down"), tr("Behind the region below it, which then covers it"));
+  add_ = button("add_region", tr("Add"), tr("A new region, exposed over the interval; paint it with a tool"),
+                [this] { add_region(document_); });
+  remove_ = button("remove_region", tr("Remove"), tr("Its pixels fall to the background"),
+                   [this] { remove_region(document_, document_.selected_tag()); });
+  colour_ = button("region_colour", tr("Colour…"), tr("Of the region's outline and curve"),
+                   [this] { choose_colour(); });
+  up_ = button("region_up", tr("Up"), tr("Before the region above it, which it then covers"),
+               [this] { move_region(document_, document_.selected_tag(), Move::up); });
+  down_ = button("region_down", tr("Down"), tr("Behind the region below it, which then covers it"),
+                 [this] { move_region(document_, document_.selected_tag(), Move::down); });
   over_interval_ = button("over_interval", tr("Interval"),
-                          tr("The interval of the time strip becomes the region's function"));
-  grow_ = button("grow", tr("Grow"), tr("By so many pixels"));
-  shrink_ = button("shrink", tr("Shrink"), tr("By so many pixels"));
-  smooth_ = button("smooth", tr("Smooth"), tr("Without parts and holes narrower than twice that"));
-  radius_ = pixel_box(kMaxRadius, 2, tr("Pixels to grow, shrink or smooth by"), this);
-  radius_->setObjectName("radius");
-  feather_ = pixel_box(kMaxFeather, 0, tr("Feather: how far all edges are blended, to either side"), this);
-  feather_->setObjectName("feather");
-  own_feather_ = pixel_box(kMaxFeather, 0, tr("Feather of the selected region's own edges"), this);
-  own_feather_->setObjectName("own_feather");
+                          tr("The interval of the time strip becomes the region's function"),
+                          [this] { expose_over_boxcar(document_, document_.selected_tag()); });
+  grow_ = button("grow", tr("Grow"), tr("By so many pixels"),
+                 [this] { grow_region(document_, document_.selected_tag(), radius_->value()); });
+  shrink_ = button("shrink", tr("Shrink"), tr("By so many pixels"),
+                   [this] { grow_region(document_, document_.selected_tag(), -radius_->value()); });
+  smooth_ = button("smooth", tr("Smooth"), tr("Without parts and holes narrower than twice that"),
+                   [this] { smooth_region(document_, document_.selected_tag(), radius_->value()); });
+  radius_ = pixel_box("radius", kMaxRadius, 2, tr("Pixels to grow, shrink or smooth by"), this);
+  feather_ = pixel_box("feather", kMaxFeather, 0, tr("Feather: how far all edges are blended, to either side"), this);
+  own_feather_ = pixel_box("own_feather", kMaxFeather, 0, tr("Feather of the selected region's own edges"), this);
   own_feather_->setRange(-kAsAll, kMaxFeather);
   own_feather_->setSingleStep(kAsAll);
   own_feather_->setSpecialValueText(tr("as all edges"));
   for (QDoubleSpinBox* box : {feather_, own_feather_}) box->setKeyboardTracking(false);
 
-  auto* first = new QGridLayout;
-  first->addWidget(add_, 0, 0);
-  first->addWidget(remove_, 0, 1);
-  first->addWidget(colour_, 0, 2);
-  first->addWidget(up_, 1, 0);
-  first->addWidget(down_, 1, 1);
-  first->addWidget(over_interval_, 1, 2);
-  auto* second = new QGridLayout;
-  second->addWidget(grow_, 0, 0);
-  second->addWidget(shrink_, 0, 1);
-  second->addWidget(smooth_, 0, 2);
-  for (QGridLayout* grid : {first, second}) grid->setSpacing(4);
+  auto* buttons = new QGridLayout;
+  buttons->setSpacing(4);
+  int place = 0;
+  for (QPushButton* each : {add_, remove_, colour_, up_, down_, over_interval_, grow_, shrink_, smooth_}) {
+    buttons->addWidget(each, place / 3, place % 3);
+    ++place;
+  }
   auto* numbers = new QFormLayout;
   numbers->addRow(tr("Grow by"), radius_);
   numbers->addRow(tr("Feather edges"), feather_);
@@ -165,26 +171,9 @@ void RegionList::build_buttons() {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(list_, 1);
-  column->addLayout(first);
-  column->addLayout(second);
+  column->addLayout(buttons);
   column->addLayout(numbers);
 
-  connect(add_, &QPushButton::clicked, this, [this] { add_region(document_); });
-  connect(remove_, &QPushButton::clicked, this,
-          [this] { remove_region(document_, document_.selected_tag()); });
-  connect(up_, &QPushButton::clicked, this,
-          [this] { move_region(document_, document_.selected_tag(), Move::up); });
-  connect(down_, &QPushButton::clicked, this,
-          [this] { move_region(document_, document_.selected_tag(), Move::down); });
-  connect(colour_, &QPushButton::clicked, this, &RegionList::choose_colour);
-  connect(over_interval_, &QPushButton::clicked, this,
-          [this] { expose_over_boxcar(document_, document_.selected_tag()); });
-  connect(grow_, &QPushButton::clicked, this,
-          [this] { grow_region(document_, document_.selected_tag(), radius_->value()); });
-  connect(shrink_, &QPushButton::clicked, this,
-          [this] { grow_region(document_, document_.selected_tag(), -radius_->value()); });
-  connect(smooth_, &QPushButton::clicked, this,
-          [this] { smooth_region(document_, document_.selected_tag(), radius_->value()); });
   connect(feather_, &QDoubleSpinBox::valueChanged, this, [this](double pixels) {
     if (!is_following_) set_feather(document_, qRound(pixels * 100));
   });

@@ -24,6 +24,9 @@ class NumberBox : public QDoubleSpinBox {
   }
 };
 
+// For tests, for screen readers, and for whoever points at it; the name is the tip where there is no other.
+void describe(QWidget& widget, const char* object, const QString& name, const QString& tip = {});
+
 class RegionList : public QWidget {
   Q_OBJECT
 

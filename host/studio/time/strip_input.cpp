@@ -53,7 +53,7 @@ std::int64_t TimeStrip::held(std::int64_t time_ns, Qt::KeyboardModifiers modifie
                                          : nearest_sample_edge(time_ns, document_.facts()->timeline);
 }
 
-void TimeStrip::use(const Boxcar& boxcar) { document_.set_boxcar(boxcar, "Scrub"); }
+void TimeStrip::use(const Boxcar& boxcar) { document_.set_boxcar(boxcar, tr("Scrub")); }
 
 void TimeStrip::mousePressEvent(QMouseEvent* event) {
   setFocus(Qt::MouseFocusReason);
@@ -147,25 +147,13 @@ void TimeStrip::cancel_press() {
   const Press press = std::move(*press_);
   press_.reset();
   if (press.edits && document_.is_dragging()) {
-    document_.apply(press.before, "Scrub");
+    document_.apply(press.before, tr("Scrub"));
     document_.end_drag();
   }
   if (press.part == Part::mark_in || press.part == Part::mark_out) {
     document_.set_mark_in(press.mark_in);
     document_.set_mark_out(press.mark_out);
   }
-}
-
-void TimeStrip::wheelEvent(QWheelEvent* event) {
-  constexpr double kPerNotch = 0.8, kNotch = 120.0, kPannedPixels = 60;
-  const double turned =
-      (event->angleDelta().y() != 0 ? event->angleDelta().y() : event->angleDelta().x()) / kNotch;
-  if (turned == 0) return event->ignore();
-  if (event->modifiers() & Qt::ShiftModifier || event->angleDelta().y() == 0)
-    axis_.pan(-turned * kPannedPixels, width());
-  else
-    axis_.zoom(std::pow(kPerNotch, turned), event->position().x(), width());
-  event->accept();
 }
 
 void TimeStrip::keyPressEvent(QKeyEvent* event) {
@@ -215,7 +203,7 @@ bool TimeStrip::look_by_key(const QKeyEvent& event) {
     case Qt::Key_X:
       if (document_.mark_in() && document_.mark_out())
         document_.set_boxcar({*document_.mark_in(), *document_.mark_out() - *document_.mark_in()},
-                             "Expose from mark to mark");
+                             tr("Expose from mark to mark"));
       return true;
     case Qt::Key_Z: {
       const double begin = static_cast<double>(document_.mark_in().value_or(boxcar.start_ns));
@@ -235,23 +223,21 @@ QString TimeStrip::text_at(QPointF at) const {
   const Timeline& timeline = document_.facts()->timeline;
   switch (part_at(at)) {
     case Part::mark_in:
-      return "In: " + exact_time_text(*document_.mark_in()) +
-             "\nDrag to move it, right click to take it away";
+      return tr("In: %1\nDrag to move it, right click to take it away").arg(exact_time_text(*document_.mark_in()));
     case Part::mark_out:
-      return "Out: " + exact_time_text(*document_.mark_out()) +
-             "\nDrag to move it, right click to take it away";
-    case Part::begin: return "Drag to move the interval's begin";
-    case Part::end: return "Drag to move the interval's end";
+      return tr("Out: %1\nDrag to move it, right click to take it away").arg(exact_time_text(*document_.mark_out()));
+    case Part::begin: return tr("Drag to move the interval's begin");
+    case Part::end: return tr("Drag to move the interval's end");
     case Part::whole: {
-      if (boxcar_area().contains(at)) return "Exposed: " + interval_text(document_.boxcar(), timeline);
+      if (boxcar_area().contains(at)) return tr("Exposed: %1").arg(interval_text(document_.boxcar(), timeline));
       const std::int64_t time_ns = axis_.to_time(at.x(), width());
-      if (time_ns < 0 || time_ns >= timeline.duration_ns()) return "Outside the capture";
+      if (time_ns < 0 || time_ns >= timeline.duration_ns()) return tr("Outside the capture");
       const std::uint64_t sample = sample_at(time_ns, timeline);
       QString text =
-          QString("Sample %1, from %2").arg(sample).arg(exact_time_text(timeline.start_ns(sample)));
+          tr("Sample %1, from %2").arg(sample).arg(exact_time_text(timeline.start_ns(sample)));
       if (!activity_.empty())
-        text += QString("\n%1 % of the pixels change").arg(100 * activity_.values()[sample], 0, 'g', 3);
-      return text + "\nClick to expose here";
+        text += tr("\n%1 % of the pixels change").arg(100 * activity_.values()[sample], 0, 'g', 3);
+      return text + tr("\nClick to expose here");
     }
     case Part::pan:
     case Part::none: return {};

@@ -30,17 +30,17 @@ TimeFields::TimeFields(Document& document, QWidget* parent)
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(8, 2, TimeAxis::kRight, 2);
   row->setSpacing(6);
-  const QString times = "A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for ";
-  start_ = add_field("S&tart", "Where the exposed interval begins. " + times + "the start of sample 37",
+  const QString time =
+      tr("A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for the start of sample 37");
+  const QString length = tr("A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for 37 samples");
+  start_ = add_field("start", tr("S&tart"), tr("Where the exposed interval begins. %1").arg(time),
                      &TimeFields::enter_start);
-  length_ = add_field("&Width", "How long the exposed interval is. " + times + "37 samples",
+  length_ = add_field("width", tr("&Width"), tr("How long the exposed interval is. %1").arg(length),
                       &TimeFields::enter_length);
-  in_ = add_field("&In", "Where work begins, or nothing. " + times + "the start of sample 37",
-                  &TimeFields::enter_in);
-  out_ = add_field("&Out", "Where work ends, or nothing. " + times + "the start of sample 37",
-                   &TimeFields::enter_out);
+  in_ = add_field("in", tr("&In"), tr("Where work begins, or nothing. %1").arg(time), &TimeFields::enter_in);
+  out_ = add_field("out", tr("&Out"), tr("Where work ends, or nothing. %1").arg(time), &TimeFields::enter_out);
   said_->setObjectName("said");
-  said_->setAccessibleName("Exposed samples");
+  said_->setAccessibleName(tr("Exposed samples"));
   said_->setTextFormat(Qt::PlainText);
   said_->setMinimumWidth(0);
   said_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
@@ -59,14 +59,15 @@ void TimeFields::changeEvent(QEvent* event) {
 
 void TimeFields::resizeEvent(QResizeEvent*) { show_values(); }
 
-QLineEdit* TimeFields::add_field(const QString& name, const QString& help, void (TimeFields::*enter)()) {
+QLineEdit* TimeFields::add_field(const char* object, const QString& name, const QString& help,
+                                 void (TimeFields::*enter)()) {
   auto* label = new QLabel(name, this);
   auto* field = new QLineEdit(this);
   label->setBuddy(field);
   field->setToolTip(help);
   field->setAccessibleName(QString(name).remove('&'));
   field->setAccessibleDescription(help);
-  field->setObjectName(QString(name).remove('&').toLower());
+  field->setObjectName(object);
   field->setFixedWidth(field->fontMetrics().horizontalAdvance("888.888888 ms") + 18);
   layout()->addWidget(label);
   layout()->addWidget(field);
@@ -118,9 +119,9 @@ void TimeFields::enter_start() {
   const std::int64_t last_ns = document_.duration_ns() - document_.boxcar().length_ns;
   if (*typed.value < 0 || *typed.value > last_ns)
     return refuse(*start_,
-                  QString("An interval of this width lies within the capture if it starts between 0 s and %1")
+                  tr("An interval of this width lies within the capture if it starts between 0 s and %1")
                       .arg(exact_time_text(last_ns)));
-  document_.set_boxcar({*typed.value, document_.boxcar().length_ns}, "Set start");
+  document_.set_boxcar({*typed.value, document_.boxcar().length_ns}, tr("Set start"));
   accept(*start_);
 }
 
@@ -129,9 +130,9 @@ void TimeFields::enter_length() {
   const auto typed = read_typed_length(length_->text(), "width", document_.facts()->timeline);
   if (!typed.value) return refuse(*length_, typed.mistake);
   if (*typed.value > document_.duration_ns())
-    return refuse(*length_, QString("The capture lasts %1: the width can be no more")
+    return refuse(*length_, tr("The capture lasts %1: the width can be no more")
                                 .arg(exact_time_text(document_.duration_ns())));
-  document_.set_boxcar({document_.boxcar().start_ns, *typed.value}, "Set width");
+  document_.set_boxcar({document_.boxcar().start_ns, *typed.value}, tr("Set width"));
   accept(*length_);
 }
 
@@ -148,7 +149,7 @@ void TimeFields::enter_mark(QLineEdit& field, const QString& what,
   const auto typed = read_typed_time(field.text(), what, document_.facts()->timeline);
   if (!typed.value) return refuse(field, typed.mistake);
   if (*typed.value < 0 || *typed.value > document_.duration_ns())
-    return refuse(field, QString("Marks lie within the capture, between 0 s and %1")
+    return refuse(field, tr("Marks lie within the capture, between 0 s and %1")
                              .arg(exact_time_text(document_.duration_ns())));
   (document_.*set)(*typed.value);
   accept(field);

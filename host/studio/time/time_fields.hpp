@@ -25,7 +25,7 @@ class TimeFields : public QWidget {
   void resizeEvent(QResizeEvent* event) override;
 
  private:
-  QLineEdit* add_field(const QString& name, const QString& help, void (TimeFields::*enter)());
+  QLineEdit* add_field(const char* object, const QString& name, const QString& help, void (TimeFields::*enter)());
   void show_values();
   void enter_start();
   void enter_length();

@@ -23,14 +23,14 @@ QString interval_text(const Boxcar& boxcar, const Timeline& timeline) {
   const std::int64_t end_ns = boxcar.start_ns + boxcar.length_ns;
   const std::uint64_t first = sample_at(boxcar.start_ns, timeline), last = sample_at(end_ns - 1, timeline);
   const QString samples =
-      first == last ? QString("sample %1").arg(first) : QString("samples %1 to %2").arg(first).arg(last);
-  return QString("%1 to %2, %3").arg(exact_time_text(boxcar.start_ns), exact_time_text(end_ns), samples);
+      first == last ? TimeStrip::tr("sample %1").arg(first) : TimeStrip::tr("samples %1 to %2").arg(first).arg(last);
+  return TimeStrip::tr("%1 to %2, %3").arg(exact_time_text(boxcar.start_ns), exact_time_text(end_ns), samples);
 }
 
 TimeStrip::TimeStrip(Document& document, TimeAxis& axis, QWidget* parent)
     : TimeView(document, axis, parent) {
   setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
-  setAccessibleName("Time");
+  setAccessibleName(tr("Time"));
   setObjectName("time");
   connect(&document_, &Document::capture_changed, this, [this] {
     cancel_press();
@@ -63,7 +63,7 @@ QPointF TimeStrip::mark_place(std::int64_t time_ns) const {
 
 void TimeStrip::follow_document() {
   if (const CaptureFacts* facts = document_.facts())
-    setAccessibleDescription("Exposed interval: " + interval_text(document_.boxcar(), facts->timeline));
+    setAccessibleDescription(tr("Exposed interval: %1").arg(interval_text(document_.boxcar(), facts->timeline)));
   update();
 }
 
@@ -128,7 +128,7 @@ void TimeStrip::paint_backdrop(QPainter& painter, const TimeColours& colours) {
     painter.drawText(QRectF(0, top, TimeAxis::kLeft - 7, bottom - top), Qt::AlignRight | Qt::AlignVCenter,
                      metrics.elidedText(name, Qt::ElideRight, TimeAxis::kLeft - 8));
   };
-  if (!activity_.empty()) name_row(split, track.bottom(), "change");
+  if (!activity_.empty()) name_row(split, track.bottom(), tr("change"));
 }
 
 void TimeStrip::paint_thumbnails(QPainter& painter, const QRectF& row) const {

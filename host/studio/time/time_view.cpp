@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "session/requests/moments.hpp"
+
 namespace nutik::studio {
 
 QColor mixed(const QColor& a, const QColor& b, double share) {
@@ -46,6 +48,59 @@ TimeColours TimeColours::of(const QPalette& palette) {
   colours.tip = is_dark ? mixed(base, text, 0.16) : mixed(base, text, 0.9);
   colours.tip_text = is_dark ? text : base;
   return colours;
+}
+
+Series::Series(std::vector<double> values) : values_(std::move(values)) {
+  for (std::size_t first = 0; first < values_.size(); first += kTogether) {
+    Range range{values_[first], values_[first]};
+    for (std::size_t i = first; i < std::min(first + kTogether, values_.size()); ++i)
+      range = {std::min(range.low, values_[i]), std::max(range.high, values_[i])};
+    coarse_.push_back(range);
+  }
+}
+
+Series::Range Series::over(std::size_t first, std::size_t last) const {
+  Range range{values_[first], values_[first]};
+  const auto add = [&range](const Range& more) {
+    range = {std::min(range.low, more.low), std::max(range.high, more.high)};
+  };
+  while (first < last) {
+    if (first % kTogether == 0 && first + kTogether <= last) {
+      add(coarse_[first / kTogether]);
+      first += kTogether;
+    } else {
+      add({values_[first], values_[first]});
+      ++first;
+    }
+  }
+  return range;
+}
+
+std::vector<SeriesColumn> columns_of(const Series& series, const Timeline& timeline, const TimeAxis& axis,
+                                     int width) {
+  std::vector<SeriesColumn> columns;
+  if (series.values().size() != timeline.sample_count()) return columns;
+  for (int x = TimeAxis::kLeft; x < width - TimeAxis::kRight; ++x) {
+    const std::int64_t begin = axis.to_time(x, width);
+    const std::int64_t end = std::max(axis.to_time(x + 1, width), begin + 1);
+    if (end <= 0 || begin >= timeline.duration_ns()) continue;
+    // A sample's value is drawn from its start to the next one's.
+    const std::uint64_t first = sample_at(begin, timeline), last = sample_at(end - 1, timeline);
+    columns.push_back({x, series.over(first, last + 1)});
+  }
+  return columns;
+}
+
+QPolygonF area_of(const std::vector<SeriesColumn>& columns, const QRectF& box, double most) {
+  QPolygonF area;
+  if (columns.empty() || most <= 0) return area;
+  area << QPointF(columns.front().x, box.bottom());
+  for (const SeriesColumn& column : columns) {
+    const double y = box.bottom() - box.height() * std::clamp(column.range.high / most, 0.0, 1.0);
+    area << QPointF(column.x, y) << QPointF(column.x + 1, y);
+  }
+  area << QPointF(columns.back().x + 1, box.bottom());
+  return area;
 }
 
 TimeView::TimeView(Document& document, TimeAxis& axis, QWidget* parent)
@@ -114,6 +169,22 @@ void TimeView::resizeEvent(QResizeEvent*) { refresh_backdrop(); }
 void TimeView::keyReleaseEvent(QKeyEvent* event) {
   if (!event->isAutoRepeat()) end_key_edit();
   QWidget::keyReleaseEvent(event);
+}
+
+double TimeView::notches_of(const QWheelEvent& event) {
+  constexpr double kNotch = 120.0;
+  return (event.angleDelta().y() != 0 ? event.angleDelta().y() : event.angleDelta().x()) / kNotch;
+}
+
+void TimeView::wheelEvent(QWheelEvent* event) {
+  constexpr double kPannedPixels = 60;
+  const double turned = notches_of(*event);
+  if (turned == 0) return event->ignore();
+  if (event->modifiers() & Qt::ShiftModifier || event->angleDelta().y() == 0)
+    axis_.pan(-turned * kPannedPixels, width());
+  else
+    axis_.zoom(std::pow(kPerNotch, turned), event->position().x(), width());
+  event->accept();
 }
 
 void TimeView::focusOutEvent(QFocusEvent* event) {

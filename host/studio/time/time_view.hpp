@@ -6,10 +6,13 @@
 #include <QKeyEvent>
 #include <QPalette>
 #include <QPixmap>
+#include <QPolygonF>
+#include <QWheelEvent>
 #include <QWidget>
+#include <span>
+#include <vector>
 
 #include "studio/document/document.hpp"
-#include "studio/time/sample_series.hpp"
 #include "studio/time/time_axis.hpp"
 
 namespace nutik::studio {
@@ -36,6 +39,40 @@ struct TimeColours {
   static TimeColours of(const QPalette& palette);
 };
 
+// A number for each sample, seen from far: the least and the most of many samples at once, however many there are.
+class Series {
+ public:
+  struct Range {
+    double low = 0.0, high = 0.0;
+  };
+
+  Series() = default;
+  explicit Series(std::vector<double> values);
+
+  [[nodiscard]] std::span<const double> values() const { return values_; }
+  [[nodiscard]] bool empty() const { return values_.empty(); }
+  // The range of values [first, last), at least one.
+  [[nodiscard]] Range over(std::size_t first, std::size_t last) const;
+
+ private:
+  static constexpr std::size_t kTogether = 256;
+
+  std::vector<double> values_;
+  std::vector<Range> coarse_;  // of kTogether values each
+};
+
+// For each pixel column of a widget what the series has there: from its highest value to its lowest. Columns without
+// a sample are left out.
+struct SeriesColumn {
+  int x = 0;
+  Series::Range range;
+};
+[[nodiscard]] std::vector<SeriesColumn> columns_of(const Series& series, const Timeline& timeline,
+                                                   const TimeAxis& axis, int width);
+
+// The series as an area from the bottom of `box`, whose top is `most`.
+[[nodiscard]] QPolygonF area_of(const std::vector<SeriesColumn>& columns, const QRectF& box, double most);
+
 class TimeView : public QWidget {
  public:
   // What is said of what lies at a place, as a tooltip; empty on empty ground.
@@ -51,6 +88,9 @@ class TimeView : public QWidget {
   void refresh_backdrop();
   void draw_backdrop(QPainter& painter, const TimeColours& colours);
 
+  // Some systems turn the wheel sideways while Shift or Alt is down.
+  [[nodiscard]] static double notches_of(const QWheelEvent& event);
+
   // As long as a key is held it makes one step of undo, and the full picture follows when it is let go.
   void begin_key_edit(const QKeyEvent& event);
   void end_key_edit();
@@ -60,6 +100,9 @@ class TimeView : public QWidget {
   void resizeEvent(QResizeEvent* event) override;
   void keyReleaseEvent(QKeyEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+
+  static constexpr double kPerNotch = 0.8;  // of what is seen
 
   Document& document_;
   TimeAxis& axis_;

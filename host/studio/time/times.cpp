@@ -12,6 +12,7 @@
 #include "exposure/normalization.hpp"
 #include "exposure/shutter_shape.hpp"
 #include "session/requests/moments.hpp"
+#include "studio/time/time_axis.hpp"
 
 namespace nutik::studio {
 namespace {
@@ -29,7 +30,7 @@ std::string typed_number(QString text) {
 
 Typed<std::int64_t> within_reach(std::int64_t time_ns, const QString& what) {
   if (std::abs(time_ns) <= kLargestTimeNs) return {time_ns, {}};
-  return {std::nullopt, QString("%1 lies further than 126 years from the start of the capture").arg(what)};
+  return {std::nullopt, TimeAxis::tr("%1 lies further than 126 years from the start of the capture").arg(what)};
 }
 
 }  // namespace

@@ -1,12 +1,14 @@
 #include "studio/window/appearance.hpp"
 
 #include <QApplication>
+#include <QLibraryInfo>
 #include <QPainter>
 #include <QPalette>
 #include <QProxyStyle>
 #include <QSettings>
 #include <QStyle>
 #include <QStyleOption>
+#include <QTranslator>
 
 namespace nutik::studio {
 namespace {
@@ -85,5 +87,18 @@ Appearance kept_appearance() {
 }
 
 void keep_appearance(Appearance appearance) { QSettings().setValue(kKey, static_cast<int>(appearance)); }
+
+void use_language(const QStringList& languages) {
+  const auto use = [](const QString& file) {
+    auto* translator = new QTranslator(QCoreApplication::instance());
+    return translator->load(file) && QCoreApplication::installTranslator(translator);
+  };
+  for (const QString& language : languages) {
+    const QString code = language.section('-', 0, 0);
+    if (code != "en" && !use(":/translations/nutik_studio_" + code)) continue;
+    use(QLibraryInfo::path(QLibraryInfo::TranslationsPath) + "/qtbase_" + code);
+    return;
+  }
+}
 
 }  // namespace nutik::studio

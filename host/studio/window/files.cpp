@@ -272,16 +272,15 @@ void MainWindow::save_whole_part(const QString& path, const Origin& origin) {
       this, tr("Save what is whole"), from.dir().filePath(from.completeBaseName() + "-whole.tik"),
       tr("Captures (*.tik)"));
   if (whole.isEmpty()) return;
-  jobs_.start(tr("Saving what is whole"), [this, path, whole, origin](const Job&) -> Jobs::Finish {
-    const std::string damaged = path.toStdString();
+  const auto save = [damaged = path.toStdString(), whole](const Job&) {
     check_output(whole.toStdString(), OutputKind::tik, std::vector{damaged});
-    const tik::Recovery saved = tik::recover(damaged, whole.toStdString());
-    return [this, whole, origin, samples = saved.sample_count] {
-      notice_->say(Notice::Kind::note, tr("%1: %2 samples were saved").arg(whole).arg(samples));
-      Origin elsewhere = origin;
-      elsewhere.is_elsewhere = true;
-      open_capture_file(whole, {}, std::move(elsewhere));
-    };
+    return tik::recover(damaged, whole.toStdString());
+  };
+  jobs_.start(tr("Saving what is whole"), save, [this, whole, origin](const tik::Recovery& saved) {
+    notice_->say(Notice::Kind::note, tr("%1: %2 samples were saved").arg(whole).arg(saved.sample_count));
+    Origin elsewhere = origin;
+    elsewhere.is_elsewhere = true;
+    open_capture_file(whole, {}, std::move(elsewhere));
   });
 }
 

@@ -383,19 +383,16 @@ void MainWindow::look_at_capture() {
 }
 
 void MainWindow::look_along_capture() {
-  auto overview = std::make_shared<CaptureOverview>();
-  jobs_.start(tr("Making thumbnails"), [this, session = session_, overview](const Job& job) -> Jobs::Finish {
-    *overview = thumbnails_of(*session, job);
-    return [this, overview] { document_.set_overview(*overview); };
-  });
-  jobs_.start(tr("Looking for motion"), [this, session = session_](const Job& job) -> Jobs::Finish {
-    auto shares = std::make_shared<std::vector<double>>(changed_shares_of(*session, job));
-    return [this, shares] {
-      CaptureOverview both = document_.overview();
-      both.changed_share = std::move(*shares);
-      document_.set_overview(std::move(both));
-    };
-  });
+  jobs_.start(
+      tr("Making thumbnails"), [session = session_](const Job& job) { return thumbnails_of(*session, job); },
+      [this](CaptureOverview overview) { document_.set_overview(std::move(overview)); });
+  jobs_.start(
+      tr("Looking for motion"), [session = session_](const Job& job) { return changed_shares_of(*session, job); },
+      [this](std::vector<double> shares) {
+        CaptureOverview both = document_.overview();
+        both.changed_share = std::move(shares);
+        document_.set_overview(std::move(both));
+      });
 }
 
 // What is seen while something is dragged: no more pixels than the screen has, nor than are exposed in no time; full
@@ -411,9 +408,14 @@ void MainWindow::reduce_capture() {
   jobs_.start(tr("Making smaller pictures for the screen"),
               [this, session = session_, divisor](const Job& job) -> Jobs::Finish {
                 try {
-                  auto reduced = reduced_session(*session, divisor, job.progress, job.stop);
-                  return [this, session, reduced, divisor] {
-                    if (session == session_) live_.set_reduced(reduced, static_cast<int>(divisor));
+                  const auto reduced = reduced_session(*session, divisor, job.progress, job.stop);
+                  const Shape& shape = reduced->format().shape;
+                  const bool is_small = shape.width < 2 || shape.height < 2;
+                  const auto coarse = is_small ? nullptr : reduced_session(*reduced, 2, job.progress, job.stop);
+                  return [this, session, reduced, coarse, divisor = static_cast<int>(divisor)] {
+                    if (session != session_) return;
+                    live_.add_reduced(reduced, divisor);
+                    if (coarse) live_.add_reduced(coarse, 2 * divisor);
                   };
                 } catch (const MemoryTooLittle&) {
                 } catch (const OutputError&) {
@@ -424,13 +426,12 @@ void MainWindow::reduce_capture() {
 
 void MainWindow::look_at_pixel() {
   if (!document_.probe() || document_.waveform() || !session_) return;
-  quick_.start(tr("Reading a pixel"),
-               [this, session = session_, pixel = *document_.probe()](const Job&) -> Jobs::Finish {
-                 auto waveform = std::make_shared<Waveform>(waveform_of(*session, pixel));
-                 return [this, waveform, session] {
-                   if (session == session_) document_.set_waveform(std::move(*waveform));
-                 };
-               });
+  quick_.start(
+      tr("Reading a pixel"),
+      [session = session_, pixel = *document_.probe()](const Job&) { return waveform_of(*session, pixel); },
+      [this, session = session_](Waveform waveform) {
+        if (session == session_) document_.set_waveform(std::move(waveform));
+      });
 }
 
 bool MainWindow::has_region() {
@@ -447,14 +448,11 @@ void MainWindow::select_motion() {
 
 void MainWindow::choose_difference() {
   if (!session_ || !has_region()) return;
-  auto* dialog = new DifferenceDialog(document_.facts()->timeline, document_.mark_in().value_or(0),
-                                      document_.boxcar().start_ns, this);
-  connect(dialog, &QDialog::accepted, this, [this, dialog, session = session_] {
-    if (session != session_) return;
-    jobs_.start(tr("Looking for what differs"),
-                selecting_difference(document_, session_, dialog->chosen(), told()));
+  const Difference first{document_.mark_in().value_or(0), document_.boxcar().start_ns, {}};
+  ask_difference(this, document_.facts()->timeline, first, [this, session = session_](const Difference& chosen) {
+    if (session == session_)
+      jobs_.start(tr("Looking for what differs"), selecting_difference(document_, session_, chosen, told()));
   });
-  dialog->open();
 }
 
 void MainWindow::use_tool(ToolKind kind) {

@@ -180,6 +180,7 @@ class MainWindow : public QMainWindow {
   void tell_changes();
   void copy_command();
   void write_plate(const QString& path, const Marks& marks);
+  void save_plate(const Marks& marks);  // under a name that is asked for
   void save_whole_part(const QString& path, const Origin& origin);
   void fill_recent(QMenu& menu);
   void fill_unsaved(QMenu& menu);

@@ -117,7 +117,7 @@ constexpr std::pair<const char*, const char*> kElsewhere[] = {
      QT_TR_NOOP("hides outlines; magnifies round the pointer, with codes; shows snapshot A")},
     {QT_TR_NOOP("Time: wheel, Shift and wheel, F"), QT_TR_NOOP("zooms, pans, shows all")},
     {QT_TR_NOOP("Strip: Left, Right, Up, Down"),
-     QT_TR_NOOP("the interval later and earlier, longer and shorter, by a sample")},
+     QT_TR_NOOP("the interval earlier and later, longer and shorter, by a sample")},
     {QT_TR_NOOP("Strip: I, O, X, Z"),
      QT_TR_NOOP("In and Out at its ends; exposes between them; shows what lies there")},
     {QT_TR_NOOP("Curve: click, right click"), QT_TR_NOOP("adds a point, takes it away")},
@@ -125,6 +125,9 @@ constexpr std::pair<const char*, const char*> kElsewhere[] = {
      QT_TR_NOOP("the same, and types numbers; arrows move a point")},
     {QT_TR_NOOP("Shift, Ctrl while dragging"), QT_TR_NOOP("a tenth as fast; not drawn to samples")},
     {QT_TR_NOOP("Escape"), QT_TR_NOOP("takes back what is not finished, closes a message")}};
+
+// Of these tables.
+QString said(const char* words) { return QCoreApplication::translate("nutik::studio", words); }
 
 constexpr const char* kNormalizations[] = {"support", "integral", "absolute"};
 
@@ -267,7 +270,7 @@ void MainWindow::show_keys() {
     const QString keys = action->shortcut().toString(QKeySequence::NativeText);
     if (!keys.isEmpty()) add(keys, action->text().remove('&').remove(QChar(0x2026)));
   }
-  for (const auto& [keys, what] : kElsewhere) add(tr(keys), tr(what));
+  for (const auto& [keys, what] : kElsewhere) add(said(keys), said(what));
   auto* dialog = new QDialog(this);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setWindowTitle(tr("Keys and mouse"));
@@ -290,10 +293,8 @@ void MainWindow::build_start_menu() {
   }
   menu.addSeparator();
   needs_capture_ += add_action(menu, tr("Study with &choices…"), {}, [this] { choose_study(); });
-  needs_capture_ += add_action(menu, tr("&Empty scene, as a picture…"), {}, [this] {
-    ask_for_name(tr("Write the empty scene"), "-empty.png", tr("Pictures (*.png *.tif *.jpg *.exr)"),
-                 [this](const QString& path) { write_plate(path, document_.marks()); });
-  });
+  needs_capture_ +=
+      add_action(menu, tr("&Empty scene, as a picture…"), {}, [this] { save_plate(document_.marks()); });
 }
 
 void MainWindow::build_view_menu() {
@@ -354,13 +355,13 @@ void MainWindow::build_view_menu() {
 void MainWindow::build_tools(QToolBar& bar) {
   tools_ = new QActionGroup(this);
   for (const ToolRow& row : kTools) {
-    QAction* action = bar.addAction(tr(row.name));
+    QAction* action = bar.addAction(said(row.name));
     action->setObjectName(row.object);
     action->setCheckable(true);
     action->setChecked(row.kind == ToolKind::look);
     action->setShortcut(row.key);
     action->setIcon(QIcon(new ToolIcon(row.kind)));
-    action->setToolTip(tr("%1 (%2): %3").arg(tr(row.name), action->shortcut().toString(), tr(row.tip)));
+    action->setToolTip(tr("%1 (%2): %3").arg(said(row.name), action->shortcut().toString(), said(row.tip)));
     tools_->addAction(action);
     connect(action, &QAction::toggled, this, [this, kind = row.kind](bool is_chosen) {
       if (is_chosen) use_tool(kind);
@@ -371,57 +372,47 @@ void MainWindow::build_tools(QToolBar& bar) {
 
 QWidget* MainWindow::build_exposure() {
   radius_ = new NumberBox;
-  radius_->setObjectName("brush_radius");
+  describe(*radius_, "brush_radius", tr("Radius of the brush, in pixels"));
   radius_->setRange(0.5, 500);
   radius_->setDecimals(1);
   radius_->setValue(tool_settings_.brush_radius);
   radius_->setPrefix(tr("Brush "));
   radius_->setSuffix(tr(" px"));
-  radius_->setAccessibleName(tr("Radius of the brush, in pixels"));
-  radius_->setToolTip(radius_->accessibleName());
   connect(radius_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
     tool_settings_.brush_radius = value;
     canvas_->update();
   });
   codes_ = new QSpinBox;
-  codes_->setObjectName("wand_codes");
+  describe(*codes_, "wand_codes",
+           tr("How many codes of 255 a pixel may differ by from the one that the wand clicked"));
   codes_->setRange(0, 255);
   codes_->setValue(tool_settings_.wand_codes);
   codes_->setPrefix(tr("Wand ± "));
-  codes_->setAccessibleName(
-      tr("How many codes of 255 a pixel may differ by from the one that the wand clicked"));
-  codes_->setToolTip(codes_->accessibleName());
   connect(codes_, &QSpinBox::valueChanged, this, [this](int value) { tool_settings_.wand_codes = value; });
   mode_ = new QComboBox;
-  mode_->setObjectName("mode");
+  describe(*mode_, "mode", tr("What is exposed: the interval everywhere, or each region's function"));
   mode_->addItems({tr("One interval for all"), tr("Each region its own")});
-  mode_->setAccessibleName(tr("What is exposed: the interval everywhere, or each region's function"));
-  mode_->setToolTip(mode_->accessibleName());
   connect(mode_, &QComboBox::activated, this, [this](int index) {
     document_.set_mode(index == 0 ? ExposureMode::boxcar : ExposureMode::functions);
   });
   normalization_ = new QComboBox;
   normalization_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  normalization_->setObjectName("normalization");
   normalization_->addItems({tr("Average while open, as a camera"), tr("Still things keep their brightness"),
                             tr("Average, whatever the gain's sign")});
-  normalization_->setAccessibleName(tr("Brightness: what the exposure is divided by"));
-  normalization_->setToolTip(
-      tr("What the exposure is divided by: the time with a gain; its integral, so that what rests keeps its "
-         "brightness; that of its magnitude"));
+  describe(*normalization_, "normalization", tr("Brightness: what the exposure is divided by"),
+           tr("What the exposure is divided by: the time with a gain; its integral, so that what rests keeps its "
+              "brightness; that of its magnitude"));
   connect(normalization_, &QComboBox::activated, this, [this](int index) {
     DocumentState state = document_.state();
     state.normalization = Normalization::parse(kNormalizations[index]);
     document_.apply(std::move(state), tr("Normalize"));
   });
   brightness_ = new NumberBox;
-  brightness_->setObjectName("brightness");
+  describe(*brightness_, "brightness", tr("Brightness, in stops"));
   brightness_->setRange(-16, 16);
   brightness_->setSingleStep(0.25);
   brightness_->setKeyboardTracking(false);  // 2.5 is one step, and not 2 first
   brightness_->setPrefix(tr("EV "));
-  brightness_->setAccessibleName(tr("Brightness, in stops"));
-  brightness_->setToolTip(brightness_->accessibleName());
   connect(brightness_, &QDoubleSpinBox::valueChanged, this, [this](double stops) {
     DocumentState state = document_.state();
     state.brightness_ev = stops;
@@ -430,12 +421,10 @@ QWidget* MainWindow::build_exposure() {
   const auto film_box = [this](QDoubleSpinBox*& box, const char* name, double least, double most,
                                const QString& tip) {
     box = new NumberBox;
-    box->setObjectName(name);
+    describe(*box, name, tip);
     box->setRange(least, most);
     box->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
     box->setKeyboardTracking(false);
-    box->setAccessibleName(tip);
-    box->setToolTip(tip);
     connect(box, &QDoubleSpinBox::valueChanged, this, [this] {
       if (!playing_.isActive()) return;
       stop_playing();

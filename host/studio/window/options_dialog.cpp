@@ -2,6 +2,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QDialog>
 #include <QDialogButtonBox>
 #include <QFileDialog>
@@ -11,6 +12,7 @@
 #include <QLineEdit>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <algorithm>
 
 #include "features/schema/option.hpp"
@@ -21,19 +23,18 @@ namespace {
 
 QString text(std::string_view words) { return QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size())); }
 
+QString help_of(const Option& option) {
+  return QCoreApplication::translate("Option", std::string(option.help).c_str());  // translations/options_de.ts
+}
+
 // How help begins, before it goes into details.
 QString label_of(const Option& option) {
-  const std::string_view help = option.help;
-  return sentence(std::string(help.substr(0, std::min({help.find(": "), help.find(" ("), help.find("; ")}))));
+  return sentence(help_of(option).section(QRegularExpression(": | \\(|; "), 0, 0).toStdString());
 }
 
 // `24` of `… (default: 24)`.
 QString default_of(const Option& option) {
-  constexpr std::string_view kBegin = "(default: ";
-  const auto at = option.help.find(kBegin);
-  if (at == std::string_view::npos) return {};
-  const std::string_view rest = option.help.substr(at + kBegin.size());
-  return text(rest.substr(0, rest.find_first_of(";)")));
+  return help_of(option).section(Document::tr("(default: "), 1).section(QRegularExpression("[;)]"), 0, 0);
 }
 
 struct Field {
@@ -91,7 +92,6 @@ Options options_in(CommandId command, const Stated& stated) {
 }
 
 std::optional<Wanted> ask_options(QWidget* parent, const Asked& asked) {
-  const auto tr = [](const char* words) { return Document::tr(words); };
   QDialog dialog(parent);
   dialog.setWindowTitle(asked.title);
   auto* form = new QFormLayout(&dialog);
@@ -104,12 +104,12 @@ std::optional<Wanted> ask_options(QWidget* parent, const Asked& asked) {
   path->setVisible(!asked.first.path.isEmpty());
   if (!asked.first.path.isEmpty()) {
     path->setMinimumWidth(380);
-    path->setToolTip(tr("Its ending says which kind of file it is: %1").arg(asked.filter));
-    auto* browse = new QPushButton(tr("&Browse…"), &dialog);
+    path->setToolTip(Document::tr("Its ending says which kind of file it is: %1").arg(asked.filter));
+    auto* browse = new QPushButton(Document::tr("&Browse…"), &dialog);
     auto* row = new QHBoxLayout;
     row->addWidget(path, 1);
     row->addWidget(browse);
-    auto* label = new QLabel(tr("&File"), &dialog);
+    auto* label = new QLabel(Document::tr("&File"), &dialog);
     label->setBuddy(path);
     form->addRow(label, row);
     QObject::connect(browse, &QPushButton::clicked, &dialog, [&] {
@@ -125,7 +125,7 @@ std::optional<Wanted> ask_options(QWidget* parent, const Asked& asked) {
     const bool is_stated = stated != asked.first.options.end();
     Field field = field_of(option, is_stated ? text(stated->second) + QString("") : QString(), asked.words, &dialog);
     field.widget->setObjectName(name);
-    field.widget->setToolTip(text(option.help));
+    field.widget->setToolTip(help_of(option));
     if (option.is_flag()) {
       form->addRow(field.widget);
     } else {
@@ -161,7 +161,7 @@ std::optional<Wanted> ask_options(QWidget* parent, const Asked& asked) {
       return mistake->show();
     }
     const bool is_there = !wanted.path.isEmpty() && QFileInfo::exists(wanted.path);
-    const QString question = tr("%1 is there already. Replace it?").arg(wanted.path);
+    const QString question = Document::tr("%1 is there already. Replace it?").arg(wanted.path);
     if (!is_there || QMessageBox::question(&dialog, asked.title, question) == QMessageBox::Yes) dialog.accept();
   });
   if (dialog.exec() != QDialog::Accepted) return std::nullopt;

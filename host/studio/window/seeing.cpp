@@ -10,16 +10,15 @@ namespace nutik::studio {
 void MainWindow::measure_light() {
   measuring_.cancel();
   if (!session_ || !(histogram_->isVisible() || clipping_->isChecked())) return;
-  measuring_.start(tr("Measuring the light"),
-                   [this, session = session_, state = document_.state()](const Job& job) -> Jobs::Finish {
-                     auto light = std::make_shared<const MeasuredLight>(measured_light(*session, state, job));
-                     return [this, light] {
-                       light_ = light;
-                       histogram_->show_light(light);
-                       regions_->count_clipped(*light);
-                       mark_clipped();
-                     };
-                   });
+  measuring_.start(
+      tr("Measuring the light"),
+      [session = session_, state = document_.state()](const Job& job) { return measured_light(*session, state, job); },
+      [this](MeasuredLight light) {
+        light_ = std::make_shared<const MeasuredLight>(std::move(light));
+        histogram_->show_light(light_);
+        regions_->count_clipped(*light_);
+        mark_clipped();
+      });
 }
 
 // It is another picture's.

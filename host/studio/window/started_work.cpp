@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "capture/error.hpp"
 #include "exposure/function_text.hpp"
 #include "features/film/film_making.hpp"
 #include "features/masks/mask_making.hpp"
@@ -78,20 +79,20 @@ DocumentState state_of(const DocumentState& before, const Study& study, Mask mas
 
 std::span<const StartingPoint> starting_points() {
   static constexpr StartingPoint kAll[] = {
-      {StudyStyle::trail, QT_TRANSLATE_NOOP("Document", "&Motion study"),
-       QT_TRANSLATE_NOOP("Document", "Sharp moments over the trail of the whole way")},
-      {StudyStyle::strobe, QT_TRANSLATE_NOOP("Document", "&Strobe"),
-       QT_TRANSLATE_NOOP("Document", "Sharp moments, and nothing between them")},
-      {StudyStyle::rear_curtain, QT_TRANSLATE_NOOP("Document", "&Rear curtain"),
-       QT_TRANSLATE_NOOP("Document", "The last moment, and a trail that grows towards it")},
-      {StudyStyle::frozen, QT_TRANSLATE_NOOP("Document", "&Frozen subject"),
-       QT_TRANSLATE_NOOP("Document", "One moment in a scene that is exposed for all of the time")},
-      {StudyStyle::slit, QT_TRANSLATE_NOOP("Document", "S&lit-scan"),
-       QT_TRANSLATE_NOOP("Document", "Strips side by side, each at a moment of its own")},
-      {StudyStyle::clean, QT_TRANSLATE_NOOP("Document", "Remove &people"),
-       QT_TRANSLATE_NOOP("Document", "The empty scene, without what moves")},
-      {std::nullopt, QT_TRANSLATE_NOOP("Document", "Lon&g exposure"),
-       QT_TRANSLATE_NOOP("Document", "All of the time in one picture: silky water, trails of light")}};
+      {StudyStyle::trail, QT_TRANSLATE_NOOP("nutik::studio::Document", "&Motion study"),
+       QT_TRANSLATE_NOOP("nutik::studio::Document", "Sharp moments over the trail of the whole way")},
+      {StudyStyle::strobe, QT_TRANSLATE_NOOP("nutik::studio::Document", "&Strobe"),
+       QT_TRANSLATE_NOOP("nutik::studio::Document", "Sharp moments, and nothing between them")},
+      {StudyStyle::rear_curtain, QT_TRANSLATE_NOOP("nutik::studio::Document", "&Rear curtain"),
+       QT_TRANSLATE_NOOP("nutik::studio::Document", "The last moment, and a trail that grows towards it")},
+      {StudyStyle::frozen, QT_TRANSLATE_NOOP("nutik::studio::Document", "&Frozen subject"),
+       QT_TRANSLATE_NOOP("nutik::studio::Document", "One moment in a scene that is exposed for all of the time")},
+      {StudyStyle::slit, QT_TRANSLATE_NOOP("nutik::studio::Document", "S&lit-scan"),
+       QT_TRANSLATE_NOOP("nutik::studio::Document", "Strips side by side, each at a moment of its own")},
+      {StudyStyle::clean, QT_TRANSLATE_NOOP("nutik::studio::Document", "Remove &people"),
+       QT_TRANSLATE_NOOP("nutik::studio::Document", "The empty scene, without what moves")},
+      {std::nullopt, QT_TRANSLATE_NOOP("nutik::studio::Document", "Lon&g exposure"),
+       QT_TRANSLATE_NOOP("nutik::studio::Document", "All of the time in one picture: silky water, trails of light")}};
   return kAll;
 }
 
@@ -203,25 +204,40 @@ QString stills_question(const Document& document, const Session& session, const 
   return Document::tr("%1 of %2 pictures are there. Replace them?").arg(there).arg(numbers.size());
 }
 
-Jobs::Work filming(const Document& document, std::shared_ptr<Session> session, const QString& film,
-                   const Options& options, Told told, std::function<void(int signal)> end) {
+Jobs::Work filming(const Document& document, std::shared_ptr<Session> session, std::shared_ptr<Devices> devices,
+                   const QString& film, const Options& options, Told told, std::function<void(int signal)> end) {
   const FramesRequest request = film_request(document, options);
   const VideoOutput output(film.toStdString(), request.rate, options.video_codec, options.picture);
   const Frames frames = frames_of(request, session->timeline());
   output.check(frames.numbers, inputs_of(document), Replacing::all);
-  const bool shows_twice = session->is_clip() && !document.facts()->stated.contains("between") &&
-                           seen_together(frames, session->timeline());
-  return [request, output, frames, session = std::move(session), film, told = std::move(told),
-          end = std::move(end), shows_twice, sound = options.sound](const Job& job) -> Jobs::Finish {
-    const MadeVideo made = make_video(*session, request, frames, output, job.progress, {}, sound);
+  const Stated& stated = document.facts()->stated;
+  const auto seen = session->is_clip() && !stated.contains("between") ? seen_together(frames, session->timeline())
+                                                                      : std::nullopt;
+  return [request, output, session = std::move(session),
+          devices = std::move(devices), film, seen, stated, clip = document.facts()->path, told = std::move(told), end = std::move(end),
+          sound = options.sound](const Job& job) -> Jobs::Finish {
+    std::shared_ptr<Session> filmed = session;
+    QStringList notes;
+    if (seen) {
+      Stated joined = stated;
+      joined["between"] = BetweenRequest{.first = seen->first, .last = seen->last - 1}.text();
+      notes = {Document::tr("They would show what moves two or three times: samples were made between pictures "
+                            "%1 … %2.").arg(seen->first).arg(seen->last - 1)};
+      try {
+        filmed = open_capture(clip, joined, devices, job, [](const QImage&) {}).session;
+      } catch (const Error& error) {
+        if (!is_refusal(error)) throw;
+        notes = {Document::tr("They show what moves two or three times: %1").arg(sentence(error.what()))};
+      }
+    }
+    const Frames frames = frames_of(request, filmed->timeline());
+    const MadeVideo made = make_video(*filmed, request, frames, output, job.progress, {}, sound);
     const QString line = made.interruption
                              ? Document::tr("%1: %2 of %3 frames were written")
                              : Document::tr("%1: %n frame(s)", nullptr, static_cast<int>(made.frames));
     QStringList lines{made.interruption ? line.arg(film).arg(made.frames).arg(frames.numbers.size()) : line.arg(film)};
+    lines += notes;
     for (const std::string& note : made.notes) lines += sentence(note);
-    if (shows_twice)
-      lines += Document::tr("Its frames show what moves two or three times: File, How the clip is read can make "
-                            "samples between pictures.");
     return [told, lines, end, interruption = made.interruption] {
       told(lines.join('\n'));
       if (interruption) end(interruption->signal);

@@ -49,7 +49,8 @@ struct StartingPoint {
 [[nodiscard]] QString stills_question(const Document& document, const Session& session, const QString& film,
                                       const Options& options);
 // `end` is told of a signal that ended the film before its last frame.
-[[nodiscard]] Jobs::Work filming(const Document& document, std::shared_ptr<Session> session, const QString& film,
-                                 const Options& options, Told told, std::function<void(int signal)> end);
+[[nodiscard]] Jobs::Work filming(const Document& document, std::shared_ptr<Session> session,
+                                 std::shared_ptr<Devices> devices, const QString& film, const Options& options,
+                                 Told told, std::function<void(int signal)> end);
 
 }  // namespace nutik::studio

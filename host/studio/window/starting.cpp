@@ -94,10 +94,12 @@ void MainWindow::show_plate(const QImage& plate, const Marks& marks) {
   glance.title = tr("Without what moves. Escape: back to the picture");
   canvas_->look(std::move(glance));
   const QString note = tr("This scene is no exposure: it can be saved as a picture of its own.");
-  notice_->say(Notice::Kind::note, note, tr("Save…"), [this, marks] {
-    ask_for_name(tr("Write the empty scene"), "-empty.png", tr("Pictures (*.png *.tif *.jpg *.exr)"),
-                 [this, marks](const QString& path) { write_plate(path, marks); });
-  });
+  notice_->say(Notice::Kind::note, note, tr("Save…"), [this, marks] { save_plate(marks); });
+}
+
+void MainWindow::save_plate(const Marks& marks) {
+  ask_for_name(tr("Write the empty scene"), "-empty.png", tr("Pictures (*.png *.tif *.jpg *.exr)"),
+               [this, marks](const QString& path) { write_plate(path, marks); });
 }
 
 // ---- films ----
@@ -147,7 +149,7 @@ void MainWindow::choose_film() {
              {suggested("-film.mp4"), film_options()},
              tr("Films and numbered pictures (*.mp4 *.mov *.mkv *.webm *.gif *.webp *-%05d.png)"),
              [&](const Wanted& asked, const Options& options) {
-               static_cast<void>(filming(document_, session_, asked.path, options, {}, {}));
+               static_cast<void>(filming(document_, session_, devices_, asked.path, options, {}, {}));
                question = stills_question(document_, *session_, asked.path, options);
              }});
   if (!wanted || session != session_) return;
@@ -160,7 +162,7 @@ void MainWindow::export_film(const QString& path, const Stated& options) {
   if (!session_) return;
   try_to([&] {
     writing_.start(tr("Filming %1").arg(QFileInfo(path).fileName()),
-                   filming(document_, session_, path, options_in(CommandId::video, options), told(),
+                   filming(document_, session_, devices_, path, options_in(CommandId::video, options), told(),
                            [this](int signal) { autosave_.end(signal); }));
   });
 }
