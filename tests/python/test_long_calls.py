@@ -88,8 +88,9 @@ def prepare():
         file.writelines(f"--start {{k}}ms --exposure 30ms {{folder}}/{{k}}.png\\n" for k in range(30))
 """
 PARTS = {"study", "solve"}  # do several things one after another, each with steps of its own
-# What is silent: [] has no argument, the rest are commands that tell nothing and take a moment here.
-SILENT = {"codes", "contact", "noise", "recover", "retime", "check", "validate"}
+# What is silent: [] has no argument, noise is measured before a sample is encoded, the rest are commands that tell
+# nothing and take a moment here.
+SILENT = {"codes", "contact", "noise", "recover", "retime", "check", "validate", "encode_with_noise"}
 
 INTERRUPTED = SCENE + """
 import atexit, shutil
