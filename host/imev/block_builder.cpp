@@ -180,10 +180,10 @@ class BlockBuilder::Implementation {
   [[nodiscard]] bool is_empty() const { return samples_ == 0; }
   [[nodiscard]] BlockExtent extent() const { return {first_sample_, samples_}; }
 
-  FinishedBlock finish(PageBuffer& into) {
+  FinishedBlock finish(PageBuffer& into, const std::stop_token& stop) {
     if (is_empty()) throw std::logic_error("a block without samples was finished");
     carry();
-    const FinishedBlock finished = close_block(into);
+    const FinishedBlock finished = close_block(into, stop);
     begin_next();
     return finished;
   }
@@ -213,7 +213,7 @@ class BlockBuilder::Implementation {
   [[nodiscard]] virtual std::uint64_t fitting_memory() const { return limits_.samples; }
   // Keeps what the next block starts from, before this one is closed.
   virtual void carry() {}
-  virtual FinishedBlock close_block(PageBuffer& into) = 0;
+  virtual FinishedBlock close_block(PageBuffer& into, const std::stop_token& stop) = 0;
   virtual void begin_block() = 0;
   virtual void take_memory(PageBuffer memory) = 0;
 
@@ -350,7 +350,7 @@ class BlockBuilder::Comparing final : public Implementation {
       std::memcpy(held_.data() + tile * row_bytes_, log_.last_row(tile), row_bytes_);
     }
   }
-  FinishedBlock close_block(PageBuffer& into) override {
+  FinishedBlock close_block(PageBuffer& into, const std::stop_token& /*stop*/) override {
     samples_before_ = samples_;
     return log_.finish(samples_, into);
   }
@@ -396,8 +396,9 @@ class BlockBuilder::Averaging final : public Implementation {
     for_each_strip(source_, grid_, samples, rasters, visit);
   }
 
-  FinishedBlock close_block(PageBuffer& into) override {
-    parallel_for(grid_.rows(), [this](std::uint64_t row) {
+  FinishedBlock close_block(PageBuffer& into, const std::stop_token& stop) override {
+    parallel_for(grid_.rows(), [&](std::uint64_t row) {
+      if (stop.stop_requested()) throw Cancelled();
       ExpectedValues::Held held;
       const std::uint64_t first = row * grid_.columns();
       for (std::uint64_t tile = first; tile < first + grid_.columns(); ++tile) {
@@ -453,7 +454,9 @@ void BlockBuilder::add_changes(std::span<const PixelChange> changes) {
 std::uint32_t BlockBuilder::room() const { return implementation_->room(); }
 bool BlockBuilder::is_empty() const { return implementation_->is_empty(); }
 BlockExtent BlockBuilder::extent() const { return implementation_->extent(); }
-FinishedBlock BlockBuilder::finish(PageBuffer& into) { return implementation_->finish(into); }
+FinishedBlock BlockBuilder::finish(PageBuffer& into, const std::stop_token& stop) {
+  return implementation_->finish(into, stop);
+}
 void BlockBuilder::build_in(PageBuffer memory) { implementation_->build_in(std::move(memory)); }
 void BlockBuilder::pass(std::span<const std::byte> raster) { implementation_->pass(raster); }
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <stop_token>
 
 #include "capture/picture.hpp"
 #include "capture/pixel_change.hpp"
@@ -89,8 +90,9 @@ class BlockBuilder {
   [[nodiscard]] BlockExtent extent() const;
 
   // Closes the current block (which must hold a sample). It was built where it lies, with room between its bodies:
-  // `into` is given that memory and what it held before is used for the next block.
-  FinishedBlock finish(PageBuffer& into);
+  // `into` is given that memory and what it held before is used for the next block. Throws
+  // Cancelled where a stop is asked for while what noisy samples stand for is found, which takes long.
+  FinishedBlock finish(PageBuffer& into, const std::stop_token& stop = {});
 
   // Memory for the next block, which has not begun; what is too small is enlarged then, what is empty is not taken.
   void build_in(PageBuffer memory);

@@ -22,11 +22,11 @@ Value settle(std::vector<Fact>& facts, const std::optional<Value>& stated, const
   return value;
 }
 
-// The white of codes of 16 bits; `named` where files say how many of these are used.
+// The white of codes of 16 bits; `named` where files say how many of these are used. A note doubts what is assumed.
 inline std::uint32_t settle_white(ClipInfo& info, const std::optional<std::uint32_t>& stated,
-                                  const std::optional<std::uint32_t>& named) {
+                                  const std::optional<std::uint32_t>& named, bool is_noted = true) {
   constexpr std::uint32_t kDefault = 65'535;
-  if (!stated && !named) {
+  if (is_noted && !stated && !named) {
     info.notes.emplace_back(
         "the files do not say how many of their 16 bits are used: white is taken to be 65535; state "
         "another, 4095 for 12 bits",

@@ -40,7 +40,6 @@ __all__ = [
     "InputError", "Mask", "MemoryTooLittle", "NutikNote", "NutikWarning", "OutputError", "Picture", "Pictures",
     "Plate", "Solution", "SolvedWish", "Study", "Trace", "UsageError", "WrongType", "__version__", "batch",
     "boxcar", "check", "contact", "devices", "encode", "fit", "join", "noise", "open", "parse_functions",
-    "read_functions", "read_mask", "recover", "retime", "shutter", "validate", "video", "write_functions",
-]
+    "read_functions", "read_mask", "recover", "retime", "shutter", "validate", "video", "write_functions"]
 
 _docs.complete_all(map(globals().get, __all__))

@@ -19,10 +19,9 @@ from ._masks import Mask, MaskLike, mask_of
 from ._nutik import InputError, MemoryTooLittle, UsageError
 from ._pictures import Picture, Pictures
 from ._told import Figures
-from ._words import (Axes, DataArray, DelayLike, Index, NutikNote, Path, Progress, Time, WrongType, axes_of, box_of,
-                     count_of, delays_ns, frozen, is_list, labelled, listed, settings_of, shortened, tag_of, time_word,
-                     warn, whole, word_of)
-
+from ._words import (Axes, DataArray, DelayLike, HasArray, Index, NutikNote, Path, Progress, Time, WrongType, axes_of,
+                     box_of, count_of, delays_ns, frozen, is_list, labelled, listed, real, refuse, settings_of,
+                     shortened, tag_of, time_word, warn, word_of)
 
 Codes = Union[NDArray[np.uint8], NDArray[np.uint16]]
 Functions = Union[FunctionLike, Mapping[int, FunctionLike], Path]
@@ -32,7 +31,7 @@ _SETTINGS = ("start", "exposure", "shutter", "shutter_error", "normalize", "gain
 _MOST_AT_ONCE = 4 << 30  # bytes of samples that one array takes
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Trace:
     """How one function's light of a pixel came about, or the mean of a region: from edge to edge, where light and gain
     run straight in between. N steps, C channels."""
@@ -52,6 +51,9 @@ class Trace:
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Trace) and all(np.array_equal(value, getattr(other, name))
                                                 for name, value in vars(self).items())
+
+    def __repr__(self) -> str:
+        return f"<nutik.Trace of M{self.tag}: {len(self.gain)} steps, light {self.exposed}>"
 
     def plot(self, ax: Optional[Axes] = None, **style: object) -> Axes:
         """Draws light over seconds with matplotlib, a line for each channel."""
@@ -140,9 +142,8 @@ class Capture:
         picked, rest = (keys[0], keys[1:]) if keys and keys[0] is not Ellipsis else (slice(None), keys)
         numbers = np.arange(len(self))[picked if isinstance(picked, slice) else index(picked)]
         bytes_asked = numbers.size * int(np.prod(self.shape[1:])) * self.dtype.itemsize
-        if bytes_asked > _MOST_AT_ONCE:
-            raise MemoryTooLittle(f"{numbers.size} samples are {bytes_asked / 1e9:.1f} GB; take fewer at a time, or "
-                                  "expose them with render()")
+        refuse(bytes_asked > _MOST_AT_ONCE, f"{numbers.size} samples are {bytes_asked / 1e9:.1f} GB; take fewer at a "
+               "time, or expose them with render()", MemoryTooLittle)
         held = self._held.reader().samples(np.sort(numbers, axis=None).tolist())
         if not isinstance(picked, slice):
             return cast(Codes, held[(0, *rest)])
@@ -167,8 +168,8 @@ class Capture:
         Raises:
         MemoryTooLittle where they take more than 4 GiB, UsageError where `samples` is no slice.
         """
-        if not isinstance(samples, slice):
-            raise WrongType(f"samples is {samples!r}; give a slice: slice(10, 20), or slice(10, 11) of one sample")
+        refuse(not isinstance(samples, slice), f"samples is {samples!r}; give a slice: slice(10, 20), or slice(10, 11) "
+               "of one sample", WrongType)
         figures = {name: each if isinstance(each, str) else float(each) if isinstance(each, Fraction)
                    else int(cast(int, each))  # netCDF takes these
                    for name, each in self.figures.items() if name != "tiles"}
@@ -198,11 +199,11 @@ class Capture:
         """
         height, width = self.shape[1:3]
         box = [0, 0, width, height] if region is None else box_of(region, "region")
-        if box[0] + box[2] > width or box[1] + box[3] > height:
-            raise UsageError(f"region is {tuple(box)}; the capture has {width} x {height} pixels")
+        refuse(box[0] + box[2] > width or box[1] + box[3] > height,
+               f"region is {tuple(box)}; the capture has {width} x {height} pixels")
         end = len(self) if last is None else count_of(last, "last")
-        if not count_of(first, "first") < end <= len(self):
-            raise UsageError(f"there are no samples from {first} to {end}; the capture has {len(self)}")
+        refuse(not count_of(first, "first") < end <= len(self), f"there are no samples from {first} to {end}; the "
+               f"capture has {len(self)}")
         row = np.dtype([("x", np.uint32), ("y", np.uint32), ("start_ns", np.int64), ("end_ns", np.int64),
                         ("code", self.dtype, self.shape[3:])])
         return self._held.records(box, first, end, row, progress)
@@ -250,14 +251,15 @@ class Capture:
         """Exposes a picture: of an interval, or with gain functions.
 
         Parameters:
-        functions : one for all of the picture (a nutik.Function, a list of (time, gain), a callable over the whole
-            capture, an array with a gain for each sample), or one for each tag of `mask` ({0: ..., 128: ...}, or a
-            function file).
+        functions : one for all of the picture (a nutik.Function, a list of (time, gain), an array with a gain for each
+            sample, or a callable over the whole capture, fitted within 0.001 of its largest gain, as nutik.fit() does,
+            whose error= is another), or one for each tag of `mask` ({0: ..., 128: ...}, or a function file).
         mask : [height, width] of tags, or {tag: alpha} of shares (the first function gets what they leave), a
             nutik.Mask, or a file.
         start, exposure : the interval, in place of functions; 0 without a start. Of functions their time 0.
         delay : how much later each pixel is exposed (docs/how-to/delay.md): 'rows:15ms', 'columns:0s..0.5s',
             'radial:-20ms..20ms', 'map.tif:0s..1s', or [height, width] of seconds or timedelta64.
+        unmapped : 'zero': pixels whose tag has no function are black; without it that is an error.
         precision : 'single', 'compensated', 'double' or 'fixed'; None: the fastest whose error bound is small enough.
         codes, dtype : float32 without them, or float64. With codes uint8 or uint16, the capture's own without dtype.
         transfer : of codes, sRGB without it; 'source': the capture's own.
@@ -287,7 +289,7 @@ class Capture:
             _warn_of_black({each["tag"]: each["still_gain"] for each in picture.plan["functions"]}, negative)
         return picture
 
-    def render_many(self, functions: Union[Sequence[Functions], NDArray[np.float32], NDArray[np.float64], None] = None,
+    def render_many(self, functions: Union[Sequence[Functions], HasArray, None] = None,
                     mask: Optional[MaskLike] = None, *, starts: Union[Time, Iterable[Time], None] = None,
                     exposures: Union[Time, Iterable[Time], None] = None, shutter: Optional[str] = None,
                     shutter_error: Optional[float] = None, feather: Union[str, float, None] = None,
@@ -313,7 +315,7 @@ class Capture:
         >>> many.array.shape, many.error_bounds.shape
         ((100, 24, 32), (100,))
         """
-        is_one = isinstance(functions, np.ndarray) and functions.ndim == 1 and functions.dtype != object
+        is_one = hasattr(functions, "__array__") and (one := np.asarray(functions)).ndim == 1 and one.dtype != object
         if is_one or isinstance(functions, Mapping) or not (functions is None or is_list(functions)):
             each = "a dict {tag: function}" if isinstance(functions, Mapping) else "those of render()"
             raise UsageError(f"functions is {shortened(functions)}; render_many() takes a list with {each} for each "
@@ -360,8 +362,7 @@ class Capture:
         """
         if (x is None) != (y is None) or (x is None) == (tag is None):
             raise UsageError("what should be followed? Either a pixel, x and y, or a tag of the mask, tag=")
-        if tag is not None and mask is None:
-            raise UsageError("tag= is a value of a mask; add mask=")
+        refuse(tag is not None and mask is None, "tag= is a value of a mask; add mask=")
         asked, _ = self._exposure(locals())
         pixel = None if x is None else (count_of(x, "x"), count_of(y, "y"))
         traces, told = _nutik.trace(self._held, asked, pixel, None if tag is None else tag_of(tag), progress)
@@ -398,21 +399,19 @@ class Capture:
 
         Parameters:
         mask, tag : only pixels of the mask with this tag count, or with any tag but 0.
-        Returns:
-        Activity: changes by sample and by pixel.
         Raises:
         UsageError, InputError where no pixel counts; KeyboardInterrupt at Ctrl-C.
         Examples:
         >>> capture.activity().changed_pixels.shape
         (10,)
         """
-        if tag is not None and mask is None:
-            raise UsageError("tag= is a value of a mask; add mask=")
+        refuse(tag is not None and mask is None, "tag= is a value of a mask; add mask=")
         made = mask_of(mask)
         told: dict[str, Any] = _nutik.activity(self._held, None if made is None else made._held,
                                                None if tag is None else tag_of(tag), count_of(by, "by"), count_redrawn,
                                                progress)
         warn(told.pop("notes"), NutikNote)
+        told["times"] = self.times
         for name in ("busiest", "quietest"):
             told[name] = told[name] and Stretch(**told[name])
         return Activity(**frozen(told))
@@ -442,9 +441,8 @@ class Capture:
             warn([f"{moved}; align='rigid' moves the clip's pictures back when it is encoded"])
         settings = settings_of({
             "style": style, "spacing": spacing, "trail": trail, "slit_from": slit_from, "feather": feather,
-            "by": None if by is None else count_of(by, "by"),
-            "moments": None if moments is None else
-                       (listed(moments) or "0") if is_list(moments) else str(count_of(moments, "moments"))})
+            "by": None if by is None else count_of(by, "by"), "moments": None if moments is None else
+            (listed(moments) or "0") if is_list(moments) else str(count_of(moments, "moments"))})
         told: dict[str, Any] = _nutik.study(self._held, settings, [word_of("regions", "", box_of(each, "a region"))
                                                                    for each in regions],
                                             self._output(codes, dtype, transfer, is_plate=style == "clean"), progress)
@@ -520,8 +518,7 @@ class Capture:
         elif stated["exposure"] is None:
             raise UsageError("an exposure needs a plain interval (start='0.4s', exposure='10ms') or functions=")
         for name, of in (("shutter_error", "shutter"), ("unmapped", "mask")):
-            if stated[name] is not None and stated[of] is None:
-                raise UsageError(f"{name}= says nothing without {of}=; leave it out")
+            refuse(stated[name] is not None and stated[of] is None, f"{name}= says nothing without {of}=; leave it out")
         return self._asked(functions, stated, box), (box[0], box[1]) if box else (0, 0)
 
     def _functions(self, functions: Functions, has_mask: bool) -> dict[int, Function]:
@@ -534,33 +531,31 @@ class Capture:
                     "with mask= say which tag each is for, {tag: function}" if has_mask else
                     "render_many() makes a picture with each, and of one picture {tag: function} goes with mask="))
             return {0: self._function_of(functions, "functions")}
-        if not functions:
-            raise UsageError("functions= is empty; an exposure has one at least")
-        if not has_mask and len(functions) > 1:
-            raise UsageError(f"there are {len(functions)} functions; mask= says where each applies")
+        refuse(not functions, "functions= is empty; an exposure has one at least")
+        refuse(not has_mask and len(functions) > 1, f"{len(functions)} functions; mask= says where each one applies")
         return {tag_of(tag): self._function_of(each, f"functions[{tag}]") for tag, each in functions.items()}
 
     def _function_of(self, given: FunctionLike, what: str) -> Function:
-        if isinstance(given, np.ndarray) and given.ndim == 1:
-            if len(given) != len(self):
-                raise UsageError(f"{what} has {len(given)} gains for {len(self)} samples; of other times say "
-                                 "nutik.Function(times, gains)")
-            begins = self.times_ns[:, 0]
+        if hasattr(given, "__array__") and np.ndim(cast(Any, given)) == 1:
+            of_samples = real(given, what)
+            refuse(len(of_samples) != len(self), f"{what} has {len(of_samples)} gains for {len(self)} samples; of "
+                   "other times say nutik.Function(times, gains)")
             # A gain of 0 at both ends: nothing is exposed there.
-            edges = np.append(begins, self.duration_ns)
-            gains = np.concatenate([[0.0], np.repeat(np.asarray(whole(given, what), np.float64), 2), [0.0]])
+            edges = np.append(self.times_ns[:, 0], self.duration_ns)
+            gains = np.concatenate([[0.0], np.repeat(of_samples, 2), [0.0]])
             return Function.from_ns(np.repeat(edges, 2), gains)
         return function_of(given, what, np.timedelta64(self.duration_ns, "ns"))
 
     def _output(self, codes: bool, dtype: DTypeLike, transfer: Optional[str], negative: Optional[str] = None, *,
                 is_plate: bool = False) -> dict[str, str]:
         kinds = {"uint8": "8", "uint16": "16"} if codes else {"float32": "float", "float64": "double"}
-        kind = np.dtype(dtype).name if dtype is not None else self.dtype.name if codes else "float32"
-        if kind not in kinds:
-            raise UsageError(f"dtype={kind} holds no {'codes' if codes else 'light'}: light is float32 or float64, "
-                             "codes are uint8 or uint16 and come with codes=True")
-        if is_plate and kind == "float64":
-            raise UsageError("the background's light is float32")
+        try:
+            kind = np.dtype(dtype).name if dtype is not None else self.dtype.name if codes else "float32"
+        except TypeError:
+            kind = shortened(dtype)
+        refuse(kind not in kinds, f"dtype={kind} holds no {'codes' if codes else 'light'}: light is float32 or "
+               "float64, codes are uint8 or uint16 and come with codes=True")
+        refuse(is_plate and kind == "float64", "the background's light is float32")
         return settings_of({"dtype": kinds[kind], "transfer": transfer, "negative": negative})
 
     def _repr_html_(self) -> str:

@@ -23,7 +23,7 @@ from . import _nutik
 from ._docs import joined
 from ._nutik import DeviceError, Error, ImpreciseError, InputError, MemoryTooLittle, OutputError, UsageError
 from ._told import Json
-from ._words import NutikNote, Path, Progress, in_python, is_list, path_of, warn, word_of
+from ._words import NutikNote, Path, Progress, WrongType, in_python, is_list, path_of, refuse, warn, word_of
 
 # A value, several, or of a command's option that takes two words a list of pairs.
 Value = Union[str, int, float, Fraction, "PathLike[str]"]
@@ -69,6 +69,7 @@ def _words(kind: str, name: str, value: Any) -> list[str]:
 
 def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Mapping[str, Any]) -> dict[str, Json]:
     _, _, arguments = _nutik.described(command)
+    refuse(not (progress is None or callable(progress)), f"progress is {progress!r}, which cannot be called", WrongType)
     said: dict[str, list[list[str]]] = {"json": [[]]}
     if progress is not None and "progress" in arguments:
         said["progress"] = [[]]
@@ -148,12 +149,10 @@ def _function_of(command: str, example: str) -> Command:
     function.__module__ = "nutik"
     rows = [f"*files : {operands}", "progress : called with a percentage and 100",
             *(f"{name} : {row[0] or 'True'}\n    {row[1]}" for name, row in offered.items())]
-    function.__doc__ = in_python(joined(summary, {
-        "Parameters": "\n".join(rows),
+    function.__doc__ = in_python(joined(summary, {"Parameters": "\n".join(rows),
         "Returns": "dict, what the command answers to scripts; what it says besides comes as warnings.",
         "Raises": "The error of nutik's that its exit status stands for.",
-        "Notes": "It runs in a process of its own, which Ctrl-C ends.",
-        "Examples": f">>> answer = nutik.{example}"}))
+        "Notes": "It runs in a process of its own, which Ctrl-C ends.", "Examples": f">>> answer = nutik.{example}"}))
     kinds = inspect.Parameter
     function.__annotations__.update(dict.fromkeys(offered, "Option"))
     signature = inspect.signature(function)

@@ -96,7 +96,7 @@ def _complete_class(kind: type) -> None:
 
 def complete_all(offered: Iterable[object]) -> None:
     """What the package offers, and the methods of its classes."""
-    shared, exposed = {**_entries(open), **_PLOTTED}, _entries(Capture.render)
+    shared, exposed = _entries(open), _entries(Capture.render)
     for each in offered:
         members = {each.__name__: each} if inspect.isfunction(each) else vars(each) if inspect.isclass(each) else {}
         if inspect.isclass(each) and each.__module__.startswith("nutik._") and not issubclass(each, BaseException):
@@ -107,7 +107,7 @@ def complete_all(offered: Iterable[object]) -> None:
                     function, "__signature__"):
                 continue  # a second name of what is completed by its own; a command, which has it all
             is_of_capture = vars(Capture).get(name) is function
-            told = {}
+            told = dict(_PLOTTED) if name == "plot" else {}
             for command in ("expose", _COMMANDS.get(name, "expose")) if name in _COMMANDS or is_of_capture else ():
                 told.update({argument: in_python(row[1]) for argument, row in _nutik.described(command)[2].items()})
             complete(function, {**told, **shared, **(exposed if is_of_capture else {})})

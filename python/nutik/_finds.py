@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 
 from ._functions import Function
 from ._masks import Mask
-from ._nutik import UsageError
 from ._pictures import Picture
-from ._words import Axes, axes_of, time_word
+from ._words import Axes, axes_of, refuse, time_word
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,13 +39,14 @@ class Activity:
     changes: NDArray[np.uint64]         # [height, width]: at how many samples each pixel changed
     counted_pixels: int
     redrawn: NDArray[np.uint64]         # samples that count as those beside them
+    times: NDArray[np.float64]          # [samples]: when each begins, in seconds
     busiest: Optional[Stretch]  # a twentieth of the capture; None where nothing changes
     quietest: Optional[Stretch]
 
     def plot(self, ax: Optional[Axes] = None, **style: object) -> Axes:
-        """Draws the share of pixels that change at each sample with matplotlib."""
-        axes = axes_of(ax, "sample", "share of pixels that change")
-        axes.plot(self.changed_pixels / max(self.counted_pixels, 1), **style)
+        """Draws the share of pixels that change over seconds with matplotlib."""
+        axes = axes_of(ax, "time, s", "share of pixels that change")
+        axes.plot(self.times, self.changed_pixels / max(self.counted_pixels, 1), **style)
         return axes
 
 
@@ -91,11 +91,10 @@ def freedom_word(name: str, free: Any, functions: str) -> str:
     """`rest=-100..0`, `when=0.6s..0.8s/1f`."""
     if isinstance(free, str):
         return f"{name}={free}"
-    if len(free) not in (2, 3):
-        raise UsageError(f"free[{name!r}] is {free!r}; give (least, most) of a gain, (from, to) or (from, to, step) "
-                         "of a time")
-    if type(free[0]) is type(free[1]) and not isinstance(free[0], str) and free[0] > free[1]:
-        raise UsageError(f"free[{name!r}] is {free!r}: the first is above the second")
+    refuse(len(free) not in (2, 3), f"free[{name!r}] is {free!r}; give (least, most) of a gain, (from, to) or (from, "
+           "to, step) of a time")
+    refuse(type(free[0]) is type(free[1]) and not isinstance(free[0], str) and free[0] > free[1],
+           f"free[{name!r}] is {free!r}: the first is above the second")
     if re.search(rf"\[\s*{re.escape(name)}\b", functions):  # in the place of a time
         words = [time_word(each, f"free[{name!r}]") for each in free]
         return f"{name}={words[0]}..{words[1]}" + (f"/{words[2]}" if len(words) == 3 else "")

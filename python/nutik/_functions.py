@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Iterable, Mapping, Optional, Sequence, Union, overload
+from typing import Any, Callable, Iterable, Mapping, Optional, Sequence, Union, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import (Axes, Path, Time, axes_of, listed, path_of, reading, shortened, tag_of, time_ns, time_word,
-                     times_ns, warn, whole)
+from ._words import (Axes, HasArray, Path, Time, array_ns, axes_of, listed, path_of, reading, real, refuse, shortened,
+                     tag_of, time_ns, time_word, times_ns, warn, whole)
 
 _MIN_SAMPLES = 1024  # of a callable, evenly, before it is looked at more closely where it bends
+_PROBES = 64         # in each stretch of these, unevenly: what repeats evenly may hide from even samples
+_GOLDEN = (5 ** 0.5 - 1) / 2  # whose multiples' fractions lie nowhere close together
 _MAX_SAMPLES = 1 << 20
-_CHORD_SHARE = 0.1     # of the error, by which a callable may leave the chord of two samples in their middle
+_CHORD_SHARE = 0.1     # of the error, by which a callable may leave the chord of two samples
+_THINNINGS = 8         # passes that share another tenth
 
 
 class Function:
@@ -33,7 +36,7 @@ class Function:
     """
 
     def __init__(self, times: Iterable[Time], gains: Iterable[float]) -> None:
-        self._held = _nutik.Function(times_ns(times, "times"), np.asarray(listed(gains, "gains"), np.float64))
+        self._held = _nutik.Function(times_ns(times, "times"), real(listed(gains, "gains"), "gains"))
 
     @classmethod
     def _of(cls, held: _nutik.Function) -> Function:
@@ -53,9 +56,8 @@ class Function:
         <nutik.Function [0:0], [100:1]>
         """
         at = np.asarray(whole(times_ns, "times_ns"))
-        if at.size and at.dtype.kind not in "iu":
-            raise UsageError(f"times_ns has dtype {at.dtype}; whole nanoseconds are int64")
-        return cls._of(_nutik.Function(at.astype(np.int64), np.asarray(whole(gains, "gains"), np.float64)))
+        refuse(at.size and at.dtype.kind not in "iu", f"times_ns has dtype {at.dtype}; whole nanoseconds are int64")
+        return cls._of(_nutik.Function(at.astype(np.int64), real(gains, "gains")))
 
     @property
     def times_ns(self) -> NDArray[np.int64]:
@@ -68,13 +70,14 @@ class Function:
         return self._held.points()[1]
 
     @overload
-    def __call__(self, times: float) -> float: ...
+    def __call__(self, times: Time) -> float: ...
     @overload
-    def __call__(self, times: NDArray[np.float64]) -> NDArray[np.float64]: ...
+    def __call__(self, times: NDArray[np.generic]) -> NDArray[np.float64]: ...
 
-    def __call__(self, times: Union[float, NDArray[np.float64]]) -> Union[float, NDArray[np.float64]]:
-        """The gain at times in seconds, an array of any shape or a number; at a jump that of its later side."""
-        value = self._beside(np.asarray(times, np.float64) * 1e9)[1]
+    def __call__(self, times: Union[Time, NDArray[np.generic]]) -> Union[float, NDArray[np.float64]]:
+        """The gain at a time, or at each of an array of any shape; at a jump that of its later side."""
+        at = np.asarray(whole(times, "times"))
+        value = self._beside(at.astype(np.float64) * 1e9 if at.dtype.kind in "iuf" else array_ns(at, "times"))[1]
         return value if value.ndim else float(value)
 
     @property
@@ -117,9 +120,9 @@ class Function:
         return Function.from_ns(np.repeat(times, 1 + jumps), gains)
 
     def __radd__(self, other: int) -> Function:
-        if isinstance(other, int) and other == 0:  # sum() begins with it
-            return self
-        return NotImplemented
+        if not isinstance(other, int) or other:  # sum() begins with 0
+            return NotImplemented
+        return self
 
     def __sub__(self, other: Function) -> Function:
         return self + other * -1 if isinstance(other, Function) else NotImplemented
@@ -170,7 +173,7 @@ class Function:
 
 
 Gain = Union[Callable[[float], float], Callable[[NDArray[np.float64]], NDArray[np.float64]]]
-FunctionLike = Union[Function, Sequence[tuple[Time, float]], NDArray[np.float64], Gain]
+FunctionLike = Union[Function, Sequence[tuple[Time, float]], HasArray, Gain]
 
 
 def boxcar(start: Time, exposure: Time, gain: float = 1.0) -> Function:
@@ -215,8 +218,9 @@ def fit(gain: Gain, start: Time, end: Time, *, error: float = 1e-3) -> Function:
         once for each.
     start, end : where it is not 0.
     error : how far the pieces may lie from it, a share of its largest |gain|. It holds at every time that was looked
-        at: 1024 evenly, and more wherever the middle of two lies off the line between them, down to single nanoseconds.
-        A jump becomes a step of 1 ns.
+        at: 1024 evenly, 64 unevenly between each two, and more wherever it lies off the line between these, down to
+        single nanoseconds. What is shorter than 1/48000 of the whole may be missed: give such a function's points. A
+        jump becomes a step of 1 ns.
     Raises:
     UsageError where a gain is not finite, where it is 0 everywhere, or where it bends in more places than can be looked
     at: give such a function's pieces as points.
@@ -226,19 +230,15 @@ def fit(gain: Gain, start: Time, end: Time, *, error: float = 1e-3) -> Function:
     True
     """
     begin_ns, end_ns = time_ns(start, "start"), time_ns(end, "end")
-    if end_ns - begin_ns < 1:
-        raise UsageError(f"the function ends at {end!r}, which is not after its start at {start!r}")
-    if not 0 < error < 1:
-        raise UsageError(f"error={error} is no share between 0 and 1")
-
-    called: Callable[[Any], Any] = gain
+    refuse(end_ns - begin_ns < 1, f"the function ends at {end!r}, which is not after its start at {start!r}")
+    refuse(not 0 < error < 1, f"error={error} is no share between 0 and 1")
 
     def gains_at(times: NDArray[np.int64]) -> NDArray[np.float64]:
         seconds = times / 1e9
         try:
-            values = np.asarray(called(seconds), np.float64)
+            values = real(cast(Any, gain)(seconds), "the function's gains")
         except (TypeError, ValueError):
-            values = np.asarray([called(float(each)) for each in seconds], np.float64)
+            values = real([cast(Any, gain)(float(each)) for each in seconds], "the function's gains")
         values = np.broadcast_to(values, times.shape) if values.ndim == 0 else values
         if values.shape != times.shape:
             raise UsageError(f"the function returns shape {values.shape} for {times.shape}: one gain for each time")
@@ -246,33 +246,47 @@ def fit(gain: Gain, start: Time, end: Time, *, error: float = 1e-3) -> Function:
             raise UsageError(f"the function is not finite at {float(seconds[~np.isfinite(values)][0])} s")
         return values
 
-    count = min(_MIN_SAMPLES, end_ns - begin_ns)
-    times = begin_ns + (np.arange(count + 1) * ((end_ns - begin_ns) / count)).round().astype(np.int64)
-    times[-1] = end_ns
-    times = np.unique(times)
+    spread = begin_ns + np.linspace(0, end_ns - begin_ns, _MIN_SAMPLES, endpoint=False).round().astype(np.int64)
+    even = times = np.unique(np.append(spread, end_ns))
     gains = gains_at(times)
-    bends = np.ones(len(times) - 1, bool)  # stretches whose middle is still to be looked at
-    while np.any(bends):
-        largest = np.max(np.abs(gains))
-        begin = np.flatnonzero(bends & (np.diff(times) > 1))
-        middle = times[begin] + (times[begin + 1] - times[begin]) // 2
-        if not len(middle):
-            break
-        if len(times) + len(middle) > _MAX_SAMPLES:
-            raise UsageError(f"the function bends in too many places to stay within {error} of it; give its pieces as "
-                             "points, or allow a larger error=")
-        found = gains_at(middle)
-        share = (middle - times[begin]) / (times[begin + 1] - times[begin])
-        chord = gains[begin] + (gains[begin + 1] - gains[begin]) * share
-        is_off = np.abs(found - chord) > _CHORD_SHARE * error * max(largest, np.max(np.abs(found), initial=0))
-        times, gains = np.insert(times, begin + 1, middle), np.insert(gains, begin + 1, found)
-        bends = np.zeros(len(times) - 1, bool)
-        where = begin + np.arange(len(begin))  # of each stretch's first half, now
-        bends[where[is_off]] = bends[where[is_off] + 1] = True
+
+    def look(at: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:  # gains, and which lie off chords
+        found = gains_at(at)
+        off = np.abs(found - np.interp(at - begin_ns, times - begin_ns, gains))
+        return found, off > _CHORD_SHARE * error * max(np.max(np.abs(gains)), np.max(np.abs(found), initial=0))
+
+    def bisect() -> None:
+        nonlocal times, gains
+        bends = np.ones(len(times) - 1, bool)  # stretches whose middle is still to be looked at
+        while len(begin := np.flatnonzero(bends & (np.diff(times) > 1))):
+            middle = times[begin] + (times[begin + 1] - times[begin]) // 2
+            refuse(len(times) + len(middle) > _MAX_SAMPLES, "the function bends in too many places to stay within "
+                   f"{error} of it; give its pieces as points, or allow a larger error=")
+            found, is_off = look(middle)
+            times, gains = np.insert(times, begin + 1, middle), np.insert(gains, begin + 1, found)
+            bends = np.zeros(len(times) - 1, bool)
+            where = (begin + np.arange(len(begin)))[is_off]  # of each stretch's first half, now
+            bends[where] = bends[where + 1] = True
+
+    bisect()
+    shares = (np.arange((len(even) - 1) * _PROBES) * _GOLDEN % 1).reshape(-1, _PROBES)
+    probes = even[:-1, None] + (np.diff(even)[:, None] * shares).astype(np.int64)
+    found, is_off = look(probes.ravel())
+    hidden, allowed = np.any(is_off.reshape(probes.shape), axis=1), error
+    if np.any(hidden):
+        times, first = np.unique(np.append(times, probes[hidden]), return_index=True)
+        gains = np.append(gains, found.reshape(probes.shape)[hidden])[first]
+        bisect()
+        allowed -= _CHORD_SHARE * error
+        for _ in range(_THINNINGS):  # every second point, where it lies on the chord of its neighbours
+            share = (times[1:-1] - times[:-2]) / (times[2:] - times[:-2])
+            off = np.abs(gains[:-2] + (gains[2:] - gains[:-2]) * share - gains[1:-1])
+            is_needed = np.ones(len(times), bool)
+            is_needed[1:-1:2] = off[::2] > _CHORD_SHARE / _THINNINGS * error * np.max(np.abs(gains))
+            times, gains = times[is_needed], gains[is_needed]
     largest = np.max(np.abs(gains))
-    if largest == 0:
-        raise UsageError("the function is 0 everywhere; there is nothing to expose")
-    fitted_times, fitted_gains = _nutik.fitted(times, gains, error * largest).points()
+    refuse(largest == 0, "the function is 0 everywhere; there is nothing to expose")
+    fitted_times, fitted_gains = _nutik.fitted(times, gains, allowed * largest).points()
     opens, closes = int(fitted_gains[0] != 0), int(fitted_gains[-1] != 0)
     return Function.from_ns(np.pad(fitted_times, (opens, closes), "edge"), np.pad(fitted_gains, (opens, closes)))
 
@@ -333,12 +347,12 @@ def function_of(given: FunctionLike, what: str, duration: Time = 0) -> Function:
     if isinstance(given, Function):
         return given
     if callable(given):
-        if duration == 0:
-            raise UsageError(f"{what}: how long is it? nutik.fit(function, start, end) says")
+        refuse(duration == 0, f"{what}: how long is it? nutik.fit(function, start, end) says")
         return fit(given, 0, duration)
     try:
-        points = [(time, float(gain)) for time, gain in given]
+        points = [(time, float(gain)) for time, gain in listed(given, what)]
     except (TypeError, ValueError):
-        raise UsageError(f"{what} is {shortened(given)}, no function; give a nutik.Function, a list of (time, gain), "
-                         "or a callable; of an interval say start= and exposure=") from None
+        raise UsageError(f"{what} is {shortened(given)}, no function; give a nutik.Function, a list of (time, gain), a "
+                         "callable, or an array with a gain for each sample; of an interval say start= and exposure="
+                         ) from None
     return Function([time for time, _ in points], [gain for _, gain in points])

@@ -19,8 +19,6 @@ class Mask:
 
     Parameters:
     tags : [height, width] whole numbers 0 ... 255; bool is 0 and 1.
-    Raises:
-    UsageError where it is none.
     Examples:
     >>> nutik.Mask(np.eye(16, dtype=bool))
     <nutik.Mask 16 x 16, tags [0, 1]>

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from . import _nutik
 from ._nutik import UsageError
 from ._told import Plan, Statistics, Uncertainty
-from ._words import Array, DataArray, Index, Path, labelled, path_of
+from ._words import Array, DataArray, Index, Path, labelled, path_of, refuse
 
 
 def _bounds(light: Union[float, NDArray[np.float64]], pictures: Array) -> NDArray[np.float64]:
@@ -89,8 +89,7 @@ class Pictures(_HasArray):
         Raises:
         UsageError where a coordinate is not a list with an entry for each picture.
         """
-        if len(first) > 1:
-            raise UsageError(f"{', '.join(first)}: the first axis has one name and one coordinate")
+        refuse(len(first) > 1, f"{', '.join(first)}: the first axis has one name and one coordinate")
         bounds = None if np.isnan(self.error_bounds).any() else self.error_bounds
         return labelled(self.array, first or {"picture": range(len(self))}, {"error_bounds": bounds}, self.corner)
 
@@ -198,15 +197,13 @@ class Picture(_HasArray):
         >>> capture.render(start=0, exposure="5f").write("light.exr")
         """
         if hasattr(path, "write"):
-            if kind is None or not kind.startswith("."):
-                raise UsageError("which kind of file? An open one has no name: kind='.png'")
+            refuse(kind is None or not kind.startswith("."), "which kind of file? An open one has no name: kind='.png'")
             with TemporaryDirectory(prefix="nutik-") as folder:
                 self.write(join(folder, f"picture{kind}"), quality=quality, keep_pixels=keep_pixels)
                 with open(join(folder, f"picture{kind}"), "rb") as file:
                     copyfileobj(file, cast(BinaryIO, path))
             return
-        if kind is not None:
-            raise UsageError(f"kind={kind!r} is said of an open file; {path_of(path)} says by its name what it is")
+        refuse(kind is not None, f"kind={kind!r} is said of an open file; {path_of(path)} says by its name what it is")
         name, is_light = path_of(path), self.dtype.kind == "f"
         if name.lower().endswith(".npy") and not is_light:
             made = BytesIO()

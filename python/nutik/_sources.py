@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import wraps
 from itertools import chain, count
 from os import PathLike
-from typing import Any, BinaryIO, Callable, Iterable, Iterator, Optional, Protocol, Sequence, TypeVar, Union, cast
+from typing import Any, BinaryIO, Callable, Iterable, Iterator, Optional, Sequence, TypeVar, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,14 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import _nutik
 from ._captures import Capture
 from ._nutik import InputError, UsageError
-from ._words import (Array, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, is_list, listed,
-                     path_of, reading, seconds_of, settings_of, time_ns, times_ns, warn, whole)
-
-
-class HasArray(Protocol):
-    """What NumPy makes an array of; of torch, jax and others those in this machine's memory."""
-
-    def __array__(self) -> NDArray[np.generic]: ...
+from ._words import (Array, HasArray, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, is_list,
+                     listed, path_of, reading, refuse, scalar, seconds_of, settings_of, time_ns, times_ns, warn, whole)
 
 
 Source = Union[ArrayLike, HasArray, Iterable[ArrayLike], Path, BinaryIO]
@@ -99,12 +93,11 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
         to the next.
     transfer : what codes stand for, 'srgb', 'bt709', 'linear', 'gamma:G', 'hlg', 'pq' or a camera's curve ('slog3');
         without it 'srgb' of uint8, 'linear' of uint16.
-    white : the code of white, 255 or 65535 without it; no code may be larger. Of floats the light of white, which must
-        be stated: they become 16-bit codes, to the nearest of 65535 steps; none may be negative.
+    white : the code of white, 255 or 65535 without it (4095 of 12 bits); no code may be larger. Of floats the light of
+        white, which must be stated: they become 16-bit codes, to the nearest of 65535 steps; none may be negative.
+    codec : of output, 'rice' without it: 'none', 'lz4', 'zstd' (small), 'zstd:1' to 'zstd:19' (smaller, slower).
     name : what messages call pictures in memory, 'array'.
     clip : of a path what nutik.open() takes besides: begin, crop, raw, ...
-    Returns:
-    Capture
     Raises:
     UsageError where arguments do not fit, InputError where pictures are unlike or times out of order, OutputError; what
     an iterable raises.
@@ -123,17 +116,15 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
     for argument in clip:
         if argument not in of_clips:
             raise TypeError(f"encode() has no argument {argument!r}")
-        if not is_clip:
-            raise UsageError(f"{argument}= is said of a clip's files; these are pictures in memory")
+        refuse(not is_clip, f"{argument}= is said of a clip's files; these are pictures in memory")
     if is_clip:
         stated.update(clip)
         if times is not None or exposures is not None:
             raise UsageError("times= and exposures= are those of arrays; a table of stills lists those of files")
-        if name is not None:
-            raise UsageError("name= is what pictures in memory are called; a clip has its own")
+        refuse(name is not None, "name= is what pictures in memory are called; a clip has its own")
         with as_file(source, "clip") as clip_name, reading(clip_name):
             return _told(_nutik.encode_clip(clip_name, path, codec, settings_of(stated), computing, progress))
-    name = name or "array"
+    name, white = name or "array", scalar(white)
     pictures, first, length, is_light = _pictures_of(source, white, name)
     if is_light:
         stated["white"] = None  # of the codes it is the last one
@@ -161,8 +152,7 @@ def join(captures: Iterable[Path], output: Path, *, device: Optional[str] = None
     >>> len(nutik.join(["0.tik", "1.tik"], "both.tik"))
     60
     """
-    if isinstance(captures, (str, PathLike)):
-        raise UsageError(f"captures= is {captures!r}: give a list of two captures or more")
+    refuse(isinstance(captures, (str, PathLike)), f"captures= is {captures!r}: give a list of two captures or more")
     paths = [path_of(each) for each in captures]
     with reading(*paths):
         return _told(_nutik.join(paths, path_of(output), _computing(device, memory, renderer), progress))
@@ -215,24 +205,21 @@ def _pictures_of(source: Any, white: Optional[float], name: str) -> tuple[Iterab
     def codes_of(picture: Array, what: str) -> Array:
         picture = np.asarray(whole(picture, what))
         is_light = picture.dtype.kind == "f"
-        if picture.dtype.newbyteorder("=") not in (np.uint8, np.uint16) and not is_light:
-            raise UsageError(f"{what} has dtype {picture.dtype}; codes are uint8 or uint16, light is of floats: say "
-                             "which with .astype()")
-        if picture.ndim not in (2, 3) or (picture.ndim == 3 and picture.shape[2] not in (1, 3)) or not picture.size:
-            raise UsageError(f"{what} has shape {picture.shape}; pictures are [height, width] or [height, width, 3], "
-                             "not empty")
+        refuse(picture.dtype.newbyteorder("=") not in (np.uint8, np.uint16) and not is_light, f"{what} has dtype "
+               f"{picture.dtype}; codes are uint8 or uint16, light is of floats: say which with .astype()")
+        refuse(picture.ndim not in (2, 3) or (picture.ndim == 3 and picture.shape[2] not in (1, 3)) or not picture.size,
+               f"{what} has shape {picture.shape}; pictures are [height, width] or [height, width, 3], not empty")
         kinds.add(is_light)
-        if len(kinds) > 1:
-            raise InputError(f"{what} has dtype {picture.dtype}; some pictures are codes, and some are light")
+        refuse(len(kinds) > 1, f"{what} has dtype {picture.dtype}; some pictures are codes, some are light", InputError)
         if not is_light:
             return picture.astype(picture.dtype.newbyteorder("="), copy=False)
         if not isinstance(white, (int, float, np.number)) or not 0 < white < np.inf:
-            raise UsageError(f"{what} has dtype {picture.dtype}: which value is white? white=1.0; light becomes the "
-                             "nearest of 65535 steps up to it")
+            wrong = "" if white is None else f"white={white!r} is no light above 0; "
+            raise UsageError(f"{what} has dtype {picture.dtype}: {wrong}which value is white? white=1.0; light becomes "
+                             "the nearest of 65535 steps up to it")
         share = np.asarray(picture, np.float64) / white
-        if not (share >= 0).all() or (share > 1).any():
-            raise InputError(f"a value of light is none between 0 and white={white:g}; clip it, or state a larger "
-                             "white")
+        refuse(not (share >= 0).all() or (share > 1).any(), f"a value of light is none between 0 and white={white:g}; "
+               "clip it, or state a larger white", InputError)
         return (share * 65535 + 0.5).astype(np.uint16)
 
     if isinstance(source, Capture):
@@ -244,9 +231,11 @@ def _pictures_of(source: Any, white: Optional[float], name: str) -> tuple[Iterab
             raise UsageError(f"{type(source).__name__} is no array of this machine's memory: {error}") from None
     if isinstance(source, memoryview) or hasattr(source, "__array_interface__") or hasattr(source, "__array__"):
         pictures = np.asarray(whole(source, "the array"))
-        if pictures.ndim not in (3, 4) or not len(pictures):
-            raise UsageError(f"the array has shape {pictures.shape}; it is [samples, height, width] or [samples, "
-                             "height, width, 3], with one sample at least")
+        refuse(pictures.ndim not in (3, 4) or not len(pictures), f"the array has shape {pictures.shape}; it is "
+               "[samples, height, width] or [samples, height, width, 3], with one sample at least")
+        if pictures.ndim == 3 and pictures.shape[2] in (1, 3):
+            warn([f"the array of shape {pictures.shape} is {len(pictures)} grey samples, {pictures.shape[2]} wide; one "
+                  "picture in colour is array[None]"], NutikNote)
         first, is_light = codes_of(pictures[0], "a picture of the array"), pictures.dtype.kind == "f"
         if pictures.dtype == first.dtype:
             return pictures, first, len(pictures), is_light
@@ -278,8 +267,7 @@ def _pictures_of(source: Any, white: Optional[float], name: str) -> tuple[Iterab
 
 
 def _lasting(length: Any, what: str, said: Any) -> Any:
-    if length <= 0:
-        raise UsageError(f"{what}= is {said!r}; an exposure lasts longer than 0")
+    refuse(length <= 0, f"{what}= is {said!r}; an exposure lasts longer than 0")
     return length
 
 
@@ -287,9 +275,8 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
             shutter_angle: Optional[Number], count: Optional[int]
             ) -> tuple[list[int], list[tuple[int, int]], Optional[int]]:
     """Starts, exposures, and how long all were exposed, as the engine has them."""
-    if (rate is None) == (times is None):
-        raise UsageError("when were the pictures taken? Say rate=, pictures a second, or times=, when each begins; not "
-                         "both")
+    refuse((rate is None) == (times is None), "when were the pictures taken? Say rate=, pictures a second, or times=, "
+           "when each begins; not both")
     if exposures is not None and shutter_angle is not None:
         raise UsageError("exposures= and shutter_angle= both say how long pictures were exposed; leave one out")
     if times is not None:
@@ -308,7 +295,6 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
     begins = [seconds_of(time, "times") for time in times]
     lengths = [_lasting(seconds_of(each, f"exposures[{i}]"), f"exposures[{i}]", each)
                for i, each in enumerate(listed(exposures, "exposures"))]
-    if len(lengths) != len(begins):
-        raise UsageError(f"there are {len(lengths)} exposures for {len(begins)} times")
+    refuse(len(lengths) != len(begins), f"there are {len(lengths)} exposures for {len(begins)} times")
     return [], [(start, half_up((begin + length) * 10 ** 9))
                 for start, begin, length in zip(starts, begins, lengths)], None

@@ -11,11 +11,8 @@ if TYPE_CHECKING:
 Json = Union[None, bool, int, float, str, "list[Json]", "dict[str, Json]"]
 
 
-class Tiles(TypedDict):
-    still: int
-    rows: int
-    dense: int
-    records: int
+Tiles = TypedDict("Tiles", {"still": int, "rows": int, "dense": int, "records": int})
+Bound = TypedDict("Bound", {"light": float, "steps": float})
 
 
 class Figures(TypedDict):
@@ -81,8 +78,7 @@ class Statistics(TypedDict, total=False):
 Term = TypedDict("Term", {
     "term": str, "is": Literal["bound", "deviation", "count", "no_bound"], "light": float, "codes": float,
     "float_steps": float, "share_of_bounds": float, "residual_pixels": float, "made_samples": float,
-    "exposed_samples": float,
-}, total=False)
+    "exposed_samples": float}, total=False)
 
 
 class Uncertainty(TypedDict, total=False):
@@ -91,11 +87,6 @@ class Uncertainty(TypedDict, total=False):
     scale: float
     terms: list[Term]
     bounds: Term
-
-
-class Bound(TypedDict):
-    light: float
-    steps: float
 
 
 class PictureFigures(TypedDict, total=False):

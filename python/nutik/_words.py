@@ -9,20 +9,20 @@ import shutil
 import sys
 import tempfile
 import warnings
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from decimal import Decimal
 from fractions import Fraction
 from functools import cache
 from os import PathLike, fsdecode
 from os.path import dirname, exists, join
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, Optional, Union, cast
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, Optional, Protocol, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _nutik
-from ._nutik import InputError, UsageError
+from ._nutik import Error, InputError, UsageError
 
 if TYPE_CHECKING:
     from builtins import ellipsis as ellipsis
@@ -45,6 +45,12 @@ _MAX_DIGITS = 10 ** 15 - 1  # that the engine reads above and below a fraction l
 _SECOND_NS = 10 ** 9
 
 
+class HasArray(Protocol):
+    """What NumPy makes an array of; of torch, jax and others those in this machine's memory."""
+
+    def __array__(self) -> NDArray[np.generic]: ...
+
+
 class NutikWarning(UserWarning):
     """What is doubtful about a result."""
 
@@ -62,6 +68,11 @@ class FileMissing(InputError, FileNotFoundError):
 
 class WrongType(UsageError, TypeError):
     """An argument is of a type that nothing can be made of."""
+
+
+def refuse(is_wrong: Any, message: str, kind: type[Error] = UsageError) -> None:
+    if is_wrong:
+        raise kind(message)
 
 
 @contextmanager
@@ -82,13 +93,11 @@ def labelled(values: NDArray[np.generic], first: Mapping[str, Any], attributes: 
              corner: tuple[int, int] = (0, 0)) -> DataArray:
     """Pictures with the names of their axes, and coordinates: those of `first`, and pixels, whose x and y begin at
     `corner`. Attributes that are None are left out, for no file holds them."""
-    if len(first) > values.ndim - 2:
-        raise UsageError(f"{', '.join(first)}: pictures have one axis before their own")
+    refuse(len(first) > values.ndim - 2, f"{', '.join(first)}: pictures have one axis before their own")
     coordinates: dict[str, Any] = {}
     for name, each in first.items():
-        if name in ("y", "x", "channel"):
-            raise UsageError(f"{name}= names an axis of the pictures themselves; the first one is another: "
-                             "start=starts")
+        refuse(name in ("y", "x", "channel"), f"{name}= names an axis of the pictures themselves; the first one is "
+               "another: start=starts")
         if not is_list(each) or (coordinate := np.asarray(listed(each))).ndim != 1 or len(coordinate) != len(values):
             raise UsageError(f"{name}= is {shortened(each)}: give a list of {len(values)}, one coordinate for each "
                              "picture")
@@ -98,9 +107,10 @@ def labelled(values: NDArray[np.generic], first: Mapping[str, Any], attributes: 
     for name, begin in zip("xy", corner):
         coordinates[name] = begin + np.arange(values.shape[axes.index(name)])
     coordinates["channel"] = ["red", "green", "blue"]
+    kind, unit = ("light", "1") if values.dtype.kind == "f" else ("codes", None)
     return cast(DataArray, import_module("xarray").DataArray(
-        values, dims=axes, coords={name: coordinates[name] for name in axes},
-        attrs={name: each for name, each in attributes.items() if each is not None}))
+        values, dims=axes, coords={name: coordinates[name] for name in axes}, name=kind,
+        attrs={name: each for name, each in dict(attributes, units=unit).items() if each is not None}))
 
 
 def shortened(value: Any) -> str:
@@ -148,7 +158,20 @@ def in_python(text: str) -> str:
 
 def is_list(value: Any) -> bool:
     """Whether it is several, and no word."""
-    return not isinstance(value, str) and hasattr(value, "__iter__")
+    return not isinstance(value, str) and hasattr(value, "__iter__") and getattr(value, "ndim", 1) != 0
+
+
+def scalar(value: Any) -> Any:  # of an array without axes what it holds
+    return value[()] if isinstance(value, np.ndarray) and not value.ndim else value
+
+
+def real(values: Any, what: str) -> NDArray[np.float64]:
+    """An array of gains."""
+    array = np.asarray(whole(values, what))
+    with suppress(TypeError, ValueError):
+        if array.dtype.kind in "biufO":
+            return array.astype(np.float64)
+    raise WrongType(f"{what} have dtype {array.dtype}; gains are real numbers")
 
 
 def listed(values: Any, what: str = "the array") -> list[Any]:
@@ -159,9 +182,11 @@ def listed(values: Any, what: str = "the array") -> list[Any]:
 def path_of(path: Any) -> str:
     """A path as text."""
     try:
-        return fsdecode(path)
+        text = fsdecode(path)
     except TypeError:
         raise WrongType(f"{shortened(path)} is no path") from None
+    refuse(re.search("[\0\ud800-\udfff]", text), f"{shortened(path)} is no path: it has zeros, or is not UTF-8")
+    return text
 
 
 def whole(array: Any, what: str) -> Any:
@@ -183,15 +208,11 @@ def warn(messages: Iterable[str], kind: type[NutikWarning] = NutikWarning) -> No
 
 def exact(value: Any, what: str) -> Fraction:
     """A number exactly as it is printed: 0.1 is a tenth."""
-    if isinstance(value, (bool, np.bool_)):
-        raise WrongType(f"{what} {value!r} is no number")
     try:
         if isinstance(value, (float, np.floating)):
             return Fraction(str(value))  # in as many digits as its own width needs
-        if isinstance(value, (int, np.integer)):
-            return Fraction(int(value))
-        if isinstance(value, (str, Fraction, Decimal)):
-            return Fraction(value)
+        if isinstance(value, (int, np.integer, str, Fraction, Decimal)) and not isinstance(value, bool):
+            return Fraction(int(value) if isinstance(value, np.integer) else value)
     except (ValueError, OverflowError, ZeroDivisionError):
         raise UsageError(f"{what} {value!r} is no finite number") from None
     raise WrongType(f"{what} {value!r} is no number")
@@ -216,14 +237,11 @@ _UNITS_S = {"W": Fraction(604_800), "D": Fraction(86_400), "h": Fraction(3600), 
 
 def seconds_of(time: Time, what: str) -> Fraction:
     """A time in seconds, exactly; of words only those that count no pictures."""
-    if isinstance(time, np.ndarray) and not time.ndim:
-        time = time[()]
+    time = scalar(time)
     if isinstance(time, np.timedelta64):
         unit, count = np.datetime_data(time.dtype)
-        if np.isnat(time):
-            raise UsageError(f"{what} is NaT, which is no time")
-        if unit not in _UNITS_S:
-            raise UsageError(f"{what} {time!r} has no unit of a fixed length; say numpy.timedelta64(10, 'ms')")
+        refuse(np.isnat(time), f"{what} is NaT, which is no time")
+        refuse(unit not in _UNITS_S, f"{what} {time!r} has no unit of a fixed length; say numpy.timedelta64(10, 'ms')")
         return int(time.astype(np.int64)) * count * _UNITS_S[unit]
     if isinstance(time, datetime.timedelta):
         return Fraction(time // datetime.timedelta(microseconds=1), 10 ** 6)
@@ -250,8 +268,7 @@ def half_up(value: Fraction) -> int:
 def time_ns(time: Time, what: str) -> int:
     """A time in whole nanoseconds."""
     nanoseconds = half_up(seconds_of(time, what) * _SECOND_NS)
-    if abs(nanoseconds) > 4 * 10 ** 18:
-        raise UsageError(f"{what} lies further away than 126 years")
+    refuse(abs(nanoseconds) > 4 * 10 ** 18, f"{what} lies further away than 126 years")
     return nanoseconds
 
 
@@ -260,20 +277,19 @@ def times_ns(times: Any, what: str) -> NDArray[np.int64]:
     return np.array([time_ns(time, f"{what}[{i}]") for i, time in enumerate(listed(times, what))], np.int64)
 
 
+def array_ns(times: NDArray[Any], what: str) -> NDArray[np.int64]:
+    """Times in an array of any shape in whole nanoseconds, int64."""
+    different, place = np.unique(times, return_inverse=True)
+    return times_ns(different, what)[place].reshape(times.shape)
+
+
 def delays_ns(delays: Any) -> NDArray[np.int64]:
     """The delay of each pixel, of seconds or timedelta64, in whole nanoseconds, int64."""
     delays = np.asarray(whole(delays, "delay="))
-    made: NDArray[Any]
-    if delays.dtype.kind == "m":
-        if np.isnat(delays).any() or np.datetime_data(delays.dtype)[0] not in _UNITS_S:
-            raise UsageError("delay=: an array of timedelta64 needs a unit of a fixed length, 'ns', and no NaT")
-        different, place = np.unique(delays, return_inverse=True)
-        made = times_ns(different, "delay=")[place].reshape(delays.shape)
-    elif delays.dtype.kind in "iuf":
-        made = np.floor(delays.astype(np.float64) * _SECOND_NS + 0.5)
-    else:
-        raise UsageError("delay= is 'rows:15ms', 'map.tif:0s..1s' or an array of seconds, and this has dtype "
-                         f"{delays.dtype}")
+    refuse(delays.dtype.kind not in "iufm", "delay= is 'rows:15ms', 'map.tif:0s..1s' or an array of seconds, and this "
+           f"has dtype {delays.dtype}")
+    made: NDArray[Any] = (array_ns(delays, "delay=") if delays.dtype.kind == "m" else
+                          np.floor(delays.astype(np.float64) * _SECOND_NS + 0.5))
     if not (np.abs(made.astype(np.float64)) <= 4e18).all():
         raise UsageError("delay=: some pixel's delay is no number of seconds, or further away than 126 years")
     return np.asarray(made, np.int64)
@@ -290,8 +306,7 @@ def count_of(value: Any, what: str) -> int:
 def tag_of(value: Any) -> int:
     """A value of a mask."""
     tag = count_of(value, "a tag")
-    if tag > 255:
-        raise UsageError(f"{tag} is no tag: tags are 0 ... 255")
+    refuse(tag > 255, f"{tag} is no tag: tags are 0 ... 255")
     return tag
 
 
@@ -302,13 +317,13 @@ def box_of(value: Any, what: str) -> list[int]:
     except (TypeError, ValueError):
         raise UsageError(f"{what} is {value!r}; write whole pixels: (x, y, width, height)") from None
     box = [count_of(each, f"a side of {what}") for each in (x, y, width, height)]
-    if 0 in box[2:]:
-        raise UsageError(f"{what} is {value!r}, which holds no pixel: (x, y, width, height)")
+    refuse(0 in box[2:], f"{what} is {value!r}, which holds no pixel: (x, y, width, height)")
     return box
 
 
 def word_of(name: str, kind: str, value: Any) -> str:
     """A value as the program reads it; `kind` is what its help has in that place."""
+    value = scalar(value)
     if isinstance(value, (str, bytes, PathLike)):
         return fsdecode(value)
     if kind == "SIZE":
@@ -324,8 +339,7 @@ def word_of(name: str, kind: str, value: Any) -> str:
         return f"{width}x{height}+{x}+{y}"
     if is_list(value):
         return ",".join(word_of(name, kind if "TIME" in kind else "", each) for each in value)
-    if kind == "FILE|auto":
-        raise WrongType(f"{name} is {value!r}, no path")
+    refuse(kind == "FILE|auto", f"{name} is {value!r}, no path", WrongType)
     return f"{value:g}px" if name == "feather" else "1" if value is True else str(value)
 
 

@@ -16,8 +16,10 @@
 #include "features/schema/requests.hpp"
 #include "imev/each_block.hpp"
 #include "imev/sample_cursor.hpp"
+#include "media/settled_fact.hpp"
 #include "parts.hpp"
 #include "session/clips/encoding.hpp"
+#include "system/is_absent.hpp"
 
 namespace nutik::python {
 namespace {
@@ -63,14 +65,14 @@ py::tuple opened(const Opening& terms, const py::object& progress) {
 
 py::tuple open(const std::string& path, const Settings& settings, const Settings& computing,
                const py::object& progress) {
-  if (!settings.empty() && is_tik(path)) {
+  if (!settings.empty() && is_tik(path) && !is_absent(path)) {
     const std::string& name = settings.begin()->first;
     const bool is_corrected = option_of_argument(CommandId::retime, name) != nullptr;
     throw UsageError(format("{}= describes a clip that is encoded; {} was encoded already. {}", name, path,
                             is_corrected ? "To correct it: nutik.retime(capture, new, " + name + "=...)"
                                          : "Encode the clip again with it"));
   }
-  return opened(opening_of(path, settings, computing), progress);
+  return opened(opening_of(path, is_tik(path) ? Settings() : settings, computing), progress);
 }
 
 // The capture that a file now holds.
@@ -85,8 +87,7 @@ py::tuple encoded(const Opening& terms, const std::optional<std::string>& output
                   const std::optional<std::string>& codec, const py::object& progress) {
   const tik::Codec packed = tik::Codec::parse(codec.value_or("rice"));
   if (codec && !output) throw UsageError("codec= is said of a file that is kept: name it, output='clip.tik'");
-  if (output && !is_tik(*output))
-    throw UsageError(format("{} is no name for a capture, which ends in .tik", *output));
+  if (output && !is_tik(*output)) throw UsageError(format("{} is no name for a capture, which ends in .tik", *output));
   if (!output) return opened(terms, progress);
   const EncodeRequest request{*output, packed};
   const EncodedCapture made = without_lock([&](const Stopping& stopping) {
@@ -131,17 +132,27 @@ class PicturesClip final : public Clip {
     if (!arrays_ || next_ == arrays_->size()) take();
     if (arrays_->empty()) return false;
     std::memcpy(raster.data(), (*arrays_)[next_++].data(), raster.size());
-    const std::uint32_t white = info_.format.white_code;
-    const bool is_last = white == (info_.format.code_bytes == 1 ? 255 : 65'535);
-    const std::uint32_t code = is_last ? 0 : largest_code(raster, info_.format.code_bytes);
-    if (code > white)
-      throw InputError(format("{}: picture {} has the code {}, above white, {}", name_, taken_, code, white),
+    const std::uint32_t white = info_.format.white_code, last = info_.format.code_bytes == 1 ? 255 : 65'535;
+    if (white != last || (last != 255 && largest_ <= kLeast))
+      largest_ = std::max(largest_, largest_code(raster, info_.format.code_bytes));
+    if (largest_ > white)
+      throw InputError(format("{}: picture {} has the code {}, above white, {}", name_, taken_, largest_, white),
                        {Setting::white_code});
     ++taken_;
     return true;
   }
 
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    const Fact& last = info_.facts.back();  // of 16 bits what white is
+    const bool is_assumed = last.setting == Setting::white_code && last.origin == Origin::assumed;
+    if (!is_assumed || largest_ == 0 || largest_ > kLeast) return {};
+    return {format("{}: no code is above {}, and white is taken to be 65535; state another, white=4095 for 12 bits",
+                   name_, largest_)};
+  }
+
  private:
+  static constexpr std::uint32_t kLeast = 32'767;  // largest code that leaves no bit unused
+
   // The next arrays without gaps, which are copies only where they have some: none at the end; one, or several views of
   // a whole array, for Python's other threads may keep its lock for 5 ms each time.
   void take() {
@@ -163,6 +174,7 @@ class PicturesClip final : public Clip {
   std::shared_ptr<std::vector<py::array>> arrays_;
   std::size_t most_, next_ = 0;
   std::uint64_t taken_ = 0;
+  std::uint32_t largest_ = 0;  // code so far, where it matters
 };
 
 // Pictures of uint8 or uint16, all of one shape: arrays that are read where they lie, of an iterable that is asked with
@@ -191,14 +203,16 @@ py::tuple encode_pictures(const py::object& pictures, const py::array& first, st
                        first.ndim() == 3 ? static_cast<std::uint32_t>(first.shape(2)) : 1U};
   info.format.code_bytes = static_cast<std::uint32_t>(first.itemsize());
   const bool is_short = info.format.code_bytes == 1;
-  info.format.white_code = terms.source.clip.white_code.value_or(is_short ? 255 : 65'535);
+  const std::optional<std::uint32_t>& white = terms.source.clip.white_code;
   info.timing.rate_from = "what the caller said";
   info.timing.starts_ns = starts_ns;
   for (const auto& [start_ns, end_ns] : exposures_ns) info.timing.exposures.push_back({start_ns, end_ns});
   info.timing.exposed_ns = exposed_ns;
   info.sample_count = count;
+  info.format.white_code = white.value_or(255);
   if (white_light) describe_light(info, *white_light);
   describe_stored_codes(info, terms.source.clip, {is_short ? Transfer::srgb() : Transfer::linear()});
+  if (!is_short && !white_light) info.format.white_code = settle_white(info, white, {}, false);
   terms.open = open_pictures(pictures, std::move(info), name);
   return encoded(terms, output, codec, progress);
 }
@@ -220,8 +234,7 @@ py::dict figures(const OpenCapture& capture) {
   const Timeline& timeline = capture.timeline();
   const CaptureFigures held = without_lock([&](const Stopping&) { return nutik::figures_of(reader); });
   const auto& [still, rows, dense, records] = held.tiles;
-  return py::dict(
-      "samples"_a = timeline.sample_count(), "duration_ns"_a = timeline.duration_ns(),
+  return py::dict("samples"_a = timeline.sample_count(), "duration_ns"_a = timeline.duration_ns(),
       "rate"_a = fraction(timeline.rate()), "is_constant_rate"_a = timeline.is_constant(),
       "shutter_angle"_a = fraction(timeline.shutter_angle()), "white"_a = format.white_code,
       "transfer"_a = format.transfer.text(), "primaries"_a = to_text(format.primaries),

@@ -31,11 +31,9 @@ std::vector<ControlPoint> points_of(const Times& times_ns, const Gains& gains) {
     if (!std::isfinite(gain)) throw UsageError(format("control point {}: gain {} is not finite", i, gain));
     if (time_ns > kLargestTimeNs || time_ns < -kLargestTimeNs)
       throw UsageError(format("control point {}: time {} ns lies further away than 126 years", i, time_ns));
-    if (i > 0 && time_ns < points.back().time_ns) {
-      throw UsageError(
-          format("control point {}: time {} ns is not after {} ns; control points must be in time order", i,
-                 time_ns, points.back().time_ns));
-    }
+    if (i > 0 && time_ns < points.back().time_ns)
+      throw UsageError(format("control point {}: time {} ns is not after {} ns; control points must be in time order",
+                              i, time_ns, points.back().time_ns));
     if (i > 1 && time_ns == points[points.size() - 2].time_ns)
       throw UsageError(format("control point {}: {} ns is the time of three; a jump has two", i, time_ns));
     points.push_back({time_ns, gain});
@@ -45,7 +43,6 @@ std::vector<ControlPoint> points_of(const Times& times_ns, const Gains& gains) {
 
 GainFunction fitted(const Times& times_ns, const Gains& gains, double error) {
   const std::vector<ControlPoint> samples = points_of(times_ns, gains);
-  if (samples.size() < 2) throw UsageError("a fit needs two samples at least");
   const auto [low, high] = std::ranges::minmax(samples, {}, &ControlPoint::gain);
   const Unlocked released;
   return GainFunction(fit_corridor(samples, error, low.gain, high.gain));
@@ -74,16 +71,14 @@ py::tuple interval_ns(const std::string& start, const std::string& length) {
   const StatedTime from = StatedTime::parse(start, "start"), stated = StatedTime::parse(length, "exposure");
   if (from.counts_samples() || stated.counts_samples())
     throw UsageError("to count in pictures of a clip its times must be known; write times in seconds");
-  const Exposure interval =
-      plain_interval(from, stated, Timeline::constant({1, 1}, Timeline::kFullShutter, 1));
+  const Exposure interval = plain_interval(from, stated, Timeline::constant({1, 1}, Timeline::kFullShutter, 1));
   return py::make_tuple(interval.start_ns, interval.end_ns);
 }
 
 std::int64_t nanoseconds(const std::string& time, const std::string& what) {
   const StatedTime stated = StatedTime::parse(time, what);
   if (stated.counts_samples())
-    throw UsageError(
-        format("{} '{}' counts pictures, and no clip says when they are; write a time", what, time));
+    throw UsageError(format("{} '{}' counts pictures, and no clip says when they are; write a time", what, time));
   return stated.nanoseconds();
 }
 

@@ -166,7 +166,6 @@ PYBIND11_MODULE(_nutik, module) {
   // A capture that somebody cuts off must not end the interpreter.
   nutik::watch_mapped_files();
   py::module_::import("atexit").attr("register")(py::cpp_function(&end_work));
-  for (const auto bind : {bind_errors, bind_commands, bind_functions, bind_captures, bind_rendering,
-                          bind_studies})
+  for (const auto bind : {bind_errors, bind_commands, bind_functions, bind_captures, bind_rendering, bind_studies})
     bind(module);
 }

@@ -115,8 +115,7 @@ py::list functions_of_plan(const ExposureFigures& figures) {
   py::list functions;
   for (const PlannedFunction& planned : figures.functions) {
     const GainSummary& summary = planned.summary;
-    functions.append(py::dict(
-        "tag"_a = planned.tag, "pixels"_a = planned.pixel_count,
+    functions.append(py::dict("tag"_a = planned.tag, "pixels"_a = planned.pixel_count,
         "live_ns"_a = py::make_tuple(summary.live.begin_ns, summary.live.end_ns),
         "samples"_a = exposed_samples(planned, figures.timeline).size(), "still_gain"_a = summary.still_gain(),
         "support_ns"_a = summary.support_ns, "integral_ns"_a = std::scalbn(summary.integral_ns, summary.exponent)));
@@ -160,8 +159,8 @@ struct Differences {
 };
 
 // [count, height, width(, 3)], the bound of each picture's light (NaN of the reference), of codes how many pixels hold
-// light below and above them, warnings, each once, of each tag the least still gain, of each picture its maps, if these
-// are asked for, and what tells of each its uncertainty: a thousand of those take longer than the pictures.
+// light below and above them, warnings with their first picture, of each tag the least still gain, of each picture its
+// maps, if these are asked for, and what tells each one's uncertainty: a thousand of those take longer than pictures.
 py::tuple render_many(const OpenCapture& capture, const AskedExposure& asked, std::size_t count,
                       std::vector<std::string> starts, std::vector<std::string> lengths,
                       std::vector<FunctionSet> functions, const Settings& output, bool bounds,
@@ -176,7 +175,7 @@ py::tuple render_many(const OpenCapture& capture, const AskedExposure& asked, st
   auto* const bytes = static_cast<std::byte*>(pictures.mutable_data());
   std::vector<double> errors;
   std::vector<std::uint64_t> saturated;
-  std::vector<std::string> warnings;
+  std::map<std::string, std::pair<std::size_t, std::size_t>> doubts;  // in which picture first, in how many
   std::map<std::uint8_t, double> still_gains;
   std::vector<std::vector<PictureLayer>> maps;
   std::vector<Uncertainty> uncertainties;
@@ -196,13 +195,17 @@ py::tuple render_many(const OpenCapture& capture, const AskedExposure& asked, st
         double& least = still_gains.try_emplace(function.tag, still_gain).first->second;
         least = std::min(least, still_gain);
       }
-      for (const std::string& warning : exposed.warnings)
-        if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
+      for (const std::string& warning : exposed.warnings) ++doubts.try_emplace(warning, number, 0).first->second.second;
       if (bounds) maps.push_back(std::move(exposed.bounds));
       uncertainties.push_back(std::move(exposed.uncertainty));
       report(number + 1, count);
     });
   }, progress);
+  std::vector<std::string> warnings;
+  for (const auto& [text, where] : doubts) {
+    const std::string others = where.second == 1 ? "" : nutik::format(" and {} more", where.second - 1);
+    warnings.push_back(where.second == count ? text : nutik::format("picture {}{}: {}", where.first, others, text));
+  }
   py::list held_maps;
   for (auto& layers : maps) held_maps.append(maps_of(layers));
   const py::cpp_function told([format, known = std::move(uncertainties)] {
@@ -281,8 +284,7 @@ py::dict figures_of(const ExposedPicture& exposed) {
     const PictureError& worst = exposed.choice->bound.worst;
     bound = py::dict("light"_a = worst.light, "steps"_a = worst.steps);
   }
-  return py::dict(
-      "precision"_a = to_text(exposed.precision), "error_bound"_a = bound,
+  return py::dict("precision"_a = to_text(exposed.precision), "error_bound"_a = bound,
       "uncertainty"_a = fields_of(exposed.uncertainty, exposed.output),
       "saturated"_a = saturated_of(exposed.output.type, exposed.saturation), "plan"_a = plan,
       "statistics"_a = statistics, "warnings"_a = exposed.warnings,

@@ -75,8 +75,7 @@ py::dict activity(const OpenCapture& capture, const std::optional<HeldMask>& mas
   const MeasuredActivity measured = without_lock(
       [&](const Stopping& stopping) { return measure_activity(session, request, stopping.progress()); }, progress);
   const Shape& shape = capture.shape();
-  return py::dict(
-      "changed_pixels"_a = array_of(measured.activity.changed_pixels()),
+  return py::dict("changed_pixels"_a = array_of(measured.activity.changed_pixels()),
       "changes"_a = array_of(measured.activity.changes(), axes_of({shape.width, shape.height, 1})),
       "counted_pixels"_a = measured.activity.pixel_count(), "redrawn"_a = array_of(measured.redrawn),
       "busiest"_a = stretch_of(measured.timeline, measured.moments, false),
@@ -101,10 +100,8 @@ py::dict solve(const OpenCapture& capture, const std::string& functions, const s
   request.functions = std::move(input.functions);
   for (const std::string& each : free) request.free.push_back(StatedFreedom::parse(each, request.functions));
   for (const std::string& time : request.functions.times) {
-    if (std::ranges::none_of(request.free, [&](const StatedFreedom& each) { return each.name == time; })) {
-      throw UsageError(
-          format("{} stands for a time; say when it may be: free={{'{}': (0.6, 0.8)}}", time, time));
-    }
+    if (std::ranges::none_of(request.free, [&](const StatedFreedom& each) { return each.name == time; }))
+      throw UsageError(format("{} stands for a time; say when it may be: free={{'{}': (0.6, 0.8)}}", time, time));
   }
   request.exposure = asked.request;
   request.exposure.gains = Shared(tags_of(request.functions));

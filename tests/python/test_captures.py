@@ -75,6 +75,36 @@ class Arrays(support.TestCase):
             np.save(self.path("wrong.npy"), np.zeros((2, 8, 8), dtype))
             self.assert_raises(nutik.InputError, advice, nutik.open, self.path("wrong.npy"), rate=1, white=1.0)
 
+    def test_white_that_nobody_states(self):
+        codes = np.arange(4096, dtype=np.uint16).reshape(4, 32, 32)
+        for source in (codes, iter(codes)):
+            with self.assertWarnsRegex(nutik.NutikNote, "no code is above 4095, .* 65535; .* white=4095"):
+                capture = nutik.encode(source, self.path("dark.tik"), rate=1)
+            self.assertIn("white 65535, assumed", capture.facts)
+            self.assertTrue(any("4095" in note for note in capture.notes))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertIn("white 4095, as stated", nutik.encode(codes, rate=1, white=4095).facts)
+            self.assertEqual(nutik.encode(codes, rate=1, white=65535).figures["white"], 65535)
+            for quiet in (codes * 16, codes * 0, (codes >> 4).astype(np.uint8)):
+                nutik.encode(quiet, rate=1)
+            nutik.encode(codes / 65535, rate=1, white=1.0)
+
+    def test_one_picture_in_colour(self):
+        for picture in (np.zeros((6, 8, 3), np.uint8), np.zeros((6, 8, 1), np.uint8)):
+            with self.assertWarnsRegex(nutik.NutikNote, r"6 grey samples, [13] wide; .* array\[None\]"):
+                nutik.encode(picture, rate=1)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertEqual(nutik.encode(picture[None], rate=1).shape, (1, 6, 8))
+
+    def test_arguments_without_axes(self):
+        capture = nutik.encode(np.full((2, 8, 8), 255, np.uint8), rate=np.array(2), white=np.array(255),
+                               exposures=np.array(0.25))
+        self.assertEqual((capture.rate, capture.times_ns[0].tolist()), (2, [0, 250_000_000]))
+        self.assertEqual(capture.render(start=np.array(0), exposure=np.array(1), gain=np.array(2)).array[0, 0], 2)
+        self.assertEqual(nutik.encode(np.ones((2, 8, 8)), rate=1, white=np.array(1.0))[0][0, 0], 65535)
+
     def test_records_that_take_too_much(self):
         """Their limit is `memory`, whatever that is: 4 GiB were the most once."""
         noise = np.random.default_rng(5).integers(0, 256, (60, 200, 300), np.uint8)
@@ -140,6 +170,9 @@ class Arrays(support.TestCase):
                            self.path("clip.png"), rate=1)
         self.assert_raises(usage, "white '255.0'", encode, pictures, rate=1, white=255.0)
         self.assert_raises(usage, "int64", encode, pictures.astype(int), rate=1)
+        for white in (float("nan"), 0, -1):
+            self.assert_raises(usage, f"white={white} is no light above 0", encode, pictures.astype(float), rate=1,
+                               white=white)
         self.assert_raises(usage, "(8, 8)", encode, pictures[0], rate=1)
         self.assert_raises(usage, "(8, 8, 4)", encode, np.zeros((4, 8, 8, 4), np.uint8), rate=1)
         self.assert_raises(usage, "(0, 8, 8)", encode, pictures[:0], rate=1)
@@ -185,6 +218,10 @@ class Arrays(support.TestCase):
         (self.folder / "text.tik").write_text("nothing")
         self.assert_raises(nutik.InputError, "text.tik", nutik.open, self.path("text.tik"))
         self.assert_raises(nutik.FileMissing, "no such file", nutik.open, self.path("absent.mp4"))
+        self.assert_raises(nutik.FileMissing, "No such file", nutik.open, self.path("absent.tik"), rate=2)
+        for name in ("a\udcff.tik", "a\0b.tik"):
+            for call in (nutik.open, nutik.read_mask, lambda path: nutik.encode(np.zeros((2, 8, 8)), path, white=1.0)):
+                self.assert_raises(nutik.UsageError, "is no path", call, name)
         nutik.encode(np.zeros((4, 8, 8), np.uint8), self.path("clip.tik"), rate=1)
         for name, value, helps in (("rate", 2, "nutik.retime("), ("transfer", "srgb", "nutik.retime("),
                                    ("noise", "a.noise", "Encode the clip again")):

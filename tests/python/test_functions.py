@@ -1,7 +1,9 @@
 """Gain functions: points, jumps, shutters, fits."""
 
+import datetime
 import math
 import unittest
+from fractions import Fraction
 
 import nutik
 import numpy as np
@@ -47,6 +49,26 @@ class Functions(support.TestCase):
                          (nutik.Function([0, 1], [0, 1]) * -1, hash(nutik.Function([0, 1], [0, 1]) * -1)))
         for wrong in (lambda: jump + 1, lambda: jump * jump, lambda: jump - 1, lambda: "2" * jump):
             self.assertRaises(TypeError, wrong)
+
+    def test_times_of_every_kind(self):
+        box = nutik.boxcar(0, 0.1)
+        for time in (0.01, "10ms", np.timedelta64(10, "ms"), datetime.timedelta(milliseconds=10), np.array(0.01)):
+            self.assertEqual((box(time), type(box(time))), (1, float))
+        times = np.array([[10, 99], [100, 10 ** 9]], "timedelta64[ms]")
+        self.assertEqual(box(times).tolist(), [[1, 1], [0, 0]])
+        self.assertEqual(box(np.array([datetime.timedelta(seconds=1)])).tolist(), [0])
+        for wrong in (None, True, 1j, np.ones(2, bool)):
+            self.assert_raises(nutik.WrongType, "no number", box, wrong)
+        self.assert_raises(nutik.UsageError, "NaT", box, np.array(["NaT"], "timedelta64[ns]"))
+
+    def test_gains_are_real_numbers(self):
+        capture = nutik.encode(np.zeros((2, 8, 8), np.uint8), rate=1)
+        for call in (lambda gains: nutik.Function([0, 1], gains), lambda gains: nutik.Function.from_ns([0, 1], gains),
+                     capture.render, lambda gains: nutik.fit(lambda t: gains[0] * t, 0, 1),
+                     lambda gains: capture.render_many([gains])):
+            for wrong in (np.array([1j, 0]), np.array([1, 2], "timedelta64[ms]")):
+                self.assert_raises(nutik.WrongType, f"dtype {wrong.dtype}", call, wrong)
+        self.assertEqual(nutik.Function([0, 1], [Fraction(1, 2), 1]).gains.tolist(), [0.5, 1])
 
     def test_points_that_are_none(self):
         make, usage = nutik.Function, nutik.UsageError
@@ -97,6 +119,24 @@ class Functions(support.TestCase):
                     self.assertEqual(fitted(1.5), 0)
         self.assertLess(len(nutik.fit(bumps["sine"], 0, 1).gains), 60)
         self.assertLess(len(nutik.fit(bumps["jumps"], 0, 1).gains), 8)
+
+    def test_fits_see_what_hides_from_even_samples(self):
+        times = np.random.default_rng(3).uniform(0, 1, 20_000)
+        for name, gain, error in (
+                ("strobe", lambda t: 1.0 * ((t * 100) % 1 < 0.01), 1e-3),
+                ("of numbers", lambda t: float((t * 100) % 1 < 0.01), 1e-3),
+                ("aliased", lambda t: np.sin(2 * np.pi * 1024 * t) + 0.5, 1e-2),
+                ("bump", lambda t: np.exp(-((t - 0.12345) / 2e-5) ** 2), 1e-3),
+                ("all bumps", lambda t: 1 + np.cos(2 * np.pi * 4096 * t), 1e-2)):
+            with self.subTest(name):
+                fitted = nutik.fit(gain, 0, 1, error=error)
+                wanted = np.array([gain(t) for t in times])
+                far = np.abs(times * 1e9 % 1e5 - 5e4) < 5e4 - 2  # from edges, which are steps of 1 ns
+                self.assertLess(np.max(np.abs(fitted(times) - wanted)[far]) / np.max(np.abs(wanted)), 1.1 * error)
+        self.assertLess(len(nutik.fit(lambda t: 1.0 * ((t * 100) % 1 < 0.01), 0, 1).gains), 410)
+        capture = nutik.encode(np.full((100, 4, 4), 255, np.uint8), rate=100)
+        strobe, = capture.trace(0, 0, functions=lambda t: 1.0 * ((t * 100) % 1 < 0.01))
+        self.assertAlmostEqual(strobe.sum_ns[-1, 0] / 1e7, 1, delta=1e-4)  # 100 edges of 1 ns
 
     def test_fits_that_cannot_be(self):
         fit, usage = nutik.fit, nutik.UsageError

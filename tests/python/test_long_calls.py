@@ -30,6 +30,12 @@ soft = np.repeat(np.repeat(np.arange(64, dtype=np.uint8).reshape(8, 8), 40 * SIZ
 shares = {{tag: (soft == tag) * 0.5 for tag in range(8)}}
 # Opened where they are first needed: a forked process needs its own.
 captures = {{}}
+def noisy():
+    if "noisy" not in captures:
+        ramp = np.linspace(20, 230, 270 * 480 * SIZE * SIZE).astype(np.uint8).reshape(270 * SIZE, 480 * SIZE)
+        grain = np.random.default_rng(3).integers(0, 8, (64, *ramp.shape), np.uint8)
+        captures["noisy"] = np.tile(grain, (4, 1, 1)) + ramp
+    return captures["noisy"]
 def capture(name, pictures):
     if name not in captures:
         captures[name] = nutik.encode(pictures, folder + name, rate=960)
@@ -39,6 +45,7 @@ def of_box(): return capture("/box.tik", box)
 WORKS = dict(
     encode=lambda told: nutik.encode(noise, rate=960, progress=told),
     encode_slowly=lambda told: nutik.encode(noise, folder + "/slow.tik", rate=960, codec="zstd:19", progress=told),
+    encode_with_noise=lambda told: nutik.encode(noisy(), rate=960, noise="auto", progress=told),
     encode_an_iterable=lambda told: nutik.encode((each for each in noise), rate=960, progress=told),
     open=lambda told: nutik.open(folder + "/noise.tik", progress=told),
     join=lambda told: nutik.join([folder + "/noise.tik"] * 3, folder + "/joined.tik", progress=told),
@@ -81,8 +88,9 @@ def prepare():
         file.writelines(f"--start {{k}}ms --exposure 30ms {{folder}}/{{k}}.png\\n" for k in range(30))
 """
 PARTS = {"study", "solve"}  # do several things one after another, each with steps of its own
-# What is silent: [] has no argument, the rest are commands that tell nothing and take a moment here.
-SILENT = {"codes", "contact", "noise", "recover", "retime", "check", "validate"}
+# What is silent: [] has no argument, noise is measured before a sample is encoded, the rest are commands that tell
+# nothing and take a moment here.
+SILENT = {"codes", "contact", "noise", "recover", "retime", "check", "validate", "encode_with_noise"}
 
 INTERRUPTED = SCENE + """
 import atexit, shutil
@@ -247,7 +255,7 @@ class LongCalls(support.TestCase):
                     offered.add(name if kind in (nutik.Capture, nutik.Mask) and name in self.works() else
                                 f"{kind.__name__}.{name}")
         self.assertEqual(offered - self.works(), set(re.findall(r'"([\w.]+)": ', QUICK[len(SCENE):])))
-        self.assertEqual(self.works() - offered, {"codes", "encode_slowly", "encode_an_iterable"})
+        self.assertEqual(self.works() - offered, {"codes", "encode_slowly", "encode_an_iterable", "encode_with_noise"})
 
     def test_the_others_are_quick(self):
         took = dict(line.split() for line in self.run_script(QUICK))

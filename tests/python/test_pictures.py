@@ -365,6 +365,12 @@ class Pictures(support.TestCase):
                 self.assertEqual(many.saturated.tolist(), [list(each.saturated) for each in pictures])
         self.assertIsNone(self.capture.render_many(both).saturated)
 
+    def test_many_name_the_pictures_that_they_warn_of(self):
+        for capture in (self.capture, nutik.encode(self.pictures[:, :16, :16], rate=support.RATE)):
+            for late, said in (([3], "picture 3: M0"), ([2, 5, 7], "picture 2 and 2 more: M0"), (range(9), "M0")):
+                with self.assertWarnsRegex(nutik.NutikWarning, f"^{said}: .*after the capture's end"):
+                    capture.render_many([nutik.boxcar(0, 9 if k in late else 0.01) for k in range(9)])
+
     def test_many_tell(self):
         capture, told = nutik.encode(self.pictures[:, :16, :16, 0], rate=support.RATE), []
         capture.render_many(starts=np.linspace(0, 0.05, 400), exposures=0.01,

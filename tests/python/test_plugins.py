@@ -53,6 +53,7 @@ class Plugins(support.TestCase):
         self.assertEqual(many.sel(start=0.01).shape, (10, 14, 3))
         self.assertEqual(many.mean("channel").dims, ("start", "y", "x"))
         self.assertEqual((many["start"].attrs["units"], whole["time"].attrs["units"]), ("s", "s"))
+        self.assertEqual((whole.name, many.name, many.attrs["units"]), ("codes", "light", "1"))
 
     @needs("xarray")
     def test_xarray_of_a_region(self):

@@ -202,6 +202,9 @@ class Arrays(support.TestCase):
             axes = drawn.plot(pyplot.figure().gca())
             self.assertIn(label, axes.get_ylabel())
             self.assertGreater(len(axes.lines), 0)
+            self.assertEqual(axes.get_xlabel(), "time, s")
+        np.testing.assert_array_equal(axes.lines[0].get_xdata(), capture.times)
+        self.assertRegex(repr(trace), r"^<nutik.Trace of M0: \d+ steps, light \[.+\]>$")
 
     def test_light_beyond_floats_is_told(self):
         capture = nutik.encode(support.moving_box(), self.path("a.tik"), rate=960)
@@ -276,6 +279,19 @@ class Copies(support.TestCase):
         self.assertTrue(picture.statistics)
 
 
+class Labelled:
+    """As xarray's, whose items are arrays without a dimension."""
+
+    def __init__(self, values):
+        self.values = values
+
+    def __array__(self, dtype=None, copy=None):
+        return self.values
+
+    def __iter__(self):
+        return (Labelled(each) for each in self.values)
+
+
 class Errors(support.TestCase):
     def test_a_missing_file_is_an_oserror_too(self):
         for call in (lambda: nutik.open(self.path("none.tik")), lambda: nutik.encode(Path(self.path("none.mp4"))),
@@ -298,6 +314,24 @@ class Errors(support.TestCase):
                 call()
             self.assertIsInstance(raised.exception, nutik.UsageError)
 
+    def test_every_error_is_one_of_ours(self):
+        capture = nutik.encode(support.moving_box(), rate=960)
+        for call in (lambda: capture.render(exposure="1f", dtype="bogus"), lambda: capture.background(dtype="bogus"),
+                     lambda: capture.render(exposure="1f", progress=3),
+                     lambda: nutik.check(self.path("a"), progress=3)):
+            self.assertRaises(nutik.UsageError, call)
+
+    def test_progress_that_takes_nothing_is_always_found(self):
+        capture = nutik.encode(np.zeros((2, 8, 8), np.uint8), rate=1)
+        for _ in range(20):
+            self.assertRaises(TypeError, capture.render, exposure="1f", progress=lambda: 0)
+
+    def test_docstrings_say_what_is_meant(self):
+        self.assertIn("rear-curtain", nutik.Capture.study.__doc__)
+        self.assertIn("'zero'", nutik.Capture.render.__doc__)
+        self.assertIn("0.001 of its largest gain", " ".join(nutik.Capture.render.__doc__.split()))
+        self.assertIn("codec : str, optional\n    of output", nutik.encode.__doc__)
+
     def test_a_codec_is_one_with_and_without_a_file(self):
         for output in (None, self.path("a.tik")):
             self.assert_raises(nutik.UsageError, "gif", nutik.encode, support.moving_box(), output, rate=1, codec="gif")
@@ -316,6 +350,12 @@ class Errors(support.TestCase):
                            gains[0, 1:])
         self.assert_raises(nutik.UsageError, "an array of shape (7, 50)", capture.render, gains)
         self.assert_raises(nutik.UsageError, "say start= and exposure=", capture.render, 0.01)
+        self.assert_raises(nutik.UsageError, "an array with a gain for each sample", capture.render, list(gains[0]))
+        self.assert_same(capture.render(Labelled(gains[0])).array, capture.render(gains[0]).array)
+        self.assert_same(capture.render_many(Labelled(gains)).array, capture.render_many(gains).array)
+        points = Labelled(np.array([[0, 1], [0.05, 0]]))
+        self.assert_same(capture.render(points).array, capture.render([(0, 1), (0.05, 0)]).array)
+        self.assert_raises(nutik.UsageError, "takes a list", capture.render_many, Labelled(gains[0]))
 
     def test_many_pictures_are_an_array(self):
         many = nutik.encode(np.zeros((20, 4, 5), np.uint8), rate=100).render_many(starts=[0, 0.1], exposures=0.05)
@@ -323,16 +363,6 @@ class Errors(support.TestCase):
         self.assertEqual(repr(many), "<nutik.Pictures 2 x 4 x 5, float32>")
 
     def test_times_are_what_numpy_makes_an_array_of(self):
-        class Labelled:  # as xarray's, whose items are arrays without a dimension
-            def __init__(self, values):
-                self.values = values
-
-            def __array__(self, dtype=None, copy=None):
-                return self.values
-
-            def __iter__(self):
-                return (Labelled(each) for each in self.values)
-
         times = Labelled(np.arange(20) / 100)
         capture = nutik.encode(np.zeros((20, 4, 5), np.uint8), times=times, exposures=Labelled(np.full(20, 0.005)))
         self.assertEqual(capture.times_ns[3].tolist(), [30_000_000, 35_000_000])

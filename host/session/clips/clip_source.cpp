@@ -31,7 +31,8 @@ void refuse_streams(const std::filesystem::path& path) {
 }
 
 // On the clip itself, which is then opened again. Throws MemoryTooLittle with the least that does for encoding, too.
-CameraNoise own_noise(ClipSource& source, const OpenClip& open, const MemoryBudget& memory) {
+CameraNoise own_noise(ClipSource& source, const OpenClip& open, const MemoryBudget& memory,
+                      const std::stop_token& stop) {
   MemoryNeeds needs{{"pictures within the decoder", source.clip->info().decoder_bytes}};
   const std::uint64_t within_decoder = needs.bytes();
   needs.add(NoiseEstimator::needs(source.capture, kSamplesOfOwnNoise));
@@ -54,6 +55,7 @@ CameraNoise own_noise(ClipSource& source, const OpenClip& open, const MemoryBudg
   estimator.add_clip(
       source.name(),
       [&](std::span<std::byte> raster) {
+        if (stop.stop_requested()) throw Cancelled();
         const bool is_read = source.clip->read(raster);
         if (is_read) watch.add(raster);
         return is_read;
@@ -72,7 +74,8 @@ CameraNoise own_noise(ClipSource& source, const OpenClip& open, const MemoryBudg
   return estimate.noise;
 }
 
-NoiseModel noise_model(ClipSource& source, const OpenClip& open, const MemoryBudget& memory) {
+NoiseModel noise_model(ClipSource& source, const OpenClip& open, const MemoryBudget& memory,
+                       const std::stop_token& stop) {
   const SourceRequest& request = source.request;
   if (source.clip->tells_changes() && !std::holds_alternative<NoNoise>(request.noise)) {
     throw UsageError(format("{} holds events: its pixels' noise is not that of pictures, which is measured "
@@ -82,7 +85,7 @@ NoiseModel noise_model(ClipSource& source, const OpenClip& open, const MemoryBud
   }
   NoiseModel model{request.tolerance, std::nullopt, request.sigmas};
   if (std::holds_alternative<NoiseOfClip>(request.noise)) {
-    model.camera = own_noise(source, open, memory);
+    model.camera = own_noise(source, open, memory, stop);
   } else if (const auto* stated = std::get_if<StatedNoise>(&request.noise)) {
     model.camera = stated->noise;
     if (auto note = transfer_note(*stated, source.capture.transfer))
@@ -304,7 +307,7 @@ ClipSource open_clip_source(const SourceRequest& request, const OpenClip& open_w
     source.clip = deflicker(std::move(source.clip));
     open = [bare = std::move(open)] { return deflicker(bare()); };
   }
-  source.capture.noise = noise_model(source, open, memory);
+  source.capture.noise = noise_model(source, open, memory, stop);
   if (request.between) fill(source, open, memory, half(true), stop);
   return source;
 }

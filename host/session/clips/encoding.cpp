@@ -47,7 +47,7 @@ class Encoding {
   std::uint64_t build(const ReportedProgress& progress, const std::stop_token& stop);
   std::uint64_t build_of_changes(const ReportedProgress& progress, const std::stop_token& stop);
   void read_first(std::uint64_t read_ahead_bytes);
-  bool hand_over_block();  // false where nobody stores blocks any more
+  bool hand_over_block(const std::stop_token& stop);  // false where nobody stores blocks any more
   void store();
 
   ClipSource source_;
@@ -140,9 +140,9 @@ std::uint64_t Encoding::build(const ReportedProgress& progress, const std::stop_
     samples += rasters.size();
     if (progress) progress(samples, source_.announced_samples());
     builder_.add(rasters);
-    if (builder_.is_full() && !hand_over_block()) return samples;
+    if (builder_.is_full() && !hand_over_block(stop)) return samples;
   }
-  if (!builder_.is_empty()) hand_over_block();
+  if (!builder_.is_empty()) hand_over_block(stop);
   return samples;
 }
 
@@ -166,17 +166,17 @@ std::uint64_t Encoding::build_of_changes(const ReportedProgress& progress, const
       builder_.add_changes(*changes);
     }
     is_read = false;
-    if (builder_.is_full() && !hand_over_block()) return samples + 1;
+    if (builder_.is_full() && !hand_over_block(stop)) return samples + 1;
   }
-  if (!builder_.is_empty()) hand_over_block();
+  if (!builder_.is_empty()) hand_over_block(stop);
   return samples;
 }
 
-bool Encoding::hand_over_block() {
+bool Encoding::hand_over_block(const std::stop_token& stop) {
   auto payload = spare_payloads_.pop();
   if (!payload) return false;
   Block block{builder_.extent(), std::move(*payload), {}};
-  block.finished = builder_.finish(block.payload);
+  block.finished = builder_.finish(block.payload, stop);
   return blocks_.push(std::move(block));
 }
 
