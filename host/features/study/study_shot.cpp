@@ -6,7 +6,6 @@
 
 #include "align/alignment.hpp"
 #include "capture/format.hpp"
-#include "capture/text.hpp"
 #include "features/masks/mask_making.hpp"
 #include "features/plate/plate.hpp"
 #include "imev/each_block.hpp"
