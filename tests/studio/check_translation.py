@@ -36,6 +36,9 @@ def main():
                 for pattern in (r"%L?(?:\d|n)", r"^\s*", r"\s*$", r"…$"):
                     if sorted(re.findall(pattern, source)) != sorted(re.findall(pattern, form or "")):
                         mistakes.append(f"{source!r} has another {pattern} than {form!r}")
+    if mistakes:
+        mistakes.append("To mend them: lupdate -locations none -I host host/studio -ts "
+                        "host/studio/translations/nutik_studio_de.ts")
     print("\n".join(mistakes) or f"{len(messages)} texts")
     return 1 if mistakes else 0
 

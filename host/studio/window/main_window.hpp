@@ -137,6 +137,8 @@ class MainWindow : public QMainWindow {
   void build_tools(QToolBar& bar);
   [[nodiscard]] QWidget* build_exposure();
   QAction* add_action(QMenu& menu, const QString& text, const QKeySequence& keys, std::function<void()> run);
+  // An entry that needs a capture.
+  void offer(QMenu& menu, const QString& text, const QKeySequence& keys, std::function<void()> run);
   void build_file_menu();
   void build_view_menu();
   void build_start_menu();

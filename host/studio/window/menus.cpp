@@ -141,6 +141,10 @@ QAction* MainWindow::add_action(QMenu& menu, const QString& text, const QKeySequ
   return action;
 }
 
+void MainWindow::offer(QMenu& menu, const QString& text, const QKeySequence& keys, std::function<void()> run) {
+  needs_capture_ += add_action(menu, text, keys, std::move(run));
+}
+
 void MainWindow::build_menus() {
   build_file_menu();
   QMenu& edit = *menuBar()->addMenu(tr("&Edit"));
@@ -180,64 +184,57 @@ void MainWindow::build_file_menu() {
   connect(&unsaved, &QMenu::aboutToShow, this, [this, &unsaved] { fill_unsaved(unsaved); });
   connect(&menu, &QMenu::aboutToShow, &unsaved,
           [&unsaved] { unsaved.setEnabled(!Autosave::found().empty()); });
-  needs_capture_ += add_action(menu, tr("Open a&gain"), QKeySequence::Refresh, [this] {
+  offer(menu, tr("Open a&gain"), QKeySequence::Refresh, [this] {
     if (!may_leave()) return;
     notice_->clear();
     if (!project_.isEmpty()) return open_project(project_);
     open_capture_file(document_.facts()->path, document_.facts()->stated, {});
   });
-  needs_capture_ += add_action(menu, tr("How &the clip is read…"), {}, [this] {
+  offer(menu, tr("How &the clip is read…"), {}, [this] {
     const CaptureFacts& facts = *document_.facts();
     if (may_leave()) ask_how_to_read(facts.path, facts.stated, tr("The clip is opened again."), {});
   });
   menu.addSeparator();
-  needs_capture_ += add_action(menu, tr("&Save project"), QKeySequence::Save, [this] { save(); });
-  needs_capture_ +=
-      add_action(menu, tr("Save project &as…"), Qt::CTRL | Qt::SHIFT | Qt::Key_S, [this] { save_as(); });
-  needs_capture_ += add_action(menu, tr("Load &functions…"), {}, [this] {
+  offer(menu, tr("&Save project"), QKeySequence::Save, [this] { save(); });
+  offer(menu, tr("Save project &as…"), Qt::CTRL | Qt::SHIFT | Qt::Key_S, [this] { save_as(); });
+  offer(menu, tr("Load &functions…"), {}, [this] {
     ask_for_file(tr("Load functions"), tr("Function files (*.fn);;All files (*)"),
                  [this](const QString& path) { use_functions(path); });
   });
-  needs_capture_ += add_action(menu, tr("Load &mask…"), {}, [this] {
+  offer(menu, tr("Load &mask…"), {}, [this] {
     ask_for_file(tr("Load mask"), tr("Masks (*.pgm *.png);;All files (*)"),
                  [this](const QString& path) { use_mask(path); });
   });
-  needs_capture_ += add_action(menu, tr("Save f&unctions as…"), {}, [this] {
+  offer(menu, tr("Save f&unctions as…"), {}, [this] {
     ask_for_name(tr("Save the functions"), ".fn", tr("Function files (*.fn)"),
                  [this](const QString& path) { write_functions(path); });
   });
-  needs_capture_ += add_action(menu, tr("Save mas&k as…"), {}, [this] {
+  offer(menu, tr("Save mas&k as…"), {}, [this] {
     ask_for_name(tr("Save the mask"), ".pgm", tr("Masks (*.pgm *.png)"),
                  [this](const QString& path) { write_mask(path); });
   });
   menu.addSeparator();
-  needs_capture_ +=
-      add_action(menu, tr("&Export picture…"), Qt::CTRL | Qt::Key_E, [this] { choose_export(); });
-  needs_capture_ +=
-      add_action(menu, tr("Export f&ilm…"), Qt::CTRL | Qt::SHIFT | Qt::Key_E, [this] { choose_film(); });
-  needs_capture_ +=
-      add_action(menu, tr("&Copy as command"), Qt::CTRL | Qt::SHIFT | Qt::Key_C, [this] { copy_command(); });
+  offer(menu, tr("&Export picture…"), Qt::CTRL | Qt::Key_E, [this] { choose_export(); });
+  offer(menu, tr("Export f&ilm…"), Qt::CTRL | Qt::SHIFT | Qt::Key_E, [this] { choose_film(); });
+  offer(menu, tr("&Copy as command"), Qt::CTRL | Qt::SHIFT | Qt::Key_C, [this] { copy_command(); });
   menu.addSeparator();
   add_action(menu, tr("&Quit"), QKeySequence::Quit, [this] { close(); });
 }
 
 void MainWindow::build_region_menu() {
   QMenu& menu = *menuBar()->addMenu(tr("&Regions"));
-  needs_capture_ += add_action(menu, tr("&Add region"), Qt::CTRL | Qt::SHIFT | Qt::Key_N,
-                               [this] { add_region(document_); });
-  needs_capture_ += add_action(menu, tr("&Remove region"), Qt::CTRL | Qt::SHIFT | Qt::Key_Backspace,
-                               [this] { remove_region(document_, document_.selected_tag()); });
-  needs_capture_ += add_action(menu, tr("Move &up"), Qt::CTRL | Qt::Key_PageUp,
-                               [this] { move_region(document_, document_.selected_tag(), Move::up); });
-  needs_capture_ += add_action(menu, tr("Move &down"), Qt::CTRL | Qt::Key_PageDown,
-                               [this] { move_region(document_, document_.selected_tag(), Move::down); });
-  needs_capture_ += add_action(menu, tr("&Expose over the interval"), Qt::CTRL | Qt::Key_I,
-                               [this] { expose_over_boxcar(document_, document_.selected_tag()); });
+  offer(menu, tr("&Add region"), Qt::CTRL | Qt::SHIFT | Qt::Key_N, [this] { add_region(document_); });
+  offer(menu, tr("&Remove region"), Qt::CTRL | Qt::SHIFT | Qt::Key_Backspace,
+        [this] { remove_region(document_, document_.selected_tag()); });
+  offer(menu, tr("Move &up"), Qt::CTRL | Qt::Key_PageUp,
+        [this] { move_region(document_, document_.selected_tag(), Move::up); });
+  offer(menu, tr("Move &down"), Qt::CTRL | Qt::Key_PageDown,
+        [this] { move_region(document_, document_.selected_tag(), Move::down); });
+  offer(menu, tr("&Expose over the interval"), Qt::CTRL | Qt::Key_I,
+        [this] { expose_over_boxcar(document_, document_.selected_tag()); });
   menu.addSeparator();
-  needs_capture_ +=
-      add_action(menu, tr("Select what &moves"), Qt::CTRL | Qt::Key_M, [this] { select_motion(); });
-  needs_capture_ +=
-      add_action(menu, tr("Select what di&ffers…"), Qt::CTRL | Qt::Key_D, [this] { choose_difference(); });
+  offer(menu, tr("Select what &moves"), Qt::CTRL | Qt::Key_M, [this] { select_motion(); });
+  offer(menu, tr("Select what di&ffers…"), Qt::CTRL | Qt::Key_D, [this] { choose_difference(); });
   offer_beside(*side_->findChild<QWidget*>("regions"), menu);
 }
 
@@ -292,9 +289,8 @@ void MainWindow::build_start_menu() {
     needs_capture_ += action;
   }
   menu.addSeparator();
-  needs_capture_ += add_action(menu, tr("Study with &choices…"), {}, [this] { choose_study(); });
-  needs_capture_ +=
-      add_action(menu, tr("&Empty scene, as a picture…"), {}, [this] { save_plate(document_.marks()); });
+  offer(menu, tr("Study with &choices…"), {}, [this] { choose_study(); });
+  offer(menu, tr("&Empty scene, as a picture…"), {}, [this] { save_plate(document_.marks()); });
 }
 
 void MainWindow::build_view_menu() {
@@ -315,9 +311,8 @@ void MainWindow::build_view_menu() {
   clipping_ = add_action(menu, tr("Mark &clipped light"), Qt::Key_C,
                          [this] { light_ ? mark_clipped() : measure_light(); });
   clipping_->setCheckable(true);
-  needs_capture_ += add_action(menu, tr("&Keep as snapshot A"), Qt::CTRL | Qt::Key_K, [this] { keep_snapshot(); });
-  needs_capture_ +=
-      add_action(menu, tr("S&wap with snapshot A"), Qt::CTRL | Qt::SHIFT | Qt::Key_K, [this] { swap_snapshot(); });
+  offer(menu, tr("&Keep as snapshot A"), Qt::CTRL | Qt::Key_K, [this] { keep_snapshot(); });
+  offer(menu, tr("S&wap with snapshot A"), Qt::CTRL | Qt::SHIFT | Qt::Key_K, [this] { swap_snapshot(); });
   menu.addSeparator();
   const auto fold = [&](const char* name, const QString& text, Qt::Key key, const QRectF& icon) {
     QAction* action = menu.addAction(QIcon(new ToolIcon(icon)), text);
