@@ -1,5 +1,6 @@
 #include "capture/rational.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "capture/error.hpp"
