@@ -86,7 +86,7 @@ std::optional<Rational> Rational::read(std::string_view text) {
 Rational Rational::parse(std::string_view text, std::string_view what) {
   const std::optional<Rational> number = read(text);
   if (number) return *number;
-  throw UsageError(format("{} '{}' is not a number; write digits alone, 180, 29.97 or 30000/1001, 15 at most{}", what, text,
+  throw UsageError(format("{} '{}' is not a number; write 180, 29.97 or 30000/1001 (15 digits at most){}", what, text,
                           decimal_mark_hint(text)));
 }
 

@@ -129,7 +129,7 @@ void refuse_absent(const std::filesystem::path& path) {
   if (is_absent(path)) throw InputError(format("{} cannot be read: no such file", input_title(path.string())));
   std::error_code error;
   if (std::filesystem::is_regular_file(path, error) && std::filesystem::is_empty(path, error))
-    throw InputError(format("{} is empty: its copying or its recording has not ended", input_title(path.string())));
+    throw InputError(format("{} is empty; was it copied, or recorded, to its end?", input_title(path.string())));
 }
 
 std::unique_ptr<Clip> open_raw(const std::filesystem::path& path, const Files&, const ClipOptions& options) {

@@ -22,7 +22,8 @@ Value settle(std::vector<Fact>& facts, const std::optional<Value>& stated, const
   return value;
 }
 
-// The white of codes of 16 bits; `named` where files say how many of these are used. A note doubts what is assumed.
+// The white of codes of 16 bits; `named` where files say how many of these are used. `is_noted`: a note says so where
+// white is assumed.
 inline std::uint32_t settle_white(ClipInfo& info, const std::optional<std::uint32_t>& stated,
                                   const std::optional<std::uint32_t>& named, bool is_noted = true) {
   constexpr std::uint32_t kDefault = 65'535;

@@ -315,7 +315,7 @@ class Capture:
         >>> many.array.shape, many.error_bounds.shape
         ((100, 24, 32), (100,))
         """
-        is_one = hasattr(functions, "__array__") and (one := np.asarray(functions)).ndim == 1 and one.dtype != object
+        is_one = getattr(functions, "ndim", 0) == 1 and getattr(functions, "dtype", object) != object
         if is_one or isinstance(functions, Mapping) or not (functions is None or is_list(functions)):
             each = "a dict {tag: function}" if isinstance(functions, Mapping) else "those of render()"
             raise UsageError(f"functions is {shortened(functions)}; render_many() takes a list with {each} for each "
@@ -407,11 +407,10 @@ class Capture:
         """
         refuse(tag is not None and mask is None, "tag= is a value of a mask; add mask=")
         made = mask_of(mask)
-        told: dict[str, Any] = _nutik.activity(self._held, None if made is None else made._held,
-                                               None if tag is None else tag_of(tag), count_of(by, "by"), count_redrawn,
-                                               progress)
+        told: dict[str, Any] = {"times": self.times, **_nutik.activity(
+            self._held, None if made is None else made._held, None if tag is None else tag_of(tag), count_of(by, "by"),
+            count_redrawn, progress)}
         warn(told.pop("notes"), NutikNote)
-        told["times"] = self.times
         for name in ("busiest", "quietest"):
             told[name] = told[name] and Stretch(**told[name])
         return Activity(**frozen(told))

@@ -23,7 +23,7 @@ from . import _nutik
 from ._docs import joined
 from ._nutik import DeviceError, Error, ImpreciseError, InputError, MemoryTooLittle, OutputError, UsageError
 from ._told import Json
-from ._words import NutikNote, Path, Progress, WrongType, in_python, is_list, path_of, refuse, warn, word_of
+from ._words import NutikNote, Path, Progress, check_progress, in_python, is_list, path_of, warn, word_of
 
 # A value, several, or of a command's option that takes two words a list of pairs.
 Value = Union[str, int, float, Fraction, "PathLike[str]"]
@@ -69,7 +69,7 @@ def _words(kind: str, name: str, value: Any) -> list[str]:
 
 def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Mapping[str, Any]) -> dict[str, Json]:
     _, _, arguments = _nutik.described(command)
-    refuse(not (progress is None or callable(progress)), f"progress is {progress!r}, which cannot be called", WrongType)
+    check_progress(progress)
     said: dict[str, list[list[str]]] = {"json": [[]]}
     if progress is not None and "progress" in arguments:
         said["progress"] = [[]]

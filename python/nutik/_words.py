@@ -75,6 +75,10 @@ def refuse(is_wrong: Any, message: str, kind: type[Error] = UsageError) -> None:
         raise kind(message)
 
 
+def check_progress(progress: Any) -> None:
+    refuse(not (progress is None or callable(progress)), f"progress= is {shortened(progress)}, no callable", WrongType)
+
+
 @contextmanager
 def reading(*paths: str) -> Iterator[None]:
     """What is wrong with files that are not there is that."""
@@ -171,7 +175,7 @@ def real(values: Any, what: str) -> NDArray[np.float64]:
     with suppress(TypeError, ValueError):
         if array.dtype.kind in "biufO":
             return array.astype(np.float64)
-    raise WrongType(f"{what} have dtype {array.dtype}; gains are real numbers")
+    raise WrongType(f"{what} has dtype {array.dtype}; gains are real numbers")
 
 
 def listed(values: Any, what: str = "the array") -> list[Any]:
@@ -185,7 +189,7 @@ def path_of(path: Any) -> str:
         text = fsdecode(path)
     except TypeError:
         raise WrongType(f"{shortened(path)} is no path") from None
-    refuse(re.search("[\0\ud800-\udfff]", text), f"{shortened(path)} is no path: it has zeros, or is not UTF-8")
+    refuse(re.search("[\0\ud800-\udfff]", text), f"{shortened(path)} is no path: it holds a zero byte, or is not UTF-8")
     return text
 
 

@@ -270,15 +270,13 @@ py::dict figures_of(const ExposedPicture& exposed) {
   const ExposureFigures& figures = exposed.figures;
   const RenderStatistics& took = exposed.statistics;
   const auto timed = [&](double ms) { return took.is_timed ? std::optional(ms) : std::nullopt; };
-  const auto plan = py::dict(
-      "samples"_a = figures.timeline.sample_count(), "live_samples"_a = figures.live_samples,
+  const auto plan = py::dict("samples"_a = figures.timeline.sample_count(), "live_samples"_a = figures.live_samples,
       "samples_read"_a = py::make_tuple(figures.read.first, figures.read.last), "blocks_read"_a = figures.blocks_read,
       "blocks"_a = figures.block_count, "table_bytes"_a = figures.table_bytes, "map_bytes"_a = figures.map_bytes,
       "functions"_a = functions_of_plan(figures));
-  const auto statistics = py::dict(
-      "read_ms"_a = took.read_ms, "expose_ms"_a = timed(took.expose_ms), "develop_ms"_a = timed(took.develop_ms),
-      "payload_bytes"_a = took.payload_bytes, "device_bytes"_a = took.device_bytes, "blocks"_a = took.blocks,
-      "launches"_a = took.launches);
+  const auto statistics = py::dict("read_ms"_a = took.read_ms, "expose_ms"_a = timed(took.expose_ms),
+      "develop_ms"_a = timed(took.develop_ms), "payload_bytes"_a = took.payload_bytes,
+      "device_bytes"_a = took.device_bytes, "blocks"_a = took.blocks, "launches"_a = took.launches);
   py::object bound = py::none();
   if (exposed.choice) {
     const PictureError& worst = exposed.choice->bound.worst;

@@ -100,7 +100,7 @@ void wait_for(const std::function<bool()>& is_done, std::stop_source& stopping, 
     // While the end waits for this thread: Python would end it within what it calls, and our frames with it.
     if (!is_over()) {
       const py::gil_scoped_acquire locked;
-      tell(true);
+      tell(steps.total != 0);  // what failed before its first step is not told of
     }
   }
   if (raised) throw *raised;

@@ -56,16 +56,15 @@ class Unlocked {
 void end_work();
 
 // Waits without Python's lock until is_done(), which itself waits up to 50 ms at each call; asks for a stop at Ctrl-C.
-// Calls told(done, total), unless that is None, when steps were done, and at the end, once at least. Throws what a
-// signal's handler or that raised.
+// Calls told(done, total), unless that is None, when steps were done, and once at least where their number was known.
+// Throws what a signal's handler or that raised.
 void wait_for(const std::function<bool()>& is_done, std::stop_source& stopping, const Steps& steps,
               const py::object& told);
 // Calls work(Stopping) and returns what that does.
 template <typename Work>
 auto without_lock(Work work, const py::object& progress = py::none()) {
   { const Unlocked sleeps_at_the_end; }
-  if (!progress.is_none() && PyCallable_Check(progress.ptr()) == 0)
-    throw UsageError("progress= is nothing that can be called with (done, total)");
+  if (!progress.is_none()) py::module_::import("nutik._words").attr("check_progress")(progress);
   const MappedLosses losses = losses_so_far();
   std::stop_source source;
   const Stopping stopping{source.get_token(), std::make_shared<Steps>()};

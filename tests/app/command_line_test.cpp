@@ -165,7 +165,7 @@ TEST_F(CommandLine, RefusesWhatMakesNoSense) {
 
 TEST_F(CommandLine, SaysWhatIsWrongWithInput) {
   expect_refused(3, {{"absent.mp4 x.tik", "absent.mp4 cannot be read: no such file"},
-                     {"one.fn x.tik", "one.fn is a text, and no clip; a function file stands behind -k"},
+                     {"one.fn x.tik", "one.fn is a function file, and no clip"},
                      {"-k absent.fn clip.tik", "absent.fn cannot be read: No such file"},
                      {"-k one.fn -m mask.pgm clip.tik", "mask values without a function: 9 (100 pixels)"}});
   make("-k one.fn -m mask.pgm --unmapped zero clip.tik");

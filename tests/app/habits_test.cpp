@@ -87,7 +87,8 @@ TEST_F(Habits, NoticesAMissingUnitAndACommaForAPoint) {
   scratch_.write("ns.fn", "M0 [39:0], [40:1], [80:1], [81:0]\n");
   expect_says(run("check -k ns.fn clip.tik").out, "if its times were meant in milliseconds, write 81ms");
   expect_refused(2, {{"--start 0,1s --exposure 1f clip.tik a.png", "the decimal mark is a point"},
-                     {"--start 0s --exposure 1f --ev 1,5 clip.tik a.png", "--ev 1,5 is no number; the decimal mark is a point"},
+                     {"--start 0s --exposure 1f --ev 1,5 clip.tik a.png",
+                      "--ev 1,5 is no number; the decimal mark is a point"},
                      {"-f 29,97 clip.tik a.tik", "; the decimal mark is a point"}});
   expect_refused(3, {{"batch clip.tik", "batch takes the list first, then the clip or capture"}});
   make("--start 0s --exposure 1f --ev 1/2 --no-recipe clip.tik fraction.pfm");

@@ -84,7 +84,7 @@ CASES = [
     Case("event-kinds/generic.es", "", 3, ("an Event Stream recording (.es), " + NOT_READ + "if it holds events",)),
     Case("event-kinds/a.bag", "", 3, ("a ROS bag, " + NOT_READ,)),
     Case("event-kinds/ev.csv", "", 3, ("a table of stills has three: file,start_ns,exposure_ns",)),
-    Case("event-kinds/ev.txt", "", 3, ("is a text, and no clip", "if it lists events")),
+    Case("event-kinds/ev.txt", "", 3, ("is a text, and no clip", "events are read as EVT 3.0 or DAT")),
     Case("event-kinds/norpix6.seq", "", 3, ("a NorPix sequence (.seq), " + NOT_READ, "StreamPix")),
 ]
 

@@ -126,7 +126,7 @@ TEST(Containers, OfWhichTooLittleIsKnownAreRefusedByName) {
     ser.append(reinterpret_cast<const char*>(&number), sizeof number);
   scratch.write("a.ser", ser.append(136 + 64, '\0'));
   for (const auto& [name, said] : std::vector<std::pair<std::string, std::string>>{
-           {"n.txt", " is a text, and no clip; if it lists events, convert it"},
+           {"n.txt", " is a text, and no clip; stills are listed in a .csv"},
            {"a.fits",
             " is no video that can be read: it is taken for fits (Flexible Image Transport System), which would be "
             "stretched"},

@@ -320,6 +320,7 @@ class Errors(support.TestCase):
                      lambda: capture.render(exposure="1f", progress=3),
                      lambda: nutik.check(self.path("a"), progress=3)):
             self.assertRaises(nutik.UsageError, call)
+        self.assertRaises(TypeError, capture.render, exposure="1f", progress=3)
 
     def test_progress_that_takes_nothing_is_always_found(self):
         capture = nutik.encode(np.zeros((2, 8, 8), np.uint8), rate=1)

@@ -312,7 +312,7 @@ TEST_F(SeeingTest, AFilmWhoseFramesMixPicturesHasSamplesBetweenThem) {
   const auto made = run_line(
       "nutik-cl video -f 100 --speed 0.5 --out-fps 25 --out-angle 360 frames/%02d.pgm by-%05d.png");
   ASSERT_EQ(made.status, 0) << made.err;
-  EXPECT_TRUE(QString::fromStdString(made.err).contains("samples were made between")) << made.err;
+  EXPECT_TRUE(QString::fromStdString(made.err).contains("samples are made between")) << made.err;
   for (const char* number : {"00000.png", "00004.png"})
     EXPECT_EQ(difference(QImage(path(("film-" + std::string(number)).c_str())),
                          QImage(path(("by-" + std::string(number)).c_str()))), "");

@@ -70,10 +70,13 @@ const Command& shorthand(const Words& words) {
   if (!is_named && takers.size() == 1)
     throw UsageError(format("{0} is an option of {1}: nutik-cl {1} {0} …", option.display_name(), takers.front()));
   // What says there what this says elsewhere.
+  const bool is_length = option.long_name == "exposure" && option_of(command.id, "out-angle") != nullptr;
   const bool is_interval = option.long_name == "start" || option.long_name == "exposure";
   const bool has_part = is_interval && option_of(command.id, "from") != nullptr;
   for (const Option* each : options_of(command.id)) known.push_back(each->name());
-  const std::string meant = has_part ? "; --from and --to say which part." : did_you_mean(option.name(), known);
+  const std::string meant = is_length  ? "; --out-angle says how long each frame is exposed."
+                            : has_part ? "; --from and --to say which part."
+                                       : did_you_mean(option.name(), known);
   throw UsageError(format("{0} does not go with {1}{2} an option of: {3}", option.display_name(), command.name,
                           meant.empty() ? "; it is" : format("{} {} is", meant, option.display_name()),
                           joined(takers)));

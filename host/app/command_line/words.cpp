@@ -81,7 +81,8 @@ namespace {
   const auto named =
       std::ranges::find_if(words, [](const std::string& each) { return find_command(each) != nullptr; });
   constexpr std::pair<std::string_view, std::string_view> kOfFfmpeg[]{
-      {"-i", "a clip stands without an option"}, {"-ss", "that is --start, of a video --from"}, {"-r", "that is --fps"},
+      {"-i", "a clip stands without an option"}, {"-ss", "that is --start, of a video --from"},
+      {"-r", "that is --fps, of a film --out-fps"},
       {"-t", "that is --exposure"}, {"-to", "that is --to"}, {"-y", "that is --overwrite"}};
   const auto other = std::ranges::find(kOfFfmpeg, std::string_view(name), [](const auto& each) { return each.first; });
   if (other != std::end(kOfFfmpeg)) throw UsageError(format("there is no option {}; {}", name, other->second));

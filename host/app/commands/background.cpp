@@ -67,14 +67,18 @@ int run_background(const Options& options) {
                       {"seconds", stopwatch.seconds()}});
   answer.line =
       format("{}: {}, {} samples, {} of the pixels uncertain, {:.2f} s", output.string(), shape_text(shape),
-             session.timeline().sample_count(), percent_text(uncertain, capture.shape.pixel_count()), stopwatch.seconds());
+             session.timeline().sample_count(), percent_text(uncertain, capture.shape.pixel_count()),
+             stopwatch.seconds());
   answer.notes = square_notes(capture, shape);
   // Every picture is looked at for this, which would take long where nothing is wrong.
   if (2 * uncertain > capture.shape.pixel_count()) {
     if (const auto shots = shots_of(session.capture()); shots.size() > 1) {
-      answer.notes.push_back(format("the clip has {} shots, which begin at pictures {}, and the background is of all of "
-                                    "them: take one (--from, --to)",
-                                    shots.size(), starts_of(shots)));
+      const auto& from = options.source.clip.from;
+      const std::uint64_t part = from && from->is_picture ? static_cast<std::uint64_t>(from->value) : 0;
+      answer.notes.push_back(format("there are {} shots, which begin at pictures {}{}, and the background is of all of "
+                                    "them{}",
+                                    shots.size(), starts_of(shots, part), from && part == 0 ? " of that part" : "",
+                                    session.is_clip() ? ": take one (--from, --to)" : ""));
     }
   }
   std::ranges::move(camera_notes(moved), std::back_inserter(answer.notes));

@@ -24,8 +24,8 @@ namespace nutik::app {
 // A series (series.cpp).
 int run_series(const Options& options);
 
-// A plain interval stated in seconds sees no picture but those that it reaches: samples are made between these and their
-// neighbours alone. `options` say so, as a recipe does.
+// A plain interval stated in seconds sees no picture but those that it reaches: samples are made between these and
+// their neighbours alone. `options` then state that range, so that the recipe has it.
 static void make_between_seen(Options& options, const ExposureRequest& request) {
   const std::string& clip = options.operands.front();
   const auto* plain = std::get_if<PlainInterval>(&request.gains);
@@ -45,6 +45,7 @@ static void make_between_seen(Options& options, const ExposureRequest& request) 
     if (seen.empty()) return;
     between.first = seen.first - std::min<std::uint64_t>(seen.first, 1);
     between.last = std::min(seen.last, timeline.sample_count() - 1);
+    if (between.first == between.last) return;
     option_of(CommandId::expose, "between")->restate(options, {between.text()});
   } catch (const InputError&) {
     return;  // not known before it is decoded

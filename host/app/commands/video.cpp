@@ -31,9 +31,8 @@ static std::string join_pictures(Options& options, Session& session, const Sessi
   const auto seen = seen_together(frames, session.timeline());
   if (!seen) return {};
   const std::uint64_t last = seen->last - 1;
-  std::string text = format("each frame is exposed from two or three pictures of the clip and would show what moves as "
-                            "often: samples are made between pictures {} … {}, which takes most of the time; --between "
-                            "off leaves them out",
+  std::string text = format("a quarter of the frames or more would show what moves two or three times: samples are "
+                            "made between pictures {} … {}, which takes most of the time; --between off leaves them out",
                             seen->first, last);
   if (!options.quiet && !options.json) print_note("note: " + text);
   Options joined = options;
@@ -48,7 +47,7 @@ static std::string join_pictures(Options& options, Session& session, const Sessi
     if (!is_refusal(error) || request.numbers || options.skip_existing) throw;
     session = open_session(options, terms);
     text = format("frames show what moves two or three times, and samples that join it cannot be made: {}", error.what());
-    if (!options.json) print_note("note: " + text);
+    if (!options.quiet && !options.json) print_note("note: " + text);
   }
   return text;
 }

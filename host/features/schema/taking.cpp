@@ -96,7 +96,8 @@ double parse_signed(std::string_view word, std::string_view what) {
   const auto slash = number.find('/');  // a third of a stop is 1/3
   const auto above = parse_number(number.substr(0, slash));
   const auto below = slash == number.npos ? std::optional(1.0) : parse_number(number.substr(slash + 1));
-  if (!above || !below || *below == 0.0) throw UsageError(format("{} {} is no number{}", what, word, decimal_mark_hint(word)));
+  if (!above || !below || *below == 0.0)
+    throw UsageError(format("{} {} is no number{}", what, word, decimal_mark_hint(word)));
   return *above / *below;
 }
 

@@ -154,10 +154,11 @@ void refuse_text(const std::filesystem::path& file) {
   const auto is_text = [](char c) { return (c >= ' ' && c <= '~') || c == '\n' || c == '\r' || c == '\t'; };
   const bool is_video = begins_as_netpbm(start) || std::ranges::any_of(kVideos, [&](auto video) { return start.starts_with(video); });
   if (start.empty() || is_video || !std::ranges::all_of(start, is_text)) return;
-  const char* what = "of texts, tables of stills are read (.csv: file,start_ns,exposure_ns)";
-  if (extension_of(file) == ".fn") what = "a function file stands behind -k";
-  if (start[0] >= '0' && start[0] <= '9') what = "if it lists events, convert it to EVT 3.0 or DAT, with faery for one";
-  throw InputError(format("{} is a text, and no clip; {}", input_title(file.string()), what));
+  const std::string title = input_title(file.string());
+  if (extension_of(file) == ".fn") throw InputError(format("{} is a function file, and no clip", title));
+  throw InputError(format("{} is a text, and no clip; stills are listed in a .csv (file,start_ns,exposure_ns), and "
+                          "events are read as EVT 3.0 or DAT",
+                          title));
 }
 
 const readers::Reader* still_kind(const std::filesystem::path& file) {

@@ -13,7 +13,7 @@ class Filters {
   // What ends the work where FFmpeg refuses something; throws.
   using Fail = std::function<void(int code)>;
 
-  // `chain` as in `ffmpeg -vf`, of pictures like this one, whose times count halves.
+  // `chain` as in `ffmpeg -vf`, of pictures like this one. Times are halves of a second, which nothing but bwdif minds.
   Filters(const AVFrame& like, const std::string& chain, Fail fail);
 
   // Takes over what the frame refers to. Null: no frame follows.

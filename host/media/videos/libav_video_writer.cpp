@@ -2,9 +2,9 @@
 // the rate to thousandths, in which 30000/1001 drifts, and takes 8 bits of BGR only.
 //
 //   codes in   8 or 16 bits, grey or RGB, over the full range
-//   pixels     ffv1: as they are; gif: up to 256 colours, chosen for each frame; the others: YUV as the codec's row says, by
-//              the matrix that the primaries of BT.2020 have or that is usual for so many lines, and that the file names;
-//              mjpeg and webp: BT.601's, which JPEG and WebP always have
+//   pixels     ffv1: as they are; gif: up to 256 colours, chosen for each frame; the others: YUV as the codec's row
+//              says, by the matrix that the primaries of BT.2020 have or that is usual for so many lines, and that the
+//              file names; mjpeg and webp: BT.601's, which JPEG and WebP always have
 #include <algorithm>
 #include <cstring>
 #include <optional>
@@ -88,7 +88,8 @@ class LibavVideoWriter final : public VideoWriter {
     const auto pixels = encoder_->pix_fmt;
     if (pixels == AV_PIX_FMT_PAL8) {
       encoded_ = FramePointer(allocated(av_frame_alloc()));
-      colours_.emplace(*picture_, "split[all],palettegen=stats_mode=single[colours],[all][colours]paletteuse=new=1",
+      colours_.emplace(*picture_, "split[all],palettegen=stats_mode=single:reserve_transparent=0[colours],"
+                                   "[all][colours]paletteuse=new=1",
                        [this](int code) { check(code); });
     } else if (pixels != source_pixels(video)) {
       encoded_ = new_frame(pixels, width_, height_);

@@ -73,7 +73,7 @@ void LiveView::show(std::shared_ptr<Session> session) {
   session_ = std::move(session);
   soft_.reset();
   outdated_.forget();
-  last_asked_ = last_shown_ = 0;
+  last_asked_ = last_shown_ = asked_before_drag_ = 0;
   full_wanted_ = full_shown_ = false;
   {
     const std::scoped_lock lock(mutex_);
@@ -136,6 +136,7 @@ void LiveView::ask(bool with_full) {
   full_shown_ = false;
   const std::scoped_lock lock(mutex_);
   last_asked_ = pictures_->ask({std::move(preview), std::move(full)});
+  if (!document_.is_dragging()) asked_before_drag_ = last_asked_;
   requests_[last_asked_] = {Clock::now(), divisor};
 }
 
@@ -216,7 +217,8 @@ void LiveView::take() {
   last_shown_ = found->request;
   const ShownPicture& picture = found->picture;
   found->picture.is_of_all_seen = !found->is_preview || (picture.divisor == 1 && picture.place == seen());
-  if (found->is_preview && document_.is_dragging() && picture.milliseconds > prompt_ms_)
+  if (found->is_preview && document_.is_dragging() && found->request > asked_before_drag_ &&
+      picture.milliseconds > prompt_ms_)
     least_divisor_ = 2 * picture.divisor;
   if (found->request == last_asked_ && (!found->is_preview || !found->error.isEmpty())) full_shown_ = true;
   if (found->error.isEmpty()) {

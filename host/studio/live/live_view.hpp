@@ -67,10 +67,10 @@ class LiveView : public QObject {
   void show(std::shared_ptr<Session> session);
   // `screen_pixels`: how many of them a pixel of the capture has to a side.
   void set_visible(QRect pixels, double screen_pixels);
-  // The same capture with fewer pixels, for previews that show no more of them; the finest first. While a drag lasts
-  // whose previews were not there in so many milliseconds, a screen may have up to four of its pixels for one of them.
+  // The same capture with fewer pixels, for previews that show no more of them; the finest first.
   void add_reduced(std::shared_ptr<Session> session, int divisor);
   [[nodiscard]] bool has_reduced() const { return !reduced_.empty(); }
+  // The rest of a drag whose preview took longer has previews with up to four pixels of the screen for one of theirs.
   void set_prompt(double milliseconds) { prompt_ms_ = milliseconds; }
   // Whether a picture is on its way that nothing has delivered yet: for tests and for who wants to write it.
   [[nodiscard]] bool is_busy() const;
@@ -103,7 +103,7 @@ class LiveView : public QObject {
   int least_divisor_ = 1;  // of this drag's previews
   std::optional<Soft> soft_;
   OutdatedPixels outdated_;
-  std::uint64_t last_asked_ = 0, last_shown_ = 0;
+  std::uint64_t last_asked_ = 0, last_shown_ = 0, asked_before_drag_ = 0;
   bool full_wanted_ = false;
   bool full_shown_ = false;
 

@@ -72,7 +72,7 @@ Opened open_capture(const QString& path, const Stated& stated, std::shared_ptr<D
   const SourceRequest source = clip_request(options, path.toStdString());
   const bool is_clip = !is_tik(source.path);
   std::optional<Precision> precision;
-  if (is_clip) {
+  if (is_clip && first_look) {
     try {
       precision = Precision::fixed;
       first_look(first_picture(source, devices, precision, job));

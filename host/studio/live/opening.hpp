@@ -43,10 +43,10 @@ struct Opened {
   QStringList notes;  // what a person should know of the clip, whole sentences
 };
 
-// `first_look` is told a clip's first picture, on
-// the job's thread, before the clip is read whole. Throws what Session does.
+// `first_look`, which may be empty, is told a clip's first picture, on the job's thread, before the clip is read whole.
+// Throws what Session does.
 [[nodiscard]] Opened open_capture(const QString& path, const Stated& stated, std::shared_ptr<Devices> devices,
-                                  const Job& job, const std::function<void(QImage)>& first_look);
+                                  const Job& job, const std::function<void(QImage)>& first_look = {});
 
 // What a capture has between the marks, as a capture of its own that begins at a time of that one; the capture itself
 // where there are none. Throws what session_of_part() does.

@@ -405,17 +405,20 @@ void MainWindow::reduce_capture() {
   const double quick = std::ceil(std::sqrt(static_cast<double>(shape.pixel_count()) / kQuickPixels));
   const auto divisor = std::min({static_cast<std::uint32_t>(std::max(ratio, quick)), shape.width, shape.height});
   if (divisor < 2) return;
+  add_reduced(session_, divisor, static_cast<int>(divisor));
+}
+
+// And once it is there a coarser one, for drags that it is too slow for.
+void MainWindow::add_reduced(std::shared_ptr<Session> from, std::uint32_t by, int divisor) {
   jobs_.start(tr("Making smaller pictures for the screen"),
-              [this, session = session_, divisor](const Job& job) -> Jobs::Finish {
+              [this, of = session_, from = std::move(from), by, divisor](const Job& job) -> Jobs::Finish {
                 try {
-                  const auto reduced = reduced_session(*session, divisor, job.progress, job.stop);
-                  const Shape& shape = reduced->format().shape;
-                  const bool is_small = shape.width < 2 || shape.height < 2;
-                  const auto coarse = is_small ? nullptr : reduced_session(*reduced, 2, job.progress, job.stop);
-                  return [this, session, reduced, coarse, divisor = static_cast<int>(divisor)] {
-                    if (session != session_) return;
+                  const auto reduced = reduced_session(*from, by, job.progress, job.stop);
+                  return [this, of, from, reduced, divisor] {
+                    if (of != session_) return;
                     live_.add_reduced(reduced, divisor);
-                    if (coarse) live_.add_reduced(coarse, 2 * divisor);
+                    const Shape& shape = reduced->format().shape;
+                    if (from == of && shape.width > 1 && shape.height > 1) add_reduced(reduced, 2, 2 * divisor);
                   };
                 } catch (const MemoryTooLittle&) {
                 } catch (const OutputError&) {

@@ -125,6 +125,7 @@ class MainWindow : public QMainWindow {
   void look_at_capture();
   void look_along_capture();
   void reduce_capture();
+  void add_reduced(std::shared_ptr<Session> from, std::uint32_t by, int divisor);
   void select_motion();
   void choose_difference();
   [[nodiscard]] bool has_region();  // selected, to be painted; else it is said

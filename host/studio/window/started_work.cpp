@@ -213,9 +213,11 @@ Jobs::Work filming(const Document& document, std::shared_ptr<Session> session, s
   const Stated& stated = document.facts()->stated;
   const auto seen = session->is_clip() && !stated.contains("between") ? seen_together(frames, session->timeline())
                                                                       : std::nullopt;
-  return [request, output, session = std::move(session),
-          devices = std::move(devices), film, seen, stated, clip = document.facts()->path, told = std::move(told), end = std::move(end),
-          sound = options.sound](const Job& job) -> Jobs::Finish {
+  // The live view goes on with its own.
+  ComputingRequest computing = devices->request();
+  computing.memory.bytes /= 2;
+  return [request, output, session = std::move(session), computing, film, seen, stated, clip = document.facts()->path,
+          told = std::move(told), end = std::move(end), sound = options.sound](const Job& job) -> Jobs::Finish {
     std::shared_ptr<Session> filmed = session;
     QStringList notes;
     if (seen) {
@@ -224,7 +226,7 @@ Jobs::Work filming(const Document& document, std::shared_ptr<Session> session, s
       notes = {Document::tr("They would show what moves two or three times: samples were made between pictures "
                             "%1 … %2.").arg(seen->first).arg(seen->last - 1)};
       try {
-        filmed = open_capture(clip, joined, devices, job, [](const QImage&) {}).session;
+        filmed = open_capture(clip, joined, std::make_shared<Devices>(computing), job).session;
       } catch (const Error& error) {
         if (!is_refusal(error)) throw;
         notes = {Document::tr("They show what moves two or three times: %1").arg(sentence(error.what()))};
