@@ -218,7 +218,7 @@ TEST(VideoClip, RefusesWhatItCannotKeep) {
                       "612 bytes, which is no whole number of pictures of 136 bytes (17 x 8, gray); check "
                       "its size and pixel format");
   expect_clip_refused(file, raw_options(kGrey, "grey"), "'grey' is no pixel format that FFmpeg knows");
-  expect_clip_refused(scratch.write("empty", ""), raw_options(kGrey, "gray"), "0 bytes");
+  expect_clip_refused(scratch.write("empty", ""), raw_options(kGrey, "gray"), "is empty");
   ClipOptions without_rate = raw_options(kGrey, "gray");
   without_rate.rate.reset();
   expect_clip_refused(file, without_rate, "raw does not say how fast it was taken; state the rate");
