@@ -315,18 +315,17 @@ class Capture:
         >>> many.array.shape, many.error_bounds.shape
         ((100, 24, 32), (100,))
         """
-        is_one = getattr(functions, "ndim", 0) == 1 and getattr(functions, "dtype", object) != object
-        if is_one or isinstance(functions, Mapping) or not (functions is None or is_list(functions)):
-            each = "a dict {tag: function}" if isinstance(functions, Mapping) else "those of render()"
-            raise UsageError(f"functions is {shortened(functions)}; render_many() takes a list with {each} for each "
-                             "picture, [{0: ..., 128: ...}, ...], or an array [pictures, samples] of gains")
+        is_one = getattr(functions, "ndim", 0) == 1 and getattr(functions, "dtype", None) != object
+        is_dict = isinstance(functions, Mapping)
+        refuse(is_one or is_dict or not (functions is None or is_list(functions)), f"functions is "
+               f"{shortened(functions)}; render_many() takes a list with {'a dict' if is_dict else 'those of render()'}"
+               " for each picture, [{0: ..., 128: ...}, ...], or an array [pictures, samples] of gains")
         lists: dict[str, list[Any]] = {name: listed(each) if name == "functions" or is_list(each) else [each]
                  for name, each in (("functions", functions), ("starts", starts), ("exposures", exposures))
                  if each is not None}
         counts = {len(each) for each in lists.values()} - {1} or {1}
-        if len(counts) > 1 or 0 in counts:
-            said = ", ".join(f"{len(each)} {name}" for name, each in lists.items())
-            raise UsageError(f"there are {said}: lists have one length, or one for all pictures")
+        said = ", ".join(f"{len(each)} {name}" for name, each in lists.items())
+        refuse(len(counts) > 1 or 0 in counts, f"there are {said}: lists have one length, or one for all pictures")
         first = {name: lists.get(f"{name}s", [None])[0] for name in ("function", "start", "exposure")}
         asked, corner = self._exposure({**locals(), **first, "functions": first["function"]})
         starts, exposures = ([time_word(each, f"{name}[{i}]") for i, each in enumerate(lists.get(name, []))]
@@ -360,8 +359,8 @@ class Capture:
         >>> bool(abs(trace.integral_ns.sum() / trace.support_ns - trace.exposed[0]) < 1e-12)
         True
         """
-        if (x is None) != (y is None) or (x is None) == (tag is None):
-            raise UsageError("what should be followed? Either a pixel, x and y, or a tag of the mask, tag=")
+        refuse((x is None) != (y is None) or (x is None) == (tag is None),
+               "what should be followed? Either a pixel, x and y, or a tag of the mask, tag=")
         refuse(tag is not None and mask is None, "tag= is a value of a mask; add mask=")
         asked, _ = self._exposure(locals())
         pixel = None if x is None else (count_of(x, "x"), count_of(y, "y"))
@@ -411,8 +410,7 @@ class Capture:
             self._held, None if made is None else made._held, None if tag is None else tag_of(tag), count_of(by, "by"),
             count_redrawn, progress)}
         warn(told.pop("notes"), NutikNote)
-        for name in ("busiest", "quietest"):
-            told[name] = told[name] and Stretch(**told[name])
+        told.update({name: told[name] and Stretch(**told[name]) for name in ("busiest", "quietest")})
         return Activity(**frozen(told))
 
     def study(self, style: str = "trail", *, moments: Union[int, Sequence[Time], None] = None,
@@ -482,8 +480,7 @@ class Capture:
     def _asked(self, functions: Optional[dict[int, Function]], stated: Mapping[str, Any],
                box: Optional[list[int]] = None) -> _nutik.Exposure:
         mask, feather, delay = (stated.get(name) for name in ("mask", "feather", "delay"))
-        if feather is not None and mask is None:
-            raise UsageError("feather= blends functions along the edges of a mask; add mask= and functions=")
+        refuse(feather is not None and mask is None, "feather= blends along a mask's edges; add mask= and functions=")
         made = mask_of(mask, rest=min(functions) if functions else 0)
         if made is not None and feather is not None:
             made = made.feathered(feather)

@@ -284,8 +284,7 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
         if times and isinstance(times[0], (np.datetime64, datetime.datetime)):
             times = [time - times[0] for time in times]  # dates: only what lies between them counts
     starts = [] if times is None else times_ns(times, "times").tolist()
-    if times is not None and count is not None and len(starts) != count:
-        raise UsageError(f"there are {len(starts)} times for {count} pictures")
+    refuse(times is not None and count not in (None, len(starts)), f"{len(starts)} times for {count} pictures")
     if exposures is None:
         return starts, [], None
     if not is_list(exposures):

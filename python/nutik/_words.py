@@ -16,6 +16,7 @@ from functools import cache
 from os import PathLike, fsdecode
 from os.path import dirname, exists, join
 from importlib import import_module
+from inspect import signature
 from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, Optional, Protocol, Union, cast
 
 import numpy as np
@@ -76,7 +77,11 @@ def refuse(is_wrong: Any, message: str, kind: type[Error] = UsageError) -> None:
 
 
 def check_progress(progress: Any) -> None:
-    refuse(not (progress is None or callable(progress)), f"progress= is {shortened(progress)}, no callable", WrongType)
+    with suppress(ValueError):  # some of C's functions do not tell what they take
+        try:
+            progress is None or signature(progress).bind(0, 0)
+        except TypeError:
+            raise WrongType(f"progress= is {shortened(progress)}, which does not take (done, total)") from None
 
 
 @contextmanager

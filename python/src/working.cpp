@@ -71,10 +71,10 @@ ReportedProgress Stopping::progress() const {
 void wait_for(const std::function<bool()>& is_done, std::stop_source& stopping, const Steps& steps,
               const py::object& told) {
   std::optional<py::error_already_set> raised;
-  std::optional<std::uint64_t> last;  // that was told
-  const auto tell = [&](bool is_end) {
+  std::uint64_t last = 0;
+  const auto tell = [&] {
     const std::uint64_t done = steps.done;
-    if (raised || told.is_none() || done == last || (!last && done == 0 && !is_end)) return;
+    if (raised || told.is_none() || done == last) return;
     last = done;
     try {
       told(done, steps.total.load());
@@ -95,12 +95,12 @@ void wait_for(const std::function<bool()>& is_done, std::stop_source& stopping, 
         raised.emplace();
         stopping.request_stop();
       }
-      tell(false);
+      tell();
     }
     // While the end waits for this thread: Python would end it within what it calls, and our frames with it.
     if (!is_over()) {
       const py::gil_scoped_acquire locked;
-      tell(steps.total != 0);  // what failed before its first step is not told of
+      tell();
     }
   }
   if (raised) throw *raised;

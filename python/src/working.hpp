@@ -56,8 +56,8 @@ class Unlocked {
 void end_work();
 
 // Waits without Python's lock until is_done(), which itself waits up to 50 ms at each call; asks for a stop at Ctrl-C.
-// Calls told(done, total), unless that is None, when steps were done, and once at least where their number was known.
-// Throws what a signal's handler or that raised.
+// Calls told(done, total), unless that is None, when steps were done, and at the end. Throws what a signal's handler or
+// that raised.
 void wait_for(const std::function<bool()>& is_done, std::stop_source& stopping, const Steps& steps,
               const py::object& told);
 // Calls work(Stopping) and returns what that does.

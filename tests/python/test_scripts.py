@@ -356,7 +356,7 @@ class Errors(support.TestCase):
         self.assert_same(capture.render_many(Labelled(gains)).array, capture.render_many(gains).array)
         points = Labelled(np.array([[0, 1], [0.05, 0]]))
         self.assert_same(capture.render(points).array, capture.render([(0, 1), (0.05, 0)]).array)
-        self.assert_raises(nutik.UsageError, "takes a list", capture.render_many, Labelled(gains[0]))
+        self.assert_raises(nutik.UsageError, "takes a list", capture.render_many, gains[0])
 
     def test_many_pictures_are_an_array(self):
         many = nutik.encode(np.zeros((20, 4, 5), np.uint8), rate=100).render_many(starts=[0, 0.1], exposures=0.05)
