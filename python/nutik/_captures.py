@@ -316,10 +316,10 @@ class Capture:
         ((100, 24, 32), (100,))
         """
         is_one = getattr(functions, "ndim", 0) == 1 and getattr(functions, "dtype", None) != object
-        is_dict = isinstance(functions, Mapping)
-        refuse(is_one or is_dict or not (functions is None or is_list(functions)), f"functions is "
-               f"{shortened(functions)}; render_many() takes a list with {'a dict' if is_dict else 'those of render()'}"
-               " for each picture, [{0: ..., 128: ...}, ...], or an array [pictures, samples] of gains")
+        each = "a dict {tag: function}" if isinstance(functions, Mapping) else "those of render()"
+        refuse(is_one or isinstance(functions, Mapping) or not (functions is None or is_list(functions)),
+               f"functions is {shortened(functions)}; render_many() takes a list with {each} for each picture, "
+               "[{0: ..., 128: ...}, ...], or an array [pictures, samples] of gains")
         lists: dict[str, list[Any]] = {name: listed(each) if name == "functions" or is_list(each) else [each]
                  for name, each in (("functions", functions), ("starts", starts), ("exposures", exposures))
                  if each is not None}

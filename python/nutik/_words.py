@@ -77,11 +77,12 @@ def refuse(is_wrong: Any, message: str, kind: type[Error] = UsageError) -> None:
 
 
 def check_progress(progress: Any) -> None:
-    with suppress(ValueError):  # some of C's functions do not tell what they take
-        try:
-            progress is None or signature(progress).bind(0, 0)
-        except TypeError:
-            raise WrongType(f"progress= is {shortened(progress)}, which does not take (done, total)") from None
+    try:
+        progress is None or signature(progress).bind(0, 0)
+    except TypeError:
+        raise WrongType(f"progress= is {shortened(progress)}, which does not take (done, total)") from None
+    except ValueError:
+        pass  # some of C's functions do not tell what they take
 
 
 @contextmanager
