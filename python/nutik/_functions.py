@@ -240,7 +240,7 @@ def fit(gain: Gain, start: Time, end: Time, *, error: float = 1e-3) -> Function:
         except (TypeError, ValueError):
             values = real([cast(Any, gain)(float(each)) for each in seconds], "the function's gains")
         values = np.broadcast_to(values, times.shape) if values.ndim == 0 else values
-        refuse(values.shape != times.shape, f"it returns shape {values.shape} for {times.shape}: one gain for each time")
+        refuse(values.shape != times.shape, f"it returns {values.shape} for {times.shape}: one gain for each time")
         if not np.all(np.isfinite(values)):
             raise UsageError(f"the function is not finite at {float(seconds[~np.isfinite(values)][0])} s")
         return values

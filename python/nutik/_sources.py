@@ -277,7 +277,7 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
     """Starts, exposures, and how long all were exposed, as the engine has them."""
     refuse((rate is None) == (times is None), "when were the pictures taken? Say rate=, pictures a second, or times=, "
            "when each begins; not both")
-    refuse(exposures is not None and shutter_angle is not None, "exposures= and shutter_angle= say how long; leave one out")
+    refuse(exposures is not None and shutter_angle is not None, "both exposures= and shutter_angle=: leave one out")
     if times is not None:
         times = listed(times, "times")
         if times and isinstance(times[0], (np.datetime64, datetime.datetime)):
