@@ -9,7 +9,9 @@ namespace nutik {
 
 // BT.709, which are sRGB's too; BT.2020, which are BT.2100's; P3 with the white of screens (SMPTE EG 432-1); those of
 // cameras' curves, from the papers that log_curve.cpp names; ACES' AP1. All but AP1 have the white D65.
-enum class Primaries { bt709, bt2020, p3, sgamut3, sgamut3_cine, vgamut, cinema_gamut, arri_wg3, arri_wg4, dgamut, ap1 };
+enum class Primaries {
+  bt709, bt2020, p3, sgamut3, sgamut3_cine, vgamut, cinema_gamut, arri_wg3, arri_wg4, dgamut, apple_wide_gamut, ap1
+};
 
 // `bt709`, `bt2020`, `p3`, `sgamut3-cine` ….
 [[nodiscard]] std::string_view to_text(Primaries primaries);

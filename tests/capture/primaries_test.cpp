@@ -10,7 +10,8 @@ namespace {
 
 constexpr Primaries kAll[] = {Primaries::bt709,        Primaries::bt2020,       Primaries::p3,       Primaries::sgamut3,
                               Primaries::sgamut3_cine, Primaries::vgamut,       Primaries::cinema_gamut,
-                              Primaries::arri_wg3,     Primaries::arri_wg4,     Primaries::dgamut};
+                              Primaries::arri_wg3,     Primaries::arri_wg4,     Primaries::dgamut,
+                              Primaries::apple_wide_gamut};
 
 // A colour has one XYZ, in whichever primaries its light is told.
 TEST(Primaries, MatricesKeepColours) {

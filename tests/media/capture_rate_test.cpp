@@ -43,6 +43,13 @@ TEST(CaptureRate, IsAndroidsWhereTheFilePlaysSlower) {
   EXPECT_EQ(test::open_test_clip(scratch / "clip.mp4")->info().timing.rate, (Rational{3, 1}));
 }
 
+std::string box(const std::string& type, const std::string& data) {
+  const auto size = static_cast<std::uint32_t>(data.size() + 8);
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(size >> shift);
+  return bytes + type + data;
+}
+
 std::string sony_story(const char* rate, const char* curve, const char* gamut) {
   return std::string(
              "<?xml version=\"1.0\"?><NonRealTimeMeta><VideoFormat><VideoFrame videoCodec=\"AVC\" captureFps=\"") +
@@ -65,11 +72,6 @@ TEST(CaptureRate, AndCurveAreSonysWhereItsXmlSaysThem) {
   scratch.write("otherM01.XML", "<other/>");
   const std::string story = sony_story("240p", "s-log2", "s-gamut");
   const std::string plain = test::read_file(scratch / "clip.mp4");
-  const auto box = [](const std::string& name, const std::string& held) {
-    const std::size_t size = held.size() + 8;
-    return std::string{static_cast<char>(size >> 24), static_cast<char>(size >> 16), static_cast<char>(size >> 8),
-                       static_cast<char>(size)} + name + held;
-  };
   const std::string version(4, '\0');
   scratch.write("within.mp4", plain + box("meta", version + box("xml ", version + story)));
   const auto within = test::open_test_clip(scratch / "within.mp4");
@@ -79,6 +81,50 @@ TEST(CaptureRate, AndCurveAreSonysWhereItsXmlSaysThem) {
   const auto other = test::open_test_clip(scratch / "other.mp4");
   EXPECT_EQ(other->info().format.transfer, Transfer::srgb());
   EXPECT_EQ(other->info().timing.rate, (Rational{24'000, 1001}));
+}
+
+// A box at the end of the description of the only track, with the sizes of all that it lies in.
+std::string described(std::string file, const std::string& more) {
+  std::size_t end = 0;
+  for (const char* name : {"moov", "trak", "mdia", "minf", "stbl", "stsd", "mp4v"}) {
+    const std::size_t at = file.find(name, end) - 4;
+    end = at + 8;
+    const auto byte = [&](std::size_t k) { return std::size_t{static_cast<unsigned char>(file[at + k])}; };
+    const std::size_t size = (byte(2) << 8) + byte(3) + more.size();
+    file[at + 2] = static_cast<char>(size >> 8);
+    file[at + 3] = static_cast<char>(size);
+    if (std::string(name) == "mp4v") file.insert(at + size - more.size(), more);
+  }
+  return file;
+}
+
+TEST(CaptureRate, AndCurvesOfApplesAndArrisAreReadFromTheirKeys) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  const auto curve_of = [&](const std::string& name) {
+    const auto& format = test::open_test_clip(scratch / name)->info().format;
+    return format.transfer.text() + " " + std::string(to_text(format.primaries));
+  };
+  const auto keyed = [&](const std::string& words) {
+    test::make(scratch, phone_clip("30", words));
+    return curve_of("clip.mp4");
+  };
+  EXPECT_EQ(keyed(""), "srgb bt709");
+  const std::string plain = test::read_file(scratch / "clip.mp4");
+  EXPECT_EQ(keyed("-metadata com.apple.proapps.customgamma=com.apple.rec2020.apple-log"), "applelog bt2020");
+  EXPECT_EQ(keyed("-metadata com.apple.proapps.customgamma=com.apple.apple-wide-gamut.apple-log"),
+            "applelog apple-wide-gamut");
+  EXPECT_EQ(keyed("-metadata com.apple.proapps.customgamma=com.apple.other"), "srgb bt709");
+  EXPECT_EQ(keyed("-metadata com.arri.camera.ColorGammaSxS=LOG-C -metadata com.arri.camera.ExposureIndexAsa=800"),
+            "logc3 arri-wg3");
+  EXPECT_EQ(keyed("-metadata com.arri.camera.ColorGammaSxS=LOG-C -metadata com.arri.camera.ExposureIndexAsa=400"),
+            "srgb bt709");
+  const auto other = test::open_test_clip(scratch / "clip.mp4");
+  EXPECT_NE(notes_of(*other).find("LOG-C at exposure index 400"), std::string::npos) << notes_of(*other);
+  scratch.write("in-track.mp4", described(plain, box("logs", "com.apple.rec2020.apple-log")));
+  EXPECT_EQ(curve_of("in-track.mp4"), "applelog bt2020");
+  scratch.write("beside.mp4", plain + box("logs", "com.apple.rec2020.apple-log"));
+  EXPECT_EQ(curve_of("beside.mp4"), "srgb bt709");
 }
 
 TEST(CaptureRate, ChangesNothingWhereTheFileRunsAtIt) {
@@ -196,13 +242,6 @@ TEST(CaptureRate, IsOnlyNamedWhereTimesFollowNoRate) {
   EXPECT_NE(notes_of(*clip).find("at uneven times, of no rate that can be told: its own times are taken"),
             std::string::npos)
       << notes_of(*clip);
-}
-
-std::string box(const std::string& type, const std::string& data) {
-  const auto size = static_cast<std::uint32_t>(data.size() + 8);
-  std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(size >> shift);
-  return bytes + type + data;
 }
 
 // Adds boxes at the end of the last box, moov.

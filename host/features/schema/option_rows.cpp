@@ -143,9 +143,9 @@ constexpr Option kRows[] = {
     known(Setting::primaries, {0, "primaries", "NAME", decoding, kDecodesClips | bit(Id::retime),
      take_by<InClip<&ClipOptions::primaries>, parse_primaries>,
      "the colours of red, green and blue: bt709, bt2020, p3, or a camera's: sgamut3, sgamut3-cine, vgamut, cinema-gamut, "
-     "arri-wg3, arri-wg4, dgamut, ap1 (default: the curve's, of cameras' curves; what the file says; else bt2020 if the "
-     "matrix is, and bt709)",
-     "bt709 bt2020 p3 sgamut3 sgamut3-cine vgamut cinema-gamut arri-wg3 arri-wg4 dgamut ap1"}),
+     "arri-wg3, arri-wg4, dgamut, apple-wide-gamut, ap1 (default: the curve's, of cameras' curves; what the file says; "
+     "else bt2020 if the matrix is, and bt709)",
+     "bt709 bt2020 p3 sgamut3 sgamut3-cine vgamut cinema-gamut arri-wg3 arri-wg4 dgamut apple-wide-gamut ap1"}),
     known(Setting::pixel_aspect, {0, "pixel-aspect", "W:H", decoding, kDecodesClips | bit(Id::retime),
      take_by<InClip<&ClipOptions::pixel_aspect>, parse_pixel_aspect>,
      "how much wider than high a pixel is: 32:27 (default: what the file says, else 1:1)"}),

@@ -28,8 +28,11 @@ std::uint64_t big_endian(Bytes bytes, std::size_t at, std::size_t count) {
   return number;
 }
 
+constexpr std::string_view kAnyCodec = "????";
+
 // What the first box holds that lies within boxes of these types; empty where there is none. A box is u32 size with its
-// header of 8 bytes, then four letters; a size of 1 stands for a u64 behind them, 0 for all that is left.
+// header of 8 bytes, then four letters; a size of 1 stands for a u64 behind them, 0 for all that is left. `stsd` has
+// fields before its boxes, and so has each track's description in it, whose type is its codec.
 Bytes box_at(Bytes boxes, std::span<const std::string_view> path) {
   constexpr std::size_t kHeader = 8, kLongHeader = 16;
   while (boxes.size() >= kHeader) {
@@ -41,8 +44,10 @@ Bytes box_at(Bytes boxes, std::span<const std::string_view> path) {
     }
     if (size == 0) size = boxes.size();
     if (size < header || size > boxes.size()) return {};
-    if (std::memcmp(boxes.data() + 4, path.front().data(), 4) == 0) {
-      const Bytes held = boxes.subspan(header, size - header);
+    const bool is_codec = path.front() == kAnyCodec;
+    if (is_codec || std::memcmp(boxes.data() + 4, path.front().data(), 4) == 0) {
+      const std::uint64_t begin = header + (is_codec ? 78u : path.front() == "stsd" ? 8u : 0u);
+      const Bytes held = begin < size ? boxes.subspan(begin, size - begin) : Bytes();
       const Bytes found = path.size() == 1 ? held : box_at(held, path.subspan(1));
       if (!found.empty()) return found;
     }
@@ -185,9 +190,32 @@ double steady_rate(const std::vector<std::int64_t>& starts_ns) {
 
 }  // namespace
 
-std::optional<NamedCurve> named_curve(const AVFormatContext& format, const std::filesystem::path& path) {
-  const AVDictionaryEntry* dji = av_dict_get(format.metadata, "com.dji.camera.ColorGammaSxS", nullptr, 0);
-  if (dji != nullptr && std::string_view(dji->value) == "D-Log") return NamedCurve{Transfer::log("dlog"), std::nullopt};
+std::optional<NamedCurve> named_curve(const AVFormatContext& format, const std::filesystem::path& path,
+                                      std::vector<Note>& notes) {
+  const auto said = [&](const char* key) {
+    const AVDictionaryEntry* entry = av_dict_get(format.metadata, key, nullptr, 0);
+    return std::string_view(entry == nullptr ? "" : entry->value);
+  };
+  if (said("com.dji.camera.ColorGammaSxS") == "D-Log") return NamedCurve{Transfer::log("dlog"), std::nullopt};
+  if (said("com.arri.camera.ColorGammaSxS") == "LOG-C") {
+    // The curve is another one at each exposure index.
+    const std::string_view index = said("com.arri.camera.ExposureIndexAsa");
+    if (index == "800") return NamedCurve{Transfer::log("logc3"), std::nullopt};
+    notes.emplace_back(nutik::format("the file's curve is LOG-C at exposure index {:.20}, of which only that at 800 is "
+                                     "known: the container's is taken",
+                                     index.empty() ? "unknown" : index),
+                       std::vector{Setting::transfer});
+  }
+  // As Apple's VideoToolbox names them, kCVImageBufferLogTransferFunction_AppleLog and _AppleLog2.
+  const MappedFile mapped(path);
+  const Bytes logs = box_at(mapped.bytes(), {"moov", "trak", "mdia", "minf", "stbl", "stsd", kAnyCodec, "logs"});
+  const std::string_view in_track(reinterpret_cast<const char*>(logs.data()), logs.size());
+  const auto is_apples = [&](std::string_view name) {
+    return in_track == name || said("com.apple.proapps.customgamma") == name;
+  };
+  if (is_apples("com.apple.rec2020.apple-log")) return NamedCurve{Transfer::log("applelog"), Primaries::bt2020};
+  if (is_apples("com.apple.apple-wide-gamut.apple-log"))
+    return NamedCurve{Transfer::log("applelog"), Primaries::apple_wide_gamut};
   const std::string story = sony_story(path);
   const std::string curve = item_of(story, "CaptureGammaEquation"), gamut = item_of(story, "CaptureColorPrimaries");
   const char* const known = curve == "s-log2" ? "slog2" : curve.starts_with("s-log3") ? "slog3" : nullptr;

@@ -333,7 +333,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   result.range = named_range(codec);
   result.chroma_at = named_chroma_place(codec);
   result.primaries = primaries_of_coding_point(primaries);
-  if (const auto named = raw ? std::nullopt : named_curve(*opened.format, path)) {
+  if (const auto named = raw ? std::nullopt : named_curve(*opened.format, path, result.notes)) {
     result.transfer = named->transfer;
     result.primaries = named->primaries;
   }
