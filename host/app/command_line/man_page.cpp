@@ -135,8 +135,7 @@ std::string man_page() {
       {"NUTIK_DEVICE", "the OpenCL device or devices, as --device"},
       {"NUTIK_SELF_TEST", "off: kernels are not tested before they are used"},
       {"NUTIK_MODULES",
-       "the folder of nutik-videos.so, nutik-stills.so and nutik-motion.so, where they are not in their "
-       "usual place"},
+       "the folder of nutik-videos.so and the other modules, where they are not in their usual place"},
       {"NO_COLOR", "no colours on a terminal, whatever its value is, unless that is empty"},
       {"COLUMNS", "how wide help is, 60 to 100"},
       {"XDG_CACHE_HOME", "where built kernels are kept, in a folder nutik-cl (default: ~/.cache)"},

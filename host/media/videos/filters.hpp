@@ -1,12 +1,47 @@
-// Pictures through FFmpeg's filters.
+// Pictures and sound through FFmpeg's filters.
 #pragma once
+
+#include "media/videos/libav.hpp"  // FFmpeg's headers ask for <cstdint> before them
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wpedantic"
+extern "C" {
+#include <libavfilter/avfilter.h>
+#include <libavfilter/buffersink.h>
+#include <libavfilter/buffersrc.h>
+}
+#pragma GCC diagnostic pop
 
 #include <functional>
 #include <string>
 
-#include "media/videos/libav.hpp"
+#include "media/module.hpp"
 
 namespace nutik::videos {
+
+// What nutik-filters.so gives: libavfilter, which with all that it needs takes as long to load as FFmpeg's decoders.
+struct FilterModule {
+  static constexpr const char* kFile = "nutik-filters.so";
+  static constexpr const char* kSymbol = "nutik_filter_module";
+  static constexpr const char* kWithout = "pictures cannot be deinterlaced, nor GIFs and sound be made";
+
+  void (*use_shared_state)(SharedState& of_program);  // first
+  decltype(&avfilter_graph_alloc) graph_alloc;
+  decltype(&avfilter_graph_free) graph_free;
+  decltype(&avfilter_graph_parse2) graph_parse;
+  decltype(&avfilter_graph_config) graph_config;
+  decltype(&avfilter_graph_get_filter) graph_get_filter;
+  decltype(&av_buffersrc_add_frame) add_frame;
+  decltype(&av_buffersink_get_frame) get_frame;
+  decltype(&av_buffersink_get_format) get_format;
+  decltype(&av_buffersink_get_time_base) get_time_base;
+};
+
+struct FreeGraph {
+  void operator()(AVFilterGraph* graph) const { module<FilterModule>().graph_free(&graph); }
+};
+using GraphPointer = std::unique_ptr<AVFilterGraph, FreeGraph>;
 
 class Filters {
  public:

@@ -6,9 +6,6 @@
 #pragma GCC diagnostic ignored "-Wpedantic"
 extern "C" {
 #include <libavcodec/avcodec.h>
-#include <libavfilter/avfilter.h>
-#include <libavfilter/buffersink.h>
-#include <libavfilter/buffersrc.h>
 #include <libavformat/avformat.h>
 #include <libavutil/display.h>
 #include <libavutil/imgutils.h>
@@ -53,9 +50,6 @@ struct FreePacket {
 struct FreeFrame {
   void operator()(AVFrame* frame) const { av_frame_free(&frame); }
 };
-struct FreeGraph {
-  void operator()(AVFilterGraph* graph) const { avfilter_graph_free(&graph); }
-};
 struct FreeScaler {
   void operator()(SwsContext* context) const { sws_freeContext(context); }
 };
@@ -64,7 +58,6 @@ using FormatPointer = std::unique_ptr<AVFormatContext, FreeFormat>;
 using CodecPointer = std::unique_ptr<AVCodecContext, FreeCodec>;
 using PacketPointer = std::unique_ptr<AVPacket, FreePacket>;
 using FramePointer = std::unique_ptr<AVFrame, FreeFrame>;
-using GraphPointer = std::unique_ptr<AVFilterGraph, FreeGraph>;
 using ScalerPointer = std::unique_ptr<SwsContext, FreeScaler>;
 
 // What FFmpeg is told to take where a stream does not say how fast its pictures follow each other: nobody films so.

@@ -1,3 +1,4 @@
+#include "media/videos/filters.hpp"
 #include "media/videos/sound.hpp"
 
 #include <cmath>
@@ -111,7 +112,7 @@ class LibavSoundWriter final : public SoundWriter {
   // Cuts the part out, fills gaps with silence, plays slower or faster, converts. A filter that keeps pitch (atempo) would
   // move sounds by more than a frame.
   void open_graph() {
-    graph_.reset(allocated(avfilter_graph_alloc()));
+    graph_.reset(allocated(module<FilterModule>().graph_alloc()));
     graph_->nb_threads = 1;
     char layout[64] = {};
     check(av_channel_layout_describe(&decoder_->ch_layout, layout, sizeof layout));
@@ -125,8 +126,8 @@ class LibavSoundWriter final : public SoundWriter {
     if (encoder_->frame_size > 0) filters += format(",asetnsamples=n={}:p=0", encoder_->frame_size);
     filters += ",abuffersink";
     AVFilterInOut *in = nullptr, *out = nullptr;
-    check(avfilter_graph_parse2(graph_.get(), filters.c_str(), &in, &out));
-    check(avfilter_graph_config(graph_.get(), nullptr));
+    check(module<FilterModule>().graph_parse(graph_.get(), filters.c_str(), &in, &out));
+    check(module<FilterModule>().graph_config(graph_.get(), nullptr));
     source_ = graph_->filters[0];
     for (unsigned i = 0; i < graph_->nb_filters; ++i) {
       if (std::string_view(graph_->filters[i]->filter->name) == "abuffersink") sink_ = graph_->filters[i];
@@ -181,15 +182,15 @@ class LibavSoundWriter final : public SoundWriter {
       if (frame_->ch_layout.order == AV_CHANNEL_ORDER_UNSPEC)
         check(av_channel_layout_copy(&frame_->ch_layout, &decoder_->ch_layout));
       // What has another form than the sound began with is silence; behind the film's end some versions take no more.
-      if (at + length > 0 && av_buffersrc_add_frame(source_, frame_.get()) < 0) av_frame_unref(frame_.get());
+      if (at + length > 0 && module<FilterModule>().add_frame(source_, frame_.get()) < 0) av_frame_unref(frame_.get());
       av_frame_unref(frame_.get());
     }
     encode_all();
   }
 
   void encode_all() {
-    while (av_buffersink_get_frame(sink_, frame_.get()) >= 0) {
-      frame_->pts = av_rescale_q(frame_->pts, av_buffersink_get_time_base(sink_), encoder_->time_base);
+    while (module<FilterModule>().get_frame(sink_, frame_.get()) >= 0) {
+      frame_->pts = av_rescale_q(frame_->pts, module<FilterModule>().get_time_base(sink_), encoder_->time_base);
       encode(frame_.get());
       av_frame_unref(frame_.get());
     }
@@ -212,7 +213,7 @@ class LibavSoundWriter final : public SoundWriter {
   void end() {
     if (std::exchange(is_at_end_, true) || is_copied_) return;
     decode(nullptr);
-    if (const int ended = av_buffersrc_add_frame(source_, nullptr); ended != AVERROR_EOF) check(ended);
+    if (const int ended = module<FilterModule>().add_frame(source_, nullptr); ended != AVERROR_EOF) check(ended);
     encode_all();
     encode(nullptr);
   }
