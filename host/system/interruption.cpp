@@ -1,11 +1,11 @@
 #include "system/interruption.hpp"
 
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <csignal>
 #include <cstring>
-#include <ctime>
 
 #include "system/output_file.hpp"
 #include "system/shared_state.hpp"
@@ -15,8 +15,7 @@ namespace {
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
-// Runs from the first signal on, unless it was cleared.
-timer_t waiting{};
+// Whether a timer ends the program that runs from the first signal on, unless it was cleared.
 std::atomic<bool> has_timer{false};
 
 const char* name_of(int number) {
@@ -29,9 +28,9 @@ const char* name_of(int number) {
 
 void set_timer(long milliseconds) {
   if (!has_timer.load()) return;
-  struct itimerspec after {};
-  after.it_value.tv_nsec = milliseconds * 1'000'000;
-  timer_settime(waiting, 0, &after, nullptr);
+  struct itimerval after {};
+  after.it_value.tv_usec = milliseconds * 1000;
+  setitimer(ITIMER_REAL, &after, nullptr);
 }
 
 // Nobody has looked. What a signal handler may do is little, and enough.
@@ -75,11 +74,7 @@ void catch_interruptions() {
   when_late.sa_handler = end_now;
   when_late.sa_flags = SA_RESTART;
   sigemptyset(&when_late.sa_mask);
-  struct sigevent event {};
-  event.sigev_notify = SIGEV_SIGNAL;
-  event.sigev_signo = SIGALRM;
-  has_timer =
-      sigaction(SIGALRM, &when_late, nullptr) == 0 && timer_create(CLOCK_MONOTONIC, &event, &waiting) == 0;
+  has_timer = sigaction(SIGALRM, &when_late, nullptr) == 0;
   for (const int signal : kSignals) {
     struct sigaction before {};
     if (sigaction(signal, nullptr, &before) != 0 || before.sa_handler == SIG_IGN) continue;

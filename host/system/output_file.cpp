@@ -16,6 +16,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "system/is_absent.hpp"
+#include "system/linux_calls.hpp"
 #include "capture/source_text.hpp"
 #include "system/reused_entries.hpp"
 #include "system/shared_state.hpp"
@@ -79,23 +80,18 @@ bool is_foreign_in_shared_folder(const struct stat& link, const std::filesystem:
 std::filesystem::path followed(std::filesystem::path path) {
   constexpr int kMaxLinks = 40;  // as many as the system follows
   for (int links = 0;; ++links) {
-    // The link itself, so that nobody can put another in its place meanwhile.
-    const Opened link{open(path.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC)};
-    if (link.descriptor < 0 && errno == ENOENT) return path;
-    struct stat status {};
-    if (link.descriptor < 0 || fstat(link.descriptor, &status) != 0) refuse(path, errno);
-    if (!S_ISLNK(status.st_mode)) return path;
+    const Link link = read_link(path);
+    if (link.error == ENOENT) return path;
+    if (link.error != 0) refuse(path, link.error);
+    if (!link.target) return path;
     if (links == kMaxLinks) {
       throw OutputError(format("{} is a link that leads nowhere; choose another name", path.string()));
     }
-    if (is_foreign_in_shared_folder(status, path.parent_path())) {
+    if (is_foreign_in_shared_folder(link.status, path.parent_path())) {
       throw OutputError(format(
           "{} is another user's link in a folder that all may write to; choose another name", path.string()));
     }
-    std::array<char, 4096> target{};
-    const ssize_t length = readlinkat(link.descriptor, "", target.data(), target.size());
-    if (length < 0) refuse(path, errno);
-    path = path.parent_path() / std::string_view(target.data(), static_cast<std::size_t>(length));
+    path = path.parent_path() / *link.target;
   }
 }
 
@@ -117,7 +113,7 @@ std::string_view beginning(std::string_view name, std::size_t bytes) {
 // Beside `path`, and as no other file is called: 64 random bits. Where the name has no room for more, its end gives way.
 std::filesystem::path temporary_beside(const std::filesystem::path& path) {
   std::uint64_t random = 0;
-  if (getrandom(&random, sizeof random, 0) != sizeof random) refuse(path, errno);
+  if (getentropy(&random, sizeof random) != 0) refuse(path, errno);
   const std::string ending = format(".nutik-{:016x}.part", random);
   const std::string name = path.filename().string();
   const std::size_t room = longest_name(path.parent_path());
@@ -159,8 +155,8 @@ OutputFile::OutputFile(std::filesystem::path path, Lasting lasting)
   const mode_t mode = replaced_mode_ ? kOurs : kAsTheUserWants;
   if (lasting_ == Lasting::yes) {
     const std::filesystem::path folder = path_.parent_path();
-    descriptor_ = open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
-    temporary_path_ = path_without_name();
+    descriptor_ = open_nameless(folder.empty() ? "." : folder, O_WRONLY, mode);
+    temporary_path_ = path_of(descriptor_);
     if (descriptor_ >= 0 && access(temporary_path_.c_str(), W_OK) == 0) return;
     if (descriptor_ >= 0) close(descriptor_);  // no /proc here
   }
@@ -259,16 +255,11 @@ void OutputFile::commit() {
   keep_name();
 }
 
-std::string OutputFile::path_without_name() const { return format("/proc/self/fd/{}", descriptor_); }
-
 // No call lets a file without a name replace another: it gets one beside it first.
 void OutputFile::take_name() {
   temporary_path_ = temporary_beside(path_);
   known_ = make_known(temporary_path_.string());
-  if (linkat(AT_FDCWD, path_without_name().c_str(), AT_FDCWD, temporary_path_.c_str(), AT_SYMLINK_FOLLOW) !=
-      0) {
-    fail("cannot be written");
-  }
+  if (!give_name(descriptor_, temporary_path_)) fail("cannot be written");
 }
 
 // The name is the folder's, and reaches the disk with it. A folder that may be written to but not read cannot be asked.
@@ -302,7 +293,7 @@ void write_text(const std::filesystem::path& path, std::string_view text) {
 
 void write_new_text(const std::filesystem::path& folder, const std::string& name, std::string_view text) {
   if (mkdir(folder.c_str(), S_IRWXU | S_IRWXG | S_IRWXO) != 0 && errno != EEXIST) refuse(folder, errno);
-  const Opened ours{open(folder.c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)};
+  const Opened ours{open_folder(folder)};
   struct stat status {};
   if (ours.descriptor < 0 || fstat(ours.descriptor, &status) != 0 || status.st_uid != geteuid()) {
     throw OutputError(format("{} is a link, or no folder of yours; nothing is written there. Move it away",
@@ -310,7 +301,7 @@ void write_new_text(const std::filesystem::path& folder, const std::string& name
   }
   const std::filesystem::path path = folder / printable(name);
   // In that very folder, whatever is put in its place meanwhile.
-  const std::filesystem::path inside = format("/proc/self/fd/{}/{}", ours.descriptor, name);
+  const std::filesystem::path inside = path_in(ours.descriptor, folder, name);
   std::error_code unknown;
   if (std::filesystem::symlink_status(inside, unknown).type() != std::filesystem::file_type::not_found) {
     throw OutputError(

@@ -74,7 +74,6 @@ class OutputFile {
 
  private:
   [[noreturn]] void fail(const char* what) const;
-  [[nodiscard]] std::string path_without_name() const;
   void take_name();
   void keep_name() const;
 

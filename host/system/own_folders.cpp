@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "system/is_absent.hpp"
+#include "system/linux_calls.hpp"
 
 #ifndef NUTIK_INSTALLED_MODULES
 #error "NUTIK_INSTALLED_MODULES is not set: the folder of installed modules, relative to the program's"
@@ -20,8 +21,7 @@ std::filesystem::path own_file() {
   if (dladdr(reinterpret_cast<const void*>(&own_file), &info) == 0 || info.dli_fname == nullptr) return {};
   // A program is named as it was called, which may be by a name in PATH: a file of that name here is another.
   const std::filesystem::path named = info.dli_fname;
-  return named.has_parent_path() ? std::filesystem::canonical(named, error)
-                                 : std::filesystem::read_symlink("/proc/self/exe", error);
+  return named.has_parent_path() ? std::filesystem::canonical(named, error) : running_program(named);
 }
 
 }  // namespace

@@ -2,9 +2,10 @@
 
 #include <sys/mman.h>
 
-#include <cstring>
 #include <new>
 #include <utility>
+
+#include "system/linux_calls.hpp"
 
 namespace nutik {
 namespace {
@@ -20,9 +21,8 @@ std::uint64_t whole_pages(std::uint64_t bytes) {
   return (bytes + unit - 1) / unit * unit;
 }
 
-// A hint: without it pages are small, nothing else.
-void prefer_huge_pages(void* memory, std::uint64_t bytes) {
-  if (bytes >= kHugeFromBytes) madvise(memory, bytes, MADV_HUGEPAGE);
+void hint_size(void* memory, std::uint64_t bytes) {
+  if (bytes >= kHugeFromBytes) prefer_huge_pages(memory, bytes);
 }
 
 }  // namespace
@@ -34,7 +34,7 @@ PageBuffer::PageBuffer(std::uint64_t bytes) {
       mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (mapped == MAP_FAILED) throw std::bad_alloc();
   data_ = static_cast<std::byte*>(mapped);
-  prefer_huge_pages(data_, bytes_);
+  hint_size(data_, bytes_);
 }
 
 PageBuffer::~PageBuffer() {
@@ -56,18 +56,11 @@ void PageBuffer::grow(std::uint64_t bytes) {
     *this = PageBuffer(bytes);
     return;
   }
-#ifdef __SANITIZE_THREAD__  // it does not see pages move, and takes what was there before for a race
-  PageBuffer larger(bytes);
-  std::memcpy(larger.data_, data_, bytes_);
-  *this = std::move(larger);
-#else
-  // Pages are moved, not copied.
-  void* mapped = mremap(data_, bytes_, whole_pages(bytes), MREMAP_MAYMOVE);
+  void* mapped = grow_mapping(data_, bytes_, whole_pages(bytes));
   if (mapped == MAP_FAILED) throw std::bad_alloc();
   data_ = static_cast<std::byte*>(mapped);
   bytes_ = whole_pages(bytes);
-  prefer_huge_pages(data_, bytes_);
-#endif
+  hint_size(data_, bytes_);
 }
 
 void PageBuffer::reserve(std::uint64_t bytes) {

@@ -9,6 +9,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "system/linux_calls.hpp"
 
 namespace nutik {
 
@@ -23,12 +24,12 @@ std::filesystem::path temporary_folder() {
 
 NamelessFile::NamelessFile() {
   const std::filesystem::path folder = temporary_folder();
-  descriptor_ = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  descriptor_ = open_nameless(folder, O_RDWR, 0600);
   if (descriptor_ >= 0) return;
   // Not every file system knows such files. There it has a name for a moment.
   std::string name = folder / "nutik-XXXXXX";
-  descriptor_ = mkostemp(name.data(), O_CLOEXEC);
-  if (descriptor_ < 0) {
+  descriptor_ = mkstemp(name.data());
+  if (descriptor_ < 0 || fcntl(descriptor_, F_SETFD, FD_CLOEXEC) != 0) {
     throw OutputError(
         format("no temporary file can be made in {}: {}", folder.string(), std::strerror(errno)));
   }
@@ -37,6 +38,6 @@ NamelessFile::NamelessFile() {
 
 NamelessFile::~NamelessFile() { close(descriptor_); }
 
-std::filesystem::path NamelessFile::path() const { return format("/proc/self/fd/{}", descriptor_); }
+std::filesystem::path NamelessFile::path() const { return path_of(descriptor_); }
 
 }  // namespace nutik

@@ -12,6 +12,7 @@
 
 #include "support/running_program.hpp"
 #include "support/scratch.hpp"
+#include "system/linux_calls.hpp"
 #include "system/temporary_folder.hpp"
 
 namespace nutik {
@@ -69,8 +70,8 @@ void write_and_be_killed(const fs::path& path, OutputFile::Lasting lasting) {
 
 TEST(OutputFile, LeavesNothingOfAKilledProcess) {
   const Scratch scratch;
-  const int without_name = open(scratch.folder().c_str(), O_TMPFILE | O_WRONLY, 0600);
-  if (without_name < 0) GTEST_SKIP() << "this file system has no files without names";
+  const int without_name = open_nameless(scratch.folder(), O_WRONLY, 0600);
+  if (without_name < 0) GTEST_SKIP() << "this system, or file system, has no files without names";
   close(without_name);
   scratch.write("a", "old");
   write_and_be_killed(scratch / "a", OutputFile::Lasting::yes);
