@@ -86,7 +86,9 @@ int open_folder(const std::filesystem::path& folder) {
   return open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
 }
 
-std::filesystem::path path_in(int, const std::filesystem::path& folder, const std::string& name) { return folder / name; }
+std::filesystem::path path_in(int, const std::filesystem::path& folder, const std::string& name) {
+  return folder / name;
+}
 
 Link read_link(const std::filesystem::path& path) {
   Link link;

@@ -1,5 +1,5 @@
-// What only Linux does, and beside it what POSIX lets every system do: slower, or by a name that somebody else may change
-// meanwhile. NUTIK_POSIX takes the latter on Linux, too.
+// What only Linux does, and beside it what POSIX lets every system do: slower, or by a name that somebody else may
+// change meanwhile. NUTIK_POSIX takes the latter on Linux, too.
 #pragma once
 
 #include <sys/stat.h>
