@@ -32,8 +32,8 @@ double usual(const Places& places, const std::function<double(const SubjectPlace
   std::vector<std::pair<double, std::size_t>> values;  // and how many cells have it
   std::size_t cells = 0, below = 0;
   for (const SubjectPlace* place : places) {
-    values.emplace_back(measure(*place), place->cells.size());
-    cells += place->cells.size();
+    values.emplace_back(measure(*place), place->solid);
+    cells += place->solid;
   }
   std::ranges::sort(values);
   for (const auto& [value, of_place] : values) {
@@ -46,7 +46,9 @@ double usual(const Places& places, const std::function<double(const SubjectPlace
 Places telling_places(const std::vector<SubjectPlace>& places) {
   constexpr double kMinSize = 0.25, kMinContrast = 0.5, kMinOfWhole = 0.5;  // shares of medians
   Places telling;
-  for (const SubjectPlace& place : places) telling.push_back(&place);
+  for (const SubjectPlace& place : places) {
+    if (2 * place.solid >= place.cells.size()) telling.push_back(&place);
+  }
   const double size = usual_size(telling), contrast = usual(telling, &SubjectPlace::contrast);
   erase_smaller(telling, kMinSize * size, false);
   std::erase_if(telling,

@@ -20,7 +20,7 @@ enum class MomentSpacing { time, distance };
 
 using Places = std::vector<const SubjectPlace*>;  // in time order
 
-// The median of a measure over all cells that places cover; 0 without any. So scraps that are followed on when the thing
+// The median of a measure over all cells that places cover, but for shadows; 0 without any. So scraps that are followed on when the thing
 // has left the picture do not stand for it, however often they are seen.
 [[nodiscard]] double usual(const Places& places, const std::function<double(const SubjectPlace&)>& measure);
 

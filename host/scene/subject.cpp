@@ -47,6 +47,7 @@ SubjectPlace place_of(std::vector<std::size_t> cells, std::uint64_t sample, cons
     sum_x += static_cast<double>(x) + 0.5;
     sum_y += static_cast<double>(y) + 0.5;
     place.contrast += differing.contrast[cell] / static_cast<double>(cells.size());
+    place.solid += differing.solid.inside[cell];
   }
   const std::size_t top = cells.front() / grid.width, bottom = cells.back() / grid.width;
   place.is_cut_off = left == field.left || top == field.top || right == field.right || bottom == field.bottom;
@@ -220,22 +221,27 @@ class Follower {
     ++look_;
   }
 
-  // The places of what goes furthest, and of what goes beside it for half of its own time, half as far or more, as one
-  // whole thing: a few of these at most.
-  [[nodiscard]] std::vector<std::vector<SubjectPlace>> subjects() && {
+  // What goes furthest, and what goes half as far or more: `beside` it for half of its own time, as one whole thing, or
+  // `instead` of it: a few of these at most.
+  struct Subjects {
+    std::vector<SubjectPlace> first;
+    std::vector<std::vector<SubjectPlace>> beside, instead;
+  };
+  [[nodiscard]] Subjects subjects() && {
     constexpr std::size_t kMaxSubjects = 4;
     std::vector<std::pair<double, Followed*>> by_weight;
     for (Followed& each : followed_) by_weight.emplace_back(each.weight(), &each);
     if (by_weight.empty()) return {};
     std::ranges::stable_sort(by_weight, std::ranges::greater(), &std::pair<double, Followed*>::first);
     const auto [most, subject] = by_weight.front();
-    std::vector<std::vector<SubjectPlace>> others;
+    Subjects found;
     for (const auto& [weight, other] : std::span(by_weight).subspan(1)) {
-      if (weight < most / 2 || others.size() + 1 == kMaxSubjects) break;
-      if (other->goes_its_way() && other->is_beside(*subject)) others.push_back(std::move(*other).places());
+      if (weight < most / 2 || found.beside.size() + 1 == kMaxSubjects) break;
+      const bool is_beside = other->goes_its_way() && other->is_beside(*subject);
+      (is_beside ? found.beside : found.instead).push_back(std::move(*other).places());
     }
-    others.insert(others.begin(), std::move(*subject).places());
-    return others;
+    found.first = std::move(*subject).places();
+    return found;
   }
 
  private:
@@ -292,7 +298,7 @@ class Tracker {
 
   void add(const DifferingCells& all, std::uint64_t sample) {
     const std::uint32_t columns = all.region.width;
-    DifferingCells cells{Region::none(columns, all.region.height), all.contrast};
+    DifferingCells cells{Region::none(columns, all.region.height), all.solid, all.contrast};
     for (std::size_t row = field_.top; row <= field_.bottom; ++row) {
       const auto first = static_cast<std::ptrdiff_t>(row * columns + field_.left);
       std::copy_n(all.region.inside.begin() + first, field_.right - field_.left + 1,
@@ -315,14 +321,17 @@ class Tracker {
 
   [[nodiscard]] SubjectTrack track() && {
     const SubjectTrack none = track_;
-    bool is_first = true;
-    for (std::vector<SubjectPlace>& places : std::move(follower_).subjects()) {
-      SubjectTrack& track = is_first ? track_ : track_.others.emplace_back(none);
-      is_first = false;
+    Follower::Subjects subjects = std::move(follower_).subjects();
+    const auto track_of = [&](std::vector<SubjectPlace>& places) {
+      SubjectTrack track = none;
       track.places = std::move(places);
       measure(track);
-    }
-    return std::move(track_);
+      return track;
+    };
+    SubjectTrack track = track_of(subjects.first);
+    std::ranges::transform(subjects.beside, std::back_inserter(track.others), track_of);
+    std::ranges::transform(subjects.instead, std::back_inserter(track.instead), track_of);
+    return track;
   }
 
  private:
