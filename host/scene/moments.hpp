@@ -20,8 +20,8 @@ enum class MomentSpacing { time, distance };
 
 using Places = std::vector<const SubjectPlace*>;  // in time order
 
-// The median of a measure over all cells that places cover, but for shadows; 0 without any. So scraps that are followed on when the thing
-// has left the picture do not stand for it, however often they are seen.
+// The median of a measure over all cells that places cover, but for shadows; 0 without any. So scraps that are followed
+// on when the thing has left the picture do not stand for it, however often they are seen.
 [[nodiscard]] double usual(const Places& places, const std::function<double(const SubjectPlace&)>& measure);
 
 // The places that show the subject: more than a piece of it whose rest looks like the background, more than its shadow,

@@ -306,6 +306,9 @@ class StudyPlanner {
       if (!why_.empty()) continue;
       if (is_hole) {
         why_ = why_a_hole(study, i);
+      } else if (is_light) {
+        why_ = format("at picture {} hardly any of its border is an edge of its own: light that changed is no thing",
+                      study.moments[i]);
       } else if (step.pixel_count == 0) {
         why_ = format("at picture {} nothing of it stands out from the scene at rest", study.moments[i]);
       } else {
