@@ -224,6 +224,11 @@ TEST_F(StudySubjects, EndARearCurtainAsAWhole) {
   EXPECT_EQ(nlohmann::json::parse(result.out)["moments"][0]["sample"], 18);
 }
 
+TEST_F(StudySubjects, MayBeTiny) {
+  draw("tiny", 20, [](cv::Mat& frame, int k) { frame(cv::Rect(4 + 7 * k, 40, 3, 3)) = 250; });
+  expect_moments_before(20, "tiny");
+}
+
 // A block stands for most of the time, so that the background has it: a hole stays while it is gone, until something is
 // seen elsewhere. A small square goes before.
 TEST_F(StudySubjects, AreNoHolesThatStay) {

@@ -32,6 +32,7 @@ constexpr double kMinCoveredInPlate = 0.4, kHoleEdges = 0.5;
 constexpr double kMinOwnEdges = 0.4;
 // And of one of several: measured, 0.2 of dark legs that blur before dark ground, at most 0.05 of light on a wall.
 constexpr double kMinEdgesOfMany = 0.1;
+constexpr std::uint64_t kMinTelling = 144;  // pixels: the border of fewer is too short to tell its edges
 // A thing among many others that fills so much of its box and goes further than it is long is no scrap.
 constexpr double kMinFillOfMany = 0.4;
 // One that fills less, and is so much of what differs, may be seen at one moment: an arm, or glass.
@@ -299,7 +300,8 @@ class StudyPlanner {
       const Followed& subject = followed_[study.subjects[i]];
       const bool is_single =
           subject.verdict.shows != Verdict::Shows::all || std::ranges::count(study.subjects, study.subjects[i]) == 1;
-      const bool is_light = step.own_edges.value_or(1) < (is_single ? kMinOwnEdges : kMinEdgesOfMany);
+      const double least = is_single ? kMinOwnEdges : step.pixel_count < kMinTelling ? 0 : kMinEdgesOfMany;
+      const bool is_light = step.own_edges.value_or(1) < least;
       if (!is_hole && !is_light && step.pixel_count > 0 && 2 * left[step.tag] >= step.pixel_count) continue;
       bad.push_back(i);
       if (why_.empty()) why_ = subject.verdict.why;
