@@ -144,10 +144,14 @@ class DeflickeredClip final : public Clip {
     if (!clip_->read(raster)) return false;
     std::vector<std::vector<double>> means = blocks_.means(raster);
     if (pictures_++ == 0) {
-      first_ = std::move(means);
+      first_ = told_ = std::move(means);
       return true;
     }
-    if (!follow(means)) ++untold_;
+    if (follow(means)) {
+      told_ = shifted(std::move(means));
+    } else {
+      ++untold_;
+    }
     if (!is_shifted_) return true;
     ++corrected_;
     const bool is_grey = info_.format.shape.channels == 1;
@@ -185,7 +189,9 @@ class DeflickeredClip final : public Clip {
     std::vector<CodeShift> shifts;
     double change = 0;
     for (std::size_t channel = 0; channel < means.size(); ++channel) {
-      const auto shift = CodeShift::between(means[channel], first_[channel]);
+      // What comes into view hides what the first one shows, and not what the one before it did.
+      auto shift = CodeShift::between(means[channel], first_[channel]);
+      if (!shift) shift = CodeShift::between(means[channel], told_[channel]);
       if (!shift) return false;
       change = std::max(change, shift->distance_to(shifts_[channel], means[channel]));
       shifts.push_back(*shift);
@@ -260,7 +266,8 @@ class DeflickeredClip final : public Clip {
   std::unique_ptr<Clip> clip_;
   ClipInfo info_;
   Blocks blocks_;
-  std::vector<std::vector<double>> first_;          // the first picture's means
+  // Means of the first picture, and of the last that could be told, as it was corrected.
+  std::vector<std::vector<double>> first_, told_;
   std::vector<CodeShift> shifts_;                   // by channel, as `tables_`
   std::vector<std::vector<std::uint16_t>> tables_;  // what each code becomes
   bool is_shifted_ = false;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstring>
 
+#include "scene/shadow.hpp"
+
 namespace nutik {
 namespace {
 
@@ -26,7 +28,10 @@ Difference::Difference(const CaptureFormat& capture, const Picture& plate, std::
       rows_((shape_.height - 1) / side_ + 1),
       plate_(grid_.tile_count() * shape_.channels * kTilePixels * capture.code_bytes),
       difference_(shape_.pixel_count() * capture.code_bytes),
-      cells_{Region::none(columns_, rows_), std::vector<float>(std::size_t{columns_} * rows_)},
+      seen_({columns_, rows_, shape_.channels}, code_type(capture), white_code_),
+      seen_plate_(seen_),
+      cells_{Region::none(columns_, rows_), Region::none(columns_, rows_),
+             std::vector<float>(std::size_t{columns_} * rows_)},
       looked_at_(cells_.contrast.size(), kNever) {
   const std::size_t bytes = capture.code_bytes;
   for (std::uint64_t tile = 0; tile < grid_.tile_count(); ++tile) {
@@ -36,7 +41,14 @@ Difference::Difference(const CaptureFormat& capture, const Picture& plate, std::
                     &plate.bytes[(pixel * shape_.channels + channel) * bytes], bytes);
       }
     });
+    const std::byte* const codes = &plate_[tile * shape_.channels * kTilePixels * bytes];
+    if (bytes == 1) {
+      show_tile(static_cast<std::uint32_t>(tile), reinterpret_cast<const std::uint8_t*>(codes), seen_plate_);
+    } else {
+      show_tile(static_cast<std::uint32_t>(tile), reinterpret_cast<const std::uint16_t*>(codes), seen_plate_);
+    }
   }
+  seen_ = seen_plate_;
 }
 
 const DifferingCells& Difference::at(const Look& look) {
@@ -45,13 +57,16 @@ const DifferingCells& Difference::at(const Look& look) {
   } else {
     update<std::uint16_t>(look);
   }
+  cells_.solid = without_shadow(seen_, seen_plate_, cells_.region);
   return cells_;
 }
 
 template <typename Code>
 void Difference::update(const Look& look) {
   for (const std::uint32_t tile : look.changed) {
-    update_tile(tile, reinterpret_cast<const Code*>(look.held.codes(tile)));
+    const Code* const codes = reinterpret_cast<const Code*>(look.held.codes(tile));
+    update_tile(tile, codes);
+    show_tile(tile, codes, seen_);
   }
   for (const std::uint32_t tile : look.changed) {
     const std::uint32_t left = tile % grid_.columns() * kTileSide, top = tile / grid_.columns() * kTileSide;
@@ -90,6 +105,21 @@ void Difference::update_tile(std::uint32_t tile, const Code* codes) {
       std::memcpy(to, from, kTileSide * sizeof(Code));  // of a size that is known
     } else {
       std::copy_n(from, wide, to);
+    }
+  }
+}
+
+template <typename Code>
+void Difference::show_tile(std::uint32_t tile, const Code* codes, Picture& small) const {
+  const std::uint32_t left = tile % grid_.columns() * kTileSide, top = tile / grid_.columns() * kTileSide;
+  for (std::uint32_t row = (top + side_ - 1) / side_; row < rows_ && row * side_ < top + kTileSide; ++row) {
+    for (std::uint32_t column = (left + side_ - 1) / side_; column < columns_ && column * side_ < left + kTileSide;
+         ++column) {
+      const std::size_t lane = (row * side_ - top) * kTileSide + column * side_ - left;
+      for (std::uint32_t channel = 0; channel < shape_.channels; ++channel) {
+        small.values<Code>()[(std::size_t{row} * columns_ + column) * shape_.channels + channel] =
+            codes[channel * kTilePixels + lane];
+      }
     }
   }
 }

@@ -10,9 +10,10 @@
 
 namespace nutik {
 
-// Cells that differ from the plate, in half of their pixels or more; and by how much all do, in shares of white.
+// Cells that differ from the plate, in half of their pixels or more, and those of them that are no shadow; and by how
+// much all do, in shares of white.
 struct DifferingCells {
-  Region region;
+  Region region, solid;
   std::vector<float> contrast;
 };
 
@@ -32,6 +33,9 @@ class Difference {
   void update(const Look& look);
   template <typename Code>
   void update_tile(std::uint32_t tile, const Code* codes);
+  // What its cells show, each by its first pixel.
+  template <typename Code>
+  void show_tile(std::uint32_t tile, const Code* codes, Picture& small) const;
   template <typename Code>
   void update_cell(std::uint32_t row, std::uint32_t column);
 
@@ -41,6 +45,7 @@ class Difference {
   std::uint32_t side_, columns_, rows_;
   std::vector<std::byte> plate_;       // [tile][channel][lane]
   std::vector<std::byte> difference_;  // of each pixel's channel that differs most, row by row
+  Picture seen_, seen_plate_;          // a pixel a cell
   DifferingCells cells_;
   std::vector<std::uint64_t> looked_at_;  // the last look at each cell
 };

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "capture/median.hpp"
+#include <utility>
 
 namespace nutik {
 namespace {
 
-double median_size(const Places& places) {
-  std::vector<double> sizes;
-  for (const SubjectPlace* place : places) sizes.push_back(static_cast<double>(place->cells.size()));
-  return median(std::move(sizes));
+double usual_size(const Places& places) {
+  return usual(places, [](const SubjectPlace& place) { return static_cast<double>(place.cells.size()); });
 }
 
 void erase_smaller(Places& places, double cells, bool only_cut_off) {
@@ -31,21 +28,33 @@ bool share_a_cell(const SubjectPlace& a, const SubjectPlace& b) {
 
 }  // namespace
 
+double usual(const Places& places, const std::function<double(const SubjectPlace&)>& measure) {
+  std::vector<std::pair<double, std::size_t>> values;  // and how many cells have it
+  std::size_t cells = 0, below = 0;
+  for (const SubjectPlace* place : places) {
+    values.emplace_back(measure(*place), place->solid);
+    cells += place->solid;
+  }
+  std::ranges::sort(values);
+  for (const auto& [value, of_place] : values) {
+    below += of_place;
+    if (2 * below > cells) return value;
+  }
+  return 0;
+}
+
 Places telling_places(const std::vector<SubjectPlace>& places) {
   constexpr double kMinSize = 0.25, kMinContrast = 0.5, kMinOfWhole = 0.5;  // shares of medians
   Places telling;
-  std::vector<double> contrasts;
   for (const SubjectPlace& place : places) {
-    telling.push_back(&place);
-    contrasts.push_back(place.contrast);
+    if (2 * place.solid >= place.cells.size()) telling.push_back(&place);
   }
-  if (telling.empty()) return telling;
-  const double size = median_size(telling), contrast = median(std::move(contrasts));
+  const double size = usual_size(telling), contrast = usual(telling, &SubjectPlace::contrast);
   erase_smaller(telling, kMinSize * size, false);
   std::erase_if(telling,
                 [&](const SubjectPlace* place) { return place->contrast < kMinContrast * contrast; });
   const Places whole = whole_places(telling);
-  if (!whole.empty()) erase_smaller(telling, kMinOfWhole * median_size(whole), true);
+  if (!whole.empty()) erase_smaller(telling, kMinOfWhole * usual_size(whole), true);
   return telling;
 }
 
@@ -60,7 +69,7 @@ const SubjectPlace& last_large_place(const std::vector<SubjectPlace>& places) {
   const Places telling = telling_places(places), all_whole = whole_places(telling);
   Places large = all_whole.empty() ? telling : all_whole;
   if (large.empty()) return places.back();
-  erase_smaller(large, kMinSize * median_size(large), false);
+  erase_smaller(large, kMinSize * usual_size(large), false);
   return *large.back();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "scene/subject.hpp"
@@ -18,6 +19,10 @@ enum class MomentSpacing { time, distance };
                                                        const std::vector<SubjectPlace>& taken = {});
 
 using Places = std::vector<const SubjectPlace*>;  // in time order
+
+// The median of a measure over all cells that places cover, but for shadows; 0 without any. So scraps that are followed
+// on when the thing has left the picture do not stand for it, however often they are seen.
+[[nodiscard]] double usual(const Places& places, const std::function<double(const SubjectPlace&)>& measure);
 
 // The places that show the subject: more than a piece of it whose rest looks like the background, more than its shadow,
 // and at a border more than half of it, not a head alone at the bottom.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <span>
 #include <utility>
@@ -16,6 +15,7 @@ namespace nutik {
 namespace {
 
 constexpr std::uint64_t kMinCells = 6;  // fewer are noise
+constexpr double kMaxStir = 0.25;       // of its size: what moves by no more stays in its place
 
 // The cells in which a subject is looked for, the last ones included.
 struct Field {
@@ -25,12 +25,10 @@ struct Field {
 // The border of a box, in pixels.
 std::uint32_t border_of(std::uint32_t cell_side) { return 2 * cell_side + 2; }
 
-// A median over places; 0 where there are none.
-double usual(const std::vector<SubjectPlace>& places,
-             const std::function<double(const SubjectPlace&)>& measure) {
-  std::vector<double> values;
-  for (const SubjectPlace& place : places) values.push_back(measure(place));
-  return values.empty() ? 0 : median(std::move(values));
+Places all_of(const std::vector<SubjectPlace>& places) {
+  Places all;
+  for (const SubjectPlace& place : places) all.push_back(&place);
+  return all;
 }
 
 // What hangs together at one sample.
@@ -49,6 +47,7 @@ SubjectPlace place_of(std::vector<std::size_t> cells, std::uint64_t sample, cons
     sum_x += static_cast<double>(x) + 0.5;
     sum_y += static_cast<double>(y) + 0.5;
     place.contrast += differing.contrast[cell] / static_cast<double>(cells.size());
+    place.solid += differing.solid.inside[cell];
   }
   const std::size_t top = cells.front() / grid.width, bottom = cells.back() / grid.width;
   place.is_cut_off = left == field.left || top == field.top || right == field.right || bottom == field.bottom;
@@ -100,14 +99,16 @@ class Way {
 // What was followed from one look to the next.
 class Followed {
  public:
-  Followed(SubjectPlace first, std::size_t look) : last_look_(look) { places_.push_back(std::move(first)); }
+  Followed(SubjectPlace first, std::size_t look, std::uint32_t side) : side_(side), last_look_(look) {
+    places_.push_back(std::move(first));
+  }
 
   [[nodiscard]] bool is_lost(std::size_t look) const { return look > last_look_ + kMaxLooksWithout; }
   [[nodiscard]] bool was_seen(std::size_t look) const { return last_look_ == look; }
 
   // How unlike a place is to what would be seen of this now, going on as it did: how far off it lies, in its own sizes,
   // and how often it would have doubled.
-  [[nodiscard]] double strays(const SubjectPlace& place, std::size_t look, std::uint32_t side) const {
+  [[nodiscard]] double strays(const SubjectPlace& place, std::size_t look) const {
     const SubjectPlace& last = places_.back();
     Point expected = last.centre;
     if (places_.size() > 1) {
@@ -117,7 +118,7 @@ class Followed {
       expected.y += looks * (last.centre.y - earlier.y);
     }
     const auto before = static_cast<double>(last.cells.size()), now = static_cast<double>(place.cells.size());
-    const double size = side * std::sqrt(std::max(before, now));
+    const double size = side_ * std::sqrt(std::max(before, now));
     return std::min(distance(expected, place.centre), distance(last.centre, place.centre)) / size +
            std::abs(std::log2(now / before));
   }
@@ -142,7 +143,8 @@ class Followed {
     }
     const auto count = static_cast<double>(places_.size());
     const Way way(places_);
-    const double extent = std::max(furthest_apart(telling_places(places_)), kAtOnePlace * way.extent());
+    const double apart = stays() ? 0 : furthest_apart(telling_places(places_));
+    const double extent = std::max(apart, kAtOnePlace * way.extent());
     return extent * std::lerp(kCutOff, 1.0, whole / count) * std::pow(cells / count * share / count, 0.25) *
            contrast / count / (1 + way.turns_of_extent());
   }
@@ -166,6 +168,23 @@ class Followed {
   static constexpr std::size_t kMaxLooksWithout = 3;
   static constexpr std::size_t kMinPlaces = 4;  // fewer are no way
 
+  // Where the plate shows a thing that was taken away, a hole stays, and what passes there is followed with it: nearly
+  // all of its places are one, and those elsewhere are too few for a way.
+  [[nodiscard]] bool stays() const {
+    std::vector<double> x, y, cells;
+    for (const SubjectPlace& place : places_) {
+      x.push_back(place.centre.x);
+      y.push_back(place.centre.y);
+      cells.push_back(static_cast<double>(place.cells.size()));
+    }
+    const Point middle{median(std::move(x)), median(std::move(y))};
+    const double reach = kMaxStir * side_ * std::sqrt(median(std::move(cells)));
+    const auto elsewhere = static_cast<std::size_t>(std::ranges::count_if(
+        places_, [&](const SubjectPlace& place) { return distance(place.centre, middle) > reach; }));
+    return elsewhere < kMinPlaces && 2 * elsewhere < places_.size();
+  }
+
+  std::uint32_t side_;  // of cells, in pixels
   std::vector<SubjectPlace> places_;
   std::size_t last_look_, last_step_ = 1;
 };
@@ -188,7 +207,7 @@ class Follower {
       double least = kMaxStray;
       for (Followed& each : followed_) {
         if (each.is_lost(look_) || each.was_seen(look_)) continue;
-        const double strays = each.strays(place, look_, side_);
+        const double strays = each.strays(place, look_);
         if (strays > least) continue;
         least = strays;
         nearest = &each;
@@ -196,28 +215,33 @@ class Follower {
       if (nearest != nullptr) {
         nearest->add(std::move(place), look_);
       } else {
-        followed_.emplace_back(std::move(place), look_);
+        followed_.emplace_back(std::move(place), look_, side_);
       }
     }
     ++look_;
   }
 
-  // The places of what goes furthest, and of what goes beside it for half of its own time, half as far or more, as one
-  // whole thing: a few of these at most.
-  [[nodiscard]] std::vector<std::vector<SubjectPlace>> subjects() && {
+  // What goes furthest, and what goes half as far or more: `beside` it for half of its own time, as one whole thing, or
+  // `instead` of it: a few of these at most.
+  struct Subjects {
+    std::vector<SubjectPlace> first;
+    std::vector<std::vector<SubjectPlace>> beside, instead;
+  };
+  [[nodiscard]] Subjects subjects() && {
     constexpr std::size_t kMaxSubjects = 4;
     std::vector<std::pair<double, Followed*>> by_weight;
     for (Followed& each : followed_) by_weight.emplace_back(each.weight(), &each);
     if (by_weight.empty()) return {};
     std::ranges::stable_sort(by_weight, std::ranges::greater(), &std::pair<double, Followed*>::first);
     const auto [most, subject] = by_weight.front();
-    std::vector<std::vector<SubjectPlace>> others;
+    Subjects found;
     for (const auto& [weight, other] : std::span(by_weight).subspan(1)) {
-      if (weight < most / 2 || others.size() + 1 == kMaxSubjects) break;
-      if (other->goes_its_way() && other->is_beside(*subject)) others.push_back(std::move(*other).places());
+      if (weight < most / 2 || found.beside.size() + 1 == kMaxSubjects) break;
+      const bool is_beside = other->goes_its_way() && other->is_beside(*subject);
+      (is_beside ? found.beside : found.instead).push_back(std::move(*other).places());
     }
-    others.insert(others.begin(), std::move(*subject).places());
-    return others;
+    found.first = std::move(*subject).places();
+    return found;
   }
 
  private:
@@ -233,7 +257,6 @@ class Follower {
 
 // From one place that it stays at to the last there. None where hardly anything would be left of its way.
 std::vector<SampleRange> rests_of(const std::vector<SubjectPlace>& places, std::uint32_t side) {
-  constexpr double kMaxStir = 0.25;  // of its size
   constexpr std::uint64_t kMinLooks = 4;
   constexpr std::uint64_t kMinOfWay = 8;  // one of so many parts of the time
   std::vector<SampleRange> rests;
@@ -275,7 +298,7 @@ class Tracker {
 
   void add(const DifferingCells& all, std::uint64_t sample) {
     const std::uint32_t columns = all.region.width;
-    DifferingCells cells{Region::none(columns, all.region.height), all.contrast};
+    DifferingCells cells{Region::none(columns, all.region.height), all.solid, all.contrast};
     for (std::size_t row = field_.top; row <= field_.bottom; ++row) {
       const auto first = static_cast<std::ptrdiff_t>(row * columns + field_.left);
       std::copy_n(all.region.inside.begin() + first, field_.right - field_.left + 1,
@@ -298,25 +321,41 @@ class Tracker {
 
   [[nodiscard]] SubjectTrack track() && {
     const SubjectTrack none = track_;
-    bool is_first = true;
-    for (std::vector<SubjectPlace>& places : std::move(follower_).subjects()) {
-      SubjectTrack& track = is_first ? track_ : track_.others.emplace_back(none);
-      is_first = false;
+    Follower::Subjects subjects = std::move(follower_).subjects();
+    const auto track_of = [&](std::vector<SubjectPlace>& places) {
+      SubjectTrack track = none;
       track.places = std::move(places);
       measure(track);
-    }
-    return std::move(track_);
+      return track;
+    };
+    SubjectTrack track = track_of(subjects.first);
+    std::ranges::transform(subjects.beside, std::back_inserter(track.others), track_of);
+    std::ranges::transform(subjects.instead, std::back_inserter(track.instead), track_of);
+    return track;
   }
 
  private:
+  // What is followed on where the thing has left the picture, or was before it came, is no part of its way.
+  static void trim(std::vector<SubjectPlace>& places) {
+    const Places telling = telling_places(places);
+    const auto is_seen = [&](const SubjectPlace& place) {
+      return place.is_cut_off || std::ranges::binary_search(telling, &place);
+    };
+    const auto first = std::ranges::find_if(places, is_seen);
+    const auto last = std::ranges::find_if(places.rbegin(), std::make_reverse_iterator(first), is_seen).base();
+    places.erase(last, places.end());
+    places.erase(places.begin(), first);
+  }
+
   static void measure(SubjectTrack& track) {
+    trim(track.places);
     track.rests = rests_of(track.places, track.cell_side);
     const Way way(track.places);
     track.extent = way.extent();
     // A pendulum turns often on its long way; who stands for a while stirs, and yet goes somewhere.
     constexpr double kMaxTurnsOfLength = 1.3, kMaxTurnsOfExtent = 2;
-    track.fill = usual(track.places, &SubjectPlace::fill);
-    track.share = usual(track.places, &SubjectPlace::share);
+    track.fill = usual(all_of(track.places), &SubjectPlace::fill);
+    track.share = usual(all_of(track.places), &SubjectPlace::share);
     track.flickers = way.turns_of_length() > kMaxTurnsOfLength && way.turns_of_extent() > kMaxTurnsOfExtent;
   }
 
@@ -332,13 +371,13 @@ class Tracker {
 double min_misplaced_pixels(const Shape& shape) { return Difference::side(shape) / 2.0; }
 
 double SubjectTrack::size() const {
-  return cell_side * std::sqrt(usual(places, [](const SubjectPlace& place) {
+  return cell_side * std::sqrt(usual(all_of(places), [](const SubjectPlace& place) {
            return static_cast<double>(place.cells.size());
          }));
 }
 
 double SubjectTrack::length() const {
-  return usual(places, [&](const SubjectPlace& place) {
+  return usual(all_of(places), [&](const SubjectPlace& place) {
     return std::max(place.box.width, place.box.height) - 2.0 * border_of(cell_side);
   });
 }

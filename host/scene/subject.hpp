@@ -26,6 +26,7 @@ struct SubjectPlace {
   double fill = 0;                 // of the least box that holds it
   double contrast = 0;             // how far it differs from the plate on average, as a share of white
   std::vector<std::size_t> cells;  // that it covers, increasing
+  std::size_t solid = 0;           // how many of them are no shadow
 };
 
 struct SubjectTrack {
@@ -40,6 +41,7 @@ struct SubjectTrack {
   std::shared_ptr<std::vector<std::vector<bool>>> differing;
   std::vector<SampleRange> rests;   // where it stays in its place for a good part of the time
   std::vector<SubjectTrack> others;  // what goes its way half as far or more at the same time
+  std::vector<SubjectTrack> instead;  // what goes half as far or more, the furthest first, if this one makes no study
   double extent = 0;  // in pixels, from where its centre is furthest to one side to the other
   double fill = 1;                  // of its places' boxes; a median
   double share = 1;                 // of all that differs from the plate when it is there; a median

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -32,6 +33,13 @@ class StudySubjects : public test::AppTest {
   }
   [[nodiscard]] cv::Mat picture() const {
     return cv::imread((scratch_ / "study.png").string(), cv::IMREAD_UNCHANGED);
+  }
+  void expect_moments_before(int sample, const char* clip) const {
+    const auto result = study(clip, {"--style", "strobe", "--moments", "3", "--json"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto moments = nlohmann::json::parse(result.out)["moments"];
+    EXPECT_GE(moments.size(), 2u) << result.out;
+    for (const auto& moment : moments) EXPECT_LT(moment["sample"].get<int>(), sample) << result.out;
   }
   // Two squares, one above the other, on opposite ways.
   void draw_two() const {
@@ -214,6 +222,46 @@ TEST_F(StudySubjects, EndARearCurtainAsAWhole) {
   const auto result = study("hides", {"--style", "rear-curtain", "--json"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(nlohmann::json::parse(result.out)["moments"][0]["sample"], 18);
+}
+
+TEST_F(StudySubjects, MayBeTiny) {
+  draw("tiny", 20, [](cv::Mat& frame, int k) { frame(cv::Rect(4 + 7 * k, 40, 3, 3)) = 250; });
+  expect_moments_before(20, "tiny");
+}
+
+// A block stands for most of the time, so that the background has it: a hole stays while it is gone, until something is
+// seen elsewhere. A small square goes before.
+TEST_F(StudySubjects, AreNoHolesThatStay) {
+  draw("hole", 60, [](cv::Mat& frame, int k) {
+    if (k < 34 || k >= 58) frame(cv::Rect(20, 60, 24, 24)) = 5;
+    if (k >= 58) frame(cv::Rect(90, 50, 24, 24)) = 250;
+    if (k < 12) frame(cv::Rect(4 + 3 * k, 16, 8, 8)) = 220;
+  });
+  expect_moments_before(12, "hole");
+}
+
+// A soft shade goes further than a small square did.
+TEST_F(StudySubjects, AreNoShades) {
+  draw("shade", 40, [](cv::Mat& frame, int k) {
+    if (k < 14) frame(cv::Rect(4 + 2 * k, 6, 8, 8)) = 200;
+    for (int y = 0; k >= 22 && y < frame.rows; ++y) {
+      for (int x = 0; x < frame.cols; ++x) {
+        auto& code = frame.at<std::uint8_t>(y, x);
+        code = cv::saturate_cast<std::uint8_t>(code * std::min(0.5 + std::hypot(x - 9 * (k - 22), y - 56) / 56, 1.0));
+      }
+    }
+  });
+  expect_moments_before(14, "shade");
+}
+
+// A block crosses the picture; where it left, its edge flickers for longer than it was there, and so does a lamp.
+TEST_F(StudySubjects, AreNotWhatIsFollowedOnWhenTheyHaveLeft) {
+  draw("scraps", 60, [](cv::Mat& frame, int k) {
+    if (k < 12) frame(cv::Rect(4 + 12 * k, 30, std::min(30, 156 - 12 * k), 30)) = 5;
+    if (k >= 12 && k % 2 == 0) frame(cv::Rect(146, 40, 3, 12)) = frame(cv::Rect(146, 40, 12, 3)) = 5;
+    if (k >= 12 && k % 3 != 0) frame(cv::Rect(20, 80, 40, 8)) = 250;
+  });
+  expect_moments_before(12, "scraps");
 }
 
 }  // namespace

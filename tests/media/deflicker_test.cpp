@@ -198,6 +198,32 @@ TEST(Deflicker, SaysOfWhichPicturesTheExposureCannotBeTold) {
   EXPECT_EQ(rasters.size(), 4u);
 }
 
+// Something comes to cover two thirds of what the first picture shows, half of that each time: only the picture before
+// tells how the third was exposed.
+TEST(Deflicker, TellsByThePictureBeforeWhatTheFirstDoesNotShow) {
+  const Shape shape{240, 96, 1};
+  std::vector<Picture> pictures;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    Picture& picture = pictures.emplace_back(shape, ValueType::code8, 255);
+    for (std::uint32_t y = 0; y < shape.height; ++y) {
+      for (std::uint32_t x = 0; x < shape.width; ++x) {
+        const double code = x < 80 * k ? 40 + (x * 13 + y * 7) % 90 : 120 + (x + y * 3) % 80;
+        picture.values<std::uint8_t>()[y * shape.width + x] = static_cast<std::uint8_t>(code * (k == 2 ? 0.8 : 1));
+      }
+    }
+  }
+  std::vector<std::string> remarks;
+  const auto rasters = read_deflickered(pictures, remarks);
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_TRUE(remarks[0].starts_with("the exposure of 1 of 3")) << remarks[0];
+  for (std::uint32_t y = 0; y < shape.height; ++y) {
+    for (std::uint32_t x = 160; x < shape.width; ++x) {
+      const std::size_t i = std::size_t{y} * shape.width + x;
+      ASSERT_NEAR(code_at(rasters[2], 255, i), code_at(pictures[0].bytes, 255, i), 3) << x << ", " << y;
+    }
+  }
+}
+
 // A lit square on black, and a picture of too few pixels to tell a dimmed one from chance.
 TEST(Deflicker, CorrectsASmallLitPartAndSaysWhatIsTooSmall) {
   const auto dimmed = [](const Shape& shape, std::uint32_t lit_width, std::uint32_t lit_height, double gain) {

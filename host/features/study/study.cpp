@@ -30,8 +30,13 @@ constexpr double kMinCoveredInPlate = 0.4, kHoleEdges = 0.5;
 // The share of a single moment's border, where that stands for what makes no study, at which there is an edge or light
 // changed.
 constexpr double kMinOwnEdges = 0.4;
+// And of one of several: measured, 0.2 of dark legs that blur before dark ground, at most 0.05 of light on a wall.
+constexpr double kMinEdgesOfMany = 0.1;
+constexpr std::uint64_t kMinTelling = 144;  // pixels: the border of fewer is too short to tell its edges
 // A thing among many others that fills so much of its box and goes further than it is long is no scrap.
 constexpr double kMinFillOfMany = 0.4;
+// One that fills less, and is so much of what differs, may be seen at one moment: an arm, or glass.
+constexpr double kMinShareOfOne = 0.25;
 constexpr std::size_t kMinLooks = 8;
 constexpr double kMinExtent = 1.0 / 16;  // of the picture's longer side, that a subject goes
 // In pixels: without specks and without holes.
@@ -88,10 +93,14 @@ struct Followed {
 
 // The place at which it is seen best: large, and standing out.
 const SubjectPlace& strongest_of(const std::vector<SubjectPlace>& places) {
-  const Places telling = telling_places(places), all_whole = whole_places(telling);
-  const Places& best = all_whole.empty() ? telling : all_whole;
-  const auto strength = [](const SubjectPlace* place) {
-    return static_cast<double>(place->cells.size()) * place->contrast * place->contrast;
+  const Places telling = telling_places(places);
+  Places best = whole_places(telling);
+  const auto size = [](const SubjectPlace& place) { return static_cast<double>(place.cells.size()); };
+  // Of a thing that reaches out of the picture, what a border does not cut off is a piece.
+  std::erase_if(best, [&](const SubjectPlace* place) { return size(*place) < usual(telling, size) / 2; });
+  if (best.empty()) best = telling;
+  const auto strength = [&](const SubjectPlace* place) {
+    return static_cast<double>(place->solid) * place->contrast * place->contrast;
   };
   return best.empty() ? places.front() : **std::ranges::max_element(best, {}, strength);
 }
@@ -196,7 +205,7 @@ class StudyPlanner {
           MaskStep& all = around.emplace_back(step);
           all.tag = static_cast<std::uint8_t>((level + 1) * study.moments.size() + i + 1);
           if (level == 0) all.changes.back().radius -= kAroundPixels;
-          if (level > 0) all.by_codes = static_cast<std::uint32_t>(std::lround(kAround[level].times * by_codes_));
+          all.by_codes = static_cast<std::uint32_t>(std::lround(kAround[level].times * by_codes_));
         }
         std::get<select::Subject>(step.selection).is_without_shadow = true;
       }
@@ -262,7 +271,7 @@ class StudyPlanner {
         choose_moments(track, wanted, request_.spacing, 4 * border_pixels(request_), taken);
     if (chosen.size() < std::min(wanted, 2u)) {
       if (subject > 0 && chosen.empty()) return {};  // no room beside the others
-      return one(chosen.empty() ? strongest_of(track.places) : chosen.front(),
+      return one(strongest_of(track.places),
                  format("what moves goes {:.0f} pixels, and is {:.0f} pixels large: at no two moments{} does it lie "
                         "apart from itself",
                         track.extent, track.size(),
@@ -289,14 +298,19 @@ class StudyPlanner {
       const StepReport& step = step_of(study, i);
       const bool is_hole = is_in_plate(study, i);
       const Followed& subject = followed_[study.subjects[i]];
-      const bool is_light =
-          subject.verdict.shows != Verdict::Shows::all && step.own_edges.value_or(1) < kMinOwnEdges;
+      const bool is_single =
+          subject.verdict.shows != Verdict::Shows::all || std::ranges::count(study.subjects, study.subjects[i]) == 1;
+      const double least = is_single ? kMinOwnEdges : step.pixel_count < kMinTelling ? 0 : kMinEdgesOfMany;
+      const bool is_light = step.own_edges.value_or(1) < least;
       if (!is_hole && !is_light && step.pixel_count > 0 && 2 * left[step.tag] >= step.pixel_count) continue;
       bad.push_back(i);
       if (why_.empty()) why_ = subject.verdict.why;
       if (!why_.empty()) continue;
       if (is_hole) {
         why_ = why_a_hole(study, i);
+      } else if (is_light) {
+        why_ = format("at picture {} hardly any of its border is an edge of its own: light that changed is no thing",
+                      study.moments[i]);
       } else if (step.pixel_count == 0) {
         why_ = format("at picture {} nothing of it stands out from the scene at rest", study.moments[i]);
       } else {
@@ -452,7 +466,7 @@ Verdict verdict_of(const SubjectTrack& track, std::uint32_t by_codes, std::uint3
                    track.extent < track.cell_side ? ". It comes and goes in its place" : "")};
   }
   if (track.is_scraps() && (track.fill < kMinFillOfMany || track.extent < length || track.flickers)) {
-    return {Shows::nothing,
+    return {track.share < kMinShareOfOne || track.extent < length ? Shows::nothing : Shows::one,
             format("nothing moves as one whole thing. What goes furthest fills {:.0f} % of its box, and is {:.0f} % of "
                    "what differs from the scene at rest; one of the two must be half or more. {} shows its edges "
                    "only, and cannot be shown twice. Take a clip in which it goes further, name a region with a single "
@@ -480,8 +494,14 @@ std::vector<Followed> followed_in(std::vector<SubjectTrack> tracks, const std::v
   std::vector<Followed> followed;
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const std::uint32_t side = std::max(regions[i].width, regions[i].height);
-    std::vector<SubjectTrack> others = std::move(tracks[i].others);
     Verdict verdict = verdict_of(tracks[i], by_codes, side, request.style, is_stated);
+    for (const SubjectTrack& other : std::vector(std::move(tracks[i].instead))) {
+      const Verdict of_other = verdict_of(other, by_codes, side, request.style, is_stated);
+      if (of_other.shows >= verdict.shows) continue;
+      tracks[i] = other;
+      verdict = of_other;
+    }
+    std::vector<SubjectTrack> others = std::move(tracks[i].others);
     if (!request.regions.empty() && !verdict.why.empty()) verdict.why = text_of(regions[i]) + ": " + verdict.why;
     followed.push_back({std::move(tracks[i]), regions[i], std::move(verdict)});
     if (others.empty() || !request.regions.empty()) continue;

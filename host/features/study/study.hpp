@@ -96,7 +96,8 @@ struct Study {
   std::vector<std::string> notes;
 };
 
-// What lies around a subject, its shadow for example. A shadow dims the trail by as much as it dims the ground.
+// What lies around a subject, its shadow for example. A shadow dims the trail by as much as it dims the ground. What
+// differs by less is an encoder's, a ring around what is bright, or a camera's that brightens all of the scene.
 struct Around {
   double times;        // it differs from the plate by this many times the codes that a subject must differ by
   double trail_share;  // of the trail, that lies on it
