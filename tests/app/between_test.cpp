@@ -51,7 +51,7 @@ TEST_F(BetweenPictures, AreMarkedWhereverTheyAreTold) {
 
 TEST_F(BetweenPictures, JoinWhatFramesOfAVideoWouldShowTwice) {
   const test::Words film("video -f 20 --transfer srgb --out-angle 360 --overwrite frames %d.png --out-fps 10");
-  const std::string note = "samples are made between pictures 0 … 3, which takes most of the time; --between off";
+  const std::string note = "samples are to be made between pictures 0 … 3, which takes most of the time; --between off";
   const auto joined = make(film);
   expect_says(joined.err, note);
   expect_says(run("reproduce 0.png").out, "--between auto:0f..3f");
@@ -65,6 +65,13 @@ TEST_F(BetweenPictures, JoinWhatFramesOfAVideoWouldShowTwice) {
   // A capture has what it was encoded with.
   make("encode -f 20 --transfer srgb frames filmed.tik");
   EXPECT_EQ(make("video --out-fps 10 --out-angle 360 --overwrite filmed.tik %d.png").err.find(note), std::string::npos);
+}
+
+TEST_F(BetweenPictures, AreSaidToBeMissingWhereAFilmCannotHaveThem) {
+  const auto film = make("video -f 20 --white 100 --out-angle 360 --out-fps 10 frames %d.png");
+  expect_says(film.err, "note: frames show what moves two or three times: samples cannot be made: ");
+  EXPECT_EQ(film.err.find("samples are made"), std::string::npos) << film.err;
+  EXPECT_EQ(run("reproduce 0.png").out.find("--between"), std::string::npos);
 }
 
 TEST_F(BetweenPictures, AreMadeOnlyWhereAnIntervalInSecondsLies) {

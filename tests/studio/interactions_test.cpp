@@ -254,6 +254,21 @@ TEST_F(InteractionsTest, EveryStartingPointIsChosenInTheMenu) {
   EXPECT_EQ(count, 6);
 }
 
+TEST_F(InteractionsTest, TheEmptySceneIsExportedWhileItIsShown) {
+  click_menu("Start from", "Remove people");
+  ASSERT_TRUE(settles());
+  ASSERT_FALSE(canvas().glance().instead.isNull()) << window_.notice().text().toStdString();
+  const QImage seen = canvas().glance().instead;
+  window_.notice().clear();
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  name_next_file("empty.png");
+  QTest::keyClick(&window_, Qt::Key_E, Qt::ControlModifier);
+  EXPECT_TRUE(is_asked_);
+  ASSERT_TRUE(settles());
+  EXPECT_EQ(difference(QImage(path("empty.png")).convertToFormat(QImage::Format_RGB32), seen), "");
+}
+
 // The empty street: a picture beside the document, which it leaves as it is.
 TEST_F(InteractionsTest, TheEmptySceneIsWrittenAsAPicture) {
   const DocumentState before = document().state();

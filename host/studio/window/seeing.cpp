@@ -1,6 +1,8 @@
 // How the window looks at a picture: its light, another one beside it, keys that are held.
 #include <QAction>
 #include <QKeyEvent>
+#include <QLineEdit>
+#include <algorithm>
 
 #include "studio/regions/region_list.hpp"
 #include "studio/window/main_window.hpp"
@@ -71,6 +73,21 @@ bool MainWindow::hold(int key, bool is_held) {
 // A key that is released in another window is released all the same.
 void MainWindow::let_go() {
   for (const int key : {Qt::Key_H, Qt::Key_M, Qt::Key_A}) hold(key, false);
+}
+
+// Fields would take the window's keys for their own: Ctrl+E, and Ctrl+Z where they have nothing to undo.
+bool MainWindow::eventFilter(QObject* field, QEvent* event) {
+  if (event->type() != QEvent::ShortcutOverride) return QMainWindow::eventFilter(field, event);
+  const auto& key = static_cast<const QKeyEvent&>(*event);
+  auto* line = qobject_cast<QLineEdit*>(field);
+  if (line == nullptr) line = field->findChild<QLineEdit*>();
+  const bool is_fields = !key.modifiers().testFlag(Qt::ControlModifier) ||
+                         (key.matches(QKeySequence::Undo) && line->isUndoAvailable()) ||
+                         (key.matches(QKeySequence::Redo) && line->isRedoAvailable());
+  const auto is_asked = [&](const QAction* action) { return action->shortcuts().contains(key.keyCombination()); };
+  if (is_fields || std::ranges::none_of(findChildren<QAction*>(), is_asked)) return false;
+  event->ignore();
+  return true;
 }
 
 void MainWindow::keyPressEvent(QKeyEvent* event) {
