@@ -51,7 +51,7 @@ TEST_F(BetweenPictures, AreMarkedWhereverTheyAreTold) {
 
 TEST_F(BetweenPictures, JoinWhatFramesOfAVideoWouldShowTwice) {
   const test::Words film("video -f 20 --transfer srgb --out-angle 360 --overwrite frames %d.png --out-fps 10");
-  const std::string note = "samples are to be made between pictures 0 … 3, which takes most of the time; --between off";
+  const std::string note = "samples are made between pictures 0 … 3, which takes most of the time; --between off";
   const auto joined = make(film);
   expect_says(joined.err, note);
   expect_says(run("reproduce 0.png").out, "--between auto:0f..3f");
@@ -68,7 +68,10 @@ TEST_F(BetweenPictures, JoinWhatFramesOfAVideoWouldShowTwice) {
 }
 
 TEST_F(BetweenPictures, AreSaidToBeMissingWhereAFilmCannotHaveThem) {
-  const auto film = make("video -f 20 --white 100 --out-angle 360 --out-fps 10 frames %d.png");
+  std::filesystem::create_directory(scratch_ / "large");
+  for (int k = 0; k < kPictures; ++k)
+    scratch_.write("large/" + std::to_string(k) + ".pgm", "P5 512 320 255\n" + std::string(512 * 320, 'a'));
+  const auto film = make("video -f 20 --memory 20MB --out-angle 360 --out-fps 10 large %d.png");
   expect_says(film.err, "note: frames show what moves two or three times: samples cannot be made: ");
   EXPECT_EQ(film.err.find("samples are made"), std::string::npos) << film.err;
   EXPECT_EQ(run("reproduce 0.png").out.find("--between"), std::string::npos);

@@ -2,6 +2,7 @@
 #include "studio/curves/curve_editor.hpp"
 #include "studio/regions/region_edits.hpp"
 #include "studio/time/time_strip.hpp"
+#include "studio/window/started_work.hpp"
 #include "studio_test.hpp"
 
 namespace nutik::studio {
@@ -255,7 +256,8 @@ TEST_F(InteractionsTest, EveryStartingPointIsChosenInTheMenu) {
 }
 
 TEST_F(InteractionsTest, TheEmptySceneIsExportedWhileItIsShown) {
-  click_menu("Start from", "Remove people");
+  for (const StartingPoint& point : starting_points())
+    if (point.style == StudyStyle::clean) window_.start_from(point);
   ASSERT_TRUE(settles());
   ASSERT_FALSE(canvas().glance().instead.isNull()) << window_.notice().text().toStdString();
   const QImage seen = canvas().glance().instead;

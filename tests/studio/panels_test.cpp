@@ -178,6 +178,30 @@ TEST_F(PanelsTest, TheWindowsKeysAreItsOwnInFields) {
   QTest::keyClicks(&box, "4");
   QTest::keyClick(&box, Qt::Key_Z, Qt::ControlModifier);
   EXPECT_EQ(document().state(), before) << "what is being typed is the field's";
+  window_.activateWindow();  // which a desktop does once the dialog is gone
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  auto& start = child<QLineEdit>("start");
+  start.setFocus();
+  start.selectAll();
+  QTest::keyClicks(&start, "10 ms");
+  QTest::keyClick(&start, Qt::Key_Return);
+  EXPECT_EQ(document().boxcar().start_ns, 10'000'000);
+  QTest::keyClick(&start, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(document().state(), before);
+  EXPECT_EQ(start.text(), exact_time_text(before.boxcar.start_ns));
+}
+
+TEST_F(PanelsTest, TheWheelChangesNothingThatHasNoFocus) {
+  open_clip();
+  const DocumentState before = document().state();
+  canvas().setFocus();
+  for (const char* name : {"mode", "normalization", "brightness"}) {
+    auto& field = child<QWidget>(name);
+    const QPointF place = field.rect().center();
+    QWheelEvent event(place, field.mapToGlobal(place), {}, {0, -120}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(&field, &event);
+    EXPECT_EQ(document().state(), before) << name;
+  }
 }
 
 TEST_F(PanelsTest, AStrokeWithoutARegionMakesOne) {

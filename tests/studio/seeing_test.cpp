@@ -15,6 +15,7 @@
 #include "capture/format.hpp"
 #include "media/event_files.hpp"
 #include "studio/canvas/light_histogram.hpp"
+#include "studio/regions/region_edits.hpp"
 #include "studio/time/time_strip.hpp"
 #include "studio/window/start_page.hpp"
 #include "studio/window/started_work.hpp"
@@ -384,7 +385,7 @@ TEST_F(SeeingTest, AFilmWhoseFramesMixPicturesHasSamplesBetweenThem) {
   const auto made = run_line(
       "nutik-cl video -f 100 --speed 0.5 --out-fps 25 --out-angle 360 --precision fixed frames/%02d.pgm by-%05d.png");
   ASSERT_EQ(made.status, 0) << made.err;
-  EXPECT_TRUE(QString::fromStdString(made.err).contains("samples are to be made between")) << made.err;
+  EXPECT_TRUE(QString::fromStdString(made.err).contains("samples are made between")) << made.err;
   for (const int frame : {0, 4}) expect_same_still(frame);
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
@@ -29,14 +30,18 @@ static std::string join_pictures(Options& options, Session& session, const Sessi
     return text;
   };
   const std::string text =
-      say(format("a quarter of the frames or more would show what moves two or three times: samples are to be made "
-                 "between pictures {} … {}, which takes most of the time; --between off leaves them out",
-                 between->first, between->last));
+      format("a quarter of the frames or more would show what moves two or three times: samples are made between "
+             "pictures {} … {}, which takes most of the time; --between off leaves them out",
+             between->first, between->last);
+  Session::Terms telling = terms;  // once it has begun
+  telling.progress = [&, is_said = false](std::uint64_t, std::uint64_t) mutable {
+    if (!std::exchange(is_said, true)) static_cast<void>(say(text));
+  };
   Options joined = options;
   option_of(CommandId::video, "between")->restate(joined, {between->text()});
   static_cast<void>(Session(std::move(session)));  // ended, before another takes its memory
   try {
-    session = open_session(joined, terms);
+    session = open_session(joined, telling);
     options = std::move(joined);
     return text;
   } catch (const Error& error) {

@@ -109,7 +109,7 @@ void TimeFields::refuse(QLineEdit& field, const QString& mistake) {
 }
 
 void TimeFields::accept(QLineEdit& field) {
-  field.setModified(false);
+  field.setText(field.text());  // from here on undoing it is the window's
   field.setAccessibleDescription(field.toolTip());
   show_values();
 }

@@ -1,6 +1,7 @@
 #include "studio/window/main_window.hpp"
 
 #include <QActionGroup>
+#include <QComboBox>
 #include <QDir>
 #include <QDragEnterEvent>
 #include <QDropEvent>
@@ -173,9 +174,10 @@ void MainWindow::keep_window() {
 }
 
 void MainWindow::connect_parts() {
-  for (auto* field : findChildren<QLineEdit*>()) {
-    auto* box = qobject_cast<QAbstractSpinBox*>(field->parent());
-    (box != nullptr ? static_cast<QWidget*>(box) : field)->installEventFilter(this);  // which has the keys
+  for (auto* field : findChildren<QWidget*>()) {
+    const bool has_wheel = qobject_cast<QAbstractSpinBox*>(field) || qobject_cast<QComboBox*>(field);
+    if (has_wheel || qobject_cast<QLineEdit*>(field)) field->installEventFilter(this);
+    if (has_wheel) field->setFocusPolicy(Qt::StrongFocus);  // not by the wheel
   }
   connect(&live_, &LiveView::pictured, this, [this](const ShownPicture& picture) {
     canvas_->show_picture(picture);

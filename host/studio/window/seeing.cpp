@@ -75,12 +75,17 @@ void MainWindow::let_go() {
   for (const int key : {Qt::Key_H, Qt::Key_M, Qt::Key_A}) hold(key, false);
 }
 
-// Fields would take the window's keys for their own: Ctrl+E, and Ctrl+Z where they have nothing to undo.
+// Fields would take the window's keys for their own: Ctrl+E, and Ctrl+Z where they have nothing to undo. Whoever turns
+// the wheel over them may mean the panel.
 bool MainWindow::eventFilter(QObject* field, QEvent* event) {
-  if (event->type() != QEvent::ShortcutOverride) return QMainWindow::eventFilter(field, event);
-  const auto& key = static_cast<const QKeyEvent&>(*event);
+  if (event->type() == QEvent::Wheel && !static_cast<QWidget*>(field)->hasFocus()) {
+    event->ignore();
+    return true;
+  }
   auto* line = qobject_cast<QLineEdit*>(field);
   if (line == nullptr) line = field->findChild<QLineEdit*>();
+  if (event->type() != QEvent::ShortcutOverride || line == nullptr) return false;
+  const auto& key = static_cast<const QKeyEvent&>(*event);
   const bool is_fields = !key.modifiers().testFlag(Qt::ControlModifier) ||
                          (key.matches(QKeySequence::Undo) && line->isUndoAvailable()) ||
                          (key.matches(QKeySequence::Redo) && line->isRedoAvailable());
