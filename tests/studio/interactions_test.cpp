@@ -261,7 +261,6 @@ TEST_F(InteractionsTest, TheEmptySceneIsExportedWhileItIsShown) {
   ASSERT_TRUE(settles());
   ASSERT_FALSE(canvas().glance().instead.isNull()) << window_.notice().text().toStdString();
   const QImage seen = canvas().glance().instead;
-  window_.notice().clear();
   window_.activateWindow();
   ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
   name_next_file("empty.png");
@@ -269,6 +268,10 @@ TEST_F(InteractionsTest, TheEmptySceneIsExportedWhileItIsShown) {
   EXPECT_TRUE(is_asked_);
   ASSERT_TRUE(settles());
   EXPECT_EQ(difference(QImage(path("empty.png")).convertToFormat(QImage::Format_RGB32), seen), "");
+  EXPECT_NE(window_.notice().text(), "");
+  document().set_boxcar({0, kMsNs}, "Scrub");
+  EXPECT_TRUE(canvas().glance().instead.isNull());
+  EXPECT_EQ(window_.notice().text(), "") << "nothing is to be saved as a picture of its own any more";
 }
 
 // The empty street: a picture beside the document, which it leaves as it is.

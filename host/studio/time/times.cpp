@@ -42,7 +42,7 @@ Typed<std::int64_t> read_typed(const QString& text, const Timeline& timeline,
     return {std::nullopt, TimeAxis::tr("'%1' is outside the capture, which has %2 samples, or is no whole number")
                               .arg(text.trimmed()).arg(timeline.sample_count())};
   return {std::nullopt, TimeAxis::tr("'%1' is no time of up to 126 years; write a number and a unit: 0.4 s, 10 ms, "
-                                     "250 us, 1/100 s, or 37f for sample 37").arg(text.trimmed())};
+                                     "1/100 s or 37f").arg(text.trimmed())};
 }
 
 }  // namespace

@@ -1389,20 +1389,12 @@ Zeit und Gain nach dem Filmen: Gain-Funktionen und Masken werden gezeichnet, und
         <translation>Es werden Dateien geschrieben</translation>
     </message>
     <message>
-        <source>%1
-
-What is stopped leaves no file, but for the numbered pictures that are there already.</source>
-        <translation>%1
-
-Was abgebrochen wird, hinterlässt keine Datei, außer nummerierten Bildern, die schon da sind.</translation>
-    </message>
-    <message>
         <source>&amp;Finish in the background</source>
         <translation>Im &amp;Hintergrund fertigstellen</translation>
     </message>
     <message>
         <source>&amp;Stop</source>
-        <translation>A&amp;bbrechen</translation>
+        <translation>&amp;Stoppen</translation>
     </message>
     <message>
         <source>%1: the program ended before it was done.</source>
@@ -1431,6 +1423,14 @@ Was abgebrochen wird, hinterlässt keine Datei, außer nummerierten Bildern, die
     <message>
         <source>its pictures are %3 × %4 pixels large, and the project&apos;s mask %1 × %2</source>
         <translation>seine Bilder sind %3 × %4 Pixel groß, und die Maske des Projekts %1 × %2</translation>
+    </message>
+    <message>
+        <source>Still at work: %1
+
+What is stopped leaves no file, but for the numbered pictures that are there already.</source>
+        <translation>In Arbeit: %1
+
+Was gestoppt wird, hinterlässt keine Datei, außer nummerierten Bildern, die schon da sind.</translation>
     </message>
 </context>
 <context>
@@ -1707,16 +1707,16 @@ Was abgebrochen wird, hinterlässt keine Datei, außer nummerierten Bildern, die
         <translation>&apos;%1&apos; liegt außerhalb der Aufnahme, die %2 Samples hat, oder ist keine ganze Zahl</translation>
     </message>
     <message>
-        <source>&apos;%1&apos; is no time of up to 126 years; write a number and a unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for sample 37</source>
-        <translation>&apos;%1&apos; ist keine Zeit bis zu 126 Jahren; schreiben Sie eine Zahl mit Einheit: 0.4 s, 10 ms, 250 us, 1/100 s, oder 37f für Sample 37</translation>
-    </message>
-    <message>
         <source>&apos;%1&apos; is not longer than nothing</source>
         <translation>&apos;%1&apos; ist nicht länger als nichts</translation>
     </message>
     <message>
         <source>&apos;%1&apos; is no gain; write a number such as 1, -0.5 or 2e-3</source>
         <translation>&apos;%1&apos; ist kein Gain; schreiben Sie eine Zahl wie 1, -0.5 oder 2e-3</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is no time of up to 126 years; write a number and a unit: 0.4 s, 10 ms, 1/100 s or 37f</source>
+        <translation>&apos;%1&apos; ist keine Zeit bis 126 Jahre; schreiben Sie Zahl und Einheit: 0.4 s, 10 ms, 1/100 s oder 37f</translation>
     </message>
 </context>
 <context>

@@ -30,6 +30,7 @@ void MainWindow::forget_light() {
   Glance glance = canvas_->glance();
   if (glance.marks.isNull() && glance.held.isNull() && glance.instead.isNull())
     return;  // nothing of the picture is painted anew
+  if (!glance.instead.isNull()) notice_->clear();  // which offers to save it
   glance.marks = glance.held = glance.instead = {};
   canvas_->look(std::move(glance));
 }
