@@ -291,6 +291,16 @@ TEST_F(SeeingTest, SpacePlaysTheIntervalAndStopsIt) {
   EXPECT_EQ(document().undo_stack().index(), 0);
 }
 
+TEST_F(SeeingTest, EscapeStopsTheFilmBesideAPixelAndATool) {
+  open_clip();
+  document().set_probe(QPoint(20, 20));
+  click_tool("tool_brush");
+  window_.play_or_stop();
+  EXPECT_TRUE(document().played());
+  QTest::keyClick(&canvas(), Qt::Key_Escape);
+  EXPECT_FALSE(document().played());
+}
+
 TEST_F(SeeingTest, AFilmIsExportedAsTheCommandMakesIt) {
   open_clip();
   child<QDoubleSpinBox>("film_speed").setValue(0.5);
