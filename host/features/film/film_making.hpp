@@ -68,8 +68,8 @@ struct MadeVideo {
   std::optional<FilmSound> sound;           // that it has
 };
 
-// Which samples are made between a clip's pictures so that frames do not show what moves two or three times; for a film of
-// which nobody stated that. None of a .tik, of events and of a stream, nor of frames that hold single samples.
+// Which samples are made between a clip's pictures so that frames do not show what moves two or three times; for a
+// film of which nobody stated that. None of a .tik, of events and of a stream, nor of frames that hold single samples.
 [[nodiscard]] std::optional<BetweenRequest> joining_samples(const FramesRequest& request, const Frames& frames,
                                                             const Session& session);
 

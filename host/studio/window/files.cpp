@@ -198,7 +198,8 @@ bool MainWindow::may_leave() {
 bool MainWindow::may_leave_writing() {
   if (!writing_.is_busy()) return true;
   QMessageBox question(QMessageBox::Question, tr("Files are being written"),
-                       tr("Still at work: %1\n\nWhat is stopped leaves no file, but for the numbered pictures that are there already.")
+                       tr("Still at work: %1\n\nWhat is stopped leaves no file, but for the numbered pictures that "
+                          "are there already.")
                            .arg(writing_.open().join('\n')),
                        QMessageBox::Cancel, this);
   const QAbstractButton* finish = question.addButton(tr("&Finish in the background"), QMessageBox::AcceptRole);
