@@ -67,6 +67,16 @@ TEST_F(BetweenPictures, JoinWhatFramesOfAVideoWouldShowTwice) {
   EXPECT_EQ(make("video --out-fps 10 --out-angle 360 --overwrite filmed.tik %d.png").err.find(note), std::string::npos);
 }
 
+TEST_F(BetweenPictures, AreSaidToBeMissingWhereAFilmCannotHaveThem) {
+  std::filesystem::create_directory(scratch_ / "large");
+  for (int k = 0; k < kPictures; ++k)
+    scratch_.write("large/" + std::to_string(k) + ".pgm", "P5 512 320 255\n" + std::string(512 * 320, 'a'));
+  const auto film = make("video -f 20 --memory 20MB --out-angle 360 --out-fps 10 large %d.png");
+  expect_says(film.err, "note: frames show what moves two or three times: samples cannot be made: ");
+  EXPECT_EQ(film.err.find("samples are made"), std::string::npos) << film.err;
+  EXPECT_EQ(run("reproduce 0.png").out.find("--between"), std::string::npos);
+}
+
 TEST_F(BetweenPictures, AreMadeOnlyWhereAnIntervalInSecondsLies) {
   const test::Words source("-f 20 --transfer srgb --start 60ms --exposure 30ms --no-recipe frames");
   make(source + "--between 3 part.pfm");

@@ -164,18 +164,18 @@ TEST(TypedNumbers, AreReadBackToTheLastDigit) {
   const Timeline timeline = hundred_a_second();
   for (const std::int64_t time_ns : {std::int64_t{0}, std::int64_t{400'000'001}, std::int64_t{-1},
                                      std::int64_t{1'500}, std::int64_t{12'345'678'901}}) {
-    EXPECT_EQ(read_typed_time(exact_time_text(time_ns), "time", timeline).value.value_or(-7), time_ns)
+    EXPECT_EQ(read_typed_time(exact_time_text(time_ns), timeline).value.value_or(-7), time_ns)
         << exact_time_text(time_ns).toStdString();
   }
   EXPECT_EQ(exact_time_text(400'000'001), "400.000001 ms");
-  EXPECT_EQ(read_typed_time("37f", "time", timeline).value, 370'000'000);
-  EXPECT_EQ(read_typed_time("1/100 s", "time", timeline).value, 10'000'000);
-  const auto wrong = read_typed_time("10", "time", timeline);
+  EXPECT_EQ(read_typed_time("37f", timeline).value, 370'000'000);
+  EXPECT_EQ(read_typed_time("1/100 s", timeline).value, 10'000'000);
+  const auto wrong = read_typed_time("10", timeline);
   EXPECT_FALSE(wrong.value);
   EXPECT_TRUE(wrong.mistake.contains("write a number and a unit")) << wrong.mistake.toStdString();
-  EXPECT_TRUE(read_typed_time("100f", "time", timeline).mistake.contains("outside the capture"));
-  EXPECT_EQ(read_typed_length("2f", "width", timeline).value, 20'000'000);
-  EXPECT_FALSE(read_typed_length("0 ms", "width", timeline).value);
+  EXPECT_TRUE(read_typed_time("100f", timeline).mistake.contains("outside the capture"));
+  EXPECT_EQ(read_typed_length("2f", timeline).value, 20'000'000);
+  EXPECT_FALSE(read_typed_length("0 ms", timeline).value);
   EXPECT_EQ(read_typed_gain("-2.5e2").value, -250.0);
   EXPECT_EQ(read_typed_gain("1,5").value, 1.5) << "a decimal comma";
   for (const char* text : {"1,234.5", "1.234,5", "1,234,567"})

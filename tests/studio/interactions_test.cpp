@@ -2,6 +2,7 @@
 #include "studio/curves/curve_editor.hpp"
 #include "studio/regions/region_edits.hpp"
 #include "studio/time/time_strip.hpp"
+#include "studio/window/started_work.hpp"
 #include "studio_test.hpp"
 
 namespace nutik::studio {
@@ -252,6 +253,25 @@ TEST_F(InteractionsTest, EveryStartingPointIsChosenInTheMenu) {
     ASSERT_TRUE(settles());
   }
   EXPECT_EQ(count, 6);
+}
+
+TEST_F(InteractionsTest, TheEmptySceneIsExportedWhileItIsShown) {
+  for (const StartingPoint& point : starting_points())
+    if (point.style == StudyStyle::clean) window_.start_from(point);
+  ASSERT_TRUE(settles());
+  ASSERT_FALSE(canvas().glance().instead.isNull()) << window_.notice().text().toStdString();
+  const QImage seen = canvas().glance().instead;
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  name_next_file("empty.png");
+  QTest::keyClick(&window_, Qt::Key_E, Qt::ControlModifier);
+  EXPECT_TRUE(is_asked_);
+  ASSERT_TRUE(settles());
+  EXPECT_EQ(difference(QImage(path("empty.png")).convertToFormat(QImage::Format_RGB32), seen), "");
+  EXPECT_NE(window_.notice().text(), "");
+  document().set_boxcar({0, kMsNs}, "Scrub");
+  EXPECT_TRUE(canvas().glance().instead.isNull());
+  EXPECT_EQ(window_.notice().text(), "") << "nothing is to be saved as a picture of its own any more";
 }
 
 // The empty street: a picture beside the document, which it leaves as it is.

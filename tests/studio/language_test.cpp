@@ -105,6 +105,21 @@ TEST_F(LanguageTest, TheWindowIsGermanAndEachMenusLettersAreItsOwn) {
   EXPECT_EQ(missing_.texts(), "");
 }
 
+TEST_F(LanguageTest, WhatIsTypedWrongIsSaidInGermanWithTheFieldsName) {
+  open_clip();
+  const std::pair<const char*, const char*> fields[] = {
+      {"start", "Start: 'bald' ist"}, {"width", "Länge: 'bald' ist"}, {"in", "In: 'bald' ist"}};
+  for (const auto& [name, said] : fields) {
+    auto& field = child<QLineEdit>(name);
+    field.setFocus();
+    field.selectAll();
+    QTest::keyClicks(&field, "bald");
+    QTest::keyClick(&field, Qt::Key_Return);
+    EXPECT_TRUE(child<QLabel>("said").text().startsWith(said)) << child<QLabel>("said").text().toStdString();
+  }
+  EXPECT_EQ(missing_.texts(), "");
+}
+
 TEST_F(LanguageTest, FilesCommandsAndNamesOfObjectsAreTheSame) {
   open_clip();
   const std::string german = written(window_, path("german"));

@@ -397,6 +397,13 @@ TEST_F(OpeningTest, AProjectsClipThatWasMovedIsLocated) {
                                project.find('\n', project.find("\"fps\"")) - project.find("\"fps\"")));
   window_.open(path("mine.nutik"));
   ASSERT_TRUE(settles());
+  std::filesystem::create_directory(scratch_ / "other");
+  scratch_.write("other/0.pgm", "P5 16 8 255\n" + std::string(128, 'a'));
+  ASSERT_EQ(run_line("nutik-cl encode -f 100 other other.tik").status, 0);
+  name_next_file("other.tik");
+  take_way_out("Locate…");
+  EXPECT_TRUE(window_.notice().text().contains("16 × 8 pixels large")) << window_.notice().text().toStdString();
+  EXPECT_EQ(document().state(), state) << "another clip, on which the mask does not lie";
   name_next_file("clip.tik");
   take_way_out("Locate…");
   EXPECT_EQ(document().facts()->path, path("clip.tik")) << window_.notice().text().toStdString();

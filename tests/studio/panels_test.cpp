@@ -159,6 +159,65 @@ TEST_F(PanelsTest, AllEdgesAreFeatheredAsTyped) {
   EXPECT_EQ(difference(canvas().image(), fresh_picture()), "");
 }
 
+TEST_F(PanelsTest, TheWindowsKeysAreItsOwnInFields) {
+  open_clip();
+  auto& box = child<QDoubleSpinBox>("feather");
+  const DocumentState before = document().state();
+  box.setFocus();
+  box.selectAll();
+  QTest::keyClicks(&box, "3");
+  QTest::keyClick(&box, Qt::Key_Return);
+  EXPECT_NE(document().state(), before);
+  QTest::keyClick(&box, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(document().state(), before);
+  name_next_export("picture.png");
+  QTest::keyClick(&box, Qt::Key_E, Qt::ControlModifier);
+  EXPECT_TRUE(is_asked_);
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(std::filesystem::exists(scratch_ / "picture.png")) << window_.notice().text().toStdString();
+  QTest::keyClicks(&box, "4");
+  QTest::keyClick(&box, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(document().state(), before) << "what is being typed is the field's";
+  window_.activateWindow();  // which a desktop does once the dialog is gone
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  auto& start = child<QLineEdit>("start");
+  start.setFocus();
+  start.selectAll();
+  QTest::keyClicks(&start, "10 ms");
+  QTest::keyClick(&start, Qt::Key_Return);
+  EXPECT_EQ(document().boxcar().start_ns, 10'000'000);
+  QTest::keyClick(&start, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(document().state(), before);
+  EXPECT_EQ(start.text(), exact_time_text(before.boxcar.start_ns));
+}
+
+TEST_F(PanelsTest, TheWheelChangesNothingThatHasNoFocus) {
+  open_clip();
+  const DocumentState before = document().state();
+  canvas().setFocus();
+  for (const char* name : {"mode", "normalization", "brightness"}) {
+    auto& field = child<QWidget>(name);
+    const QPointF place = field.rect().center();
+    QWheelEvent event(place, field.mapToGlobal(place), {}, {0, -120}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(&field, &event);
+    EXPECT_EQ(document().state(), before) << name;
+  }
+}
+
+TEST_F(PanelsTest, AStrokeWithoutARegionMakesOne) {
+  open_clip();
+  const DocumentState before = document().state();
+  for (const char* tool : {"tool_ellipse", "tool_brush"}) {
+    click_tool(tool);
+    drag(canvas(), at(20, 10), at(40, 30));
+    EXPECT_EQ(document().functions().size(), 2u) << tool;
+    EXPECT_GT(pixels_of(document().selected_tag()), 100u) << tool;
+    EXPECT_NE(document().selected_tag(), kBackground);
+    document().undo_stack().undo();
+    EXPECT_EQ(document().state(), before) << "in one step";
+  }
+}
+
 // ---- status ----
 
 TEST_F(PanelsTest, TheStatusTellsThePixelTheArithmeticAndTheTime) {

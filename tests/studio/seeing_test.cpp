@@ -1,15 +1,21 @@
 // How a picture is looked at, what it begins with, and what becomes of it: light, snapshots, films, exports.
 #include <QComboBox>
+#include <QDir>
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QListWidget>
 #include <QPainter>
+#include <QSettings>
 #include <QToolButton>
 #include <QTreeWidget>
+#include <unistd.h>
+
 #include <set>
 
 #include "capture/format.hpp"
+#include "media/event_files.hpp"
 #include "studio/canvas/light_histogram.hpp"
+#include "studio/regions/region_edits.hpp"
 #include "studio/time/time_strip.hpp"
 #include "studio/window/start_page.hpp"
 #include "studio/window/started_work.hpp"
@@ -27,6 +33,22 @@ class SeeingTest : public StudioTest {
   void brighten(double stops) {
     child<QDoubleSpinBox>("brightness").setValue(stops);
     ASSERT_TRUE(settles());
+  }
+  // In the question that comes next.
+  void press_next(const char* button) {
+    answer_next<QMessageBox>([button](QMessageBox& question) {
+      EXPECT_TRUE(question.text().contains("Filming film.mkv")) << question.text().toStdString();
+      for (QAbstractButton* each : question.buttons())
+        if (each->text().remove('&').startsWith(button)) return each->click();
+    });
+  }
+  // Of the window's film and the command's, byte for byte, with its recipe.
+  void expect_same_still(int frame) {
+    const auto name = format("{:05}.png", frame);
+    const std::string by_window = test::read_file(scratch_ / ("film-" + name));
+    ASSERT_FALSE(by_window.empty()) << name;
+    EXPECT_TRUE(by_window == test::read_file(scratch_ / ("by-" + name))) << name;
+    EXPECT_EQ(run_line(QString::fromStdString("nutik-cl reproduce film-" + name)).status, 0);
   }
 };
 
@@ -153,6 +175,9 @@ TEST_F(SeeingTest, TheEmptyWindowHasRecentWorkAndCards) {
   EXPECT_EQ(recent->item(0)->text(), "clip.tik");
   ASSERT_EQ(recent_files().front().path, path("clip.tik"));
   EXPECT_FALSE(recent_files().front().picture.isNull()) << "a picture of it is kept";
+  ASSERT_TRUE(window_.save_project(path("clip.nutik")));
+  ASSERT_EQ(recent_files().front().path, path("clip.nutik"));
+  EXPECT_FALSE(recent_files().front().picture.isNull()) << "and of the project from its first save on";
   recent->setCurrentRow(0);
   QTest::keyClick(recent, Qt::Key_Return);
   ASSERT_TRUE(QTest::qWaitFor([&] { return next.is_settled(); }, kMaxWaitMs));
@@ -266,6 +291,16 @@ TEST_F(SeeingTest, SpacePlaysTheIntervalAndStopsIt) {
   EXPECT_EQ(document().undo_stack().index(), 0);
 }
 
+TEST_F(SeeingTest, EscapeStopsTheFilmBesideAPixelAndATool) {
+  open_clip();
+  document().set_probe(QPoint(20, 20));
+  click_tool("tool_brush");
+  window_.play_or_stop();
+  EXPECT_TRUE(document().played());
+  QTest::keyClick(&canvas(), Qt::Key_Escape);
+  EXPECT_FALSE(document().played());
+}
+
 TEST_F(SeeingTest, AFilmIsExportedAsTheCommandMakesIt) {
   open_clip();
   child<QDoubleSpinBox>("film_speed").setValue(0.5);
@@ -294,35 +329,85 @@ TEST_F(SeeingTest, AFilmIsExportedAsTheCommandMakesIt) {
   window_.export_film(path("frames/%02d.pgm"), {});
   EXPECT_TRUE(window_.notice().text().contains("input")) << window_.notice().text().toStdString();
   const auto made = run_line(
-      "nutik-cl video -f 100 --speed 0.5 --out-fps 25 frames/%02d.pgm by-%05d.png");
+      "nutik-cl video -f 100 --speed 0.5 --out-fps 25 --precision fixed frames/%02d.pgm by-%05d.png");
   ASSERT_EQ(made.status, 0) << made.err;
-  for (int frame = 0; frame < 10; ++frame) {
-    const QString number = QString("%1.png").arg(frame, 5, 10, QChar('0'));
-    const QImage by_window(path(("film-" + number).toStdString().c_str()));
-    ASSERT_FALSE(by_window.isNull()) << frame;
-    EXPECT_EQ(difference(by_window, QImage(path(("by-" + number).toStdString().c_str()))), "") << frame;
-  }
+  for (int frame = 0; frame < 10; ++frame) expect_same_still(frame);
+  window_.export_film(path("film-%05d.png"), {{"no-recipe", ""}});
+  ASSERT_TRUE(settles());
+  EXPECT_NE(run_line("nutik-cl reproduce film-00001.png").status, 0);
+}
+
+TEST_F(SeeingTest, AFilmOfTheRegionsIsExportedAsTheCommandMakesIt) {
+  open_clip();
+  add_region(document());
+  const std::uint8_t tag = document().selected_tag();
+  paint_region(document(), ellipse(96, 48, {40, 24}, 20, 12), tag, "Ellipse");
+  set_feather(document(), 250);
+  document().set_points(0, {{0, 1}, {30'000'000, 0}}, "Points");
+  document().set_points(tag, {{0, 0}, {10'000'000, 0}, {10'000'001, 1}, {60'000'000, 1}, {60'000'001, 0}}, "Points");
+  window_.export_film(path("film-%05d.png"), {{"out-fps", "25"}});
+  EXPECT_TRUE(window_.notice().text().contains("Save the project first")) << window_.notice().text().toStdString();
+  ASSERT_TRUE(window_.save_project(path("regions.nutik")));
+  ASSERT_TRUE(settles());
+  const QImage shown = canvas().image();
+  document().set_mark_out(180'000'000);
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  name_next_export("film-%05d.png", [](QDialog& dialog) {
+    EXPECT_EQ(dialog.findChild<QLineEdit*>("out-angle"), nullptr) << "functions say how long a frame is exposed";
+    dialog.findChild<QLineEdit*>("out-fps")->setText("25");
+  });
+  QTest::keyClick(&window_, Qt::Key_E, Qt::ControlModifier | Qt::ShiftModifier);
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(is_asked_);
+  EXPECT_TRUE(window_.notice().text().contains("3 frame")) << window_.notice().text().toStdString();
+  EXPECT_EQ(difference(QImage(path("film-00000.png")), shown), "") << "it begins with the picture that is shown";
+  const auto made = run_line(
+      "nutik-cl video -f 100 -k regions.fn -m regions.pgm --feather 2.5px --out-fps 25 --to 180ms --precision fixed "
+      "frames/%02d.pgm by-%05d.png");
+  ASSERT_EQ(made.status, 0) << made.err;
+  for (int frame = 0; frame < 3; ++frame) expect_same_still(frame);
+  document().set_points(0, {{0, 1}, {200'000'001, 0}}, "Points");
+  ASSERT_TRUE(window_.save_project(path("regions.nutik")));
+  window_.export_film(path("film.mkv"), {});
+  EXPECT_TRUE(window_.notice().text().startsWith("No frame fits")) << window_.notice().text().toStdString();
+}
+
+// Of samples that each have their own time there is nothing to make.
+TEST_F(SeeingTest, AFilmOfEventsIsNotTriedWithSamplesBetweenThem) {
+  test::Events events;
+  for (unsigned k = 0; k < 40; ++k) events.push_back({10'000ull * k, k % 8, k / 8, k % 2 == 0});
+  scratch_.write("events.raw", test::raw_header("EVT2", 8, 8) + test::evt2_words(events));
+  window_.open(path("events.raw"));
+  ASSERT_TRUE(settles());
+  ASSERT_NE(document().facts(), nullptr) << window_.notice().text().toStdString();
+  window_.export_film(path("events.mkv"), {{"out-fps", "25"}});
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(window_.notice().text().contains("10 frame")) << window_.notice().text().toStdString();
+  EXPECT_FALSE(window_.notice().text().contains("two or three times")) << window_.notice().text().toStdString();
 }
 
 TEST_F(SeeingTest, AFilmWhoseFramesMixPicturesHasSamplesBetweenThem) {
   open_clip();
   window_.export_film(path("film-%05d.png"), {{"speed", "0.5"}, {"out-fps", "25"}, {"out-angle", "360"}});
   ASSERT_TRUE(settles());
-  EXPECT_TRUE(window_.notice().text().contains("samples were made between")) << window_.notice().text().toStdString();
+  EXPECT_TRUE(window_.notice().text().contains("Samples were made between")) << window_.notice().text().toStdString();
   const auto made = run_line(
-      "nutik-cl video -f 100 --speed 0.5 --out-fps 25 --out-angle 360 frames/%02d.pgm by-%05d.png");
+      "nutik-cl video -f 100 --speed 0.5 --out-fps 25 --out-angle 360 --precision fixed frames/%02d.pgm by-%05d.png");
   ASSERT_EQ(made.status, 0) << made.err;
   EXPECT_TRUE(QString::fromStdString(made.err).contains("samples are made between")) << made.err;
-  for (const char* number : {"00000.png", "00004.png"})
-    EXPECT_EQ(difference(QImage(path(("film-" + std::string(number)).c_str())),
-                         QImage(path(("by-" + std::string(number)).c_str()))), "");
+  for (const int frame : {0, 4}) expect_same_still(frame);
 }
 
 TEST_F(SeeingTest, AFilmIsWrittenAlthoughTheWindowIsClosed) {
   open_clip();
   QTimer::singleShot(0, &window_, [this] {
     window_.export_film(path("film.mkv"), {{"speed", "0.02"}});
+    press_next("Cancel");
+    EXPECT_FALSE(window_.close());
+    press_next("Finish");
     EXPECT_TRUE(window_.close());
+    EXPECT_TRUE(is_asked_);
   });
   QTimer too_late;
   too_late.callOnTimeout([] { QApplication::exit(1); });
@@ -330,6 +415,28 @@ TEST_F(SeeingTest, AFilmIsWrittenAlthoughTheWindowIsClosed) {
   ASSERT_EQ(QApplication::exec(), 0) << "the program ends after the film";
   EXPECT_TRUE(window_.notice().text().contains("240 frame")) << window_.notice().text().toStdString();
   EXPECT_TRUE(std::filesystem::exists(scratch_ / "film.mkv"));
+  EXPECT_TRUE(MainWindow().offer().text().contains("film.mkv: 240 frame")) << "the next window tells";
+  EXPECT_FALSE(MainWindow().offer().text().contains("film.mkv")) << "once";
+}
+
+TEST_F(SeeingTest, AFilmThatIsStoppedLeavesNoFile) {
+  open_clip();
+  window_.export_film(path("film.mkv"), {{"speed", "0.001"}});
+  press_next("Stop");
+  EXPECT_TRUE(window_.close());
+  EXPECT_TRUE(is_asked_);
+  ASSERT_TRUE(settles());
+  EXPECT_EQ(QDir(path("")).entryList({"*film*"}, QDir::AllEntries | QDir::Hidden), QStringList());
+  EXPECT_FALSE(MainWindow().offer().text().contains("film.mkv")) << "a person knows";
+}
+
+TEST_F(SeeingTest, AFilmThatAProgramLeftIsTold) {
+  const QString gone = QString("writing/%1").arg(INT32_MAX), alive = QString("writing/%1").arg(getpid());
+  for (const QString& process : {gone, alive}) QSettings().setValue(process, QStringList("Filming throw.mp4"));
+  EXPECT_EQ(MainWindow().offer().text().count("Filming throw.mp4: the program ended before it was done."), 1);
+  EXPECT_FALSE(MainWindow().offer().text().contains("throw.mp4")) << "once";
+  EXPECT_TRUE(QSettings().contains(alive));
+  QSettings().remove(alive);
 }
 
 // ---- pictures ----
@@ -360,6 +467,7 @@ TEST_F(SeeingTest, AWindowThatIsClosedComesBackWithWhatFailed) {
   std::filesystem::create_directory(scratch_ / "gone");
   window_.export_film(path("gone/film.mkv"), {{"speed", "0.02"}});
   std::filesystem::remove_all(scratch_ / "gone");
+  press_next("Finish");
   ASSERT_TRUE(window_.close());
   ASSERT_TRUE(settles());
   EXPECT_TRUE(window_.isVisible());

@@ -196,6 +196,9 @@ TEST_F(TimeStripTest, SaysWhatIsWrongWithATypedTimeAndKeepsIt) {
   }
   type("width", "10 ms");
   EXPECT_EQ(document_.boxcar().length_ns, 10 * kStripMs);
+  type("width", "0 ms");
+  document_.start(*document_.facts());
+  EXPECT_EQ(shown("width"), "100 ms") << "of another capture";
 }
 
 TEST_F(TimeStripTest, ShowsActivityAndThumbnailsWhereTheyAre) {

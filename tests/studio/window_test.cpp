@@ -505,7 +505,7 @@ TEST_F(WindowTest, WorkGoesOnBetweenTheMarks) {
       EXPECT_LE(live.end_ns, 120'000'000 + 1);
       const QString& name = document().state().looks.at(tag).name;
       if (!name.startsWith("At ")) continue;
-      const auto at = read_typed_time(name.mid(3), "at", document().facts()->timeline);
+      const auto at = read_typed_time(name.mid(3), document().facts()->timeline);
       ASSERT_TRUE(at.value) << name.toStdString();
       EXPECT_TRUE(*at.value >= kIn && *at.value < kOut) << name.toStdString();
       if (style != StudyStyle::slit) {

@@ -69,8 +69,13 @@ Session open_session(const Options& options, Session::Terms terms) {
 
 Session open_session(const std::string& name, const Options& options, std::shared_ptr<Devices> devices,
                      Session::Terms terms) {
-  terms.progress =
-      progress_bar("reading", options.quiet, options.progress ? ProgressLines::before : ProgressLines::none);
+  terms.progress = [before = std::move(terms.progress),
+                    bar = progress_bar("reading", options.quiet,
+                                       options.progress ? ProgressLines::before : ProgressLines::none)](
+                       std::uint64_t done, std::uint64_t total) {
+    if (before) before(done, total);
+    if (bar) bar(done, total);
+  };
   Session session(source_request(options, name), std::move(devices), terms);
   print_warnings(session.warnings());
   return session;

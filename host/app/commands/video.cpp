@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
@@ -10,9 +11,7 @@
 #include "features/film/film_making.hpp"
 #include "features/schema/option.hpp"
 #include "features/series/series_making.hpp"
-#include "media/events/event_clip.hpp"
 #include "session/text/number_text.hpp"
-#include "system/input_bytes.hpp"
 
 namespace nutik::app {
 
@@ -21,35 +20,36 @@ static Json sound_json(const ClipSound& of_clip, const FilmSound& of_film) {
           {"start_s", of_film.start_s}, {"speed", of_film.speed}, {"seconds", of_film.seconds}};
 }
 
-// Where frames would show what moves two or three times, samples are made between the clip's pictures, unless that was
-// stated. `options` and the session get them; returns what is said of it.
+// `options` and the session get the samples of joining_samples(), unless they state some; returns what is said of it.
 static std::string join_pictures(Options& options, Session& session, const Session::Terms& terms,
                                  const FramesRequest& request, const Frames& frames) {
-  const std::string& clip = options.operands.front();
-  if (!session.is_clip() || options.has("between") || request.exposure.combine != Combine::integral) return {};
-  if (is_standard_input(clip) || is_event_recording(clip)) return {};
-  const auto seen = seen_together(frames, session.timeline());
-  if (!seen) return {};
-  const std::uint64_t last = seen->last - 1;
-  std::string text = format("a quarter of the frames or more would show what moves two or three times: samples are "
-                            "made between pictures {} … {}, which takes most of the time; --between off leaves them out",
-                            seen->first, last);
-  if (!options.quiet && !options.json) print_note("note: " + text);
+  const auto between = options.has("between") ? std::nullopt : joining_samples(request, frames, session);
+  if (!between) return {};
+  const auto say = [&](std::string text) {
+    if (!options.quiet && !options.json) print_note("note: " + text);
+    return text;
+  };
+  const std::string text =
+      format("a quarter of the frames or more would show what moves two or three times: samples are made between "
+             "pictures {} … {}, which takes most of the time; --between off leaves them out",
+             between->first, between->last);
+  Session::Terms telling = terms;  // once it has begun
+  telling.progress = [&, is_said = false](std::uint64_t, std::uint64_t) mutable {
+    if (!std::exchange(is_said, true)) static_cast<void>(say(text));
+  };
   Options joined = options;
-  const std::string between = BetweenRequest{.first = seen->first, .last = last}.text();
-  option_of(CommandId::video, "between")->restate(joined, {between});
+  option_of(CommandId::video, "between")->restate(joined, {between->text()});
   static_cast<void>(Session(std::move(session)));  // ended, before another takes its memory
   try {
-    session = open_session(joined, terms);
+    session = open_session(joined, telling);
     options = std::move(joined);
+    return text;
   } catch (const Error& error) {
     // Parts of one film are alike.
     if (!is_refusal(error) || request.numbers || options.skip_existing) throw;
     session = open_session(options, terms);
-    text = format("frames show what moves two or three times, and samples that join it cannot be made: {}", error.what());
-    if (!options.quiet && !options.json) print_note("note: " + text);
+    return say(format("frames show what moves two or three times: samples cannot be made: {}", error.what()));
   }
-  return text;
 }
 
 int run_video(const Options& stated) {

@@ -7,6 +7,7 @@
 #include "capture/format.hpp"
 #include "exposure/function_text.hpp"
 #include "features/series/picture_queue.hpp"
+#include "media/events/event_clip.hpp"
 #include "media/formats/extension.hpp"
 #include "media/formats/numbered_name.hpp"
 #include "media/frame_queue.hpp"
@@ -15,6 +16,16 @@
 #include "system/is_absent.hpp"
 
 namespace nutik {
+
+std::optional<BetweenRequest> joining_samples(const FramesRequest& request, const Frames& frames,
+                                              const Session& session) {
+  const std::string clip = session.source().path.string();
+  if (!session.is_clip() || request.exposure.combine != Combine::integral) return {};
+  if (is_standard_input(clip) || is_event_recording(clip)) return {};
+  const auto seen = seen_together(frames, session.timeline());
+  if (!seen) return {};
+  return BetweenRequest{.first = seen->first, .last = seen->last - 1};
+}
 
 OwnRecipe frame_recipe(const FramesRequest& request, const Frames& frames, std::uint64_t frame,
                        const std::string& functions_name) {
@@ -81,7 +92,7 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
                      const VideoOutput& output, const ReportedProgress& progress,
                      const std::function<std::string(std::uint64_t frame, const Exposure& exposure,
                                                      const ExposedPicture& exposed)>& add,
-                     FilmSoundWish wish) {
+                     FilmSoundWish wish, std::optional<Precision> precision) {
   CaptureFormat capture = session.format();
   const PlanOptions plan = plan_options_of(request.exposure, capture.shape);
   const bool mask_changes = !request.keys.masks.empty();
@@ -99,7 +110,9 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
   const std::size_t count = frames.numbers.size();
   PictureLine<ExposedPicture> line(session.pictures_at_once(frame_format.type, count));
   std::size_t asked = 0;
-  const auto expose = [&](std::uint64_t frame, const RenderControl& control) {
+  const auto expose = [&](std::uint64_t frame, RenderControl control) {
+    control.precision = precision;
+    control.is_chosen = precision.has_value();
     const ExposureRequest wanted = exposure_of(request, frames, frame);
     const FunctionSet functions = functions_of(wanted, frames.exposure(frame), session.timeline());
     return session.render(functions, mask_changes ? mask_of(wanted, capture.shape) : mask, plan, frame_format,

@@ -68,19 +68,24 @@ struct MadeVideo {
   std::optional<FilmSound> sound;           // that it has
 };
 
+// Which samples are made between a clip's pictures so that frames do not show what moves two or three times; for a
+// film of which nobody stated that. None of a .tik, of events and of a stream, nor of frames that hold single samples.
+[[nodiscard]] std::optional<BetweenRequest> joining_samples(const FramesRequest& request, const Frames& frames,
+                                                            const Session& session);
+
 // What the recipe of a frame's still states for itself: when it was exposed, and with keys what its functions (as a text
 // with that name) and its mask were.
 [[nodiscard]] OwnRecipe frame_recipe(const FramesRequest& request, const Frames& frames, std::uint64_t frame,
                                      const std::string& functions_name);
 
 // `frames` are those of the request on the session's timeline; stills have the frames' numbers. `add`, which may be
-// empty, is told each frame as it was exposed, and returns the text that goes into it where frames are stills. Throws
-// what Session::render() does, and OutputError.
+// empty, is told each frame as it was exposed, and returns the text that goes into it where frames are stills. No
+// `precision`: that of the session's devices. Throws what Session::render() does, and OutputError.
 [[nodiscard]] MadeVideo make_video(
     Session& session, const FramesRequest& request, const Frames& frames, const VideoOutput& output,
     const ReportedProgress& progress,
     const std::function<std::string(std::uint64_t frame, const Exposure& exposure,
                                     const ExposedPicture& exposed)>& add,
-    FilmSoundWish sound = FilmSoundWish::as_it_is);
+    FilmSoundWish sound = FilmSoundWish::as_it_is, std::optional<Precision> precision = {});
 
 }  // namespace nutik

@@ -128,7 +128,7 @@ void Canvas::keyPressEvent(QKeyEvent* event) {
       if (tool_ == nullptr && is_workable()) document_.set_probe(pixel_at(key_pointer()));
       return update();
     case Qt::Key_Escape:
-      if (!is_stroking_ && !document_.probe()) event->ignore();
+      if (!is_stroking_ && (tool_ != nullptr || !document_.probe())) event->ignore();
       if (tool_ != nullptr) {
         tool_->give_up();
       } else {

@@ -84,7 +84,7 @@ void NumberEditor::enter() {
   ControlPoint typed = point_;
   if (time_->isModified()) {
     if (timeline_ == nullptr) return refuse(tr("Open a capture first"));
-    const auto time = read_typed_time(time_->text(), "time", *timeline_);
+    const auto time = read_typed_time(time_->text(), *timeline_);
     if (!time.value) {
       time_->setFocus();
       return refuse(time.mistake);

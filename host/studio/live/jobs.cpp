@@ -22,7 +22,7 @@ Jobs::~Jobs() {
 }
 
 void Jobs::start(const QString& what, Work work) {
-  ++open_;
+  open_ += what;
   const std::scoped_lock lock(mutex_);
   waiting_.push_back({what, std::move(work), round_});
   changed_.notify_all();
@@ -36,7 +36,7 @@ void Jobs::cancel() {
     dropped = std::exchange(waiting_, {});
     current_.request_stop();
   }
-  open_ -= static_cast<int>(dropped.size());
+  for (const Waiting& each : dropped) open_.removeOne(each.what);
   if (!dropped.empty()) Q_EMIT ended();
 }
 
@@ -60,15 +60,19 @@ void Jobs::run(Waiting& waiting) {
     const std::scoped_lock lock(mutex_);
     stop = current_.get_token();
   }
+  const auto report = [&](std::uint64_t done, std::uint64_t total) {
+    QMetaObject::invokeMethod(
+        this, [this, what = waiting.what, done, total] { Q_EMIT progressed(what, done, total); },
+        Qt::QueuedConnection);
+  };
+  report(0, 0);  // it may take long until it knows more
   Clock::time_point last_report{};
   const auto progress = [&](std::uint64_t done, std::uint64_t total) {
     if (stop.stop_requested()) throw Cancelled();
     const Clock::time_point now = Clock::now();
     if (now - last_report < kBetweenReports && done != total) return;
     last_report = now;
-    QMetaObject::invokeMethod(
-        this, [this, what = waiting.what, done, total] { Q_EMIT progressed(what, done, total); },
-        Qt::QueuedConnection);
+    report(done, total);
   };
   Finish finish;
   QString error;
@@ -81,7 +85,7 @@ void Jobs::run(Waiting& waiting) {
   QMetaObject::invokeMethod(
       this,
       [this, finish, error, what = waiting.what, round = waiting.round] {
-        --open_;
+        open_.removeOne(what);
         if (round == round_ && finish) finish();
         if (round == round_ && !error.isEmpty()) Q_EMIT failed(what, error);
         Q_EMIT ended();

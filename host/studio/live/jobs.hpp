@@ -6,6 +6,7 @@
 #pragma once
 
 #include <QObject>
+#include <QStringList>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -45,7 +46,8 @@ class Jobs : public QObject {
   }
   // The one that runs and those that wait. What the one that runs would have returned is dropped.
   void cancel();
-  [[nodiscard]] bool is_busy() const { return open_ > 0; }
+  [[nodiscard]] bool is_busy() const { return !open_.isEmpty(); }
+  [[nodiscard]] const QStringList& open() const { return open_; }  // what was started and has not ended
 
  Q_SIGNALS:
   void progressed(const QString& what, quint64 done, quint64 total);  // total 0: not known
@@ -62,7 +64,7 @@ class Jobs : public QObject {
   void run(const std::stop_token& stop);
   void run(Waiting& waiting);
 
-  int open_ = 0;             // started and not ended; the window's
+  QStringList open_;         // the window's
   std::uint64_t round_ = 0;  // counts cancellations; the window's
 
   std::mutex mutex_;  // guards what follows

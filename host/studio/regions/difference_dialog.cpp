@@ -118,8 +118,8 @@ void ask_difference(QWidget* parent, const Timeline& timeline, const Difference&
   mistake->hide();
   form->setSizeConstraint(QLayout::SetFixedSize);
   from->selectAll();
-  const auto read = [mistake, timeline](QLineEdit& field, const QString& what) -> std::optional<std::int64_t> {
-    const auto typed = read_typed_time(field.text(), what, timeline);
+  const auto read = [mistake, timeline](QLineEdit& field) -> std::optional<std::int64_t> {
+    const auto typed = read_typed_time(field.text(), timeline);
     const std::int64_t last_ns = timeline.duration_ns() - 1;
     if (typed.value && *typed.value >= 0 && *typed.value <= last_ns) return typed.value;
     mistake->setText(typed.value ? Document::tr("The capture has pictures from 0 s to %1: %2 is not within")
@@ -133,9 +133,9 @@ void ask_difference(QWidget* parent, const Timeline& timeline, const Difference&
   };
   QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
   QObject::connect(buttons, &QDialogButtonBox::accepted, dialog, [=, use = std::move(use)] {
-    const auto from_ns = read(*from, "from");
+    const auto from_ns = read(*from);
     if (!from_ns) return;
-    const auto to_ns = read(*to, "to");
+    const auto to_ns = read(*to);
     if (!to_ns) return;
     const auto least = static_cast<std::uint32_t>(codes->value());
     dialog->accept();

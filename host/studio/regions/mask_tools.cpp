@@ -23,9 +23,18 @@ struct Target {
   static Target of(const Document& document, Qt::KeyboardModifiers keys) {
     return {document.selected_tag(), (keys & Qt::AltModifier) != 0};
   }
-  void stroke(Document& document, const Region& region, const QString& what) const {
+  // Where there is no region yet the stroke makes one, in the same step of undo.
+  void stroke(Document& document, const Region& region, const QString& what) {
     if (loses && tag != kBackground) return erase_region(document, region, tag, what);
+    const bool makes_region = !loses && document.state().order.empty();
+    const bool is_step = makes_region && !document.is_dragging();
+    if (is_step) document.begin_drag();
+    if (makes_region) {
+      add_region(document);
+      tag = document.selected_tag();
+    }
     paint_region(document, region, tag, what);
+    if (is_step) document.end_drag();
   }
 };
 

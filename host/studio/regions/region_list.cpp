@@ -202,7 +202,9 @@ void RegionList::follow() {
   }
   for (int row = 0; row < list_->topLevelItemCount(); ++row)
     fill(*list_->topLevelItem(row), tags[static_cast<std::size_t>(row)]);
-  list_->setColumnHidden(kClipped, std::ranges::all_of(clipped_, [](std::uint64_t pixels) { return pixels == 0; }));
+  const bool is_clipped = std::ranges::any_of(clipped_, [](std::uint64_t pixels) { return pixels > 0; });
+  list_->setColumnHidden(kClipped, !is_clipped);
+  list_->setColumnHidden(kEv, is_clipped);  // names need room, and Still says the same
   feather_->setValue(document_.state().feather.everywhere / 100.0);
   follow_selection();
 }

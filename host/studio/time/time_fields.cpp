@@ -46,7 +46,9 @@ TimeFields::TimeFields(Document& document, QWidget* parent)
   said_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   row->addWidget(said_, 1);
   connect(&document_, &Document::changed, this, &TimeFields::show_values);
-  connect(&document_, &Document::capture_changed, this, &TimeFields::show_values);
+  connect(&document_, &Document::capture_changed, this, [this] {
+    for (QLineEdit* field : {start_, length_, in_, out_}) accept(*field);
+  });
   connect(&document_, &Document::marks_changed, this, &TimeFields::show_values);
   show_values();
 }
@@ -101,20 +103,20 @@ void TimeFields::refuse(QLineEdit& field, const QString& mistake) {
   warning.setColor(QPalette::WindowText, TimeColours::of(palette()).warning);
   said_->setPalette(warning);
   said_->setWordWrap(true);  // it is read whole
-  said_->setText(mistake);
-  said_->setToolTip(mistake);
+  said_->setText(tr("%1: %2").arg(field.accessibleName(), mistake));
+  said_->setToolTip(said_->text());
   field.setAccessibleDescription(mistake);
 }
 
 void TimeFields::accept(QLineEdit& field) {
-  field.setModified(false);
+  field.setText(field.text());  // from here on undoing it is the window's
   field.setAccessibleDescription(field.toolTip());
   show_values();
 }
 
 void TimeFields::enter_start() {
   if (!start_->isModified()) return;
-  const auto typed = read_typed_time(start_->text(), "start", document_.facts()->timeline);
+  const auto typed = read_typed_time(start_->text(), document_.facts()->timeline);
   if (!typed.value) return refuse(*start_, typed.mistake);
   const std::int64_t last_ns = document_.duration_ns() - document_.boxcar().length_ns;
   if (*typed.value < 0 || *typed.value > last_ns)
@@ -127,7 +129,7 @@ void TimeFields::enter_start() {
 
 void TimeFields::enter_length() {
   if (!length_->isModified()) return;
-  const auto typed = read_typed_length(length_->text(), "width", document_.facts()->timeline);
+  const auto typed = read_typed_length(length_->text(), document_.facts()->timeline);
   if (!typed.value) return refuse(*length_, typed.mistake);
   if (*typed.value > document_.duration_ns())
     return refuse(*length_, tr("The capture lasts %1: the width can be no more")
@@ -136,17 +138,16 @@ void TimeFields::enter_length() {
   accept(*length_);
 }
 
-void TimeFields::enter_in() { enter_mark(*in_, "in", &Document::set_mark_in); }
-void TimeFields::enter_out() { enter_mark(*out_, "out", &Document::set_mark_out); }
+void TimeFields::enter_in() { enter_mark(*in_, &Document::set_mark_in); }
+void TimeFields::enter_out() { enter_mark(*out_, &Document::set_mark_out); }
 
-void TimeFields::enter_mark(QLineEdit& field, const QString& what,
-                            void (Document::*set)(std::optional<std::int64_t>)) {
+void TimeFields::enter_mark(QLineEdit& field, void (Document::*set)(std::optional<std::int64_t>)) {
   if (!field.isModified()) return;
   if (field.text().trimmed().isEmpty()) {
     (document_.*set)(std::nullopt);
     return accept(field);
   }
-  const auto typed = read_typed_time(field.text(), what, document_.facts()->timeline);
+  const auto typed = read_typed_time(field.text(), document_.facts()->timeline);
   if (!typed.value) return refuse(field, typed.mistake);
   if (*typed.value < 0 || *typed.value > document_.duration_ns())
     return refuse(field, tr("Marks lie within the capture, between 0 s and %1")

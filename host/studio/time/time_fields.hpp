@@ -31,7 +31,7 @@ class TimeFields : public QWidget {
   void enter_length();
   void enter_in();
   void enter_out();
-  void enter_mark(QLineEdit& field, const QString& what, void (Document::*set)(std::optional<std::int64_t>));
+  void enter_mark(QLineEdit& field, void (Document::*set)(std::optional<std::int64_t>));
   void refuse(QLineEdit& field, const QString& mistake);
   void accept(QLineEdit& field);
 

@@ -28,9 +28,21 @@ std::string typed_number(QString text) {
       .toStdString();
 }
 
-Typed<std::int64_t> within_reach(std::int64_t time_ns, const QString& what) {
-  if (std::abs(time_ns) <= kLargestTimeNs) return {time_ns, {}};
-  return {std::nullopt, TimeAxis::tr("%1 lies further than 126 years from the start of the capture").arg(what)};
+// What the engine refuses is said in the window's language. `time_of` throws UsageError for samples that are not there.
+Typed<std::int64_t> read_typed(const QString& text, const Timeline& timeline,
+                               std::int64_t (*time_of)(const StatedTime&, const Timeline&)) {
+  std::optional<StatedTime> time;
+  try {
+    time = StatedTime::parse(typed_number(text), {});
+    const std::int64_t time_ns = time_of(*time, timeline);
+    if (std::abs(time_ns) <= kLargestTimeNs) return {time_ns, {}};
+  } catch (const UsageError&) {
+  }
+  if (time && time->counts_samples())
+    return {std::nullopt, TimeAxis::tr("'%1' is outside the capture, which has %2 samples, or is no whole number")
+                              .arg(text.trimmed()).arg(timeline.sample_count())};
+  return {std::nullopt, TimeAxis::tr("'%1' is no time of up to 126 years; write a number and a unit: 0.4 s, 10 ms, "
+                                     "1/100 s or 37f").arg(text.trimmed())};
 }
 
 }  // namespace
@@ -55,30 +67,27 @@ QString exact_time_text(std::int64_t time_ns) {
   return text_of(digits + " " + unit->name);
 }
 
-Typed<std::int64_t> read_typed_time(const QString& text, const QString& what, const Timeline& timeline) {
-  try {
-    const StatedTime time = StatedTime::parse(typed_number(text), what.toStdString());
-    return within_reach(moment_ns(time, timeline), what);
-  } catch (const UsageError& error) {
-    return {std::nullopt, text_of(error.what())};
-  }
+Typed<std::int64_t> read_typed_time(const QString& text, const Timeline& timeline) {
+  return read_typed(text, timeline, moment_ns);
 }
 
-Typed<std::int64_t> read_typed_length(const QString& text, const QString& what, const Timeline& timeline) {
-  try {
-    const StatedTime time = StatedTime::parse(typed_number(text), what.toStdString());
-    const Exposure interval = plain_interval(StatedTime::of_nanoseconds(0), time, timeline);
-    return within_reach(interval.end_ns - interval.start_ns, what);
-  } catch (const UsageError& error) {
-    return {std::nullopt, text_of(error.what())};
-  }
+Typed<std::int64_t> read_typed_length(const QString& text, const Timeline& timeline) {
+  const auto read = read_typed(text, timeline, [](const StatedTime& time, const Timeline& of) {
+    if (time.number.numerator <= 0) return std::int64_t{0};
+    const Exposure interval = plain_interval(StatedTime::of_nanoseconds(0), time, of);
+    return interval.end_ns - interval.start_ns;
+  });
+  if (read.value != 0) return read;
+  return {std::nullopt, TimeAxis::tr("'%1' is not longer than nothing").arg(text.trimmed())};
 }
 
 QString gain_text(double gain) { return text_of(format("{}", gain)); }
 
 Typed<double> read_typed_gain(const QString& text) {
   const auto read = read_gain(typed_number(text));
-  if (!read.mistake.empty()) return {std::nullopt, text_of(read.mistake)};
+  if (!read.mistake.empty())
+    return {std::nullopt,
+            TimeAxis::tr("'%1' is no gain; write a number such as 1, -0.5 or 2e-3").arg(text.trimmed())};
   return {read.value, {}};
 }
 

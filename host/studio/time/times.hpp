@@ -19,12 +19,10 @@ struct Typed {
 // `400.000001 ms`, `1.5 s`: no digit is lost, and read_typed_time() reads it back.
 [[nodiscard]] QString exact_time_text(std::int64_t time_ns);
 // As times are stated everywhere (session/requests/moments.hpp), blanks between number and unit allowed; `37f` is
-// the start of picture 37. `what` names it in the mistake.
-[[nodiscard]] Typed<std::int64_t> read_typed_time(const QString& text, const QString& what,
-                                                  const Timeline& timeline);
+// the start of picture 37.
+[[nodiscard]] Typed<std::int64_t> read_typed_time(const QString& text, const Timeline& timeline);
 // The same of a length, which is at least 1 ns; `3f` are three mean periods.
-[[nodiscard]] Typed<std::int64_t> read_typed_length(const QString& text, const QString& what,
-                                                    const Timeline& timeline);
+[[nodiscard]] Typed<std::int64_t> read_typed_length(const QString& text, const Timeline& timeline);
 
 // As many digits as it takes to read the same number back.
 [[nodiscard]] QString gain_text(double gain);

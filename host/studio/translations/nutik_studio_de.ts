@@ -686,12 +686,12 @@ Zeiten und Bilder zählen ab In.</translation>
         <translation>Die Aufnahme hat Bilder von 0 s bis %1: %2 liegt außerhalb</translation>
     </message>
     <message>
-        <source>They would show what moves two or three times: samples were made between pictures %1 … %2.</source>
-        <translation>Sie würden Bewegtes zwei- oder dreifach zeigen: Zwischen den Bildern %1 … %2 wurden Samples erzeugt.</translation>
+        <source>Samples were made between pictures %1 … %2, so that no frame shows what moves two or three times.</source>
+        <translation>Zwischen den Bildern %1 … %2 wurden Samples erzeugt, damit kein Filmbild Bewegtes zwei- oder dreifach zeigt.</translation>
     </message>
     <message>
-        <source>They show what moves two or three times: %1</source>
-        <translation>Sie zeigen Bewegtes zwei- oder dreifach: %1</translation>
+        <source>Its frames show what moves two or three times: %1</source>
+        <translation>Seine Bilder zeigen Bewegtes zwei- oder dreifach: %1</translation>
     </message>
 </context>
 <context>
@@ -709,12 +709,12 @@ Zeiten und Bilder zählen ab In.</translation>
         <translation> (Datei, Wie der Clip gelesen wird)</translation>
     </message>
     <message>
-        <source>%1: %2, %3</source>
-        <translation>%1: %2, %3</translation>
-    </message>
-    <message>
         <source>no light beyond white</source>
         <translation>kein Licht über Weiß</translation>
+    </message>
+    <message>
+        <source>%1 was written: %2, %3</source>
+        <translation>%1 wurde geschrieben: %2, %3</translation>
     </message>
 </context>
 <context>
@@ -927,10 +927,6 @@ Mit wie vielen Bildern pro Sekunde wurde gefilmt?</translation>
     <message>
         <source>it tilted, too</source>
         <translation>sie kippte auch</translation>
-    </message>
-    <message>
-        <source>The project&apos;s mask is %1 × %2 pixels large, the capture %3 × %4: the mask was left out.</source>
-        <translation>Die Maske des Projekts ist %1 × %2 Pixel groß, die Aufnahme %3 × %4: Die Maske wurde weggelassen.</translation>
     </message>
     <message>
         <source>The project&apos;s last save did not come to its end. It is shown as it was to be; its functions and mask may be as they were before. Saving it writes them.</source>
@@ -1361,16 +1357,8 @@ Zeit und Gain nach dem Filmen: Gain-Funktionen und Masken werden gezeichnet, und
         <translation>Ohne Bewegtes. Esc: zurück zum Bild</translation>
     </message>
     <message>
-        <source>This scene is no exposure: it can be saved as a picture of its own.</source>
-        <translation>Diese Szene ist keine Belichtung: Sie lässt sich als eigenes Bild speichern.</translation>
-    </message>
-    <message>
         <source>Save…</source>
         <translation>Speichern…</translation>
-    </message>
-    <message>
-        <source>Export the interval as a film</source>
-        <translation>Intervall als Film exportieren</translation>
     </message>
     <message>
         <source>Films and numbered pictures (*.mp4 *.mov *.mkv *.webm *.gif *.webp *-%05d.png)</source>
@@ -1395,6 +1383,54 @@ Zeit und Gain nach dem Filmen: Gain-Funktionen und Masken werden gezeichnet, und
     <message>
         <source>Writing %1</source>
         <translation>%1 wird geschrieben</translation>
+    </message>
+    <message>
+        <source>Files are being written</source>
+        <translation>Es werden Dateien geschrieben</translation>
+    </message>
+    <message>
+        <source>&amp;Finish in the background</source>
+        <translation>Im &amp;Hintergrund fertigstellen</translation>
+    </message>
+    <message>
+        <source>&amp;Stop</source>
+        <translation>&amp;Stoppen</translation>
+    </message>
+    <message>
+        <source>%1: the program ended before it was done.</source>
+        <translation>%1: Das Programm endete, bevor das fertig war.</translation>
+    </message>
+    <message>
+        <source>Save the project first: recipes name its files</source>
+        <translation>Erst das Projekt speichern: Rezepte nennen seine Dateien</translation>
+    </message>
+    <message>
+        <source>The scene without what moves. It can be saved as a picture of its own; Escape goes back to the exposure.</source>
+        <translation>Die Szene ohne das, was sich bewegt. Sie lässt sich als eigenes Bild speichern; Escape führt zur Belichtung zurück.</translation>
+    </message>
+    <message>
+        <source>Export a film of the regions</source>
+        <translation>Einen Film der Regionen exportieren</translation>
+    </message>
+    <message>
+        <source>Export a film</source>
+        <translation>Einen Film exportieren</translation>
+    </message>
+    <message>
+        <source>The film begins with the picture that is shown, and the functions of its regions move on through the capture. For a film with a shutter angle choose One interval for all, at the side.</source>
+        <translation>Der Film beginnt mit dem gezeigten Bild, und die Funktionen seiner Regionen wandern weiter durch die Aufnahme. Für einen Film mit Verschlusswinkel wählen Sie an der Seite „Ein Intervall für alle“.</translation>
+    </message>
+    <message>
+        <source>its pictures are %3 × %4 pixels large, and the project&apos;s mask %1 × %2</source>
+        <translation>seine Bilder sind %3 × %4 Pixel groß, und die Maske des Projekts %1 × %2</translation>
+    </message>
+    <message>
+        <source>Still at work: %1
+
+What is stopped leaves no file, but for the numbered pictures that are there already.</source>
+        <translation>In Arbeit: %1
+
+Was gestoppt wird, hinterlässt keine Datei, außer nummerierten Bildern, die schon da sind.</translation>
     </message>
 </context>
 <context>
@@ -1667,8 +1703,20 @@ Zeit und Gain nach dem Filmen: Gain-Funktionen und Masken werden gezeichnet, und
 <context>
     <name>nutik::studio::TimeAxis</name>
     <message>
-        <source>%1 lies further than 126 years from the start of the capture</source>
-        <translation>%1 liegt mehr als 126 Jahre vom Anfang der Aufnahme entfernt</translation>
+        <source>&apos;%1&apos; is outside the capture, which has %2 samples, or is no whole number</source>
+        <translation>&apos;%1&apos; liegt außerhalb der Aufnahme, die %2 Samples hat, oder ist keine ganze Zahl</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not longer than nothing</source>
+        <translation>&apos;%1&apos; ist nicht länger als nichts</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is no gain; write a number such as 1, -0.5 or 2e-3</source>
+        <translation>&apos;%1&apos; ist kein Gain; schreiben Sie eine Zahl wie 1, -0.5 oder 2e-3</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is no time of up to 126 years; write a number and a unit: 0.4 s, 10 ms, 1/100 s or 37f</source>
+        <translation>&apos;%1&apos; ist keine Zeit bis 126 Jahre; schreiben Sie Zahl und Einheit: 0.4 s, 10 ms, 1/100 s oder 37f</translation>
     </message>
 </context>
 <context>
@@ -1736,6 +1784,10 @@ Zeit und Gain nach dem Filmen: Gain-Funktionen und Masken werden gezeichnet, und
     <message>
         <source>Marks lie within the capture, between 0 s and %1</source>
         <translation>Marken liegen in der Aufnahme, zwischen 0 s und %1</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1: %2</translation>
     </message>
 </context>
 <context>

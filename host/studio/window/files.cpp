@@ -7,6 +7,10 @@
 #include <QLocale>
 #include <QMenu>
 #include <QMessageBox>
+#include <QPushButton>
+#include <QSettings>
+#include <cerrno>
+#include <csignal>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -20,6 +24,15 @@
 #include "tik/reader.hpp"
 
 namespace nutik::studio {
+namespace {
+
+// What is being written, by processes; and what was written while no window was open.
+constexpr const char *kWritingKey = "writing", *kWrittenKey = "written";
+
+QString writing_key() { return QString("%1/%2").arg(kWritingKey).arg(QCoreApplication::applicationPid()); }
+
+}  // namespace
+
 FileTimes times_of(const QStringList& files) {
   FileTimes times;
   for (const QString& file : files) times[file] = QFileInfo(file).lastModified();
@@ -76,12 +89,13 @@ bool MainWindow::save_project(const QString& path) {
   autosave_.begin();
   document_.undo_stack().setClean();
   remember_file(path);
+  if (!canvas_->shows_first_look()) remember_picture(path, canvas_->image());
   follow_title();
   return true;
 }
 
-bool MainWindow::save() {
-  if (project_.isEmpty()) return save_as();
+bool MainWindow::save(const QString& why) {
+  if (project_.isEmpty()) return save_as(why);
   const QStringList changed = changed_outside();
   QStringList lines;
   for (const QString& file : changed)
@@ -163,10 +177,11 @@ void MainWindow::fill_unsaved(QMenu& menu) {
   menu.addAction(tr("&Remove all of these…"), this, &MainWindow::remove_unsaved);
 }
 
-bool MainWindow::save_as() {
+bool MainWindow::save_as(const QString& why) {
   if (document_.facts() == nullptr) return false;
   const QString path =
-      named_file(tr("Save the project"), kProjectExtension, tr("Projects (*%1)").arg(kProjectExtension));
+      named_file(why.isEmpty() ? tr("Save the project") : why, kProjectExtension,
+                 tr("Projects (*%1)").arg(kProjectExtension));
   if (path.isEmpty()) return false;
   return path == project_ ? save() : save_project(path);
 }
@@ -180,13 +195,65 @@ bool MainWindow::may_leave() {
   return answer == QMessageBox::Discard;
 }
 
+bool MainWindow::may_leave_writing() {
+  if (!writing_.is_busy()) return true;
+  QMessageBox question(QMessageBox::Question, tr("Files are being written"),
+                       tr("Still at work: %1\n\nWhat is stopped leaves no file, but for the numbered pictures that "
+                          "are there already.")
+                           .arg(writing_.open().join('\n')),
+                       QMessageBox::Cancel, this);
+  const QAbstractButton* finish = question.addButton(tr("&Finish in the background"), QMessageBox::AcceptRole);
+  const QAbstractButton* stop = question.addButton(tr("&Stop"), QMessageBox::DestructiveRole);
+  question.exec();
+  if (question.clickedButton() == stop) {
+    writing_.cancel();
+    QSettings().remove(writing_key());  // a person knows
+  }
+  return question.clickedButton() == stop || question.clickedButton() == finish;
+}
+
+// For the next window to tell, in case the program ends before that.
+void MainWindow::keep_writing() const {
+  writing_.is_busy() ? QSettings().setValue(writing_key(), writing_.open()) : QSettings().remove(writing_key());
+}
+
+void MainWindow::write(const QString& what, Jobs::Work work) {
+  writing_.start(what, std::move(work));
+  keep_writing();
+}
+
+Told MainWindow::told_written() {
+  return [this](const QString& line) {
+    notice_->say(Notice::Kind::note, line);
+    QSettings kept;
+    if (!isVisible()) kept.setValue(kWrittenKey, kept.value(kWrittenKey).toStringList() + QStringList(line));
+  };
+}
+
+// What was written since all windows were closed, and what was to be written by programs that are gone.
+QStringList MainWindow::written_meanwhile() {
+  QSettings kept;
+  QStringList lines = kept.value(kWrittenKey).toStringList();
+  kept.remove(kWrittenKey);
+  kept.beginGroup(kWritingKey);
+  for (const QString& process : kept.childKeys()) {
+    if (kill(process.toInt(), 0) == 0 || errno != ESRCH) continue;
+    for (const QString& what : kept.value(process).toStringList())
+      lines += tr("%1: the program ended before it was done.").arg(what);
+    kept.remove(process);
+  }
+  return lines;
+}
+
 bool MainWindow::has_files() const {
   return document_.mode() == ExposureMode::boxcar ||
          (!project_.isEmpty() && document_.undo_stack().isClean());
 }
 
 // A command names files: they have to hold what is shown.
-bool MainWindow::ensure_files() { return document_.facts() != nullptr && (has_files() || save()); }
+bool MainWindow::ensure_files() {
+  return document_.facts() != nullptr && (has_files() || save(tr("Save the project first: recipes name its files")));
+}
 
 QString MainWindow::command_for(const QString& picture) const {
   return command_line(document_, files_, picture, written_);

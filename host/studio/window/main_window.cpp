@@ -1,11 +1,13 @@
 #include "studio/window/main_window.hpp"
 
 #include <QActionGroup>
+#include <QComboBox>
 #include <QDir>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFileInfo>
 #include <QGridLayout>
+#include <QLineEdit>
 #include <QMimeData>
 #include <QScreen>
 #include <QSettings>
@@ -36,6 +38,19 @@ namespace {
 
 constexpr const char* kWindowKey = "window";
 
+struct OfAnotherClip : InputError {
+  using InputError::InputError;
+};
+
+// A project is not shown without its mask, over which the next save would write.
+void check_mask(const std::optional<DocumentState>& state, const Shape& shape) {
+  if (!state || !state->mask) return;
+  const Mask& mask = (*state->mask)->mask;
+  if (mask.width == shape.width && mask.height == shape.height) return;
+  throw OfAnotherClip(MainWindow::tr("its pictures are %3 × %4 pixels large, and the project's mask %1 × %2")
+                          .arg(mask.width).arg(mask.height).arg(shape.width).arg(shape.height).toStdString());
+}
+
 }  // namespace
 
 MainWindow::MainWindow(const ComputingRequest& computing)
@@ -59,9 +74,10 @@ void MainWindow::build_window() {
   setAcceptDrops(true);
   notice_ = new Notice;
   offer_ = new Notice;
+  QStringList told = written_meanwhile();
   if (!Autosave::found().empty())
-    offer_->say(Notice::Kind::note,
-                tr("There is unsaved work of a window that did not end well: File, Recover unsaved work."));
+    told += tr("There is unsaved work of a window that did not end well: File, Recover unsaved work.");
+  offer_->say(Notice::Kind::note, told.join('\n'));
   canvas_ = new Canvas(document_);
   canvas_->setObjectName("canvas");
   // Over the picture, which stays where it is whatever is said.
@@ -158,6 +174,11 @@ void MainWindow::keep_window() {
 }
 
 void MainWindow::connect_parts() {
+  for (auto* field : findChildren<QWidget*>()) {
+    const bool has_wheel = qobject_cast<QAbstractSpinBox*>(field) || qobject_cast<QComboBox*>(field);
+    if (has_wheel || qobject_cast<QLineEdit*>(field)) field->installEventFilter(this);
+    if (has_wheel) field->setFocusPolicy(Qt::StrongFocus);  // not by the wheel
+  }
   connect(&live_, &LiveView::pictured, this, [this](const ShownPicture& picture) {
     canvas_->show_picture(picture);
     status_->tell(picture);
@@ -182,6 +203,7 @@ void MainWindow::connect_parts() {
     if (!opening_.isEmpty() && !jobs_.is_busy()) stay();
   });
   connect(&writing_, &Jobs::ended, this, [this] {
+    keep_writing();
     if (!writing_.is_busy()) writes_on_.reset();
   });
   connect(canvas_, &Canvas::visible_changed, &live_, &LiveView::set_visible);
@@ -250,6 +272,7 @@ void MainWindow::open_capture_file(const QString& path, const Stated& stated, Or
                 try {
                   auto opened =
                       std::make_shared<Opened>(open_capture(path, stated, devices, job, first_look));
+                  check_mask(origin.state, opened->facts.format.shape);
                   return [this, opened, origin] { take(std::move(*opened), origin); };
                 } catch (const Error&) {
                   return [this, path, stated, origin, error = std::current_exception()] {
@@ -264,12 +287,13 @@ void MainWindow::tell_way_out(const QString& path, const Stated& stated, const O
   const QString why = sentence_of(error);
   const QFileInfo file(path);
   std::vector<Setting> settings;
-  bool is_cut_off = false;
+  bool is_cut_off = false, is_other = false;
   try {
     std::rethrow_exception(error);
   } catch (const Error& known) {
     settings = known.settings();
     is_cut_off = dynamic_cast<const tik::Recoverable*>(&known) != nullptr;
+    is_other = dynamic_cast<const OfAnotherClip*>(&known) != nullptr;
   }
   const auto helps = [&](Setting setting) { return std::ranges::find(settings, setting) != settings.end(); };
   if (!stated.contains("fps") && helps(Setting::frame_rate)) {
@@ -278,7 +302,7 @@ void MainWindow::tell_way_out(const QString& path, const Stated& stated, const O
   QString label;
   std::function<void()> way;
   const bool is_series = file.fileName().contains('%') && file.dir().exists();
-  if (!file.exists() && !is_series) {
+  if (is_other || (!file.exists() && !is_series)) {
     label = tr("Locate…");
     way = [this, stated, origin] {
       ask_for_file(tr("Where is it?"), tr("All files (*)"), [&](const QString& found) {
@@ -319,21 +343,6 @@ void MainWindow::take(Opened opened, Origin origin) {
   if (origin.left && *origin.left != document_.state() && !may_leave()) return;
   opening_.clear();
   std::optional<DocumentState>& state = origin.state;
-  if (state && state->mask) {
-    const Shape& shape = opened.facts.format.shape;
-    const Mask& mask = (*state->mask)->mask;
-    if (mask.width != shape.width || mask.height != shape.height) {
-      notice_->say(
-          Notice::Kind::error,
-          tr("The project's mask is %1 × %2 pixels large, the capture %3 × %4: the mask was left out.")
-              .arg(mask.width)
-              .arg(mask.height)
-              .arg(shape.width)
-              .arg(shape.height));
-      state->mask.reset();
-      state->covered.clear();
-    }
-  }
   project_ = origin.project;
   files_ = origin.files;
   known_ = std::move(origin.known);
@@ -470,7 +479,7 @@ bool MainWindow::is_settled() const {
 
 void MainWindow::follow_title() {
   const CaptureFacts* facts = document_.facts();
-  const bool is_another = canvas_->shows_first_look() && !opening_.isEmpty();
+  const bool is_another = !opening_.isEmpty() && (facts == nullptr || canvas_->shows_first_look());
   const QString name = is_another            ? opening_
                        : !project_.isEmpty() ? project_
                        : facts != nullptr    ? facts->path
@@ -499,7 +508,7 @@ bool MainWindow::event(QEvent* event) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (may_leave()) {
+  if (may_leave() && may_leave_writing()) {
     keep_window();
     autosave_.begin();
     stop_playing();

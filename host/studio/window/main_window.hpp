@@ -75,7 +75,7 @@ class MainWindow : public QMainWindow {
   // Into files of their own, which the project does not name; why that fails is said above the picture.
   void write_functions(const QString& path);
   void write_mask(const QString& path);
-  // In the background. Needs a saved project unless an interval is exposed.
+  // Both in the background, of a saved project unless an interval is exposed.
   void export_picture(const QString& path, const Stated& written = {});
   void export_film(const QString& path, const Stated& options);
   void start_study(const StudyRequest& request);
@@ -102,6 +102,7 @@ class MainWindow : public QMainWindow {
 
  protected:
   bool event(QEvent* event) override;
+  bool eventFilter(QObject* field, QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void keyReleaseEvent(QKeyEvent* event) override;
   void closeEvent(QCloseEvent* event) override;
@@ -152,11 +153,13 @@ class MainWindow : public QMainWindow {
   // starting.cpp
   void choose_file(const StartingPoint* then = nullptr);
   void choose_export();
+  [[nodiscard]] bool names_files();  // has_files(); else it is said
+  void write(const QString& what, Jobs::Work work);
   void choose_film();
   void choose_study();
   void offer_still_camera(StudyStyle style, const QString& why);
   void show_plate(const QImage& plate, const Marks& marks);
-  [[nodiscard]] Stated film_options() const;
+  [[nodiscard]] Stated film_options(ExposureMode of) const;
   void play_on();
   void stop_playing();
 
@@ -174,9 +177,12 @@ class MainWindow : public QMainWindow {
   void ask_for_file(const QString& title, const QString& filter, const Use& use);
   void ask_for_name(const QString& title, const QString& ending, const QString& filter, const Use& use);
   [[nodiscard]] QString named_file(const QString& title, const QString& ending, const QString& filter);
-  bool save();  // asks for a name where there is none
-  bool save_as();
+  bool save(const QString& why = {});  // asks for a name where there is none
+  bool save_as(const QString& why = {});
   bool may_leave();  // asks where something is not saved
+  bool may_leave_writing();  // asks what becomes of what is being written
+  void keep_writing() const;
+  [[nodiscard]] static QStringList written_meanwhile();
   bool ensure_files();
   void note_capture();
   [[nodiscard]] QStringList changed_outside() const;
@@ -194,6 +200,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] Told told() {
     return [this](const QString& line) { notice_->say(Notice::Kind::note, line); };
   }
+  [[nodiscard]] Told told_written();
 
   Document document_;
   // What a person waits for and may cancel; what is there in no time; pictures on their way to files, which opening
@@ -216,6 +223,7 @@ class MainWindow : public QMainWindow {
   std::optional<Frames> film_;
   std::unique_ptr<QEventLoopLocker> writes_on_;  // of a closed window
   std::shared_ptr<const MeasuredLight> light_;
+  Marks plate_;  // between which the scene without what moves was found, while it is shown
   struct Snapshot {
     DocumentState state;
     QImage image;

@@ -33,13 +33,14 @@ namespace {
 using NamedOptions = std::vector<std::pair<std::string, std::string>>;
 
 // All but the files, by name.
-NamedOptions options_of(const Document& document, const Stated& written) {
+NamedOptions options_of(const Document& document, const Stated& written, CommandId command = CommandId::expose) {
   const DocumentState& state = document.state();
   const bool is_plain = state.mode == ExposureMode::boxcar;
   const Stated& stated = document.facts()->stated;
   NamedOptions options(stated.begin(), stated.end());
   for (const auto& [name, value] : written)
-    if (option_of(CommandId::expose, name)->makes_picture()) options.emplace_back(name, value);
+    if (const Option& option = *option_of(command, name); option.is_of(CommandId::expose) && option.makes_picture())
+      options.emplace_back(name, value);
   if (state.brightness_ev != 0) options.emplace_back("ev", format("{}", state.brightness_ev));
   if (is_plain) options.emplace_back("exposure", StatedTime::of_nanoseconds(state.boxcar.length_ns).text());
   if (const Feather feather = feather_of(state); !is_plain && state.mask && feather != Feather())
@@ -235,12 +236,13 @@ QString command_line(const Document& document, const CommandFiles& files, const 
   return QString::fromStdString(line);
 }
 
-RecipeSources recipe_sources(const Document& document, const CommandFiles& files, const Stated& written) {
+RecipeSources recipe_sources(const Document& document, const CommandFiles& files, const Stated& written,
+                             CommandId command) {
   const DocumentState& state = document.state();
   RecipeSources sources{{}, document.facts()->path.toStdString(), {}};
   Recipe& recipe = sources.made;
   recipe.version = NUTIK_VERSION;
-  recipe.options = options_of(document, written);
+  recipe.options = options_of(document, written, command);
   recipe.renderer = "opencl";
   if (state.mode == ExposureMode::functions) {
     recipe.functions = Recipe::Text{file_name(files.functions),

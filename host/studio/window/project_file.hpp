@@ -12,6 +12,7 @@
 #include <string>
 
 #include "features/recipe/picture_recipe.hpp"
+#include "features/schema/command_id.hpp"
 #include "studio/document/document.hpp"
 
 namespace nutik::studio {
@@ -26,9 +27,9 @@ struct CommandFiles {
 // `written`: options of how the picture is written.
 [[nodiscard]] QString command_line(const Document& document, const CommandFiles& files,
                                    const QString& picture, const Stated& written = {});
-// Reads both files.
+// Reads both files. `command`: whose options were written.
 [[nodiscard]] RecipeSources recipe_sources(const Document& document, const CommandFiles& files,
-                                           const Stated& written = {});
+                                           const Stated& written = {}, CommandId command = CommandId::expose);
 
 struct Project {
   QString capture;

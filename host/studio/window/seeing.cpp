@@ -1,6 +1,8 @@
 // How the window looks at a picture: its light, another one beside it, keys that are held.
 #include <QAction>
 #include <QKeyEvent>
+#include <QLineEdit>
+#include <algorithm>
 
 #include "studio/regions/region_list.hpp"
 #include "studio/window/main_window.hpp"
@@ -28,6 +30,7 @@ void MainWindow::forget_light() {
   Glance glance = canvas_->glance();
   if (glance.marks.isNull() && glance.held.isNull() && glance.instead.isNull())
     return;  // nothing of the picture is painted anew
+  if (!glance.instead.isNull()) notice_->clear();  // which offers to save it
   glance.marks = glance.held = glance.instead = {};
   canvas_->look(std::move(glance));
 }
@@ -71,6 +74,26 @@ bool MainWindow::hold(int key, bool is_held) {
 // A key that is released in another window is released all the same.
 void MainWindow::let_go() {
   for (const int key : {Qt::Key_H, Qt::Key_M, Qt::Key_A}) hold(key, false);
+}
+
+// Fields would take the window's keys for their own: Ctrl+E, and Ctrl+Z where they have nothing to undo. Whoever turns
+// the wheel over them may mean the panel.
+bool MainWindow::eventFilter(QObject* field, QEvent* event) {
+  if (event->type() == QEvent::Wheel && !static_cast<QWidget*>(field)->hasFocus()) {
+    event->ignore();
+    return true;
+  }
+  auto* line = qobject_cast<QLineEdit*>(field);
+  if (line == nullptr) line = field->findChild<QLineEdit*>();
+  if (event->type() != QEvent::ShortcutOverride || line == nullptr) return false;
+  const auto& key = static_cast<const QKeyEvent&>(*event);
+  const bool is_fields = !key.modifiers().testFlag(Qt::ControlModifier) ||
+                         (key.matches(QKeySequence::Undo) && line->isUndoAvailable()) ||
+                         (key.matches(QKeySequence::Redo) && line->isRedoAvailable());
+  const auto is_asked = [&](const QAction* action) { return action->shortcuts().contains(key.keyCombination()); };
+  if (is_fields || std::ranges::none_of(findChildren<QAction*>(), is_asked)) return false;
+  event->ignore();
+  return true;
 }
 
 void MainWindow::keyPressEvent(QKeyEvent* event) {

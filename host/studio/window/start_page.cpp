@@ -115,6 +115,7 @@ StartPage::StartPage(QWidget* parent) : QWidget(parent), recent_(new QListWidget
   recent_->setGridSize(kPicture + QSize(12, 30));
   recent_->setTextElideMode(Qt::ElideMiddle);
   recent_->setFrameShape(QFrame::NoFrame);
+  recent_->setStyleSheet("activate-on-singleclick: 1");  // as the cards are
   connect(recent_, &QListWidget::itemActivated, this, [this](const QListWidgetItem* item) {
     Q_EMIT chosen(item->toolTip());
   });

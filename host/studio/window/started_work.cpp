@@ -28,11 +28,19 @@ QString text_of(std::span<const std::string> lines) {
 }
 
 // Each of a clip's stills is one.
-std::vector<std::string> inputs_of(const Document& document) {
+std::vector<std::string> inputs_of(const Document& document, const CommandFiles& files) {
   std::vector<std::string> inputs{document.facts()->path.toStdString()};
   for (const auto& still : list_stills(inputs.front()).value_or(std::vector<std::filesystem::path>{}))
     inputs.push_back(still.string());
+  if (document.mode() == ExposureMode::boxcar) return inputs;
+  inputs.push_back(files.functions.toStdString());
+  if (document.state().mask) inputs.push_back(files.mask.toStdString());
   return inputs;
+}
+
+std::optional<Shared<MaskWithRegions>> exposed_mask(const DocumentState& state) {
+  if (!state.mask || state.mode == ExposureMode::boxcar) return {};
+  return LiveView::feathered_mask(state);
 }
 
 // A function of a stretch in the whole capture's time: nothing outside of it.
@@ -154,29 +162,22 @@ Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session,
   const std::filesystem::path path = picture.toStdString();
   const Options options = options_in(CommandId::expose, written);
   check_quality(options.picture, path);
-  std::vector<std::string> inputs = inputs_of(document);
-  if (document.mode() == ExposureMode::functions) {
-    inputs.push_back(files.functions.toStdString());
-    if (document.state().mask) inputs.push_back(files.mask.toStdString());
-  }
-  check_output(path, OutputKind::picture, inputs);
+  check_output(path, OutputKind::picture, inputs_of(document, files));
   return [state = document.state(), sources = recipe_sources(document, files, written), options,
           session = std::move(session), path, told = std::move(told),
           precision = document.facts()->precision](const Job& job) -> Jobs::Finish {
-    const auto mask = state.mask && state.mode == ExposureMode::functions
-                          ? std::optional(LiveView::feathered_mask(state))
-                          : std::nullopt;
     RenderControl control;
     control.stop = job.stop;
     control.precision = precision;
     control.is_chosen = true;
     PictureRecipe recipe(sources);
     const ExposedPicture exposed =
-        session->render(exposure_of(state, mask), output_format(options.picture, path, session->format()), control);
-    const std::string text = recipe.text(std::string(to_text(exposed.precision)), {}, exposed.error_bound());
+        session->render(exposure_of(state, exposed_mask(state)),
+                        output_format(options.picture, path, session->format()), control);
+    const std::string text = recipe.text(to_text(exposed.precision), {}, exposed.error_bound());
     write_picture(path, exposed.picture, options.no_recipe ? std::string() : text, file_wishes(options.picture));
     const bool is_within = exposed.saturation.below + exposed.saturation.above == 0;
-    const QString line = Jobs::tr("%1: %2, %3")
+    const QString line = Jobs::tr("%1 was written: %2, %3")
                              .arg(QString::fromStdString(path.string()),
                                   QString::fromStdString(shape_text(exposed.picture.shape)),
                                   is_within ? Jobs::tr("no light beyond white")
@@ -185,17 +186,15 @@ Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session,
   };
 }
 
-FramesRequest film_request(const Document& document, const Options& options) {
-  DocumentState state = document.state();
-  state.mode = ExposureMode::boxcar;
+FramesRequest film_request(const DocumentState& state, const Options& options) {
   FramesRequest request = options.film;
-  request.exposure = exposure_of(state, {});
+  request.exposure = exposure_of(state, exposed_mask(state));
   return request;
 }
 
 QString stills_question(const Document& document, const Session& session, const QString& film,
                         const Options& options) {
-  const FramesRequest request = film_request(document, options);
+  const FramesRequest request = film_request(document.state(), options);
   const VideoOutput output(film.toStdString(), request.rate, options.video_codec, options.picture);
   if (!output.writes_stills()) return {};
   const std::vector<std::uint64_t> numbers = frames_of(request, session.timeline()).numbers;
@@ -205,35 +204,47 @@ QString stills_question(const Document& document, const Session& session, const 
 }
 
 Jobs::Work filming(const Document& document, std::shared_ptr<Session> session, std::shared_ptr<Devices> devices,
-                   const QString& film, const Options& options, Told told, std::function<void(int signal)> end) {
-  const FramesRequest request = film_request(document, options);
+                   const CommandFiles& files, const QString& film, const Stated& written, Told told,
+                   std::function<void(int signal)> end) {
+  const Options options = options_in(CommandId::video, written);
+  const FramesRequest request = film_request(document.state(), options);
   const VideoOutput output(film.toStdString(), request.rate, options.video_codec, options.picture);
   const Frames frames = frames_of(request, session->timeline());
-  output.check(frames.numbers, inputs_of(document), Replacing::all);
-  const Stated& stated = document.facts()->stated;
-  const auto seen = session->is_clip() && !stated.contains("between") ? seen_together(frames, session->timeline())
-                                                                      : std::nullopt;
+  output.check(frames.numbers, inputs_of(document, files), Replacing::all);
+  std::optional<RecipeSources> sources;
+  if (output.writes_stills() && !options.no_recipe)
+    sources = recipe_sources(document, files, written, CommandId::video);
+  const CaptureFacts& facts = *document.facts();
+  const auto between =
+      facts.stated.contains("between") ? std::nullopt : joining_samples(request, frames, *session);
   // The live view goes on with its own.
   ComputingRequest computing = devices->request();
   computing.memory.bytes /= 2;
-  return [request, output, session = std::move(session), computing, film, seen, stated, clip = document.facts()->path,
-          told = std::move(told), end = std::move(end), sound = options.sound](const Job& job) -> Jobs::Finish {
+  return [request, output, session = std::move(session), computing, film, between, sources, stated = facts.stated,
+          clip = facts.path, told = std::move(told), end = std::move(end), sound = options.sound,
+          precision = sources ? facts.precision : std::nullopt](const Job& job) -> Jobs::Finish {
     std::shared_ptr<Session> filmed = session;
+    auto of_stills = sources;
     QStringList notes;
-    if (seen) {
+    if (between) {
       Stated joined = stated;
-      joined["between"] = BetweenRequest{.first = seen->first, .last = seen->last - 1}.text();
-      notes = {Document::tr("They would show what moves two or three times: samples were made between pictures "
-                            "%1 … %2.").arg(seen->first).arg(seen->last - 1)};
+      joined["between"] = between->text();
       try {
         filmed = open_capture(clip, joined, std::make_shared<Devices>(computing), job).session;
+        if (of_stills) of_stills->made.options.emplace_back("between", between->text());
+        notes = {Document::tr("Samples were made between pictures %1 … %2, so that no frame shows what moves two or "
+                              "three times.").arg(between->first).arg(between->last)};
       } catch (const Error& error) {
         if (!is_refusal(error)) throw;
-        notes = {Document::tr("They show what moves two or three times: %1").arg(sentence(error.what()))};
+        notes = {Document::tr("Its frames show what moves two or three times: %1").arg(sentence(error.what()))};
       }
     }
     const Frames frames = frames_of(request, filmed->timeline());
-    const MadeVideo made = make_video(*filmed, request, frames, output, job.progress, {}, sound);
+    PictureRecipe recipe(std::move(of_stills));
+    const auto recipe_of = [&](std::uint64_t frame, const Exposure&, const ExposedPicture& exposed) {
+      return recipe.text(to_text(exposed.precision), frame_recipe(request, frames, frame, {}), exposed.error_bound());
+    };
+    const MadeVideo made = make_video(*filmed, request, frames, output, job.progress, recipe_of, sound, precision);
     const QString line = made.interruption
                              ? Document::tr("%1: %2 of %3 frames were written")
                              : Document::tr("%1: %n frame(s)", nullptr, static_cast<int>(made.frames));

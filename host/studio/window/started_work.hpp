@@ -43,14 +43,14 @@ struct StartingPoint {
                                    const CommandFiles& files, const QString& picture, const Stated& written,
                                    Told told);
 
-// The interval on its way through the capture, as `options` of the command for videos say.
-[[nodiscard]] FramesRequest film_request(const Document& document, const Options& options);
+// The interval on its way through the capture, or the regions' functions; as `options` of the command for videos say.
+[[nodiscard]] FramesRequest film_request(const DocumentState& state, const Options& options);
 // Asks whether pictures that are there may be replaced by the film's; empty where none are.
 [[nodiscard]] QString stills_question(const Document& document, const Session& session, const QString& film,
                                       const Options& options);
-// `end` is told of a signal that ended the film before its last frame.
+// Stills have the recipes that nutik-cl gives them. `end` is told of a signal that ended the film early.
 [[nodiscard]] Jobs::Work filming(const Document& document, std::shared_ptr<Session> session,
-                                 std::shared_ptr<Devices> devices, const QString& film, const Options& options,
-                                 Told told, std::function<void(int signal)> end);
+                                 std::shared_ptr<Devices> devices, const CommandFiles& files, const QString& film,
+                                 const Stated& written, Told told, std::function<void(int signal)> end);
 
 }  // namespace nutik::studio

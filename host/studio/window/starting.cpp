@@ -93,7 +93,9 @@ void MainWindow::show_plate(const QImage& plate, const Marks& marks) {
   glance.instead = plate;
   glance.title = tr("Without what moves. Escape: back to the picture");
   canvas_->look(std::move(glance));
-  const QString note = tr("This scene is no exposure: it can be saved as a picture of its own.");
+  plate_ = marks;
+  const QString note =
+      tr("The scene without what moves. It can be saved as a picture of its own; Escape goes back to the exposure.");
   notice_->say(Notice::Kind::note, note, tr("Save…"), [this, marks] { save_plate(marks); });
 }
 
@@ -104,11 +106,12 @@ void MainWindow::save_plate(const Marks& marks) {
 
 // ---- films ----
 
-Stated MainWindow::film_options() const {
-  Stated options{{"speed", QString::number(speed_->value()).toStdString()},
-                 {"out-angle", QString::number(angle_->value()).toStdString()}};
-  if (const auto in = document_.mark_in()) options.emplace("from", StatedTime::of_nanoseconds(*in).text());
+Stated MainWindow::film_options(ExposureMode of) const {
+  Stated options{{"speed", QString::number(speed_->value()).toStdString()}};
   if (const auto out = document_.mark_out()) options.emplace("to", StatedTime::of_nanoseconds(*out).text());
+  if (of == ExposureMode::functions) return options;  // which are in the capture's time, as long as they say
+  options.emplace("out-angle", QString::number(angle_->value()).toStdString());
+  if (const auto in = document_.mark_in()) options.emplace("from", StatedTime::of_nanoseconds(*in).text());
   return options;
 }
 
@@ -116,7 +119,9 @@ void MainWindow::play_or_stop() {
   if (playing_.isActive()) return stop_playing();
   if (!session_) return;
   try_to([&] {
-    const FramesRequest request = film_request(document_, options_in(CommandId::video, film_options()));
+    DocumentState state = document_.state();
+    state.mode = ExposureMode::boxcar;
+    const FramesRequest request = film_request(state, options_in(CommandId::video, film_options(state.mode)));
     film_ = frames_of(request, document_.facts()->timeline);
     played_since_.start();
     played_rate_ = request.rate.value();
@@ -139,38 +144,53 @@ void MainWindow::stop_playing() {
 }
 
 void MainWindow::choose_film() {
-  if (!session_) return;
+  if (!ensure_files()) return static_cast<void>(names_files());
   const auto session = session_;
+  const bool has_regions = document_.mode() == ExposureMode::functions;
+  const QString title = has_regions ? tr("Export a film of the regions") : tr("Export a film");
   QString question;
-  const auto wanted = ask_options(
-      this, {CommandId::video,
-             tr("Export the interval as a film"),
-             {"out-fps", "speed", "out-angle", "from", "to", "video-codec", "crf", "quality", "depth", "sound"},
-             {suggested("-film.mp4"), film_options()},
-             tr("Films and numbered pictures (*.mp4 *.mov *.mkv *.webm *.gif *.webp *-%05d.png)"),
-             [&](const Wanted& asked, const Options& options) {
-               static_cast<void>(filming(document_, session_, devices_, asked.path, options, {}, {}));
-               question = stills_question(document_, *session_, asked.path, options);
-             }});
+  Asked asked{CommandId::video,
+              title,
+              {"out-fps", "speed", "out-angle", "from", "to", "video-codec", "crf", "quality", "depth", "sound",
+               "no-recipe"},
+              {suggested("-film.mp4"), film_options(document_.mode())},
+              tr("Films and numbered pictures (*.mp4 *.mov *.mkv *.webm *.gif *.webp *-%05d.png)"),
+              [&](const Wanted& wanted, const Options& options) {
+                static_cast<void>(
+                    filming(document_, session_, devices_, files_, wanted.path, wanted.options, {}, {}));
+                question = stills_question(document_, *session_, wanted.path, options);
+              }};
+  if (has_regions) {
+    std::erase(asked.options, std::string_view("out-angle"));
+    asked.why = tr("The film begins with the picture that is shown, and the functions of its regions move on through "
+                   "the capture. For a film with a shutter angle choose One interval for all, at the side.");
+  }
+  const auto wanted = ask_options(this, asked);
   if (!wanted || session != session_) return;
-  if (question.isEmpty() ||
-      QMessageBox::question(this, tr("Export the interval as a film"), question) == QMessageBox::Yes)
+  if (question.isEmpty() || QMessageBox::question(this, title, question) == QMessageBox::Yes)
     export_film(wanted->path, wanted->options);
 }
 
 void MainWindow::export_film(const QString& path, const Stated& options) {
-  if (!session_) return;
+  if (!session_ || !names_files()) return;
   try_to([&] {
-    writing_.start(tr("Filming %1").arg(QFileInfo(path).fileName()),
-                   filming(document_, session_, devices_, path, options_in(CommandId::video, options), told(),
-                           [this](int signal) { autosave_.end(signal); }));
+    write(tr("Filming %1").arg(QFileInfo(path).fileName()),
+          filming(document_, session_, devices_, files_, path, options, told_written(),
+                  [this](int signal) { autosave_.end(signal); }));
   });
 }
 
 // ---- pictures ----
 
+bool MainWindow::names_files() {
+  if (!has_files())
+    notice_->say(Notice::Kind::error, tr("Save the project first: the picture's recipe names its files."));
+  return has_files();
+}
+
 void MainWindow::choose_export() {
-  if (!ensure_files()) return;
+  if (!canvas_->glance().instead.isNull()) return save_plate(plate_);  // what is shown
+  if (!ensure_files()) return static_cast<void>(names_files());
   const auto session = session_;
   const auto wanted = ask_options(
       this, {CommandId::expose,
@@ -186,13 +206,10 @@ void MainWindow::choose_export() {
 }
 
 void MainWindow::export_picture(const QString& path, const Stated& written) {
-  if (!session_) return;
-  if (!has_files())
-    return notice_->say(Notice::Kind::error,
-                        tr("Save the project first: the picture's recipe names its files."));
+  if (!session_ || !names_files()) return;
   try_to([&] {
-    writing_.start(tr("Writing %1").arg(QFileInfo(path).fileName()),
-                   exporting(document_, session_, files_, path, written, told()));
+    write(tr("Writing %1").arg(QFileInfo(path).fileName()),
+          exporting(document_, session_, files_, path, written, told_written()));
     written_ = written;
     exported_ = path;
   });
