@@ -601,7 +601,7 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
   const double most = unrest == Unrest::shown ? kMaxUnrest : kMaxMoving;
   if (study.moving_share > most) {
     throw EverythingMoves(
-        nutik::format("{}: {:.0f} % of the pixels hold no light for half of the time: everything moves, as it does "
+        nutik::format("{}: {:.0f} % of the pixels rest for less than half of the time: everything moves, as it does "
                       "where nobody held the camera still. A study needs a scene that rests and something that moves "
                       "in it",
                       capture_name, 100 * study.moving_share));

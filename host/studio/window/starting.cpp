@@ -6,6 +6,7 @@
 
 #include "features/film/film_making.hpp"
 #include "features/schema/requests.hpp"
+#include "features/study/study_shot.hpp"
 #include "session/requests/output_request.hpp"
 #include "studio/window/main_window.hpp"
 #include "studio/window/options_dialog.hpp"
@@ -65,7 +66,7 @@ void MainWindow::offer_still_camera(StudyStyle style, const QString& why) {
   notice_->say(Notice::Kind::error, why, tr("Hold the camera still"), [this, style] {
     if (!may_leave()) return;
     Stated still = document_.facts()->stated;
-    still["align"] = "rigid";
+    still["align"] = std::string(to_text(kStudyMotion));
     Origin origin;
     origin.marks = document_.marks();
     origin.then = &point_of(style);
