@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <span>
 
 #include "support/scratch.hpp"
 #include "system/page_buffer.hpp"
@@ -70,8 +71,8 @@ TEST(LinuxCalls, PagesKeepWhatTheyHoldWhereTheyGrow) {
   for (std::uint64_t i = 0; i < kBytes; ++i) buffer.data()[i] = static_cast<std::byte>(i % 251);
   buffer.grow(kMore);
   for (std::uint64_t i = 0; i < kBytes; ++i) ASSERT_EQ(buffer.data()[i], static_cast<std::byte>(i % 251)) << i;
-  const std::byte* const end = buffer.data() + kMore;
-  EXPECT_TRUE(std::all_of(buffer.data() + kBytes, end, [](std::byte b) { return b == std::byte{0}; }));
+  const std::span grown(buffer.data() + kBytes, buffer.data() + kMore);
+  EXPECT_TRUE(std::ranges::all_of(grown, [](std::byte b) { return b == std::byte{0}; }));
 }
 
 }  // namespace
