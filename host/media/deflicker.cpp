@@ -176,7 +176,7 @@ class DeflickeredClip final : public Clip {
     }
     if (untold_ > 0) {
       remarks.push_back(
-          format("{} of {} pictures show too little of what the first one shows to tell how they "
+          format("{} of {} pictures show too little of the pictures before them to tell how they "
                  "were exposed: they were corrected as the one before each",
                  untold_.load(), pictures_.load()));
     }
@@ -184,18 +184,27 @@ class DeflickeredClip final : public Clip {
   }
 
  private:
-  // False where it cannot be told.
-  bool follow(const std::vector<std::vector<double>>& means) {
+  // By channel; none where one cannot be told.
+  static std::vector<CodeShift> shifts_to(const std::vector<std::vector<double>>& reference,
+                                          const std::vector<std::vector<double>>& means) {
     std::vector<CodeShift> shifts;
-    double change = 0;
     for (std::size_t channel = 0; channel < means.size(); ++channel) {
-      // What comes into view hides what the first one shows, and not what the one before it did.
-      auto shift = CodeShift::between(means[channel], first_[channel]);
-      if (!shift) shift = CodeShift::between(means[channel], told_[channel]);
-      if (!shift) return false;
-      change = std::max(change, shift->distance_to(shifts_[channel], means[channel]));
+      const auto shift = CodeShift::between(means[channel], reference[channel]);
+      if (!shift) return {};
       shifts.push_back(*shift);
     }
+    return shifts;
+  }
+
+  // False where it cannot be told.
+  bool follow(const std::vector<std::vector<double>>& means) {
+    // What comes into view hides what the first one shows, and not what the one before it did.
+    std::vector<CodeShift> shifts = shifts_to(first_, means);
+    if (shifts.empty()) shifts = shifts_to(told_, means);
+    if (shifts.empty()) return false;
+    double change = 0;
+    for (std::size_t channel = 0; channel < means.size(); ++channel)
+      change = std::max(change, shifts[channel].distance_to(shifts_[channel], means[channel]));
     const bool is_new = change >= kMinChange;
     if (!is_new && !is_shifted_) return true;
     const std::optional<bool> alike = is_alike(means);

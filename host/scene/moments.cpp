@@ -31,9 +31,10 @@ bool share_a_cell(const SubjectPlace& a, const SubjectPlace& b) {
 double usual(const Places& places, const std::function<double(const SubjectPlace&)>& measure) {
   std::vector<std::pair<double, std::size_t>> values;  // and how many cells have it
   std::size_t cells = 0, below = 0;
+  const bool are_shadows = std::ranges::all_of(places, [](const SubjectPlace* place) { return place->solid == 0; });
   for (const SubjectPlace* place : places) {
-    values.emplace_back(measure(*place), place->solid);
-    cells += place->solid;
+    values.emplace_back(measure(*place), are_shadows ? place->cells.size() : place->solid);
+    cells += values.back().second;
   }
   std::ranges::sort(values);
   for (const auto& [value, of_place] : values) {

@@ -236,7 +236,8 @@ class Follower {
     const auto [most, subject] = by_weight.front();
     Subjects found;
     for (const auto& [weight, other] : std::span(by_weight).subspan(1)) {
-      if (weight < most / 2 || found.beside.size() + 1 == kMaxSubjects) break;
+      const std::size_t count = 1 + found.beside.size() + found.instead.size();
+      if (weight <= 0 || weight < most / 2 || count == kMaxSubjects) break;
       const bool is_beside = other->goes_its_way() && other->is_beside(*subject);
       (is_beside ? found.beside : found.instead).push_back(std::move(*other).places());
     }

@@ -30,7 +30,7 @@ void set_timer(long milliseconds) {
   if (!has_timer.load()) return;
   struct itimerval after {};
   after.it_value.tv_usec = milliseconds * 1000;
-  setitimer(ITIMER_REAL, &after, nullptr);
+  setitimer(ITIMER_REAL, &after, nullptr);  // a signal handler may: it only calls the system
 }
 
 // Nobody has looked. What a signal handler may do is little, and enough.

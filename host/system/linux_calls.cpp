@@ -118,7 +118,7 @@ void* grow_mapping(void* pages, std::uint64_t from, std::uint64_t to) {
 #if NUTIK_LINUX && !defined(__SANITIZE_THREAD__)  // which does not see pages move, and takes what was there for a race
   return mremap(pages, from, to, MREMAP_MAYMOVE);
 #else
-  void* const larger = mmap(nullptr, to, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  void* const larger = mmap(nullptr, to, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (larger == MAP_FAILED) return larger;
   std::memcpy(larger, pages, from);
   munmap(pages, from);

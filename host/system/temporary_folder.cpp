@@ -28,8 +28,8 @@ NamelessFile::NamelessFile() {
   if (descriptor_ >= 0) return;
   // Not every file system knows such files. There it has a name for a moment.
   std::string name = folder / "nutik-XXXXXX";
-  descriptor_ = mkstemp(name.data());
-  if (descriptor_ < 0 || fcntl(descriptor_, F_SETFD, FD_CLOEXEC) != 0) {
+  descriptor_ = mkostemp(name.data(), O_CLOEXEC);
+  if (descriptor_ < 0) {
     throw OutputError(
         format("no temporary file can be made in {}: {}", folder.string(), std::strerror(errno)));
   }

@@ -227,6 +227,9 @@ TEST_F(StudySubjects, EndARearCurtainAsAWhole) {
 TEST_F(StudySubjects, MayBeTiny) {
   draw("tiny", 20, [](cv::Mat& frame, int k) { frame(cv::Rect(4 + 7 * k, 40, 3, 3)) = 250; });
   expect_moments_before(20, "tiny");
+  const auto frozen = study("tiny", {"--style", "frozen", "--json"});
+  ASSERT_EQ(frozen.status, 0) << frozen.err;
+  EXPECT_EQ(nlohmann::json::parse(frozen.out)["moments"].size(), 1u) << frozen.out;
 }
 
 // A block stands for most of the time, so that the background has it: a hole stays while it is gone, until something is

@@ -26,7 +26,7 @@ TEST(LinuxCalls, FilesWithoutANameAreOnlyLinuxs) {
   EXPECT_LT(nameless, 0);
   EXPECT_FALSE(give_name(nameless, scratch / "named"));
 #else
-  ASSERT_GE(nameless, 0);
+  if (nameless < 0) GTEST_SKIP() << "this file system has no files without names";
   EXPECT_TRUE(std::filesystem::is_empty(scratch / ""));
   EXPECT_TRUE(give_name(nameless, scratch / "named"));
   EXPECT_TRUE(std::filesystem::exists(scratch / "named"));

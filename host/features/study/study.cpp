@@ -30,12 +30,13 @@ constexpr double kMinCoveredInPlate = 0.4, kHoleEdges = 0.5;
 // The share of a single moment's border, where that stands for what makes no study, at which there is an edge or light
 // changed.
 constexpr double kMinOwnEdges = 0.4;
-// And of one of several: measured, 0.2 of dark legs that blur before dark ground, at most 0.05 of light on a wall.
+// And of a thing that moves as one whole: measured, 0.2 of dark legs that blur before dark ground, at most 0.05 of light on a wall.
 constexpr double kMinEdgesOfMany = 0.1;
 constexpr std::uint64_t kMinTelling = 144;  // pixels: the border of fewer is too short to tell its edges
 // A thing among many others that fills so much of its box and goes further than it is long is no scrap.
 constexpr double kMinFillOfMany = 0.4;
-// One that fills less, and is so much of what differs, may be seen at one moment: an arm, or glass.
+// One that fills less, and is so much of what differs, may be seen at one moment: an arm, or glass. Measured: 0.45 of a
+// bottle, at most 0.1 of edges of what stays.
 constexpr double kMinShareOfOne = 0.25;
 constexpr std::size_t kMinLooks = 8;
 constexpr double kMinExtent = 1.0 / 16;  // of the picture's longer side, that a subject goes
@@ -298,9 +299,9 @@ class StudyPlanner {
       const StepReport& step = step_of(study, i);
       const bool is_hole = is_in_plate(study, i);
       const Followed& subject = followed_[study.subjects[i]];
-      const bool is_single =
-          subject.verdict.shows != Verdict::Shows::all || std::ranges::count(study.subjects, study.subjects[i]) == 1;
-      const double least = is_single ? kMinOwnEdges : step.pixel_count < kMinTelling ? 0 : kMinEdgesOfMany;
+      const double least = subject.verdict.shows != Verdict::Shows::all ? kMinOwnEdges
+                           : step.pixel_count < kMinTelling             ? 0
+                                                                        : kMinEdgesOfMany;
       const bool is_light = step.own_edges.value_or(1) < least;
       if (!is_hole && !is_light && step.pixel_count > 0 && 2 * left[step.tag] >= step.pixel_count) continue;
       bad.push_back(i);
@@ -495,16 +496,18 @@ std::vector<Followed> followed_in(std::vector<SubjectTrack> tracks, const std::v
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const std::uint32_t side = std::max(regions[i].width, regions[i].height);
     Verdict verdict = verdict_of(tracks[i], by_codes, side, request.style, is_stated);
-    for (const SubjectTrack& other : std::vector(std::move(tracks[i].instead))) {
-      const Verdict of_other = verdict_of(other, by_codes, side, request.style, is_stated);
-      if (of_other.shows >= verdict.shows) continue;
-      tracks[i] = other;
-      verdict = of_other;
+    std::vector<SubjectTrack> others = std::move(tracks[i].others), candidates = others;
+    std::ranges::move(tracks[i].instead, std::back_inserter(candidates));
+    for (SubjectTrack& candidate : candidates) {
+      Verdict of_candidate = verdict_of(candidate, by_codes, side, request.style, is_stated);
+      if (of_candidate.shows >= verdict.shows) continue;
+      tracks[i] = std::move(candidate);
+      verdict = std::move(of_candidate);
+      others.clear();
     }
-    std::vector<SubjectTrack> others = std::move(tracks[i].others);
     if (!request.regions.empty() && !verdict.why.empty()) verdict.why = text_of(regions[i]) + ": " + verdict.why;
     followed.push_back({std::move(tracks[i]), regions[i], std::move(verdict)});
-    if (others.empty() || !request.regions.empty()) continue;
+    if (others.empty() || !request.regions.empty() || followed.back().verdict.shows == Verdict::Shows::nothing) continue;
     const std::string where = box_text_of(others.front().places);
     if (is_stated || shows_one(request.style) || followed.front().verdict.shows != Verdict::Shows::all) {
       notes.push_back(format("one subject is shown, and another thing goes its way at the same time, within {}: name a "
@@ -525,15 +528,14 @@ std::vector<Followed> followed_in(std::vector<SubjectTrack> tracks, const std::v
 }
 
 // Regions that overlap may hold a single thing, which cannot be shown as two.
-void check_apart(const std::vector<SubjectTrack>& tracks, const std::vector<Rectangle>& regions,
-                 const std::string& name) {
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
+void check_apart(const std::vector<Followed>& followed, const std::string& name) {
+  for (std::size_t i = 0; i < followed.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      if (!are_of_one_thing(tracks[k].places, tracks[i].places)) continue;
+      if (!are_of_one_thing(followed[k].track.places, followed[i].track.places)) continue;
       throw NoSubject(
           format("{}: {} and {} overlap, and hold the same subject. Take regions that lie apart, "
                  "or a single one",
-                 name, text_of(regions[k]), text_of(regions[i])));
+                 name, text_of(followed[k].region), text_of(followed[i].region)));
     }
   }
 }
@@ -618,9 +620,9 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
         "does where the camera did. A study needs a scene that rests, and something that moves in it",
         where(capture_name, request, regions[i]), 100 * tracks[i].moving_share));
   }
-  check_apart(tracks, regions, capture_name);
-  StudyPlanner(request, capture, capture_name, std::move(plate.picture),
-               followed_in(std::move(tracks), regions, request, by_codes, study.notes), by_codes)
+  std::vector<Followed> followed = followed_in(std::move(tracks), regions, request, by_codes, study.notes);
+  if (!request.regions.empty()) check_apart(followed, capture_name);
+  StudyPlanner(request, capture, capture_name, std::move(plate.picture), std::move(followed), by_codes)
       .plan(study);
   return study;
 }

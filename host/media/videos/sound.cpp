@@ -1,10 +1,10 @@
-#include "media/videos/filters.hpp"
 #include "media/videos/sound.hpp"
 
 #include <cmath>
 #include <utility>
 
 #include "capture/rational.hpp"
+#include "media/videos/filters.hpp"
 
 namespace nutik::videos {
 namespace {

@@ -66,6 +66,7 @@ MainWindow::MainWindow(const ComputingRequest& computing)
 
 // Jobs tell widgets that they ended, and widgets know the document: they go in that order.
 MainWindow::~MainWindow() {
+  writing_.disconnect(this);  // the next window is to tell what was not written
   for (Jobs* jobs : {&jobs_, &quick_, &measuring_, &writing_}) jobs->cancel();
   delete takeCentralWidget();
 }

@@ -104,6 +104,7 @@ void MainWindow::keyPressEvent(QKeyEvent* event) {
   if (playing_.isActive()) return stop_playing();
   if (Glance glance = canvas_->glance(); !glance.instead.isNull()) {
     glance.instead = {};
+    notice_->clear();  // which offers to save it
     return canvas_->look(std::move(glance));
   }
   // Nothing in the window had a use for it.

@@ -145,7 +145,7 @@ void MainWindow::stop_playing() {
 }
 
 void MainWindow::choose_film() {
-  if (!ensure_files()) return static_cast<void>(names_files());
+  if (!ensure_files()) return;
   const auto session = session_;
   const bool has_regions = document_.mode() == ExposureMode::functions;
   const QString title = has_regions ? tr("Export a film of the regions") : tr("Export a film");
@@ -191,7 +191,7 @@ bool MainWindow::names_files() {
 
 void MainWindow::choose_export() {
   if (!canvas_->glance().instead.isNull()) return save_plate(plate_);  // what is shown
-  if (!ensure_files()) return static_cast<void>(names_files());
+  if (!ensure_files()) return;
   const auto session = session_;
   const auto wanted = ask_options(
       this, {CommandId::expose,
