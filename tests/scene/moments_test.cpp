@@ -17,6 +17,7 @@ SubjectTrack track_of(const std::vector<std::pair<std::uint64_t, std::size_t>>& 
     place.centre = {static_cast<double>(x), 4};
     place.contrast = 0.5;
     place.cells = {x / 8};
+    place.solid = 1;
   }
   return track;
 }
@@ -58,6 +59,7 @@ TEST(Moments, ShowAtLeastHalfOfTheSubject) {
     SubjectPlace& place = track.places[i];
     place.is_cut_off = cells[i] < 4;
     while (place.cells.size() < cells[i]) place.cells.push_back(place.cells.back() + 1);
+    place.solid = place.cells.size();
   }
   EXPECT_EQ(samples_of(choose_moments(track, 5, MomentSpacing::time, kGap)), (Samples{10, 20, 30, 40}));
 }
