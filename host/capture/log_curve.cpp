@@ -46,7 +46,7 @@ constexpr LogCurve kCurves[] = {
     // DJI, "White Paper on D-Log and D-Gamut of DJI Cinema Color System" (2017), of signals without codes.
     {"dlog", Primaries::dgamut, false, 0.9892, 0.0108, 0.256663, 0.584555, 0.14, 6.025, 0.0929},
     // Apple, "Apple Log Profile White Paper" (2023): 47.28711236 (light + 0.05641088)² up to light 0.01. Apple Log 2 is the
-    // same curve of Apple Wide Gamut.
+    // same curve with Apple Wide Gamut.
     {"applelog", Primaries::bt2020, false, 1, 0.00964052, 0.08550479 / kLog10Of2, 0.69336945,
      47.28711236 * 0.06641088 * 0.06641088, 47.28711236, -0.05641088, LogCurve::Toe::square_root},
     // Academy, S-2016-001 "ACEScct", which counts in powers of 2.

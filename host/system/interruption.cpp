@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
-// Whether a timer ends the program that runs from the first signal on, unless it was cleared.
+// Whether end_now() is in place. A timer calls it some time after the first signal, unless it was cleared.
 std::atomic<bool> has_timer{false};
 
 const char* name_of(int number) {
@@ -30,7 +30,7 @@ void set_timer(long milliseconds) {
   if (!has_timer.load()) return;
   struct itimerval after {};
   after.it_value.tv_usec = milliseconds * 1000;
-  setitimer(ITIMER_REAL, &after, nullptr);  // a signal handler may: it only calls the system
+  setitimer(ITIMER_REAL, &after, nullptr);  // in a handler, too: here it only calls the system
 }
 
 // Nobody has looked. What a signal handler may do is little, and enough.

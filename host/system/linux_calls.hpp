@@ -16,7 +16,7 @@ namespace nutik {
 // Names such a file. False, with errno, where it cannot.
 [[nodiscard]] bool give_name(int descriptor, const std::filesystem::path& path);
 
-// By which this process opens again what it has open; POSIX: or another descriptor of it, where that was read to.
+// The path by which this process opens again what it has open. Some systems then go on where that was read to.
 [[nodiscard]] std::filesystem::path path_of(int descriptor);
 
 // A folder, not a link to one, only to ask whose it is and to write into it. Negative, with errno, where it cannot.

@@ -30,8 +30,9 @@ constexpr double kMinCoveredInPlate = 0.4, kHoleEdges = 0.5;
 // The share of a single moment's border, where that stands for what makes no study, at which there is an edge or light
 // changed.
 constexpr double kMinOwnEdges = 0.4;
-// And of a thing that moves as one whole: measured, 0.2 of dark legs that blur before dark ground, at most 0.05 of light on a wall.
-constexpr double kMinEdgesOfMany = 0.1;
+// And of a thing that moves as one whole. Measured: 0.2 of dark legs that blur before dark ground, at most 0.05 of light
+// on a wall.
+constexpr double kMinEdgesOfWhole = 0.1;
 constexpr std::uint64_t kMinTelling = 144;  // pixels: the border of fewer is too short to tell its edges
 // A thing among many others that fills so much of its box and goes further than it is long is no scrap.
 constexpr double kMinFillOfMany = 0.4;
@@ -97,7 +98,7 @@ const SubjectPlace& strongest_of(const std::vector<SubjectPlace>& places) {
   const Places telling = telling_places(places);
   Places best = whole_places(telling);
   const auto size = [](const SubjectPlace& place) { return static_cast<double>(place.cells.size()); };
-  // Of a thing that reaches out of the picture, what a border does not cut off is a piece.
+  // Where a thing reaches out of the picture, what a border does not cut off is a piece of it.
   std::erase_if(best, [&](const SubjectPlace* place) { return size(*place) < usual(telling, size) / 2; });
   if (best.empty()) best = telling;
   const auto strength = [&](const SubjectPlace* place) {
@@ -301,7 +302,7 @@ class StudyPlanner {
       const Followed& subject = followed_[study.subjects[i]];
       const double least = subject.verdict.shows != Verdict::Shows::all ? kMinOwnEdges
                            : step.pixel_count < kMinTelling             ? 0
-                                                                        : kMinEdgesOfMany;
+                                                                        : kMinEdgesOfWhole;
       const bool is_light = step.own_edges.value_or(1) < least;
       if (!is_hole && !is_light && step.pixel_count > 0 && 2 * left[step.tag] >= step.pixel_count) continue;
       bad.push_back(i);

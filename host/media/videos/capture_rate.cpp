@@ -201,8 +201,8 @@ std::optional<NamedCurve> named_curve(const AVFormatContext& format, const std::
     // The curve is another one at each exposure index.
     const std::string_view index = said("com.arri.camera.ExposureIndexAsa");
     if (index == "800") return NamedCurve{Transfer::log("logc3"), std::nullopt};
-    notes.emplace_back(nutik::format("the file's curve is LOG-C at exposure index {:.20}, of which only that at 800 is "
-                                     "known: the container's is taken",
+    notes.emplace_back(nutik::format("the file's curve is LOG-C at exposure index {:.20}, and only that of 800 is known "
+                                     "here: the curve that the container names is taken",
                                      index.empty() ? "unknown" : index),
                        std::vector{Setting::transfer});
   }

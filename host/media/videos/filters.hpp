@@ -24,7 +24,7 @@ namespace nutik::videos {
 struct FilterModule {
   static constexpr const char* kFile = "nutik-filters.so";
   static constexpr const char* kSymbol = "nutik_filter_module";
-  static constexpr const char* kWithout = "pictures cannot be deinterlaced, nor GIFs and sound be made";
+  static constexpr const char* kWithout = "nothing can be deinterlaced, and neither GIF nor sound can be written";
 
   void (*use_shared_state)(SharedState& of_program);  // first
   decltype(&avfilter_graph_alloc) graph_alloc;

@@ -1377,10 +1377,6 @@ Zeit und Gain nach dem Filmen: Gain-Funktionen und Masken werden gezeichnet, und
         <translation>Bilder (*.png *.tif *.jpg *.exr *.pfm *.ppm)</translation>
     </message>
     <message>
-        <source>Save the project first: the picture&apos;s recipe names its files.</source>
-        <translation>Speichern Sie erst das Projekt: Das Rezept des Bildes nennt dessen Dateien.</translation>
-    </message>
-    <message>
         <source>Writing %1</source>
         <translation>%1 wird geschrieben</translation>
     </message>

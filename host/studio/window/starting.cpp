@@ -185,7 +185,7 @@ void MainWindow::export_film(const QString& path, const Stated& options) {
 
 bool MainWindow::names_files() {
   if (!has_files())
-    notice_->say(Notice::Kind::error, tr("Save the project first: the picture's recipe names its files."));
+    notice_->say(Notice::Kind::error, tr("Save the project first: recipes name its files"));
   return has_files();
 }
 
