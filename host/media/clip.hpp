@@ -45,6 +45,7 @@ struct ClipSound {
   double filmed_s = 0;
   std::string codec = {};
   int track = 1, tracks = 1;  // which of the file's tracks of sound it is, from 1
+  double uneven_s = 0;        // by which pictures lie off even times, at most, where those were stated in their place
 };
 
 struct ClipInfo {

@@ -39,7 +39,8 @@ std::optional<std::filesystem::path> stated_output(const Options& options, std::
                "pattern in quotes such as 'frames/*.png'. See nutik-cl {} --help",
                operands[2], command));
   }
-  const bool are_swapped = operands.size() == 2 && names_an_output(operands[0]) && is_absent(operands[0]) &&
+  const bool are_swapped = operands.size() == 2 && names_an_output(operands[0]) &&
+                           !is_standard_input(operands[0]) && is_absent(operands[0]) &&
                            !names_an_output(operands[1]) && !is_absent(operands[1]);
   if (are_swapped) {
     throw UsageError(format("there is no file {}, and {} is one; the input comes first: nutik-cl {} {} {}", operands[0],

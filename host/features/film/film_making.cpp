@@ -71,9 +71,14 @@ std::optional<FilmSound> film_sound(const Session& session, const FramesRequest&
   if (frames.numbers.back() - frames.numbers.front() + 1 != frames.numbers.size())
     return left_out("the film has not all of its frames");
   const double file_s = (found->last_s - found->first_s) / found->filmed_s;  // of the file in a filmed second
-  FilmSound sound{session.source().path, 0.0, request.speed.value() * file_s,
+  const std::filesystem::path& clip = session.source().path;
+  FilmSound sound{is_standard_input(clip.string()) ? standard_input_file() : clip, 0.0, request.speed.value() * file_s,
                   static_cast<double>(frames.numbers.size()) / request.rate.value()};
-  sound.start_s = found->first_s + file_s * static_cast<double>(frames.times.start_ns(frames.numbers.front())) * 1e-9;
+  const std::int64_t start_ns = frames.times.start_ns(frames.numbers.front());
+  sound.start_s = found->first_s + file_s * static_cast<double>(start_ns) * 1e-9;
+  sound.is_cut = start_ns > 0;
+  if (found->uneven_s / sound.speed * request.rate.value() > 1.0)
+    return left_out("the file's pictures do not lie at even times, as the rate that was stated has them");
   // Where both run as fast but for what half a frame comes to at the film's end, packets stay as they are.
   if (std::abs(sound.speed - 1.0) * sound.seconds * request.rate.value() < 0.5) sound.speed = 1.0;
   sound.is_asked = wish == FilmSoundWish::stretched;

@@ -239,7 +239,8 @@ class LibavVideoWriter final : public VideoWriter {
     muxer_->max_interleave_delta = AV_TIME_BASE;  // pictures that wait for a late sound, or for one that has ended
     try {
       sound_ = open_sound(sound, *muxer_, name_);
-    } catch (const OutputError& error) {
+      if (!sound_->note.empty()) notes_.push_back(sound_->note);
+    } catch (const Error& error) {
       if (sound.is_asked) throw;
       notes_.push_back(format("the clip's sound is left out: {}", error.what()));
     }

@@ -446,6 +446,12 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
     const auto first = streams.first(static_cast<std::size_t>(sound) + 1);
     result.sound = ClipSound{static_cast<double>(times.front()) * tick_s, static_cast<double>(times.back()) * tick_s,
                              0.0, avcodec_get_name(first.back()->codecpar->codec_id), tracks(first), tracks(streams)};
+    const double period_s = (result.sound->last_s - result.sound->first_s) / static_cast<double>(times.size() - 1);
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      const double even_s = result.sound->first_s + static_cast<double>(k) * period_s;
+      result.sound->uneven_s =
+          std::max(result.sound->uneven_s, std::abs(static_cast<double>(times[k]) * tick_s - even_s));
+    }
   }
   if (auto doubt = doubt_about_rate(*opened.format, stream, MappedFile(path).bytes())) {
     result.timing.rate_doubt = std::move(*doubt);

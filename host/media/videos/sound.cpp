@@ -14,14 +14,15 @@ struct SoundEncoder {
   std::string_view container;  // as FFmpeg calls it; empty: any other
   const char* name;
   const char* samples;
-  int only_rate = 0;  // samples a second; 0: the clip's own
+  const char *deep_name = name, *deep_samples = samples;  // of sound with more than 16 bits
+  int only_rate = 0;                                      // samples a second; 0: the clip's own
 };
 
-constexpr SoundEncoder kEncoders[] = {{"avi", "pcm_s16le", "s16"},
-                                      {"matroska", "flac", "s16"},
+constexpr SoundEncoder kEncoders[] = {{"avi", "pcm_s16le", "s16", "pcm_s24le", "s32"},
+                                      {"matroska", "flac", "s16", "flac", "s32"},
                                       {"mov", "pcm_s24le", "s32"},
-                                      {"webm", "libopus", "flt", 48'000},
-                                      {"", "aac", "fltp", 48'000}};
+                                      {.container = "webm", .name = "libopus", .samples = "flt", .only_rate = 48'000},
+                                      {.container = "", .name = "aac", .samples = "fltp", .only_rate = 48'000}};
 
 class LibavSoundWriter final : public SoundWriter {
  public:
@@ -36,17 +37,22 @@ class LibavSoundWriter final : public SoundWriter {
     check(found);
     from_ = clip_.format->streams[found];
     const AVCodecParameters& codec = *from_->codecpar;
-    const bool is_compressed = av_get_exact_bits_per_sample(codec.codec_id) == 0;
+    const AVCodecID id = codec.codec_id;
     // An .avi does not say when sound begins: silence in front of it has to be encoded. FFmpeg 5 moves Opus by its delay
-    // each time that a stream is copied.
-    const bool moves = std::string_view(film.oformat->name) == "avi" || codec.codec_id == AV_CODEC_ID_OPUS;
-    is_copied_ = sound_.speed == 1.0 && is_compressed && !moves && holds(codec.codec_id);
+    // each time that a stream is copied. Packets without losses may be longer than frames, but for those of discs.
+    const bool moves = std::string_view(film.oformat->name) == "avi" || id == AV_CODEC_ID_OPUS;
+    const bool is_long = is_lossless() && id != AV_CODEC_ID_TRUEHD && id != AV_CODEC_ID_DTS;
+    is_copied_ = sound_.speed == 1.0 && !sound_.is_cut && !is_pcm() && !is_long && !moves && holds(id);
     if (!is_copied_) {
       open_decoder();
       open_encoder();
       open_graph();
     }
     to_ = allocated(avformat_new_stream(&film_, nullptr));  // last, since a film has no stream of a sound that fails
+    for (const char* const key : {"language", "title"}) {
+      const AVDictionaryEntry* const told = av_dict_get(from_->metadata, key, nullptr, 0);
+      if (told != nullptr) check(av_dict_set(&to_->metadata, key, told->value, 0));
+    }
     if (is_copied_) {
       check(avcodec_parameters_copy(to_->codecpar, &codec));
       to_->codecpar->codec_tag = 0;
@@ -67,10 +73,17 @@ class LibavSoundWriter final : public SoundWriter {
       throw OutputError(format("{} cannot be written, for its sound: {}", name_, error_text(code)));
   }
 
+  [[nodiscard]] bool is_pcm() const { return av_get_exact_bits_per_sample(from_->codecpar->codec_id) != 0; }
+  [[nodiscard]] bool is_lossless() const {
+    const AVCodecDescriptor* const codec = avcodec_descriptor_get(from_->codecpar->codec_id);
+    return codec != nullptr && (codec->props & AV_CODEC_PROP_LOSSLESS) != 0;
+  }
+
   [[nodiscard]] bool holds(AVCodecID codec) const {
-    // FFmpeg does not write all that a container has a tag for.
-    if (codec == AV_CODEC_ID_TRUEHD || codec == AV_CODEC_ID_FLAC)
-      return film_.oformat->name == std::string_view("matroska");
+    const std::string_view container = film_.oformat->name;
+    // FFmpeg does not write all that a container has a tag for, and few players know PCM in an .mp4.
+    if (codec == AV_CODEC_ID_TRUEHD || codec == AV_CODEC_ID_FLAC) return container == "matroska";
+    if (container == "mp4" && av_get_exact_bits_per_sample(codec) != 0) return false;
     return avformat_query_codec(film_.oformat, codec, FF_COMPLIANCE_NORMAL) == 1;
   }
 
@@ -86,27 +99,56 @@ class LibavSoundWriter final : public SoundWriter {
       av_channel_layout_default(&decoder_->ch_layout, decoder_->ch_layout.nb_channels);
   }
 
+  // PCM and ALAC stay what they are, where the container holds them.
   void open_encoder() {
     const std::string_view container = film_.oformat->name;
+    const AVCodecID own = from_->codecpar->codec_id;
     kind_ = *std::ranges::find_if(kEncoders, [&](const SoundEncoder& each) {
       return each.container == container || each.container.empty();
     });
-    const AVCodec* codec = avcodec_find_encoder_by_name(kind_.name);
+    const bool is_deep = is_lossless() && av_get_bytes_per_sample(decoder_->sample_fmt) > 2;
+    const char* name = is_deep ? kind_.deep_name : kind_.name;
+    AVSampleFormat samples = av_get_sample_fmt(is_deep ? kind_.deep_samples : kind_.samples);
+    const AVCodec* codec = is_pcm() || own == AV_CODEC_ID_ALAC ? avcodec_find_encoder(own) : nullptr;
+    if (codec != nullptr && holds(own)) {
+      samples = decoder_->sample_fmt;
+      kind_.only_rate = 0;
+    } else {
+      codec = avcodec_find_encoder_by_name(name);
+    }
     if (codec == nullptr || !holds(codec->id)) {
       throw OutputError(
           format("{} cannot be written with sound: the FFmpeg here does not encode {} for {}; leave it out", name_,
-                 kind_.name, container),
+                 name, container),
           {Setting::sound});
     }
-    encoder_.reset(allocated(avcodec_alloc_context3(codec)));
-    encoder_->sample_fmt = av_get_sample_fmt(kind_.samples);
+    const AVChannelLayout& heard = decoder_->ch_layout;
+    AVChannelLayout layout = heard;  // which is mixed down to what the encoder takes
+    for (int channels = heard.nb_channels; !opens(*codec, samples, layout); --channels) {
+      if (channels == 0 || heard.order == AV_CHANNEL_ORDER_UNSPEC)
+        throw OutputError(format("{} cannot be written with sound: {} does not encode its {} channels at {} Hz; leave it out",
+                                 name_, codec->name, heard.nb_channels, encoder_->sample_rate),
+                          {Setting::sound});
+      layout = {};
+      av_channel_layout_default(&layout, channels);
+    }
+    if (layout.nb_channels < heard.nb_channels)
+      note = format("the sound's {} channels are mixed down to {}, as {} does not encode them", heard.nb_channels,
+                    layout.nb_channels, codec->name);
+  }
+
+  [[nodiscard]] bool opens(const AVCodec& codec, AVSampleFormat samples, const AVChannelLayout& layout) {
+    encoder_.reset(allocated(avcodec_alloc_context3(&codec)));
+    encoder_->sample_fmt = samples;
+    if (samples == AV_SAMPLE_FMT_S32 || samples == AV_SAMPLE_FMT_S32P)
+      encoder_->bits_per_raw_sample = codec.id == AV_CODEC_ID_PCM_S32LE ? 32 : 24;
     encoder_->sample_rate = kind_.only_rate != 0 ? kind_.only_rate : decoder_->sample_rate;
-    check(av_channel_layout_copy(&encoder_->ch_layout, &decoder_->ch_layout));
+    check(av_channel_layout_copy(&encoder_->ch_layout, &layout));
     encoder_->time_base = {1, encoder_->sample_rate};
     constexpr std::int64_t kBitsPerChannel = 96'000;
     encoder_->bit_rate = kBitsPerChannel * encoder_->ch_layout.nb_channels;
     if ((film_.oformat->flags & AVFMT_GLOBALHEADER) != 0) encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
-    check(avcodec_open2(encoder_.get(), codec, nullptr));
+    return avcodec_open2(encoder_.get(), &codec, nullptr) >= 0;
   }
 
   // Cuts the part out, fills gaps with silence, plays slower or faster, converts. A filter that keeps pitch (atempo) would
@@ -120,9 +162,19 @@ class LibavSoundWriter final : public SoundWriter {
                                  decoder_->sample_rate, decoder_->sample_rate,
                                  av_get_sample_fmt_name(decoder_->sample_fmt), layout);
     filters += format("aresample=async=1:first_pts=0,atrim=end={:.9f}", sound_.seconds * sound_.speed);
-    if (sound_.speed != 1.0) filters += format(",asetrate={}", std::llround(decoder_->sample_rate * sound_.speed));
-    filters += format(",aresample,aformat=sample_fmts={}:sample_rates={}:channel_layouts={}", kind_.samples,
-                      encoder_->sample_rate, layout);
+    if (sound_.speed != 1.0) {
+      // Rates are whole numbers, and a rounded one would drift: a ratio of two that are as large as aresample takes. It
+      // is given so much at once as makes a few thousand samples.
+      constexpr int kLargestRate = 1'000'000, kSamples = 4096;
+      const AVRational tape = av_d2q(decoder_->sample_rate * sound_.speed / encoder_->sample_rate, kLargestRate);
+      filters += format(",asetnsamples=n={}:p=0,asetrate={},aresample={},asetrate={}",
+                        std::clamp<std::int64_t>(std::llround(kSamples * sound_.speed), 1, kSamples),
+                        tape.num, tape.den, encoder_->sample_rate);
+    }
+    char encoded[64] = {};
+    check(av_channel_layout_describe(&encoder_->ch_layout, encoded, sizeof encoded));
+    filters += format(",aresample,aformat=sample_fmts={}:sample_rates={}:channel_layouts={},atrim=end={:.9f}",
+                      av_get_sample_fmt_name(encoder_->sample_fmt), encoder_->sample_rate, encoded, sound_.seconds);
     if (encoder_->frame_size > 0) filters += format(",asetnsamples=n={}:p=0", encoder_->frame_size);
     filters += ",abuffersink";
     AVFilterInOut *in = nullptr, *out = nullptr;
@@ -157,7 +209,8 @@ class LibavSoundWriter final : public SoundWriter {
     const double at = file_time(packet_->pts, from_->time_base);
     if (at < 0) return;
     written_s_ = at;
-    if (at >= sound_.seconds) {
+    const double end = at + static_cast<double>(packet_->duration) * av_q2d(from_->time_base);
+    if (at >= sound_.seconds || end > sound_.seconds + 1.0 / av_q2d(film_.streams[0]->avg_frame_rate)) {
       is_at_end_ = true;
       return;
     }

@@ -226,6 +226,7 @@ std::vector<Fact> ClipSource::facts(std::uint64_t sample_count) const {
 std::optional<ClipSound> ClipSource::sound() const {
   std::optional<ClipSound> sound = clip->info().sound;
   if (!sound || announced_samples() < 2) return {};
+  if (!request.clip.rate) sound->uneven_s = 0;
   const Timeline all = timeline(announced_samples());
   sound->filmed_s = static_cast<double>(all.start_ns(all.sample_count() - 1) - all.start_ns(0)) * 1e-9;
   return sound->filmed_s > 0 && sound->last_s > sound->first_s ? sound : std::nullopt;
