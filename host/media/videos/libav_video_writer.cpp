@@ -241,7 +241,7 @@ class LibavVideoWriter final : public VideoWriter {
       sound_ = open_sound(sound, *muxer_, name_);
       if (!sound_->note.empty()) notes_.push_back(sound_->note);
     } catch (const Error& error) {
-      if (sound.is_asked) throw;
+      if (sound.is_asked || !is_refusal(error)) throw;
       notes_.push_back(format("the clip's sound is left out: {}", error.what()));
     }
   }

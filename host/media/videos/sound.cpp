@@ -1,6 +1,7 @@
 #include "media/videos/sound.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "capture/rational.hpp"
@@ -24,6 +25,22 @@ constexpr SoundEncoder kEncoders[] = {{"avi", "pcm_s16le", "s16", "pcm_s24le", "
                                       {.container = "webm", .name = "libopus", .samples = "flt", .only_rate = 48'000},
                                       {.container = "", .name = "aac", .samples = "fltp", .only_rate = 48'000}};
 
+// These writers of Matroska delayed all streams by what Opus begins with and players drop, but for the Opus.
+constexpr unsigned kMovesOpus = AV_VERSION_INT(59, 30, 100);
+
+// How much too early the file has that stream of sound, whose pictures it delayed.
+double early_s(const AVFormatContext& file, const AVStream& sound, const AVStream& pictures) {
+  const AVDictionaryEntry* const writer = av_dict_get(file.metadata, "encoder", nullptr, 0);
+  unsigned major = 0, minor = 0, micro = 0;
+  if (sound.codecpar->codec_id != AV_CODEC_ID_OPUS || file.iformat->name != std::string_view("matroska,webm") ||
+      writer == nullptr || std::sscanf(writer->value, "Lavf%u.%u.%u", &major, &minor, &micro) != 3 ||
+      AV_VERSION_INT(major, minor, micro) > kMovesOpus)
+    return 0;
+  const double delay_s = static_cast<double>(sound.codecpar->initial_padding) / 48'000, rounding_s = 0.001;
+  const double start_s = static_cast<double>(pictures.start_time) * av_q2d(pictures.time_base);
+  return start_s > delay_s - rounding_s ? delay_s : 0;
+}
+
 class LibavSoundWriter final : public SoundWriter {
  public:
   LibavSoundWriter(const FilmSound& sound, AVFormatContext& film, const std::string& name)
@@ -36,6 +53,7 @@ class LibavSoundWriter final : public SoundWriter {
     const int found = best_sound(*clip_.format);
     check(found);
     from_ = clip_.format->streams[found];
+    sound_.start_s -= early_s(*clip_.format, *from_, *clip_.format->streams[clip_.stream]);
     const AVCodecParameters& codec = *from_->codecpar;
     const AVCodecID id = codec.codec_id;
     // An .avi does not say when sound begins: silence in front of it has to be encoded. FFmpeg 5 moves Opus by its delay
@@ -148,7 +166,12 @@ class LibavSoundWriter final : public SoundWriter {
     constexpr std::int64_t kBitsPerChannel = 96'000;
     encoder_->bit_rate = kBitsPerChannel * encoder_->ch_layout.nb_channels;
     if ((film_.oformat->flags & AVFMT_GLOBALHEADER) != 0) encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
-    return avcodec_open2(encoder_.get(), &codec, nullptr) >= 0;
+    if (avcodec_open2(encoder_.get(), &codec, nullptr) < 0) return false;
+    if (codec.id == AV_CODEC_ID_OPUS && avformat_version() <= kMovesOpus) {
+      film_.avoid_negative_ts = AVFMT_AVOID_NEG_TS_DISABLED;
+      delay_ = encoder_->initial_padding;
+    }
+    return true;
   }
 
   // Cuts the part out, fills gaps with silence, plays slower or faster, converts. A filter that keeps pitch (atempo) would
@@ -253,7 +276,11 @@ class LibavSoundWriter final : public SoundWriter {
     if (frame != nullptr) written_s_ = static_cast<double>(frame->pts) / encoder_->sample_rate;
     check(avcodec_send_frame(encoder_.get(), frame));
     const PacketPointer packet(allocated(av_packet_alloc()));
-    while (avcodec_receive_packet(encoder_.get(), packet.get()) >= 0) write(*packet, encoder_->time_base);
+    while (avcodec_receive_packet(encoder_.get(), packet.get()) >= 0) {
+      packet->pts += delay_;
+      packet->dts += delay_;
+      write(*packet, encoder_->time_base);
+    }
   }
 
   void write(AVPacket& packet, AVRational base) const {
@@ -278,6 +305,7 @@ class LibavSoundWriter final : public SoundWriter {
   AVStream *from_ = nullptr, *to_ = nullptr;
   bool is_copied_ = false, is_at_end_ = false;
   double written_s_ = -1.0;
+  std::int64_t delay_ = 0;  // of packets, in samples
   SoundEncoder kind_{};
   CodecPointer decoder_, encoder_;
   GraphPointer graph_;
