@@ -1,6 +1,7 @@
 // Films as editors, players and the web take them: decoded again by others, with their tags, and with the clip's sound.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <sstream>
@@ -211,7 +212,7 @@ class FilmSoundTest : public FilmKinds {
   // The frame that is bright, and when the sound begins, in frames.
   [[nodiscard]] std::pair<double, double> clap(const std::string& name, double rate) const {
     ffmpeg("-i " + name + " -vsync 0 -f rawvideo -pix_fmt gray frames");
-    ffmpeg("-i " + name + " -vn -af aresample=async=1:first_pts=0 -f f32le -ac 1 -ar 48000 sound");
+    ffmpeg("-copyts -i " + name + " -vn -af aresample=async=1:first_pts=0 -f f32le -ac 1 -ar 48000 sound");
     const std::string frames = file("frames"), sound = file("sound");
     std::size_t frame = 0;
     while (frame * 64 * 48 < frames.size() &&
@@ -285,6 +286,70 @@ TEST_F(FilmSoundTest, LiesOnItsFrameWhateverIsTakenOfTheClip) {
   for (int film = 1; film < 4; ++film) lies_at(50, format("opus{}.webm", film - 1), format("opus{}.webm", film), 25);
 }
 
+// A clap on a cut's first frame is heard whole, and nothing behind its last one.
+TEST_F(FilmSoundTest, BeginsAndEndsWithACut) {
+  NEEDS_FFMPEG();
+  make_clap("aac.mp4", "aac");
+  make_clap("alac.mov", "alac");
+  make_clap("flac.mkv", "flac");
+  make_clap("opus.mkv", "libopus");  // whose pictures FFmpeg 5 delays
+  make_clap("pcm.mov", "pcm_s24le");
+  const std::vector<std::array<std::string, 3>> films{
+      {"aac.mp4", "a.mp4", "aac"},   {"aac.mp4", "a.mkv", "flac"},  {"alac.mov", "b.mp4", "alac"},
+      {"alac.mov", "b.mov", "alac"}, {"flac.mkv", "c.mkv", "flac"}, {"flac.mkv", "c.webm", "opus"},
+      {"opus.mkv", "d.mp4", "aac"},  {"opus.mkv", "d.webm", "opus"}, {"pcm.mov", "e.avi", "pcm_s24le"},
+      {"pcm.mov", "e.mkv", "pcm_s24le"}};
+  for (const auto& [clip, film, codec] : films) {
+    SCOPED_TRACE(clip + " as " + film);
+    make("video --out-fps 25 --out-angle 360 --from 50f --to 60f " + clip + " " + film);
+    expect_says(probed(film, "a"), "codec_name=" + codec + "\n");
+    const auto [frame, sound] = clap(film, 25);
+    EXPECT_EQ(frame, 0);
+    EXPECT_NEAR(sound, 0, 0.03);
+    EXPECT_NEAR(static_cast<double>(file("sound").size()) / 4 / 48'000, 0.4, 0.04);
+  }
+}
+
+TEST_F(FilmSoundTest, KeepsDepthLanguageAndTitle) {
+  NEEDS_FFMPEG();
+  make_clap("clip.mkv", "flac -sample_fmt s32 -metadata:s:a language=deu -metadata:s:a title=Stage");
+  const auto told = [&](const std::string& film) {
+    make("video --out-fps 25 --out-angle 360 clip.mkv " + film);
+    return test::run_shell("ffprobe -v error -select_streams a -show_streams " + film, scratch_.folder()).out;
+  };
+  expect_says(told("film.mkv"), {"bits_per_raw_sample=24\n", "TAG:language=deu\n", "TAG:title=Stage\n"});
+  expect_says(told("film.avi"), "codec_name=pcm_s24le\n");
+}
+
+// Where nothing is said of sound, a film without it is better than none.
+TEST_F(FilmSoundTest, IsMixedDownOrLeftOutForAReason) {
+  NEEDS_FFMPEG();
+  make_clap("clip.mp4", "aac");
+  const std::string program = "'" NUTIK_TEST_PROGRAM "' video --json --overwrite --out-fps 25 - film.mp4";
+  for (int time = 0; time < 2; ++time) {  // the second finds a film of that name
+    const auto piped = test::run_shell("(cat clip.mp4 | " + program + ")", scratch_.folder());
+    ASSERT_EQ(piped.status, 0) << piped.err;
+    EXPECT_EQ(nlohmann::json::parse(piped.out)["sound"]["codec"], "aac");
+  }
+  const auto channels = [&](int count) {
+    std::string each = "0";
+    for (int k = 1; k < count; ++k) each += "|0";
+    ffmpeg("-i clip.mp4 -f lavfi -i \"aevalsrc=" + each + ":s=48000:d=4\" -map 0:v -map 1:a -c:v copy -c:a pcm_s16le " +
+           "many.mov");
+    const auto made = make("video --overwrite --out-fps 25 many.mov many.webm");
+    return made.out + made.err;
+  };
+  expect_says(channels(4), "the sound's 4 channels are mixed down to 2, as libopus does not encode them");
+  expect_says(channels(10), "nothing says where its 10 channels are heard");
+  const std::filesystem::path folder = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path();
+  std::filesystem::copy(NUTIK_TEST_PROGRAM, scratch_ / "alone");
+  std::filesystem::copy(folder / "nutik-videos.so", scratch_ / "nutik-videos.so");
+  const auto alone =
+      test::run_shell("env -u NUTIK_MODULES ./alone video --out-fps 25 clip.mp4 alone.webm", scratch_.folder());
+  EXPECT_EQ(alone.status, 0);
+  expect_says(alone.err + alone.out, "nutik-filters.so was not found");
+}
+
 // A film says which of two tracks it has: the one that players take.
 TEST_F(FilmSoundTest, IsToldOf) {
   NEEDS_FFMPEG();
@@ -325,6 +390,15 @@ TEST_F(FilmSoundTest, IsLeftOutAloudOrStretched) {
     EXPECT_NEAR(frame, at, 0.5) << speed;
     EXPECT_NEAR(sound, at, 1.0) << speed;
   }
+  // 8000 / 60 is no whole number: a rounded rate would have drifted by 0.3 s.
+  make_clap("slow.mov", "pcm_s16le -ar 8000");
+  make("video --out-fps 5 --out-angle 360 --between off --sound stretch --speed 1/60 --to 2.1s slow.mov drift.mov");
+  const auto [flash, tone] = clap("drift.mov", 5);
+  EXPECT_NEAR(flash, 600, 0.5);
+  EXPECT_NEAR(tone, flash, 0.1);
+  ffmpeg("-i clip.mp4 -vf \"setpts=(N+min(N\\,50))/25/TB\" -vsync passthrough -c:a copy uneven.mp4");
+  const auto even = make("video -f 25 --out-fps 25 --between off --sound stretch uneven.mp4 even.mp4");
+  expect_says(even.out + even.err, "the file's pictures do not lie at even times");
   make("video --out-fps 25 --sound no clip.mp4 mute.mp4");
   EXPECT_EQ(probed("mute.mp4", "a"), "");
   const auto gif = make("video --out-fps 25 clip.mp4 a.gif");

@@ -115,6 +115,11 @@ class LibavSoundWriter final : public SoundWriter {
     if (decoder_->sample_fmt == AV_SAMPLE_FMT_NONE || decoder_->sample_rate <= 0) check(AVERROR_INVALIDDATA);
     if (decoder_->ch_layout.order == AV_CHANNEL_ORDER_UNSPEC)
       av_channel_layout_default(&decoder_->ch_layout, decoder_->ch_layout.nb_channels);
+    if (decoder_->ch_layout.order == AV_CHANNEL_ORDER_UNSPEC)
+      throw OutputError(format("{} cannot be written with sound: nothing says where its {} channels are heard; leave it "
+                               "out",
+                               name_, decoder_->ch_layout.nb_channels),
+                        {Setting::sound});
   }
 
   // PCM and ALAC stay what they are, where the container holds them.
@@ -143,10 +148,11 @@ class LibavSoundWriter final : public SoundWriter {
     const AVChannelLayout& heard = decoder_->ch_layout;
     AVChannelLayout layout = heard;  // which is mixed down to what the encoder takes
     for (int channels = heard.nb_channels; !opens(*codec, samples, layout); --channels) {
-      if (channels == 0 || heard.order == AV_CHANNEL_ORDER_UNSPEC)
-        throw OutputError(format("{} cannot be written with sound: {} does not encode its {} channels at {} Hz; leave it out",
-                                 name_, codec->name, heard.nb_channels, encoder_->sample_rate),
-                          {Setting::sound});
+      if (channels == 0)
+        throw OutputError(
+            format("{} cannot be written with sound: {} does not encode its {} channels at {} Hz; leave it out", name_,
+                   codec->name, heard.nb_channels, encoder_->sample_rate),
+            {Setting::sound});
       layout = {};
       av_channel_layout_default(&layout, channels);
     }
@@ -158,8 +164,8 @@ class LibavSoundWriter final : public SoundWriter {
   [[nodiscard]] bool opens(const AVCodec& codec, AVSampleFormat samples, const AVChannelLayout& layout) {
     encoder_.reset(allocated(avcodec_alloc_context3(&codec)));
     encoder_->sample_fmt = samples;
-    if (samples == AV_SAMPLE_FMT_S32 || samples == AV_SAMPLE_FMT_S32P)
-      encoder_->bits_per_raw_sample = codec.id == AV_CODEC_ID_PCM_S32LE ? 32 : 24;
+    if (av_get_packed_sample_fmt(samples) == AV_SAMPLE_FMT_S32 && av_get_exact_bits_per_sample(codec.id) == 0)
+      encoder_->bits_per_raw_sample = 24;
     encoder_->sample_rate = kind_.only_rate != 0 ? kind_.only_rate : decoder_->sample_rate;
     check(av_channel_layout_copy(&encoder_->ch_layout, &layout));
     encoder_->time_base = {1, encoder_->sample_rate};
