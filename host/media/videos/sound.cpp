@@ -90,6 +90,9 @@ class LibavSoundWriter final : public SoundWriter {
     if (code < 0)
       throw OutputError(format("{} cannot be written, for its sound: {}", name_, error_text(code)));
   }
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw OutputError(format("{} cannot be written with sound: {}; leave it out", name_, why), {Setting::sound});
+  }
 
   [[nodiscard]] bool is_pcm() const { return av_get_exact_bits_per_sample(from_->codecpar->codec_id) != 0; }
   [[nodiscard]] bool is_lossless() const {
@@ -116,10 +119,7 @@ class LibavSoundWriter final : public SoundWriter {
     if (decoder_->ch_layout.order == AV_CHANNEL_ORDER_UNSPEC)
       av_channel_layout_default(&decoder_->ch_layout, decoder_->ch_layout.nb_channels);
     if (decoder_->ch_layout.order == AV_CHANNEL_ORDER_UNSPEC)
-      throw OutputError(format("{} cannot be written with sound: nothing says where its {} channels are heard; leave it "
-                               "out",
-                               name_, decoder_->ch_layout.nb_channels),
-                        {Setting::sound});
+      refuse(format("nothing says where its {} channels are heard", decoder_->ch_layout.nb_channels));
   }
 
   // PCM and ALAC stay what they are, where the container holds them.
@@ -132,27 +132,17 @@ class LibavSoundWriter final : public SoundWriter {
     const bool is_deep = is_lossless() && av_get_bytes_per_sample(decoder_->sample_fmt) > 2;
     const char* name = is_deep ? kind_.deep_name : kind_.name;
     AVSampleFormat samples = av_get_sample_fmt(is_deep ? kind_.deep_samples : kind_.samples);
-    const AVCodec* codec = is_pcm() || own == AV_CODEC_ID_ALAC ? avcodec_find_encoder(own) : nullptr;
-    if (codec != nullptr && holds(own)) {
-      samples = decoder_->sample_fmt;
-      kind_.only_rate = 0;
-    } else {
-      codec = avcodec_find_encoder_by_name(name);
-    }
-    if (codec == nullptr || !holds(codec->id)) {
-      throw OutputError(
-          format("{} cannot be written with sound: the FFmpeg here does not encode {} for {}; leave it out", name_,
-                 name, container),
-          {Setting::sound});
-    }
+    const bool is_kept = (is_pcm() || own == AV_CODEC_ID_ALAC) && holds(own) && avcodec_find_encoder(own) != nullptr;
+    const AVCodec* const codec = is_kept ? avcodec_find_encoder(own) : avcodec_find_encoder_by_name(name);
+    if (is_kept) samples = decoder_->sample_fmt;
+    if (codec == nullptr || !holds(codec->id))
+      refuse(format("the FFmpeg here does not encode {} for {}", name, container));
     const AVChannelLayout& heard = decoder_->ch_layout;
     AVChannelLayout layout = heard;  // which is mixed down to what the encoder takes
     for (int channels = heard.nb_channels; !opens(*codec, samples, layout); --channels) {
       if (channels == 0)
-        throw OutputError(
-            format("{} cannot be written with sound: {} does not encode its {} channels at {} Hz; leave it out", name_,
-                   codec->name, heard.nb_channels, encoder_->sample_rate),
-            {Setting::sound});
+        refuse(format("{} does not encode its {} channels at {} Hz", codec->name, heard.nb_channels,
+                      encoder_->sample_rate));
       layout = {};
       av_channel_layout_default(&layout, channels);
     }
@@ -166,7 +156,8 @@ class LibavSoundWriter final : public SoundWriter {
     encoder_->sample_fmt = samples;
     if (av_get_packed_sample_fmt(samples) == AV_SAMPLE_FMT_S32 && av_get_exact_bits_per_sample(codec.id) == 0)
       encoder_->bits_per_raw_sample = 24;
-    encoder_->sample_rate = kind_.only_rate != 0 ? kind_.only_rate : decoder_->sample_rate;
+    const bool is_own = codec.id == from_->codecpar->codec_id && codec.id != AV_CODEC_ID_OPUS;
+    encoder_->sample_rate = kind_.only_rate != 0 && !is_own ? kind_.only_rate : decoder_->sample_rate;
     check(av_channel_layout_copy(&encoder_->ch_layout, &layout));
     encoder_->time_base = {1, encoder_->sample_rate};
     constexpr std::int64_t kBitsPerChannel = 96'000;
