@@ -151,13 +151,15 @@ TEST(VideoWriter, DeepFilmsAreAsBrightAsTheirFrames) {
   use_the_programs_modules();
   for (const auto& [name, codec_name] : {std::pair("v.mov", "prores-4444"), {"v.mov", "dnxhr-444"}, {"v.mp4", "h264-10"}}) {
     for (const std::uint16_t grey : std::array<std::uint16_t, 3>{2'000, 32'768, 60'000}) {
-      const Scratch scratch;
-      Picture picture({256, 128, 3}, ValueType::code16, 65'535);
-      std::ranges::fill(picture.values<std::uint16_t>(), grey);
-      write_video(scratch / name, {picture}, {25, 1}, codec_name);
-      const auto raster = test::read_all(*test::open_test_clip(scratch / name)).front();
-      const int code = reinterpret_cast<const std::uint16_t*>(raster.data())[3 * (64 * 256 + 128)];
-      EXPECT_NEAR(code, grey, 65'535.0 / 876 / 2 + 1) << codec_name;
+      for (const std::uint32_t channels : {1u, 3u}) {
+        const Scratch scratch;
+        Picture picture({256, 128, channels}, ValueType::code16, 65'535);
+        std::ranges::fill(picture.values<std::uint16_t>(), grey);
+        write_video(scratch / name, {picture}, {25, 1}, codec_name);
+        const auto raster = test::read_all(*test::open_test_clip(scratch / name)).front();
+        const int code = reinterpret_cast<const std::uint16_t*>(raster.data())[3 * (64 * 256 + 128)];
+        EXPECT_NEAR(code, grey, 65'535.0 / 876 / 2 + 1) << codec_name << " " << channels;
+      }
     }
   }
 }

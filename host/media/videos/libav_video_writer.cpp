@@ -275,12 +275,13 @@ class LibavVideoWriter final : public VideoWriter {
                                            nullptr, nullptr)));
     constexpr int kOne = 1 << 16;  // contrast and saturation
     const int* const matrix = sws_getCoefficients(encoder_->colorspace);  // SWS_CS_ has H.273's numbers, too
-    is_white_less_ = from == AV_PIX_FMT_RGB48 && is_yuv(encoder_->pix_fmt);
+    is_white_less_ = video_.type == ValueType::code16 && is_yuv(encoder_->pix_fmt);
     check(sws_setColorspaceDetails(scaler_.get(), matrix, 1, matrix,
                                    encoder_->color_range == AVCOL_RANGE_JPEG ? 1 : 0, 0, kOne, kOne));
   }
 
-  // Into picture_, whose sides may be one longer. libswscale takes 65280 for the white of RGB of 16 bits that becomes YUV.
+  // Into picture_, whose sides may be one longer. libswscale takes 65280 for the white of 16 bits
+  // that become YUV.
   void copy(const Picture& picture) {
     const Shape& shape = picture.shape;
     const std::size_t pixel_bytes = shape.channels * value_bytes(picture.type);
