@@ -149,7 +149,8 @@ TEST(VideoWriter, EveryCodecKeepsTheColours) {
 // A grey of ten bits is the nearest code of the limited range, not one of 255/256 of it.
 TEST(VideoWriter, DeepFilmsAreAsBrightAsTheirFrames) {
   use_the_programs_modules();
-  for (const auto& [name, codec_name] : {std::pair("v.mov", "prores-4444"), {"v.mov", "dnxhr-444"}, {"v.mp4", "h264-10"}}) {
+  for (const auto& [name, codec_name] :
+       {std::pair("v.mov", "prores-4444"), {"v.mov", "dnxhr-444"}, {"v.mp4", "h264-10"}}) {
     for (const std::uint16_t grey : std::array<std::uint16_t, 3>{2'000, 32'768, 60'000}) {
       for (const std::uint32_t channels : {1u, 3u}) {
         const Scratch scratch;
@@ -181,6 +182,7 @@ TEST(VideoWriter, SaysWhatAnEncoderDoesNotTake) {
   const Scratch scratch;
   const Picture small({64, 48, 3}, ValueType::code16, 65'535);
   EXPECT_THROW(static_cast<void>(video_codec_for("v.m4v", "h265")), UsageError);  // FFmpeg's muxer knows no tag for it
+  EXPECT_THROW(static_cast<void>(video_codec_for("v-%03d.webp", {})), UsageError);
   try {
     write_video(scratch / "v.mov", {small}, {25, 1}, "dnxhr-hqx");
     FAIL();

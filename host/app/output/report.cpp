@@ -214,8 +214,8 @@ std::vector<std::string> ExposureTally::notes() const {
   const std::string share = format("white is {:.3g} % of the light that {} reaches", 100 * white,
                                    brighter_than_white_->text());
   notes.push_back(
-      has_codes_ ? format("{}, and {} brighter come out white; nutik-cl expose --ev {:.1f} shows all that a still scene "
-                          "holds, and an .exr, or a .tif with --depth float, keeps it",
+      has_codes_ ? format("{}, and {} brighter come out white; nutik-cl expose --ev {:.1f} shows all that a still "
+                          "scene holds, and an .exr, or a .tif with --depth float, keeps it",
                           share, counted(saturation_.above, "pixel"), std::floor(10 * std::log2(white)) / 10)
                  : format("{}, which is 1 here; --gain {:.6g} makes white 1", share, 1 / white));
   return notes;

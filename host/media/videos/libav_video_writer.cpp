@@ -98,6 +98,9 @@ class LibavVideoWriter final : public VideoWriter {
       open_scaler();
     }
     note_rounded_pixels();
+    if (video.transfer.reference_white() < 1 && !codec.holds_16_bits)
+      notes_.push_back(format("{} has 8 bits, in which {} shows bands; those of 10 do not: h265-10, prores", codec.name,
+                              video.transfer.text()));
     if (video.sound) add_sound(*video.sound);
     check(avio_open(&muxer_->pb, url_of(file_.temporary_path()).c_str(), AVIO_FLAG_WRITE));
     check_taken(avformat_write_header(muxer_.get(), nullptr), format("a {} file", path.extension().string()));

@@ -117,6 +117,9 @@ const VideoCodec& video_codec_for(const std::filesystem::path& path, const std::
                "numbered stills, frame-%05d.png",
                path.string()));
   }
+  if (NumberedName::parse(path.filename().string()))
+    throw UsageError(format("{}: a {} holds all frames in one file; leave the number out of its name", path.string(),
+                            container->extension));
   std::string all, fitting;
   for (const VideoCodec& codec : kCodecs) {
     const bool held = is_held(codec, container->extension);
