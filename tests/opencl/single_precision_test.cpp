@@ -74,6 +74,21 @@ TEST(SinglePrecision, TurnsEveryCodeIntoItsLight) {
   }
 }
 
+// Rows of 8 bits have the float nearest to each code's light, which no curve has, on processors that look it up byte by
+// byte; here without a rounding of the weight, and in every place of a tile.
+TEST(SinglePrecision, LooksUpTheNearestLightByteByByte) {
+  OpenClRenderer renderer(test::renderer_options(Precision::single_));
+  if (!renderer.info().permutes_bytes) GTEST_SKIP() << "this device does not look up bytes";
+  for (const Transfer& transfer : {Transfer::srgb(), Transfer::bt709(), Transfer::gamma(2.2)}) {
+    EveryCode every({1, 1, 255, transfer});
+    const Picture light = renderer.render(every.plan, every.capture, {ValueType::light64, 0}).picture;
+    const std::vector<double> exact = transfer.light_of_codes(255);
+    for (std::uint32_t code = 0; code <= 255; ++code) {
+      ASSERT_EQ(light.values<double>()[code], static_cast<float>(exact[code])) << transfer.text() << ", " << code;
+    }
+  }
+}
+
 TEST(SinglePrecision, GivesEveryCodeBack) {
   OpenClRenderer renderer(test::renderer_options(Precision::single_));
   for (const CodeFormat& codes :
