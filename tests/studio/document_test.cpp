@@ -68,6 +68,21 @@ TEST(Document, ForgetsASelectionThatUndoTookAway) {
   EXPECT_TRUE(document.selected_points().size() <= document.points(0).size());
 }
 
+TEST(Document, SelectsTheRegionThatUndoBringsBack) {
+  Document document;
+  document.start(facts_of_one_second());
+  document.set_points(7, {{0, 0.0}, {1, 1.0}}, "Add region");
+  document.select_tag(7);
+  DocumentState without = document.state();
+  without.functions.erase(7);
+  QSignalSpy selected(&document, &Document::selection_changed);
+  document.apply(without, "Remove region");
+  EXPECT_EQ(document.selected_tag(), 0);
+  document.undo_stack().undo();
+  EXPECT_EQ(document.selected_tag(), 7);
+  EXPECT_EQ(selected.count(), 1);
+}
+
 TEST(TimeAxis, ZoomsToThePointerAndStaysAtTheCapture) {
   TimeAxis axis;
   axis.set_duration(1'000'000'000);
