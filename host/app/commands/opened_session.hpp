@@ -11,8 +11,8 @@
 namespace nutik::app {
 
 // On the first operand; its devices start beside it. A clip that is read whole is read with a progress bar, which says
-// `what` is done. Prints what is doubtful about what came of it. Throws UsageError where options describe a clip and this
-// is a .tik, and what Session throws.
+// `what` is done. Prints what is doubtful about what came of it. Throws UsageError where options describe a clip and
+// this is a .tik, and what Session throws.
 [[nodiscard]] Session open_session(const Options& options, Session::Terms terms = {}, const char* what = "reading");
 // On another capture, with devices that start when the first picture is asked for.
 [[nodiscard]] Session open_session(const std::string& name, const Options& options,

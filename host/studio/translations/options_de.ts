@@ -1,8 +1,8 @@
 <?xml version="1.0" encoding="utf-8"?>
 <!DOCTYPE TS>
 <!-- What options are for (host/features/schema/option_rows.cpp), as dialogs show it: a label up to the first of
-     ": ", " (" and "; "; what is taken where nothing is stated behind "(Standard: ". Words that are typed stay; those that
-     are chosen from a list follow as "Choice". -->
+     ": ", " (" and "; "; what is taken where nothing is stated behind "(Standard: ". Words that are typed stay; those
+     that are chosen from a list follow as "Choice". -->
 <TS version="2.1" language="de_DE" sourcelanguage="en">
 <context>
     <name>Option</name>

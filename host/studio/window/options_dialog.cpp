@@ -89,7 +89,8 @@ Options options_in(CommandId command, const Stated& stated) {
   Options options;
   for (const auto& [name, value] : stated) {
     const Option& option = *option_of(command, name);
-    option.state(options, label_of(option).toStdString() + ":", option.is_flag() ? std::vector<std::string>() : std::vector{value});
+    const std::string label = label_of(option).toStdString() + ":";  // as the dialog has it
+    option.state(options, label, option.is_flag() ? std::vector<std::string>() : std::vector{value});
   }
   return options;
 }
