@@ -97,6 +97,11 @@ TEST(TimeAxis, ZoomsToThePointerAndStaysAtTheCapture) {
   EXPECT_GT(axis.end_ns(), 1e9);
   axis.zoom(1e-30, 300, kWidth);
   EXPECT_GT(axis.end_ns(), axis.begin_ns());
+  for (std::int64_t pictures = 1; pictures < 100; ++pictures) {
+    axis.set_duration(pictures * 33'333'333);
+    axis.zoom(1e9, 300, kWidth);
+    EXPECT_NEAR(axis.begin_ns(), -0.02 * static_cast<double>(axis.duration_ns()), 1e-3);
+  }
 }
 
 }  // namespace
