@@ -27,7 +27,7 @@ class RandomEventsTest : public StudioTest {
     QWidget& widget = *widgets[random_.whole(0, 2)];
     const auto modifiers = random_.pick(
         std::vector<Qt::KeyboardModifiers>{{}, Qt::ShiftModifier, Qt::ControlModifier, Qt::AltModifier});
-    switch (random_.whole(0, 8)) {
+    switch (random_.whole(0, 9)) {
       case 0:
         return click_tool(random_.pick(std::vector<const char*>{
             "tool_look", "tool_brush", "tool_rectangle", "tool_ellipse", "tool_polygon", "tool_wand"}));
@@ -43,13 +43,17 @@ class RandomEventsTest : public StudioTest {
                                random_.pick(std::vector<Qt::Key>{
                                    Qt::Key_Left, Qt::Key_Right, Qt::Key_Up, Qt::Key_Down, Qt::Key_Escape,
                                    Qt::Key_Tab, Qt::Key_Insert, Qt::Key_Delete, Qt::Key_Plus, Qt::Key_Minus,
-                                   Qt::Key_Space, Qt::Key_Backspace, Qt::Key_Return, Qt::Key_I, Qt::Key_O, Qt::Key_X,
-                                   Qt::Key_F, Qt::Key_C}),
+                                   Qt::Key_Space, Qt::Key_Backspace, Qt::Key_Return}),
                                modifiers);
       case 4:
         return QTest::keyClick(&window_, random_.chance(0.7) ? Qt::Key_Z : Qt::Key_Y, Qt::ControlModifier);
       case 5: return QCoreApplication::processEvents();
       case 6: return choose();
+      case 7:  // with Ctrl some of them ask
+        return QTest::keyClick(&widget,
+                               random_.pick(std::vector<Qt::Key>{Qt::Key_I, Qt::Key_O, Qt::Key_X, Qt::Key_Z,
+                                                                 Qt::Key_F, Qt::Key_C}),
+                               random_.chance(0.8) ? Qt::NoModifier : Qt::ShiftModifier);
       default: return drag(widget, somewhere(widget), somewhere(widget), modifiers);
     }
   }

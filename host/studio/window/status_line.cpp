@@ -90,10 +90,10 @@ StatusLine::StatusLine(const std::vector<Jobs*>& jobs, QWidget* parent)
   addWidget(cancel_);
   zoom_->setObjectName("zoom");
   zoom_->setToolTip(tr("How large the picture is shown: 100 % is pixel for pixel (Ctrl+1), Ctrl+0 shows all of it"));
-  addPermanentWidget(zoom_);
-  addPermanentWidget(saturated_);
-  addPermanentWidget(arithmetic_);
-  addPermanentWidget(milliseconds_);
+  for (QLabel* label : {zoom_, saturated_, arithmetic_, milliseconds_}) {
+    label->setContentsMargins(4, 0, 4, 0);
+    addPermanentWidget(label);
+  }
   const auto show_work = [this](bool is_shown) {
     for (QWidget* widget : std::initializer_list<QWidget*>{work_, progress_, cancel_}) widget->setVisible(is_shown);
   };
