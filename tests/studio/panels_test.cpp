@@ -85,6 +85,10 @@ TEST_F(PanelsTest, ARegionIsHiddenAndShownAlone) {
   const QImage outlined = shown();
   const QColor colour = document().state().looks.at(tag).colour;
   EXPECT_EQ(shown_at(outlined, edge), colour) << "a line in the region's colour";
+  const double ratio = outlined.devicePixelRatio();
+  int wide = 0;
+  for (double x = -4; x <= 4; x += 1 / ratio) wide += shown_at(outlined, edge + QPointF(x, 0)) == colour;
+  EXPECT_GE(wide, 2 * ratio - 1) << "as wide on every screen";
   click_in_list(box_of(*list().currentItem(), kName));
   EXPECT_FALSE(document().state().looks.at(tag).is_visible);
   EXPECT_NE(shown_at(shown(), edge), colour);
