@@ -9,7 +9,6 @@
 #include <cmath>
 #include <stdexcept>
 
-
 namespace nutik::studio {
 
 // One step of undo: the state before and after it.

@@ -22,11 +22,8 @@
 #include "tik/reader.hpp"
 
 namespace nutik::studio {
-namespace {
 
 constexpr const char* kWrittenKey = "written";  // while no window was open
-
-}  // namespace
 
 FileTimes times_of(const QStringList& files) {
   FileTimes times;

@@ -243,13 +243,9 @@ void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptPro
   try_to([&] {
     Project project = load_project(path);
     Origin origin{.kind = Origin::Kind::recovered,
-                  .project = {},
-                  .files = {},
-                  .known = {},
                   .state = std::move(project.state),
                   .marks = project.marks,
                   .duration_ns = project.duration_ns,
-                  .left = {},
                   .kept = std::move(kept),
                   .then = then};
     if (!origin.kept) {

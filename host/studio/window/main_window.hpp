@@ -46,13 +46,13 @@ using FileTimes = std::map<QString, QDateTime>;
 struct Origin {
   enum class Kind { capture, project, recovered };
   Kind kind = Kind::capture;
-  QString project;  // of Kind::project
-  CommandFiles files;
-  FileTimes known;
-  std::optional<DocumentState> state;  // none: the document starts anew
+  QString project = {};  // of Kind::project
+  CommandFiles files = {};
+  FileTimes known = {};
+  std::optional<DocumentState> state = {};  // none: the document starts anew
   Marks marks = {};
-  std::int64_t duration_ns = 0;        // of the capture that the state was made of; 0: whatever it is
-  std::optional<DocumentState> left;   // what the document was when it was left for this
+  std::int64_t duration_ns = 0;                  // of the capture that the state was made of; 0: whatever it is
+  std::optional<DocumentState> left = {};        // what the document was when it was left for this
   std::shared_ptr<const KeptProject> kept = {};  // of Kind::recovered
   bool is_unwritten = false;                     // of Kind::project: its last save was ended in the middle
   bool is_elsewhere = false;                     // the capture, than where the project says
