@@ -196,6 +196,7 @@ bool MainWindow::may_leave_writing() {
                        QMessageBox::Cancel, this);
   const QAbstractButton* finish = question.addButton(tr("&Finish in the background"), QMessageBox::AcceptRole);
   const QAbstractButton* stop = question.addButton(tr("&Stop"), QMessageBox::DestructiveRole);
+  connect(&writing_, &Jobs::failed, &question, &QDialog::reject);  // which is to be read first
   question.exec();
   if (question.clickedButton() == stop) {
     writing_.cancel();
