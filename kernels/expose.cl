@@ -192,7 +192,7 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
   barrier(CLK_LOCAL_MEM_FENCE);
   const LightTable transfer = copies + get_local_id(0) % NUTIK_TABLE_COPIES;
 #else
-  const LightTable transfer = light;
+  const LightTable transfer = light + NUTIK_BYTE_TABLES * 256;
 #endif
 
   // Block by block, not tile by tile: a block's tiles lie one after the other in memory. A block is summed

@@ -30,6 +30,16 @@ std::uint32_t loop_limit_of(const DeviceInfo& info) {
   return info.platform == "rusticl" && info.name.starts_with("llvmpipe") ? 65'535 : 0;
 }
 
+// PoCL builds for this processor. Intel's take three operations for it, so that nothing would be gained.
+bool permutes_bytes(const DeviceInfo& info) {
+#ifdef __x86_64__
+  return info.platform == "Portable Computing Language" && info.kind == DeviceKind::cpu &&
+         __builtin_cpu_is("amd") && __builtin_cpu_supports("avx512vbmi");
+#else
+  return static_cast<void>(info), false;
+#endif
+}
+
 // Some drivers pad names with blanks and end them with a zero.
 constexpr std::string_view kPadding(" \0", 2);
 
@@ -184,6 +194,7 @@ DeviceInfo describe_device(const cl::Device& device) {
   cl_bool unified = CL_FALSE;
   device.getInfo(CL_DEVICE_HOST_UNIFIED_MEMORY, &unified);
   info.shares_host_memory = info.kind == DeviceKind::cpu && unified == CL_TRUE;
+  info.permutes_bytes = permutes_bytes(info);
   return info;
 }
 

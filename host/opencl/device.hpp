@@ -27,6 +27,7 @@ struct DeviceInfo {
   bool has_double = false;
   std::uint64_t group_memory_bytes = 0;  // beside the work-items of a group; 0: such memory is like any other
   bool shares_host_memory = false;
+  bool permutes_bytes = false;  // of two vectors of 64 bytes, in one operation; kernels may be written in instructions
 };
 
 // For an application, before it has a second thread: sets variables of the environment, where they are not set.

@@ -30,13 +30,14 @@ std::string common_options(const Work& work, const CaptureFormat& capture, bool 
 }  // namespace
 
 std::string expose_options(const Work& work, const CaptureFormat& capture, const char* light_kind,
-                           bool has_delays) {
+                           bool has_delays, bool has_byte_tables) {
   const bool has_copies = capture.code_bytes == 1 && light_kind == std::string_view("NUTIK_LIGHT_TABLE");
   return format(
       "{} -DNUTIK_CODE_BYTES={} -DNUTIK_LIGHT={} -DNUTIK_ITEM_PIXELS={} -DNUTIK_ITEM_TILES={} "
-      "-DNUTIK_LANES={} -DNUTIK_ROWS_AT_ONCE={} -DNUTIK_TABLE_COPIES={}",
+      "-DNUTIK_LANES={} -DNUTIK_ROWS_AT_ONCE={} -DNUTIK_TABLE_COPIES={} -DNUTIK_BYTE_TABLES={}",
       common_options(work, capture, has_delays), capture.code_bytes, light_kind, work.shape.item_pixels,
-      work.shape.item_tiles, work.shape.lanes, work.shape.rows_at_once, has_copies ? work.shape.table_copies : 0);
+      work.shape.item_tiles, work.shape.lanes, work.shape.rows_at_once, has_copies ? work.shape.table_copies : 0,
+      has_byte_tables ? 1 : 0);
 }
 
 std::string develop_options(const Work& work, const CaptureFormat& capture, const OutputFormat& output,
@@ -60,7 +61,7 @@ const DeviceLight& KernelConstants::light(const RenderPlan& plan, Precision prec
   }
   const LightSource source = light_source(capture, precision, means);
   const Bytes values = light_values(source, precision, key.fixed_white_light);
-  return light_.keep({key, source.kind, memory.upload(values), values.size()});
+  return light_.keep({key, source.kind, !source.bytewise.empty(), memory.upload(values), values.size()});
 }
 
 const DeviceCodes* KernelConstants::codes(const CodeKey& key, DeviceMemory& memory) {

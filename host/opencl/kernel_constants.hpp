@@ -36,8 +36,8 @@ struct Work {
 //   always:  all that the kernels need: one that is missing stops their build (#error)
 //
 // `has_delays`: where pixels have delays, so that there may be more functions than a byte counts.
-[[nodiscard]] std::string expose_options(const Work& work, const CaptureFormat& capture,
-                                         const char* light_kind, bool has_delays);
+[[nodiscard]] std::string expose_options(const Work& work, const CaptureFormat& capture, const char* light_kind,
+                                         bool has_delays, bool has_byte_tables = false);
 // `blends`: where functions share pixels.
 [[nodiscard]] std::string develop_options(const Work& work, const CaptureFormat& capture,
                                           const OutputFormat& output, bool blends, bool has_delays);
@@ -54,6 +54,7 @@ struct LightKey {
 struct DeviceLight {
   LightKey key;
   const char* kind = nullptr;  // LightSource::kind
+  bool has_byte_tables = false;
   cl::Buffer values;
   std::uint64_t value_bytes = 0;
   [[nodiscard]] std::uint64_t bytes() const { return value_bytes; }

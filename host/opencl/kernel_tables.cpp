@@ -261,7 +261,14 @@ Bytes numbers_of(std::span<const double> values, Precision precision) {
 }
 
 Bytes light_values(const LightSource& light, Precision precision, std::uint64_t white_light) {
-  if (precision != Precision::fixed) return numbers_of(light.values, precision);
+  if (precision != Precision::fixed) {
+    // Byte 0 of the light of each code, byte 1, 2, 3; then the values.
+    const Bytes whole = numbers_of(light.bytewise, precision), values = numbers_of(light.values, precision);
+    Bytes bytes(whole.size());
+    for (std::size_t i = 0; i < whole.size(); ++i) bytes[i % 4 * 256 + i / 4] = whole[i];
+    bytes.insert(bytes.end(), values.begin(), values.end());
+    return bytes;
+  }
   const auto white = static_cast<double>(white_light);
   return converted<std::uint32_t>(
       light.values, [&](double value) { return static_cast<std::uint32_t>(std::llrint(value * white)); });

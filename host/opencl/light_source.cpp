@@ -110,6 +110,11 @@ std::optional<std::vector<double>> light_pieces(const Transfer& transfer, std::u
 
 LightSource light_source(const CaptureFormat& capture, Precision precision, const LightMeans& means) {
   if (capture.transfer.is_linear()) return {"NUTIK_LIGHT_LINEAR", {}};
+  if (means.looks_up_bytes && precision == Precision::single_ && capture.code_bytes == 1) {
+    LightSource source = light_source(capture, precision, {means.permutes_pieces, means.has_near_table});
+    source.bytewise = capture.transfer.light_of_all_codes(capture.white_code, capture.code_bytes);
+    return source;
+  }
   const bool is_near = means.has_near_table && capture.code_bytes == 1;
   if (precision == Precision::single_ && !is_near) {
     if (means.permutes_pieces) {

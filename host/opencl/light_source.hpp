@@ -29,12 +29,14 @@ inline constexpr std::uint32_t kLightPieces = 16;
 struct LightSource {
   const char* kind;            // the kernels' NUTIK_LIGHT
   std::vector<double> values;  // a table, a curve or pieces, to be rounded to the kernel's precision
+  std::vector<double> bytewise = {};  // light of 256 codes, of which rows look up byte by byte; empty: they do not
 };
 
 struct LightMeans {
   bool permutes_pieces = false;   // the kernel works on as many lanes as there are pieces, and the device's vectors
                                   // hold them
   bool has_near_table = false;    // tables of 256 codes lie beside a group of work-items
+  bool looks_up_bytes = false;    // the kernel works on 64 codes in 16 lanes, and the device looks up 64 bytes at once
 };
 
 [[nodiscard]] LightSource light_source(const CaptureFormat& capture, Precision precision, const LightMeans& means);

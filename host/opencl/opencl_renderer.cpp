@@ -395,7 +395,10 @@ class OpenClRenderer::Implementation {
   const DeviceLight& light_of(const Work& work, const RenderPlan& plan, DeviceMemory& memory) {
     const bool permutes = work.shape.lanes == kLightPieces &&
                           options_.permutes_pieces.value_or(info_.native_float_lanes >= kLightPieces);
-    return constants_->light(plan, work.precision, {permutes, work.shape.table_copies > 0}, memory);
+    const bool has_copies = work.shape.table_copies > 0;
+    const bool looks_up_bytes = options_.looks_up_bytes.value_or(info_.permutes_bytes) && work.shape.lanes == 16 &&
+                                work.shape.item_pixels == kTilePixels && !has_copies;
+    return constants_->light(plan, work.precision, {permutes, has_copies, looks_up_bytes}, memory);
   }
 
   [[nodiscard]] std::string fault_of(Precision precision) const {
@@ -405,7 +408,8 @@ class OpenClRenderer::Implementation {
 
   [[nodiscard]] std::string options_of_exposing(const Work& work, const RenderPlan& plan,
                                                 const DeviceLight& light) const {
-    return expose_options(work, plan.capture, light.kind, plan.map->has_delays()) + fault_of(work.precision);
+    return expose_options(work, plan.capture, light.kind, plan.map->has_delays(), light.has_byte_tables) +
+           fault_of(work.precision);
   }
 
   [[nodiscard]] std::string options_of_developing(const Work& work, const RenderPlan& plan,

@@ -46,6 +46,7 @@ struct OpenClOptions {
 
   // Whether 16 lanes permute a transfer function's pieces (light_source.hpp). None: if the device's vectors hold them.
   std::optional<bool> permutes_pieces;
+  std::optional<bool> looks_up_bytes;  // whether rows of 8 bits find it byte by byte instead; none: if that is fast
 
   bool tests_itself = true;                 // false: computes in whatever is chosen, right or not
   bool heeds_loop_limit = true;             // false: as if the driver had none (DeviceInfo::loop_limit)

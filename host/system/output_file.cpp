@@ -20,6 +20,7 @@
 #include "capture/source_text.hpp"
 #include "system/reused_entries.hpp"
 #include "system/shared_state.hpp"
+#include "system/temporary_folder.hpp"
 
 namespace nutik {
 
@@ -179,7 +180,10 @@ OutputFile::~OutputFile() {
 void OutputFile::fail(const char* what) const {
   const int reason = errno;
   check_mapped_files(losses_before_);  // what cannot be read cannot be written either
-  throw OutputError(format("{} {}: {}", path_.string(), what, reason_text(path_, reason)));
+  const std::string name = lasting_ == Lasting::no
+                               ? format("a temporary file in {} (or where TMPDIR says)", temporary_folder().string())
+                               : path_.string();
+  throw OutputError(format("{} {}: {}", name, what, reason_text(path_, reason)));
 }
 
 void OutputFile::write(std::span<const std::byte> bytes) {

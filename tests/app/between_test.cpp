@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "capture/format.hpp"
 #include "support/app_test.hpp"
 
 namespace nutik {
@@ -51,7 +52,7 @@ TEST_F(BetweenPictures, AreMarkedWhereverTheyAreTold) {
 
 TEST_F(BetweenPictures, JoinWhatFramesOfAVideoWouldShowTwice) {
   const test::Words film("video -f 20 --transfer srgb --out-angle 360 --overwrite frames %d.png --out-fps 10");
-  const std::string note = "samples are made between pictures 0 … 3, which takes most of the time; --between off";
+  const std::string note = "samples were made between pictures 0 … 3, which takes most of the time; --between off";
   const auto joined = make(film);
   expect_says(joined.err, note);
   expect_says(run("reproduce 0.png").out, "--between auto:0f..3f");
@@ -73,8 +74,22 @@ TEST_F(BetweenPictures, AreSaidToBeMissingWhereAFilmCannotHaveThem) {
     scratch_.write("large/" + std::to_string(k) + ".pgm", "P5 512 320 255\n" + std::string(512 * 320, 'a'));
   const auto film = make("video -f 20 --memory 20MB --out-angle 360 --out-fps 10 large %d.png");
   expect_says(film.err, "note: frames show what moves two or three times: samples cannot be made: ");
-  EXPECT_EQ(film.err.find("samples are made"), std::string::npos) << film.err;
+  EXPECT_EQ(film.err.find("samples were made"), std::string::npos) << film.err;
   EXPECT_EQ(run("reproduce 0.png").out.find("--between"), std::string::npos);
+}
+
+// As it is in the end, however far they had come.
+TEST_F(BetweenPictures, AreSaidToBeMissingAloneWhereTheDiskIsFull) {
+  std::filesystem::create_directory(scratch_ / "tmp");
+  const auto library = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path() / "tests" / "libfail_calls.so";
+  const auto film = test::run_shell(
+      format("TMPDIR=tmp LD_PRELOAD='{}' NUTIK_FAIL_FOLDER='{}' NUTIK_FAIL_CALL=write NUTIK_FAIL_AT=12 "
+             "NUTIK_FAIL_ERROR=28 '{}' video -f 20 --out-angle 360 --out-fps 10 frames %d.png",
+             library.string(), (scratch_ / "tmp").string(), NUTIK_TEST_PROGRAM),
+      scratch_.folder());
+  EXPECT_EQ(film.status, 0) << film.err;
+  expect_says(film.err, "samples cannot be made: ");
+  EXPECT_EQ(film.err.find("leaves them out"), std::string::npos) << film.err;
 }
 
 TEST_F(BetweenPictures, AreMadeOnlyWhereAnIntervalInSecondsLies) {

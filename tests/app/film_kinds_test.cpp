@@ -196,6 +196,9 @@ TEST_F(FilmKinds, KeepHighDynamicRange) {
       sum += std::abs(a - b);
     }
     EXPECT_LE(sum / static_cast<double>(before.size() / 2), 2.5) << name;  // codes of 10 bits
+    RecordProperty(name, std::to_string(sum / static_cast<double>(before.size() / 2)));
+    const auto eight = make("video --out-transfer source --video-codec h265 hdr.mkv " + std::string(name) + ".mp4");
+    expect_says(eight.err, "h265 has 8 bits, in which " + std::string(name) + " shows bands");
   }
 }
 

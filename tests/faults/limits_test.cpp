@@ -44,6 +44,7 @@ TEST_F(Limits, OfAFilesSizeAreErrorsOfItsWriting) {
     const auto result = run_below("ulimit -f 20;", words);
     EXPECT_EQ(result.status, 5) << result.err;
     EXPECT_NE(result.err.find("File too large"), std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("/proc/"), std::string::npos) << result.err;
     EXPECT_TRUE(test::files_with(scratch_.folder(), "out.").empty());
     expect_nothing_left();
   }

@@ -146,6 +146,53 @@ TEST(VideoWriter, EveryCodecKeepsTheColours) {
   }
 }
 
+// A grey of ten bits is the nearest code of the limited range, not one of 255/256 of it.
+TEST(VideoWriter, DeepFilmsAreAsBrightAsTheirFrames) {
+  use_the_programs_modules();
+  for (const auto& [name, codec_name] :
+       {std::pair("v.mov", "prores-4444"), {"v.mov", "dnxhr-444"}, {"v.mp4", "h264-10"}}) {
+    for (const std::uint16_t grey : std::array<std::uint16_t, 3>{2'000, 32'768, 60'000}) {
+      for (const std::uint32_t channels : {1u, 3u}) {
+        const Scratch scratch;
+        Picture picture({256, 128, channels}, ValueType::code16, 65'535);
+        std::ranges::fill(picture.values<std::uint16_t>(), grey);
+        write_video(scratch / name, {picture}, {25, 1}, codec_name);
+        const auto raster = test::read_all(*test::open_test_clip(scratch / name)).front();
+        const int code = reinterpret_cast<const std::uint16_t*>(raster.data())[3 * (64 * 256 + 128)];
+        EXPECT_NEAR(code, grey, 65'535.0 / 876 / 2 + 1) << codec_name << " " << channels;
+      }
+    }
+  }
+}
+
+// libx265 looks more frames ahead than these have.
+TEST(VideoWriter, FilmsMayBeAFrameLong) {
+  use_the_programs_modules();
+  for (const std::size_t frames : {1, 2, 3}) {
+    const Scratch scratch;
+    Picture red({128, 128, 3}, ValueType::code8, 255);
+    for (std::uint64_t i = 0; i < red.shape.value_count(); i += 3) red.values<std::uint8_t>()[i] = 255;
+    write_video(scratch / "v.mp4", std::vector<Picture>(frames, red), {25, 1}, "h265");
+    EXPECT_EQ(test::read_all(*test::open_test_clip(scratch / "v.mp4")).size(), frames);
+  }
+}
+
+TEST(VideoWriter, SaysWhatAnEncoderDoesNotTake) {
+  use_the_programs_modules();
+  const Scratch scratch;
+  const Picture small({64, 48, 3}, ValueType::code16, 65'535);
+  EXPECT_THROW(static_cast<void>(video_codec_for("v.m4v", "h265")), UsageError);  // FFmpeg's muxer knows no tag for it
+  EXPECT_THROW(static_cast<void>(video_codec_for("v-%03d.webp", {})), UsageError);
+  try {
+    write_video(scratch / "v.mov", {small}, {25, 1}, "dnxhr-hqx");
+    FAIL();
+  } catch (const OutputError& error) {
+    EXPECT_NE(std::string_view(error.what()).find("dnxhr-hqx takes no frames of 64 x 48 at 25 a second"),
+              std::string_view::npos)
+        << error.what();
+  }
+}
+
 // All but WebM have a place for the shape of pixels.
 TEST(VideoWriter, KeepsPixelsThatAreNotSquareOrSaysWhatBecomesOfThem) {
   use_the_programs_modules();

@@ -2,6 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
 
 #include "capture/error.hpp"
 #include "opencl/opencl_renderer.hpp"
@@ -11,6 +16,9 @@
 #include "support/watched_capture.hpp"
 
 namespace nutik {
+namespace test {
+extern std::function<void()> before_waiting;  // support/device_traits.cpp
+}
 namespace {
 
 using test::kLight;
@@ -170,6 +178,38 @@ TEST(BlockFeed, GivesTheSameFixedPictureWhereverBlocksAreCut) {
     EXPECT_EQ(picture(cut), expected) << random.text();
     EXPECT_EQ(picture(stream), expected) << random.text();
   }
+}
+
+// Before a kernel's end is waited for, the blocks behind its own are being read.
+TEST(BlockFeed, ReadsAheadWhileAKernelRuns) {
+  Scene scene;
+  const RenderPlan plan = scene.plan(0, 90);
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::uint64_t asked_for = 0;
+  std::uint64_t exposed = 0;
+  bool overlaps = true;
+  test::WatchedCapture watched(*scene.capture, [&](std::uint64_t /*block*/) {
+    const std::lock_guard lock(mutex);
+    ++asked_for;
+    changed.notify_all();
+  });
+  OpenClOptions options = test::renderer_options(test::precise());
+  options.chunk_bytes = 1;  // a launch for each block
+  OpenClRenderer renderer(options);
+  RenderControl control;
+  control.progress = [&](std::uint64_t blocks, std::uint64_t /*of*/) { exposed = blocks; };
+  const auto until_it_is_read = [&, exposer = std::this_thread::get_id()] {
+    // Of a launch the block itself and the one behind it, which found no room, have been read.
+    if (!overlaps || std::this_thread::get_id() != exposer || exposed + 2 >= plan.blocks.size()) return;
+    std::unique_lock lock(mutex);
+    overlaps = changed.wait_for(lock, std::chrono::seconds(20), [&] { return asked_for > exposed + 2; });
+  };
+  test::before_waiting = until_it_is_read;
+  static_cast<void>(renderer.render(plan, watched, kLight, control));
+  test::before_waiting = {};
+  EXPECT_EQ(exposed, plan.blocks.size());
+  EXPECT_TRUE(overlaps);
 }
 
 // What was read ahead for an exposure that failed is not taken for the next one's.

@@ -68,6 +68,21 @@ TEST(Document, ForgetsASelectionThatUndoTookAway) {
   EXPECT_TRUE(document.selected_points().size() <= document.points(0).size());
 }
 
+TEST(Document, SelectsTheRegionThatUndoBringsBack) {
+  Document document;
+  document.start(facts_of_one_second());
+  document.set_points(7, {{0, 0.0}, {1, 1.0}}, "Add region");
+  document.select_tag(7);
+  DocumentState without = document.state();
+  without.functions.erase(7);
+  QSignalSpy selected(&document, &Document::selection_changed);
+  document.apply(without, "Remove region");
+  EXPECT_EQ(document.selected_tag(), 0);
+  document.undo_stack().undo();
+  EXPECT_EQ(document.selected_tag(), 7);
+  EXPECT_EQ(selected.count(), 1);
+}
+
 TEST(TimeAxis, ZoomsToThePointerAndStaysAtTheCapture) {
   TimeAxis axis;
   axis.set_duration(1'000'000'000);
@@ -82,6 +97,11 @@ TEST(TimeAxis, ZoomsToThePointerAndStaysAtTheCapture) {
   EXPECT_GT(axis.end_ns(), 1e9);
   axis.zoom(1e-30, 300, kWidth);
   EXPECT_GT(axis.end_ns(), axis.begin_ns());
+  for (std::int64_t pictures = 1; pictures < 100; ++pictures) {
+    axis.set_duration(pictures * 33'333'333);
+    axis.zoom(1e9, 300, kWidth);
+    EXPECT_NEAR(axis.begin_ns(), -0.02 * static_cast<double>(axis.duration_ns()), 1e-3);
+  }
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // The window in German: nothing of it is left in English, and no file and no command knows of it.
+#include <QComboBox>
 #include <QDialogButtonBox>
 #include <QFile>
 #include <QFormLayout>
@@ -91,11 +92,22 @@ TEST_F(LanguageTest, TheWindowIsGermanAndEachMenusLettersAreItsOwn) {
   EXPECT_EQ(child<QLineEdit>("width").accessibleName(), "Länge");
   for (const char* dialog :
        {"Bild exportieren…", "Film exportieren…", "Studie mit Optionen…", "Wie der Clip gelesen wird…"}) {
-    answer_next<QDialog>([](QDialog& asked) {
+    answer_next<QDialog>([&](QDialog& asked) {
       for (const QLabel* label : asked.findChildren<QLabel*>()) EXPECT_FALSE(label->text().startsWith("How"));
       const QString cancel = asked.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Cancel)->text();
       const bool has_qts = QFile::exists(QLibraryInfo::path(QLibraryInfo::TranslationsPath) + "/qtbase_de.qm");
       EXPECT_EQ(cancel.contains("Abbrechen"), has_qts) << cancel.toStdString();
+      if (auto* style = asked.findChild<QComboBox*>("style")) {
+        EXPECT_EQ(style->itemText(0), "Bewegungsstudie");
+        EXPECT_EQ(style->findText("eingefrorenes Motiv"), style->findData("frozen"));
+        EXPECT_EQ(asked.findChild<QComboBox*>("trail")->itemText(0), "passend zum Bild");
+      }
+      if (auto* from = asked.findChild<QLineEdit*>("from")) {
+        from->setText("bald");
+        QTest::keyClick(from, Qt::Key_Return);
+        const QString said = asked.findChild<QLabel*>("mistake")->text();
+        EXPECT_TRUE(said.startsWith("Wo in der Aufnahme der Film beginnt: 'bald'")) << said.toStdString();
+      }
       asked.reject();
     });
     for (QAction* action : window_.findChildren<QAction*>())

@@ -404,6 +404,20 @@ TEST_F(OpeningTest, AProjectsClipThatWasMovedIsLocated) {
   take_way_out("Locate…");
   EXPECT_TRUE(window_.notice().text().contains("16 × 8 pixels large")) << window_.notice().text().toStdString();
   EXPECT_EQ(document().state(), state) << "another clip, on which the mask does not lie";
+  ASSERT_EQ(run_line("nutik-cl encode -f 100 --to 10f frames/%02d.pgm short.tik").status, 0);
+  for (const auto button : {QMessageBox::No, QMessageBox::Yes}) {
+    name_next_file("short.tik");
+    answer_next<QMessageBox>([&](QMessageBox& question) {
+      EXPECT_TRUE(question.text().contains("it lasts 100 ms, and the project's clip 200 ms"))
+          << question.text().toStdString();
+      QTest::mouseClick(question.button(button), Qt::LeftButton);
+    });
+    take_way_out("Locate…");
+    ASSERT_TRUE(is_asked_) << "another length";
+    EXPECT_EQ(document().duration_ns(), button == QMessageBox::No ? 200'000'000 : 100'000'000);
+  }
+  window_.open(path("mine.nutik"));
+  ASSERT_TRUE(settles());
   name_next_file("clip.tik");
   take_way_out("Locate…");
   EXPECT_EQ(document().facts()->path, path("clip.tik")) << window_.notice().text().toStdString();

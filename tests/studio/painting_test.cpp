@@ -11,7 +11,10 @@ namespace {
 
 class PaintingTest : public StudioTest, public QObject {
  protected:
-  PaintingTest() { canvas().installEventFilter(this); }
+  PaintingTest() {
+    canvas().installEventFilter(this);
+    window_.offer().clear();  // of what another test left unsaved, which lies over the picture
+  }
   ~PaintingTest() override { canvas().removeEventFilter(this); }
 
   bool eventFilter(QObject* /*of*/, QEvent* event) override {

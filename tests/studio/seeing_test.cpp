@@ -8,7 +8,6 @@
 #include <QSettings>
 #include <QToolButton>
 #include <QTreeWidget>
-#include <unistd.h>
 
 #include <set>
 
@@ -145,7 +144,7 @@ TEST_F(SeeingTest, KeysThatAreHeldHideOutlinesMagnifyAndShowTheSnapshot) {
 TEST_F(SeeingTest, ZoomAndStopsAreTold) {
   open_clip();
   QTest::keyClick(&window_, Qt::Key_1, Qt::ControlModifier);
-  EXPECT_EQ(child<QLabel>("zoom").text(), "100 %");
+  EXPECT_EQ(child<QLabel>("zoom").text(), "Zoom 100 %");
   const auto& list = child<QTreeWidget>("regions");
   document().set_points(kBackground, {{0, 0.5}, {document().duration_ns(), 0.5}}, "Shape");
   EXPECT_EQ(list.topLevelItem(0)->text(1), "-1.0");
@@ -347,6 +346,13 @@ TEST_F(SeeingTest, AFilmOfTheRegionsIsExportedAsTheCommandMakesIt) {
   document().set_points(tag, {{0, 0}, {10'000'000, 0}, {10'000'001, 1}, {60'000'000, 1}, {60'000'001, 0}}, "Points");
   window_.export_film(path("film-%05d.png"), {{"out-fps", "25"}});
   EXPECT_TRUE(window_.notice().text().contains("Save the project first")) << window_.notice().text().toStdString();
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  name_next_export("film.gif", [](QDialog& dialog) { dialog.findChild<QLineEdit*>("out-fps")->setText("25"); });
+  QTest::keyClick(&window_, Qt::Key_E, Qt::ControlModifier | Qt::ShiftModifier);
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(std::filesystem::exists(scratch_ / "film.gif")) << window_.notice().text().toStdString();
+  EXPECT_FALSE(window_.has_files()) << "it names no file";
   ASSERT_TRUE(window_.save_project(path("regions.nutik")));
   ASSERT_TRUE(settles());
   const QImage shown = canvas().image();
@@ -395,7 +401,7 @@ TEST_F(SeeingTest, AFilmWhoseFramesMixPicturesHasSamplesBetweenThem) {
   const auto made = run_line(
       "nutik-cl video -f 100 --speed 0.5 --out-fps 25 --out-angle 360 --precision fixed frames/%02d.pgm by-%05d.png");
   ASSERT_EQ(made.status, 0) << made.err;
-  EXPECT_TRUE(QString::fromStdString(made.err).contains("samples are made between")) << made.err;
+  EXPECT_TRUE(QString::fromStdString(made.err).contains("samples were made between")) << made.err;
   for (const int frame : {0, 4}) expect_same_still(frame);
 }
 
@@ -431,12 +437,18 @@ TEST_F(SeeingTest, AFilmThatIsStoppedLeavesNoFile) {
 }
 
 TEST_F(SeeingTest, AFilmThatAProgramLeftIsTold) {
-  const QString gone = QString("writing/%1").arg(INT32_MAX), alive = QString("writing/%1").arg(getpid());
-  for (const QString& process : {gone, alive}) QSettings().setValue(process, QStringList("Filming throw.mp4"));
-  EXPECT_EQ(MainWindow().offer().text().count("Filming throw.mp4: the program ended before it was done."), 1);
-  EXPECT_FALSE(MainWindow().offer().text().contains("throw.mp4")) << "once";
-  EXPECT_TRUE(QSettings().contains(alive));
-  QSettings().remove(alive);
+  const auto said = [] { return MainWindow().offer().text(); };
+  auto gone = std::make_unique<WritingList>();
+  WritingList alive;
+  gone->keep({"Filming throw.mp4", "Writing throw.png"});
+  gone->keep({"Filming throw.mp4"});
+  alive.keep({"Filming dive.mp4"});
+  EXPECT_FALSE(said().contains(".mp4")) << "both are at work";
+  gone.reset();  // and its lock, as at a process's end
+  EXPECT_EQ(said().count("Filming throw.mp4: the program ended before it was done."), 1);
+  EXPECT_FALSE(said().contains(".mp4")) << "once";
+  alive.keep({});
+  EXPECT_TRUE(WritingList::left().isEmpty()) << "it was done";
 }
 
 // ---- pictures ----
@@ -464,14 +476,18 @@ TEST_F(SeeingTest, OneDialogExportsWithTheOptionsOfTheCommand) {
 
 TEST_F(SeeingTest, AWindowThatIsClosedComesBackWithWhatFailed) {
   open_clip();
-  std::filesystem::create_directory(scratch_ / "gone");
-  window_.export_film(path("gone/film.mkv"), {{"speed", "0.02"}});
-  std::filesystem::remove_all(scratch_ / "gone");
-  press_next("Finish");
-  ASSERT_TRUE(window_.close());
-  ASSERT_TRUE(settles());
-  EXPECT_TRUE(window_.isVisible());
-  EXPECT_TRUE(window_.notice().text().contains("Filming")) << window_.notice().text().toStdString();
+  for (const bool is_answered : {false, true}) {
+    std::filesystem::create_directory(scratch_ / "gone");
+    window_.export_film(path("gone/film.mkv"), {{"speed", "0.02"}});
+    std::filesystem::remove_all(scratch_ / "gone");
+    if (is_answered) press_next("Finish");
+    const bool closes = window_.close();
+    EXPECT_TRUE(is_answered || !closes) << "it fails while that is asked";
+    ASSERT_TRUE(settles());
+    EXPECT_TRUE(window_.isVisible());
+    EXPECT_TRUE(window_.notice().text().contains("Filming")) << window_.notice().text().toStdString();
+    window_.notice().clear();
+  }
 }
 
 TEST_F(SeeingTest, TheCommandWritesTheKindThatWasExported) {

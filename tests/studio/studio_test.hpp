@@ -146,7 +146,8 @@ class StudioTest : public ::testing::Test {
     const DocumentState& state = document().state();
     SourceRequest source;
     source.path = document().facts()->path.toStdString();
-    source.clip.rate = Rational::parse("100", "rate");
+    const Stated& stated = document().facts()->stated;
+    if (stated.contains("fps")) source.clip.rate = Rational::parse(stated.at("fps"), "rate");
     Session session(source);
     const auto mask = state.mask ? std::optional(LiveView::feathered_mask(state)) : std::nullopt;
     RenderControl control;

@@ -73,6 +73,18 @@ TEST_F(TimeStripTest, ScrubsTheBoxcarFromWhereItWasPressedInOneStepOfUndo) {
   EXPECT_EQ(document_.boxcar(), (Boxcar{450 * kStripMs, 100 * kStripMs}));
 }
 
+TEST_F(TimeStripTest, LeavesRegionsForADragAndNotForAClick) {
+  for (const std::int64_t ms : {500, 200}) {
+    const QPoint there = at(ms * kStripMs);
+    drag(there, there + QPoint(1, 0));
+    EXPECT_EQ(document_.boxcar(), (Boxcar{(ms - 50) * kStripMs, 100 * kStripMs}));
+    EXPECT_EQ(document_.mode(), ExposureMode::functions) << ms;
+  }
+  drag(at(200 * kStripMs), at(300 * kStripMs));
+  EXPECT_EQ(document_.boxcar(), (Boxcar{250 * kStripMs, 100 * kStripMs}));
+  EXPECT_EQ(document_.mode(), ExposureMode::boxcar);
+}
+
 TEST_F(TimeStripTest, BringsTheBoxcarToAPressElsewhere) {
   const QPoint there = at(200 * kStripMs);
   press(there);

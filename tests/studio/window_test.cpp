@@ -278,6 +278,7 @@ TEST_F(WindowTest, WritesAPictureAlthoughAnotherCaptureIsOpened) {
   window_.export_picture(path("picture.png"));
   open_clip();
   EXPECT_TRUE(std::filesystem::exists(scratch_ / "picture.png"));
+  EXPECT_TRUE(window_.notice().text().endsWith("no pixel is clipped")) << window_.notice().text().toStdString();
 }
 
 TEST_F(WindowTest, SavesBeforeItExportsWhatLiesInNoFile) {
@@ -493,12 +494,19 @@ TEST_F(WindowTest, StudiesAreStartingPoints) {
 TEST_F(WindowTest, WorkGoesOnBetweenTheMarks) {
   open_clip();
   constexpr std::int64_t kIn = 15'000'000, kOut = 115'000'000;
+  document().set_mark_out(kIn);
+  document().set_mark_in(kIn + 1);
+  EXPECT_EQ(window_.notice().text().toStdString(), "Out lay before In and was taken away.");
+  document().set_mark_out(kOut);
+  document().set_mark_out(kIn);
+  EXPECT_EQ(window_.notice().text().toStdString(), "In lay behind Out and was taken away.");
   document().set_mark_in(kIn);
   document().set_mark_out(kOut);
   for (const StudyStyle style : {StudyStyle::trail, StudyStyle::frozen, StudyStyle::slit}) {
     window_.start_study(usual_study(style));
     ASSERT_TRUE(settles());
     ASSERT_GT(document().functions().size(), 1u) << window_.notice().text().toStdString();
+    EXPECT_EQ(document().boxcar(), (Boxcar{20'000'000, 100'000'000})) << "Start and Width show what is exposed";
     for (const auto& [tag, function] : document().functions()) {
       const Interval live = summarize(function, document().duration_ns()).live;
       EXPECT_GE(live.begin_ns, 20'000'000 - 1) << "the first picture from the mark on";

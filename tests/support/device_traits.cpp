@@ -8,6 +8,7 @@
 //   single       has no double
 //   allocation   allocates so many bytes at a time and no more
 //   group        runs so many work-items of a kernel in a group and no more
+//   transfer     takes so many milliseconds for each copy to it of a megabyte or more, besides the copying
 //
 // Kernels are the machine's own. That those without double need none is held where they are compiled
 // (kernels/CMakeLists.txt).
@@ -16,12 +17,19 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <thread>
+
+namespace nutik::test {
+std::function<void()> before_waiting;  // called where the program begins to wait for a command
+}
 
 namespace {
 
@@ -30,6 +38,7 @@ struct Traits {
   bool is_single = false;
   std::uint64_t allocation_bytes = 0;  // 0: the device's own
   std::size_t group_items = 0;         // likewise
+  std::chrono::milliseconds transfer{0};
 
   Traits() {
     const char* wanted = std::getenv("NUTIK_TEST_DEVICE");
@@ -44,8 +53,11 @@ struct Traits {
         allocation_bytes = std::stoull(std::string(word.substr(word.find('=') + 1)));
       } else if (word.starts_with("group=")) {
         group_items = std::stoull(std::string(word.substr(word.find('=') + 1)));
+      } else if (word.starts_with("transfer=")) {
+        transfer = std::chrono::milliseconds(std::stoi(std::string(word.substr(word.find('=') + 1))));
       } else {
-        std::fprintf(stderr, "NUTIK_TEST_DEVICE is not of gpu, single, allocation=BYTES, group=N: %s\n", wanted);
+        std::fprintf(stderr, "NUTIK_TEST_DEVICE is not of gpu, single, allocation=BYTES, group=N, transfer=MS: %s\n",
+                     wanted);
         std::abort();
       }
     }
@@ -115,6 +127,19 @@ cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint 
   static const auto real = next(&clEnqueueNDRangeKernel, "clEnqueueNDRangeKernel");
   if (traits().group_items != 0 && group != nullptr && *group > traits().group_items) return CL_INVALID_WORK_GROUP_SIZE;
   return real(queue, kernel, dimensions, offset, items, group, wait_count, waits, event);
+}
+
+cl_int clEnqueueWriteBuffer(cl_command_queue queue, cl_mem buffer, cl_bool blocks, size_t offset, size_t bytes,
+                            const void* from, cl_uint wait_count, const cl_event* waits, cl_event* event) {
+  static const auto real = next(&clEnqueueWriteBuffer, "clEnqueueWriteBuffer");
+  if (bytes >= 1 << 20) std::this_thread::sleep_for(traits().transfer);
+  return real(queue, buffer, blocks, offset, bytes, from, wait_count, waits, event);
+}
+
+cl_int clWaitForEvents(cl_uint count, const cl_event* events) {
+  static const auto real = next(&clWaitForEvents, "clWaitForEvents");
+  if (nutik::test::before_waiting) nutik::test::before_waiting();
+  return real(count, events);
 }
 
 }  // extern "C"

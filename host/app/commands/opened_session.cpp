@@ -61,16 +61,16 @@ std::shared_ptr<Devices> make_devices(const Options& options) {
                                    options.quiet ? Devices::Announce() : Devices::Announce(print_note));
 }
 
-Session open_session(const Options& options, Session::Terms terms) {
+Session open_session(const Options& options, Session::Terms terms, const char* what) {
   const std::shared_ptr<Devices> devices = make_devices(options);
   devices->start();
-  return open_session(options.operands.front(), options, devices, std::move(terms));
+  return open_session(options.operands.front(), options, devices, std::move(terms), what);
 }
 
 Session open_session(const std::string& name, const Options& options, std::shared_ptr<Devices> devices,
-                     Session::Terms terms) {
+                     Session::Terms terms, const char* what) {
   terms.progress = [before = std::move(terms.progress),
-                    bar = progress_bar("reading", options.quiet,
+                    bar = progress_bar(what, options.quiet,
                                        options.progress ? ProgressLines::before : ProgressLines::none)](
                        std::uint64_t done, std::uint64_t total) {
     if (before) before(done, total);

@@ -29,21 +29,15 @@ static std::string join_pictures(Options& options, Session& session, const Sessi
     if (!options.quiet && !options.json) print_note("note: " + text);
     return text;
   };
-  const std::string text =
-      format("a quarter of the frames or more would show what moves two or three times: samples are made between "
-             "pictures {} … {}, which takes most of the time; --between off leaves them out",
-             between->first, between->last);
-  Session::Terms telling = terms;  // once it has begun
-  telling.progress = [&, is_said = false](std::uint64_t, std::uint64_t) mutable {
-    if (!std::exchange(is_said, true)) static_cast<void>(say(text));
-  };
   Options joined = options;
   option_of(CommandId::video, "between")->restate(joined, {between->text()});
   static_cast<void>(Session(std::move(session)));  // ended, before another takes its memory
   try {
-    session = open_session(joined, telling);
+    session = open_session(joined, terms, "making samples between pictures");
     options = std::move(joined);
-    return text;
+    return say(format("a quarter of the frames or more would show what moves two or three times: samples were made "
+                      "between pictures {} … {}, which takes most of the time; --between off leaves them out",
+                      between->first, between->last));
   } catch (const Error& error) {
     // Parts of one film are alike.
     if (!is_refusal(error) || request.numbers || options.skip_existing) throw;

@@ -166,7 +166,8 @@ void ExposureTally::add(const ExposedPicture& exposed) {
   saturation_ += exposed.saturation;
   has_codes_ |= holds_codes(exposed.output.type);
   const Transfer& held = exposed.figures.capture.transfer;
-  if (exposed.saturation.above > 0 && exposed.output.transfer && held.reference_white() < 1) cut_off_ = held;
+  const bool is_cut_off = exposed.saturation.above > 0 && exposed.output.transfer;
+  if (held.reference_white() < 1 && (is_cut_off || !has_codes_)) brighter_than_white_ = held;
   precision_ = to_text(exposed.precision);
   renderer_ = exposed.renderer;
   report_ = rendering_report(exposed, exposed.output);
@@ -208,13 +209,15 @@ Json uncertainty_json(const Uncertainty& uncertainty, const OutputFormat& output
 
 std::vector<std::string> ExposureTally::notes() const {
   std::vector<std::string> notes = squared_;
-  if (!cut_off_) return notes;
-  const double white = cut_off_->reference_white();
-  notes.push_back(format(
-      "white is {:.3g} % of the light that {} reaches, and {} brighter come out white; nutik-cl expose "
-      "--ev {:.1f} shows all that a still scene holds, and an .exr, or a .tif with --depth float, keeps it",
-      100 * white, cut_off_->text(), counted(saturation_.above, "pixel"),
-      std::floor(10 * std::log2(white)) / 10));
+  if (!brighter_than_white_) return notes;
+  const double white = brighter_than_white_->reference_white();
+  const std::string share = format("white is {:.3g} % of the light that {} reaches", 100 * white,
+                                   brighter_than_white_->text());
+  notes.push_back(
+      has_codes_ ? format("{}, and {} brighter come out white; nutik-cl expose --ev {:.1f} shows all that a still "
+                          "scene holds, and an .exr, or a .tif with --depth float, keeps it",
+                          share, counted(saturation_.above, "pixel"), std::floor(10 * std::log2(white)) / 10)
+                 : format("{}, which is 1 here; --gain {:.6g} makes white 1", share, 1 / white));
   return notes;
 }
 
@@ -254,6 +257,7 @@ std::vector<std::string> exposure_warnings(const ExposedPicture& exposed) {
 }
 
 std::string still_gains_text(const ExposureFigures& figures, bool plain) {
+  if (figures.combine != Combine::integral) return {};
   const FunctionTexts gains(figures, [&](const PlannedFunction& function) {
     const double still_gain = function.summary.still_gain();
     return plain ? format(" {:.6g}", still_gain) : format(" M{} {:.6g}", function.tag, still_gain);
@@ -298,8 +302,8 @@ Json functions_json(const ExposureFigures& figures) {
                          {"pixels", function.pixel_count},
                          {"live_start_ns", function.summary.live.begin_ns},
                          {"live_end_ns", function.summary.live.end_ns},
-                         {"still_gain", function.summary.still_gain()},
                          {"samples", exposed_samples(function, figures.timeline).size()}});
+    if (figures.combine == Combine::integral) functions.back()["still_gain"] = function.summary.still_gain();
   }
   return functions;
 }

@@ -89,7 +89,7 @@ class ExposureTally {
   Stopwatch stopwatch_;
   Saturation saturation_;
   bool has_codes_ = false;
-  std::optional<Transfer> cut_off_;  // whose light above white was cut off
+  std::optional<Transfer> brighter_than_white_;  // what the capture may hold, if codes cut that off, or light keeps it
   std::vector<std::string> squared_;
   std::string precision_, renderer_, report_, error_bound_;
   Uncertainty worst_;

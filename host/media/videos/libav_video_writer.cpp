@@ -18,6 +18,8 @@
 namespace nutik::videos {
 namespace {
 
+constexpr std::int64_t kMostReordered = 64;  // frames, by any encoder
+
 struct FreeOutput {
   void operator()(AVFormatContext* context) const {
     avio_closep(&context->pb);
@@ -96,9 +98,12 @@ class LibavVideoWriter final : public VideoWriter {
       open_scaler();
     }
     note_rounded_pixels();
+    if (video.transfer.reference_white() < 1 && !codec.holds_16_bits)
+      notes_.push_back(format("{} has 8 bits, in which {} shows bands; those of 10 do not: h265-10, prores", codec.name,
+                              video.transfer.text()));
     if (video.sound) add_sound(*video.sound);
     check(avio_open(&muxer_->pb, url_of(file_.temporary_path()).c_str(), AVIO_FLAG_WRITE));
-    check(avformat_write_header(muxer_.get(), nullptr));
+    check_taken(avformat_write_header(muxer_.get(), nullptr), format("a {} file", path.extension().string()));
   }
 
   void write(const Picture& picture, const std::string&, std::uint64_t) override {
@@ -153,6 +158,14 @@ class LibavVideoWriter final : public VideoWriter {
   void check(int code) const {
     if (code >= 0) return;
     throw OutputError(format("{} cannot be written: {}", name_, error_text(code)));
+  }
+
+  // The same where an encoder or a container refuses these frames.
+  void check_taken(int code, std::string_view what) const {
+    if (code != AVERROR(EINVAL)) return check(code);
+    throw OutputError(format("{} cannot be written: {} takes no frames of {} x {} at {} a second ({})", name_, what,
+                             width_, height_, video_.rate.text(), error_text(code)),
+                      {Setting::video_codec});
   }
 
   void open_muxer(const std::filesystem::path& path) {
@@ -216,7 +229,7 @@ class LibavVideoWriter final : public VideoWriter {
       if (codec.scale.key == "crf" && codec.name.starts_with("av1")) context.bit_rate = 0;
     }
     if (muxer_->oformat->audio_codec == AV_CODEC_ID_NONE) av_opt_set(muxer_->priv_data, "loop", "0", 0);  // for ever
-    check(avcodec_open2(&context, encoder, settings.get()));
+    check_taken(avcodec_open2(&context, encoder, settings.get()), codec.name);
     // What an encoder does not know it leaves: the video would be another one than was asked for.
     if (const auto left = settings.first_name()) {
       throw OutputError(
@@ -266,11 +279,13 @@ class LibavVideoWriter final : public VideoWriter {
                                            nullptr, nullptr)));
     constexpr int kOne = 1 << 16;  // contrast and saturation
     const int* const matrix = sws_getCoefficients(encoder_->colorspace);  // SWS_CS_ has H.273's numbers, too
+    is_white_less_ = video_.type == ValueType::code16 && is_yuv(encoder_->pix_fmt);
     check(sws_setColorspaceDetails(scaler_.get(), matrix, 1, matrix,
                                    encoder_->color_range == AVCOL_RANGE_JPEG ? 1 : 0, 0, kOne, kOne));
   }
 
-  // Into picture_, whose sides may be one longer.
+  // Into picture_, whose sides may be one longer. libswscale takes 65280 for the white of 16 bits
+  // that become YUV.
   void copy(const Picture& picture) {
     const Shape& shape = picture.shape;
     const std::size_t pixel_bytes = shape.channels * value_bytes(picture.type);
@@ -281,6 +296,10 @@ class LibavVideoWriter final : public VideoWriter {
       std::memcpy(to, picture.bytes.data() + row * row_bytes, row_bytes);
       if (width_ > static_cast<int>(shape.width))
         std::memcpy(to + row_bytes, to + row_bytes - pixel_bytes, pixel_bytes);
+      if (!is_white_less_) continue;
+      auto* codes = reinterpret_cast<std::uint16_t*>(to);
+      for (std::size_t i = 0; i < std::size_t(width_) * shape.channels; ++i)
+        codes[i] = static_cast<std::uint16_t>((codes[i] * 65280u + 32767u) / 65535u);
     }
   }
 
@@ -296,6 +315,9 @@ class LibavVideoWriter final : public VideoWriter {
       if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return;
       check(code);
       packet_->duration = 1;
+      // libx265 leaves it undefined in films of fewer frames than it looks ahead; it reorders them by two at most.
+      if (packet_->dts > packet_->pts || packet_->dts < packet_->pts - kMostReordered) packet_->dts = packets_ - 2;
+      ++packets_;
       av_packet_rescale_ts(packet_.get(), encoder_->time_base, stream_->time_base);
       packet_->stream_index = stream_->index;
       check(av_interleaved_write_frame(muxer_.get(), packet_.get()));
@@ -312,12 +334,14 @@ class LibavVideoWriter final : public VideoWriter {
   AVStream* stream_ = nullptr;
   CodecPointer encoder_;
   ScalerPointer scaler_;
+  bool is_white_less_ = false;  // 65280 for 65535
   std::optional<Filters> colours_;  // of a GIF
   FramePointer picture_;
   FramePointer encoded_;
   PacketPointer packet_;
   std::unique_ptr<SoundWriter> sound_;
   std::int64_t frames_written_ = 0;
+  std::int64_t packets_ = 0;  // of the encoder
 };
 
 }  // namespace

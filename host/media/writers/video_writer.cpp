@@ -20,9 +20,9 @@ constexpr VideoCodec kCodecs[] = {
     {"ffv1", "ffv1", " .mkv .avi ", true, true, true, 130, false, "", kNone, "level=3:slicecrc=1"},
     {"h264", "libx264", " .mp4 .m4v .mov .mkv ", true, false, false, 110, true, "yuv420p", kX264},
     {"h264-10", "libx264", " .mp4 .m4v .mov .mkv ", false, true, false, 110, true, "yuv420p10le", kX264},
-    {"h265", "libx265", " .mp4 .m4v .mov .mkv ", true, false, false, 130, true, "yuv420p", kX264,
+    {"h265", "libx265", " .mp4 .mov .mkv ", true, false, false, 130, true, "yuv420p", kX264,
      "x265-params=log-level=none"},
-    {"h265-10", "libx265", " .mp4 .m4v .mov .mkv ", false, true, false, 130, true, "yuv420p10le", kX264,
+    {"h265-10", "libx265", " .mp4 .mov .mkv ", false, true, false, 130, true, "yuv420p10le", kX264,
      "x265-params=log-level=none"},
     {"av1", "libaom-av1", " .mp4 .mkv .webm ", true, false, false, 130, true, "yuv420p", kAom,
      "row-mt=1:cpu-used=6"},
@@ -117,6 +117,9 @@ const VideoCodec& video_codec_for(const std::filesystem::path& path, const std::
                "numbered stills, frame-%05d.png",
                path.string()));
   }
+  if (NumberedName::parse(path.filename().string()))
+    throw UsageError(format("{}: a {} holds all frames in one file; leave the number out of its name", path.string(),
+                            container->extension));
   std::string all, fitting;
   for (const VideoCodec& codec : kCodecs) {
     const bool held = is_held(codec, container->extension);

@@ -326,7 +326,7 @@ void Canvas::paint_regions(QPainter& painter) {
       const bool is_selected = tag == document_.selected_tag();
       for (const bool is_beneath : {true, false}) {
         QPen pen(is_beneath ? QColor(0, 0, 0, 150) : look->second.colour,
-                 (is_selected ? 2.0 : 1.0) + (is_beneath ? 2.0 : 0.0));
+                 ((is_selected ? 2.0 : 1.0) + (is_beneath ? 2.0 : 0.0)) * devicePixelRatioF());
         pen.setCosmetic(true);
         painter.setPen(pen);
         painter.drawLines(lines);
@@ -339,7 +339,7 @@ void Canvas::paint_regions(QPainter& painter) {
 void Canvas::paint_cross(QPainter& painter, QPointF at) const {
   const double arm = 6 / view_.zoom();
   for (const QColor& colour : {QColor(Qt::black), QColor(Qt::white)}) {
-    QPen pen(colour, colour == QColor(Qt::black) ? 3 : 1);
+    QPen pen(colour, (colour == QColor(Qt::black) ? 3 : 1) * devicePixelRatioF());
     pen.setCosmetic(true);
     painter.setPen(pen);
     painter.drawLine(at - QPointF(arm, 0), at + QPointF(arm, 0));

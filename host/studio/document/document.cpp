@@ -9,7 +9,6 @@
 #include <cmath>
 #include <stdexcept>
 
-
 namespace nutik::studio {
 
 // One step of undo: the state before and after it.
@@ -21,9 +20,15 @@ class StateStep : public QUndoCommand {
         document_(document),
         before_(document.state_),
         after_(std::move(after)),
-        drag_(drag) {}
+        drag_(drag),
+        selected_(document.selected_tag_) {}
 
-  void undo() override { document_.take(before_); }
+  void undo() override {
+    const bool is_back = !document_.functions().contains(selected_);
+    const bool is_gone = !before_.functions.contains(document_.selected_tag_);
+    document_.take(before_);
+    if ((is_back || is_gone) && before_.functions.contains(selected_)) document_.select_tag(selected_);
+  }
   void redo() override { document_.take(after_); }
   int id() const override { return 1; }
   bool mergeWith(const QUndoCommand* later) override {
@@ -38,6 +43,7 @@ class StateStep : public QUndoCommand {
   Document& document_;
   DocumentState before_, after_;
   std::uint64_t drag_;
+  std::uint8_t selected_;  // before it
 };
 
 Document::Document(QObject* parent) : QObject(parent) {}
@@ -54,6 +60,7 @@ void Document::start(CaptureFacts facts, std::optional<DocumentState> state, Mar
   state_.boxcar = {start_ns, length_ns};
   state_.functions.emplace(0, with_steps(GainFunction::boxcar(start_ns, start_ns + length_ns)));
   if (state) state_ = std::move(*state);
+  state_.boxcar = within_capture(state_.boxcar);
   complete(state_);
   selected_tag_ = state_.functions.begin()->first;
   selected_points_.clear();
@@ -95,13 +102,16 @@ void Document::set_points(std::uint8_t tag, std::vector<ControlPoint> points, co
   apply(std::move(after), what);
 }
 
-void Document::set_boxcar(Boxcar boxcar, const QString& what) {
+Boxcar Document::within_capture(const Boxcar& boxcar) const {
   const std::int64_t duration_ns = std::max<std::int64_t>(this->duration_ns(), 1);
-  boxcar.length_ns = std::clamp<std::int64_t>(boxcar.length_ns, 1, duration_ns);
-  boxcar.start_ns = std::clamp<std::int64_t>(boxcar.start_ns, 0, duration_ns - boxcar.length_ns);
+  const std::int64_t length_ns = std::clamp<std::int64_t>(boxcar.length_ns, 1, duration_ns);
+  return {std::clamp<std::int64_t>(boxcar.start_ns, 0, duration_ns - length_ns), length_ns};
+}
+
+void Document::set_boxcar(const Boxcar& boxcar, const QString& what, ExposureMode mode) {
   DocumentState after = state_;
-  after.boxcar = boxcar;
-  after.mode = ExposureMode::boxcar;
+  after.boxcar = within_capture(boxcar);
+  after.mode = mode;
   apply(std::move(after), what);
 }
 
@@ -173,7 +183,10 @@ void Document::set_mark(std::optional<std::int64_t>& mark, std::optional<std::in
                         std::optional<std::int64_t> time_ns) {
   mark = time_ns;
   if (mark) mark = std::clamp<std::int64_t>(*mark, 0, duration_ns());
-  if (marks_.in_ns && marks_.out_ns && *marks_.out_ns <= *marks_.in_ns) other.reset();
+  if (marks_.in_ns && marks_.out_ns && *marks_.out_ns <= *marks_.in_ns) {
+    other.reset();
+    Q_EMIT mark_taken_away(&other == &marks_.out_ns);
+  }
   Q_EMIT marks_changed();
 }
 

@@ -144,8 +144,8 @@ class Document : public QObject {
   // Replaces a function's control points: at least one, times strictly increasing, gains finite; whoever drags points
   // keeps them apart. Throws std::logic_error else. Switches to ExposureMode::functions.
   void set_points(std::uint8_t tag, std::vector<ControlPoint> points, const QString& what);
-  // Clamped into the capture. Switches to ExposureMode::boxcar.
-  void set_boxcar(Boxcar boxcar, const QString& what);
+  // Clamped into the capture.
+  void set_boxcar(const Boxcar& boxcar, const QString& what, ExposureMode mode = ExposureMode::boxcar);
   void set_mode(ExposureMode mode);
   // Any other edit. The edit is dropped if nothing differs. Several functions get a mask, tag 0 everywhere, where there
   // is none; functions get looks.
@@ -194,6 +194,7 @@ class Document : public QObject {
   void released();            // a drag ended: the full picture may follow
   void selection_changed();   // selected_tag(), selected_points(), solo()
   void marks_changed();
+  void mark_taken_away(bool is_out);  // by the other one, which was set beyond it
   void played_changed();
   void probe_changed();       // probe(), waveform()
 
@@ -203,6 +204,7 @@ class Document : public QObject {
   void set_mark(std::optional<std::int64_t>& mark, std::optional<std::int64_t>& other,
                 std::optional<std::int64_t> time_ns);
   void keep_selection_within();
+  [[nodiscard]] Boxcar within_capture(const Boxcar& boxcar) const;
   void complete(DocumentState& state) const;
 
   std::optional<CaptureFacts> facts_;

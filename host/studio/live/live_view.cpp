@@ -23,11 +23,12 @@ Mask reduced(const Mask& mask, const Shape& shape, std::uint32_t divisor) {
   return tags;
 }
 
-QString arithmetic_of(const ExposedPicture& exposed) {
-  QString text = QString::fromStdString(std::string(to_text(exposed.precision)));
-  if (exposed.choice && exposed.choice->bound.precision == exposed.precision)
-    text += ": " + QString::fromStdString(error_text(exposed.choice->bound.worst, exposed.output));
-  return text;
+void tell_arithmetic(const ExposedPicture& exposed, ShownPicture& picture) {
+  picture.arithmetic = QString::fromStdString(std::string(to_text(exposed.precision)));
+  if (!exposed.choice || exposed.choice->bound.precision != exposed.precision) return;
+  const PictureError& worst = exposed.choice->bound.worst;
+  picture.arithmetic += ": " + QString::fromStdString(error_text(worst, exposed.output));
+  picture.codes_off = worst.steps;
 }
 
 }  // namespace
@@ -180,7 +181,7 @@ void LiveView::deliver(LiveAnswer answer) {
     found.picture.is_full = !answer.is_preview;
     found.picture.pixels_below = exposed.saturation.below;
     found.picture.pixels_above = exposed.saturation.above;
-    found.picture.arithmetic = arithmetic_of(exposed);
+    tell_arithmetic(exposed, found.picture);
     QStringList warnings;
     for (const std::string& warning : exposed.warnings) warnings += QString::fromStdString(warning);
     found.picture.warnings = warnings.join('\n');

@@ -52,6 +52,7 @@ struct ShownPicture {
   bool is_full = false, is_of_all_seen = true;
   std::uint64_t pixels_below = 0, pixels_above = 0;  // saturated, of these
   QString arithmetic;                                // and its bound
+  std::optional<double> codes_off;                   // at most, of 255; none: nobody knows, as of a preview
   double milliseconds = 0;                           // from the request to the picture
   QString warnings;
 };

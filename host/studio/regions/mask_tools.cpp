@@ -42,7 +42,8 @@ struct Target {
 template <typename Draw>
 void draw_line(QPainter& painter, const Draw& draw) {
   for (const bool is_beneath : {true, false}) {
-    QPen pen(is_beneath ? QColor(0, 0, 0, 180) : QColor(255, 255, 255), is_beneath ? 3 : 1);
+    QPen pen(is_beneath ? QColor(0, 0, 0, 180) : QColor(255, 255, 255),
+             (is_beneath ? 3 : 1) * painter.device()->devicePixelRatioF());
     pen.setCosmetic(true);
     painter.setPen(pen);
     painter.setBrush(Qt::NoBrush);

@@ -53,7 +53,7 @@ std::int64_t TimeStrip::held(std::int64_t time_ns, Qt::KeyboardModifiers modifie
                                          : nearest_sample_edge(time_ns, document_.facts()->timeline);
 }
 
-void TimeStrip::use(const Boxcar& boxcar) { document_.set_boxcar(boxcar, tr("Scrub")); }
+void TimeStrip::use(const Boxcar& boxcar, ExposureMode mode) { document_.set_boxcar(boxcar, tr("Scrub"), mode); }
 
 void TimeStrip::mousePressEvent(QMouseEvent* event) {
   setFocus(Qt::MouseFocusReason);
@@ -80,10 +80,8 @@ void TimeStrip::mousePressEvent(QMouseEvent* event) {
     // It comes to the pointer.
     Boxcar boxcar = document_.boxcar();
     boxcar.start_ns = held(axis_.to_time(at.x(), width()) - boxcar.length_ns / 2, event->modifiers());
-    use(boxcar);
+    use(boxcar, document_.mode());  // regions are left for it once it is dragged
     press_->from = document_.boxcar();
-  } else {
-    use(document_.boxcar());  // what was pressed is exposed, whatever was before
   }
 }
 
@@ -129,7 +127,8 @@ void TimeStrip::mouseMoveEvent(QMouseEvent* event) {
   if (press_->part == Part::pan) {
     axis_.pan(press_->last.x() - at.x(), width());
     press_->last = at;
-  } else if (at.x() != press_->last.x()) {
+  } else if (at.x() != press_->last.x() && (document_.mode() == ExposureMode::boxcar || !press_->edits ||
+                                            QLineF(press_->at, at).length() >= kReach / 2)) {  // a click that shakes
     drag_to(at, event->modifiers());
   }
 }
@@ -237,7 +236,7 @@ QString TimeStrip::text_at(QPointF at) const {
           tr("Sample %1, from %2").arg(sample).arg(exact_time_text(timeline.start_ns(sample)));
       if (!activity_.empty())
         text += tr("\n%1 % of the pixels change").arg(100 * activity_.values()[sample], 0, 'g', 3);
-      return text + tr("\nClick to expose here");
+      return text + tr("\nClick to bring the interval here");
     }
     case Part::pan:
     case Part::none: return {};

@@ -34,7 +34,7 @@ void TimeAxis::show(double begin_ns, double end_ns) {
   const double margin = kMargin * duration;
   const double length =
       std::clamp(end_ns - begin_ns, std::min(kMinShownNs, duration), duration + 2 * margin);
-  const double begin = std::clamp(begin_ns, -margin, duration + margin - length);
+  const double begin = std::max(-margin, std::min(begin_ns, duration + margin - length));  // which rounding may cross
   if (begin == begin_ns_ && begin + length == end_ns_) return;
   begin_ns_ = begin;
   end_ns_ = begin + length;

@@ -16,7 +16,7 @@ class TimeAxis : public QObject {
   Q_OBJECT
 
  public:
-  static constexpr int kLeft = 64, kRight = 16;
+  static constexpr int kLeft = 74, kRight = 16;
 
   explicit TimeAxis(QObject* parent = nullptr) : QObject(parent) {}
 

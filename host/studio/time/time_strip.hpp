@@ -57,7 +57,7 @@ class TimeStrip : public TimeView {
   [[nodiscard]] Part part_at(QPointF at) const;
   [[nodiscard]] std::int64_t held(std::int64_t time_ns, Qt::KeyboardModifiers modifiers) const;
   void drag_to(QPointF at, Qt::KeyboardModifiers modifiers);
-  void use(const Boxcar& boxcar);
+  void use(const Boxcar& boxcar, ExposureMode mode = ExposureMode::boxcar);
   void cancel_press();
   bool move_by_key(const QKeyEvent& event);
   bool look_by_key(const QKeyEvent& event);

@@ -709,12 +709,12 @@ Zeiten und Bilder zählen ab In.</translation>
         <translation> (Datei, Wie der Clip gelesen wird)</translation>
     </message>
     <message>
-        <source>no light beyond white</source>
-        <translation>kein Licht über Weiß</translation>
-    </message>
-    <message>
         <source>%1 was written: %2, %3</source>
         <translation>%1 wurde geschrieben: %2, %3</translation>
+    </message>
+    <message>
+        <source>no pixel is clipped</source>
+        <translation>kein Pixel übersteuert</translation>
     </message>
 </context>
 <context>
@@ -1250,7 +1250,7 @@ Zeit und Gain nach dem Filmen: Gain-Funktionen und Masken werden gezeichnet, und
     </message>
     <message>
         <source>Wand ± </source>
-        <translation>Stab ± </translation>
+        <translation>Toleranz ± </translation>
     </message>
     <message>
         <source>How many codes of 255 a pixel may differ by from the one that the wand clicked</source>
@@ -1427,6 +1427,30 @@ What is stopped leaves no file, but for the numbered pictures that are there alr
         <translation>In Arbeit: %1
 
 Was gestoppt wird, hinterlässt keine Datei, außer nummerierten Bildern, die schon da sind.</translation>
+    </message>
+    <message>
+        <source>Out lay before In and was taken away.</source>
+        <translation>Out lag vor In und wurde entfernt.</translation>
+    </message>
+    <message>
+        <source>In lay behind Out and was taken away.</source>
+        <translation>In lag hinter Out und wurde entfernt.</translation>
+    </message>
+    <message>
+        <source>it lasts %1, and the project&apos;s clip %2</source>
+        <translation>er dauert %1, und der Clip des Projekts %2</translation>
+    </message>
+    <message>
+        <source>
+
+Use it all the same? Functions and marks keep their times.</source>
+        <translation>
+
+Trotzdem verwenden? Funktionen und Marken behalten ihre Zeiten.</translation>
+    </message>
+    <message>
+        <source>Another clip</source>
+        <translation>Ein anderer Clip</translation>
     </message>
 </context>
 <context>
@@ -1660,18 +1684,6 @@ Was gestoppt wird, hinterlässt keine Datei, außer nummerierten Bildern, die sc
         <translation>Pixel unter dem Zeiger</translation>
     </message>
     <message>
-        <source>The arithmetic that the picture was computed in, and what it may be wrong by</source>
-        <translation>Die Arithmetik, in der das Bild berechnet wurde, und um wie viel es falsch sein kann</translation>
-    </message>
-    <message>
-        <source>Pixels with light beyond white, or below 0, that the picture&apos;s codes cannot show. Those that are just white count beside their region</source>
-        <translation>Pixel mit Licht über Weiß oder unter 0, das die Codes des Bildes nicht zeigen können. Nur eben weiße stehen bei ihrer Region</translation>
-    </message>
-    <message>
-        <source>From the change to the picture</source>
-        <translation>Von der Änderung bis zum Bild</translation>
-    </message>
-    <message>
         <source>Cancel</source>
         <translation>Abbrechen</translation>
     </message>
@@ -1680,20 +1692,40 @@ Was gestoppt wird, hinterlässt keine Datei, außer nummerierten Bildern, die sc
         <translation>Wie groß das Bild gezeigt wird: 100 % ist Pixel für Pixel (Strg+1), Strg+0 zeigt das ganze Bild</translation>
     </message>
     <message>
-        <source>%1 ms</source>
-        <translation>%1 ms</translation>
+        <source>Pixels brighter than white or darker than black: the picture cannot show how much</source>
+        <translation>Pixel heller als Weiß oder dunkler als Schwarz: Um wie viel, kann das Bild nicht zeigen</translation>
     </message>
     <message>
-        <source>%1 px saturated</source>
+        <source>How long it took from the last change to the picture</source>
+        <translation>Wie lange es von der letzten Änderung bis zum Bild dauerte</translation>
+    </message>
+    <message>
+        <source>exact to %1 codes</source>
+        <translation>auf %1 Codes genau</translation>
+    </message>
+    <message>
+        <source>preview</source>
+        <translation>Vorschau</translation>
+    </message>
+    <message>
+        <source>What rounding may change at most, of 255 codes from black to white. Computed in %1</source>
+        <translation>Was Rundung höchstens ändert, von 255 Codes zwischen Schwarz und Weiß. Berechnet in %1</translation>
+    </message>
+    <message>
+        <source>after %1 ms</source>
+        <translation>nach %1 ms</translation>
+    </message>
+    <message>
+        <source>%1 px clipped</source>
         <translation>%1 px übersteuert</translation>
     </message>
     <message>
-        <source>%1 %</source>
-        <translation>%1 %</translation>
+        <source>Zoom %1 %</source>
+        <translation>Zoom %1 %</translation>
     </message>
     <message>
-        <source>x %1, y %2   light %3  %4  %5   code %6  %7  %8</source>
-        <translation>x %1, y %2   Licht %3  %4  %5   Code %6  %7  %8</translation>
+        <source>x %1, y %2   light %3  %4  %5 (white: 1)   code %6  %7  %8 (of 255)</source>
+        <translation>x %1, y %2   Licht %3  %4  %5 (Weiß: 1)   Code %6  %7  %8 (von 255)</translation>
     </message>
 </context>
 <context>
@@ -1835,12 +1867,6 @@ Ziehen verschiebt die Marke, Rechtsklick entfernt sie</translation>
 %1 % der Pixel ändern sich</translation>
     </message>
     <message>
-        <source>
-Click to expose here</source>
-        <translation>
-Klick belichtet hier</translation>
-    </message>
-    <message>
         <source>sample %1</source>
         <translation>Sample %1</translation>
     </message>
@@ -1862,7 +1888,13 @@ Klick belichtet hier</translation>
     </message>
     <message>
         <source>change</source>
-        <translation>Wandel</translation>
+        <translation>Bewegung</translation>
+    </message>
+    <message>
+        <source>
+Click to bring the interval here</source>
+        <translation>
+Klick holt das Intervall hierher</translation>
     </message>
 </context>
 </TS>

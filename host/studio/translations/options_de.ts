@@ -1,7 +1,8 @@
 <?xml version="1.0" encoding="utf-8"?>
 <!DOCTYPE TS>
 <!-- What options are for (host/features/schema/option_rows.cpp), as dialogs show it: a label up to the first of
-     ": ", " (" and "; "; what is taken where nothing is stated behind "(Standard: ". Words that are typed stay. -->
+     ": ", " (" and "; "; what is taken where nothing is stated behind "(Standard: ". Words that are typed stay; those
+     that are chosen from a list follow as "Choice". -->
 <TS version="2.1" language="de_DE" sourcelanguage="en">
 <context>
     <name>Option</name>
@@ -43,27 +44,27 @@
     </message>
     <message>
         <source>the clip&apos;s sound: clip (as it is, if the film runs as fast as the file), stretch (as slow or fast as the film) or no (default: clip)</source>
-        <translation>der Ton des Clips: clip (wie er ist, wenn der Film so schnell läuft wie die Datei), stretch (so langsam oder schnell wie der Film) oder no (keiner) (Standard: clip)</translation>
+        <translation>der Ton des Clips: wie im Clip (wenn der Film so schnell läuft wie die Datei), gedehnt (so langsam oder schnell wie der Film) oder ohne Ton (Standard: wie im Clip)</translation>
     </message>
     <message>
         <source>what the picture shows: trail (sharp moments over the whole way), strobe (moments alone), rear-curtain (the last moment, and a trail that grows towards it), frozen (one moment in a scene exposed for all of the time), clean (the scene without moving things) or slit (strips, each later than the one before it) (default: trail)</source>
-        <translation>was das Bild zeigt: trail (scharfe Momente über dem ganzen Weg), strobe (nur Momente), rear-curtain (der letzte Moment, und eine Spur, die zu ihm hin zunimmt), frozen (ein Moment in einer Szene, die die ganze Zeit belichtet wird), clean (die Szene ohne Bewegtes) oder slit (Streifen, jeder später als der vor ihm) (Standard: trail)</translation>
+        <translation>was das Bild zeigt: Bewegungsstudie (scharfe Momente über dem ganzen Weg), Stroboskop (nur Momente), zweiter Vorhang (der letzte Moment, und eine Spur, die zu ihm hin zunimmt), eingefrorenes Motiv (ein Moment in einer Szene, die die ganze Zeit belichtet wird), leere Szene (ohne Bewegtes) oder Slit-Scan (Streifen, jeder später als der vor ihm) (Standard: Bewegungsstudie)</translation>
     </message>
     <message>
         <source>how many moments, or which: up to 50, 7, or 0.36s,0.75s,1.27s (default: 5; of rear-curtain and frozen 1); of slit how many strips, up to 256 (default: 256)</source>
-        <translation>wie viele Momente, oder welche: bis 50, 7, oder 0.36s,0.75s,1.27s (Standard: 5; bei rear-curtain und frozen 1); bei slit die Zahl der Streifen, bis 256 (Standard: 256)</translation>
+        <translation>wie viele Momente, oder welche: bis 50, 7, oder 0.36s,0.75s,1.27s (Standard: 5; bei zweitem Vorhang und eingefrorenem Motiv 1); beim Slit-Scan die Zahl der Streifen, bis 256 (Standard: 256)</translation>
     </message>
     <message>
         <source>how moments are evenly apart: in time, or along the way (default: time)</source>
-        <translation>worin Momente gleich weit auseinander sind: in der Zeit (time) oder auf dem Weg (distance) (Standard: time)</translation>
+        <translation>worin Momente gleich weit auseinander sind: in der Zeit oder auf dem Weg (Standard: in der Zeit)</translation>
     </message>
     <message>
         <source>the trail&apos;s shape: even, fade (ends at nothing), ramp (begins at nothing) or none (default: even of trail and frozen, ramp of rear-curtain, none of strobe)</source>
-        <translation>die Form der Spur: even (gleichmäßig), fade (endet im Nichts), ramp (beginnt im Nichts) oder none (keine) (Standard: even bei trail und frozen, ramp bei rear-curtain, none bei strobe)</translation>
+        <translation>die Form der Spur: gleichmäßig, abnehmend (endet im Nichts), zunehmend (beginnt im Nichts) oder keine (Standard: passend zum Bild; gleichmäßig bei Bewegungsstudie und eingefrorenem Motiv, zunehmend beim zweiten Vorhang, keine beim Stroboskop)</translation>
     </message>
     <message>
         <source>where slit begins: left, right (columns), top or bottom (rows) (default: left)</source>
-        <translation>wo slit beginnt: left (links), right (rechts; Spalten), top (oben) oder bottom (unten; Zeilen) (Standard: left)</translation>
+        <translation>wo der Slit-Scan beginnt: links, rechts (Spalten), oben oder unten (Zeilen) (Standard: links)</translation>
     </message>
     <message>
         <source>pictures a second that the clip was filmed with: 120, 29.97, 30000/1001 (default: what the file says)</source>
@@ -87,7 +88,7 @@
     </message>
     <message>
         <source>what codes make of light below 0: saturate (black), offset (light 0 is mid-grey, light below it darker), abs (as bright as light above it) (default: saturate)</source>
-        <translation>was Codes aus Licht unter 0 machen: saturate (Schwarz), offset (Licht 0 ist Mittelgrau, Licht darunter dunkler), abs (so hell wie Licht darüber) (Standard: saturate)</translation>
+        <translation>was Codes aus Licht unter 0 machen: Schwarz, Grau (Licht 0 ist Mittelgrau, Licht darunter dunkler) oder Betrag (so hell wie Licht darüber) (Standard: Schwarz)</translation>
     </message>
     <message>
         <source>keep pixels that are not square: to measure in them (default: .png, .jpg and films of lossy codecs come in square ones, unless --depth 16 or --out-transfer source is stated; other files as they are)</source>
@@ -96,6 +97,97 @@
     <message>
         <source>do not keep in the picture how it was made: names, functions and options (see nutik-cl reproduce)</source>
         <translation>nicht im Bild ablegen, wie es entstand: Namen, Funktionen und Optionen (siehe nutik-cl reproduce)</translation>
+    </message>
+</context>
+<context>
+    <name>Choice</name>
+    <message>
+        <source>trail</source>
+        <translation>Bewegungsstudie</translation>
+    </message>
+    <message>
+        <source>strobe</source>
+        <translation>Stroboskop</translation>
+    </message>
+    <message>
+        <source>rear-curtain</source>
+        <translation>zweiter Vorhang</translation>
+    </message>
+    <message>
+        <source>frozen</source>
+        <translation>eingefrorenes Motiv</translation>
+    </message>
+    <message>
+        <source>clean</source>
+        <translation>leere Szene</translation>
+    </message>
+    <message>
+        <source>slit</source>
+        <translation>Slit-Scan</translation>
+    </message>
+    <message>
+        <source>time</source>
+        <translation>in der Zeit</translation>
+    </message>
+    <message>
+        <source>distance</source>
+        <translation>auf dem Weg</translation>
+    </message>
+    <message>
+        <source>even</source>
+        <translation>gleichmäßig</translation>
+    </message>
+    <message>
+        <source>fade</source>
+        <translation>abnehmend</translation>
+    </message>
+    <message>
+        <source>ramp</source>
+        <translation>zunehmend</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>keine</translation>
+    </message>
+    <message>
+        <source>left</source>
+        <translation>links</translation>
+    </message>
+    <message>
+        <source>right</source>
+        <translation>rechts</translation>
+    </message>
+    <message>
+        <source>top</source>
+        <translation>oben</translation>
+    </message>
+    <message>
+        <source>bottom</source>
+        <translation>unten</translation>
+    </message>
+    <message>
+        <source>clip</source>
+        <translation>wie im Clip</translation>
+    </message>
+    <message>
+        <source>stretch</source>
+        <translation>gedehnt</translation>
+    </message>
+    <message>
+        <source>no</source>
+        <translation>ohne Ton</translation>
+    </message>
+    <message>
+        <source>saturate</source>
+        <translation>Schwarz</translation>
+    </message>
+    <message>
+        <source>offset</source>
+        <translation>Grau</translation>
+    </message>
+    <message>
+        <source>abs</source>
+        <translation>Betrag</translation>
     </message>
 </context>
 </TS>

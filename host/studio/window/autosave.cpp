@@ -21,9 +21,9 @@ namespace {
 
 QDir folder() { return QDir(QStandardPaths::writableLocation(QStandardPaths::AppDataLocation)); }
 
-QString new_path() {
+QString new_path(const QString& kind) {
   folder().mkpath(".");
-  return folder().filePath("unsaved-" + QUuid::createUuid().toString(QUuid::WithoutBraces) + kProjectExtension);
+  return folder().filePath(kind + QUuid::createUuid().toString(QUuid::WithoutBraces));
 }
 
 // The project itself is another file each time that it is kept.
@@ -54,7 +54,7 @@ int lock(const QString& project) {
 
 }  // namespace
 
-KeptProject::KeptProject() : path_(new_path()), lock_(lock(path_)) {}
+KeptProject::KeptProject() : path_(new_path("unsaved-") + kProjectExtension), lock_(lock(path_)) {}
 
 KeptProject::KeptProject(QString path) : path_(std::move(path)), lock_(lock(path_)) {
   if (QFileInfo::exists(path_)) return;
@@ -70,6 +70,31 @@ KeptProject::~KeptProject() {
 void KeptProject::remove() const {
   QFile::remove(path_);
   unlink(lock_beside(path_).constData());
+}
+
+void WritingList::keep(const QStringList& what) {
+  if (what.isEmpty() && file_.isOpen()) file_.remove();
+  if (what.isEmpty()) return;
+  if (!file_.isOpen()) {
+    file_.setFileName(new_path("writing-"));
+    if (!file_.open(QFile::ReadWrite)) return;
+    is_locked(file_.handle(), LOCK_EX);
+  }
+  file_.resize(0);
+  file_.seek(0);
+  file_.write(what.join('\n').toUtf8());
+  file_.flush();
+}
+
+QStringList WritingList::left() {
+  QStringList left;
+  for (const QFileInfo& info : folder().entryInfoList({"writing-*"}, QDir::Files | QDir::NoSymLinks)) {
+    QFile file(info.filePath());
+    if (info.size() == 0 || !file.open(QFile::ReadOnly) || is_locked(file.handle(), LOCK_SH)) continue;
+    left += QString::fromUtf8(file.readAll()).split('\n');
+    file.remove();
+  }
+  return left;
 }
 
 Autosave::Autosave(Document& document, QObject* parent) : QObject(parent), document_(document) {

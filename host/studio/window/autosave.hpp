@@ -6,7 +6,9 @@
 #pragma once
 
 #include <QDateTime>
+#include <QFile>
 #include <QObject>
+#include <QStringList>
 #include <QTimer>
 #include <chrono>
 #include <memory>
@@ -35,6 +37,18 @@ class KeptProject {
  private:
   QString path_;
   int lock_;  // a descriptor
+};
+
+// What a window is writing, for the next one to tell should the program end before that: in a file that is locked as
+// long as it runs.
+class WritingList {
+ public:
+  void keep(const QStringList& what);
+  // Of programs that are gone, once.
+  [[nodiscard]] static QStringList left();
+
+ private:
+  QFile file_;
 };
 
 class Autosave : public QObject {

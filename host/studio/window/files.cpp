@@ -9,8 +9,6 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <QSettings>
-#include <cerrno>
-#include <csignal>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -24,14 +22,8 @@
 #include "tik/reader.hpp"
 
 namespace nutik::studio {
-namespace {
 
-// What is being written, by processes; and what was written while no window was open.
-constexpr const char *kWritingKey = "writing", *kWrittenKey = "written";
-
-QString writing_key() { return QString("%1/%2").arg(kWritingKey).arg(QCoreApplication::applicationPid()); }
-
-}  // namespace
+constexpr const char* kWrittenKey = "written";  // while no window was open
 
 FileTimes times_of(const QStringList& files) {
   FileTimes times;
@@ -204,22 +196,18 @@ bool MainWindow::may_leave_writing() {
                        QMessageBox::Cancel, this);
   const QAbstractButton* finish = question.addButton(tr("&Finish in the background"), QMessageBox::AcceptRole);
   const QAbstractButton* stop = question.addButton(tr("&Stop"), QMessageBox::DestructiveRole);
+  connect(&writing_, &Jobs::failed, &question, &QDialog::reject);  // which is to be read first
   question.exec();
   if (question.clickedButton() == stop) {
     writing_.cancel();
-    QSettings().remove(writing_key());  // a person knows
+    being_written_.keep({});  // a person knows
   }
   return question.clickedButton() == stop || question.clickedButton() == finish;
 }
 
-// For the next window to tell, in case the program ends before that.
-void MainWindow::keep_writing() const {
-  writing_.is_busy() ? QSettings().setValue(writing_key(), writing_.open()) : QSettings().remove(writing_key());
-}
-
 void MainWindow::write(const QString& what, Jobs::Work work) {
   writing_.start(what, std::move(work));
-  keep_writing();
+  being_written_.keep(writing_.open());
 }
 
 Told MainWindow::told_written() {
@@ -235,13 +223,7 @@ QStringList MainWindow::written_meanwhile() {
   QSettings kept;
   QStringList lines = kept.value(kWrittenKey).toStringList();
   kept.remove(kWrittenKey);
-  kept.beginGroup(kWritingKey);
-  for (const QString& process : kept.childKeys()) {
-    if (kill(process.toInt(), 0) == 0 || errno != ESRCH) continue;
-    for (const QString& what : kept.value(process).toStringList())
-      lines += tr("%1: the program ended before it was done.").arg(what);
-    kept.remove(process);
-  }
+  for (const QString& what : WritingList::left()) lines += tr("%1: the program ended before it was done.").arg(what);
   return lines;
 }
 
@@ -347,6 +329,7 @@ void MainWindow::save_whole_part(const QString& path, const Origin& origin) {
     notice_->say(Notice::Kind::note, tr("%1: %2 samples were saved").arg(whole).arg(saved.sample_count));
     Origin elsewhere = origin;
     elsewhere.is_elsewhere = true;
+    elsewhere.duration_ns = 0;
     open_capture_file(whole, {}, std::move(elsewhere));
   });
 }

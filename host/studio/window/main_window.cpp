@@ -8,6 +8,7 @@
 #include <QFileInfo>
 #include <QGridLayout>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QMimeData>
 #include <QScreen>
 #include <QSettings>
@@ -27,6 +28,7 @@
 #include "studio/regions/region_list.hpp"
 #include "studio/time/time_fields.hpp"
 #include "studio/time/time_strip.hpp"
+#include "studio/time/times.hpp"
 #include "studio/window/options_dialog.hpp"
 #include "studio/window/project_file.hpp"
 #include "studio/window/start_page.hpp"
@@ -204,7 +206,7 @@ void MainWindow::connect_parts() {
     if (!opening_.isEmpty() && !jobs_.is_busy()) stay();
   });
   connect(&writing_, &Jobs::ended, this, [this] {
-    keep_writing();
+    being_written_.keep(writing_.open());
     if (!writing_.is_busy()) writes_on_.reset();
   });
   connect(canvas_, &Canvas::visible_changed, &live_, &LiveView::set_visible);
@@ -214,6 +216,9 @@ void MainWindow::connect_parts() {
   connect(canvas_, &Canvas::pointed, this,
           [this](std::optional<QPoint> pixel) { status_->tell(pixel, canvas_->image()); });
   connect(&document_, &Document::probe_changed, this, &MainWindow::look_at_pixel);
+  connect(&document_, &Document::mark_taken_away, this, [this](bool is_out) {
+    told()(is_out ? tr("Out lay before In and was taken away.") : tr("In lay behind Out and was taken away."));
+  });
   connect(&document_, &Document::changed, this, [this] {
     follow_exposure();
     forget_light();
@@ -238,12 +243,9 @@ void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptPro
   try_to([&] {
     Project project = load_project(path);
     Origin origin{.kind = Origin::Kind::recovered,
-                  .project = {},
-                  .files = {},
-                  .known = {},
                   .state = std::move(project.state),
                   .marks = project.marks,
-                  .left = {},
+                  .duration_ns = project.duration_ns,
                   .kept = std::move(kept),
                   .then = then};
     if (!origin.kept) {
@@ -314,10 +316,11 @@ void MainWindow::tell_way_out(const QString& path, const Stated& stated, const O
     };
   } else if (helps(Setting::end_at_damage)) {
     label = tr("Open that part");
-    way = [this, path, stated, origin] {
+    way = [this, path, stated, part = origin]() mutable {
       Stated until_damage = stated;
       until_damage.emplace("ignore-errors", "");
-      open_capture_file(path, until_damage, origin);
+      part.duration_ns = 0;
+      open_capture_file(path, until_damage, part);
     };
   } else if (is_cut_off) {
     label = tr("Save what is whole…");
@@ -342,6 +345,16 @@ void MainWindow::ask_how_to_read(const QString& path, const Stated& stated, cons
 void MainWindow::take(Opened opened, Origin origin) {
   // What was changed while this was opened was not asked for yet.
   if (origin.left && *origin.left != document_.state() && !may_leave()) return;
+  const std::int64_t duration_ns = opened.facts.timeline.duration_ns();
+  if (origin.duration_ns != 0 && duration_ns != origin.duration_ns) {
+    const QString path = opened.facts.path;
+    const QString why = tr("it lasts %1, and the project's clip %2")
+                            .arg(exact_time_text(duration_ns), exact_time_text(origin.duration_ns));
+    const QString question = tr("Opening %1: %2").arg(QFileInfo(path).fileName(), why) +
+                             tr("\n\nUse it all the same? Functions and marks keep their times.");
+    if (QMessageBox::question(this, tr("Another clip"), question) != QMessageBox::Yes)
+      return tell_way_out(path, opened.facts.stated, origin, std::make_exception_ptr(OfAnotherClip(why.toStdString())));
+  }
   opening_.clear();
   std::optional<DocumentState>& state = origin.state;
   project_ = origin.project;

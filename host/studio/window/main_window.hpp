@@ -46,12 +46,13 @@ using FileTimes = std::map<QString, QDateTime>;
 struct Origin {
   enum class Kind { capture, project, recovered };
   Kind kind = Kind::capture;
-  QString project;  // of Kind::project
-  CommandFiles files;
-  FileTimes known;
-  std::optional<DocumentState> state;  // none: the document starts anew
+  QString project = {};  // of Kind::project
+  CommandFiles files = {};
+  FileTimes known = {};
+  std::optional<DocumentState> state = {};  // none: the document starts anew
   Marks marks = {};
-  std::optional<DocumentState> left;   // what the document was when it was left for this
+  std::int64_t duration_ns = 0;                  // of the capture that the state was made of; 0: whatever it is
+  std::optional<DocumentState> left = {};        // what the document was when it was left for this
   std::shared_ptr<const KeptProject> kept = {};  // of Kind::recovered
   bool is_unwritten = false;                     // of Kind::project: its last save was ended in the middle
   bool is_elsewhere = false;                     // the capture, than where the project says
@@ -181,7 +182,6 @@ class MainWindow : public QMainWindow {
   bool save_as(const QString& why = {});
   bool may_leave();  // asks where something is not saved
   bool may_leave_writing();  // asks what becomes of what is being written
-  void keep_writing() const;
   [[nodiscard]] static QStringList written_meanwhile();
   bool ensure_files();
   void note_capture();
@@ -221,6 +221,7 @@ class MainWindow : public QMainWindow {
   double played_rate_ = 0;  // frames a second
   QElapsedTimer played_since_;
   std::optional<Frames> film_;
+  WritingList being_written_;
   std::unique_ptr<QEventLoopLocker> writes_on_;  // of a closed window
   std::shared_ptr<const MeasuredLight> light_;
   Marks plate_;  // between which the scene without what moves was found, while it is shown

@@ -23,9 +23,12 @@ namespace {
 
 QString text(std::string_view words) { return QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size())); }
 
-QString help_of(const Option& option) {
-  return QCoreApplication::translate("Option", std::string(option.help).c_str());  // translations/options_de.ts
+// Of translations/options_de.ts.
+QString translated(const char* context, std::string_view words) {
+  return QCoreApplication::translate(context, std::string(words).c_str());
 }
+
+QString help_of(const Option& option) { return translated("Option", option.help); }
 
 // How help begins, before it goes into details.
 QString label_of(const Option& option) {
@@ -73,7 +76,7 @@ Field field_of(const Option& option, const QString& stated, const std::map<std::
   };
   const QString usual = default_of(option).isEmpty() ? Document::tr("as is usual") : default_of(option);
   box->addItem(said(std::string(option.long_name), usual), QString());
-  for (const std::string& word : choices) box->addItem(said(word, text(word)), text(word));
+  for (const std::string& word : choices) box->addItem(said(word, translated("Choice", word)), text(word));
   box->setCurrentIndex(std::max(box->findData(stated), 0));
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   box->setMinimumContentsLength(24);
@@ -86,7 +89,8 @@ Options options_in(CommandId command, const Stated& stated) {
   Options options;
   for (const auto& [name, value] : stated) {
     const Option& option = *option_of(command, name);
-    option.state(options, name, option.is_flag() ? std::vector<std::string>() : std::vector{value});
+    const std::string label = label_of(option).toStdString() + ":";  // as the dialog has it
+    option.state(options, label, option.is_flag() ? std::vector<std::string>() : std::vector{value});
   }
   return options;
 }

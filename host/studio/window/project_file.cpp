@@ -165,6 +165,7 @@ QJsonObject object_of(const QString& path, const Document& document, const Comma
   }
   QJsonObject object{{kVersionKey, kVersion},
                      {"capture", named(document.facts()->path)},
+                     {"duration_ns", QString::number(document.duration_ns())},
                      {"functions", named(files.functions)},
                      {"exposes", state.mode == ExposureMode::boxcar ? "interval" : "regions"},
                      {"start_ns", QString::number(state.boxcar.start_ns)},
@@ -363,6 +364,7 @@ Project load_project(const QString& path) {
   }
   state.mode = object["exposes"].toString() == "interval" ? ExposureMode::boxcar : ExposureMode::functions;
   state.boxcar = {time_in(object, "start_ns", path), time_in(object, "length_ns", path)};
+  if (object.contains("duration_ns")) project.duration_ns = time_in(object, "duration_ns", path);
   if (object.contains("in_ns")) project.marks.in_ns = time_in(object, "in_ns", path);
   if (object.contains("out_ns")) project.marks.out_ns = time_in(object, "out_ns", path);
   try {

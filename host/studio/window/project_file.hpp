@@ -37,6 +37,7 @@ struct Project {
   CommandFiles files;
   DocumentState state;
   Marks marks;
+  std::int64_t duration_ns = 0;  // of the capture; 0: earlier versions do not say
   bool is_unwritten = false;  // functions and mask are not what its files hold
 };
 

@@ -33,8 +33,8 @@ std::vector<std::string> inputs_of(const Document& document, const CommandFiles&
   for (const auto& still : list_stills(inputs.front()).value_or(std::vector<std::filesystem::path>{}))
     inputs.push_back(still.string());
   if (document.mode() == ExposureMode::boxcar) return inputs;
-  inputs.push_back(files.functions.toStdString());
-  if (document.state().mask) inputs.push_back(files.mask.toStdString());
+  for (const QString& file : {files.functions, document.state().mask ? files.mask : QString()})
+    if (!file.isEmpty()) inputs.push_back(file.toStdString());  // of a project that is not saved yet: none
   return inputs;
 }
 
@@ -65,8 +65,14 @@ DocumentState state_of(const DocumentState& before, const Study& study, Mask mas
   DocumentState state = before;
   state.looks.clear();
   state.functions.clear();
-  for (const auto& [tag, function] : study.functions)
-    state.functions.emplace(tag, with_steps(is_part ? placed(function, stretch) : function));
+  Interval live{whole.duration_ns(), 0};  // of them all: what the time strip has for an interval
+  for (const auto& [tag, function] : study.functions) {
+    const GainFunction exposed = is_part ? placed(function, stretch) : function;
+    const Interval its = summarize(exposed, whole.duration_ns()).live;
+    if (!its.empty()) live = {std::min(live.begin_ns, its.begin_ns), std::max(live.end_ns, its.end_ns)};
+    state.functions.emplace(tag, with_steps(exposed));
+  }
+  if (!live.empty()) state.boxcar = {live.begin_ns, live.end_ns - live.begin_ns};
   const bool is_slit = style == StudyStyle::slit;
   for (const auto& [tag, function] : state.functions) {
     const std::size_t moment = is_slit ? tag : tag - std::size_t{1};
@@ -180,7 +186,7 @@ Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session,
     const QString line = Jobs::tr("%1 was written: %2, %3")
                              .arg(QString::fromStdString(path.string()),
                                   QString::fromStdString(shape_text(exposed.picture.shape)),
-                                  is_within ? Jobs::tr("no light beyond white")
+                                  is_within ? Jobs::tr("no pixel is clipped")
                                             : QString::fromStdString(saturated_text(exposed.saturation)));
     return [told, line] { told(line); };
   };
@@ -203,6 +209,12 @@ QString stills_question(const Document& document, const Session& session, const 
   return Document::tr("%1 of %2 pictures are there. Replace them?").arg(there).arg(numbers.size());
 }
 
+bool holds_recipes(const QString& film, const Stated& written) {
+  const Options options = options_in(CommandId::video, written);
+  const VideoOutput output(film.toStdString(), options.film.rate, options.video_codec, options.picture);
+  return output.writes_stills() && !options.no_recipe;
+}
+
 Jobs::Work filming(const Document& document, std::shared_ptr<Session> session, std::shared_ptr<Devices> devices,
                    const CommandFiles& files, const QString& film, const Stated& written, Told told,
                    std::function<void(int signal)> end) {
@@ -212,7 +224,7 @@ Jobs::Work filming(const Document& document, std::shared_ptr<Session> session, s
   const Frames frames = frames_of(request, session->timeline());
   output.check(frames.numbers, inputs_of(document, files), Replacing::all);
   std::optional<RecipeSources> sources;
-  if (output.writes_stills() && !options.no_recipe)
+  if (holds_recipes(film, written))
     sources = recipe_sources(document, files, written, CommandId::video);
   const CaptureFacts& facts = *document.facts();
   const auto between =

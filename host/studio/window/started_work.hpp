@@ -48,6 +48,8 @@ struct StartingPoint {
 // Asks whether pictures that are there may be replaced by the film's; empty where none are.
 [[nodiscard]] QString stills_question(const Document& document, const Session& session, const QString& film,
                                       const Options& options);
+// Whether its pictures carry recipes, which name a project's files.
+[[nodiscard]] bool holds_recipes(const QString& film, const Stated& written);
 // Stills have the recipes that nutik-cl gives them. `end` is told of a signal that ended the film early.
 [[nodiscard]] Jobs::Work filming(const Document& document, std::shared_ptr<Session> session,
                                  std::shared_ptr<Devices> devices, const CommandFiles& files, const QString& film,

@@ -145,11 +145,12 @@ void MainWindow::stop_playing() {
 }
 
 void MainWindow::choose_film() {
-  if (!ensure_files()) return;
+  if (!session_) return;
   const auto session = session_;
   const bool has_regions = document_.mode() == ExposureMode::functions;
   const QString title = has_regions ? tr("Export a film of the regions") : tr("Export a film");
   QString question;
+  bool needs_project = false;
   Asked asked{CommandId::video,
               title,
               {"out-fps", "speed", "out-angle", "from", "to", "video-codec", "crf", "quality", "depth", "sound",
@@ -157,8 +158,10 @@ void MainWindow::choose_film() {
               {suggested("-film.mp4"), film_options(document_.mode())},
               tr("Films and numbered pictures (*.mp4 *.mov *.mkv *.webm *.gif *.webp *-%05d.png)"),
               [&](const Wanted& wanted, const Options& options) {
-                static_cast<void>(
-                    filming(document_, session_, devices_, files_, wanted.path, wanted.options, {}, {}));
+                needs_project = holds_recipes(wanted.path, wanted.options) && !has_files();
+                Stated checked = wanted.options;
+                if (needs_project) checked.emplace("no-recipe", "");  // as long as there is no file to name
+                static_cast<void>(filming(document_, session_, devices_, files_, wanted.path, checked, {}, {}));
                 question = stills_question(document_, *session_, wanted.path, options);
               }};
   if (has_regions) {
@@ -167,14 +170,15 @@ void MainWindow::choose_film() {
                    "the capture. For a film with a shutter angle choose One interval for all, at the side.");
   }
   const auto wanted = ask_options(this, asked);
-  if (!wanted || session != session_) return;
+  if (!wanted || session != session_ || (needs_project && !ensure_files())) return;
   if (question.isEmpty() || QMessageBox::question(this, title, question) == QMessageBox::Yes)
     export_film(wanted->path, wanted->options);
 }
 
 void MainWindow::export_film(const QString& path, const Stated& options) {
-  if (!session_ || !names_files()) return;
+  if (!session_) return;
   try_to([&] {
+    if (holds_recipes(path, options) && !names_files()) return;
     write(tr("Filming %1").arg(QFileInfo(path).fileName()),
           filming(document_, session_, devices_, files_, path, options, told_written(),
                   [this](int signal) { autosave_.end(signal); }));

@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QProgressBar>
 #include <QToolButton>
+#include <cmath>
 
 namespace nutik::studio {
 namespace {
@@ -76,12 +77,8 @@ StatusLine::StatusLine(const std::vector<Jobs*>& jobs, QWidget* parent)
   arithmetic_->setObjectName("arithmetic");
   saturated_->setObjectName("saturated");
   milliseconds_->setObjectName("milliseconds");
-  arithmetic_->setToolTip(tr("The arithmetic that the picture was computed in, and what it may be wrong by"));
-  saturated_->setToolTip(
-      tr("Pixels with light beyond white, or below 0, that the picture's codes cannot show. Those that are "
-         "just white "
-         "count beside their region"));
-  milliseconds_->setToolTip(tr("From the change to the picture"));
+  saturated_->setToolTip(tr("Pixels brighter than white or darker than black: the picture cannot show how much"));
+  milliseconds_->setToolTip(tr("How long it took from the last change to the picture"));
   progress_->setMaximumWidth(160);
   progress_->setMaximumHeight(14);
   progress_->setTextVisible(false);
@@ -93,10 +90,10 @@ StatusLine::StatusLine(const std::vector<Jobs*>& jobs, QWidget* parent)
   addWidget(cancel_);
   zoom_->setObjectName("zoom");
   zoom_->setToolTip(tr("How large the picture is shown: 100 % is pixel for pixel (Ctrl+1), Ctrl+0 shows all of it"));
-  addPermanentWidget(zoom_);
-  addPermanentWidget(saturated_);
-  addPermanentWidget(arithmetic_);
-  addPermanentWidget(milliseconds_);
+  for (QLabel* label : {zoom_, saturated_, arithmetic_, milliseconds_}) {
+    label->setContentsMargins(4, 0, 4, 0);
+    addPermanentWidget(label);
+  }
   const auto show_work = [this](bool is_shown) {
     for (QWidget* widget : std::initializer_list<QWidget*>{work_, progress_, cancel_}) widget->setVisible(is_shown);
   };
@@ -120,21 +117,25 @@ StatusLine::StatusLine(const std::vector<Jobs*>& jobs, QWidget* parent)
 }
 
 void StatusLine::tell(const ShownPicture& picture) {
-  arithmetic_->setText(picture.arithmetic);
-  milliseconds_->setText(tr("%1 ms").arg(picture.milliseconds, 0, 'f', 0));
+  arithmetic_->setText(picture.codes_off ? tr("exact to %1 codes").arg(std::ceil(*picture.codes_off * 100) / 100)
+                      : picture.is_full  ? picture.arithmetic
+                                         : tr("preview"));
+  arithmetic_->setToolTip(tr("What rounding may change at most, of 255 codes from black to white. Computed in %1")
+                              .arg(picture.arithmetic));
+  milliseconds_->setText(tr("after %1 ms").arg(picture.milliseconds, 0, 'f', 0));
   if (!picture.is_of_all_seen) return;
   const std::uint64_t saturated = picture.pixels_above + picture.pixels_below;
-  saturated_->setText(saturated == 0 ? QString() : tr("%1 px saturated").arg(saturated));
+  saturated_->setText(saturated == 0 ? QString() : tr("%1 px clipped").arg(saturated));
 }
 
 void StatusLine::tell_zoom(double screen_pixels) {
-  zoom_->setText(screen_pixels == 0 ? QString() : tr("%1 %").arg(100 * screen_pixels, 0, 'f', 0));
+  zoom_->setText(screen_pixels == 0 ? QString() : tr("Zoom %1 %").arg(100 * screen_pixels, 0, 'f', 0));
 }
 
 void StatusLine::tell(std::optional<QPoint> pixel, const QImage& image) {
   if (!pixel || !image.rect().contains(*pixel)) return pixel_->clear();
   const QRgb codes = image.pixel(*pixel);
-  pixel_->setText(tr("x %1, y %2   light %3  %4  %5   code %6  %7  %8")
+  pixel_->setText(tr("x %1, y %2   light %3  %4  %5 (white: 1)   code %6  %7  %8 (of 255)")
                       .arg(pixel->x())
                       .arg(pixel->y())
                       .arg(light_text(qRed(codes)), light_text(qGreen(codes)), light_text(qBlue(codes)))
