@@ -30,7 +30,8 @@ std::uint32_t loop_limit_of(const DeviceInfo& info) {
   return info.platform == "rusticl" && info.name.starts_with("llvmpipe") ? 65'535 : 0;
 }
 
-// PoCL builds for this processor. Intel's take three operations for it, so that nothing would be gained.
+// Whether kernels run on this processor, and it is an AMD: Intel's take three operations for the instruction, so that
+// nothing would be gained.
 bool permutes_bytes(const DeviceInfo& info) {
 #ifdef __x86_64__
   return info.platform == "Portable Computing Language" && info.kind == DeviceKind::cpu &&

@@ -27,7 +27,7 @@ struct DeviceInfo {
   bool has_double = false;
   std::uint64_t group_memory_bytes = 0;  // beside the work-items of a group; 0: such memory is like any other
   bool shares_host_memory = false;
-  bool permutes_bytes = false;  // of two vectors of 64 bytes, in one operation; kernels may be written in instructions
+  bool permutes_bytes = false;  // kernels may use vpermi2b, which looks 64 bytes up in a table of 128, and gain by it
 };
 
 // For an application, before it has a second thread: sets variables of the environment, where they are not set.

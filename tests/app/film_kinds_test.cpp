@@ -168,6 +168,21 @@ TEST_F(FilmKinds, HaveTheQualityThatIsAskedFor) {
   expect_refused("video --crf 3 clip.mkv x-%d.png", 2, "pictures have none");
 }
 
+// libx265, which looks more frames ahead, leaves a time undefined: five of six such films failed, so four are made.
+TEST_F(FilmKinds, MayBeAFrameLong) {
+  NEEDS_FFMPEG();
+  std::string red;
+  for (int i = 0; i < 6 * 256 * 256; ++i) red.append("\xff\xff\0\0\0\0", 6);
+  scratch_.write("red.raw", red);
+  for (int time = 0; time < 4; ++time) {
+    const auto made = test::run_program({"video", "--overwrite", "--raw", "256x256:rgb48le", "-f", "25", "--out-fps",
+                                         "25", "--video-codec", "h265", "--frames", "0", "red.raw", "film.mp4"},
+                                        scratch_.folder());
+    ASSERT_EQ(made.status, 0) << made.err;
+    expect_says(probed("film.mp4"), "nb_read_frames=1\n");
+  }
+}
+
 // HLG comes in and goes out with its codes and tags, in 10 bits and BT.2020's matrix.
 TEST_F(FilmKinds, KeepHighDynamicRange) {
   NEEDS_FFMPEG();
@@ -196,7 +211,6 @@ TEST_F(FilmKinds, KeepHighDynamicRange) {
       sum += std::abs(a - b);
     }
     EXPECT_LE(sum / static_cast<double>(before.size() / 2), 2.5) << name;  // codes of 10 bits
-    RecordProperty(name, std::to_string(sum / static_cast<double>(before.size() / 2)));
     const auto eight = make("video --out-transfer source --video-codec h265 hdr.mkv " + std::string(name) + ".mp4");
     expect_says(eight.err, "h265 has 8 bits, in which " + std::string(name) + " shows bands");
   }

@@ -165,18 +165,6 @@ TEST(VideoWriter, DeepFilmsAreAsBrightAsTheirFrames) {
   }
 }
 
-// libx265 looks more frames ahead than these have.
-TEST(VideoWriter, FilmsMayBeAFrameLong) {
-  use_the_programs_modules();
-  for (const std::size_t frames : {1, 2, 3}) {
-    const Scratch scratch;
-    Picture red({128, 128, 3}, ValueType::code8, 255);
-    for (std::uint64_t i = 0; i < red.shape.value_count(); i += 3) red.values<std::uint8_t>()[i] = 255;
-    write_video(scratch / "v.mp4", std::vector<Picture>(frames, red), {25, 1}, "h265");
-    EXPECT_EQ(test::read_all(*test::open_test_clip(scratch / "v.mp4")).size(), frames);
-  }
-}
-
 TEST(VideoWriter, SaysWhatAnEncoderDoesNotTake) {
   use_the_programs_modules();
   const Scratch scratch;

@@ -200,7 +200,7 @@ TEST(BlockFeed, ReadsAheadWhileAKernelRuns) {
   RenderControl control;
   control.progress = [&](std::uint64_t blocks, std::uint64_t /*of*/) { exposed = blocks; };
   const auto until_it_is_read = [&, exposer = std::this_thread::get_id()] {
-    // Of a launch the block itself and the one behind it, which found no room, have been read.
+    // A launch needs its own block, and the next one was read to find that it has no room: one more is read ahead.
     if (!overlaps || std::this_thread::get_id() != exposer || exposed + 2 >= plan.blocks.size()) return;
     std::unique_lock lock(mutex);
     overlaps = changed.wait_for(lock, std::chrono::seconds(20), [&] { return asked_for > exposed + 2; });

@@ -85,7 +85,7 @@ std::optional<FilmSound> film_sound(const Session& session, const FramesRequest&
   if (sound.speed != 1.0 && !sound.is_asked)
     return left_out(
         format("the film runs {:.4g} times as fast as the file, and stretching it was not asked for", sound.speed));
-  if (sound.speed < 9e-6 || sound.speed > 1100)
+  if (sound.speed < 9e-6 || sound.speed > 1100)  // a little more than is told, for the file's own speed is measured
     return left_out("it gets at most 100000 times slower or 1000 times faster");
   if (found->tracks > 1)
     notes.push_back(format("the clip has {} tracks of sound, and the film track {}, which players take, too ({})",

@@ -284,8 +284,7 @@ class LibavVideoWriter final : public VideoWriter {
                                    encoder_->color_range == AVCOL_RANGE_JPEG ? 1 : 0, 0, kOne, kOne));
   }
 
-  // Into picture_, whose sides may be one longer. libswscale takes 65280 for the white of 16 bits
-  // that become YUV.
+  // Into picture_, whose sides may be one longer.
   void copy(const Picture& picture) {
     const Shape& shape = picture.shape;
     const std::size_t pixel_bytes = shape.channels * value_bytes(picture.type);
@@ -334,7 +333,7 @@ class LibavVideoWriter final : public VideoWriter {
   AVStream* stream_ = nullptr;
   CodecPointer encoder_;
   ScalerPointer scaler_;
-  bool is_white_less_ = false;  // 65280 for 65535
+  bool is_white_less_ = false;  // 65280 for 65535, as libswscale has it where 16 bits become YUV
   std::optional<Filters> colours_;  // of a GIF
   FramePointer picture_;
   FramePointer encoded_;

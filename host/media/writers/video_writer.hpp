@@ -51,7 +51,7 @@ struct FilmSound {
   double start_s = 0;  // of the file, where the film begins
   double speed = 1;    // seconds of the file in one of the film
   double seconds = 0;  // of the film
-  bool is_cut = false;    // the film begins later than the clip
+  bool is_cut = false;  // the film begins later than the clip
   bool is_asked = false;  // else a film without it is better than none
 };
 

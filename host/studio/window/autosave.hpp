@@ -44,7 +44,7 @@ class KeptProject {
 class WritingList {
  public:
   void keep(const QStringList& what);
-  // Of programs that are gone, once.
+  // What programs that are gone left behind; the list is then taken away.
   [[nodiscard]] static QStringList left();
 
  private:

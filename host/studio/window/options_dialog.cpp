@@ -23,7 +23,7 @@ namespace {
 
 QString text(std::string_view words) { return QString::fromUtf8(words.data(), static_cast<qsizetype>(words.size())); }
 
-// Of translations/options_de.ts.
+// The texts are in translations/options_de.ts.
 QString translated(const char* context, std::string_view words) {
   return QCoreApplication::translate(context, std::string(words).c_str());
 }
