@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <cstdlib>
+#include <new>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,10 +30,24 @@ std::vector<std::filesystem::path> module_folders() {
   return folders;
 }
 
+// OpenCV loads oneTBB, which ends the process where its allocator (tbbmalloc) finds no memory then: so that has some,
+// before. Where there is no such allocator, oneTBB does without.
+void make_room_for_tbb() {
+  void* allocator = dlopen("libtbbmalloc.so.2", RTLD_LAZY | RTLD_LOCAL);
+  if (allocator == nullptr) return;
+  const auto allocate = reinterpret_cast<void* (*)(std::size_t)>(dlsym(allocator, "scalable_malloc"));
+  const auto release = reinterpret_cast<void (*)(void*)>(dlsym(allocator, "scalable_free"));
+  if (allocate == nullptr || release == nullptr) return;
+  void* some = allocate(1);
+  if (some == nullptr) throw std::bad_alloc();
+  release(some);
+}
+
 }  // namespace
 
 const void* load_module(const char* name, const char* symbol, const char* without) {
   std::string tried;
+  make_room_for_tbb();
   for (const std::filesystem::path& folder : module_folders()) {
     const std::filesystem::path file = folder / name;
     if (!folder.empty() && is_absent(file)) {

@@ -14,11 +14,9 @@ constexpr double kFinestPixels = 130'000;
 
 class DenseFlow final : public FlowFinder {
  public:
-  // What a patch finds depends on which strip of the picture it is in, and each thread has one.
+  // What a patch finds depends on which strip of the picture it is in; without threads there is one (robust_registrar.cpp).
   DenseFlow() : search_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)) {
     search_->setVariationalRefinementIterations(2);  // three quarters of the time of 5, as good within a hundredth
-    // Once: it takes down the threads there are, and two finders may be opened at the same time.
-    [[maybe_unused]] static const bool is_alone = (cv::setNumThreads(1), true);
   }
 
   void find(const GreyPlane& from, const GreyPlane& to, std::span<FlowVector> flow) override {

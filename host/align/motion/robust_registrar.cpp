@@ -390,10 +390,16 @@ std::unique_ptr<Registrar> open_robust_registrar(const CaptureFormat& format, Ca
   return std::make_unique<RobustRegistrar>(format, motion, reference);
 }
 
+// OpenCV's threads would gain nothing beside the program's, and oneTBB hangs where it finds no memory to start them.
+void begin(SharedState& of_program) {
+  use_shared_state(of_program);
+  cv::setNumThreads(0);
+}
+
 }  // namespace
 }  // namespace nutik::motion
 
 extern "C" __attribute__((visibility("default"))) const nutik::MotionModule nutik_motion_module{
-    nutik::use_shared_state, nutik::motion::open_robust_registrar, nutik::motion::open_dense_flow};
+    nutik::motion::begin, nutik::motion::open_robust_registrar, nutik::motion::open_dense_flow};
 
 extern "C" __attribute__((visibility("default"))) const char nutik_module_version[] = NUTIK_VERSION;

@@ -523,12 +523,18 @@ Picture enlarged(const Picture& picture, const Shape& shape) {
   return large;
 }
 
+// Without OpenCV's threads, as in align/motion/robust_registrar.cpp.
+void begin(SharedState& of_program) {
+  use_shared_state(of_program);
+  cv::setNumThreads(0);
+}
+
 }  // namespace
 }  // namespace nutik::stills
 
 // What nutik-stills.so gives the program (media/module.hpp).
 extern "C" __attribute__((visibility("default"))) const nutik::StillModule nutik_still_module{
-    nutik::use_shared_state, nutik::stills::open_still_files, nutik::stills::read_exif_times,
+    nutik::stills::begin, nutik::stills::open_still_files, nutik::stills::read_exif_times,
     nutik::stills::write_exr, nutik::stills::write_exr_layers, nutik::stills::read_exr_text, nutik::stills::enlarged};
 
 extern "C" __attribute__((visibility("default"))) const char nutik_module_version[] = NUTIK_VERSION;
