@@ -141,11 +141,9 @@ std::optional<std::uint64_t> BlockView::checked_until(std::uint64_t first, std::
 }
 
 void BlockView::check_samples(std::uint64_t first, std::uint64_t last) const {
-  constexpr std::uint64_t kTilesAtOnce = 4096;
-  parallel_for((last - first + kTilesAtOnce - 1) / kTilesAtOnce, [&](std::uint64_t part) {
+  parallel_for_parts(last - first, 4096, [&](std::uint64_t begin, std::uint64_t end) {
     std::vector<ChangeRecord> history;
-    const std::uint64_t begin = first + part * kTilesAtOnce;
-    for (std::uint64_t tile = begin; tile < std::min(begin + kTilesAtOnce, last); ++tile) {
+    for (std::uint64_t tile = first + begin; tile < first + end; ++tile) {
       const TileEntry at = entry(tile);
       if (samples_increase(at, body(tile).data())) continue;
       // Again, for the sentence that says where not.

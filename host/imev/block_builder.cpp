@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cstring>
 #include <numeric>
@@ -76,36 +77,44 @@ void check_block_samples(const CaptureFormat& capture, std::uint32_t samples, Ti
 
 using StripRasters = std::array<const std::byte*, kStepSamples>;
 
-// Calls visit(first tile, count, row_values) for strips of neighbouring tiles, at most kStripTiles each: how many values
-// a row of a tile is from the next. `rasters` is then where the first tile lies in every sample: it is not handed over,
-// for processors wait where pointers are copied, two at a time, right after they were written one by one. Tiles at the
-// right and bottom edge are padded first.
+// A tile in every sample of a step. At the right and bottom edge it is padded: pixels outside the picture repeat the edge's.
+class StepTile {
+ public:
+  // Tells where it lies in each sample; returns how many values a row is from the next.
+  std::size_t take(const CaptureFormat& source, const TileGrid& grid, std::span<const std::span<const std::byte>> samples,
+                   std::uint64_t tile, StripRasters& rasters) {
+    const auto [width, height, channels] = source.shape;
+    const std::size_t value_bytes = std::size_t{channels} * source.code_bytes;
+    const std::uint64_t x = tile % grid.columns() * kTileSide, y = tile / grid.columns() * kTileSide;
+    const bool is_whole = x + kTileSide <= width && y + kTileSide <= height;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      rasters[k] = is_whole ? samples[k].data() + (y * width + x) * value_bytes : padded_[k].data();
+      if (is_whole) continue;
+      grid.for_each_lane(tile, [&](std::uint32_t lane, std::uint64_t pixel) {
+        std::memcpy(padded_[k].data() + lane * value_bytes, samples[k].data() + pixel * value_bytes, value_bytes);
+      });
+    }
+    return std::size_t{is_whole ? width : kTileSide} * channels;
+  }
+
+ private:
+  alignas(64) std::array<std::array<std::byte, kTilePixels * 3 * 2>, kStepSamples> padded_;
+};
+
+// Calls visit(first tile, count, row_values) for strips of neighbours in a row of tiles, at most kStripTiles each: how
+// many values a row of a tile is from the next. `rasters` is then where the first tile lies in every sample: it is not
+// handed over, for processors wait where pointers are copied, two at a time, right after they were written one by one.
+// Tiles at the right and bottom edge are padded first.
 template <typename Visit>
-void for_each_strip(const CaptureFormat& source, const TileGrid& grid,
+void for_each_strip(const CaptureFormat& source, const TileGrid& grid, std::uint64_t row,
                     std::span<const std::span<const std::byte>> samples, StripRasters& rasters, Visit visit) {
-  const Shape& shape = source.shape;
-  const std::size_t value_bytes = std::size_t{shape.channels} * source.code_bytes;
-  const std::uint64_t whole_columns = shape.width / kTileSide;
-  alignas(64) std::array<std::array<std::byte, kTilePixels * 3 * 2>, kStepSamples> padded;
-  for (std::uint64_t row = 0; row < grid.rows(); ++row) {
-    const std::uint64_t first = row * grid.columns();
-    const std::uint64_t whole = (row + 1) * kTileSide <= shape.height ? whole_columns : 0;
-    for (std::uint64_t column = 0; column < whole; column += kStripTiles) {
-      const std::uint64_t pixel = row * kTileSide * shape.width + column * kTileSide;
-      for (std::size_t k = 0; k < samples.size(); ++k) rasters[k] = samples[k].data() + pixel * value_bytes;
-      visit(first + column, static_cast<std::uint32_t>(std::min<std::uint64_t>(kStripTiles, whole - column)),
-            std::size_t{shape.width} * shape.channels);
-    }
-    for (std::uint64_t tile = first + whole; tile < first + grid.columns(); ++tile) {
-      for (std::size_t k = 0; k < samples.size(); ++k) {
-        grid.for_each_lane(tile, [&](std::uint32_t lane, std::uint64_t pixel) {
-          std::memcpy(padded[k].data() + lane * value_bytes, samples[k].data() + pixel * value_bytes,
-                      value_bytes);
-        });
-        rasters[k] = padded[k].data();
-      }
-      visit(tile, 1u, std::size_t{kTileSide} * shape.channels);
-    }
+  StepTile tile;
+  const std::uint64_t first = row * grid.columns(), end = first + grid.columns();
+  const std::uint64_t whole = (row + 1) * kTileSide <= source.shape.height ? source.shape.width / kTileSide : 0;
+  for (std::uint64_t at = first, count = 0; at < end; at += count) {
+    count = at < first + whole ? std::min<std::uint64_t>(kStripTiles, first + whole - at) : 1;
+    const std::size_t row_values = tile.take(source, grid, samples, at, rasters);
+    visit(at, static_cast<std::uint32_t>(count), row_values);
   }
 }
 
@@ -132,6 +141,8 @@ void check_white(const CaptureFormat& source, const PixelChange& change, std::ui
 
 class BlockBuilder::Implementation {
  public:
+  using Samples = std::span<const std::span<const std::byte>>;  // rasters
+
   Implementation(const CaptureFormat& source, const BlockLimits& limits, TilePolicy policy)
       : source_(source),
         grid_(source.shape),
@@ -140,7 +151,7 @@ class BlockBuilder::Implementation {
         changing_bytes_(changing_bytes(source)) {}
   virtual ~Implementation() = default;
 
-  void add(std::span<const std::span<const std::byte>> rasters) {
+  void add(Samples rasters) {
     if (rasters.size() > room()) throw std::logic_error("a full block was given another sample");
     if (is_empty() && !rasters.empty()) {
       changed_bytes_ = 0;
@@ -207,7 +218,7 @@ class BlockBuilder::Implementation {
 
  protected:
   // At most kStepSamples; a block's first one alone.
-  virtual void add_samples(std::span<const std::span<const std::byte>> rasters) = 0;
+  virtual void add_samples(Samples samples) = 0;
   virtual void add_sample_of(std::span<const PixelChange> /*changes*/) {}
   // How many more samples the block's memory takes.
   [[nodiscard]] virtual std::uint64_t fitting_memory() const { return limits_.samples; }
@@ -235,9 +246,19 @@ class BlockBuilder::Implementation {
 
 // Compares each sample with what is held when it comes: nothing has to be known of later ones.
 class BlockBuilder::Comparing final : public Implementation {
+  // Where a step writes the rows of tiles that may have no room for them: most have none.
+  class SpareRows {
+   public:
+    [[nodiscard]] std::byte* of_tile(std::uint32_t number) { return rows_[number].data(); }
+
+   private:
+    alignas(64) std::array<std::array<std::byte, kStepSamples * kTilePixels * 3 * 2>, kStripTiles> rows_;
+  };
+
  public:
-  Comparing(const CaptureFormat& source, const BlockLimits& limits, TilePolicy policy)
+  Comparing(const CaptureFormat& source, const BlockLimits& limits, TilePolicy policy, std::uint32_t threads)
       : Implementation(source, limits, policy),
+        threads_(threads),
         row_bytes_(BlockGeometry(source, limits.samples).row_bytes()),
         step_(step_function(source)),
         held_(source.noise.tolerance == 0 ? 0 : grid_.tile_count() * row_bytes_),
@@ -252,16 +273,33 @@ class BlockBuilder::Comparing final : public Implementation {
     return log_.bytes() < limits_.memory_bytes / 4 ? limits_.samples : 1;
   }
 
-  void add_samples(std::span<const std::span<const std::byte>> samples) override {
-    const bool starts = is_empty();  // and a start is no record
-    // The capture's first sample is held whatever it is: nothing was held before.
-    const bool is_first = starts && first_sample_ == 0;
-    StripStep step{};
-    step.sample_count = static_cast<std::uint32_t>(samples.size());
-    step.tolerance = is_first ? 0 : source_.noise.tolerance;
-    step.steps = CodeSteps::of(source_);
-    step.writes_all = starts || policy_ == TilePolicy::dense;
-    const BlockCourse course{samples_ + step.sample_count, expected_samples(samples_ + step.sample_count)};
+  // Rows of tiles side by side; then, one after the other, the tiles that need more room than they have.
+  void add_samples(Samples samples) override {
+    constexpr std::uint64_t kBytesAtOnce = 1 << 20;  // another thread takes longer to begin than fewer take
+    const std::uint64_t rows = kBytesAtOnce / (grid_.columns() * row_bytes_ * samples.size()) + 1;
+    std::vector<std::vector<std::uint64_t>> without_room(grid_.rows());
+    std::atomic<std::uint64_t> changed_bytes = 0;
+    const auto add_rows_of_tiles = [&](std::uint64_t first, std::uint64_t last) {
+      for (std::uint64_t row = first; row < last; ++row) {
+        changed_bytes += add_row_of_tiles(row, samples, without_room[row]);
+      }
+    };
+    parallel_for_parts(grid_.rows(), rows, add_rows_of_tiles, threads_);
+    if (is_empty()) return;  // a start is no record, and has room
+    const auto count = static_cast<std::uint32_t>(samples_ + samples.size());
+    const BlockCourse course{count, expected_samples(count)};
+    changed_bytes_ += changed_bytes;
+    for (const std::vector<std::uint64_t>& tiles : without_room) {
+      for (const std::uint64_t tile : tiles) add_to_larger_room(tile, samples, course);
+    }
+  }
+
+  // Returns how many bytes the new rows take. Tiles without room for theirs are listed, and stay as they are.
+  std::uint64_t add_row_of_tiles(std::uint64_t row, Samples samples, std::vector<std::uint64_t>& without_room) {
+    const bool starts = is_empty();
+    std::uint64_t changed_bytes = 0;
+    StripStep step = step_of(samples);
+    SpareRows spare_rows;
     std::array<std::byte*, kStripTiles> from;
     const auto visit = [&](std::uint64_t first, std::uint32_t tiles, std::size_t row_values) {
       step.row_values = row_values;
@@ -269,28 +307,61 @@ class BlockBuilder::Comparing final : public Implementation {
       for (std::uint32_t i = 0; i < tiles; ++i) {
         log_.fetch_list(first + i);
         const bool has_room = log_.has_room(first + i, step.sample_count);
-        step.next[i] = from[i] = has_room ? log_.next_row(first + i) : spare_rows_[i].data();
+        step.next[i] = from[i] = has_room ? log_.next_row(first + i) : spare_rows.of_tile(i);
         step.held[i] = starts ? held_before(first + i, step.next[i]) : log_.last_row(first + i);
       }
       step_(step);
       for (std::uint32_t i = 0; i < tiles; ++i) {
-        const auto written = static_cast<std::size_t>(step.next[i] - from[i]);
+        const auto written = static_cast<std::uint64_t>(step.next[i] - from[i]);
         if (written == 0) continue;
-        if (!starts) changed_bytes_ += written;
-        std::array<std::uint16_t, kStepSamples> at;
-        std::uint32_t rows = 0;
-        for (std::uint32_t k = 0; k < step.sample_count; ++k) {
-          at[rows] = static_cast<std::uint16_t>(samples_ + k);
-          rows += step.writes_all || step.changes[k][i] != 0 ? 1 : 0;
+        if (from[i] == spare_rows.of_tile(i)) {
+          without_room.push_back(first + i);
+        } else {
+          changed_bytes += written;
+          list_rows(first + i, step, i);
         }
-        if (from[i] == spare_rows_[i].data()) {
-          log_.make_room(first + i, rows, course);
-          std::memcpy(log_.next_row(first + i), from[i], written);
-        }
-        log_.add_rows(first + i, std::span(at).first(rows), starts ? 0 : step.change_counts[i]);
       }
     };
-    for_each_strip(source_, grid_, samples, step.rasters, visit);
+    for_each_strip(source_, grid_, row, samples, step.rasters, visit);
+    return changed_bytes;
+  }
+
+  void add_to_larger_room(std::uint64_t tile, Samples samples, BlockCourse course) {
+    StripStep step = step_of(samples);
+    StepTile raster;
+    SpareRows rows;
+    step.row_values = raster.take(source_, grid_, samples, tile, step.rasters);
+    step.tile_count = 1;
+    step.held[0] = log_.last_row(tile);
+    step.next[0] = rows.of_tile(0);
+    step_(step);
+    const auto written = static_cast<std::uint64_t>(step.next[0] - rows.of_tile(0));
+    log_.make_room(tile, static_cast<std::uint32_t>(written / row_bytes_), course);
+    std::memcpy(log_.next_row(tile), rows.of_tile(0), written);
+    changed_bytes_ += written;
+    list_rows(tile, step, 0);
+  }
+
+  [[nodiscard]] StripStep step_of(Samples samples) const {
+    StripStep step{};
+    step.sample_count = static_cast<std::uint32_t>(samples.size());
+    // The capture's first sample is held whatever it is: nothing was held before.
+    const bool is_first = is_empty() && first_sample_ == 0;
+    step.tolerance = is_first ? 0 : source_.noise.tolerance;
+    step.steps = CodeSteps::of(source_);
+    step.writes_all = is_empty() || policy_ == TilePolicy::dense;
+    return step;
+  }
+
+  // Tells the log the samples of a tile's new rows, which a step wrote where they belong; its number in the step's strip.
+  void list_rows(std::uint64_t tile, const StripStep& step, std::uint32_t number) {
+    std::array<std::uint16_t, kStepSamples> at;
+    std::uint32_t rows = 0;
+    for (std::uint32_t k = 0; k < step.sample_count; ++k) {
+      at[rows] = static_cast<std::uint16_t>(samples_ + k);
+      rows += step.writes_all || step.changes[k][number] != 0 ? 1 : 0;
+    }
+    log_.add_rows(tile, std::span(at).first(rows), is_empty() ? 0 : step.change_counts[number]);
   }
 
   void add_sample_of(std::span<const PixelChange> changes) override {
@@ -357,14 +428,13 @@ class BlockBuilder::Comparing final : public Implementation {
   void begin_block() override { log_.begin(); }
   void take_memory(PageBuffer memory) override { log_.take_memory(std::move(memory)); }
 
+  std::uint32_t threads_;
   std::uint64_t row_bytes_;
   StepFunction step_;
   std::vector<std::pair<std::uint64_t, const PixelChange*>> changed_tiles_;  // of a sample
   PageBuffer held_;  // [tile][C][64] codes at the end of the block before, where there is a tolerance
   TileLog log_;
   std::uint32_t samples_before_ = 0;  // of the block before
-  // Of tiles that may have no room for a step's rows: most of them need none.
-  alignas(64) std::array<std::array<std::byte, kStepSamples * kTilePixels * 3 * 2>, kStripTiles> spare_rows_;
 };
 
 // Collects a block's samples: what noisy ones stand for is known when all of them are there.
@@ -383,7 +453,7 @@ class BlockBuilder::Averaging final : public Implementation {
     return codes_.data() + (tile * limits_.samples + sample) * row_bytes_;
   }
 
-  void add_samples(std::span<const std::span<const std::byte>> samples) override {
+  void add_samples(Samples samples) override {
     const std::size_t tile_bytes = std::size_t{kTileSide} * source_.shape.channels * source_.code_bytes;
     StripRasters rasters{};
     const auto visit = [&](std::uint64_t first, std::uint32_t tiles, std::size_t row_values) {
@@ -393,7 +463,9 @@ class BlockBuilder::Averaging final : public Implementation {
         }
       }
     };
-    for_each_strip(source_, grid_, samples, rasters, visit);
+    for (std::uint64_t row = 0; row < grid_.rows(); ++row) {
+      for_each_strip(source_, grid_, row, samples, rasters, visit);
+    }
   }
 
   FinishedBlock close_block(PageBuffer& into, const std::stop_token& stop) override {
@@ -431,13 +503,14 @@ class BlockBuilder::Averaging final : public Implementation {
   TileLog log_;
 };
 
-BlockBuilder::BlockBuilder(const CaptureFormat& source, const BlockLimits& limits, TilePolicy policy) {
+BlockBuilder::BlockBuilder(const CaptureFormat& source, const BlockLimits& limits, TilePolicy policy,
+                           std::uint32_t threads) {
   const CaptureFormat held = held_format(source);
   check_block_samples(held, limits.samples == 0 ? 0 : busy_samples(held, limits), policy);
   if (source.noise.camera) {
     implementation_ = std::make_unique<Averaging>(source, limits, policy);
   } else {
-    implementation_ = std::make_unique<Comparing>(source, limits, policy);
+    implementation_ = std::make_unique<Comparing>(source, limits, policy, threads);
   }
 }
 

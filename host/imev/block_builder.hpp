@@ -60,8 +60,10 @@ struct BlockLimits {
 class BlockBuilder {
  public:
   // `source` is what samples are; payloads are in held_format(source). Throws UsageError where a block of so
-  // many samples, or the payload that it may come to, is too large, or the noise is that of other codes.
-  BlockBuilder(const CaptureFormat& source, const BlockLimits& limits, TilePolicy policy);
+  // many samples, or the payload that it may come to, is too large, or the noise is that of other codes. Samples are
+  // compared on at most `threads`; blocks are the same with any number.
+  BlockBuilder(const CaptureFormat& source, const BlockLimits& limits, TilePolicy policy,
+               std::uint32_t threads = ~std::uint32_t{0});
   ~BlockBuilder();
   BlockBuilder(BlockBuilder&&) noexcept;
   BlockBuilder& operator=(BlockBuilder&&) noexcept;

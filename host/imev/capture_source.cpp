@@ -8,6 +8,7 @@
 #include "imev/block_lease.hpp"
 #include "imev/expected_values.hpp"
 #include "system/interruption.hpp"
+#include "system/parallel.hpp"
 
 namespace nutik {
 
@@ -85,7 +86,7 @@ StreamingCapture::StreamingCapture(const CaptureFormat& source, Timeline timelin
       needed_(streamed_samples(source, needed, block_samples, timeline_.sample_count())),
       block_samples_(block_samples),
       next_samples_(std::move(next_samples)),
-      builder_(source, block_samples, policy),
+      builder_(source, block_samples, policy, half_the_cores()),
       spares_(std::make_shared<SparePayloads>()) {}
 
 std::uint64_t StreamingCapture::block_count() const {

@@ -1,16 +1,14 @@
 #include "mask/code_span.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace nutik {
 namespace {
 
-// Calls use(value, code) for each value of a picture of codes.
-template <typename Use>
-void for_each_code(const Picture& picture, Use use) {
-  const auto visit = [&](const auto& values) {
-    for (std::size_t i = 0; i < values.size(); ++i) use(i, std::uint32_t{values[i]});
-  };
+// Calls visit(codes) with a picture's codes, as they are held.
+template <typename Visit>
+void with_codes(const Picture& picture, Visit visit) {
   if (picture.type == ValueType::code8) {
     visit(picture.values<std::uint8_t>());
   } else {
@@ -62,12 +60,17 @@ std::vector<std::uint32_t> CodeSpan::spans() const {
 }
 
 std::vector<std::uint32_t> differences(const Picture& a, const Picture& b) {
-  std::vector<std::uint32_t> codes(a.shape.value_count());
-  for_each_code(a, [&](std::size_t i, std::uint32_t code) { codes[i] = code; });
   std::vector<std::uint32_t> spans(a.shape.pixel_count());
-  for_each_code(b, [&](std::size_t i, std::uint32_t code) {
-    std::uint32_t& span = spans[i / a.shape.channels];
-    span = std::max(span, code < codes[i] ? codes[i] - code : code - codes[i]);
+  const std::size_t channels = a.shape.channels;
+  with_codes(a, [&](auto of_a) {
+    with_codes(b, [&](auto of_b) {
+      for (std::size_t i = 0, pixel = 0; pixel < spans.size(); ++pixel) {
+        for (const std::size_t end = i + channels; i < end; ++i) {
+          const auto apart = static_cast<std::uint32_t>(std::abs(int{of_a[i]} - int{of_b[i]}));
+          spans[pixel] = std::max(spans[pixel], apart);
+        }
+      }
+    });
   });
   return spans;
 }
@@ -91,14 +94,16 @@ Region between(const Picture& picture, double low, double high) {
   Region region = Region::none(picture.shape.width, picture.shape.height);
   const std::uint32_t channels = picture.shape.channels;
   double brightness = 0.0;
-  for_each_code(picture, [&](std::size_t i, std::uint32_t code) {
-    const std::size_t channel = i % channels;
-    if (channel == 0) brightness = 0.0;
-    brightness += channels == 1 ? code : kLuma[channel] * code;
-    if (channel + 1 < channels) return;
-    // A colour's three products may miss the code of a grey by rounding.
-    constexpr double kRounding = 1e-6;
-    region.inside[i / channels] = brightness >= low - kRounding && brightness <= high + kRounding ? 1 : 0;
+  with_codes(picture, [&](auto codes) {
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+      const std::size_t channel = i % channels;
+      if (channel == 0) brightness = 0.0;
+      brightness += channels == 1 ? codes[i] : kLuma[channel] * codes[i];
+      if (channel + 1 < channels) continue;
+      // A colour's three products may miss the code of a grey by rounding.
+      constexpr double kRounding = 1e-6;
+      region.inside[i / channels] = brightness >= low - kRounding && brightness <= high + kRounding ? 1 : 0;
+    }
   });
   return region;
 }

@@ -1,9 +1,11 @@
 #include "opencl/block_feed.hpp"
 
 #include <algorithm>
+#include <thread>
 #include <utility>
 
 #include "capture/format.hpp"
+#include "system/parallel.hpp"
 
 namespace nutik {
 namespace {
@@ -83,6 +85,7 @@ void BlockFeed::start(const RenderPlan& plan, std::span<const TableSlice> slices
   next_ = 0;
   if (!skipped_.empty() && skipped_.front()) advance();
   in_place_bytes_ = 0;
+  checked_ahead_ = 0;
   is_read_by_kernel_ = false;
   for (Slab& slab : passing_) slab.used = 0;
   resident_.begin(is_resident() ? plan.blocks : std::span<const PlannedBlock>(), limits_.resident_bytes);
@@ -163,6 +166,7 @@ BlockFeed::Chunk BlockFeed::in_place_chunk(BlockLease lease) {
     lease = {};
     advance();
     if (ends_slice()) break;
+    check_ahead();
     lease = source_->acquire(plan_->blocks[next_].block,
                              {[](std::uint64_t) -> std::span<std::byte> { return {}; }});
   }
@@ -173,6 +177,21 @@ BlockFeed::Chunk BlockFeed::in_place_chunk(BlockLease lease) {
   chunk.payload = cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, in_place_bytes_,
                              const_cast<std::byte*>(region.data()) + begin);
   return chunk;
+}
+
+// The next blocks that lie in place, one a core: a checksum keeps no more than one busy.
+void BlockFeed::check_ahead() {
+  if (next_ < checked_ahead_) return;
+  checked_ahead_ = std::min<std::size_t>(next_ + std::thread::hardware_concurrency(), plan_->blocks.size());
+  parallel_for(checked_ahead_ - next_, [&, first = next_](std::uint64_t i) {
+    const std::uint64_t block = plan_->blocks[first + i].block;
+    if ((!skipped_.empty() && skipped_[first + i]) || source_->lent_bytes(block) > 0) return;
+    try {
+      source_->preload(block);
+    } catch (const InputError&) {
+      // Told when it is acquired, if it is: blocks before it come first.
+    }
+  });
 }
 
 // A block where its source has it.

@@ -152,6 +152,7 @@ class BlockFeed {
   Chunk next_chunk();
   Chunk resident_chunk();
   Chunk in_place_chunk(BlockLease lease);
+  void check_ahead();
   Chunk lent_chunk(BlockLease lease);
   Chunk filled_chunk();
   BlockLease lease_next(Filling& filling);
@@ -177,6 +178,7 @@ class BlockFeed {
   std::vector<bool> skipped_;
   BlockLease pending_;  // of that block, where it did not fit the chunk before
   std::uint64_t in_place_bytes_ = 0;
+  std::size_t checked_ahead_ = 0;  // planned blocks, of those that lie in place
   std::uint64_t bytes_ = 0;
 
   std::array<Slab, 2> passing_;  // used in turns

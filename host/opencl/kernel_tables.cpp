@@ -224,9 +224,8 @@ void blend_as(const RenderPlan& plan, const FunctionMap& map, const TilesOfBand&
     }
     return sum / kWholeShare;
   };
-  parallel_for((tiles.last - tiles.first + kTilesAtOnce - 1) / kTilesAtOnce, [&](std::uint64_t run) {
-    const std::size_t from = tiles.first + run * kTilesAtOnce, to = std::min(tiles.last, from + kTilesAtOnce);
-    for (std::size_t tile = from; tile < to; ++tile) {
+  parallel_for_parts(tiles.last - tiles.first, kTilesAtOnce, [&](std::uint64_t from, std::uint64_t to) {
+    for (std::size_t tile = tiles.first + from; tile < tiles.first + to; ++tile) {
       const std::uint32_t first = map.first_of[tile], last = map.first_of[tile + 1];
       const std::uint32_t left = map.tiles[first] % grid.columns() * kTileSide;
       const std::uint32_t top = map.tiles[first] / grid.columns() * kTileSide;

@@ -15,12 +15,6 @@ namespace {
 // Values that one thread takes at a time.
 constexpr std::uint64_t kPart = 1u << 16;
 
-template <typename Work>
-void for_each_part(std::uint64_t count, Work work) {
-  parallel_for((count + kPart - 1) / kPart,
-               [&](std::uint64_t part) { work(part * kPart, std::min(count, (part + 1) * kPart)); });
-}
-
 // Where few lights differ, finding a code again takes less time than a power; where all do, an eighth is lost.
 template <typename Code>
 void encode(const Picture& light, const CodeScale& scale, bool has_few, Picture& codes) {
@@ -31,7 +25,7 @@ void encode(const Picture& light, const CodeScale& scale, bool has_few, Picture&
   constexpr int kKnownBits = 10;
   const auto from = light.values<double>();
   const auto to = codes.values<Code>();
-  for_each_part(from.size(), [&](std::uint64_t first, std::uint64_t last) {
+  parallel_for_parts(from.size(), kPart, [&](std::uint64_t first, std::uint64_t last) {
     if (!has_few) {
       for (std::uint64_t i = first; i < last; ++i) to[i] = static_cast<Code>(scale.code_of(from[i]));
       return;
@@ -85,13 +79,13 @@ std::uint32_t CodeScale::code_of(double light) const {
 void to_shown_light(Picture& light, const CodeMaking& making) {
   const auto values = light.values<double>();
   if (making.white_light != 1.0) {
-    for_each_part(values.size(), [&](std::uint64_t first, std::uint64_t last) {
+    parallel_for_parts(values.size(), kPart, [&](std::uint64_t first, std::uint64_t last) {
       for (std::uint64_t i = first; i < last; ++i) values[i] /= making.white_light;
     });
   }
   if (!making.conversion) return;
   const ColourMatrix& matrix = *making.conversion;
-  for_each_part(light.shape.pixel_count(), [&](std::uint64_t first, std::uint64_t last) {
+  parallel_for_parts(light.shape.pixel_count(), kPart, [&](std::uint64_t first, std::uint64_t last) {
     for (std::uint64_t pixel = first; pixel < last; ++pixel) {
       double* const of_pixel = &values[pixel * 3];
       const double red = of_pixel[0], green = of_pixel[1], blue = of_pixel[2];
@@ -106,7 +100,7 @@ Saturation count_saturated(const Picture& light, const CodeScale& scale) {
   const auto values = light.values<double>();
   const std::uint32_t channels = light.shape.channels;
   std::atomic<std::uint64_t> below{0}, above{0};
-  for_each_part(light.shape.pixel_count(), [&](std::uint64_t first, std::uint64_t last) {
+  parallel_for_parts(light.shape.pixel_count(), kPart, [&](std::uint64_t first, std::uint64_t last) {
     std::uint64_t part_below = 0, part_above = 0;
     for (std::uint64_t pixel = first; pixel < last; ++pixel) {
       const auto of_pixel = values.subspan(pixel * channels, channels);

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstring>
 
 #include "scene/shadow.hpp"
+#include "system/parallel.hpp"
 
 namespace nutik {
 namespace {
@@ -63,22 +65,30 @@ const DifferingCells& Difference::at(const Look& look) {
 
 template <typename Code>
 void Difference::update(const Look& look) {
-  for (const std::uint32_t tile : look.changed) {
-    const Code* const codes = reinterpret_cast<const Code*>(look.held.codes(tile));
-    update_tile(tile, codes);
-    show_tile(tile, codes, seen_);
-  }
-  for (const std::uint32_t tile : look.changed) {
-    const std::uint32_t left = tile % grid_.columns() * kTileSide, top = tile / grid_.columns() * kTileSide;
-    const std::uint32_t right = std::min(left + kTileSide, shape_.width) - 1;
-    const std::uint32_t bottom = std::min(top + kTileSide, shape_.height) - 1;
-    for (std::uint32_t row = top / side_; row <= bottom / side_; ++row) {
-      for (std::uint32_t column = left / side_; column <= right / side_; ++column) {
-        const std::size_t cell = std::size_t{row} * columns_ + column;
-        if (looked_at_[cell] == look.number) continue;
-        looked_at_[cell] = look.number;
-        update_cell<Code>(row, column);
-      }
+  parallel_for_parts(look.changed.size(), 1024, [&](std::uint64_t first, std::uint64_t last) {
+    for (const std::uint32_t tile : look.changed.subspan(first, last - first)) {
+      const Code* const codes = reinterpret_cast<const Code*>(look.held.codes(tile));
+      update_tile(tile, codes);
+      show_tile(tile, codes, seen_);
+      mark_cells(tile, look.number);
+    }
+  });
+  parallel_for_parts(cells_.contrast.size(), 1 << 14, [&](std::uint64_t first, std::uint64_t last) {
+    for (std::uint64_t cell = first; cell < last; ++cell) {
+      if (looked_at_[cell] != look.number) continue;
+      update_cell<Code>(static_cast<std::uint32_t>(cell / columns_), static_cast<std::uint32_t>(cell % columns_));
+    }
+  });
+}
+
+// A cell may be several tiles'.
+void Difference::mark_cells(std::uint32_t tile, std::uint64_t look) {
+  const std::uint32_t left = tile % grid_.columns() * kTileSide, top = tile / grid_.columns() * kTileSide;
+  const std::uint32_t right = std::min(left + kTileSide, shape_.width) - 1;
+  const std::uint32_t bottom = std::min(top + kTileSide, shape_.height) - 1;
+  for (std::uint32_t row = top / side_; row <= bottom / side_; ++row) {
+    for (std::uint32_t column = left / side_; column <= right / side_; ++column) {
+      std::atomic_ref(looked_at_[std::size_t{row} * columns_ + column]).store(look, std::memory_order_relaxed);
     }
   }
 }

@@ -33,6 +33,7 @@ class Difference {
   void update(const Look& look);
   template <typename Code>
   void update_tile(std::uint32_t tile, const Code* codes);
+  void mark_cells(std::uint32_t tile, std::uint64_t look);
   // What its cells show, each by its first pixel.
   template <typename Code>
   void show_tile(std::uint32_t tile, const Code* codes, Picture& small) const;

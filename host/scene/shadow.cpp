@@ -13,7 +13,7 @@ namespace {
 constexpr double kMinRatio = 0.4, kMaxSpread = 0.1;
 constexpr double kMaxStep = 0.03;       // from one pixel to the next
 constexpr double kMinGround = 1.0 / 12;  // of white: on darker ground nothing is told from its shadow
-constexpr std::int64_t kMean = 1;       // pixels to each side over which noise is averaged
+constexpr std::size_t kMean = 1;        // pixels to each side over which noise is averaged
 
 // How much light is left where the plate has its own, 1 where nothing differs; negative where that is no shadow.
 template <typename Code>
@@ -47,39 +47,40 @@ class ShadowFlood {
     Region rest = differing_;
     std::vector<std::size_t> reached;
     for (std::size_t pixel = 0; pixel < left_.size(); ++pixel) {
-      if (differing_.inside[pixel] == 0) add_neighbours(pixel, rest, reached);
+      if (differing_.inside[pixel] == 0) continue;
+      for_each_neighbour(pixel, [&](std::size_t from) {
+        if (differing_.inside[from] == 0) spread(from, pixel, rest, reached);
+      });
     }
     while (!reached.empty()) {
       const std::size_t pixel = reached.back();
       reached.pop_back();
-      add_neighbours(pixel, rest, reached);
+      for_each_neighbour(pixel, [&](std::size_t to) { spread(pixel, to, rest, reached); });
     }
     return rest;
   }
 
  private:
-  void add_neighbours(std::size_t pixel, Region& rest, std::vector<std::size_t>& reached) const {
-    const auto x = static_cast<std::int64_t>(pixel % width_), y = static_cast<std::int64_t>(pixel / width_);
-    const auto add = [&](std::int64_t to_x, std::int64_t to_y) {
-      if (to_x < 0 || to_y < 0 || to_x >= width_ || to_y >= height_) return;
-      const std::size_t to = index(to_x, to_y);
-      if (rest.inside[to] == 0 || left_[to] < 0) return;
-      if (std::abs(mean_at(to_x, to_y) - mean_at(x, y)) > kMaxStep) return;
-      rest.inside[to] = 0;
-      reached.push_back(to);
-    };
-    add(x - 1, y);
-    add(x + 1, y);
-    add(x, y - 1);
-    add(x, y + 1);
+  template <typename Use>
+  void for_each_neighbour(std::size_t pixel, Use use) const {
+    const std::size_t x = pixel % width_, y = pixel / width_;
+    if (x > 0) use(pixel - 1);
+    if (x + 1 < width_) use(pixel + 1);
+    if (y > 0) use(pixel - width_);
+    if (y + 1 < height_) use(pixel + width_);
   }
-  [[nodiscard]] double mean_at(std::int64_t x, std::int64_t y) const {
+  void spread(std::size_t from, std::size_t to, Region& rest, std::vector<std::size_t>& reached) const {
+    if (rest.inside[to] == 0 || left_[to] < 0 || std::abs(mean_at(to) - mean_at(from)) > kMaxStep) return;
+    rest.inside[to] = 0;
+    reached.push_back(to);
+  }
+  [[nodiscard]] double mean_at(std::size_t pixel) const {
+    const std::size_t x = pixel % width_, y = pixel / width_;
     double sum = 0;
     int count = 0;
-    for (std::int64_t row = std::max<std::int64_t>(0, y - kMean); row <= std::min(height_ - 1, y + kMean); ++row) {
-      for (std::int64_t column = std::max<std::int64_t>(0, x - kMean); column <= std::min(width_ - 1, x + kMean);
-           ++column) {
-        const float each = left_[index(column, row)];
+    for (std::size_t row = y - std::min(y, kMean); row <= std::min(height_ - 1, y + kMean); ++row) {
+      for (std::size_t column = x - std::min(x, kMean); column <= std::min(width_ - 1, x + kMean); ++column) {
+        const float each = left_[row * width_ + column];
         if (each < 0) continue;
         sum += each;
         ++count;
@@ -87,11 +88,8 @@ class ShadowFlood {
     }
     return count > 0 ? sum / count : 0;
   }
-  [[nodiscard]] std::size_t index(std::int64_t x, std::int64_t y) const {
-    return static_cast<std::size_t>(y * width_ + x);
-  }
 
-  std::int64_t width_, height_;
+  std::size_t width_, height_;
   const Region& differing_;
   std::vector<float> left_;
 };

@@ -8,6 +8,7 @@
 #include "capture/format.hpp"
 #include "capture/text.hpp"
 #include "scene/looks.hpp"
+#include "system/parallel.hpp"
 
 namespace nutik {
 
@@ -31,7 +32,7 @@ template <typename Code, std::size_t kChannels>
 void ThinRaster::take(const SampleCursor& held, std::span<const std::uint32_t> tiles) {
   auto* const thin = reinterpret_cast<Code*>(raster_.data());
   const auto first_from = [&](std::uint32_t pixel) { return (pixel + step_ - 1) / step_ * step_; };
-  for (const std::uint32_t tile : tiles) {
+  const auto take_tile = [&](std::uint32_t tile) {
     const std::uint32_t left = tile % grid_.columns() * kTileSide, top = tile / grid_.columns() * kTileSide;
     const std::uint32_t right = std::min(left + kTileSide, shape_.width);
     const std::uint32_t bottom = std::min(top + kTileSide, shape_.height);
@@ -44,7 +45,10 @@ void ThinRaster::take(const SampleCursor& held, std::span<const std::uint32_t> t
         for (std::size_t channel = 0; channel < kChannels; ++channel) *to++ = from[channel * kTilePixels];
       }
     }
-  }
+  };
+  parallel_for_parts(tiles.size(), 2048, [&](std::uint64_t first, std::uint64_t last) {
+    std::ranges::for_each(tiles.subspan(first, last - first), take_tile);
+  });
 }
 
 namespace {

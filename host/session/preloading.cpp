@@ -19,7 +19,7 @@ void preload_until(const std::future<void>& ready, CaptureSource& source, const 
     const bool is_read_whole = std::ranges::none_of(plan.functions, [&](const PlannedFunction& function) {
       return function.table->span_in(planned.extent).empty();
     });
-    if (bytes == 0 || bytes > left || !is_read_whole) return;
+    if (bytes > left || (bytes > 0 && !is_read_whole)) return;
     source.preload(planned.block);
     left -= bytes;
     if (ready.wait_for(std::chrono::seconds(0)) == std::future_status::ready) return;

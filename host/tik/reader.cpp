@@ -299,7 +299,7 @@ BlockLease Reader::unpacked(std::uint64_t block, const BlockHeader& header, cons
 
 void Reader::preload(std::uint64_t block) {
   const BlockHeader header = block_header(block);
-  if (!is_packed(header)) return;
+  if (!is_packed(header)) return check(block, header);
   BlockLease lease = unpacked(block, header, {});
   const std::scoped_lock lock(preloading_);
   preloaded_.insert_or_assign(block, std::move(lease));

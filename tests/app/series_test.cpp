@@ -145,6 +145,23 @@ TEST_F(Series, TellsItsWarningsAlsoWhereItEndsInAnError) {
   EXPECT_LT(result.err.find("warning: d-1.pfm"), result.err.find("is damaged")) << result.err;
 }
 
+// Blocks are checked side by side.
+TEST_F(Series, NamesTheFirstOfTwoDamagedBlocks) {
+  run("-f 40 --block-samples 4 --codec none frames blocks.tik");
+  std::string capture = file("blocks.tik");
+  for (const std::size_t eighths : {3, 6}) capture[capture.size() * eighths / 8] ^= 0x55;
+  scratch_.write("blocks.tik", capture);
+  const auto refusal = [&](const char* from) {
+    return test::run_here({"expose", "--start", from, "--exposure", "1m", "blocks.tik", "a.pfm", "--overwrite"},
+                          scratch_.folder())
+        .err;
+  };
+  const std::string first = refusal("0s");
+  expect_says(first, "is damaged");
+  for (int times = 0; times < 4; ++times) EXPECT_EQ(refusal("0s"), first);
+  EXPECT_NE(refusal("0.6s"), first);  // behind the first of them
+}
+
 TEST_F(Series, SaysWhatIsWrongBeforeItWrites) {
   const test::Words plain("--exposure 25ms clip.tik");
   const auto with = [&](test::Words words) {

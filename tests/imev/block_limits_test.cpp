@@ -186,5 +186,33 @@ TEST(BlockLimits, KeepALargeSceneInOneBlock) {
   EXPECT_LT(spread, 0.1);
 }
 
+// Tiles begin to change at different samples, so that some have room for their rows and others get a larger one.
+TEST(BlockLimits, BlocksAreTheSameOnAnyNumberOfThreads) {
+  CaptureFormat format;
+  format.shape = {1023, 515, 3};  // several parts for threads, and tiles that reach beyond the picture
+  test::Random random(1);
+  test::Rasters rasters(21, std::vector<std::byte>(format.sample_bytes()));
+  for (std::size_t k = 1; k < rasters.size(); ++k) {
+    rasters[k] = rasters[k - 1];
+    for (std::size_t change = 0; change < 200 * k; ++change) {
+      const auto last = static_cast<std::int64_t>(rasters[k].size() - 1);
+      rasters[k][static_cast<std::size_t>(random.whole(0, last))] ^= std::byte{0x41};
+    }
+  }
+  const auto built = [&](std::uint32_t threads) {
+    BlockBuilder builder(format, BlockLimits(64), TilePolicy::automatic, threads);
+    for (std::size_t k = 0; k < rasters.size(); k += BlockBuilder::kSamplesAtOnce) {
+      const std::size_t last = std::min(rasters.size(), k + BlockBuilder::kSamplesAtOnce);
+      const std::vector<std::span<const std::byte>> samples(rasters.begin() + static_cast<std::ptrdiff_t>(k),
+                                                            rasters.begin() + static_cast<std::ptrdiff_t>(last));
+      builder.add(samples);
+    }
+    PageBuffer payload;
+    const FinishedBlock finished = builder.finish(payload);
+    return std::pair(finished.record_count, std::vector(payload.data(), payload.data() + finished.span_bytes));
+  };
+  EXPECT_EQ(built(1), built(2));
+}
+
 }  // namespace
 }  // namespace nutik

@@ -21,6 +21,7 @@
 #include "session/output_check.hpp"
 #include "system/channel.hpp"
 #include "system/interruption.hpp"
+#include "system/parallel.hpp"
 #include "tik/writer.hpp"
 
 namespace nutik {
@@ -67,7 +68,7 @@ class Encoding {
 
 Encoding::Encoding(ClipSource source, const EncodeRequest& request, const ClipMemory& memory)
     : source_(std::move(source)),
-      builder_(source_.capture, memory.blocks, source_.request.tiles),
+      builder_(source_.capture, memory.blocks, source_.request.tiles, half_the_cores()),
       // Before anything is read, so that times that cannot be used are said at once.
       times_(source_.timeline(std::max<std::uint64_t>(source_.announced_samples(), 1))),
       codec_(request.codec),
