@@ -152,7 +152,7 @@ TEST_F(Series, NamesTheFirstOfTwoDamagedBlocks) {
   for (const std::size_t eighths : {3, 6}) capture[capture.size() * eighths / 8] ^= 0x55;
   scratch_.write("blocks.tik", capture);
   const auto refusal = [&](const char* from) {
-    return test::run_here({"expose", "--start", from, "--exposure", "1m", "blocks.tik", "a.pfm", "--overwrite"},
+    return test::run_here({"expose", "--start", from, "--exposure", "10s", "blocks.tik", "a.pfm", "--overwrite"},
                           scratch_.folder())
         .err;
   };
