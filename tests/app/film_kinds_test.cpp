@@ -357,7 +357,7 @@ TEST_F(FilmSoundTest, IsMixedDownOrLeftOutForAReason) {
     return made.out + made.err;
   };
   expect_says(channels(4), "the sound's 4 channels are mixed down to 2, as libopus does not encode them");
-  expect_says(channels(10), "nothing says where its 10 channels are heard");
+  expect_says(channels(9), "nothing says where its 9 channels are heard");  // no FFmpeg supposes any places of 9
   const std::filesystem::path folder = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path();
   std::filesystem::copy(NUTIK_TEST_PROGRAM, scratch_ / "alone");
   std::filesystem::copy(folder / "nutik-videos.so", scratch_ / "nutik-videos.so");

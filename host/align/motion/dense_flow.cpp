@@ -14,7 +14,7 @@ constexpr double kFinestPixels = 130'000;
 
 class DenseFlow final : public FlowFinder {
  public:
-  // What a patch finds depends on which strip of the picture it is in; without threads there is one (robust_registrar.cpp).
+  // What a patch finds depends on its strip of the picture: without threads there is one (robust_registrar.cpp).
   DenseFlow() : search_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)) {
     search_->setVariationalRefinementIterations(2);  // three quarters of the time of 5, as good within a hundredth
   }
