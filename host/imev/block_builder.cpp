@@ -77,12 +77,13 @@ void check_block_samples(const CaptureFormat& capture, std::uint32_t samples, Ti
 
 using StripRasters = std::array<const std::byte*, kStepSamples>;
 
-// A tile in every sample of a step. At the right and bottom edge it is padded: pixels outside the picture repeat the edge's.
+// A tile in every sample of a step. At the right and bottom edge it is padded: pixels outside the picture repeat the
+// edge's.
 class StepTile {
  public:
   // Tells where it lies in each sample; returns how many values a row is from the next.
-  std::size_t take(const CaptureFormat& source, const TileGrid& grid, std::span<const std::span<const std::byte>> samples,
-                   std::uint64_t tile, StripRasters& rasters) {
+  std::size_t take(const CaptureFormat& source, const TileGrid& grid,
+                   std::span<const std::span<const std::byte>> samples, std::uint64_t tile, StripRasters& rasters) {
     const auto [width, height, channels] = source.shape;
     const std::size_t value_bytes = std::size_t{channels} * source.code_bytes;
     const std::uint64_t x = tile % grid.columns() * kTileSide, y = tile / grid.columns() * kTileSide;
@@ -353,7 +354,8 @@ class BlockBuilder::Comparing final : public Implementation {
     return step;
   }
 
-  // Tells the log the samples of a tile's new rows, which a step wrote where they belong; its number in the step's strip.
+  // Tells the log the samples of a tile's new rows, which a step wrote where they belong. `number` is the tile's in the
+  // step's strip.
   void list_rows(std::uint64_t tile, const StripStep& step, std::uint32_t number) {
     std::array<std::uint16_t, kStepSamples> at;
     std::uint32_t rows = 0;

@@ -9,8 +9,8 @@
 
 namespace nutik {
 
-// One block after another until the device is ready. It ends at the first packed block that some function does not read,
-// or with which they would take more than `max_bytes`. Throws InputError for a damaged block.
+// One block after another until the device is ready. It ends at the first packed block that some function does not
+// read, or with which they would take more than `max_bytes`. Throws InputError for a damaged block.
 void preload_until(const std::future<void>& ready, CaptureSource& source, const RenderPlan& plan,
                    std::uint64_t max_bytes);
 

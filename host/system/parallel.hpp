@@ -57,10 +57,11 @@ void parallel_for(std::uint64_t count, Work work, std::uint32_t max_threads = ~s
       count, [] { return 0; }, [&](std::uint64_t i, int) { work(i); }, max_threads);
 }
 
-// The same for [0, count) in parts of `size`, the last of which may have fewer: calls work(first, last). A part should take
-// longer than a thread does to begin, some 50 us.
+// The same for [0, count) in parts of `size`, the last of which may have fewer: calls work(first, last). A part should
+// take longer than a thread does to begin, some 50 us.
 template <typename Work>
-void parallel_for_parts(std::uint64_t count, std::uint64_t size, Work work, std::uint32_t max_threads = ~std::uint32_t{0}) {
+void parallel_for_parts(std::uint64_t count, std::uint64_t size, Work work,
+                        std::uint32_t max_threads = ~std::uint32_t{0}) {
   parallel_for(
       (count + size - 1) / size,
       [&](std::uint64_t part) { work(part * size, std::min(count, (part + 1) * size)); }, max_threads);
