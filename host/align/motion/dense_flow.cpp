@@ -14,9 +14,11 @@ constexpr double kFinestPixels = 130'000;
 
 class DenseFlow final : public FlowFinder {
  public:
-  // What a patch finds depends on its strip of the picture: without threads there is one (robust_registrar.cpp).
+  // What a patch finds depends on which strip of the picture it is in, and each thread has one.
   DenseFlow() : search_(cv::DISOpticalFlow::create(cv::DISOpticalFlow::PRESET_MEDIUM)) {
     search_->setVariationalRefinementIterations(2);  // three quarters of the time of 5, as good within a hundredth
+    // Once: it takes down the threads there are, and two finders may be opened at the same time.
+    [[maybe_unused]] static const bool is_alone = (cv::setNumThreads(0), true);
   }
 
   void find(const GreyPlane& from, const GreyPlane& to, std::span<FlowVector> flow) override {

@@ -391,9 +391,10 @@ std::unique_ptr<Registrar> open_robust_registrar(const CaptureFormat& format, Ca
 }
 
 // OpenCV's threads would gain nothing beside the program's, and oneTBB hangs where it finds no memory to start them.
+// Where the process is another's, as Python's, so are they.
 void begin(SharedState& of_program) {
   use_shared_state(of_program);
-  cv::setNumThreads(0);
+  if (of_program.is_watching) cv::setNumThreads(0);
 }
 
 }  // namespace
