@@ -394,7 +394,7 @@ std::unique_ptr<Registrar> open_robust_registrar(const CaptureFormat& format, Ca
 // Where the process is another's, as Python's, so are they.
 void begin(SharedState& of_program) {
   use_shared_state(of_program);
-  if (of_program.is_watching) cv::setNumThreads(0);
+  if (of_program.is_one_work) cv::setNumThreads(0);
 }
 
 }  // namespace

@@ -526,7 +526,7 @@ Picture enlarged(const Picture& picture, const Shape& shape) {
 // Without OpenCV's threads, as in align/motion/robust_registrar.cpp.
 void begin(SharedState& of_program) {
   use_shared_state(of_program);
-  if (of_program.is_watching) cv::setNumThreads(0);
+  if (of_program.is_one_work) cv::setNumThreads(0);
 }
 
 }  // namespace
