@@ -43,6 +43,9 @@ class CaptureSource {
   // What a block's payload takes in memory while it is on loan, at most: nothing where it lies in memory anyway.
   [[nodiscard]] virtual std::uint64_t lent_bytes(std::uint64_t /*block*/) const { return 0; }
 
+  // Whether acquire() will check all of a block that lies in memory, for the first time.
+  [[nodiscard]] virtual bool is_unchecked(std::uint64_t /*block*/) const { return false; }
+
   // Does ahead what acquire() will take time for, while whoever will ask for the block is not ready yet. A source
   // may do nothing. Any thread may ask, besides those that acquire.
   virtual void preload(std::uint64_t /*block*/) {}

@@ -182,12 +182,16 @@ BlockFeed::Chunk BlockFeed::in_place_chunk(BlockLease lease) {
 // The next blocks that lie in place, one a core: a checksum keeps no more than one busy.
 void BlockFeed::check_ahead() {
   if (next_ < checked_ahead_) return;
-  checked_ahead_ = std::min<std::size_t>(next_ + std::thread::hardware_concurrency(), plan_->blocks.size());
-  parallel_for(checked_ahead_ - next_, [&, first = next_](std::uint64_t i) {
-    const std::uint64_t block = plan_->blocks[first + i].block;
-    if ((!skipped_.empty() && skipped_[first + i]) || source_->lent_bytes(block) > 0) return;
+  std::vector<std::uint64_t> unchecked;
+  for (checked_ahead_ = next_; checked_ahead_ < plan_->blocks.size(); ++checked_ahead_) {
+    if (unchecked.size() == std::thread::hardware_concurrency()) break;
+    const std::uint64_t block = plan_->blocks[checked_ahead_].block;
+    const bool is_skipped = !skipped_.empty() && skipped_[checked_ahead_];
+    if (!is_skipped && source_->is_unchecked(block)) unchecked.push_back(block);
+  }
+  parallel_for(unchecked.size(), [&](std::uint64_t i) {
     try {
-      source_->preload(block);
+      source_->preload(unchecked[i]);
     } catch (const InputError&) {
       // Told when it is acquired, if it is: blocks before it come first.
     }

@@ -57,7 +57,11 @@ class Reader final : public CaptureSource {
     return index_[block].codec == static_cast<std::uint32_t>(CodecId::none) ? 0 : index_[block].payload_bytes;
   }
 
-  // Unpacks a packed block.
+  [[nodiscard]] bool is_unchecked(std::uint64_t block) const override {
+    return lent_bytes(block) == 0 && !are_right_[block];
+  }
+
+  // Unpacks a packed block, checks another.
   void preload(std::uint64_t block) override;
 
   // A block as it lies in the file, its checksum compared. Throws as acquire() does.

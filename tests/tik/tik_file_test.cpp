@@ -157,7 +157,9 @@ TEST(TikFile, UnpacksAheadWhatItIsAskedFor) {
     const Scratch scratch;
     Reader reader(write_tik(random, {codec, 0}, scratch));
     ASSERT_GE(reader.block_count(), 2u);
+    EXPECT_EQ(reader.is_unchecked(1), codec == CodecId::none);
     reader.preload(1);
+    EXPECT_FALSE(reader.is_unchecked(1));
     reader.preload(0);
     test::expect_same_capture(random, reader);
     // Once: what was unpacked ahead asks for no room, the next time does.
