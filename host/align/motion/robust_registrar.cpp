@@ -390,8 +390,8 @@ std::unique_ptr<Registrar> open_robust_registrar(const CaptureFormat& format, Ca
   return std::make_unique<RobustRegistrar>(format, motion, reference);
 }
 
-// OpenCV's threads would gain nothing beside the program's, and oneTBB hangs where it finds no memory to start them.
-// Where the process is another's, as Python's, so are they.
+// In nutik-cl, which does one work, OpenCV's threads would gain nothing beside its own, and oneTBB hangs where it finds
+// no memory to start them. In Python they are another's.
 void begin(SharedState& of_program) {
   use_shared_state(of_program);
   if (of_program.is_one_work) cv::setNumThreads(0);
