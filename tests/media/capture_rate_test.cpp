@@ -43,11 +43,14 @@ TEST(CaptureRate, IsAndroidsWhereTheFilePlaysSlower) {
   EXPECT_EQ(test::open_test_clip(scratch / "clip.mp4")->info().timing.rate, (Rational{3, 1}));
 }
 
+std::string number(std::uint64_t value, int bytes) {
+  std::string text;
+  for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8) text += static_cast<char>(value >> shift);
+  return text;
+}
+
 std::string box(const std::string& type, const std::string& data) {
-  const auto size = static_cast<std::uint32_t>(data.size() + 8);
-  std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(size >> shift);
-  return bytes + type + data;
+  return number(data.size() + 8, 4) + type + data;
 }
 
 std::string sony_story(const char* rate, const char* curve, const char* gamut) {
@@ -81,6 +84,61 @@ TEST(CaptureRate, AndCurveAreSonysWhereItsXmlSaysThem) {
   const auto other = test::open_test_clip(scratch / "other.mp4");
   EXPECT_EQ(other->info().format.transfer, Transfer::srgb());
   EXPECT_EQ(other->info().timing.rate, (Rational{24'000, 1001}));
+}
+
+std::string item(const std::string& key, const std::string& value) {
+  return "\x06\x0E\x2B\x34" + key + "\x83" + number(value.size(), 3) + value;
+}
+
+const std::string kBt709Curve = "\x06\x0E\x2B\x34\x04\x01\x01\x01\x04\x01\x01\x01\x01\x02" + std::string(2, '\0');
+
+std::string sonys_label(std::uint32_t which) {
+  return "\x06\x0E\x2B\x34\x04\x01\x01\x06\x0E\x06\x04\x01" + number(which, 4);
+}
+
+// Ancillary data: a packet of another kind, then the camera unit's set in two.
+std::string camera_packets(std::uint32_t curve, std::uint32_t gamut, std::uint32_t rate) {
+  const auto tagged = [](std::uint32_t tag, const std::string& value) {
+    return number(tag, 2) + number(value.size(), 2) + value;
+  };
+  const std::string unit =
+      item("\x02\x53\x01\x01\x0C\x02\x01\x01\x02\x01" + std::string(2, '\0'),
+           tagged(0x8114, "S-Log") + tagged(0x3210, sonys_label(curve)) + tagged(0x3219, sonys_label(gamut)) +
+               tagged(0x8106, number(rate, 4) + number(1001, 4)));
+  const auto packet = [](const std::string& kind, const std::string& data) {
+    std::string bytes = kind + number(data.size(), 1) + data;
+    bytes.resize((bytes.size() + 3) / 4 * 4);
+    return number(10, 2) + "\x01\x04" + number(bytes.size(), 2) + number(bytes.size(), 4) + number(1, 4) + bytes;
+  };
+  return item("\x01\x02\x01\x01\x0D\x01\x03\x01\x17\x01\x02\x01",
+              number(3, 2) + packet("\x61\x01", "other") + packet("\x43\x05", "\x01" + unit.substr(0, 30)) +
+                  packet("\x43\x05", "\x02" + unit.substr(30)));
+}
+
+TEST(CaptureRate, AndCurveAreSonysWhereMxfSaysThem) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  test::make(scratch,
+             "-f lavfi -i testsrc2=s=64x64:d=1:r=24000/1001 -c:v mpeg2video -color_trc bt709 -bf 0 clip.mxf");
+  const std::string plain = test::read_file(scratch / "clip.mxf");
+  const auto clip_of = [&](const std::string& bytes) {
+    scratch.write("clip.mxf", bytes);
+    const auto clip = test::open_test_clip(scratch / "clip.mxf");
+    const auto& info = clip->info();
+    return info.format.transfer.text() + " " + std::string(to_text(info.format.primaries)) + " " +
+           info.timing.rate.value().text();
+  };
+  EXPECT_EQ(clip_of(plain), "srgb bt709 24000/1001");
+  std::string labelled = plain;
+  ASSERT_NE(labelled.find(kBt709Curve), labelled.npos);
+  for (std::size_t at = 0; (at = labelled.find(kBt709Curve, at)) != labelled.npos;)
+    labelled.replace(at, kBt709Curve.size(), sonys_label(0x01010605));
+  EXPECT_EQ(clip_of(labelled), "slog3:video sgamut3-cine 24000/1001");
+  EXPECT_EQ(clip_of(plain + camera_packets(0x01010508, 0x01030103, 120'000)), "slog2:video sgamut3 120000/1001");
+  EXPECT_EQ(clip_of(plain + camera_packets(0x01010604, 0x01030104, 24'000)), "slog3:video sgamut3 24000/1001");
+  EXPECT_EQ(clip_of(plain + camera_packets(0x01010705, 0x01030105, 24'000)), "srgb bt709 24000/1001");  // S-Cinetone
+  for (std::size_t cut = 1; cut < 260; cut += 7)  // what is cut off is not there
+    EXPECT_NE(clip_of(plain + camera_packets(0x01010604, 0x01030104, 0).substr(0, cut)), "") << cut;
 }
 
 // A box at the end of the description of the only track, with the sizes of all that it lies in.

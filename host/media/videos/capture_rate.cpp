@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <initializer_list>
 #include <span>
 #include <string_view>
@@ -11,21 +10,18 @@
 #include "capture/error.hpp"
 #include "capture/median.hpp"
 #include "media/formats/extension.hpp"
+#include "media/formats/file_kinds.hpp"
+#include "media/videos/mxf_unit.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::videos {
 namespace {
 
-using Bytes = std::span<const std::byte>;
-
 // Rates that lie this close are the same, as cameras keep time.
 constexpr double kSameRate = 0.02;
 
-std::uint64_t big_endian(Bytes bytes, std::size_t at, std::size_t count) {
-  std::uint64_t number = 0;
-  for (std::size_t i = 0; i < count; ++i)
-    number = number << 8 | std::to_integer<std::uint64_t>(bytes[at + i]);
-  return number;
+std::string_view bytes_of(const MappedFile& file) {
+  return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
 }
 
 constexpr std::string_view kAnyCodec = "????";
@@ -33,7 +29,7 @@ constexpr std::string_view kAnyCodec = "????";
 // What the first box holds that lies within boxes of these types; empty where there is none. A box is u32 size with its
 // header of 8 bytes, then four letters; a size of 1 stands for a u64 behind them, 0 for all that is left. `stsd` has
 // fields before its boxes, and so has each track's description in it, whose type is its codec.
-Bytes box_at(Bytes boxes, std::span<const std::string_view> path) {
+std::string_view box_at(std::string_view boxes, std::span<const std::string_view> path) {
   constexpr std::size_t kHeader = 8, kLongHeader = 16;
   while (boxes.size() >= kHeader) {
     std::uint64_t size = big_endian(boxes, 0, 4);
@@ -45,18 +41,18 @@ Bytes box_at(Bytes boxes, std::span<const std::string_view> path) {
     if (size == 0) size = boxes.size();
     if (size < header || size > boxes.size()) return {};
     const bool is_codec = path.front() == kAnyCodec;
-    if (is_codec || std::memcmp(boxes.data() + 4, path.front().data(), 4) == 0) {
+    if (is_codec || boxes.substr(4, 4) == path.front()) {
       const std::uint64_t begin = header + (is_codec ? 78u : path.front() == "stsd" ? 8u : 0u);
-      const Bytes held = begin < size ? boxes.subspan(begin, size - begin) : Bytes();
-      const Bytes found = path.size() == 1 ? held : box_at(held, path.subspan(1));
+      const std::string_view held = begin < size ? boxes.substr(begin, size - begin) : std::string_view();
+      const std::string_view found = path.size() == 1 ? held : box_at(held, path.subspan(1));
       if (!found.empty()) return found;
     }
-    boxes = boxes.subspan(size);
+    boxes.remove_prefix(size);
   }
   return {};
 }
 
-Bytes box_at(Bytes boxes, std::initializer_list<std::string_view> path) {
+std::string_view box_at(std::string_view boxes, std::initializer_list<std::string_view> path) {
   return box_at(boxes, std::span(path.begin(), path.size()));
 }
 
@@ -67,15 +63,15 @@ struct SamsungRecording {
   std::optional<Rational> rate;
 };
 
-SamsungRecording samsung_recording(Bytes file) {
+SamsungRecording samsung_recording(std::string_view file) {
   constexpr std::size_t kVersionBytes = 4, kAuthorBytes = 4;
-  Bytes smta = box_at(file, {"moov", "udta", "smta"});
+  std::string_view smta = box_at(file, {"moov", "udta", "smta"});
   if (smta.size() < kVersionBytes) return {};
-  smta = smta.subspan(kVersionBytes);
-  const Bytes author = box_at(smta, {"saut"});
+  smta.remove_prefix(kVersionBytes);
+  const std::string_view author = box_at(smta, {"saut"});
   for (std::size_t at = kAuthorBytes; at + 2 <= author.size(); at += 2) {
-    if (author[at] != std::byte{0}) continue;
-    switch (std::to_integer<int>(author[at + 1])) {
+    if (author[at] != 0) continue;
+    switch (author[at + 1]) {
       case 7:
       case 9:
       case 22:
@@ -83,7 +79,7 @@ SamsungRecording samsung_recording(Bytes file) {
       case 12: return {true, Rational{240, 1}};
       case 13: return {true, Rational{120, 1}};
       case 21: {
-        const Bytes rate = box_at(smta, {"srfr"});
+        const std::string_view rate = box_at(smta, {"srfr"});
         if (rate.size() < 4 || big_endian(rate, 0, 2) == 0) return {true, std::nullopt};
         return {true, Rational::of(static_cast<std::int64_t>(big_endian(rate, 0, 4)), 1 << 16)};
       }
@@ -99,8 +95,7 @@ std::string sony_story(const std::filesystem::path& path) {
   constexpr std::uintmax_t kMaxBytes = 1u << 20;
   const MappedFile mapped(path);
   for (const auto& boxes : {std::vector<std::string_view>{"meta"}, {"moov", "meta"}}) {
-    const Bytes box = box_at(mapped.bytes(), boxes);
-    const std::string_view text(reinterpret_cast<const char*>(box.data()), box.size());
+    const std::string_view text = box_at(bytes_of(mapped), boxes);
     if (const auto at = text.find(kName); at != text.npos) return std::string(text.substr(at));
   }
   const std::string extension = extension_of(path);
@@ -111,7 +106,7 @@ std::string sony_story(const std::filesystem::path& path) {
   if (error || bytes == 0 || bytes > kMaxBytes) return {};
   try {
     const MappedFile story(beside);
-    std::string text(reinterpret_cast<const char*>(story.bytes().data()), story.bytes().size());
+    std::string text(bytes_of(story));
     return text.find(kName) == text.npos ? std::string() : text;
   } catch (const InputError&) {
     return {};  // the clip can be read without it
@@ -146,7 +141,14 @@ std::optional<Rational> sony_rate(const std::string& story) {
   return std::nullopt;
 }
 
-bool is_mp4(Bytes file) { return file.size() >= 8 && std::memcmp(file.data() + 4, "ftyp", 4) == 0; }
+// What Sony's camera says: its XML, else the file's own metadata.
+CameraUnit camera_unit(const std::filesystem::path& path) {
+  const std::string story = sony_story(path);
+  if (story.empty()) return mxf_unit(bytes_of(MappedFile(path)));
+  return {item_of(story, "CaptureGammaEquation"), item_of(story, "CaptureColorPrimaries"), sony_rate(story)};
+}
+
+bool is_mp4(std::string_view file) { return file.size() >= 8 && file.substr(4, 4) == "ftyp"; }
 
 double mean_rate(const std::vector<std::int64_t>& starts_ns) {
   return static_cast<double>(starts_ns.size() - 1) * static_cast<double>(kSecondNs) /
@@ -208,16 +210,15 @@ std::optional<NamedCurve> named_curve(const AVFormatContext& format, const std::
   }
   // As Apple's VideoToolbox names them, kCVImageBufferLogTransferFunction_AppleLog and _AppleLog2.
   const MappedFile mapped(path);
-  const Bytes logs = box_at(mapped.bytes(), {"moov", "trak", "mdia", "minf", "stbl", "stsd", kAnyCodec, "logs"});
-  const std::string_view in_track(reinterpret_cast<const char*>(logs.data()), logs.size());
+  const std::string_view in_track =
+      box_at(bytes_of(mapped), {"moov", "trak", "mdia", "minf", "stbl", "stsd", kAnyCodec, "logs"});
   const auto is_apples = [&](std::string_view name) {
     return in_track == name || said("com.apple.proapps.customgamma") == name;
   };
   if (is_apples("com.apple.rec2020.apple-log")) return NamedCurve{Transfer::log("applelog"), Primaries::bt2020};
   if (is_apples("com.apple.apple-wide-gamut.apple-log"))
     return NamedCurve{Transfer::log("applelog"), Primaries::apple_wide_gamut};
-  const std::string story = sony_story(path);
-  const std::string curve = item_of(story, "CaptureGammaEquation"), gamut = item_of(story, "CaptureColorPrimaries");
+  const auto [curve, gamut, rate] = camera_unit(path);
   const char* const known = curve == "s-log2" ? "slog2" : curve.starts_with("s-log3") ? "slog3" : nullptr;
   if (known == nullptr) return std::nullopt;
   NamedCurve named{Transfer::log(known), std::nullopt};
@@ -241,10 +242,10 @@ std::optional<CaptureRate> capture_rate(const AVFormatContext& format, const std
                                      kAndroid, entry->value),
                        std::vector{Setting::frame_rate});
   }
-  if (const auto rate = sony_rate(sony_story(path))) return CaptureRate{*rate, "Sony's captureFps"};
+  if (const auto rate = camera_unit(path).rate) return CaptureRate{*rate, "Sony's captureFps"};
   const MappedFile mapped(path);
-  if (!is_mp4(mapped.bytes())) return std::nullopt;
-  const SamsungRecording samsung = samsung_recording(mapped.bytes());
+  if (!is_mp4(bytes_of(mapped))) return std::nullopt;
+  const SamsungRecording samsung = samsung_recording(bytes_of(mapped));
   if (samsung.rate) return CaptureRate{*samsung.rate, "Samsung's smta"};
   if (samsung.is_slow) {
     notes.emplace_back(
@@ -258,20 +259,19 @@ std::optional<CaptureRate> capture_rate(const AVFormatContext& format, const std
 
 bool has_edits(const std::filesystem::path& path) {
   const MappedFile mapped(path);
-  if (mapped.bytes().size() < 8) return false;
-  Bytes boxes = box_at(mapped.bytes(), {"moov"});
+  std::string_view boxes = box_at(bytes_of(mapped), {"moov"});
   while (!boxes.empty()) {
-    const Bytes track = box_at(boxes, {"trak"});
+    const std::string_view track = box_at(boxes, {"trak"});
     if (track.empty()) return false;
-    boxes = boxes.subspan(static_cast<std::size_t>(track.data() + track.size() - boxes.data()));
+    boxes.remove_prefix(static_cast<std::size_t>(track.data() + track.size() - boxes.data()));
     // hdlr: u32 version and flags, u32 0, then what the track holds.
-    const Bytes handler = box_at(track, {"mdia", "hdlr"});
-    if (handler.size() < 12 || std::memcmp(handler.data() + 8, "vide", 4) != 0) continue;
+    const std::string_view handler = box_at(track, {"mdia", "hdlr"});
+    if (handler.size() < 12 || handler.substr(8, 4) != "vide") continue;
     // elst: u8 version, three bytes of flags, u32 count, then for each part its length and its start (-1: nothing is
     // shown), of 4 bytes, or of 8 in version 1, and its speed as 16.16 bits.
-    const Bytes list = box_at(track, {"edts", "elst"});
+    const std::string_view list = box_at(track, {"edts", "elst"});
     if (list.size() < 8) continue;
-    const std::size_t number = list[0] == std::byte{1} ? 8 : 4, part_bytes = 2 * number + 4;
+    const std::size_t number = list[0] == 1 ? 8 : 4, part_bytes = 2 * number + 4;
     int parts = 0;
     for (std::size_t at = 8; at + part_bytes <= list.size(); at += part_bytes) {
       const std::uint64_t start = big_endian(list, at + number, number);
@@ -287,13 +287,9 @@ bool has_slow_parts(const std::filesystem::path& path) {
   constexpr std::string_view kEnd = "SEFT", kName = "SlowMotion_Data";
   constexpr std::size_t kTail = 8, kMaxBytes = 1u << 20;
   const MappedFile mapped(path);
-  const Bytes file = mapped.bytes();
-  if (!is_mp4(file) || std::memcmp(file.data() + file.size() - kEnd.size(), kEnd.data(), kEnd.size()) != 0) {
-    return false;
-  }
-  const Bytes tail = file.last(std::min(file.size(), kMaxBytes + kTail));
-  return std::string_view(reinterpret_cast<const char*>(tail.data()), tail.size()).find(kName) !=
-         std::string_view::npos;
+  const std::string_view file = bytes_of(mapped);
+  return is_mp4(file) && file.ends_with(kEnd) &&
+         file.substr(file.size() - std::min(file.size(), kMaxBytes + kTail)).find(kName) != file.npos;
 }
 
 void apply_capture_rate(const CaptureRate& filmed, ClipTiming& timing, std::vector<Note>& notes) {
