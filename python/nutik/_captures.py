@@ -60,7 +60,7 @@ class Trace:
         axes = axes_of(ax, "time, s", "light")
         for channel, colour in enumerate(("red", "green", "blue") if self.light.shape[2] == 3 else ("",)):
             named: dict[str, object] = {"color": colour} if colour and not {"c", "color"} & style.keys() else {}
-            axes.plot(self.times_ns.ravel() / 1e9, self.light[:, :, channel].ravel(), **{**named, **style})
+            axes.plot(self.times_ns.ravel() / 1e9, self.light[:, :, channel].ravel(), **cast(Any, {**named, **style}))
         return axes
 
     @classmethod
@@ -144,7 +144,7 @@ class Capture:
         bytes_asked = numbers.size * int(np.prod(self.shape[1:])) * self.dtype.itemsize
         refuse(bytes_asked > _MOST_AT_ONCE, f"{numbers.size} samples are {bytes_asked / 1e9:.1f} GB; take fewer at a "
                "time, or expose them with render()", MemoryTooLittle)
-        held = self._held.reader().samples(np.sort(numbers, axis=None).tolist())
+        held = self._held.reader().samples(cast(Any, np.sort(numbers, axis=None)).tolist())
         if not isinstance(picked, slice):
             return cast(Codes, held[(0, *rest)])
         return cast(Codes, (held if picked.step is None or picked.step > 0 else held[::-1])[(slice(None), *rest)])
@@ -379,7 +379,7 @@ class Capture:
         Raises:
         UsageError, InputError where there is one sample; KeyboardInterrupt at Ctrl-C.
         Examples:
-        >>> nutik.encode(np.full((9, 8, 8), 7, np.uint8), rate=9).background(codes=True).picture.array[0, 0]
+        >>> int(nutik.encode(np.full((9, 8, 8), 7, np.uint8), rate=9).background(codes=True).picture.array[0, 0])
         7
         """
         output = self._output(codes, dtype, transfer, is_plate=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import Any, Optional
+from typing import Any, Optional, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,7 +46,7 @@ class Activity:
     def plot(self, ax: Optional[Axes] = None, **style: object) -> Axes:
         """Draws the share of pixels that change over seconds with matplotlib."""
         axes = axes_of(ax, "time, s", "share of pixels that change")
-        axes.plot(self.times, self.changed_pixels / max(self.counted_pixels, 1), **style)
+        axes.plot(self.times, self.changed_pixels / max(self.counted_pixels, 1), **cast(Any, style))
         return axes
 
 

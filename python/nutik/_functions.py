@@ -106,7 +106,7 @@ class Function:
     def plot(self, ax: Optional[Axes] = None, **style: object) -> Axes:
         """Draws gain over seconds with matplotlib."""
         axes = axes_of(ax, "time, s", "gain")
-        axes.plot(self.times, self.gains, **style)
+        axes.plot(self.times, self.gains, **cast(Any, style))
         return axes
 
     def __add__(self, other: Function) -> Function:

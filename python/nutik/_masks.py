@@ -51,7 +51,7 @@ class Mask:
         Raises:
         InputError where they come to more than all of a pixel.
         Examples:
-        >>> nutik.Mask.of_layers({128: np.full((4, 4), 0.2)}).share(128)[0, 0] / 65535
+        >>> float(nutik.Mask.of_layers({128: np.full((4, 4), 0.2)}).share(128)[0, 0] / 65535)
         0.2
         """
         layers = {tag_of(tag): _shares(alpha, tag) for tag, alpha in alphas.items()}

@@ -9,7 +9,7 @@ from io import BytesIO
 from os.path import join
 from shutil import copyfileobj
 from tempfile import TemporaryDirectory
-from typing import BinaryIO, Callable, Mapping, Optional, Sequence, Union, cast
+from typing import Any, BinaryIO, Callable, Mapping, Optional, Sequence, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
@@ -59,7 +59,7 @@ class Pictures(_HasArray):
     def _of(cls, array: Array, errors: NDArray[np.float64], saturated: NDArray[np.uint64], corner: tuple[int, int],
             maps: Sequence[Mapping[str, _nutik.Picture]], told: Callable[[], list[Uncertainty]]) -> Pictures:
         array.flags.writeable = False
-        bounds = {term: np.stack([each[term].values() for each in maps]) for term in maps[0]} if maps else None
+        bounds: Any = {term: np.stack([each[term].values() for each in maps]) for term in maps[0]} if maps else None
         return cls(array, _bounds(errors, array), saturated if array.dtype.kind == "u" else None, corner, bounds, told)
 
     @property

@@ -212,7 +212,7 @@ def _pictures_of(source: Any, white: Optional[float], name: str) -> tuple[Iterab
         kinds.add(is_light)
         refuse(len(kinds) > 1, f"{what} has dtype {picture.dtype}; some pictures are codes, some are light", InputError)
         if not is_light:
-            return picture.astype(picture.dtype.newbyteorder("="), copy=False)
+            return cast(Array, picture.astype(picture.dtype.newbyteorder("="), copy=False))
         if not isinstance(white, (int, float, np.number)) or not 0 < white < np.inf:
             wrong = "" if white is None else f"white={white!r} is no light above 0; "
             raise UsageError(f"{what} has dtype {picture.dtype}: {wrong}which value is white? white=1.0; light becomes "
@@ -282,7 +282,7 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
         times = listed(times, "times")
         if times and isinstance(times[0], (np.datetime64, datetime.datetime)):
             times = [time - times[0] for time in times]  # dates: only what lies between them counts
-    starts = [] if times is None else times_ns(times, "times").tolist()
+    starts: list[int] = [] if times is None else cast(Any, times_ns(times, "times")).tolist()
     refuse(times is not None and count not in (None, len(starts)), f"{len(starts)} times for {count} pictures")
     if exposures is None:
         return starts, [], None
