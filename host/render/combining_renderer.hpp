@@ -3,8 +3,9 @@
 //
 //   in:      a plan whose light is combined so (Combine), of functions without gains below 0
 //   out:     of each pixel, over the samples that its function exposes, the largest, the least or the middle value of
-//            light · gain; a sample's gain is its function's largest while it is exposed. The middle of an even
-//            number of samples is the mean of two. A soft mask blends what its functions come to
+//            light · gain; a sample's gain is its function's largest while it is exposed, jumps of 1 ns left out. A
+//            function that exposes nothing but the time between two samples' exposures takes the one before it. The
+//            middle of an even number of samples is the mean of two. A soft mask blends what its functions come to
 //   always:  products are rounded once, and nothing else is but what soft masks blend
 #pragma once
 

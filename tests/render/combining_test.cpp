@@ -39,6 +39,7 @@ double largest_gain(const GainFunction& function, std::int64_t start_ns, std::in
   double largest = 0.0;
   for (const GainPiece& piece : function.pieces(duration_ns)) {
     if (piece.end_ns <= start_ns || piece.begin_ns >= end_ns) continue;
+    if (piece.end_ns - piece.begin_ns == 1 && piece.begin_gain != piece.end_gain) continue;  // a jump
     largest =
         std::max({largest, piece.at(std::max(start_ns, piece.begin_ns)), piece.at(std::min(end_ns, piece.end_ns))});
   }
@@ -55,11 +56,16 @@ double combined(const RenderPlan& plan, const test::RandomCase& random, std::uin
     const PlannedFunction& planned = plan.functions[share.of];
     std::vector<double> lights;
     const SampleRange exposed = exposed_samples(planned, random.timeline);
-    for (std::uint64_t k = exposed.first; k < exposed.last; ++k) {
-      const double gain =
-          largest_gain(planned.function, random.timeline.start_ns(k), random.timeline.end_ns(k), plan.duration_ns);
-      const double code = test::code_at(plan.capture, random.rasters[k], value);
-      if (gain > 0.0) lights.push_back(gain * plan.capture.transfer.light_of(code / plan.capture.white_code));
+    for (const bool in_between : {false, true}) {
+      if (!lights.empty()) break;
+      for (std::uint64_t k = exposed.first; k < exposed.last; ++k) {
+        const std::int64_t end_ns = !in_between ? random.timeline.end_ns(k)
+                                    : k + 1 == random.timeline.sample_count() ? plan.duration_ns
+                                                                              : random.timeline.start_ns(k + 1);
+        const double gain = largest_gain(planned.function, random.timeline.start_ns(k), end_ns, plan.duration_ns);
+        const double code = test::code_at(plan.capture, random.rasters[k], value);
+        if (gain > 0.0) lights.push_back(gain * plan.capture.transfer.light_of(code / plan.capture.white_code));
+      }
     }
     std::ranges::sort(lights);
     if (lights.empty()) continue;
@@ -132,6 +138,22 @@ TEST_F(CombiningByHand, TakesTheSamplesOfTheInterval) {
   EXPECT_DOUBLE_EQ(light(Combine::median, four), 75);
   EXPECT_DOUBLE_EQ(light(Combine::median, GainFunction::boxcar(10'000'000, 60'000'000)), 60);
   EXPECT_DOUBLE_EQ(light(Combine::lighten, GainFunction::boxcar(10'000'000, 50'000'000, 0.5)), 100);
+}
+
+// With jumps as files have them, a step of 1 ns that begins or ends where a sample does.
+TEST_F(CombiningByHand, TakesNoSamplesForJumps) {
+  const GainFunction two({{0, 1.0}, {10'000'000, 1.0}, {10'000'001, 0.0}, {39'999'999, 0.0}, {40'000'000, 1.0},
+                          {50'000'000, 1.0}});  // samples 0 and 4
+  EXPECT_DOUBLE_EQ(light(Combine::lighten, two), 60);
+  EXPECT_DOUBLE_EQ(light(Combine::darken, two), 10);
+  EXPECT_DOUBLE_EQ(light(Combine::median, two), 35);
+}
+
+TEST_F(CombiningByHand, TakesTheSampleBeforeWhereItsShutterWasClosed) {
+  for (const Combine how : kAll) {
+    EXPECT_DOUBLE_EQ(light(how, GainFunction::boxcar(36'000'000, 38'000'000)), 200);
+    EXPECT_DOUBLE_EQ(light(how, GainFunction::boxcar(76'000'000, 78'000'000)), 70);
+  }
 }
 
 // A comet's tail: the gain falls, and scales light before the lightest is taken.
