@@ -148,6 +148,7 @@ TEST_F(CommandLine, RefusesWhatMakesNoSense) {
                   {"-k one.fn clip.tik a.png -o b.png", "two outputs: -o b.png and a.png"},
                   {"-k one.fn clip.tik a.png b.png", "'b.png' is one file too many"},
                   {"-k one.fn --start 0s --exposure 1ms clip.tik", "use one"},
+                  {"--combine lighten --normalize integral --start 0s --exposure 1ms clip.tik", "leave one out"},
                   {"--start 0s clip.tik", "Add --exposure 10ms"},
                   {"--exposure 10 clip.tik", "--exposure '10' is no time; write a number and a unit"},
                   {"--exposure 1f --start 9f clip.tik", "picture 9 is outside the capture, which has 6"},

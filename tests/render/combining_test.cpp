@@ -143,7 +143,7 @@ TEST_F(CombiningByHand, TakesTheSamplesOfTheInterval) {
 // With jumps as files have them, a step of 1 ns that begins or ends where a sample does.
 TEST_F(CombiningByHand, TakesNoSamplesForJumps) {
   const GainFunction two({{0, 1.0}, {10'000'000, 1.0}, {10'000'001, 0.0}, {39'999'999, 0.0}, {40'000'000, 1.0},
-                          {50'000'000, 1.0}});  // samples 0 and 4
+                          {50'000'000, 1.0}, {50'000'001, 0.0}});  // samples 0 and 4
   EXPECT_DOUBLE_EQ(light(Combine::lighten, two), 60);
   EXPECT_DOUBLE_EQ(light(Combine::darken, two), 10);
   EXPECT_DOUBLE_EQ(light(Combine::median, two), 35);
