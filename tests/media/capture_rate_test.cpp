@@ -72,6 +72,8 @@ TEST(CaptureRate, AndCurveAreSonysWhereItsXmlSaysThem) {
   EXPECT_EQ(beside->info().format.transfer.text(), "slog3:video");
   EXPECT_EQ(beside->info().format.primaries, Primaries::sgamut3_cine);
   EXPECT_NE(notes_of(*beside).find("Sony's captureFps says that 120000/1001"), std::string::npos) << notes_of(*beside);
+  EXPECT_EQ(beside->info().timing.rate_from, "clipM01.XML");
+  EXPECT_EQ(beside->info().facts.front().line(), "transfer slog3, from clipM01.XML");
   scratch.write("otherM01.XML", "<other/>");
   const std::string story = sony_story("240p", "s-log2", "s-gamut");
   const std::string plain = test::read_file(scratch / "clip.mp4");

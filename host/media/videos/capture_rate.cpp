@@ -89,8 +89,8 @@ SamsungRecording samsung_recording(std::string_view file) {
   return {};
 }
 
-// The text of Sony's NonRealTimeMeta; empty where there is none.
-std::string sony_story(const std::filesystem::path& path) {
+// The text of Sony's NonRealTimeMeta; empty where there is none. Where another file has it, `from` becomes its name.
+std::string sony_story(const std::filesystem::path& path, std::string& from) {
   constexpr std::string_view kName = "<NonRealTimeMeta";
   constexpr std::uintmax_t kMaxBytes = 1u << 20;
   const MappedFile mapped(path);
@@ -107,7 +107,9 @@ std::string sony_story(const std::filesystem::path& path) {
   try {
     const MappedFile story(beside);
     std::string text(bytes_of(story));
-    return text.find(kName) == text.npos ? std::string() : text;
+    if (text.find(kName) == text.npos) return {};
+    from = beside.filename().string();
+    return text;
   } catch (const InputError&) {
     return {};  // the clip can be read without it
   }
@@ -143,9 +145,10 @@ std::optional<Rational> sony_rate(const std::string& story) {
 
 // What Sony's camera says: its XML, else the file's own metadata.
 CameraUnit camera_unit(const std::filesystem::path& path) {
-  const std::string story = sony_story(path);
+  std::string from = CameraUnit().from;
+  const std::string story = sony_story(path, from);
   if (story.empty()) return mxf_unit(bytes_of(MappedFile(path)));
-  return {item_of(story, "CaptureGammaEquation"), item_of(story, "CaptureColorPrimaries"), sony_rate(story)};
+  return {item_of(story, "CaptureGammaEquation"), item_of(story, "CaptureColorPrimaries"), sony_rate(story), from};
 }
 
 bool is_mp4(std::string_view file) { return file.size() >= 8 && file.substr(4, 4) == "ftyp"; }
@@ -218,10 +221,10 @@ std::optional<NamedCurve> named_curve(const AVFormatContext& format, const std::
   if (is_apples("com.apple.rec2020.apple-log")) return NamedCurve{Transfer::log("applelog"), Primaries::bt2020};
   if (is_apples("com.apple.apple-wide-gamut.apple-log"))
     return NamedCurve{Transfer::log("applelog"), Primaries::apple_wide_gamut};
-  const auto [curve, gamut, rate] = camera_unit(path);
+  const auto [curve, gamut, rate, from] = camera_unit(path);
   const char* const known = curve == "s-log2" ? "slog2" : curve.starts_with("s-log3") ? "slog3" : nullptr;
   if (known == nullptr) return std::nullopt;
-  NamedCurve named{Transfer::log(known), std::nullopt};
+  NamedCurve named{Transfer::log(known), std::nullopt, from};
   if (gamut == "s-gamut" || gamut == "s-gamut3") named.primaries = Primaries::sgamut3;
   if (gamut == "s-gamut3-cine") named.primaries = Primaries::sgamut3_cine;
   return named;
@@ -242,7 +245,7 @@ std::optional<CaptureRate> capture_rate(const AVFormatContext& format, const std
                                      kAndroid, entry->value),
                        std::vector{Setting::frame_rate});
   }
-  if (const auto rate = camera_unit(path).rate) return CaptureRate{*rate, "Sony's captureFps"};
+  if (const CameraUnit unit = camera_unit(path); unit.rate) return CaptureRate{*unit.rate, "Sony's captureFps", unit.from};
   const MappedFile mapped(path);
   if (!is_mp4(bytes_of(mapped))) return std::nullopt;
   const SamsungRecording samsung = samsung_recording(bytes_of(mapped));
@@ -294,6 +297,7 @@ bool has_slow_parts(const std::filesystem::path& path) {
 
 void apply_capture_rate(const CaptureRate& filmed, ClipTiming& timing, std::vector<Note>& notes) {
   if (!timing.rate && timing.starts_ns.size() < 2) return;
+  const bool is_within = filmed.from == CameraUnit().from;
   const double played = timing.rate ? timing.rate->value() : steady_rate(timing.starts_ns);
   const std::string played_text = timing.rate ? format("{:.6g}", played) : format("{:.3g}", played);
   const double times = played > 0.0 ? filmed.rate.value() / played : 0.0;
@@ -302,7 +306,7 @@ void apply_capture_rate(const CaptureRate& filmed, ClipTiming& timing, std::vect
   const bool is_mean =
       !timing.rate && std::fabs(filmed.rate.value() / mean_rate(timing.starts_ns) - 1.0) < kTremble;
   if (std::fabs(times - 1.0) < kSameRate || is_mean) {
-    timing.rate_from = format("the file, as {} says", filmed.name);
+    timing.rate_from = is_within ? format("the file, as {} says", filmed.name) : filmed.from;
     return;
   }
   const double whole = times >= 1.0 ? times : 1.0 / times;
@@ -322,7 +326,7 @@ void apply_capture_rate(const CaptureRate& filmed, ClipTiming& timing, std::vect
              "filming; state another rate if that is wrong",
              filmed.name, filmed.rate.text(), played_text),
       std::vector{Setting::frame_rate});
-  timing.rate_from = format("the file's {}", filmed.name);
+  timing.rate_from = is_within ? format("the file's {}", filmed.name) : filmed.from;
   if (timing.rate) {
     timing.rate = filmed.rate;
     return;

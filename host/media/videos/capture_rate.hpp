@@ -14,12 +14,14 @@ namespace nutik::videos {
 struct CaptureRate {
   Rational rate;     // pictures a second
   std::string name;  // of what states it
+  std::string from = "the file";  // that has it
 };
 
 // A camera's curve that a file's metadata name, which H.273 has no numbers for.
 struct NamedCurve {
   Transfer transfer;
   std::optional<Primaries> primaries;
+  std::string from = "the file";  // that names it
 };
 
 // What Sony's cameras write in their XML, which is a box of an MP4 or lies beside the clip (C0001.MXF: C0001M01.XML),

@@ -63,6 +63,7 @@ void describe(ClipInfo& info, const Probe& probe, const ClipOptions& options) {
   capture.transfer =
       settle(facts, options.transfer, named, is_scientific ? Transfer::linear() : Transfer::srgb(),
              Setting::transfer, [](const Transfer& transfer) { return "transfer " + transfer.text(); });
+  if (facts.back().origin == Origin::file) facts.back().source = probe.curve_from;
   if (facts.back().origin == Origin::assumed && !probe.transfer_name.empty()) {
     facts.back().remark = format("the file names {}", probe.transfer_name);
   }
@@ -89,6 +90,7 @@ void describe(ClipInfo& info, const Probe& probe, const ClipOptions& options) {
         facts, options.primaries, of_curve && !names_curves ? std::nullopt : probe.primaries,
         of_curve.value_or(is_wide ? Primaries::bt2020 : Primaries::bt709), Setting::primaries,
         [](Primaries primaries) { return format("primaries {}", to_text(primaries)); });
+    if (facts.back().origin == Origin::file) facts.back().source = probe.curve_from;
     if (facts.back().origin == Origin::file && !probe.near_primaries.empty()) {
       facts.back().remark = format("it names {}", probe.near_primaries);
     }

@@ -13,6 +13,7 @@ namespace nutik::videos {
 struct CameraUnit {
   std::string curve, gamut;
   std::optional<Rational> rate;  // pictures a second
+  std::string from = "the file";  // what says it
 };
 
 // The labels that describe the pictures, and those of the first ancillary data beside them (SMPTE RDD 18), which stay

@@ -336,6 +336,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   if (const auto named = raw ? std::nullopt : named_curve(*opened.format, path, result.notes)) {
     result.transfer = named->transfer;
     result.primaries = named->primaries;
+    result.curve_from = named->from;
   }
   if (result.primaries == Primaries::bt709 && primaries != AVCOL_PRI_BT709)
     result.near_primaries = primaries_name(primaries);

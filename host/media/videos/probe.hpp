@@ -35,6 +35,7 @@ struct Probe {
   std::optional<ClipSound> sound;
   PictureDecoder::Packets packets;
   std::optional<Transfer> transfer;   // where the file names one that is known here
+  std::string curve_from = "the file";  // what names it, and the primaries
   std::vector<Note> notes;            // what a person should know, whole sentences
 };
 
