@@ -183,6 +183,34 @@ TEST_F(FilmKinds, MayBeAFrameLong) {
   }
 }
 
+// An edge between colours moved by half a pixel, and again in each film of a film: chroma lies left of the pair that
+// shares it, in clips of 8 bits, too, which are read as if it lay between both.
+TEST_F(FilmKinds, KeepChromaInItsPlace) {
+  NEEDS_FFMPEG();
+  const auto edge = [&](const std::string& name) {  // in samples of chroma, whose first row has 32
+    ffmpeg("-i " + name + " -vf extractplanes=u -frames:v 1 -f rawvideo -pix_fmt gray16le plane");
+    std::uint16_t row[32];
+    std::memcpy(row, file("plane").data(), sizeof row);
+    const double middle = (row[0] + row[31]) / 2.0;
+    std::size_t i = 1;
+    while (i < 31 && row[i] < middle) ++i;
+    return static_cast<double>(i) - (row[i] - middle) / (row[i] - row[i - 1]);
+  };
+  for (const std::string pixels : {"yuv422p10le", "yuv420p"}) {
+    const std::string edged = "geq=lum='lum(X,Y)':cr='cr(X,Y)':cb='if(gte(X,16),150,100)*" +
+                              std::string(pixels == "yuv420p" ? "1'" : "4'");
+    test::make(scratch_, "-f lavfi -i color=gray:s=64x32:r=25:d=0.2 -vf \"format=" + pixels + "," + edged +
+                             "\" -c:v ffv1 -color_range tv -y clip.mkv");
+    for (const auto& [codec, kind] : {std::pair{"prores", ".mov"}, {"h264", ".mkv"}, {"h265-10", ".mkv"}}) {
+      const std::string film = std::string("film") + kind;
+      make("video --overwrite --out-fps 25 --out-angle 360 --video-codec " + std::string(codec) + " clip.mkv " + film);
+      EXPECT_NEAR(edge(film), edge("clip.mkv"), 0.05) << pixels << " " << codec;
+      const auto said = test::run_shell("ffprobe -v error -show_entries stream=chroma_location " + film, scratch_.folder());
+      if (film == "film.mkv") expect_says(said.out, "chroma_location=left\n");
+    }
+  }
+}
+
 // HLG comes in and goes out with its codes and tags, in 10 bits and BT.2020's matrix.
 TEST_F(FilmKinds, KeepHighDynamicRange) {
   NEEDS_FFMPEG();

@@ -109,9 +109,11 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
 
   MadeVideo made;
   std::vector<std::string> sound_notes;
-  const auto sound = film_sound(session, request, frames, output, wish, sound_notes);
+  VideoFormat video;
+  video.sound = film_sound(session, request, frames, output, wish, sound_notes);
+  video.repeats_chroma = session.repeats_chroma();
   const TimeToEnd is_kept;  // the frames so far, whatever a frame takes
-  FrameQueue queue([&] { return output.open(capture, frame_format, sound); },
+  FrameQueue queue([&] { return output.open(capture, frame_format, video); },
                    session.waiting_pictures(frame_format.type),
                    output.writes_stills() ? capture.shape : output.shape(capture));
   const std::size_t count = frames.numbers.size();
@@ -147,9 +149,9 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
   }
   queue.finish();
   made.notes = queue.notes();
-  if (queue.has_sound()) made.sound = sound;
+  if (queue.has_sound()) made.sound = video.sound;
   // Where the writer left it out, its own note says so.
-  if (!sound || made.sound) std::ranges::move(sound_notes, std::back_inserter(made.notes));
+  if (!video.sound || made.sound) std::ranges::move(sound_notes, std::back_inserter(made.notes));
   return made;
 }
 
@@ -227,17 +229,19 @@ Shape VideoOutput::shape(const CaptureFormat& capture) const {
   return std::max(shape.width, shape.height) <= kLargestFrameSide ? shape : capture.shape;
 }
 
-std::unique_ptr<VideoWriter> VideoOutput::open(const CaptureFormat& capture,
-                                               const OutputFormat& format,
-                                               const std::optional<FilmSound>& sound) const {
+std::unique_ptr<VideoWriter> VideoOutput::open(const CaptureFormat& capture, const OutputFormat& format,
+                                               VideoFormat video) const {
   if (codec_ == nullptr) return open_still_writer(path_, file_wishes(request_));
   const CodeMaking making = CodeMaking::of(capture, format);
-  const Shape frame = shape(capture);
-  const bool is_squared = frame != capture.shape;
-  return open_video_writer(path_,
-                           {frame, format.type, format.white_code, making.transfer, rate_, making.primaries,
-                            is_squared ? Rational{1, 1} : capture.pixel_aspect, codec_setting_, sound},
-                           *codec_);
+  video.shape = shape(capture);
+  video.type = format.type;
+  video.white_code = format.white_code;
+  video.transfer = making.transfer;
+  video.rate = rate_;
+  video.primaries = making.primaries;
+  if (video.shape == capture.shape) video.pixel_aspect = capture.pixel_aspect;
+  video.codec_setting = codec_setting_;
+  return open_video_writer(path_, video, *codec_);
 }
 
 bool VideoOutput::holds_sound() const {

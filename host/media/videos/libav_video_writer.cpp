@@ -131,6 +131,7 @@ class LibavVideoWriter final : public VideoWriter {
     // ProRes keeps in each frame what the encoder was told once.
     frame->colorspace = encoder_->colorspace;
     frame->color_range = encoder_->color_range;
+    frame->chroma_location = encoder_->chroma_sample_location;
     frame->quality = encoder_->global_quality;
     frame->color_primaries = encoder_->color_primaries;
     frame->color_trc = encoder_->color_trc;
@@ -213,6 +214,8 @@ class LibavVideoWriter final : public VideoWriter {
                                                      : AVCOL_SPC_RGB;
     context.color_range =
         is_coded_yuv && context.pix_fmt != AV_PIX_FMT_YUVJ420P ? AVCOL_RANGE_MPEG : AVCOL_RANGE_JPEG;
+    if (is_coded_yuv && shares_chroma(context.pix_fmt))
+      context.chroma_sample_location = is_still_kin ? AVCHROMA_LOC_CENTER : AVCHROMA_LOC_LEFT;
     context.color_primaries = static_cast<AVColorPrimaries>(coding_point(video_.primaries));
     context.color_trc = static_cast<AVColorTransferCharacteristic>(
         coding_point(video_.transfer).value_or(AVCOL_TRC_UNSPECIFIED));
@@ -273,10 +276,16 @@ class LibavVideoWriter final : public VideoWriter {
   }
 
   void open_scaler() {
-    const auto from = static_cast<AVPixelFormat>(picture_->format);
-    scaler_.reset(allocated(sws_getContext(width_, height_, from, width_, height_, encoder_->pix_fmt,
-                                           SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP, nullptr,
-                                           nullptr, nullptr)));
+    scaler_.reset(allocated(sws_alloc_context()));
+    const auto set = [&](const char* option, std::int64_t value) { av_opt_set_int(scaler_.get(), option, value, 0); };
+    for (const char* const side : {"srcw", "dstw"}) set(side, width_);
+    for (const char* const side : {"srch", "dsth"}) set(side, height_);
+    set("src_format", picture_->format);
+    set("dst_format", encoder_->pix_fmt);
+    set("sws_flags", SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP);
+    // Chroma that a reader gave to both pixels that share it is their mean again.
+    if (encoder_->chroma_sample_location == AVCHROMA_LOC_LEFT && !video_.repeats_chroma) set("dst_h_chr_pos", 0);
+    check(sws_init_context(scaler_.get(), nullptr, nullptr));
     constexpr int kOne = 1 << 16;  // contrast and saturation
     const int* const matrix = sws_getCoefficients(encoder_->colorspace);  // SWS_CS_ has H.273's numbers, too
     is_white_less_ = video_.type == ValueType::code16 && is_yuv(encoder_->pix_fmt);
