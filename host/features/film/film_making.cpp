@@ -55,6 +55,11 @@ OwnRecipe frame_recipe(const FramesRequest& request, const Frames& frames, std::
 
 namespace {
 
+std::filesystem::path file_of(const Session& session) {
+  const std::filesystem::path& clip = session.source().path;
+  return is_standard_input(clip.string()) ? standard_input_file() : clip;
+}
+
 // The part of the clip's sound that is heard with these frames; says in `notes` why there is none.
 std::optional<FilmSound> film_sound(const Session& session, const FramesRequest& request, const Frames& frames,
                                     const VideoOutput& output, FilmSoundWish wish, std::vector<std::string>& notes) {
@@ -71,8 +76,7 @@ std::optional<FilmSound> film_sound(const Session& session, const FramesRequest&
   if (frames.numbers.back() - frames.numbers.front() + 1 != frames.numbers.size())
     return left_out("the film has not all of its frames");
   const double file_s = (found->last_s - found->first_s) / found->filmed_s;  // of the file in a filmed second
-  const std::filesystem::path& clip = session.source().path;
-  FilmSound sound{is_standard_input(clip.string()) ? standard_input_file() : clip, 0.0, request.speed.value() * file_s,
+  FilmSound sound{file_of(session), 0.0, request.speed.value() * file_s,
                   static_cast<double>(frames.numbers.size()) / request.rate.value()};
   const std::int64_t start_ns = frames.times.start_ns(frames.numbers.front());
   sound.start_s = found->first_s + file_s * static_cast<double>(start_ns) * 1e-9;
@@ -112,6 +116,9 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
   VideoFormat video;
   video.sound = film_sound(session, request, frames, output, wish, sound_notes);
   video.repeats_chroma = session.repeats_chroma();
+  const Transfer curve = CodeMaking::of(capture, frame_format).transfer;
+  if (session.is_clip() && curve == session.format().transfer && (curve == Transfer::pq() || curve == Transfer::hlg()))
+    video.graded = file_of(session);
   const TimeToEnd is_kept;  // the frames so far, whatever a frame takes
   FrameQueue queue([&] { return output.open(capture, frame_format, video); },
                    session.waiting_pictures(frame_format.type),
@@ -245,7 +252,7 @@ std::unique_ptr<VideoWriter> VideoOutput::open(const CaptureFormat& capture, con
 }
 
 bool VideoOutput::holds_sound() const {
-  return codec_ != nullptr && codec_->name != "gif" && codec_->name != "webp" && extension_of(path_) != ".mxf";
+  return codec_ != nullptr && codec_->name != "gif" && codec_->name != "webp";
 }
 
 std::string VideoOutput::kind() const { return writes_stills() ? "stills" : std::string(codec_->name); }
