@@ -109,10 +109,10 @@ class LibavVideoWriter final : public VideoWriter {
     check(avio_open(&muxer_->pb, url_of(file_.temporary_path()).c_str(), AVIO_FLAG_WRITE));
     const int begun = avformat_write_header(muxer_.get(), nullptr);
     if (begun == AVERROR(EINVAL) && is_in("mxf")) {
-      throw OutputError(format("{} cannot be written: a .mxf has 24, 25, 30, 48, 50, 60, 100 or 120 frames a second, or "
-                               "1000/1001 of 24, 30, 48, 60 or 120, and not {}",
+      throw OutputError(format("{} cannot be written: a .mxf has 24, 25, 30, 48, 50, 60, 100 or 120 frames a second, "
+                               "24000/1001, 30000/1001 or the like, and not {}",
                                name_, video_.rate.text()),
-                        Advice{"; state such a rate (`out-fps 24000/1001`)"});
+                        Advice{"; state one of these (`out-fps 24000/1001`)"});
     }
     check_taken(begun, format("a {} file", path.extension().string()));
   }
@@ -297,7 +297,7 @@ class LibavVideoWriter final : public VideoWriter {
     }
   }
 
-  // What a reader has to be told. FFmpeg writes primaries into a .mov only beside a curve's number; most codecs name both.
+  // What a reader has to be told. FFmpeg names primaries in a .mov only beside a curve; most codecs name them, too.
   void note_what_is_not_named() {
     const bool names_any = !is_in("avi") && !is_in("gif") && !is_in("webp");
     const bool names_curve = names_any && encoder_->color_trc != AVCOL_TRC_UNSPECIFIED;
@@ -327,7 +327,7 @@ class LibavVideoWriter final : public VideoWriter {
     for (const std::int64_t nominal : {24, 30, 48, 60, 120}) {
       const Rational meant = Rational::of(nominal * 1000, 1001);
       if (video_.rate == meant || std::abs(video_.rate.value() - meant.value()) > 0.005) continue;
-      notes_.push_back(format("the film has {} frames a second as they were stated, and not {}, which editors mean by that",
+      notes_.push_back(format("the film has {} frames a second, as stated; editors mean {} by that, which can be stated",
                               video_.rate.text(), meant.text()));
     }
   }
