@@ -8,7 +8,6 @@
 #include "exposure/function_text.hpp"
 #include "features/series/picture_queue.hpp"
 #include "media/events/event_clip.hpp"
-#include "media/formats/extension.hpp"
 #include "media/formats/numbered_name.hpp"
 #include "media/frame_queue.hpp"
 #include "media/input_checksum.hpp"

@@ -41,7 +41,7 @@ class VideoOutput {
 
   // The size of its frames: in square pixels where people look at them.
   [[nodiscard]] Shape shape(const CaptureFormat& capture) const;
-  // `video` has what comes of the clip: sound and chroma.
+  // `video` has what comes of the clip: its sound, chroma and screen.
   [[nodiscard]] std::unique_ptr<VideoWriter> open(const CaptureFormat& capture, const OutputFormat& format,
                                                   VideoFormat video) const;
 

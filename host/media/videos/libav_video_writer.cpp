@@ -158,8 +158,7 @@ class LibavVideoWriter final : public VideoWriter {
     }
     encode(nullptr);
     if (sound_) sound_->write_to(static_cast<double>(frames_written_) / video_.rate.value());
-    if (sound_ && !sound_->is_heard)
-      notes_.emplace_back("the clip's sound is left out: there is none while the film lasts");
+    if (sound_ && !has_sound()) notes_.emplace_back("the clip's sound is left out: there is none while the film lasts");
     check(av_write_trailer(muxer_.get()));
     check(avio_closep(&muxer_->pb));
     file_.commit();

@@ -196,7 +196,7 @@ class LibavSoundWriter final : public SoundWriter {
     }
     char encoded[64] = {};
     check(av_channel_layout_describe(&encoder_->ch_layout, encoded, sizeof encoded));
-    // Of a picture without sound no .mxf is written.
+    // FFmpeg ends a .mxf where its sound ends.
     filters += format(",aresample,aformat=sample_fmts={}:sample_rates={}:channel_layouts={}{},atrim=end={:.9f}",
                       av_get_sample_fmt_name(encoder_->sample_fmt), encoder_->sample_rate, encoded,
                       is_mxf() ? ",apad" : "", sound_.seconds);
