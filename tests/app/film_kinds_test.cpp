@@ -250,8 +250,9 @@ TEST_F(FilmKinds, KeepHighDynamicRange) {
 TEST_F(FilmKinds, KeepWhatIsSaidOfTheScreen) {
   NEEDS_FFMPEG();
   test::make(scratch_, "-f lavfi -i color=gray:s=64x64:r=25:d=0.2 -c:v libx265 -pix_fmt yuv420p10le -x265-params "
-                       "\"log-level=none:colorprim=bt2020:transfer=smpte2084:colormatrix=bt2020nc:max-cll=900,400:master-"
-                       "display=G(13250,34500)B(7500,3000)R(34000,16000)WP(15635,16450)L(10000000,1)\" screen.mp4");
+                       "\"log-level=none:colorprim=bt2020:transfer=smpte2084:colormatrix=bt2020nc:max-cll=900,400:"
+                       "master-display=G(13250,34500)B(7500,3000)R(34000,16000)WP(15635,16450)L(10000000,1)\" "
+                       "screen.mp4");
   const auto told = [&](const std::string& words, const std::string& clip, const std::string& film) {
     make("video --out-fps 25 --out-angle 360 " + words + clip + " " + film);
     return test::run_shell("ffprobe -v error -show_streams " + film, scratch_.folder())

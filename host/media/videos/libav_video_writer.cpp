@@ -326,7 +326,7 @@ class LibavVideoWriter final : public VideoWriter {
     for (const std::int64_t nominal : {24, 30, 48, 60, 120}) {
       const Rational meant = Rational::of(nominal * 1000, 1001);
       if (video_.rate == meant || std::abs(video_.rate.value() - meant.value()) > 0.005) continue;
-      notes_.push_back(format("the film has {} frames a second, as stated; editors mean {} by that, which can be stated",
+      notes_.push_back(format("the film has {} frames a second, as stated; editors mean {} by that, which can be had",
                               video_.rate.text(), meant.text()));
     }
   }
