@@ -375,6 +375,9 @@ bool Session::is_clip() const { return state_->is_clip_; }
 const CaptureFormat& Session::format() const { return state_->format_; }
 const Timeline& Session::timeline() const { return state_->timeline(); }
 const std::vector<Fact>& Session::facts() const { return state_->facts_; }
+bool Session::repeats_chroma() const {
+  return state_->format_.code_bytes == 1 && std::ranges::count(state_->roundings_.unbounded, "chroma") > 0;
+}
 const std::optional<ClipSound>& Session::sound() const { return state_->sound_; }
 const std::vector<Note>& Session::notes() const { return state_->notes_; }
 const std::vector<std::string>& Session::warnings() const { return state_->warnings_; }

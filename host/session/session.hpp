@@ -101,6 +101,8 @@ class Session {
   [[nodiscard]] const Timeline& timeline() const;
   // What a clip is taken for, each with who said it: its times first. None of a .tik, whose header has them.
   [[nodiscard]] const std::vector<Fact>& facts() const;
+  // Whether both pixels that shared a sample of chroma have its values, as clips of 8 bits are read.
+  [[nodiscard]] bool repeats_chroma() const;
   // Where a clip's sound lies beside its pictures; none where it has none.
   [[nodiscard]] const std::optional<ClipSound>& sound() const;
   // On a clip: what a person should know, and what is doubtful about the capture made from it. Whole sentences.

@@ -39,9 +39,9 @@ class FilmKinds : public test::AppTest {
       if (!line.empty()) found.push_back(std::stod(line));
     return found;
   }
-  // All frames as others decode them, RGB of 8 bits.
+  // All frames as others decode them, RGB of 8 bits, with chroma where standards have it.
   [[nodiscard]] std::string decoded(const std::string& name) const {
-    ffmpeg("-i " + name + " -vsync 0 -f rawvideo -pix_fmt rgb24 decoded");
+    ffmpeg("-i " + name + " -vsync 0 -vf scale=in_h_chr_pos=0 -f rawvideo -pix_fmt rgb24 decoded");
     return file("decoded");
   }
   static double mean_difference(const std::string& a, const std::string& b) {
@@ -161,7 +161,9 @@ TEST_F(FilmKinds, HaveTheQualityThatIsAskedFor) {
   EXPECT_GT(bytes("--video-codec mjpeg --crf 2", "a.avi"), bytes("--video-codec mjpeg --crf 20", "a.avi"));
   EXPECT_GT(bytes("--crf 90", "a.webp"), bytes("--crf 10", "a.webp"));
   expect_refused("video --crf 60 clip.mkv x.mp4", 2,
-                 "h264's own scale runs from 0 (best) to 51, and 60 is outside");
+                 "h264's own scale runs from 1 (best) to 51, and 60 is outside");
+  bytes("--quality 100", "best.mp4");
+  expect_says(probed("best.mp4"), "profile=High\n");  // which players know
   expect_refused("video --crf 3 clip.mkv x.mkv", 2, "ffv1 has no scale of quality: it loses nothing");
   expect_refused("video --quality 3 clip.mkv x.mov --video-codec prores", 2,
                  "prores has no scale of quality; choose another");
@@ -180,6 +182,34 @@ TEST_F(FilmKinds, MayBeAFrameLong) {
                                         scratch_.folder());
     ASSERT_EQ(made.status, 0) << made.err;
     expect_says(probed("film.mp4"), "nb_read_frames=1\n");
+  }
+}
+
+// An edge between colours moved by half a pixel, and again in each film of a film: chroma lies left of the pair that
+// shares it, in clips of 8 bits, too, which are read as if it lay between both.
+TEST_F(FilmKinds, KeepChromaInItsPlace) {
+  NEEDS_FFMPEG();
+  const auto edge = [&](const std::string& name) {  // in samples of chroma, whose first row has 32
+    ffmpeg("-i " + name + " -vf extractplanes=u -frames:v 1 -f rawvideo -pix_fmt gray16le plane");
+    std::uint16_t row[32];
+    std::memcpy(row, file("plane").data(), sizeof row);
+    const double middle = (row[0] + row[31]) / 2.0;
+    std::size_t i = 1;
+    while (i < 31 && row[i] < middle) ++i;
+    return static_cast<double>(i) - (row[i] - middle) / (row[i] - row[i - 1]);
+  };
+  for (const std::string pixels : {"yuv422p10le", "yuv420p"}) {
+    const std::string edged = "geq=lum='lum(X,Y)':cr='cr(X,Y)':cb='if(gte(X,16),150,100)*" +
+                              std::string(pixels == "yuv420p" ? "1'" : "4'");
+    test::make(scratch_, "-f lavfi -i color=gray:s=64x32:r=25:d=0.2 -vf \"format=" + pixels + "," + edged +
+                             "\" -c:v ffv1 -color_range tv -y clip.mkv");
+    for (const auto& [codec, kind] : {std::pair{"prores", ".mov"}, {"h264", ".mkv"}, {"h265-10", ".mkv"}}) {
+      const std::string film = std::string("film") + kind;
+      make("video --overwrite --out-fps 25 --out-angle 360 --video-codec " + std::string(codec) + " clip.mkv " + film);
+      EXPECT_NEAR(edge(film), edge("clip.mkv"), 0.05) << pixels << " " << codec;
+      const auto said = test::run_shell("ffprobe -v error -show_streams " + film, scratch_.folder()).out;
+      if (film == "film.mkv") expect_says(said, "chroma_location=left\n");
+    }
   }
 }
 
@@ -216,12 +246,59 @@ TEST_F(FilmKinds, KeepHighDynamicRange) {
   }
 }
 
+// A screen's primaries and light are told by the first picture, or by the container of a film.
+TEST_F(FilmKinds, KeepWhatIsSaidOfTheScreen) {
+  NEEDS_FFMPEG();
+  test::make(scratch_, "-f lavfi -i color=gray:s=64x64:r=25:d=0.2 -c:v libx265 -pix_fmt yuv420p10le -x265-params "
+                       "\"log-level=none:colorprim=bt2020:transfer=smpte2084:colormatrix=bt2020nc:max-cll=900,400:"
+                       "master-display=G(13250,34500)B(7500,3000)R(34000,16000)WP(15635,16450)L(10000000,1)\" "
+                       "screen.mp4");
+  const auto told = [&](const std::string& words, const std::string& clip, const std::string& film) {
+    make("video --out-fps 25 --out-angle 360 " + words + clip + " " + film);
+    return test::run_shell("ffprobe -v error -show_streams " + film, scratch_.folder())
+        .out;
+  };
+  const std::string source = "--out-transfer source --video-codec h265-10 ";
+  expect_says(told(source, "screen.mp4", "a.mkv"), {"red_x=17/25\n", "max_luminance=1000/1\n", "max_content=900\n"});
+  expect_says(told(source, "a.mkv", "b.mp4"), {"red_x=34000/50000\n", "max_content=900\n", "max_average=400\n"});
+  EXPECT_EQ(told("", "screen.mp4", "c.mp4").find("side_data_type"), std::string::npos);
+}
+
+// What a reader has to be told of a film, for no number says it; and what editors would read in another way.
+TEST_F(FilmKinds, TellWhatTheyDoNotName) {
+  NEEDS_FFMPEG();
+  test::make(scratch_, "-f lavfi -i gradients=s=256x144:d=1:r=25 -frames:v 3 -c:v ffv1 -pix_fmt yuv420p10le clip.mkv");
+  const auto notes = [&](const std::string& words, const std::string& film) {
+    return answer("video --overwrite --out-transfer source --out-fps " + words + " clip.mkv " + film)["notes"].dump();
+  };
+  expect_says(notes("25 --transfer slog3 --video-codec prores", "a.mov"),
+              "does not name the transfer function slog3:video: state");
+  expect_says(notes("25 --transfer slog3 --primaries sgamut3 --video-codec h265-10", "a.mp4"),
+              "does not name the transfer function slog3:video and the primaries sgamut3: state");
+  const std::string hlg = "25 --transfer hlg --primaries bt2020 ";
+  expect_says(notes(hlg, "a.avi"), "does not name the transfer function hlg and the primaries bt2020: state");
+  EXPECT_EQ(notes(hlg + "--video-codec dnxhr-hqx", "a.mov").find("does not name"), std::string::npos);
+  // Apple has a key for its curve.
+  const std::string apples = "25 --video-codec dnxhr-hqx --transfer applelog --primaries ";
+  for (const std::string primaries : {"bt2020", "apple-wide-gamut"}) {
+    EXPECT_EQ(notes(apples + primaries, "a.mov").find("does not name"), std::string::npos);
+    expect_says(answer("encode --overwrite a.mov a.tik").dump(), {"transfer applelog", "primaries " + primaries});
+  }
+  for (const auto& [stated, meant] : {std::pair{"23.976", "24000"}, {"23.98", "24000"}, {"59.94", "60000"}})
+    expect_says(notes(stated, "a.mp4"), "as stated; editors mean " + std::string(meant) + "/1001 by that");
+  for (const char* stated : {"24", "24000/1001", "29.9"})
+    EXPECT_EQ(notes(stated, "a.mp4").find("editors"), std::string::npos) << stated;
+  expect_refused("video --out-fps 23.976 clip.mkv b.mxf", 5,
+                 "and not 23.976; state one of these (--out-fps 24000/1001)");
+  expect_says(notes("25 --pixel-aspect 4:3 --keep-pixels", "a.mxf"), "a .mxf does not tell that pixels are 4:3");
+}
+
 class FilmSoundTest : public FilmKinds {
  protected:
   // Four seconds of 25 frames each: black and silent but for a flash of frame 50, and a tone that begins with it.
   void make_clap(const std::string& name, const std::string& sound) const {
     ffmpeg(
-        "-f lavfi -i color=black:s=64x48:r=25:d=4 -f lavfi -i "
+        "-f lavfi -i color=black:s=256x128:r=25:d=4 -f lavfi -i "
         "aevalsrc=\"if(between(t\\,2\\,2.1)\\,sin(2*PI*1000*t)\\,0)\":s=48000:d=4 "
         "-vf \"drawbox=c=white:t=fill:enable=eq(n\\,50)\" -c:v mpeg4 -q:v 2 -c:a " +
         sound + " " + name);
@@ -232,8 +309,8 @@ class FilmSoundTest : public FilmKinds {
     ffmpeg("-copyts -i " + name + " -vn -af aresample=async=1:first_pts=0 -f f32le -ac 1 -ar 48000 sound");
     const std::string frames = file("frames"), sound = file("sound");
     std::size_t frame = 0;
-    while (frame * 64 * 48 < frames.size() &&
-           static_cast<unsigned char>(frames[frame * 64 * 48 + 1000]) < 128)
+    while (frame * 256 * 128 < frames.size() &&
+           static_cast<unsigned char>(frames[frame * 256 * 128 + 1000]) < 128)
       ++frame;
     std::size_t sample = 0;
     for (float value = 0; sample * 4 + 4 <= sound.size(); ++sample) {
@@ -251,7 +328,7 @@ TEST_F(FilmSoundTest, LiesOnItsFrame) {
   // As packets are, and encoded anew.
   const std::vector<std::pair<std::string, std::string>> films{
       {"clip.mp4", "a.mp4"},  {"clip.mp4", "a.mkv"},   {"clip.mp4", "a.mov"},
-      {"clip.mp4", "a.webm"}, {"clip.mp4", "a.avi"},   {"plain.mov", "b.mp4"},
+      {"clip.mp4", "a.webm"}, {"clip.mp4", "a.avi"},   {"clip.mp4", "a.mxf"},  {"plain.mov", "b.mp4"},
       {"plain.mov", "b.mkv"}, {"plain.mov", "b.webm"}, {"plain.mov", "b.avi"}};
   for (const auto& [clip, film] : films) {
     SCOPED_TRACE(clip + " as " + film);
@@ -324,6 +401,24 @@ TEST_F(FilmSoundTest, BeginsAndEndsWithACut) {
     EXPECT_EQ(frame, 0);
     EXPECT_NEAR(sound, 0, 0.03);
     EXPECT_NEAR(static_cast<double>(file("sound").size()) / 4 / 48'000, 0.4, 0.04);
+  }
+}
+
+// PCM of 48 kHz goes into a .mxf, up to its last picture: FFmpeg ends the file where a sound ends. One that ends before
+// the film is no sound of it.
+TEST_F(FilmSoundTest, MayEndBeforeThePictures) {
+  NEEDS_FFMPEG();
+  make_clap("clap.mov", "pcm_s24le -ar 44100");
+  ffmpeg("-i clap.mov -t 2.5 -i clap.mov -map 0:v -map 1:a -c copy clip.mov");
+  make("video --out-fps 30000/1001 --out-angle 360 --between off clip.mov a.mxf");
+  expect_says(probed("a.mxf", "a"), "codec_name=pcm_s24le\n");
+  expect_says(probed("a.mxf"), "nb_read_frames=119\n");
+  const auto [frame, sound] = clap("a.mxf", 30'000.0 / 1001);
+  EXPECT_NEAR(sound, frame, 1.0);
+  for (const char* film : {"b.mp4", "b.mkv", "b.mxf"}) {
+    const nlohmann::json told = answer("video --out-fps 25 --from 3s clip.mov " + std::string(film));
+    EXPECT_TRUE(told["sound"].is_null());
+    expect_says(told["notes"].dump(), "the clip's sound is left out: there is none while the film lasts");
   }
 }
 

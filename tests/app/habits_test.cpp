@@ -134,6 +134,7 @@ TEST_F(Habits, SuggestsWhatWasMeant) {
   expect_choice("--negative", "ofset", "offset");
   expect_refused(2, {{"encode --codec zst frames x.tik", "did you mean zstd"},
                      {"video --video-codec=prorez clip.tik", "did you mean prores?"},
+                     {"video --video-codec prores-hq clip.tik x.mov", "did you mean prores?"},
                      {"shutter gausian --exposure 1s", "did you mean gaussian?"},
                      {"completion csh", "choose bash, zsh or fish"}});
 }

@@ -8,7 +8,6 @@
 #include "exposure/function_text.hpp"
 #include "features/series/picture_queue.hpp"
 #include "media/events/event_clip.hpp"
-#include "media/formats/extension.hpp"
 #include "media/formats/numbered_name.hpp"
 #include "media/frame_queue.hpp"
 #include "media/input_checksum.hpp"
@@ -55,6 +54,11 @@ OwnRecipe frame_recipe(const FramesRequest& request, const Frames& frames, std::
 
 namespace {
 
+std::filesystem::path file_of(const Session& session) {
+  const std::filesystem::path& clip = session.source().path;
+  return is_standard_input(clip.string()) ? standard_input_file() : clip;
+}
+
 // The part of the clip's sound that is heard with these frames; says in `notes` why there is none.
 std::optional<FilmSound> film_sound(const Session& session, const FramesRequest& request, const Frames& frames,
                                     const VideoOutput& output, FilmSoundWish wish, std::vector<std::string>& notes) {
@@ -71,8 +75,7 @@ std::optional<FilmSound> film_sound(const Session& session, const FramesRequest&
   if (frames.numbers.back() - frames.numbers.front() + 1 != frames.numbers.size())
     return left_out("the film has not all of its frames");
   const double file_s = (found->last_s - found->first_s) / found->filmed_s;  // of the file in a filmed second
-  const std::filesystem::path& clip = session.source().path;
-  FilmSound sound{is_standard_input(clip.string()) ? standard_input_file() : clip, 0.0, request.speed.value() * file_s,
+  FilmSound sound{file_of(session), 0.0, request.speed.value() * file_s,
                   static_cast<double>(frames.numbers.size()) / request.rate.value()};
   const std::int64_t start_ns = frames.times.start_ns(frames.numbers.front());
   sound.start_s = found->first_s + file_s * static_cast<double>(start_ns) * 1e-9;
@@ -109,9 +112,14 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
 
   MadeVideo made;
   std::vector<std::string> sound_notes;
-  const auto sound = film_sound(session, request, frames, output, wish, sound_notes);
+  VideoFormat video;
+  video.sound = film_sound(session, request, frames, output, wish, sound_notes);
+  video.repeats_chroma = session.repeats_chroma();
+  const Transfer curve = CodeMaking::of(capture, frame_format).transfer;
+  if (session.is_clip() && curve == session.format().transfer && (curve == Transfer::pq() || curve == Transfer::hlg()))
+    video.graded = file_of(session);
   const TimeToEnd is_kept;  // the frames so far, whatever a frame takes
-  FrameQueue queue([&] { return output.open(capture, frame_format, sound); },
+  FrameQueue queue([&] { return output.open(capture, frame_format, video); },
                    session.waiting_pictures(frame_format.type),
                    output.writes_stills() ? capture.shape : output.shape(capture));
   const std::size_t count = frames.numbers.size();
@@ -147,9 +155,9 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
   }
   queue.finish();
   made.notes = queue.notes();
-  if (queue.has_sound()) made.sound = sound;
+  if (queue.has_sound()) made.sound = video.sound;
   // Where the writer left it out, its own note says so.
-  if (!sound || made.sound) std::ranges::move(sound_notes, std::back_inserter(made.notes));
+  if (!video.sound || made.sound) std::ranges::move(sound_notes, std::back_inserter(made.notes));
   return made;
 }
 
@@ -227,21 +235,23 @@ Shape VideoOutput::shape(const CaptureFormat& capture) const {
   return std::max(shape.width, shape.height) <= kLargestFrameSide ? shape : capture.shape;
 }
 
-std::unique_ptr<VideoWriter> VideoOutput::open(const CaptureFormat& capture,
-                                               const OutputFormat& format,
-                                               const std::optional<FilmSound>& sound) const {
+std::unique_ptr<VideoWriter> VideoOutput::open(const CaptureFormat& capture, const OutputFormat& format,
+                                               VideoFormat video) const {
   if (codec_ == nullptr) return open_still_writer(path_, file_wishes(request_));
   const CodeMaking making = CodeMaking::of(capture, format);
-  const Shape frame = shape(capture);
-  const bool is_squared = frame != capture.shape;
-  return open_video_writer(path_,
-                           {frame, format.type, format.white_code, making.transfer, rate_, making.primaries,
-                            is_squared ? Rational{1, 1} : capture.pixel_aspect, codec_setting_, sound},
-                           *codec_);
+  video.shape = shape(capture);
+  video.type = format.type;
+  video.white_code = format.white_code;
+  video.transfer = making.transfer;
+  video.rate = rate_;
+  video.primaries = making.primaries;
+  if (video.shape == capture.shape) video.pixel_aspect = capture.pixel_aspect;
+  video.codec_setting = codec_setting_;
+  return open_video_writer(path_, video, *codec_);
 }
 
 bool VideoOutput::holds_sound() const {
-  return codec_ != nullptr && codec_->name != "gif" && codec_->name != "webp" && extension_of(path_) != ".mxf";
+  return codec_ != nullptr && codec_->name != "gif" && codec_->name != "webp";
 }
 
 std::string VideoOutput::kind() const { return writes_stills() ? "stills" : std::string(codec_->name); }

@@ -41,8 +41,9 @@ class VideoOutput {
 
   // The size of its frames: in square pixels where people look at them.
   [[nodiscard]] Shape shape(const CaptureFormat& capture) const;
+  // `video` has what comes of the clip: its sound, chroma and screen.
   [[nodiscard]] std::unique_ptr<VideoWriter> open(const CaptureFormat& capture, const OutputFormat& format,
-                                                  const std::optional<FilmSound>& sound = {}) const;
+                                                  VideoFormat video) const;
 
   // That the encoder keeps.
   [[nodiscard]] std::uint32_t encoder_frames() const { return codec_ == nullptr ? 1 : codec_->held_frames; }

@@ -265,8 +265,8 @@ constexpr Option kRows[] = {
      "ffv1 h264 h265 h264-10 h265-10 av1 av1-10 vp9 prores prores-proxy prores-lt prores-422 prores-4444 dnxhr-lb dnxhr-sq "
      "dnxhr-hq dnxhr-hqx dnxhr-444 mjpeg gif webp"}),
     known(Setting::crf, {0, "crf", "N", output, bit(Id::video), take_whole<InPicture<&OutputRequest::crf>, 0, 100>,
-     "quality on the codec's own scale: h264, h265 0 … 51 (default: 17), av1, vp9 0 … 63, mjpeg 2 … 31, the less "
-     "the better; webp 0 … 100"}),
+     "quality on the codec's own scale: h264 1 … 51, h265 0 … 51 (default: 17), av1, vp9 0 … 63, mjpeg 2 … 31, the "
+     "less the better; webp 0 … 100"}),
     known(Setting::sound, {0, "sound", "HOW", output, bit(Id::video),
      take_choice<In<&Options::sound>, FilmSoundWish::as_it_is, FilmSoundWish::stretched, FilmSoundWish::none>,
      "the clip's sound: clip (as it is, if the film runs as fast as the file), stretch (as slow or fast as the "

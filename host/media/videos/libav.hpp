@@ -80,6 +80,12 @@ inline std::span<const std::uint8_t> side_data(const AVStream& stream, AVPacketS
       av_packet_side_data_get(codec.coded_side_data, codec.nb_coded_side_data, type);
   return data == nullptr ? std::span<const std::uint8_t>() : std::span(data->data, data->size);
 }
+inline std::uint8_t* new_side_data(AVStream& stream, AVPacketSideDataType type, std::size_t bytes) {
+  AVCodecParameters& codec = *stream.codecpar;
+  const AVPacketSideData* const data =
+      av_packet_side_data_new(&codec.coded_side_data, &codec.nb_coded_side_data, type, bytes, 0);
+  return data == nullptr ? nullptr : data->data;
+}
 // Of a stream without a container, avg_frame_rate is what FFmpeg was told, and r_frame_rate may count fields or ticks.
 inline void set_rates_of_header(AVStream& stream) {
   if (av_cmp_q(stream.avg_frame_rate, kUnstatedRate) != 0) return;
@@ -100,6 +106,9 @@ inline std::span<const std::uint8_t> side_data(const AVStream& stream, AVPacketS
   std::size_t bytes = 0;
   const std::uint8_t* data = av_stream_get_side_data(&stream, type, &bytes);
   return data == nullptr ? std::span<const std::uint8_t>() : std::span(data, bytes);
+}
+inline std::uint8_t* new_side_data(AVStream& stream, AVPacketSideDataType type, std::size_t bytes) {
+  return av_stream_new_side_data(&stream, type, bytes);
 }
 #endif
 

@@ -11,6 +11,7 @@
 
 #include "media/formats/coding_points.hpp"
 #include "media/videos/filters.hpp"
+#include "media/videos/picture_decoder.hpp"
 #include "media/videos/pixels.hpp"
 #include "media/videos/sound.hpp"
 #include "system/output_file.hpp"
@@ -98,12 +99,22 @@ class LibavVideoWriter final : public VideoWriter {
       open_scaler();
     }
     note_rounded_pixels();
+    if (!video.graded.empty()) copy_screen();
+    note_what_is_not_named();
+    note_rounded_rate();
     if (video.transfer.reference_white() < 1 && !codec.holds_16_bits)
       notes_.push_back(format("{} has 8 bits, in which {} shows bands; those of 10 do not: h265-10, prores", codec.name,
                               video.transfer.text()));
     if (video.sound) add_sound(*video.sound);
     check(avio_open(&muxer_->pb, url_of(file_.temporary_path()).c_str(), AVIO_FLAG_WRITE));
-    check_taken(avformat_write_header(muxer_.get(), nullptr), format("a {} file", path.extension().string()));
+    const int begun = avformat_write_header(muxer_.get(), nullptr);
+    if (begun == AVERROR(EINVAL) && is_in("mxf")) {
+      throw OutputError(format("{} cannot be written: a .mxf has 24, 25, 30, 48, 50, 60, 100 or 120 frames a second, "
+                               "24000/1001, 30000/1001 or the like, and not {}",
+                               name_, video_.rate.text()),
+                        Advice{"; state one of these (`out-fps 24000/1001`)"});
+    }
+    check_taken(begun, format("a {} file", path.extension().string()));
   }
 
   void write(const Picture& picture, const std::string&, std::uint64_t) override {
@@ -131,6 +142,7 @@ class LibavVideoWriter final : public VideoWriter {
     // ProRes keeps in each frame what the encoder was told once.
     frame->colorspace = encoder_->colorspace;
     frame->color_range = encoder_->color_range;
+    frame->chroma_location = encoder_->chroma_sample_location;
     frame->quality = encoder_->global_quality;
     frame->color_primaries = encoder_->color_primaries;
     frame->color_trc = encoder_->color_trc;
@@ -146,12 +158,13 @@ class LibavVideoWriter final : public VideoWriter {
     }
     encode(nullptr);
     if (sound_) sound_->write_to(static_cast<double>(frames_written_) / video_.rate.value());
+    if (sound_ && !has_sound()) notes_.emplace_back("the clip's sound is left out: there is none while the film lasts");
     check(av_write_trailer(muxer_.get()));
     check(avio_closep(&muxer_->pb));
     file_.commit();
   }
 
-  [[nodiscard]] bool has_sound() const override { return sound_ != nullptr; }
+  [[nodiscard]] bool has_sound() const override { return sound_ != nullptr && sound_->is_heard; }
   [[nodiscard]] std::vector<std::string> notes() const override { return notes_; }
 
  private:
@@ -161,10 +174,10 @@ class LibavVideoWriter final : public VideoWriter {
   }
 
   // The same where an encoder or a container refuses these frames.
-  void check_taken(int code, std::string_view what) const {
+  void check_taken(int code, std::string_view what, std::string_view why = {}) const {
     if (code != AVERROR(EINVAL)) return check(code);
-    throw OutputError(format("{} cannot be written: {} takes no frames of {} x {} at {} a second ({})", name_, what,
-                             width_, height_, video_.rate.text(), error_text(code)),
+    throw OutputError(format("{} cannot be written: {} takes no frames of {} x {} at {} a second{} ({})", name_, what,
+                             width_, height_, video_.rate.text(), why, error_text(code)),
                       {Setting::video_codec});
   }
 
@@ -213,6 +226,8 @@ class LibavVideoWriter final : public VideoWriter {
                                                      : AVCOL_SPC_RGB;
     context.color_range =
         is_coded_yuv && context.pix_fmt != AV_PIX_FMT_YUVJ420P ? AVCOL_RANGE_MPEG : AVCOL_RANGE_JPEG;
+    if (is_coded_yuv && shares_chroma(context.pix_fmt))
+      context.chroma_sample_location = is_still_kin ? AVCHROMA_LOC_CENTER : AVCHROMA_LOC_LEFT;
     context.color_primaries = static_cast<AVColorPrimaries>(coding_point(video_.primaries));
     context.color_trc = static_cast<AVColorTransferCharacteristic>(
         coding_point(video_.transfer).value_or(AVCOL_TRC_UNSPECIFIED));
@@ -229,7 +244,8 @@ class LibavVideoWriter final : public VideoWriter {
       if (codec.scale.key == "crf" && codec.name.starts_with("av1")) context.bit_rate = 0;
     }
     if (muxer_->oformat->audio_codec == AV_CODEC_ID_NONE) av_opt_set(muxer_->priv_data, "loop", "0", 0);  // for ever
-    check_taken(avcodec_open2(&context, encoder, settings.get()), codec.name);
+    check_taken(avcodec_open2(&context, encoder, settings.get()), codec.name,
+                codec.encoder == "dnxhd" && (width_ < 256 || height_ < 120) ? ": 256 x 120 is its smallest" : "");
     // What an encoder does not know it leaves: the video would be another one than was asked for.
     if (const auto left = settings.first_name()) {
       throw OutputError(
@@ -243,7 +259,7 @@ class LibavVideoWriter final : public VideoWriter {
     stream_->sample_aspect_ratio = context.sample_aspect_ratio;
     stream_->avg_frame_rate = context.framerate;
     // What Apple's players know H.265 by.
-    if (codec.name.starts_with("h265") && std::string_view(muxer_->oformat->name) != "matroska") {
+    if (codec.name.starts_with("h265") && !is_in("matroska")) {
       stream_->codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');
     }
   }
@@ -259,10 +275,70 @@ class LibavVideoWriter final : public VideoWriter {
     }
   }
 
+  [[nodiscard]] bool is_in(std::string_view container) const { return muxer_->oformat->name == container; }
+
+  // What the clip says of the screen that it was graded on, and of its brightest light, is true of the same codes. Its
+  // container says it, or its first picture.
+  void copy_screen() {
+    try {
+      PictureDecoder clip(open_video(video_.graded, std::nullopt), name_, PictureDecoder::Wanted::times, {}, 1);
+      const FramePointer first(allocated(av_frame_alloc()));
+      static_cast<void>(clip.next(*first));
+      for (const auto& [type, of_picture] :
+           {std::pair{AV_PKT_DATA_MASTERING_DISPLAY_METADATA, AV_FRAME_DATA_MASTERING_DISPLAY_METADATA},
+            {AV_PKT_DATA_CONTENT_LIGHT_LEVEL, AV_FRAME_DATA_CONTENT_LIGHT_LEVEL}}) {
+        auto said = side_data(clip.stream(), type);
+        const AVFrameSideData* const shown = av_frame_get_side_data(first.get(), of_picture);
+        if (said.empty() && shown != nullptr) said = {shown->data, shown->size};
+        if (!said.empty()) std::ranges::copy(said, allocated(new_side_data(*stream_, type, said.size())));
+      }
+    } catch (const InputError&) {  // stills
+    }
+  }
+
+  // What a reader has to be told. FFmpeg names primaries in a .mov only beside a curve; most codecs name them, too.
+  void note_what_is_not_named() {
+    const bool names_any = !is_in("avi") && !is_in("gif") && !is_in("webp");
+    const bool names_curve = names_any && encoder_->color_trc != AVCOL_TRC_UNSPECIFIED;
+    const auto usual = video_.transfer.usual_primaries();
+    const bool names_primaries = names_any && encoder_->color_primaries != AVCOL_PRI_UNSPECIFIED && !usual &&
+                                 (names_curve || !is_in("mov") || encoder_->codec_id != AV_CODEC_ID_DNXHD);
+    if (name_apple_log()) return;
+    std::string left;
+    if (!names_curve && video_.transfer != Transfer::srgb()) left = "the transfer function " + video_.transfer.text();
+    if (!names_primaries && video_.shape.channels == 3 && video_.primaries != usual.value_or(Primaries::bt709))
+      left += format("{}the primaries {}", left.empty() ? "" : " and ", to_text(video_.primaries));
+    if (!left.empty()) notes_.push_back(format("the film does not name {}: state that when it is read", left));
+  }
+
+  // As Apple's programs do, which have a key for what H.273 has no number for.
+  bool name_apple_log() {
+    if (!is_in("mov") || !video_.transfer.text().starts_with("applelog")) return false;
+    const bool is_bt2020 = video_.primaries == Primaries::bt2020;
+    if (!is_bt2020 && video_.primaries != Primaries::apple_wide_gamut) return false;
+    check(av_dict_set(&muxer_->metadata, "com.apple.proapps.customgamma",
+                      is_bt2020 ? "com.apple.rec2020.apple-log" : "com.apple.apple-wide-gamut.apple-log", 0));
+    check(av_opt_set(muxer_->priv_data, "movflags", "+use_metadata_tags", 0));
+    return true;
+  }
+
+  void note_rounded_rate() {
+    for (const std::int64_t nominal : {24, 30, 48, 60, 120}) {
+      const Rational meant = Rational::of(nominal * 1000, 1001);
+      if (video_.rate == meant || std::abs(video_.rate.value() - meant.value()) > 0.005) continue;
+      notes_.push_back(format("the film has {} frames a second, as stated; editors mean {} by that, which can be had",
+                              video_.rate.text(), meant.text()));
+    }
+  }
+
   // A .webm tells players how many whole pixels wide its frames are shown, and no pixel aspect.
   void note_rounded_pixels() {
-    if (std::string_view(muxer_->oformat->name) != "webm") return;
     const auto& [across, down] = video_.pixel_aspect;
+    if (is_in("mxf") && across != down) {
+      notes_.push_back(format("a .mxf does not tell that pixels are {}:{}: they are shown square; a .mov keeps that",
+                              across, down));
+    }
+    if (!is_in("webm")) return;
     const std::int64_t shown_width = av_rescale(width_, across, down);
     const Rational shown = Rational::of(shown_width, width_);
     if (shown == video_.pixel_aspect) return;
@@ -273,10 +349,16 @@ class LibavVideoWriter final : public VideoWriter {
   }
 
   void open_scaler() {
-    const auto from = static_cast<AVPixelFormat>(picture_->format);
-    scaler_.reset(allocated(sws_getContext(width_, height_, from, width_, height_, encoder_->pix_fmt,
-                                           SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP, nullptr,
-                                           nullptr, nullptr)));
+    scaler_.reset(allocated(sws_alloc_context()));
+    const auto set = [&](const char* option, std::int64_t value) { av_opt_set_int(scaler_.get(), option, value, 0); };
+    for (const char* const side : {"srcw", "dstw"}) set(side, width_);
+    for (const char* const side : {"srch", "dsth"}) set(side, height_);
+    set("src_format", picture_->format);
+    set("dst_format", encoder_->pix_fmt);
+    set("sws_flags", SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP);
+    // Chroma that a reader gave to both pixels that share it is their mean again.
+    if (encoder_->chroma_sample_location == AVCHROMA_LOC_LEFT && !video_.repeats_chroma) set("dst_h_chr_pos", 0);
+    check(sws_init_context(scaler_.get(), nullptr, nullptr));
     constexpr int kOne = 1 << 16;  // contrast and saturation
     const int* const matrix = sws_getCoefficients(encoder_->colorspace);  // SWS_CS_ has H.273's numbers, too
     is_white_less_ = video_.type == ValueType::code16 && is_yuv(encoder_->pix_fmt);

@@ -16,12 +16,13 @@ struct SoundEncoder {
   const char* name;
   const char* samples;
   const char *deep_name = name, *deep_samples = samples;  // of sound with more than 16 bits
-  int only_rate = 0;                                      // samples a second; 0: the clip's own
+  int only_rate = 0;                                      // samples a second, of what is encoded; 0: the clip's own
 };
 
 constexpr SoundEncoder kEncoders[] = {{"avi", "pcm_s16le", "s16", "pcm_s24le", "s32"},
                                       {"matroska", "flac", "s16", "flac", "s32"},
                                       {"mov", "pcm_s24le", "s32"},
+                                      {"mxf", "pcm_s16le", "s16", "pcm_s24le", "s32", 48'000},
                                       {.container = "webm", .name = "libopus", .samples = "flt", .only_rate = 48'000},
                                       {.container = "", .name = "aac", .samples = "fltp", .only_rate = 48'000}};
 
@@ -94,6 +95,7 @@ class LibavSoundWriter final : public SoundWriter {
     throw OutputError(format("{} cannot be written with sound: {}; leave it out", name_, why), {Setting::sound});
   }
 
+  [[nodiscard]] bool is_mxf() const { return std::string_view(film_.oformat->name) == "mxf"; }
   [[nodiscard]] bool is_pcm() const { return av_get_exact_bits_per_sample(from_->codecpar->codec_id) != 0; }
   [[nodiscard]] bool is_lossless() const {
     const AVCodecDescriptor* const codec = avcodec_descriptor_get(from_->codecpar->codec_id);
@@ -104,6 +106,7 @@ class LibavSoundWriter final : public SoundWriter {
     const std::string_view container = film_.oformat->name;
     // FFmpeg does not write all that a container has a tag for, and few players know PCM in an .mp4.
     if (codec == AV_CODEC_ID_TRUEHD || codec == AV_CODEC_ID_FLAC) return container == "matroska";
+    if (is_mxf()) return codec == AV_CODEC_ID_PCM_S16LE || codec == AV_CODEC_ID_PCM_S24LE;
     if (container == "mp4" && av_get_exact_bits_per_sample(codec) != 0) return false;
     return avformat_query_codec(film_.oformat, codec, FF_COMPLIANCE_NORMAL) == 1;
   }
@@ -156,7 +159,7 @@ class LibavSoundWriter final : public SoundWriter {
     encoder_->sample_fmt = samples;
     if (av_get_packed_sample_fmt(samples) == AV_SAMPLE_FMT_S32 && av_get_exact_bits_per_sample(codec.id) == 0)
       encoder_->bits_per_raw_sample = 24;
-    const bool is_own = codec.id == from_->codecpar->codec_id && codec.id != AV_CODEC_ID_OPUS;
+    const bool is_own = codec.id == from_->codecpar->codec_id && codec.id != AV_CODEC_ID_OPUS && !is_mxf();
     encoder_->sample_rate = kind_.only_rate != 0 && !is_own ? kind_.only_rate : decoder_->sample_rate;
     check(av_channel_layout_copy(&encoder_->ch_layout, &layout));
     encoder_->time_base = {1, encoder_->sample_rate};
@@ -193,8 +196,10 @@ class LibavSoundWriter final : public SoundWriter {
     }
     char encoded[64] = {};
     check(av_channel_layout_describe(&encoder_->ch_layout, encoded, sizeof encoded));
-    filters += format(",aresample,aformat=sample_fmts={}:sample_rates={}:channel_layouts={},atrim=end={:.9f}",
-                      av_get_sample_fmt_name(encoder_->sample_fmt), encoder_->sample_rate, encoded, sound_.seconds);
+    // FFmpeg ends a .mxf where its sound ends.
+    filters += format(",aresample,aformat=sample_fmts={}:sample_rates={}:channel_layouts={}{},atrim=end={:.9f}",
+                      av_get_sample_fmt_name(encoder_->sample_fmt), encoder_->sample_rate, encoded,
+                      is_mxf() ? ",apad" : "", sound_.seconds);
     if (encoder_->frame_size > 0) filters += format(",asetnsamples=n={}:p=0", encoder_->frame_size);
     filters += ",abuffersink";
     AVFilterInOut *in = nullptr, *out = nullptr;
@@ -234,6 +239,7 @@ class LibavSoundWriter final : public SoundWriter {
       is_at_end_ = true;
       return;
     }
+    is_heard = true;
     const auto shift = static_cast<std::int64_t>(std::llround(sound_.start_s / av_q2d(from_->time_base)));
     packet_->pts -= shift;
     packet_->dts = packet_->pts;
@@ -255,7 +261,10 @@ class LibavSoundWriter final : public SoundWriter {
       if (frame_->ch_layout.order == AV_CHANNEL_ORDER_UNSPEC)
         check(av_channel_layout_copy(&frame_->ch_layout, &decoder_->ch_layout));
       // What has another form than the sound began with is silence; behind the film's end some versions take no more.
-      if (at + length > 0 && module<FilterModule>().add_frame(source_, frame_.get()) < 0) av_frame_unref(frame_.get());
+      if (at + length > 0) {
+        is_heard = is_heard || at < sound_.seconds * sound_.speed;
+        if (module<FilterModule>().add_frame(source_, frame_.get()) < 0) av_frame_unref(frame_.get());
+      }
       av_frame_unref(frame_.get());
     }
     encode_all();

@@ -22,7 +22,8 @@ class SoundWriter {
   // Writes what is heard before that time of the film, of which it has not yet been written.
   virtual void write_to(double film_s) = 0;
 
-  std::string note;  // what a person should know, if anything
+  std::string note;       // what a person should know, if anything
+  bool is_heard = false;  // anything of it, so far
 };
 
 // Adds a stream to a container whose header has not been written yet. Throws OutputError where it holds no sound that can

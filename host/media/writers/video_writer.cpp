@@ -13,12 +13,13 @@
 namespace nutik {
 namespace {
 
-constexpr CodecScale kX264{"crf", 0, 51, 17}, kAom{"crf", 0, 63, 20}, kVpx{"crf", 0, 63, 17};
+// The best of 8-bit H.264 would lose nothing, in a profile that few players and editors open.
+constexpr CodecScale kH264{"crf", 1, 51, 17}, kX264{"crf", 0, 51, 17}, kAom{"crf", 0, 63, 20}, kVpx{"crf", 0, 63, 17};
 constexpr CodecScale kMjpeg{"qscale", 2, 31, 2}, kWebp{"quality", 100, 0, 90}, kNone{};
 
 constexpr VideoCodec kCodecs[] = {
     {"ffv1", "ffv1", " .mkv .avi ", true, true, true, 130, false, "", kNone, "level=3:slicecrc=1"},
-    {"h264", "libx264", " .mp4 .m4v .mov .mkv ", true, false, false, 110, true, "yuv420p", kX264},
+    {"h264", "libx264", " .mp4 .m4v .mov .mkv ", true, false, false, 110, true, "yuv420p", kH264},
     {"h264-10", "libx264", " .mp4 .m4v .mov .mkv ", false, true, false, 110, true, "yuv420p10le", kX264},
     {"h265", "libx265", " .mp4 .mov .mkv ", true, false, false, 130, true, "yuv420p", kX264,
      "x265-params=log-level=none"},

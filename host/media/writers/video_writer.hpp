@@ -76,6 +76,8 @@ struct VideoFormat {
   Rational pixel_aspect{1, 1};
   std::optional<int> codec_setting = {};  // codec_setting(); none: what is usual
   std::optional<FilmSound> sound = {};
+  bool repeats_chroma = false;        // Session::repeats_chroma()
+  std::filesystem::path graded = {};  // a clip in HDR whose curve it keeps
 };
 
 class VideoWriter {

@@ -62,7 +62,8 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> kno
     const std::string* nearest = nullptr;
     std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
     for (const std::string& candidate : known) {
-      const std::size_t distance = has_same_parts(word, candidate) ? 0 : edit_distance(word, candidate);
+      std::size_t distance = has_same_parts(word, candidate) ? 0 : edit_distance(word, candidate);
+      if (word.starts_with(candidate + "-")) distance = std::min<std::size_t>(distance, 2);  // `prores-hq` for `prores`
       if (distance >= least) continue;
       least = distance;
       nearest = &candidate;

@@ -31,8 +31,8 @@
         <translation>der Codec: ffv1 (verlustfrei; .mkv, .avi), h264, h265 (.mp4, .mov, .mkv), av1 (.mp4, .mkv, .webm), vp9 (.webm, .mkv), mjpeg (.avi, .mov, .mkv); mit 10 Bit h264-10, h265-10, av1-10; für den Schnitt prores, prores-proxy, -lt, -422, -4444 (.mov, .mkv), dnxhr-lb, -sq, -hq, -hqx, -444 (.mov, .mxf); gif, webp (Standard: h264, in .mkv und .avi ffv1, in .webm vp9, in .mxf dnxhr-hqx)</translation>
     </message>
     <message>
-        <source>quality on the codec&apos;s own scale: h264, h265 0 … 51 (default: 17), av1, vp9 0 … 63, mjpeg 2 … 31, the less the better; webp 0 … 100</source>
-        <translation>Qualität in der Skala des Codecs: h264, h265 0 … 51 (Standard: 17), av1, vp9 0 … 63, mjpeg 2 … 31, weniger ist besser; webp 0 … 100</translation>
+        <source>quality on the codec&apos;s own scale: h264 1 … 51, h265 0 … 51 (default: 17), av1, vp9 0 … 63, mjpeg 2 … 31, the less the better; webp 0 … 100</source>
+        <translation>Qualität in der Skala des Codecs: h264 1 … 51, h265 0 … 51 (Standard: 17), av1, vp9 0 … 63, mjpeg 2 … 31, weniger ist besser; webp 0 … 100</translation>
     </message>
     <message>
         <source>quality from 1 to 100: of .jpg pictures, and of films whose codec loses something (default: 90 of .jpg, of films the codec&apos;s)</source>
