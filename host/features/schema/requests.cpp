@@ -122,7 +122,7 @@ ExposureRequest weighed_exposure(const Options& options) {
   if (options.combining.is_mean && options.has("normalize"))
     throw UsageError(Advice{"`combine mean` divides by the gain's integral, and so says `normalize`; use one"});
   request.combine = options.combining.how;
-  if (request.combine != Combine::integral && options.has("normalize"))
+  if (request.combine != Combine::integral && request.normalization.text() != Normalization().text())
     throw UsageError(Advice{"`normalize` divides an integral, and `combine` takes single samples here; leave one out"});
   if (request.combine != Combine::integral && options.delay)
     throw UsageError(Advice{"`combine` goes with one time for all pixels, and `delay` has one for each; use one"});

@@ -109,10 +109,14 @@ class LibavVideoWriter final : public VideoWriter {
     check(avio_open(&muxer_->pb, url_of(file_.temporary_path()).c_str(), AVIO_FLAG_WRITE));
     const int begun = avformat_write_header(muxer_.get(), nullptr);
     if (begun == AVERROR(EINVAL) && is_in("mxf")) {
+      constexpr Rational kRates[] = {{24'000, 1001}, {24, 1}, {25, 1}, {30'000, 1001}, {30, 1}, {48, 1}, {50, 1},
+                                     {60'000, 1001}, {60, 1}, {100, 1}, {120, 1}};
+      const Rational& nearest = *std::ranges::min_element(
+          kRates, {}, [&](const Rational& rate) { return std::abs(rate.value() - video_.rate.value()); });
       throw OutputError(format("{} cannot be written: a .mxf has 24, 25, 30, 48, 50, 60, 100 or 120 frames a second, "
                                "24000/1001, 30000/1001 or the like, and not {}",
                                name_, video_.rate.text()),
-                        Advice{"; state one of these (`out-fps 24000/1001`)"});
+                        Advice{format("; state one of these (`out-fps {}`)", nearest.text())});
     }
     check_taken(begun, format("a {} file", path.extension().string()));
   }
@@ -226,8 +230,11 @@ class LibavVideoWriter final : public VideoWriter {
                                                      : AVCOL_SPC_RGB;
     context.color_range =
         is_coded_yuv && context.pix_fmt != AV_PIX_FMT_YUVJ420P ? AVCOL_RANGE_MPEG : AVCOL_RANGE_JPEG;
+    // Left is usual. In 8 bits a film is read again as if it were in the centre (the model's page), so that colour would
+    // move with each film; that of a clip that was read so stays the clip's.
+    const bool is_left = !is_still_kin && (video_.repeats_chroma || pixels.comp[0].depth > 8);
     if (is_coded_yuv && shares_chroma(context.pix_fmt))
-      context.chroma_sample_location = is_still_kin ? AVCHROMA_LOC_CENTER : AVCHROMA_LOC_LEFT;
+      context.chroma_sample_location = is_left ? AVCHROMA_LOC_LEFT : AVCHROMA_LOC_CENTER;
     context.color_primaries = static_cast<AVColorPrimaries>(coding_point(video_.primaries));
     context.color_trc = static_cast<AVColorTransferCharacteristic>(
         coding_point(video_.transfer).value_or(AVCOL_TRC_UNSPECIFIED));
