@@ -238,6 +238,8 @@ class LibavVideoWriter final : public VideoWriter {
     context.color_primaries = static_cast<AVColorPrimaries>(coding_point(video_.primaries));
     context.color_trc = static_cast<AVColorTransferCharacteristic>(
         coding_point(video_.transfer).value_or(AVCOL_TRC_UNSPECIFIED));
+    // FFmpeg would write it as that of gamma 2.2.
+    if (is_in("mxf") && context.color_trc == AVCOL_TRC_GAMMA28) context.color_trc = AVCOL_TRC_UNSPECIFIED;
     if ((muxer_->oformat->flags & AVFMT_GLOBALHEADER) != 0) context.flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
 
     const int quality = video_.codec_setting.value_or(codec.scale.usual);
