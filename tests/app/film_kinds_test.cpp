@@ -219,7 +219,8 @@ TEST_F(FilmKinds, KeepHighDynamicRange) {
   NEEDS_FFMPEG();
   for (const auto& [curve, name] : {std::pair{"arib-std-b67", "hlg"}, {"smpte2084", "pq"}}) {
     test::make(scratch_,
-               "-f lavfi -i gradients=seed=1:s=320x180:d=1:r=25 -frames:v 5 -c:v ffv1 -pix_fmt yuv420p10le "
+               "-f lavfi -i gradients=c0=0x804020:c1=0x2060a0:x0=0:y0=0:x1=319:y1=179:nb_colors=2:s=320x180:d=1:r=25 "
+               "-frames:v 5 -c:v ffv1 -pix_fmt yuv420p10le "
                "-colorspace bt2020nc "
                "-color_primaries bt2020 -color_trc " +
                    std::string(curve) + " -color_range tv hdr.mkv");
