@@ -7,8 +7,8 @@ One thing is varied at a time from 640 x 360, 240 samples, one function with two
 1920 x 1080, where a kernel takes long enough for all of them to wake up.
 Captures are uncompressed, made from a noisy clip so that nearly every tile is dense. Given are the kernel's
 milliseconds by the device's own clock, the seconds of the whole process from .tik to PNG, and the most
-memory that it held; medians. The limit beside the kernel's time is that of the first of each row of figures: as many
-times as long as there are more samples or pixels, as long with more functions and points, parted among the cores.
+memory that it held; medians. Beside the kernel's time stands what the first of its kind would become in proportion: as
+many times as long as there are more samples or pixels, as long with more functions and points, parted among the cores.
 """
 
 import os
@@ -29,7 +29,7 @@ VALUES = {
     "control points": (2, 10, 100, 1000, 10_000, 100_000),
     "cores": tuple(range(1, len(os.sched_getaffinity(0)) + 1)),
 }
-GROWTH = {"samples": 1, "pixels": 1, "functions": 0, "control points": 0, "cores": -1}  # the power of the limit
+GROWTH = {"samples": 1, "pixels": 1, "functions": 0, "control points": 0, "cores": -1}  # the power of proportion
 ELSEWHERE = {"cores": {"pixels": (1920, 1080)}}
 RATE = 240
 
@@ -112,7 +112,7 @@ def main():
     arguments = parser.parse_args()
     program = arguments.build.resolve() / "nutik-cl"
     rows = []
-    print(f"{'':16} {'':>11} {'kernel ms':>10} {'limit':>7} {'process s':>10} {'peak MB':>8}")
+    print(f"{'':16} {'':>11} {'kernel ms':>10} {'propor.':>7} {'process s':>10} {'peak MB':>8}")
     with tempfile.TemporaryDirectory() as scratch:
         for varied, values in VALUES.items():
             for value in values:
@@ -121,8 +121,8 @@ def main():
                 measured = measure(program, pathlib.Path(scratch), setting, arguments.runs)
                 rows.append({"varied": varied, "amount": amount, **measured})
                 first = next(row for row in rows if row["varied"] == varied)
-                limit = first["kernel_ms"] * (amount / first["amount"]) ** GROWTH[varied]
-                print(f"{varied:16} {label_of(value):>11} {measured['kernel_ms']:10.2f} {limit:7.2f} "
+                proportional = first["kernel_ms"] * (amount / first["amount"]) ** GROWTH[varied]
+                print(f"{varied:16} {label_of(value):>11} {measured['kernel_ms']:10.2f} {proportional:7.2f} "
                       f"{measured['process_s']:10.3f} {measured['peak_mb']:8.0f}", flush=True)
     write_outputs(arguments, rows, chart)
 
