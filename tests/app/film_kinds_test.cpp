@@ -41,7 +41,8 @@ class FilmKinds : public test::AppTest {
   }
   // All frames as others decode them, RGB of 8 bits. FFmpeg takes chroma as centred unless it is told.
   [[nodiscard]] std::string decoded(const std::string& name, bool has_left_chroma = false) const {
-    ffmpeg("-i " + name + (has_left_chroma ? " -vf scale=in_h_chr_pos=0" : "") + " -vsync 0 -f rawvideo -pix_fmt rgb24 decoded");
+    ffmpeg("-i " + name + (has_left_chroma ? " -vf scale=in_h_chr_pos=0" : "") +
+           " -vsync 0 -f rawvideo -pix_fmt rgb24 decoded");
     return file("decoded");
   }
   static double mean_difference(const std::string& a, const std::string& b) {
