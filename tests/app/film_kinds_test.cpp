@@ -186,8 +186,8 @@ TEST_F(FilmKinds, MayBeAFrameLong) {
   }
 }
 
-// An edge between colours moved by half a pixel, and again in each film of a film: chroma lies left of the pair that
-// shares it, in clips of 8 bits, too, which are read as if it lay between both.
+// An edge between colours moved by half a pixel, and again in each film of a film. Chroma of 10 bits lies left of the
+// pair that shares it, that of 8 bits between both, as it is read again; a clip of 8 bits gets its own back.
 TEST_F(FilmKinds, KeepChromaInItsPlace) {
   NEEDS_FFMPEG();
   const auto edge = [&](const std::string& name) {  // in samples of chroma, whose first row has 32
