@@ -85,6 +85,21 @@ std::optional<std::vector<double>> light_curve(const Transfer& transfer, std::ui
   return curve;
 }
 
+// Light of 256 codes by pieces, with the kernel's roundings where it fuses products: rows that look it up have the same
+// floats as those that are computed, so that a picture does not depend on who can look up.
+std::vector<double> light_of_bytes(const std::vector<double>& pieces) {
+  std::vector<double> light(256);
+  for (std::size_t code = 0; code < light.size(); ++code) {
+    const auto c = static_cast<float>(code);
+    const auto rounded = [&](std::size_t at) { return static_cast<float>(pieces[at]); };
+    const auto piece = static_cast<std::size_t>(std::fma(c, rounded(0), rounded(1)));
+    float value = rounded(2 + 3 * kLightPieces + piece);
+    for (std::size_t j = 3; j-- > 0;) value = std::fma(value, c, rounded(2 + j * kLightPieces + piece));
+    light[code] = value;
+  }
+  return light;
+}
+
 }  // namespace
 
 std::optional<std::vector<double>> light_pieces(const Transfer& transfer, std::uint32_t white_code) {
@@ -110,23 +125,21 @@ std::optional<std::vector<double>> light_pieces(const Transfer& transfer, std::u
 
 LightSource light_source(const CaptureFormat& capture, Precision precision, const LightMeans& means) {
   if (capture.transfer.is_linear()) return {"NUTIK_LIGHT_LINEAR", {}};
-  if (means.looks_up_bytes && precision == Precision::single_ && capture.code_bytes == 1) {
-    LightSource source = light_source(capture, precision, {means.permutes_pieces, means.has_near_table});
-    source.bytewise = capture.transfer.light_of_all_codes(capture.white_code, capture.code_bytes);
-    return source;
-  }
   const bool is_near = means.has_near_table && capture.code_bytes == 1;
+  const bool looks_up_bytes = means.looks_up_bytes && precision == Precision::single_ && capture.code_bytes == 1;
   if (precision == Precision::single_ && !is_near) {
     if (means.permutes_pieces) {
       if (auto pieces = light_pieces(capture.transfer, capture.white_code)) {
-        return {"NUTIK_LIGHT_PIECES", std::move(*pieces)};
+        std::vector<double> bytewise = looks_up_bytes ? light_of_bytes(*pieces) : std::vector<double>();
+        return {"NUTIK_LIGHT_PIECES", std::move(*pieces), std::move(bytewise)};
       }
     }
     if (auto curve = light_curve(capture.transfer, capture.white_code)) {
       return {"NUTIK_LIGHT_CURVE", std::move(*curve)};
     }
   }
-  return {"NUTIK_LIGHT_TABLE", capture.transfer.light_of_all_codes(capture.white_code, capture.code_bytes)};
+  std::vector<double> table = capture.transfer.light_of_all_codes(capture.white_code, capture.code_bytes);
+  return {"NUTIK_LIGHT_TABLE", table, looks_up_bytes ? table : std::vector<double>()};
 }
 
 }  // namespace nutik

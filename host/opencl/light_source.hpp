@@ -36,7 +36,8 @@ struct LightMeans {
   bool permutes_pieces = false;   // the kernel works on as many lanes as there are pieces, and the device's vectors
                                   // hold them
   bool has_near_table = false;    // tables of 256 codes lie beside a group of work-items
-  bool looks_up_bytes = false;    // the kernel works on 64 codes in 16 lanes, and the device looks up 64 bytes at once
+  bool looks_up_bytes = false;    // the kernel fuses products and works on 64 codes in 16 lanes, and the device looks
+                                  // up 64 bytes at once
 };
 
 [[nodiscard]] LightSource light_source(const CaptureFormat& capture, Precision precision, const LightMeans& means);

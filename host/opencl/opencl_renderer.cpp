@@ -396,8 +396,8 @@ class OpenClRenderer::Implementation {
     const bool permutes = work.shape.lanes == kLightPieces &&
                           options_.permutes_pieces.value_or(info_.native_float_lanes >= kLightPieces);
     const bool has_copies = work.shape.table_copies > 0;
-    const bool looks_up_bytes = options_.looks_up_bytes.value_or(info_.permutes_bytes) && work.shape.lanes == 16 &&
-                                work.shape.item_pixels == kTilePixels && !has_copies;
+    const bool looks_up_bytes = options_.looks_up_bytes.value_or(info_.permutes_bytes) && work.has_fma &&
+                                work.shape.lanes == 16 && work.shape.item_pixels == kTilePixels && !has_copies;
     return constants_->light(plan, work.precision, {permutes, has_copies, looks_up_bytes}, memory);
   }
 
