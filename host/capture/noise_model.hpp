@@ -21,7 +21,7 @@
 
 namespace nutik {
 
-// Of rounding to whole codes, in codes².
+// What rounding to whole codes adds, in codes².
 inline constexpr double kRoundingVariance = 1.0 / 12.0;
 
 // Where noise was measured: pixels whose expected value is about `code` have a standard deviation of `sd`

@@ -23,8 +23,9 @@ struct KeyShare {
 // On the straight line from `a` to `b`, both within kLargestTimeNs.
 [[nodiscard]] std::int64_t time_between(std::int64_t a_ns, std::int64_t b_ns, const KeyShare& share);
 
-// Of as many control points: each on its way from the one to the other, time and gain. Else the mixture of both
-// functions, (1 − λ) a + λ b, which has the control points of both. A jump is taken for a step of 1 ns (with_steps()).
+// Where both have as many control points, each is on its way from the one to the other, in time and gain. Else it is
+// the mixture of both functions, (1 − λ) a + λ b, which has the control points of both. A jump is taken for a step of 1
+// ns (with_steps()).
 [[nodiscard]] GainFunction function_between(const GainFunction& a, const GainFunction& b,
                                             const KeyShare& share);
 

@@ -31,7 +31,7 @@ class Diagnostics {
  public:
   static constexpr std::size_t kMaxShown = 20;
 
-  // Of several at one place the first added stands first.
+  // Where several stand at one place, the first added comes first.
   void add(Diagnostic::Severity severity, const SourceText& source, std::size_t at, std::string message);
 
   [[nodiscard]] const std::vector<Diagnostic>& shown() const { return shown_; }

@@ -413,7 +413,7 @@ class Parser {
   std::map<std::uint8_t, std::size_t> first_lines_;  // by mask value, also of functions with errors
   std::optional<StatedTime> picture_;                // how long one is
 
-  // Of the current function:
+  // The current function's:
   std::optional<std::size_t> brace_;  // its opening brace, until it is closed
   bool is_braced_ = false;
   bool is_broken_ = false;  // it has an error that was noted

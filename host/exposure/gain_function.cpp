@@ -111,7 +111,7 @@ GainFunction GainFunction::stretched(Rational factor, std::int64_t fixed_ns) con
           "a control point at {} ns stretched by {} about {} ns lies outside what times can be (±{} ns)",
           point.time_ns, factor.text(), fixed_ns, kLargestTimeNs));
     }
-    // Of three at one time the one in the middle has no say.
+    // Where three lie at one time, the one in the middle has no say.
     const std::size_t count = points.size();
     if (count >= 2 && points[count - 2].time_ns == time_ns) points.pop_back();
     points.push_back({time_ns, point.gain});

@@ -27,12 +27,12 @@ class MixedPixels {
   [[nodiscard]] bool empty() const { return pixels_.empty(); }
   [[nodiscard]] std::span<const std::uint64_t> pixels() const { return pixels_; }
 
-  // Of the i-th of pixels().
+  // Those of the i-th of pixels().
   [[nodiscard]] std::span<const Share> shares(std::size_t i) const {
     const std::size_t first = i == 0 ? 0 : ends_[i - 1];
     return std::span(shares_).subspan(first, ends_[i] - first);
   }
-  // Of a pixel of the picture; none where it has one function alone.
+  // Those of a pixel of the picture; none where it has one function alone.
   [[nodiscard]] std::span<const Share> of(std::uint64_t pixel) const {
     const auto found = std::ranges::lower_bound(pixels_, pixel);
     if (found == pixels_.end() || *found != pixel) return {};

@@ -24,7 +24,7 @@ struct ActivityStretch {
   SampleRange samples;
   std::uint64_t changes = 0;
 
-  // Of so many pixels, those that change at a sample, on average.
+  // The share of so many pixels that changes at a sample, on average.
   [[nodiscard]] double mean_share(std::uint64_t pixels) const {
     return static_cast<double>(changes) / static_cast<double>(pixels) / static_cast<double>(samples.size());
   }

@@ -89,7 +89,7 @@ std::uint32_t BlockView::row_sample(std::uint64_t tile, std::uint32_t row, std::
   return sample;
 }
 
-// Of all pixels of a slot side by side: a file is checked as fast as it is read.
+// Looks at all pixels of a slot side by side: a file is checked as fast as it is read.
 template <typename Index>
 bool BlockView::slots_increase(const std::byte* body, std::uint32_t slots) const {
   const auto end = static_cast<Index>(geometry_.sample_count);

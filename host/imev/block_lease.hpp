@@ -29,7 +29,7 @@ class PayloadParts {
   PayloadParts& operator=(const PayloadParts&) = delete;
 
   [[nodiscard]] std::span<const std::span<const std::byte>> parts() const { return parts_; }
-  // Of all parts together.
+  // All parts together.
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
   // Writes them one behind the other to `into`, which has at least as many bytes.
   void copy_to(std::span<std::byte> into) const;
@@ -61,19 +61,19 @@ struct LeaseTerms {
 
 class BlockLease {
  public:
-  // Of nothing: what a source returns when there was no room.
+  // An empty one: what a source returns when there was no room.
   BlockLease() = default;
 
-  // Of a payload as files hold it. `keeper` owns its memory; null where that outlives the lease anyway.
+  // A payload as files hold it. `keeper` owns its memory; null where that outlives the lease anyway.
   BlockLease(const BlockExtent& extent, std::span<const std::byte> payload,
              std::shared_ptr<const void> keeper = {})
       : extent_(extent), payload_(payload), bytes_(payload.size()), keeper_(std::move(keeper)) {}
 
-  // Of a payload with room between its bodies; as files hold it, it has `bytes`.
+  // A payload with room between its bodies; as files hold it, it has `bytes`.
   static BlockLease spread(const BlockExtent& extent, std::span<const std::byte> payload, std::uint64_t bytes,
                            std::shared_ptr<const void> keeper);
 
-  // Of a payload within memory that starts on a page border and lasts as long as the source.
+  // A payload within memory that starts on a page border and lasts as long as the source.
   static BlockLease within(const BlockExtent& extent, std::span<const std::byte> region, std::uint64_t offset,
                            std::uint64_t bytes);
 

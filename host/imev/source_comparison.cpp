@@ -17,7 +17,7 @@ std::uint32_t code_at(std::span<const std::byte> raster, std::uint64_t value, st
   return code;
 }
 
-// Of the band's own arithmetic, whose standard deviations are kept in single precision.
+// What the band's own arithmetic rounds: standard deviations are kept in single precision.
 constexpr double kBandRounding = 1e-6;
 
 }  // namespace

@@ -47,8 +47,8 @@ TileLog::TileLog(const CaptureFormat& capture, std::uint32_t block_samples, Tile
       differ_(differ_function(full_.channels, full_.code_bytes)),
       tiles_(full_.tile_count) {}
 
-// Of a tile that had so many rows in the block before. Where that block ended is a matter of what changed in it: if the
-// next one ends a little later, not all its tiles should have to move.
+// Rows to begin a tile with that had so many in the block before. Where that block ended is a matter of what changed in
+// it: if the next one ends a little later, not all its tiles should have to move.
 std::uint32_t TileLog::first_room(std::uint32_t rows) const {
   return std::min(std::max(rows + rows / kSpareShare, 1u), full_.sample_count);
 }

@@ -21,7 +21,7 @@ namespace nutik {
 
 class CodeSpan {
  public:
-  // Of the samples [first, last) of a capture.
+  // The samples are [first, last).
   CodeSpan(const CaptureFormat& capture, SampleRange samples);
 
   // Adds what a block holds of those samples; blocks in any order. Throws InputError where it is damaged.

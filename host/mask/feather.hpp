@@ -32,7 +32,7 @@ struct Feather {
   friend bool operator==(const Feather&, const Feather&) = default;
 };
 
-// Of a hard mask. Throws UsageError where no pixel has a tag with a feather of its own.
+// The mask is a hard one. Throws UsageError where no pixel has a tag with a feather of its own.
 [[nodiscard]] Mask feathered(const Mask& mask, const Feather& feather, const ReportedProgress& progress = {});
 
 }  // namespace nutik

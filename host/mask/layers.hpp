@@ -27,7 +27,7 @@ struct MaskLayer {
 [[nodiscard]] Mask mask_of_layers(std::span<const MaskLayer> layers, std::uint8_t rest,
                                   const ReportedProgress& progress = {});
 
-// Of 16 bits.
+// In 16 bits.
 [[nodiscard]] Picture layer_of(const Mask& mask, std::uint8_t tag);
 
 }  // namespace nutik

@@ -30,7 +30,7 @@ struct ClipTiming {
   // Where the rate is not constant; of a part of a clip also that of the picture behind it.
   std::vector<std::int64_t> starts_ns;
   std::vector<Exposure> exposures;      // in order, without overlaps
-  // Of each sample, beside rate or starts, where the camera wrote it down.
+  // How long each sample was exposed, beside rate or starts, where the camera wrote it down.
   std::optional<std::int64_t> exposed_ns;
   std::string rate_from = "the file";  // what tells the times, for people
   std::string rate_doubt = {};         // why a rate that it states is none, where nothing else tells the times

@@ -13,7 +13,7 @@ namespace nutik {
 
 class LightMeans {
  public:
-  // Of a rectangle of rasters of this format; `scaled` has no side that is longer than its.
+  // The rectangle is one of rasters of this format; `scaled` has no side that is longer than its.
   LightMeans(const CaptureFormat& format, const Rectangle& area, const Shape& scaled);
 
   // `scaled` has codes of the same kind. Throws CodeAboveWhite.

@@ -63,7 +63,7 @@ struct TableSlice {
   [[nodiscard]] std::uint64_t row_count() const { return last_row - first_row + corrected_rows; }
 };
 
-// Of the sums of so many tiles.
+// What the sums of so many tiles take.
 [[nodiscard]] std::uint64_t sums_bytes(std::uint64_t tile_count, std::uint32_t channels, Precision precision);
 
 // The bands of the tiles that a rectangle of a picture meets, from top to bottom, all but the last of the same

@@ -13,7 +13,7 @@ namespace {
 constexpr double kMinSeconds = 0.005;
 // What the first device takes of the last one's time, at the least, where bands need not move.
 constexpr double kBalanced = 0.8;
-// Of a picture's time: what it costs to read blocks again where bands have moved to.
+// What it costs to read blocks again where bands have moved to, as a share of a picture's time.
 constexpr double kMoving = 0.5;
 // What a picture counts beside the next one: how fast a device is may change.
 constexpr double kRemembered = 0.9;

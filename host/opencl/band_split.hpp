@@ -28,7 +28,7 @@ class BandSplit {
   [[nodiscard]] std::span<const double> shares() const { return shares_; }
 
  private:
-  // Of a device, in the last pictures since the bands moved.
+  // What a device did in the last pictures since the bands moved.
   struct Done {
     double pixels = 0.0;
     double seconds = 0.0;

@@ -20,8 +20,8 @@ using BlendCodesKernel =
 using CountSaturatedKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint, cl_ulong,
                                                cl_uint, cl_uint, cl_uint, cl_uint, cl::Buffer, cl::Buffer>;
 
-// Of sums that are developed at a time where they become light. So many rows of tiles begin where devices let a part
-// of a buffer begin: at a multiple of 4096 bytes.
+// Sums that are developed at a time where they become light. So many rows of tiles begin where devices let a part of a
+// buffer begin: at a multiple of 4096 bytes.
 constexpr std::uint64_t kPartBytes = 4 << 20;
 constexpr std::uint32_t kPartRows = 16;
 

@@ -50,7 +50,7 @@ class Developer {
   // When all bands have been developed.
   [[nodiscard]] Picture take_picture() { return std::move(picture_); }
   [[nodiscard]] const Saturation& saturation() const { return saturation_; }
-  // Of the kernels, by the device's own clock.
+  // What the kernels took, by the device's own clock.
   [[nodiscard]] double develop_ms() const { return develop_ms_; }
 
  private:

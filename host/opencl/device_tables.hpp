@@ -90,9 +90,9 @@ class DeviceTables {
     std::vector<TableColumnSource> columns;
     SliceTables tables;
 
-    // Of blocks and corrections.
+    // Blocks and corrections.
     [[nodiscard]] std::size_t part_count() const { return blocks.size() + corrected.size(); }
-    // Of weights, in whole groups.
+    // In whole groups.
     [[nodiscard]] std::uint64_t weight_rows() const { return align_up(row_count, group_rows); }
     [[nodiscard]] std::uint64_t bytes() const;
   };

@@ -51,8 +51,8 @@ std::vector<Precision> common_precisions(std::span<const Precision> of_first, co
   return common;
 }
 
-// Of bands that were made at the same time. Each read the same blocks, and times run side by side; what is held and
-// written adds up.
+// Adds a band that was made at the same time as others. Each read the same blocks, and times run side by side; what is
+// held and written adds up.
 void add(RenderStatistics& all, const RenderStatistics& band) {
   all.read_ms = std::max(all.read_ms, band.read_ms);
   all.expose_ms = std::max(all.expose_ms, band.expose_ms);

@@ -161,7 +161,7 @@ class IncrementalExposer {
   LastExposure last_;
 };
 
-// Of a plan: each is exposed.
+// All of a plan's functions are exposed.
 [[nodiscard]] inline std::vector<std::uint8_t> every_function(const RenderPlan& plan) {
   return std::vector<std::uint8_t>(plan.function_count(), 1);
 }

@@ -27,7 +27,7 @@ struct FunctionMap {
   }
 };
 
-// Of the tiles of a band.
+// For the tiles of a band.
 [[nodiscard]] FunctionMap map_functions(const MaskMap& map, const Band& band);
 
 }  // namespace nutik

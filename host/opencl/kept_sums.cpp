@@ -23,7 +23,7 @@ bool is_of_cut(const SummedBlocks& blocks) {
   return blocks.halves != Halves::both || (blocks.is_bundle() && blocks.count < kGroupBlocks);
 }
 
-// Of one function in one planned block.
+// One function in one planned block.
 struct Part {
   bool is_live;
   std::optional<SummedBlocks> sum;  // none where its gain is not steady
@@ -162,8 +162,8 @@ std::uint64_t KeptSums::slot_sums() const {
   return slot_bytes_ / (precision_ == Precision::double_ ? sizeof(double) : sizeof(float));
 }
 
-// Of the blocks of a bundle as many as a shorter one has, which begins with the same, then one by one: what their sum is
-// where rows are read, for it is added up from the first block on.
+// As many blocks of a bundle as a shorter one has, which begins with the same, then one by one: so their sum is what it
+// is where rows are read, for that is added up from the first block on.
 SumsInUse KeptSums::parts_of_light(const RenderPlan& of_light) const {
   const std::size_t blocks = of_light.blocks.size();
   SumsInUse used{sums_, {}, std::vector<std::uint32_t>(blocks), std::vector<bool>(blocks)};

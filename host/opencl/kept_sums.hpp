@@ -55,7 +55,7 @@ class KeptSums {
   [[nodiscard]] const RenderPlan& plan_for(const SummedBlocks& blocks, const RenderPlan& plan,
                                            const CaptureSource& source);
 
-  // Of an exposure whose worth_making() was asked for, of the functions that it exposes.
+  // For an exposure whose worth_making() was asked for: the sums of the functions that it exposes.
   [[nodiscard]] SumsInUse in_use(const RenderPlan& plan, std::span<const std::uint8_t> exposes,
                                  std::span<const ExposedBand> bands) const;
 

@@ -174,7 +174,7 @@ double sum_at(std::span<const std::byte> raster, Precision precision, std::uint6
   return 0.0;
 }
 
-// Of sums by tiles, whose planes lie one behind the other: value `at` of the first plane.
+// Value `at` of the first plane of sums by tiles, whose planes lie one behind the other.
 double tile_sum(std::span<const std::byte> sums, Precision precision, std::uint64_t at) {
   if (precision != Precision::compensated) return sum_at(sums, precision, at);
   return sum_at(sums, Precision::single_, at) + sum_at(sums, Precision::single_, at + kTilePixels);
@@ -207,7 +207,7 @@ void blend_as(const RenderPlan& plan, const FunctionMap& map, const TilesOfBand&
   const std::uint32_t plane_values = (precision == Precision::compensated ? 2 : 1) * kTilePixels;
   const TileGrid grid(plan.capture.shape);
   const std::uint32_t first_sums = map.first_of[tiles.first];
-  // Of a channel of a pixel, from the sums of one function.
+  // A channel of a pixel, from the sums of one function.
   const auto light_of = [&](std::uint32_t tile, std::uint32_t lane, std::uint32_t channel) {
     const Factors& light = factors[map.of_lane[std::size_t{tile} * kTilePixels + lane]];
     const std::uint64_t at = (std::uint64_t{tile - first_sums} * channels + channel) * plane_values + lane;

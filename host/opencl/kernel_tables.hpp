@@ -21,12 +21,12 @@ namespace nutik {
 
 using Bytes = std::vector<std::byte>;
 
-// Of a pixel's sum in one channel, all its planes.
+// A pixel's sum in one channel, all its planes.
 inline constexpr std::size_t sum_bytes(Precision precision) {
   return precision == Precision::single_ ? 4 : 8;
 }
 
-// Of one weight or boundary: as wide as the sums that it goes into.
+// One weight or boundary: as wide as the sums that it goes into.
 inline constexpr std::size_t weight_bytes(Precision precision) { return sum_bytes(precision); }
 
 // A number as two floats, and numbers as an arithmetic in floating point holds them (doubles if it is of whole ones).

@@ -29,7 +29,7 @@ namespace {
 
 constexpr std::uint64_t kDefaultMemoryBytes = 4ull << 30;
 
-// Of a band's sums: large enough that launches cost nothing and a device is busy.
+// A band's sums: large enough that launches cost nothing and a device is busy.
 constexpr std::uint64_t kBandBytes = 64ull << 20;
 
 // Whether fma() is the device's own. Devices that would emulate it do not report it, and a CPU's emulation

@@ -27,7 +27,7 @@ struct KeptVerdict {
   Verdict verdict;
 };
 
-// Of the last line of a file; none if it is damaged.
+// What the last line of a file says; none if it is damaged.
 std::optional<KeptVerdict> parse_verdict(const std::string& line) {
   std::istringstream words(line);
   std::string precision, is_right, error, allowed;  // errors may be infinite, which streams do not read

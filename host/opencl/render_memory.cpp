@@ -13,8 +13,7 @@ namespace {
 // Large enough that launching costs nothing, small enough that reading the next one hides behind it.
 constexpr std::uint64_t kChunkBytes = 64ull << 20;
 
-// Of a row of tables: weights and boundaries on the device, as many while they are packed, and what they are packed
-// from.
+// A row of tables: weights and boundaries on the device, as many while they are packed, and what they are packed from.
 std::uint64_t row_bytes(const RenderPlan& plan, Precision precision) {
   return plan.function_count() * (4 * weight_bytes(precision) + 2 * sizeof(double));
 }
@@ -23,7 +22,7 @@ std::uint64_t row_bytes(const RenderPlan& plan, Precision precision) {
 
 RenderMemory memory_for_blocks(std::uint64_t memory_bytes) {
   const std::uint64_t chunk_bytes = std::min(kChunkBytes, memory_bytes / 4);
-  // Of what chunks leave of their half. Pictures to be seen and pictures to be kept may take two arithmetics.
+  // What chunks leave of their half. Pictures to be seen and pictures to be kept may take two arithmetics.
   const std::uint64_t rest = memory_bytes / 2 - 2 * chunk_bytes;
   return {{chunk_bytes, memory_bytes / 2, true}, rest / 6, rest / 8, memory_bytes / 32};
 }

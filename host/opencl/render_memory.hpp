@@ -18,7 +18,7 @@ struct RenderMemory {
   std::uint64_t slice_bytes = 0;  // of weights and as many of boundaries (allocation_cuts.hpp)
 };
 
-// Of `memory_bytes` for blocks alone: half of them for those of the resident capture.
+// All of `memory_bytes` is for blocks: half for those of the resident capture.
 [[nodiscard]] RenderMemory memory_for_blocks(std::uint64_t memory_bytes);
 
 // What a render of so many pixels takes at the least: picture, the tables of a block and one block.
@@ -30,7 +30,7 @@ struct LeastMemory {
 [[nodiscard]] LeastMemory least_memory(const RenderPlan& plan, const CaptureSource& source, const Shape& picture,
                                        ValueType type, Precision precision);
 
-// Of `allowed` bytes for everything. Throws MemoryTooLittle where the least takes more.
+// Shares `allowed` bytes among everything. Throws MemoryTooLittle where the least takes more.
 [[nodiscard]] RenderMemory memory_for_render(std::uint64_t allowed, const RenderPlan& plan,
                                              const CaptureSource& source, const Shape& picture,
                                              ValueType type, Precision precision);

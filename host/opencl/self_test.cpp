@@ -20,7 +20,7 @@ constexpr OutputFormat kLight{ValueType::light64, 0};
 
 using Rasters = std::vector<std::vector<std::byte>>;
 
-// Of no order, and the same everywhere.
+// Numbers in no order, the same everywhere.
 std::uint32_t mixed(std::uint32_t number) {
   number = (number ^ (number >> 16)) * 0x7feb352du;
   number = (number ^ (number >> 15)) * 0x846ca68bu;

@@ -28,7 +28,7 @@ struct ValidatedVariant {
 
   [[nodiscard]] Precision precision() const { return bound.precision; }
   [[nodiscard]] bool is_within_bound() const { return nutik::is_within_bound(light, stored); }
-  // Of payload; 0 where nothing was read.
+  // Payload alone counts; 0 where nothing was read.
   [[nodiscard]] double gigabytes_per_second() const;
 };
 

@@ -133,7 +133,7 @@ LightLine blended(const LightLine& line, const LightLine& blend) {
   return {line.constant * (1 + blend.slope) + blend.constant, line.slope * (1 + blend.slope) + blend.slope};
 }
 
-// Of codes that kernels blend in whole numbers; light is blended by the host, in double.
+// Kernels blend codes in whole numbers; light is blended by the host, in double.
 double fixed_blend_error(const RenderPlan& plan, const ErrorBound& bound) {
   if (plan.map->mixed.empty() || bound.precision != Precision::fixed || !holds_codes(bound.output.type))
     return 0.0;
@@ -184,7 +184,7 @@ LightLine line_of(const PictureError& error) {
   return error.light > 0.0 && error.line.slope == 0.0 ? LightLine{kInfinite, 0.0} : error.line;
 }
 
-// Of any mixture of the plan's functions: no larger than the worst of them, and what blending that rounds.
+// Bounds any mixture of the plan's functions: no larger than the worst of them, and what blending that rounds.
 void add_blending(const RenderPlan& plan, const Roundings& roundings, ErrorBound& bound) {
   double largest = 0.0, min_scale = kInfinite;
   LightLine line;

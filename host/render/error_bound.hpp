@@ -60,7 +60,7 @@ struct ErrorBound {
 // The bound of each pixel.
 class PixelErrors {
  public:
-  // Of a plan and its bound, which must live as long.
+  // The plan and its bound must live as long.
   PixelErrors(const RenderPlan& plan, const ErrorBound& bound);
 
   // Counted row by row.

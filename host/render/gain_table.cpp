@@ -8,7 +8,7 @@
 namespace nutik {
 namespace {
 
-// Of a shifted function, whose divisor is the unshifted one's.
+// A shifted function is divided by what the unshifted one is divided by.
 GainSummary supported(GainSummary summary, std::optional<std::int64_t> support_ns) {
   if (support_ns) summary.support_ns = *support_ns;
   return summary;

@@ -115,8 +115,8 @@ class GainTable {
   [[nodiscard]] SteadyGain steady_in(std::uint64_t block) const { return steady_.in(block, *layout_); }
   [[nodiscard]] bool has_corrected() const { return steady_.has_corrected(); }
 
-  // Of its weights, and of what arithmetics in floating point add up: steady blocks, and their corrections besides. Goes
-  // through the whole table the first time.
+  // The course of its weights, and of what arithmetics in floating point add up: steady blocks, and their corrections
+  // besides. Goes through the whole table the first time.
   [[nodiscard]] const FunctionCourse& course() const;
   [[nodiscard]] const FunctionCourse& parted_course() const;
   [[nodiscard]] bool is_measured() const { return is_measured_; }

@@ -56,7 +56,7 @@ struct MaskMap {
   [[nodiscard]] std::uint16_t region_at(std::uint64_t pixel) const {
     return has_delays() ? delayed_region_of_pixel[pixel] : region_of_pixel[pixel];
   }
-  // Of what says which region each pixel has.
+  // What it takes to say which region each pixel has.
   [[nodiscard]] std::uint64_t bytes() const {
     return region_of_pixel.size() + delayed_region_of_pixel.size() * sizeof(std::uint16_t);
   }

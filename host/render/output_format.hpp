@@ -18,7 +18,7 @@ struct OutputFormat {
   ValueType type = ValueType::code8;
   std::uint32_t white_code = 255;
   NegativeLight negative = NegativeLight::saturate;  // of codes
-  // Of codes that are made to be seen: with this function, in BT.709's primaries, white being the capture's reference
+  // Codes that are made to be seen have this function and BT.709's primaries, white being the capture's reference
   // white. None: the capture's own function and primaries, and white the light of its white code.
   std::optional<Transfer> transfer = std::nullopt;
   bool is_half = false;      // light becomes floating point of 16 bits in its file

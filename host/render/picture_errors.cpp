@@ -98,7 +98,7 @@ StoredErrors real_errors(const RenderPlan& plan, const ErrorBound& bound, const 
   return errors;
 }
 
-// Of an error above 0.
+// The error is above 0.
 double share_of(double error, double allowed) {
   if (std::isnan(error)) return kInfiniteError;  // no bound allows what is no number
   if (std::isinf(allowed)) return std::isinf(error) ? 1.0 : 0.0;

@@ -32,8 +32,8 @@ struct LightErrors {
 struct StoredErrors {
   std::uint64_t values = 0;
   std::uint64_t differing = 0;
-  // Of those that differ the ones that the bound explains: codes whose edge, on the side of the reference's light,
-  // lies within the bound of that light; floats within the bound and half of a float's step of it.
+  // How many of those that differ the bound explains: codes whose edge, on the side of the reference's light, lies
+  // within the bound of that light; floats within the bound and half of a float's step of it.
   std::uint64_t explained = 0;
 };
 

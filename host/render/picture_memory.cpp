@@ -8,7 +8,7 @@
 namespace nutik {
 namespace {
 
-// Of light that is developed part by part (opencl/developer.cpp), in each of the places where a part is.
+// Light that is developed part by part (opencl/developer.cpp), in each of the places where a part is.
 constexpr std::uint64_t kPartBytes = 12 << 20;
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace nutik {
 
-// Of sums in the widest arithmetics.
+// A sum in the widest arithmetics.
 inline constexpr std::size_t kMaxSumBytes = 8;
 
 // Sums and functions of all pixels, the picture itself, and as much again where it is developed. Holds for every

@@ -79,7 +79,7 @@ SampleRange needed_samples(const Timeline& timeline, const FunctionSet& function
   for (const MaskRegion& region : regions_of(mask)) {
     const auto found = functions.find(region.tag);
     if (found == functions.end()) continue;
-    // Of whatever delays occur in the picture, though perhaps not with this function.
+    // Whatever delays occur in the picture, though perhaps not with this function.
     static const std::vector<std::int64_t> kNone{0};
     for (const std::int64_t delay_ns : options.delays ? options.delays->delays_ns : kNone) {
       const GainSummary summary = summarize(found->second.shifted(delay_ns), timeline.duration_ns());

@@ -66,7 +66,7 @@ struct PlannedBlock {
   BlockExtent extent;
   std::uint64_t table_row;  // of its first sample, in tables of the planned blocks
 
-  // Of the tables: one for each sample and one more (exposure/boundary_table.hpp).
+  // Rows of the tables: one for each sample and one more (exposure/boundary_table.hpp).
   [[nodiscard]] std::uint64_t row_count() const { return std::uint64_t{extent.sample_count} + 1; }
 };
 
@@ -91,7 +91,7 @@ struct RenderPlan {
   [[nodiscard]] std::span<const Share> shares_of(std::uint64_t pixel) const { return map->mixed.of(pixel); }
   // S of a pixel's function; of a mixed pixel its shares of those of its functions.
   [[nodiscard]] double error_scale(std::uint64_t pixel) const;
-  // Of the tables of all functions for the planned blocks.
+  // Rows of the tables of all functions for the planned blocks.
   [[nodiscard]] std::uint64_t row_count() const;
   // Whether some function's gain is steady over a bundle of blocks.
   [[nodiscard]] bool has_bundles() const;

@@ -64,8 +64,8 @@ struct RenderControl {
   bool strict = false;  // ImpreciseError where the picture may err by more than kMaxSteps
   bool takes_wrong = false;  // to measure an arithmetic that its device computes wrongly; else it is refused
 
-  // Of several devices, that one makes all of it which is free first: pictures that are asked for at the same time are
-  // then made by different devices.
+  // Where there are several devices, the one that is free first makes all of it: pictures that are asked for at the
+  // same time are then made by different devices.
   bool by_one_device = false;
 
   // What the render may take, the picture included: MemoryTooLittle where that does not do. 0: it may take what the
@@ -84,8 +84,8 @@ struct RenderStatistics {
   std::uint64_t table_bytes_written = 0;  // of gain tables, and
   std::uint64_t map_bytes_written =
       0;  // of functions of pixels, that were not on the device from renders before
-  // Of a resident capture: functions whose pixels were not as in the render before; sums of blocks, halves and bundles
-  // that were not made again, and those that were made to be kept.
+  // Where a capture is resident: functions whose pixels were not as in the render before; sums of blocks, halves and
+  // bundles that were not made again, and those that were made to be kept.
   std::uint64_t exposed_functions = 0;
   std::uint64_t kept_sums = 0;
   std::uint64_t made_sums = 0;

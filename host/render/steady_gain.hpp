@@ -22,7 +22,7 @@ namespace nutik {
 //
 //   always:  immutable and shared by the tables that were made for it
 
-// Of a block's samples, from the first one's to the last one's.
+// From a block's first sample to its last one.
 struct BlockReach {
   std::int64_t begin_ns;
   std::int64_t end_ns;
@@ -63,7 +63,7 @@ inline constexpr std::uint32_t kMinSteadySamples = 16;
 // Blocks b with the same b / kGroupBlocks are a group; the capture's last one may have fewer.
 inline constexpr std::uint64_t kGroupBlocks = 16;
 
-// Of a block of n samples the first half has ⌊n / 2⌋.
+// The first half of a block of n samples has ⌊n / 2⌋.
 enum class Halves : std::uint8_t { both, first, second };
 [[nodiscard]] SampleSpan samples_of(Halves halves, const BlockExtent& block);
 
@@ -121,7 +121,7 @@ class SteadyStretches {
   [[nodiscard]] bool has_corrected() const { return has_corrected_; }
 
  private:
-  // Of a block that an end of a stretch cuts: what counts as steady, and what is corrected.
+  // A block that an end of a stretch cuts: what counts as steady, and what is corrected.
   struct Cut {
     Halves halves = Halves::both;
     SampleSpan corrected;

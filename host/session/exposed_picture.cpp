@@ -8,8 +8,8 @@
 namespace nutik {
 namespace {
 
-// Of functions with delays one for each mask value: weighed by its whole course, of all its pixels, with the samples that
-// any of them needs.
+// A function with delays is one for each mask value: weighed by its whole course, of all its pixels, with the samples
+// that any of them needs.
 std::vector<PlannedFunction> by_mask_value(const RenderPlan& plan) {
   std::vector<PlannedFunction> functions;
   for (const PlannedFunction& delayed : plan.functions) {

@@ -327,7 +327,7 @@ std::shared_ptr<const CaptureErrors> Session::State::errors_of(const CaptureForm
 
 namespace {
 
-// Of a plan with delays the functions that are traced, each where its pixel has it.
+// Keeps those of a plan's functions with delays that are traced, each where its pixel has it.
 void keep_traced(RenderPlan& plan, std::vector<Trace>& traces) {
   if (!plan.map->has_delays()) return;
   std::vector<PlannedFunction> traced;
@@ -484,7 +484,7 @@ ValidatedExposure Session::validate(const ExposureRequest& request, const Output
   const auto ignored = [](std::uint64_t, std::uint64_t) {};
   const std::uint64_t light_bytes = format().shape.value_count() * value_bytes(ValueType::light64);
   Validation validation = state_->within({{"the reference's picture", light_bytes}}, [&](std::uint64_t left) {
-    // Of the widest arithmetic, which comes late.
+    // The widest arithmetic's picture, which comes late.
     MemoryNeeds needs = picture_needs(format().shape, ValueType::light64);
     needs.add("a block", largest_block(*state_->reader_));
     needs.rest_of(left);

@@ -97,7 +97,7 @@ class Session {
   // Whether it was made from a clip.
   [[nodiscard]] bool is_clip() const;
   [[nodiscard]] const CaptureFormat& format() const;
-  // Of a clip that is read forward, as its files announce it: a picture brings the true one.
+  // For a clip that is read forward, as its files announce it: a picture brings the true one.
   [[nodiscard]] const Timeline& timeline() const;
   // What a clip is taken for, each with who said it: its times first. None of a .tik, whose header has them.
   [[nodiscard]] const std::vector<Fact>& facts() const;

@@ -49,12 +49,13 @@ struct HeaderPlace {
 
 [[nodiscard]] std::vector<Exposure> load_exposures(std::span<const std::byte> bytes);
 
-// Of what a file says. Throws InputError beginning with `name`, also where a person may not state such a rate either.
+// The timeline that a file states. Throws InputError beginning with `name`, also where a person may not state such a
+// rate either.
 [[nodiscard]] Timeline timeline_of(const Header& header, std::uint64_t samples,
                                    std::vector<Exposure> exposures, std::optional<std::int64_t> duration_ns,
                                    const std::string& name);
 
-// Of all that lies in front of the blocks, whose checksum each of them holds.
+// Said of all that lies in front of the blocks, whose checksum each of them holds.
 inline constexpr const char* kDamagedFront =
     "the text or picture at its start is damaged, which says when and how it was filmed; encode the clip "
     "again";

@@ -28,7 +28,7 @@ struct ReadFields {
   std::size_t bytes = 0;  // of the list
 };
 
-// Of a list that starts with the bytes. Throws InputError, beginning with `name`, where it is damaged or cut off.
+// Reads a list that starts with the bytes. Throws InputError, beginning with `name`, where it is damaged or cut off.
 [[nodiscard]] ReadFields read_fields(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace nutik::tik

@@ -73,7 +73,7 @@ struct Footer {
   std::uint64_t index_checksum;
   std::uint64_t exposures_checksum;
   std::uint64_t fields_offset;  // of fields that were known at the end only, 0 where there are none
-  // Of all block headers, one behind the other, so that nobody has to look for them all over a large file;
+  // The checksum of all block headers, one behind the other, so that nobody has to look for them all over a large file;
   // 0 in files of earlier programs.
   std::uint64_t headers_checksum;
   std::uint8_t reserved[40];  // zeros

@@ -52,7 +52,7 @@ class Reader final : public CaptureSource {
     return {index_[block].first_sample, index_[block].sample_count};
   }
 
-  // Of a packed block all of its payload.
+  // A packed block lends all of its payload.
   [[nodiscard]] std::uint64_t lent_bytes(std::uint64_t block) const override {
     return index_[block].codec == static_cast<std::uint32_t>(CodecId::none) ? 0 : index_[block].payload_bytes;
   }

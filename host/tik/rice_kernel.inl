@@ -388,7 +388,8 @@ NUTIK_INLINE void read_plane(std::uint8_t shape, bool tells_lines, RiceReader& f
   }
   if constexpr (sizeof(Code) == 1) {
     for (std::size_t p = 0; p < kBytesParts; ++p) {
-      // Of a group with wider values a plane of bytes may tell more low bits than it has, in a file that was made up.
+      // Where a group has wider values, a plane of bytes may tell more low bits than it has, in a file that was made
+      // up.
       values.part[p] = low_bytes[0].part[p] | levels.part[p] << static_cast<Code>(std::min(low, 7u));
     }
   } else {

@@ -84,7 +84,7 @@ TEST_F(PartOfAClip, IsToldAndCheckedAndStatedInRecipes) {
                      {"encode -f 100 --from 1/3f frames x.tik", "is not a whole number of pictures"}});
 }
 
-// Of a video --from and --to are where it starts and ends in the capture: frames, not what is read.
+// In a video's source --from and --to are where it starts and ends in the capture: frames, not what is read.
 TEST_F(PartOfAClip, OfAVideosSourceIsCropped) {
   const auto made = make(
       "video -f 100 --crop 16x8+2+2 --from 1f --to 5f --out-fps 100 --out-angle 360 --renderer reference "

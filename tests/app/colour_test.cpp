@@ -103,7 +103,7 @@ TEST_F(Colour, AboveWhiteIsNotCutOffInSilence) {
     return result.out + result.err;
   };
   constexpr const char* kSaid = "brighter come out white";
-  // Of HLG the field of code 4095 lies above 75 %, of PQ that too, and no other above 203 cd/m².
+  // In HLG the field of code 4095 lies above 75 %, in PQ too, and no other above 203 cd/m².
   for (const auto& [transfer, share, stops] :
        std::vector<std::array<std::string, 3>>{{"hlg", "26.5", "-2.0"}, {"pq", "2.03", "-5.7"}}) {
     const std::string said = told(transfer, {"x.png"});

@@ -193,7 +193,7 @@ TEST_F(CommandLine, ReplacesOnlyItsOwnKind) {
   std::filesystem::create_directory(scratch_ / "folder.tik");
   expect_refused("clip.avi folder.tik", 2, "is a folder");
   expect_refused("-k one.fn clip.tik -o absent/x.png", 5, "cannot be created: there is no folder absent");
-  // Of its own kind what carries a recipe is replaced, the rest only if asked.
+  // What carries a recipe of the same kind is replaced, the rest only if asked.
   make("-k one.fn clip.tik a.png");
   make("-k one.fn clip.tik a.png");
   expect_refused(

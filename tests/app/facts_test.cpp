@@ -230,7 +230,7 @@ TEST_F(Facts, OfAClipAreToldToScriptsByEveryCommandThatReadsIt) {
   }
 }
 
-// Of a capture the option is that of retime; what was decided while its clip was decoded has none.
+// A capture's option is that of retime; what was decided while its clip was decoded has none.
 TEST_F(Facts, OfACaptureAreToldToScriptsWithWhatCorrectsThem) {
   const auto made = test::run_shell(
       "ffmpeg -v error -y -f lavfi -i testsrc=s=64x48:r=30:d=0.5 -vf \"select='not(eq(n,5))'\" -fps_mode vfr "

@@ -133,7 +133,7 @@ TEST_F(Film, MovesTheEdgesOfAMask) {
 TEST_F(Film, FadesOneMaskIntoTheOther) {
   write_two_masks_and_functions();
   const auto got = rows("--mask-key 0s a.pgm --mask-key 0.4s b.pgm --mask-blend alpha -k f.fn");
-  // Of frame 2 the columns 2 to 5 have halves of both functions: 30 and 40.
+  // In frame 2, columns 2 to 5 have halves of both functions: 30 and 40.
   ASSERT_EQ(got.size(), 8u);
   EXPECT_EQ(got[2], (std::vector<int>{40, 40, 35, 35, 35, 35, 30, 30}));
   make("video --mask-key 0s a.pgm --mask-key 4f b.pgm --mask-blend alpha --feather 1px -k f.fn --out-fps 10 "

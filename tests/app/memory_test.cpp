@@ -92,7 +92,7 @@ void write_still_video(const Scratch& scratch, const std::string& name, std::siz
 // threads that work at a time), and that large buffers end with a page of 2 MiB.
 constexpr std::uint64_t kUncounted = 14 << 20;
 
-// Of 1280 x 720 and of 16 x 16 pixels, as CLIP, STILL and CAPTURE.
+// CLIP, STILL and CAPTURE have 1280 x 720 and 16 x 16 pixels.
 struct Command {
   const char* what;
   std::vector<std::string> words;

@@ -39,7 +39,7 @@ TEST_F(Outputs, ReplaceNoStillOfTheClip) {
   }
 }
 
-// Of what was there before a command only a picture with a recipe is replaced, unless it is asked to.
+// A command replaces nothing that was there before but a picture with a recipe, unless it is asked to.
 TEST_F(Outputs, ReplaceWhatIsThereOnlyIfAsked) {
   const auto run = [&](const test::Words& words) { return test::run_here(words, scratch_.folder()); };
   make("-f 100 --block-samples 2 frames clip.tik");

@@ -40,7 +40,7 @@ class StudyStyles : public test::StudyTest {
     cv::subtract(picture("styled.png"), ground_of(7), difference, {}, CV_16S);
     return difference;
   }
-  // Of an sRGB code.
+  // An sRGB code's light.
   static double light_of(int code) {
     const double share = code / 255.0;
     return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
@@ -161,7 +161,7 @@ TEST_F(StudyStyles, HaveTheTrailThatIsNamed) {
   EXPECT_NEAR(none.second, 0, 1);
 }
 
-// Of a region whose edge lies 6 pixels outside the square half of the trail is seen there; of one at 2, all.
+// A region whose edge lies 6 pixels outside the square shows half of the trail there; one at 2 shows all of it.
 TEST_F(StudyStyles, AreBlendedAsFarAsIsStated) {
   const auto beside = [&](const char* feather) {
     const cv::Mat is = difference({"--moments", "15f", "--feather", feather});

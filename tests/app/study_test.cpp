@@ -30,7 +30,7 @@ TEST_F(Study, ShowsTheSubjectAsItWasAtEachMoment) {
   for (const auto& moment : json["moments"]) {
     ++tag;
     const int sample = moment["sample"].get<int>(), left = MovingSquare::left(sample);
-    // Of the subject all but where it is blended with what lies around it.
+    // All of the subject but where it is blended with what lies around it.
     for (int y = MovingSquare::kTop + 1; y < MovingSquare::kTop + MovingSquare::kSide - 1; ++y) {
       for (int x = left + 1; x < left + MovingSquare::kSide - 1; ++x) {
         ASSERT_EQ(mask.at<std::uint8_t>(y, x), tag) << sample << ": " << x << ", " << y;

@@ -33,7 +33,7 @@ TEST(BandSplit, GivesDevicesNothingWhereThereAreFewerRowsOfTiles) {
   EXPECT_EQ(heights(BandSplit(std::vector{1.0, 1.0, 1.0}).cut({0, 0, 64, 16})), (Heights{8, 0, 8}));
 }
 
-// Of any rectangle and any speeds.
+// For any rectangle and any speeds.
 TEST(BandSplit, HasEachRowOnceAndCutsWhereTilesEnd) {
   test::Random random(7);
   for (int k = 0; k < 2000; ++k) {

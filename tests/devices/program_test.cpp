@@ -100,7 +100,7 @@ TEST_F(SeveralDevices, WriteTheFilesOfOne) {
        {"s-0.png", "s-1.png", "s-2.png"}},
       {{"video", "--out-fps", "25", "clip.tik", "new.avi"}, {"new.avi"}},
       {{"batch", "list.txt", "clip.tik"}, {"batch-a.png", "batch-b.pfm"}},
-      // Of a capture that is not packed each device makes pictures of its own.
+      // From a capture that is not packed each device makes pictures of its own.
       {command({"expose"}, {"--every", "20ms", "--count", "8", "plain.tik", "-o", "s-%d.png"}),
        {"s-0.png", "s-1.png", "s-2.png", "s-3.png", "s-4.png", "s-5.png", "s-6.png", "s-7.png"}},
       {{"video", "--out-fps", "50", "plain.tik", "new.avi"}, {"new.avi"}},

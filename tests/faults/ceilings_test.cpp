@@ -15,13 +15,13 @@ namespace nutik {
 namespace {
 
 struct Ceilings : test::ProgramTest {
-  // Of all programs that were run, in MB; the largest counts.
+  // All programs that were run, in MB; the largest counts.
   static long peak_mb() {
     struct rusage usage {};
     getrusage(RUSAGE_CHILDREN, &usage);
     return usage.ru_maxrss / 1024;
   }
-  // Of one program that ends well, whatever ran before; 255 is as much or more, or another end.
+  // One program that ends well, whatever ran before; 255 is as much or more, or another end.
   long peak_mb_of(const std::vector<std::string>& words) const {
     const pid_t child = fork();
     if (child == 0) _exit(run(words).status == 0 ? static_cast<int>(std::min(peak_mb(), 255L)) : 255);

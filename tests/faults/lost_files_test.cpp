@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 using test::RunningProgram;
 
 struct LostFiles : test::ProgramTest, testing::WithParamInterface<const char*> {
-  // Of one block after the other, each of several pages and none packed: they are read where the system maps them.
+  // Writes one block after the other, each of several pages and none packed: they are read where the system maps them.
   void SetUp() override {
     {
       std::ofstream noise(scratch_ / "clip.raw", std::ios::binary);

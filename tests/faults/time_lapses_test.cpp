@@ -39,7 +39,7 @@ class TimeLapses : public test::ProgramTest, public testing::WithParamInterface<
     scratch_.write("list.txt", "--start 0f --exposure 2f b1.png\n--start 2f --exposure 2f b2.png\n");
   }
 
-  // Of exposures whose times are whole nanoseconds alone, too: the command that `again` prints makes the same picture.
+  // Exposures whose times are whole nanoseconds alone, too: the command that `again` prints makes the same picture.
   void expect_again() const {
     ASSERT_EQ(run({"sweep", "--renderer", "reference", "--start", "0f", "--exposure", "1f", "--shift", "0f..11f/11f",
                    "--each", "each-%d.png", "--overwrite", "c.tik", "sweep.png"})

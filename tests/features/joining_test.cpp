@@ -150,7 +150,7 @@ TEST_F(Joining, OfWholeBlocksIsTheCaptureInOneGo) {
     EXPECT_TRUE(joined.notes.empty());
     EXPECT_EQ(joined.facts.back(), "joined of 4 captures, part0-8.tik … part24-26.tik");
     EXPECT_EQ(std::ranges::count(joined.facts, "pictures 0 … 25 of 26, as stated"), 1);
-    // Of what is written with one angle, too.
+    // Captures that are written with one angle, too.
     SourceRequest half = whole_;
     half.shutter_angle = Rational{180, 1};
     const Path open_half = encoded("half.tik", half);
@@ -341,7 +341,7 @@ TEST_F(Joining, RefusesWhatDoesNotFollow) {
   night.path = scratch_ / "other/night";
   EXPECT_NE(refusal({a, part(8, 20, night)}).find("part0-8.tik is a part of frames, and "),
             std::string::npos);
-  // Of the same name, but with fewer pictures.
+  // A clip of the same name, but with fewer pictures.
   std::filesystem::rename(scratch_ / "other/night", scratch_ / "other/frames");
   std::filesystem::remove(scratch_ / "other/frames/025.pgm");
   night.path = scratch_ / "other/frames";

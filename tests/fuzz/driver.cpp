@@ -36,7 +36,7 @@ std::atomic<std::size_t> input_bytes{0};
   std::abort();
 }
 
-// Of blocks of MemoryCeiling::reserved_from bytes and more what was touched counts, whenever one of them is released.
+// Blocks of MemoryCeiling::reserved_from bytes and more count by what was touched of them, whenever one is released.
 struct Block {
   const volatile void* memory = nullptr;
   std::size_t bytes = 0;
@@ -98,7 +98,7 @@ void count_release(const volatile void* memory) {
   allocated_bytes -= static_cast<std::int64_t>(bytes);
 }
 
-// Of the process, so that a busy machine makes no findings.
+// The process's own, so that a busy machine makes no findings.
 double cpu_seconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);

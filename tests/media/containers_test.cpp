@@ -207,7 +207,7 @@ TEST(Containers, WhoseRateNobodyStatesNeedOne) {
   }
 }
 
-// Of a file whose edit list has one part: bytes behind it, and the speed of the first.
+// The edit list of the file has one part: adds bytes behind it, and sets the speed of the first.
 std::string with_edits(std::string file, const std::string& more, const std::string& speed) {
   const auto add = [&](std::size_t at, std::size_t count) {
     std::uint32_t number = 0;

@@ -166,7 +166,7 @@ TEST(Deflicker, CorrectsNoiseNeitherWhereThingsMoveNorWhereNothingDoes) {
   }
 }
 
-// Of signs that are thrown, no more than the stated share is taken for a correction; the bound is for any sizes.
+// When signs are thrown, no more than the stated share is taken for a correction; the bound is for any sizes.
 TEST(Deflicker, IsMisledByChanceNoMoreOftenThanItSays) {
   constexpr double kTrials = 20;
   std::mt19937 random(5);
@@ -263,7 +263,7 @@ TEST(Deflicker, KeepsTheOrderOfCodes) {
   }
 }
 
-// Of a stage before black curtains most is black, which noise that is cut off at 0 makes a little brighter or darker.
+// A stage before black curtains is mostly black, which noise that is cut off at 0 makes a little brighter or darker.
 TEST(CodeShift, IsNotToldByBlackAndWhite) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> noise(0, 1.0 / 255);

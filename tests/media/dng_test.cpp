@@ -154,8 +154,8 @@ struct Dng {
     return head;
   }
 
-  // Of the middle of the picture, as shares of white: balanced so that the neutral colour is grey and none is darker
-  // than the sensor saw it, then by the matrix that keeps grey grey.
+  // The light in the middle of the picture, as shares of white: balanced so that the neutral colour is grey and none is
+  // darker than the sensor saw it, then by the matrix that keeps grey grey.
   [[nodiscard]] Vector light() const {
     Vector balanced{};
     const double least = 1 / std::max({neutral[0], neutral[1], neutral[2]});

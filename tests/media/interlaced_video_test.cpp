@@ -15,7 +15,7 @@ using test::Scratch;
 constexpr Shape kFrameShape{64, 48, 1};
 constexpr int kFrames = 8;
 
-// Of 50 pictures a second each frame has the odd lines of one and the even lines of the next. `first` is t or b.
+// Each frame has the odd lines of one of 50 pictures a second, and the even lines of the next. `first` is t or b.
 void make_interlaced(const Scratch& scratch, char first, const std::string& codec, const std::string& name) {
   const std::string mode = first == 't' ? "interleave_top" : "interleave_bottom";
   const std::string words = "-f lavfi -i testsrc2=size=64x48:rate=50 -frames:v " + std::to_string(kFrames) +

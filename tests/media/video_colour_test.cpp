@@ -201,7 +201,7 @@ TEST(VideoColour, StandsUprightInAllEightDirections) {
   }
 }
 
-// Of grey video of more than 8 bits: what a camera put into 16 is not known.
+// What a camera put into the 16 bits of grey video is not known.
 TEST(VideoColour, TellsWhatWhiteIsTakenToBe) {
   NEEDS_FFMPEG();
   const Scratch scratch;

@@ -62,8 +62,8 @@ class Incremental : public test::OfPrecision {
     return work_shape(options(), GetParam(), list_devices().front()).table_rows();
   }
   static constexpr std::uint64_t kRows = kSamples + kSamples / kBlockSamples;
-  // Of one function: a row for each sample and one more for each block, of boundaries and, in whole groups of rows, of
-  // weights; a part and a gain for each block.
+  // What one function takes: a row for each sample and one more for each block, of boundaries and, in whole groups of
+  // rows, of weights; a part and a gain for each block.
   const std::uint64_t column_bytes_ =
       (kRows + align_up(kRows, table_rows())) * weight_bytes(GetParam()) +
       kSamples / kBlockSamples * (sizeof(BlockPart) + weight_bytes(GetParam()));

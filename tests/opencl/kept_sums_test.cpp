@@ -214,7 +214,7 @@ TEST_P(KeptSumsOf, HalvesOfCutBlocksAreKept) {
   }
 }
 
-// Of several functions only those that changed are exposed again, and pictures are those of all.
+// Among several functions only those that changed are exposed again, and pictures are those of all.
 TEST_P(KeptSumsOf, AChangedFunctionAloneIsExposed) {
   SteadyCase random(5);
   MemoryCapture& capture = *random.capture;

@@ -61,7 +61,7 @@ class BuildScene {
 
   [[nodiscard]] MemoryCapture& capture() { return capture_; }
   [[nodiscard]] const RenderPlan& plan() const { return plan_; }
-  // Of the reference.
+  // The reference's.
   [[nodiscard]] const Picture& light() const { return light_; }
 
  private:

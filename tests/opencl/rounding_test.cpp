@@ -159,7 +159,7 @@ TEST(Roundings, OfBoundariesReachTheBoundOfFixed) {
   expect_near_bound(sequence, Precision::fixed, +1, "boundaries by turns");
 }
 
-// Of one sample that shows every code, the one whose light errs most: of a curve, of pieces or of a table.
+// One sample shows every code, and the one counts whose light errs most: by a curve, by pieces or by a table.
 TEST(Roundings, OfLightReachTheBounds) {
   CaptureFormat format;
   format.shape = {256, 256, 1};

@@ -88,7 +88,7 @@ TEST(Trace, StepsFollowEachOtherAndAddUp) {
   }
 }
 
-// Of what is packed only the tiles with a pixel of the region are unpacked.
+// Only the packed tiles with a pixel of the region are unpacked.
 TEST(Trace, ARegionIsTheMeanOfItsPixels) {
   double worst = 0.0;
   std::uint64_t left_out = 0;

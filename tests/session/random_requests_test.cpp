@@ -173,7 +173,7 @@ TEST(RandomRequests, OfFourThreadsGetWhatASessionOfTheirOwnGets) {
   EXPECT_GT(kept, 0u);
   EXPECT_GT(pictures, 0u);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which keep what was freed
-  // Of a second a quarter is too short for allocators and drivers to have seen everything.
+  // A quarter of a second is too short for allocators and drivers to have seen everything.
   if (duration.count() >= 10) {
     EXPECT_LE(grown_mb, kMaxGrowthMb);
   }

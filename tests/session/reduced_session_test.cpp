@@ -81,7 +81,7 @@ TEST_P(ReducedSession, OfSomePicturesHasThoseThatBeginBetweenTwoMoments) {
   });
 }
 
-// Of captures with two rows or more.
+// Captures with two rows or more.
 INSTANTIATE_TEST_SUITE_P(Captures, ReducedSession, testing::Values(0, 1, 2, 3, 4, 6, 8, 9, 10, 11));
 
 }  // namespace

@@ -41,7 +41,7 @@ class SeeingTest : public StudioTest {
         if (each->text().remove('&').startsWith(button)) return each->click();
     });
   }
-  // Of the window's film and the command's, byte for byte, with its recipe.
+  // Compares a frame of the window's film with the command's, byte for byte, with its recipe.
   void expect_same_still(int frame) {
     const auto name = format("{:05}.png", frame);
     const std::string by_window = test::read_file(scratch_ / ("film-" + name));
@@ -379,7 +379,7 @@ TEST_F(SeeingTest, AFilmOfTheRegionsIsExportedAsTheCommandMakesIt) {
   EXPECT_TRUE(window_.notice().text().startsWith("No frame fits")) << window_.notice().text().toStdString();
 }
 
-// Of samples that each have their own time there is nothing to make.
+// Where samples each have their own time there is nothing to make.
 TEST_F(SeeingTest, AFilmOfEventsIsNotTriedWithSamplesBetweenThem) {
   test::Events events;
   for (unsigned k = 0; k < 40; ++k) events.push_back({10'000ull * k, k % 8, k / 8, k % 2 == 0});

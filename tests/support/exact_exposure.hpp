@@ -22,7 +22,7 @@ class ExactExposure {
  public:
   ExactExposure(const RenderPlan& plan, const Timeline& timeline, DrawSample sample);
 
-  // Of value i of the picture; 0 where D is 0.
+  // Value i of the picture; 0 where D is 0.
   [[nodiscard]] Exact light(std::uint64_t i) const;
   [[nodiscard]] const ExactSummary& summary(std::size_t function) const {
     return function_at(function).summary;

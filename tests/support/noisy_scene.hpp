@@ -49,7 +49,7 @@ using Light = std::function<double(std::uint64_t value, std::uint64_t sample)>;
 // differ.
 [[nodiscard]] Light still_wedge(const NoisyCamera& camera, double darkest, double brightest);
 
-// Of grey samples of 16 bits every other pixel becomes the mean of the four beside it, as a camera makes of a mosaic.
+// Every other pixel of grey samples of 16 bits becomes the mean of the four beside it, as a camera makes of a mosaic.
 void interpolate_mosaic(Rasters& rasters, const Shape& shape);
 
 }  // namespace nutik::test

@@ -16,7 +16,7 @@ struct PackedTables {
   std::vector<Number> boundaries;
 };
 
-// Of the planned blocks [first, last). `numbers_of(function, BlockTable)` gives weights and boundaries of the samples
+// For the planned blocks [first, last). `numbers_of(function, BlockTable)` gives weights and boundaries of the samples
 // that the function needs.
 template <typename Number, typename NumbersOf>
 PackedTables<Number> packed(const RenderPlan& plan, std::size_t first, std::size_t last,

@@ -26,7 +26,7 @@ using Render = std::function<Picture(Renderer& renderer, const OutputFormat& out
 
 class PrecisionCheck {
  public:
-  // Of the first device. A device without fused products rounds twice where others round once.
+  // Checks the first device. A device without fused products rounds twice where others round once.
   explicit PrecisionCheck(bool use_fma = true);
 
   [[nodiscard]] std::vector<Precision> precisions() const;

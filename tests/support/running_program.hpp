@@ -39,7 +39,7 @@ class RunningProgram {
 [[nodiscard]] std::vector<std::filesystem::path> files_with(const std::filesystem::path& folder,
                                                             const std::string& part);
 
-// Of what is not whole yet.
+// Counts what is not whole yet.
 [[nodiscard]] std::uintmax_t bytes_so_far(const std::filesystem::path& folder);
 [[nodiscard]] inline bool has_begun_writing(const std::filesystem::path& folder) {
   return bytes_so_far(folder) > 0;

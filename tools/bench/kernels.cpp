@@ -221,8 +221,8 @@ int run(const Settings& settings) {
                 rates.pinned_upload * 1e-9, rates.readback * 1e-9, rates.pinned_readback * 1e-9);
   }
   std::printf("\n");
-  // Of the capture's own memory: on a virtual machine one allocation may be read at twice the rate of
-  // another, and the rate may change from minute to minute. Small captures say nothing: they fit caches.
+  // The capture's own memory is measured: on a virtual machine one allocation may be read at twice the rate of another,
+  // and the rate may change from minute to minute. Small captures say nothing: they fit caches.
   double last_limit = 0.0;
   const auto measure_limit = [&](const SyntheticCapture& capture) {
     const auto memory = capture.memory();

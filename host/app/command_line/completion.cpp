@@ -159,7 +159,7 @@ std::string completion_script(std::string_view shell) {
 //   :files                        any file
 //   :files pgm|png                a file that ends so, or a folder
 //
-// Of --name=VALUE the value alone. Empty where nothing is known, or the words before make no sense.
+// The value alone of --name=VALUE is completed. Empty where nothing is known, or the words before make no sense.
 std::string completions(std::span<const std::string> words) {
   try {
     const Words before = Words::of(words.first(words.size() - 1));

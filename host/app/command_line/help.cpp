@@ -26,7 +26,7 @@ constexpr std::size_t kWidest = 100;  // longer lines are hard to read
 constexpr std::size_t kOptionColumn = 32;
 constexpr std::size_t kCommandColumn = 14;
 
-// Of the terminal, or as COLUMNS says.
+// The terminal's, or what COLUMNS says.
 std::size_t line_width() {
   std::size_t width = kDefault;
   winsize size{};

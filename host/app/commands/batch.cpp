@@ -95,7 +95,7 @@ class Batch {
     devices_->start();
   }
 
-  // Of all lines, before the first of them is exposed: no picture replaces what another line reads.
+  // Takes the inputs of all lines before the first of them is exposed: no picture replaces what another line reads.
   void know_inputs(const ListedExposure& listed, const std::optional<std::string>& capture_name) {
     try {
       Options line = line_options(listed.text, options_, capture_name);

@@ -45,7 +45,7 @@ struct Noted {
   std::string picture;  // its name
   Sums sums;
 
-  // Of nothing where there is no such text.
+  // Notes nothing where there is no such text.
   explicit Noted(const std::filesystem::path& commands) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(commands, error)) return;

@@ -175,7 +175,7 @@ Json function_json(const Trace& trace, const PlannedFunction& function) {
               {"steps", steps}};
 }
 
-// Of a pixel that functions share: its light, and under `functions` each of them.
+// A pixel that functions share: its light, and under `functions` each of them.
 Json trace_json(const TracedExposure& exposure) {
   const std::vector<Trace>& traces = exposure.traces;
   if (traces.size() == 1) return function_json(traces[0], exposure.function_of(traces[0]));

@@ -51,7 +51,7 @@ std::string Progress::line_text(std::uint64_t done) const {
   if (lines_ == ProgressLines::main && total_ > 0) line = format("Progress: {}% ", done * 100 / total_);
   line += format("{} {}", what_, done);
   if (total_ > 0) line += format(" of {}", total_);
-  // Of the first moment a rate says nothing.
+  // In the first moment a rate says nothing.
   if (total_ > 0 && done > 0 && Clock::now() - start_ >= kFirst) line += ", " + rate_text(done);
   return line;
 }

@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 void print_json(const Json& json);
 
 [[nodiscard]] Json shape_json(const Shape& shape);  // `width`, `height`, `channels`
-// Of a capture: `fact`, and `option`, by which retime states otherwise, where it does.
+// A capture's facts: `fact`, and `option`, the one of retime that states otherwise, where there is one.
 [[nodiscard]] Json facts_json(const std::vector<std::string>& lines);
 
 class Stopwatch {
@@ -66,7 +66,7 @@ class ExposureTally {
   // The size that its pictures were written in.
   void wrote(const CaptureFormat& capture, const Shape& written);
 
-  // Of the last one: its arithmetic, by the name that asks for it, and what rendering it did and took, in lines.
+  // The last one's arithmetic, by the name that asks for it, and what rendering it did and took, in lines.
   [[nodiscard]] const std::string& precision() const { return precision_; }
   [[nodiscard]] const std::string& report() const { return report_; }
   // What that may be off by; empty of the reference.

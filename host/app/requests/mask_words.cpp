@@ -113,7 +113,7 @@ MaskStep grid_step(const Said& said, std::optional<std::uint8_t> first_tag) {
   return {{"--grid"}, first, select::Grid{columns, rows}, std::nullopt, {}};
 }
 
-// Of a step that says which pixels; none of another.
+// The selection of a step that says which pixels; none for another step.
 std::optional<Selection> selection_of(const Said& said) {
   if (said.option == "fill") return select::Whole{};
   if (said.option == "rectangle") return rectangle_of(said);
@@ -146,7 +146,7 @@ constexpr std::pair<std::string_view, RegionChange::Kind> kChanges[] = {
     {"within", RegionChange::Kind::within},   {"grow", RegionChange::Kind::grow},
     {"shrink", RegionChange::Kind::shrink},   {"smooth", RegionChange::Kind::smooth}};
 
-// Of a step that changes a region; none of another.
+// The change of a step that changes a region; none for another step.
 std::optional<RegionChange> change_of(const Said& said) {
   for (const auto& [name, kind] : kChanges) {
     if (said.option != name) continue;

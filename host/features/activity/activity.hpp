@@ -27,7 +27,7 @@ struct ActivityRequest {
   bool counts_redrawn = false;
 };
 
-// Of the pixels with a tag.
+// What the pixels with a tag do.
 struct TagActivity {
   std::uint8_t tag = 0;
   std::uint64_t pixel_count = 0;
@@ -61,7 +61,7 @@ struct MeasuredActivity {
 // no pixel counts.
 [[nodiscard]] MeasuredActivity measure_activity(CaptureSource& capture, const ActivityRequest& request,
                                                 const ReportedProgress& progress = {});
-// Of a session's capture and within its memory: throws MemoryTooLittle, too.
+// Measures a session's capture within the session's memory: throws MemoryTooLittle, too.
 [[nodiscard]] MeasuredActivity measure_activity(Session& session, const ActivityRequest& request,
                                                 const ReportedProgress& progress = {});
 

@@ -59,7 +59,7 @@ struct CheckedCapture {
   std::string name;
   CaptureFormat format;
   std::optional<Timeline> timeline;  // not known for clips that do not say how long they are
-  // Of a clip: what it is taken for, and what else a person should know.
+  // What a clip is taken for, and what else a person should know.
   std::vector<Fact> facts = {};
   std::vector<Note> notes = {};
 };

@@ -241,7 +241,7 @@ class MaskMaker {
   const std::function<Picture()>& make_plate_;
   std::optional<Picture> plate_;
   std::optional<Picture> seen_;  // that a subject was found in, until its region is whole
-  // Of samples that a step has looked at: the capture is read once for steps with the same times.
+  // Samples that a step has looked at: the capture is read once for steps with the same times.
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::vector<std::uint32_t>> spans_;
 };
 

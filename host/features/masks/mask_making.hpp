@@ -44,14 +44,14 @@ struct MadeMask {
 // pixel its span, that again while the usual noise is sought, and a few regions.
 [[nodiscard]] MemoryNeeds mask_making_needs(const CaptureFormat& capture);
 
-// Of the size that everything stated agrees on. `capture` is null where no step reads one; `capture_name` is for
-// messages; `plate` makes the capture's plate in codes of the capture, and is asked once where a step needs it. Throws
-// UsageError where nothing tells a size, a step lacks its capture or plate, sizes differ or a time lies outside the capture,
-// InputError where a picture has another size than the mask, or the capture is damaged.
+// The mask has the size that everything stated agrees on. `capture` is null where no step reads one; `capture_name` is
+// for messages; `plate` makes the capture's plate in codes of the capture, and is asked once where a step needs it.
+// Throws UsageError where nothing tells a size, a step lacks its capture or plate, sizes differ or a time lies outside
+// the capture, InputError where a picture has another size than the mask, or the capture is damaged.
 [[nodiscard]] MadeMask make_mask(const MaskRequest& request, CaptureSource* capture,
                                  const std::string& capture_name, const std::function<Picture()>& plate = {});
 
-// Of steps that select no pixel, and of tags that later steps cover.
+// Warns of steps that select no pixel, and of tags that later steps cover.
 [[nodiscard]] std::vector<std::string> warnings_of(const MadeMask& made);
 
 // What a mask's preview lies on: an interval as a plain exposure's, the picture at a start alone, or, with neither, all

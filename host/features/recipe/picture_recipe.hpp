@@ -26,7 +26,7 @@ struct OwnRecipe {
   std::optional<Recipe::Input> mask = {}, mask_to = {};
 };
 
-// Of the single picture that a frame of a video is: when it was exposed, of functions their time 0.
+// What a frame of a video adds to the recipe of a single picture: when it was exposed; with functions, their time 0.
 [[nodiscard]] OwnRecipe own_recipe(const Exposure& exposure, bool is_plain);
 
 class PictureRecipe {

@@ -97,7 +97,7 @@ class Solver {
     }
   }
 
-  // Of all that follows, so that nothing is begun that cannot be ended.
+  // Checks what all that follows takes, so that nothing is begun that cannot be ended.
   void check_memory(SampleRange samples) const {
     tik::Reader& capture = session_.capture();
     std::uint32_t block_samples = 0;
@@ -128,7 +128,7 @@ class Solver {
     fail("no pixel is in its region");
   }
 
-  // Of everything that a candidate may expose, and of the moments that wishes name.
+  // Everything that a candidate may expose, and the moments that wishes name.
   [[nodiscard]] SampleRange needed_samples(const std::vector<CandidateTimes>& candidates) const {
     std::int64_t begin_ns = timeline_.duration_ns(), end_ns = 0;
     const auto add = [&](std::int64_t from_ns, std::int64_t to_ns) {

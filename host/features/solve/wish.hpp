@@ -54,7 +54,7 @@ struct TimeFreedom {
   std::optional<StatedTime> step;  // none: see candidate_times()
 };
 
-// Of one name of a template.
+// The range that is stated for one name of a template.
 struct StatedFreedom {
   std::string name;
   std::variant<Bounds, TimeFreedom> range;

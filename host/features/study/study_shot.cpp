@@ -50,9 +50,9 @@ class ShotPlanner {
     return session;
   }
 
-  // Of a single shot. Where the camera moved, a clip is read once more; also where everything seems to move, for a subject
-  // that fills much of the first picture hides that. Where no motion of the camera explains the pictures, they are shown
-  // as they were filmed, or as they were moved, whichever rests more.
+  // Plans a single shot. Where the camera moved, a clip is read once more; also where everything seems to move, for a
+  // subject that fills much of the first picture hides that. Where no motion of the camera explains the pictures, they
+  // are shown as they were filmed, or as they were moved, whichever rests more.
   [[nodiscard]] PlannedStudy plan(const SourceRequest& source, Session session) const {
     const bool may_align = session.is_clip() && !source.align;
     std::optional<MovedCamera> moved = moved_camera(session.capture());

@@ -36,7 +36,7 @@ class GainPieces {
   std::vector<ControlPoint> points_;
 };
 
-// Of a subject that covers a place of its way for a share of the time, the trail shows so much there.
+// Where a subject covers a place of its way for a share of the time, the trail shows so much of it.
 constexpr double kTrailOpacity = 0.5;
 constexpr double kMaxStrength = 8;  // more shows the noise of the empty scene
 constexpr std::uint64_t kMinEmptySamples = 4;

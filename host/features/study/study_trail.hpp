@@ -23,7 +23,7 @@ namespace nutik {
 // What is shown between moments: as stated, or as the style has it.
 [[nodiscard]] TrailShape trail_shape(const StudyRequest& request);
 
-// Of the moments that were chosen. Sets the study's functions, how strong its trail is and when nothing is there.
+// Sets the study's functions for the chosen moments, how strong its trail is and when nothing is there.
 void add_functions(Study& study, const StudyRequest& request, const Timeline& timeline,
                    const std::vector<SubjectTrack>& tracks);
 

@@ -17,7 +17,7 @@ constexpr Contrast kDefaultContrast{0.2, 0.2};
 constexpr double kMidGrey = 0.18;
 constexpr std::int64_t kEventUnitNs = 1000;
 
-// Of a picture of the same size, the light of each pixel.
+// The light of each pixel of a picture, which has to be of the wanted size.
 std::vector<double> light_of_picture(const std::filesystem::path& path, const Shape& wanted) {
   const std::unique_ptr<Clip> clip = open_clip(path, {});
   const CaptureFormat& picture = clip->info().format;

@@ -39,7 +39,7 @@ class ChangedSamples {
     changes_.push_back(change);
   }
 
-  // Of the tick that a time is in.
+  // When the tick begins that a time is in.
   [[nodiscard]] std::int64_t start_of(std::int64_t time_ns) const { return time_ns / tick_ns_ * tick_ns_; }
   // Room for no more than so many changes in so many samples.
   void reserve(std::uint64_t changes, std::uint64_t samples) {
@@ -66,7 +66,8 @@ class ChangedSamples {
     return exposures;
   }
 
-  // Of so many changes in so many samples, with the times that a clip tells of these and two timelines made of them.
+  // What so many changes in so many samples take, with the times that a clip tells of these and two timelines made of
+  // them.
   [[nodiscard]] static std::uint64_t bytes_of(std::uint64_t changes, std::uint64_t samples) {
     return changes * sizeof(PixelChange) +
            samples * (sizeof(std::int64_t) + sizeof(std::uint64_t) + 3 * sizeof(Exposure));
@@ -122,8 +123,8 @@ void check_event_memory(const EventSizes& sizes, const Shape& shape, const ClipO
 [[nodiscard]] EventLight light_of_events(const CameraEvents& recording, const std::string& name,
                                          const ClipOptions& options, ClipInfo& info);
 
-// Of a raw ADΔER file (adder_events.cpp). `info` is given the codes' format, facts and notes. Throws InputError if the
-// file is no such file or holds no event, UsageError if what is stated cannot be said of it.
+// Reads a raw ADΔER file (adder_events.cpp). `info` is given the codes' format, facts and notes. Throws InputError if
+// the file is no such file or holds no event, UsageError if what is stated cannot be said of it.
 [[nodiscard]] EventLight read_adder_file(std::span<const std::byte> file, const std::string& name,
                                          const ClipOptions& options, ClipInfo& info);
 

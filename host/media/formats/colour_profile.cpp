@@ -105,7 +105,7 @@ std::optional<Transfer> power_of(const cmsToneCurve* curve) {
   }
 }
 
-// Of curves that are alike, which those of channels have to be.
+// The curves are alike, as those of channels have to be.
 std::optional<Transfer> transfer_of(const std::vector<const cmsToneCurve*>& curves) {
   std::vector known{Transfer::srgb(), Transfer::linear(), Transfer::bt709(), Transfer::hlg(), Transfer::pq()};
   if (const auto power = power_of(curves.front())) known.push_back(*power);

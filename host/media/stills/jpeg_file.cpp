@@ -18,7 +18,7 @@
 namespace nutik {
 namespace {
 
-// Of a segment: its length, which counts its own two bytes, has 16 bits.
+// A segment's length, which counts its own two bytes, has 16 bits.
 constexpr std::size_t kMaxCommentBytes = 65'533;
 
 std::string message_of(j_common_ptr jpeg) {

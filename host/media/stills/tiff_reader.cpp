@@ -33,7 +33,7 @@ class PageReader {
   PageReader(TIFF* file, std::string name)
       : file_(file), name_(std::move(name)), file_bytes_(TIFFGetSizeProc(file)(TIFFClientdata(file))) {}
 
-  // Of a page that has no directory of its own the bytes lie so many behind the first one's.
+  // Where a page has no directory of its own, its bytes lie so many behind the first one's.
   TiffPage read(std::uint64_t bytes_behind = 0) {
     bytes_behind_ = bytes_behind;
     read_layout();
@@ -283,7 +283,7 @@ class PageReader {
   std::uint64_t bytes_behind_ = 0;
 };
 
-// Of a page whose codes lie in one piece as they are, their bytes; 0 of any other.
+// The bytes of a page whose codes lie in one piece as they are; 0 for any other.
 std::uint64_t bytes_in_one_piece(TIFF* file) {
   std::uint16_t bits = 0, compression = 0, plane = 0;
   TIFFGetFieldDefaulted(file, TIFFTAG_BITSPERSAMPLE, &bits);

@@ -49,7 +49,7 @@ class TiffReader {
   explicit TiffReader(const std::filesystem::path& path);
   ~TiffReader();
 
-  // Of these one directory may stand for many, whose codes lie one behind the other, as the description says.
+  // One directory may stand for many pages, whose codes lie one behind the other, as the description says.
   [[nodiscard]] std::uint64_t page_count() const { return page_count_; }
   // Whether it says that it is a DNG.
   [[nodiscard]] bool is_dng() const;

@@ -301,7 +301,7 @@ void apply_capture_rate(const CaptureRate& filmed, ClipTiming& timing, std::vect
   const double played = timing.rate ? timing.rate->value() : steady_rate(timing.starts_ns);
   const std::string played_text = timing.rate ? format("{:.6g}", played) : format("{:.3g}", played);
   const double times = played > 0.0 ? filmed.rate.value() / played : 0.0;
-  // Of times that tremble their mean tells more than a period that fits them all.
+  // Where times tremble, their mean tells more than a period that fits them all.
   constexpr double kTremble = 0.05;
   const bool is_mean =
       !timing.rate && std::fabs(filmed.rate.value() / mean_rate(timing.starts_ns) - 1.0) < kTremble;

@@ -17,7 +17,7 @@ struct Containers {
 inline constexpr std::string_view kFilms[] = {
     "apng",   "asf",       "avi", "cine", "dv",  "flv", "gif",    "gxf",     "ivf", "mpeg",
     "mpegts", "mpegvideo", "mxf", "nut",  "ogg", "rm",  "smjpeg", "vc1test", "wtv", "yuv4mpegpipe"};
-// Of several names each.
+// Those with several names each.
 inline constexpr std::string_view kFamilies[] = {"matroska,webm", "mov,mp4,m4a,3gp,3g2,mj2"};
 // Pictures one behind the other, which may say how fast they follow each other; stills, as pipes carry them, do not.
 inline constexpr std::string_view kStreams[] = {"av1",        "avs2", "avs3",     "cavsvideo", "dirac",

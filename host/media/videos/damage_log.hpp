@@ -14,7 +14,7 @@ namespace nutik::videos {
 // From now on what decoders and containers log goes to their DamageLog, and nothing of it to standard error. Once is enough.
 void listen_to_ffmpeg();
 
-// Of one decoder or one opened file, which it outlives. Its threads write, whoever reads pictures asks.
+// Listens to one decoder or one opened file, and outlives it. Their threads write, whoever reads pictures asks.
 class DamageLog {
  public:
   DamageLog() = default;
@@ -22,7 +22,7 @@ class DamageLog {
   DamageLog(const DamageLog&) = delete;
   DamageLog& operator=(const DamageLog&) = delete;
 
-  // Of a decoder that is not open yet: threads have copies of it.
+  // The decoder must not be open yet: its threads have copies of it.
   void listen_to(AVCodecContext& decoder);
   void listen_to(AVFormatContext& file);
 

@@ -16,7 +16,7 @@ enum class FieldOrder { top_first, bottom_first };
 [[nodiscard]] std::string_view to_text(FieldOrder order);
 // What a stream says of its fields; none of progressive video, and where it does not say.
 [[nodiscard]] std::optional<FieldOrder> field_order(AVFieldOrder order);
-// Of an interlaced picture.
+// The order in which an interlaced picture's fields were filmed.
 [[nodiscard]] FieldOrder order_of(const AVFrame& frame);
 
 // A clip of which every picture becomes two: twice as fast, the second half-way to the next picture.
@@ -27,7 +27,7 @@ class Deinterlacer {
   // The one that is worked on, its neighbours in time, and what they become.
   static constexpr std::uint64_t kHeldPictures = 4;
 
-  // Of pictures like this one. Throws InputError naming the file where this FFmpeg lacks the filter.
+  // For pictures like this one. Throws InputError naming the file where this FFmpeg lacks the filter.
   Deinterlacer(const AVFrame& like, bool of_each_field, const std::string& name);
 
   void add(AVFrame& frame);

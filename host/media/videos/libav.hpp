@@ -86,7 +86,7 @@ inline std::uint8_t* new_side_data(AVStream& stream, AVPacketSideDataType type, 
       av_packet_side_data_new(&codec.coded_side_data, &codec.nb_coded_side_data, type, bytes, 0);
   return data == nullptr ? nullptr : data->data;
 }
-// Of a stream without a container, avg_frame_rate is what FFmpeg was told, and r_frame_rate may count fields or ticks.
+// Without a container, a stream's avg_frame_rate is what FFmpeg was told, and r_frame_rate may count fields or ticks.
 inline void set_rates_of_header(AVStream& stream) {
   if (av_cmp_q(stream.avg_frame_rate, kUnstatedRate) != 0) return;
   const AVRational in_header = stream.codecpar->framerate;

@@ -99,7 +99,7 @@ void describe(ClipInfo& info, const Probe& probe, const ClipOptions& options) {
                                 Setting::pixel_aspect, pixel_aspect_text);
 }
 
-// Of a decoded picture.
+// What a decoded picture takes.
 std::uint64_t decoded_bytes(const AVCodecParameters& parameters) {
   const int bytes = av_image_get_buffer_size(static_cast<AVPixelFormat>(parameters.format), parameters.width,
                                              parameters.height, 64);

@@ -57,7 +57,7 @@ class Settings {
     if (av_dict_set(&entries_, name, value, 0) < 0) throw std::bad_alloc();
   }
   AVDictionary** get() { return &entries_; }
-  // Of an entry that is left.
+  // The first of those that are left.
   [[nodiscard]] std::optional<std::string> first_name() const {
     const AVDictionaryEntry* entry = av_dict_get(entries_, "", nullptr, AV_DICT_IGNORE_SUFFIX);
     return entry == nullptr ? std::nullopt : std::optional<std::string>(entry->key);

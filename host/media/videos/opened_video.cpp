@@ -17,7 +17,7 @@ std::int64_t most_pixels_in(const AVFormatContext& context) {
   return bytes < 0 || bytes > kMost / kPixelsAByte ? kMost : std::max(kSmall, bytes * kPixelsAByte);
 }
 
-// Of each stream what is not known before some of its pictures are decoded, which comes before memory is counted.
+// Finds what is not known of each stream before some of its pictures are decoded, which comes before memory is counted.
 // Returns FFmpeg's error code. Throws InputError where a stream states too many pixels.
 int find_stream_info(AVFormatContext& context, const std::string& name) {
   const std::int64_t most = most_pixels_in(context);

@@ -13,11 +13,11 @@ namespace nutik::videos {
 
 class PictureDecoder {
  public:
-  // Of times the pictures are worth nothing: what only makes them look right is left out, and so are those that cannot
-  // be decoded.
+  // Where times are wanted, the pictures are worth nothing: what only makes them look right is left out, and so are
+  // those that cannot be decoded.
   enum class Wanted { pictures, times };
 
-  // Of the stream's packets those that are decoded: where a file was cut, its first ones may refer to pictures that it
+  // Which of the stream's packets are decoded: where a file was cut, its first ones may refer to pictures that it
   // lacks, and its last may not be whole.
   struct Packets {
     std::uint64_t first = 0, end = UINT64_MAX;

@@ -42,8 +42,8 @@ struct KnownRate {
   bool is_stated = false;
 };
 
-// Of pictures at `times`, in order, in units of `time_base` seconds: the first of the rates that fits them, or else the
-// times themselves. Throws InputError where they lie more than 146 years apart.
+// Pictures lie at `times`, in order, in units of `time_base` seconds: the first of the rates that fits them, or else
+// the times themselves. Throws InputError where they lie more than 146 years apart.
 [[nodiscard]] ClipTiming timing_of(const std::vector<std::int64_t>& times, Rational time_base,
                                    std::vector<KnownRate> rates, const std::string& name);
 
@@ -51,7 +51,7 @@ struct KnownRate {
 // pictures the decoder holds back.
 [[nodiscard]] std::vector<std::int64_t> shown_times(const std::vector<PacketTimes>& packets, int delay);
 
-// Of the pictures of a stream, which are shown at `times`: none where nothing tells.
+// The timing of a stream's pictures, which are shown at `times`: none where nothing tells.
 [[nodiscard]] ClipTiming timing_of(const AVFormatContext& file, const AVStream& stream,
                                    const std::vector<std::int64_t>& times, const std::string& name);
 

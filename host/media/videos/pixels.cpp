@@ -164,7 +164,7 @@ bool is_yuv(AVPixelFormat format) {
 }
 
 ChromaWeights chroma_weights(YuvMatrix matrix) {
-  // Of luma that red and blue weigh so much in.
+  // Red and blue weigh so much in luma.
   const auto of_luma = [](double red, double blue) {
     const double red_of_v = 2.0 * (1.0 - red), blue_of_u = 2.0 * (1.0 - blue), green = 1.0 - red - blue;
     return ChromaWeights{0.0, red_of_v, -blue / green * blue_of_u, -red / green * red_of_v, blue_of_u,

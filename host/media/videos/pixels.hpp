@@ -36,7 +36,7 @@ struct Upright {
   int quarter_turns = 0;      // 0 … 3
   std::string left_out = {};  // what else the stream's matrix does, for people
 };
-// Of a display matrix, nine numbers of 32 bits as a stream carries them; empty where it has none.
+// What a display matrix says, which is nine numbers of 32 bits as a stream carries them; empty where it has none.
 [[nodiscard]] Upright upright_of(std::span<const std::uint8_t> display_matrix);
 
 // Where nothing says it: to the left, and between two lines, as in H.264 and most that came after it.
@@ -55,8 +55,8 @@ struct ChromaWeights {
   double limited_span;
 };
 [[nodiscard]] ChromaWeights chroma_weights(YuvMatrix matrix);
-// Of pictures of so many lines, where nothing names another, and in films that are written: BT.709's from 720 on, as most
-// programs have it, else BT.601's.
+// For pictures of so many lines, where nothing names another, and in films that are written: BT.709's from 720 on, as
+// most programs have it, else BT.601's.
 [[nodiscard]] YuvMatrix usual_matrix(std::uint32_t lines);
 // Whether the pixels of a stream are YUV of three components.
 [[nodiscard]] bool is_yuv(AVPixelFormat format);

@@ -228,14 +228,14 @@ std::optional<std::string> cut_picture_note(const AVFormatContext& file, std::sp
   if (kind == "gif" && !bytes.empty() && bytes.back() != std::byte{0x3B})
     return "the file was cut off: a GIF's last byte is missing, and pictures may be";
   if (kind == "matroska,webm") return matroska_cut_note(bytes);
-  // Of discs, with a clock before each, and with a checksum behind each.
+  // Packets alone; as discs have them, with a clock before each; and with a checksum behind each.
   const bool is_whole = size % 188 == 0 || size % 192 == 0 || size % 204 == 0;
   if (kind == "mpegts" && !is_whole)
     return "the file was cut off within one of its packets, and pictures may be missing";
   return {};
 }
 
-// Of a packet that was the last to be read: whether the file has all of it. Broadcasts and discs say it in their own way.
+// Whether the file has all of the packet that was the last to be read. Broadcasts and discs say it in their own way.
 bool is_whole(const AVFormatContext& file, const AVPacket& packet, std::int64_t file_bytes) {
   if ((file.iformat->flags & AVFMT_TS_DISCONT) != 0) return true;
   const std::string_view kind = file.iformat->name;

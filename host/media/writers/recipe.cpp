@@ -66,7 +66,7 @@ bool is_plain(std::string_view name) {
                           picture, nutik::quoted(name)));
 }
 
-// Of `frames/*.png` the folder is part of the name.
+// In `frames/*.png` the folder is part of the name.
 Recipe::Input input_of(const Json& json, const std::string& picture) {
   Recipe::Input input{json.at("name"), json.at("checksum")};
   const std::string_view name = input.name;

@@ -14,7 +14,7 @@ namespace {
 // Two are decoded ahead at least, so that decoding goes on while one is looked at.
 constexpr std::uint64_t kMinRasters = 2;
 constexpr std::uint64_t kMaxReadAhead = 64 << 20;
-// Of a thread that packs: a group of tiles (tik/codec.cpp) plain, in parts, and packed, and the codec's own.
+// What a thread that packs takes: a group of tiles (tik/codec.cpp) plain, in parts, and packed, and the codec's own.
 constexpr std::uint64_t kPackingBytes = 8 << 20;
 
 // The memory of blocks while a clip is encoded, in units of the size at which a block closes. The block being built and

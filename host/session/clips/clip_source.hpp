@@ -48,7 +48,7 @@ struct ClipSource {
   [[nodiscard]] std::string name() const { return input_title(request.path.string()); }
   // As the files announce it; 0: they do not.
   [[nodiscard]] std::uint64_t announced_samples() const { return clip->info().sample_count; }
-  // Of a clip with so many samples. Throws InputError if its rate is unknown.
+  // The clip has so many samples. Throws InputError if its rate is unknown.
   [[nodiscard]] Timeline timeline(std::uint64_t sample_count) const;
   // The same of its own pictures, without those made between them.
   [[nodiscard]] Timeline filmed(std::uint64_t sample_count) const;

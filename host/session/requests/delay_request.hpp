@@ -24,15 +24,15 @@ struct DelayRequest {
 
   Course course = Course::rows;
   StatedTime from, to;
-  // Of a picture:
+  // Either a picture:
   std::string file;
   std::optional<Shared<Picture>> picture;  // read
-  // Of times:
+  // Or times:
   std::shared_ptr<const DelayMap> map;
 
   // Throws UsageError naming `what` for anything else. Reads nothing.
   static DelayRequest parse(std::string_view text, std::string_view what);
-  // Of whole nanoseconds, row by row. Throws UsageError where they are more than there can be different delays.
+  // Times are whole nanoseconds, row by row. Throws UsageError where they are more than there can be different delays.
   static DelayRequest of_times(std::uint32_t width, std::uint32_t height, std::span<const std::int64_t> times_ns);
   // `0s..15ms`
   [[nodiscard]] std::string range_text() const;

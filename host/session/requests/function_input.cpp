@@ -24,7 +24,7 @@
 namespace nutik {
 namespace {
 
-// Of a mask that comes through a pipe: one of 32767 x 32767 pixels.
+// A mask that comes through a pipe: one of 32767 x 32767 pixels.
 constexpr std::size_t kMaxPipedMask = std::size_t{1} << 30;
 
 }  // namespace

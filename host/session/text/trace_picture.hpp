@@ -17,7 +17,7 @@ namespace nutik {
 [[nodiscard]] std::string traced_codes(std::span<const Trace> traces, const CaptureFormat& capture,
                                        const OutputFormat& output);
 
-// Of the live interval, with a margin. `heading` says what was traced; 8-bit colour.
+// Draws the live interval, with a margin. `heading` says what was traced; 8-bit colour.
 [[nodiscard]] Picture trace_picture(const Trace& trace, const PlannedFunction& function,
                                     const std::string& heading);
 

@@ -126,7 +126,7 @@ constexpr std::pair<const char*, const char*> kElsewhere[] = {
     {QT_TR_NOOP("Shift, Ctrl while dragging"), QT_TR_NOOP("a tenth as fast; not drawn to samples")},
     {QT_TR_NOOP("Escape"), QT_TR_NOOP("takes back what is not finished, closes a message")}};
 
-// Of these tables.
+// The words are of these tables.
 QString said(const char* words) { return QCoreApplication::translate("nutik::studio", words); }
 
 constexpr const char* kNormalizations[] = {"support", "integral", "absolute"};
