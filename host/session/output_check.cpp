@@ -123,17 +123,6 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
 
 }  // namespace
 
-std::filesystem::path led_to(std::filesystem::path name) {
-  namespace fs = std::filesystem;
-  constexpr int kMaxLinks = 40;  // as many as the system follows
-  std::error_code unknown;
-  for (int links = 0; links < kMaxLinks && fs::is_symlink(name, unknown); ++links) {
-    name = name.parent_path() / fs::read_symlink(name, unknown);
-  }
-  const fs::path folder = fs::canonical(name.has_parent_path() ? name.parent_path() : ".", unknown);
-  return unknown ? fs::absolute(name).lexically_normal() : folder / name.filename();
-}
-
 void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs,
                   Replacing replacing) {
   const std::string name = output.string();
@@ -177,6 +166,7 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
   if (kind == OutputKind::table && output.extension() != ".csv") {
     throw UsageError(format("{}: tables are written as .csv", name), Advice{", or as - to standard output"});
   }
+  replacing == Replacing::all ? expect_anything(output) : expect_as_it_is(output);
   std::error_code error;
   if (is_absent(output)) return;
   if (std::filesystem::is_directory(output, error)) {

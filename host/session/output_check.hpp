@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "capture/error.hpp"
+#include "system/output_file.hpp"
 
 namespace nutik {
 
@@ -18,12 +19,10 @@ enum class OutputKind { tik, picture, mask, table, video, noise, functions };
 // made again, or all of its kind.
 enum class Replacing { made_by_recipe, all };
 
-// What a name leads to, by links or none, and where nothing is there yet, too: two names of one file have the same.
-[[nodiscard]] std::filesystem::path led_to(std::filesystem::path name);
-
 // Throws UsageError where `output` names one of the inputs, has a name of another kind, would replace a file of
 // another kind (a mask replaces no exposure, which carries a recipe, nor a picture in colour) or one that it
-// may not, or is standard output and that a terminal.
+// may not, or is standard output and that a terminal. Unless it may replace all of its kind, what is there once it has been
+// made has to be what is there now (system/output_file.hpp).
 void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs,
                   Replacing replacing = Replacing::all);
 // The same of a mask, whose file keeps every tag.

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <mutex>
 #include <utility>
 
 #include "capture/error.hpp"
@@ -122,6 +123,23 @@ std::filesystem::path temporary_beside(const std::filesystem::path& path) {
   return path.parent_path() / format(".{}{}", beginning(name, room > taken ? room - taken : 0), ending);
 }
 
+// What may stand under a name when an output gets it: nothing, or this file, unwritten.
+std::optional<OutputFile::Expected> take_expected(const std::filesystem::path& path) {
+  const std::scoped_lock lock(shared_state().expecting_outputs);
+  auto& expected = shared_state().expected_outputs;
+  if (expected.empty()) return std::nullopt;
+  const auto found = expected.find(led_to(path).string());
+  if (found == expected.end()) return std::nullopt;
+  std::optional<OutputFile::Expected> taken(std::in_place, found->second);
+  expected.erase(found);
+  return taken;
+}
+
+bool is_untouched(const struct stat& before, const struct stat& now) {
+  return before.st_dev == now.st_dev && before.st_ino == now.st_ino && before.st_size == now.st_size &&
+         before.st_mtim.tv_sec == now.st_mtim.tv_sec && before.st_mtim.tv_nsec == now.st_mtim.tv_nsec;
+}
+
 }  // namespace
 
 void remove_temporary_files() {
@@ -130,6 +148,27 @@ void remove_temporary_files() {
     if (known->is_there) unlink(known->path.data());
   }
 }
+
+std::filesystem::path led_to(std::filesystem::path name) {
+  namespace fs = std::filesystem;
+  constexpr int kMaxLinks = 40;  // as many as the system follows
+  std::error_code unknown;
+  for (int links = 0; links < kMaxLinks && fs::is_symlink(name, unknown); ++links) {
+    name = name.parent_path() / fs::read_symlink(name, unknown);
+  }
+  const fs::path folder = fs::canonical(name.has_parent_path() ? name.parent_path() : ".", unknown);
+  return unknown ? fs::absolute(name).lexically_normal() : folder / name.filename();
+}
+
+void expect_as_it_is(const std::filesystem::path& output) {
+  struct stat there {};
+  const bool is_there = stat(output.c_str(), &there) == 0;
+  const std::scoped_lock lock(shared_state().expecting_outputs);
+  shared_state().expected_outputs.insert_or_assign(led_to(output).string(),
+                                                   is_there ? OutputFile::Expected(there) : std::nullopt);
+}
+
+void expect_anything(const std::filesystem::path& output) { static_cast<void>(take_expected(output)); }
 
 bool has_kept_output() { return shared_state().has_kept_output; }
 
@@ -151,6 +190,7 @@ OutputFile::OutputFile(std::filesystem::path path, Lasting lasting)
     fail("cannot be created");
   }
   path_ = followed(std::move(path_));
+  expected_ = take_expected(path_);
   // Nobody sees more of it than of what it replaces.
   constexpr mode_t kOurs = 0600, kAsTheUserWants = 0666;
   const mode_t mode = replaced_mode_ ? kOurs : kAsTheUserWants;
@@ -245,25 +285,55 @@ void OutputFile::commit() {
   }
   // What it replaces keeps its mode, but for the bits by which a program runs as its owner: this is another content.
   constexpr mode_t kKept = 01777;
-  if (struct stat before{}; stat(path_.c_str(), &before) == 0) replaced_mode_ = before.st_mode;
+  struct stat there {};
+  const bool is_there = stat(path_.c_str(), &there) == 0;
+  if (is_there) replaced_mode_ = there.st_mode;
   if (replaced_mode_) fchmod(descriptor_, *replaced_mode_ & kKept);
   // Not every file system can; all that can fail to write say so here.
   if (fsync(descriptor_) != 0 && errno != EINVAL) fail("cannot be written");
   // All of it has been read and written by now. It is right, whatever becomes of what it was made of after this.
   check_mapped_files(losses_before_);
-  if (known_ == nullptr) take_name();
-  if (rename(temporary_path_.c_str(), path_.c_str()) != 0) fail("cannot be written");
+  if (expected_ && is_there && !(*expected_ && is_untouched(**expected_, there))) stay_beside();
+  if (expected_ && !is_there) {
+    take_free_name();
+  } else {
+    take_name_beside();
+    if (rename(temporary_path_.c_str(), path_.c_str()) != 0) fail("cannot be written");
+  }
   shared_state().has_kept_output = true;
-  make_unknown(known_);
+  if (known_ != nullptr) make_unknown(known_);
   close(std::exchange(descriptor_, -1));
   keep_name();
 }
 
+// A link replaces nothing that has the name by now.
+void OutputFile::take_free_name() {
+  const bool has_name = known_ == nullptr
+                            ? give_name(descriptor_, path_)
+                            : linkat(AT_FDCWD, temporary_path_.c_str(), AT_FDCWD, path_.c_str(), 0) == 0;
+  if (has_name) {
+    if (known_ != nullptr) unlink(temporary_path_.c_str());
+    return;
+  }
+  if (errno == EEXIST) stay_beside();
+  // Not every file system has links.
+  if (known_ == nullptr || rename(temporary_path_.c_str(), path_.c_str()) != 0) fail("cannot be written");
+}
+
 // No call lets a file without a name replace another: it gets one beside it first.
-void OutputFile::take_name() {
+void OutputFile::take_name_beside() {
+  if (known_ != nullptr) return;
   temporary_path_ = temporary_beside(path_);
   known_ = make_known(temporary_path_.string());
   if (!give_name(descriptor_, temporary_path_)) fail("cannot be written");
+}
+
+void OutputFile::stay_beside() {
+  take_name_beside();
+  make_unknown(std::exchange(known_, nullptr));
+  throw OutputError(format("{} was written by another program meanwhile, and is not replaced; what was made is {}, to be "
+                           "renamed",
+                           path_.string(), temporary_path_.string()));
 }
 
 // The name is the folder's, and reaches the disk with it. A folder that may be written to but not read cannot be asked.

@@ -2,6 +2,8 @@
 // replaces what was there once everything has been written.
 #pragma once
 
+#include <sys/stat.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -22,6 +24,14 @@ struct KnownTemporary;
 // Whether a lasting file of this process got its name. What it was made of was looked at right before.
 [[nodiscard]] bool has_kept_output();
 
+// What a name leads to, by links or none, and where nothing is there yet, too: two names of one file have the same.
+[[nodiscard]] std::filesystem::path led_to(std::filesystem::path name);
+
+// The next output of this name replaces what is there now, and nothing that is put there or written to by then; or, as
+// without a word, whatever is there.
+void expect_as_it_is(const std::filesystem::path& output);
+void expect_anything(const std::filesystem::path& output);
+
 // Removes the temporary files of this process. May be called in a signal handler, if the process then ends.
 void remove_temporary_files();
 
@@ -31,6 +41,7 @@ class OutputFile {
   // written where it lies. `recoverable`, of captures and videos: it has a temporary name while it is written, under which
   // a process that is killed leaves it.
   enum class Lasting { yes, recoverable, no };
+  using Expected = std::optional<struct stat>;  // none: nothing
 
   // Creates the temporary file. It has no name until it is whole (O_TMPFILE) unless it is to be recoverable or the file
   // system has no such files; then, or for the moment of commit(), it is `.<name>.nutik-<16 random digits>.part`, with
@@ -65,8 +76,9 @@ class OutputFile {
   void replace(std::uint64_t offset, std::span<const std::byte> bytes);
 
   // Gives the file its name, once it has reached the disk, and the mode of what it replaces, without set-id bits.
-  // Throws InputError where a file that is mapped was lost since this began, or, in a process that does one work, since
-  // that did (system/mapped_file.hpp).
+  // Throws OutputError where expect_as_it_is() was said and it is not: this file stays beside it under its temporary
+  // name, which the message tells. Throws InputError where a file that is mapped was lost since this began, or, in a
+  // process that does one work, since that did (system/mapped_file.hpp).
   void commit();
 
   // Sends what was written to standard output, and leaves no file behind. Throws as commit() does.
@@ -74,7 +86,9 @@ class OutputFile {
 
  private:
   [[noreturn]] void fail(const char* what) const;
-  void take_name();
+  void take_free_name();
+  void take_name_beside();
+  [[noreturn]] void stay_beside();
   void keep_name() const;
 
   std::filesystem::path path_;
@@ -82,6 +96,7 @@ class OutputFile {
   Lasting lasting_;
   std::function<void()> check_;
   std::optional<std::uint32_t> replaced_mode_;
+  std::optional<Expected> expected_;
   MappedLosses losses_before_ = losses_so_far();
   KnownTemporary* known_ = nullptr;
   int descriptor_ = -1;

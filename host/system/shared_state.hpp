@@ -1,11 +1,15 @@
-// What signal handlers look at, whoever tells them, and whether an output was kept: the only mutable globals. A program and the modules that it
-// loads are each linked with a copy of this room, and use the program's.
+// What signal handlers look at, whoever tells them, what outputs may replace, and whether one was kept: the only mutable
+// globals. A program and the modules that it loads are each linked with a copy of this room, and use the program's.
 #pragma once
+
+#include <sys/stat.h>
 
 #include <atomic>
 #include <csignal>
 #include <cstdint>
+#include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 
 namespace nutik {
@@ -29,6 +33,8 @@ struct SharedState {
   std::atomic<KnownTemporary*> temporaries{nullptr};
   std::mutex registering_temporaries;
 
+  std::mutex expecting_outputs;
+  std::map<std::string, std::optional<struct stat>> expected_outputs;  // by led_to() (system/output_file.hpp)
   std::atomic<bool> has_kept_output{false};
 };
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<WatchedMapping*>::is_always_lock_free);

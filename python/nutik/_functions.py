@@ -330,15 +330,15 @@ def write_functions(path: Path, functions: Mapping[int, FunctionLike]) -> None:
     """Writes a function file, which the command line reads, too.
 
     Parameters:
-    path : the file, which is replaced.
+    path : the file, NAME.fn; a function file that is there is replaced.
     functions : by mask value.
     Raises:
-    OutputError where it cannot be written.
+    UsageError where another file is there, OutputError where it cannot be written.
     Examples:
     >>> nutik.write_functions("box.fn", {128: nutik.boxcar(0, "10ms")})
     """
     lines = [function_of(function, f"functions[{tag}]").text(tag) for tag, function in sorted(functions.items())]
-    _nutik.write_text(path_of(path), "".join(line + "\n" for line in lines))
+    _nutik.write_text(path_of(path), "".join(line + "\n" for line in lines), False)
 
 
 def function_of(given: FunctionLike, what: str, duration: Time = 0) -> Function:

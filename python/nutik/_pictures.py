@@ -208,7 +208,7 @@ class Picture(_HasArray):
         if name.lower().endswith(".npy") and not is_light:
             made = BytesIO()
             np.save(made, self.array)
-            _nutik.write_text(name, made.getvalue())
+            _nutik.write_text(name, made.getvalue(), True)
             return
         try:
             self._held.write(name, quality, keep_pixels)

@@ -10,6 +10,7 @@
 #include "exposure/function_text.hpp"
 #include "mask/layers.hpp"
 #include "parts.hpp"
+#include "session/output_check.hpp"
 #include "session/requests/function_input.hpp"
 #include "system/output_file.hpp"
 
@@ -156,8 +157,10 @@ void bind_functions(py::module_& module) {
     return told_of(read_functions(text, title));
   }, "text"_a, "title"_a);
   module.def("read_functions", [](const std::string& name) { return told_of(read_function_input(name)); }, "path"_a);
-  module.def("write_text", [](const std::string& path, const std::string& text) { write_text(path, text); },
-             "path"_a, "text"_a);
+  module.def("write_text", [](const std::string& path, const std::string& text, bool is_picture) {
+    check_output(path, is_picture ? OutputKind::picture : OutputKind::functions, {});
+    write_text(path, text);
+  }, "path"_a, "text"_a, "is_picture"_a);
   module.def("interval_ns", &interval_ns, "start"_a, "length"_a);
   module.def("nanoseconds", &nanoseconds, "time"_a, "what"_a);
   py::class_<HeldMask>(module, "Mask")

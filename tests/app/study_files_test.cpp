@@ -39,6 +39,10 @@ TEST_F(StudyFiles, AreKeptAsTheyWereChangedByHand) {
     EXPECT_EQ(file(name), changed);
     scratch_.write(name, written);
   }
+  const std::string commands = file("mine.txt");
+  scratch_.write("mine.txt", commands + "# mine\n");
+  expect_says(study("mine.png", "strobe").err, "mine.txt was changed");
+  scratch_.write("mine.txt", commands);
   EXPECT_EQ(study("mine.png", "strobe").status, 0);
 }
 

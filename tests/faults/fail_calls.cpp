@@ -203,7 +203,9 @@ int rename(const char* from, const char* to) noexcept {
 }
 
 int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept {
-  return fails("rename") ? -1 : next_linkat.get()(from_folder, from, to_folder, to, flags);
+  const int result = fails("rename") ? -1 : next_linkat.get()(from_folder, from, to_folder, to, flags);
+  cut_at("rename");
+  return result;
 }
 
 void* mmap64(void* address, std::size_t bytes, int protection, int flags, int descriptor, off64_t offset) {

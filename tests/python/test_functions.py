@@ -86,7 +86,12 @@ class Functions(support.TestCase):
         functions = nutik.parse_functions(support.FUNCTIONS)
         nutik.write_functions(self.path("gains.fn"), functions)
         self.assertEqual(nutik.read_functions(self.path("gains.fn")), functions)
+        nutik.write_functions(self.path("gains.fn"), functions)
         self.run_program("check", "-k", "gains.fn")
+        for name, said in (("clip.mp4", "are written as .fn"), ("clip.fn", "exists and is no function file")):
+            with open(self.path(name), "wb") as film:
+                film.write(b"\0\0\0\x20ftypisom")
+            self.assert_raises(nutik.UsageError, said, nutik.write_functions, self.path(name), functions)
         self.assert_raises(nutik.InputError, "mine:1:18: time 1000000 is not after 2000000", nutik.parse_functions,
                            "M0 [2000000:1], [1000000:1]", name="mine")
         with self.assertWarnsRegex(nutik.NutikWarning, "functions:1:1: .*capital M"):

@@ -39,21 +39,52 @@ TEST(OutputFile, LeavesFilesAloneThatAreCalledAsTemporaryFilesAre) {
   EXPECT_TRUE(fs::is_symlink(scratch / ".a.nutik-120.part"));
 }
 
-// Another process writes the same file at the same time: both are whole, and the later one stays.
+// Another process writes the same file at the same time: both are whole, and the later one stays. Unless nothing else was
+// to be replaced but what was there: then the earlier one stays, and the later one beside it.
 TEST(OutputFile, LeavesAnothersTemporaryFileAlone) {
-  const Scratch scratch;
-  OutputFile first(scratch / "a");
-  first.write("first, still being written");
-  {
-    OutputFile second(scratch / "a");
-    EXPECT_NE(second.temporary_path(), first.temporary_path());
-    second.write("second");
-    second.commit();
+  for (const OutputFile::Lasting lasting : {OutputFile::Lasting::yes, OutputFile::Lasting::recoverable}) {
+    for (const auto& [is_there, is_expected] : {std::pair(false, false), {false, true}, {true, false}, {true, true}}) {
+      const Scratch scratch;
+      if (is_there) scratch.write("a", "before");
+      if (is_expected) expect_as_it_is(scratch / "a");
+      OutputFile first(scratch / "a", lasting);
+      first.write("first, still being written");
+      {
+        OutputFile second(scratch / "a", lasting);
+        EXPECT_NE(second.temporary_path(), first.temporary_path());
+        second.write("second");
+        second.commit();
+      }
+      EXPECT_EQ(test::read_file(scratch / "a"), "second");
+      std::string said;
+      try {
+        first.commit();
+      } catch (const OutputError& error) {
+        said = error.what();
+      }
+      EXPECT_EQ(test::read_file(scratch / "a"), is_expected ? "second" : "first, still being written");
+      EXPECT_EQ(std::distance(fs::directory_iterator(scratch.folder()), fs::directory_iterator()), is_expected ? 2 : 1);
+      if (!is_expected) continue;
+      const std::string path = first.temporary_path().string();
+      EXPECT_NE(said.find("is not replaced; what was made is " + path), std::string::npos) << said;
+      EXPECT_EQ(test::read_file(path), "first, still being written");
+    }
   }
-  EXPECT_EQ(test::read_file(scratch / "a"), "second");
-  first.commit();
-  EXPECT_EQ(test::read_file(scratch / "a"), "first, still being written");
-  EXPECT_EQ(std::distance(fs::directory_iterator(scratch.folder()), fs::directory_iterator()), 1);
+}
+
+// As long as nobody touches it.
+TEST(OutputFile, ReplacesWhatWasExpected) {
+  for (const OutputFile::Lasting lasting : {OutputFile::Lasting::yes, OutputFile::Lasting::recoverable}) {
+    const Scratch scratch;
+    for (const char* text : {"new", "newer"}) {
+      expect_as_it_is(scratch / "a");
+      OutputFile file(scratch / "a", lasting);
+      file.write(text);
+      file.commit();
+      EXPECT_EQ(test::read_file(scratch / "a"), text);
+      EXPECT_EQ(std::distance(fs::directory_iterator(scratch.folder()), fs::directory_iterator()), 1);
+    }
+  }
 }
 
 void write_and_be_killed(const fs::path& path, OutputFile::Lasting lasting) {

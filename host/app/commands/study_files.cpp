@@ -39,6 +39,12 @@ std::string name_of(const std::filesystem::path& file) { return shell_word(file.
 // Files' names, and what they may hold: of a study that was ended, as before or as after it.
 using Sums = std::set<std::pair<std::string, std::string>>;
 
+std::string notes_text(const Sums& sums, const std::string& picture) {
+  std::string text = format("{}{}{}\n", kAboutSums, kPicture, picture);
+  for (const auto& [name, sum] : sums) text += format("{}{} {}\n", kBeforeName, name, sum);
+  return text;
+}
+
 // What the commands' text of an earlier study notes.
 struct Noted {
   std::string text;     // of the commands
@@ -64,7 +70,7 @@ struct Noted {
       }
     }
     text = all.substr(0, notes);
-    is_whole_ = sums.contains({name_of(commands), sum_of(text)});
+    is_whole_ = sums.contains({name_of(commands), sum_of(text)}) && all == text + notes_text(sums, picture);
   }
 
   [[nodiscard]] bool knows(const std::filesystem::path& file) const {
@@ -78,12 +84,6 @@ struct Noted {
  private:
   bool is_whole_ = false;  // the text itself
 };
-
-std::string notes_text(const Sums& sums, const std::filesystem::path& picture) {
-  std::string text = format("{}{}{}\n", kAboutSums, kPicture, name_of(picture));
-  for (const auto& [name, sum] : sums) text += format("{}{} {}\n", kBeforeName, name, sum);
-  return text;
-}
 
 }  // namespace
 
@@ -150,7 +150,7 @@ void StudyFiles::write_regions(const Picture& regions, std::string_view light) {
   std::string text = noted.text.empty() ? std::string(kAboutCommands) : noted.text;
   if (!text.ends_with(kUnfinished)) text += kUnfinished;
   both.emplace(name_of(commands), sum_of(text));
-  write_text(commands, text + notes_text(both, picture));
+  write_text(commands, text + notes_text(both, name_of(picture)));
   write_text(mask, mask_bytes);
   write_text(functions, function_text);
 }
@@ -166,7 +166,7 @@ void StudyFiles::write_commands(std::string_view text) const {
   }
   sums.emplace(name_of(picture), sum_of(content_of(picture)));
   sums.emplace(name_of(commands), sum_of(all));
-  write_text(commands, all + notes_text(sums, picture));
+  write_text(commands, all + notes_text(sums, name_of(picture)));
 }
 
 }  // namespace nutik::app
