@@ -117,6 +117,8 @@ TEST(StillClip, ReadsTiffStacksOfEveryLayout) {
       {"inverted", kGreyShape, 255, {8, false, true}, 255},
       {"inverted, 12 bits", kGreyShape, 4095, {12, false, true}, 4095},
       {"states 4095", kGreyShape, 4095, {16, false, false, false, 4095}, 4095},
+      {"inverted, states 4095", kGreyShape, 4095, {16, false, true, false, 4095}, 4095},
+      {"of undefined values", kGreyShape, 255, {8, false, false, false, 0, 4}, 255},
       {"states a value that occurs", kGreyShape, 5000, {16, false, false, false, 5000}, 65'535},
   };
   for (const Case& tested : cases) {
@@ -348,10 +350,16 @@ TEST(StillClip, RefusesWhatIsDamagedOrOfAnotherKind) {
                  {"medical.png cannot be read", "neither a PNG nor a JPEG begins like that"});
   cv::imwrite((scratch / "alpha.png").string(), cv::Mat::zeros(9, 9, CV_8UC4));
   expect_refused(scratch / "alpha.png", {"alpha.png has 4 channels", "transparency is not"});
-  TiffOptions signed_values;
-  signed_values.sample_format = 2;
-  expect_refused(scratch.write("signed.tif", tiff_file(stills, signed_values)),
-                 {"page 1 of ", "signed.tif cannot be read: it has 16-bit signed values"});
+  for (const auto& [number, word] : {std::pair(2, "signed"), {5, "complex"}, {6, "complex"}}) {
+    TiffOptions of_format;
+    of_format.sample_format = number;
+    expect_refused(scratch.write("a.tif", tiff_file(stills, of_format)),
+                   {"page 1 of ", "a.tif cannot be read: it has 16-bit " + std::string(word) + " values"});
+  }
+  expect_refused(scratch.write("a.tif", tiff_file(test::random_stills(kColourShape, 15, 1, 1), {4})),
+                 {"it is of a kind that is not read (RGB, 4 bits)"});
+  expect_refused(scratch.write("a.tif", tiff_file(stills, {16, false, true, false, 4095})),
+                 {"is above its MaxSampleValue, 4095"});
 }
 
 TEST(StillClip, AStackThatIsCutOffNamesThePage) {
