@@ -492,5 +492,37 @@ TEST(StillClip, OfPngStandsForWhatItsChunksName) {
             "transfer linear, assumed; the file names gamma 3");
 }
 
+// Coding points that say nothing, or what is not known here, leave the word to other chunks.
+TEST(StillClip, OfPngFollowsCodingPointsThatAreKnown) {
+  const Scratch scratch;
+  write_with_opencv(scratch / "a.png", test::random_stills(kColourShape, 255, 1, 3)[0]);
+  const std::string png = test::read_file(scratch / "a.png");
+  const std::string gamma = test::with_chunk(png, "gAMA", std::string("\0\0\xB1\x8F", 4));
+  const std::string srgb = test::with_chunk(png, "sRGB", std::string(1, '\0'));
+  const auto points = [](int primaries, int transfer, int matrix = 0, int range = 1) {
+    return std::string{static_cast<char>(primaries), static_cast<char>(transfer), static_cast<char>(matrix),
+                       static_cast<char>(range)};
+  };
+  const auto expect_facts = [&](const std::string& bytes, const std::string& transfer, const std::string& primaries) {
+    auto facts = test::facts_of(*open_test_clip(scratch.write("b.png", bytes), {}));
+    EXPECT_EQ(facts.at(Setting::transfer).line(), "transfer " + transfer);
+    EXPECT_EQ(facts.at(Setting::primaries).line(), "primaries " + primaries);
+  };
+  for (const auto& unknown : {points(2, 2), points(4, 17), points(2, 16)}) {
+    expect_facts(test::with_chunk(srgb, "cICP", unknown), "srgb, from the file", "bt709, from the file");
+    expect_facts(test::with_chunk(test::with_chunk(png, "cICP", unknown), "sRGB", std::string(1, '\0')),
+                 "srgb, from the file", "bt709, from the file");
+  }
+  expect_facts(test::with_chunk(srgb, "cICP", points(9, 16)), "pq, from the file", "bt2020, from the file");
+  expect_facts(test::with_chunk(png, "cICP", points(2, 16)), "pq, from the file", "bt709, assumed");
+  expect_facts(test::with_chunk(png, "cICP", points(2, 2)), "srgb, assumed", "bt709, assumed");
+  expect_facts(test::with_chunk(gamma, "cICP", points(4, 17)), "srgb, assumed; the file names number 17 of H.273",
+               "bt709, assumed; the file names number 4 of H.273");
+  expect_refused(scratch.write("b.png", test::with_chunk(png, "cICP", points(1, 13, 0, 0))),
+                 {"b.png cannot be read: its cICP says limited range", "-level 6.27451%,92.15686% -depth 16 OUT.png"});
+  expect_refused(scratch.write("b.png", test::with_chunk(png, "cICP", points(1, 13, 1))),
+                 {"b.png cannot be read: its cICP names matrix 1, of codes that are not RGB"});
+}
+
 }  // namespace
 }  // namespace nutik
