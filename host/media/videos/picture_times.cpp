@@ -66,6 +66,17 @@ bool avi_states_rate(std::string_view file) {
   return header != file.npos && !is_zero(header + 8);
 }
 
+// What a picture usually takes, in ticks: in GXF, packets of frames say that they last a field.
+std::int64_t usual_step(const std::vector<PacketTimes>& packets) {
+  std::vector<int128> steps;
+  for (std::size_t i = 1; i < packets.size(); ++i)
+    steps.push_back(static_cast<int128>(packets[i].decoded) - packets[i - 1].decoded);
+  if (steps.empty()) return std::max<std::int64_t>(packets.back().duration, 1);
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::ranges::nth_element(steps, middle);
+  return static_cast<std::int64_t>(std::clamp<int128>(*middle, 1, INT64_MAX));
+}
+
 bool is_timed(const std::vector<PacketTimes>& packets, std::int64_t PacketTimes::*time) {
   return std::ranges::none_of(packets,
                               [&](const PacketTimes& packet) { return packet.*time == AV_NOPTS_VALUE; });
@@ -98,10 +109,10 @@ std::vector<std::int64_t> shown_times(const std::vector<PacketTimes>& packets, i
   if (packets.empty() || !is_timed(packets, &PacketTimes::decoded)) return {};
   const std::size_t held = std::min(packets.size(), static_cast<std::size_t>(std::max(delay, 0)));
   for (std::size_t i = held; i < packets.size(); ++i) times.push_back(packets[i].decoded);
-  const PacketTimes& last = packets.back();
-  for (std::size_t i = 1; i <= held; ++i) {
-    times.push_back(last.decoded + static_cast<std::int64_t>(i) * std::max<std::int64_t>(last.duration, 1));
-  }
+  int128 time = packets.back().decoded;
+  const std::int64_t step = usual_step(packets);
+  for (std::size_t i = 1; i <= held; ++i)
+    times.push_back(static_cast<std::int64_t>(std::min<int128>(time += step, INT64_MAX)));
   return times;
 }
 
