@@ -247,6 +247,14 @@ TEST(ClipTimes, OfFramesThatLastAFieldAreThoseOfFrames) {
   EXPECT_EQ(open_test_clip(scratch / "a.gxf", options)->info().timing.rate, (Rational{25, 1}));
 }
 
+TEST(ClipTimes, OfASinglePictureAreNoClocksTicks) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  const std::string one = "-f lavfi -i testsrc2=s=64x48:r=90000 -frames:v 1 -c:v mjpeg -pix_fmt yuvj420p ";
+  make(scratch, one + "-video_track_timescale 90000 one.mov");
+  expect_clip_refused(scratch / "one.mov", {}, "one.mov does not say how fast it was taken; state the rate");
+}
+
 TEST(ClipTimes, NoRateIsInventedFromThreePictures) {
   NEEDS_FFMPEG();
   const Scratch scratch;

@@ -263,6 +263,20 @@ TEST(Containers, NameWhatIsMissingOrNotKnown) {
       << notes[0].text;
 }
 
+TEST(Containers, OfASongWithACoverHoldNoFilm) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 1 cover.jpg");
+  const std::string song = "-f lavfi -i sine=d=1 -i cover.jpg ", cover = "-disposition:v:0 attached_pic ";
+  make(scratch, song + "-map 0 -map 1 -c:a aac -c:v copy " + cover + "song.m4a");
+  test::expect_clip_refused(scratch / "song.m4a", {}, "song.m4a has no video stream");
+  make(scratch, song + "-f lavfi -i testsrc2=s=32x32:r=25:d=0.04 -map 0 -map 1 -map 2 -c:a aac -c:v:0 copy "
+                       "-c:v:1 mpeg4 " + cover + "film.mp4");
+  const auto clip = open_test_clip(scratch / "film.mp4");
+  EXPECT_EQ(clip->info().format.shape, (Shape{32, 32, 3})) << "the cover was taken";
+  EXPECT_TRUE(clip->info().notes.empty());
+}
+
 // What was lost is a warning, which is said also where notes are not.
 TEST(Containers, ThatWereCutOffWarn) {
   NEEDS_FFMPEG();

@@ -114,6 +114,11 @@ OpenedVideo open_video(const std::filesystem::path& path, const std::optional<Ra
   }
   opened.format.reset(context);
   code = find_stream_info(*context, title);
+  for (unsigned i = 0; i < context->nb_streams; ++i) {
+    AVStream& each = *context->streams[i];
+    const bool is_cover = (each.disposition & AV_DISPOSITION_ATTACHED_PIC) != 0;
+    if (is_cover) each.codecpar->codec_type = AVMEDIA_TYPE_ATTACHMENT;
+  }
   if (code >= 0) code = av_find_best_stream(context, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
   if (code < 0) throw InputError(format("{} has no video stream", title));
   opened.stream = code;

@@ -9,6 +9,7 @@
 namespace nutik::videos {
 namespace {
 
+constexpr double kMostPictures = 10'000;  // a second, that are meant; a clock's ticks are more
 constexpr std::int64_t kLongestSeconds = (std::int64_t{1} << 62) / kSecondNs;
 
 // How far apart the pictures are that lie furthest before and behind where a constant rate puts them, all in units of
@@ -142,7 +143,6 @@ ClipTiming timing_of(const std::vector<std::int64_t>& times, Rational time_base,
 
 std::optional<std::string> doubt_about_rate(const AVFormatContext& file, const AVStream& stream,
                                             std::span<const std::byte> bytes) {
-  constexpr double kMost = 10'000;  // that is meant; a clock's ticks are more
   constexpr std::size_t kHeaderBytes = 1u << 16;
   const std::string_view kind = file.iformat->name;
   const std::string_view start(reinterpret_cast<const char*>(bytes.data()),
@@ -153,7 +153,7 @@ std::optional<std::string> doubt_about_rate(const AVFormatContext& file, const A
       (kind == "gif" && av_cmp_q(stream.avg_frame_rate, {100, kUnstatedDelay}) == 0) ||
       (kind == "yuv4mpegpipe" && !y4m_states_rate(start)) || (kind == "avi" && !avi_states_rate(start));
   if (is_made_up) return "";
-  if (std::ranges::find(kStreams, kind) == std::end(kStreams) || av_q2d(rate) <= kMost) return {};
+  if (std::ranges::find(kStreams, kind) == std::end(kStreams) || av_q2d(rate) <= kMostPictures) return {};
   return format("its header states {:.10g} a second, which are a clock's ticks and no pictures",
                 av_q2d(rate));
 }
@@ -177,6 +177,9 @@ ClipTiming timing_of(const AVFormatContext& file, const AVStream& stream,
     const Rational clock = Rational::of(stream.time_base.num, stream.time_base.den);
     return timing_of(times, clock, std::move(rates), name);
   }
+  // Of a single picture containers may tell no more than their clock, but for a camera's.
+  if (std::string_view(file.iformat->name) != "cine")
+    std::erase_if(rates, [](const KnownRate& known) { return known.rate.value() > kMostPictures; });
   if (!rates.empty()) return of_rate(rates.front().rate);
   return {};
 }
