@@ -67,6 +67,8 @@ class NetpbmReader {
       fail(format("it was cut off: {} x {} pixels need {} bytes, {} are left", shape.width, shape.height, needed,
                   text_.size() - std::min(at_, text_.size())));
     }
+    if (const std::uint64_t more = text_.size() - at_ - needed; more > 0)
+      fail(format("it goes on behind its picture, by {} bytes; write each picture to a file of its own", more));
     Picture picture(shape, ValueType::light32, 0);
     const std::size_t row_bytes = std::size_t{shape.width} * shape.channels * sizeof(float);
     for (std::uint32_t y = shape.height; y-- > 0; at_ += row_bytes)
