@@ -277,6 +277,20 @@ TEST(Containers, OfASongWithACoverHoldNoFilm) {
   EXPECT_TRUE(clip->info().notes.empty());
 }
 
+// FFmpeg knows bitmaps with a new line behind their first letters alone.
+TEST(Containers, OfBitmapsAreKnownByTheirFirstBytes) {
+  const Scratch scratch;
+  for (const char* name : {"a.pbm", "a.dat"}) {
+    for (const std::string& bytes : {std::string("P4 3 2\n\xA0\x40"), std::string("P1 3 2\n101\n010\n")}) {
+      const auto clip = open_test_clip(scratch.write(name, bytes));
+      EXPECT_EQ(clip->info().format.shape, (Shape{3, 2, 1}));
+      const auto rasters = read_all(*clip);
+      ASSERT_EQ(rasters.size(), 1u);
+      for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(std::to_integer<int>(rasters[0][i]), i % 2 == 0 ? 0 : 255) << i;
+    }
+  }
+}
+
 // What was lost is a warning, which is said also where notes are not.
 TEST(Containers, ThatWereCutOffWarn) {
   NEEDS_FFMPEG();

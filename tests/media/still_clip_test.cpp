@@ -97,6 +97,35 @@ TEST(StillClip, TakesTheWhiteCodeOfNetpbm) {
   }
 }
 
+TEST(StillClip, ReadsPam) {
+  const Scratch scratch;
+  const auto pam = [](const Picture& still, const std::string& type) {
+    const std::size_t bytes = still.shape.value_count() * (still.white_code > 255 ? 2 : 1);
+    const std::string raster = netpbm_file(still, false);
+    return "P7\n# in any order\nMAXVAL " + std::to_string(still.white_code) + "\nDEPTH " +
+           std::to_string(still.shape.channels) + "\nTUPLTYPE " + type + "\nHEIGHT 9\nWIDTH 17\nENDHDR\n" +
+           raster.substr(raster.size() - bytes);
+  };
+  for (const std::uint32_t white : {1u, 100u, 255u, 4095u, 65'535u}) {
+    for (const Shape& shape : {kGreyShape, kColourShape}) {
+      const auto stills = test::random_stills(shape, white, 2, white);
+      const std::string type = shape.channels == 3 ? "RGB" : white == 1 ? "BLACKANDWHITE" : "GRAYSCALE";
+      for (const char* name : {"a.pam", "a.dat"}) {
+        const auto clip = open_test_clip(scratch.write(name, pam(stills[0], type) + pam(stills[1], type)), {});
+        EXPECT_EQ(clip->info().format.white_code, white);
+        expect_still_codes(*clip, stills);
+      }
+    }
+  }
+  Picture with_alpha({17, 9, 3}, ValueType::code8, 255);
+  const std::string colour = pam(with_alpha, "RGB");
+  std::string alpha = colour;
+  alpha.replace(alpha.find("DEPTH 3"), 7, "DEPTH 4");
+  expect_refused(scratch.write("a.pam", alpha), {"a.pam cannot be read: it has 4 channels", "transparency is not"});
+  expect_refused(scratch.write("a.pam", colour.substr(0, 40)), {"a.pam cannot be read: it was cut off: its front"});
+  expect_refused(scratch.write("a.pam", colour.substr(0, 200)), {"a.pam cannot be read: it was cut off: 17 x 9"});
+}
+
 TEST(StillClip, ReadsTiffStacksOfEveryLayout) {
   struct Case {
     const char* name;
