@@ -84,8 +84,10 @@ class OutputFile {
   // Sends what was written to standard output, and leaves no file behind. Throws as commit() does.
   void send_to_standard_output();
 
+  // Throws OutputError with the system's reason, which errno has: also for who writes to temporary_path().
+  [[noreturn]] void fail(const char* what = "cannot be written") const;
+
  private:
-  [[noreturn]] void fail(const char* what) const;
   void take_free_name();
   void take_name_beside();
   [[noreturn]] void stay_beside();

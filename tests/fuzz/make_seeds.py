@@ -58,6 +58,7 @@ def stills():
         yield "a.tif", Path(pages).read_bytes()
     yield "a.pgm", b"P5 4 3 4095\n" + bytes(range(24))
     yield "a.pgm", b"P2\n# a comment\n3 2 255\n0 1 2\n3 4 255\n"
+    yield "a.pgm", b"P7\nWIDTH 3\nHEIGHT 2\nDEPTH 1\nMAXVAL 4095\nTUPLTYPE GRAYSCALE\nENDHDR\n" + bytes(12)
     yield "a.ppm", b"P6 2 2 255\n" + bytes(range(12))
     yield "a.ppm", b"P3 1 2 65535 0 1 2 65535 4 5\n"
     light = (deep / 65535).astype(np.float32)

@@ -236,6 +236,25 @@ TEST(ClipTimes, OfAStreamCutInItsMiddleAreThoseOfTheDecodedPictures) {
   EXPECT_GE(compared, 15);
 }
 
+// Packets of GXF say that they last a field, and only their decoding is timed: the picture that a decoder holds at the
+// end would come half a picture early.
+TEST(ClipTimes, OfFramesThatLastAFieldAreThoseOfFrames) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  make(scratch, "-f lavfi -i testsrc2=s=720x576:r=25 -frames:v 8 a.gxf");
+  ClipOptions options;
+  options.interlaced = Interlaced::ignored;
+  EXPECT_EQ(open_test_clip(scratch / "a.gxf", options)->info().timing.rate, (Rational{25, 1}));
+}
+
+TEST(ClipTimes, OfASinglePictureAreNoClocksTicks) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  const std::string one = "-f lavfi -i testsrc2=s=64x48:r=90000 -frames:v 1 -c:v mjpeg -pix_fmt yuvj420p ";
+  make(scratch, one + "-video_track_timescale 90000 one.mov");
+  expect_clip_refused(scratch / "one.mov", {}, "one.mov does not say how fast it was taken; state the rate");
+}
+
 TEST(ClipTimes, NoRateIsInventedFromThreePictures) {
   NEEDS_FFMPEG();
   const Scratch scratch;

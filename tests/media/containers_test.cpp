@@ -263,6 +263,34 @@ TEST(Containers, NameWhatIsMissingOrNotKnown) {
       << notes[0].text;
 }
 
+TEST(Containers, OfASongWithACoverHoldNoFilm) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 1 cover.jpg");
+  const std::string song = "-f lavfi -i sine=d=1 -i cover.jpg ", cover = "-disposition:v:0 attached_pic ";
+  make(scratch, song + "-map 0 -map 1 -c:a aac -c:v copy " + cover + "song.m4a");
+  test::expect_clip_refused(scratch / "song.m4a", {}, "song.m4a has no video stream");
+  make(scratch, song + "-f lavfi -i testsrc2=s=32x32:r=25:d=0.04 -map 0 -map 1 -map 2 -c:a aac -c:v:0 copy "
+                       "-c:v:1 mpeg4 " + cover + "film.mp4");
+  const auto clip = open_test_clip(scratch / "film.mp4");
+  EXPECT_EQ(clip->info().format.shape, (Shape{32, 32, 3})) << "the cover was taken";
+  EXPECT_TRUE(clip->info().notes.empty());
+}
+
+// FFmpeg knows bitmaps with a new line behind their first letters alone.
+TEST(Containers, OfBitmapsAreKnownByTheirFirstBytes) {
+  const Scratch scratch;
+  for (const char* name : {"a.pbm", "a.dat"}) {
+    for (const std::string& bytes : {std::string("P4 3 2\n\xA0\x40"), std::string("P1 3 2\n101\n010\n")}) {
+      const auto clip = open_test_clip(scratch.write(name, bytes));
+      EXPECT_EQ(clip->info().format.shape, (Shape{3, 2, 1}));
+      const auto rasters = read_all(*clip);
+      ASSERT_EQ(rasters.size(), 1u);
+      for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(std::to_integer<int>(rasters[0][i]), i % 2 == 0 ? 0 : 255) << i;
+    }
+  }
+}
+
 // What was lost is a warning, which is said also where notes are not.
 TEST(Containers, ThatWereCutOffWarn) {
   NEEDS_FFMPEG();

@@ -126,6 +126,7 @@ TEST(LightClip, OtherArraysAreRefusedByWhatTheyAre) {
   refused("{'descr': '<f4', 'fortran_order': False, 'shape': (5, 4)}", "it was cut off");
   refused("{'descr': '<f4', 'fortran_order': False, 'shape': (18446744073709551615, 2, 2)}", "it was cut off");
   refused("{'fortran_order': False, 'shape': (5, 4)}", "does not say its descr");
+  refused("{'descr': '|u1', 'fortran_order': False, 'shape': (2, 4)}", "it goes on behind its array, by 56 bytes");
 }
 
 TEST(LightClip, ValuesThatNoCaptureHoldsAreRefusedByTheirPixel) {
@@ -158,7 +159,7 @@ TEST(LightClip, PfmComesInEitherOrderOfBytes) {
   const auto rasters = read_all(*open_test_clip(scratch / "a.pfm", of_white(1.0)));
   const std::uint16_t expected[] = {49'151, 65'535, 16'384, 32'768};  // the lowest row first
   EXPECT_EQ(std::memcmp(rasters.at(0).data(), expected, sizeof expected), 0);
-  for (const char* broken : {"Pf\n2 2\n0\n", "Pf\n2 2\n", "Pf\n2 2\n-1\nabc", "Pf\n0 2\n-1\n"}) {
+  for (const char* broken : {"Pf\n2 2\n0\n", "Pf\n2 2\n", "Pf\n2 2\n-1\nabc", "Pf\n0 2\n-1\n", "Pf\n1 1\n-1\nabcde"}) {
     scratch.write("b.pfm", broken);
     const std::string message = message_of<InputError>([&] { open_test_clip(scratch / "b.pfm", of_white(1.0)); });
     EXPECT_NE(message.find("b.pfm cannot be read"), message.npos) << message;

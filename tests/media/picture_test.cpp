@@ -1,6 +1,9 @@
 // Pictures are read back bit for bit by a second program's reader: OpenCV's.
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
+#include <csignal>
 #include <cstring>
 #include <opencv2/imgcodecs.hpp>
 
@@ -128,6 +131,23 @@ TEST(PictureWriter, ChoosesTheTypeByNameAndWish) {
   refused("a.gif", {}, "not as '.gif'");
   refused("a", {}, "not as ''");
   refused("a.pgm", {}, "holds grey pictures only and this one has colour");
+}
+
+// As on a disk that is full.
+TEST(PictureWriter, SaysWhyItCannotWrite) {
+  const Scratch scratch;
+  const Picture picture = random_picture({64, 64, 3}, ValueType::light32, 1);
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  for (const std::string name : {"p.tif", "p.pfm", "p.npy"}) {
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit few{4096, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &few);
+    const std::string said = test::message_of<OutputError>([&] { write_picture(scratch / name, picture); });
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_EQ(said, (scratch / name).string() + " cannot be written: File too large");
+  }
 }
 
 TEST(PictureWriter, LeavesNothingBehindWhereItCannotWrite) {

@@ -97,6 +97,35 @@ TEST(StillClip, TakesTheWhiteCodeOfNetpbm) {
   }
 }
 
+TEST(StillClip, ReadsPam) {
+  const Scratch scratch;
+  const auto pam = [](const Picture& still, const std::string& type) {
+    const std::size_t bytes = still.shape.value_count() * (still.white_code > 255 ? 2 : 1);
+    const std::string raster = netpbm_file(still, false);
+    return "P7\n# in any order\nMAXVAL " + std::to_string(still.white_code) + "\nDEPTH " +
+           std::to_string(still.shape.channels) + "\nTUPLTYPE " + type + "\nHEIGHT 9\nWIDTH 17\nENDHDR\n" +
+           raster.substr(raster.size() - bytes);
+  };
+  for (const std::uint32_t white : {1u, 100u, 255u, 4095u, 65'535u}) {
+    for (const Shape& shape : {kGreyShape, kColourShape}) {
+      const auto stills = test::random_stills(shape, white, 2, white);
+      const std::string type = shape.channels == 3 ? "RGB" : white == 1 ? "BLACKANDWHITE" : "GRAYSCALE";
+      for (const char* name : {"a.pam", "a.dat"}) {
+        const auto clip = open_test_clip(scratch.write(name, pam(stills[0], type) + pam(stills[1], type)), {});
+        EXPECT_EQ(clip->info().format.white_code, white);
+        expect_still_codes(*clip, stills);
+      }
+    }
+  }
+  Picture with_alpha({17, 9, 3}, ValueType::code8, 255);
+  const std::string colour = pam(with_alpha, "RGB");
+  std::string alpha = colour;
+  alpha.replace(alpha.find("DEPTH 3"), 7, "DEPTH 4");
+  expect_refused(scratch.write("a.pam", alpha), {"a.pam cannot be read: it has 4 channels", "transparency is not"});
+  expect_refused(scratch.write("a.pam", colour.substr(0, 40)), {"a.pam cannot be read: it was cut off: its front"});
+  expect_refused(scratch.write("a.pam", colour.substr(0, 200)), {"a.pam cannot be read: it was cut off: 17 x 9"});
+}
+
 TEST(StillClip, ReadsTiffStacksOfEveryLayout) {
   struct Case {
     const char* name;
@@ -117,6 +146,8 @@ TEST(StillClip, ReadsTiffStacksOfEveryLayout) {
       {"inverted", kGreyShape, 255, {8, false, true}, 255},
       {"inverted, 12 bits", kGreyShape, 4095, {12, false, true}, 4095},
       {"states 4095", kGreyShape, 4095, {16, false, false, false, 4095}, 4095},
+      {"inverted, states 4095", kGreyShape, 4095, {16, false, true, false, 4095}, 4095},
+      {"of undefined values", kGreyShape, 255, {8, false, false, false, 0, 4}, 255},
       {"states a value that occurs", kGreyShape, 5000, {16, false, false, false, 5000}, 65'535},
   };
   for (const Case& tested : cases) {
@@ -348,10 +379,16 @@ TEST(StillClip, RefusesWhatIsDamagedOrOfAnotherKind) {
                  {"medical.png cannot be read", "neither a PNG nor a JPEG begins like that"});
   cv::imwrite((scratch / "alpha.png").string(), cv::Mat::zeros(9, 9, CV_8UC4));
   expect_refused(scratch / "alpha.png", {"alpha.png has 4 channels", "transparency is not"});
-  TiffOptions signed_values;
-  signed_values.sample_format = 2;
-  expect_refused(scratch.write("signed.tif", tiff_file(stills, signed_values)),
-                 {"page 1 of ", "signed.tif cannot be read: it has 16-bit signed values"});
+  for (const auto& [number, word] : {std::pair(2, "signed"), {5, "complex"}, {6, "complex"}}) {
+    TiffOptions of_format;
+    of_format.sample_format = number;
+    expect_refused(scratch.write("a.tif", tiff_file(stills, of_format)),
+                   {"page 1 of ", "a.tif cannot be read: it has 16-bit " + std::string(word) + " values"});
+  }
+  expect_refused(scratch.write("a.tif", tiff_file(test::random_stills(kColourShape, 15, 1, 1), {4})),
+                 {"it is of a kind that is not read (RGB, 4 bits)"});
+  expect_refused(scratch.write("a.tif", tiff_file(stills, {16, false, true, false, 4095})),
+                 {"is above its MaxSampleValue, 4095"});
 }
 
 TEST(StillClip, AStackThatIsCutOffNamesThePage) {
@@ -482,6 +519,38 @@ TEST(StillClip, OfPngStandsForWhatItsChunksName) {
   scratch.write("bare.png", png);
   EXPECT_EQ(open_test_clip(scratch / "bare.png")->info().facts[1].line(),
             "transfer linear, assumed; the file names gamma 3");
+}
+
+// Coding points that say nothing, or what is not known here, leave the word to other chunks.
+TEST(StillClip, OfPngFollowsCodingPointsThatAreKnown) {
+  const Scratch scratch;
+  write_with_opencv(scratch / "a.png", test::random_stills(kColourShape, 255, 1, 3)[0]);
+  const std::string png = test::read_file(scratch / "a.png");
+  const std::string gamma = test::with_chunk(png, "gAMA", std::string("\0\0\xB1\x8F", 4));
+  const std::string srgb = test::with_chunk(png, "sRGB", std::string(1, '\0'));
+  const auto points = [](int primaries, int transfer, int matrix = 0, int range = 1) {
+    return std::string{static_cast<char>(primaries), static_cast<char>(transfer), static_cast<char>(matrix),
+                       static_cast<char>(range)};
+  };
+  const auto expect_facts = [&](const std::string& bytes, const std::string& transfer, const std::string& primaries) {
+    auto facts = test::facts_of(*open_test_clip(scratch.write("b.png", bytes), {}));
+    EXPECT_EQ(facts.at(Setting::transfer).line(), "transfer " + transfer);
+    EXPECT_EQ(facts.at(Setting::primaries).line(), "primaries " + primaries);
+  };
+  for (const auto& unknown : {points(2, 2), points(4, 17), points(2, 16)}) {
+    expect_facts(test::with_chunk(srgb, "cICP", unknown), "srgb, from the file", "bt709, from the file");
+    expect_facts(test::with_chunk(test::with_chunk(png, "cICP", unknown), "sRGB", std::string(1, '\0')),
+                 "srgb, from the file", "bt709, from the file");
+  }
+  expect_facts(test::with_chunk(srgb, "cICP", points(9, 16)), "pq, from the file", "bt2020, from the file");
+  expect_facts(test::with_chunk(png, "cICP", points(2, 16)), "pq, from the file", "bt709, assumed");
+  expect_facts(test::with_chunk(png, "cICP", points(2, 2)), "srgb, assumed", "bt709, assumed");
+  expect_facts(test::with_chunk(gamma, "cICP", points(4, 17)), "srgb, assumed; the file names number 17 of H.273",
+               "bt709, assumed; the file names number 4 of H.273");
+  expect_refused(scratch.write("b.png", test::with_chunk(png, "cICP", points(1, 13, 0, 0))),
+                 {"b.png cannot be read: its cICP says limited range", "-level 6.27451%,92.15686% -depth 16 OUT.png"});
+  expect_refused(scratch.write("b.png", test::with_chunk(png, "cICP", points(1, 13, 1))),
+                 {"b.png cannot be read: its cICP names matrix 1, of codes that are not RGB"});
 }
 
 }  // namespace

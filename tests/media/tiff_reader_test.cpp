@@ -115,23 +115,27 @@ INSTANTIATE_TEST_SUITE_P(All, TiffKinds,
                                          TiffKind{8, 3, true, true}, TiffKind{16, 3, false, true},
                                          TiffKind{8, 3, false, false}));
 
+void write_palette(const std::filesystem::path& path, const std::string& description) {
+  const TiffFile file = begun(path, {8, 1, false, false});
+  TIFFSetField(file.get(), TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_PALETTE);
+  TIFFSetField(file.get(), TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+  TIFFSetField(file.get(), TIFFTAG_IMAGEDESCRIPTION, description.c_str());
+  std::vector<std::uint16_t> red(256), green(256), blue(256);
+  for (std::uint16_t i = 0; i < 256; ++i) {
+    red[i] = static_cast<std::uint16_t>(i << 8);
+    green[i] = static_cast<std::uint16_t>((255 - i) << 8);
+    blue[i] = 0x1200;
+  }
+  TIFFSetField(file.get(), TIFFTAG_COLORMAP, red.data(), green.data(), blue.data());
+  for (std::uint32_t y = 0; y < kPageHeight; ++y) {
+    TIFFWriteScanline(file.get(), packed({8, 1, false, false}, 0, y, kPageWidth, 1, 0).data(), y, 0);
+  }
+}
+
 // A palette's colours, as libtiff shows them: the upper half of 16 bits.
 TEST(TiffPalette, GivesItsColours) {
   const test::Scratch scratch;
-  {
-    const TiffFile file = begun(scratch / "a.tif", {8, 1, false, false});
-    TIFFSetField(file.get(), TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_PALETTE);
-    std::vector<std::uint16_t> red(256), green(256), blue(256);
-    for (std::uint16_t i = 0; i < 256; ++i) {
-      red[i] = static_cast<std::uint16_t>(i << 8);
-      green[i] = static_cast<std::uint16_t>((255 - i) << 8);
-      blue[i] = 0x1200;
-    }
-    TIFFSetField(file.get(), TIFFTAG_COLORMAP, red.data(), green.data(), blue.data());
-    for (std::uint32_t y = 0; y < kPageHeight; ++y) {
-      TIFFWriteScanline(file.get(), packed({8, 1, false, false}, 0, y, kPageWidth, 1, 0).data(), y, 0);
-    }
-  }
+  write_palette(scratch / "a.tif", "");
   const Picture picture = TiffReader(scratch / "a.tif").next()->picture;
   ASSERT_EQ(picture.shape, (Shape{kPageWidth, kPageHeight, 3}));
   const auto codes = picture.values<std::uint8_t>();
@@ -143,6 +147,41 @@ TEST(TiffPalette, GivesItsColours) {
       ASSERT_EQ(codes[at + 2], 0x12);
     }
   }
+}
+
+// ImageJ writes one directory for all pictures of a stack: each would be the first.
+TEST(TiffPalette, OfPicturesBehindOneAnotherIsRefused) {
+  const test::Scratch scratch;
+  write_palette(scratch / "a.tif", "ImageJ=1.53t\nimages=5\nslices=5\n");
+  scratch.write("a.tif", test::read_file(scratch / "a.tif") + std::string(4 * kPageWidth * kPageHeight, '\0'));
+  test::expect_error<InputError>([&] { return TiffReader(scratch / "a.tif"); },
+                                 {"a.tif holds 5 pictures behind one another, as its description by ImageJ says"});
+}
+
+TEST(TiffColours, OfCmykAreNamed) {
+  const test::Scratch scratch;
+  {
+    const TiffFile file = begun(scratch / "a.tif", {8, 4, false, false});
+    TIFFSetField(file.get(), TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_SEPARATED);
+    std::vector<std::uint8_t> row(4 * kPageWidth);
+    for (std::uint32_t y = 0; y < kPageHeight; ++y) TIFFWriteScanline(file.get(), row.data(), y, 0);
+  }
+  test::expect_error<InputError>([&] { return TiffReader(scratch / "a.tif").next(); }, {"its colours are CMYK"});
+}
+
+TEST(TiffStory, OfImageJCountsTimeInItsUnit) {
+  const auto rate_in = [](const std::string& unit) {
+    return read_tiff_story("ImageJ=1.53t\nimages=5\nfps=7\nfinterval=2" + unit + "\nloop=false\n", {1, 1, 1}).rate;
+  };
+  for (const auto& [unit, rate] : {std::pair("", Rational{1, 2}),
+                                   {"\ntunit=sec", {1, 2}},
+                                   {"\ntunit=ms", {500, 1}},
+                                   {"\ntunit=us", {500'000, 1}},
+                                   {"\ntunit=\xC2\xB5s", {500'000, 1}},
+                                   {"\ntunit=ns", {500'000'000, 1}},
+                                   {"\ntunit=min", {1, 120}}})
+    EXPECT_EQ(rate_in(unit), rate) << unit;
+  EXPECT_EQ(rate_in("\ntunit=hr"), std::nullopt) << "neither of another unit, nor that at which it is shown";
 }
 
 }  // namespace

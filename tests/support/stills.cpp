@@ -36,7 +36,8 @@ class Bytes {
 std::string tiff_values(const Picture& page, const TiffOptions& options, std::uint32_t first_channel,
                         std::uint32_t channels) {
   Bytes bytes(options.big_endian);
-  const std::uint32_t full = (1u << options.bits) - 1;
+  const auto stated = static_cast<std::uint32_t>(options.max_sample_value);
+  const std::uint32_t full = stated != 0 ? stated : (1u << options.bits) - 1;
   for (std::uint32_t y = 0; y < page.shape.height; ++y) {
     std::uint64_t window = 0;
     int held = 0;

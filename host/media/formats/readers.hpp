@@ -16,7 +16,7 @@ namespace nutik::readers {
 struct Reader {
   std::string_view name;
   // First bytes; ends of names, each between blanks; what else, for people: one of them recognizes a file.
-  std::array<std::string_view, 4> starts;
+  std::array<std::string_view, 5> starts;
   std::string_view extensions, otherwise;
   // For people. `none`: nothing in such files tells it.
   std::string_view times, shutter, codes, orientation, alpha, order;
@@ -61,8 +61,8 @@ inline constexpr Reader kDng{
     "DNG", {}, " .dng ", "a TIFF's `DNGVersion`", "the first one's `FrameRate`; EXIF, in a table", "`ExposureTime`, if alike; EXIF, in a table",
     "developed by the first one's black, white and colours: RGB over 16 bits, linear", "`Orientation`", "none", "one picture"};
 inline constexpr Reader kNetpbm{
-    "Netpbm", {"P2", "P3", "P5", "P6"}, " .pgm .ppm .pnm ", {}, "none", "none", "as stored, white is its maximum", "none",
-    "none", "one behind the other", " \t\r\n"};
+    "Netpbm", {"P2", "P3", "P5", "P6", "P7"}, " .pgm .ppm .pnm .pam ", {}, "none", "none",
+    "as stored, white is its maximum", "none", "none", "one behind the other", " \t\r\n"};
 inline constexpr Reader kExr{
     "OpenEXR", {"\x76\x2F\x31\x01"}, " .exr ", {}, "none", "none",
     "floating-point light, over 16 bits by the white that you state", "as it lies", "refused", "one picture"};

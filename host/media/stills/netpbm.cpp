@@ -67,6 +67,8 @@ class NetpbmReader {
       fail(format("it was cut off: {} x {} pixels need {} bytes, {} are left", shape.width, shape.height, needed,
                   text_.size() - std::min(at_, text_.size())));
     }
+    if (const std::uint64_t more = text_.size() - at_ - needed; more > 0)
+      fail(format("it goes on behind its picture, by {} bytes; write each picture to a file of its own", more));
     Picture picture(shape, ValueType::light32, 0);
     const std::size_t row_bytes = std::size_t{shape.width} * shape.channels * sizeof(float);
     for (std::uint32_t y = shape.height; y-- > 0; at_ += row_bytes)
@@ -92,17 +94,22 @@ class NetpbmReader {
       fail("it is a capture (.tik), whose front shows its first sample alone; expose a picture from it");
     }
     const char kind = text_[1];
-    if (kind != '2' && kind != '3' && kind != '5' && kind != '6') {
-      fail(format("it is a P{}; PGM (P2, P5) and PPM (P3, P6) are read", kind));
+    if (kind != '2' && kind != '3' && kind != '5' && kind != '6' && kind != '7') {
+      fail(format("it is a P{}; PGM (P2, P5), PPM (P3, P6) and PAM (P7) are read", kind));
     }
     at_ = 2;
     Shape shape;
-    shape.width = number("width", kLargestNetpbmSide);
-    shape.height = number("height", kLargestNetpbmSide);
-    shape.channels = kind == '3' || kind == '6' ? 3 : 1;
-    const std::uint32_t maximum = number("maximum", 65'535);
+    std::uint32_t maximum = 0;
+    if (kind == '7') {
+      read_pam_lines(shape, maximum);
+    } else {
+      shape.width = number("width", kLargestNetpbmSide);
+      shape.height = number("height", kLargestNetpbmSide);
+      shape.channels = kind == '3' || kind == '6' ? 3 : 1;
+      maximum = number("maximum", 65'535);
+    }
     if (shape.width == 0 || shape.height == 0 || maximum == 0) fail("its size or maximum is 0");
-    const bool raw = kind == '5' || kind == '6';
+    const bool raw = kind == '5' || kind == '6' || kind == '7';
     const std::uint64_t value_size = maximum > 255 ? 2 : 1;
     // Before anything is allocated: a raw picture's bytes are all there, a plain one has two a value.
     const std::uint64_t needed = shape.value_count() * (raw ? value_size : 2);
@@ -112,6 +119,30 @@ class NetpbmReader {
                   needed, text_.size() - std::min(at_, text_.size())));
     }
     return {shape, maximum, raw};
+  }
+
+  // Lines in any order, of which TUPLTYPE says no more than DEPTH does, up to ENDHDR.
+  void read_pam_lines(Shape& shape, std::uint32_t& maximum) {
+    shape.channels = 0;
+    for (std::string_view word; word != "ENDHDR";) {
+      skip_space();
+      word = text_.substr(at_, text_.find_first_of(" \t\r\n", at_) - at_);
+      if (word.empty()) fail("it was cut off: its front has no end");
+      at_ += word.size();
+      if (word == "WIDTH") {
+        shape.width = number("width", kLargestNetpbmSide);
+      } else if (word == "HEIGHT") {
+        shape.height = number("height", kLargestNetpbmSide);
+      } else if (word == "DEPTH") {
+        shape.channels = number("depth", 65'535);
+      } else if (word == "MAXVAL") {
+        maximum = number("maximum", 65'535);
+      } else if (word != "ENDHDR") {
+        at_ = std::min(text_.find('\n', at_), text_.size());
+      }
+    }
+    if (shape.channels == 1 || shape.channels == 3) return;
+    fail(format("it has {} channels; grey (1) and colour (3) are read, transparency is not", shape.channels));
   }
 
   [[noreturn]] void fail(const std::string& why) const {

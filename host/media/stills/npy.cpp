@@ -91,6 +91,10 @@ NpyFront read_npy_front(std::span<const std::byte> file, const std::string& name
     fail(name, format("it was cut off: it states {} pictures of {} x {} pixels, and {} bytes are left", front.pictures,
                       front.shape.width, front.shape.height, left));
   }
+  if (left > front.pictures * picture) {
+    fail(name, format("it goes on behind its array, by {} bytes; write several as one: numpy.stack(arrays)",
+                      left - front.pictures * picture));
+  }
   return front;
 }
 

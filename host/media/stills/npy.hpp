@@ -20,7 +20,7 @@ struct NpyFront {
 };
 
 // Arrays of uint8 and uint16 are codes, of float32 and float64 light. Throws InputError naming `name` where it is of
-// another type or order, has other axes, or was cut off.
+// another type or order, has other axes, was cut off, or goes on behind it.
 [[nodiscard]] NpyFront read_npy_front(std::span<const std::byte> file, const std::string& name);
 // One of its pictures, from 0.
 [[nodiscard]] Picture read_npy(std::span<const std::byte> file, const std::string& name, std::uint64_t number);

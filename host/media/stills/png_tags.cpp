@@ -2,15 +2,49 @@
 
 #include <algorithm>
 
+#include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/formats/coding_points.hpp"
 #include "media/formats/file_kinds.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::stills {
+namespace {
+
+// Primaries, transfer function, matrix and range, a byte each. Where both of the first are known, they go before what
+// other chunks say. Throws InputError where the codes are none that are read.
+bool follow_coding_points(PngTags& tags, std::string_view points, std::uint64_t bits, const std::string& name) {
+  constexpr unsigned kUnspecified = 2;
+  const auto number = [&](std::size_t at) { return unsigned{static_cast<unsigned char>(points[at])}; };
+  if (number(2) != 0) {
+    throw InputError(format("{} cannot be read: its cICP names matrix {}, of codes that are not RGB; save it as RGB",
+                            name, number(2)));
+  }
+  if (number(3) == 0) {
+    const double unit = bits == 16 ? 256 : 1, percent = 100 / (256 * unit - 1);
+    throw InputError(format("{} cannot be read: its cICP says limited range, and stills of full range are read: "
+                            "magick IN.png -level {:.5f}%,{:.5f}% -depth 16 OUT.png makes one; then state its transfer",
+                            name, 16 * unit * percent, 235 * unit * percent),
+                     {Setting::transfer});
+  }
+  const auto primaries = primaries_of_coding_point(number(0));
+  const auto transfer = transfer_of_coding_point(number(1));
+  const auto unread = [&](std::size_t at) {
+    return number(at) == kUnspecified ? std::string() : format("number {} of H.273", number(at));
+  };
+  if (!primaries) tags.unread_primaries = unread(0);
+  if (!transfer) tags.unread_transfer = unread(1);
+  const bool are_known = primaries && transfer;
+  if (are_known || !tags.primaries) tags.primaries = primaries;
+  if (are_known || !tags.transfer) tags.transfer = transfer;
+  return are_known;
+}
+
+}  // namespace
+
 // Chunks: u32 length, four letters, so many bytes, a checksum.
 PngTags read_png_tags(const std::filesystem::path& file) {
-  constexpr std::size_t kSignature = 8, kFrame = 12, kData = 8;
+  constexpr std::size_t kSignature = 8, kFrame = 12, kData = 8, kBits = 24;
   constexpr double kGammaParts = 100'000;
   const MappedFile mapped(file);
   const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
@@ -24,13 +58,11 @@ PngTags read_png_tags(const std::filesystem::path& file) {
     if (name == "eXIf") tags.orientation = exif_orientation(data);
     if (name == "tRNS") tags.has_clear_code = true;
     if (name == "cICP" && length == 4) {
-      has_coding_points = true;
-      tags.primaries = primaries_of_coding_point(static_cast<unsigned char>(data[0]));
-      tags.transfer = transfer_of_coding_point(static_cast<unsigned char>(data[1]));
+      has_coding_points = follow_coding_points(tags, data, big_endian(bytes, kBits, 1), file.string());
     } else if (name == "sRGB" && !has_coding_points) {
       tags.transfer = Transfer::srgb();
       tags.primaries = Primaries::bt709;
-    } else if (name == "gAMA" && length == 4) {
+    } else if (name == "gAMA" && length == 4 && tags.unread_transfer.empty()) {
       tags.unread_transfer = format("gamma {:.4g}", kGammaParts / static_cast<double>(std::max<std::uint64_t>(big_endian(data, 0, 4), 1)));
     } else if (name == "iCCP") {
       tags.has_profile = true;

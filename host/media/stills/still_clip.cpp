@@ -192,6 +192,7 @@ void add_tags(const std::filesystem::path& file, const PngTags& tags, Still& sti
   still.transfer = tags.transfer;
   still.primaries = tags.primaries;
   if (!tags.transfer) still.unread_transfer = tags.unread_transfer;
+  if (!tags.primaries) still.unread_primaries = tags.unread_primaries;
   if (tags.density) still.pixel_aspect = aspect_of(tags.density->first, tags.density->second);
   const MappedFile mapped(file);
   const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());

@@ -25,11 +25,12 @@ struct PngTags {
   bool has_profile = false;                          // iCCP, which goes before sRGB and not before cICP
   unsigned orientation = 1;                          // of eXIf, as EXIF numbers them
   bool has_clear_code = false;                       // tRNS
-  std::string unread_transfer;                       // gAMA alone, which programs write without being asked
+  std::string unread_transfer;                       // of cICP, else gAMA alone, which nobody asks programs for
+  std::string unread_primaries;                      // of cICP
   std::optional<std::pair<double, double>> density;  // pixels on a length, across and down
 };
 
-// Nothing of what is no PNG.
+// Nothing of what is no PNG. Throws InputError where its codes are of limited range, or no RGB.
 [[nodiscard]] PngTags read_png_tags(const std::filesystem::path& file);
 
 [[nodiscard]] StillTimes read_exif_times(const std::filesystem::path& file);

@@ -3,6 +3,7 @@
 #include <tiffio.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <memory>
 #include <vector>
 
@@ -75,13 +76,15 @@ template <typename Write>
 void write_pages(const OutputFile& file, std::uint64_t bytes, std::size_t pages, const Write& write_one) {
   TIFFSetErrorHandler(nullptr);  // what matters is thrown
   TIFFSetWarningHandler(nullptr);
-  const std::filesystem::path& path = file.temporary_path();
-  const std::unique_ptr<TIFF, CloseTiff> tiff(TIFFOpen(path.c_str(), pages * bytes > kLargestClassicTiff ? "w8" : "w"));
+  errno = 0;
+  const char* const mode = pages * bytes > kLargestClassicTiff ? "w8" : "w";
+  const std::unique_ptr<TIFF, CloseTiff> tiff(TIFFOpen(file.temporary_path().c_str(), mode));
   bool is_written = tiff != nullptr;
   for (std::size_t page = 0; is_written && page < pages; ++page)
     is_written = write_one(tiff.get(), page) && (page + 1 == pages || TIFFWriteDirectory(tiff.get()) == 1);
-  if (!is_written || TIFFFlush(tiff.get()) == 0)
-    throw OutputError(format("the TIFF cannot be written: {}", path.string()));
+  if (is_written && TIFFFlush(tiff.get()) != 0) return;
+  if (errno != 0) file.fail();
+  throw OutputError("the TIFF cannot be written, and libtiff does not say why");
 }
 
 }  // namespace

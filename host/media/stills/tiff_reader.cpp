@@ -33,6 +33,12 @@ class PageReader {
   PageReader(TIFF* file, std::string name)
       : file_(file), name_(std::move(name)), file_bytes_(TIFFGetSizeProc(file)(TIFFClientdata(file))) {}
 
+  // Whether its values are codes as they stand, which others of its kind may follow without a directory.
+  bool holds_codes_as_they_stand() {
+    read_layout();
+    return is_plain();
+  }
+
   // Where a page has no directory of its own, its bytes lie so many behind the first one's.
   TiffPage read(std::uint64_t bytes_behind = 0) {
     bytes_behind_ = bytes_behind;
@@ -82,19 +88,22 @@ class PageReader {
       fail(format("it states {} x {} pixels, which its {} bytes do not hold; it is damaged or was cut off",
                   shape_.width, shape_.height, file_bytes_));
     }
+    if (photometric_ == PHOTOMETRIC_SEPARATED) fail("its colours are CMYK; grey and RGB are read");
     if (shape_.channels != 1 && shape_.channels != 3) {
       fail(format("it has {} channels; grey (1) and colour (3) are read, transparency is not",
                   shape_.channels));
     }
-    const auto sample_format = field<std::uint16_t>(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
+    auto sample_format = field<std::uint16_t>(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
+    if (sample_format == SAMPLEFORMAT_VOID) sample_format = SAMPLEFORMAT_UINT;  // undefined, as if there were no tag
     is_light_ = sample_format == SAMPLEFORMAT_IEEEFP && (bits_ == 32 || bits_ == 64);
     if (!is_light_ && (bits_ > 16 || sample_format != SAMPLEFORMAT_UINT)) {
       fail(format("it has {}-bit {} values; whole numbers without sign of up to 16 bits are read, and floating point "
                   "of 32 and 64",
                   bits_,
-                  sample_format == SAMPLEFORMAT_INT      ? "signed"
-                  : sample_format == SAMPLEFORMAT_IEEEFP ? "floating-point"
-                                                         : "unsigned"));
+                  sample_format == SAMPLEFORMAT_INT          ? "signed"
+                  : sample_format == SAMPLEFORMAT_IEEEFP     ? "floating-point"
+                  : sample_format >= SAMPLEFORMAT_COMPLEXINT ? "complex"
+                                                             : "unsigned"));
     }
     if (is_grey() && shape_.channels == 3) {
       fail("its 3 samples a pixel are channels of grey, not colour (photometric interpretation MinIsBlack); save one of them, or all as RGB");
@@ -176,10 +185,12 @@ class PageReader {
     }
     const std::uint32_t full = (1u << bits_) - 1;
     const bool inverted = photometric_ == PHOTOMETRIC_MINISWHITE;
+    const std::uint32_t black = stated_maximum().value_or(full);  // if it is inverted
     for (std::size_t i = 0; i < std::size_t{count} * together; ++i) {
       const std::uint32_t stored = value(row, offset, i);
+      if (inverted && stored > black) fail(format("its value {} is above its MaxSampleValue, {}", stored, black));
       // Fewer than 8 bits are spread over 8, as all programs show them.
-      const std::uint32_t code = (inverted ? full - stored : stored) * (bits_ < 8 ? 255 / full : 1);
+      const std::uint32_t code = (inverted ? black - stored : stored) * (bits_ < 8 ? 255 / full : 1);
       const std::size_t at = to + i / together * shape_.channels + i % together;
       if (picture.type == ValueType::code8) {
         picture.bytes[at] = static_cast<std::byte>(code);
@@ -250,9 +261,11 @@ class PageReader {
   // Any other kind, as libtiff would show it: 8 bits.
   Picture read_shown() {
     char why[1024] = {};
-    if (bits_ > 8 || TIFFRGBAImageOK(file_, why) == 0) {
-      fail(format("it is of a kind that is not read (photometric interpretation {}, {} bits)", photometric_,
-                  bits_));
+    const bool is_shallow_colour = bits_ < 8 && shape_.channels == 3;  // which libtiff says that it shows
+    if (bits_ > 8 || is_shallow_colour || TIFFRGBAImageOK(file_, why) == 0) {
+      const bool is_rgb = photometric_ == PHOTOMETRIC_RGB;
+      fail(format("it is of a kind that is not read ({}, {} bits)",
+                  is_rgb ? "RGB" : format("photometric interpretation {}", photometric_), bits_));
     }
     std::vector<std::uint32_t> pixels(shape_.pixel_count());
     // As it is stored, as all other kinds are.
@@ -381,6 +394,12 @@ void TiffReader::follow_story() {
   const std::uint64_t held = (file_bytes - offsets[0]) / page_bytes;
   is_in_one_ = held > 1;  // else it is one page that kept the description of a stack
   if (!is_in_one_) return;
+  if (!PageReader(handle, format("page 1 of {}", name_)).holds_codes_as_they_stand()) {
+    throw InputError(
+        format("{} holds {} pictures behind one another, as its description by {} says, whose values are no codes as "
+               "they stand, but a palette's for one; save it as grey or RGB (in Fiji: Image, Type, RGB Color)",
+               name_, story_.pictures, story_.who));
+  }
   if (held < story_.pictures) {
     throw InputError(format("{} was cut off: its description by {} says that it holds {} pictures, and {} are there", name_,
                             story_.who, story_.pictures, held));

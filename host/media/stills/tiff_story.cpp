@@ -35,9 +35,26 @@ std::optional<Rational> number_of(std::string_view text) {
   return std::nullopt;
 }
 
-std::optional<Rational> inverse(const std::optional<Rational>& period, std::int64_t parts = 1) {
-  if (!period || period->denominator > INT64_MAX / parts) return std::nullopt;
-  return Rational::of(period->denominator * parts, period->numerator);
+// How many of a unit of time are a second, which is meant where none is named; none where it is not known.
+std::optional<Rational> in_second(std::string_view unit) {
+  // Letters for micro: the sign and the Greek one in UTF-8, the sign in Latin-1, and as Java escapes it.
+  constexpr std::string_view kSeconds[]{"", "s", "sec", "second", "seconds"},
+      kMicroseconds[]{"us", "\xC2\xB5s", "\xCE\xBCs", "\xB5s", "\\u00B5s"};
+  if (std::ranges::find(kSeconds, unit) != std::end(kSeconds)) return Rational{1, 1};
+  if (std::ranges::find(kMicroseconds, unit) != std::end(kMicroseconds)) return Rational{1'000'000, 1};
+  if (unit == "ms" || unit == "msec") return Rational{1000, 1};
+  if (unit == "ns") return Rational{kSecondNs, 1};
+  if (unit == "min") return Rational{1, 60};
+  return std::nullopt;
+}
+
+std::optional<Rational> rate_of(const std::optional<Rational>& period, std::string_view unit) {
+  const auto parts = in_second(unit);
+  if (!period || !parts || period->denominator > INT64_MAX / parts->numerator ||
+      period->numerator > INT64_MAX / parts->denominator) {
+    return std::nullopt;
+  }
+  return Rational::of(period->denominator * parts->numerator, period->numerator * parts->denominator);
 }
 
 // Moments may be called slices, as ImageJ does where nobody told it otherwise; but not beside frames.
@@ -56,10 +73,11 @@ TiffStory story_of_imagej(std::string_view text) {
   story.mixed = mixed_text(count_of(value("\nchannels=")), count_of(value("\nslices=")), count_of(value("\nframes=")));
   // The interval is one of time, and goes before the speed at which the stack is shown, unless that is the same, rounded
   // less.
-  const auto shown = number_of(value("\nfps="));
-  story.rate = inverse(number_of(value("\nfinterval=")));
+  const auto shown = number_of(value("\nfps=")), interval = number_of(value("\nfinterval="));
+  story.rate = rate_of(interval, value("\ntunit="));
   constexpr double kRounding = 1e-3;
-  if (!story.rate || (shown && std::abs(shown->value() / story.rate->value() - 1.0) < kRounding)) story.rate = shown;
+  const bool is_same = story.rate && shown && std::abs(shown->value() / story.rate->value() - 1.0) < kRounding;
+  if (!interval || is_same) story.rate = shown;
   return story;
 }
 
@@ -72,10 +90,7 @@ TiffStory story_of_ome(std::string_view text, const Shape& page) {
   const std::uint64_t slices = count_of(value("SizeZ=\"")), frames = count_of(value("SizeT=\""));
   story.mixed = mixed_text(channels, slices, frames);
   if (story.mixed.empty()) story.pictures = std::max(slices, frames);
-  const std::string_view unit = value("TimeIncrementUnit=\"");
-  const std::int64_t parts = unit.empty() || unit == "s" ? 1 : unit == "ms" ? 1000 : unit == "ns" ? kSecondNs : 0;
-  const bool is_micro = unit == "\xC2\xB5s" || unit == "\xCE\xBCs" || unit == "us";
-  if (parts > 0 || is_micro) story.rate = inverse(number_of(value("TimeIncrement=\"")), is_micro ? 1'000'000 : parts);
+  story.rate = rate_of(number_of(value("TimeIncrement=\"")), value("TimeIncrementUnit=\""));
   return story;
 }
 

@@ -23,8 +23,7 @@ inline constexpr std::string_view kFamilies[] = {"matroska,webm", "mov,mp4,m4a,3
 inline constexpr std::string_view kStreams[] = {"av1",        "avs2", "avs3",     "cavsvideo", "dirac",
                                                 "dnxhd",      "h264", "hevc",     "m4v",       "mjpeg",
                                                 "mjpeg_2000", "obu",  "rawvideo", "vc1"};
-inline constexpr std::string_view kPipes[] = {"jpeg_pipe", "pam_pipe", "pbm_pipe",
-                                              "pgm_pipe",  "png_pipe", "ppm_pipe"};
+inline constexpr std::string_view kPipes[] = {"jpeg_pipe", "pbm_pipe", "pgm_pipe", "png_pipe", "ppm_pipe"};
 // None of these says it, and FFmpeg makes up a rate.
 inline constexpr std::string_view kUntimed[] = {"h261", "h263", "mpjpeg"};
 inline constexpr std::string_view kPlaylists[] = {"concat", "dash", "hls", "imf", "sdp", "vobsub"};

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <vector>
 
+#include "capture/capture_mark.hpp"
 #include "media/formats/file_kinds.hpp"
 #include "media/videos/capture_rate.hpp"
 #include "media/videos/containers.hpp"
 #include "media/videos/libav.hpp"
+#include "system/mapped_file.hpp"
 
 namespace nutik::videos {
 namespace {
@@ -46,6 +48,10 @@ int open_nothing(AVFormatContext*, AVIOContext**, const char*, int, AVDictionary
 const AVInputFormat& kind_of(AVIOContext& bytes, const std::filesystem::path& path) {
   const std::string title = input_title(path.string());
   const AVInputFormat* kind = nullptr;
+  // FFmpeg knows a bitmap only if a new line follows its first letters, and takes others for a sequence by their name.
+  const std::string start = first_bytes(path);
+  if (begins_as_netpbm(start) && (start[1] == '1' || start[1] == '4')) kind = av_find_input_format("pbm_pipe");
+  if (kind != nullptr) return *kind;
   // A name of stills would have the next ones read as well.
   const char* const name = holds_several_pictures(path) ? "" : path.c_str();
   const int code = av_probe_input_buffer2(&bytes, &kind, name, nullptr, 0, 0);
@@ -114,6 +120,11 @@ OpenedVideo open_video(const std::filesystem::path& path, const std::optional<Ra
   }
   opened.format.reset(context);
   code = find_stream_info(*context, title);
+  for (unsigned i = 0; i < context->nb_streams; ++i) {
+    AVStream& each = *context->streams[i];
+    const bool is_cover = (each.disposition & AV_DISPOSITION_ATTACHED_PIC) != 0;
+    if (is_cover) each.codecpar->codec_type = AVMEDIA_TYPE_ATTACHMENT;
+  }
   if (code >= 0) code = av_find_best_stream(context, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
   if (code < 0) throw InputError(format("{} has no video stream", title));
   opened.stream = code;

@@ -9,6 +9,7 @@
 namespace nutik::videos {
 namespace {
 
+constexpr double kMostPictures = 10'000;  // a second, that are meant; a clock's ticks are more
 constexpr std::int64_t kLongestSeconds = (std::int64_t{1} << 62) / kSecondNs;
 
 // How far apart the pictures are that lie furthest before and behind where a constant rate puts them, all in units of
@@ -66,6 +67,17 @@ bool avi_states_rate(std::string_view file) {
   return header != file.npos && !is_zero(header + 8);
 }
 
+// What a picture usually takes, in ticks: in GXF, packets of frames say that they last a field.
+std::int64_t usual_step(const std::vector<PacketTimes>& packets) {
+  std::vector<int128> steps;
+  for (std::size_t i = 1; i < packets.size(); ++i)
+    steps.push_back(static_cast<int128>(packets[i].decoded) - packets[i - 1].decoded);
+  if (steps.empty()) return std::max<std::int64_t>(packets.back().duration, 1);
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::ranges::nth_element(steps, middle);
+  return static_cast<std::int64_t>(std::clamp<int128>(*middle, 1, INT64_MAX));
+}
+
 bool is_timed(const std::vector<PacketTimes>& packets, std::int64_t PacketTimes::*time) {
   return std::ranges::none_of(packets,
                               [&](const PacketTimes& packet) { return packet.*time == AV_NOPTS_VALUE; });
@@ -98,10 +110,10 @@ std::vector<std::int64_t> shown_times(const std::vector<PacketTimes>& packets, i
   if (packets.empty() || !is_timed(packets, &PacketTimes::decoded)) return {};
   const std::size_t held = std::min(packets.size(), static_cast<std::size_t>(std::max(delay, 0)));
   for (std::size_t i = held; i < packets.size(); ++i) times.push_back(packets[i].decoded);
-  const PacketTimes& last = packets.back();
-  for (std::size_t i = 1; i <= held; ++i) {
-    times.push_back(last.decoded + static_cast<std::int64_t>(i) * std::max<std::int64_t>(last.duration, 1));
-  }
+  int128 time = packets.back().decoded;
+  const std::int64_t step = usual_step(packets);
+  for (std::size_t i = 1; i <= held; ++i)
+    times.push_back(static_cast<std::int64_t>(std::min<int128>(time += step, INT64_MAX)));
   return times;
 }
 
@@ -131,7 +143,6 @@ ClipTiming timing_of(const std::vector<std::int64_t>& times, Rational time_base,
 
 std::optional<std::string> doubt_about_rate(const AVFormatContext& file, const AVStream& stream,
                                             std::span<const std::byte> bytes) {
-  constexpr double kMost = 10'000;  // that is meant; a clock's ticks are more
   constexpr std::size_t kHeaderBytes = 1u << 16;
   const std::string_view kind = file.iformat->name;
   const std::string_view start(reinterpret_cast<const char*>(bytes.data()),
@@ -142,7 +153,7 @@ std::optional<std::string> doubt_about_rate(const AVFormatContext& file, const A
       (kind == "gif" && av_cmp_q(stream.avg_frame_rate, {100, kUnstatedDelay}) == 0) ||
       (kind == "yuv4mpegpipe" && !y4m_states_rate(start)) || (kind == "avi" && !avi_states_rate(start));
   if (is_made_up) return "";
-  if (std::ranges::find(kStreams, kind) == std::end(kStreams) || av_q2d(rate) <= kMost) return {};
+  if (std::ranges::find(kStreams, kind) == std::end(kStreams) || av_q2d(rate) <= kMostPictures) return {};
   return format("its header states {:.10g} a second, which are a clock's ticks and no pictures",
                 av_q2d(rate));
 }
@@ -166,6 +177,9 @@ ClipTiming timing_of(const AVFormatContext& file, const AVStream& stream,
     const Rational clock = Rational::of(stream.time_base.num, stream.time_base.den);
     return timing_of(times, clock, std::move(rates), name);
   }
+  // Of a single picture containers may tell no more than their clock, but for a camera's.
+  if (std::string_view(file.iformat->name) != "cine")
+    std::erase_if(rates, [](const KnownRate& known) { return known.rate.value() > kMostPictures; });
   if (!rates.empty()) return of_rate(rates.front().rate);
   return {};
 }

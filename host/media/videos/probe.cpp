@@ -347,8 +347,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   }
   unsigned films = 0;
   for (unsigned i = 0; i < opened.format->nb_streams; ++i) {
-    const AVStream& each = *opened.format->streams[i];
-    films += each.codecpar->codec_type == AVMEDIA_TYPE_VIDEO && (each.disposition & AV_DISPOSITION_ATTACHED_PIC) == 0;
+    films += opened.format->streams[i]->codecpar->codec_type == AVMEDIA_TYPE_VIDEO;
   }
   if (films > 1) {
     result.notes.emplace_back(
