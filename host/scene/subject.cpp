@@ -414,6 +414,24 @@ double SubjectTrack::most_covered_share() const {
   return static_cast<double>(std::ranges::max(counts)) / static_cast<double>(looked_at.size());
 }
 
+std::vector<std::vector<std::size_t>> SubjectTrack::changed_for_good() const {
+  if (differing->empty()) return {};
+  const std::size_t all = differing->front().size();
+  std::vector<std::size_t> counts(all);
+  std::size_t looks = 0;
+  for (std::size_t look = 0; look < looked_at.size(); ++look) {
+    const std::uint64_t sample = looked_at[look];
+    const bool is_resting = std::ranges::any_of(
+        rests, [&](SampleRange rest) { return rest.first <= sample && sample < rest.last; });
+    if (is_resting || !std::ranges::binary_search(places, sample, {}, &SubjectPlace::sample)) continue;
+    ++looks;
+    for (std::size_t cell = 0; cell < all; ++cell) counts[cell] += (*differing)[look][cell] ? 1 : 0;
+  }
+  Region changed = Region::none(cell_columns, static_cast<std::uint32_t>(all / cell_columns));
+  for (std::size_t cell = 0; cell < all; ++cell) changed.inside[cell] = 4 * counts[cell] > 3 * looks ? 1 : 0;
+  return parts_of(changed, kMinCells);
+}
+
 SampleRange SubjectTrack::free_time(const SubjectPlace& place, std::uint32_t pixels) const {
   const std::size_t around = (pixels + cell_side - 1) / cell_side;
   std::vector<bool> is_of_place(differing->front().size());
@@ -429,7 +447,9 @@ SampleRange SubjectTrack::free_time(const SubjectPlace& place, std::uint32_t pix
   }
   std::vector<std::size_t> cells;
   for (std::size_t cell = 0; cell < is_of_place.size(); ++cell) {
-    if (is_of_place[cell]) cells.push_back(cell);
+    if (!is_of_place[cell]) continue;
+    if (std::ranges::binary_search(bare, cell)) return {};
+    cells.push_back(cell);
   }
   SampleRange free, longest;
   for (std::size_t look = 0; look < looked_at.size(); ++look) {

@@ -46,6 +46,7 @@ struct SubjectTrack {
   double fill = 1;                  // of its places' boxes; a median
   double share = 1;                 // of all that differs from the plate when it is there; a median
   bool flickers = false;            // its places lie here and there, as if it were no single thing
+  std::vector<std::size_t> bare;    // ground that it laid bare for good: cells that whoever knows sets, increasing
   double moving_share = 0;          // of the picture, that differs from the plate on average
 
   // In pixels: the root of the area that it usually covers. 0 where there is none.
@@ -61,7 +62,11 @@ struct SubjectTrack {
   // The share of all the time for which the cell is covered that is covered longest. A thing that is somewhere for half
   // of the time is in the plate there, and its cells are found while it is elsewhere.
   [[nodiscard]] double most_covered_share() const;
-  // The longest time at which nothing differs at a place, nor so many pixels around it.
+  // Cells that differ for nearly all of its way, each what hangs together: where the plate shows it, the ground that it
+  // has left.
+  [[nodiscard]] std::vector<std::vector<std::size_t>> changed_for_good() const;
+  // The longest time at which nothing differs at a place, nor so many pixels around it. None where ground was laid bare:
+  // the thing lay on it all that time.
   [[nodiscard]] SampleRange free_time(const SubjectPlace& place, std::uint32_t pixels) const;
 };
 

@@ -57,6 +57,27 @@ class StudySubjects : public test::AppTest {
   }
 };
 
+// A thing that rests for half of the time is in the plate, and what it leaves behind is no ground to be taken away: where
+// it lay is what lies there now, and no moment is seen in part before it.
+TEST_F(StudySubjects, MayRestBeforeTheyGo) {
+  const cv::Rect rest(20, 40, 14, 14);
+  draw("kick", 40, [&](cv::Mat& frame, int k) { frame(rest + cv::Point(8 * std::max(0, k - 24), 0)) = 250; });
+  for (const char* style : {"trail", "rear-curtain", "strobe"}) {
+    const auto result = study("kick", {"--style", style, "--overwrite"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.err.find("saturated"), std::string::npos) << style << ": " << result.err;
+    const cv::Mat ground = ground_of(7), shown = picture();
+    EXPECT_LE(cv::norm(shown(rest), ground(rest), cv::NORM_INF), 40) << style;  // and some trail
+  }
+  const cv::Mat mask = cv::imread((scratch_ / "study.pgm").string(), cv::IMREAD_UNCHANGED);
+  double moments = 0;
+  cv::minMaxLoc(mask, nullptr, &moments);
+  EXPECT_EQ(moments, 5);
+  for (int tag = 1; tag <= static_cast<int>(moments); ++tag) {
+    EXPECT_GE(cv::countNonZero((mask == tag) & (picture() > 240)), 190) << tag;  // of 196, but for corners
+  }
+}
+
 // Their moments are the same samples.
 TEST_F(StudySubjects, MayShareTheirMoments) {
   draw_two();

@@ -7,11 +7,11 @@
 
 namespace nutik::test {
 
-class MadeClip final : public Clip {
+class MadeClip : public Clip {
  public:
   // Holds so many pictures, and announces as many or others.
-  MadeClip(std::uint64_t pictures, std::uint64_t announced) : pictures_(pictures) {
-    info_.format.shape = {16, 8, 1};
+  MadeClip(std::uint64_t pictures, std::uint64_t announced, Shape shape = {16, 8, 1}) : pictures_(pictures) {
+    info_.format.shape = shape;
     info_.timing.rate = Rational{100, 1};
     info_.sample_count = announced;
   }

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdlib>
 
+#include "imev/block_builder.hpp"
 #include "session/made_clip.hpp"
 #include "support/scratch.hpp"
 
@@ -58,6 +59,26 @@ TEST_F(ScratchCaptures, HaveNoName) {
   const ScratchCapture made = make();
   EXPECT_EQ(made.reader->timeline().sample_count(), 7u);
   EXPECT_TRUE(fs::is_empty(scratch_.folder()));
+}
+
+// So that a picture of a kept clip has the bits of one that is exposed while the clip is read.
+TEST_F(ScratchCaptures, HaveTheBlocksOfAStreamWhateverTheyHold) {
+  struct StillClip final : test::MadeClip {
+    using MadeClip::MadeClip;
+    bool read(std::span<std::byte> raster) override {
+      const bool has_read = MadeClip::read(raster);
+      std::ranges::fill(raster, std::byte{7});
+      return has_read;
+    }
+  };
+  SourceRequest source;
+  source.path = "clip";
+  const Shape shape{4096, 2048, 1};
+  const ScratchCapture made = encode_to_scratch(
+      source, [&] { return std::make_unique<StillClip>(20, 20, shape); }, MemoryBudget::of_machine(),
+      [](const CaptureFormat&) { return MemoryNeeds(); });
+  EXPECT_EQ(made.reader->block_extent(0).sample_count, default_block_samples(made.reader->format()));
+  EXPECT_EQ(made.reader->block_count(), 2u);
 }
 
 TEST_F(ScratchCaptures, LeaveNothingWhereAProcessIsKilledWhileItReads) {

@@ -60,7 +60,8 @@ struct StudyRequest {
 // There is no scene that rests.
 struct EverythingMoves : InputError {
   explicit EverythingMoves(const std::string& message)
-      : InputError(message, Advice{". A camera that moved stands still with `align rigid`"}) {}
+      : InputError(message, Advice{". A camera that moved stands still with `align rigid`; a fade, a dissolve or a title "
+                                   "can be left out (`from`, `to`)"}) {}
 };
 
 // Regions that were stated hold no subjects of their own.
@@ -82,8 +83,8 @@ struct Study {
   bool are_moments_found = false;     // not stated
   // A long exposure, or a single moment, for what moves makes no more; a note says why.
   bool falls_short = false;
-  double step_pixels = 0;   // that the subject goes from one sample to the next, where it goes on; a median
-  double step_share = 0;    // of its size
+  double step_pixels = 0;   // that a subject goes from one sample to the next, where it goes on; a median
+  double step_share = 0;    // of its size: of several subjects the one whose is largest
   double moving_share = 0;  // of the picture, that differs from the scene at rest on average
   MaskRequest mask;
   MadeMask regions;           // made as `mask` asks for them

@@ -90,7 +90,8 @@ class StudyFunctions {
       study.functions.emplace(static_cast<std::uint8_t>(i + 1), moment.function());
     }
     study.empty = tracks_.front().empty;  // of all the picture, and so of all subjects
-    if (study.empty.size() < kMinEmptySamples) study.empty = {};
+    const auto was_there = [](const SubjectTrack& track) { return !track.bare.empty(); };
+    if (study.empty.size() < kMinEmptySamples || std::ranges::any_of(tracks_, was_there)) study.empty = {};
     if (shape_ == TrailShape::none) {
       study.functions.emplace(std::uint8_t{0}, background(study));
       return;

@@ -29,7 +29,10 @@ ScratchCapture encode_to_scratch(const SourceRequest& source, const OpenClip& op
   const TwofoldProgress twofold(source, progress);
   ClipSource clip = open ? open_clip_source(source, open, memory, twofold.finding, stop)
                          : open_clip_source(source, memory, twofold.finding, stop);
-  const ClipMemory shares = memory_for_encoding(memory, clip.clip_to_read(), rendering(clip.capture));
+  const ClipToRead to_read = clip.clip_to_read();
+  ClipMemory shares = memory_for_encoding(memory, to_read, rendering(clip.capture));
+  // Blocks as those of a clip that is read forward: a picture has the same bits either way.
+  if (!to_read.block_samples && !to_read.tells_changes) shares.blocks = BlockLimits(shares.stream_samples);
   const NamelessFile file;
   const EncodeRequest request{
       file.path(), {has_room_for(clip) ? tik::CodecId::none : tik::CodecId::lz4, 0}, OutputFile::Lasting::no};
