@@ -78,6 +78,21 @@ TEST_F(StudySubjects, MayRestBeforeTheyGo) {
   }
 }
 
+// One that is slow has few moments, at which the other one is elsewhere: no ghost of it stays in the scene.
+TEST_F(StudySubjects, LeaveNoneOfThemselvesInTheEmptyScene) {
+  draw("two speeds", 21, [](cv::Mat& frame, int k) {
+    frame(cv::Rect(4 + 3 * k, 56, 24, 24)) = 250;
+    frame(cv::Rect(4 + 7 * k, 12, 8, 8)) = 250;
+  });
+  const auto result = study("two speeds", {"--style", "strobe"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  expect_says(result.out, "subject 2 at");
+  cv::Mat regions, difference;
+  cv::dilate(cv::imread((scratch_ / "study.pgm").string(), cv::IMREAD_UNCHANGED), regions, cv::Mat::ones(7, 7, CV_8U));
+  cv::absdiff(picture(), ground_of(7), difference);
+  EXPECT_EQ(cv::countNonZero((difference > 2) & (regions == 0)), 0);
+}
+
 // Their moments are the same samples.
 TEST_F(StudySubjects, MayShareTheirMoments) {
   draw_two();

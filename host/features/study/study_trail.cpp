@@ -130,17 +130,41 @@ class StudyFunctions {
   }
 
   // The scene between the moments: when nothing is there; else the moments together, in each of which most of it is
-  // seen. Several subjects may have a moment in common.
+  // seen. Of several subjects the moments of one show the others elsewhere: then the samples that show the least of
+  // them beside the regions.
   [[nodiscard]] GainFunction background(const Study& study) const {
     GainPieces pieces;
     if (!study.empty.empty()) {
       pieces.add(interval_of(study.empty), 1, 1);
+    } else if (tracks_.size() > 1) {
+      for (const std::uint64_t sample : least_covered(study)) pieces.add(interval_of({sample, sample + 1}), 1, 1);
     } else {
       for (const std::uint64_t sample : std::set(study.moments.begin(), study.moments.end())) {
         pieces.add(interval_of({sample, sample + 1}), 1, 1);
       }
     }
     return pieces.function();
+  }
+
+  // In time order.
+  [[nodiscard]] std::vector<std::uint64_t> least_covered(const Study& study) const {
+    const SubjectTrack& any = tracks_.front();
+    const Mask& regions = study.regions.mask;
+    std::vector<std::size_t> beside;  // how many cells differ, at each look
+    for (const std::vector<bool>& differs : *any.differing) {
+      std::size_t count = 0;
+      for (std::size_t cell = 0; cell < differs.size(); ++cell) {
+        const std::size_t x = cell % any.cell_columns * any.cell_side, y = cell / any.cell_columns * any.cell_side;
+        count += differs[cell] && regions.tags[y * regions.width + x] == 0 ? 1 : 0;
+      }
+      beside.push_back(count);
+    }
+    const std::size_t least = std::ranges::min(beside);
+    std::vector<std::uint64_t> samples;
+    for (std::size_t look = 0; look < beside.size(); ++look) {
+      if (beside[look] == least) samples.push_back(any.looked_at[look]);
+    }
+    return samples;
   }
 
   // The whole way of the subject, or of all of them. Where nothing is there for a while, that is taken away again, so
