@@ -236,6 +236,13 @@ class Pictures(support.TestCase):
         self.assert_raises(usage, "0 ... 255", nutik.Mask, np.full((2, 2), 256))
         self.assert_raises(usage, "outside 0 ... 1", nutik.Mask.of_layers, {1: np.full((2, 2), 1.5)})
 
+    def test_integers_of_16_bits_are_tags(self):
+        labels = np.arange(256, dtype=np.uint16).reshape(16, 16)
+        np.save(self.path("labels.npy"), labels)
+        self.assert_same(nutik.read_mask(self.path("labels.npy")).tags, nutik.Mask(labels).tags)
+        np.save(self.path("labels.npy"), labels + 257)
+        self.assert_raises(nutik.InputError, "pixel 0,0 has the value 257", nutik.read_mask, self.path("labels.npy"))
+
     def test_messages_name_what_helps(self):
         render, many, usage = self.capture.render, self.capture.render_many, nutik.UsageError
         light, box = render(exposure="5ms"), nutik.boxcar(0, "5ms")
