@@ -184,6 +184,7 @@ def devices() -> list[Device]:
     return [Device(index, *told) for index, told in enumerate(_nutik.devices())]
 
 
+_ROUNDING = 1.01  # of a step, which times that were rounded are still exposed for
 _COMPUTING = ("device", "memory", "renderer")
 
 
@@ -287,7 +288,11 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
     if exposures is None:
         return starts, [], None
     if not is_list(exposures):
-        return starts, [], _lasting(time_ns(cast(Time, exposures), "exposures"), "exposures", exposures)
+        exposed = _lasting(time_ns(cast(Time, exposures), "exposures"), "exposures", exposures)
+        for number, (begin, end) in enumerate(zip(starts, starts[1:])):
+            refuse(end > begin and exposed > _ROUNDING * (end - begin), f"exposures={exposures!r}: sample {number + 1} "
+                   f"starts {end - begin} ns after sample {number}, which is still exposed then", InputError)
+        return starts, [], exposed
     if times is None:
         raise UsageError("exposures= of each picture need times=, when each begins; with rate= give one for all")
     begins = [seconds_of(time, "times") for time in times]
