@@ -44,6 +44,7 @@ Progress = Optional[Callable[[int, int], object]]  # progress(done, total); tota
 
 _MAX_DIGITS = 10 ** 15 - 1  # that the engine reads above and below a fraction line
 _SECOND_NS = 10 ** 9
+LARGEST_NS = 4 * 10 ** 18  # that a time may have: 126 years
 
 
 class HasArray(Protocol):
@@ -278,7 +279,7 @@ def half_up(value: Fraction) -> int:
 def time_ns(time: Time, what: str) -> int:
     """A time in whole nanoseconds."""
     nanoseconds = half_up(seconds_of(time, what) * _SECOND_NS)
-    refuse(abs(nanoseconds) > 4 * 10 ** 18, f"{what} lies further away than 126 years")
+    refuse(abs(nanoseconds) > LARGEST_NS, f"{what} lies further away than 126 years")
     return nanoseconds
 
 
@@ -293,16 +294,32 @@ def array_ns(times: NDArray[Any], what: str) -> NDArray[np.int64]:
     return times_ns(different, what)[place].reshape(times.shape)
 
 
+def nanoseconds_of(times: NDArray[Any]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Numbers of seconds in nanoseconds, each in as many digits as it shows, whole ones exactly; and by how much the
+    others may be off."""
+    shown = times.astype(str) if times.dtype.kind == "f" and times.itemsize != 8 else times
+    made = np.asarray(shown.astype(np.float64) * _SECOND_NS)
+    is_long = (np.abs(made) > 2 ** 51) & (np.abs(made) <= LARGEST_NS)
+    made[is_long] = array_ns(times[is_long], "times")
+    error, nearest = np.abs(made) * 2 ** -51, np.rint(made)
+    with np.errstate(invalid="ignore"):  # infinite ones
+        return np.where(np.abs(made - nearest) <= error, nearest, made), error
+
+
 def delays_ns(delays: Any) -> NDArray[np.int64]:
     """The delay of each pixel, of seconds or timedelta64, in whole nanoseconds, int64."""
     delays = np.asarray(whole(delays, "delay="))
     refuse(delays.dtype.kind not in "iufm", "delay= is 'rows:15ms', 'map.tif:0s..1s' or an array of seconds, and this "
            f"has dtype {delays.dtype}")
-    made: NDArray[Any] = (array_ns(delays, "delay=") if delays.dtype.kind == "m" else
-                          np.floor(delays.astype(np.float64) * _SECOND_NS + 0.5))
-    if not (np.abs(made.astype(np.float64)) <= 4e18).all():
+    if delays.dtype.kind == "m":
+        return array_ns(delays, "delay=")
+    made, error = nanoseconds_of(delays)
+    if not (np.abs(made) <= LARGEST_NS).all():
         raise UsageError("delay=: some pixel's delay is no number of seconds, or further away than 126 years")
-    return np.asarray(made, np.int64)
+    rounded = np.asarray(np.floor(made + 0.5), np.int64)
+    may_be_half = np.abs(made % 1 - 0.5) <= error
+    rounded[may_be_half] = array_ns(delays[may_be_half], "delay=")
+    return rounded
 
 
 def count_of(value: Any, what: str) -> int:

@@ -88,6 +88,10 @@ class Pictures(support.TestCase):
         picoseconds = np.array([[1500, -1500, 1499]], "timedelta64[ps]")
         self.assertEqual(_words.delays_ns(picoseconds).tolist(), [[2, -1, 1]])
         self.assertEqual(_words.delays_ns(np.array([[2.5e-9, -2.5e-9]])).tolist(), [[3, -2]])
+        rng = np.random.default_rng(4)
+        for seconds in (np.array(rng.integers(-10 ** 13, 10 ** 13, 2000) / 2e9), np.float32([0.7, 1e-3, -0.3]),
+                        np.float16([0.7]), np.array([1.7e9 + 0.1, 3])):
+            self.assertEqual(_words.delays_ns(seconds).tolist(), _words.array_ns(seconds, "").tolist())
 
     def test_delays_that_are_none(self):
         for delay, said in (("rows", "does not say where and by how much"), (np.zeros((3, 4)), "3 x 4|4 x 3"),
