@@ -107,7 +107,7 @@ MaskLike = Union[Mask, NDArray[np.uint8], NDArray[np.int64], NDArray[np.bool_], 
 
 
 def read_mask(path: Path, *, rest: int = 0) -> Mask:
-    """A mask from a grey picture of 8 bits, or from layers.
+    """A mask from a grey picture whose values are tags, or from layers.
 
     Parameters:
     path : the picture; or, of a name with a number in it, 'layer-%d.png', layers.
