@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _nutik
 from ._nutik import UsageError
 from ._words import (LARGEST_NS, Axes, HasArray, Path, Time, array_ns, axes_of, listed, nanoseconds_of, path_of,
-                     reading, real, refuse, shortened, tag_of, time_ns, time_word, times_ns, warn, whole)
+                     reading, real, refuse, shortened, tag_of, text_of, time_ns, time_word, times_ns, warn, whole)
 
 _MIN_SAMPLES = 1024  # of a callable, evenly, before it is looked at more closely where it bends
 _PROBES = 64         # in each stretch of these, unevenly: what repeats evenly may hide from even samples
@@ -101,7 +101,7 @@ class Function:
         Parameters:
         factor : every gain is multiplied by it; f * 2 is the same.
         """
-        return Function._of(self._held.scaled(factor))
+        return Function._of(self._held.scaled(cast(float, real(factor, "factor"))))
 
     __array_ufunc__ = None  # numpy's numbers leave f * 2 to it
 
@@ -209,7 +209,7 @@ def shutter(shape: str, start: Time, exposure: Time, *, error: float = 1e-3) -> 
     4
     """
     begin, end = _nutik.interval_ns(time_word(start, "start"), time_word(exposure, "exposure"))
-    return Function._of(_nutik.shutter(shape, begin, end, error))
+    return Function._of(_nutik.shutter(text_of(shape, "shape"), begin, end, error))
 
 
 def fit(gain: Gain, start: Time, end: Time, *, error: float = 1e-3) -> Function:
@@ -304,7 +304,7 @@ def parse_functions(text: str, *, name: str = "functions") -> dict[int, Function
     >>> nutik.parse_functions("M0{[0:1], [20ms:0]}")[0](0.01)
     0.5
     """
-    return _told(_nutik.parse_functions(text, name))
+    return _told(_nutik.parse_functions(text_of(text, "text"), text_of(name, "name")))
 
 
 def read_functions(path: Path) -> dict[int, Function]:

@@ -179,7 +179,7 @@ def scalar(value: Any) -> Any:  # of an array without axes what it holds
 def real(values: Any, what: str) -> NDArray[np.float64]:
     """An array of gains."""
     array = np.asarray(whole(values, what))
-    with suppress(TypeError, ValueError):
+    with suppress(TypeError, ValueError, OverflowError):
         if array.dtype.kind in "biufO":
             return array.astype(np.float64)
     raise WrongType(f"{what} has dtype {array.dtype}; gains are real numbers")
@@ -187,7 +187,25 @@ def real(values: Any, what: str) -> NDArray[np.float64]:
 
 def listed(values: Any, what: str = "the array") -> list[Any]:
     """Its values one by one; of what NumPy takes for an array, NumPy's."""
+    refuse(not is_list(values), f"{what} is {shortened(values)}; give a list", WrongType)
     return list(np.asarray(whole(values, what)) if hasattr(values, "__array__") else values)
+
+
+def text_of(value: Any, what: str) -> str:
+    """A text."""
+    refuse(not isinstance(value, str), f"{what} is {shortened(value)}, no text", WrongType)
+    return cast(str, value)
+
+
+def flag_of(value: Any, what: str) -> bool:
+    """True or False, or what is a number."""
+    refuse(not isinstance(value, (int, np.bool_)), f"{what} is {shortened(value)}; it is True or False", WrongType)
+    return bool(value)
+
+
+def feather_word(feather: Union[str, float]) -> str:
+    """How far edges reach, as the engine reads it."""
+    return feather if isinstance(feather, str) else f"{float(exact(scalar(feather), 'feather')):g}px"
 
 
 def path_of(path: Any) -> str:
@@ -365,9 +383,10 @@ def word_of(name: str, kind: str, value: Any) -> str:
         x, y, width, height = box_of(value, name)
         return f"{width}x{height}+{x}+{y}"
     if is_list(value):
+        refuse(getattr(value, "ndim", 1) > 1, f"{name} is {shortened(value)}; give one value or a list", WrongType)
         return ",".join(word_of(name, kind if "TIME" in kind else "", each) for each in value)
     refuse(kind == "FILE|auto", f"{name} is {value!r}, no path", WrongType)
-    return f"{value:g}px" if name == "feather" else "1" if value is True else str(value)
+    return feather_word(value) if name == "feather" else "1" if value is True else str(value)
 
 
 @cache
