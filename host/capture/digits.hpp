@@ -5,8 +5,8 @@
 
 namespace nutik {
 
-// Whether a text is a decimal number, of a time with its unit, that Rational::read() and StatedTime::read() have too few
-// digits for, 15.
+// Whether a text is a decimal number, of a time with its unit, for which the 15 digits of Rational::read() and
+// StatedTime::read() are too few.
 [[nodiscard]] bool has_too_many_digits(std::string_view text);
 
 }  // namespace nutik

@@ -29,8 +29,8 @@ class Mask:
         if tags.dtype not in (bool, np.uint8) and not (
                 tags.dtype.kind in "iu" and tags.size and tags.min() >= 0 and tags.max() <= 255):
             values = f" and values {tags.min()} ... {tags.max()}" if tags.size and tags.dtype.kind in "iuf" else ""
-            raise UsageError(f"a mask's tags are whole numbers 0 ... 255, and this array has dtype {tags.dtype}{values}; "
-                             "for shares of pixels see nutik.Mask.of_layers()")
+            raise UsageError(f"a mask's tags are whole numbers 0 ... 255, and this array has dtype {tags.dtype}{values}"
+                             "; for shares of pixels see nutik.Mask.of_layers()")
         self._held = _nutik.Mask(tags.astype(np.uint8, copy=False))
 
     @classmethod
