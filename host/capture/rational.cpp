@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "capture/digits.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 
@@ -86,6 +87,8 @@ std::optional<Rational> Rational::read(std::string_view text) {
 Rational Rational::parse(std::string_view text, std::string_view what) {
   const std::optional<Rational> number = read(text);
   if (number) return *number;
+  if (has_too_many_digits(text))
+    throw UsageError(format("{} '{}' needs more than 15 digits; write fewer, or a fraction", what, text));
   throw UsageError(format("{} '{}' is not a number; write 180, 29.97 or 30000/1001 (15 digits at most){}", what, text,
                           decimal_mark_hint(text)));
 }

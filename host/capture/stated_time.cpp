@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "capture/digits.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/text.hpp"
@@ -64,6 +65,19 @@ std::optional<Rational> read_clock(std::string_view text) {
 
 }  // namespace
 
+bool has_too_many_digits(std::string_view text) {
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  if (const Unit* const unit = unit_of(text)) text.remove_suffix(unit->name.size());
+  const std::size_t mark = std::min(text.find_first_of("eE"), text.size()), point = std::min(text.find('.'), mark);
+  std::string digits(text.substr(0, point));
+  if (point < mark) digits += text.substr(point + 1, mark - point - 1);
+  if (mark < text.size()) {
+    const bool is_signed = text.find_first_of("+-", mark) == mark + 1;
+    if (!is_digits(text.substr(mark + (is_signed ? 2 : 1)))) return false;
+  }
+  return is_digits(digits) && !Rational::read(text);
+}
+
 std::optional<StatedTime> StatedTime::read(std::string_view text) {
   const std::string_view behind_sign = text.substr(text.starts_with('-') || text.starts_with('+') ? 1 : 0);
   if (behind_sign.find_first_of(".0123456789") != 0) return std::nullopt;
@@ -91,6 +105,8 @@ StatedTime StatedTime::parse(std::string_view text, std::string_view what) {
   const std::optional<StatedTime> time = read(text);
   if (const std::string_view hint = decimal_mark_hint(text); !time && !hint.empty())
     throw UsageError(format("{} '{}' is no time{}", what, text, hint));
+  if (!time && has_too_many_digits(text))
+    throw UsageError(format("{} '{}' needs more than 15 digits; write fewer", what, text));
   if (!time) {
     throw UsageError(
         format("{} '{}' is no time; write a number and a unit: 0.4s, 10ms, 250us, 1/100s, 0:01.5, or "

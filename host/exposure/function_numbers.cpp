@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "capture/digits.hpp"
 #include "capture/format.hpp"
 #include "capture/source_text.hpp"
 #include "capture/stated_time.hpp"
@@ -152,6 +153,8 @@ ReadNumber<std::int64_t> read_time(std::string_view word, const std::optional<St
   }
   if (!is_plain && !stated && word.find(';') != word.npos)
     return {0, format("{} is no time; between time and gain stands a colon", quoted(word))};
+  if (!is_plain && !stated && !is_decimal(word) && has_too_many_digits(word))
+    return {0, format("{} needs more than 15 digits; write fewer", quoted(word))};
   if (!is_plain && !stated) {
     return {0, format("{} is no time; write whole nanoseconds, or a unit behind the number: {}", quoted(word),
                       time_way_out(word))};

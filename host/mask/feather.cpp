@@ -14,6 +14,7 @@
 #include "capture/source_text.hpp"
 #include "capture/text.hpp"
 #include "mask/whole_shares.hpp"
+#include "system/interruption.hpp"
 #include "system/parallel.hpp"
 
 namespace nutik {
@@ -40,14 +41,23 @@ class Tent {
 // How much of a column, or of all round a pixel, has each tag.
 using TagWeights = std::vector<std::pair<std::uint8_t, std::int64_t>>;
 
-void add_to(TagWeights& weights, std::uint8_t tag, std::int64_t weight) {
-  const auto found = std::ranges::find(weights, tag, &TagWeights::value_type::first);
-  if (found != weights.end()) {
-    found->second += weight;
-  } else {
-    weights.emplace_back(tag, weight);
+// Adds them up.
+class WeightSums {
+ public:
+  void add(std::uint8_t tag, std::int64_t weight) {
+    if (sums_[tag] == 0) seen_.emplace_back(tag, 0);
+    sums_[tag] += weight;
   }
-}
+  // The sums, and begins anew.
+  TagWeights take() {
+    for (auto& [tag, weight] : seen_) weight = std::exchange(sums_[tag], 0);
+    return std::exchange(seen_, {});
+  }
+
+ private:
+  std::array<std::int64_t, kMaskValues> sums_{};
+  TagWeights seen_;  // whose sums are not 0
+};
 
 // A row of pixels under one kernel.
 class RowUnderTent {
@@ -55,9 +65,11 @@ class RowUnderTent {
   RowUnderTent(const Mask& mask, const Tent& tent, std::int64_t y) : tent_(tent), columns_(mask.width) {
     const std::int64_t first = std::max<std::int64_t>(0, y - tent.pixels());
     const std::int64_t last = std::min<std::int64_t>(mask.height - 1, y + tent.pixels());
-    for (std::int64_t row = first; row <= last; ++row) {
-      const std::uint8_t* tags = mask.tags.data() + row * mask.width;
-      for (std::size_t x = 0; x < columns_.size(); ++x) add_to(columns_[x], tags[x], tent.weight(row - y));
+    WeightSums sums;
+    for (std::size_t x = 0; x < columns_.size(); ++x) {
+      const std::uint8_t* tags = mask.tags.data() + x;
+      for (std::int64_t row = first; row <= last; ++row) sums.add(tags[row * mask.width], tent.weight(row - y));
+      columns_[x] = sums.take();
     }
     // How many columns up to each, itself included, have nothing but its tag.
     for (std::size_t x = 0; x < columns_.size(); ++x) {
@@ -74,14 +86,14 @@ class RowUnderTent {
 
   // 1_m ∗ K for every tag m.
   [[nodiscard]] TagWeights at(std::int64_t x) const {
-    TagWeights weights;
+    WeightSums sums;
     const auto [first, last] = window(x);
     for (std::int64_t column = first; column <= last; ++column) {
       for (const auto& [tag, weight] : columns_[static_cast<std::size_t>(column)]) {
-        add_to(weights, tag, weight * tent_.weight(column - x));
+        sums.add(tag, weight * tent_.weight(column - x));
       }
     }
-    return weights;
+    return sums.take();
   }
 
  private:
@@ -118,12 +130,13 @@ void share_out(const TagWeights& weights, const std::function<bool(std::uint8_t)
 using MixedRow = std::vector<std::pair<std::uint64_t, std::vector<Share>>>;
 
 MixedRow feathered_row(const Mask& mask, const Feather& feather, const std::vector<Tent>& tents,
-                       std::int64_t y) {
+                       std::int64_t y, const std::function<void()>& ask) {
   std::vector<RowUnderTent> rows;
   rows.reserve(tents.size());
   for (const Tent& tent : tents) rows.emplace_back(mask, tent, y);
   MixedRow mixed;
   for (std::int64_t x = 0; x < mask.width; ++x) {
+    if (x % 64 == 0) ask();
     if (rows.front().is_uniform(x)) continue;  // of the widest kernel
     std::array<double, kMaskValues> shares{};
     shares[mask.tags[static_cast<std::size_t>(y * mask.width + x)]] = 1.0;
@@ -206,17 +219,18 @@ Mask feathered(const Mask& mask, const Feather& feather, const ReportedProgress&
   std::vector<MixedRow> rows(mask.height);
   std::mutex telling;
   std::uint64_t done = 0;
-  const auto tell = [&] {
+  const auto tell = [&](std::uint64_t rows_more) {
+    check_interruption();
     const std::lock_guard lock(telling);
-    if (progress) progress(done++, 2 * std::uint64_t{mask.height});
+    if (progress) progress(std::exchange(done, done + rows_more), 2 * std::uint64_t{mask.height});
   };
   parallel_for(mask.height, [&](std::uint64_t y) {
-    tell();
-    rows[y] = feathered_row(mask, feather, tents, static_cast<std::int64_t>(y));
+    tell(1);
+    rows[y] = feathered_row(mask, feather, tents, static_cast<std::int64_t>(y), [&] { tell(0); });
   });
   Mask soft{mask.width, mask.height, mask.tags, {}};
   for (const MixedRow& row : rows) {
-    tell();
+    tell(1);
     for (const auto& [pixel, shares] : row) put_shares(soft, pixel, shares);
   }
   return soft;

@@ -33,6 +33,7 @@ void choose_arithmetic(const RenderPlan& plan, const OutputFormat& output,
   std::vector<Precision> left(available.begin(), available.end());
   if (asked) left = {*asked};
   std::string faults;
+  measure_tables(plan, control.stop);
   while (!left.empty()) {
     rendered.choice = choose_precision(plan, output, left);
     rendered.precision = rendered.choice->precision();

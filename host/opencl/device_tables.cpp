@@ -5,6 +5,7 @@
 #include <cstring>
 #include <functional>
 
+#include "capture/error.hpp"
 #include "render/fixed_scale.hpp"
 #include "system/parallel.hpp"
 
@@ -165,7 +166,8 @@ std::uint64_t DeviceTables::Slice::bytes() const {
 }
 
 SliceTables DeviceTables::slice(const RenderPlan& plan, const TableSlice& slice, Precision precision,
-                                std::uint32_t group_rows, DeviceMemory& memory, std::uint64_t& written_bytes) {
+                                std::uint32_t group_rows, DeviceMemory& memory, std::uint64_t& written_bytes,
+                                const std::stop_token& stop) {
   Slice& kept = slice_for(plan, slice, precision, group_rows, memory);
   std::vector<TableColumnSource> wanted = column_sources(plan, precision);
   std::vector<std::size_t> stale;
@@ -177,7 +179,7 @@ SliceTables DeviceTables::slice(const RenderPlan& plan, const TableSlice& slice,
   const std::uint64_t column_bytes = kept.bytes() / wanted.size();
   // Columns are written with gaps, which a device may do slowly.
   if (4 * stale.size() > wanted.size()) {
-    write_all(plan, slice, wanted, kept);
+    write_all(plan, slice, wanted, kept, stop);
     written_bytes += kept.bytes();
   } else {
     for (const std::size_t f : stale) write_column(plan, slice, f, wanted[f], kept);
@@ -214,13 +216,14 @@ DeviceTables::Slice& DeviceTables::slice_for(const RenderPlan& plan, const Table
 }
 
 void DeviceTables::write_all(const RenderPlan& plan, const TableSlice& slice,
-                             std::span<const TableColumnSource> columns, Slice& to) {
+                             std::span<const TableColumnSource> columns, Slice& to, const std::stop_token& stop) {
   const std::uint64_t functions = plan.function_count();
   const std::size_t number = weight_bytes(to.precision);
   Bytes weights(to.weight_rows() * functions * number), boundaries(to.row_count * functions * number);
   std::vector<BlockPart> parts(to.part_count() * functions);
   Bytes gains(parts.size() * number);
   const auto pack = [&](std::uint64_t f) {
+    if (stop.stop_requested()) throw Cancelled();
     pack_column(*columns[f].table, plan, slice, to.precision, columns[f].exponent,
                 {weights.data() + f * to.group_rows * number, boundaries.data() + f * number, functions * number,
                  number, to.group_rows});

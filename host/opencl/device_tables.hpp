@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <utility>
 #include <vector>
 
@@ -76,9 +77,10 @@ class DeviceTables {
       : queue_(std::move(queue)), recent_(max_bytes) {}
 
   // A slice's tables, which no kernel may read any more when the next slice is asked for. What it takes is counted in
-  // `memory`, what had to be written is added to `written_bytes`.
+  // `memory`, what had to be written is added to `written_bytes`. Throws Cancelled at a stop.
   [[nodiscard]] SliceTables slice(const RenderPlan& plan, const TableSlice& slice, Precision precision,
-                                  std::uint32_t group_rows, DeviceMemory& memory, std::uint64_t& written_bytes);
+                                  std::uint32_t group_rows, DeviceMemory& memory, std::uint64_t& written_bytes,
+                                  const std::stop_token& stop);
 
  private:
   struct Slice {
@@ -100,7 +102,7 @@ class DeviceTables {
   Slice& slice_for(const RenderPlan& plan, const TableSlice& slice, Precision precision, std::uint32_t group_rows,
                    DeviceMemory& memory);
   void write_all(const RenderPlan& plan, const TableSlice& slice, std::span<const TableColumnSource> columns,
-                 Slice& to);
+                 Slice& to, const std::stop_token& stop);
   void write_column(const RenderPlan& plan, const TableSlice& slice, std::size_t function,
                     const TableColumnSource& column, Slice& to);
 

@@ -344,7 +344,7 @@ class OpenClRenderer::Implementation {
             cut_tables(what.plan, work.precision, info_, shares.slice_bytes),
             [&](const TableSlice& slice) {
               return tables_->slice(what.plan, slice, work.precision, work.shape.table_rows(), memory,
-                                    rendered.statistics.table_bytes_written);
+                                    rendered.statistics.table_bytes_written, control.stop);
             },
             [&](const cl::Buffer& chunk, const cl::Buffer& entries, const SliceTables& tables,
                 const ExposedBand& band, const ExposeLaunch& launch) {

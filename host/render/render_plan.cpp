@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "capture/error.hpp"
 #include "exposure/function_check.hpp"
 #include "system/parallel.hpp"
 
@@ -65,12 +66,15 @@ std::uint64_t RenderPlan::exposed_sample_count() const {
   return samples;
 }
 
-void measure_tables(const RenderPlan& plan) {
+void measure_tables(const RenderPlan& plan, const std::stop_token& stop) {
   std::vector<const GainTable*> unmeasured;
   for (const PlannedFunction& function : plan.functions) {
     if (!function.table->is_measured()) unmeasured.push_back(function.table.get());
   }
-  parallel_for(unmeasured.size(), [&](std::uint64_t i) { static_cast<void>(unmeasured[i]->course()); });
+  parallel_for(unmeasured.size(), [&](std::uint64_t i) {
+    if (stop.stop_requested()) throw Cancelled();
+    static_cast<void>(unmeasured[i]->course());
+  });
 }
 
 SampleRange needed_samples(const Timeline& timeline, const FunctionSet& functions, const Mask& mask,

@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -106,8 +107,8 @@ struct RenderPlan {
 // that it needs all but one or two.
 [[nodiscard]] SampleRange exposed_samples(const PlannedFunction& planned, const Timeline& timeline);
 
-// Measures the tables of all functions (GainTable::course), several at a time.
-void measure_tables(const RenderPlan& plan);
+// Measures the tables of all functions (GainTable::course), several at a time. Throws Cancelled at a stop.
+void measure_tables(const RenderPlan& plan, const std::stop_token& stop = {});
 
 // The samples that an exposure of these functions through this mask needs, as one range: what has to be
 // read of a capture that can only be read from its start.

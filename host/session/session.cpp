@@ -72,7 +72,7 @@ class Session::State {
   [[nodiscard]] std::shared_ptr<const CaptureErrors> errors_of(const RenderPlan& plan);
   [[nodiscard]] ExposedPicture exposed_of(Rendered rendered, RenderPlan plan, const Timeline& timeline,
                                           const OutputFormat& output);
-  void warm_up(CaptureSource& source, const RenderPlan& plan, const OutputFormat& output);
+  void warm_up(CaptureSource& source, const RenderPlan& plan, const OutputFormat& output, const std::stop_token& stop);
   void spend();
 
   SourceRequest source_;
@@ -219,8 +219,10 @@ RenderPlan Session::State::plan(const ExposureRequest& request) {
 }
 
 // A device that is still starting loads its kernels beside the first blocks.
-void Session::State::warm_up(CaptureSource& source, const RenderPlan& plan, const OutputFormat& output) {
+void Session::State::warm_up(CaptureSource& source, const RenderPlan& plan, const OutputFormat& output,
+                             const std::stop_token& stop) {
   if (devices_->is_ready()) return;
+  measure_tables(plan, stop);  // takes long for many functions, and who chooses an arithmetic needs it
   auto ready = std::async(std::launch::async, [&] { devices_->renderer().prepare(plan, output); });
   preload_until(ready, source, plan, memory().bytes / 4);
   ready.get();
@@ -256,7 +258,7 @@ ExposedPicture Session::State::expose(CaptureSource& source, const FunctionSet& 
   const bool strict = control.strict || devices_->request().strict;
   if (strict && (!adds_up || devices_->request().renderer == RendererKind::reference))
     check_reference_strictly(plan, output);
-  if (adds_up && !warmed_up_.test_and_set()) warm_up(source, plan, output);
+  if (adds_up && !warmed_up_.test_and_set()) warm_up(source, plan, output, control.stop);
   if (reading_ == Reading::whole) devices_->keep_resident(reader_.get());
   // In the mask and in its map.
   const std::uint64_t mixed_bytes = 2 * mask.mixed.bytes();

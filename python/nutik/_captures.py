@@ -20,8 +20,8 @@ from ._nutik import InputError, MemoryTooLittle, UsageError
 from ._pictures import Picture, Pictures
 from ._told import Figures
 from ._words import (Axes, DataArray, DelayLike, HasArray, Index, NutikNote, Path, Progress, Time, WrongType, axes_of,
-                     box_of, count_of, delays_ns, frozen, is_list, labelled, listed, real, refuse, settings_of,
-                     shortened, tag_of, time_word, warn, word_of)
+                     box_of, count_of, delays_ns, flag_of, frozen, is_list, labelled, listed, real, refuse, settings_of,
+                     shortened, tag_of, text_of, time_word, warn, word_of)
 
 Codes = Union[NDArray[np.uint8], NDArray[np.uint16]]
 Functions = Union[FunctionLike, Mapping[int, FunctionLike], Path]
@@ -282,7 +282,8 @@ class Capture:
         ((24, 32), True)
         """
         asked, corner = self._exposure(locals())
-        held = _nutik.render(self._held, asked, self._output(codes, dtype, transfer, negative), bounds, progress)
+        held = _nutik.render(self._held, asked, self._output(codes, dtype, transfer, negative),
+                             flag_of(bounds, "bounds"), progress)
         picture = Picture(held, corner)
         warn(held.figures["warnings"])
         if picture.dtype.kind == "u":
@@ -334,7 +335,7 @@ class Capture:
                 for each in lists.get("functions", [])]
         array, errors, saturated, doubts, still_gains, maps, told = _nutik.render_many(
             self._held, asked, counts.pop(), starts, exposures, held, self._output(codes, dtype, transfer, negative),
-            bounds, progress)
+            flag_of(bounds, "bounds"), progress)
         warn(doubts)
         if array.dtype.kind == "u":
             _warn_of_black(still_gains, negative)
@@ -408,7 +409,7 @@ class Capture:
         made = mask_of(mask)
         told: dict[str, Any] = {"times": self.times, **_nutik.activity(
             self._held, None if made is None else made._held, None if tag is None else tag_of(tag), count_of(by, "by"),
-            count_redrawn, progress)}
+            flag_of(count_redrawn, "count_redrawn"), progress)}
         warn(told.pop("notes"), NutikNote)
         told.update({name: told[name] and Stretch(**told[name]) for name in ("busiest", "quietest")})
         return Activity(**frozen(told))
@@ -470,8 +471,9 @@ class Capture:
         asked = self._asked(None, locals())
         words = [freedom_word(name, each, functions) for name, each in free.items()]
         region_mask = mask_of(regions)
-        told: dict[str, Any] = _nutik.solve(self._held, functions, list(wishes), words, asked,
-                                            None if region_mask is None else region_mask._held, progress)
+        told: dict[str, Any] = _nutik.solve(self._held, text_of(functions, "functions"),
+                                            [text_of(wish, "a wish") for wish in listed(wishes, "wishes")], words,
+                                            asked, None if region_mask is None else region_mask._held, progress)
         told["wishes"] = [SolvedWish(**wish) for wish in told["wishes"]]
         warn([*told.pop("warnings"), *([] if told["is_kept"] else [
             f"not all wishes could be kept: the numbers are those with the least cost of all, {told['cost']:.2g}"])])

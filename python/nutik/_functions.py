@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import (Axes, HasArray, Path, Time, array_ns, axes_of, listed, path_of, reading, real, refuse, shortened,
-                     tag_of, time_ns, time_word, times_ns, warn, whole)
+from ._words import (LARGEST_NS, Axes, HasArray, Path, Time, array_ns, axes_of, listed, nanoseconds_of, path_of,
+                     reading, real, refuse, shortened, tag_of, text_of, time_ns, time_word, times_ns, warn, whole)
 
 _MIN_SAMPLES = 1024  # of a callable, evenly, before it is looked at more closely where it bends
 _PROBES = 64         # in each stretch of these, unevenly: what repeats evenly may hide from even samples
@@ -57,6 +57,8 @@ class Function:
         """
         at = np.asarray(whole(times_ns, "times_ns"))
         refuse(at.size and at.dtype.kind not in "iu", f"times_ns has dtype {at.dtype}; whole nanoseconds are int64")
+        refuse(at.dtype.kind == "u" and at.size and int(at.max()) > LARGEST_NS,
+               "times_ns lies further away than 126 years")
         return cls._of(_nutik.Function(at.astype(np.int64), real(gains, "gains")))
 
     @property
@@ -77,7 +79,7 @@ class Function:
     def __call__(self, times: Union[Time, NDArray[np.generic]]) -> Union[float, NDArray[np.float64]]:
         """The gain at a time, or at each of an array of any shape; at a jump that of its later side."""
         at = np.asarray(whole(times, "times"))
-        value = self._beside(at.astype(np.float64) * 1e9 if at.dtype.kind in "iuf" else array_ns(at, "times"))[1]
+        value = self._beside(nanoseconds_of(at)[0] if at.dtype.kind in "iuf" else array_ns(at, "times"))[1]
         return value if value.ndim else float(value)
 
     @property
@@ -99,7 +101,7 @@ class Function:
         Parameters:
         factor : every gain is multiplied by it; f * 2 is the same.
         """
-        return Function._of(self._held.scaled(factor))
+        return Function._of(self._held.scaled(cast(float, real(factor, "factor"))))
 
     __array_ufunc__ = None  # numpy's numbers leave f * 2 to it
 
@@ -207,7 +209,7 @@ def shutter(shape: str, start: Time, exposure: Time, *, error: float = 1e-3) -> 
     4
     """
     begin, end = _nutik.interval_ns(time_word(start, "start"), time_word(exposure, "exposure"))
-    return Function._of(_nutik.shutter(shape, begin, end, error))
+    return Function._of(_nutik.shutter(text_of(shape, "shape"), begin, end, error))
 
 
 def fit(gain: Gain, start: Time, end: Time, *, error: float = 1e-3) -> Function:
@@ -302,7 +304,7 @@ def parse_functions(text: str, *, name: str = "functions") -> dict[int, Function
     >>> nutik.parse_functions("M0{[0:1], [20ms:0]}")[0](0.01)
     0.5
     """
-    return _told(_nutik.parse_functions(text, name))
+    return _told(_nutik.parse_functions(text_of(text, "text"), text_of(name, "name")))
 
 
 def read_functions(path: Path) -> dict[int, Function]:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import Array, Path, Progress, path_of, reading, tag_of, whole
+from ._words import Array, Path, Progress, feather_word, path_of, reading, tag_of, whole
 
 
 class Mask:
@@ -28,9 +28,9 @@ class Mask:
         tags = np.asarray(whole(tags, "a mask's array of tags"))
         if tags.dtype not in (bool, np.uint8) and not (
                 tags.dtype.kind in "iu" and tags.size and tags.min() >= 0 and tags.max() <= 255):
-            raise UsageError(f"a mask's tags are whole numbers 0 ... 255, and this array has dtype {tags.dtype}"
-                             f"{'' if not tags.size else f' and values {tags.min()} ... {tags.max()}'}; for "
-                             "shares of pixels see nutik.Mask.of_layers()")
+            values = f" and values {tags.min()} ... {tags.max()}" if tags.size and tags.dtype.kind in "iuf" else ""
+            raise UsageError(f"a mask's tags are whole numbers 0 ... 255, and this array has dtype {tags.dtype}{values}"
+                             "; for shares of pixels see nutik.Mask.of_layers()")
         self._held = _nutik.Mask(tags.astype(np.uint8, copy=False))
 
     @classmethod
@@ -67,7 +67,7 @@ class Mask:
         >>> nutik.Mask(np.eye(16, dtype=np.uint8)).feathered(2).is_soft
         True
         """
-        return Mask._of(self._held.feathered(feather if isinstance(feather, str) else f"{feather:g}px", progress))
+        return Mask._of(self._held.feathered(feather_word(feather), progress))
 
     @property
     def tags(self) -> Array:
@@ -107,7 +107,7 @@ MaskLike = Union[Mask, NDArray[np.uint8], NDArray[np.int64], NDArray[np.bool_], 
 
 
 def read_mask(path: Path, *, rest: int = 0) -> Mask:
-    """A mask from a grey picture of 8 bits, or from layers.
+    """A mask from a grey picture whose values are tags, or from layers.
 
     Parameters:
     path : the picture; or, of a name with a number in it, 'layer-%d.png', layers.

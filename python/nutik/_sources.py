@@ -17,7 +17,8 @@ from . import _nutik
 from ._captures import Capture
 from ._nutik import InputError, UsageError
 from ._words import (Array, HasArray, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, is_list,
-                     listed, path_of, reading, refuse, scalar, seconds_of, settings_of, time_ns, times_ns, warn, whole)
+                     listed, path_of, reading, refuse, scalar, seconds_of, settings_of, text_of, time_ns, times_ns,
+                     warn, whole)
 
 
 Source = Union[ArrayLike, HasArray, Iterable[ArrayLike], Path, BinaryIO]
@@ -110,6 +111,7 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
     """
     given = locals()
     computing, path = _computing(device, memory, renderer), None if output is None else path_of(output)
+    codec = None if codec is None else text_of(codec, "codec")
     of_clips = set(inspect.signature(open).parameters) - {"path", "progress", *_COMPUTING}
     stated = {argument: given[argument] for argument in given if argument in (*of_clips, "tiles", "block_samples")}
     is_clip = isinstance(source, (str, bytes, PathLike)) or hasattr(source, "read")
@@ -124,7 +126,7 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
         refuse(name is not None, "name= is what pictures in memory are called; a clip has its own")
         with as_file(source, "clip") as clip_name, reading(clip_name):
             return _told(_nutik.encode_clip(clip_name, path, codec, settings_of(stated), computing, progress))
-    name, white = name or "array", scalar(white)
+    name, white = text_of(name or "array", "name"), scalar(white)
     pictures, first, length, is_light = _pictures_of(source, white, name)
     if is_light:
         stated["white"] = None  # of the codes it is the last one
@@ -184,6 +186,7 @@ def devices() -> list[Device]:
     return [Device(index, *told) for index, told in enumerate(_nutik.devices())]
 
 
+_ROUNDING = 1.01  # of a step, which times that were rounded are still exposed for
 _COMPUTING = ("device", "memory", "renderer")
 
 
@@ -287,7 +290,11 @@ def _timing(rate: Optional[Number], times: Optional[Iterable[Time]], exposures: 
     if exposures is None:
         return starts, [], None
     if not is_list(exposures):
-        return starts, [], _lasting(time_ns(cast(Time, exposures), "exposures"), "exposures", exposures)
+        exposed = _lasting(time_ns(cast(Time, exposures), "exposures"), "exposures", exposures)
+        for number, (begin, end) in enumerate(zip(starts, starts[1:])):
+            refuse(end > begin and exposed > _ROUNDING * (end - begin), f"exposures={exposures!r}: sample {number + 1} "
+                   f"starts {end - begin} ns after sample {number}, which is still exposed then", InputError)
+        return starts, [], exposed
     if times is None:
         raise UsageError("exposures= of each picture need times=, when each begins; with rate= give one for all")
     begins = [seconds_of(time, "times") for time in times]

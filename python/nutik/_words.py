@@ -44,6 +44,7 @@ Progress = Optional[Callable[[int, int], object]]  # progress(done, total); tota
 
 _MAX_DIGITS = 10 ** 15 - 1  # that the engine reads above and below a fraction line
 _SECOND_NS = 10 ** 9
+LARGEST_NS = 4 * 10 ** 18  # that a time may have: 126 years
 
 
 class HasArray(Protocol):
@@ -178,7 +179,7 @@ def scalar(value: Any) -> Any:  # of an array without axes what it holds
 def real(values: Any, what: str) -> NDArray[np.float64]:
     """An array of gains."""
     array = np.asarray(whole(values, what))
-    with suppress(TypeError, ValueError):
+    with suppress(TypeError, ValueError, OverflowError):
         if array.dtype.kind in "biufO":
             return array.astype(np.float64)
     raise WrongType(f"{what} has dtype {array.dtype}; gains are real numbers")
@@ -186,7 +187,25 @@ def real(values: Any, what: str) -> NDArray[np.float64]:
 
 def listed(values: Any, what: str = "the array") -> list[Any]:
     """Its values one by one; of what NumPy takes for an array, NumPy's."""
+    refuse(not is_list(values), f"{what} is {shortened(values)}; give a list", WrongType)
     return list(np.asarray(whole(values, what)) if hasattr(values, "__array__") else values)
+
+
+def text_of(value: Any, what: str) -> str:
+    """A text."""
+    refuse(not isinstance(value, str), f"{what} is {shortened(value)}, no text", WrongType)
+    return cast(str, value)
+
+
+def flag_of(value: Any, what: str) -> bool:
+    """True or False, or what is a number."""
+    refuse(not isinstance(value, (int, np.bool_)), f"{what} is {shortened(value)}; it is True or False", WrongType)
+    return bool(value)
+
+
+def feather_word(feather: Union[str, float]) -> str:
+    """How far edges reach, as the engine reads it."""
+    return feather if isinstance(feather, str) else f"{float(exact(scalar(feather), 'feather')):g}px"
 
 
 def path_of(path: Any) -> str:
@@ -278,7 +297,7 @@ def half_up(value: Fraction) -> int:
 def time_ns(time: Time, what: str) -> int:
     """A time in whole nanoseconds."""
     nanoseconds = half_up(seconds_of(time, what) * _SECOND_NS)
-    refuse(abs(nanoseconds) > 4 * 10 ** 18, f"{what} lies further away than 126 years")
+    refuse(abs(nanoseconds) > LARGEST_NS, f"{what} lies further away than 126 years")
     return nanoseconds
 
 
@@ -293,16 +312,32 @@ def array_ns(times: NDArray[Any], what: str) -> NDArray[np.int64]:
     return times_ns(different, what)[place].reshape(times.shape)
 
 
+def nanoseconds_of(times: NDArray[Any]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Numbers of seconds in nanoseconds, each in as many digits as it shows, whole ones exactly; and by how much the
+    others may be off."""
+    shown = times.astype(str) if times.dtype.kind == "f" and times.itemsize != 8 else times
+    made = np.asarray(shown.astype(np.float64) * _SECOND_NS)
+    is_long = (np.abs(made) > 2 ** 51) & (np.abs(made) <= LARGEST_NS)
+    made[is_long] = array_ns(times[is_long], "times")
+    error, nearest = np.abs(made) * 2 ** -51, np.rint(made)
+    with np.errstate(invalid="ignore"):  # infinite ones
+        return np.where(np.abs(made - nearest) <= error, nearest, made), error
+
+
 def delays_ns(delays: Any) -> NDArray[np.int64]:
     """The delay of each pixel, of seconds or timedelta64, in whole nanoseconds, int64."""
     delays = np.asarray(whole(delays, "delay="))
     refuse(delays.dtype.kind not in "iufm", "delay= is 'rows:15ms', 'map.tif:0s..1s' or an array of seconds, and this "
            f"has dtype {delays.dtype}")
-    made: NDArray[Any] = (array_ns(delays, "delay=") if delays.dtype.kind == "m" else
-                          np.floor(delays.astype(np.float64) * _SECOND_NS + 0.5))
-    if not (np.abs(made.astype(np.float64)) <= 4e18).all():
+    if delays.dtype.kind == "m":
+        return array_ns(delays, "delay=")
+    made, error = nanoseconds_of(delays)
+    if not (np.abs(made) <= LARGEST_NS).all():
         raise UsageError("delay=: some pixel's delay is no number of seconds, or further away than 126 years")
-    return np.asarray(made, np.int64)
+    rounded = np.asarray(np.floor(made + 0.5), np.int64)
+    may_be_half = np.abs(made % 1 - 0.5) <= error
+    rounded[may_be_half] = array_ns(delays[may_be_half], "delay=")
+    return rounded
 
 
 def count_of(value: Any, what: str) -> int:
@@ -348,9 +383,10 @@ def word_of(name: str, kind: str, value: Any) -> str:
         x, y, width, height = box_of(value, name)
         return f"{width}x{height}+{x}+{y}"
     if is_list(value):
+        refuse(getattr(value, "ndim", 1) > 1, f"{name} is {shortened(value)}; give one value or a list", WrongType)
         return ",".join(word_of(name, kind if "TIME" in kind else "", each) for each in value)
     refuse(kind == "FILE|auto", f"{name} is {value!r}, no path", WrongType)
-    return f"{value:g}px" if name == "feather" else "1" if value is True else str(value)
+    return feather_word(value) if name == "feather" else "1" if value is True else str(value)
 
 
 @cache

@@ -118,6 +118,13 @@ TEST_F(MaskCommand, TakesFloatingPointPicturesAndTiff) {
                  "m.npy: pixel 3,0 has no value of a mask, a whole number from 0 to 255");
   mask_of(256);
   expect_refused("mask --base m.exr -o x.pgm", 3, "m.exr: pixel 3,0 has light 256");
+  Picture deep({MovingSquare::kWidth, MovingSquare::kHeight, 1}, ValueType::code16, 65'535);
+  deep.values<std::uint16_t>()[3] = 1;
+  write_picture(scratch_ / "m.tif", deep);
+  EXPECT_EQ(tags("--base m.tif"), boxes({{3, 0, 1, 1, 1}}));
+  deep.values<std::uint16_t>()[3] = 257;
+  write_picture(scratch_ / "m.tif", deep);
+  expect_refused("mask --base m.tif -o x.pgm", 3, "m.tif: pixel 3,0 has the value 257, no value of a mask");
 }
 
 TEST_F(MaskCommand, ChangesTheRegionBefore) {

@@ -27,6 +27,13 @@ TEST(Rational, RefusesEverythingElseByName) {
   }
 }
 
+TEST(Rational, SaysThatThereAreTooManyDigits) {
+  for (const char* text : {"1e-300", "-0.1234567890123456", "12345678901234567890"})
+    test::expect_error<UsageError>([&] { return Rational::parse(text, "gain"); }, {"needs more than 15 digits"});
+  for (const char* text : {"1/0", "1.2.3", "1e", ".", "1e1.5"})
+    test::expect_error<UsageError>([&] { return Rational::parse(text, "gain"); }, {"is not a number"});
+}
+
 TEST(Rational, WritesTheShortestExactForm) {
   EXPECT_EQ((Rational{120, 1}).text(), "120");
   EXPECT_EQ((Rational{2997, 100}).text(), "29.97");

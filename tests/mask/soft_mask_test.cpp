@@ -69,6 +69,17 @@ TEST(Feather, ByHand) {
   EXPECT_EQ(feathered(hard, Feather::parse("0px")), hard);
 }
 
+// Within a row, too, which may take long.
+TEST(Feather, AsksWhetherToGoOn) {
+  std::vector<std::uint8_t> tags(1000);
+  for (std::size_t x = 0; x < tags.size(); ++x) tags[x] = static_cast<std::uint8_t>(x);
+  int asked = 0;
+  const auto stops = [&](std::uint64_t, std::uint64_t) {
+    if (++asked > 10) throw Cancelled();
+  };
+  EXPECT_THROW(static_cast<void>(feathered(row_of(tags), Feather::parse("300px"), stops)), Cancelled);
+}
+
 // Against the formula, pixel by pixel.
 TEST(Feather, IsTheMaskUnderItsKernel) {
   test::Random random(8);

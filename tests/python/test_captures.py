@@ -376,6 +376,10 @@ class Times(support.TestCase):
             self.assertIn(f"{float(rate):g}", capture.facts[0])
         self.assert_raises(nutik.InputError, "sample 0", nutik.encode, self.pictures, times=[0, 1, 2, 3],
                            exposures=[1.5, 0.5, 0.5, 0.5])
+        self.assert_raises(nutik.InputError, "exposures='15ms': sample 1 starts 10000000 ns after sample 0",
+                           nutik.encode, self.pictures, times=[0, 0.01, 0.02, 0.05], exposures="15ms")
+        self.check([[0, 1000], [1000, 2000], [2000, 3005], [4000, 5005]], exposures="1005ns",
+                   times=[f"{each}us" for each in (0, 1, 2, 4)])
         self.assert_raises(nutik.UsageError, "3 exposures for 4", nutik.encode, self.pictures, times=range(4),
                            exposures=[1, 1, 1])
 

@@ -26,6 +26,15 @@ class Functions(support.TestCase):
         self.assertEqual(hash(function), hash(nutik.Function.from_ns(function.times_ns, function.gains)))
         self.assertEqual(nutik.boxcar("1/3s", "1/3s").times_ns.tolist(), [333333333, 333333333, 666666667, 666666667])
 
+    def test_a_jump_at_a_float_has_its_later_side(self):
+        rng = np.random.default_rng(5)
+        for times in (np.concatenate([[8.118e-06, 1.7e9 + 0.1], rng.integers(1, 10 ** 13, 500) / 1e9]),
+                      np.float32([0.7, 0.1, 12.3]), np.float16([0.7])):
+            for time in times:
+                jump, earlier = nutik.Function([time, time], [0, 1]), float(str(time)) * (1 - 1e-12) - 1e-9
+                self.assertEqual((jump(time), jump(np.array([time]))[0], jump(earlier)), (1, 1, 0), time)
+        self.assertEqual(jump(np.array([-np.inf, np.inf])).tolist(), [0, 1])
+
     def test_sums_and_multiples(self):
         rng = np.random.default_rng(8)
         for _ in range(300):
@@ -79,6 +88,7 @@ class Functions(support.TestCase):
         self.assert_raises(usage, "one control point", make, [], [])
         self.assert_raises(usage, "as many times as gains", make, [0, 1], [0])
         self.assert_raises(usage, "int64", nutik.Function.from_ns, [0.5], [1])
+        self.assert_raises(usage, "126 years", nutik.Function.from_ns, np.array([2 ** 64 - 1000, 0], np.uint64), [1, 0])
         self.assert_raises(usage, "functions is 7, no function",
                            nutik.encode(np.zeros((2, 8, 8), np.uint8), rate=1).render, 7)
 

@@ -88,6 +88,10 @@ class Pictures(support.TestCase):
         picoseconds = np.array([[1500, -1500, 1499]], "timedelta64[ps]")
         self.assertEqual(_words.delays_ns(picoseconds).tolist(), [[2, -1, 1]])
         self.assertEqual(_words.delays_ns(np.array([[2.5e-9, -2.5e-9]])).tolist(), [[3, -2]])
+        rng = np.random.default_rng(4)
+        for seconds in (np.array(rng.integers(-10 ** 13, 10 ** 13, 2000) / 2e9), np.float32([0.7, 1e-3, -0.3]),
+                        np.float16([0.7]), np.array([1.7e9 + 0.1, 3])):
+            self.assertEqual(_words.delays_ns(seconds).tolist(), _words.array_ns(seconds, "").tolist())
 
     def test_delays_that_are_none(self):
         for delay, said in (("rows", "does not say where and by how much"), (np.zeros((3, 4)), "3 x 4|4 x 3"),
@@ -234,7 +238,31 @@ class Pictures(support.TestCase):
         self.assert_raises(nutik.InputError, "more than all", nutik.Mask.of_layers,
                            {1: np.ones((2, 2)), 2: np.ones((2, 2))})
         self.assert_raises(usage, "0 ... 255", nutik.Mask, np.full((2, 2), 256))
+        self.assert_raises(usage, "and this array has dtype <U8;", nutik.Mask, "mask.png")
         self.assert_raises(usage, "outside 0 ... 1", nutik.Mask.of_layers, {1: np.full((2, 2), 1.5)})
+
+    def test_integers_of_16_bits_are_tags(self):
+        labels = np.arange(256, dtype=np.uint16).reshape(16, 16)
+        np.save(self.path("labels.npy"), labels)
+        self.assert_same(nutik.read_mask(self.path("labels.npy")).tags, nutik.Mask(labels).tags)
+        np.save(self.path("labels.npy"), labels + 257)
+        self.assert_raises(nutik.InputError, "pixel 0,0 has the value 257", nutik.read_mask, self.path("labels.npy"))
+
+    def test_arguments_of_wrong_types(self):
+        pictures, wrong = np.zeros((2, 2, 2), np.uint8), nutik.WrongType
+        self.assert_raises(wrong, "times is 0.1; give a list", nutik.Function, 0.1, 1)
+        self.assert_raises(wrong, "gains has dtype object", nutik.Function, [0], [10 ** 400])
+        self.assert_raises(wrong, "feather [2] is no number", nutik.Mask(self.tags).feathered, [2])
+        self.assert_raises(wrong, "codec is 3, no text", nutik.encode, pictures, rate=1, codec=3)
+        self.assert_raises(wrong, "name is 3, no text", nutik.encode, pictures, rate=1, name=3)
+        self.assert_raises(wrong, "a wish is 3", self.capture.solve, "M0 [0:g], [1:0]", [3], free={"g": (0, 1)})
+        self.assert_raises(wrong, "shape is 3", nutik.shutter, 3, 0, 1)
+        self.assert_raises(wrong, "text is 3", nutik.parse_functions, 3)
+        self.assert_raises(wrong, "factor has dtype", nutik.boxcar(0, 1).scaled, "x")
+        self.assert_raises(wrong, "bounds is 'x'", self.capture.render, exposure=1, bounds="x")
+        self.assert_raises(wrong, "bounds is 'x'", self.capture.render_many, exposures=[1], bounds="x")
+        self.assert_raises(wrong, "count_redrawn is 'x'", self.capture.activity, count_redrawn="x")
+        self.assert_raises(wrong, "shutter is <nutik.Capture", self.capture.render, exposure=1, shutter=self.capture)
 
     def test_messages_name_what_helps(self):
         render, many, usage = self.capture.render, self.capture.render_many, nutik.UsageError

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <thread>
 
+#include "capture/error.hpp"
 #include "render/error_bound.hpp"
 #include "render/fixed_scale.hpp"
 #include "support/packed_tables.hpp"
@@ -59,6 +60,9 @@ TEST(PlanCache, MakesTheTableThatChanged) {
   PlanCache cache;
   const auto plan = [&] { return cache.plan(*scene.capture, scene.functions, scene.mask, {}); };
   const RenderPlan first = plan();
+  std::stop_source stopped;
+  stopped.request_stop();
+  EXPECT_THROW(measure_tables(first, stopped.get_token()), Cancelled);
   EXPECT_EQ(cache.statistics().tables_made, 0u);  // nobody has needed one yet
   measure_tables(first);
   EXPECT_EQ(cache.statistics().tables_made, 64u);

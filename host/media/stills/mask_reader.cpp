@@ -46,8 +46,8 @@ Picture read_mask(std::span<const std::byte> bytes, const std::string& name,
     const bool is_functions = bytes.size() > 1 && bytes[0] == std::byte{'M'} && bytes[1] >= std::byte{'0'} &&
                               bytes[1] <= std::byte{'9'};
     throw InputError(
-        format("{} is neither a PGM nor a PNG; masks are 8-bit grey pictures of these kinds "
-               "(JPEG would change their values){}",
+        format("{} is neither a PGM nor a PNG; masks are 8-bit grey pictures of these kinds, or "
+               ".tif, .npy, .exr and .pfm with whole numbers (JPEG would change their values){}",
                name, is_functions ? ". It looks like gain functions; were mask and functions swapped?" : ""));
   }
   Picture picture = read_netpbm(bytes, name);

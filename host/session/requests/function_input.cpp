@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 #include "capture/error.hpp"
@@ -51,33 +52,34 @@ FunctionInput read_function_input(const std::string& name) {
 
 namespace {
 
-// A picture file as it stands, light of `white` having the last code.
-Picture read_still(const std::string& name, double white) {
+// A picture file as it stands, light of `white` having the last code, and whether it held light.
+std::pair<Picture, bool> read_still(const std::string& name, double white) {
   ClipOptions options;
   options.white_light = white;
   const auto clip = open_clip(name, options);
   const CaptureFormat& kind = clip->info().format;
   Picture picture(kind.shape, code_type(kind), kind.white_code);
   if (!clip->read(picture.bytes)) throw InputError(format("{} has no picture", name));
-  return picture;
+  return {std::move(picture), clip->info().holds_light};
 }
 
 // Values of a TIFF, or of floating point, as tags: whole numbers from 0 to 255.
 Picture read_tags(const std::string& name) {
   constexpr double kLast = 255;
-  constexpr std::uint32_t kSteps = 257;  // of 65535 codes, to the next tag
-  const Picture read = read_still(name, kLast);
+  const auto [read, holds_light] = read_still(name, kLast);
+  const std::uint32_t steps = holds_light ? 257 : 1;  // of 65535 codes, to the next tag
   if (read.shape.channels != 1)
     throw InputError(format("{} has colour; a mask has one value for each pixel: save it as grey", name));
   if (read.type == ValueType::code8) return read;
   Picture tags(read.shape, ValueType::code8, 255);
   const auto codes = read.values<std::uint16_t>();
   for (std::size_t i = 0; i < codes.size(); ++i) {
-    if (codes[i] % kSteps != 0) {
-      throw InputError(format("{}: pixel {},{} has no value of a mask, a whole number from 0 to 255", name,
-                              i % read.shape.width, i / read.shape.width));
+    if (codes[i] % steps != 0 || codes[i] / steps > kLast) {
+      throw InputError(format("{}: pixel {},{} has {}no value of a mask, a whole number from 0 to 255", name,
+                              i % read.shape.width, i / read.shape.width,
+                              holds_light ? "" : format("the value {}, ", codes[i])));
     }
-    tags.bytes[i] = static_cast<std::byte>(codes[i] / kSteps);
+    tags.bytes[i] = static_cast<std::byte>(codes[i] / steps);
   }
   return tags;
 }
@@ -157,7 +159,7 @@ Picture read_picture(const std::string& name) {
                                  stills ? format("a sequence of {}", stills->size()) : "no picture"),
                           Advice{", or a time of the capture: 0.3s, 12f"});
   }
-  Picture picture = read_still(name, 1.0);
+  Picture picture = read_still(name, 1.0).first;
   const std::uint32_t largest = largest_code(picture.bytes, static_cast<std::uint32_t>(value_bytes(picture.type)));
   if (largest > picture.white_code) {
     throw InputError(
