@@ -45,7 +45,7 @@ TEST(OutputFile, LeavesAnothersTemporaryFileAlone) {
   for (const OutputFile::Lasting lasting : {OutputFile::Lasting::yes, OutputFile::Lasting::recoverable}) {
     for (const auto& [is_there, is_expected] : {std::pair(false, false), {false, true}, {true, false}, {true, true}}) {
       const Scratch scratch;
-      if (is_there) scratch.write("a", "before");
+      if (is_there) scratch.write("a", "what was there before");
       if (is_expected) expect_as_it_is(scratch / "a");
       OutputFile first(scratch / "a", lasting);
       first.write("first, still being written");
