@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "capture/timeline.hpp"
+#include "exposure/gain_function.hpp"
 
 class QLabel;
 class QLineEdit;
