@@ -569,8 +569,8 @@ std::vector<Followed> followed_in(std::vector<SubjectTrack> tracks, const std::v
     const std::string where = box_text_of(others.front().places);
     if (is_stated || shows_one(request.style) || followed.front().verdict.shows != Verdict::Shows::all) {
       notes.push_back(format("one subject is shown, and another thing goes its way at the same time, within {}: name a "
-                             "region for each of them to show both",
-                             where));
+                             "region for each of them to show both{}",
+                             where, shows_one(request.style) ? ", or take the style trail or strobe" : ""));
       continue;
     }
     for (SubjectTrack& other : others) {
