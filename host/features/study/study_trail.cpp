@@ -130,8 +130,8 @@ class StudyFunctions {
   }
 
   // The scene between the moments: when nothing is there; else the moments together, in each of which most of it is
-  // seen. Where there are several subjects, the moments of one show the others elsewhere: then the samples that show the
-  // least of them beside the regions.
+  // seen. Where there are several subjects, the moments of one show the others elsewhere: then the samples that show
+  // the least of them beside the regions.
   [[nodiscard]] GainFunction background(const Study& study) const {
     GainPieces pieces;
     if (!study.empty.empty()) {
