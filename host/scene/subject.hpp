@@ -65,8 +65,8 @@ struct SubjectTrack {
   // Cells that differ for nearly all of its way, each what hangs together: where the plate shows it, the ground that it
   // has left.
   [[nodiscard]] std::vector<std::vector<std::size_t>> changed_for_good() const;
-  // The longest time at which nothing differs at a place, nor so many pixels around it. None where ground was laid bare:
-  // the thing lay on it all that time.
+  // The longest time at which nothing differs at a place, nor so many pixels around it. None where ground was laid
+  // bare: the thing lay on it all that time.
   [[nodiscard]] SampleRange free_time(const SubjectPlace& place, std::uint32_t pixels) const;
 };
 

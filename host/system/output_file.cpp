@@ -332,8 +332,8 @@ void OutputFile::take_name_beside() {
 void OutputFile::stay_beside() {
   take_name_beside();
   make_unknown(std::exchange(known_, nullptr));
-  throw OutputError(format("{} was written by another program meanwhile, and is not replaced; what was made is {}, to be "
-                           "renamed",
+  throw OutputError(format("{} was written by another program meanwhile, and is not replaced; what was made is {}, to "
+                           "be renamed",
                            path_.string(), temporary_path_.string()));
 }
 

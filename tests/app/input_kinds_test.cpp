@@ -39,7 +39,8 @@ TEST_F(InputKinds, ACaptureIsOneThroughAPipe) {
   expect_says(shell("cat clip.tik | " + program_ + " info -").out, "3 in 1 block");
   expect_shell_refused("cat clip.tik | " + program_ + " encode -f 10 - x.tik", "standard input is a capture (.tik)");
   EXPECT_EQ(shell("cat clip.tik | " + program_ + wanted + "-f 10 - x.pgm").status, 2);
-  expect_shell_refused("mkfifo pipe; cat clip.tik > pipe & " + program_ + wanted + "pipe x.pgm; status=$?; kill $!; exit $status",
+  expect_shell_refused("mkfifo pipe; cat clip.tik > pipe & " + program_ + wanted +
+                           "pipe x.pgm; status=$?; kill $!; exit $status",
                        "pipe is no regular file");
 }
 

@@ -57,8 +57,8 @@ class StudySubjects : public test::AppTest {
   }
 };
 
-// A thing that rests for half of the time is in the plate, and what it leaves behind is no ground to be taken away: where
-// it lay is what lies there now, and no moment is seen in part before it.
+// A thing that rests for half of the time is in the plate, and what it leaves behind is no ground to be taken away:
+// where it lay is what lies there now, and no moment is seen in part before it.
 TEST_F(StudySubjects, MayRestBeforeTheyGo) {
   const cv::Rect rest(20, 40, 14, 14);
   draw("kick", 40, [&](cv::Mat& frame, int k) { frame(rest + cv::Point(8 * std::max(0, k - 24), 0)) = 250; });

@@ -39,8 +39,8 @@ TEST(OutputFile, LeavesFilesAloneThatAreCalledAsTemporaryFilesAre) {
   EXPECT_TRUE(fs::is_symlink(scratch / ".a.nutik-120.part"));
 }
 
-// Another process writes the same file at the same time: both are whole, and the later one stays. Unless nothing else was
-// to be replaced but what was there: then the earlier one stays, and the later one beside it.
+// Another process writes the same file at the same time: both are whole, and the later one stays. Unless nothing else
+// was to be replaced but what was there: then the earlier one stays, and the later one beside it.
 TEST(OutputFile, LeavesAnothersTemporaryFileAlone) {
   for (const OutputFile::Lasting lasting : {OutputFile::Lasting::yes, OutputFile::Lasting::recoverable}) {
     for (const auto& [is_there, is_expected] : {std::pair(false, false), {false, true}, {true, false}, {true, true}}) {

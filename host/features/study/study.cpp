@@ -187,7 +187,8 @@ class StudyPlanner {
       if (static_cast<double>(part.size()) < least) continue;
       double left = HUGE_VAL, top = HUGE_VAL, right = 0, bottom = 0;
       for (const std::size_t cell : part) {
-        const auto x = static_cast<double>(cell % track.cell_columns), y = static_cast<double>(cell / track.cell_columns);
+        const auto x = static_cast<double>(cell % track.cell_columns);
+        const auto y = static_cast<double>(cell / track.cell_columns);
         left = std::min(left, x - 1);
         right = std::max(right, x + 2);
         top = std::min(top, y - 1);

@@ -60,8 +60,8 @@ struct StudyRequest {
 // There is no scene that rests.
 struct EverythingMoves : InputError {
   explicit EverythingMoves(const std::string& message)
-      : InputError(message, Advice{". A camera that moved stands still with `align rigid`; a fade, a dissolve or a title "
-                                   "can be left out (`from`, `to`)"}) {}
+      : InputError(message, Advice{". A camera that moved stands still with `align rigid`; a fade, a dissolve or a "
+                                   "title can be left out (`from`, `to`)"}) {}
 };
 
 // Regions that were stated hold no subjects of their own.
