@@ -1,5 +1,6 @@
 // What signal handlers look at, whoever tells them, what outputs may replace, and whether one was kept: the only
-// mutable globals. A program and the modules that it loads are each linked with a copy of this room, and use the program's.
+// mutable globals. A program and the modules that it loads are each linked with a copy of this room, and use the
+// program's.
 #pragma once
 
 #include <sys/stat.h>
