@@ -48,6 +48,7 @@ bool has_stack() {
 
 int run(std::span<const char* const> words) {
   try {
+    expect_anything();
     ParsedCommandLine parsed = parse_command_line(std::vector<std::string>(words.begin() + 1, words.end()));
     parsed.options.program = words.front();
     keep_lines_from_output(writes_to_standard_output(parsed.options));

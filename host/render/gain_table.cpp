@@ -8,7 +8,7 @@
 namespace nutik {
 namespace {
 
-// A shifted function is divided by what the unshifted one is divided by.
+// The summary of a shifted function, whose divisor is the unshifted one's.
 GainSummary supported(GainSummary summary, std::optional<std::int64_t> support_ns) {
   if (support_ns) summary.support_ns = *support_ns;
   return summary;

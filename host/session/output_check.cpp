@@ -166,7 +166,7 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
   if (kind == OutputKind::table && output.extension() != ".csv") {
     throw UsageError(format("{}: tables are written as .csv", name), Advice{", or as - to standard output"});
   }
-  replacing == Replacing::all ? expect_anything(output) : expect_as_it_is(output);
+  if (replacing != Replacing::all) expect_as_it_is(output);
   std::error_code error;
   if (is_absent(output)) return;
   if (std::filesystem::is_directory(output, error)) {

@@ -27,10 +27,10 @@ struct KnownTemporary;
 // What a name leads to, by links or none, and where nothing is there yet, too: two names of one file have the same.
 [[nodiscard]] std::filesystem::path led_to(std::filesystem::path name);
 
-// The next output of this name replaces what is there now, and nothing that is put there or written to by then; or, as
-// without a word, whatever is there.
+// The next output of this name replaces what is there now, and nothing that is put there or written to by then.
 void expect_as_it_is(const std::filesystem::path& output);
-void expect_anything(const std::filesystem::path& output);
+// Outputs of any name replace whatever is there, as long as nothing else is said: for who begins another work.
+void expect_anything();
 
 // Removes the temporary files of this process. May be called in a signal handler, if the process then ends.
 void remove_temporary_files();

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 
+#include "capture/error.hpp"
 #include "session/made_clip.hpp"
+#include "session/output_check.hpp"
 #include "support/scratch.hpp"
 
 namespace nutik {
@@ -59,6 +61,26 @@ TEST(Encoding, SaysThatThereAreMorePicturesThanAnnounced) {
 TEST(Encoding, SaysNothingOfAClipThatIsWholeOrAnnouncesNothing) {
   EXPECT_EQ(warnings_of(7, 7), std::vector<std::string>{});
   EXPECT_EQ(warnings_of(7, 0), std::vector<std::string>{});
+}
+
+// Also where encoding itself checks the name once more, which may replace captures.
+TEST(Encoding, ReplacesNothingThatWasPutThereMeanwhile) {
+  const test::Scratch scratch;
+  struct Meddling final : test::MadeClip {
+    explicit Meddling(const test::Scratch& scratch) : MadeClip(7, 7), scratch_(scratch) {}
+    bool read(std::span<std::byte> raster) override {
+      scratch_.write("c.tik", "precious");
+      return MadeClip::read(raster);
+    }
+    const test::Scratch& scratch_;
+  };
+  SourceRequest source;
+  source.path = "clip";
+  check_output(scratch / "c.tik", OutputKind::tik, {}, Replacing::made_by_recipe);
+  EXPECT_THROW(encode(source, [&] { return std::make_unique<Meddling>(scratch); }, {scratch / "c.tik"},
+                      MemoryBudget::of_machine()),
+               OutputError);
+  EXPECT_EQ(test::read_file(scratch / "c.tik"), "precious");
 }
 
 }  // namespace

@@ -191,7 +191,7 @@ void AdderEvents::add(std::size_t value, std::uint32_t d, std::uint32_t time) {
     if (is_keeping_) found.push_back({from, static_cast<std::uint32_t>(value), code});
   }
   held_[value] = code;
-  // A frame's last event ends before the next begins: what is left of the interval has no event of its own.
+  // In a framed recording an event ends before the next begins: what is left of the interval has none of its own.
   if (header_.is_framed()) until = (until + header_.interval - 1) / header_.interval * header_.interval;
   // So that times in nanoseconds have 62 bits.
   constexpr std::int64_t kLongest = std::int64_t{1} << 62;

@@ -228,7 +228,7 @@ std::optional<std::string> cut_picture_note(const AVFormatContext& file, std::sp
   if (kind == "gif" && !bytes.empty() && bytes.back() != std::byte{0x3B})
     return "the file was cut off: a GIF's last byte is missing, and pictures may be";
   if (kind == "matroska,webm") return matroska_cut_note(bytes);
-  // Packets alone; as discs have them, with a clock before each; and with a checksum behind each.
+  // Packets stand alone, with a clock before each, as on discs, or with a checksum behind each.
   const bool is_whole = size % 188 == 0 || size % 192 == 0 || size % 204 == 0;
   if (kind == "mpegts" && !is_whole)
     return "the file was cut off within one of its packets, and pictures may be missing";
