@@ -99,33 +99,58 @@ class Way {
 // What was followed from one look to the next.
 class Followed {
  public:
-  Followed(SubjectPlace first, std::size_t look, std::uint32_t side) : side_(side), last_look_(look) {
+  Followed(SubjectPlace first, std::size_t look, std::uint32_t side)
+      : side_(side), last_look_(look), last_trace_(look) {
     places_.push_back(std::move(first));
   }
 
-  [[nodiscard]] bool is_lost(std::size_t look) const { return look > last_look_ + kMaxLooksWithout; }
-  [[nodiscard]] bool was_seen(std::size_t look) const { return last_look_ == look; }
+  [[nodiscard]] bool is_lost(std::size_t look) const { return look > last_trace_ + kMaxLooksWithout; }
+  [[nodiscard]] bool was_seen(std::size_t look) const { return last_trace_ == look; }
+  // It is in what was seen then, but not alone.
+  void hide(std::size_t look) { last_trace_ = look; }
 
   // How unlike a place is to what would be seen of this now, going on as it did: how far off it lies, in its own sizes,
   // and how often it would have doubled.
   [[nodiscard]] double strays(const SubjectPlace& place, std::size_t look) const {
     const SubjectPlace& last = places_.back();
-    Point expected = last.centre;
-    if (places_.size() > 1) {
-      const auto looks = static_cast<double>(look - last_look_) / static_cast<double>(last_step_);
-      const Point& earlier = places_[places_.size() - 2].centre;
-      expected.x += looks * (last.centre.x - earlier.x);
-      expected.y += looks * (last.centre.y - earlier.y);
-    }
+    const Point expected = expected_at(look);
     const auto before = static_cast<double>(last.cells.size()), now = static_cast<double>(place.cells.size());
     const double size = side_ * std::sqrt(std::max(before, now));
     return std::min(distance(expected, place.centre), distance(last.centre, place.centre)) / size +
            std::abs(std::log2(now / before));
   }
 
+  // Whether the place holds most of what would be seen of this now.
+  [[nodiscard]] bool is_within(const SubjectPlace& place, std::size_t look, std::size_t columns) const {
+    const SubjectPlace& last = places_.back();
+    const Point expected = expected_at(look);
+    const long right = std::lround((expected.x - last.centre.x) / side_);
+    const long down = std::lround((expected.y - last.centre.y) / side_);
+    const auto width = static_cast<long>(columns);
+    const auto held = std::ranges::count_if(last.cells, [&](std::size_t cell) {
+      const long x = static_cast<long>(cell % columns) + right, y = static_cast<long>(cell / columns) + down;
+      return x >= 0 && x < width && y >= 0 &&
+             std::ranges::binary_search(place.cells, static_cast<std::size_t>(y * width + x));
+    });
+    return 2 * static_cast<std::size_t>(held) > last.cells.size();
+  }
+
+  // Two things, and no pieces of one: both were seen further apart than they are long.
+  [[nodiscard]] bool met(const Followed& other) const {
+    if (places_.size() < kMinPlaces || other.places_.size() < kMinPlaces) return false;
+    const auto length = [](const SubjectPlace& place) { return std::max(place.box.width, place.box.height); };
+    return std::ranges::any_of(places_, [&](const SubjectPlace& place) {
+      const auto same = std::ranges::lower_bound(other.places_, place.sample, {}, &SubjectPlace::sample);
+      return same != other.places_.end() && same->sample == place.sample &&
+             distance(place.centre, same->centre) > length(place) + length(*same);
+    });
+  }
+
+  [[nodiscard]] std::size_t cells() const { return places_.back().cells.size(); }
+
   void add(SubjectPlace place, std::size_t look) {
     last_step_ = look - last_look_;
-    last_look_ = look;
+    last_look_ = last_trace_ = look;
     places_.push_back(std::move(place));
   }
 
@@ -184,9 +209,20 @@ class Followed {
     return elsewhere < kMinPlaces && 2 * elsewhere < places_.size();
   }
 
+  // Going on as it did.
+  [[nodiscard]] Point expected_at(std::size_t look) const {
+    Point expected = places_.back().centre;
+    if (places_.size() == 1) return expected;
+    const auto looks = static_cast<double>(look - last_look_) / static_cast<double>(last_step_);
+    const Point &last = places_.back().centre, &earlier = places_[places_.size() - 2].centre;
+    expected.x += looks * (last.x - earlier.x);
+    expected.y += looks * (last.y - earlier.y);
+    return expected;
+  }
+
   std::uint32_t side_;  // of cells, in pixels
   std::vector<SubjectPlace> places_;
-  std::size_t last_look_, last_step_ = 1;
+  std::size_t last_look_, last_trace_, last_step_ = 1;
 };
 
 // Follows everything that is not the plate's.
@@ -202,6 +238,7 @@ class Follower {
       if (places.size() == kMaxParts) break;
       places.push_back(place_of(std::move(part), sample, cells, side_, shape_, field_));
     }
+    std::erase_if(places, [&](const SubjectPlace& place) { return hides_several(place, cells.region.width); });
     for (SubjectPlace& place : places) {
       Followed* nearest = nullptr;
       double least = kMaxStray;
@@ -222,13 +259,14 @@ class Follower {
   }
 
   // What goes furthest, and what goes half as far or more: `beside` it for half of its own time, as one whole thing, or
-  // `instead` of it: a few of these at most.
+  // `instead` of it: a few of these at most. And what else goes its way, not so far.
   struct Subjects {
     std::vector<SubjectPlace> first;
-    std::vector<std::vector<SubjectPlace>> beside, instead;
+    std::vector<std::vector<SubjectPlace>> beside, instead, lesser;
   };
   [[nodiscard]] Subjects subjects() && {
     constexpr std::size_t kMaxSubjects = 4;
+    constexpr double kMinLesser = 0.125;
     std::vector<std::pair<double, Followed*>> by_weight;
     for (Followed& each : followed_) by_weight.emplace_back(each.weight(), &each);
     if (by_weight.empty()) return {};
@@ -236,9 +274,13 @@ class Follower {
     const auto [most, subject] = by_weight.front();
     Subjects found;
     for (const auto& [weight, other] : std::span(by_weight).subspan(1)) {
-      const std::size_t count = 1 + found.beside.size() + found.instead.size();
-      if (weight <= 0 || weight < most / 2 || count == kMaxSubjects) break;
-      const bool is_beside = other->goes_its_way() && other->is_beside(*subject);
+      if (weight <= 0 || weight < kMinLesser * most) break;
+      const bool goes_its_way = other->goes_its_way();
+      if (weight < most / 2 || 1 + found.beside.size() + found.instead.size() == kMaxSubjects) {
+        if (goes_its_way) found.lesser.push_back(std::move(*other).places());
+        continue;
+      }
+      const bool is_beside = goes_its_way && other->is_beside(*subject);
       (is_beside ? found.beside : found.instead).push_back(std::move(*other).places());
     }
     found.first = std::move(*subject).places();
@@ -248,6 +290,27 @@ class Follower {
  private:
   static constexpr std::size_t kMaxParts = 12;
   static constexpr double kMaxStray = 4;
+  static constexpr std::size_t kMinPart = 16;  // one of so many parts of what hangs together is no scrap
+
+  // Things that meet hang together until they part: that is no place of any of them.
+  bool hides_several(const SubjectPlace& place, std::size_t columns) {
+    std::vector<Followed*> within;
+    for (Followed& each : followed_) {
+      if (!each.is_lost(look_) && kMinPart * each.cells() >= place.cells.size() && each.is_within(place, look_, columns)) {
+        within.push_back(&each);
+      }
+    }
+    bool hides = false;
+    for (std::size_t i = 0; i < within.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        if (!within[i]->met(*within[k])) continue;
+        within[i]->hide(look_);
+        within[k]->hide(look_);
+        hides = true;
+      }
+    }
+    return hides;
+  }
 
   Shape shape_;
   std::uint32_t side_;
@@ -332,6 +395,7 @@ class Tracker {
     SubjectTrack track = track_of(subjects.first);
     std::ranges::transform(subjects.beside, std::back_inserter(track.others), track_of);
     std::ranges::transform(subjects.instead, std::back_inserter(track.instead), track_of);
+    std::ranges::transform(subjects.lesser, std::back_inserter(track.lesser), track_of);
     return track;
   }
 

@@ -42,6 +42,7 @@ struct SubjectTrack {
   std::vector<SampleRange> rests;   // where it stays in its place for a good part of the time
   std::vector<SubjectTrack> others;  // what goes its way half as far or more at the same time
   std::vector<SubjectTrack> instead;  // what goes half as far or more, the furthest first, if this one makes no study
+  std::vector<SubjectTrack> lesser;   // what else goes its way, the furthest first
   double extent = 0;  // in pixels, from where its centre is furthest to one side to the other
   double fill = 1;                  // of its places' boxes; a median
   double share = 1;                 // of all that differs from the plate when it is there; a median

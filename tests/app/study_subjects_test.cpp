@@ -156,6 +156,14 @@ TEST_F(StudySubjects, LeaveNoOtherUnmentioned) {
   const auto one = study("one", {"--moments", "3"});
   ASSERT_EQ(one.status, 0) << one.err;
   EXPECT_EQ(one.err.find("another thing"), std::string::npos) << one.err;
+  draw("lesser", 20, [](cv::Mat& frame, int k) {
+    frame(upper(k)) = 250;
+    frame(lower(0) - cv::Point(2 * k, 0)) = 250;
+  });
+  const auto lesser = study("lesser", {"--moments", "3"});
+  ASSERT_EQ(lesser.status, 0) << lesser.err;
+  expect_says(lesser.err, "another thing goes its way within ");
+  expect_says(lesser.err, ", and not shown: name a region to show what moves in it");
 }
 
 // A bright square in a soft shadow that is wider than it. Beside the square lies its trail, dimmed as the ground is; the

@@ -131,5 +131,26 @@ TEST(Subject, IsSeenAsAWholeOnItsWay) {
   EXPECT_LT(both[0].extent, alone[0].extent / 2);
 }
 
+// Two that overlap for a while, each in front of the other in part.
+TEST(Subject, GoesOnAsItCameWhereWaysCross) {
+  const auto right_at = [](std::uint64_t sample) { return 126 - 3 * static_cast<int>(sample); };
+  const auto tracks = tracked([&](int x, int y, std::uint64_t sample) {
+    const auto is_in = [&](int left, int top) {
+      return x >= left && x < left + kBallWidth && y >= top && y < top + kBallHeight;
+    };
+    return is_in(left_at(sample), kBallTop) || is_in(right_at(sample), kBallTop + 6);
+  });
+  ASSERT_EQ(tracks[0].others.size(), 1u);
+  for (const SubjectTrack* track : {&tracks[0], &tracks[0].others[0]}) {
+    const bool goes_right = track->places.front().centre.x < 80;
+    EXPECT_GT(track->places.size(), kSceneSamples - 12);
+    for (const SubjectPlace& place : track->places) {
+      const int left = goes_right ? left_at(place.sample) : right_at(place.sample);
+      EXPECT_NEAR(place.centre.x, left + kBallWidth / 2.0, track->cell_side) << place.sample;
+    }
+  }
+  EXPECT_NE(tracks[0].places.front().centre.x < 80, tracks[0].others[0].places.front().centre.x < 80);
+}
+
 }  // namespace
 }  // namespace nutik

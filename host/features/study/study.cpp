@@ -546,6 +546,23 @@ Verdict verdict_of(const SubjectTrack& track, std::uint32_t by_codes, std::uint3
   return {};
 }
 
+void tell_of_left_out(std::vector<SubjectTrack> tracks, const std::vector<Followed>& shown, const StudyRequest& request,
+                      std::uint32_t by_codes, std::vector<std::string>& notes) {
+  const Rectangle& all = shown.front().region;
+  std::erase_if(tracks, [&](const SubjectTrack& track) {
+    return verdict_of(track, by_codes, std::max(all.width, all.height), request.style, false).shows !=
+               Verdict::Shows::all ||
+           std::ranges::any_of(shown, [&](const Followed& each) {
+             return are_of_one_thing(each.track.places, track.places);
+           });
+  });
+  if (tracks.empty()) return;
+  notes.push_back(format("{} within {}, and not shown: name a region to show what moves in it",
+                         tracks.size() == 1 ? "another thing goes its way"
+                                            : format("{} more things go their way, the largest of them", tracks.size()),
+                         box_text_of(tracks.front().places)));
+}
+
 // Where no region is stated, what goes its way beside the subject is one, too.
 std::vector<Followed> followed_in(std::vector<SubjectTrack> tracks, const std::vector<Rectangle>& regions,
                                   const StudyRequest& request, std::uint32_t by_codes,
@@ -556,7 +573,9 @@ std::vector<Followed> followed_in(std::vector<SubjectTrack> tracks, const std::v
     const std::uint32_t side = std::max(regions[i].width, regions[i].height);
     Verdict verdict = verdict_of(tracks[i], by_codes, side, request.style, is_stated);
     std::vector<SubjectTrack> others = std::move(tracks[i].others), candidates = others;
-    std::ranges::move(tracks[i].instead, std::back_inserter(candidates));
+    std::vector<SubjectTrack> left_out = std::move(tracks[i].lesser);
+    std::ranges::copy(tracks[i].instead, std::back_inserter(candidates));
+    std::ranges::move(tracks[i].instead, std::inserter(left_out, left_out.begin()));
     for (SubjectTrack& candidate : candidates) {
       Verdict of_candidate = verdict_of(candidate, by_codes, side, request.style, is_stated);
       if (of_candidate.shows >= verdict.shows) continue;
@@ -566,22 +585,25 @@ std::vector<Followed> followed_in(std::vector<SubjectTrack> tracks, const std::v
     }
     if (!request.regions.empty() && !verdict.why.empty()) verdict.why = text_of(regions[i]) + ": " + verdict.why;
     followed.push_back({std::move(tracks[i]), regions[i], std::move(verdict)});
-    if (others.empty() || !request.regions.empty() || followed.back().verdict.shows == Verdict::Shows::nothing) continue;
-    const std::string where = box_text_of(others.front().places);
-    if (is_stated || shows_one(request.style) || followed.front().verdict.shows != Verdict::Shows::all) {
+    if (!request.regions.empty() || followed.back().verdict.shows == Verdict::Shows::nothing) continue;
+    if (is_stated || shows_one(request.style) || followed.back().verdict.shows != Verdict::Shows::all) {
+      if (others.empty()) continue;
       notes.push_back(format("one subject is shown, and another thing goes its way at the same time, within {}: name a "
                              "region for each of them to show both{}",
-                             where, shows_one(request.style) ? ", or take the style trail or strobe" : ""));
+                             box_text_of(others.front().places),
+                             shows_one(request.style) ? ", or take the style trail or strobe" : ""));
       continue;
     }
     for (SubjectTrack& other : others) {
       if (verdict_of(other, by_codes, side, request.style, false).shows != Verdict::Shows::all) continue;
       followed.push_back({std::move(other), regions[i]});
     }
-    if (followed.size() == 1) continue;
-    notes.push_back(format("{} subjects are shown: another thing goes its way at the same time, within {}. Name a region "
-                           "to show what moves in it",
-                           followed.size(), where));
+    if (followed.size() > 1) {
+      notes.push_back(format("{} subjects are shown: another thing goes its way at the same time, within {}. Name a region "
+                             "to show what moves in it",
+                             followed.size(), box_text_of(followed[1].track.places)));
+    }
+    tell_of_left_out(std::move(left_out), followed, request, by_codes, notes);
   }
   return followed;
 }
