@@ -296,9 +296,8 @@ class Follower {
   bool hides_several(const SubjectPlace& place, std::size_t columns) {
     std::vector<Followed*> within;
     for (Followed& each : followed_) {
-      if (!each.is_lost(look_) && kMinPart * each.cells() >= place.cells.size() && each.is_within(place, look_, columns)) {
-        within.push_back(&each);
-      }
+      if (each.is_lost(look_) || kMinPart * each.cells() < place.cells.size()) continue;
+      if (each.is_within(place, look_, columns)) within.push_back(&each);
     }
     bool hides = false;
     for (std::size_t i = 0; i < within.size(); ++i) {
