@@ -10,6 +10,7 @@
 #include "capture/median.hpp"
 #include "features/masks/mask_making.hpp"
 #include "features/plate/plate.hpp"
+#include "features/study/study_subjects.hpp"
 #include "features/study/study_trail.hpp"
 #include "mask/feather.hpp"
 #include "scene/moments.hpp"
@@ -37,13 +38,6 @@ constexpr double kMinOwnEdges = 0.4;
 // on a wall.
 constexpr double kMinEdgesOfWhole = 0.1;
 constexpr std::uint64_t kMinTelling = 144;  // pixels: the border of fewer is too short to tell its edges
-// A thing among many others that fills so much of its box and goes further than it is long is no scrap.
-constexpr double kMinFillOfMany = 0.4;
-// One that fills less, and is so much of what differs, may be seen at one moment: an arm, or glass. Measured: 0.45 of a
-// bottle, at most 0.1 of edges of what stays.
-constexpr double kMinShareOfOne = 0.25;
-constexpr std::size_t kMinLooks = 8;
-constexpr double kMinExtent = 1.0 / 16;  // of the picture's longer side, that a subject goes
 // In pixels: without specks and without holes.
 constexpr double kSmoothRadius = 1, kCloseRadius = 7;
 // How far beyond that what lies around a subject reaches: a shadow ends as softly as no threshold shows.
@@ -59,8 +53,6 @@ std::uint32_t border_pixels(const StudyRequest& request) {
   return static_cast<std::uint32_t>((std::max(feather_of(request).everywhere, kStudyFeather) + 99) / 100);
 }
 
-bool shows_one(StudyStyle style) { return style == StudyStyle::rear_curtain || style == StudyStyle::frozen; }
-
 std::vector<std::uint64_t> stated_moments(const std::vector<StatedTime>& times, const Timeline& timeline) {
   std::vector<std::uint64_t> samples;
   for (const StatedTime& time : times) {
@@ -73,28 +65,10 @@ std::vector<std::uint64_t> stated_moments(const std::vector<StatedTime>& times, 
   return samples;
 }
 
-std::string text_of(const Rectangle& region) {
-  return format("region {},{},{},{}", region.x, region.y, region.width, region.height);
-}
-
 // For messages.
 std::string where(const std::string& name, const StudyRequest& request, const Rectangle& region) {
   return request.regions.empty() ? name : name + ", " + text_of(region);
 }
-
-// How a track can be shown: as it was asked for, at one moment, or not at all; and why not as it was asked for.
-struct Verdict {
-  enum class Shows { all, one, nothing } shows = Shows::all;
-  std::string why = {};
-};
-
-// A track, and in what it was looked for.
-struct Followed {
-  SubjectTrack track;
-  Rectangle region;
-  Verdict verdict = {};
-  std::vector<SubjectPlace> refused = {};  // of its places: not to be chosen
-};
 
 // The place at which it is seen best: large, and standing out.
 const SubjectPlace& strongest_of(const std::vector<SubjectPlace>& places) {
@@ -120,7 +94,7 @@ bool covers_half(const SubjectPlace& place, const SubjectPlace& other) {
 class StudyPlanner {
  public:
   StudyPlanner(const StudyRequest& request, CaptureSource& capture, const std::string& name, Picture plate,
-               std::vector<Followed> followed, std::uint32_t by_codes)
+               std::vector<FollowedSubject> followed, std::uint32_t by_codes)
       : request_(request),
         capture_(capture),
         timeline_(capture.timeline()),
@@ -131,7 +105,7 @@ class StudyPlanner {
 
   // Chooses moments, and others for those whose regions turn out not to show what they should.
   void plan(Study& study) {
-    for (Followed& each : followed_) {
+    for (FollowedSubject& each : followed_) {
       each.track.bare = ground_laid_bare(each.track);
       // A thing that lies on such ground in part is seen in part, beside it.
       const std::size_t columns = each.track.cell_columns;
@@ -161,7 +135,7 @@ class StudyPlanner {
     }
     if (!study.are_moments_found) tell_of_holes(study);
     std::vector<SubjectTrack> tracks;
-    for (Followed& each : followed_) {
+    for (FollowedSubject& each : followed_) {
       std::ranges::move(each.refused, std::back_inserter(each.track.places));
       std::ranges::sort(each.track.places, {}, &SubjectPlace::sample);
       if (!each.track.places.empty()) tracks.push_back(std::move(each.track));
@@ -286,7 +260,7 @@ class StudyPlanner {
   // The scene as it is on average, without moments.
   void show_all_of_the_time(Study& study) const {
     std::string why = why_;
-    for (const Followed& each : followed_) {
+    for (const FollowedSubject& each : followed_) {
       if (why.empty()) why = each.verdict.why;
     }
     study.notes.push_back(format("{}. So the picture exposes all of the time and shows no moments; the style clean "
@@ -311,7 +285,7 @@ class StudyPlanner {
       return stated_moments(*times, timeline_);
     }
     study.are_moments_found = true;
-    if (verdict.shows == Verdict::Shows::nothing || track.places.empty()) return {};
+    if (verdict.shows == SubjectVerdict::Shows::nothing || track.places.empty()) return {};
     const std::string whose = followed_.size() > 1 ? format("subject {}: ", subject + 1) : "";
     const auto one = [&](const SubjectPlace& place, const std::string& why) {
       taken.push_back(place);
@@ -322,7 +296,7 @@ class StudyPlanner {
       return std::vector{place.sample};
     };
     if (request_.style == StudyStyle::rear_curtain) return one(last_large_place(track.places), {});
-    if (verdict.shows == Verdict::Shows::one) return one(strongest_of(track.places), verdict.why);
+    if (verdict.shows == SubjectVerdict::Shows::one) return one(strongest_of(track.places), verdict.why);
     const std::uint32_t wanted = std::get<std::uint32_t>(request_.moments);
     const std::vector<SubjectPlace> chosen =
         choose_moments(track, wanted, request_.spacing, 4 * border_pixels(request_), taken);
@@ -354,8 +328,8 @@ class StudyPlanner {
     for (std::size_t i = 0; i < study.moments.size(); ++i) {
       const StepReport& step = step_of(study, i);
       const bool is_hole = is_in_plate(study, i);
-      const Followed& subject = followed_[study.subjects[i]];
-      const double least = subject.verdict.shows != Verdict::Shows::all ? kMinOwnEdges
+      const FollowedSubject& subject = followed_[study.subjects[i]];
+      const double least = subject.verdict.shows != SubjectVerdict::Shows::all ? kMinOwnEdges
                            : step.pixel_count < kMinTelling             ? 0
                                                                         : kMinEdgesOfWhole;
       const bool is_light = step.own_edges.value_or(1) < least;
@@ -398,7 +372,7 @@ class StudyPlanner {
   }
 
   // Refuses all places but those that may be chosen.
-  static void set_aside(Followed& followed, const auto& may_be_chosen) {
+  static void set_aside(FollowedSubject& followed, const auto& may_be_chosen) {
     std::vector<SubjectPlace>& places = followed.track.places;
     const auto first = std::stable_partition(places.begin(), places.end(), may_be_chosen);
     std::move(first, places.end(), std::back_inserter(followed.refused));
@@ -407,9 +381,9 @@ class StudyPlanner {
 
   [[nodiscard]] bool is_in_plate(const Study& study, std::size_t moment) const {
     const double share = step_of(study, moment).plate_edges.value_or(0);
-    const Followed& subject = followed_[study.subjects[moment]];
+    const FollowedSubject& subject = followed_[study.subjects[moment]];
     return share > kHoleEdges ||
-           (share > kMaxPlateEdges && (subject.verdict.shows != Verdict::Shows::all ||
+           (share > kMaxPlateEdges && (subject.verdict.shows != SubjectVerdict::Shows::all ||
                                        subject.track.most_covered_share() >= kMinCoveredInPlate));
   }
   [[nodiscard]] static std::string why_a_hole(const Study& study, std::size_t moment) {
@@ -467,7 +441,7 @@ class StudyPlanner {
   const Timeline& timeline_;
   const std::string& name_;  // of the capture, for messages
   Picture plate_;
-  std::vector<Followed> followed_;
+  std::vector<FollowedSubject> followed_;
   std::uint32_t by_codes_;
   std::string why_;  // why the first moment was refused that was
 };
@@ -492,133 +466,6 @@ double uncertain_share(const Region& uncertain, const std::vector<Rectangle>& re
     all += std::uint64_t{region.width} * region.height;
   }
   return static_cast<double>(count) / static_cast<double>(all);
-}
-
-// The box round all places of a subject, as regions are stated: x,y,width,height.
-std::string box_text_of(const std::vector<SubjectPlace>& places) {
-  std::uint32_t left = places[0].box.x, top = places[0].box.y, right = 0, bottom = 0;
-  for (const SubjectPlace& place : places) {
-    left = std::min(left, place.box.x);
-    top = std::min(top, place.box.y);
-    right = std::max(right, place.box.x + place.box.width);
-    bottom = std::max(bottom, place.box.y + place.box.height);
-  }
-  return format("{},{},{},{}", left, top, right - left, bottom - top);
-}
-
-// What of a track makes a study. Moments that are stated are shown wherever the subject goes.
-Verdict verdict_of(const SubjectTrack& track, std::uint32_t by_codes, std::uint32_t side, StudyStyle style,
-                   bool is_stated) {
-  using Shows = Verdict::Shows;
-  if (is_stated) return {};
-  if (track.places.empty()) {
-    return {Shows::nothing,
-            format("nothing moves: no part of it differs from the rest of the time by more than {} codes. State fewer "
-                   "to find what hardly stands out",
-                   by_codes)};
-  }
-  const double length = track.length();
-  if (kMinExtent * side > track.extent && !shows_one(style)) {
-    return {kMinExtent * side > length ? Shows::nothing : Shows::one,
-            format("nothing goes anywhere: what moves most is {:.0f} pixels large, and goes {:.0f} pixels of {}{}{}",
-                   track.size(), track.extent, side,
-                   track.looked_at.size() < kMinLooks ? format(", in {} pictures", track.looked_at.size()) : "",
-                   track.extent < track.cell_side ? ". It comes and goes in its place" : "")};
-  }
-  if (track.is_scraps() && (track.fill < kMinFillOfMany || track.extent < length || track.flickers)) {
-    return {track.share < kMinShareOfOne || track.extent < length ? Shows::nothing : Shows::one,
-            format("nothing moves as one whole thing. What goes furthest fills {:.0f} % of its box, and is {:.0f} % of "
-                   "what differs from the scene at rest; one of the two must be half or more. {} shows its edges "
-                   "only, and cannot be shown twice. Take a clip in which it goes further, name a region with a single "
-                   "subject, or the moments to show",
-                   100 * track.fill, 100 * track.share,
-                   track.extent < length
-                       ? format("Its box is {:.0f} pixels long and goes {:.0f}: a thing that goes less than its own size",
-                                length, track.extent)
-                       : "A thing that shakes, grows or shines")};
-  }
-  if (track.flickers) {
-    return {Shows::one,
-            format("nothing moves as one whole thing. What differs from the scene at rest is scattered over {:.0f} pixels "
-                   "and flickers, as changing light, leaves or many small things do",
-                   track.extent)};
-  }
-  return {};
-}
-
-void tell_of_left_out(std::vector<SubjectTrack> tracks, const std::vector<Followed>& shown, const StudyRequest& request,
-                      std::uint32_t by_codes, std::vector<std::string>& notes) {
-  const Rectangle& all = shown.front().region;
-  std::erase_if(tracks, [&](const SubjectTrack& track) {
-    return verdict_of(track, by_codes, std::max(all.width, all.height), request.style, false).shows !=
-               Verdict::Shows::all ||
-           std::ranges::any_of(shown, [&](const Followed& each) {
-             return are_of_one_thing(each.track.places, track.places);
-           });
-  });
-  if (tracks.empty()) return;
-  notes.push_back(format("{} within {}, and not shown: name a region to show what moves in it",
-                         tracks.size() == 1 ? "another thing goes its way"
-                                            : format("{} more things go their way, the largest of them", tracks.size()),
-                         box_text_of(tracks.front().places)));
-}
-
-// Where no region is stated, what goes its way beside the subject is one, too.
-std::vector<Followed> followed_in(std::vector<SubjectTrack> tracks, const std::vector<Rectangle>& regions,
-                                  const StudyRequest& request, std::uint32_t by_codes,
-                                  std::vector<std::string>& notes) {
-  const bool is_stated = std::holds_alternative<std::vector<StatedTime>>(request.moments);
-  std::vector<Followed> followed;
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
-    const std::uint32_t side = std::max(regions[i].width, regions[i].height);
-    Verdict verdict = verdict_of(tracks[i], by_codes, side, request.style, is_stated);
-    std::vector<SubjectTrack> others = std::move(tracks[i].others), candidates = others;
-    std::vector<SubjectTrack> left_out = std::move(tracks[i].lesser);
-    std::ranges::copy(tracks[i].instead, std::back_inserter(candidates));
-    std::ranges::move(tracks[i].instead, std::inserter(left_out, left_out.begin()));
-    for (SubjectTrack& candidate : candidates) {
-      Verdict of_candidate = verdict_of(candidate, by_codes, side, request.style, is_stated);
-      if (of_candidate.shows >= verdict.shows) continue;
-      tracks[i] = std::move(candidate);
-      verdict = std::move(of_candidate);
-      others.clear();
-    }
-    if (!request.regions.empty() && !verdict.why.empty()) verdict.why = text_of(regions[i]) + ": " + verdict.why;
-    followed.push_back({std::move(tracks[i]), regions[i], std::move(verdict)});
-    if (!request.regions.empty() || followed.back().verdict.shows == Verdict::Shows::nothing) continue;
-    if (is_stated || shows_one(request.style) || followed.back().verdict.shows != Verdict::Shows::all) {
-      if (others.empty()) continue;
-      notes.push_back(format("one subject is shown, and another thing goes its way at the same time, within {}: name a "
-                             "region for each of them to show both{}",
-                             box_text_of(others.front().places),
-                             shows_one(request.style) ? ", or take the style trail or strobe" : ""));
-      continue;
-    }
-    for (SubjectTrack& other : others) {
-      if (verdict_of(other, by_codes, side, request.style, false).shows != Verdict::Shows::all) continue;
-      followed.push_back({std::move(other), regions[i]});
-    }
-    if (followed.size() > 1) {
-      notes.push_back(format("{} subjects are shown: another thing goes its way at the same time, within {}. Name a region "
-                             "to show what moves in it",
-                             followed.size(), box_text_of(followed[1].track.places)));
-    }
-    tell_of_left_out(std::move(left_out), followed, request, by_codes, notes);
-  }
-  return followed;
-}
-
-// Regions that overlap may hold a single thing, which cannot be shown as two.
-void check_apart(const std::vector<Followed>& followed, const std::string& name) {
-  for (std::size_t i = 0; i < followed.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      if (!are_of_one_thing(followed[k].track.places, followed[i].track.places)) continue;
-      throw NoSubject(
-          format("{}: {} and {} overlap, and hold the same subject. Take regions that lie apart, "
-                 "or a single one",
-                 name, text_of(followed[k].region), text_of(followed[i].region)));
-    }
-  }
 }
 
 }  // namespace
@@ -701,8 +548,8 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
         "does where the camera did. A study needs a scene that rests, and something that moves in it",
         where(capture_name, request, regions[i]), 100 * tracks[i].moving_share));
   }
-  std::vector<Followed> followed = followed_in(std::move(tracks), regions, request, by_codes, study.notes);
-  if (!request.regions.empty()) check_apart(followed, capture_name);
+  std::vector<FollowedSubject> followed =
+      followed_in(std::move(tracks), regions, request, by_codes, capture_name, study.notes);
   StudyPlanner(request, capture, capture_name, std::move(plate.picture), std::move(followed), by_codes)
       .plan(study);
   return study;
