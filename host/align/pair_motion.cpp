@@ -61,7 +61,7 @@ PairMotion::PairMotion(std::uint32_t width, std::uint32_t height)
 
 std::uint64_t PairMotion::bytes(std::uint32_t width, std::uint32_t height) {
   constexpr std::uint64_t kSearchBytes = 61;  // a pixel that flow is looked for at: its pyramids and variations
-  return 2 * (sizeof(FlowVector) + sizeof(Weight) + kSearchBytes) * std::uint64_t{width} * height;
+  return 2 * (2 * sizeof(FlowVector) + sizeof(Weight) + kSearchBytes) * std::uint64_t{width} * height;
 }
 
 std::uint32_t PairMotion::steps_for(double pixels) {
@@ -179,6 +179,62 @@ void PairMotion::find(const GreyPictures& pictures, std::uint32_t max_threads) {
   }
   mark(forwards_);
   mark(backwards_);
+}
+
+// A way that keeps its speed and direction leads as far on as it led here. Where most of the picture changed from the one
+// beyond, as across a cut, motion from there is believed as far as it explains that.
+void PairMotion::find_bends(const GreyPictures& pictures, std::uint32_t max_threads) {
+  forwards_.bend.clear();
+  backwards_.bend.clear();
+  if (box_.width == 0) return;
+  const std::size_t offset = std::size_t{box_.y} * width_ + box_.x;
+  const auto plane = [&](const std::uint8_t* grey) {
+    return GreyPlane{grey + offset, box_.width, box_.height, width_};
+  };
+  parallel_for(
+      2,
+      [&](std::uint64_t i) {
+        Direction& way = i == 0 ? forwards_ : backwards_;
+        const std::uint8_t* const beyond = i == 0 ? pictures.before : pictures.after;
+        if (!beyond) return;
+        const GreyPlane here = plane(i == 0 ? pictures.first : pictures.second), there = plane(beyond);
+        way.bend.assign(way.flow.size(), FlowVector());
+        way.finder->find(here, there, way.bend, FlowFinder::Detail::rough);
+        double missed = kDoubt, changed = kDoubt;
+        std::size_t changed_pixels = 0;
+        for (std::uint32_t y = 0; y < box_.height; ++y) {
+          for (std::uint32_t x = 0; x < box_.width; ++x) {
+            const FlowVector& back = way.bend[std::size_t{y} * box_.width + x];
+            const auto to = [](std::uint32_t from, float gone, std::uint32_t count) {
+              return static_cast<std::size_t>(
+                  std::clamp(static_cast<float>(from) + gone + 0.5F, 0.0F, static_cast<float>(count - 1)));
+            };
+            const int shown = here.pixels[std::size_t{y} * width_ + x];
+            const int stays = there.pixels[std::size_t{y} * width_ + x] - shown;
+            const int moved = there.pixels[to(y, back.y, box_.height) * width_ + to(x, back.x, box_.width)] - shown;
+            if (static_cast<float>(stays * stays) <= kDoubt) continue;
+            ++changed_pixels;
+            changed += stays * stays;
+            missed += moved * moved;
+          }
+        }
+        const bool is_most = 2 * changed_pixels > way.bend.size();
+        const float believed = is_most ? believed_of(static_cast<float>(missed / changed)) : 1;
+        for (std::size_t pixel = 0; pixel < way.bend.size(); ++pixel) {
+          FlowVector& bend = way.bend[pixel];
+          bend = {believed * (way.flow[pixel].x + bend.x), believed * (way.flow[pixel].y + bend.y)};
+        }
+      },
+      max_threads);
+  if (forwards_.bend.empty()) forwards_.bend = backwards_.bend;
+  if (backwards_.bend.empty()) backwards_.bend = forwards_.bend;
+}
+
+FlowVector PairMotion::bent(std::size_t pixel, float share) const {
+  if (forwards_.bend.empty()) return {};
+  const FlowVector &first = forwards_.bend[pixel], &second = backwards_.bend[pixel];
+  const float part = share * (1 - share) / 2;
+  return {part * std::lerp(first.x, second.x, share), part * std::lerp(first.y, second.y, share)};
 }
 
 // Things that fly: blocks that they leave and come to, those on their way, and nothing of them is left to dense flow.
@@ -415,7 +471,9 @@ void InBetween::take(Picture& first, Picture& second, Picture& before, Picture& 
     if (picture.grey.empty()) grey_.take(picture.raster, picture.grey, ~0U);
     return picture.grey.data();
   };
-  motion_.find({grey(first), grey(second), grey(before), grey(after)}, ~0U);
+  const GreyPictures pictures{grey(first), grey(second), grey(before), grey(after)};
+  motion_.find(pictures, ~0U);
+  motion_.find_bends(pictures, ~0U);
   made_.assign(first_.begin(), first_.end());
   shares_.assign(motion_.ways_.size(), 0);
   const auto read = [&]<typename Code>(const Code*) {
@@ -485,15 +543,17 @@ InBetween::Light InBetween::at(const std::vector<Light>& lights, const Rectangle
   return (1 - v) * ((1 - u) * above[0] + u * above[next]) + v * ((1 - u) * below[0] + u * below[next]);
 }
 
-// The flow at that time is put together of both pictures' at the same place (Jiang et al., "Super SloMo").
+// The flow at that time is put together of both pictures' at the same place (Jiang et al., "Super SloMo"), along ways
+// that gain speed evenly (Xu et al., "Quadratic video interpolation").
 InBetween::Light InBetween::moved(std::uint32_t x, std::uint32_t y, float share) const {
   const Rectangle& box = motion_.box_;
   const std::size_t i = std::size_t{y} * box.width + x;
   const FlowVector &there = motion_.forwards_.flow[i], &back = motion_.backwards_.flow[i];
   const float rest = 1 - share, right = static_cast<float>(box.width - 1), bottom = static_cast<float>(box.height - 1);
+  const FlowVector bent = motion_.bent(i, share);
   const auto place = [&](float of_there, float of_back) {
-    return FlowVector{std::clamp(static_cast<float>(x) + of_there * there.x + of_back * back.x, 0.0F, right),
-                      std::clamp(static_cast<float>(y) + of_there * there.y + of_back * back.y, 0.0F, bottom)};
+    return FlowVector{std::clamp(static_cast<float>(x) + bent.x + of_there * there.x + of_back * back.x, 0.0F, right),
+                      std::clamp(static_cast<float>(y) + bent.y + of_there * there.y + of_back * back.y, 0.0F, bottom)};
   };
   const FlowVector a = place(-rest * share, share * share), b = place(rest * rest, -share * rest);
   const auto weight = [&](const PairMotion::Direction& way, const FlowVector& at) {

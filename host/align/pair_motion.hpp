@@ -30,6 +30,8 @@ class PairMotion {
 
   // Uses as many threads.
   void find(const GreyPictures& pictures, std::uint32_t max_threads);
+  // How ways that were found are bent, as the pictures before and behind show.
+  void find_bends(const GreyPictures& pictures, std::uint32_t max_threads);
 
   [[nodiscard]] static std::uint64_t bytes(std::uint32_t width, std::uint32_t height);
 
@@ -61,6 +63,7 @@ class PairMotion {
   struct Direction {
     std::unique_ptr<FlowFinder> finder;
     std::vector<FlowVector> flow;
+    std::vector<FlowVector> bend;  // by how much the way on is longer than the way that led here; empty if unknown
     std::vector<Weight> weights;
     std::vector<float> missed;    // of each block: squared differences that are left along the motion
     std::vector<float> agrees;    // of each block: a mean
@@ -77,6 +80,8 @@ class PairMotion {
   // Whether a block's motion is believed and found back.
   [[nodiscard]] static bool is_followed(const Direction& way, std::size_t block);
   [[nodiscard]] FlowVector flow_of(const Direction& way, std::uint32_t column, std::uint32_t row) const;
+  // How far off the straight way a pixel is after a share of the time.
+  [[nodiscard]] FlowVector bent(std::size_t pixel, float share) const;
 
   std::uint32_t width_, height_, columns_, rows_;  // pixels, blocks
   std::vector<float> differ_;                      // of each block: squared differences, a mean

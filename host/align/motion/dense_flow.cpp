@@ -21,9 +21,10 @@ class DenseFlow final : public FlowFinder {
     [[maybe_unused]] static const bool is_alone = (cv::setNumThreads(0), true);
   }
 
-  void find(const GreyPlane& from, const GreyPlane& to, std::span<FlowVector> flow) override {
+  void find(const GreyPlane& from, const GreyPlane& to, std::span<FlowVector> flow, Detail detail) override {
     const double pixels = static_cast<double>(from.width) * from.height;
-    search_->setFinestScale(static_cast<int>(std::max(0.0, std::ceil(std::log2(pixels / kFinestPixels) / 2))));
+    const int finest = static_cast<int>(std::max(0.0, std::ceil(std::log2(pixels / kFinestPixels) / 2)));
+    search_->setFinestScale(finest + (detail == Detail::rough ? 2 : 0));
     cv::Mat found(static_cast<int>(from.height), static_cast<int>(from.width), CV_32FC2, flow.data());
     search_->calc(mat(from), mat(to), found);
     if (found.ptr() != reinterpret_cast<const unsigned char*>(flow.data())) {
