@@ -31,6 +31,7 @@ struct Step {
   std::size_t from = 0, to = 0;
   FlowVector way;
   float left = 0;  // of what changed, that the way does not explain
+  bool is_apart = true;  // it goes further than it is large
 };
 
 FlowVector operator-(const FlowVector& a, const FlowVector& b) { return {a.x - b.x, a.y - b.y}; }
@@ -144,15 +145,16 @@ class FlightSearch {
     return static_cast<float>(left / std::max(changed, 1.0));
   }
 
-  // The way from one thing to another, if it is one that goes further than both are large.
+  // The way from one thing to another, if both may be one.
   [[nodiscard]] std::optional<Step> step(const std::uint8_t* first, const Thing& from, const std::uint8_t* second,
                                          const Thing& to) const {
     const std::size_t larger = std::max(from.pixels.size(), to.pixels.size());
     const bool is_apart = from.right < to.left || to.right < from.left || from.bottom < to.top || to.bottom < from.top;
-    if (!is_apart || larger > 2 * std::min(from.pixels.size(), to.pixels.size())) return std::nullopt;
+    if (larger > 2 * std::min(from.pixels.size(), to.pixels.size())) return std::nullopt;
     const std::int64_t right = std::lround(to.x - from.x), down = std::lround(to.y - from.y);
     std::int64_t best_right = right, best_down = down;
     Step found;
+    found.is_apart = is_apart;
     found.left = std::numeric_limits<float>::max();
     for (std::int64_t j = -kTried; j <= kTried; ++j) {
       for (std::int64_t i = -kTried; i <= kTried; ++i) {
@@ -205,7 +207,7 @@ class FlightSearch {
   static float turn(const FlowVector& a, const FlowVector& b) { return length(a - b) / (length(a) + length(b)); }
 
   // Each thing goes one way: first the one that explains most and goes on before or behind. A way that no other picture
-  // confirms is taken if the thing has no other.
+  // confirms is none. What goes no further than it is large is left to dense flow.
   [[nodiscard]] std::vector<Flight> chosen(const std::vector<Thing>& from, const std::vector<Thing>& to,
                                            const std::vector<Step>& steps, const std::vector<Step>& in,
                                            const std::vector<Step>& out) const {
@@ -239,10 +241,9 @@ class FlightSearch {
     for (const Candidate& candidate : candidates) {
       const Step& step = *candidate.step;
       if (is_from_taken[step.from] || is_to_taken[step.to]) continue;
-      const auto rivals = std::ranges::count_if(
-          steps, [&](const Step& other) { return other.from == step.from || other.to == step.to; });
-      if (!candidate.before && !candidate.after && rivals > 1) continue;
+      if (!candidate.before && !candidate.after) continue;
       is_from_taken[step.from] = is_to_taken[step.to] = true;
+      if (!step.is_apart) continue;
       Flight flight;
       flight.way = step.way;
       float known = 0;

@@ -187,6 +187,51 @@ TEST(Between, LetsNothingFlyOfWhatVanishes) {
   EXPECT_EQ(planned(clip_of(pictures)).count(), 0U);
 }
 
+// It gains 6 pixels a picture: in the middle it is 0.75 pixels from where a straight way would have it.
+TEST(Between, BendsWaysAsThePicturesRoundThemShow) {
+  const Scene falls = [](double x, double y, double time) {
+    const double u = x - (60 + 8 * time + 3 * time * time), v = y - 90;
+    const double spot = std::exp(-(std::pow(u - 8, 2) + std::pow(v + 6, 2)) / 60);
+    return std::hypot(u, v) < 26 ? 0.65 + 0.2 * spot : ground_at(x, y);
+  };
+  // Of the disc, without its edge.
+  const auto error = [&](int first, int last) {
+    std::vector<std::vector<std::byte>> pictures;
+    for (int k = first; k <= last; ++k) pictures.push_back(drawn(falls, k));
+    const ClipToFill clip = clip_of(pictures);
+    const auto made = filled(clip, planned(clip, 1)).at(static_cast<std::size_t>(2 * (1 - first) + 1));
+    const auto truth = drawn(falls, 1.5);
+    double squares = 0;
+    for (std::size_t p = 0; p < truth.size(); ++p) {
+      if (std::hypot(static_cast<double>(p % kWidth) - 78.75, static_cast<double>(p / kWidth) - 90) > 20) continue;
+      squares += std::pow(std::to_integer<int>(made[p]) - std::to_integer<int>(truth[p]), 2);
+    }
+    return std::sqrt(squares);
+  };
+  EXPECT_LT(error(0, 3), error(1, 2) / 3) << "four pictures, and two";
+}
+
+// Two alike that come towards each other, in steps a little shorter than they are large.
+TEST(Between, LetsNothingFlyFromOneThingToAnother) {
+  const Scene meet = [](double x, double y, double time) {
+    for (const auto& [left, top] :
+         {std::pair(40 + 38 * time, 60 + 13 * time), std::pair(280 - 38 * time, 70 + 15 * time)}) {
+      if (std::hypot(x - left, y - top) < 22) return std::sin(0.8 * (x - left)) > 0 ? 0.9 : 0.75;
+    }
+    return ground_at(x, y);
+  };
+  std::vector<std::vector<std::byte>> pictures;
+  for (int k = 0; k < 3; ++k) pictures.push_back(drawn(meet, k));
+  const ClipToFill clip = clip_of(pictures);
+  const auto samples = filled(clip, planned(clip, 1));
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    for (std::uint32_t x = 140; x < 180; ++x) {
+      const std::size_t pixel = 72 * kWidth + x;
+      EXPECT_NEAR(std::to_integer<int>(samples[k][pixel]), std::to_integer<int>(pictures[0][pixel]), 8) << k << " " << x;
+    }
+  }
+}
+
 TEST(Between, KeepsWhatIsStillAsItIs) {
   std::vector<std::vector<std::byte>> pictures;
   for (unsigned k = 0; k < 4; ++k) pictures.push_back(drawn(disc_at, k, 2.0, k));
