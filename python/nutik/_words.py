@@ -376,6 +376,8 @@ def word_of(name: str, kind: str, value: Any) -> str:
         return str(int(exact(value, name)))
     if kind == "TIME" or "TIME" in kind and not is_list(value):
         return time_word(value, name)
+    if kind == "CODE" and isinstance(value, (float, np.floating)) and value % 1 == 0:
+        return str(int(value))
     if kind in ("RATE", "DEGREES", "W:H"):
         return number_word(value, name)
     if kind in ("K", "G", "E", "FILE|LIGHT"):
