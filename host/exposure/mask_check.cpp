@@ -128,11 +128,12 @@ bool is_scaled(std::uint64_t width, std::uint64_t height, std::uint64_t other_wi
 
 std::string size_mistake(const Mask& mask, const Shape& capture) {
   if (mask.width == capture.width && mask.height == capture.height) return {};
-  const bool is_turned = is_scaled(mask.width, mask.height, capture.height, capture.width);
+  const bool is_upright = is_scaled(mask.width, mask.height, capture.width, capture.height);
+  const bool is_turned = !is_upright && is_scaled(mask.width, mask.height, capture.height, capture.width);
   std::string way_out = "both must have the same size";
   if (mask.width == capture.height && mask.height == capture.width) {
     way_out = "turn it by 90 degrees";
-  } else if (is_turned || is_scaled(mask.width, mask.height, capture.width, capture.height)) {
+  } else if (is_turned || is_upright) {
     way_out = format("{}scale it to {} x {}{}", is_turned ? "turn it by 90 degrees and " : "", capture.width,
                      capture.height,
                      mask.is_soft() ? "" : " without smoothing (nearest neighbour), which would make new values");

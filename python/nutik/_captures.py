@@ -138,16 +138,20 @@ class Capture:
         >>> capture[3].shape, capture[2:5, :10, 0].shape
         ((24, 32), (3, 10))
         """
-        keys: tuple[Any, ...] = key if isinstance(key, tuple) else (key,)
-        picked, rest = (keys[0], keys[1:]) if keys and keys[0] is not Ellipsis else (slice(None), keys)
+        keys: list[Any] = [*key] if isinstance(key, tuple) else [key]
+        for at in [number for number, each in enumerate(keys) if each is Ellipsis][:1]:
+            keys[at:at + 1] = [slice(None)] * (self.ndim + 1 - sum(each is not None for each in keys))
+        first = next((number for number, each in enumerate(keys) if each is not None), len(keys))
+        made, picked, rest = [None] * first, [*keys, slice(None)][first], keys[first + 1:]
         numbers = np.arange(len(self))[picked if isinstance(picked, slice) else index(picked)]
         bytes_asked = numbers.size * int(np.prod(self.shape[1:])) * self.dtype.itemsize
         refuse(bytes_asked > _MOST_AT_ONCE, f"{numbers.size} samples are {bytes_asked / 1e9:.1f} GB; take fewer at a "
                "time, or expose them with render()", MemoryTooLittle)
         held = self._held.reader().samples(cast(Any, np.sort(numbers, axis=None)).tolist())
         if not isinstance(picked, slice):
-            return cast(Codes, held[(0, *rest)])
-        return cast(Codes, (held if picked.step is None or picked.step > 0 else held[::-1])[(slice(None), *rest)])
+            return cast(Codes, held[(*made, 0, *rest)])
+        in_order = held if picked.step is None or picked.step > 0 else held[::-1]
+        return cast(Codes, in_order[(*made, slice(None), *rest)])
 
     def __iter__(self) -> Iterator[Codes]:
         reader = self._held.reader()

@@ -13,8 +13,8 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import cache
 from keyword import iskeyword
-from os import PathLike, remove
-from os.path import dirname, exists, isfile
+from os import PathLike
+from os.path import dirname
 from threading import Event, current_thread, main_thread
 from time import sleep
 from typing import Any, Protocol, Union
@@ -23,7 +23,7 @@ from . import _nutik
 from ._docs import joined
 from ._nutik import DeviceError, Error, ImpreciseError, InputError, MemoryTooLittle, OutputError, UsageError
 from ._told import Json
-from ._words import NutikNote, Path, Progress, check_progress, in_python, is_list, path_of, warn, word_of
+from ._words import NutikNote, Path, Progress, check_progress, in_python, is_list, is_stated, path_of, warn, word_of
 
 # A value, several, or of a command's option that takes two words a list of pairs.
 Value = Union[str, int, float, Fraction, "PathLike[str]"]
@@ -31,8 +31,9 @@ Option = Union[Value, Sequence[Union[Value, Sequence[Value]]], None]
 
 _ERRORS = {2: UsageError, 3: InputError, 4: DeviceError, 5: OutputError, 6: MemoryTooLittle, 7: ImpreciseError}
 _ANSWERED = 1, 3  # findings of a check, an arithmetic beyond its bound: what was asked for, and no failure
-_MAIN = ("import signal, sys; signal.signal(signal.SIGPIPE, signal.SIG_DFL); sys.path.insert(0, sys.argv[1]); "
-         "import _nutik; sys.exit(_nutik.run_program(sys.argv[2:]))")
+# A terminal sends SIGINT to it, too, at which a film would keep its frames: ending it is left to _end().
+_MAIN = ("import signal as s, sys; s.signal(s.SIGPIPE, s.SIG_DFL); s.signal(s.SIGINT, s.SIG_IGN); "
+         "sys.path.insert(0, sys.argv[1]); import _nutik; sys.exit(_nutik.run_program(sys.argv[2:]))")
 _STOP_AFTER_S = 0.05
 _END_WITHIN_S = 5.0
 
@@ -51,10 +52,16 @@ def _end_all() -> None:
     _is_over.set()
     for _ in range(int(_END_WITHIN_S / _STOP_AFTER_S)):
         for process in list(_running):
-            process.terminate()
+            _end(process)
         sleep(_STOP_AFTER_S)  # at least once, for threads between two calls
         if not _running:
             break
+
+
+def _end(process: subprocess.Popen[str]) -> None:
+    """At once, without temporary files: nobody reads its answer. A Python that just begins does not hear SIGPIPE."""
+    for number in (signal.SIGPIPE, signal.SIGTERM):
+        process.send_signal(number)
 
 
 def _sleep_at_the_end() -> None:
@@ -74,15 +81,13 @@ def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Map
     if progress is not None and "progress" in arguments:
         said["progress"] = [[]]
     for argument, value in stated.items():
-        name = argument[:-1] if iskeyword(argument[:-1]) else argument
+        name = _nutik.argument_now(argument[:-1] if iskeyword(argument[:-1]) else argument)
         kind, _, is_repeated, _ = arguments.get(name, ("", "", False, False))
-        if value is None or value is False:
+        if not is_stated(name, kind if name in arguments else None, value):
             continue
         said[name] = [_words(kind, name, each) for each in value] if is_repeated and is_list(value) else [
             _words(kind, name, value)]
     words = _nutik.command_words(command, said)
-    last = path_of(operands[-1]) if operands else ""
-    was_there = exists(last)
     _sleep_at_the_end()
     _end_at_exit()
     process = subprocess.Popen([sys.executable, "-c", _MAIN, dirname(__file__), *words, "--", *map(path_of, operands)],
@@ -107,12 +112,8 @@ def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Map
                 tell((so_far.stderr or b"").decode(errors="replace"))
         tell(told)
     except BaseException:
-        # Nobody reads its answer: it ends at once, without temporary files. SIGINT alone would keep a film's frames.
-        for number in (signal.SIGPIPE, signal.SIGINT):
-            process.send_signal(number)
+        _end(process)
         process.communicate()
-        if not was_there and isfile(last):  # a terminal sends it SIGINT, too
-            remove(last)
         raise
     finally:
         _running.discard(process)

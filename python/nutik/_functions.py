@@ -135,7 +135,7 @@ class Function:
     __rmul__ = __mul__
 
     def __truediv__(self, divisor: float) -> Function:
-        return self * (1 / divisor)
+        return self * (1 / float(divisor))
 
     def __neg__(self) -> Function:
         return self * -1
@@ -339,6 +339,7 @@ def write_functions(path: Path, functions: Mapping[int, FunctionLike]) -> None:
     Examples:
     >>> nutik.write_functions("box.fn", {128: nutik.boxcar(0, "10ms")})
     """
+    refuse(not functions, "functions is empty; a function file has one at least")
     lines = [function_of(function, f"functions[{tag}]").text(tag) for tag, function in sorted(functions.items())]
     _nutik.write_text(path_of(path), "".join(line + "\n" for line in lines), False)
 
@@ -353,7 +354,7 @@ def function_of(given: FunctionLike, what: str, duration: Time = 0) -> Function:
     try:
         points = [(time, float(gain)) for time, gain in listed(given, what)]
     except (TypeError, ValueError):
-        raise UsageError(f"{what} is {shortened(given)}, no function; give a nutik.Function, a list of (time, gain), a "
-                         "callable, or an array with a gain for each sample; of an interval say start= and exposure="
-                         ) from None
+        more = ", a callable, or an array with a gain for each sample; of an interval say start= and exposure="
+        raise UsageError(f"{what} is {shortened(given)}, no function; give a nutik.Function, or a list of (time, gain)"
+                         f"{more if duration else ''}") from None
     return Function([time for time, _ in points], [gain for _, gain in points])

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from . import _nutik
 from ._nutik import UsageError
 from ._told import Plan, Statistics, Uncertainty
-from ._words import Array, DataArray, Index, Path, labelled, path_of, refuse
+from ._words import Array, DataArray, Index, Path, labelled, path_of, refuse, settings_of
 
 
 def _bounds(light: Union[float, NDArray[np.float64]], pictures: Array) -> NDArray[np.float64]:
@@ -211,7 +211,7 @@ class Picture(_HasArray):
             _nutik.write_text(name, made.getvalue(), True)
             return
         try:
-            self._held.write(name, quality, keep_pixels)
+            self._held.write(name, settings_of({"quality": quality, "keep_pixels": keep_pixels}))
         except UsageError as error:
             if is_light and "cannot hold the values" in str(error):
                 raise UsageError(f"{error}, {self.dtype} light: expose it with codes=True, or write .tif or .npy, of "

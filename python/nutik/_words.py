@@ -199,7 +199,8 @@ def text_of(value: Any, what: str) -> str:
 
 def flag_of(value: Any, what: str) -> bool:
     """True or False, or what is a number."""
-    refuse(not isinstance(value, (int, np.bool_)), f"{what} is {shortened(value)}; it is True or False", WrongType)
+    is_one = isinstance(scalar(value), (int, np.integer, np.bool_))
+    refuse(not is_one, f"{what} is {shortened(value)}; it is True or False", WrongType)
     return bool(value)
 
 
@@ -375,6 +376,8 @@ def word_of(name: str, kind: str, value: Any) -> str:
         return str(int(exact(value, name)))
     if kind == "TIME" or "TIME" in kind and not is_list(value):
         return time_word(value, name)
+    if kind == "CODE" and isinstance(value, (float, np.floating)) and value % 1 == 0:
+        return str(int(value))
     if kind in ("RATE", "DEGREES", "W:H"):
         return number_word(value, name)
     if kind in ("K", "G", "E", "FILE|LIGHT"):
@@ -396,10 +399,15 @@ def _kinds() -> dict[str, str]:
     return {name: row[0] for each in rows for name, row in each.items()}
 
 
+def is_stated(name: str, kind: Optional[str], value: Any) -> bool:
+    """None and False are not, nor is whatever else says no of a flag, which is of kind ''."""
+    return value is not None and value is not False and (kind != "" or flag_of(value, f"{name}="))
+
+
 def settings_of(stated: Mapping[str, Any]) -> dict[str, str]:
-    """What is stated, as words: None and False are not."""
+    """What is stated, as words."""
     return {name: word_of(name, _kinds().get(name, ""), value) for name, value in stated.items()
-            if value is not None and value is not False}
+            if is_stated(name, _kinds().get(name), value)}
 
 
 def frozen(told: dict[str, Any]) -> dict[str, Any]:

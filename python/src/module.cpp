@@ -1,7 +1,10 @@
 // nutik._nutik: the engine's session for Python; what its users see is the package around it, python/nutik. Here: what
 // the library throws, in the words of arguments; what is stated by name, as the schema's options; and the commands.
+#include <sys/prctl.h>
+
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <exception>
 #include <ranges>
 
@@ -145,6 +148,7 @@ int run_program(std::vector<std::string> words) {
   words.insert(words.begin(), "nutik-cl");
   std::vector<const char*> pointers;
   for (const std::string& word : words) pointers.push_back(word.c_str());
+  prctl(PR_SET_PDEATHSIG, SIGPIPE);  // it outlives nobody who waits for it
   const py::gil_scoped_release released;
   return app::run_process(pointers);
 }

@@ -41,11 +41,9 @@ py::array values(const py::object& self) {
 }
 
 // Looks for Ctrl-C between the parts that are written.
-void write(const HeldPicture& held, const std::string& path, std::optional<int> quality, bool keep_pixels) {
+void write(const HeldPicture& held, const std::string& path, const Settings& settings) {
   check_output(path, OutputKind::picture, {});
-  OutputRequest request;
-  request.quality = quality;
-  request.keep_pixels = keep_pixels;
+  const OutputRequest request = stated_options(CommandId::expose, settings).picture;
   check_quality(request, path);
   without_lock([&](const Stopping& stopping) {
     FileWishes wishes = file_wishes(request);
@@ -305,7 +303,7 @@ void bind_rendering(py::module_& module) {
   py::class_<HeldPicture>(module, "Picture")
       .def(py::pickle(&state_of, &unpickled))
       .def("values", &values)
-      .def("write", &write, "path"_a, "quality"_a, "keep_pixels"_a)
+      .def("write", &write, "path"_a, "settings"_a)
       .def("for_eyes", &for_eyes)
       .def_readonly("figures", &HeldPicture::figures);
   PYBIND11_NUMPY_DTYPE(TraceStep::Value, begin_light, end_light, integral_ns, sum_ns);

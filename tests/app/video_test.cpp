@@ -209,7 +209,7 @@ TEST_F(Video, SaysWhatMakesNoSense) {
       {{"v.mp4", "--from", "0.5s", "--to", "0.4s"}, 2, "would end at 0.4s, which is not after its start at 0.5s"},
       {{"v.mp4", "--out-fps", "1", "--out-angle", "360"}, 2, "each is exposed for 1 s, and between"},
       {{"v.mp4", "-k", "f.fn", "--out-angle", "90"}, 2, "with -k the functions say"},
-      {{"v.mp4", "-k", "long.fn"}, 2, "no frame fits: the longest is exposed for 900 ms"},
+      {{"v.mp4", "-k", "long.fn", "--from", "1ms"}, 2, "the last function ends 900 ms after its frame's start, and"},
       {{"v.mp4", "-m", "m.pgm"}, 2, "a mask goes with gain functions (-k)"},
       {{"v.mp4", "--start", "0s"}, 2, "--start does not go with video; --from and --to say which part."},
       {{"v.mp4", "--exposure", "10ms"}, 2, "--out-angle says how long each frame is exposed."},

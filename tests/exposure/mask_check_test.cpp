@@ -136,6 +136,7 @@ TEST(MaskCheck, Sizes) {
             "the mask is 1280 x 720 pixels, the capture 640 x 360; scale it to 640 x 360 without smoothing "
             "(nearest neighbour), which would make new values");
   EXPECT_NE(mistake(213, 120).find("; scale it to 640 x 360"), std::string::npos);  // a third, rounded
+  EXPECT_EQ(size_mistake(Mask::uniform(5, 5, 0), {4, 4, 1}).find("turn"), std::string::npos);
   EXPECT_NE(mistake(180, 320).find("; turn it by 90 degrees and scale it to 640 x 360"), std::string::npos);
   Mask soft = Mask::uniform(1280, 720, 0);
   soft.mixed.add(0, std::vector<Share>{{0, 30000}, {1, 35535}});

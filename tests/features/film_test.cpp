@@ -196,5 +196,14 @@ TEST(Frames, OfTwoOrThreePicturesShowWhatMovesSoOften) {
   EXPECT_EQ(seen({240, 1}, "180"), std::nullopt) << "five or six join";
 }
 
+TEST(Frames, OfFunctionsOverAllOfTheCaptureAreOne) {
+  constexpr std::int64_t kEnd = 1'000'000'000;
+  FramesRequest request = film("180");
+  request.exposure.gains = Shared(FunctionSet{{0, GainFunction({{-1, 0}, {0, 1}, {kEnd, 1}, {kEnd + 1, 0}})}});
+  const Frames frames = frames_of(request, Timeline::constant({10, 1}, {360, 1}, 10));
+  EXPECT_EQ(frames.count, 1u);
+  EXPECT_EQ(frames.span(), (Exposure{0, kEnd}));
+}
+
 }  // namespace
 }  // namespace nutik

@@ -105,6 +105,20 @@ class Arrays(support.TestCase):
         self.assertEqual(capture.render(start=np.array(0), exposure=np.array(1), gain=np.array(2)).array[0, 0], 2)
         self.assertEqual(nutik.encode(np.ones((2, 8, 8)), rate=1, white=np.array(1.0))[0][0, 0], 65535)
 
+    def test_codes_are_picked_as_numpy_picks_them(self):
+        each, colour = np.s_[::-2], support.moving_box(12, 20, 24)
+        for array in (colour, colour[..., 0].copy()):
+            capture = nutik.encode(array, rate=1, white=np.float32(255.0))
+            rest = (slice(None),) * (array.ndim - 1)
+            for key in (3, -1, np.int64(2), np.s_[2:5], each, np.s_[20:30], (), ..., None, np.s_[5:1:-2, ::2, 1],
+                        np.s_[3, ..., 0], np.s_[2:4, None, ...], np.s_[None, None, 3], np.s_[..., None],
+                        (..., 2, *rest), (..., each, *rest), (3, *rest, ...), (None, ..., each, *rest[1:], 0), np.s_[..., 2:5, :]):
+                with self.subTest(key=key):
+                    self.assert_same(capture[key], array[key])
+            for key in (12, (3, 99), (0, *rest, 0), (..., 0, *rest, 0)):
+                with self.subTest(key=key), self.assertRaises(IndexError):
+                    capture[key]
+
     def test_records_that_take_too_much(self):
         """Their limit is `memory`, whatever that is: 4 GiB were the most once."""
         noise = np.random.default_rng(5).integers(0, 256, (60, 200, 300), np.uint8)
@@ -168,7 +182,7 @@ class Arrays(support.TestCase):
         self.assert_raises(usage, ["float64", "white=1.0"], encode, pictures.astype(float), rate=1)
         self.assert_raises(usage, "clip.png is no name for a capture, which ends in .tik", encode, pictures,
                            self.path("clip.png"), rate=1)
-        self.assert_raises(usage, "white '255.0'", encode, pictures, rate=1, white=255.0)
+        self.assert_raises(usage, "white '254.5'", encode, pictures, rate=1, white=254.5)
         self.assert_raises(usage, "int64", encode, pictures.astype(int), rate=1)
         for white in (float("nan"), 0, -1):
             self.assert_raises(usage, f"white={white} is no light above 0", encode, pictures.astype(float), rate=1,

@@ -11,7 +11,7 @@ import unittest
 
 import nutik
 import numpy as np
-from nutik import _nutik, _words
+from nutik import _commands, _nutik, _words
 
 import support
 
@@ -120,6 +120,28 @@ class Commands(support.TestCase):
         self.assert_raises(nutik.OutputError, "absent", nutik.contact, self.clip, self.path("absent/x.png"),
                            exposure=0.01)
 
+    def test_a_flag_that_says_no_is_not_set(self):
+        there = self.folder / "there.tik"
+        nutik.encode(support.moving_box()[:9], there, rate=1)
+        held = there.read_bytes()
+        for no in (0, False, np.False_, np.array(False)):
+            with self.assertRaisesRegex(nutik.UsageError, "overwrite="):
+                nutik.retime(self.clip, there, rate=1, overwrite=no)
+            self.assert_raises(nutik.UsageError, "in_place=", nutik.retime, self.clip, rate=1, in_place=no)
+        for flag in ("overwrite", "in_place"):
+            with self.assertRaisesRegex(TypeError, f"{flag}= is 'no'"):
+                nutik.retime(self.clip, there, rate=1, **{flag: "no"})
+        self.assertEqual(there.read_bytes(), held)
+        stills = self.path("%d.pgm")
+        for k in range(3):
+            support.write_pgm(stills % k, np.full((4, 4), k, np.uint8))
+        (self.folder / "2.pgm").write_bytes((self.folder / "2.pgm").read_bytes()[:-1])
+        for name in ("ignore_errors", "as_far_as_it_goes"):
+            with self.assertRaisesRegex(nutik.InputError, "2.pgm"):
+                nutik.open(stills, rate=1, **{name: np.False_})
+            with self.assertRaisesRegex(TypeError, "ignore_errors= is 'no'"):
+                nutik.open(stills, rate=1, **{name: "no"})
+
     def test_messages_state_arguments(self):
         said = _words.in_python
         self.assertEqual(said("an interval (--start 0.4s --exposure 10ms), or --functions"),
@@ -147,6 +169,26 @@ class Commands(support.TestCase):
         self.assertLess(time.monotonic() - sent[0], 0.5)
         timer.join()
         self.assertEqual([each.name for each in self.folder.iterdir() if "film" in each.name], [])
+
+    def test_what_it_made_goes_and_nothing_else(self):
+        nutik.encode(np.random.default_rng(1).integers(0, 256, (64, 200, 300, 3), np.uint8), self.path("noise.tik"),
+                     rate=64)
+        film = self.folder / "film.mkv"
+
+        def stop(done, _):
+            if done > 2:
+                for process in _commands._running:
+                    process.send_signal(signal.SIGINT)  # as a terminal does
+                time.sleep(0.5)
+                if content:
+                    film.write_text(content)
+                raise ZeroDivisionError
+
+        for content in ("", "somebody else's"):
+            with self.assertRaises(ZeroDivisionError):
+                nutik.video(self.path("noise.tik"), film, out_fps=1000, speed=0.1, progress=stop)
+            self.assertEqual([each.read_text() for each in self.folder.iterdir() if "film" in each.name],
+                             [content] if content else [])
 
 
 if __name__ == "__main__":

@@ -98,6 +98,10 @@ class Functions(support.TestCase):
         self.assertEqual(nutik.read_functions(self.path("gains.fn")), functions)
         nutik.write_functions(self.path("gains.fn"), functions)
         self.run_program("check", "-k", "gains.fn")
+        for wrong, said in (({}, "empty"), ({3: np.ones(5)}, "a list of (time, gain)")):
+            told = self.assert_raises(nutik.UsageError, said, nutik.write_functions, self.path("gains.fn"), wrong)
+            self.assertNotIn("or an array", str(told))
+        self.assertEqual(nutik.Function([0], [1]) / np.float16(3), nutik.Function([0], [1 / 3]))
         for name, said in (("clip.mp4", "are written as .fn"), ("clip.fn", "exists and is no function file")):
             with open(self.path(name), "wb") as film:
                 film.write(b"\0\0\0\x20ftypisom")

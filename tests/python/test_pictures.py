@@ -113,6 +113,8 @@ class Pictures(support.TestCase):
                        mask=shares, precision=precision, codes=True)
         self.check(["-m", "layer-%d.pgm", "-k", "gains.fn"], "light.pfm", functions=self.functions, mask=shares)
         mask = nutik.Mask.of_layers({128: ramp, 255: shares[255]})
+        half = np.full((height, width), 0.5, np.float16)
+        self.assertEqual(nutik.Mask.of_layers({128: half}).share(128)[0, 0], 32768)
         self.assertTrue(mask.is_soft)
         self.assertEqual(mask.tags_in_use, [0, 128, 255])
         self.assert_same(mask.share(128), shares[128])
@@ -199,6 +201,10 @@ class Pictures(support.TestCase):
         picture.write(self.path("ours.ppm"))
         self.assert_same(support.read_netpbm(self.path("ours.ppm")), picture.array)
         self.assert_raises(nutik.UsageError, ".pfm", picture.write, self.path("codes.pfm"))
+        for wrong in (-5, 0, 101, 2 ** 31, 5.5):
+            self.assert_raises(nutik.UsageError, f"quality '{wrong}'", picture.write, self.path("q.jpg"), quality=wrong)
+        with self.assertRaisesRegex(TypeError, "keep_pixels= is 'no'"):
+            picture.write(self.path("q.jpg"), keep_pixels="no")
         deep = self.capture.render(start=0, exposure="10ms", dtype=np.float64)
         self.assert_raises(nutik.UsageError, "float32", deep.write, self.path("light.exr"))
         self.assert_raises(nutik.UsageError, "kind='.png'", lambda: deep.write(self.path("light.tif"), kind=".png"))

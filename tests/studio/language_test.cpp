@@ -1,5 +1,6 @@
 // The window in German: nothing of it is left in English, and no file and no command knows of it.
 #include <QComboBox>
+#include <QCommandLinkButton>
 #include <QDialogButtonBox>
 #include <QFile>
 #include <QFormLayout>
@@ -107,6 +108,10 @@ TEST_F(LanguageTest, TheWindowIsGermanAndEachMenusLettersAreItsOwn) {
         QTest::keyClick(from, Qt::Key_Return);
         const QString said = asked.findChild<QLabel*>("mistake")->text();
         EXPECT_TRUE(said.startsWith("Wo in der Aufnahme der Film beginnt: 'bald'")) << said.toStdString();
+        QApplication::processEvents();
+        for (const QLabel* label : asked.findChildren<QLabel*>())
+          EXPECT_TRUE(label->isHidden() || label->height() >= label->heightForWidth(label->width()))
+              << label->text().toStdString();
       }
       asked.reject();
     });
@@ -115,6 +120,18 @@ TEST_F(LanguageTest, TheWindowIsGermanAndEachMenusLettersAreItsOwn) {
     EXPECT_TRUE(is_asked_) << dialog;
   }
   EXPECT_EQ(missing_.texts(), "");
+}
+
+TEST_F(LanguageTest, TheStartPageFitsASmallWindow) {
+  window_.resize(800, 500);
+  QApplication::processEvents();
+  EXPECT_EQ(window_.size(), QSize(800, 500));
+  const auto cards = child<QWidget>("start_page").findChildren<QCommandLinkButton*>();
+  ASSERT_EQ(cards.size(), 7);
+  for (const auto* card : cards) {
+    EXPECT_GE(card->height(), card->heightForWidth(card->width())) << card->text().toStdString();
+    for (const auto* other : cards) EXPECT_TRUE(card == other || !card->geometry().intersects(other->geometry()));
+  }
 }
 
 TEST_F(LanguageTest, WhatIsTypedWrongIsSaidInGermanWithTheFieldsName) {

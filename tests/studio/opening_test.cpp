@@ -158,13 +158,15 @@ TEST_F(OpeningTest, AProjectStaysWhileAnotherFileIsOpenedAndIfThatIsCancelled) {
 
 TEST_F(OpeningTest, AsksForWhatWasChangedWhileAnotherFileWasOpened) {
   ASSERT_NO_FATAL_FAILURE(open_project());
-  const auto change_while_opening = [&](QMessageBox::StandardButton button) {
+  const auto change_while_opening = [&](QMessageBox::StandardButton button, bool is_mark = false) {
     window_.open(path("frames/%02d.pgm"), "100");
-    add_region(document());
+    if (is_mark) document().set_mark_in(5'000'000);
+    if (!is_mark) add_region(document());
     answer_next(button);
     ASSERT_TRUE(settles());
     EXPECT_TRUE(is_asked_);
   };
+  ASSERT_NO_FATAL_FAILURE(change_while_opening(QMessageBox::Cancel, true));
   ASSERT_NO_FATAL_FAILURE(change_while_opening(QMessageBox::Cancel));
   EXPECT_EQ(document().functions().size(), 3u);
   EXPECT_EQ(difference(canvas().image(), fresh_picture()), "");

@@ -183,6 +183,18 @@ TEST_F(ProjectFile, SaysWhatIsDamagedInOneThatHoldsAll) {
   refused("\"width\": 8", "\"width\": -8", "its mask's width is not from 1 to 32767");
   refused("\"tags\": \"", "\"tags\": \"AAAA", "the mask in it is damaged");
   refused("M0 [", "M0 [x", "has mistakes");
+  const std::string ev = "\"ev\": 0", exposes = "\"exposes\": \"regions\"";
+  refused(ev, "\"ev\": \"2\"", "'ev' is no number");
+  refused(ev, "\"ev\": 18", "'ev' is not from -16 to 16");
+  refused(ev, ev + ", \"fps\": true", "'fps' is no text");
+  refused(ev, ev + ", \"deflicker\": 1", "'deflicker' is neither true nor false");
+  refused(exposes, "\"exposes\": \"region\"", "'exposes' is neither 'interval' nor 'regions'");
+  refused(exposes, "\"exposes\": 1", "'exposes' is no text");
+  refused("\"visible\": true", "\"visible\": \"no\"", "'visible' is neither true nor false");
+  refused("\"regions\": [", "\"regions\": 1, \"others\": [", "'regions' is no list");
+  std::string text = whole;
+  scratch_.write("p.nutik", text.replace(text.find(ev), ev.size(), "\"ev\": -16, \"fps\": 29.97"));
+  EXPECT_EQ(load_project(path("p.nutik")).stated, (Stated{{"fps", "29.97"}}));
 }
 
 }  // namespace

@@ -102,8 +102,11 @@ class StudioTest : public ::testing::Test {
     timer->start(1);
   }
   void answer_next(QMessageBox::StandardButton button) {
-    answer_next<QMessageBox>(
-        [button](QMessageBox& question) { QTest::mouseClick(question.button(button), Qt::LeftButton); });
+    answer_next<QMessageBox>([button](QMessageBox& question) {
+      const bool names_files = button == QMessageBox::Yes || button == QMessageBox::No;
+      EXPECT_TRUE(!names_files || question.textFormat() == Qt::PlainText);
+      QTest::mouseClick(question.button(button), Qt::LeftButton);
+    });
   }
 
   // Pastes a file's path into the dialog that comes next: typed, it would open each folder on its way.

@@ -122,7 +122,7 @@ TEST_F(WindowTest, OpensAProjectAsItWasSaved) {
   EXPECT_FALSE(window_.isWindowModified());
 
   MainWindow other;
-  other.open(path("saved.nutik"));
+  other.open(QDir::current().relativeFilePath(path("saved.nutik")));
   ASSERT_TRUE(QTest::qWaitFor([&] { return other.is_settled(); }, kMaxWaitMs));
   const DocumentState& loaded = other.document().state();
   EXPECT_EQ(loaded.functions, saved.functions);
@@ -130,6 +130,13 @@ TEST_F(WindowTest, OpensAProjectAsItWasSaved) {
   EXPECT_TRUE(loaded == saved);
   EXPECT_EQ(difference(other.canvas().image(), picture), "");
   EXPECT_FALSE(other.isWindowModified());
+  answer_next<QDialog>([this](QDialog& dialog) {
+    EXPECT_EQ(dialog.findChild<QLineEdit*>("path")->text(), path("saved.png"));
+    dialog.reject();
+  });
+  for (QAction* action : other.findChildren<QAction*>())
+    if (action->text().remove('&') == "Export picture…") action->trigger();
+  EXPECT_TRUE(is_asked_);
 }
 
 TEST_F(WindowTest, KeepsWhatIsNotSaved) {
@@ -329,6 +336,18 @@ TEST_F(WindowTest, AsksBeforeUnsavedChangesAreLost) {
   answer_next(QMessageBox::Save);
   EXPECT_TRUE(window_.close());
   EXPECT_EQ(load_project(path("saved.nutik")).state.boxcar, (Boxcar{0, 1'000}));
+  window_.show();
+  remove_all_kept();
+  document().set_mark_in(5'000'000);
+  EXPECT_TRUE(window_.isWindowModified());
+  window_.autosave().keep();
+  EXPECT_EQ(kept_folder().entryList({"unsaved*"}).size(), 2);
+  document().set_mark_in({});
+  EXPECT_FALSE(window_.isWindowModified()) << "it is as it was saved";
+  document().set_mark_in(5'000'000);
+  answer_next(QMessageBox::Save);
+  EXPECT_TRUE(window_.close());
+  EXPECT_EQ(load_project(path("saved.nutik")).marks.in_ns, 5'000'000);
 }
 
 TEST_F(WindowTest, AsksBeforeItReplacesWhatChangedOutside) {

@@ -105,14 +105,17 @@ void put_evenly(Frames& frames, const FramesRequest& request, const Timeline& ti
                             request.from.text()));
   }
   const bool is_plain = request.exposure.is_plain();
-  const std::int64_t length_ns = is_plain ? frames.times.end_ns(0) - start_ns : functions_end_ns(request);
+  const std::int64_t exposed_ns = is_plain ? frames.times.end_ns(0) - start_ns : functions_end_ns(request);
+  // Of functions what a capture of their length shows: their last step down lies 1 ns behind it.
+  const std::int64_t length_ns = is_plain ? exposed_ns : std::min(exposed_ns, timeline.duration_ns());
   frames.count = is_plain ? frames.times.count_ending_by(end_ns)
                           // A frame that starts at the very end sees nothing.
                           : frames.times.count_starting_by(end_ns - std::max<std::int64_t>(length_ns, 1));
   if (frames.count == 0) {
     throw UsageError(
-        format("no frame fits: {} is exposed for {}, and between the video's start and end are {}",
-               is_plain ? "each" : "the longest", duration_text(length_ns), duration_text(end_ns - start_ns)));
+        format("no frame fits: {} {}{}, and between the video's start and end are {}",
+               is_plain ? "each is exposed for" : "the last function ends", duration_text(exposed_ns),
+               is_plain ? "" : " after its frame's start", duration_text(end_ns - start_ns)));
   }
 }
 
@@ -228,7 +231,8 @@ Frames frames_of(const FramesRequest& request, const Timeline& timeline) {
   } else {
     put_evenly(frames, request, timeline);
   }
-  if (!request.exposure.is_plain() || !request.keys.functions.empty()) frames.functions_ns = functions_end_ns(request);
+  if (!request.exposure.is_plain() || !request.keys.functions.empty())
+    frames.functions_ns = std::min(functions_end_ns(request), timeline.duration_ns());
   frames.numbers = chosen_numbers(request.numbers, frames.count, "frames", "film");
   if (request.curve) frames.warning = outside_text(frames, request.curve->name, timeline);
   return frames;

@@ -74,6 +74,12 @@ void Document::start(CaptureFacts facts, std::optional<DocumentState> state, Mar
   Q_EMIT probe_changed();
   set_mark_in(marks.in_ns);
   set_mark_out(marks.out_ns);
+  saved_marks_ = marks_;
+}
+
+void Document::set_saved() {
+  saved_marks_ = marks_;
+  undo_.setClean();
 }
 
 void Document::set_overview(CaptureOverview overview) {

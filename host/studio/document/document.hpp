@@ -87,6 +87,8 @@ struct Marks {
   friend bool operator==(const Marks&, const Marks&) = default;
 };
 
+inline constexpr double kMostBrightnessEv = 16;
+
 struct RegionLook {
   QString name;
   QColor colour;
@@ -105,7 +107,7 @@ struct DocumentState {
   Boxcar boxcar;
   Normalization normalization;
   Feather feather;           // of the mask's edges
-  double brightness_ev = 0;  // in stops
+  double brightness_ev = 0;  // in stops, of either sign
   friend bool operator==(const DocumentState&, const DocumentState&) = default;
 };
 
@@ -158,6 +160,9 @@ class Document : public QObject {
 
   [[nodiscard]] QUndoStack& undo_stack() { return undo_; }
   [[nodiscard]] const QUndoStack& undo_stack() const { return undo_; }
+  // Whether all that a project holds is as it was saved or loaded: what undo brings back, and the marks.
+  [[nodiscard]] bool is_saved() const { return undo_.isClean() && marks_ == saved_marks_; }
+  void set_saved();
 
   // ---- what is looked at ----
 
@@ -216,7 +221,7 @@ class Document : public QObject {
   std::uint8_t selected_tag_ = 0;
   std::set<std::size_t> selected_points_;
   std::optional<std::uint8_t> solo_;
-  Marks marks_;
+  Marks marks_, saved_marks_;
   std::optional<Boxcar> played_;
   std::optional<QPoint> probe_;
   std::optional<Waveform> waveform_;

@@ -813,8 +813,8 @@ Zeiten und Bilder zählen ab In.</translation>
         <translation>Nicht gespeicherte Änderungen</translation>
     </message>
     <message>
-        <source>Regions and functions were changed and not saved. Save them?</source>
-        <translation>Regionen und Funktionen wurden geändert und nicht gespeichert. Speichern?</translation>
+        <source>Regions, functions or marks were changed and not saved. Save them?</source>
+        <translation>Regionen, Funktionen oder Marken wurden geändert und nicht gespeichert. Speichern?</translation>
     </message>
     <message>
         <source>Copied: %1</source>

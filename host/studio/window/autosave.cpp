@@ -101,9 +101,11 @@ Autosave::Autosave(Document& document, QObject* parent) : QObject(parent), docum
   timer_.setSingleShot(true);
   timer_.setInterval(kDelay);
   connect(&timer_, &QTimer::timeout, this, &Autosave::keep);
-  connect(&document_, &Document::changed, this, [this] {
+  const auto keep_soon = [this] {
     if (!timer_.isActive()) timer_.start();
-  });
+  };
+  connect(&document_, &Document::changed, this, keep_soon);
+  connect(&document_, &Document::marks_changed, this, keep_soon);
 }
 
 std::vector<Autosave::Found> Autosave::found() {
@@ -117,7 +119,7 @@ std::vector<Autosave::Found> Autosave::found() {
 }
 
 void Autosave::keep() {
-  if (document_.facts() == nullptr || document_.undo_stack().isClean()) return;
+  if (document_.facts() == nullptr || document_.is_saved()) return;
   try {
     if (!kept_) kept_ = std::make_shared<KeptProject>();
     keep_project(kept_->path(), document_);

@@ -16,6 +16,7 @@
 #include "session/output_check.hpp"
 #include "studio/document/document.hpp"
 #include "studio/window/main_window.hpp"
+#include "studio/window/options_dialog.hpp"
 #include "studio/window/project_file.hpp"
 #include "studio/window/start_page.hpp"
 #include "studio/window/started_work.hpp"
@@ -61,8 +62,7 @@ QString MainWindow::named_file(const QString& title, const QString& ending, cons
   if (path.isEmpty() || has_ending) return path;
   path += suffix;
   const bool is_free = !QFileInfo::exists(path) ||
-                       QMessageBox::question(this, title, tr("%1 is there already. Replace it?").arg(path)) ==
-                           QMessageBox::Yes;
+                       is_wanted(this, title, tr("%1 is there already. Replace it?").arg(path));
   return is_free ? path : QString();
 }
 
@@ -79,7 +79,7 @@ bool MainWindow::save_project(const QString& path) {
   project_ = path;
   files_ = files;
   autosave_.begin();
-  document_.undo_stack().setClean();
+  document_.set_saved();
   remember_file(path);
   if (!canvas_->shows_first_look()) remember_picture(path, canvas_->image());
   follow_title();
@@ -97,9 +97,7 @@ bool MainWindow::save(const QString& why) {
   for (const QString& file : foreign_files(project_, written))
     if (!changed.contains(file)) lines += tr("%1 was not written for this project.").arg(file);
   lines += tr("Replace what is there? Save project as… writes new files.");
-  if (lines.size() > 1 &&
-      QMessageBox::question(this, tr("Files of others"), lines.join('\n')) != QMessageBox::Yes)
-    return false;
+  if (lines.size() > 1 && !is_wanted(this, tr("Files of others"), lines.join('\n'))) return false;
   return save_project(project_);
 }
 
@@ -179,9 +177,9 @@ bool MainWindow::save_as(const QString& why) {
 }
 
 bool MainWindow::may_leave() {
-  if (document_.undo_stack().isClean()) return true;
+  if (document_.is_saved()) return true;
   const auto answer = QMessageBox::question(
-      this, tr("Unsaved changes"), tr("Regions and functions were changed and not saved. Save them?"),
+      this, tr("Unsaved changes"), tr("Regions, functions or marks were changed and not saved. Save them?"),
       QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
   if (answer == QMessageBox::Save) return save();
   return answer == QMessageBox::Discard;
@@ -194,6 +192,7 @@ bool MainWindow::may_leave_writing() {
                           "are there already.")
                            .arg(writing_.open().join('\n')),
                        QMessageBox::Cancel, this);
+  question.setTextFormat(Qt::PlainText);
   const QAbstractButton* finish = question.addButton(tr("&Finish in the background"), QMessageBox::AcceptRole);
   const QAbstractButton* stop = question.addButton(tr("&Stop"), QMessageBox::DestructiveRole);
   connect(&writing_, &Jobs::failed, &question, &QDialog::reject);  // which is to be read first

@@ -8,7 +8,6 @@
 #include <QFileInfo>
 #include <QGridLayout>
 #include <QLineEdit>
-#include <QMessageBox>
 #include <QMimeData>
 #include <QScreen>
 #include <QSettings>
@@ -225,12 +224,13 @@ void MainWindow::connect_parts() {
   });
   connect(&document_, &Document::capture_changed, this, &MainWindow::follow_exposure);
   connect(&document_.undo_stack(), &QUndoStack::cleanChanged, this, &MainWindow::follow_title);
+  connect(&document_, &Document::marks_changed, this, &MainWindow::follow_title);
 }
 
 void MainWindow::open(const QString& path, const QString& rate, const StartingPoint* then) {
   notice_->clear();
   if (path.endsWith(QLatin1String(kProjectExtension), Qt::CaseInsensitive))
-    return open_project(path, {}, then);
+    return open_project(QFileInfo(path).absoluteFilePath(), {}, then);
   Stated stated;
   if (!rate.isEmpty()) stated.emplace("fps", rate.toStdString());
   Origin origin;
@@ -264,7 +264,7 @@ void MainWindow::open_capture_file(const QString& path, const Stated& stated, Or
   jobs_.cancel();
   opening_ = path;
   follow_opening();
-  if (document_.facts() != nullptr) origin.left = document_.state();
+  if (document_.facts() != nullptr) origin.left.emplace(document_.state(), document_.marks());
   const auto first_look = [this](QImage image) {
     QMetaObject::invokeMethod(
         this, [this, image] { canvas_->show_first_look(image); }, Qt::QueuedConnection);
@@ -344,7 +344,7 @@ void MainWindow::ask_how_to_read(const QString& path, const Stated& stated, cons
 
 void MainWindow::take(Opened opened, Origin origin) {
   // What was changed while this was opened was not asked for yet.
-  if (origin.left && *origin.left != document_.state() && !may_leave()) return;
+  if (origin.left && *origin.left != std::pair(document_.state(), document_.marks()) && !may_leave()) return;
   const std::int64_t duration_ns = opened.facts.timeline.duration_ns();
   if (origin.duration_ns != 0 && duration_ns != origin.duration_ns) {
     const QString path = opened.facts.path;
@@ -352,7 +352,7 @@ void MainWindow::take(Opened opened, Origin origin) {
                             .arg(exact_time_text(duration_ns), exact_time_text(origin.duration_ns));
     const QString question = tr("Opening %1: %2").arg(QFileInfo(path).fileName(), why) +
                              tr("\n\nUse it all the same? Functions and marks keep their times.");
-    if (QMessageBox::question(this, tr("Another clip"), question) != QMessageBox::Yes)
+    if (!is_wanted(this, tr("Another clip"), question))
       return tell_way_out(path, opened.facts.stated, origin, std::make_exception_ptr(OfAnotherClip(why.toStdString())));
   }
   opening_.clear();
@@ -500,7 +500,7 @@ void MainWindow::follow_title() {
                                              : QString();
   setWindowTitle(name.isEmpty() ? tr("nutik studio")
                                 : tr("%1[*] – nutik studio").arg(QFileInfo(name).fileName()));
-  setWindowModified(!document_.undo_stack().isClean());
+  setWindowModified(!document_.is_saved());
 }
 
 // Whose picture is shown: what stands round it says nothing of another capture.

@@ -52,7 +52,7 @@ struct Origin {
   std::optional<DocumentState> state = {};  // none: the document starts anew
   Marks marks = {};
   std::int64_t duration_ns = 0;                  // of the capture that the state was made of; 0: whatever it is
-  std::optional<DocumentState> left = {};        // what the document was when it was left for this
+  std::optional<std::pair<DocumentState, Marks>> left = {};  // what the document was when it was left for this
   std::shared_ptr<const KeptProject> kept = {};  // of Kind::recovered
   bool is_unwritten = false;                     // of Kind::project: its last save was ended in the middle
   bool is_elsewhere = false;                     // the capture, than where the project says

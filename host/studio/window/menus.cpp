@@ -404,7 +404,7 @@ QWidget* MainWindow::build_exposure() {
   });
   brightness_ = new NumberBox;
   describe(*brightness_, "brightness", tr("Brightness, in stops"));
-  brightness_->setRange(-16, 16);
+  brightness_->setRange(-kMostBrightnessEv, kMostBrightnessEv);
   brightness_->setSingleStep(0.25);
   brightness_->setKeyboardTracking(false);  // 2.5 is one step, and not 2 first
   brightness_->setPrefix(tr("EV "));

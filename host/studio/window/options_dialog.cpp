@@ -85,6 +85,12 @@ Field field_of(const Option& option, const QString& stated, const std::map<std::
 
 }  // namespace
 
+bool is_wanted(QWidget* parent, const QString& title, const QString& question) {
+  QMessageBox box(QMessageBox::Question, title, question, QMessageBox::Yes | QMessageBox::No, parent);
+  box.setTextFormat(Qt::PlainText);
+  return box.exec() == QMessageBox::Yes;
+}
+
 Options options_in(CommandId command, const Stated& stated) {
   Options options;
   for (const auto& [name, value] : stated) {
@@ -101,6 +107,7 @@ std::optional<Wanted> ask_options(QWidget* parent, const Asked& asked) {
   auto* form = new QFormLayout(&dialog);
   auto* why = new QLabel(asked.why, &dialog);
   why->setWordWrap(true);
+  why->setTextFormat(Qt::PlainText);
   why->setVisible(!asked.why.isEmpty());
   if (!asked.why.isEmpty()) form->addRow(why);
   auto* path = new QLineEdit(asked.first.path, &dialog);
@@ -162,11 +169,12 @@ std::optional<Wanted> ask_options(QWidget* parent, const Asked& asked) {
       if (asked.check) asked.check(wanted, options);
     } catch (...) {
       mistake->setText(sentence_of(std::current_exception()));
-      return mistake->show();
+      mistake->show();
+      return dialog.resize(dialog.width(), std::max(dialog.height(), form->totalHeightForWidth(dialog.width())));
     }
     const bool is_there = !wanted.path.isEmpty() && QFileInfo::exists(wanted.path);
     const QString question = Document::tr("%1 is there already. Replace it?").arg(wanted.path);
-    if (!is_there || QMessageBox::question(&dialog, asked.title, question) == QMessageBox::Yes) dialog.accept();
+    if (!is_there || is_wanted(&dialog, asked.title, question)) dialog.accept();
   });
   if (dialog.exec() != QDialog::Accepted) return std::nullopt;
   return wanted;

@@ -16,6 +16,9 @@ class QWidget;
 
 namespace nutik::studio {
 
+// Whether a person says yes; the question is no HTML, whatever the files in it are called.
+[[nodiscard]] bool is_wanted(QWidget* parent, const QString& title, const QString& question);
+
 // As a command line states them. Throws UsageError.
 [[nodiscard]] Options options_in(CommandId command, const Stated& stated);
 

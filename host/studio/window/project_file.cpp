@@ -9,6 +9,7 @@
 #include <QUuid>
 #include <QtEndian>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 #include <vector>
@@ -76,6 +77,16 @@ void write_text(const QString& path, std::string_view text) {
   throw InputError(format("{}: {}", path.toStdString(), what));
 }
 
+// Of the type that what it is otherwise, where it is absent, has.
+QJsonValue value_in(const QJsonObject& object, const char* name, const QJsonValue& otherwise, const QString& path) {
+  const QJsonValue value = object.contains(QLatin1String(name)) ? object[QLatin1String(name)] : otherwise;
+  if (value.type() == otherwise.type()) return value;
+  refuse(path, format("'{}' is {}", name, otherwise.isBool()     ? "neither true nor false"
+                                          : otherwise.isDouble() ? "no number"
+                                          : otherwise.isString() ? "no text"
+                                                                 : "no list"));
+}
+
 // Whole nanoseconds as text: JSON's numbers are doubles for many readers.
 std::int64_t time_in(const QJsonObject& object, const char* name, const QString& path) {
   bool is_number = false;
@@ -135,7 +146,8 @@ void read_looks(const QJsonArray& regions, DocumentState& state, const QString& 
     if (tag < 0 || tag > 255 || !colour.isValid())
       refuse(path, "a region has no tag from 0 to 255, or no colour");
     const auto value_of = static_cast<std::uint8_t>(tag);
-    const RegionLook look{region["name"].toString(), colour, region["visible"].toBool(true)};
+    const RegionLook look{value_in(region, "name", "", path).toString(), colour,
+                          value_in(region, "visible", true, path).toBool()};
     const bool is_new = state.looks.try_emplace(value_of, look).second;
     if (!is_new) refuse(path, format("it has two regions with the tag {}", tag));
     if (tag != 0) state.order.push_back(value_of);
@@ -339,9 +351,14 @@ Project load_project(const QString& path) {
   Project project;
   project.capture = resolved("capture");
   for (const char* name : {"align", "between", "deflicker", "fps", "ignore-errors"}) {
-    const QString key = key_of(name), old_key = key_of(find_option(name)->old_name);
-    const QJsonValue value = object[object.contains(key) ? key : old_key];
-    if (value.isString() || value.toBool()) project.stated.emplace(name, value.toString().toStdString());
+    const Option& option = *find_option(name);
+    const QString key = key_of(object.contains(key_of(name)) ? name : option.old_name);
+    if (!object.contains(key)) continue;
+    if (option.is_flag() && !value_in(object, qPrintable(key), false, path).toBool()) continue;
+    const bool is_number = object[key].isDouble();
+    if (!option.is_flag() && !is_number) value_in(object, qPrintable(key), "", path);
+    const std::string text = object[key].toString().toStdString();
+    project.stated.emplace(name, is_number ? format("{}", object[key].toDouble()) : text);
   }
   const CommandFiles free_files = free_files_beside(path);
   project.files = free_files;
@@ -362,19 +379,23 @@ Project load_project(const QString& path) {
     state.functions = load_functions(project.files.functions);
     if (object.contains("mask")) state.mask = load_mask(project.files.mask);
   }
-  state.mode = object["exposes"].toString() == "interval" ? ExposureMode::boxcar : ExposureMode::functions;
+  const QString exposes = value_in(object, "exposes", "regions", path).toString();
+  if (exposes != "interval" && exposes != "regions") refuse(path, "'exposes' is neither 'interval' nor 'regions'");
+  state.mode = exposes == "interval" ? ExposureMode::boxcar : ExposureMode::functions;
   state.boxcar = {time_in(object, "start_ns", path), time_in(object, "length_ns", path)};
   if (object.contains("duration_ns")) project.duration_ns = time_in(object, "duration_ns", path);
   if (object.contains("in_ns")) project.marks.in_ns = time_in(object, "in_ns", path);
   if (object.contains("out_ns")) project.marks.out_ns = time_in(object, "out_ns", path);
   try {
-    state.normalization = Normalization::parse(object["normalize"].toString().toStdString());
-    state.feather = Feather::parse(object["feather"].toString().toStdString());
+    state.normalization = Normalization::parse(value_in(object, "normalize", "", path).toString().toStdString());
+    state.feather = Feather::parse(value_in(object, "feather", "", path).toString().toStdString());
   } catch (const UsageError& error) {
     refuse(path, error.what());
   }
-  state.brightness_ev = object["ev"].toDouble();
-  read_looks(object["regions"].toArray(), state, path);
+  state.brightness_ev = value_in(object, "ev", 0.0, path).toDouble();
+  if (std::abs(state.brightness_ev) > kMostBrightnessEv)
+    refuse(path, format("'ev' is not from -{0} to {0}", kMostBrightnessEv));
+  read_looks(value_in(object, "regions", QJsonArray(), path).toArray(), state, path);
   return project;
 }
 

@@ -9,6 +9,7 @@
 #include <QListWidget>
 #include <QPainter>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QSettings>
 #include <QVBoxLayout>
 
@@ -102,7 +103,7 @@ StartPage::StartPage(QWidget* parent) : QWidget(parent), recent_(new QListWidget
     button->setIcon(QPixmap::fromImage(drawn(point.style)));
     button->setIconSize(kCard);
     connect(button, &QPushButton::clicked, this, [this, &point] { Q_EMIT started(point); });
-    button->setMinimumWidth(290);
+    button->setMinimumWidth(280);
     cards->addWidget(button, card / 3, card % 3);
     ++card;
   }
@@ -119,7 +120,15 @@ StartPage::StartPage(QWidget* parent) : QWidget(parent), recent_(new QListWidget
   connect(recent_, &QListWidget::itemActivated, this, [this](const QListWidgetItem* item) {
     Q_EMIT chosen(item->toolTip());
   });
-  auto* column = new QVBoxLayout(this);
+  auto* page = new QWidget;
+  auto* area = new QScrollArea;  // cards in a small window would cover each other
+  area->setWidget(page);
+  area->setWidgetResizable(true);
+  area->setFrameShape(QFrame::NoFrame);
+  auto* all = new QVBoxLayout(this);
+  all->setContentsMargins(0, 0, 0, 0);
+  all->addWidget(area);
+  auto* column = new QVBoxLayout(page);
   column->setContentsMargins(32, 56, 32, 16);  // below what is said
   column->addWidget(open, 0, Qt::AlignLeft);
   column->addLayout(cards);

@@ -1,7 +1,6 @@
 // What the window begins: studies, films, exports.
 #include <QDoubleSpinBox>
 #include <QFileInfo>
-#include <QMessageBox>
 #include <algorithm>
 
 #include "features/film/film_making.hpp"
@@ -171,7 +170,7 @@ void MainWindow::choose_film() {
   }
   const auto wanted = ask_options(this, asked);
   if (!wanted || session != session_ || (needs_project && !ensure_files())) return;
-  if (question.isEmpty() || QMessageBox::question(this, title, question) == QMessageBox::Yes)
+  if (question.isEmpty() || is_wanted(this, title, question))
     export_film(wanted->path, wanted->options);
 }
 

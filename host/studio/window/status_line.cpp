@@ -85,6 +85,7 @@ StatusLine::StatusLine(const std::vector<Jobs*>& jobs, QWidget* parent)
   cancel_->setText(tr("Cancel"));
   cancel_->setObjectName("cancel");
   addWidget(pixel_, 1);
+  work_->setTextFormat(Qt::PlainText);
   addWidget(work_);
   addWidget(progress_);
   addWidget(cancel_);
