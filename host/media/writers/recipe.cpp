@@ -121,7 +121,7 @@ std::string Recipe::text() const {
   json["renderer"] = renderer;
   json["precision"] = precision;
   if (!error_bound.empty()) json["error_bound"] = error_bound;
-  if (!bounds_map.empty()) json["bounds_map"] = bounds_map;
+  if (bounds_map) json["bounds_map"] = input_json(*bounds_map);
   constexpr int kOneLine = -1;
   // Names of files may be in any encoding.
   return json.dump(kOneLine, ' ', true, Json::error_handler_t::replace);
@@ -143,8 +143,11 @@ Recipe Recipe::parse(std::string_view text, const std::string& name) {
     recipe.renderer = json.at("renderer");
     recipe.precision = json.at("precision");
     recipe.error_bound = json.value("error_bound", std::string());
-    recipe.bounds_map = json.value("bounds_map", std::string());
-    if (!recipe.bounds_map.empty() && !is_plain(recipe.bounds_map)) fail_name(name, recipe.bounds_map);
+    if (json.contains("bounds_map")) {
+      const Json& map = json.at("bounds_map");
+      recipe.bounds_map = map.is_string() ? Recipe::Input{map, {}} : input_of(map, name);
+      if (!is_plain(recipe.bounds_map->name)) fail_name(name, recipe.bounds_map->name);
+    }
     return recipe;
   } catch (const Json::exception& error) {
     throw InputError(format("{}: its recipe is damaged: {}", name, error.what()));
