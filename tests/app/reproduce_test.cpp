@@ -256,7 +256,9 @@ TEST_F(Reproduce, TakesNoOrdersFromAPicture) {
   };
   for (const char* option :
        {R"("ev 1; touch pwned; #":"1")", R"("output":"clip.tik")", R"("rectangle":"1,1,1,1")",
-        R"("mask":"m.pgm")", R"("noise":"camera.noise")", R"("no-recipe":"")"}) {
+        R"("mask":"m.pgm")", R"("noise":"camera.noise")", R"("no-recipe":"")", R"("delay":"/a/b.png:0s..1s")",
+        R"("delay":"rows:")", R"("delay":"rows:1s"},"delay_map":{"name":"m.pgm","checksum":"x")",
+        R"("delay":"/a/b.png:0s..1s"},"delay_map":{"name":"m.pgm","checksum":"x")"}) {
     expect_no_order(recipe("clip.tik", "f.fn", option), "its recipe states '--");
   }
   const std::string beside = scratch_.folder().filename().string() + "-pwned.sh";

@@ -19,6 +19,7 @@
 #include "media/input_checksum.hpp"
 #include "media/stills/still_sequence.hpp"
 #include "media/writers/recipe.hpp"
+#include "session/requests/delay_request.hpp"
 #include "session/requests/function_input.hpp"
 #include "session/text/shell_text.hpp"
 #include "system/mapped_file.hpp"
@@ -130,10 +131,19 @@ std::vector<fs::path> folders_to_search(const Options& options) {
   return folders;
 }
 
+// A picture of delays has a place of its own, with its checksum; beside it stands its range.
+bool is_delay(const Recipe& recipe, const std::string& value) {
+  try {
+    return DelayRequest::parse((recipe.delay_map ? "rows:" : "") + value, "delay").file.empty();
+  } catch (const UsageError&) {
+    return false;
+  }
+}
+
 // What is printed may be run by a shell: of a stranger's picture it names options that recipes have, and no others.
 void check_options(const Recipe& recipe, const std::string& picture) {
   for (const auto& [name, value] : recipe.options) {
-    if (is_recipe_option(name, value, recipe.of)) continue;
+    if (is_recipe_option(name, value, recipe.of) && (name != "delay" || is_delay(recipe, value))) continue;
     throw InputError(
         format("{}: its recipe states {}, which no recipe of nutik-cl {} does; another version made "
                "it, or it is not to be trusted",
@@ -190,7 +200,7 @@ int run_reproduce(const Options& options) {
   }
   command += recipe->renderer == "opencl" ? " --precision " + shell_word(recipe->precision)
                                           : " --renderer " + shell_word(recipe->renderer);
-  if (!recipe->bounds_map.empty()) command += " --bounds " + operand(picture.parent_path() / recipe->bounds_map);
+  if (recipe->bounds_map) command += " --bounds " + operand(picture.parent_path() / recipe->bounds_map->name);
   command += " " + operand(files.find(recipe->capture, "capture", capture_checksum));
   command += " -o " + operand(picture);
   print_line(command);
