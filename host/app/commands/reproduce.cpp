@@ -67,9 +67,10 @@ class RecipeFiles {
   fs::path find(const Recipe::Text& text, std::string_view what, const fs::path& folder,
                 const char* extension) const {
     bool is_changed = false;
+    std::error_code unknown;
     for (const fs::path& place : folders_) {
       const fs::path path = place / text.name;
-      if (!fs::is_regular_file(path)) continue;
+      if (!fs::is_regular_file(path, unknown)) continue;
       if (holds(path, text)) return path;
       is_changed = true;
     }
@@ -83,7 +84,9 @@ class RecipeFiles {
  private:
   static void write(const Recipe::Text& text, std::string_view what, const fs::path& folder,
                     const std::string& name, bool is_changed) {
-    if (!fs::is_symlink(folder) && !fs::is_symlink(folder / name) && holds(folder / name, text)) return;
+    std::error_code unknown;
+    if (!fs::is_symlink(folder, unknown) && !fs::is_symlink(folder / name, unknown) && holds(folder / name, text))
+      return;
     write_new_text(folder, name, text.bytes);
     print_warning(format("{} {}; the {} that the picture was made with were written to {}", shown(text.name),
                          is_changed ? "was changed since" : "is not there", what,
@@ -91,7 +94,8 @@ class RecipeFiles {
   }
 
   static bool is_there(const fs::path& path) {
-    if (fs::exists(path) || !layer_files(path.string()).empty()) return true;
+    std::error_code unknown;
+    if (fs::exists(path, unknown) || !layer_files(path.string()).empty()) return true;
     try {
       return list_stills(path).has_value();  // a pattern
     } catch (const InputError&) {
@@ -100,7 +104,8 @@ class RecipeFiles {
   }
 
   static bool holds(const fs::path& path, const Recipe::Text& text) {
-    if (!fs::is_regular_file(path)) return false;
+    std::error_code unknown;
+    if (!fs::is_regular_file(path, unknown)) return false;
     const MappedFile file(path);
     return std::ranges::equal(file.bytes(), std::as_bytes(std::span(text.bytes)));
   }

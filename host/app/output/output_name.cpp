@@ -1,5 +1,7 @@
 #include "app/output/output_name.hpp"
 
+#include <algorithm>
+
 #include "app/output/report.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -58,7 +60,9 @@ std::optional<std::filesystem::path> stated_output(const Options& options, std::
 
 std::filesystem::path output_name(const Options& options, std::string_view command, std::string_view behind) {
   if (const auto stated = stated_output(options, command)) return *stated;
-  return sequence_name(options.operands.front()) + std::string(behind);
+  std::string name = sequence_name(options.operands.front());
+  std::ranges::replace(name, '%', '_');  // nobody asked for numbers
+  return name + std::string(behind);
 }
 
 bool writes_to_standard_output(const Options& options) {
