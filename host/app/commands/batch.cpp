@@ -37,6 +37,7 @@ std::vector<ListedExposure> read_list(const std::string& name) {
   std::istringstream lines(text_up_to(name, kMaxBytes));
   std::string text;
   for (std::size_t line = 1; std::getline(lines, text); ++line) {
+    if (line == 1 && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // Windows' editors write it
     if (!text.empty() && text.back() == '\r') text.pop_back();
     const auto start = text.find_first_not_of(" \t");
     if (start != std::string::npos && text[start] != '#') exposures.push_back({line, text});
