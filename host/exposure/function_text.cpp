@@ -6,6 +6,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/rational.hpp"
 
 namespace nutik {
 
@@ -27,6 +28,11 @@ GainFunction with_steps(const GainFunction& function) {
         format("the gain jumps twice round {} ns: in a function file a jump takes 1 ns, and there is no room "
                "for that",
                points[i].time_ns));
+  }
+  if (points.front().time_ns < -kLargestTimeNs || points.back().time_ns > kLargestTimeNs) {
+    throw UsageError(
+        format("the gain jumps at a last possible time, {} ns: in a function file a jump takes 1 ns more",
+               kLargestTimeNs));
   }
   return GainFunction(std::move(points));
 }

@@ -8,6 +8,7 @@
 #include "capture/format.hpp"
 #include "imev/sample_cursor.hpp"
 #include "system/parallel.hpp"
+#include "system/simd_clones.hpp"
 
 namespace nutik {
 namespace {
@@ -17,6 +18,18 @@ std::uint32_t read_unsigned(const std::byte* at, std::uint32_t bytes) {
   std::uint16_t value;
   std::memcpy(&value, at, sizeof value);
   return value;
+}
+
+// A file is checked as fast as it is read.
+NUTIK_SIMD_CLONES std::uint32_t largest_of(const std::uint8_t* codes, std::uint64_t count) {
+  std::uint8_t largest = 0;
+  for (std::uint64_t i = 0; i < count; ++i) largest = std::max(largest, codes[i]);
+  return largest;
+}
+NUTIK_SIMD_CLONES std::uint32_t largest_of(const std::uint16_t* codes, std::uint64_t count) {
+  std::uint16_t largest = 0;
+  for (std::uint64_t i = 0; i < count; ++i) largest = std::max(largest, codes[i]);
+  return largest;
 }
 
 }  // namespace
@@ -33,7 +46,11 @@ std::string BlockGeometry::flaw_of(const TileEntry& entry) const {
 }
 
 BlockView::BlockView(const CaptureFormat& capture, BlockExtent extent, std::span<const std::byte> payload)
-    : shape_(capture.shape), extent_(extent), geometry_(capture, extent.sample_count), payload_(payload) {
+    : shape_(capture.shape),
+      white_code_(capture.white_code),
+      extent_(extent),
+      geometry_(capture, extent.sample_count),
+      payload_(payload) {
   if (extent.sample_count == 0) fail("it holds no sample");
   if (payload.size() < geometry_.directory_bytes()) {
     fail(format("its {} bytes end within the tile directory of {}", payload.size(),
@@ -130,12 +147,27 @@ bool BlockView::samples_increase(const TileEntry& at, const std::byte* body) con
                    : rows_increase<std::uint16_t>(body, at.rows());
 }
 
+std::uint32_t BlockView::largest_code(const TileEntry& at, const std::byte* body) const {
+  if (white_code_ >= (geometry_.code_bytes == 1 ? 255u : 65'535u)) return 0;
+  const auto of_rows = [&](const std::byte* codes, std::uint64_t rows) {
+    const std::uint64_t bytes = rows * geometry_.row_bytes();
+    return geometry_.code_bytes == 1 ? largest_of(reinterpret_cast<const std::uint8_t*>(codes), bytes)
+                                     : largest_of(reinterpret_cast<const std::uint16_t*>(codes), bytes / 2);
+  };
+  if (!at.is_records()) return of_rows(body + geometry_.row_index_bytes(at.rows()), at.rows());
+  std::uint32_t largest = of_rows(body, 1);
+  for (std::uint32_t slot = 1; slot <= at.slots(); ++slot)
+    largest = std::max(largest, of_rows(body + slot * geometry_.slot_bytes(), 1));
+  return largest;
+}
+
 std::optional<std::uint64_t> BlockView::checked_until(std::uint64_t first, std::uint64_t bytes) const {
   for (; first < geometry_.tile_count; ++first) {
     const TileEntry& at = entries_[first];
     const std::uint64_t begin = at.offset * kBlockAlignment;
     if (begin + geometry_.body_bytes(at) > bytes) break;
-    if (!samples_increase(at, payload_.data() + begin)) return {};
+    const std::byte* const body = payload_.data() + begin;
+    if (!samples_increase(at, body) || largest_code(at, body) > white_code_) return {};
   }
   return first;
 }
@@ -145,6 +177,8 @@ void BlockView::check_samples(std::uint64_t first, std::uint64_t last) const {
     std::vector<ChangeRecord> history;
     for (std::uint64_t tile = first + begin; tile < first + end; ++tile) {
       const TileEntry at = entry(tile);
+      if (const std::uint32_t largest = largest_code(at, body(tile).data()); largest > white_code_)
+        fail(format("tile {} has a code of {}, above its white code {}", tile, largest, white_code_));
       if (samples_increase(at, body(tile).data())) continue;
       // Again, for the sentence that says where not.
       for (std::uint32_t row = 0, before = 0; !at.is_records() && row < at.rows(); ++row) {

@@ -146,12 +146,12 @@ class BlockView {
   [[nodiscard]] TileEntry entry(std::uint64_t tile) const;
   [[nodiscard]] std::span<const std::byte> body(std::uint64_t tile) const;
 
-  // Throws InputError, naming tile and pixel, where sample numbers do not increase or are not the block's: what a
-  // checksum cannot tell of a file that was made up. Sources check what they read, so that every renderer refuses the
-  // same. Of the tiles [first, last).
+  // Throws InputError, naming the tile, where sample numbers do not increase or are not the block's, or a code is above
+  // white: what a checksum cannot tell of a file that was made up. Sources check what they read, so that every renderer
+  // refuses the same. Of the tiles [first, last).
   void check_samples(std::uint64_t first, std::uint64_t last) const;
   // The same for whoever passes over the payload: looks at the tiles from `first` on whose bodies end within its first
-  // `bytes`, and returns the first that does not; none where a sample number is wrong.
+  // `bytes`, and returns the first that does not; none where a number or a code is wrong.
   [[nodiscard]] std::optional<std::uint64_t> checked_until(std::uint64_t first, std::uint64_t bytes) const;
 
   // What one pixel holds: its start (sample 0) followed by its change records in time order. Rows of a
@@ -187,12 +187,15 @@ class BlockView {
   [[nodiscard]] bool rows_increase(const std::byte* list, std::uint32_t rows) const;
   // Whether a tile's sample numbers do, and are the block's.
   [[nodiscard]] bool samples_increase(const TileEntry& at, const std::byte* body) const;
+  // The largest code of a tile, padding included; 0 where none can be larger than white.
+  [[nodiscard]] std::uint32_t largest_code(const TileEntry& at, const std::byte* body) const;
   // The sample at which a row of a tile of rows begins, the one before it beginning at `before`.
   [[nodiscard]] std::uint32_t row_sample(std::uint64_t tile, std::uint32_t row, std::uint32_t before) const;
   [[nodiscard]] ChangeRecord record_at(std::uint32_t sample, const std::byte* codes,
                                        std::uint32_t lane) const;
 
   Shape shape_;
+  std::uint32_t white_code_;
   BlockExtent extent_;
   BlockGeometry geometry_;
   std::span<const std::byte> payload_;

@@ -119,6 +119,14 @@ void for_each_strip(const CaptureFormat& source, const TileGrid& grid, std::uint
   }
 }
 
+// The lanes of a tile, as bits, that are pixels of the picture: what pads it has no change records.
+std::uint64_t lanes_inside(const Shape& shape, const TileGrid& grid, std::uint64_t tile) {
+  const std::uint64_t width = std::min<std::uint64_t>(kTileSide, shape.width - tile % grid.columns() * kTileSide);
+  const std::uint64_t height = std::min<std::uint64_t>(kTileSide, shape.height - tile / grid.columns() * kTileSide);
+  const std::uint64_t rows = ~std::uint64_t{0} >> (kTilePixels - height * kTileSide);
+  return rows & (0xFFU >> (kTileSide - width)) * 0x0101'0101'0101'0101U;
+}
+
 void check_white(const CaptureFormat& source, std::uint32_t largest, std::uint64_t sample) {
   if (largest <= source.white_code) return;
   throw InputError(format("sample {} has a code of {}, above the white code {}; state the right one", sample,
@@ -358,12 +366,15 @@ class BlockBuilder::Comparing final : public Implementation {
   // step's strip.
   void list_rows(std::uint64_t tile, const StripStep& step, std::uint32_t number) {
     std::array<std::uint16_t, kStepSamples> at;
-    std::uint32_t rows = 0;
+    const std::uint64_t inside = lanes_inside(source_.shape, grid_, tile);
+    std::uint32_t rows = 0, changes = inside == ~std::uint64_t{0} ? step.change_counts[number] : 0;
     for (std::uint32_t k = 0; k < step.sample_count; ++k) {
+      if (inside != ~std::uint64_t{0})
+        changes += static_cast<std::uint32_t>(std::popcount(step.changes[k][number] & inside));
       at[rows] = static_cast<std::uint16_t>(samples_ + k);
       rows += step.writes_all || step.changes[k][number] != 0 ? 1 : 0;
     }
-    log_.add_rows(tile, std::span(at).first(rows), is_empty() ? 0 : step.change_counts[number]);
+    log_.add_rows(tile, std::span(at).first(rows), is_empty() ? 0 : changes);
   }
 
   void add_sample_of(std::span<const PixelChange> changes) override {
@@ -396,7 +407,8 @@ class BlockBuilder::Comparing final : public Implementation {
     if (!log_.has_room(tile, 1)) log_.make_room(tile, 1, course);
     std::memcpy(log_.next_row(tile), row, row_bytes_);
     const auto at = static_cast<std::uint16_t>(samples_);
-    log_.add_rows(tile, {&at, 1}, static_cast<std::uint32_t>(std::popcount(changed)));
+    const std::uint64_t inside = lanes_inside(source_.shape, grid_, tile);
+    log_.add_rows(tile, {&at, 1}, static_cast<std::uint32_t>(std::popcount(changed & inside)));
     changed_bytes_ += row_bytes_;
   }
 
@@ -485,13 +497,14 @@ class BlockBuilder::Averaging final : public Implementation {
 
   void log_tile(std::uint64_t tile, const ExpectedValues::Held& held) {
     const std::size_t row_values = held.codes.size() / samples_;
+    const std::uint64_t inside = lanes_inside(source_.shape, grid_, tile);
     for (std::uint32_t sample = 0; sample < samples_; ++sample) {
       const std::uint64_t changes = held.changes[sample];
       if (changes == 0 && sample != 0 && policy_ != TilePolicy::dense) continue;
       std::memcpy(log_.next_row(tile), held.codes.data() + sample * row_values,
                   row_values * sizeof(std::uint16_t));
       const auto at = static_cast<std::uint16_t>(sample);
-      log_.add_rows(tile, {&at, 1}, static_cast<std::uint32_t>(std::popcount(changes)));
+      log_.add_rows(tile, {&at, 1}, static_cast<std::uint32_t>(std::popcount(changes & inside)));
     }
   }
 

@@ -23,7 +23,9 @@ constexpr double kBandRounding = 1e-6;
 }  // namespace
 
 SourceComparison::SourceComparison(const CaptureFormat& source)
-    : source_(source), scale_(held_scale(source)), held_(held_format(source).sample_bytes()) {
+    : source_(source), scale_(held_scale(source)),
+      held_(held_format(source).sample_bytes()),
+      before_(held_.size()) {
   for (std::uint32_t channel = 0; channel < source.shape.channels; ++channel) {
     const NoiseModel& noise = source.noise;
     std::vector<double>& band =
@@ -39,7 +41,11 @@ void SourceComparison::add(const BlockView& block, std::uint32_t sample, std::sp
   if (raster.size() != source_.sample_bytes()) {
     throw std::logic_error("a sample's raster has the wrong size");
   }
+  std::swap(held_, before_);
   block.read_sample(sample, held_);
+  const std::size_t pixel_bytes = held_.size() / source_.shape.pixel_count();
+  for (std::size_t at = 0; sample != 0 && at < held_.size(); at += pixel_bytes)
+    record_count_ += std::memcmp(held_.data() + at, before_.data() + at, pixel_bytes) != 0 ? 1 : 0;
   const std::uint32_t held_bytes = held_format(source_).code_bytes;
   for (std::uint64_t value = 0; value < source_.shape.value_count(); ++value) {
     const std::uint32_t held_code = code_at(held_, value, held_bytes);

@@ -18,7 +18,7 @@ class SourceComparison {
   // `source` is what was encoded, with its noise model.
   explicit SourceComparison(const CaptureFormat& source);
 
-  // Sample `sample` of `block`, whose format is held_format(source), and the source's raster of it.
+  // In time order: sample `sample` of `block`, whose format is held_format(source), and the source's raster of it.
   void add(const BlockView& block, std::uint32_t sample, std::span<const std::byte> raster);
 
   struct Worst {
@@ -30,6 +30,8 @@ class SourceComparison {
   // Values further from what is held than the tolerance, or the noise's band, permits. Always 0 but for a fault.
   [[nodiscard]] std::uint64_t values_beyond() const { return values_beyond_; }
   [[nodiscard]] std::uint64_t value_count() const { return value_count_; }
+  // Change records that the capture keeps.
+  [[nodiscard]] std::uint64_t record_count() const { return record_count_; }
   // Peak signal to noise in decibels, the peak being white; infinite where nothing differs.
   [[nodiscard]] double psnr() const;
 
@@ -37,11 +39,12 @@ class SourceComparison {
   CaptureFormat source_;
   std::uint32_t scale_;
   std::vector<std::vector<double>> bands_;  // [channel][held code], in codes of the source
-  std::vector<std::byte> held_;
+  std::vector<std::byte> held_, before_;  // of the sample before
   Worst worst_;
   double squares_ = 0;
   std::uint64_t values_beyond_ = 0;
   std::uint64_t value_count_ = 0;
+  std::uint64_t record_count_ = 0;
 };
 
 }  // namespace nutik

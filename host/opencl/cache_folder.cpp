@@ -70,17 +70,22 @@ std::string no_room(const std::filesystem::path& folder) {
   return format("there are not {} MB of room for {}", kRoomForPocl >> 20, folder.string());
 }
 
+// A folder, or the nearest above it that is there, if it cannot be written to.
+std::filesystem::path unwritable(std::filesystem::path folder) {
+  while (faccessat(AT_FDCWD, folder.c_str(), W_OK, AT_EACCESS) != 0) {
+    if (errno != ENOENT || folder == folder.parent_path()) return folder;
+    folder = folder.parent_path();
+  }
+  return {};
+}
+
 // Why PoCL is not to keep what it builds in a folder, which it makes if need be.
 std::string flaw_for_pocl(const std::filesystem::path& folder) {
   for (const std::filesystem::path& each : {folder.parent_path(), folder}) {
     if (const Others others = others_in(each); !others.text.empty()) return others.text;
   }
-  std::filesystem::path there = folder;
-  while (faccessat(AT_FDCWD, there.c_str(), W_OK, AT_EACCESS) != 0) {
-    if (errno != ENOENT || there == there.parent_path()) return format("{} cannot be written to", there.string());
-    there = there.parent_path();
-  }
-  return has_room(there) ? "" : no_room(folder);
+  if (const auto at = unwritable(folder); !at.empty()) return format("{} cannot be written to", at.string());
+  return has_room(folder) ? "" : no_room(folder);
 }
 
 // For PoCL where its usual one will not do.
@@ -102,6 +107,8 @@ std::string flaw_of_cache(const std::filesystem::path& folder) {
   if (others.text.empty()) return {};
   return format("built kernels are not kept: {}; {}", others.text, others.way_out);
 }
+
+bool can_be_kept_in(const std::filesystem::path& folder) { return !folder.empty() && unwritable(folder).empty(); }
 
 void choose_cache_of_pocl() {
   if (std::getenv(kPoclVariable) != nullptr) return;

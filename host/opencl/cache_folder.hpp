@@ -17,6 +17,9 @@ namespace nutik {
 // it can be used, or made.
 [[nodiscard]] std::string flaw_of_cache(const std::filesystem::path& folder);
 
+// Whether files can be written there, once the folder is made; an empty path is none.
+[[nodiscard]] bool can_be_kept_in(const std::filesystem::path& folder);
+
 // PoCL keeps code, too: in $XDG_CACHE_HOME/pocl/kcache, ~/.cache/pocl/kcache, else /tmp/pocl/kcache, where anybody may
 // have put theirs. Where the first two are not this user's alone, cannot be written or have no room, POCL_CACHE_DIR is
 // set to a folder of this user's among the temporary files. What the variable says already stays.

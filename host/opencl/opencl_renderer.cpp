@@ -10,6 +10,7 @@
 #include "opencl/allocation_cuts.hpp"
 #include "opencl/arithmetic_choice.hpp"
 #include "opencl/block_feed.hpp"
+#include "opencl/cache_folder.hpp"
 #include "opencl/combining.hpp"
 #include "opencl/developer.hpp"
 #include "opencl/device_memory.hpp"
@@ -84,7 +85,7 @@ class OpenClRenderer::Implementation {
       if (announced_ || !options_.announce) return;
       announced_ = true;
       options_.announce(format("building and testing kernels for {}{}", info_.name,
-                               options_.cache_folder.empty() ? "" : "; they are kept for the next time"));
+                               can_be_kept_in(options_.cache_folder) ? "; they are kept for the next time" : ""));
     });
   }
 

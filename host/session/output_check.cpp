@@ -144,7 +144,8 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
     throw UsageError(
         format("{} is no name for a capture, which ends in .tik", name),
         Advice{is_picture_name(output)
-                   ? "; for a picture say of when, `start 0.4s` `exposure 10ms`, or let nutik-cl study find what moves"
+                   ? "; for a picture say of when: nutik-cl expose `start 0.4s` `exposure 10ms`; nutik-cl study finds "
+                     "what moves"
                    : "; nutik-cl video makes films"});
   }
   if (kind == OutputKind::noise && (output.extension() == ".tik" || is_picture_name(output))) {

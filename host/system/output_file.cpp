@@ -381,7 +381,7 @@ void write_new_text(const std::filesystem::path& folder, const std::string& name
   // In that very folder, whatever is put in its place meanwhile.
   const std::filesystem::path inside = path_in(ours.descriptor, folder, name);
   std::error_code unknown;
-  if (std::filesystem::symlink_status(inside, unknown).type() != std::filesystem::file_type::not_found) {
+  if (std::filesystem::exists(std::filesystem::symlink_status(inside, unknown))) {
     throw OutputError(
         format("{} exists and is another file; it is not replaced. Move it away", path.string()));
   }

@@ -5,6 +5,7 @@
 
 #include "capture/format.hpp"
 #include "capture/seconds_text.hpp"
+#include "imev/block_builder.hpp"
 #include "system/checksum.hpp"
 #include "system/input_bytes.hpp"
 #include "system/interruption.hpp"
@@ -128,7 +129,8 @@ void Reader::read_footer() {
   std::uint64_t samples = 0;
   for (const IndexEntry& entry : index_) {
     if (entry.first_sample != samples || entry.sample_count == 0 ||
-        entry.sample_count > kLargestBlockSamples || !fits(entry.offset, sizeof(BlockHeader), file.size())) {
+        entry.sample_count > kLargestBlockSamples || entry.payload_bytes > kLargestPayloadBytes ||
+        !fits(entry.offset, sizeof(BlockHeader), file.size())) {
       fail("its index contradicts itself");
     }
     samples += entry.sample_count;

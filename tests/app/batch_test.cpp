@@ -19,7 +19,7 @@ class Batch : public test::AppTest {
 
 TEST_F(Batch, GivesThePicturesOfSingleCommands) {
   scratch_.write("list.txt",
-                 "# exposures\n"
+                 "\xEF\xBB\xBF# exposures\n"
                  "\n"
                  "--start 1f --exposure 2f scene.tik moment.png\r\n"
                  "-k trail.fn scene.tik 'a trail.pfm'\n"

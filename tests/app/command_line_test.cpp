@@ -182,7 +182,7 @@ TEST_F(CommandLine, ReplacesOnlyItsOwnKind) {
                   {"x.tik clip.avi",
                    "there is no file x.tik, and clip.avi is one; the input comes first: nutik-cl encode clip.avi x.tik"},
                   {"clip.avi x.mp4", "x.mp4 is no name for a capture, which ends in .tik; nutik-cl video makes films"},
-                  {"clip.avi x.png", "x.png is no name for a capture, which ends in .tik; for a picture say of when"},
+                  {"clip.avi x.png", "which ends in .tik; for a picture say of when: nutik-cl expose --start 0.4s"},
                   {"-k one.fn clip.tik -o clip.tik", "is also an input"},
                   {"-k one.fn clip.tik -o ./one.fn", "is also an input"}});
   scratch_.write("notes.png", "my notes");

@@ -125,6 +125,14 @@ TEST_F(MaskCommand, TakesFloatingPointPicturesAndTiff) {
   deep.values<std::uint16_t>()[3] = 257;
   write_picture(scratch_ / "m.tif", deep);
   expect_refused("mask --base m.tif -o x.pgm", 3, "m.tif: pixel 3,0 has the value 257, no value of a mask");
+  // None of several is meant more than another.
+  const Picture page({MovingSquare::kWidth, MovingSquare::kHeight, 1}, ValueType::light32, 0);
+  const std::vector<PictureLayer> pages{{"a", "", page}, {"b", "", page}};
+  for (const std::string name : {"pages.tif", "pages.npy"}) {
+    write_layers(scratch_ / name, pages);
+    expect_refused("mask --base " + name + " -o x.pgm", 3, name + " holds several pictures; a mask is one");
+    expect_refused("--start 0s --exposure 1f --delay " + name + ":0s..1f clip.tik x.png", 3, name + " holds several");
+  }
 }
 
 TEST_F(MaskCommand, ChangesTheRegionBefore) {

@@ -65,6 +65,17 @@ TEST_F(Reproduce, MakesTheSameBytes) {
   expect_same_bytes("light.tif");
 }
 
+// Names in any encoding, and with what would number pictures.
+TEST_F(Reproduce, KeepsNamesAsTheyAre) {
+  for (const std::string name : {"caf\xe9.tik", "p%d.tik"}) {
+    std::filesystem::copy(scratch_ / "clip.tik", scratch_ / name);
+    run({"--start", "0s", "--exposure", "50ms", name, "a.png", "--overwrite"});
+    expect_same_bytes("a.png");
+  }
+  const std::string out = run({"--start", "0s", "--exposure", "50ms", "p%d.tik"}).out;
+  EXPECT_TRUE(out.starts_with("p_d-")) << out;
+}
+
 TEST_F(Reproduce, NamesTheProgramAsItWasRun) {
   run("--exposure 50ms clip.tik a.png");
   const std::filesystem::path program = NUTIK_TEST_PROGRAM;
@@ -256,7 +267,9 @@ TEST_F(Reproduce, TakesNoOrdersFromAPicture) {
   };
   for (const char* option :
        {R"("ev 1; touch pwned; #":"1")", R"("output":"clip.tik")", R"("rectangle":"1,1,1,1")",
-        R"("mask":"m.pgm")", R"("noise":"camera.noise")", R"("no-recipe":"")"}) {
+        R"("mask":"m.pgm")", R"("noise":"camera.noise")", R"("no-recipe":"")", R"("delay":"/a/b.png:0s..1s")",
+        R"("delay":"rows:")", R"("delay":"rows:1s"},"delay_map":{"name":"m.pgm","checksum":"x")",
+        R"("delay":"/a/b.png:0s..1s"},"delay_map":{"name":"m.pgm","checksum":"x")"}) {
     expect_no_order(recipe("clip.tik", "f.fn", option), "its recipe states '--");
   }
   const std::string beside = scratch_.folder().filename().string() + "-pwned.sh";
@@ -313,6 +326,10 @@ x)");
     std::filesystem::remove(folder / "f.fn");
   }
   EXPECT_TRUE(std::filesystem::is_empty(elsewhere));
+
+  result = again(std::string(300, 'f'), "M0 [0:1]");  // longer than a file system takes
+  EXPECT_EQ(result.status, 5) << result.err;
+  expect_says(result.err, "cannot be created: File name too long");
 
   result = again(".profile", "M0 [0:1]");
   expect_says(result.out, " -k sent-again/.profile.fn ");

@@ -76,6 +76,7 @@ TEST_F(ShutterCommand, SaysWhatIsWrong) {
            "name the capture behind the shape, add --fps where its rate is constant, or write times"},
           {"shutter hann --exposure 3s --tag 256", "tag '256' is no whole number of 0 … 255"},
           {"shutter hann --exposure 3s --shutter-error 0", "--shutter-error 0 is no share from 1e-06 to 1"},
+          {"shutter box --start 3999999999s --exposure 1s", "the gain jumps at a last possible time"},
           {"shutter hann --exposure 50ns", "too short for the shutter hann"}});
 }
 

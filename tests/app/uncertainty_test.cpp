@@ -220,6 +220,27 @@ TEST_F(UncertaintyOf, ReproducingMakesTheMapToo) {
   expect_says(make("reproduce c.pgm", 3).err, "names have no folders");
 }
 
+// A recipe's checksum tells its map from another file of that name, which is not replaced; earlier programs kept none.
+TEST_F(UncertaintyOf, AMapIsReplacedOnlyIfItIsWhatTheRecipeKnows) {
+  const std::string one = "--start 0s --exposure 0.1s clip.tik a.pgm --bounds map.npy";
+  make(one);
+  make(one + " --gain 2");
+  const std::string map = test::read_file(scratch_ / "map.npy");
+  scratch_.write("map.npy", map + " of mine");
+  for (const std::string words : {"", " --skip-existing --gain 3"})
+    expect_refused(one + words, 2, "map.npy is there already and is not replaced");
+  EXPECT_EQ(test::read_file(scratch_ / "map.npy"), map + " of mine");
+  scratch_.write("map.npy", map);
+  std::string picture = test::read_file(scratch_ / "a.pgm");
+  const auto at = picture.find(R"({"name":"map.npy")");
+  ASSERT_NE(at, std::string::npos);
+  scratch_.write("a.pgm", picture.replace(at, picture.find('}', at) + 1 - at, R"("map.npy")"));
+  expect_says(make("reproduce a.pgm").out, " --bounds map.npy clip.tik");
+  expect_refused(one, 2, "map.npy is there already and is not replaced");
+  make(one + " --overwrite");
+  make(one);
+}
+
 // A map is as good as its picture: it is left, missed, and made again with it.
 TEST_F(UncertaintyOf, SkippingLeavesAPictureWithItsMap) {
   scratch_.write("list", "--start 0s --exposure 4f b0.png --bounds b0.npy\n"

@@ -122,6 +122,33 @@ TEST_F(Validate, ComparesWithTheSource) {
             std::string::npos);
 }
 
+// The capture knows which pictures it has, and which rectangle of them.
+TEST_F(Validate, ComparesAPartWithItsPartOfTheSource) {
+  const std::string program = NUTIK_TEST_PROGRAM;
+  const std::string exposure = " --runs 1 --start 0s --exposure 20ms part.tik --source frames";
+  const auto told_by = [&](const std::string& words) {
+    const ProgramResult result = test::run_shell(program + " " + words, scratch_.folder());
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.out;
+  };
+  const auto encode = [&](const std::string& how) { told_by("encode --overwrite -f 100 " + how + " frames part.tik"); };
+  for (const std::string part : {"--from 3f", "--from 3f --to 9f", "--crop 9x7+3+5 --to 4f"}) {
+    encode(part);
+    EXPECT_NE(told_by("validate" + exposure).find("frames: held exactly; "), std::string::npos) << part;
+  }
+  // Its edge tiles' padding is no change.
+  encode("--crop 1x1+3+5");
+  const json told = json::parse(told_by("validate --json" + exposure));
+  EXPECT_LE(told["source"]["records"], 19);
+  const json known = json::parse(told_by("info --json part.tik"));
+  EXPECT_EQ(known["records"], told["source"]["records"]);
+  EXPECT_EQ(known["are_records_exact"], false) << "earlier programs counted it";
+  EXPECT_NE(told_by("info part.tik").find("  changes     at most "), std::string::npos);
+  EXPECT_EQ(json::parse(told_by("info --json clip.tik"))["are_records_exact"], true);
+  encode("--scale 1/2");
+  expect_refused({"part.tik", "--source", "frames"}, 3, "(--crop, --scale)");
+}
+
 TEST_F(Validate, SaysWhereTheSourceIsFurthestOff) {
   ASSERT_EQ(run({"-q", "encode", "-f", "100", "frames", "exact.tik"}).status, 0);
   std::vector<std::filesystem::path> pictures;

@@ -63,7 +63,7 @@ struct KernelCache : test::ProgramTest {
 TEST_F(KernelCache, ThatIsNowhereIsNotPromised) {
   const std::string building = "building and testing kernels for ",
                     kept = "; they are kept for the next time";
-  for (const char* const stated : {"", "relative"}) {
+  for (const char* const stated : {"", "relative", "/dev/null"}) {
     const auto result =
         test::run_program({"--start", "0s", "--exposure", "1s", "--no-recipe", "--overwrite", "c.tik", "p.png"},
                           scratch_.folder(), {"HOME=", format("XDG_CACHE_HOME={}", stated)});

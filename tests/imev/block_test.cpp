@@ -280,6 +280,34 @@ TEST(BlockView, TellsWhatATileCannotHave) {
             block + "has 8 change records a pixel; in 8 samples there are at most 7");
 }
 
+// Of every kind of tile, and no others.
+TEST(BlockView, RefusesCodesAboveWhite) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const RandomCase random(seed);
+    const MemoryCapture capture = random.encode();
+    const BlockView view = capture.view(0);
+    const std::uint64_t tiles = view.geometry().tile_count;
+    CaptureFormat kind = capture.format();
+    std::vector<std::byte> raster(kind.sample_bytes());
+    std::uint32_t largest = 0;
+    for (std::uint32_t k = 0; k < view.extent().sample_count; ++k) {
+      view.read_sample(k, raster);
+      largest = std::max(largest, largest_code(raster, kind.code_bytes));
+    }
+    const auto message = [&](std::uint32_t white) {
+      kind.white_code = white;
+      const BlockView other(kind, view.extent(), view.payload());
+      const std::string text = test::message_of<InputError>([&] { other.check_samples(0, tiles); });
+      EXPECT_EQ(text.empty(), other.checked_until(0, view.payload().size()) == tiles) << text;
+      return text;
+    };
+    EXPECT_EQ(message(largest), "") << random.text();
+    if (largest == 0) continue;
+    const std::string wanted = format("has a code of {}, above its white code {}", largest, largest - 1);
+    EXPECT_NE(message(largest - 1).find(wanted), std::string::npos) << random.text();
+  }
+}
+
 // One tile in a block of `samples` whose sample numbers are `indices`: of the rows of a rows tile, or of
 // every pixel's records in a records tile.
 class CraftedBlock {

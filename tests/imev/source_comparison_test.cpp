@@ -22,12 +22,29 @@ SourceComparison compare(const MemoryCapture& capture, const CaptureFormat& sour
   return comparison;
 }
 
+// As the capture's own histories tell.
+std::uint64_t records_of(const MemoryCapture& capture) {
+  const Shape& shape = capture.format().shape;
+  std::uint64_t records = 0;
+  std::vector<ChangeRecord> history;
+  for (std::uint64_t block = 0; block < capture.block_count(); ++block) {
+    for (std::uint64_t pixel = 0; pixel < shape.pixel_count(); ++pixel) {
+      const auto x = static_cast<std::uint32_t>(pixel % shape.width);
+      const auto y = static_cast<std::uint32_t>(pixel / shape.width);
+      capture.view(block).read_history(TileGrid(shape).tile_of(x, y), TileGrid::lane_of(x, y), history);
+      records += history.size() - 1;
+    }
+  }
+  return records;
+}
+
 TEST(SourceComparison, FindsNothingBeyondWhatACapturePromises) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     test::RandomCase random(seed);
     const SourceComparison with_tolerance = compare(random.encode(), random.capture, random.rasters);
     EXPECT_LE(with_tolerance.worst().error, random.capture.noise.tolerance) << random.text();
     EXPECT_EQ(with_tolerance.values_beyond(), 0u) << random.text();
+    EXPECT_EQ(with_tolerance.record_count(), records_of(random.encode())) << random.text();
     EXPECT_EQ(with_tolerance.value_count(), random.rasters.size() * random.capture.shape.value_count());
     if (random.capture.noise.is_lossless()) {
       EXPECT_TRUE(std::isinf(with_tolerance.psnr()));

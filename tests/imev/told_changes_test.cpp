@@ -90,6 +90,15 @@ TEST(ToldChanges, MakeTheBlocksOfWholeSamples) {
       EXPECT_EQ(found[b].finished.payload_bytes, expected[b].finished.payload_bytes) << "seed " << seed;
       EXPECT_EQ(found[b].finished.record_count, expected[b].finished.record_count) << "seed " << seed;
       const BlockView a(capture, found[b].extent, found[b].payload.first(found[b].finished.span_bytes));
+      std::uint64_t records = 0;
+      std::vector<ChangeRecord> history;
+      for (std::uint32_t y = 0; y < capture.shape.height; ++y) {
+        for (std::uint32_t x = 0; x < capture.shape.width; ++x) {
+          a.read_history(TileGrid(capture.shape).tile_of(x, y), TileGrid::lane_of(x, y), history);
+          records += history.size() - 1;
+        }
+      }
+      EXPECT_EQ(found[b].finished.record_count, records) << "seed " << seed << ": of pixels, and not of padding";
       const BlockView e(capture, expected[b].extent, expected[b].payload.first(expected[b].finished.span_bytes));
       for (std::uint64_t tile = 0; tile < a.geometry().tile_count; ++tile) {
         ASSERT_EQ(a.entry(tile).count, e.entry(tile).count) << "seed " << seed << ", tile " << tile;

@@ -119,6 +119,7 @@ TEST(Mask, SaysWhatIsWrong) {
   expect(message_of(scratch / "absent.pgm"), "cannot be read: No such file");
   expect(message_of(scratch.write("rgb.ppm", "P3 1 1 255 1 2 3")),
          "is a colour picture, and its pixel 0,0 is no grey: red 1, green 2, blue 3");
+  expect(message_of(scratch.write("two.pgm", "P2 1 1 255 1\nP2 1 1 255 2\n")), "holds several pictures; a mask is one");
   expect(message_of(scratch.write("deep.pgm", "P2 1 1 65535 300")),
          "is a picture of 16 bits (maximum 65535)");
   expect(message_of(scratch.write("cut.pgm", "P5 100 100 255\nabc")),

@@ -69,6 +69,20 @@ TEST(Recipe, KeepsEveryByteOfAFunctionFile) {
   }
 }
 
+// So may their names be.
+TEST(Recipe, KeepsEveryByteOfAName) {
+  Recipe recipe = example("M0 [0:1]\n");
+  recipe.capture.name = "caf\xe9/*.png";
+  recipe.functions->name = "caf\xe9.fn";
+  recipe.mask = Recipe::Input{"\xff.pgm", "x"};
+  const Recipe read = Recipe::parse(recipe.text(), "test");
+  EXPECT_EQ(read.capture, recipe.capture);
+  EXPECT_EQ(read.functions->name, recipe.functions->name);
+  EXPECT_EQ(read.mask, recipe.mask);
+  recipe.capture.name = "..\xe9/../x";
+  EXPECT_THROW(static_cast<void>(Recipe::parse(recipe.text(), "test")), InputError);
+}
+
 TEST(Recipe, SaysWhatIsDamaged) {
   const auto message = [](const char* text) {
     return test::message_of<InputError>([&] { static_cast<void>(Recipe::parse(text, "a.png")); });

@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "capture/error.hpp"
+#include "media/stills/mask_reader.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "support/clips.hpp"
 #include "support/hostile.hpp"
@@ -227,6 +228,7 @@ TEST(StillClip, StandsUprightHoweverItLies) {
           shown.bytes[i] = std::string(name) == "a.jpg" ? static_cast<std::byte>(lossy.data[at]) : still.bytes[at];
         }
         EXPECT_EQ(difference(read_all(*clip).at(0), shown), "");
+        if (std::string(name) == "a.png") EXPECT_EQ(read_mask(scratch / file), shown) << "as a mask, too";
       }
     }
   }

@@ -195,5 +195,21 @@ TEST(TikDamage, BelievesNoHeaderThatCannotBe) {
   EXPECT_TRUE(regular && irregular);
 }
 
+TEST(TikDamage, BelievesNoIndexThatCannotBe) {
+  const Scratch scratch;
+  std::string file = test::read_file(write_tik(RandomCase(3), {CodecId::zstd, 0}, scratch));
+  const std::size_t footer_offset = file.size() - sizeof(Footer);
+  Footer footer;
+  std::memcpy(&footer, file.data() + footer_offset, sizeof footer);
+  std::memset(file.data() + footer.index_offset + offsetof(IndexEntry, payload_bytes), 0xFF, 8);
+  footer.index_checksum = checksum(
+      std::as_bytes(std::span(file).subspan(footer.index_offset, footer.block_count * sizeof(IndexEntry))));
+  footer.checksum = checksum_of(footer, offsetof(Footer, checksum));
+  std::memcpy(file.data() + footer_offset, &footer, sizeof footer);
+  const auto path = scratch.write("lie.tik", file);
+  const std::string message = test::message_of<InputError>([&] { Reader reader(path); });
+  EXPECT_NE(message.find("its index contradicts itself"), std::string::npos) << message;
+}
+
 }  // namespace
 }  // namespace nutik::tik

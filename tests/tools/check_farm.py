@@ -248,6 +248,9 @@ def cluster(environment):
 
 
 def check_slurm(scene, farm, report):
+    alone = subprocess.run(["bash", farm / "film.sbatch", *FILM, "none/%05d.png"], cwd=scene.folder, capture_output=True,
+                           env=scene.environment, text=True)
+    report.hold(alone.returncode != 0 and "sbatch --array=" in alone.stderr, "a job without --array makes no frames")
     need("slurmctld", "slurmd", "munged", "sbatch")
     if not os.path.ismount("/sys/fs/cgroup"):
         print("SKIPPED: no control groups are mounted on /sys/fs/cgroup, without which slurmd does not start")

@@ -37,6 +37,7 @@ std::vector<ListedExposure> read_list(const std::string& name) {
   std::istringstream lines(text_up_to(name, kMaxBytes));
   std::string text;
   for (std::size_t line = 1; std::getline(lines, text); ++line) {
+    if (line == 1 && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // Windows' editors write it
     if (!text.empty() && text.back() == '\r') text.pop_back();
     const auto start = text.find_first_not_of(" \t");
     if (start != std::string::npos && text[start] != '#') exposures.push_back({line, text});
@@ -171,8 +172,9 @@ class Batch {
  private:
   void write(std::size_t number, const Options& line, const std::filesystem::path& output, const BoundsMaps& maps,
              ExposedPicture exposed) {
+    std::optional<Recipe::Input> map;
     try {
-      maps.write(0, exposed);
+      map = maps.write(0, exposed);
     } catch (const OutputError& error) {
       return report(number, error);
     }
@@ -189,11 +191,11 @@ class Batch {
     tally_.wrote(exposed.figures.capture,
                  written_shape(output, exposed.picture.shape, exposed.picture.pixel_aspect, wishes));
     pictures_.push(number, output, std::move(exposed.picture),
-                   recipe_text(line, tally_.precision(), tally_.error_bound(), maps.name_of(0)), wishes);
+                   recipe_text(line, tally_.precision(), tally_.error_bound(), map), wishes);
   }
 
   std::string recipe_text(const Options& line, const std::string& precision, const std::string& error_bound = {},
-                          const std::string& bounds_map = {}) {
+                          const std::optional<Recipe::Input>& bounds_map = {}) {
     if (line.no_recipe) return {};
     const std::string& name = line.operands.front();
     if (!capture_checksum_ || capture_checksum_->first != name) capture_checksum_ = {name, capture_checksum(name)};

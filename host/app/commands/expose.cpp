@@ -84,9 +84,8 @@ int run_expose(const Options& stated) {
   control.progress = {};  // the bar is gone before anything is said
   tally.add(exposed);
   print_warnings(exposure_warnings(exposed));
-  const std::string made = recipe.text(tally.precision(), {}, tally.error_bound(), maps.name_of(0));
+  const std::string made = recipe.text(tally.precision(), {}, tally.error_bound(), maps.write(0, exposed));
   write_picture(output, exposed.picture, made, file_wishes(options.picture));
-  maps.write(0, exposed);
 
   const ExposureFigures& figures = exposed.figures;
   const Shape shape =

@@ -116,6 +116,7 @@ int run_info(const Options& options) {
                  {"is_constant_rate", timeline.is_constant()},
                  {"shutter_angle_degrees", timeline.shutter_angle().text()},
                  {"records", figures.record_count},
+                 {"are_records_exact", figures.is_record_count_exact},
                  {"tiles", {{"still", still}, {"rows", rows}, {"dense", dense}, {"records", records}}},
                  {"file_bytes", reader.file_bytes()},
                  {"raw_bytes", raw_bytes},
@@ -150,7 +151,8 @@ int run_info(const Options& options) {
     print_line("  aligned     " + alignment_text(*aligned));
   for (const std::string& fact : reader.header().facts) print_line("  taken for   " + fact);
   print_line(
-      format("  changes     {:.2f} records a pixel, at {:.2f} % of samples, {}",
+      format("  changes     {}{:.2f} records a pixel, at {:.2f} % of samples, {}",
+             figures.is_record_count_exact ? "" : "at most ",
              static_cast<double>(figures.record_count) / static_cast<double>(capture.shape.pixel_count()),
              share(figures.record_count, capture.shape.pixel_count() * timeline.sample_count()),
              change_text(capture.noise)));

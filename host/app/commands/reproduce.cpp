@@ -19,6 +19,7 @@
 #include "media/input_checksum.hpp"
 #include "media/stills/still_sequence.hpp"
 #include "media/writers/recipe.hpp"
+#include "session/requests/delay_request.hpp"
 #include "session/requests/function_input.hpp"
 #include "session/text/shell_text.hpp"
 #include "system/mapped_file.hpp"
@@ -66,9 +67,10 @@ class RecipeFiles {
   fs::path find(const Recipe::Text& text, std::string_view what, const fs::path& folder,
                 const char* extension) const {
     bool is_changed = false;
+    std::error_code unknown;
     for (const fs::path& place : folders_) {
       const fs::path path = place / text.name;
-      if (!fs::is_regular_file(path)) continue;
+      if (!fs::is_regular_file(path, unknown)) continue;
       if (holds(path, text)) return path;
       is_changed = true;
     }
@@ -82,7 +84,9 @@ class RecipeFiles {
  private:
   static void write(const Recipe::Text& text, std::string_view what, const fs::path& folder,
                     const std::string& name, bool is_changed) {
-    if (!fs::is_symlink(folder) && !fs::is_symlink(folder / name) && holds(folder / name, text)) return;
+    std::error_code unknown;
+    if (!fs::is_symlink(folder, unknown) && !fs::is_symlink(folder / name, unknown) && holds(folder / name, text))
+      return;
     write_new_text(folder, name, text.bytes);
     print_warning(format("{} {}; the {} that the picture was made with were written to {}", shown(text.name),
                          is_changed ? "was changed since" : "is not there", what,
@@ -90,7 +94,8 @@ class RecipeFiles {
   }
 
   static bool is_there(const fs::path& path) {
-    if (fs::exists(path) || !layer_files(path.string()).empty()) return true;
+    std::error_code unknown;
+    if (fs::exists(path, unknown) || !layer_files(path.string()).empty()) return true;
     try {
       return list_stills(path).has_value();  // a pattern
     } catch (const InputError&) {
@@ -99,7 +104,8 @@ class RecipeFiles {
   }
 
   static bool holds(const fs::path& path, const Recipe::Text& text) {
-    if (!fs::is_regular_file(path)) return false;
+    std::error_code unknown;
+    if (!fs::is_regular_file(path, unknown)) return false;
     const MappedFile file(path);
     return std::ranges::equal(file.bytes(), std::as_bytes(std::span(text.bytes)));
   }
@@ -130,10 +136,19 @@ std::vector<fs::path> folders_to_search(const Options& options) {
   return folders;
 }
 
+// A picture of delays has a place of its own, with its checksum; beside it stands its range.
+bool is_delay(const Recipe& recipe, const std::string& value) {
+  try {
+    return DelayRequest::parse((recipe.delay_map ? "rows:" : "") + value, "delay").file.empty();
+  } catch (const UsageError&) {
+    return false;
+  }
+}
+
 // What is printed may be run by a shell: of a stranger's picture it names options that recipes have, and no others.
 void check_options(const Recipe& recipe, const std::string& picture) {
   for (const auto& [name, value] : recipe.options) {
-    if (is_recipe_option(name, value, recipe.of)) continue;
+    if (is_recipe_option(name, value, recipe.of) && (name != "delay" || is_delay(recipe, value))) continue;
     throw InputError(
         format("{}: its recipe states {}, which no recipe of nutik-cl {} does; another version made "
                "it, or it is not to be trusted",
@@ -190,7 +205,7 @@ int run_reproduce(const Options& options) {
   }
   command += recipe->renderer == "opencl" ? " --precision " + shell_word(recipe->precision)
                                           : " --renderer " + shell_word(recipe->renderer);
-  if (!recipe->bounds_map.empty()) command += " --bounds " + operand(picture.parent_path() / recipe->bounds_map);
+  if (recipe->bounds_map) command += " --bounds " + operand(picture.parent_path() / recipe->bounds_map->name);
   command += " " + operand(files.find(recipe->capture, "capture", capture_checksum));
   command += " -o " + operand(picture);
   print_line(command);

@@ -60,11 +60,10 @@ int run_series(const Options& options) {
                 progress_bar("exposing", options.quiet, progress_lines(options)), [&](std::uint64_t k, ExposedPicture& exposed) {
                   tally.add(exposed);
                   warnings.add(pictures[k].path.string(), exposure_warnings(exposed));
-                  maps.write(pictures[k].number, exposed);
+                  const auto map = maps.write(pictures[k].number, exposed);
                   told.push_back(uncertainty_json(exposed.uncertainty, exposed.output));
                   if (k == 0) first = std::move(exposed.figures);
-                  return recipe.text(tally.precision(), own_recipe_of(pictures[k]), tally.error_bound(),
-                                     maps.name_of(pictures[k].number));
+                  return recipe.text(tally.precision(), own_recipe_of(pictures[k]), tally.error_bound(), map);
                 });
   }
 

@@ -66,8 +66,10 @@ int run_shutter(const Options& options) {
   const Exposure interval = plain_interval(start, length, timeline_for(options, start, length));
   const double gain = brightening(options);
   const GainFunction function = shutter.function({interval.start_ns, interval.end_ns});
+  // Whole before any of it is printed: it may be refused.
+  const std::string text = function_text(tag, gain == 1.0 ? function : function.scaled(gain));
   print_line(format("# {} from {} for {}", options.operands.front(), whole_text(start), whole_text(length)));
-  print_line(function_text(tag, gain == 1.0 ? function : function.scaled(gain)));
+  print_line(text);
   return 0;
 }
 

@@ -115,7 +115,7 @@ std::string source_text(const SourceCheck& check, const Shape& shape, const std:
                 clip, comparison.psnr(), worst.error, worst.sample, worst.pixel % shape.width,
                 worst.pixel / shape.width, comparison.values_beyond(), comparison.value_count());
   text += format("; {:.2f} change records a pixel, {} of {}",
-                 static_cast<double>(check.record_count) / static_cast<double>(shape.pixel_count()),
+                 static_cast<double>(comparison.record_count()) / static_cast<double>(shape.pixel_count()),
                  bytes_text(check.file_bytes), bytes_text(check.source_bytes));
   return text;
 }
@@ -131,7 +131,7 @@ Json source_json(const SourceCheck& check, const Shape& shape, const std::string
                {"worst_y", worst.pixel / shape.width},
                {"values", comparison.value_count()},
                {"values_beyond", comparison.values_beyond()},
-               {"records", check.record_count},
+               {"records", comparison.record_count()},
                {"file_bytes", check.file_bytes},
                {"source_bytes", check.source_bytes}});
   return json;
@@ -200,7 +200,10 @@ int run_validate(const Options& options) {
   }
   tell(options, input, answer, true);
   const bool is_true = !source || source->comparison.values_beyond() == 0;
-  if (!is_true) print_error(format("the capture is not true to {}: was it made from it?", *options.source_clip));
+  if (!is_true) {
+    print_error(format("the capture is not true to {}: was it made from it, with the same options?",
+                       *options.source_clip));
+  }
   if (!validation.is_within_bounds()) {
     print_error("an arithmetic exceeds its bound: the device computes wrongly, or there is a fault here");
   }

@@ -96,12 +96,11 @@ int run_video(const Options& stated) {
                         tally.add(exposed);
                         told.push_back({{"frame", frame}});
                         told.back().update(uncertainty_json(exposed.uncertainty, exposed.output));
-                        maps.write(frame, exposed);
+                        const auto map = maps.write(frame, exposed);
                         codes = codes_text(exposed.figures.capture, exposed.output);
                         warnings.add(format("frame {}", frame), exposure_warnings(exposed));
                         return output.writes_stills()
-                                   ? recipe.text(tally.precision(), own_recipe_of(frame), tally.error_bound(),
-                                                 maps.name_of(frame))
+                                   ? recipe.text(tally.precision(), own_recipe_of(frame), tally.error_bound(), map)
                                    : std::string();
                       }, options.sound);
   }();

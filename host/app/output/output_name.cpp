@@ -1,11 +1,14 @@
 #include "app/output/output_name.hpp"
 
+#include <algorithm>
+
 #include "app/output/report.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/schema/option.hpp"
 #include "media/formats/extension.hpp"
 #include "media/formats/numbered_name.hpp"
+#include "media/input_checksum.hpp"
 #include "media/stills/still_sequence.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "media/writers/recipe.hpp"
@@ -57,7 +60,9 @@ std::optional<std::filesystem::path> stated_output(const Options& options, std::
 
 std::filesystem::path output_name(const Options& options, std::string_view command, std::string_view behind) {
   if (const auto stated = stated_output(options, command)) return *stated;
-  return sequence_name(options.operands.front()) + std::string(behind);
+  std::string name = sequence_name(options.operands.front());
+  std::ranges::replace(name, '%', '_');  // nobody asked for numbers
+  return name + std::string(behind);
 }
 
 bool writes_to_standard_output(const Options& options) {
@@ -69,13 +74,21 @@ bool writes_to_standard_output(const Options& options) {
   return writes;
 }
 
-// If a picture is there and says so.
-static std::string map_named_by(const std::filesystem::path& picture) {
+static Recipe::Input known_map(const std::filesystem::path& map) {
+  return {map.filename().string(), files_checksum({&map, 1})};
+}
+
+// Whether the picture's recipe knows this very file: a name alone may be that of another file.
+static bool is_map_of(const std::filesystem::path& picture, const std::filesystem::path& map) {
+  std::error_code unknown;
+  if (!is_picture_name(picture) || is_absent(picture) || !std::filesystem::is_regular_file(map, unknown) ||
+      led_to(map) != led_to(picture.parent_path() / map.filename()))
+    return false;
   try {
-    const auto recipe = is_absent(picture) ? std::nullopt : read_recipe(picture);
-    return recipe ? recipe->bounds_map : std::string();
+    const auto recipe = read_recipe(picture);
+    return recipe && recipe->bounds_map == known_map(map);
   } catch (const InputError&) {
-    return {};
+    return false;
   }
 }
 
@@ -98,14 +111,17 @@ void BoundsMaps::check(std::uint64_t number, std::vector<std::string> inputs, co
                             is_half_ ? "--depth half" : picture.string()));
   }
   inputs.push_back(picture.string());
-  if (is_picture_name(picture) && led_to(of(number)) == led_to(picture.parent_path() / name_of(number)) &&
-      map_named_by(picture) == name_of(number))
-    replacing = Replacing::all;
+  if (replacing != Replacing::all) {
+    expect_as_it_is(of(number));
+    if (is_map_of(picture, of(number))) replacing = Replacing::all;
+  }
   check_output(of(number), OutputKind::picture, inputs, replacing);
 }
 
-void BoundsMaps::write(std::uint64_t number, const ExposedPicture& exposed) const {
-  if (!exposed.bounds.empty()) write_layers(of(number), exposed.bounds);
+std::optional<Recipe::Input> BoundsMaps::write(std::uint64_t number, const ExposedPicture& exposed) const {
+  if (exposed.bounds.empty()) return std::nullopt;
+  write_layers(of(number), exposed.bounds);
+  return known_map(of(number));
 }
 
 PictureNames::PictureNames(const std::filesystem::path& pattern, std::string_view who, std::string_view things)

@@ -11,6 +11,7 @@
 
 #include "features/schema/options.hpp"
 #include "media/formats/numbered_name.hpp"
+#include "media/writers/recipe.hpp"
 #include "session/exposed_picture.hpp"
 #include "session/output_check.hpp"
 
@@ -57,14 +58,12 @@ class BoundsMaps {
   [[nodiscard]] std::filesystem::path of(std::uint64_t number) const {
     return names_ ? (*names_)[number] : stated_.value_or(std::filesystem::path());
   }
-  // Without its folder, for recipes.
-  [[nodiscard]] std::string name_of(std::uint64_t number) const { return of(number).filename().string(); }
   // Throws UsageError where it is an input or the picture itself, or may not be replaced, as the map that the picture's
-  // recipe names beside it may; where the picture's kind loses more than is counted.
+  // recipe knows beside it may; where the picture's kind loses more than is counted.
   void check(std::uint64_t number, std::vector<std::string> inputs, const std::filesystem::path& picture,
              Replacing replacing) const;
-  // Where it is asked for. Throws OutputError.
-  void write(std::uint64_t number, const ExposedPicture& exposed) const;
+  // Where it is asked for; returns what the picture's recipe is to know it by. Throws OutputError.
+  std::optional<Recipe::Input> write(std::uint64_t number, const ExposedPicture& exposed) const;
 
  private:
   std::optional<std::filesystem::path> stated_;

@@ -1,5 +1,6 @@
 #include "features/captures/capture_figures.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "imev/block.hpp"
@@ -13,6 +14,7 @@ std::uint64_t CaptureFigures::tile_count() const {
 CaptureFigures figures_of(tik::Reader& reader) {
   const CaptureFormat& capture = reader.format();
   CaptureFigures figures;
+  figures.is_record_count_exact = capture.shape.width % kTileSide == 0 && capture.shape.height % kTileSide == 0;
   for (std::uint64_t block = 0; block < reader.block_count(); ++block) {
     const BlockGeometry geometry(capture, reader.block_extent(block).sample_count);
     try {
@@ -23,7 +25,8 @@ CaptureFigures figures_of(tik::Reader& reader) {
       figures.damage.push_back(error);
     }
     figures.payload_bytes += reader.index()[block].payload_bytes;
-    figures.record_count += reader.index()[block].record_count;
+    figures.record_count += std::min(reader.index()[block].record_count,
+                                     capture.shape.pixel_count() * (geometry.sample_count - std::uint64_t{1}));
   }
   const auto& camera = capture.noise.camera;  // whose codes may be narrower than what is held of them
   const std::uint64_t sample_bytes =

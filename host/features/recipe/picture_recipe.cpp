@@ -35,7 +35,8 @@ PictureRecipe::PictureRecipe(std::optional<RecipeSources> sources) {
 }
 
 std::string PictureRecipe::text(const std::string& precision, const OwnRecipe& own,
-                                const std::string& error_bound, const std::string& bounds_map) {
+                                const std::string& error_bound,
+                                const std::optional<Recipe::Input>& bounds_map) {
   if (reading_.valid()) recipe_ = reading_.get();
   if (!recipe_) return {};
   Recipe recipe = *recipe_;

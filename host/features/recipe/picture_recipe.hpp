@@ -35,10 +35,11 @@ class PictureRecipe {
   explicit PictureRecipe(std::optional<RecipeSources> sources);
 
   // The recipe's text for a picture computed in this precision, with what is its own, what its arithmetic may be off
-  // by, and the name of the map that says so; empty without sources. Throws InputError where the capture cannot be read
+  // by, and the map that says so; empty without sources. Throws InputError where the capture cannot be read
   // or the text is larger than a picture carries.
   [[nodiscard]] std::string text(const std::string& precision, const OwnRecipe& own = {},
-                                 const std::string& error_bound = {}, const std::string& bounds_map = {});
+                                 const std::string& error_bound = {},
+                                 const std::optional<Recipe::Input>& bounds_map = {});
 
  private:
   std::future<Recipe> reading_;

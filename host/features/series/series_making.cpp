@@ -78,11 +78,12 @@ bool is_made(const std::filesystem::path& picture, const std::optional<std::stri
     Recipe recipe = Recipe::parse(*text, picture.string());
     if (precision && recipe.precision != *precision) return false;
     if (recipe.text() != *text) return false;
-    const bool has_map = recipe.bounds_map == map.filename() && std::filesystem::is_regular_file(map, error) &&
+    const bool has_map = recipe.bounds_map && recipe.bounds_map->name == map.filename() &&
+                         std::filesystem::is_regular_file(map, error) &&
                          led_to(map) == led_to(picture.parent_path() / map.filename());
     if (!map.empty() && !has_map) return false;
     recipe.error_bound.clear();  // follows from the rest, as the map does
-    recipe.bounds_map.clear();
+    recipe.bounds_map.reset();
     return recipe_of(recipe.precision) == recipe.text();
   } catch (const InputError&) {
     return false;  // cut off, or no picture at all: whether it may be replaced is for check_output() to say

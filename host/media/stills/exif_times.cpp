@@ -70,13 +70,6 @@ std::int64_t fraction_ns(const std::string& digits) {
 
 }  // namespace
 
-unsigned exif_orientation(std::string_view exif) {
-  std::string named("Exif\0\0", 6);
-  named += exif;
-  return orientation_of(Exif(exif_data_new_from_data(reinterpret_cast<const unsigned char*>(named.data()),
-                                                     static_cast<unsigned>(named.size()))));
-}
-
 unsigned exif_orientation(const std::filesystem::path& jpeg) {
   return orientation_of(Exif(exif_data_new_from_file(jpeg.c_str())));
 }

@@ -14,8 +14,9 @@ namespace nutik {
 // Told the size that a mask states, before anything is allocated for it; may throw.
 using CheckMaskSize = std::function<void(std::uint32_t width, std::uint32_t height)>;
 
-// Reads an 8-bit grey picture (PGM, PPM, PNG), or one of colour whose channels agree in every pixel, tags taken literally: a maximum other
-// than 255 does not rescale them. Throws InputError that says what was found and what is needed.
+// Reads an 8-bit grey picture (PGM, PPM, PNG), or one of colour whose channels agree in every pixel, tags taken
+// literally: a maximum other than 255 does not rescale them. A PNG is turned upright as its eXIf says. Throws an
+// InputError that says what was found and what is needed.
 [[nodiscard]] Picture read_mask(const std::filesystem::path& path);
 
 // The same of bytes that messages call `name`.

@@ -24,6 +24,9 @@ namespace nutik {
     std::span<const std::byte> file, const std::string& name,
     const std::function<void(std::uint32_t, std::uint32_t)>& check_size = {});
 
+// How a PNG's picture lies, as EXIF numbers it: 1, upright, where its chunk eXIf does not say.
+[[nodiscard]] unsigned png_orientation(std::span<const std::byte> file);
+
 // The text under a keyword (Latin-1); nothing where there is none. Throws InputError where the file is damaged.
 [[nodiscard]] std::optional<std::string> read_png_text(std::span<const std::byte> file, const char* keyword,
                                                        const std::string& name);

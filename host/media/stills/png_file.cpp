@@ -229,6 +229,34 @@ Picture read_8_bit_png(std::span<const std::byte> file, const std::string& name,
   return picture;
 }
 
+// Chunks: u32 length, four letters, so many bytes, a checksum. EXIF is a TIFF: its first directory is looked at.
+unsigned png_orientation(std::span<const std::byte> file) {
+  const std::string_view bytes(reinterpret_cast<const char*>(file.data()), file.size());
+  constexpr std::size_t kSignature = 8, kFrame = 12, kData = 8, kEntry = 12;
+  std::string_view exif;
+  for (std::size_t at = kSignature; at + kFrame <= bytes.size();) {
+    const std::uint64_t length = big_endian(bytes, at, 4);
+    if (length > bytes.size() - at - kFrame) break;
+    if (bytes.substr(at + 4, 4) == "eXIf") exif = bytes.substr(at + kData, length);
+    at += kFrame + length;
+  }
+  const bool is_little = exif.starts_with("II*");
+  const auto number = [&](std::size_t at, std::size_t count) {
+    std::string digits(exif.substr(std::min(at, exif.size()), count));
+    digits.resize(count);
+    if (is_little) std::ranges::reverse(digits);
+    return big_endian(digits, 0, count);
+  };
+  const std::uint64_t directory = number(4, 4), entries = number(directory, 2);
+  for (std::uint64_t i = 0, at = directory + 2; i < entries && at < exif.size(); ++i, at += kEntry) {
+    constexpr std::uint64_t kOrientation = 0x112, kShort = 3;
+    if (number(at, 2) != kOrientation || number(at + 2, 2) != kShort) continue;
+    const auto orientation = static_cast<unsigned>(number(at + 8, 2));
+    return orientation >= 1 && orientation <= 8 ? orientation : 1;
+  }
+  return 1;
+}
+
 std::optional<std::string> read_png_text(std::span<const std::byte> file, const char* keyword,
                                          const std::string& name) {
   std::string error_name = name;

@@ -6,6 +6,7 @@
 #include "capture/format.hpp"
 #include "media/formats/coding_points.hpp"
 #include "media/formats/file_kinds.hpp"
+#include "media/stills/picture_files.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::stills {
@@ -50,12 +51,12 @@ PngTags read_png_tags(const std::filesystem::path& file) {
   const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
   PngTags tags;
   if (!bytes.starts_with("\x89PNG")) return tags;
+  tags.orientation = png_orientation(mapped.bytes());
   bool has_coding_points = false;
   for (std::size_t at = kSignature; at + kFrame <= bytes.size();) {
     const auto length = static_cast<std::uint32_t>(big_endian(bytes, at, 4));
     const std::string_view name = bytes.substr(at + 4, 4), data = bytes.substr(at + kData, length);
     if (data.size() < length) break;
-    if (name == "eXIf") tags.orientation = exif_orientation(data);
     if (name == "tRNS") tags.has_clear_code = true;
     if (name == "cICP" && length == 4) {
       has_coding_points = follow_coding_points(tags, data, big_endian(bytes, kBits, 1), file.string());

@@ -37,7 +37,6 @@ struct PngTags {
 
 // How a picture lies, by EXIF data without the name in front of it, or by those in a JPEG: 1 … 8, and 1 where they do not
 // say.
-[[nodiscard]] unsigned exif_orientation(std::string_view exif);
 [[nodiscard]] unsigned exif_orientation(const std::filesystem::path& jpeg);
 
 void write_exr(OutputFile& file, const Picture& picture, const std::string& text, bool as_half);

@@ -47,12 +47,27 @@ std::string bytes_of(const std::string& text) {
   return bytes;
 }
 
-Json input_json(const Recipe::Input& input) { return {{"name", input.name}, {"checksum", input.checksum}}; }
+// Under one of two keys, by whether it is UTF-8.
+void add_bytes(Json& json, const char* if_text, const char* if_not, const std::string& bytes) {
+  const bool is_text = is_utf8(bytes);
+  json[is_text ? if_text : if_not] = is_text ? bytes : characters_of(bytes);
+}
+std::string taken_bytes(const Json& json, const char* if_text, const char* if_not) {
+  return json.contains(if_text) ? json.at(if_text).get<std::string>() : bytes_of(json.at(if_not));
+}
+std::string taken_name(const Json& json) { return taken_bytes(json, "name", "name_bytes"); }
+
+Json input_json(const Recipe::Input& input) {
+  Json json;
+  add_bytes(json, "name", "name_bytes", input.name);
+  json["checksum"] = input.checksum;
+  return json;
+}
 
 Json text_json(const Recipe::Text& text) {
-  const bool is_text = is_utf8(text.bytes);
-  Json json{{"name", text.name}};
-  json[is_text ? "text" : "bytes"] = is_text ? text.bytes : characters_of(text.bytes);
+  Json json;
+  add_bytes(json, "name", "name_bytes", text.name);
+  add_bytes(json, "text", "bytes", text.bytes);
   return json;
 }
 
@@ -68,7 +83,7 @@ bool is_plain(std::string_view name) {
 
 // In `frames/*.png` the folder is part of the name.
 Recipe::Input input_of(const Json& json, const std::string& picture) {
-  Recipe::Input input{json.at("name"), json.at("checksum")};
+  Recipe::Input input{taken_name(json), json.at("checksum")};
   const std::string_view name = input.name;
   const auto slash = name.find('/');
   const bool has_folder = slash != std::string_view::npos;
@@ -88,9 +103,7 @@ RecipeOf recipe_of(const Json& json, const std::string& picture) {
 }
 
 Recipe::Text text_of(const Json& json, const std::string& picture) {
-  const bool is_text = json.contains("text");
-  const std::string kept = json.at(is_text ? "text" : "bytes");
-  Recipe::Text text{json.at("name"), is_text ? kept : bytes_of(kept)};
+  Recipe::Text text{taken_name(json), taken_bytes(json, "text", "bytes")};
   if (!is_plain(text.name)) fail_name(picture, text.name);
   return text;
 }
@@ -121,9 +134,9 @@ std::string Recipe::text() const {
   json["renderer"] = renderer;
   json["precision"] = precision;
   if (!error_bound.empty()) json["error_bound"] = error_bound;
-  if (!bounds_map.empty()) json["bounds_map"] = bounds_map;
+  if (bounds_map) json["bounds_map"] = input_json(*bounds_map);
   constexpr int kOneLine = -1;
-  // Names of files may be in any encoding.
+  // Options may be in any encoding.
   return json.dump(kOneLine, ' ', true, Json::error_handler_t::replace);
 }
 
@@ -143,8 +156,11 @@ Recipe Recipe::parse(std::string_view text, const std::string& name) {
     recipe.renderer = json.at("renderer");
     recipe.precision = json.at("precision");
     recipe.error_bound = json.value("error_bound", std::string());
-    recipe.bounds_map = json.value("bounds_map", std::string());
-    if (!recipe.bounds_map.empty() && !is_plain(recipe.bounds_map)) fail_name(name, recipe.bounds_map);
+    if (json.contains("bounds_map")) {
+      const Json& map = json.at("bounds_map");
+      recipe.bounds_map = map.is_string() ? Recipe::Input{map, {}} : input_of(map, name);
+      if (!is_plain(recipe.bounds_map->name)) fail_name(name, recipe.bounds_map->name);
+    }
     return recipe;
   } catch (const Json::exception& error) {
     throw InputError(format("{}: its recipe is damaged: {}", name, error.what()));

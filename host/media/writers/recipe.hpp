@@ -24,6 +24,8 @@ struct Recipe {
   struct Input {
     std::string name;
     std::string checksum;
+
+    friend bool operator==(const Input&, const Input&) = default;
   };
   // A file that is short enough to be kept whole.
   struct Text {
@@ -38,13 +40,14 @@ struct Recipe {
   std::optional<Text> noise;
   std::optional<Input> delay_map;  // a picture of delays, whose range is the value of the option `delay`
   std::optional<Input> mask, mask_to;
+  // What arithmetic may be off by in each pixel, beside the picture; earlier programs stated no checksum.
+  std::optional<Input> bounds_map;
   // Long names without dashes, and values. Of an exposure by name; of a sheet as they were stated, which says what its
   // rows and columns are.
   std::vector<std::pair<std::string, std::string>> options;
   std::string renderer;
   std::string precision;
-  // What arithmetic may be off by, for people; the file beside the picture that says so of each pixel. Empty: none.
-  std::string error_bound, bounds_map;
+  std::string error_bound;  // the same for people, of all pixels; empty: none
 
   [[nodiscard]] std::string text() const;
 

@@ -1,6 +1,7 @@
 #include "session/clips/source_check.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -36,6 +37,18 @@ AlignRequest same_alignment(const tik::Alignment& aligned) {
   return request;
 }
 
+// As a clip's part tells it (media/clip_part.hpp): `640 x 360 from 100,50 of 1920 x 1080`.
+std::optional<Rectangle> same_crop(const std::vector<std::string>& facts) {
+  for (const std::string& fact : facts) {
+    Rectangle crop;
+    int length = 0;
+    std::sscanf(fact.c_str(), "%u x %u from %u,%u of %*u x %*u%n", &crop.width, &crop.height, &crop.x, &crop.y,
+                &length);
+    if (length > 0) return crop;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 SourceCheck compare_with_source(tik::Reader& capture, SourceRequest clip, const MemoryBudget& memory,
@@ -46,20 +59,23 @@ SourceCheck compare_with_source(tik::Reader& capture, SourceRequest clip, const 
   if (!clip.clip.white_code && wanted.code_bytes == 2) clip.clip.white_code = wanted.white_code;
   if (const auto& aligned = capture.header().alignment; aligned && !clip.align)
     clip.align = same_alignment(*aligned);
+  if (const auto& part = capture.header().part; part && !clip.clip.from)
+    clip.clip.from = ClipMoment{static_cast<std::int64_t>(part->first), true};
+  if (!clip.clip.crop) clip.clip.crop = same_crop(capture.header().facts);
   const ClipSource source = open_clip_source(clip, memory);
   if (source.capture.shape != wanted.shape || source.capture.code_bytes != wanted.code_bytes ||
       source.capture.white_code != wanted.white_code) {
     throw InputError(format("{} is not what the capture was made from: it has {}, the capture {}", name,
-                            samples_text(source.capture), samples_text(wanted)));
+                            samples_text(source.capture), samples_text(wanted)),
+                     {Setting::crop, Setting::scale});
   }
 
   const MemoryNeeds needs{{"pictures within the decoder", source.clip->info().decoder_bytes},
                           {"a picture of the clip", wanted.sample_bytes()},
-                          {"a picture of the capture", capture.format().sample_bytes()},
+                          {"two pictures of the capture", 2 * capture.format().sample_bytes()},
                           {"a block", largest_block(capture)}};
   needs.rest_of(memory.bytes);
-  SourceCheck check{SourceComparison(wanted), 0, capture.file_bytes(), 0, false};
-  for (const tik::IndexEntry& block : capture.index()) check.record_count += block.record_count;
+  SourceCheck check{SourceComparison(wanted), capture.file_bytes(), 0, false};
   const std::uint64_t sample_count = capture.timeline().sample_count();
   check.source_bytes = wanted.sample_bytes() * sample_count;
   std::vector<std::byte> raster(wanted.sample_bytes());
@@ -69,7 +85,8 @@ SourceCheck compare_with_source(tik::Reader& capture, SourceRequest clip, const 
       if (!source.clip->read(raster)) {
         throw InputError(
             format("{} is not what the capture was made from: it has {} pictures, the capture {}", name,
-                   sample, sample_count));
+                   sample, sample_count),
+            {Setting::from});
       }
       check.comparison.add(block, k, raster);
       if (progress) progress(sample, sample_count);

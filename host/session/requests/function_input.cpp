@@ -52,21 +52,23 @@ FunctionInput read_function_input(const std::string& name) {
 
 namespace {
 
-// A picture file as it stands, light of `white` having the last code, and whether it held light.
-std::pair<Picture, bool> read_still(const std::string& name, double white) {
+// A picture file as it stands, light of `white` having the last code, and whether it held light. `thing` is one.
+std::pair<Picture, bool> read_still(const std::string& name, double white, std::string_view thing) {
   ClipOptions options;
   options.white_light = white;
   const auto clip = open_clip(name, options);
   const CaptureFormat& kind = clip->info().format;
   Picture picture(kind.shape, code_type(kind), kind.white_code);
   if (!clip->read(picture.bytes)) throw InputError(format("{} has no picture", name));
+  if (std::vector<std::byte> next(picture.bytes.size()); clip->read(next))
+    throw InputError(format("{} holds several pictures; {} is one", name, thing));
   return {std::move(picture), clip->info().holds_light};
 }
 
 // Values of a TIFF, or of floating point, as tags: whole numbers from 0 to 255.
 Picture read_tags(const std::string& name) {
   constexpr double kLast = 255;
-  const auto [read, holds_light] = read_still(name, kLast);
+  const auto [read, holds_light] = read_still(name, kLast, "a mask");
   const std::uint32_t steps = holds_light ? 257 : 1;  // of 65535 codes, to the next tag
   if (read.shape.channels != 1)
     throw InputError(format("{} has colour; a mask has one value for each pixel: save it as grey", name));
@@ -159,7 +161,7 @@ Picture read_picture(const std::string& name) {
                                  stills ? format("a sequence of {}", stills->size()) : "no picture"),
                           Advice{", or a time of the capture: 0.3s, 12f"});
   }
-  Picture picture = read_still(name, 1.0).first;
+  Picture picture = read_still(name, 1.0, "what is needed").first;
   const std::uint32_t largest = largest_code(picture.bytes, static_cast<std::uint32_t>(value_bytes(picture.type)));
   if (largest > picture.white_code) {
     throw InputError(
