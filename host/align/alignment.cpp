@@ -42,8 +42,8 @@ CannotAlign not_alike(const ClipToAlign& clip, CameraMotion motion, std::uint64_
                       const Registered& found) {
   CannotAlign error(
       format("{}: picture {} cannot be aligned to picture {}: of what is seen in both {:.1f} % follow one "
-             "{} motion, and half must. The camera moved too far or too fast, there is a cut between them, "
-             "or what moves by itself fills most of the picture",
+             "{} motion, and half must. The camera moved too far or too fast, there is a cut or a dissolve between "
+             "them, or what moves by itself fills most of the picture",
              clip.name, picture, clip.reference, 100 * found.agreeing, to_text(motion)),
       motion == CameraMotion::homography
           ? kOtherReference
