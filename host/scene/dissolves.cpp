@@ -132,6 +132,7 @@ void DissolveFinder::test(std::size_t first) {
   }
   // A straight line through the ways, from 0 to 1, and beyond both ends what a way takes that begins and ends slowly.
   const double slope = (count * products - places * ways) / (count * squares - places * places);
+  if (slope <= 0) return;
   const double begin = (places - ways / slope) / count, beyond = kBeyond / slope;
   const auto number = static_cast<double>(count_ - looks_.size() + first);
   SampleRange range{static_cast<std::uint64_t>(std::max(number + std::floor(begin - beyond) + 1, number + 1)),

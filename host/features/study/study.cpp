@@ -495,7 +495,7 @@ double uncertain_share(const Region& uncertain, const std::vector<Rectangle>& re
 }
 
 // The box round all places of a subject, as regions are stated: x,y,width,height.
-std::string box_text_of(const std::vector<SubjectPlace>& places) {
+Rectangle box_of(const std::vector<SubjectPlace>& places) {
   std::uint32_t left = places[0].box.x, top = places[0].box.y, right = 0, bottom = 0;
   for (const SubjectPlace& place : places) {
     left = std::min(left, place.box.x);
@@ -503,7 +503,12 @@ std::string box_text_of(const std::vector<SubjectPlace>& places) {
     right = std::max(right, place.box.x + place.box.width);
     bottom = std::max(bottom, place.box.y + place.box.height);
   }
-  return format("{},{},{},{}", left, top, right - left, bottom - top);
+  return {left, top, right - left, bottom - top};
+}
+
+// Whether a rectangle holds all of a way and nothing of the other.
+bool are_apart(const Rectangle& a, const Rectangle& b) {
+  return a.x + a.width <= b.x || b.x + b.width <= a.x || a.y + a.height <= b.y || b.y + b.height <= a.y;
 }
 
 // What of a track makes a study. Moments that are stated are shown wherever the subject goes.
@@ -567,11 +572,16 @@ std::vector<Followed> followed_in(std::vector<SubjectTrack> tracks, const std::v
     if (!request.regions.empty() && !verdict.why.empty()) verdict.why = text_of(regions[i]) + ": " + verdict.why;
     followed.push_back({std::move(tracks[i]), regions[i], std::move(verdict)});
     if (others.empty() || !request.regions.empty() || followed.back().verdict.shows == Verdict::Shows::nothing) continue;
-    const std::string where = box_text_of(others.front().places);
+    const Rectangle way = box_of(others.front().places);
+    const std::string where = format("{},{},{},{}", way.x, way.y, way.width, way.height);
+    const char* const remedy =
+        are_apart(way, box_of(followed.back().track.places))
+            ? nullptr
+            : "Their ways overlap, so no region holds one alone: take a part of the time in which they lie apart";
     if (is_stated || shows_one(request.style) || followed.front().verdict.shows != Verdict::Shows::all) {
-      notes.push_back(format("one subject is shown, and another thing goes its way at the same time, within {}: name a "
-                             "region for each of them to show both{}",
-                             where, shows_one(request.style) ? ", or take the style trail or strobe" : ""));
+      notes.push_back(format("one subject is shown, and another thing goes its way at the same time, within {}. {}{}",
+                             where, remedy ? remedy : "Name a region for each of them to show both",
+                             shows_one(request.style) ? ", or take the style trail or strobe" : ""));
       continue;
     }
     for (SubjectTrack& other : others) {
@@ -579,9 +589,8 @@ std::vector<Followed> followed_in(std::vector<SubjectTrack> tracks, const std::v
       followed.push_back({std::move(other), regions[i]});
     }
     if (followed.size() == 1) continue;
-    notes.push_back(format("{} subjects are shown: another thing goes its way at the same time, within {}. Name a region "
-                           "to show what moves in it",
-                           followed.size(), where));
+    notes.push_back(format("{} subjects are shown: another thing goes its way at the same time, within {}. {}",
+                           followed.size(), where, remedy ? remedy : "Name a region to show what moves in it"));
   }
   return followed;
 }
