@@ -42,8 +42,8 @@ CannotAlign not_alike(const ClipToAlign& clip, CameraMotion motion, std::uint64_
                       const Registered& found) {
   CannotAlign error(
       format("{}: picture {} cannot be aligned to picture {}: of what is seen in both {:.1f} % follow one "
-             "{} motion, and half must. The camera moved too far or too fast, there is a cut between them, "
-             "or what moves by itself fills most of the picture",
+             "{} motion, and half must. The camera moved too far or too fast, there is a cut or a dissolve between "
+             "them, or what moves by itself fills most of the picture",
              clip.name, picture, clip.reference, 100 * found.agreeing, to_text(motion)),
       motion == CameraMotion::homography
           ? kOtherReference
@@ -154,11 +154,12 @@ CameraPath find_camera_path(const ClipToAlign& clip, CameraMotion motion, std::u
 Rectangle shown_area(const std::string& name, const CameraPath& path, Unseen unseen) {
   if (unseen == Unseen::held) return Rectangle::whole(path.shape);
   if (const auto area = seen_by_all(path)) return *area;
-  const CameraPath::Step step = path.step(path.furthest());
+  const std::uint64_t picture = path.furthest().picture;
+  const CameraPath::Step step = path.step(picture);
   throw CannotAlign(
       format("{}: no place was seen by all of its {} pictures: in picture {} the camera looks "
              "{:.0f} pixels to the side and {:.0f} up or down from where it did in picture {}",
-             name, path.pictures.size(), path.furthest(), std::abs(step.x), std::abs(step.y), path.reference),
+             name, path.pictures.size(), picture, std::abs(step.x), std::abs(step.y), path.reference),
       Advice{"; take a part of the clip (`from`, `to`), or keep the picture's size (`unseen hold`)"});
 }
 
@@ -184,11 +185,10 @@ std::string alignment_text(const CameraPath& path, const Rectangle& area, Unseen
 }
 
 tik::Alignment kept_alignment(const CameraPath& path, Unseen unseen) {
-  const CameraPath::Step furthest = path.step(path.furthest());
   return {std::string(to_text(path.motion)),
           path.reference,
           unseen == Unseen::held,
-          std::hypot(furthest.x, furthest.y),
+          path.furthest().pixels(),
           std::abs(path.step(path.max_turned()).degrees),
           path.residual_pixels()};
 }
@@ -209,18 +209,6 @@ namespace {
 constexpr std::uint64_t kLooks = 9;
 // Less is not told from what compression and rolling shutters do.
 constexpr double kMinPixels = 1.0;
-
-// How far the corner that moves furthest does.
-double furthest_corner(const Warp& warp, const Shape& shape) {
-  double most = 0;
-  for (const double x : {0.0, shape.width - 1.0}) {
-    for (const double y : {0.0, shape.height - 1.0}) {
-      const Place place = warp.at(x, y);
-      most = std::max(most, std::hypot(place.x - x, place.y - y));
-    }
-  }
-  return most;
-}
 
 }  // namespace
 
@@ -259,7 +247,8 @@ std::optional<MovedCamera> moved_camera(tik::Reader& capture) {
     }
     // From where it lay at first: what stands still is found there.
     const Registered found = registrar->find(raster, Warp(), Reach::near);
-    const double corner = furthest_corner(found.warp, format.shape);
+    const Place way = furthest_way(found.warp, format.shape);
+    const double corner = std::hypot(way.x, way.y);
     if (!is_sure(found) || corner < most) continue;
     most = corner;
     const double degrees =

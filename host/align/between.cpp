@@ -10,6 +10,7 @@
 #include "capture/format.hpp"
 #include "capture/text.hpp"
 #include "media/read_ahead.hpp"
+#include "scene/shots.hpp"
 #include "system/interruption.hpp"
 #include "system/parallel.hpp"
 
@@ -169,6 +170,13 @@ MadeSamples plan_between(const ClipToFill& clip, const BetweenRequest& request, 
   for (std::uint64_t i = 0; i < kPairsAtOnce; ++i) motions.emplace_back(grey.width(), grey.height());
   std::deque<std::vector<std::uint8_t>> greys;  // of pictures that pairs need still, the last of them
   std::uint64_t pictures_read = 0;
+  CaptureFormat of_grey;
+  of_grey.shape = {grey.width(), grey.height(), 1};
+  ShotFinder shots(of_grey);
+  struct Blocks {
+    std::uint64_t changed, unfollowed;
+  };
+  std::vector<Blocks> blocks;  // between a picture and the next
   const auto add = [&](const PairMotion& motion) {
     const bool is_followed = is_wanted(made.after.size()) && motion.fastest() > 0 && !motion.is_cut();
     const double pixels = motion.fastest() * planned_side(clip.format.shape);
@@ -179,9 +187,7 @@ MadeSamples plan_between(const ClipToFill& clip, const BetweenRequest& request, 
     }
     const std::uint32_t count = !is_followed ? 0 : request.each ? *request.each : PairMotion::steps_for(pixels) - 1;
     made.after.push_back(static_cast<std::uint8_t>(count));
-    if (made.after.back() == 0) return;
-    made.changed += motion.changed();
-    made.unfollowed += motion.unfollowed();
+    blocks.push_back({motion.changed(), motion.unfollowed()});
   };
   // Pairs behind which a picture is known, or is none.
   const auto follow = [&](bool is_end) {
@@ -215,6 +221,7 @@ MadeSamples plan_between(const ClipToFill& clip, const BetweenRequest& request, 
         refuse_above_white(clip.name, pictures_read + i, error);
       }
     });
+    for (std::size_t i = before; i < greys.size(); ++i) shots.add(std::as_bytes(std::span(greys[i])));
     pictures_read += rasters.size();
     follow(false);
   }
@@ -223,6 +230,16 @@ MadeSamples plan_between(const ClipToFill& clip, const BetweenRequest& request, 
     throw UsageError(format("between '{}' begins behind the last picture but one, {}f", request.text(),
                             std::max<std::uint64_t>(pictures_read, 2) - 2),
                      {Setting::between});
+  }
+  // A dissolve is known when it is over.
+  for (std::uint64_t last = 0; const SampleRange& shot : shots.shots()) {
+    for (std::uint64_t k = std::max<std::uint64_t>(last, 1) - 1; last > 0 && k < shot.first; ++k) made.after[k] = 0;
+    last = shot.last;
+  }
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    if (made.after[i] == 0) continue;
+    made.changed += blocks[i].changed;
+    made.unfollowed += blocks[i].unfollowed;
   }
   if (pictures_read > 0) made.after.push_back(0);
   if (made.after.empty()) throw InputError(format("{} has no picture", clip.name));

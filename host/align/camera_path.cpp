@@ -21,18 +21,6 @@ constexpr std::array<std::pair<CameraMotion, std::string_view>, 3> kMotions{
      {CameraMotion::rigid, "rigid"},
      {CameraMotion::homography, "homography"}}};
 
-// The picture of which `measure` is largest, the first of them.
-template <typename Measure>
-std::uint64_t largest(const CameraPath& path, Measure measure) {
-  std::uint64_t best = 0;
-  for (std::uint64_t picture = 1; picture < path.pictures.size(); ++picture) {
-    if (measure(path.step(picture)) > measure(path.step(best))) best = picture;
-  }
-  return best;
-}
-
-double distance(const CameraPath::Step& step) { return std::hypot(step.x, step.y); }
-
 }  // namespace
 
 std::string_view to_text(CameraMotion motion) {
@@ -75,10 +63,31 @@ CameraPath::Step CameraPath::step(std::uint64_t picture) const {
   return {place.x - x, place.y - y, warp.degrees_at(x, y)};
 }
 
-std::uint64_t CameraPath::furthest() const { return largest(*this, distance); }
+Place furthest_way(const Warp& warp, const Shape& shape) {
+  const double right = shape.width - 1.0, bottom = shape.height - 1.0;
+  Place most;
+  for (const auto& [x, y] : {Place{right / 2, bottom / 2}, {0, 0}, {right, 0}, {0, bottom}, {right, bottom}}) {
+    const Place place = warp.at(x, y), way{place.x - x, place.y - y};
+    if (std::hypot(way.x, way.y) > std::hypot(most.x, most.y)) most = way;
+  }
+  return most;
+}
+
+CameraPath::Furthest CameraPath::furthest() const {
+  Furthest most;
+  for (std::uint64_t picture = 0; picture < pictures.size(); ++picture) {
+    const Furthest found{picture, furthest_way(pictures[picture].warp, shape)};
+    if (found.pixels() > most.pixels()) most = found;
+  }
+  return most;
+}
 
 std::uint64_t CameraPath::max_turned() const {
-  return largest(*this, [](const Step& step) { return std::abs(step.degrees); });
+  std::uint64_t best = 0;
+  for (std::uint64_t picture = 1; picture < pictures.size(); ++picture) {
+    if (std::abs(step(picture).degrees) > std::abs(step(best).degrees)) best = picture;
+  }
+  return best;
 }
 
 double CameraPath::residual_pixels() const {
@@ -86,7 +95,7 @@ double CameraPath::residual_pixels() const {
 }
 
 std::string CameraPath::summary() const {
-  std::string text = format("moved by up to {:.2f} pixels", distance(step(furthest())));
+  std::string text = format("moved by up to {:.2f} pixels", furthest().pixels());
   if (motion == CameraMotion::translation) return text;
   return text + format(", turned by up to {:.3f} degrees", std::abs(step(max_turned()).degrees));
 }

@@ -3,6 +3,7 @@
 // A picture saw a place if it lies between the middles of its border's pixels: nothing is made up.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,6 +19,9 @@ namespace nutik {
 // Places that not every aligned picture saw are cut away, or hold what was seen there before.
 enum class Unseen { cropped, held };
 
+// The way of a picture's corner or its middle, whichever goes furthest.
+[[nodiscard]] Place furthest_way(const Warp& warp, const Shape& shape);
+
 struct CameraPath {
   CameraMotion motion = CameraMotion::rigid;
   Shape shape;                       // of the pictures; channels do not count
@@ -30,9 +34,14 @@ struct CameraPath {
     double degrees = 0;
   };
   [[nodiscard]] Step step(std::uint64_t picture) const;
-  // The pictures in which it is furthest away, and turned most.
-  [[nodiscard]] std::uint64_t furthest() const;
-  [[nodiscard]] std::uint64_t max_turned() const;
+  // Where most of it has moved: the picture, and the way there of its corner or its middle that went furthest.
+  struct Furthest {
+    std::uint64_t picture = 0;
+    Place way;
+    [[nodiscard]] double pixels() const { return std::hypot(way.x, way.y); }
+  };
+  [[nodiscard]] Furthest furthest() const;
+  [[nodiscard]] std::uint64_t max_turned() const;  // the picture that is turned most
   // The largest residual of all pictures.
   [[nodiscard]] double residual_pixels() const;
   // `moved by up to 12.3 pixels, turned by up to 0.41 degrees`

@@ -1,6 +1,7 @@
 #include "scene/shots.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -65,22 +66,32 @@ std::uint32_t step_of(const Shape& shape) {
   return std::max((std::max(shape.width, shape.height) - 1) / kMaxCellsToASide / 8, 1u);
 }
 
+std::uint32_t side_of(const Shape& shape) { return (std::max(shape.width, shape.height) - 1) / kMaxCellsToASide + 1; }
+
+Shape cells_of(const Shape& shape) {
+  const std::uint32_t side = side_of(shape);
+  return {(shape.width - 1) / side + 1, (shape.height - 1) / side + 1, shape.channels};
+}
+
 // Means of channels over cells, as shares of white.
 template <typename Code>
 Means means_of(const CaptureFormat& format, std::span<const std::byte> raster) {
   const auto [width, height, channels] = format.shape;
   const auto* codes = reinterpret_cast<const Code*>(raster.data());
-  const std::uint32_t side = (std::max(width, height) - 1) / kMaxCellsToASide + 1;
-  const std::uint32_t columns = (width - 1) / side + 1, rows = (height - 1) / side + 1;
-  std::vector<std::uint64_t> sums(std::size_t{columns} * rows * channels);
-  std::vector<std::uint32_t> counts(std::size_t{columns} * rows);
+  const std::uint32_t side = side_of(format.shape);
+  const Shape cells = cells_of(format.shape);
+  std::vector<std::uint64_t> sums(cells.pixel_count() * channels);
+  std::vector<std::uint32_t> counts(cells.pixel_count());
   for (std::uint32_t y = 0; y < height; ++y) {
-    const std::size_t row = std::size_t{y / side} * columns;
-    for (std::uint32_t x = 0; x < width; ++x) {
-      const std::size_t cell = row + x / side;
-      ++counts[cell];
-      for (std::uint32_t channel = 0; channel < channels; ++channel)
-        sums[cell * channels + channel] += *codes++;
+    std::size_t cell = std::size_t{y / side} * cells.width;
+    for (std::uint32_t x = 0; x < width; ++cell) {
+      const std::uint32_t end = std::min(x + side, width);
+      std::array<std::uint64_t, 3> of_row{};
+      counts[cell] += end - x;
+      for (; x < end; ++x) {
+        for (std::uint32_t channel = 0; channel < channels; ++channel) of_row[channel] += *codes++;
+      }
+      for (std::uint32_t channel = 0; channel < channels; ++channel) sums[cell * channels + channel] += of_row[channel];
     }
   }
   Means means;
@@ -138,48 +149,69 @@ bool stands_alone(double correlation, std::span<const double> steps) {
 
 }  // namespace
 
-std::vector<SampleRange> shots_of(CaptureSource& capture) {
-  const CaptureFormat& format = capture.format();
-  const std::uint64_t count = capture.timeline().sample_count();
-  ThinRaster thin(format, step_of(format.shape));
-  Means before, last;
-  std::vector<double> steps{0}, double_steps{0};  // from one sample, and from two, before each
-  std::vector<double> correlations;               // of the first two, the next two, …
-  for_each_look(capture, Looks(count, count), [&](const Look& look) {
-    thin.take(look.held, look.changed);
-    Means means = format.code_bytes == 1 ? means_of<std::uint8_t>(thin.format(), thin.raster())
-                                         : means_of<std::uint16_t>(thin.format(), thin.raster());
-    if (!last.empty()) {
-      steps.push_back(step_between(means, last, format.shape.channels));
-      correlations.push_back(correlation(means, last));
-    }
-    if (!before.empty()) double_steps.push_back(step_between(means, before, format.shape.channels));
-    before = std::move(last);
-    last = std::move(means);
-  });
-  const std::vector<double> from_first(steps.begin() + 1, steps.end()), from_last(from_first.rbegin(), from_first.rend());
-  const bool is_first_alone = count > 1 && stands_alone(correlations.front(), from_first);
-  const bool is_last_alone = count > 1 && stands_alone(correlations.back(), from_last);
+ShotFinder::ShotFinder(const CaptureFormat& format) : format_(format), dissolves_(cells_of(format.shape)) {}
+
+void ShotFinder::add(std::span<const std::byte> raster) {
+  std::vector<float> means = format_.code_bytes == 1 ? means_of<std::uint8_t>(format_, raster)
+                                                     : means_of<std::uint16_t>(format_, raster);
+  dissolves_.add(means);
+  const std::uint32_t channels = format_.shape.channels;
+  steps_.push_back(last_.empty() ? 0 : step_between(means, last_, channels));
+  if (!last_.empty()) correlations_.push_back(correlation(means, last_));
+  double_steps_.push_back(before_.empty() ? 0 : step_between(means, before_, channels));
+  before_ = std::move(last_);
+  last_ = std::move(means);
+}
+
+std::vector<SampleRange> ShotFinder::shots() const {
+  const std::uint64_t count = steps_.size();
+  const std::vector<double> from_first(steps_.begin() + 1, steps_.end());
+  const std::vector<double> from_last(from_first.rbegin(), from_first.rend());
+  const bool is_first_alone = count > 1 && stands_alone(correlations_.front(), from_first);
+  const bool is_last_alone = count > 1 && stands_alone(correlations_.back(), from_last);
   const auto is_cut = [&](std::uint64_t k) {
     if ((k == 1 && is_first_alone) || (k + 1 == count && is_last_alone)) return true;
-    if (steps[k] < kMinChanged) return false;
-    if (k > 1 && steps[k - 1] > kMaxBeside * steps[k]) return false;
-    return k + 1 == count || (steps[k + 1] <= kMaxBeside * steps[k] && double_steps[k] >= kMinChanged);
+    if (steps_[k] < kMinChanged) return false;
+    if (k > 1 && steps_[k - 1] > kMaxBeside * steps_[k]) return false;
+    return k + 1 == count || (steps_[k + 1] <= kMaxBeside * steps_[k] && double_steps_[k] >= kMinChanged);
   };
   std::vector<SampleRange> shots;
   std::uint64_t first = 0;
+  const auto end_at = [&](std::uint64_t last, std::uint64_t next) {
+    if (first < last) shots.push_back({first, last});
+    first = std::max(first, next);
+  };
+  auto dissolve = dissolves_.found().begin();
   for (std::uint64_t k = 1; k < count; ++k) {
-    if (!is_cut(k)) continue;
-    shots.push_back({first, k});
-    first = k;
+    if (dissolve != dissolves_.found().end() && dissolve->first == k) {
+      end_at(k, dissolve->last);
+      ++dissolve;
+    } else if (is_cut(k)) {
+      end_at(k, k);
+    }
   }
-  shots.push_back({first, count});
+  end_at(count, count);
   return shots;
 }
 
+std::vector<SampleRange> shots_of(CaptureSource& capture) {
+  const std::uint64_t count = capture.timeline().sample_count();
+  ThinRaster thin(capture.format(), step_of(capture.format().shape));
+  ShotFinder finder(thin.format());
+  for_each_look(capture, Looks(count, count), [&](const Look& look) {
+    thin.take(look.held, look.changed);
+    finder.add(thin.raster());
+  });
+  return finder.shots();
+}
+
 std::string starts_of(std::span<const SampleRange> shots, std::uint64_t part) {
-  return joined(shots, ", ", [part](const SampleRange& shot) {
-    return format("{}{}", part + shot.first, shot.size() == 1 ? " (a single one)" : "");
+  std::uint64_t last = 0;
+  return joined(shots, ", ", [&](const SampleRange& shot) {
+    const std::string dissolve =
+        shot.first == last ? std::string() : format(" (behind a dissolve or fade from {} on)", part + last);
+    last = shot.last;
+    return format("{}{}{}", part + shot.first, shot.size() == 1 ? " (a single one)" : "", dissolve);
   });
 }
 

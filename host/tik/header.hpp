@@ -46,7 +46,7 @@ struct Alignment {
   std::string motion;           // translation, rigid or homography
   std::uint64_t reference = 0;  // the sample that the others were moved onto
   bool holds_unseen = false;    // places that a picture did not see hold what was seen there before
-  double moved_pixels = 0;      // by how far at most, in the picture's middle
+  double moved_pixels = 0;      // by how far at most, of corners and the middle
   double turned_degrees = 0;
   double residual_pixels = 0;  // half of the texture lies within this of where it should
   friend bool operator==(const Alignment&, const Alignment&) = default;

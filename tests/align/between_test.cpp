@@ -267,6 +267,26 @@ TEST(Between, MakesNothingWhereNothingMovesNorAcrossACut) {
   EXPECT_EQ(planned(clip_of(dissolve)).count(), 0U);
 }
 
+// A ball flies on before squares that turn into others, too slowly for a cut.
+TEST(Between, MakesNothingAcrossADissolve) {
+  std::mt19937 random(5);
+  std::vector<double> squares(2 * 27 * 16);
+  for (double& light : squares) light = std::uniform_real_distribution(0.0, 0.2)(random);
+  std::vector<std::vector<std::byte>> pictures;
+  for (int k = 0; k < 18; ++k) {
+    const double way = std::clamp((k - 3.0) / 10, 0.0, 1.0);
+    const Scene mixed = [&](double x, double y, double time) {
+      const auto square = static_cast<std::size_t>(y / 12) * 27 + static_cast<std::size_t>(x / 12);
+      const double ball = std::hypot(x - 20 - 12 * time, y - 90) < 10 ? 0.15 : 0;
+      return 0.3 + (1 - way) * squares[square] + way * (0.12 + ball + squares[squares.size() / 2 + square]);
+    };
+    pictures.push_back(drawn(mixed, k));
+  }
+  const std::vector<std::uint8_t> after = planned(clip_of(pictures)).after;
+  EXPECT_EQ(std::vector(after.begin() + 3, after.begin() + 13), std::vector<std::uint8_t>(10));
+  EXPECT_GT(std::ranges::max(after), 0) << "beside it";
+}
+
 TEST(Between, MakesNothingOfWhatTrembles) {
   // As codecs leave it: faint parts of the picture lie three pixels beside their place, by turns, five codes apart.
   std::vector<std::vector<std::byte>> pictures;

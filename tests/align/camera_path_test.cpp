@@ -25,10 +25,14 @@ TEST(CameraPath, SaysHowFarTheCameraMoved) {
   const double turn = 0.01;
   const Warp turned{{std::cos(turn), -std::sin(turn), 0, std::sin(turn), std::cos(turn), 0, 0, 0, 1}};
   const CameraPath path = path_of({Warp(), shifted(3, -4), turned});
-  EXPECT_EQ(path.furthest(), 1u);
+  EXPECT_EQ(path.furthest().picture, 1u);
   EXPECT_EQ(path.max_turned(), 2u);
   EXPECT_NEAR(path.step(2).degrees, 0.572958, 1e-6);
   EXPECT_EQ(path.summary(), "moved by up to 5.00 pixels, turned by up to 0.573 degrees");
+  // The middle rests while a corner, 31.5 and 23.5 pixels from it, goes a tenth of that.
+  const CameraPath zoomed = path_of({Warp(), {{1.1, 0, -3.15, 0, 1.1, -2.35, 0, 0, 1}}});
+  EXPECT_NEAR(zoomed.furthest().pixels(), 0.1 * std::hypot(31.5, 23.5), 1e-9);
+  EXPECT_NEAR(zoomed.step(1).x, 0, 1e-9);
 }
 
 TEST(CameraPath, IsReadAsItWasWritten) {

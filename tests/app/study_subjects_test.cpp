@@ -143,6 +143,7 @@ TEST_F(StudySubjects, LeaveNoOtherUnmentioned) {
   const auto two = study("two", {"--moments", "3"});
   ASSERT_EQ(two.status, 0) << two.err;
   expect_says(two.err, "2 subjects are shown: another thing goes its way at the same time, within ");
+  expect_says(two.err, ". Name a region to show what moves in it");
   const cv::Mat shown = cv::imread((scratch_ / "study.pgm").string(), cv::IMREAD_UNCHANGED);
   const auto is_above = [&](int tag) { return cv::countNonZero(shown(cv::Rect(0, 0, 160, 48)) == tag) > 0; };
   for (int tag = 1; tag <= 6; ++tag) {  // three of each
@@ -152,6 +153,13 @@ TEST_F(StudySubjects, LeaveNoOtherUnmentioned) {
   EXPECT_NE(is_above(1), is_above(4));
   const auto one_of_two = study("two", {"--style", "frozen"});
   expect_says(one_of_two.err, "one subject is shown, and another thing goes its way at the same time, within ");
+  expect_says(one_of_two.err, ". Name a region for each of them to show both, or take the style trail or strobe");
+  draw("crossing", 20, [](cv::Mat& frame, int k) {
+    frame(cv::Rect(4 + 7 * k, 8 + 3 * k, 12, 12)) = 250;
+    frame(cv::Rect(140 - 7 * k, 80 - 2 * k, 12, 12)) = 5;
+  });
+  expect_says(study("crossing", {"--moments", "3"}).err,
+              ". Their ways overlap, so no region holds one alone: take a part of the time in which they lie apart");
   draw("one", 20, [](cv::Mat& frame, int k) { frame(upper(k)) = 250; });
   const auto one = study("one", {"--moments", "3"});
   ASSERT_EQ(one.status, 0) << one.err;
@@ -162,8 +170,8 @@ TEST_F(StudySubjects, LeaveNoOtherUnmentioned) {
   });
   const auto lesser = study("lesser", {"--moments", "3"});
   ASSERT_EQ(lesser.status, 0) << lesser.err;
-  expect_says(lesser.err, "another thing goes its way within ");
-  expect_says(lesser.err, ", and not shown: name a region to show what moves in it");
+  expect_says(lesser.err, "another thing goes its way and is not shown, within ");
+  expect_says(lesser.err, ". Name a region to show what moves in it");
 }
 
 // A bright square in a soft shadow that is wider than it. Beside the square lies its trail, dimmed as the ground is; the

@@ -211,6 +211,20 @@ TEST_F(Study, ShowsOneShotOfAClipWithCuts) {
   expect_refused("study shots.tik -o none.png", 3, "it has 3 shots, which begin at pictures 0, 12, 24");
 }
 
+TEST_F(Study, TakesAShotWithoutTheDissolveBeforeIt) {
+  DrawnClip clip(scratch_ / "mixed");
+  for (int k = 0; k < 48; ++k) {
+    cv::Mat frame = ground_of(7), mixed;
+    if (k >= 20) frame(cv::Rect(4 + 5 * (k - 20), 40, 12, 12)) = 250;
+    const double way = std::clamp((k - 10) / 12.0, 0.0, 1.0);
+    cv::addWeighted(ground_of(100), 1 - way, frame, way, 0, mixed);
+    clip.add(mixed);
+  }
+  expect_says(make("study -f 100 mixed -o mixed.png").err,
+              {"the clip has 2 shots, which begin at pictures 0, 2", " (behind a dissolve or fade from ",
+               " of the longest that makes a study, pictures 2"});
+}
+
 TEST_F(Study, ShowsOneMomentOfWhatGoesLessThanItsOwnSize) {
   DrawnClip clip(scratch_ / "stirs");
   for (int k = 0; k < 20; ++k) {

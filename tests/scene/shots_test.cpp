@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
+#include <utility>
 
 namespace nutik {
 namespace {
@@ -56,6 +59,55 @@ TEST(Shots, DoNotBeginWithAFlashOrALampOrATurn) {
   EXPECT_EQ(starts([](int x, int y, std::uint64_t k) { return k == 9 ? 255 : scene(1, x, y); }), Starts{0});
   EXPECT_EQ(starts([](int x, int y, std::uint64_t k) { return scene(1, x, y) + (k < 9 ? 0 : 60); }), Starts{0});
   EXPECT_EQ(starts([](int x, int y, std::uint64_t k) { return scene(static_cast<int>(k), x, y); }), Starts{0});
+}
+
+using Mixture = std::function<int(int x, int y, double way)>;
+
+// Up to sample 8 one scene, from sample 20 on another, and what `mixture` makes of both between.
+std::vector<SampleRange> shots_with(const Mixture& mixture) {
+  return shots([&](int x, int y, std::uint64_t k) {
+    const double way = std::clamp((static_cast<double>(k) - 8) / 12, 0.0, 1.0);
+    return way == 0 ? filmed(x, y, k) : mixture(x, y, way);
+  });
+}
+
+int mixed(double a, double b, double share) { return static_cast<int>(std::lround(a + (b - a) * share)); }
+
+TEST(Shots, LieBesideADissolveOrAFade) {
+  const auto still = [](int x, int y, double way) { return mixed(scene(1, x, y), scene(2, x, y), way); };
+  const auto slow = [&](int x, int y, double way) { return still(x, y, way * way * (3 - 2 * way)); };
+  const auto faded = [](double to) {
+    return [to](int x, int y, double way) {
+      return mixed(scene(way < 0.5 ? 1 : 2, x, y), to, 1 - std::abs(2 * way - 1));
+    };
+  };
+  for (const Mixture& mixture : {Mixture(still), Mixture(slow), Mixture(faded(0)), Mixture(faded(255))}) {
+    const std::vector<SampleRange> found = shots_with(mixture);
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_EQ(found[0].first, 0u);
+    EXPECT_TRUE(found[0].last >= 6 && found[0].last <= 9) << found[0].last << ": sample 9 is mixed";
+    EXPECT_TRUE(found[1].first >= 20 && found[1].first <= 23) << found[1].first << ": sample 19 is mixed";
+    EXPECT_EQ(found[1].last, kSamples);
+  }
+  EXPECT_EQ(starts_of(std::vector<SampleRange>{{0, 9}, {20, 30}}, 5), "5, 25 (behind a dissolve or fade from 14 on)");
+}
+
+TEST(Shots, AreNotDividedByWhatChangesSlowlyAndIsNoDissolve) {
+  const std::pair<const char*, Mixture> others[] = {
+      {"exposure", [](int x, int y, double way) { return scene(1, x, y) + mixed(0, 80, way); }},
+      {"lamp", [](int x, int y, double way) { return mixed(scene(1, x, y), scene(1, x, y) * x / 48.0, way); }},
+      {"dip to black", [](int x, int y, double way) { return mixed(0, scene(1, x, y), std::abs(2 * way - 1)); }},
+      {"pan", [](int x, int y, double way) { return scene(1, x + mixed(0, 96, way), y); }},
+      {"zoom", [](int x, int y, double way) { return scene(1, mixed(x, x / 5.0, way), mixed(y, y / 5.0, way)); }},
+      {"wipe", [](int x, int y, double way) { return scene(x < 96 * way ? 2 : 1, x, y); }},
+      {"tone", [](int x, int y, double way) { return std::clamp(scene(1, x, y) + mixed(0, 250, way) - 40, 0, 255); }},
+  };
+  for (const auto& [name, mixture] : others) EXPECT_EQ(shots_with(mixture).size(), 1u) << name;
+  const auto passes = [](int x, int y, std::uint64_t k) {  // larger than the picture
+    const int left = 8 * static_cast<int>(k) - 140;
+    return x >= left && x < left + 120 ? scene(2, x - left, y) : scene(1, x, y);
+  };
+  EXPECT_EQ(starts(passes), Starts{0});
 }
 
 // A chart that covers a fifth of the scene, in a single picture before or behind it.

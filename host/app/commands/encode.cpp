@@ -49,11 +49,11 @@ class CameraFiles {
     if (table_) write_text(*table_, camera_path_text(path));
     if (plot_) write_picture(*plot_, camera_chart(heading, path, timeline));
     if (coverage_) write_picture(*coverage_, coverage_of(path));
-    const CameraPath::Step furthest = path.step(path.furthest());
+    const CameraPath::Furthest furthest = path.furthest();
     answer.json["camera"] = {{"motion", to_text(path.motion)},
                              {"reference", path.reference},
-                             {"furthest_picture", path.furthest()},
-                             {"furthest_pixels", {furthest.x, furthest.y}},
+                             {"furthest_picture", furthest.picture},
+                             {"furthest_pixels", {furthest.way.x, furthest.way.y}},
                              {"turned_degrees", path.step(path.max_turned()).degrees},
                              {"residual_pixels", path.residual_pixels()}};
     const char* const keys[] = {"path", "plot", "coverage"};

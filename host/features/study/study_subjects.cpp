@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string_view>
 #include <utility>
 
 #include "capture/format.hpp"
@@ -22,11 +23,12 @@ constexpr double kMinFillOfMany = 0.4;
 // One that fills less, and is so much of what differs, may be seen at one moment: an arm, or glass. Measured: 0.45 of a
 // bottle, at most 0.1 of edges of what stays.
 constexpr double kMinShareOfOne = 0.25;
+constexpr std::string_view kNameIt = "Name a region to show what moves in it";
 constexpr std::size_t kMinLooks = 8;
 constexpr double kMinExtent = 1.0 / 16;  // of the picture's longer side, that a subject goes
 
-// The box round all places of a subject, as regions are stated: x,y,width,height.
-std::string box_text_of(const std::vector<SubjectPlace>& places) {
+// The box round all places of a subject.
+Rectangle box_of(const std::vector<SubjectPlace>& places) {
   std::uint32_t left = places[0].box.x, top = places[0].box.y, right = 0, bottom = 0;
   for (const SubjectPlace& place : places) {
     left = std::min(left, place.box.x);
@@ -34,7 +36,17 @@ std::string box_text_of(const std::vector<SubjectPlace>& places) {
     right = std::max(right, place.box.x + place.box.width);
     bottom = std::max(bottom, place.box.y + place.box.height);
   }
-  return format("{},{},{},{}", left, top, right - left, bottom - top);
+  return {left, top, right - left, bottom - top};
+}
+
+// Where another thing goes, as regions are stated: x,y,width,height. And what shows it, if a region can hold it alone.
+std::string within_text(const SubjectTrack& other, const SubjectTrack& shown, std::string_view remedy) {
+  const Rectangle a = box_of(other.places), b = box_of(shown.places);
+  const bool are_apart = a.x + a.width <= b.x || b.x + b.width <= a.x || a.y + a.height <= b.y || b.y + b.height <= a.y;
+  return format("within {},{},{},{}. {}", a.x, a.y, a.width, a.height,
+                are_apart ? remedy
+                          : "Their ways overlap, so no region holds one alone: take a part of the time in which they lie "
+                            "apart");
 }
 
 // What of a track makes a study. Moments that are stated are shown wherever the subject goes.
@@ -88,10 +100,11 @@ void tell_of_left_out(std::vector<SubjectTrack> tracks, const std::vector<Follow
            });
   });
   if (tracks.empty()) return;
-  notes.push_back(format("{} within {}, and not shown: name a region to show what moves in it",
-                         tracks.size() == 1 ? "another thing goes its way"
-                                            : format("{} more things go their way, the largest of them", tracks.size()),
-                         box_text_of(tracks.front().places)));
+  notes.push_back(format("{} {}",
+                         tracks.size() == 1 ? "another thing goes its way and is not shown,"
+                                            : format("{} more things go their way and are not shown, the largest",
+                                                     tracks.size()),
+                         within_text(tracks.front(), shown.front().track, kNameIt)));
 }
 
 // Regions that overlap may hold a single thing, which cannot be shown as two.
@@ -133,9 +146,9 @@ std::vector<FollowedSubject> followed_in(
     if (!request.regions.empty() || followed.back().verdict.shows == SubjectVerdict::Shows::nothing) continue;
     if (is_stated || shows_one(request.style) || followed.back().verdict.shows != SubjectVerdict::Shows::all) {
       if (others.empty()) continue;
-      notes.push_back(format("one subject is shown, and another thing goes its way at the same time, within {}: name a "
-                             "region for each of them to show both{}",
-                             box_text_of(others.front().places),
+      notes.push_back(format("one subject is shown, and another thing goes its way at the same time, {}{}",
+                             within_text(others.front(), followed.back().track,
+                                         "Name a region for each of them to show both"),
                              shows_one(request.style) ? ", or take the style trail or strobe" : ""));
       continue;
     }
@@ -144,9 +157,8 @@ std::vector<FollowedSubject> followed_in(
       followed.push_back({std::move(other), regions[i]});
     }
     if (followed.size() > 1) {
-      notes.push_back(format("{} subjects are shown: another thing goes its way at the same time, within {}. Name a region "
-                             "to show what moves in it",
-                             followed.size(), box_text_of(followed[1].track.places)));
+      notes.push_back(format("{} subjects are shown: another thing goes its way at the same time, {}", followed.size(),
+                             within_text(followed[1].track, followed[0].track, kNameIt)));
     }
     tell_of_left_out(std::move(left_out), followed, request, by_codes, notes);
   }
