@@ -143,5 +143,5 @@ def _shares(alpha: ArrayLike, tag: int) -> NDArray[np.uint16]:
     if alpha.dtype.kind == "f":
         if alpha.size and not (np.min(alpha) >= 0 and np.max(alpha) <= 1):
             raise UsageError(f"the alpha of tag {tag} lies outside 0 ... 1: {np.min(alpha)} ... {np.max(alpha)}")
-        return np.rint(alpha.astype(np.float64) * most).astype(np.uint16)
+        return np.asarray(np.rint(alpha.astype(np.float64) * most), np.uint16)
     raise UsageError(f"the alpha of tag {tag} has dtype {alpha.dtype}; give float in [0, 1], uint8, uint16 or bool")

@@ -250,6 +250,8 @@ TEST_F(SeeingTest, AStudyOfAHandHeldClipHoldsTheCameraStill) {
   QTest::mouseClick(&way_out, Qt::LeftButton);
   ASSERT_TRUE(settles());
   EXPECT_EQ(document().mark_in(), 20'000'000);
+  document().undo_stack().setClean();
+  EXPECT_FALSE(document().is_saved()) << "the mark lies in no project";
   ASSERT_TRUE(document().facts()->stated.contains("align")) << window_.notice().text().toStdString();
   EXPECT_GT(document().functions().size(), 1u)
       << "the study goes on by itself: " << window_.notice().text().toStdString();
@@ -375,7 +377,7 @@ TEST_F(SeeingTest, AFilmOfTheRegionsIsExportedAsTheCommandMakesIt) {
   for (int frame = 0; frame < 3; ++frame) expect_same_still(frame);
   document().set_points(0, {{0, 1}, {200'000'001, 0}}, "Points");
   ASSERT_TRUE(window_.save_project(path("regions.nutik")));
-  window_.export_film(path("film.mkv"), {});
+  window_.export_film(path("film.mkv"), {{"to", "150ms"}});
   EXPECT_TRUE(window_.notice().text().startsWith("No frame fits")) << window_.notice().text().toStdString();
 }
 

@@ -74,7 +74,7 @@ void Document::start(CaptureFacts facts, std::optional<DocumentState> state, Mar
   Q_EMIT probe_changed();
   set_mark_in(marks.in_ns);
   set_mark_out(marks.out_ns);
-  saved_marks_ = marks_;
+  saved_marks_ = state ? marks_ : Marks();
 }
 
 void Document::set_saved() {

@@ -148,10 +148,8 @@ void MainWindow::recover(const QString& kept) {
 
 void MainWindow::remove_unsaved() {
   const auto found = Autosave::found();
-  if (QMessageBox::question(this, tr("Unsaved work"),
-                            tr("Remove unsaved work of %n window(s) for good?", nullptr,
-                               static_cast<int>(found.size()))) != QMessageBox::Yes)
-    return;
+  const auto count = static_cast<int>(found.size());
+  if (!is_wanted(this, tr("Unsaved work"), tr("Remove unsaved work of %n window(s) for good?", nullptr, count))) return;
   offer_->clear();
   for (const Autosave::Found& each : found) try_to([&] { KeptProject(each.path).remove(); });
 }

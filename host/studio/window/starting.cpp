@@ -63,7 +63,7 @@ void MainWindow::offer_still_camera(StudyStyle style, const QString& why) {
   if (!session_->is_clip() || document_.facts()->stated.contains("align"))
     return notice_->say(Notice::Kind::error, why);
   notice_->say(Notice::Kind::error, why, tr("Hold the camera still"), [this, style] {
-    if (!may_leave()) return;
+    if (!document_.undo_stack().isClean() && !may_leave()) return;  // marks stay
     Stated still = document_.facts()->stated;
     still["align"] = std::string(to_text(kStudyMotion));
     Origin origin;
