@@ -213,9 +213,11 @@ constexpr double kMinPixels = 1.0;
 }  // namespace
 
 std::string MovedCamera::text() const {
-  return format(
-      "the camera moved by up to {:.1f} pixels and {:.2f} degrees, most at sample {}, and still things are not still",
-      pixels, degrees, sample);
+  const std::string moved = format("{:.1f} pixels and {:.2f} degrees", pixels, degrees);
+  return format("the camera moved by {}, and still things are not still",
+                unsure == 0 ? format("up to {}, most at sample {}", moved, sample)
+                            : format("{} or more (at sample {}; {} of {} pictures could not be compared)", moved, sample,
+                                     unsure, looks));
 }
 
 MemoryNeeds camera_check_needs(const CaptureFormat& capture) {
@@ -232,7 +234,9 @@ std::optional<MovedCamera> moved_camera(tik::Reader& capture) {
   std::unique_ptr<Registrar> registrar;
   std::optional<MovedCamera> moved;
   double most = kMinPixels;
-  for (std::uint64_t look = 0; look < std::min(count, kLooks); ++look) {
+  const std::uint64_t looks = std::min(count, kLooks);
+  std::uint64_t unsure = 0;
+  for (std::uint64_t look = 0; look < looks; ++look) {
     const std::uint64_t sample = count <= kLooks ? look : look * (count - 1) / (kLooks - 1);
     for_each_block(capture, {sample, sample + 1}, [&](const BlockView& block) {
       block.read_sample(static_cast<std::uint32_t>(sample - block.extent().first_sample), raster);
@@ -249,12 +253,14 @@ std::optional<MovedCamera> moved_camera(tik::Reader& capture) {
     const Registered found = registrar->find(raster, Warp(), Reach::near);
     const Place way = furthest_way(found.warp, format.shape);
     const double corner = std::hypot(way.x, way.y);
+    if (!is_sure(found)) ++unsure;
     if (!is_sure(found) || corner < most) continue;
     most = corner;
     const double degrees =
         found.warp.degrees_at((format.shape.width - 1) / 2.0, (format.shape.height - 1) / 2.0);
-    moved = {corner, std::abs(degrees), sample};
+    moved = {.pixels = corner, .degrees = std::abs(degrees), .sample = sample, .looks = looks};
   }
+  if (moved) moved->unsure = unsure;
   return moved;
 }
 

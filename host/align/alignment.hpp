@@ -62,6 +62,7 @@ struct MovedCamera {
   double pixels = 0;  // of the place that moved furthest
   double degrees = 0;
   std::uint64_t sample = 0;  // at which, from the first sample
+  std::uint64_t looks = 0, unsure = 0;  // samples, and those that may have moved further: they could not be compared
   // `the camera moved: …`
   [[nodiscard]] std::string text() const;
 };

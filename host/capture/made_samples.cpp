@@ -66,10 +66,13 @@ bool MadeSamples::cut_to(std::uint64_t samples) {
   return before >= samples;
 }
 
+double MadeSamples::unfollowed_percent() const {
+  return changed == 0 ? 0 : 100.0 * static_cast<double>(unfollowed) / static_cast<double>(changed);
+}
+
 std::string MadeSamples::text() const {
-  const double share = changed == 0 ? 0 : 100.0 * static_cast<double>(unfollowed) / static_cast<double>(changed);
   return format("{} samples made along the motion between {} filmed; {:.1f} % of what changes could not be followed",
-                count(), after.size(), share);
+                count(), after.size(), unfollowed_percent());
 }
 
 std::string MadeSamples::kept_text() const {

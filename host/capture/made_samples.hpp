@@ -29,6 +29,7 @@ struct MadeSamples {
   // Leaves out what a capture that ends after so many samples does not have. False where it has more.
   [[nodiscard]] bool cut_to(std::uint64_t samples);
 
+  [[nodiscard]] double unfollowed_percent() const;
   // `31 made between 12 filmed, 4.2 % of what moves could not be followed`
   [[nodiscard]] std::string text() const;
   // For a file: `1200 52 3*28 0*4`, in runs; parse() throws UsageError where that is damaged.

@@ -208,6 +208,16 @@ TEST_F(Aligning, IsMissedWhereTheCameraMoved) {
        {std::vector<std::string>{"mask", "--rectangle", "1,1,9,9", "plain.tik", "-o", "m.pgm"},
         {"solve", "-k", "all.fn", "--wish", "all = 0.2", "plain.tik", "-o", "s.fn"}})
     EXPECT_FALSE(says(words)) << words[0] << ": the camera does not matter";
+  // What cannot be compared may have moved further.
+  write("lost", hand);
+  for (const char* name : {"lost/04.pgm", "lost/05.pgm"}) {
+    cv::Mat noise(kHeight, kWidth, CV_8U);
+    cv::randu(noise, 0, 256);
+    cv::imwrite((scratch_ / name).string(), noise);
+  }
+  make(encoding("lost lost.tik"));
+  expect_says(run("check lost.tik").out, "degrees or more (at sample ");
+  expect_says(run("check lost.tik").out, "2 of 9 pictures could not be compared");
   write("far", [](int picture) { return Shift{2 * hand(picture).x, 2 * hand(picture).y}; });
   // A clip is read again; a capture cannot be.
   EXPECT_FALSE(says({"study", "-f", "100", "far", "-o", "s2.png"}));

@@ -265,6 +265,19 @@ TEST_F(StudySubjects, MayBeShownStillWhereTheyGoNowhere) {
   EXPECT_EQ(picture().at<std::uint8_t>(42, 52), 250);
 }
 
+// All are exposed as the first one is.
+TEST_F(StudySubjects, AreNotAsDarkAsAFadeBegins) {
+  draw("fades", 30, [](cv::Mat& frame, int k) {
+    frame(cv::Rect(4 + 4 * k, 40, 16, 16)) = 250;
+    frame *= std::min(0.4 + 0.1 * k, 1.0);
+  });
+  const auto result = study("fades", {"--json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  expect_says(result.out + result.err, "those before 6 were left out");
+  expect_says(file("study.txt"), " --from 6f --to 30f");
+  EXPECT_NEAR(cv::mean(picture()(cv::Rect(0, 0, 160, 20)))[0], cv::mean(ground_of(7)(cv::Rect(0, 0, 160, 20)))[0], 3);
+}
+
 // It goes behind something: of 16 columns 10 are seen at 18, and 4 at the last.
 TEST_F(StudySubjects, EndARearCurtainAsAWhole) {
   draw("hides", 22, [](cv::Mat& frame, int k) {

@@ -1,14 +1,17 @@
 #include "features/study/study_shot.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include "align/alignment.hpp"
 #include "capture/format.hpp"
+#include "capture/median.hpp"
 #include "features/masks/mask_making.hpp"
 #include "features/plate/plate.hpp"
 #include "imev/each_block.hpp"
+#include "media/clip.hpp"
 
 namespace nutik {
 namespace {
@@ -32,6 +35,28 @@ MemoryNeeds study_needs(const CaptureFormat& capture) {
 
 ClipMoment picture(std::uint64_t number) { return {static_cast<std::int64_t>(number), true}; }
 
+// How many pictures at the beginning are darker than those behind them. All are exposed as the first one, which shall be
+// none of these.
+std::uint64_t dark_pictures(const SourceRequest& shot) {
+  constexpr std::size_t kLookedAt = 96;
+  constexpr double kDark = 0.75, kBright = 0.97;  // of the mean code of most
+  const std::unique_ptr<Clip> clip = open_clip(shot.path, shot.clip);
+  std::vector<std::byte> raster(clip->info().format.sample_bytes());
+  std::vector<double> means;
+  const auto mean_of = [&](const auto* codes) {
+    const std::size_t count = clip->info().format.shape.value_count();
+    return std::accumulate(codes, codes + count, 0.0) / static_cast<double>(count);
+  };
+  while (means.size() < kLookedAt && clip->read(raster)) {
+    means.push_back(clip->info().format.code_bytes == 1 ? mean_of(reinterpret_cast<const std::uint8_t*>(raster.data()))
+                                                        : mean_of(reinterpret_cast<const std::uint16_t*>(raster.data())));
+  }
+  const double usual = means.empty() ? 0 : median(means);
+  if (means.empty() || means.front() >= kDark * usual) return 0;
+  const auto bright = std::ranges::find_if(means, [&](double mean) { return mean >= kBright * usual; });
+  return static_cast<std::uint64_t>(bright - means.begin());
+}
+
 class ShotPlanner {
  public:
   ShotPlanner(const StudyRequest& request, const StudyTerms& terms, std::string name)
@@ -48,6 +73,27 @@ class ShotPlanner {
     needs.add("a block", largest_block(session.capture()));
     needs.rest_of(session.devices().request().memory.bytes);
     return session;
+  }
+
+  // Plans one of the clip's shots, without the dark beginning that it may have.
+  [[nodiscard]] PlannedStudy plan(SourceRequest source, SampleRange shot) const {
+    const auto is_part_of = [&](std::uint64_t first) {
+      source.clip.from = picture(first);
+      source.clip.to = picture(shot.last);
+    };
+    is_part_of(shot.first);
+    const std::uint64_t dark = source.deflickered ? dark_pictures(source) : 0;
+    const bool is_without = dark > 0 && shot.size() >= dark + kMinSamples;
+    if (is_without) is_part_of(shot.first + dark);
+    PlannedStudy planned = plan(source, open(source));
+    if (!planned.part) planned.part = SampleRange{shot.first + (is_without ? dark : 0), shot.last};
+    if (is_without) {
+      planned.notes.emplace_back(format("the first pictures are darker than most behind them, and those before {} were "
+                                        "left out: all others are exposed as the first one",
+                                        shot.first + dark),
+                                 std::vector{Setting::from});
+    }
+    return planned;
   }
 
   // Plans a single shot. Where the camera moved, a clip is read once more; also where everything seems to move, for a
@@ -137,7 +183,7 @@ class ShotPlanner {
   // be moved: `reason` says why.
   [[nodiscard]] std::optional<PlannedStudy> plan_aligned(const SourceRequest& source, std::uint64_t samples,
                                                          std::string& reason) const {
-    constexpr int kMaxTries = 4;
+    constexpr int kMaxTries = 6;
     constexpr std::uint64_t kMinOfSamples = 4;  // one of so many
     const bool has_parts = !source.clip.from || source.clip.from->is_picture;
     const std::uint64_t first = source.clip.from ? static_cast<std::uint64_t>(source.clip.from->value) : 0;
@@ -177,8 +223,12 @@ class ShotPlanner {
         } else if (reference == 0 && part.size() == samples) {
           reference = samples / 2;
           continue;
+        } else if (error.picture && failed < reference) {
+          // Where one is not enough, half of those up to the reference.
+          const bool is_second = failed > 0 && failed == part.first;
+          part.first = failed + (is_second ? std::max<std::uint64_t>((reference - failed) / 2, 1) : 1);
         } else if (error.picture) {
-          (failed < reference ? part.first : part.last) = failed < reference ? failed + 1 : failed;
+          part.last = failed;
         } else {
           return std::nullopt;
         }
@@ -200,8 +250,11 @@ PlannedStudy plan_filmed(const SourceRequest& source, const StudyRequest& reques
   {
     Session session = planner.open(source);
     shots = shots_of(session.capture());
-    if (shots.size() == 1) return planner.plan(source, std::move(session));
-    if (!session.is_clip() || source.clip.from || source.clip.to) {
+    if (shots.size() == 1) {
+      const bool may_begin_dark = session.is_clip() && source.deflickered && !source.clip.from && !source.clip.to;
+      if (!may_begin_dark || dark_pictures(source) == 0) return planner.plan(source, std::move(session));
+    }
+    if (shots.size() > 1 && (!session.is_clip() || source.clip.from || source.clip.to)) {
       const bool is_numbered = source.clip.from && source.clip.from->is_picture;
       const std::uint64_t part = is_numbered ? static_cast<std::uint64_t>(source.clip.from->value) : 0;
       throw InputError(
@@ -212,6 +265,7 @@ PlannedStudy plan_filmed(const SourceRequest& source, const StudyRequest& reques
           {Setting::from, Setting::to});
     }
   }
+  if (shots.size() == 1) return planner.plan(source, shots.front());
   const std::string starts = starts_of(shots);
   const std::size_t count = shots.size();
   std::erase_if(shots, [](const SampleRange& shot) { return shot.size() < kMinSamples; });
@@ -228,12 +282,8 @@ PlannedStudy plan_filmed(const SourceRequest& source, const StudyRequest& reques
     return planned;
   };
   for (const SampleRange& shot : shots) {
-    SourceRequest of_shot = source;
-    of_shot.clip.from = picture(shot.first);
-    of_shot.clip.to = picture(shot.last);
     try {
-      PlannedStudy planned = planner.plan(of_shot, planner.open(of_shot));
-      if (!planned.part) planned.part = shot;
+      PlannedStudy planned = planner.plan(source, shot);
       if (!planned.study.falls_short) return taken(std::move(planned));
       if (!fallback) fallback = std::move(planned);
     } catch (const InputError& reason) {
@@ -284,9 +334,11 @@ PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request
         expose_between(between);
         planned.between = between.text();
         const std::uint64_t part = planned.part ? planned.part->first : 0;  // numbers are the clip's
-        text = format("the subject goes {:.0f} pixels from one picture to the next: so that its trail has no gaps, samples "
-                      "were made between pictures {} … {}; off leaves it as it was filmed",
-                      step, part + way.first, part + last);
+        text = format("the subject goes {:.0f} pixels from one picture to the next: samples made between pictures {} … {} "
+                      "join its trail, but for {:.1f} % of what changes, which could not be followed; off leaves it as "
+                      "it was filmed",
+                      step, part + way.first, part + last,
+                      planned.session.capture().header().made->unfollowed_percent());
       } catch (const Error& error) {
         // Memory or room that is enough for the study alone, or events, each with its own time.
         if (!is_refusal(error)) throw;
