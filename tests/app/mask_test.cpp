@@ -131,7 +131,7 @@ TEST_F(MaskCommand, TakesFloatingPointPicturesAndTiff) {
   for (const std::string name : {"pages.tif", "pages.npy"}) {
     write_layers(scratch_ / name, pages);
     expect_refused("mask --base " + name + " -o x.pgm", 3, name + " holds several pictures; a mask is one");
-    expect_refused("--start 0s --exposure 1f --delay " + name + ":0s..1f clip.tik x.png", 3, name + " holds several");
+    expect_refused("--start 0s --exposure 1f --delay " + name + ":0s..1s clip.tik x.png", 3, name + " holds several");
   }
 }
 

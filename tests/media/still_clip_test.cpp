@@ -228,7 +228,9 @@ TEST(StillClip, StandsUprightHoweverItLies) {
           shown.bytes[i] = std::string(name) == "a.jpg" ? static_cast<std::byte>(lossy.data[at]) : still.bytes[at];
         }
         EXPECT_EQ(difference(read_all(*clip).at(0), shown), "");
-        if (std::string(name) == "a.png") EXPECT_EQ(read_mask(scratch / file), shown) << "as a mask, too";
+        if (std::string(name) == "a.png") {
+          EXPECT_EQ(difference(read_mask(scratch / file).bytes, shown), "") << "as a mask";
+        }
       }
     }
   }
