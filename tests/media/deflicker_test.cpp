@@ -336,12 +336,12 @@ TEST(CodeShift, IsTheOneThatMostPairsAgreeOn) {
     EXPECT_NEAR(code + shift->at(code), 2 * code, 0.5 / 255);
 }
 
-// A wall a little darker than it was, a soft shadow on a third of it, and a hand whose dark codes it never had.
+// A wall a little darker than it was, a soft shadow on much of it, and a hand whose dark codes it never had.
 TEST(CodeShift, GoesOnWhereOnlyWhatMovesIs) {
   std::vector<double> codes, wanted;
   for (int i = 0; i < 1000; ++i) {
     const double code = 0.5 + 0.3 * (i * 7 % 100) / 100;
-    codes.push_back(i < 550 ? code : i < 850 ? code - 0.16 * (i - 550) / 300 : 0.15 + 0.1 * (i - 850) / 150);
+    codes.push_back(i < 450 ? code : i < 900 ? code - 0.1 * (i - 450) / 450 : 0.15 + 0.1 * (i - 900) / 100);
     wanted.push_back(0.94 * code);
   }
   const auto shift = CodeShift::between(codes, wanted);
