@@ -339,7 +339,8 @@ class DeflickeredClip final : public Clip {
 std::optional<CodeShift> CodeShift::between(std::span<const double> codes, std::span<const double> wanted) {
   constexpr int kTimesEach = 4;
   // Codes of one place stray, by shadows too. Followed more closely than over so many knots, that would be taken for a
-  // bent curve. A curve is found before it is told from soft shadows: places count that are nearly still, then still ones.
+  // bent curve. A curve is found before it is told from soft shadows: places count that are nearly still, then still
+  // ones.
   struct Level {
     double reach, least_deviation;
   };

@@ -166,7 +166,7 @@ TEST(Deflicker, CorrectsNoiseNeitherWhereThingsMoveNorWhereNothingDoes) {
   }
 }
 
-// A disc and the soft shadow that it throws on a third of a wall, which lies as far below the wall's codes as these rise.
+// A disc and the soft shadow that it throws on a third of a wall.
 TEST(Deflicker, IsMisledByNoSoftShadow) {
   for (const double gain : {1.0, 1.052}) {
     std::mt19937 random(3);
@@ -346,7 +346,8 @@ TEST(CodeShift, GoesOnWhereOnlyWhatMovesIs) {
   }
   const auto shift = CodeShift::between(codes, wanted);
   ASSERT_TRUE(shift);
-  for (double code = 0.15; code < 0.8; code += 0.01) EXPECT_NEAR(code + shift->at(code), 0.94 * code, 2.5 / 255) << code;
+  for (double code = 0.15; code < 0.8; code += 0.01)
+    EXPECT_NEAR(code + shift->at(code), 0.94 * code, 2.5 / 255) << code;
 }
 
 }  // namespace
