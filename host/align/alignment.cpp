@@ -216,8 +216,8 @@ std::string MovedCamera::text() const {
   const std::string moved = format("{:.1f} pixels and {:.2f} degrees", pixels, degrees);
   return format("the camera moved by {}, and still things are not still",
                 unsure == 0 ? format("up to {}, most at sample {}", moved, sample)
-                            : format("{} or more (at sample {}; {} of {} pictures could not be compared)", moved, sample,
-                                     unsure, looks));
+                            : format("{} or more (at sample {}; {} of {} pictures could not be compared)", moved,
+                                     sample, unsure, looks));
 }
 
 MemoryNeeds camera_check_needs(const CaptureFormat& capture) {

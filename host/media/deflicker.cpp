@@ -26,8 +26,8 @@ constexpr std::size_t kTileBlocks = 3;  // to a side: what moves differs in neig
 constexpr double kSteepest = 3;  // a camera neither swallows differences nor makes them larger than this
 // Codes, for one that counts: of rarer ones neither the exposure can be told nor what a correction makes of them.
 constexpr std::size_t kMaxSilent = 50;
-// How many times as much of a picture agrees with the first one by a correction that holds: where noise may be all that they
-// differ by, and where it is not.
+// How many times as much of a picture agrees with the first one by a correction that holds: where noise may be all that
+// they differ by, and where it is not.
 constexpr double kMinGain = 1.05, kMinGainOfUnlike = 1.02;
 
 // Tukey's: nothing from 4.685 standard deviations on, as usual.
@@ -334,12 +334,13 @@ class DeflickeredClip final : public Clip {
 
 }  // namespace
 
-// From one factor for all codes, that of most still places, to shifts that differ more and more along them, each from what
-// is left over by the one before: where codes are rare, what is known of others goes on.
+// From one factor for all codes, that of most still places, to shifts that differ more and more along them, each from
+// what is left over by the one before: where codes are rare, what is known of others goes on.
 std::optional<CodeShift> CodeShift::between(std::span<const double> codes, std::span<const double> wanted) {
   constexpr int kTimesEach = 4;
-  // Codes of one place stray, by shadows too. Followed more closely than over so many knots, that would be taken for a bent
-  // curve. A curve is found before it is told from soft shadows: places count that are nearly still, then still ones.
+  // Codes of one place stray, by shadows too. Followed more closely than over so many knots, that would be taken for a
+  // bent curve. A curve is found before it is told from soft shadows: places count that are nearly still, then still
+  // ones.
   struct Level {
     double reach, least_deviation;
   };

@@ -35,8 +35,8 @@ MemoryNeeds study_needs(const CaptureFormat& capture) {
 
 ClipMoment picture(std::uint64_t number) { return {static_cast<std::int64_t>(number), true}; }
 
-// How many pictures at the beginning are darker than those behind them. All are exposed as the first one, which shall be
-// none of these.
+// How many pictures at the beginning are darker than those behind them. All are exposed as the first one, which shall
+// be none of these.
 std::uint64_t dark_pictures(const SourceRequest& shot) {
   constexpr std::size_t kLookedAt = 96;
   constexpr double kDark = 0.75, kBright = 0.97;  // of the mean code of most
@@ -48,8 +48,9 @@ std::uint64_t dark_pictures(const SourceRequest& shot) {
     return std::accumulate(codes, codes + count, 0.0) / static_cast<double>(count);
   };
   while (means.size() < kLookedAt && clip->read(raster)) {
-    means.push_back(clip->info().format.code_bytes == 1 ? mean_of(reinterpret_cast<const std::uint8_t*>(raster.data()))
-                                                        : mean_of(reinterpret_cast<const std::uint16_t*>(raster.data())));
+    const bool is_byte = clip->info().format.code_bytes == 1;
+    means.push_back(is_byte ? mean_of(reinterpret_cast<const std::uint8_t*>(raster.data()))
+                            : mean_of(reinterpret_cast<const std::uint16_t*>(raster.data())));
   }
   const double usual = means.empty() ? 0 : median(means);
   if (means.empty() || means.front() >= kDark * usual) return 0;
@@ -334,9 +335,9 @@ PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request
         expose_between(between);
         planned.between = between.text();
         const std::uint64_t part = planned.part ? planned.part->first : 0;  // numbers are the clip's
-        text = format("the subject goes {:.0f} pixels from one picture to the next: samples made between pictures {} … {} "
-                      "join its trail, but for {:.1f} % of what changes, which could not be followed; off leaves it as "
-                      "it was filmed",
+        text = format("the subject goes {:.0f} pixels from one picture to the next: samples made between pictures {} … "
+                      "{} join its trail, but for {:.1f} % of what changes, which could not be followed; off leaves it "
+                      "as it was filmed",
                       step, part + way.first, part + last,
                       planned.session.capture().header().made->unfollowed_percent());
       } catch (const Error& error) {

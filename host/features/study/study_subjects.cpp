@@ -82,8 +82,8 @@ SubjectVerdict verdict_of(const SubjectTrack& track, std::uint32_t by_codes, std
   }
   if (track.flickers) {
     return {Shows::one,
-            format("nothing moves as one whole thing. What differs from the scene at rest is scattered over {:.0f} pixels: "
-                   "from picture to picture it lies here and there, on no way of its own",
+            format("nothing moves as one whole thing. What differs from the scene at rest is scattered over {:.0f} "
+                   "pixels: from picture to picture it lies here and there, on no way of its own",
                    track.extent)};
   }
   return {};
