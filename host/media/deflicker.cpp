@@ -26,32 +26,11 @@ constexpr std::size_t kTileBlocks = 3;  // to a side: what moves differs in neig
 constexpr double kSteepest = 3;  // a camera neither swallows differences nor makes them larger than this
 // Codes, for one that counts: of rarer ones neither the exposure can be told nor what a correction makes of them.
 constexpr std::size_t kMaxSilent = 50;
-// How many times as much of a picture agrees with the first one by a correction that holds: where noise may be all that
-// they differ by, and where it is not.
-constexpr double kMinGain = 1.05, kMinGainOfUnlike = 1.02;
 
 // Tukey's: nothing from 4.685 standard deviations on, as usual.
 double trust(double error, double deviation) {
   const double share = error / (4.685 * deviation);
   return std::abs(share) >= 1 ? 0.0 : (1 - share * share) * (1 - share * share);
-}
-
-// Of the half that differs least: the other half may show other things.
-double deviation_of_still(std::vector<double> sizes) {
-  const auto quarter = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 4);
-  std::nth_element(sizes.begin(), quarter, sizes.end());
-  return std::max(1.4826 * *quarter, kCode8);
-}
-
-// Where values lie closest, a quarter of them.
-double densest(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t quarter = values.size() / 4;
-  std::size_t first = 0;
-  for (std::size_t i = 0; i + quarter < values.size(); ++i) {
-    if (values[i + quarter] - values[i] < values[first + quarter] - values[first]) first = i;
-  }
-  return values[first + quarter / 2];
 }
 
 // Black stays black and white stays white, however they are exposed; what noise adds to black is no light.
@@ -220,9 +199,8 @@ class DeflickeredClip final : public Clip {
   // False where it cannot be told.
   bool follow(const std::vector<std::vector<double>>& means) {
     // What comes into view hides what the first one shows, and not what the one before it did.
-    const std::vector<std::vector<double>>* reference = &first_;
     std::vector<CodeShift> shifts = shifts_to(first_, means);
-    if (shifts.empty()) shifts = shifts_to(*(reference = &told_), means);
+    if (shifts.empty()) shifts = shifts_to(told_, means);
     if (shifts.empty()) return false;
     double change = 0;
     for (std::size_t channel = 0; channel < means.size(); ++channel)
@@ -231,12 +209,9 @@ class DeflickeredClip final : public Clip {
     if (!is_new && !is_shifted_) return true;
     const std::optional<bool> alike = is_alike(means);
     if (!alike) return !is_new;
-    const std::vector<CodeShift> none(shifts.size());
-    // What moves may be as much darker as what rests became brighter, and a shadow alone makes no other exposure.
-    if (gain(shifts, none, means, *reference) < (*alike ? kMinGain : kMinGainOfUnlike)) {
-      shifts = none;
-    } else if (!is_new || (is_shifted_ && is_alike(shifted(means)) == true &&
-                           gain(shifts, shifts_, means, *reference) < kMinGain)) {
+    if (*alike) {
+      shifts.assign(shifts.size(), {});
+    } else if (!is_new || (is_shifted_ && is_alike(shifted(means)) == true)) {
       return true;
     }
     shifts_ = std::move(shifts);
@@ -249,28 +224,6 @@ class DeflickeredClip final : public Clip {
     is_shifted_ = most >= kMinChange;
     if (most > max_) max_ = most;
     return true;
-  }
-
-  // How many times as much of the picture agrees with the reference by these shifts as by others.
-  [[nodiscard]] static double gain(const std::vector<CodeShift>& shifts, const std::vector<CodeShift>& others,
-                                   const std::vector<std::vector<double>>& means,
-                                   const std::vector<std::vector<double>>& reference) {
-    double agree = 0, agree_by_others = 0;
-    for (std::size_t channel = 0; channel < means.size(); ++channel) {
-      std::vector<double> left, left_by_others, sizes;
-      for (std::size_t i = 0; i < means[channel].size(); ++i) {
-        const double code = means[channel][i], wanted = reference[channel][i];
-        if (!tells_exposure(code, wanted)) continue;
-        left.push_back(wanted - code - shifts[channel].at(code));
-        left_by_others.push_back(wanted - code - others[channel].at(code));
-        sizes.push_back(std::abs(left.back()));
-      }
-      if (sizes.empty()) continue;
-      const double deviation = deviation_of_still(std::move(sizes));
-      for (const double each : left) agree += trust(each, deviation);
-      for (const double each : left_by_others) agree_by_others += trust(each, deviation);
-    }
-    return agree / std::max(agree_by_others, 1e-9);
   }
 
   // None where it cannot be told.
@@ -334,18 +287,12 @@ class DeflickeredClip final : public Clip {
 
 }  // namespace
 
-// From one factor for all codes, that of most still places, to shifts that differ more and more along them, each from
-// what is left over by the one before: where codes are rare, what is known of others goes on.
+// From one factor for all codes to shifts that differ more and more along them, each from what is left over by the one
+// before: where codes are rare, what is known of others goes on.
 std::optional<CodeShift> CodeShift::between(std::span<const double> codes, std::span<const double> wanted) {
   constexpr int kTimesEach = 4;
-  // Codes of one place stray, by shadows too. Followed more closely than over so many knots, that would be taken for a
-  // bent curve. A curve is found before it is told from soft shadows: places count that are nearly still, then still
-  // ones.
-  struct Level {
-    double reach, least_deviation;
-  };
-  constexpr double kNearly = 3 * kCode8;
-  constexpr std::array<Level, 4> kLevels{{{16, kNearly}, {8, kNearly}, {4, kNearly}, {4, kCode8}}};
+  // Codes of one place stray, by shadows too. Followed more closely, that would be taken for a bent curve.
+  constexpr double kMinReach = 4;
   CodeShift shift;
   std::vector<double> ratios;
   for (std::size_t i = 0; i < codes.size(); ++i) {
@@ -353,29 +300,22 @@ std::optional<CodeShift> CodeShift::between(std::span<const double> codes, std::
   }
   const std::size_t telling = ratios.size();
   if (kMaxSilent * telling < codes.size()) return shift;
-  shift.shifts_.back() = densest(std::move(ratios)) - 1;
-  shift.carry_on(0, kKnots - 1);
-  std::vector<double> left(codes.size()), sizes;
-  // So many pairs count as much as what is known already.
-  const double known = static_cast<double>(codes.size()) / 500;
-  // Sorted to fractions of a knot first: weights and weighted sums.
-  constexpr std::size_t kParts = 4;
-  using Parts = std::array<double, kParts*(kKnots - 1) + 1>;
-  Parts weights{};
-  const auto near = [](std::size_t part, std::size_t knot, double reach) {
-    return std::max(1 - std::abs(static_cast<double>(part) / kParts - static_cast<double>(knot)) / reach, 0.0);
-  };
+  const double ratio = median(ratios);
+  std::vector<double> left(codes.size()), sizes(codes.size());
+  for (std::size_t knot = 0; knot < kKnots; ++knot) {
+    shift.shifts_[knot] = (ratio - 1) * static_cast<double>(knot) / (kKnots - 1);
+  }
   double deviation = 0;
-  for (const auto& [reach, least_deviation] : kLevels) {
+  for (double reach = kKnots - 1; reach >= kMinReach; reach /= 2) {
     for (int time = 0; time < kTimesEach; ++time) {
-      sizes.clear();
       for (std::size_t i = 0; i < codes.size(); ++i) {
         left[i] = wanted[i] - codes[i] - shift.at(codes[i]);
-        if (tells_exposure(codes[i], wanted[i])) sizes.push_back(std::abs(left[i]));
+        sizes[i] = std::abs(left[i]);
       }
-      deviation = std::max(deviation_of_still(sizes), least_deviation);
-      Parts strays{}, sums{};
-      weights = {};
+      deviation = std::max(1.4826 * median(sizes), kCode8);
+      // Sorted to fractions of a knot first: weights and weighted sums.
+      constexpr std::size_t kParts = 4;
+      std::array<double, kParts*(kKnots - 1) + 1> weights{}, strays{}, sums{};
       for (std::size_t i = 0; i < codes.size(); ++i) {
         const double weight = trust(left[i], deviation);
         const auto part =
@@ -384,11 +324,16 @@ std::optional<CodeShift> CodeShift::between(std::span<const double> codes, std::
         strays[part] += 1 - weight;
         sums[part] += weight * left[i];
       }
+      // So many pairs count as much as what is known already.
+      const double known = static_cast<double>(codes.size()) / 500;
       for (std::size_t knot = 0; knot < kKnots; ++knot) {
         double weight = known, sum = 0;
         for (std::size_t part = 0; part < weights.size(); ++part) {
-          weight += near(part, knot, reach + 1) * (weights[part] + strays[part]);
-          sum += near(part, knot, reach + 1) * sums[part];
+          const double away =
+              std::abs(static_cast<double>(part) / kParts - static_cast<double>(knot)) / (reach + 1);
+          const double near = std::max(1 - away, 0.0);
+          weight += near * (weights[part] + strays[part]);
+          sum += near * sums[part];
         }
         shift.shifts_[knot] += sum / weight;
       }
@@ -398,30 +343,13 @@ std::optional<CodeShift> CodeShift::between(std::span<const double> codes, std::
   for (std::size_t i = 0; i < codes.size(); ++i) {
     trusted += tells_exposure(codes[i], wanted[i]) && trust(left[i], deviation) > 0 ? 1 : 0;
   }
-  constexpr double kMaxDeviation = 6 * kCode8;
+  constexpr double kMaxDeviation = 12 * kCode8;
   if (deviation > kMaxDeviation || 2 * trusted < telling) return std::nullopt;
-  // Beyond the codes of still places, things are lit by the same factor.
-  std::vector<std::size_t> held;
-  for (std::size_t knot = 0; knot < kKnots; ++knot) {
-    double weight = 0;
-    for (std::size_t part = 0; part < weights.size(); ++part) weight += near(part, knot, 1) * weights[part];
-    if (weight >= known) held.push_back(knot);
-  }
-  if (!held.empty()) {
-    if (held.front() > 0) shift.carry_on(0, held.front());
-    if (held.back() > 0) shift.carry_on(kKnots - 1, held.back());
-  }
   for (std::size_t knot = 1; knot < kKnots; ++knot) {
     const double slope = 1 + (shift.shifts_[knot] - shift.shifts_[knot - 1]) * (kKnots - 1);
     if (slope < 1.0 / kSteepest || slope > kSteepest) return std::nullopt;
   }
   return shift;
-}
-
-void CodeShift::carry_on(std::size_t to, std::size_t from) {
-  const double by_knot = shifts_[from] / static_cast<double>(from);
-  for (std::size_t knot = std::min(from, to); knot <= std::max(from, to); ++knot)
-    shifts_[knot] = by_knot * static_cast<double>(knot);
 }
 
 double CodeShift::at(double code) const {

@@ -36,9 +36,6 @@ class CodeShift {
  private:
   static constexpr std::size_t kKnots = 17;
 
-  // With the factor that `from` has.
-  void carry_on(std::size_t to, std::size_t from);
-
   std::array<double, kKnots> shifts_{};
 };
 

@@ -166,41 +166,6 @@ TEST(Deflicker, CorrectsNoiseNeitherWhereThingsMoveNorWhereNothingDoes) {
   }
 }
 
-// A disc and the soft shadow that it throws on a third of a wall.
-TEST(Deflicker, IsMisledByNoSoftShadow) {
-  for (const double gain : {1.0, 1.052}) {
-    std::mt19937 random(3);
-    std::normal_distribution<double> noise(0, 1);
-    std::vector<Picture> pictures;
-    std::vector<std::vector<std::size_t>> lit;  // pixels without shadow
-    for (std::uint32_t k = 0; k < 16; ++k) {
-      Picture& picture = pictures.emplace_back(Shape{320, 180, 1}, ValueType::code8, 255);
-      lit.emplace_back();
-      std::size_t index = 0;
-      for (std::uint32_t y = 0; y < 180; ++y) {
-        for (std::uint32_t x = 0; x < 320; ++x, ++index) {
-          const double left = k == 0 ? -300 : 20 * k, away = std::hypot(x - left - 30, y - 100.0);
-          const double shade = std::clamp(1 - (away - 45) / 60, 0.0, 1.0);
-          const double wall = (140 + 70 * y / 180.0) * (1 - 0.22 * shade);
-          const double code = (std::hypot(x - left, y - 90.0) < 30 ? 70 : wall) * (k > 3 ? gain : 1) + noise(random);
-          picture.values<std::uint8_t>()[index] = static_cast<std::uint8_t>(std::lround(code));
-          if (away > 105) lit.back().push_back(index);
-        }
-      }
-    }
-    std::vector<std::string> remarks;
-    const auto rasters = read_deflickered(pictures, remarks);
-    for (std::uint32_t k = 0; k < pictures.size(); ++k) {
-      double off = 0;
-      for (const std::size_t i : lit[k]) off += code_at(rasters[k], 255, i) - code_at(pictures[0].bytes, 255, i);
-      EXPECT_NEAR(off / static_cast<double>(lit[k].size()), 0, 0.75) << "picture " << k << ", gain " << gain;
-      if (gain == 1) {
-        EXPECT_EQ(rasters[k], pictures[k].bytes) << k;
-      }
-    }
-  }
-}
-
 // When signs are thrown, no more than the stated share is taken for a correction; the bound is for any sizes.
 TEST(Deflicker, IsMisledByChanceNoMoreOftenThanItSays) {
   constexpr double kTrials = 20;
@@ -334,20 +299,6 @@ TEST(CodeShift, IsTheOneThatMostPairsAgreeOn) {
   ASSERT_TRUE(shift);
   for (double code = 0.12; code < 0.38; code += 0.01)
     EXPECT_NEAR(code + shift->at(code), 2 * code, 0.5 / 255);
-}
-
-// A wall a little darker than it was, a soft shadow on much of it, and a hand whose dark codes it never had.
-TEST(CodeShift, GoesOnWhereOnlyWhatMovesIs) {
-  std::vector<double> codes, wanted;
-  for (int i = 0; i < 1000; ++i) {
-    const double code = 0.5 + 0.3 * (i * 7 % 100) / 100;
-    codes.push_back(i < 450 ? code : i < 900 ? code - 0.1 * (i - 450) / 450 : 0.15 + 0.1 * (i - 900) / 100);
-    wanted.push_back(0.94 * code);
-  }
-  const auto shift = CodeShift::between(codes, wanted);
-  ASSERT_TRUE(shift);
-  for (double code = 0.15; code < 0.8; code += 0.01)
-    EXPECT_NEAR(code + shift->at(code), 0.94 * code, 2.5 / 255) << code;
 }
 
 }  // namespace
