@@ -20,7 +20,7 @@ namespace nutik {
 
 class DissolveFinder {
  public:
-  // Of so many cells, a channel beside the other.
+  // Pictures have so many cells, a channel beside the other.
   explicit DissolveFinder(const Shape& cells) : cells_(cells) {}
 
   void add(const std::vector<float>& means);

@@ -165,6 +165,7 @@ void ShotFinder::add(std::span<const std::byte> raster) {
 
 std::vector<SampleRange> ShotFinder::shots() const {
   const std::uint64_t count = steps_.size();
+  if (count == 0) return {};
   const std::vector<double> from_first(steps_.begin() + 1, steps_.end());
   const std::vector<double> from_last(from_first.rbegin(), from_first.rend());
   const bool is_first_alone = count > 1 && stands_alone(correlations_.front(), from_first);

@@ -287,6 +287,8 @@ TEST(Between, MakesNothingAcrossADissolve) {
   EXPECT_GT(std::ranges::max(after), 0) << "beside it";
 }
 
+TEST(Between, RefusesAClipWithoutPictures) { EXPECT_THROW((void)planned(clip_of({})), InputError); }
+
 TEST(Between, MakesNothingOfWhatTrembles) {
   // As codecs leave it: faint parts of the picture lie three pixels beside their place, by turns, five codes apart.
   std::vector<std::vector<std::byte>> pictures;

@@ -106,7 +106,7 @@ void put_evenly(Frames& frames, const FramesRequest& request, const Timeline& ti
   }
   const bool is_plain = request.exposure.is_plain();
   const std::int64_t exposed_ns = is_plain ? frames.times.end_ns(0) - start_ns : functions_end_ns(request);
-  // Of functions what a capture of their length shows: their last step down lies 1 ns behind it.
+  // Functions end with the capture: their last step down may lie 1 ns behind it.
   const std::int64_t length_ns = is_plain ? exposed_ns : std::min(exposed_ns, timeline.duration_ns());
   frames.count = is_plain ? frames.times.count_ending_by(end_ns)
                           // A frame that starts at the very end sees nothing.

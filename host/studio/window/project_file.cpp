@@ -77,7 +77,7 @@ void write_text(const QString& path, std::string_view text) {
   throw InputError(format("{}: {}", path.toStdString(), what));
 }
 
-// Of the type that what it is otherwise, where it is absent, has.
+// A value has the type of what stands for it where it is absent.
 QJsonValue value_in(const QJsonObject& object, const char* name, const QJsonValue& otherwise, const QString& path) {
   const QJsonValue value = object.contains(QLatin1String(name)) ? object[QLatin1String(name)] : otherwise;
   if (value.type() == otherwise.type()) return value;
