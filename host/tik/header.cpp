@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cstring>
 #include <map>
@@ -97,7 +96,7 @@ class HeaderParser {
     const std::string_view line = text_.substr(at_, line_end - at_);
     if (!line.starts_with(kComment)) {
       const auto ours = text_.substr(0, 512).find(kComment);
-      if (ours != text_.npos && std::isdigit(static_cast<unsigned char>(text_[ours + kComment.size()])) != 0)
+      if (ours != text_.npos && text_.substr(ours + kComment.size()).find_first_of("0123456789") == 0)
         fail("the text at the file's start was changed, line ends perhaps, and must be as it was written");
       const bool mentions = text_.substr(0, 512).find("TIK") != std::string_view::npos;
       if (mentions) fail_other_program();

@@ -242,6 +242,7 @@ TEST(TikFile, TellsOtherFilesApart) {
   // An editor's hand.
   for (const char* changed : {"P6\r\n# TIK 1 - an\r\n", "P6\n# mine\n# TIK 1 - an\n"})
     EXPECT_NE(refusal(changed).find("the text at the file's start was changed"), std::string::npos);
+  EXPECT_NE(refusal("P6\n# mine\n# TIK ").find("another program"), std::string::npos);
   EXPECT_NE(refusal("P6\n# TIK 7 - something newer\n").find("version 7; this program reads versions up to 1"),
             std::string::npos);
   EXPECT_NE(refusal("P6\n# TIK 0 - cut\n# TIK size: 2 x").find("header is damaged"), std::string::npos);
