@@ -335,11 +335,12 @@ PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request
         expose_between(between);
         planned.between = between.text();
         const std::uint64_t part = planned.part ? planned.part->first : 0;  // numbers are the clip's
-        text = format("the subject goes {:.0f} pixels from one picture to the next: samples made between pictures {} … "
-                      "{} join its trail, but for {:.1f} % of what changes, which could not be followed; off leaves it "
-                      "as it was filmed",
-                      step, part + way.first, part + last,
-                      planned.session.capture().header().made->unfollowed_percent());
+        const auto& made = planned.session.capture().header().made;
+        text = format("the subject goes {:.0f} pixels from one picture to the next: ", step) +
+               (made ? format("samples made between pictures {} … {} join its trail, but for {:.1f} % of what changes, "
+                              "which could not be followed; off leaves it as it was filmed",
+                              part + way.first, part + last, made->unfollowed_percent())
+                     : "none of its motion could be followed to join its trail");
       } catch (const Error& error) {
         // Memory or room that is enough for the study alone, or events, each with its own time.
         if (!is_refusal(error)) throw;
