@@ -61,7 +61,7 @@ Sum sum_of(const Layer& first, const Layer& second, double both, const Layer& be
 }  // namespace
 
 void DissolveFinder::add(const std::vector<float>& means) {
-  const auto [width, height, channels] = cells_;
+  const std::uint32_t width = cells_.width, height = cells_.height, channels = cells_.channels;
   Look look{means, {means, 0}, {means, 0}};
   double mean = 0;
   for (const float value : means) mean += value;
