@@ -179,6 +179,14 @@ void write_at_once(png_structp png, const Picture& picture, std::size_t row) {
   png_write_chunk(png, kEnd, nullptr, 0);
 }
 
+void read_info(const ReadStructure& read, ByteReader& reader) {
+  png_set_read_fn(read.png, &reader, read_bytes);
+  // libpng's own limit is less than function files, and more than a small file can hold.
+  png_set_chunk_malloc_max(read.png,
+                           std::min<std::uint64_t>(kMaxPictureTextBytes, reader.rest.size() * kMaxExpansion));
+  png_read_info(read.png, read.info);
+}
+
 }  // namespace
 
 bool is_png(std::span<const std::byte> file) {
@@ -190,8 +198,7 @@ Picture read_8_bit_png(std::span<const std::byte> file, const std::string& name,
   std::string error_name = name;
   ReadStructure read(error_name);
   ByteReader reader{file};
-  png_set_read_fn(read.png, &reader, read_bytes);
-  png_read_info(read.png, read.info);
+  read_info(read, reader);
   const int colour = png_get_color_type(read.png, read.info);
   const int bits = png_get_bit_depth(read.png, read.info);
   if (colour == PNG_COLOR_TYPE_PALETTE || bits != 8) {
@@ -262,11 +269,7 @@ std::optional<std::string> read_png_text(std::span<const std::byte> file, const 
   std::string error_name = name;
   ReadStructure read(error_name, refuse_lost_text);
   ByteReader reader{file};
-  png_set_read_fn(read.png, &reader, read_bytes);
-  // libpng's own 8 MB are less than function files, and more than a small file can hold.
-  png_set_chunk_malloc_max(read.png,
-                           std::min<std::uint64_t>(kMaxPictureTextBytes, file.size() * kMaxExpansion));
-  png_read_info(read.png, read.info);
+  read_info(read, reader);
   png_textp texts = nullptr;
   const int count = png_get_text(read.png, read.info, &texts, nullptr);
   for (int i = 0; i < count; ++i) {
@@ -279,8 +282,7 @@ std::vector<std::byte> read_png_profile(std::span<const std::byte> file, const s
   std::string error_name = name;
   ReadStructure read(error_name);
   ByteReader reader{file};
-  png_set_read_fn(read.png, &reader, read_bytes);
-  png_read_info(read.png, read.info);
+  read_info(read, reader);
   png_charp title = nullptr;
   png_bytep profile = nullptr;
   png_uint_32 size = 0;
