@@ -184,6 +184,8 @@ void read_info(const ReadStructure& read, ByteReader& reader) {
   // libpng's own limit is less than function files, and more than a small file can hold.
   png_set_chunk_malloc_max(read.png,
                            std::min<std::uint64_t>(kMaxPictureTextBytes, reader.rest.size() * kMaxExpansion));
+  // It takes the memory that eXIf claims, whatever the limit; png_orientation() reads it.
+  png_set_keep_unknown_chunks(read.png, PNG_HANDLE_CHUNK_NEVER, reinterpret_cast<png_const_bytep>("eXIf"), 1);
   png_read_info(read.png, read.info);
 }
 
