@@ -36,7 +36,7 @@ class FlowFinder {
 
   virtual ~FlowFinder() = default;
 
-  enum class Detail { all, rough };  // rough: a quarter of both sides of what is found otherwise, a tenth of the time
+  enum class Detail { all, rough };  // rough: at a quarter of the sides that flow is found at otherwise
 
   // Writes where each pixel of `from` goes, row by row, into `flow`. Both planes are of one size. The same planes give
   // the same flow. One thread may ask at a time.
