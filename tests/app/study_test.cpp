@@ -181,7 +181,7 @@ TEST_F(Study, SpreadsMomentsOverTimeOrOverTheWay) {
 
 TEST_F(Study, RefusesASceneThatNeverRests) {
   DrawnClip clip(scratch_ / "leaves");
-  for (int k = 0; k < 16; ++k) clip.add(ground_of(k));  // numbers side by side have codes that go together
+  for (int k = 0; k < 16; ++k) clip.add(ground_of(k));
   expect_refused("study -f 100 leaves -o leaves.png", 3, "everything moves");
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "leaves.png"));
 }
