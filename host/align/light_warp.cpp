@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <thread>
 
 #include "align/camera_path.hpp"
 #include "system/parallel.hpp"
@@ -169,7 +168,7 @@ LightWarp::LightWarp(const CaptureFormat& format, const Rectangle& area)
     : format_(format), area_(area), tables_(format.transfer, format.white_code) {}
 
 std::uint64_t LightWarp::bytes(const CaptureFormat& format) {
-  return std::uint64_t{std::max(std::thread::hardware_concurrency(), 1U)} * kMaxBoxPixels * format.shape.channels *
+  return std::uint64_t{core_count()} * kMaxBoxPixels * format.shape.channels *
          (sizeof(float) + format.code_bytes);
 }
 

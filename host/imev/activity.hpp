@@ -7,13 +7,13 @@
 #include <map>
 #include <optional>
 #include <span>
-#include <thread>
 #include <vector>
 
 #include "capture/memory_needs.hpp"
 #include "capture/picture.hpp"
 #include "capture/timeline.hpp"
 #include "imev/block.hpp"
+#include "system/parallel.hpp"
 
 namespace nutik {
 
@@ -67,7 +67,7 @@ class Activity {
   // Besides, of so many samples: their counts, of all pixels and of those with each tag, with room that they grow by; and
   // those that each thread has of a block, of so many samples at most.
   [[nodiscard]] static MemoryNeeds needs_of_samples(std::uint64_t samples, std::size_t tags, std::uint64_t block) {
-    const std::uint64_t threads = std::max(1U, std::thread::hardware_concurrency());
+    const std::uint64_t threads = core_count();
     return {{"changes of samples", (2 * samples + threads * block) * (3 + tags) * sizeof(std::uint64_t)}};
   }
 

@@ -1,7 +1,6 @@
 #include "opencl/block_feed.hpp"
 
 #include <algorithm>
-#include <thread>
 #include <utility>
 
 #include "capture/format.hpp"
@@ -184,7 +183,7 @@ void BlockFeed::check_ahead() {
   if (next_ < checked_ahead_) return;
   std::vector<std::uint64_t> unchecked;
   for (checked_ahead_ = next_; checked_ahead_ < plan_->blocks.size(); ++checked_ahead_) {
-    if (unchecked.size() == std::thread::hardware_concurrency()) break;
+    if (unchecked.size() == core_count()) break;
     const std::uint64_t block = plan_->blocks[checked_ahead_].block;
     const bool is_skipped = !skipped_.empty() && skipped_[checked_ahead_];
     if (!is_skipped && source_->is_unchecked(block)) unchecked.push_back(block);

@@ -14,6 +14,12 @@
 
 namespace nutik {
 
+// The processor's, at the first call: the system is asked by opening a file, which takes longer than a short loop.
+inline std::uint32_t core_count() {
+  static const std::uint32_t cores = std::max(std::thread::hardware_concurrency(), 1U);
+  return cores;
+}
+
 // Calls work(i, tools) for every i in [0, count), each once, on as many threads as there are cores, or `max_threads` if
 // that is fewer; each thread makes tools of its own first. The first exception is thrown again when all have stopped; a
 // signal is one (system/interruption.hpp).
@@ -37,8 +43,7 @@ void parallel_for_with(std::uint64_t count, MakeTools make_tools, Work work,
     }
   };
   {
-    const std::uint64_t workers =
-        std::min<std::uint64_t>(count, std::min(max_threads, std::thread::hardware_concurrency()));
+    const std::uint64_t workers = std::min<std::uint64_t>(count, std::min(max_threads, core_count()));
     std::vector<std::jthread> helpers;
     try {
       for (std::uint64_t i = 1; i < workers; ++i) helpers.emplace_back(run);
@@ -68,6 +73,6 @@ void parallel_for_parts(std::uint64_t count, std::uint64_t size, Work work,
 }
 
 // Threads for work beside which others decode or pack.
-inline std::uint32_t half_the_cores() { return std::max(std::thread::hardware_concurrency() / 2, 1U); }
+inline std::uint32_t half_the_cores() { return std::max(core_count() / 2, 1U); }
 
 }  // namespace nutik

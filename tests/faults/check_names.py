@@ -61,14 +61,15 @@ class Bench:
                               capture_output=True, timeout=120, check=False)
         return done.returncode, done.stdout.decode(errors="replace"), done.stderr.decode(errors="replace")
 
-    def read(self, words, capture):
-        """Status, number of samples, and what was said, also with --quiet."""
+    def encode(self, words, capture):
+        """Status, and what was said, also with --quiet."""
         capture.unlink(missing_ok=True)
         status, _, said = self.run("encode", "--quiet", *words, capture)
-        if status != 0:
-            return status, 0, said
+        return status, said
+
+    def samples(self, capture):
         _, told, _ = self.run("info", capture)
-        return status, int(re.search(r"samples +(\d[\d ]*)", told)[1].replace(" ", "")), said
+        return int(re.search(r"samples +(\d[\d ]*)", told)[1].replace(" ", ""))
 
     def mean(self, capture, samples):
         picture = capture.with_suffix(f".{samples}.tif")
@@ -118,10 +119,10 @@ def files(folder):
 
 def whole_of(bench, file):
     capture = bench.folder / f"whole-{file.path.parent.name}-{file.path.name}.tik"
-    status, samples, said = bench.read([*file.options, file.path], capture)
+    status, said = bench.encode([*file.options, file.path], capture)
     if status != 0:
         sys.exit(f"{file.path} cannot be read: {said}")
-    return capture, samples
+    return capture, bench.samples(capture)
 
 
 def check_names(report, bench, file):
@@ -133,9 +134,12 @@ def check_names(report, bench, file):
         disguised = folder / f"film{ending}"
         shutil.copy(file.path, disguised)
         capture = folder / "read.tik"
-        status, found, said = bench.read([*file.options, disguised], capture)
-        if status == 0 and (found != samples or not bench.is_beginning(capture, found, whole, samples, found)):
-            wrong.append(f"as {ending}: {found} of {samples} pictures or others: {said[:300]}")
+        status, said = bench.encode([*file.options, disguised], capture)
+        # Captures of the same pictures differ at most by what they say about the clip.
+        if status == 0 and capture.read_bytes() != whole.read_bytes():
+            found = bench.samples(capture)
+            if found != samples or not bench.is_beginning(capture, found, whole, samples, found):
+                wrong.append(f"as {ending}: {found} of {samples} pictures or others: {said[:300]}")
         elif status != 0 and not bench.refused(status, said):
             wrong.append(f"as {ending}: status {status}: {said[:300]}")
         right += status == 0
@@ -154,7 +158,8 @@ def check_cuts(report, bench, file):
         cut = folder / f"cut{file.path.suffix}"
         cut.write_bytes(data[:left])
         capture = folder / "read.tik"
-        status, found, said = bench.read([*file.options, cut], capture)
+        status, said = bench.encode([*file.options, cut], capture)
+        found = bench.samples(capture) if status == 0 else 0
         if status != 0 and not bench.refused(status, said):
             wrong.append(f"{left} of {len(data)} bytes: status {status}: {said[:300]}")
         elif status == 0 and "warning:" in said:

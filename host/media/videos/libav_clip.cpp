@@ -1,7 +1,6 @@
 // Video through libavcodec; pixels.hpp says what its codes become.
 #include <algorithm>
 #include <string>
-#include <thread>
 
 #include "media/module.hpp"
 #include "media/clip.hpp"
@@ -14,6 +13,7 @@
 #include "media/videos/pixels.hpp"
 #include "media/videos/probe.hpp"
 #include "system/mapped_file.hpp"
+#include "system/parallel.hpp"
 
 namespace nutik::videos {
 namespace {
@@ -120,7 +120,7 @@ std::uint64_t kept_pictures(const AVCodecParameters& parameters) {
 }
 
 int decoder_threads(const OpenedVideo& opened, const ClipOptions& options) {
-  const std::uint64_t cores = std::max(std::thread::hardware_concurrency(), 1u);
+  const std::uint64_t cores = core_count();
   if (!options.decoder_bytes) return static_cast<int>(cores);
   const AVCodecParameters& parameters = *opened.format->streams[opened.stream]->codecpar;
   const std::uint64_t pictures = *options.decoder_bytes / decoded_bytes(parameters);

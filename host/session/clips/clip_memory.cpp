@@ -1,12 +1,12 @@
 #include "session/clips/clip_memory.hpp"
 
 #include <algorithm>
-#include <thread>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "imev/expected_values.hpp"
 #include "session/text/number_text.hpp"
+#include "system/parallel.hpp"
 
 namespace nutik {
 namespace {
@@ -93,8 +93,7 @@ ClipMemory memory_for_encoding(const MemoryBudget& budget, const ClipToRead& cli
   ClipMemory memory;
   memory.read_ahead_bytes = read_ahead(min_ahead, rest);
   rest -= memory.read_ahead_bytes - min_ahead;
-  const std::uint64_t more_threads = std::min<std::uint64_t>(
-      std::max(std::thread::hardware_concurrency(), 1u) - 1, rest / 8 / kPackingBytes);
+  const std::uint64_t more_threads = std::min<std::uint64_t>(core_count() - 1, rest / 8 / kPackingBytes);
   memory.threads = static_cast<std::uint32_t>(1 + more_threads);
   rest -= more_threads * kPackingBytes;
   std::uint64_t closing = (rest + min_blocks) / block_units(clip.capture);
