@@ -108,7 +108,8 @@ class Parser {
     const std::size_t start = at_;
     at_ = behind_blanks(behind_blanks(at_ + 2) + 1);
     const std::size_t length_at = at_;
-    const StatedTime length = number_or_fail(read_picture_length(take_time()), length_at);
+    for (take_word(); peek() == ':'; take_word()) ++at_;
+    const StatedTime length = number_or_fail(read_picture_length(text_.piece(length_at, at_)), length_at);
     if (std::exchange(picture_, length)) fail(start, "the length of a picture is stated twice");
     expect_line_end("a picture's length");
   }

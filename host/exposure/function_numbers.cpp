@@ -171,7 +171,8 @@ ReadNumber<std::int64_t> read_time(std::string_view word, const std::optional<St
 }
 
 ReadNumber<StatedTime> read_picture_length(std::string_view word) {
-  const auto stated = StatedTime::read(word);
+  const bool is_plain = digits_at(word, 0) == word.size();
+  const auto stated = StatedTime::read(is_plain ? std::string(word).append("ns") : word);
   const bool is_length = stated && !stated->counts_samples() && stated->number.numerator > 0;
   if (is_length && !stated->is_longest()) {
     const Rational each = stated->modest_nanoseconds();

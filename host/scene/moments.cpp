@@ -67,10 +67,10 @@ Places whole_places(const Places& places) {
 
 const SubjectPlace& last_large_place(const std::vector<SubjectPlace>& places) {
   constexpr double kMinSize = 0.5;  // of the median
-  Places large = telling_places(places);
+  const Places telling = telling_places(places), all_whole = whole_places(telling);
+  Places large = all_whole.empty() ? telling : all_whole;
   if (large.empty()) return places.back();
-  const Places whole = whole_places(large);
-  erase_smaller(large, kMinSize * usual_size(whole.empty() ? large : whole), false);
+  erase_smaller(large, kMinSize * usual_size(large), false);
   return *large.back();
 }
 

@@ -31,8 +31,8 @@ using Places = std::vector<const SubjectPlace*>;  // in time order
 // Those of them that no border cuts off.
 [[nodiscard]] Places whole_places(const Places& places);
 
-// The last of the telling places that are at least half as large as most of the whole ones; without any the last place.
-// `places` has some.
+// The last of the telling places that are whole and at least half as large as most of these; without any the last
+// place. `places` has some.
 [[nodiscard]] const SubjectPlace& last_large_place(const std::vector<SubjectPlace>& places);
 
 [[nodiscard]] double distance(const Point& a, const Point& b);

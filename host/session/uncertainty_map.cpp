@@ -46,8 +46,7 @@ double value_of(const Picture& picture, std::uint64_t at) {
 }
 
 float rounded_up(double value) {
-  const auto near = static_cast<float>(value);
-  return near == 0.0F ? near : std::nextafter(near, std::numeric_limits<float>::infinity());
+  return value == 0.0 ? 0.0F : std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
 }
 
 ColourMatrix inverse(const ColourMatrix& matrix) {

@@ -258,7 +258,7 @@ class Capture:
         functions : one for all of the picture (a nutik.Function, a list of (time, gain), an array with a gain for each
             sample, or a callable over the whole capture, fitted within 0.001 of its largest gain, as nutik.fit() does,
             whose error= is another), or one for each tag of `mask` ({0: ..., 128: ...}, or a function file).
-        mask : [height, width] of tags, or {tag: alpha} of shares (the first function gets what they leave), a
+        mask : [height, width] of tags, or {tag: alpha} of shares (the lowest tag gets what they leave), a
             nutik.Mask, or a file.
         start, exposure : the interval, in place of functions; 0 without a start. Of functions their time 0.
         delay : how much later each pixel is exposed (docs/how-to/delay.md): 'rows:15ms', 'columns:0s..0.5s',
@@ -479,8 +479,9 @@ class Capture:
                                             [text_of(wish, "a wish") for wish in listed(wishes, "wishes")], words,
                                             asked, None if region_mask is None else region_mask._held, progress)
         told["wishes"] = [SolvedWish(**wish) for wish in told["wishes"]]
+        ends = f"; {', '.join(told['at_ends'])} came to an end of free=: beyond it may be nearer" if told["at_ends"] else ""
         warn([*told.pop("warnings"), *([] if told["is_kept"] else [
-            f"not all wishes could be kept: the numbers are those with the least cost of all, {told['cost']:.2g}"])])
+            f"not all wishes could be kept: the numbers are those with the least cost of all, {told['cost']:.2g}{ends}"])])
         return Solution(functions=parse_functions(told["text"], name="the solution"), **told)
 
     def _asked(self, functions: Optional[dict[int, Function]], stated: Mapping[str, Any],

@@ -128,7 +128,7 @@ def _answer(command: str, status: int, text: str, told: Sequence[str]) -> dict[s
         raise _ERRORS.get(status, Error)(message or f"{command} ended with status {status}")
     found: dict[str, Any] = json.loads(text)
     warn(in_python(line.strip()) for line in told if status)  # what was wrong with a line of a list
-    warn(found["warnings"] if isinstance(found.get("warnings"), list) else [])
+    warn(found.get("warnings", []))
     warn(found.get("notes", []), NutikNote)
     return found
 

@@ -81,6 +81,7 @@ class Solution:
     times_ns: dict[str, int]
     wishes: list[SolvedWish]
     untold: list[str]           # gains that no wish depends on
+    at_ends: list[str]          # gains and times that came to an end of what free= allows
     open_count: int             # in how many ways gains could still change together
     tried: int                  # exposures
     cost: float                 # sum of what is missed, squared, by the wishes' weights

@@ -135,7 +135,8 @@ class Function:
     __rmul__ = __mul__
 
     def __truediv__(self, divisor: float) -> Function:
-        return self * (1 / float(divisor))
+        divisor = float(divisor)
+        return Function.from_ns(self.times_ns, [gain / divisor for gain in self.gains.tolist()])
 
     def __neg__(self) -> Function:
         return self * -1
@@ -143,7 +144,8 @@ class Function:
     def _beside(self, times: NDArray[Any]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """The gain just before and just behind each of these times in nanoseconds."""
         points, gains = self._held.points()
-        value = np.interp((times - points[0]).astype(np.float64), (points - points[0]).astype(np.float64), gains)
+        # Halves, for between the largest gains of both signs the slope is none.
+        value = 2 * np.interp((times - points[0]).astype(np.float64), (points - points[0]).astype(np.float64), gains / 2)
         first, last = np.searchsorted(points, times, "left"), np.searchsorted(points, times, "right")
         is_point = first < last
         return (np.where(is_point, gains[np.minimum(first, len(gains) - 1)], value),

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from . import _nutik
 from ._nutik import UsageError
 from ._told import Plan, Statistics, Uncertainty
-from ._words import Array, DataArray, Index, Path, labelled, path_of, refuse, settings_of
+from ._words import Array, DataArray, Index, Path, frozen, labelled, path_of, refuse, settings_of
 
 
 def _bounds(light: Union[float, NDArray[np.float64]], pictures: Array) -> NDArray[np.float64]:
@@ -36,6 +36,7 @@ class _HasArray:
 
     def __array__(self, dtype: DTypeLike = None, copy: Optional[bool] = None) -> NDArray[np.generic]:
         array = self.array
+        refuse(copy is False and dtype not in (None, array.dtype), f"{array.dtype} becomes {dtype} only in a copy")
         return array if dtype is None and not copy else array.astype(dtype or array.dtype, copy=bool(copy))
 
     @property
@@ -58,9 +59,12 @@ class Pictures(_HasArray):
     @classmethod
     def _of(cls, array: Array, errors: NDArray[np.float64], saturated: NDArray[np.uint64], corner: tuple[int, int],
             maps: Sequence[Mapping[str, _nutik.Picture]], told: Callable[[], list[Uncertainty]]) -> Pictures:
-        array.flags.writeable = False
         bounds: Any = {term: np.stack([each[term].values() for each in maps]) for term in maps[0]} if maps else None
         return cls(array, _bounds(errors, array), saturated if array.dtype.kind == "u" else None, corner, bounds, told)
+
+    def __post_init__(self) -> None:
+        frozen(vars(self))
+        frozen(self.bounds or {})
 
     @property
     def uncertainty(self) -> list[Uncertainty]:
@@ -69,6 +73,10 @@ class Pictures(_HasArray):
 
     def __getstate__(self) -> dict[str, object]:
         return {**vars(self), "_uncertainties": partial(deepcopy, self.uncertainty)}
+
+    def __setstate__(self, state: dict[str, object]) -> None:
+        vars(self).update(state)
+        self.__post_init__()
 
     def __len__(self) -> int:
         return len(self.array)

@@ -221,8 +221,9 @@ def _pictures_of(source: Any, white: Optional[float], name: str) -> tuple[Iterab
             raise UsageError(f"{what} has dtype {picture.dtype}: {wrong}which value is white? white=1.0; light becomes "
                              "the nearest of 65535 steps up to it")
         share = np.asarray(picture, np.float64) / white
-        refuse(not (share >= 0).all() or (share > 1).any(), f"a value of light is none between 0 and white={white:g}; "
-               "clip it, or state a larger white", InputError)
+        # White as its type rounds it, for pictures were clipped to that.
+        refuse(not (picture >= 0).all() or (picture > picture.dtype.type(white)).any(), "a value of light is none "
+               f"between 0 and white={white:g}; clip it, or state a larger white", InputError)
         return (share * 65535 + 0.5).astype(np.uint16)
 
     if isinstance(source, Capture):

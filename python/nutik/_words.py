@@ -194,6 +194,7 @@ def listed(values: Any, what: str = "the array") -> list[Any]:
 def text_of(value: Any, what: str) -> str:
     """A text."""
     refuse(not isinstance(value, str), f"{what} is {shortened(value)}, no text", WrongType)
+    refuse(re.search("[\ud800-\udfff]", value), f"{what} is {shortened(value)}: it holds what is no UTF-8")
     return cast(str, value)
 
 
@@ -371,7 +372,7 @@ def word_of(name: str, kind: str, value: Any) -> str:
     """A value as the program reads it; `kind` is what its help has in that place."""
     value = scalar(value)
     if isinstance(value, (str, bytes, PathLike)):
-        return fsdecode(value)
+        return text_of(fsdecode(value), name)
     if kind == "SIZE":
         return str(int(exact(value, name)))
     if kind == "TIME" or "TIME" in kind and not is_list(value):

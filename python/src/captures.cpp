@@ -242,7 +242,7 @@ py::dict figures(const OpenCapture& capture) {
       "blocks"_a = reader.block_count(), "records"_a = held.record_count,
       "tiles"_a = py::dict("still"_a = still, "rows"_a = rows, "dense"_a = dense, "records"_a = records),
       "file_bytes"_a = reader.file_bytes(), "raw_bytes"_a = held.raw_bytes, "memory_bytes"_a = held.payload_bytes,
-      "codec"_a = reader.header().codec);
+      "codec"_a = text_of(reader.header().codec));
 }
 
 // The codes that are held at samples. It keeps the block of the one before: samples in a row unpack each block once.
@@ -388,7 +388,11 @@ void bind_captures(py::module_& module) {
       .def_property_readonly("sample_count", [](const OpenCapture& held) { return held.timeline().sample_count(); })
       .def_property_readonly("duration_ns", [](const OpenCapture& held) { return held.timeline().duration_ns(); })
       .def_property_readonly("rate", [](const OpenCapture& held) { return fraction(held.timeline().rate()); })
-      .def_property_readonly("facts", [](const OpenCapture& held) { return held.session->capture().header().facts; })
+      .def_property_readonly("facts", [](const OpenCapture& held) {
+        py::list facts;
+        for (const std::string& fact : held.session->capture().header().facts) facts.append(text_of(fact));
+        return facts;
+      })
       .def("times_ns", &times_ns)
       .def("figures", &figures)
       .def("reader", [](Held held) { return std::make_unique<SampleReader>(std::move(held)); })

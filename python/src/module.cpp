@@ -74,7 +74,7 @@ void translate(std::exception_ptr thrown) {
     const auto kinds = types() | std::views::reverse;
     const auto is_of = [&](const ErrorType& kind) { return kind.is_of(error); };
     const py::handle type = std::ranges::find_if(kinds, is_of)->type;
-    const py::object raised = type(message_text(error, Dialect::python));
+    const py::object raised = type(text_of(message_text(error, Dialect::python)));
     raised.attr("settings") = py::tuple(settings);
     PyErr_SetObject(type.ptr(), raised.ptr());
   }

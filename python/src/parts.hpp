@@ -50,6 +50,12 @@ template <typename Value>
   return py::array_t<Value>(std::move(shape), values.data());
 }
 
+// Of bytes that are no UTF-8, `\xed`.
+[[nodiscard]] inline py::str text_of(const std::string& text) {
+  return py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace"));
+}
+
 [[nodiscard]] py::dtype dtype_of(ValueType type);
 // [height, width] or [height, width, 3]; behind others, where these are stated.
 [[nodiscard]] Axes axes_of(const Shape& shape, Axes first = {});

@@ -122,7 +122,7 @@ py::dict solve(const OpenCapture& capture, const std::string& functions, const s
   if (!input.warnings.empty()) warnings.insert(warnings.begin(), input.warnings);
   return py::dict("text"_a = solved.text, "gains"_a = named(request.functions.gains, solved.numbers.gains),
                   "times_ns"_a = named(request.functions.times, solved.numbers.times_ns), "wishes"_a = kept,
-                  "untold"_a = untold, "open_count"_a = solved.open_count, "tried"_a = solved.tried,
+                  "untold"_a = untold, "at_ends"_a = solved.at_ends, "open_count"_a = solved.open_count, "tried"_a = solved.tried,
                   "cost"_a = solved.cost(), "is_kept"_a = solved.is_kept(), "warnings"_a = warnings);
 }
 

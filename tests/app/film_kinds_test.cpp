@@ -291,9 +291,9 @@ TEST_F(FilmKinds, TellWhatTheyDoNotName) {
     expect_says(notes(stated, "a.mp4"), "as stated; editors mean " + std::string(meant) + "/1001 by that");
   for (const char* stated : {"24", "24000/1001", "29.9"})
     EXPECT_EQ(notes(stated, "a.mp4").find("editors"), std::string::npos) << stated;
-  expect_refused("video --out-fps 23.976 clip.mkv b.mxf", 5,
+  expect_refused("video --out-fps 23.976 clip.mkv b.mxf", 2,
                  "and not 23.976; state one of these (--out-fps 24000/1001)");
-  expect_refused("video --out-fps 59.94 clip.mkv b.mxf", 5, "(--out-fps 60000/1001)");
+  expect_refused("video --out-fps 59.94 clip.mkv b.mxf", 2, "(--out-fps 60000/1001)");
   const std::string brighter = "video --overwrite --out-transfer gamma:2.8 --out-fps 25 clip.mkv ";
   expect_says(answer(brighter + "a.mxf")["notes"].dump(), "does not name the transfer function gamma:2.8: state");
   EXPECT_EQ(answer(brighter + "a.mov")["notes"].dump().find("does not name"), std::string::npos);

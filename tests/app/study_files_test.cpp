@@ -124,6 +124,11 @@ TEST_F(StudyFiles, HaveCommandsThatRunWhateverTheClipIsCalled) {
                               "':$PATH sh -e ./-clip-study.txt > log 2>&1";
   ASSERT_EQ(std::system(command.c_str()), 0) << file("log");
   EXPECT_TRUE(file("-clip-study.png") == picture);
+  std::string changed = file("-clip-study.pgm");
+  changed.back() = static_cast<char>(changed.back() ^ 1);
+  scratch_.write("-clip-study.pgm", changed);
+  ASSERT_EQ(std::system(command.c_str()), 0) << file("log");
+  EXPECT_TRUE(file("-clip-study.pgm") == changed);
 }
 
 TEST_F(StudyFiles, AreNoneBesideStandardOutput) {

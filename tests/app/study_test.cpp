@@ -288,6 +288,14 @@ TEST_F(Study, ShowsAllOfTheTimeBeforeTheParallaxOfAMovingCamera) {
   EXPECT_EQ(cv::countNonZero(picture("parallax.pgm")), 0) << "no moments";
 }
 
+// A man who leaves through the border: at picture 25 of the part a third of him is left, and his shadow.
+TEST_F(Study, ARearCurtainShowsWhoLeavesWhole) {
+  const std::filesystem::path clip = std::filesystem::path(NUTIK_TEST_MEDIA) / "one-by-one-person-detection.mp4";
+  if (!std::filesystem::exists(clip)) GTEST_SKIP() << clip << " is not there";
+  const auto told = answer(format("study --style rear-curtain --from 840f --to 885f {} -o man.png", clip.string()));
+  EXPECT_LE(told["moments"][0]["sample"], 22);
+}
+
 // A thin line crosses the picture while a much larger place lights up and darkens.
 TEST_F(Study, ShowsNoThinScrapsOfWhatMoves) {
   for (const bool has_lights : {false, true}) {

@@ -67,6 +67,11 @@ class Arrays(support.TestCase):
                 self.assertIn("light 1.5 is white, to the nearest of 65535 steps, as stated", capture.facts)
                 self.assertEqual(sorted(capture.facts[-3:]), sorted(file.facts[-3:]))
                 self.assertEqual(capture.render(exposure="20ms").uncertainty["terms"], terms)
+        clipped = np.full((2, 6, 7), 0.1, np.float32)  # which is above 0.1
+        np.save(self.path("clipped.npy"), clipped)
+        for source in (clipped, self.path("clipped.npy")):
+            self.assertEqual(np.asarray(nutik.encode(source, rate=1, white=0.1)).min(), 65535)
+        self.assert_raises(nutik.InputError, "state a larger white", nutik.encode, clipped * 1.01, rate=1, white=0.1)
         codes = nutik.encode(np.zeros((2, 8, 8), np.uint16), rate=1).render(exposure=1)
         self.assertNotIn("rounded_codes", [each["term"] for each in codes.uncertainty["terms"]])
 
@@ -237,6 +242,14 @@ class Arrays(support.TestCase):
             for call in (nutik.open, nutik.read_mask, lambda path: nutik.encode(np.zeros((2, 8, 8)), path, white=1.0)):
                 self.assert_raises(nutik.UsageError, "is no path", call, name)
         nutik.encode(np.zeros((4, 8, 8), np.uint8), self.path("clip.tik"), rate=1)
+        whole = (self.folder / "clip.tik").read_bytes()
+        (self.folder / "damaged.tik").write_bytes(whole.replace(b"srgb", b"sr\xedb", 1))
+        self.assert_raises(nutik.InputError, r"sr\xedb", nutik.open, self.path("damaged.tik"))
+        (self.folder / "latin.csv").write_bytes(b"caf\xe9.png,0,10\n")
+        self.assert_raises(nutik.InputError, r"caf\xe9.png", nutik.open, self.path("latin.csv"))
+        for argument in ("transfer", "name"):
+            self.assert_raises(nutik.UsageError, "no UTF-8", nutik.encode, np.zeros((2, 8, 8), np.uint8), rate=1,
+                               **{argument: "\udce9"})
         for name, value, helps in (("rate", 2, "nutik.retime("), ("transfer", "srgb", "nutik.retime("),
                                    ("noise", "a.noise", "Encode the clip again")):
             self.assert_raises(nutik.UsageError, [f"{name}= describes a clip", "encoded already", helps], nutik.open,

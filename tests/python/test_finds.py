@@ -126,9 +126,10 @@ class Finds(support.TestCase):
         (self.folder / "named.fn").write_text(text)
         self.run_program("solve", "-q", "-k", "named.fn", "--normalize", "integral", "--free", "rest=-20..20", "--wish",
                          "all = 0.7 * plate", "clip.tik", "solved.fn")
-        with self.assertWarnsRegex(nutik.NutikWarning, "least cost"):
+        with self.assertWarnsRegex(nutik.NutikWarning, "least cost.*rest came to an end of free="):
             solution = self.capture.solve(text, ["all = 0.7 * plate"], free={"rest": (-20, 20)}, normalize="integral")
         self.assertFalse(solution.is_kept)
+        self.assertEqual(solution.at_ends, ["rest"])
         self.assertEqual(solution.text, (self.folder / "solved.fn").read_text())
         self.assertEqual(solution.functions[0].gains[3], solution.gains["rest"])
         self.assertEqual(len(solution.wishes), 1)

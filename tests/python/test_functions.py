@@ -19,6 +19,9 @@ class Functions(support.TestCase):
         np.testing.assert_allclose(function([-1, 0.005, 0.0099999, 0.01, 0.255, 0.5, 9]),
                                    [0, 0.5, 0.99999, -2.5, -1.25, 0, 0], atol=1e-12)
         self.assertEqual(function(0.01), -2.5)
+        self.assertEqual((nutik.Function([0, 1], [0, 49]) / 49).gains[1], 1)
+        self.assertLess(abs(nutik.Function([0, 1], [-1.7e308, 1.7e308])(0.5)), 1e294)
+        self.assertRaises(ZeroDivisionError, lambda: function / 0)
         self.assertEqual(function.scaled(2).gains.tolist(), [0, 2, -5, 0])
         self.assertEqual(function.shifted("1ms").times_ns.tolist(), [1_000_000, 11_000_000, 11_000_000, 501_000_000])
         self.assertEqual(function, nutik.Function.from_ns(function.times_ns, function.gains))

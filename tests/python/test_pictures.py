@@ -178,6 +178,9 @@ class Pictures(support.TestCase):
         for term, each in pickle.loads(pickle.dumps(part)).bounds.items():
             np.testing.assert_array_equal(each, part.bounds[term])
             np.testing.assert_array_equal(each, mapped.bounds[term][2:7, 3:12])
+        self.assertRaises(ValueError, lambda: mapped.__array__(np.float32, copy=False))
+        tiny = self.capture.render(nutik.boxcar(0, 0.05, 1e-300), dtype=np.float64, bounds=True)
+        self.assertGreater(tiny.bounds["arithmetic"].max(), 0)
         terms = {each["term"]: each for each in ours.uncertainty["terms"]}
         self.assertEqual(terms["arithmetic"]["light"], ours.error_bound)
         self.assertEqual(terms["times"]["is"], "bound")

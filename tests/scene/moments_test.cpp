@@ -62,7 +62,6 @@ TEST(Moments, ShowAtLeastHalfOfTheSubject) {
     place.solid = place.cells.size();
   }
   EXPECT_EQ(samples_of(choose_moments(track, 5, MomentSpacing::time, kGap)), (Samples{10, 20, 30, 40}));
-  EXPECT_EQ(last_large_place(track.places).sample, 40u);
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ class StudyTest : public MovingSquareTest {
     const std::string command =
         "cd '" + scratch_.folder().string() + "' && PATH='" + folder + "':$PATH sh -e study.txt";
     ASSERT_EQ(std::system((command + " > log 2>&1").c_str()), 0) << read_file(scratch_ / "log");
+    EXPECT_EQ(read_file(scratch_ / "log").find("later steps cover"), std::string::npos) << what;
     if (has_mask) {
       EXPECT_TRUE(read_file(scratch_ / "study.pgm") == mask) << what;
     }

@@ -201,7 +201,6 @@ Json check_json(const InputCheck& check) {
     functions.push_back(std::move(function));
   }
   return Json{{"mistakes", count_of(check.findings(), Severity::error)},
-              {"warnings", count_of(check.findings(), Severity::warning)},
               {"findings", findings_json(check.findings())},
               {"domain_end_ns", check.domain().duration_ns},
               {"domain_is_capture", check.domain().is_capture},

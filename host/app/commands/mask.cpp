@@ -47,7 +47,7 @@ MaskJob job_of(const Options& options) {
   if (!options.operands.empty()) {
     job.capture = options.operands.front();
     const bool is_output = !options.output && options.operands.size() == 1 && is_mask_name(*job.capture) &&
-                           is_absent(*job.capture);
+                           (is_absent(*job.capture) || options.size);
     if (is_output) {
       throw UsageError(format("'{}' stands where a capture or clip is read; to write it: -o {}", *job.capture,
                               *job.capture));

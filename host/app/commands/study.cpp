@@ -66,11 +66,14 @@ std::string commands_text(const Options& options, const StudyFiles& files, const
                   capture, name(files.picture));
   }
   std::string regions;
+  const auto pixels = study.regions.mask.pixels_per_tag();
   for (const MaskStep& step : study.mask.steps) {
     if (const auto* grid = std::get_if<select::Grid>(&step.selection)) {
       regions += format(" --grid {}x{}", grid->columns, grid->rows);
     } else if (std::holds_alternative<select::Whole>(step.selection)) {
       regions += format(" --tag {} --fill", step.tag);
+    } else if (pixels[step.tag] == 0) {
+      continue;  // later ones cover it
     } else {
       const bool is_body = std::get<select::Subject>(step.selection).is_without_shadow;
       regions += format(" \\\n  --tag {} --{} {}f", step.tag, is_body ? "body" : "subject",
@@ -81,7 +84,8 @@ std::string commands_text(const Options& options, const StudyFiles& files, const
   }
   Options of_filmed = options;
   take_back_between(of_filmed);
-  return format("nutik-cl mask{}{} --overwrite \\\n  {} {}\nnutik-cl{} --overwrite \\\n  {} {}\n",
+  // A mask that is there may have been changed by hand.
+  return format("[ -e {} ] || nutik-cl mask{}{} \\\n  {} {}\nnutik-cl{} --overwrite \\\n  {} {}\n", name(files.mask),
                 stated_words(of_filmed, CommandId::mask), regions, capture, name(files.mask),
                 stated_words(options_by_hand(options, files, style), CommandId::expose), capture,
                 name(files.picture));
@@ -121,8 +125,8 @@ std::string moments_text(const Study& study, const Timeline& timeline) {
   return text;
 }
 
-void add_notes(Answer& answer, const PlannedStudy& planned) {
-  answer.tell_source(planned.session);
+void add_notes(Answer& answer, const PlannedStudy& planned, const Options& stated) {
+  answer.tell_source(planned.session, stated);
   std::ranges::move(camera_notes(planned.moved), std::back_inserter(answer.notes));
   std::ranges::copy(planned.study.notes, std::back_inserter(answer.notes));
   std::ranges::move(note_texts(planned.notes, Dialect::command_line), std::back_inserter(answer.notes));
@@ -187,7 +191,7 @@ int run_study(const Options& stated) {
       answer.line += format("; {}: the command", files.commands.string());
     }
     answer.notes = square_notes(session.format(), shape);
-    add_notes(answer, planned);
+    add_notes(answer, planned, stated);
     return tell(options, files.picture, answer);
   }
   const ExposedPicture exposed =
@@ -222,7 +226,7 @@ int run_study(const Options& stated) {
   answer.line = format("{}: {}, {}", files.picture.string(), shape_text(shape),
                        moments_text(study, planned.timeline()));
   tally.end(answer, session, options.verbose);
-  add_notes(answer, planned);
+  add_notes(answer, planned, stated);
   return tell(options, files.picture, answer);
 }
 

@@ -128,7 +128,7 @@ int run_video(const Options& stated) {
   if (wanted > frames.numbers.size())
     answer.line += format(", {} there already", counted(wanted - frames.numbers.size(), "frame"));
   tally.end(answer, session, options.verbose);
-  answer.tell_source(session);
+  answer.tell_source(session, stated);
   if (!joined.empty() && options.json) answer.notes.push_back(joined);  // else it was said in time
   std::ranges::copy(made.notes, std::back_inserter(answer.notes));
   if (output.writes_stills()) note_later(answer.notes, [&](std::uint64_t k) { return output.still(k); }, frames.count);

@@ -132,6 +132,16 @@ void Answer::tell_source(const Session& session) {
   if (session.is_clip()) tell_source(session.facts(), session.notes());
 }
 
+void Answer::tell_source(const Session& session, const Options& stated) {
+  if (!session.is_clip()) return;
+  std::vector<Fact> facts = session.facts();
+  for (Fact& fact : facts) {
+    const auto is_of = [&](const Said& said) { return said.row->setting == fact.setting; };
+    if (fact.origin == Origin::stated && std::ranges::none_of(stated.said, is_of)) fact.origin = Origin::assumed;
+  }
+  tell_source(facts, session.notes());
+}
+
 std::vector<std::string> square_notes(const CaptureFormat& capture, const Shape& written) {
   if (written == capture.shape) return {};
   const auto [wide, high] = capture.pixel_aspect;

@@ -49,6 +49,8 @@ struct Answer {
   // What a clip was taken for, each with who said it, and what else a person should know of it.
   void tell_source(const std::vector<Fact>& facts, const std::vector<Note>& more);
   void tell_source(const Session& session);  // where it was made from a clip
+  // The same; what `stated` lacks the command has chosen.
+  void tell_source(const Session& session, const Options& stated);
 };
 
 // Prints it as --json and -q ask; returns the exit status. With -q only an output's name that nobody stated is printed;

@@ -84,14 +84,16 @@ Picture codes_of_light(const Picture& light, std::optional<double> white, const 
   }
   Picture codes(light.shape, ValueType::code16, kLightSteps);
   auto* code = codes.values<std::uint16_t>().data();
+  // White as the file's type rounds it, for pictures were clipped to that.
+  const auto most = static_cast<Value>(*white);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double value = values[i];
-    if (value >= 0 && value <= *white) {
+    if (value >= 0 && values[i] <= most) {
       *code++ = static_cast<std::uint16_t>(std::floor(value / *white * kLightSteps + 0.5));
       continue;
     }
     const std::size_t pixel = i / light.shape.channels;
-    const bool is_bright = value > *white && std::isfinite(value);
+    const bool is_bright = value > most && std::isfinite(value);
     throw InputError(format("{}: pixel {},{} has light {:.6g}, and a capture holds what lies between 0 and white, "
                             "{:.6g}; {}",
                             name, pixel % light.shape.width, pixel / light.shape.width, value, *white,

@@ -113,10 +113,10 @@ class LibavVideoWriter final : public VideoWriter {
                                      {60'000, 1001}, {60, 1}, {100, 1}, {120, 1}};
       const Rational& nearest = *std::ranges::min_element(
           kRates, {}, [&](const Rational& rate) { return std::abs(rate.value() - video_.rate.value()); });
-      throw OutputError(format("{} cannot be written: a .mxf has 24, 25, 30, 48, 50, 60, 100 or 120 frames a second, "
-                               "24000/1001, 30000/1001 or the like, and not {}",
-                               name_, video_.rate.text()),
-                        Advice{format("; state one of these (`out-fps {}`)", nearest.text())});
+      throw UsageError(format("{} cannot be written: a .mxf has 24, 25, 30, 48, 50, 60, 100 or 120 frames a second, "
+                              "24000/1001, 30000/1001 or the like, and not {}",
+                              name_, video_.rate.text()),
+                       Advice{format("; state one of these (`out-fps {}`)", nearest.text())});
     }
     check_taken(begun, format("a {} file", path.extension().string()));
   }
