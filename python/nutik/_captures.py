@@ -479,9 +479,11 @@ class Capture:
                                             [text_of(wish, "a wish") for wish in listed(wishes, "wishes")], words,
                                             asked, None if region_mask is None else region_mask._held, progress)
         told["wishes"] = [SolvedWish(**wish) for wish in told["wishes"]]
-        ends = f"; {', '.join(told['at_ends'])} came to an end of free=: beyond it may be nearer" if told["at_ends"] else ""
+        at_ends = ", ".join(told["at_ends"])
+        ends = f"; {at_ends} came to an end of free=: beyond it may be nearer" if at_ends else ""
         warn([*told.pop("warnings"), *([] if told["is_kept"] else [
-            f"not all wishes could be kept: the numbers are those with the least cost of all, {told['cost']:.2g}{ends}"])])
+            f"not all wishes could be kept: the numbers are those with the least cost of all, {told['cost']:.2g}"
+            f"{ends}"])])
         return Solution(functions=parse_functions(told["text"], name="the solution"), **told)
 
     def _asked(self, functions: Optional[dict[int, Function]], stated: Mapping[str, Any],

@@ -145,7 +145,8 @@ class Function:
         """The gain just before and just behind each of these times in nanoseconds."""
         points, gains = self._held.points()
         # Halves, for between the largest gains of both signs the slope is none.
-        value = 2 * np.interp((times - points[0]).astype(np.float64), (points - points[0]).astype(np.float64), gains / 2)
+        at, known = (each.astype(np.float64) for each in (times - points[0], points - points[0]))
+        value = 2 * np.interp(at, known, gains / 2)
         first, last = np.searchsorted(points, times, "left"), np.searchsorted(points, times, "right")
         is_point = first < last
         return (np.where(is_point, gains[np.minimum(first, len(gains) - 1)], value),

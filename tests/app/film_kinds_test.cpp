@@ -99,7 +99,7 @@ TEST_F(FilmKinds, AreDecodedAgain) {
                 {"codec_name=" + kind.is + "\n", "pix_fmt=" + kind.pixels + "\n", "nb_read_frames=6\n"});
     const bool is_coarse = kind.codec == "gif";
     if (!is_coarse) expect_says(told, "r_frame_rate=24000/1001\n");
-    const std::string frames = decoded(kind.film, kind.pixels.ends_with("10le"));
+    const std::string frames = decoded(kind.film, kind.is == "dnxhd" || kind.pixels.ends_with("10le"));
     ASSERT_EQ(frames.size(), source.size());
     EXPECT_LE(mean_difference(frames, source), kind.most);
     const std::vector<double> shown = times(kind.film);
@@ -187,10 +187,10 @@ TEST_F(FilmKinds, MayBeAFrameLong) {
 }
 
 // An edge between colours moved by half a pixel, and again in each film of a film. Chroma of 10 bits lies left of the
-// pair that shares it, that of 8 bits between both, as it is read again; a clip of 8 bits gets its own back.
+// pair that shares it, as in DNxHR, that of 8 bits between both, as it is read again; a clip of 8 bits gets its own back.
 TEST_F(FilmKinds, KeepChromaInItsPlace) {
   NEEDS_FFMPEG();
-  const auto edge = [&](const std::string& name) {  // in samples of chroma, whose first row has 32
+  const auto edge = [&](const std::string& name) {  // in samples of chroma, the first 32 of a row
     ffmpeg("-i " + name + " -vf extractplanes=u -frames:v 1 -f rawvideo -pix_fmt gray16le plane");
     std::uint16_t row[32];
     std::memcpy(row, file("plane").data(), sizeof row);
@@ -202,9 +202,9 @@ TEST_F(FilmKinds, KeepChromaInItsPlace) {
   for (const std::string pixels : {"yuv422p10le", "yuv420p"}) {
     const std::string edged = "geq=lum='lum(X,Y)':cr='cr(X,Y)':cb='if(gte(X,16),150,100)*" +
                               std::string(pixels == "yuv420p" ? "1'" : "4'");
-    test::make(scratch_, "-f lavfi -i color=gray:s=64x32:r=25:d=0.2 -vf \"format=" + pixels + "," + edged +
+    test::make(scratch_, "-f lavfi -i color=gray:s=256x128:r=25:d=0.2 -vf \"format=" + pixels + "," + edged +
                              "\" -c:v ffv1 -color_range tv -y clip.mkv");
-    for (const auto& [codec, kind] : {std::pair{"prores", ".mov"}, {"h264", ".mkv"}, {"h265-10", ".mkv"}}) {
+    for (const auto& [codec, kind] : {std::pair{"prores", ".mov"}, {"dnxhr-hq", ".mov"}, {"h264", ".mkv"}, {"h265-10", ".mkv"}}) {
       const std::string film = std::string("film") + kind;
       make("video --overwrite --out-fps 25 --out-angle 360 --video-codec " + std::string(codec) + " clip.mkv " + film);
       const bool is_centred = pixels != "yuv420p" && codec == std::string_view("h264");
@@ -327,6 +327,16 @@ class FilmSoundTest : public FilmKinds {
     return {static_cast<double>(frame), static_cast<double>(sample) / 48'000 * rate};
   }
 };
+
+TEST_F(FilmSoundTest, StaysOnItsFrameBehindAGap) {
+  NEEDS_FFMPEG();
+  make_clap("whole.mkv", "pcm_s16le");
+  ffmpeg("-i whole.mkv -c:v copy -c:a pcm_s16le -af \"asetnsamples=48,aselect=not(between(t\\,1\\,1.0795))\" gap.mkv");
+  make("video --out-fps 25 --out-angle 360 gap.mkv gap.mov");
+  const auto [frame, sound] = clap("gap.mov", 25);
+  EXPECT_EQ(frame, 50);
+  EXPECT_NEAR(sound, frame, 0.3);
+}
 
 TEST_F(FilmSoundTest, LiesOnItsFrame) {
   NEEDS_FFMPEG();

@@ -25,7 +25,7 @@ namespace nutik::app {
 int run_series(const Options& options);
 
 // A plain interval stated in seconds sees no picture but those that it reaches: samples are made between these and
-// their neighbours alone. `options` then state that range, so that the recipe has it.
+// their neighbours alone. The recipe has what was stated, as those of series and films have.
 static void make_between_seen(Options& options, const ExposureRequest& request) {
   const std::string& clip = options.operands.front();
   const auto* plain = std::get_if<PlainInterval>(&request.gains);
@@ -46,7 +46,7 @@ static void make_between_seen(Options& options, const ExposureRequest& request) 
     between.first = seen.first - std::min<std::uint64_t>(seen.first, 1);
     between.last = std::min(seen.last, timeline.sample_count() - 1);
     if (between.first == between.last) return;
-    option_of(CommandId::expose, "between")->restate(options, {between.text()});
+    options.source.between = between;
   } catch (const InputError&) {
     return;  // not known before it is decoded
   }

@@ -35,8 +35,8 @@ static std::string join_pictures(Options& options, Session& session, const Sessi
   try {
     session = open_session(joined, terms, "making samples between pictures");
     options = std::move(joined);
-    return say(format("a quarter of the frames or more would show what moves two or three times: samples were made "
-                      "between pictures {} … {}, which takes most of the time; --between off leaves them out",
+    return say(format("a quarter of the frames or more would show what moves two or three times: samples are "
+                      "looked for between pictures {} … {}, which takes most of the time; --between off leaves them out",
                       between->first, between->last));
   } catch (const Error& error) {
     // Parts of one film are alike.

@@ -20,7 +20,7 @@ std::optional<BetweenRequest> joining_samples(const FramesRequest& request, cons
                                               const Session& session) {
   const std::string clip = session.source().path.string();
   if (!session.is_clip() || request.exposure.combine != Combine::integral) return {};
-  if (is_standard_input(clip) || is_event_recording(clip)) return {};
+  if (is_event_recording(clip)) return {};
   const auto seen = seen_together(frames, session.timeline());
   if (!seen) return {};
   return BetweenRequest{.first = seen->first, .last = seen->last - 1};

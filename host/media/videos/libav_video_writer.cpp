@@ -231,8 +231,10 @@ class LibavVideoWriter final : public VideoWriter {
     context.color_range =
         is_coded_yuv && context.pix_fmt != AV_PIX_FMT_YUVJ420P ? AVCOL_RANGE_MPEG : AVCOL_RANGE_JPEG;
     // Left is usual. Chroma of 8 bits is read as if it lay in the centre (docs/explanation/model.md), so it is put
-    // there, or colour would move with each film of a film. What a clip of 8 bits had goes back to its place.
-    const bool is_left = !is_still_kin && (video_.repeats_chroma || pixels.comp[0].depth > 8);
+    // there, or colour would move with each film of a film. What a clip of 8 bits had goes back to its place; DNxHR has
+    // no tag for another place than the left.
+    const bool is_left =
+        !is_still_kin && (video_.repeats_chroma || pixels.comp[0].depth > 8 || codec.encoder == "dnxhd");
     if (is_coded_yuv && shares_chroma(context.pix_fmt))
       context.chroma_sample_location = is_left ? AVCHROMA_LOC_LEFT : AVCHROMA_LOC_CENTER;
     context.color_primaries = static_cast<AVColorPrimaries>(coding_point(video_.primaries));
