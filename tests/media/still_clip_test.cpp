@@ -181,6 +181,20 @@ TEST(StillClip, ReadsJpeg) {
   }
 }
 
+// Its decoder goes on behind damage; behind its end a phone may have a film.
+TEST(StillClip, OfJpegEndsWhereItsPictureDoes) {
+  const Scratch scratch;
+  write_with_opencv(scratch / "a.jpg", test::random_stills({64, 48, 3}, 255, 1, 3)[0]);
+  const std::string whole = test::read_file(scratch / "a.jpg"), head = whole.substr(0, whole.size() / 2);
+  scratch.write("film.jpg", whole + std::string("\0\0\0\x18" "ftypmp42\xFF\xDA", 14));
+  EXPECT_EQ(read_all(*open_test_clip(scratch / "film.jpg", {})), read_all(*open_test_clip(scratch / "a.jpg", {})));
+  for (const std::string& damaged : {head + whole.substr(head.size() + 500), head + "\xFF\xD9"})
+    expect_refused(scratch.write("b.jpg", damaged), {"b.jpg cannot be read: it is damaged"});
+  expect_refused(scratch.write("c.jpg", std::string("\xFF\xD8\xFF\xC0\0\x14\x08\0\x10\0\x10\x04\1\x11\0\2\x11\0\3\x11\0\4\x11\0"
+                                                    "\xFF\xDA\0\x0E\x04\1\0\2\0\3\0\4\0\0\x3F\0", 40)),
+                 {"its colours are CMYK"});
+}
+
 // Where pixel x, y of what is shown stands in what lies as EXIF numbers it: from 5 on rows are columns, and then sides are
 // mirrored.
 std::size_t lying_at(unsigned orientation, const Shape& lying, std::uint32_t x, std::uint32_t y) {
@@ -510,6 +524,16 @@ TEST(StillClip, OfPngStandsForWhatItsChunksName) {
       EXPECT_EQ(facts[1], "primaries " + std::string(to_text(primaries)) + ", from the file");
     }
   }
+  // Programs that do not know cICP read a profile, or older chunks.
+  picture.transfer = Transfer::srgb();
+  facts_of(picture);
+  EXPECT_NE(test::read_file(scratch / "a.png").find("iCCP"), std::string::npos);
+  picture.transfer = Transfer::linear();
+  facts_of(picture);
+  std::string older = test::read_file(scratch / "a.png");
+  older.erase(older.find("cICP") - 4, 16);
+  scratch.write("older.png", older);
+  EXPECT_EQ(open_test_clip(scratch / "older.png")->info().facts[2].line(), "primaries p3, from the file");
   picture.transfer = Transfer::gamma(3);
   EXPECT_EQ(facts_of(picture).second[0], "transfer gamma:3, from the ICC profile 'p3, gamma:3'");
   ClipOptions stated;

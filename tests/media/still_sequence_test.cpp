@@ -83,6 +83,8 @@ TEST_F(StillSequence, PatternsAreThoseOfTheShell) {
   EXPECT_EQ(listed("cam*/f?.png"), "f1.png f2.png f3.png");
   expect_refused("cam1/*.tif", {"cam1/*.tif: no file matches"});
   expect_refused("absent/*.png", {"absent/*.png: no file matches"});
+  touch({"a[b]/f1.png", "a[b]/f2.png", "ab/f3.png"});
+  EXPECT_EQ(listed("a[b]/*.png"), "f1.png f2.png") << "a folder that is there likewise";
   touch({"f[1].png", "f1.png"});
   EXPECT_EQ(listed("f[1].png"), "f[1].png") << "a file that is there goes before a pattern";
 }

@@ -129,7 +129,7 @@ TEST(StillsTable, TellsAReadErrorFromTheEnd) {
 // A JPEG with EXIF data: an APP1 segment put behind the start of what OpenCV writes.
 void write_jpeg(const std::filesystem::path& path, int grey, const std::string& date,
                 const std::string& fraction, std::uint32_t exposure_numerator,
-                std::uint32_t exposure_denominator) {
+                std::uint32_t exposure_denominator, const std::string& zone = "") {
   cv::Mat picture(8, 16, CV_8UC1, cv::Scalar(grey));
   std::vector<unsigned char> jpeg;
   ASSERT_TRUE(cv::imencode(".jpg", picture, jpeg));
@@ -143,12 +143,14 @@ void write_jpeg(const std::filesystem::path& path, int grey, const std::string& 
     return number(tag, 2) + number(type, 2) + number(count, 4) + number(value, 4);
   };
   tiff += number(1, 2) + entry(0x8769, 4, 1, 26) + number(0, 4);  // the EXIF directory at 26
-  constexpr std::uint32_t kValues = 26 + 2 + 3 * 12 + 4;
+  constexpr std::uint32_t kValues = 26 + 2 + 4 * 12 + 4;
   const auto fraction_at = static_cast<std::uint32_t>(kValues + 8 + date.size() + 1);
-  tiff += number(3, 2) + entry(0x829A, 5, 1, kValues) +
+  const auto zone_at = static_cast<std::uint32_t>(fraction_at + fraction.size() + 1);
+  tiff += number(4, 2) + entry(0x829A, 5, 1, kValues) +
           entry(0x9003, 2, static_cast<std::uint32_t>(date.size() + 1), kValues + 8) +
+          entry(0x9011, 2, static_cast<std::uint32_t>(zone.size() + 1), zone_at) +
           entry(0x9291, 2, static_cast<std::uint32_t>(fraction.size() + 1), fraction_at) + number(0, 4);
-  tiff += number(exposure_numerator, 4) + number(exposure_denominator, 4) + date + '\0' + fraction + '\0';
+  tiff += number(exposure_numerator, 4) + number(exposure_denominator, 4) + date + '\0' + fraction + '\0' + zone + '\0';
   const std::string body = std::string("Exif\0\0", 6) + tiff;
   const std::string segment = "\xFF\xE1" + number(static_cast<std::uint32_t>(body.size() + 2), 2) + body;
   std::string file(jpeg.begin(), jpeg.end());
@@ -169,8 +171,13 @@ TEST(StillsTable, ReadsTimesFromExifDataWhereColumnsAreEmpty) {
   EXPECT_EQ(timeline_of_table(path).end_ns(1), 103'333'333);
   scratch.write("stills.csv", "a.jpg,,5\nb.jpg,,7\n");
   EXPECT_EQ(timeline_of_table(path).end_ns(1), 200'000'007);
+  // Clocks were put forward.
+  write_jpeg(scratch / "a.jpg", 10, "2026:03:29 01:59:50", "", 1, 60, "+01:00");
+  write_jpeg(scratch / "b.jpg", 20, "2026:03:29 03:00:00", "", 1, 30, "+02:00");
+  scratch.write("stills.csv", "a.jpg\nb.jpg\n");
+  EXPECT_EQ(timeline_of_table(path).start_ns(1), 10'000'000'000);
   // Two pictures of one second that does not tell its fraction.
-  write_jpeg(scratch / "b.jpg", 20, "2026:02:28 23:59:59", "", 1, 30);
+  for (const char* name : {"a.jpg", "b.jpg"}) write_jpeg(scratch / name, 20, "2026:02:28 23:59:59", "", 1, 30);
   scratch.write("stills.csv", "a.jpg\nb.jpg\n");
   test::expect_clip_refused(path, {}, "these are EXIF times, which often have whole seconds only");
 }

@@ -169,6 +169,38 @@ TEST(TiffColours, OfCmykAreNamed) {
   test::expect_error<InputError>([&] { return TiffReader(scratch / "a.tif").next(); }, {"its colours are CMYK"});
 }
 
+TEST(TiffPages, ThatAreCopiesOfOthersAreNoMoments) {
+  const test::Scratch scratch;
+  {
+    const TiffFile file = begun(scratch / "a.tif", {8, 1, false, false});
+    for (const std::uint32_t kind : {0U, 0U + FILETYPE_REDUCEDIMAGE, 0U + FILETYPE_MASK, 0U}) {
+      for (const auto& [tag, value] : {std::pair{TIFFTAG_IMAGEWIDTH, kPageWidth}, {TIFFTAG_IMAGELENGTH, kPageHeight}})
+        TIFFSetField(file.get(), static_cast<std::uint32_t>(tag), value);
+      TIFFSetField(file.get(), TIFFTAG_BITSPERSAMPLE, 8);
+      TIFFSetField(file.get(), TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+      TIFFSetField(file.get(), TIFFTAG_SUBFILETYPE, kind);
+      std::vector<std::uint8_t> row(kPageWidth, static_cast<std::uint8_t>(10 + kind));
+      for (std::uint32_t y = 0; y < kPageHeight; ++y) TIFFWriteScanline(file.get(), row.data(), y, 0);
+      TIFFWriteDirectory(file.get());
+    }
+  }
+  TiffReader reader(scratch / "a.tif");
+  EXPECT_EQ(reader.page_count(), 2U);
+  for (int page = 0; page < 2; ++page) EXPECT_EQ(reader.next()->picture.values<std::uint8_t>()[0], 10);
+  EXPECT_FALSE(reader.next());
+}
+
+TEST(TiffColours, OfLabAreNamed) {
+  const test::Scratch scratch;
+  {
+    const TiffFile file = begun(scratch / "a.tif", {8, 3, false, false});
+    TIFFSetField(file.get(), TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_CIELAB);
+    std::vector<std::uint8_t> row(3 * kPageWidth);
+    for (std::uint32_t y = 0; y < kPageHeight; ++y) TIFFWriteScanline(file.get(), row.data(), y, 0);
+  }
+  test::expect_error<InputError>([&] { return TiffReader(scratch / "a.tif").next(); }, {"its colours are L*a*b*"});
+}
+
 TEST(TiffStory, OfImageJCountsTimeInItsUnit) {
   const auto rate_in = [](const std::string& unit) {
     return read_tiff_story("ImageJ=1.53t\nimages=5\nfps=7\nfinterval=2" + unit + "\nloop=false\n", {1, 1, 1}).rate;

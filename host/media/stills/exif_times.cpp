@@ -68,6 +68,14 @@ std::int64_t fraction_ns(const std::string& digits) {
   return value;
 }
 
+// `+02:00`, how far a clock was ahead of that of the world; 0 where a camera does not say.
+std::int64_t zone_ns(const std::string& text) {
+  if (text.size() != 6 || (text[0] != '+' && text[0] != '-') || text[3] != ':') return 0;
+  const auto hours = parsed<unsigned>(text.substr(1, 2)), minutes = parsed<unsigned>(text.substr(4, 2));
+  if (!hours || !minutes) return 0;
+  return (text[0] == '-' ? -1 : 1) * (std::int64_t{*hours} * 60 + *minutes) * 60 * kSecondNs;
+}
+
 }  // namespace
 
 unsigned exif_orientation(const std::filesystem::path& jpeg) {
@@ -78,14 +86,17 @@ StillTimes read_exif_times(const std::filesystem::path& file) {
   if (const auto* kind = still_kind(file); kind != nullptr && *kind == readers::kDng) {
     const RawTags tags = read_raw_tags(file);
     StillTimes times{date_ns(tags.date), tags.exposure_ns};
-    if (times.start_ns) *times.start_ns += fraction_ns(tags.fraction);
+    if (times.start_ns) *times.start_ns += fraction_ns(tags.fraction) - zone_ns(tags.zone);
     return times;
   }
   const Exif data(exif_data_new_from_file(file.c_str()));
   StillTimes times;
   if (!data) return times;
   times.start_ns = date_ns(text_of(*data, EXIF_TAG_DATE_TIME_ORIGINAL));
-  if (times.start_ns) *times.start_ns += fraction_ns(text_of(*data, EXIF_TAG_SUB_SEC_TIME_ORIGINAL));
+  if (times.start_ns) {
+    *times.start_ns += fraction_ns(text_of(*data, EXIF_TAG_SUB_SEC_TIME_ORIGINAL)) -
+                       zone_ns(text_of(*data, EXIF_TAG_OFFSET_TIME_ORIGINAL));
+  }
   const ExifEntry* exposure = entry_of(*data, EXIF_TAG_EXPOSURE_TIME);
   if (exposure != nullptr && exposure->format == EXIF_FORMAT_RATIONAL && exposure->size >= 8) {
     const ExifRational seconds = exif_get_rational(exposure->data, exif_data_get_byte_order(data.get()));

@@ -4,6 +4,8 @@
 
 #include <jpeglib.h>
 
+#include <jerror.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -162,6 +164,33 @@ std::optional<std::string> read_jpeg_comments(std::span<const std::byte> file, c
     text->append(reinterpret_cast<const char*>(marker->data), marker->data_length);
   }
   return text;
+}
+
+Picture read_jpeg(std::span<const std::byte> file, const std::string& name) {
+  std::string title = format("{} cannot be read: it is damaged or no picture", name);
+  Decompressor jpeg(title);
+  // libjpeg goes on behind damage, with whatever comes.
+  jpeg.err->emit_message = [](j_common_ptr of, int) {
+    constexpr std::array kDamage{JWRN_ARITH_BAD_CODE, JWRN_HIT_MARKER, JWRN_HUFF_BAD_CODE, JWRN_JPEG_EOF, JWRN_MUST_RESYNC};
+    if (std::ranges::count(kDamage, of->err->msg_code) > 0) of->err->error_exit(of);
+  };
+  jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(file.data()), file.size());
+  jpeg_read_header(&jpeg, TRUE);
+  if (jpeg.num_components != 1 && jpeg.num_components != 3) {
+    throw InputError(format("{} cannot be read: its colours are {}; grey and RGB are read", name,
+                            jpeg.num_components == 4 ? "CMYK" : "of no known kind"));
+  }
+  jpeg.out_color_space = jpeg.num_components == 1 ? JCS_GRAYSCALE : JCS_RGB;
+  jpeg_start_decompress(&jpeg);
+  Picture picture({jpeg.output_width, jpeg.output_height, static_cast<std::uint32_t>(jpeg.num_components)},
+                  ValueType::code8, 255);
+  const std::size_t row_bytes = std::size_t{picture.shape.width} * picture.shape.channels;
+  while (jpeg.output_scanline < jpeg.output_height) {
+    auto* row = reinterpret_cast<JSAMPLE*>(picture.bytes.data() + jpeg.output_scanline * row_bytes);
+    jpeg_read_scanlines(&jpeg, &row, 1);
+  }
+  jpeg_finish_decompress(&jpeg);
+  return picture;
 }
 
 std::vector<std::byte> read_jpeg_profile(std::span<const std::byte> file, const std::string& name) {

@@ -48,6 +48,9 @@ void write_jpeg(OutputFile& file, const Picture& picture, const std::string& tex
 
 [[nodiscard]] bool is_jpeg(std::span<const std::byte> file);
 
+// Codes as they lie, grey or RGB. Throws InputError naming `name` where it is neither, or damaged.
+[[nodiscard]] Picture read_jpeg(std::span<const std::byte> file, const std::string& name);
+
 // The comments before the picture, one behind the other; nothing where there is none. Throws InputError.
 [[nodiscard]] std::optional<std::string> read_jpeg_comments(std::span<const std::byte> file,
                                                             const std::string& name);

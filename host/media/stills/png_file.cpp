@@ -85,7 +85,7 @@ constexpr int kDeflateLevel = 1, kZlibLevel = 2;
 // Larger pictures are compressed row by row, which takes several times as long, and next to no memory.
 constexpr std::uint64_t kMostAtOnce = 64 << 20;
 
-// What codes stand for: in cICP, which this libpng has no function for, and in older chunks where these can say it.
+// What codes stand for: in cICP, which this libpng has no function for, and in older chunks or a profile.
 void set_meaning(png_structp png, png_infop info, const Picture& picture) {
   if (picture.pixel_aspect != Rational{1, 1}) {
     // Pixels for the same length, of no unit: the wider a pixel, the fewer.
@@ -101,7 +101,8 @@ void set_meaning(png_structp png, png_infop info, const Picture& picture) {
     const auto& xy = chromaticities(picture.primaries);
     png_set_cHRM(png, info, xy[3][0], xy[3][1], xy[0][0], xy[0][1], xy[1][0], xy[1][1], xy[2][0], xy[2][1]);
   }
-  if (coding_point(transfer)) return;
+  const bool has_older_chunks = png_get_valid(png, info, PNG_INFO_cHRM) != 0;
+  if (coding_point(transfer) && has_older_chunks) return;
   const std::vector<std::byte> profile = colour_profile(picture);
   png_set_iCCP(png, info, "ICC", PNG_COMPRESSION_TYPE_BASE, reinterpret_cast<png_const_bytep>(profile.data()),
                static_cast<png_uint_32>(profile.size()));

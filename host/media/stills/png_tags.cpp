@@ -46,7 +46,7 @@ bool follow_coding_points(PngTags& tags, std::string_view points, std::uint64_t 
 // Chunks: u32 length, four letters, so many bytes, a checksum.
 PngTags read_png_tags(const std::filesystem::path& file) {
   constexpr std::size_t kSignature = 8, kFrame = 12, kData = 8, kBits = 24;
-  constexpr double kGammaParts = 100'000;
+  constexpr double kParts = 100'000;
   const MappedFile mapped(file);
   const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
   PngTags tags;
@@ -64,7 +64,15 @@ PngTags read_png_tags(const std::filesystem::path& file) {
       tags.transfer = Transfer::srgb();
       tags.primaries = Primaries::bt709;
     } else if (name == "gAMA" && length == 4 && tags.unread_transfer.empty()) {
-      tags.unread_transfer = format("gamma {:.4g}", kGammaParts / static_cast<double>(std::max<std::uint64_t>(big_endian(data, 0, 4), 1)));
+      tags.unread_transfer = format("gamma {:.4g}", kParts / static_cast<double>(std::max<std::uint64_t>(big_endian(data, 0, 4), 1)));
+    } else if (name == "cHRM" && length == 32 && !tags.primaries && !has_coding_points) {
+      // White, red, green and blue.
+      const auto at = [&](std::size_t each) {
+        return std::array{static_cast<double>(big_endian(data, 8 * each, 4)) / kParts,
+                          static_cast<double>(big_endian(data, 8 * each + 4, 4)) / kParts};
+      };
+      tags.primaries = primaries_at({at(1), at(2), at(3), at(0)});
+      if (!tags.primaries) tags.unread_primaries = kOtherPrimaries;
     } else if (name == "iCCP") {
       tags.has_profile = true;
     } else if (name == "pHYs" && length >= 8) {

@@ -21,7 +21,7 @@
 namespace nutik::stills {
 namespace {
 
-constexpr int kExposureTime = 33434, kDateTimeOriginal = 36867, kSubSecTimeOriginal = 37521,
+constexpr int kExposureTime = 33434, kDateTimeOriginal = 36867, kOffsetTimeOriginal = 36881, kSubSecTimeOriginal = 37521,
               kFrameRate = 51044;
 constexpr int kRational = 5, kSignedRational = 10;
 
@@ -152,11 +152,15 @@ void take_tag(void* tags, int tag, int type, int count, unsigned order, void* st
           std::max<std::int64_t>(round_half_up(int128{numerator} * kSecondNs, denominator), 1);
     }
   }
-  if ((tag == kDateTimeOriginal || tag == kSubSecTimeOriginal) && count > 0 && count <= kMaxText) {
+  std::string* const said = tag == kDateTimeOriginal     ? &found.date
+                            : tag == kSubSecTimeOriginal ? &found.fraction
+                            : tag == kOffsetTimeOriginal ? &found.zone
+                                                         : nullptr;
+  if (said != nullptr && count > 0 && count <= kMaxText) {
     std::string text(static_cast<std::size_t>(count), '\0');
     if (stream.read(text.data(), 1, text.size()) != count) return;
     text.resize(text.find('\0') == std::string::npos ? text.size() : text.find('\0'));
-    (tag == kDateTimeOriginal ? found.date : found.fraction) = text;
+    *said = text;
   }
 }
 

@@ -16,7 +16,7 @@ namespace nutik::stills {
 struct RawTags {
   std::optional<std::int64_t> exposure_ns;  // longer than nothing
   std::optional<Rational> rate;             // pictures a second, of CinemaDNG; above 0
-  std::string date, fraction;               // DateTimeOriginal and SubSecTimeOriginal, or empty
+  std::string date, fraction, zone;  // DateTimeOriginal, SubSecTimeOriginal, OffsetTimeOriginal, or empty
 };
 
 // Throws InputError where the file is no picture of a sensor.

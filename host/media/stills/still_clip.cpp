@@ -120,15 +120,6 @@ Still read_netpbm_still(const Page& page) {
   return still_of(std::move(picture), maximum);
 }
 
-// Where a JPEG was cut off, its decoder fills the rest with grey and says nothing. Its end marker
-// and the start of a scan cannot occur within a scan.
-bool is_cut_off_jpeg(const std::filesystem::path& file) {
-  const MappedFile mapped(file);
-  const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
-  const auto scan = bytes.rfind("\xFF\xDA"), end = bytes.rfind("\xFF\xD9");
-  return bytes.starts_with("\xFF\xD8") && (scan == bytes.npos || end == bytes.npos || end < scan);
-}
-
 std::uint32_t number_at(std::string_view bytes, std::size_t at, std::size_t count) {
   return static_cast<std::uint32_t>(big_endian(bytes, at, count));
 }
@@ -238,14 +229,23 @@ cv::Mat decoded_by_opencv(const std::filesystem::path& file) {
   }
 }
 
-Still read_with_opencv(const std::filesystem::path& file, bool is_jpeg) {
+Still read_jpeg_still(const std::filesystem::path& file) {
+  check_front(file);
+  if (holds_several_pictures(file)) throw InputError(format("{} holds several pictures: name it alone, as a video is", file.string()));
+  Still still = still_of(read_jpeg(MappedFile(file).bytes(), file.string()), {});
+  add_tags(file, {}, still);
+  turn_upright(still, exif_orientation(file));
+  return still;
+}
+
+Still read_with_opencv(const std::filesystem::path& file) {
   cv::Mat picture = decoded_by_opencv(file);
   const std::string name = file.string();
   const PngTags tags = read_png_tags(file);
   if (holds_several_pictures(file)) {
     throw InputError(format("{} holds several pictures, as an animated PNG does: name it alone, as a video is", name));
   }
-  if (picture.empty() || is_cut_off_jpeg(file)) {
+  if (picture.empty()) {
     throw InputError(format("{} cannot be read: it is damaged or no picture", name));
   }
   if (picture.depth() != CV_8U && picture.depth() != CV_16U) {
@@ -266,7 +266,7 @@ Still read_with_opencv(const std::filesystem::path& file, bool is_jpeg) {
   const auto* bytes = reinterpret_cast<const std::byte*>(picture.data);
   still.codes.assign(bytes, bytes + picture.total() * picture.elemSize());
   add_tags(file, tags, still);
-  turn_upright(still, is_jpeg ? exif_orientation(file) : tags.orientation);
+  turn_upright(still, tags.orientation);
   return still;
 }
 
@@ -306,6 +306,8 @@ class StillClip final : public Clip {
     stated_ = options;
     first_ = read_page(pages_.front());
     first_maximum_ = first_.maximum;
+    unread_transfer_ = first_.unread_transfer;
+    unread_primaries_ = first_.unread_primaries;
     CaptureFormat& capture = info_.format;
     capture.shape = first_.shape;
     capture.code_bytes = first_.code_bytes;
@@ -421,6 +423,7 @@ class StillClip final : public Clip {
       const ExrPicture read = read_exr(page.file);
       Still still = still_of_light(read.light, white, page.name());
       still.primaries = read.primaries;
+      if (read.names_others) still.unread_primaries = kOtherPrimaries;
       still.pixel_aspect = aspect_of(1, read.pixel_aspect);
       return still;
     }
@@ -431,7 +434,8 @@ class StillClip final : public Clip {
       if (!holds_codes(picture.type)) return still_of_light(picture, white, page.name());
       return still_of(std::move(picture), std::nullopt);
     }
-    if (*page.kind != readers::kTiff) return read_with_opencv(page.file, *page.kind == readers::kJpeg);
+    if (*page.kind == readers::kJpeg) return read_jpeg_still(page.file);
+    if (*page.kind != readers::kTiff) return read_with_opencv(page.file);
     if (page.number == 1) tiff_.emplace(page.file);
     std::optional<TiffPage> read = tiff_->next();
     if (!read) throw InputError(format("{} cannot be read: the file was cut off", page.name()));
@@ -453,15 +457,20 @@ class StillClip final : public Clip {
     const Transfer transfer = still.transfer.value_or(default_transfer(still));
     const auto stated_by = [](const Still& each) { return each.primaries.value_or(Primaries::bt709); };
     const Primaries primaries = stated_by(still);
-    const bool other_transfer = !stated_.transfer && transfer != capture.transfer;
-    const bool other_primaries =
-        !stated_.primaries && capture.shape.channels > 1 && primaries != stated_by(first_);
+    const bool other_transfer =
+        !stated_.transfer && (transfer != capture.transfer || still.unread_transfer != unread_transfer_);
+    const bool other_primaries = !stated_.primaries && capture.shape.channels > 1 &&
+                                 (primaries != stated_by(first_) || still.unread_primaries != unread_primaries_);
     if (!other_transfer && !other_primaries) return;
+    // What is named and not known here, by its name.
+    const auto named = [](const std::string& unread, std::string known) { return unread.empty() ? std::move(known) : unread; };
     throw InputError(
         format("{} has transfer {} and primaries {}, the first still, {}, {} and {}. All must be "
                "alike; state what all are to be taken for",
-               page.name(), transfer.text(), to_text(primaries), pages_.front().file.string(),
-               capture.transfer.text(), to_text(capture.primaries)),
+               page.name(), named(still.unread_transfer, transfer.text()),
+               named(still.unread_primaries, std::string(to_text(primaries))), pages_.front().file.string(),
+               named(unread_transfer_, capture.transfer.text()),
+               named(unread_primaries_, std::string(to_text(capture.primaries)))),
         {other_transfer ? Setting::transfer : Setting::primaries});
   }
 
@@ -498,6 +507,7 @@ class StillClip final : public Clip {
   TiffStory story_;                 // of the first file
   Still first_;
   std::optional<std::uint32_t> first_maximum_;
+  std::string unread_transfer_, unread_primaries_;  // of the first
   ClipOptions stated_;
   std::size_t next_ = 0;
   ClipInfo info_;

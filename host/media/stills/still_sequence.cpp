@@ -3,6 +3,7 @@
 #include <glob.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <string>
@@ -160,9 +161,17 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
 
 std::vector<fs::path> matching_files(const fs::path& pattern) {
   glob_t found{};
-  const int status = glob(pattern.c_str(), GLOB_NOSORT, nullptr, &found);
-  std::vector<fs::path> files;
   std::error_code error;
+  // A folder that has such a name is meant by it.
+  std::string text;
+  if (fs::is_directory(pattern.parent_path(), error)) {
+    for (const char c : pattern.parent_path().string()) text += std::string(std::strchr("*?[]\\", c) ? "\\" : "") + c;
+    text = fs::path(text) / pattern.filename();
+  } else {
+    text = pattern;
+  }
+  const int status = glob(text.c_str(), GLOB_NOSORT, nullptr, &found);
+  std::vector<fs::path> files;
   for (std::size_t i = 0; status == 0 && i < found.gl_pathc; ++i) {
     if (fs::is_regular_file(found.gl_pathv[i], error)) files.emplace_back(found.gl_pathv[i]);
   }

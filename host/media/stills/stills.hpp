@@ -21,12 +21,12 @@ namespace nutik::stills {
 // What the chunks of a PNG say of its codes, beside the size and depth that its decoder tells.
 struct PngTags {
   std::optional<Transfer> transfer;                  // of cICP, else of sRGB
-  std::optional<Primaries> primaries;                // likewise
+  std::optional<Primaries> primaries;                // likewise, else of cHRM
   bool has_profile = false;                          // iCCP, which goes before sRGB and not before cICP
   unsigned orientation = 1;                          // of eXIf, as EXIF numbers them
   bool has_clear_code = false;                       // tRNS
   std::string unread_transfer;                       // of cICP, else gAMA alone, which nobody asks programs for
-  std::string unread_primaries;                      // of cICP
+  std::string unread_primaries;                      // of cICP, else cHRM
   std::optional<std::pair<double, double>> density;  // pixels on a length, across and down
 };
 
@@ -43,9 +43,14 @@ void write_exr(OutputFile& file, const Picture& picture, const std::string& text
 void write_exr_layers(OutputFile& file, std::span<const PictureLayer> layers);
 // Light in light32, and what its file says of it. Throws InputError where it has other channels than R, G and B or one,
 // or other pixels than its picture.
+// Those with these chromaticities, of red, green, blue and white, to what files hold of them.
+[[nodiscard]] std::optional<Primaries> primaries_at(const std::array<std::array<double, 2>, 4>& points);
+inline constexpr const char* kOtherPrimaries = "other chromaticities";
+
 struct ExrPicture {
   Picture light;
   std::optional<Primaries> primaries;
+  bool names_others = false;
   double pixel_aspect = 1;
 };
 [[nodiscard]] ExrPicture read_exr(const std::filesystem::path& file);

@@ -90,6 +90,8 @@ std::vector<ListedStill> read_stills_table(const std::filesystem::path& path) {
   for (std::size_t line = 1; std::getline(in, text); ++line) {
     std::string_view row = text;
     if (line == 1 && row.starts_with("\xEF\xBB\xBF")) row.remove_prefix(3);
+    if (line == 1 && (row.starts_with("\xFF\xFE") || row.starts_with("\xFE\xFF")))
+      fail(path, line, "UTF-16; save the table as UTF-8");
     if (row.ends_with('\r')) row.remove_suffix(1);
     if (trimmed_field(row).empty()) continue;
     auto fields = fields_of(row);
@@ -109,7 +111,8 @@ std::vector<ListedStill> read_stills_table(const std::filesystem::path& path) {
     still.times.exposure_ns = nanoseconds(path, line, kColumns[2], (*fields)[2], 1);
     std::error_code error;
     if (!std::filesystem::is_regular_file(still.file, error)) {
-      fail(path, line, format("{} is no file", still.file.string()));
+      const bool has_semicolons = (*fields)[1].empty() && name.find(';') != name.npos;
+      fail(path, line, format("{} is no file{}", still.file.string(), has_semicolons ? "; columns are separated by commas" : ""));
     }
     stills.push_back(std::move(still));
   }
@@ -144,12 +147,12 @@ Times column(const std::filesystem::path& table, std::span<const ListedStill> st
     if (value) values.push_back(*value);
     if (values.empty() || value) continue;
     fail(table, stills[k].line,
-         format("{} has no {}, neither here nor in EXIF data; {} has {}", stills[k].file.string(), name,
+         format("{} has no {}, neither here nor in EXIF data (of JPEG and DNG); {} has {}", stills[k].file.string(), name,
                 stills.front().file.string(), values[0]));
   }
   if (!values.empty() && values.size() != stills.size()) {
     fail(table, stills.front().line,
-         format("{} has no {}, neither here nor in EXIF data; others have", stills.front().file.string(),
+         format("{} has no {}, neither here nor in EXIF data (of JPEG and DNG); others have", stills.front().file.string(),
                 name));
   }
   return values;
@@ -163,7 +166,7 @@ ClipTiming timing_of(const std::filesystem::path& table, std::span<const ListedS
   const Times exposures = column(table, stills, exif, &StillTimes::exposure_ns, "exposure_ns");
   if (starts.empty()) {
     fail(table, stills.front().line,
-         format("{} has no start_ns, neither here nor in EXIF data; state it, or a rate",
+         format("{} has no start_ns, neither here nor in EXIF data (of JPEG and DNG); state it, or a rate",
                 stills.front().file.string()),
          {Setting::frame_rate});
   }

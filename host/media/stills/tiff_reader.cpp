@@ -89,6 +89,8 @@ class PageReader {
                   shape_.width, shape_.height, file_bytes_));
     }
     if (photometric_ == PHOTOMETRIC_SEPARATED) fail("its colours are CMYK; grey and RGB are read");
+    if (photometric_ == PHOTOMETRIC_CIELAB || photometric_ == PHOTOMETRIC_ICCLAB || photometric_ == PHOTOMETRIC_ITULAB)
+      fail("its colours are L*a*b*; grey and RGB are read");
     if (shape_.channels != 1 && shape_.channels != 3) {
       fail(format("it has {} channels; grey (1) and colour (3) are read, transparency is not",
                   shape_.channels));
@@ -362,9 +364,24 @@ TiffReader::TiffReader(const std::filesystem::path& path)
         format("{} cannot be read: it is damaged or was cut off: its list of pages breaks at page {} ({})",
                name_, page_count_ + 1, file_->trouble));
   }
+  leave_copies_out();
   follow_story();
 }
 TiffReader::~TiffReader() = default;
+
+// Smaller copies of another page, and masks of its transparency, are no moments.
+void TiffReader::leave_copies_out() {
+  TIFF* const handle = file_->handle.get();
+  is_moment_.assign(page_count_, true);
+  for (std::uint64_t page = 1; page < is_moment_.size() && TIFFReadDirectory(handle) != 0; ++page) {
+    std::uint32_t kind = 0;
+    TIFFGetFieldDefaulted(handle, TIFFTAG_SUBFILETYPE, &kind);
+    is_moment_[page] = (kind & (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) == 0;
+    page_count_ -= !is_moment_[page];
+  }
+  if (is_moment_.size() > 1) TIFFSetDirectory(handle, 0);
+  file_->trouble.clear();  // a damaged page is told where it is read
+}
 
 bool TiffReader::is_dng() const {
   std::uint8_t* version = nullptr;
@@ -411,7 +428,8 @@ std::optional<TiffPage> TiffReader::next() {
   if (pages_read_ == page_count_) return std::nullopt;
   const std::string page_name = format("page {} of {}", pages_read_ + 1, name_);
   TIFF* const handle = file_->handle.get();
-  const bool found = pages_read_ == 0 || is_in_one_ || TIFFReadDirectory(handle) != 0;
+  bool found = pages_read_ == 0 || is_in_one_ || TIFFReadDirectory(handle) != 0;
+  while (found && !is_in_one_ && !is_moment_[TIFFCurrentDirectory(handle)]) found = TIFFReadDirectory(handle) != 0;
   std::optional<TiffPage> page;
   if (found) page = PageReader(handle, page_name).read(is_in_one_ ? pages_read_ * bytes_in_one_piece(handle) : 0);
   if (!found || !file_->trouble.empty()) {

@@ -63,6 +63,7 @@ class TiffReader {
  private:
   struct File;
 
+  void leave_copies_out();
   // Throws where the description says of more than moments; makes pages of what it says that no directory does.
   void follow_story();
 
@@ -70,6 +71,7 @@ class TiffReader {
   std::unique_ptr<File> file_;
   std::uint64_t page_count_ = 0;
   std::uint64_t pages_read_ = 0;
+  std::vector<bool> is_moment_;  // of each directory
   TiffStory story_;
   bool is_in_one_ = false;  // whether all pages have the first one's directory
 };
