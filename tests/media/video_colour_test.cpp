@@ -221,6 +221,48 @@ TEST(VideoColour, TellsWhatWhiteIsTakenToBe) {
   EXPECT_TRUE(stated->info().notes.empty());
 }
 
+// Nearest codes, worked out in whole numbers.
+TEST(VideoColour, OfGreyInTheLimitedRangeIsScaledToTheFullOne) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  for (const auto& [pixels, bits, white] : {std::tuple("gray", 8, 255L), {"gray10le", 10, 65'535L}}) {
+    std::string raw;
+    for (int code = 0; code < 1 << bits; ++code) {
+      raw += static_cast<char>(code & 255);
+      if (bits > 8) raw += static_cast<char>(code >> 8);
+    }
+    scratch.write("raw", raw);
+    const std::string words = test::from_raw({32, (1u << bits) / 32, 1}, pixels) + "-c:v ffv1 ";
+    test::make(scratch, words + "bare.mkv");
+    test::make(scratch, words + "-color_range tv limited.mkv");
+    const auto codes_of = [&](const char* name, std::optional<CodeRange> range, const std::string& fact) {
+      ClipOptions options;
+      options.range = range;
+      const auto clip = test::open_test_clip(scratch / name, options);
+      const auto facts = test::facts_of(*clip);
+      EXPECT_EQ(facts.contains(Setting::range) ? facts.at(Setting::range).line() : "", fact) << name;
+      std::vector<long> codes;
+      const auto raster = test::read_all(*clip).at(0);
+      for (std::size_t i = 0; i < std::size_t{1} << bits; ++i)
+        codes.push_back(test::code_at(clip->info().format, raster, i));
+      return codes;
+    };
+    const long unit = 1 << (bits - 8);
+    std::vector<long> full, scaled;
+    for (long code = 0; code < 1 << bits; ++code) {
+      full.push_back(code);
+      scaled.push_back(std::clamp((2 * (code - 16 * unit) * white + 219 * unit) / (2 * 219 * unit), 0L, white));
+    }
+    EXPECT_EQ(codes_of("limited.mkv", {}, "limited range, from the file"), scaled);
+    EXPECT_EQ(codes_of("bare.mkv", CodeRange::limited, "limited range, as stated"), scaled);
+    EXPECT_EQ(codes_of("bare.mkv", {}, ""), full);
+    EXPECT_EQ(codes_of("limited.mkv", CodeRange::full, "full range, as stated"), full);
+    ClipOptions options;
+    options.white_code = 4095;
+    test::expect_clip_refused(scratch / "limited.mkv", options, "scaled to the full one, whose white is ");
+  }
+}
+
 // Frames are whole where nothing says that they are interlaced; that something says so is no assumption.
 TEST(VideoColour, TellsThatFramesAreAssumedToBeWhole) {
   NEEDS_FFMPEG();

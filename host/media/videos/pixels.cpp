@@ -107,7 +107,7 @@ void copy_upright(const std::uint8_t* from, std::ptrdiff_t stride, std::size_t w
 }  // namespace
 
 std::uint32_t PixelKind::white_code() const {
-  if (is_grey) return (1u << bits) - 1;
+  if (is_grey && !is_limited_grey) return (1u << bits) - 1;
   return bits <= 8 ? 255 : 65'535;
 }
 
@@ -317,6 +317,18 @@ SwsContext* new_scaler(const AVFrame& frame, AVPixelFormat wanted, ChromaPlace a
 
 }  // namespace
 
+PixelConverter::PixelConverter(PixelKind kind, Upright upright, YuvCoding coding)
+    : kind_(kind), upright_(upright), coding_(coding) {
+  if (kind.padding_bits == 0 && !kind.is_limited_grey) return;
+  const double white = kind.white_code(), unit = std::ldexp(1.0, static_cast<int>(std::max(kind.bits, 8u)) - 8);
+  code_of_.resize(kind.bits > 8 ? 65'536 : 256);
+  for (std::uint32_t i = 0; i < code_of_.size(); ++i) {
+    double code = i >> kind.padding_bits;
+    if (kind.is_limited_grey) code = std::clamp((code - 16 * unit) / (219 * unit), 0.0, 1.0) * white + 0.5;
+    code_of_[i] = static_cast<std::uint16_t>(code);
+  }
+}
+
 void PixelConverter::scale(const AVFrame& frame, AVPixelFormat wanted, const std::string& name,
                            std::uint8_t* const* planes, const int* strides) {
   const auto from = static_cast<AVPixelFormat>(frame.format);
@@ -380,11 +392,13 @@ void PixelConverter::convert(const AVFrame& frame, std::span<std::byte> raster, 
   const AVFrame& picture = converted(frame, name);
   copy_upright(picture.data[0], picture.linesize[0], static_cast<std::size_t>(picture.width),
                static_cast<std::size_t>(picture.height), pixel_bytes, upright_, raster);
-  if (kind_.padding_bits == 0) return;
-  auto* codes = reinterpret_cast<std::uint16_t*>(raster.data());
-  for (std::size_t i = 0; i < raster.size() / 2; ++i) {
-    codes[i] = static_cast<std::uint16_t>(codes[i] >> kind_.padding_bits);
+  if (code_of_.empty()) return;
+  if (kind_.bits <= 8) {
+    for (std::byte& code : raster) code = static_cast<std::byte>(code_of_[std::to_integer<std::size_t>(code)]);
+    return;
   }
+  auto* codes = reinterpret_cast<std::uint16_t*>(raster.data());
+  for (std::size_t i = 0; i < raster.size() / 2; ++i) codes[i] = code_of_[codes[i]];
 }
 
 }  // namespace nutik::videos
