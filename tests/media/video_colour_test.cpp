@@ -263,6 +263,34 @@ TEST(VideoColour, OfGreyInTheLimitedRangeIsScaledToTheFullOne) {
   }
 }
 
+TEST(VideoColour, ThatChangesInMidClipIsRefused) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  const auto clip_of = [&](const std::string& range, const std::string& matrix, const std::string& transfer) {
+    test::make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25:d=1 -c:v libx264 -bf 0 -pix_fmt yuv420p "
+                        "-bsf:v h264_metadata=colour_primaries=1:video_full_range_flag=" + range +
+                            ":matrix_coefficients=" + matrix + ":transfer_characteristics=" + transfer + " part.ts");
+    return test::read_file(scratch / "part.ts");
+  };
+  const std::string first = clip_of("0", "1", "1");
+  for (const auto& [second, said] :
+       {std::pair(clip_of("1", "1", "1"), "picture 25 is of the full range, the ones before it of the limited range"),
+        {clip_of("0", "6", "1"), "picture 25 is of matrix bt601, the ones before it of matrix bt709"},
+        {clip_of("0", "1", "16"), "picture 25 is of transfer pq, the ones before it of transfer srgb"},
+        {clip_of("0", "1", "6"), ""}}) {
+    ClipOptions options;
+    options.rate = Rational{25, 1};
+    const auto path = scratch.write("joined.ts", first + second);
+    if (*said != 0) test::expect_clip_refused(path, options, said);
+    options.ends_at_damage = true;
+    EXPECT_EQ(test::read_all(*test::open_test_clip(path, options)).size(), *said == 0 ? 50u : 25u) << said;
+    options.range = CodeRange::limited;
+    options.matrix = YuvMatrix::bt709;
+    options.transfer = Transfer::srgb();
+    EXPECT_EQ(test::read_all(*test::open_test_clip(path, options)).size(), 50u) << "as stated";
+  }
+}
+
 // Frames are whole where nothing says that they are interlaced; that something says so is no assumption.
 TEST(VideoColour, TellsThatFramesAreAssumedToBeWhole) {
   NEEDS_FFMPEG();

@@ -210,11 +210,8 @@ std::optional<YuvMatrix> named_matrix(unsigned space, unsigned primaries) {
   }
 }
 
-std::optional<CodeRange> named_range(const AVCodecParameters& codec) {
-  const unsigned range = number_of(codec.color_range);
-  if (range == AVCOL_RANGE_JPEG || has_j_name(static_cast<AVPixelFormat>(codec.format))) {
-    return CodeRange::full;
-  }
+std::optional<CodeRange> named_range(unsigned range, AVPixelFormat format) {
+  if (range == AVCOL_RANGE_JPEG || has_j_name(format)) return CodeRange::full;
   return range == AVCOL_RANGE_MPEG ? std::optional(CodeRange::limited) : std::nullopt;
 }
 

@@ -67,7 +67,7 @@ struct ChromaWeights {
 [[nodiscard]] bool is_mosaic(AVPixelFormat format);
 // What a stream says of its YUV; none where it does not, or names what is not known here.
 [[nodiscard]] std::optional<YuvMatrix> named_matrix(unsigned space, unsigned primaries);
-[[nodiscard]] std::optional<CodeRange> named_range(const AVCodecParameters& codec);
+[[nodiscard]] std::optional<CodeRange> named_range(unsigned range, AVPixelFormat format);
 [[nodiscard]] std::optional<ChromaPlace> named_chroma_place(const AVCodecParameters& codec);
 // Whether several pixels have one sample of chroma.
 [[nodiscard]] bool shares_chroma(AVPixelFormat format);

@@ -330,7 +330,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   result.transfer = is_phantom_packed(codec) ? Transfer::linear() : transfer_of_coding_point(curve);
   result.transfer_name = transfer_name(curve);
   result.matrix = named_matrix(matrix, primaries);
-  result.range = named_range(codec);
+  result.range = named_range(number_of(codec.color_range), result.pixel_format);
   result.chroma_at = named_chroma_place(codec);
   result.primaries = primaries_of_coding_point(primaries);
   if (const auto named = raw ? std::nullopt : named_curve(*opened.format, path, result.notes)) {
