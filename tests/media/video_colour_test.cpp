@@ -291,6 +291,19 @@ TEST(VideoColour, ThatChangesInMidClipIsRefused) {
   }
 }
 
+TEST(VideoColour, OfDigitalCinemaIsRefusedWithItsWayOut) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  test::make(scratch, "-f lavfi -i color=0x4080C0:s=32x32:r=25:d=0.1 -c:v rawvideo -pix_fmt xyz12le clip.nut");
+  test::expect_clip_refused(scratch / "clip.nut", {}, "holds X'Y'Z' of digital cinema");
+  test::make(scratch, "-i clip.nut -pix_fmt gbrp16le -color_trc gamma22 -color_primaries bt709 -c:v ffv1 film.mkv");
+  const auto clip = test::open_test_clip(scratch / "film.mkv");
+  EXPECT_EQ(clip->info().format.transfer, Transfer::parse("gamma:2.2"));
+  const auto raster = test::read_all(*clip).at(0);
+  for (std::size_t i = 0; i < 3; ++i)  // by less than sRGB's curve is off from that
+    EXPECT_NEAR(test::code_at(clip->info().format, raster, i) / 257.0, 64.0 * static_cast<double>(i + 1), 4.0) << i;
+}
+
 // Frames are whole where nothing says that they are interlaced; that something says so is no assumption.
 TEST(VideoColour, TellsThatFramesAreAssumedToBeWhole) {
   NEEDS_FFMPEG();

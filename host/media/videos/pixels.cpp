@@ -133,6 +133,12 @@ PixelKind pixel_kind(const AVCodecParameters& codec, const std::string& name) {
         "scale=in_range=full -pix_fmt {} PICTURE.png makes these of its light from black to white",
         name, pixels->name, pixels->nb_components < 3 ? "gray16" : "rgb48"));
   }
+  if (codec.format == AV_PIX_FMT_XYZ12LE || codec.format == AV_PIX_FMT_XYZ12BE) {
+    throw InputError(
+        format("{} holds X'Y'Z' of digital cinema, of which no RGB is made here: ffmpeg -i CLIP -pix_fmt gbrp16le -color_trc "
+               "gamma22 -color_primaries bt709 -c:v ffv1 film.mkv makes it",
+               name));
+  }
   PixelKind kind;
   kind.is_grey =
       pixels->nb_components <= 2 && (pixels->flags & (AV_PIX_FMT_FLAG_PAL | AV_PIX_FMT_FLAG_BAYER)) == 0;
@@ -159,8 +165,7 @@ bool is_mosaic(AVPixelFormat format) {
 bool is_yuv(AVPixelFormat format) {
   const AVPixFmtDescriptor& pixels = *av_pix_fmt_desc_get(format);
   return pixels.nb_components >= 3 &&
-         (pixels.flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_BAYER | AV_PIX_FMT_FLAG_PAL)) == 0 &&
-         format != AV_PIX_FMT_XYZ12LE && format != AV_PIX_FMT_XYZ12BE;
+         (pixels.flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_BAYER | AV_PIX_FMT_FLAG_PAL)) == 0;
 }
 
 ChromaWeights chroma_weights(YuvMatrix matrix) {
