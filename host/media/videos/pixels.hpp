@@ -89,6 +89,7 @@ class PixelConverter {
   const AVFrame& converted(const AVFrame& frame, const std::string& name);
   void scale(const AVFrame& frame, AVPixelFormat wanted, const std::string& name, std::uint8_t* const* planes,
              const int* strides);
+  const AVFrame& unpacked(const AVFrame& frame);
   const AVFrame& scaled(const AVFrame& frame, AVPixelFormat wanted, const std::string& name);
 
   PixelKind kind_;
@@ -98,6 +99,7 @@ class PixelConverter {
   ScalerPointer scaler_;
   AVPixelFormat scales_from_ = AV_PIX_FMT_NONE, scales_to_ = AV_PIX_FMT_NONE;
   ChromaPlace chroma_at_ = kDefaultChromaPlace;
+  FramePointer planes_;
   FramePointer scaled_;
   FramePointer rgb_;
 };
