@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <span>
 #include <utility>
 
@@ -462,6 +463,16 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
     result.timing.rate_doubt = std::move(*doubt);
   } else {
     result.timing = timing_of(*opened.format, stream, times, input_title(path.string()));
+  }
+  const auto back = std::ranges::adjacent_find(packets, [](const PacketTimes& one, const PacketTimes& next) {
+    return next.is_key && next.decoded != AV_NOPTS_VALUE && next.decoded < one.decoded;
+  });
+  const bool increases = std::ranges::adjacent_find(result.timing.starts_ns, std::greater_equal<>()) ==
+                         result.timing.starts_ns.end();
+  if (back != packets.end() && !increases) {
+    result.timing = {};
+    result.timing.rate_doubt = format("its times run back at picture {}, as if it were two clips, one behind the other",
+                                      back + 1 - packets.begin());
   }
   if (cine) add_cine_header(*cine, opened, input_title(path.string()), result);
   if (const auto filmed = capture_rate(*opened.format, path, result.notes)) {
