@@ -81,6 +81,20 @@ TEST(ClipTimes, RefusesTimesThatDoNotIncrease) {
   EXPECT_TRUE(timeline_of("", open_test_clip(clip, stated)->info(), stated, {360, 1}, 7).is_constant());
 }
 
+TEST(ClipTimes, ThatRunBackAreThoseOfTwoClips) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  for (const std::string clip : {"clip.ts", "clip.mpg"}) {
+    test::make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25:d=1 -c:v mpeg2video -bf 2 " + clip);
+    const std::string bytes = test::read_file(scratch / clip);
+    const auto twice = scratch.write("twice-" + clip, bytes + bytes);
+    expect_clip_refused(twice, {}, "does not say how fast it was taken: its times run back at picture 25, as if");
+    ClipOptions stated;
+    stated.rate = Rational{25, 1};
+    EXPECT_TRUE(timeline_of("", open_test_clip(twice, stated)->info(), stated, {360, 1}, 50).is_constant());
+  }
+}
+
 // What ffprobe says of decoded pictures: their times in ticks, without those that no decoder can tell (the last ones of
 // files that time packets' decoding alone), and the seconds of a tick.
 struct ProbedTimes {

@@ -115,6 +115,35 @@ TEST_F(DamagedVideo, WithoutItsStartSaysSo) {
              kPictures / 25.0, static_cast<double>(missing) / 25.0));
 }
 
+// As programs cut films without encoding them anew: each part begins when it did in the film.
+TEST_F(DamagedVideo, IsNoSegmentOfAFilm) {
+  NEEDS_FFMPEG();
+  make_clip("-c:v libx264 -bf 0 -g 10 -sc_threshold 0 -f segment -segment_time 0.4", "part%d.mkv");
+  const auto clip = open_test_clip(scratch_ / "part1.mkv");
+  EXPECT_EQ(read_all(*clip).size(), 10u);
+  for (const Note& note : clip->info().notes) ADD_FAILURE() << note.text;
+}
+
+// Cut in front of a key picture to whose group pictures belong that are shown before it, and refer to what is gone.
+TEST_F(DamagedVideo, IsNoneThatWasCutWithoutEncodingIt) {
+  NEEDS_FFMPEG();
+  for (const std::string pyramid : {"", ":b-pyramid=2:ref=6"}) {
+    make_clip("-c:v libx264 -pix_fmt yuv420p -bf 4 -x264opts open-gop=1:keyint=10" + pyramid, "whole.ts");
+    const auto pictures = read_all(*open_test_clip(scratch_ / "whole.ts"));
+    test::make(scratch_, "-i whole.ts -c copy whole.mp4");
+    for (const std::string film : {"whole.ts", "whole.mp4"}) {
+      for (const std::string part : {"cut.ts", "cut.mp4", "cut.mkv"}) {
+        if (film == "whole.mp4" && part == "cut.ts") continue;
+        test::make(scratch_, "-ss 0.53 -i " + film + " -c copy " + part);
+        const auto read = read_all(*open_test_clip(scratch_ / part));
+        EXPECT_GT(read.size(), 5u) << film << part;
+        for (std::size_t k = 0; k < std::min(read.size(), pictures.size()); ++k)
+          EXPECT_TRUE(read[read.size() - 1 - k] == pictures[pictures.size() - 1 - k]) << film << part << k;
+      }
+    }
+  }
+}
+
 // Before a decoder makes room for them.
 TEST_F(DamagedVideo, OfMorePixelsThanItsBytesHoldIsRefused) {
   const auto said_of = [&](const char* size) {

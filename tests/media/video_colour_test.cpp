@@ -221,6 +221,89 @@ TEST(VideoColour, TellsWhatWhiteIsTakenToBe) {
   EXPECT_TRUE(stated->info().notes.empty());
 }
 
+// Nearest codes, worked out in whole numbers.
+TEST(VideoColour, OfGreyInTheLimitedRangeIsScaledToTheFullOne) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  for (const auto& [pixels, bits, white] : {std::tuple("gray", 8, 255L), {"gray10le", 10, 65'535L}}) {
+    std::string raw;
+    for (int code = 0; code < 1 << bits; ++code) {
+      raw += static_cast<char>(code & 255);
+      if (bits > 8) raw += static_cast<char>(code >> 8);
+    }
+    scratch.write("raw", raw);
+    const std::string words = test::from_raw({32, (1u << bits) / 32, 1}, pixels) + "-c:v ffv1 ";
+    test::make(scratch, words + "bare.mkv");
+    test::make(scratch, words + "-color_range tv limited.mkv");
+    const auto codes_of = [&](const char* name, std::optional<CodeRange> range, const std::string& fact) {
+      ClipOptions options;
+      options.range = range;
+      const auto clip = test::open_test_clip(scratch / name, options);
+      const auto facts = test::facts_of(*clip);
+      EXPECT_EQ(facts.contains(Setting::range) ? facts.at(Setting::range).line() : "", fact) << name;
+      std::vector<long> codes;
+      const auto raster = test::read_all(*clip).at(0);
+      for (std::size_t i = 0; i < std::size_t{1} << bits; ++i)
+        codes.push_back(test::code_at(clip->info().format, raster, i));
+      return codes;
+    };
+    const long unit = 1 << (bits - 8);
+    std::vector<long> full, scaled;
+    for (long code = 0; code < 1 << bits; ++code) {
+      full.push_back(code);
+      scaled.push_back(std::clamp((2 * (code - 16 * unit) * white + 219 * unit) / (2 * 219 * unit), 0L, white));
+    }
+    EXPECT_EQ(codes_of("limited.mkv", {}, "limited range, from the file"), scaled);
+    EXPECT_EQ(codes_of("bare.mkv", CodeRange::limited, "limited range, as stated"), scaled);
+    EXPECT_EQ(codes_of("bare.mkv", {}, ""), full);
+    EXPECT_EQ(codes_of("limited.mkv", CodeRange::full, "full range, as stated"), full);
+    ClipOptions options;
+    options.white_code = 4095;
+    test::expect_clip_refused(scratch / "limited.mkv", options, "scaled to the full one, whose white is ");
+  }
+}
+
+TEST(VideoColour, ThatChangesInMidClipIsRefused) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  const auto clip_of = [&](const std::string& range, const std::string& matrix, const std::string& transfer) {
+    test::make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25:d=1 -c:v libx264 -bf 0 -pix_fmt yuv420p "
+                        "-bsf:v h264_metadata=colour_primaries=1:video_full_range_flag=" + range +
+                            ":matrix_coefficients=" + matrix + ":transfer_characteristics=" + transfer + " part.ts");
+    return test::read_file(scratch / "part.ts");
+  };
+  const std::string first = clip_of("0", "1", "1");
+  for (const auto& [second, said] :
+       {std::pair(clip_of("1", "1", "1"), "picture 25 is of the full range, the ones before it of the limited range"),
+        {clip_of("0", "6", "1"), "picture 25 is of matrix bt601, the ones before it of matrix bt709"},
+        {clip_of("0", "1", "16"), "picture 25 is of transfer pq, the ones before it of transfer srgb"},
+        {clip_of("0", "1", "6"), ""}}) {
+    ClipOptions options;
+    options.rate = Rational{25, 1};
+    const auto path = scratch.write("joined.ts", first + second);
+    if (*said != 0) test::expect_clip_refused(path, options, said);
+    options.ends_at_damage = true;
+    EXPECT_EQ(test::read_all(*test::open_test_clip(path, options)).size(), *said == 0 ? 50u : 25u) << said;
+    options.range = CodeRange::limited;
+    options.matrix = YuvMatrix::bt709;
+    options.transfer = Transfer::srgb();
+    EXPECT_EQ(test::read_all(*test::open_test_clip(path, options)).size(), 50u) << "as stated";
+  }
+}
+
+TEST(VideoColour, OfDigitalCinemaIsRefusedWithItsWayOut) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  test::make(scratch, "-f lavfi -i color=0x4080C0:s=32x32:r=25:d=0.1 -c:v rawvideo -pix_fmt xyz12le clip.nut");
+  test::expect_clip_refused(scratch / "clip.nut", {}, "holds X'Y'Z' of digital cinema");
+  test::make(scratch, "-i clip.nut -pix_fmt gbrp16le -color_trc gamma22 -color_primaries bt709 -c:v ffv1 film.mkv");
+  const auto clip = test::open_test_clip(scratch / "film.mkv");
+  EXPECT_EQ(clip->info().format.transfer, Transfer::parse("gamma:2.2"));
+  const auto raster = test::read_all(*clip).at(0);
+  for (std::size_t i = 0; i < 3; ++i)  // by less than sRGB's curve is off from that
+    EXPECT_NEAR(test::code_at(clip->info().format, raster, i) / 257.0, 64.0 * static_cast<double>(i + 1), 4.0) << i;
+}
+
 // Frames are whole where nothing says that they are interlaced; that something says so is no assumption.
 TEST(VideoColour, TellsThatFramesAreAssumedToBeWhole) {
   NEEDS_FFMPEG();

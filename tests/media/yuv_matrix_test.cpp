@@ -152,6 +152,51 @@ TEST(MatrixOfYuv, TakesChromaFromWhereItIsStatedToLie) {
   }
 }
 
+// Described raw video whose components lie beside each other, and the same values plane by plane.
+TEST(PackedVideo, HasTheCodesOfItsPlanes) {
+  const Scratch scratch;
+  const auto open = [&](const std::string& bytes, const char* pixels) {
+    ClipOptions options;
+    options.raw = RawVideo{16, 16, pixels};
+    return test::open_test_clip(scratch.write(pixels, bytes), options);
+  };
+  const auto append = [](std::string& to, std::uint32_t value, int bytes) {
+    for (int i = 0; i < bytes; ++i) to += static_cast<char>(value >> 8 * i & 255);
+  };
+  test::Random random(8);
+  for (const auto& [packed, planar, bits] :
+       {std::tuple("x2rgb10le", "gbrp10le", 10), {"x2bgr10le", "gbrp10le", 10}, {"nv16", "yuv422p", 8},
+        {"nv20le", "yuv422p10le", 10}}) {
+    const bool is_rgb = *packed == 'x', is_blue_first = packed == std::string("x2bgr10le");
+    const std::size_t counts[] = {256, is_rgb ? 256u : 128u, is_rgb ? 256u : 128u};
+    std::vector<std::uint32_t> planes[3];  // G, B, R or Y, U, V
+    std::string in_planes, together;
+    const int bytes = bits > 8 ? 2 : 1;
+    for (std::size_t plane = 0; plane < 3; ++plane) {
+      for (std::size_t i = 0; i < counts[plane]; ++i) {
+        const int white = (1 << bits) - 1;
+        planes[plane].push_back(static_cast<std::uint32_t>(i == 0 ? white : random.whole(0, white)));
+        append(in_planes, planes[plane].back(), bytes);
+      }
+    }
+    for (std::size_t i = 0; i < 256; ++i) {
+      const auto &high = planes[is_blue_first ? 1 : 2], &low = planes[is_blue_first ? 2 : 1];
+      if (is_rgb) append(together, high[i] << 20 | planes[0][i] << 10 | low[i], 4);
+      if (!is_rgb) append(together, planes[0][i], bytes);
+    }
+    for (std::size_t i = 0; i < 128 && !is_rgb; ++i) {
+      append(together, planes[1][i], bytes);
+      append(together, planes[2][i], bytes);
+    }
+    const auto raster = test::read_all(*open(together, packed)).at(0);
+    EXPECT_TRUE(raster == test::read_all(*open(in_planes, planar)).at(0)) << packed;
+    EXPECT_TRUE(!is_rgb || raster[0] == std::byte{255}) << "white";
+  }
+  ClipOptions options;
+  options.raw = RawVideo{16, 16, "uyyvyy411"};
+  test::expect_clip_refused(scratch.write("411", std::string(384, 'x')), options, "those of yuv411p can");
+}
+
 // H.273, equations of MatrixCoefficients 8, from their words: of codes whose range is that of luma.
 TEST(MatrixOfYuv, OfYCgCoIsThatOfTheStandard) {
   NEEDS_FFMPEG();

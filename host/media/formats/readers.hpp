@@ -42,7 +42,7 @@ using std::literals::operator""sv;
 
 inline constexpr Reader kVideo{
     "video", {}, {}, "what FFmpeg takes it for", "its pictures' times; filming rates of Android, Samsung and Sony", "none",
-    "colour: RGB of 8 bits, or over 16, by matrix and range; grey: as stored, white by its bits",
+    "colour: RGB of 8 bits, or over 16, by matrix and range; grey: as stored, white by its bits; or by range",
     "display matrix, by quarter turns", "left out, with a note", "as shown"};
 inline constexpr Reader kRawVideo{
     "raw video", {}, {}, "your description", "Photron's header beside it", "that header", "as of a video", "none",

@@ -1,5 +1,6 @@
 #include "media/videos/damage_log.hpp"
 
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 #include <set>
@@ -8,6 +9,9 @@
 
 namespace nutik::videos {
 namespace {
+
+constexpr const char* kMissingReferences[] = {"Missing reference picture", "reference picture missing during reorder",
+                                              "co located POCs unavailable"};
 
 // FFmpeg has one log for a process, and decoders of other libraries write to it, too.
 struct Listeners {
@@ -72,12 +76,25 @@ void DamageLog::listen_to(AVFormatContext& file) {
 
 void DamageLog::note(const std::string& text) {
   const std::scoped_lock lock(mutex_);
+  const auto is_of = [&](const char* missing) { return text.starts_with(missing); };
+  if (!has_begun_ && is_of("mmco: unref short failure")) return;
+  if (!has_begun_ && is_leading_ && std::ranges::any_of(kMissingReferences, is_of)) return;
   if (!first_) first_ = text;
 }
 
 std::optional<std::string> DamageLog::said() const {
   const std::scoped_lock lock(mutex_);
   return first_;
+}
+
+void DamageLog::expect_leading() {
+  const std::scoped_lock lock(mutex_);
+  is_leading_ = true;
+}
+
+void DamageLog::begin() {
+  const std::scoped_lock lock(mutex_);
+  has_begun_ = true;
 }
 
 void DamageLog::forget() {

@@ -4,6 +4,7 @@
 
 #include "media/module.hpp"
 #include "media/clip.hpp"
+#include "media/formats/coding_points.hpp"
 #include "media/settled_fact.hpp"
 #include "media/videos/deinterlacer.hpp"
 #include "media/videos/eight_bit_yuv.hpp"
@@ -21,10 +22,14 @@ namespace {
 // What a video's codes are taken for: as stated, else as the file says, else as most such files are.
 bool is_colour_yuv(const Probe& probe) { return is_yuv(probe.pixel_format) && !probe.pixels.is_grey; }
 
-// Where no matrix is named it is the usual one; where no range is named it is the limited one. Throws InputError naming
-// the file where the matrix that it names is none that is known here.
+// Where no matrix is named it is the usual one; where no range is named it is the limited one, of grey the full one.
+// Throws InputError naming the file where the matrix that it names is none that is known here.
 YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options, const std::string& name) {
-  if (!is_colour_yuv(probe)) refuse_yuv_options(options);
+  if (!is_colour_yuv(probe)) {
+    ClipOptions rest = options;
+    if (probe.pixels.is_grey) rest.range.reset();
+    refuse_yuv_options(rest);
+  }
   if (options.chroma_at && !interpolates_chroma(probe.pixel_format, probe.pixels)) {
     throw UsageError(format("each pixel of {} has {}: leave the place of chroma out", name,
                             probe.pixels.is_everyday()
@@ -40,7 +45,8 @@ YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options, const std::
         {Setting::matrix});
   }
   return {options.matrix.value_or(probe.matrix.value_or(usual_matrix(probe.shape.height))),
-          options.range.value_or(probe.range.value_or(CodeRange::limited)), options.chroma_at};
+          options.range.value_or(probe.range.value_or(probe.pixels.is_grey ? CodeRange::full : CodeRange::limited)),
+          options.chroma_at};
 }
 
 // Transfer function, primaries and pixel aspect of the capture, whose white code is known; facts on all of these, and on
@@ -49,7 +55,7 @@ void describe(ClipInfo& info, const Probe& probe, const ClipOptions& options) {
   const PixelKind& pixels = probe.pixels;
   CaptureFormat& capture = info.format;
   std::vector<Fact>& facts = info.facts;
-  if (pixels.is_grey && pixels.bits > 8) {
+  if (pixels.is_grey && pixels.bits > 8 && !pixels.is_limited_grey) {
     const bool fills_its_bits = pixels.bits == 16;
     settle_white(info, options.white_code,
                  fills_its_bits ? std::nullopt : std::optional(pixels.white_code()));
@@ -70,11 +76,14 @@ void describe(ClipInfo& info, const Probe& probe, const ClipOptions& options) {
   if (is_colour_yuv(probe)) {
     settle(facts, options.matrix, probe.matrix, usual_matrix(probe.shape.height), Setting::matrix,
            [](YuvMatrix matrix) { return format("matrix {}", to_text(matrix)); });
+    info.roundings.add(pixels.is_everyday() ? kMostOff : 0.5, 1.0,
+                       shares_chroma(probe.pixel_format) ? "chroma" : "");
+  }
+  if (pixels.is_limited_grey) info.roundings.add(0.5, 1.0, "");
+  if (is_colour_yuv(probe) || pixels.is_limited_grey || (pixels.is_grey && options.range)) {
     const CodeRange range = settle(facts, options.range, probe.range, CodeRange::limited, Setting::range,
                                    [](CodeRange each) { return format("{} range", to_text(each)); });
     if (range == CodeRange::limited) capture.transfer = capture.transfer.scaled_from_video();
-    info.roundings.add(pixels.is_everyday() ? kMostOff : 0.5, 1.0,
-                       shares_chroma(probe.pixel_format) ? "chroma" : "");
   }
   if (interpolates_chroma(probe.pixel_format, pixels)) {
     settle(facts, options.chroma_at, probe.chroma_at, kDefaultChromaPlace, Setting::chroma_place,
@@ -154,6 +163,11 @@ class LibavClip final : public Clip {
     info_.decoder_bytes = (static_cast<std::uint64_t>(decoder_.threads()) + kept_pictures(parameters)) *
                           decoded_bytes(parameters);
     describe(info_, probe, options);
+    const YuvCoding coding = yuv_coding(probe, options, name_);
+    if (is_colour_yuv(probe) && !options.matrix) matrix_ = coding.matrix;
+    if ((is_colour_yuv(probe) || pixels.is_grey) && !options.range) range_ = coding.range;
+    if (!options.transfer) transfer_ = capture.transfer;
+    is_everyday_ = pixels.is_everyday();
     settle_fields(options.interlaced);
   }
 
@@ -186,13 +200,35 @@ class LibavClip final : public Clip {
   }
 
  private:
-  // Throws where the picture is of another size, or damaged.
-  void check_whole() const {
+  // Throws where the picture names another coding than the first one, where that was not stated.
+  void check_colour() {
+    const auto check = [&](const auto& named, auto& taken, const auto& text) {
+      if (!named || !taken) return;
+      if (is_first_) taken = named;
+      if (*named == *taken) return;
+      throw InputError(format("{}: picture {} is of {}, the ones before it of {}", name_, frames_read_, text(*named),
+                              text(*taken)));
+    };
+    const unsigned curve = number_of(frame_->color_trc);
+    const auto pixels = static_cast<AVPixelFormat>(frame_->format);
+    auto transfer = transfer_of_coding_point(curve);
+    if (is_everyday_ && transfer == Transfer::bt709()) transfer.reset();
+    check(named_range(number_of(frame_->color_range), pixels), range_,
+          [](CodeRange each) { return format("the {} range", to_text(each)); });
+    check(named_matrix(number_of(frame_->colorspace), number_of(frame_->color_primaries)), matrix_,
+          [](YuvMatrix each) { return format("matrix {}", to_text(each)); });
+    check(transfer, transfer_, [](const Transfer& each) { return "transfer " + each.text(); });
+    is_first_ = false;
+  }
+
+  // Throws where the picture is of another size or coding, or damaged.
+  void check_whole() {
     if (frame_->width != static_cast<int>(coded_.width) ||
         frame_->height != static_cast<int>(coded_.height)) {
       throw InputError(format("{}: picture {} has {} x {} pixels, the ones before it {} x {}", name_,
                               frames_read_, frame_->width, frame_->height, coded_.width, coded_.height));
     }
+    check_colour();
     // A decoder fills damaged parts with what was there before, which would pass for a still scene.
     const bool is_flagged = frame_->decode_error_flags != 0 || (frame_->flags & AV_FRAME_FLAG_CORRUPT) != 0;
     const auto said = decoder_.damage();
@@ -258,12 +294,12 @@ class LibavClip final : public Clip {
   }
 
   void set_white(std::uint32_t white, const PixelKind& pixels) {
-    if (!pixels.is_grey && white != pixels.white_code()) {
+    if ((!pixels.is_grey || pixels.is_limited_grey) && white != pixels.white_code()) {
       throw UsageError(
-          format(
-              "colour video is converted to RGB, whose white is {} whatever its depth was, not {}; leave the "
-              "white code out",
-              pixels.white_code(), white),
+          format("{}, whose white is {} whatever its depth was, not {}; leave the white code out",
+                 pixels.is_grey ? "grey video of the limited range is scaled to the full one"
+                                : "colour video is converted to RGB",
+                 pixels.white_code(), white),
           {Setting::white_code});
     }
     info_.format.white_code = white;
@@ -310,6 +346,11 @@ class LibavClip final : public Clip {
   FramePointer frame_;
   std::uint64_t frames_read_ = 0;
   bool is_decoding_ = false;
+  // As pictures name them that were read so far, or taken where none did; none where nothing depends on them.
+  std::optional<CodeRange> range_;
+  std::optional<YuvMatrix> matrix_;
+  std::optional<Transfer> transfer_;
+  bool is_everyday_ = false, is_first_ = true;
   Interlaced interlaced_ = Interlaced::refused;
   std::optional<FieldOrder> fields_;  // as the container says of all frames
   bool is_told_ = false;              // by the container, whether they are interlaced
@@ -320,7 +361,9 @@ class LibavClip final : public Clip {
 
 std::unique_ptr<Clip> open_video_clip(const std::filesystem::path& path, const ClipOptions& options) {
   listen_to_ffmpeg();
-  const Probe probed = probe(path, options.raw);
+  Probe probed = probe(path, options.raw);
+  probed.pixels.is_limited_grey =
+      probed.pixels.is_grey && options.range.value_or(probed.range.value_or(CodeRange::full)) == CodeRange::limited;
   OpenedVideo opened = open_video(path, options.raw);
   const int threads = decoder_threads(opened, options);
   return std::make_unique<LibavClip>(std::move(opened), threads, path, probed, options);

@@ -39,6 +39,7 @@ bool PictureDecoder::next(AVFrame& picture) {
       return false;
     }
     if (code == 0) {
+      damage_->begin();
       ++pictures_;
       return true;
     }
@@ -82,6 +83,9 @@ void PictureDecoder::feed() {
       return;
     }
     const bool is_wanted = takes_packet();
+    if (is_wanted && !has_begun_) first_shown_ = packet_->pts;
+    const bool is_hidden = (packet_->flags & AV_PKT_FLAG_DISCARD) != 0;
+    if (is_wanted && (is_hidden || packet_->pts < first_shown_)) damage_->expect_leading();
     const int code = is_wanted ? avcodec_send_packet(codec_.get(), packet_.get()) : 0;
     has_begun_ |= is_wanted && code >= 0;
     av_packet_unref(packet_.get());

@@ -57,6 +57,7 @@ class PictureDecoder {
   Packets packets_;
   std::uint64_t packets_read_ = 0;
   std::uint64_t pictures_ = 0;
+  std::int64_t first_shown_ = AV_NOPTS_VALUE;  // when the first packet's picture is
   bool has_begun_ = false;  // a packet was taken
   bool has_hole_ = false;   // and is decoded up to there
 };

@@ -107,7 +107,7 @@ void copy_upright(const std::uint8_t* from, std::ptrdiff_t stride, std::size_t w
 }  // namespace
 
 std::uint32_t PixelKind::white_code() const {
-  if (is_grey) return (1u << bits) - 1;
+  if (is_grey && !is_limited_grey) return (1u << bits) - 1;
   return bits <= 8 ? 255 : 65'535;
 }
 
@@ -132,6 +132,12 @@ PixelKind pixel_kind(const AVCodecParameters& codec, const std::string& name) {
         "{} holds floating-point pixels ({}); whole numbers of up to 16 bits are read. ffmpeg -i PICTURE -vf "
         "scale=in_range=full -pix_fmt {} PICTURE.png makes these of its light from black to white",
         name, pixels->name, pixels->nb_components < 3 ? "gray16" : "rgb48"));
+  }
+  if (codec.format == AV_PIX_FMT_XYZ12LE || codec.format == AV_PIX_FMT_XYZ12BE) {
+    throw InputError(
+        format("{} holds X'Y'Z' of digital cinema, of which no RGB is made here: ffmpeg -i CLIP -pix_fmt gbrp16le "
+               "-color_trc gamma22 -color_primaries bt709 -c:v ffv1 film.mkv makes it",
+               name));
   }
   PixelKind kind;
   kind.is_grey =
@@ -159,8 +165,7 @@ bool is_mosaic(AVPixelFormat format) {
 bool is_yuv(AVPixelFormat format) {
   const AVPixFmtDescriptor& pixels = *av_pix_fmt_desc_get(format);
   return pixels.nb_components >= 3 &&
-         (pixels.flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_BAYER | AV_PIX_FMT_FLAG_PAL)) == 0 &&
-         format != AV_PIX_FMT_XYZ12LE && format != AV_PIX_FMT_XYZ12BE;
+         (pixels.flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_BAYER | AV_PIX_FMT_FLAG_PAL)) == 0;
 }
 
 ChromaWeights chroma_weights(YuvMatrix matrix) {
@@ -210,11 +215,8 @@ std::optional<YuvMatrix> named_matrix(unsigned space, unsigned primaries) {
   }
 }
 
-std::optional<CodeRange> named_range(const AVCodecParameters& codec) {
-  const unsigned range = number_of(codec.color_range);
-  if (range == AVCOL_RANGE_JPEG || has_j_name(static_cast<AVPixelFormat>(codec.format))) {
-    return CodeRange::full;
-  }
+std::optional<CodeRange> named_range(unsigned range, AVPixelFormat format) {
+  if (range == AVCOL_RANGE_JPEG || has_j_name(format)) return CodeRange::full;
   return range == AVCOL_RANGE_MPEG ? std::optional(CodeRange::limited) : std::nullopt;
 }
 
@@ -286,6 +288,29 @@ Upright upright_of(std::span<const std::uint8_t> display_matrix) {
 
 namespace {
 
+// The format that has the same components, each in a plane of its own.
+AVPixelFormat planar_kin(AVPixelFormat format) {
+  const AVPixFmtDescriptor& packed = *av_pix_fmt_desc_get(format);
+  constexpr std::uint64_t kCompared = AV_PIX_FMT_FLAG_PLANAR | AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_BE;
+  const std::uint64_t wanted = AV_PIX_FMT_FLAG_PLANAR | (packed.flags & AV_PIX_FMT_FLAG_RGB);
+  const AVPixFmtDescriptor* each = nullptr;
+  while ((each = av_pix_fmt_desc_next(each)) != nullptr) {
+    if (each->nb_components == 3 && (each->flags & kCompared) == wanted && each->comp[0].shift == 0 &&
+        each->comp[0].depth == packed.comp[0].depth && each->comp[1].step == (packed.comp[0].depth + 7) / 8 &&
+        each->log2_chroma_w == packed.log2_chroma_w && each->log2_chroma_h == packed.log2_chroma_h) {
+      return av_pix_fmt_desc_get_id(each);
+    }
+  }
+  return AV_PIX_FMT_NONE;
+}
+
+// Whether libswscale does not read such pixels, or has a white of its own for them. FFmpeg does not tell where the luma
+// of uyyvyy411 lies.
+bool is_unpacked_here(AVPixelFormat format) {
+  const bool is_read = format != AV_PIX_FMT_X2RGB10LE && format != AV_PIX_FMT_X2BGR10LE && sws_isSupportedInput(format);
+  return !is_read && format != AV_PIX_FMT_UYYVYY411 && planar_kin(format) != AV_PIX_FMT_NONE;
+}
+
 // Null where such pixels cannot be converted.
 SwsContext* new_scaler(const AVFrame& frame, AVPixelFormat wanted, ChromaPlace at) {
   std::unique_ptr<SwsContext, decltype(&sws_freeContext)> scaler(sws_alloc_context(), &sws_freeContext);
@@ -317,6 +342,18 @@ SwsContext* new_scaler(const AVFrame& frame, AVPixelFormat wanted, ChromaPlace a
 
 }  // namespace
 
+PixelConverter::PixelConverter(PixelKind kind, Upright upright, YuvCoding coding)
+    : kind_(kind), upright_(upright), coding_(coding) {
+  if (kind.padding_bits == 0 && !kind.is_limited_grey) return;
+  const double white = kind.white_code(), unit = std::ldexp(1.0, static_cast<int>(std::max(kind.bits, 8u)) - 8);
+  code_of_.resize(kind.bits > 8 ? 65'536 : 256);
+  for (std::uint32_t i = 0; i < code_of_.size(); ++i) {
+    double code = i >> kind.padding_bits;
+    if (kind.is_limited_grey) code = std::clamp((code - 16 * unit) / (219 * unit), 0.0, 1.0) * white + 0.5;
+    code_of_[i] = static_cast<std::uint16_t>(code);
+  }
+}
+
 void PixelConverter::scale(const AVFrame& frame, AVPixelFormat wanted, const std::string& name,
                            std::uint8_t* const* planes, const int* strides) {
   const auto from = static_cast<AVPixelFormat>(frame.format);
@@ -325,13 +362,37 @@ void PixelConverter::scale(const AVFrame& frame, AVPixelFormat wanted, const std
   if (!scaler_ || scales_from_ != from || scales_to_ != wanted || chroma_at_ != at) {
     scaler_.reset(new_scaler(frame, wanted, at));
     if (!scaler_) {
-      throw InputError(format("{}: pixels of {} cannot be converted", name, av_get_pix_fmt_name(from)));
+      const char* const kin = av_get_pix_fmt_name(planar_kin(from));
+      throw InputError(format("{}: pixels of {} cannot be converted{}", name, av_get_pix_fmt_name(from),
+                              kin == nullptr ? "" : format("; those of {} can, which has the same in planes", kin)));
     }
     scales_from_ = from;
     scales_to_ = wanted;
     chroma_at_ = at;
   }
   sws_scale(scaler_.get(), frame.data, frame.linesize, 0, frame.height, planes, strides);
+}
+
+const AVFrame& PixelConverter::unpacked(const AVFrame& frame) {
+  const auto format = static_cast<AVPixelFormat>(frame.format);
+  if (!planes_) planes_ = new_frame(planar_kin(format), frame.width, frame.height);
+  planes_->chroma_location = frame.chroma_location;
+  const AVPixFmtDescriptor& from = *av_pix_fmt_desc_get(format);
+  const AVPixFmtDescriptor& to = *av_pix_fmt_desc_get(static_cast<AVPixelFormat>(planes_->format));
+  const std::uint8_t* data[] = {frame.data[0], frame.data[1], frame.data[2], frame.data[3]};
+  for (int component = 0; component < 3; ++component) {
+    const int width = AV_CEIL_RSHIFT(frame.width, component == 0 ? 0 : from.log2_chroma_w);
+    const int height = AV_CEIL_RSHIFT(frame.height, component == 0 ? 0 : from.log2_chroma_h);
+    const AVComponentDescriptor& place = to.comp[component];
+    std::vector<std::uint16_t> row(static_cast<std::size_t>(width));
+    for (int y = 0; y < height; ++y) {
+      av_read_image_line2(row.data(), data, frame.linesize, &from, 0, y, component, width, 0, 2);
+      std::uint8_t* out = planes_->data[place.plane] + static_cast<std::ptrdiff_t>(y) * planes_->linesize[place.plane];
+      if (place.step == 2) std::memcpy(out, row.data(), 2 * row.size());
+      if (place.step == 1) std::ranges::transform(row, out, [](auto code) { return static_cast<std::uint8_t>(code); });
+    }
+  }
+  return *planes_;
 }
 
 const AVFrame& PixelConverter::scaled(const AVFrame& frame, AVPixelFormat wanted, const std::string& name) {
@@ -362,7 +423,9 @@ const AVFrame& PixelConverter::converted(const AVFrame& frame, const std::string
   return *rgb_;
 }
 
-void PixelConverter::convert(const AVFrame& frame, std::span<std::byte> raster, const std::string& name) {
+void PixelConverter::convert(const AVFrame& given, std::span<std::byte> raster, const std::string& name) {
+  const bool is_unpacked = is_unpacked_here(static_cast<AVPixelFormat>(given.format));
+  const AVFrame& frame = is_unpacked ? unpacked(given) : given;
   const std::size_t pixel_bytes = (kind_.is_grey ? 1u : 3u) * (kind_.bits > 8 ? 2u : 1u);
   const std::size_t row_bytes = static_cast<std::size_t>(frame.width) * pixel_bytes;
   const AVPixelFormat wanted = raster_format(kind_);
@@ -380,11 +443,13 @@ void PixelConverter::convert(const AVFrame& frame, std::span<std::byte> raster, 
   const AVFrame& picture = converted(frame, name);
   copy_upright(picture.data[0], picture.linesize[0], static_cast<std::size_t>(picture.width),
                static_cast<std::size_t>(picture.height), pixel_bytes, upright_, raster);
-  if (kind_.padding_bits == 0) return;
-  auto* codes = reinterpret_cast<std::uint16_t*>(raster.data());
-  for (std::size_t i = 0; i < raster.size() / 2; ++i) {
-    codes[i] = static_cast<std::uint16_t>(codes[i] >> kind_.padding_bits);
+  if (code_of_.empty()) return;
+  if (kind_.bits <= 8) {
+    for (std::byte& code : raster) code = static_cast<std::byte>(code_of_[std::to_integer<std::size_t>(code)]);
+    return;
   }
+  auto* codes = reinterpret_cast<std::uint16_t*>(raster.data());
+  for (std::size_t i = 0; i < raster.size() / 2; ++i) codes[i] = code_of_[codes[i]];
 }
 
 }  // namespace nutik::videos

@@ -1,6 +1,6 @@
 // How FFmpeg's pictures become rasters of codes.
 //
-//   grey      as stored: 8, 9, 10, 12, 14 or 16 bits, code for code
+//   grey      as stored: 8, 9, 10, 12, 14 or 16 bits, code for code; of the limited range as luma of YUV
 //   colour    8 bits as 8-bit RGB, deeper as RGB over the full 16-bit range, YUV by a matrix and a range
 // Transparency is left out.
 #pragma once
@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "media/videos/libav.hpp"
 
@@ -20,6 +21,7 @@ struct PixelKind {
   std::uint32_t bits = 8;  // of a component, of which 1 to 8 are read as 8
   // Empty low bits that the decoder puts below the codes of the file, to fill 16 bits.
   std::uint32_t padding_bits = 0;
+  bool is_limited_grey = false;  // whose codes are scaled to the full range
 
   // 8-bit colour, as players show it.
   [[nodiscard]] bool is_everyday() const { return !is_grey && bits <= 8; }
@@ -65,7 +67,7 @@ struct ChromaWeights {
 [[nodiscard]] bool is_mosaic(AVPixelFormat format);
 // What a stream says of its YUV; none where it does not, or names what is not known here.
 [[nodiscard]] std::optional<YuvMatrix> named_matrix(unsigned space, unsigned primaries);
-[[nodiscard]] std::optional<CodeRange> named_range(const AVCodecParameters& codec);
+[[nodiscard]] std::optional<CodeRange> named_range(unsigned range, AVPixelFormat format);
 [[nodiscard]] std::optional<ChromaPlace> named_chroma_place(const AVCodecParameters& codec);
 // Whether several pixels have one sample of chroma.
 [[nodiscard]] bool shares_chroma(AVPixelFormat format);
@@ -74,8 +76,7 @@ struct ChromaWeights {
 
 class PixelConverter {
  public:
-  PixelConverter(PixelKind kind, Upright upright, YuvCoding coding)
-      : kind_(kind), upright_(upright), coding_(coding) {}
+  PixelConverter(PixelKind kind, Upright upright, YuvCoding coding);
 
   // Writes `frame`, turned upright, as a raster of width x height x (1 or 3) codes of 1 or 2 bytes.
   // All frames must have one size. Throws InputError naming the file where FFmpeg cannot convert
@@ -88,14 +89,17 @@ class PixelConverter {
   const AVFrame& converted(const AVFrame& frame, const std::string& name);
   void scale(const AVFrame& frame, AVPixelFormat wanted, const std::string& name, std::uint8_t* const* planes,
              const int* strides);
+  const AVFrame& unpacked(const AVFrame& frame);
   const AVFrame& scaled(const AVFrame& frame, AVPixelFormat wanted, const std::string& name);
 
   PixelKind kind_;
   Upright upright_;
   YuvCoding coding_;
+  std::vector<std::uint16_t> code_of_;  // what becomes of each code of grey; empty: it stays
   ScalerPointer scaler_;
   AVPixelFormat scales_from_ = AV_PIX_FMT_NONE, scales_to_ = AV_PIX_FMT_NONE;
   ChromaPlace chroma_at_ = kDefaultChromaPlace;
+  FramePointer planes_;
   FramePointer scaled_;
   FramePointer rgb_;
 };

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <span>
 #include <utility>
 
@@ -126,10 +127,10 @@ std::optional<double> announced_seconds(const AVFormatContext& file, const AVStr
   return static_cast<double>(file.duration) / AV_TIME_BASE;
 }
 
-// A container that was cut off is often read to its end without a word, which comes too early; and where its start is
-// damaged, from the first picture that is found.
+// A container that was cut off is often read to its end without a word, which comes too early; and where its start
+// `is_damaged`, from the first picture that is found. Segments of a film begin late, too.
 std::optional<std::string> missing_part_note(const AVFormatContext& file, const AVStream& stream,
-                                             std::int64_t last_end, std::size_t pictures) {
+                                             std::int64_t last_end, std::size_t pictures, bool is_damaged) {
   const auto announced = announced_seconds(file, stream);
   if (!announced || last_end == INT64_MIN || pictures < 2) return {};
   const std::int64_t start = stream.start_time == AV_NOPTS_VALUE ? 0 : stream.start_time;
@@ -140,6 +141,7 @@ std::optional<std::string> missing_part_note(const AVFormatContext& file, const 
   if (*announced - found <= max_off) return {};
   const double first = static_cast<double>(start) * av_q2d(stream.time_base);
   if (*announced - first - found <= max_off) {
+    if (!is_damaged) return {};
     return format(
         "the file lasts {:.4g} s from its start on, and its first picture comes after {:.4g} s: those before "
         "it "
@@ -330,7 +332,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   result.transfer = is_phantom_packed(codec) ? Transfer::linear() : transfer_of_coding_point(curve);
   result.transfer_name = transfer_name(curve);
   result.matrix = named_matrix(matrix, primaries);
-  result.range = named_range(codec);
+  result.range = named_range(number_of(codec.color_range), result.pixel_format);
   result.chroma_at = named_chroma_place(codec);
   result.primaries = primaries_of_coding_point(primaries);
   if (const auto named = raw ? std::nullopt : named_curve(*opened.format, path, result.notes)) {
@@ -392,13 +394,16 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   std::vector<PacketTimes> packets;
   std::int64_t last_end = INT64_MIN, last_byte = 0;
   std::uint64_t packets_read = 0;
-  bool is_last_whole = true;
+  bool is_last_whole = true, has_damaged_start = false;
   const auto file_bytes = static_cast<std::int64_t>(std::filesystem::file_size(path));
   const PacketPointer packet(allocated(av_packet_alloc()));
   int code = 0;
   while ((code = av_read_frame(opened.format.get(), packet.get())) >= 0) {
     const bool counts = packet->stream_index == opened.stream && (packet->flags & AV_PKT_FLAG_DISCARD) == 0;
-    if (packets.empty()) opened.log->forget();  // of what lies before the first picture
+    if (packets.empty()) {
+      has_damaged_start = opened.log->said().has_value();
+      opened.log->forget();
+    }
     if (packet->stream_index == opened.stream) {
       ++packets_read;
       is_last_whole = is_whole(*opened.format, *packet, file_bytes);
@@ -428,8 +433,9 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
         "the file was cut off within picture {}, which is left out", packets.size())));
   }
   result.sample_count = packets.size();
-  auto lost = missing_part_note(*opened.format, stream, last_end, packets.size());
-  if (!lost) lost = cut_picture_note(*opened.format, MappedFile(path).bytes(), last_byte, packets.size());
+  auto cut = cut_picture_note(*opened.format, MappedFile(path).bytes(), last_byte, packets.size());
+  auto lost = missing_part_note(*opened.format, stream, last_end, packets.size(), cut || has_damaged_start);
+  if (!lost) lost = std::move(cut);
   if (!lost && opened.log->said()) {
     lost = format("the file was cut off, or is damaged so that pictures may be missing (FFmpeg says: {})",
                   *opened.log->said());
@@ -457,6 +463,16 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
     result.timing.rate_doubt = std::move(*doubt);
   } else {
     result.timing = timing_of(*opened.format, stream, times, input_title(path.string()));
+  }
+  const auto back = std::ranges::adjacent_find(packets, [](const PacketTimes& one, const PacketTimes& next) {
+    return next.is_key && next.decoded != AV_NOPTS_VALUE && next.decoded < one.decoded;
+  });
+  const bool increases = std::ranges::adjacent_find(result.timing.starts_ns, std::greater_equal<>()) ==
+                         result.timing.starts_ns.end();
+  if (back != packets.end() && !increases) {
+    result.timing = {};
+    result.timing.rate_doubt = format("its times run back at picture {}, as if it were two clips, one behind the other",
+                                      back + 1 - packets.begin());
   }
   if (cine) add_cine_header(*cine, opened, input_title(path.string()), result);
   if (const auto filmed = capture_rate(*opened.format, path, result.notes)) {
