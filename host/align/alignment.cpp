@@ -178,10 +178,10 @@ std::string alignment_text(const CameraPath& path, const Rectangle& area, Unseen
           ? "what a picture did not see holds what was seen there before"
           : format("cropped to what all of them saw, {} x {} pixels from {},{} on", area.width, area.height, area.x,
                    area.y);
+  const auto residual = path.residual_pixels();
   return format(
-      "aligned to picture {} ({}), from which others are {}; half of what has texture is now within {:.2f} pixels of its "
-      "place; {}",
-      path.reference, to_text(path.motion), path.summary(), path.residual_pixels(), shown);
+      "aligned to picture {} ({}), from which others are {}; {}{}", path.reference, to_text(path.motion), path.summary(),
+      residual ? format("half of what has texture is now within {:.2f} pixels of its place; ", *residual) : "", shown);
 }
 
 tik::Alignment kept_alignment(const CameraPath& path, Unseen unseen) {

@@ -90,7 +90,8 @@ std::uint64_t CameraPath::max_turned() const {
   return best;
 }
 
-double CameraPath::residual_pixels() const {
+std::optional<double> CameraPath::residual_pixels() const {
+  if (is_stated) return std::nullopt;
   return pictures.empty() ? 0 : std::ranges::max(pictures, {}, &Registered::residual_pixels).residual_pixels;
 }
 
@@ -223,6 +224,7 @@ class PathParser {
     if (!motion) fail("it names no motion: translation, rigid or homography");
     path_.motion = *motion;
     path_.reference = take<std::uint64_t>("the reference");
+    path_.is_stated = true;
     path_.shape = {take<std::uint32_t>("the width"), take<std::uint32_t>("the height"), 1};
     if (path_.shape.pixel_count() == 0) fail("its pictures have no pixels");
   }
@@ -231,10 +233,8 @@ class PathParser {
     if (take<std::uint64_t>("the picture") != path_.pictures.size()) {
       fail(format("picture {} is expected here", path_.pictures.size()));
     }
-    for (int column = 0; column < 3; ++column) take<double>("a step");
+    for (int column = 1; column < 6; ++column) next_word();  // for people
     Registered picture;
-    picture.residual_pixels = take<double>("the residual");
-    picture.agreeing = take<double>("the share that agrees");
     for (double& entry : picture.warp.m) entry = take<double>("the warp");
     if (!line_left_.empty()) fail(format("there is more than a line has: {}", quoted(line_left_)));
     check_warp(picture.warp);

@@ -27,6 +27,7 @@ struct CameraPath {
   Shape shape;                       // of the pictures; channels do not count
   std::uint64_t reference = 0;       // the picture that the others were registered to
   std::vector<Registered> pictures;  // each from the reference to its own places
+  bool is_stated = false;            // in a file, not found in these pictures
 
   // How far what a picture shows in its middle has moved since the reference, and by how much it has turned.
   struct Step {
@@ -42,8 +43,8 @@ struct CameraPath {
   };
   [[nodiscard]] Furthest furthest() const;
   [[nodiscard]] std::uint64_t max_turned() const;  // the picture that is turned most
-  // The largest residual of all pictures.
-  [[nodiscard]] double residual_pixels() const;
+  // The largest residual of all pictures; none of a path that was read: it may be another clip's, or changed by hand.
+  [[nodiscard]] std::optional<double> residual_pixels() const;
   // `moved by up to 12.3 pixels, turned by up to 0.41 degrees`
   [[nodiscard]] std::string summary() const;
 

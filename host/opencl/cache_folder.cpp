@@ -111,7 +111,9 @@ std::string flaw_of_cache(const std::filesystem::path& folder) {
 bool can_be_kept_in(const std::filesystem::path& folder) { return !folder.empty() && unwritable(folder).empty(); }
 
 void choose_cache_of_pocl() {
-  if (std::getenv(kPoclVariable) != nullptr) return;
+  // Of an empty one PoCL ends the program.
+  if (const char* const stated = std::getenv(kPoclVariable); stated != nullptr && *stated != '\0') return;
+  ::unsetenv(kPoclVariable);
   const char* const caches = std::getenv("XDG_CACHE_HOME");
   const bool is_relative = caches != nullptr && *caches != '\0' && *caches != '/';
   const std::filesystem::path usual = default_cache_folder().parent_path();

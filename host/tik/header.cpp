@@ -188,9 +188,9 @@ constexpr std::string_view kHeld = "held", kCut = "cut";
 
 // `rigid 0 cut 12.5 0.4 0.1`
 std::string text_of(const Alignment& alignment) {
-  return format("{} {} {} {} {} {}", alignment.motion, alignment.reference,
+  return format("{} {} {} {} {}{}", alignment.motion, alignment.reference,
                 alignment.holds_unseen ? kHeld : kCut, alignment.moved_pixels, alignment.turned_degrees,
-                alignment.residual_pixels);
+                alignment.residual_pixels ? format(" {}", *alignment.residual_pixels) : "");
 }
 
 // Takes words off the front of a text.
@@ -226,7 +226,7 @@ Alignment parse_alignment(std::string_view text) {
   alignment.holds_unseen = words.next() == kHeld;
   words.take(alignment.moved_pixels);
   words.take(alignment.turned_degrees);
-  words.take(alignment.residual_pixels);
+  if (!words.rest().empty()) words.take(alignment.residual_pixels.emplace());
   return alignment;
 }
 

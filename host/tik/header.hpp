@@ -48,7 +48,7 @@ struct Alignment {
   bool holds_unseen = false;    // places that a picture did not see hold what was seen there before
   double moved_pixels = 0;      // by how far at most, of corners and the middle
   double turned_degrees = 0;
-  double residual_pixels = 0;  // half of the texture lies within this of where it should
+  std::optional<double> residual_pixels = {};  // half of the texture lies within this of where it should; if measured
   friend bool operator==(const Alignment&, const Alignment&) = default;
 };
 

@@ -97,7 +97,8 @@ TEST_F(Farm, KnowsASinglePictureToo) {
 
 TEST_F(Farm, RefusesToSkipWhatCarriesNoRecipe) {
   expect_says(make("video --skip-existing scene.tik v.mkv", 2).err, "v.mkv has no place for one");
-  expect_says(make("video --skip-existing scene.tik v-%d.pfm", 2).err, "has no place for one");
+  for (const char* kind : {"pfm", "PFM", "npy"})
+    expect_says(make(std::string("video --skip-existing scene.tik v-%d.") + kind, 2).err, "has no place for one");
   expect_says(make("-k trail.fn --skip-existing --no-recipe scene.tik a.png", 2).err,
               "--no-recipe makes them without; use one");
   expect_says(make("-k trail.fn --frames 1 scene.tik a.png", 2).err, "add --every");

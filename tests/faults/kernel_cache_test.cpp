@@ -77,6 +77,10 @@ TEST_F(KernelCache, ThatIsNowhereIsNotPromised) {
   EXPECT_NE(result.err.find(kept), std::string::npos) << result.err;
 }
 
+TEST_F(KernelCache, ThatIsStatedEmptyIsNoneThatIsStated) {
+  EXPECT_EQ(test::run_shell(format("POCL_CACHE_DIR= '{}' devices", NUTIK_TEST_PROGRAM), scratch_.folder()).status, 0);
+}
+
 TEST_F(KernelCache, ThatOthersMayWriteToIsNotUsed) {
   fs::permissions(cache_, fs::perms::all);
   const auto result = expose();

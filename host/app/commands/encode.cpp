@@ -50,12 +50,13 @@ class CameraFiles {
     if (plot_) write_picture(*plot_, camera_chart(heading, path, timeline));
     if (coverage_) write_picture(*coverage_, coverage_of(path));
     const CameraPath::Furthest furthest = path.furthest();
+    const auto residual = path.residual_pixels();
     answer.json["camera"] = {{"motion", to_text(path.motion)},
                              {"reference", path.reference},
                              {"furthest_picture", furthest.picture},
                              {"furthest_pixels", {furthest.way.x, furthest.way.y}},
                              {"turned_degrees", path.step(path.max_turned()).degrees},
-                             {"residual_pixels", path.residual_pixels()}};
+                             {"residual_pixels", residual ? Json(*residual) : Json()}};
     const char* const keys[] = {"path", "plot", "coverage"};
     for (std::size_t i = 0; i < std::size(keys); ++i) {
       if (!named[i].empty()) answer.json["camera"][keys[i]] = named[i];

@@ -48,7 +48,7 @@ Json alignment_json(const std::optional<tik::Alignment>& aligned) {
           {"holds_unseen", aligned->holds_unseen},
           {"moved_pixels", aligned->moved_pixels},
           {"turned_degrees", aligned->turned_degrees},
-          {"residual_pixels", aligned->residual_pixels}};
+          {"residual_pixels", aligned->residual_pixels ? Json(*aligned->residual_pixels) : Json()}};
 }
 
 Json part_json(const std::optional<PartOfClip>& part) {

@@ -5,6 +5,7 @@
 #include "app/output/report.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "features/schema/option.hpp"
 #include "media/formats/extension.hpp"
 #include "media/formats/numbered_name.hpp"
@@ -164,7 +165,8 @@ void require_recipes(const Options& options, const std::filesystem::path& pictur
   if (options.no_recipe) {
     throw UsageError("--skip-existing knows pictures by their recipes, and --no-recipe makes them without; use one");
   }
-  if (names_standard_output(picture) || !is_picture_name(picture) || picture.extension() == ".pfm") {
+  const std::string ending = in_small_letters(picture.extension().string());
+  if (names_standard_output(picture) || !is_picture_name(picture) || ending == ".pfm" || ending == ".npy") {
     throw UsageError(
         format("--skip-existing knows pictures by their recipes, and {} has no place for one; write pictures, for a "
                "video numbered ones: frame-%05d.png, .tif, .exr, …",

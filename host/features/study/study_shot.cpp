@@ -154,13 +154,13 @@ class ShotPlanner {
                                    request_.style != StudyStyle::clean &&
                                    std::holds_alternative<std::uint32_t>(request_.moments);
     const double most = min_misplaced_pixels(capture.format().shape);
-    if (!aligned || !looks_for_subject || aligned->residual_pixels < most) return std::nullopt;
+    if (!aligned || !looks_for_subject || aligned->residual_pixels.value_or(0) < most) return std::nullopt;
     return Note(format(
         "one motion of the camera does not explain the pictures: moved back, half of a picture's texture is still "
         "{:.2f} pixels or more off, and from {:.1f} on that is taken for what moves. Where a camera is carried on, "
         "near things move against far ones. Film from one place, take a shorter part of the time, or name the moments "
         "to show",
-        aligned->residual_pixels, most), {Setting::from, Setting::to});
+        *aligned->residual_pixels, most), {Setting::from, Setting::to});
   }
 
   // Regions were stated in pixels of the clip; aligned pictures are cropped, and a region may lie outside of them.

@@ -100,7 +100,7 @@ std::vector<ListedStill> read_stills_table(const std::filesystem::path& path) {
     if (fields->size() > std::size(kColumns)) {
       fail(path, line,
            format("{} columns, and a table of stills has three: file,start_ns,exposure_ns; a name with a comma "
-                  "stands in quotes",
+                  "stands in quotes. Events are read as EVT 3.0 or DAT",
                   fields->size()));
     }
     fields->resize(std::size(kColumns));
