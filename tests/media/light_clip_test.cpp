@@ -78,6 +78,23 @@ TEST(LightClip, EveryKindThatIsWrittenComesBack) {
   for (const char* extension : {".tif", ".npy"}) expect_comes_back<double>(extension, ValueType::light64);
 }
 
+TEST(LightClip, OfPrimariesThatAreNotKnownIsNamed) {
+  const Scratch scratch;
+  Picture light = random_light<float>(kColour, ValueType::light32, 5);
+  light.primaries = Primaries::bt2020;
+  write_picture(scratch / "a.exr", light);
+  std::string exr = test::read_file(scratch / "a.exr");
+  const std::size_t at = exr.rfind("chromaticities") + 15 + 4;
+  const float red = 0.7347F;  // ACES
+  std::memcpy(exr.data() + at, &red, sizeof red);
+  scratch.write("b.exr", exr);
+  const auto line = [&](const char* name) {
+    return test::facts_of(*open_test_clip(scratch / name, of_white(kWhite))).at(Setting::primaries).line();
+  };
+  EXPECT_EQ(line("a.exr"), "primaries bt2020, from the file");
+  EXPECT_EQ(line("b.exr"), "primaries bt709, assumed; the file names other chromaticities");
+}
+
 TEST(LightClip, DoublesAreWrittenToTheLastBit) {
   const Scratch scratch;
   const Picture light = random_light<double>(kColour, ValueType::light64, 5);

@@ -92,6 +92,8 @@ TEST(StillsTable, NamesFileAndBothValuesOfWhatIsWrong) {
        {"large.pgm is 17 x 8 grey of 8 bits", "a.pgm, is 16 x 8 grey of 8 bits"}},
       {"a.pgm,0,10\ndeep.pgm,10,10\n",
        {"deep.pgm is 16 x 8 grey of 16 bits", "a.pgm, is 16 x 8 grey of 8 bits"}},
+      {"\xFF\xFE" "a", {"stills.csv:1: UTF-16; save the table as UTF-8"}},
+      {"a.pgm;0;10\n", {"a.pgm;0;10 is no file; columns are separated by commas"}},
       {"a.pgm,0,10\nd.pgm,10,10\n", {"stills.csv:2: ", "d.pgm is no file"}},
       {"a.pgm,0,10\nb.pgm,,10\n", {"stills.csv:2: ", "b.pgm has no start_ns here and ", "a.pgm has 0"}},
       {"a.pgm,0,\nb.pgm,10,5\n", {"stills.csv:2: ", "b.pgm has the exposure_ns 5 and ", "a.pgm has none"}},
