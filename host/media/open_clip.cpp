@@ -116,12 +116,14 @@ void add_photron_header(ClipInfo& info, const std::filesystem::path& pictures) {
 std::unique_ptr<Clip> open_stills(const std::filesystem::path& path, const Files& stills, const ClipOptions& options) {
   std::unique_ptr<Clip> clip = still_module().open(stills, {}, options);
   std::error_code error;
-  if (!std::filesystem::is_directory(path, error)) return clip;
+  const bool is_folder = std::filesystem::is_directory(path, error);
   ClipInfo info = clip->info();
-  for (auto note : {missing_still_note(path, stills), left_out_note(path, stills)}) {
+  for (auto note : {is_folder ? missing_still_note(path, stills) : mixed_note(path, stills),
+                    is_folder ? left_out_note(path, stills) : std::nullopt}) {
     if (note) info.notes.emplace_back(std::move(*note));
   }
-  add_photron_header(info, path);
+  if (!is_folder && info.notes.size() == clip->info().notes.size()) return clip;
+  if (is_folder) add_photron_header(info, path);
   return std::make_unique<DescribedClip>(std::move(clip), std::move(info));
 }
 

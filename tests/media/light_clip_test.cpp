@@ -80,6 +80,7 @@ TEST(LightClip, EveryKindThatIsWrittenComesBack) {
 
 TEST(LightClip, OfPrimariesThatAreNotKnownIsNamed) {
   const Scratch scratch;
+  test::use_modules();
   Picture light = random_light<float>(kColour, ValueType::light32, 5);
   light.primaries = Primaries::bt2020;
   write_picture(scratch / "a.exr", light);

@@ -447,6 +447,16 @@ TEST(StillClip, NotesAHoleInAFolderOfNumberedStills) {
 }
 
 // A module is a library of its own, and a signal the program's.
+TEST(StillClip, NotesWhatAPatternMatchesBesides) {
+  const Scratch scratch;
+  for (const char* name : {"f1.pgm", "f2.pgm", "f3.pgm"}) write_with_opencv(scratch / name, test::random_stills(kGreyShape, 255, 1, 3)[0]);
+  EXPECT_TRUE(open_test_clip(scratch / "*.pgm", {})->info().notes.empty());
+  write_with_opencv(scratch / "f-0s-3s.pgm", test::random_stills(kGreyShape, 255, 1, 3)[0]);
+  const auto notes = open_test_clip(scratch / "*.pgm", {})->info().notes;
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].text.find("1 of 4 pictures have names of another kind than the others: f-0s-3s.pgm"), std::string::npos);
+}
+
 TEST(StillClip, EndsAtASignal) {
   const Scratch scratch;
   const auto path = scratch.write("a.tif", tiff_file(test::random_stills(kGreyShape, 255, 1, 1), {8}));

@@ -288,6 +288,19 @@ std::optional<std::string> missing_still_note(const fs::path& folder, std::span<
       (folder / ("*" + files.front().extension().string())).string());
 }
 
+std::optional<std::string> mixed_note(const fs::path& pattern, std::span<const fs::path> files) {
+  std::map<std::string, std::size_t> kinds;
+  for (const fs::path& file : files) ++kinds[name_without_numbers(file)];
+  const auto& [main, count] = *std::ranges::max_element(kinds, {}, &std::pair<const std::string, std::size_t>::second);
+  if (2 * count <= files.size() || count == files.size() || main.find('#') == std::string::npos) return std::nullopt;
+  std::string names;
+  for (std::size_t k = 0, shown = 0; k < files.size() && shown < 3; ++k) {
+    if (name_without_numbers(files[k]) != main) names += (++shown == 1 ? "" : ", ") + files[k].filename().string();
+  }
+  return format("{}: {} of {} pictures have names of another kind than the others: {}; were they made of these?",
+                pattern.string(), files.size() - count, files.size(), names);
+}
+
 std::optional<std::string> left_out_note(const fs::path& folder, std::span<const fs::path> files) {
   std::string names;
   std::size_t count = 0;

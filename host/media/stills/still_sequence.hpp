@@ -28,6 +28,10 @@ namespace nutik {
 [[nodiscard]] std::optional<std::string> missing_still_note(const std::filesystem::path& folder,
                                                             std::span<const std::filesystem::path> files);
 
+// Of a pattern: which pictures have names of another kind than most, as what was made in their folder has.
+[[nodiscard]] std::optional<std::string> mixed_note(const std::filesystem::path& pattern,
+                                                    std::span<const std::filesystem::path> files);
+
 // What to tell of a folder of which some pictures are not among its sequence; empty where all are.
 [[nodiscard]] std::optional<std::string> left_out_note(const std::filesystem::path& folder,
                                                        std::span<const std::filesystem::path> files);

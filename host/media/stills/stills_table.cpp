@@ -112,7 +112,8 @@ std::vector<ListedStill> read_stills_table(const std::filesystem::path& path) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(still.file, error)) {
       const bool has_semicolons = (*fields)[1].empty() && name.find(';') != name.npos;
-      fail(path, line, format("{} is no file{}", still.file.string(), has_semicolons ? "; columns are separated by commas" : ""));
+      fail(path, line,
+           format("{} is no file{}", still.file.string(), has_semicolons ? "; columns are separated by commas" : ""));
     }
     stills.push_back(std::move(still));
   }
