@@ -50,7 +50,7 @@ template <typename Value>
   return py::array_t<Value>(std::move(shape), values.data());
 }
 
-// Of bytes that are no UTF-8, `\xed`.
+// Bytes that are no UTF-8 become text such as `\xed`.
 [[nodiscard]] inline py::str text_of(const std::string& text) {
   return py::reinterpret_steal<py::str>(
       PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace"));

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
+#include <tuple>
 
 #include "capture/error.hpp"
 #include "support/messages.hpp"
@@ -158,15 +160,18 @@ TEST(TiffPalette, OfPicturesBehindOneAnotherIsRefused) {
                                  {"a.tif holds 5 pictures behind one another, as its description by ImageJ says"});
 }
 
-TEST(TiffColours, OfCmykAreNamed) {
+TEST(TiffColours, OfOtherKindsAreNamed) {
   const test::Scratch scratch;
-  {
-    const TiffFile file = begun(scratch / "a.tif", {8, 4, false, false});
-    TIFFSetField(file.get(), TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_SEPARATED);
-    std::vector<std::uint8_t> row(4 * kPageWidth);
-    for (std::uint32_t y = 0; y < kPageHeight; ++y) TIFFWriteScanline(file.get(), row.data(), y, 0);
+  for (const auto& [kind, channels, name] : {std::tuple{PHOTOMETRIC_SEPARATED, 4, "CMYK"}, {PHOTOMETRIC_CIELAB, 3, "L*a*b*"}}) {
+    {
+      const TiffFile file = begun(scratch / "a.tif", {8, static_cast<std::uint16_t>(channels), false, false});
+      TIFFSetField(file.get(), TIFFTAG_PHOTOMETRIC, kind);
+      std::vector<std::uint8_t> row(static_cast<std::size_t>(channels) * kPageWidth);
+      for (std::uint32_t y = 0; y < kPageHeight; ++y) TIFFWriteScanline(file.get(), row.data(), y, 0);
+    }
+    test::expect_error<InputError>([&] { return TiffReader(scratch / "a.tif").next(); },
+                                   {"its colours are " + std::string(name)});
   }
-  test::expect_error<InputError>([&] { return TiffReader(scratch / "a.tif").next(); }, {"its colours are CMYK"});
 }
 
 TEST(TiffPages, ThatAreCopiesOfOthersAreNoMoments) {
@@ -188,17 +193,6 @@ TEST(TiffPages, ThatAreCopiesOfOthersAreNoMoments) {
   EXPECT_EQ(reader.page_count(), 2U);
   for (int page = 0; page < 2; ++page) EXPECT_EQ(reader.next()->picture.values<std::uint8_t>()[0], 10);
   EXPECT_FALSE(reader.next());
-}
-
-TEST(TiffColours, OfLabAreNamed) {
-  const test::Scratch scratch;
-  {
-    const TiffFile file = begun(scratch / "a.tif", {8, 3, false, false});
-    TIFFSetField(file.get(), TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_CIELAB);
-    std::vector<std::uint8_t> row(3 * kPageWidth);
-    for (std::uint32_t y = 0; y < kPageHeight; ++y) TIFFWriteScanline(file.get(), row.data(), y, 0);
-  }
-  test::expect_error<InputError>([&] { return TiffReader(scratch / "a.tif").next(); }, {"its colours are L*a*b*"});
 }
 
 TEST(TiffStory, OfImageJCountsTimeInItsUnit) {

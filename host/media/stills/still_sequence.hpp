@@ -28,7 +28,7 @@ namespace nutik {
 [[nodiscard]] std::optional<std::string> missing_still_note(const std::filesystem::path& folder,
                                                             std::span<const std::filesystem::path> files);
 
-// Of a pattern: which pictures have names of another kind than most, as what was made in their folder has.
+// Which pictures of a pattern have names of another kind than most, as what was made in their folder has.
 [[nodiscard]] std::optional<std::string> mixed_note(const std::filesystem::path& pattern,
                                                     std::span<const std::filesystem::path> files);
 
