@@ -111,7 +111,7 @@ std::string flaw_of_cache(const std::filesystem::path& folder) {
 bool can_be_kept_in(const std::filesystem::path& folder) { return !folder.empty() && unwritable(folder).empty(); }
 
 void choose_cache_of_pocl() {
-  // Of an empty one PoCL ends the program.
+  // PoCL ends the program where it is empty.
   if (const char* const stated = std::getenv(kPoclVariable); stated != nullptr && *stated != '\0') return;
   ::unsetenv(kPoclVariable);
   const char* const caches = std::getenv("XDG_CACHE_HOME");

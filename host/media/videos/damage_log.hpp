@@ -30,9 +30,8 @@ class DamageLog {
   // The first that was said since the start or since forget().
   [[nodiscard]] std::optional<std::string> said() const;
   void forget();
-  // Before the first picture that is shown H.264 also tells of pictures before a clip that was cut: of those to be kept
-  // no longer that they are not there, and of leading ones, which come before it and are not
-  // shown, that they refer to them. Neither is damage to a picture that is shown.
+  // Before the first picture that is shown, H.264 tells of pictures that lie before a cut: that those to be dropped are
+  // missing, and that leading pictures, which nobody sees, refer to them. Neither damages a picture that is shown.
   void expect_leading();
   void begin();
 

@@ -184,7 +184,7 @@ class LibavSoundWriter final : public SoundWriter {
     std::string filters = format("abuffer=time_base=1/{}:sample_rate={}:sample_fmt={}:channel_layout={},",
                                  decoder_->sample_rate, decoder_->sample_rate,
                                  av_get_sample_fmt_name(decoder_->sample_fmt), layout);
-    // Unasked it fills gaps of 0.1 s and more alone.
+    // By default it fills only gaps of 0.1 s and more.
     filters += format("aresample=async=1:min_comp=0.0001:min_hard_comp=0.01:first_pts=0,atrim=end={:.9f}", sound_.seconds * sound_.speed);
     if (sound_.speed != 1.0) {
       // Rates are whole numbers, and a rounded one would drift: a ratio of two that are as large as aresample takes. It
