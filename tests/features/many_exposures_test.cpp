@@ -85,12 +85,9 @@ class ManyExposures : public ::testing::Test {
     const auto modules = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path();
     setenv("NUTIK_MODULES", modules.c_str(), 0);
     test::write_still_clip(scratch.folder(), 16, 12);
-    SourceRequest source;
-    source.path = scratch / "frames";
-    source.clip.rate = Rational{100, 1};
     ComputingRequest computing;
     computing.renderer = RendererKind::reference;
-    return Session(source, computing);
+    return Session({.path = scratch / "frames", .clip = {.rate = Rational{100, 1}}}, computing);
   }
 
   test::Scratch scratch_;

@@ -152,9 +152,7 @@ TEST(AdderClip, TakesWhiteFromItsSourceOrAsItIsStated) {
   const auto code = [&](std::optional<std::uint32_t> white) {
     // 2^6 units in one reference interval.
     const auto path = scratch.write("a.adder", file.header() + file.event(0, 0, 0, 6, file.interval) + file.end());
-    ClipOptions options;
-    options.white_code = white;
-    const auto clip = open_test_clip(path, options);
+    const auto clip = open_test_clip(path, {.white_code = white});
     std::vector<std::byte> raster(clip->info().format.sample_bytes());
     EXPECT_TRUE(clip->read(raster));
     std::uint16_t found = 0;
@@ -245,9 +243,8 @@ TEST(AdderClip, RefusesWhatItCannotRead) {
   file.interval = 0;
   expect(file.header(), "neither can be 0");
   const auto path = scratch.write("b.adder", File().header() + File().event(0, 0, 0, 1, 1));
-  ClipOptions options;
-  options.events.contrast = Contrast{0.2, 0.2};
-  EXPECT_NE(message_of<UsageError>([&] { open_test_clip(path, options); }).find("tells light itself"), std::string::npos);
+  test::expect_error<UsageError>([&] { open_test_clip(path, {.events = {.contrast = Contrast{0.2, 0.2}}}); },
+                                 {"tells light itself"});
 }
 
 }  // namespace

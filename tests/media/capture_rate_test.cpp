@@ -35,8 +35,7 @@ TEST(CaptureRate, IsAndroidsWhereTheFilePlaysSlower) {
   const auto clip = test::open_test_clip(scratch / "clip.mp4");
   EXPECT_EQ(clip->info().timing.rate, (Rational{240, 1}));
   EXPECT_NE(notes_of(*clip).find("com.android.capture.fps says that 240"), std::string::npos);
-  ClipOptions options;
-  options.rate = Rational{960, 1};
+  const ClipOptions options{.rate = Rational{960, 1}};
   const auto stated = test::open_test_clip(scratch / "clip.mp4", options);
   EXPECT_EQ(timeline_of("", stated->info(), options, 30).rate(), (Rational{960, 1}));
   test::make(scratch, phone_clip("30", android("3")));  // time-lapse
@@ -397,8 +396,7 @@ TEST(CaptureRate, OfPhotronsComesWithAShutterThatStaysOpen) {
   scratch.write("raw.mraw", std::string(4 * 4 * 2 * 3, '\1'));
   const auto angle_of = [&](const std::string& lines) {
     scratch.write("raw.cih", lines);
-    ClipOptions raw;
-    raw.raw = RawVideo{4, 4, "gray16le"};
+    const ClipOptions raw{.raw = RawVideo{4, 4, "gray16le"}};
     const auto clip = test::open_test_clip(scratch / "raw.mraw", raw);
     EXPECT_TRUE(clip->info().timing.exposed_ns) << lines;
     return timeline_of("", clip->info(), raw, 3).shutter_angle().value();
@@ -424,8 +422,7 @@ TEST(CaptureRate, OfPicturesIsThatOfTheHeaderBesideThem) {
   scratch.write("stills/camera.cih", header);
   scratch.write("raw.mraw", std::string(4 * 4 * 2 * 3, '\1'));
   scratch.write("raw.cihx", "<recordRate>500</recordRate>");
-  ClipOptions raw;
-  raw.raw = RawVideo{4, 4, "gray16le"};
+  const ClipOptions raw{.raw = RawVideo{4, 4, "gray16le"}};
   const auto folder = test::open_test_clip(scratch / "stills"),
              file = test::open_test_clip(scratch / "raw.mraw", raw);
   EXPECT_EQ(folder->info().timing.rate_from, "camera.cih");

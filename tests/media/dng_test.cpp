@@ -236,9 +236,7 @@ TEST(Dng, TellsItsRateAndExposure) {
   write("f2.dng", dng);
   auto clip = open_test_clip(scratch / "f%d.dng");
   EXPECT_FALSE(clip->info().timing.is_known());
-  ClipOptions stated;
-  stated.rate = Rational{24, 1};
-  EXPECT_EQ(timeline_of("", clip->info(), stated, 2).end_ns(0), 20'833'333) << "1/48 s of 1/24 s";
+  EXPECT_EQ(timeline_of("", clip->info(), {.rate = Rational{24, 1}}, 2).end_ns(0), 20'833'333) << "1/48 s of 1/24 s";
 
   dng.rate = {24'000, 1001};
   write("f1.dng", dng);

@@ -103,10 +103,7 @@ TEST(EventClip, HoldsTheEventsOfEveryFormat) {
 TEST(EventClip, TellsWhatChanges) {
   const Scratch scratch;
   const auto path = scratch.write("a.dat", test::dat_file(random_events(5, 40), kWidth, kHeight));
-  ClipOptions part;
-  part.from = ClipMoment{30, true};
-  part.to = ClipMoment{60, true};
-  part.crop = Rectangle{3, 2, 50, 6};
+  const ClipOptions part{.from = ClipMoment{30, true}, .to = ClipMoment{60, true}, .crop = Rectangle{3, 2, 50, 6}};
   for (const ClipOptions& options : {ClipOptions{}, part}) {
     const auto whole = open_test_clip(path, options), told = open_test_clip(path, options);
     ASSERT_TRUE(told->tells_changes());
@@ -138,8 +135,7 @@ TEST(EventClip, TakesLightAsItIsStated) {
   const Scratch scratch;
   const Events events = random_events(1, 0);
   const auto path = scratch.write("a.dat", test::dat_file(events, kWidth, kHeight));
-  ClipOptions options;
-  options.events.contrast = parse_contrast("0.31:0.17");
+  ClipOptions options{.events = {.contrast = parse_contrast("0.31:0.17")}};
   expect_events(*open_test_clip(path, options), events, 0.31, 0.17);
   EXPECT_EQ(test::facts_of(*open_test_clip(path, options)).at(Setting::contrast).line(),
             "an event is 0.31 of log light up, 0.17 down, as stated");
@@ -169,9 +165,8 @@ TEST(EventClip, TakesLightAsItIsStated) {
 TEST(EventClip, CountsChangesAtTheStartOfTheirTick) {
   const Scratch scratch;
   const Events events{{1000, 1, 1, true}, {1099, 2, 1, true}, {1100, 1, 1, true}, {1350, 3, 1, true}};
-  ClipOptions options;
-  options.events.tick_ns = 100'000;
-  const auto clip = open_test_clip(scratch.write("a.dat", test::dat_file(events, 8, 8)), options);
+  const auto clip =
+      open_test_clip(scratch.write("a.dat", test::dat_file(events, 8, 8)), {.events = {.tick_ns = 100'000}});
   const std::vector<Exposure> expected{{0, 100'000}, {100'000, 300'000}, {300'000, 351'000}};
   EXPECT_EQ(clip->info().timing.exposures, expected);
 }
@@ -284,8 +279,7 @@ TEST(EventClip, CountsMemoryBeforeItIsTaken) {
 TEST(EventClip, RefusesWhatIsSaidOfPictures) {
   const Scratch scratch;
   const auto path = scratch.write("a.dat", test::dat_file(random_events(1, 0), kWidth, kHeight));
-  ClipOptions options;
-  options.rate = Rational{100, 1};
+  ClipOptions options{.rate = Rational{100, 1}};
   EXPECT_NE(message_of<UsageError>([&] { open_test_clip(path, options); }).find("times of its own at every pixel"),
             std::string::npos);
   options = {};

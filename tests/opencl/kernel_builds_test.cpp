@@ -71,11 +71,10 @@ class BuildScene {
   static std::uint32_t tile_of(std::size_t pixel) { return static_cast<std::uint32_t>(pixel % kWidth / 8); }
 
   static MemoryCapture capture_of(const KernelBuild& build) {
-    CaptureFormat format;
-    format.shape = {kWidth, kHeight, build.channels};
-    format.code_bytes = build.code_bytes;
-    format.white_code = build.code_bytes == 1 ? 255 : 4095;
-    format.transfer = build.transfer();
+    const CaptureFormat format{.shape = {kWidth, kHeight, build.channels},
+                               .code_bytes = build.code_bytes,
+                               .white_code = build.code_bytes == 1 ? 255u : 4095u,
+                               .transfer = build.transfer()};
     test::Random random(11);
     test::Rasters rasters;
     std::vector<std::byte> raster(format.sample_bytes());

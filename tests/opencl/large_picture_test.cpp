@@ -92,8 +92,7 @@ TEST(LargePicture, TakesLittleOfTheDevice) {
   const double raw = static_cast<double>(LargeScene::kSamples * scene.format().sample_bytes());
   for (const Precision precision : test::first_precisions()) {
     OpenClRenderer renderer(test::renderer_options(precision));
-    RenderControl of_column;
-    of_column.rectangle = Rectangle{3001, 0, 40, shape.height};
+    const RenderControl of_column{.rectangle = Rectangle{3001, 0, 40, shape.height}};
     const Rendered column = renderer.render(plan, scene, {ValueType::code8, 255}, of_column);
     EXPECT_EQ(column.statistics.launches, 1u);
     for (const bool is_copied : {false, true}) {

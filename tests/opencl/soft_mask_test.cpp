@@ -121,9 +121,7 @@ TEST(SoftMasks, DoNotDependOnHowTheWorkIsCut) {
       const Rendered in_bands = small.render(plan, capture, output);
       EXPECT_GT(in_bands.statistics.launches, in_bands.statistics.blocks) << "one band";
       EXPECT_EQ(in_bands.picture, expected) << to_text(precision);
-      RenderControl control;
-      control.rectangle = Rectangle{37, 5, 20, 33};
-      const Picture part = whole.render(plan, capture, output, control).picture;
+      const Picture part = whole.render(plan, capture, output, {.rectangle = Rectangle{37, 5, 20, 33}}).picture;
       const std::size_t pixel_bytes = 3 * value_bytes(output.type);
       for (std::uint32_t y = 0; y < 33; ++y) {
         const auto row =

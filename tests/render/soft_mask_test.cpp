@@ -58,11 +58,9 @@ TEST(SoftMask, LightIsMixedByShares) {
   EXPECT_NEAR(light.values<double>()[1], 0.8 * 2 * 0.6 - 0.2 * 0.6, 1e-15);
   // Rectangles, and memory for few rows at a time, change no bit.
   for (std::uint32_t x = 0; x < 2; ++x) {
-    RenderControl control;
-    control.rectangle = Rectangle{x, 0, 1, 1};
-    control.memory_bytes = 1 << 20;
     EXPECT_EQ(ReferenceRenderer()
-                  .render(plan, capture, {ValueType::light64, 0}, control)
+                  .render(plan, capture, {ValueType::light64, 0},
+                          {.rectangle = Rectangle{x, 0, 1, 1}, .memory_bytes = 1 << 20})
                   .picture.values<double>()[0],
               light.values<double>()[x]);
   }

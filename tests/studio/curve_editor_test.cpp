@@ -21,9 +21,7 @@ constexpr std::uint8_t kTag = 3;
 class CurveEditorTest : public testing::Test {
  protected:
   CurveEditorTest() : editor_(document_, axis_) {
-    CaptureFormat format;
-    format.shape = {8, 6, 3};
-    document_.start({"clip.tik", format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)});
+    document_.start({"clip.tik", {.shape = {8, 6, 3}}, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)});
     axis_.set_duration(document_.duration_ns());
     document_.set_points(0, {{0, 0.0}, {650 * kMs, 0.5}, {650 * kMs + 1, 0.0}}, "Ramp");
     document_.set_points(kTag, boxcar_, "Boxcar");

@@ -20,9 +20,7 @@ namespace fs = std::filesystem;
 constexpr std::uint32_t kAcross = 8, kDown = 6;
 
 CaptureFacts small_facts(const QString& capture) {
-  CaptureFormat format;
-  format.shape = {kAcross, kDown, 3};
-  return {capture, format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)};
+  return {capture, {.shape = {kAcross, kDown, 3}}, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)};
 }
 
 // Functions, mask and looks that all differ from those of another number.

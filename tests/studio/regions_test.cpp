@@ -43,9 +43,8 @@ class SheetsOnATable : public ::testing::Test {
   static constexpr std::uint32_t kColumns = 9, kRows = 7;
 
   SheetsOnATable() {
-    CaptureFormat format;
-    format.shape = {kColumns, kRows, 3};
-    document_.start({"clip.tik", format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)});
+    document_.start(
+        {"clip.tik", {.shape = {kColumns, kRows, 3}}, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)});
   }
 
   [[nodiscard]] Region some_pixels(Random& random) {

@@ -55,10 +55,7 @@ class SeeingTest : public StudioTest {
 
 TEST_F(SeeingTest, LightIsCountedBeforeCodesEndIt) {
   open_clip();
-  SourceRequest source;
-  source.path = path("frames/%02d.pgm").toStdString();
-  source.clip.rate = Rational::parse("100", "rate");
-  Session session(source);
+  Session session({.path = path("frames/%02d.pgm").toStdString(), .clip = {.rate = Rational::parse("100", "rate")}});
   DocumentState state = document().state();
   state.brightness_ev = 2;  // the square, code 200, is then beyond white, and the ground is not
   const Job job{{}, {}};

@@ -147,14 +147,12 @@ class StudioTest : public ::testing::Test {
   // What a session of its own makes of the document, as a picture that is written.
   [[nodiscard]] QImage fresh_picture() {
     const DocumentState& state = document().state();
-    SourceRequest source;
-    source.path = document().facts()->path.toStdString();
+    SourceRequest source{.path = document().facts()->path.toStdString()};
     const Stated& stated = document().facts()->stated;
     if (stated.contains("fps")) source.clip.rate = Rational::parse(stated.at("fps"), "rate");
     Session session(source);
     const auto mask = state.mask ? std::optional(LiveView::feathered_mask(state)) : std::nullopt;
-    RenderControl control;
-    control.precision = document().facts()->precision;
+    const RenderControl control{.precision = document().facts()->precision};
     return image_of(session.render(exposure_of(state, mask), screen_format(), control).picture);
   }
 

@@ -20,9 +20,7 @@ constexpr std::int64_t kStripMs = 1'000'000;
 class TimeStripTest : public testing::Test {
  protected:
   TimeStripTest() : strip_(document_, axis_), fields_(document_) {
-    CaptureFormat format;
-    format.shape = {8, 6, 3};
-    document_.start({"clip.tik", format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)});
+    document_.start({"clip.tik", {.shape = {8, 6, 3}}, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)});
     axis_.set_duration(document_.duration_ns());
     document_.set_points(0, {{0, 1.0}}, "Function");
     document_.undo_stack().clear();
