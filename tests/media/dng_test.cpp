@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "capture/error.hpp"
+#include "support/bytes.hpp"
 #include "support/clips.hpp"
 #include "support/messages.hpp"
 #include "support/scratch.hpp"
@@ -49,14 +50,13 @@ constexpr Matrix kXyzOfRgb{
 
 std::string shorts(std::initializer_list<int> values) {
   std::string data;
-  for (const int value : values) data += {static_cast<char>(value & 255), static_cast<char>(value >> 8)};
+  for (const int value : values) data += test::little_endian(static_cast<std::uint64_t>(value), 2);
   return data;
 }
 
 std::string longs(std::initializer_list<std::int64_t> values) {
   std::string data;
-  for (const std::int64_t value : values)
-    for (int byte = 0; byte < 4; ++byte) data += static_cast<char>(value >> (8 * byte) & 255);
+  for (const std::int64_t value : values) data += test::little_endian(static_cast<std::uint64_t>(value), 4);
   return data;
 }
 

@@ -187,39 +187,31 @@ TEST(EventClip, KeepsLightAboveWhiteForTheWayBack) {
   EXPECT_NE(clip->info().notes[0].text.find("1 pixels become brighter than white"), std::string::npos);
 }
 
-std::string event_notes_of(const std::filesystem::path& path) {
-  std::string all;
-  const auto clip = open_test_clip(path);
-  for (const Note& note : clip->info().notes) all += note.text + "\n";
-  return all;
-}
-
 TEST(EventClip, TellsWhatIsWrongWithAFile) {
   const Scratch scratch;
+  const auto expect_noted = [&](const char* name, const std::string& file, const std::string& part) {
+    const std::string notes = test::notes_of(*open_test_clip(scratch.write(name, file)));
+    EXPECT_NE(notes.find(part), std::string::npos) << notes;
+  };
   const Events events = random_events(8, 500'000);
   const std::string words = test::evt2_words(events);
-  EXPECT_NE(event_notes_of(scratch.write("cut.raw", raw("EVT2", words + "ab"))).find("its last 2 bytes are left out"),
-            std::string::npos);
-  EXPECT_NE(event_notes_of(scratch.write("early.raw", raw("EVT2", test::little_endian(1 << 28, 4) + words)))
-                .find("1 events come before the first time"),
-            std::string::npos);
+  expect_noted("cut.raw", raw("EVT2", words + "ab"), "its last 2 bytes are left out");
+  expect_noted("early.raw", raw("EVT2", test::little_endian(1 << 28, 4) + words),
+               "1 events come before the first time");
   Events back = events;
   back[200].us -= 30;
   std::ranges::stable_sort(back.begin(), back.begin() + 200, {}, &Event::us);
-  EXPECT_NE(event_notes_of(scratch.write("back.dat", test::dat_file(back, kWidth, kHeight))).find("events come after later ones, by up to"),
-            std::string::npos);
+  expect_noted("back.dat", test::dat_file(back, kWidth, kHeight), "events come after later ones, by up to");
   Events outside = events;
   outside[7].x = kWidth;
-  EXPECT_NE(event_notes_of(scratch.write("outside.dat", test::dat_file(outside, kWidth, kHeight)))
-                .find("lie outside the sensor's 70 x 9 pixels (the file), the first at 70,"),
-            std::string::npos);
+  expect_noted("outside.dat", test::dat_file(outside, kWidth, kHeight),
+               "lie outside the sensor's 70 x 9 pixels (the file), the first at 70,");
   // Without a size in the header: by the sensor, else by the events.
   EXPECT_EQ(open_test_clip(scratch.write("gen.raw", "% plugin_name hal_plugin_gen41_evk3\n% evt 2.0\n" + words))
                 ->info()
                 .format.shape,
             (Shape{1280, 720, 1}));
-  EXPECT_NE(event_notes_of(scratch.write("none.raw", "% evt 2.0\n" + words)).find("does not say how many pixels"),
-            std::string::npos);
+  expect_noted("none.raw", "% evt 2.0\n" + words, "does not say how many pixels");
 }
 
 // A vector of EVT 3.0 advances the column on and on, also past 16 bits.

@@ -182,6 +182,7 @@ TEST_P(KeptSumsOf, RandomCasesAreWithinTheBoundAndTheSameBits) {
     EXPECT_GT(bundles, 0u);
     EXPECT_GT(corrected, 0u);
     EXPECT_GT(halves, 0u);
+    EXPECT_GT(noisy, 0u);
   }
 }
 
@@ -293,9 +294,7 @@ TEST_P(KeptSumsOf, AnyMemoryHasTheSamePictures) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, KeptSumsOf,
-                         testing::Values(Precision::single_, Precision::compensated, Precision::double_,
-                                         Precision::fixed),
+INSTANTIATE_TEST_SUITE_P(, KeptSumsOf, testing::ValuesIn(kPrecisions),
                          [](const auto& test) { return to_text(test.param); });
 
 }  // namespace

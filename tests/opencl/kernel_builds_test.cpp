@@ -181,9 +181,7 @@ TEST_P(KernelBuilds, StayWithinTheirBounds) {
               worst_name.c_str());
 }
 
-INSTANTIATE_TEST_SUITE_P(, KernelBuilds,
-                         testing::Values(Precision::single_, Precision::compensated, Precision::double_,
-                                         Precision::fixed),
+INSTANTIATE_TEST_SUITE_P(, KernelBuilds, testing::ValuesIn(kPrecisions),
                          [](const auto& instance) { return to_text(instance.param); });
 
 // The few builds are enough, and what no build has is left out for a reason that is told.
@@ -203,8 +201,7 @@ TEST(KernelBuildTable, MeetsAnyTwoValues) {
   const auto met = pairs_of(few);
   EXPECT_EQ(met, pairs_of(possible));
   EXPECT_LE(few.size(), 60u);
-  for (const Precision precision :
-       {Precision::single_, Precision::compensated, Precision::double_, Precision::fixed}) {
+  for (const Precision precision : kPrecisions) {
     EXPECT_TRUE(std::ranges::any_of(few, [&](const KernelBuild& build) {
       return build.precision == precision && build.lanes == 4 && build.item_pixels == 4 &&
              build.item_tiles == 1;

@@ -22,18 +22,6 @@ using test::RandomCase;
 
 const test::CodeFormat kColour{3, 1, 255, Transfer::srgb()};
 
-std::vector<std::byte> cut_of(const Picture& picture, const Rectangle& rectangle) {
-  std::vector<std::byte> part;
-  const std::size_t pixel_bytes = picture.bytes.size() / picture.shape.pixel_count();
-  for (std::uint32_t y = 0; y < rectangle.height; ++y) {
-    const std::byte* from =
-        picture.bytes.data() +
-        ((rectangle.y + std::size_t{y}) * picture.shape.width + rectangle.x) * pixel_bytes;
-    part.insert(part.end(), from, from + rectangle.width * pixel_bytes);
-  }
-  return part;
-}
-
 std::vector<Rectangle> rectangles_of(const Shape& shape) {
   const std::uint32_t right = shape.width - 1, bottom = shape.height - 1;
   return {{0, 0, 1, 1},
@@ -57,7 +45,7 @@ void expect_rectangles(Renderer& renderer, const RandomCase& random, RenderContr
       control.rectangle = rectangle;
       const Picture part = renderer.render(plan, capture, output, control).picture;
       ASSERT_EQ(part.shape, (Shape{rectangle.width, rectangle.height, plan.capture.shape.channels}));
-      EXPECT_EQ(part.bytes, cut_of(whole, rectangle))
+      EXPECT_EQ(part.bytes, test::part_of(whole, rectangle))
           << rectangle.x << "," << rectangle.y << " " << rectangle.width << " x " << rectangle.height << ": "
           << random.text();
     }
@@ -109,10 +97,10 @@ TEST(RenderControl, RefusesRectanglesThatAreNoPart) {
   ReferenceRenderer reference;
   for (const Rectangle& rectangle : {Rectangle{0, 0, 0, 1}, Rectangle{shape.width, 0, 1, 1},
                                      Rectangle{0, 0, 1, shape.height + 1}, Rectangle{~0u, 0, 2, 1}}) {
-    const std::string message = test::message_of<UsageError>([&] {
+    const auto render = [&] {
       static_cast<void>(reference.render(plan, capture, {ValueType::code8, 255}, {.rectangle = rectangle}));
-    });
-    EXPECT_NE(message.find("is no part of a picture of"), std::string::npos) << message;
+    };
+    test::expect_error<UsageError>(render, {"is no part of a picture of"});
   }
 }
 
@@ -168,7 +156,7 @@ TEST(RenderControl, ManyThreadsMayAskAtATime) {
           try {
             const Rendered rendered = renderer.render(plan, capture, output, control);
             wrong += rendered.precision != *control.precision ||
-                     rendered.picture.bytes != cut_of(expected[p], *control.rectangle);
+                     rendered.picture.bytes != test::part_of(expected[p], *control.rectangle);
           } catch (const Cancelled&) {
             ++cancelled;
           }

@@ -262,9 +262,7 @@ TEST_P(ExactSums, ComeOutExactly) {
   std::printf("%zu values of up to %d bits, all exact\n", values, digits());
 }
 
-INSTANTIATE_TEST_SUITE_P(, ExactSums,
-                         testing::Values(Precision::single_, Precision::compensated, Precision::double_,
-                                         Precision::fixed),
+INSTANTIATE_TEST_SUITE_P(, ExactSums, testing::ValuesIn(kPrecisions),
                          [](const auto& instance) { return to_text(instance.param); });
 
 }  // namespace

@@ -78,9 +78,7 @@ TEST_P(SaturationOf, PixelsIsThatOfTheirLight) {
   EXPECT_GT(above, 100u);
 }
 
-INSTANTIATE_TEST_SUITE_P(, SaturationOf,
-                         testing::Values(Precision::single_, Precision::compensated, Precision::double_,
-                                         Precision::fixed),
+INSTANTIATE_TEST_SUITE_P(, SaturationOf, testing::ValuesIn(kPrecisions),
                          [](const auto& test) { return to_text(test.param); });
 
 }  // namespace

@@ -39,17 +39,8 @@ TEST(DelayedReference, StaysWithinAFewUlpOfExactArithmetic) {
     options.delays = test::random_delays(draw, random.capture.shape, random.timeline.duration_ns());
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, options);
     const Picture picture = ReferenceRenderer().render(plan, capture, kLight).picture;
-    const test::ExactExposure exact(plan, random.timeline,
-                                    [&](std::uint64_t k) { return random.rasters[k]; });
-    shares.push_back(0.0);
-    for (const std::uint64_t value : test::values_to_compare(plan, 12, seed)) {
-      const double rendered = picture.values<double>()[value];
-      const double units =
-          test::error_in(exact.scale(value), rendered, exact.light(value)) / test::kRoundoff64;
-      EXPECT_LE(units, test::kReferenceRoundings + 3)
-          << random.text() << ", value " << value << "; rerun: " << test::rerun(seed);
-      shares.back() = std::max(shares.back(), units / (test::kReferenceRoundings + 3));
-    }
+    constexpr double kRoundings = test::kReferenceRoundings + 3;
+    shares.push_back(test::worst_roundings(plan, random, picture, seed, kRoundings) / kRoundings);
     if (HasFailure()) return;
   }
   test::print_shares("reference, delays", shares);

@@ -25,16 +25,7 @@ TEST(Reference, StaysWithinAFewUlpOfExactArithmetic) {
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
     const Picture picture = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}).picture;
-    const test::ExactExposure exact(plan, random.timeline,
-                                    [&](std::uint64_t k) { return random.rasters[k]; });
-    for (const std::uint64_t value : test::values_to_compare(plan, 12, seed)) {
-      const double rendered = picture.values<double>()[value];
-      const double units =
-          test::error_in(exact.scale(value), rendered, exact.light(value)) / test::kRoundoff64;
-      EXPECT_LE(units, test::kReferenceRoundings)
-          << random.text() << ", value " << value << "; rerun: " << test::rerun(seed);
-      worst = std::max(worst, units);
-    }
+    worst = std::max(worst, test::worst_roundings(plan, random, picture, seed, test::kReferenceRoundings));
   }
   std::printf("worst error of the reference: %.2f u of ∫|g|/D\n", worst);
 }

@@ -12,6 +12,7 @@
 #include "features/series/series_request.hpp"
 #include "session/clips/encoding.hpp"
 #include "session/uncertainty.hpp"
+#include "support/clips.hpp"
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
@@ -33,8 +34,7 @@ ComputingRequest reference() {
 class SessionOfClip : public ::testing::Test {
  protected:
   SessionOfClip() {
-    const auto modules = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path();
-    setenv("NUTIK_MODULES", modules.c_str(), 0);
+    test::use_modules();
     test::write_still_clip(scratch_.folder(), 16, 24);
     source_.path = scratch_ / "frames";
     source_.clip.rate = Rational{100, 1};

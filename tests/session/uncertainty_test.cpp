@@ -12,6 +12,7 @@
 #include "capture/format.hpp"
 #include "render/code_scale.hpp"
 #include "session/session.hpp"
+#include "support/clips.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 
@@ -52,8 +53,7 @@ float most_of(const ExposedPicture& picture, std::string_view layer) {
 class Held : public ::testing::Test {
  protected:
   explicit Held(const std::string& name) {
-    const auto modules = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path();
-    setenv("NUTIK_MODULES", modules.c_str(), 0);
+    test::use_modules();
     source_.path = scratch_ / name;
     source_.clip.rate = Rational{100, 1};
     std::filesystem::create_directory(source_.path);
