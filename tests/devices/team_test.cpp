@@ -353,7 +353,7 @@ TEST(DeviceTeam, NamesTheLeastMemoryThatItWorksWith) {
   const std::uint64_t of_one = least_of(alone);
   for (const auto devices : {std::span<const std::size_t>(kTwice), std::span<const std::size_t>(kThrice)}) {
     DeviceTeam team(devices, options);
-    const RenderControl control{.memory_bytes = least_of(team)};
+    RenderControl control{.memory_bytes = least_of(team)};
     EXPECT_GE(control.memory_bytes, of_one + capture.format().shape.value_count());
     expect_same(alone, team, plan, capture, kCodes, control);
     --control.memory_bytes;
