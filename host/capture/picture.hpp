@@ -68,11 +68,11 @@ inline constexpr double kLuma[3] = {0.2126, 0.7152, 0.0722};
 
 // What the codes of a capture are.
 struct CaptureFormat {
-  Shape shape;
+  Shape shape = {};
   std::uint32_t code_bytes = 1;    // 1 or 2
   std::uint32_t white_code = 255;  // the code that stands for light 1; no code is larger
   Transfer transfer = Transfer::srgb();
-  NoiseModel noise;
+  NoiseModel noise = {};
   Primaries primaries = Primaries::bt709;  // of colour
   Rational pixel_aspect{1, 1};             // how much wider than high a pixel is to be shown
 

@@ -128,10 +128,10 @@ struct EventOptions {
 
 // What is stated about a clip; it goes before what the files say.
 struct ClipOptions {
-  std::optional<Rational> rate;
-  std::optional<std::uint32_t> white_code;
-  std::optional<Transfer> transfer;
-  std::optional<RawVideo> raw;
+  std::optional<Rational> rate = std::nullopt;
+  std::optional<std::uint32_t> white_code = std::nullopt;
+  std::optional<Transfer> transfer = std::nullopt;
+  std::optional<RawVideo> raw = std::nullopt;
   std::optional<YuvMatrix> matrix = std::nullopt;
   std::optional<CodeRange> range = std::nullopt;
   std::optional<ChromaPlace> chroma_at = std::nullopt;

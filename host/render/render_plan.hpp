@@ -34,15 +34,15 @@ using FunctionSet = std::map<std::uint8_t, GainFunction>;  // by mask value
 enum class Combine { integral, lighten, darken, median };
 
 struct PlanOptions {
-  bool unmapped_is_zero = false;     // mask values without a function expose to 0 instead of being an error
-  bool live_all = false;             // visit every sample, also where all gains are 0
-  std::optional<Transfer> transfer;  // instead of the capture's own
-  std::string function_name;         // in warnings, where it is not a mask value's; empty: M0, M1, …
+  bool unmapped_is_zero = false;  // mask values without a function expose to 0 instead of being an error
+  bool live_all = false;          // visit every sample, also where all gains are 0
+  std::optional<Transfer> transfer = std::nullopt;  // instead of the capture's own
+  std::string function_name = {};                   // in warnings, where it is not a mask value's; empty: M0, M1, …
 
   Combine combine = Combine::integral;
 
   // By how much each pixel's function comes later; null: by nothing (docs/explanation/model.md, "Time maps").
-  std::shared_ptr<const DelayMap> delays;
+  std::shared_ptr<const DelayMap> delays = nullptr;
 };
 
 struct PlannedFunction {

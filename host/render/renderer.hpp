@@ -56,10 +56,10 @@ void check_reference_strictly(const RenderPlan& plan, const OutputFormat& output
 
 // What one render is asked for beside its picture.
 struct RenderControl {
-  std::stop_token stop;                // looked at between launches: render() throws Cancelled
-  ReportedProgress progress;           // told how far it is; of several devices, how far the first one
-  std::optional<Rectangle> rectangle;  // only these pixels, which are the whole picture's; none: all
-  std::optional<Precision> precision;  // instead of what the renderer was made with
+  std::stop_token stop = {};                          // looked at between launches: render() throws Cancelled
+  ReportedProgress progress = {};                     // told how far it is; of several devices, how far the first one
+  std::optional<Rectangle> rectangle = std::nullopt;  // only these pixels, which are the whole picture's; none: all
+  std::optional<Precision> precision = std::nullopt;  // instead of what the renderer was made with
   bool is_chosen = false;  // no person asked for that: what is doubtful about it is told by who chose it
   bool strict = false;  // ImpreciseError where the picture may err by more than kMaxSteps
   bool takes_wrong = false;  // to measure an arithmetic that its device computes wrongly; else it is refused

@@ -30,12 +30,7 @@ double disc_at(double x, double y, double time) {
 }
 
 CaptureFormat format() {
-  CaptureFormat format;
-  format.shape = {kWidth, kHeight, 1};
-  format.code_bytes = 1;
-  format.white_code = 255;
-  format.transfer = Transfer::srgb();
-  return format;
+  return {.shape = {kWidth, kHeight, 1}, .code_bytes = 1, .white_code = 255, .transfer = Transfer::srgb()};
 }
 
 std::vector<std::byte> drawn(const Scene& scene, double time, double noise = 0, unsigned seed = 0) {

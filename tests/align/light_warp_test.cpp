@@ -15,12 +15,10 @@ namespace {
 constexpr std::uint32_t kWidth = 61, kHeight = 47;
 
 CaptureFormat format_of(std::uint32_t channels, std::uint32_t code_bytes, Transfer transfer) {
-  CaptureFormat format;
-  format.shape = {kWidth, kHeight, channels};
-  format.code_bytes = code_bytes;
-  format.white_code = code_bytes == 1 ? 255 : 65'535;
-  format.transfer = transfer;
-  return format;
+  return {.shape = {kWidth, kHeight, channels},
+          .code_bytes = code_bytes,
+          .white_code = code_bytes == 1 ? 255u : 65'535u,
+          .transfer = transfer};
 }
 
 // Light that changes slowly: waves of 16 pixels and more.

@@ -53,11 +53,7 @@ struct Look {
 };
 
 CaptureFormat format_of(const Look& look) {
-  CaptureFormat format;
-  format.shape = {kSceneWidth, kSceneHeight, look.channels};
-  format.code_bytes = look.code_bytes;
-  format.white_code = look.white;
-  return format;
+  return {.shape = {kSceneWidth, kSceneHeight, look.channels}, .code_bytes = look.code_bytes, .white_code = look.white};
 }
 
 std::unique_ptr<Registrar> registrar_of(const CaptureFormat& format, CameraMotion motion,
@@ -328,8 +324,7 @@ TEST(Registrar, SaysWhyNothingCanBeRegistered) {
 TEST(Registrar, SaysThatNothingCanBeRegisteredToThinPictures) {
   constexpr std::uint32_t kLong = 1 << 20;
   for (const Shape& shape : {Shape{kLong, 3, 3}, Shape{3, kLong, 1}, Shape{kLong / 2 + 1, 1, 1}, Shape{1, kLong, 1}}) {
-    CaptureFormat format;
-    format.shape = shape;
+    const CaptureFormat format{.shape = shape};
     std::vector<std::byte> raster(format.sample_bytes());
     for (std::size_t i = 0; i < raster.size(); ++i) raster[i] = static_cast<std::byte>(i * 7919 % 251);
     EXPECT_EQ(why_not(format, raster), "it has 0 pixels whose surroundings can be recognized, and 60 are needed")
@@ -339,9 +334,7 @@ TEST(Registrar, SaysThatNothingCanBeRegisteredToThinPictures) {
 
 TEST(Registrar, CountsTheMemoryOfThinPictures) {
   const auto bytes_of = [](std::uint32_t width, std::uint32_t height) {
-    CaptureFormat format;
-    format.shape = {width, height, 1};
-    return registered_bytes(format);
+    return registered_bytes({.shape = {width, height, 1}});
   };
   EXPECT_EQ(bytes_of(1 << 20, 1), 2 * bytes_of(1 << 19, 1));
   EXPECT_EQ(bytes_of(1 << 10, 1 << 10), bytes_of(1 << 10, 1 << 9));

@@ -65,18 +65,13 @@ class Aligning : public test::AppTest {
 
   // What the capture shows at a picture, as the codes it holds.
   [[nodiscard]] cv::Mat shown(const std::string& capture, int picture) const {
-    const auto result = make({"--start", std::to_string(picture) + "f", "--exposure", "1f", "--out-transfer",
-                              "source", capture, "-o", "shown.pgm"});
-    return cv::imread((scratch_ / "shown.pgm").string(), cv::IMREAD_UNCHANGED);
+    make({"--start", std::to_string(picture) + "f", "--exposure", "1f", "--out-transfer", "source", capture, "-o",
+          "shown.pgm"});
+    return this->picture("shown.pgm");
   }
 };
 
-const test::Words kEncode("encode -f 100");
-
-std::vector<std::string> encoding(test::Words words) {
-  words.insert(words.begin(), kEncode.begin(), kEncode.end());
-  return words;
-}
+test::Words encoding(const test::Words& words) { return "encode -f 100" + words; }
 
 TEST_F(Aligning, HoldsStillThingsStillAndCropsToWhatEveryPictureSaw) {
   const json encoded = answer(encoding("--align translation frames a.tik"));
@@ -135,7 +130,7 @@ TEST_F(Aligning, KeepsThePictureAndSaysWhatWasSeenWhenAskedTo) {
       answer(encoding("--align translation --align-to 60ms --unseen hold --coverage seen.png frames a.tik"));
   EXPECT_EQ(encoded["width"], kWidth);
   EXPECT_EQ(encoded["camera"]["reference"], 6);
-  const cv::Mat seen = cv::imread((scratch_ / "seen.png").string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat seen = picture("seen.png");
   ASSERT_EQ(seen.size(), cv::Size(kWidth, kHeight));
   EXPECT_EQ(seen.at<std::uint8_t>(kHeight / 2, kWidth / 2), 255);
   EXPECT_LT(seen.at<std::uint8_t>(0, 0), 255);
@@ -157,9 +152,8 @@ TEST_F(Aligning, TellsWhatWasDoneToPicturesBefore) {
     cv::imwrite(file, cv::imread(file, cv::IMREAD_UNCHANGED) * 0.7);
   }
   for (const char* unseen : {"crop", "hold"}) {
-    const auto result = make(
-        test::over(encoding({"--deflicker", "--align", "rigid", "--unseen", unseen, "dimmed", "a.tik"})));
-    expect_says(result.err, "the exposure of 2 of 12 pictures was corrected");
+    const auto words = encoding({"--deflicker", "--align", "rigid", "--unseen", unseen, "dimmed", "a.tik"});
+    expect_says(make(test::over(words)).err, "the exposure of 2 of 12 pictures was corrected");
   }
 }
 
@@ -181,8 +175,8 @@ TEST_F(Aligning, IsToldByInfo) {
 }
 
 TEST_F(Aligning, IsDoneToTheClipThatACaptureIsComparedWith) {
-  ASSERT_EQ(run(encoding("--align rigid --align-to 2f --unseen hold frames a.tik")).status, 0);
-  const auto result = make("validate --start 0f --exposure 2f --runs 1 --source frames a.tik");
+  make(encoding("--align rigid --align-to 2f --unseen hold frames a.tik"));
+  make("validate --start 0f --exposure 2f --runs 1 --source frames a.tik");
 }
 
 TEST_F(Aligning, IsMissedWhereTheCameraMoved) {
@@ -236,17 +230,11 @@ TEST_F(Aligning, IsMissedWhereTheCameraMoved) {
 TEST_F(Aligning, IsNotLookedForWithoutItsModule) {
   make(encoding("frames plain.tik"));
   std::filesystem::copy_file(NUTIK_TEST_PROGRAM, scratch_ / "alone");  // beside no modules
-  const auto without = [&](const std::string& words) {
-    return test::run_shell("env -u NUTIK_MODULES ./alone " + words, scratch_.folder());
-  };
+  const std::string alone = "env -u NUTIK_MODULES ./alone ";
   const std::string why = "no camera's motion can be found: nutik-motion.so was not found";
-  const auto checked = without("check plain.tik");
-  EXPECT_EQ(checked.status, 0) << checked.out;
-  EXPECT_NE(checked.out.find("plain.tik: warning: " + why), std::string::npos) << checked.out;
-  const auto masked = without("mask --moving plain.tik -o m.pgm");
-  EXPECT_EQ(masked.status, 3);
-  EXPECT_NE(masked.err.find(why), std::string::npos) << masked.err;
-  EXPECT_FALSE(std::filesystem::exists(scratch_ / "m.pgm"));
+  expect_says(shell(alone + "check plain.tik").out, "plain.tik: warning: " + why);
+  expect_says(shell(alone + "mask --moving plain.tik -o m.pgm", 3).err, why);
+  EXPECT_FALSE(exists("m.pgm"));
 }
 
 TEST_F(Aligning, RefusesAModuleOfAnotherVersion) {
@@ -265,14 +253,12 @@ TEST_F(Aligning, RefusesAModuleOfAnotherVersion) {
   scratch_.write("nutik-motion.so", module);
   std::filesystem::copy_file(NUTIK_TEST_PROGRAM, scratch_ / "alone");
   const auto checked = test::run_shell("env -u NUTIK_MODULES ./alone check plain.tik", scratch_.folder());
-  EXPECT_NE(checked.out.find("nutik-motion.so: of version " + other + ", and this program is of " + version),
-            std::string::npos)
-      << checked.out;
+  expect_says(checked.out, "nutik-motion.so: of version " + other + ", and this program is of " + version);
 }
 
 TEST_F(Aligning, IsPartOfARecipe) {
-  ASSERT_EQ(run("-f 100 --align rigid --start 0f --exposure 12f frames -o mean.png").status, 0);
-  ASSERT_EQ(run("-f 100 --start 0f --exposure 12f frames -o blurred.png").status, 0);
+  make("-f 100 --align rigid --start 0f --exposure 12f frames -o mean.png");
+  make("-f 100 --start 0f --exposure 12f frames -o blurred.png");
   const cv::Mat mean = cv::imread((scratch_ / "mean.png").string()),
                 blurred = cv::imread((scratch_ / "blurred.png").string());
   EXPECT_LT(mean.cols, blurred.cols);

@@ -81,11 +81,9 @@ TEST_F(Batch, CountsSaturatedPixelsOfThePicturesThatHoldCodes) {
 }
 
 TEST_F(Batch, LeavesTheCaptureToTheCommandAndReadsFromStandardInput) {
-  const ProgramResult batch = test::run_shell(
-      "(printf '%s\\n' '--start 0f --exposure 1f a.png' '-k trail.fn b.png' | " NUTIK_TEST_PROGRAM
-      " batch -f 100 - still%d.pgm)",
-      scratch_.folder());
-  ASSERT_EQ(batch.status, 0) << batch.err;
+  const ProgramResult batch =
+      shell("printf '%s\\n' '--start 0f --exposure 1f a.png' '-k trail.fn b.png' | " NUTIK_TEST_PROGRAM
+            " batch -f 100 - still%d.pgm");
   EXPECT_TRUE(batch.out.starts_with("2 of 2 pictures, ")) << batch.out;
   make("-f 100 -k trail.fn still%d.pgm single.png");
   EXPECT_EQ(file("b.png"), file("single.png"));
@@ -98,8 +96,7 @@ TEST_F(Batch, TakesWordsAsAShellDoes) {
                  "\t--functions=\"it's a.fn\" 'c d'.png\n"
                  "-kit\\'s\\ a.fn e\\ f.png\n"
                  "-k 'trail.fn g.png\n");
-  const ProgramResult batch = run("batch list scene.tik");
-  EXPECT_EQ(batch.status, 1);
+  const ProgramResult batch = make("batch list scene.tik", 1);
   EXPECT_TRUE(batch.out.starts_with("3 of 4 pictures, ")) << batch.out << batch.err;
   expect_says(batch.err, "list:4: the quote ' is not closed: -k 'trail.fn g.png");
   const std::string first = file("a \"b\".png");
@@ -112,9 +109,9 @@ TEST_F(Batch, KeepsNoRecipesWhereNoneAreWanted) {
   scratch_.write("list", "-k trail.fn a.png\n-k trail.fn --no-recipe b.png\n");
   make("batch list scene.tik");
   make("reproduce a.png");
-  EXPECT_EQ(run("reproduce b.png").status, 3);
+  make("reproduce b.png", 3);
   make("batch --no-recipe --overwrite list scene.tik");
-  EXPECT_EQ(run("reproduce a.png").status, 3);
+  make("reproduce a.png", 3);
 }
 
 TEST_F(Batch, SharesWhatDescribesTheClip) {
@@ -122,26 +119,23 @@ TEST_F(Batch, SharesWhatDescribesTheClip) {
        {"--fps 100", "-a 90", "--white 200", "--raw 9x7:gray", "--tolerance 1", "--noise auto", "--sigmas 2",
         "--tiles dense", "--block-samples 2", "--device 0", "--memory 1GB", "--json"}) {
     scratch_.write("list", std::string(shared) + " --start 0f --exposure 1f a.png\n");
-    const ProgramResult batch = run("batch -f 100 list still%d.pgm");
-    EXPECT_EQ(batch.status, 1) << shared;
+    const ProgramResult batch = make("batch -f 100 list still%d.pgm", 1);
     expect_says(batch.err, " holds for all exposures: nutik-cl batch --");
   }
 }
 
 TEST_F(Batch, ReadsLightAnewInEachLineUnlessNoiseWasToldByIt) {
-  ASSERT_EQ(run("-f 100 -k trail.fn --transfer gamma:2 still%d.pgm single.png").status, 0);
+  make("-f 100 -k trail.fn --transfer gamma:2 still%d.pgm single.png");
   scratch_.write("list", "-k trail.fn --transfer gamma:2 a.png\n");
   make("batch -f 100 --transfer linear list still%d.pgm");
   EXPECT_EQ(file("a.png"), file("single.png"));
-  const ProgramResult batch = run("batch -f 100 --noise auto list still%d.pgm");
-  EXPECT_EQ(batch.status, 1);
-  expect_says(batch.err, "list:1: --transfer holds for all exposures where --noise does");
+  expect_says(make("batch -f 100 --noise auto list still%d.pgm", 1).err,
+              "list:1: --transfer holds for all exposures where --noise does");
 }
 
 TEST_F(Batch, LeavesSeriesToExpose) {
   scratch_.write("list", "--exposure 10ms --every 10ms s-%d.png\n");
-  const ProgramResult batch = run("batch list scene.tik");
-  EXPECT_EQ(batch.status, 1);
+  const ProgramResult batch = make("batch list scene.tik", 1);
   expect_says(batch.err, "list:1: --every and --count make a series; a line of a batch is one picture");
 }
 
@@ -157,18 +151,14 @@ TEST_F(Batch, ReportsBadLinesAndGoesOn) {
                  "--start 0f --exposure 1f absent/e.png\n"
                  "--start 0f --exposure 1f scene.tik f.png\n"
                  "--start 1f --exposure 1f g.png\n");
-  const ProgramResult batch = run("batch list.txt scene.tik");
-  EXPECT_EQ(batch.status, 5) << "one picture could not be written";
+  const ProgramResult batch = make("batch list.txt scene.tik", 5);  // one picture could not be written
   EXPECT_TRUE(batch.out.starts_with("2 of 10 pictures, ")) << batch.out;
-  for (const char* message :
-       {"list.txt:2: the interval from 9 s on lies outside the capture, which lasts 60 ms",
-        "list.txt:3: a.png is written by line 1 already", "list.txt:4: absent.fn cannot be read: ",
-        "list.txt:5: --precision holds for all exposures: nutik-cl batch --precision single",
-        "list.txt:6: there is no option --exposre; did you mean --exposure?",
-        "list.txt:7: --help is no exposure",
-        "list.txt:8: absent/e.png cannot be created: ", "list.txt:9: 'f.png' is one file too many"}) {
-    EXPECT_NE(batch.err.find(message), std::string::npos) << message << "\n" << batch.err;
-  }
+  expect_says(batch.err, {"list.txt:2: the interval from 9 s on lies outside the capture, which lasts 60 ms",
+                          "list.txt:3: a.png is written by line 1 already", "list.txt:4: absent.fn cannot be read: ",
+                          "list.txt:5: --precision holds for all exposures: nutik-cl batch --precision single",
+                          "list.txt:6: there is no option --exposre; did you mean --exposure?",
+                          "list.txt:7: --help is no exposure",
+                          "list.txt:8: absent/e.png cannot be created: ", "list.txt:9: 'f.png' is one file too many"});
   EXPECT_FALSE(file("a.png").empty());
   EXPECT_FALSE(file("g.png").empty());
 }
@@ -188,26 +178,21 @@ TEST_F(Batch, ReplacesNoInputAndNoPictureOfAnotherLine) {
                  "--start 1f --exposure 1f d2/x.png\n"
                  "--start 2f --exposure 1f d3/x.png\n"
                  "-k trail.fn -m d3/../late.pgm b.png\n");
-  const ProgramResult batch = run("batch --overwrite list.txt scene.tik");
-  EXPECT_EQ(batch.status, 1);
-  for (const char* message : {"list.txt:2: d1/../late.pgm is an input of line 7; choose another name",
-                              "list.txt:3: early.pgm is an input of line 1;",
-                              "list.txt:5: d2/x.png is written by line 4 already",
-                              "list.txt:6: d3/x.png is written by line 4 already"}) {
-    EXPECT_NE(batch.err.find(message), std::string::npos) << message << "\n" << batch.err;
-  }
+  const ProgramResult batch = make("batch --overwrite list.txt scene.tik", 1);
+  expect_says(batch.err,
+              {"list.txt:2: d1/../late.pgm is an input of line 7; choose another name",
+               "list.txt:3: early.pgm is an input of line 1;", "list.txt:5: d2/x.png is written by line 4 already",
+               "list.txt:6: d3/x.png is written by line 4 already"});
   EXPECT_TRUE(batch.out.starts_with("3 of 7 pictures, ")) << batch.out;
   for (const char* name : {"early.pgm", "late.pgm"}) EXPECT_EQ(file(name), mask) << name;
   EXPECT_TRUE(std::filesystem::is_symlink(scratch_ / "d2/x.png"));
 }
 
 TEST_F(Batch, RefusesListsThatListNothing) {
-  EXPECT_EQ(run("batch").status, 2);
-  EXPECT_EQ(run("batch absent.txt").status, 3);
+  make("batch", 2);
+  make("batch absent.txt", 3);
   scratch_.write("empty.txt", "# nothing\n");
-  const ProgramResult batch = run("batch empty.txt");
-  EXPECT_EQ(batch.status, 3);
-  expect_says(batch.err, "empty.txt lists no exposure");
+  expect_refused("batch empty.txt", 3, "empty.txt lists no exposure");
 }
 
 }  // namespace

@@ -40,9 +40,9 @@ TEST_F(BetweenPictures, AreMarkedWhereverTheyAreTold) {
   EXPECT_EQ(info["made_samples"]["after"], (std::vector<int>{7, 7, 7, 0}));
   expect_says(run("info all.tik").out, "21 samples made along the motion between 4 filmed");
   const test::Words trace("trace --pixel 50,40 --start 0s --exposure 200ms all.tik");
-  EXPECT_NE(run(trace).out.find(" made"), std::string::npos);
+  expect_says(run(trace).out, " made");
   make(trace + "steps.csv");
-  EXPECT_NE(file("steps.csv").find(",is_made\n"), std::string::npos);
+  expect_says(file("steps.csv"), ",is_made\n");
   // The steps that begin with what was filmed have no mark.
   bool is_filmed = false, is_made = false;
   const auto told = answer(trace);
@@ -57,11 +57,11 @@ TEST_F(BetweenPictures, JoinWhatFramesOfAVideoWouldShowTwice) {
   expect_says(joined.err, note);
   expect_says(run("reproduce 0.png").out, "--between auto:0f..3f");
   const std::string picture = file("0.png");
-  make(film + test::Words("--between auto"));
+  make(film + "--between auto");
   EXPECT_TRUE(file("0.png") != picture) << "their recipes differ";
-  make(film + test::Words("--between auto:0f..3f"));
+  make(film + "--between auto:0f..3f");
   EXPECT_TRUE(file("0.png") == picture);
-  EXPECT_EQ(make(film + test::Words("--between off")).err.find(note), std::string::npos);
+  EXPECT_EQ(make(film + "--between off").err.find(note), std::string::npos);
   EXPECT_EQ(make("video -f 20 --out-angle 360 --out-fps 20 --overwrite frames %d.png").err.find(note), std::string::npos);
   // A capture has what it was encoded with.
   make("encode -f 20 --transfer srgb frames filmed.tik");
@@ -82,12 +82,10 @@ TEST_F(BetweenPictures, AreSaidToBeMissingWhereAFilmCannotHaveThem) {
 TEST_F(BetweenPictures, AreSaidToBeMissingAloneWhereTheDiskIsFull) {
   std::filesystem::create_directory(scratch_ / "tmp");
   const auto library = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path() / "tests" / "libfail_calls.so";
-  const auto film = test::run_shell(
-      format("TMPDIR=tmp LD_PRELOAD='{}' NUTIK_FAIL_FOLDER='{}' NUTIK_FAIL_CALL=write NUTIK_FAIL_AT=12 "
-             "NUTIK_FAIL_ERROR=28 '{}' video -f 20 --out-angle 360 --out-fps 10 frames %d.png",
-             library.string(), (scratch_ / "tmp").string(), NUTIK_TEST_PROGRAM),
-      scratch_.folder());
-  EXPECT_EQ(film.status, 0) << film.err;
+  const auto film =
+      shell(format("TMPDIR=tmp LD_PRELOAD='{}' NUTIK_FAIL_FOLDER='{}' NUTIK_FAIL_CALL=write NUTIK_FAIL_AT=12 "
+                   "NUTIK_FAIL_ERROR=28 '{}' video -f 20 --out-angle 360 --out-fps 10 frames %d.png",
+                   library.string(), (scratch_ / "tmp").string(), NUTIK_TEST_PROGRAM));
   expect_says(film.err, "samples cannot be made: ");
   EXPECT_EQ(film.err.find("leaves them out"), std::string::npos) << film.err;
 }
@@ -104,21 +102,14 @@ TEST_F(BetweenPictures, AreMadeOnlyWhereAnIntervalInSecondsLies) {
 
 TEST_F(BetweenPictures, AreMadeAgainByARecipe) {
   const test::Words source("-f 20 --transfer srgb --between 3 --renderer reference frames");
-  make(test::Words("expose --start 10ms --exposure 150ms") + source + "-o p.png");
-  const std::string picture = file("p.png");
-  expect_says(run("reproduce p.png").out, "--between 3");
-  const std::string program = NUTIK_TEST_PROGRAM;
-  const auto again = test::run_shell(program + " reproduce p.png > again.sh && rm p.png && sh again.sh", scratch_.folder());
-  EXPECT_EQ(again.status, 0) << again.err;
-  EXPECT_TRUE(file("p.png") == picture);
-  make(test::Words("video --out-fps 10") + source + "-o f-%d.png");
-  const std::string frame = file("f-1.png");
-  EXPECT_EQ(test::run_shell(program + " reproduce f-1.png > again.sh && rm f-1.png && sh again.sh", scratch_.folder()).status, 0);
-  EXPECT_TRUE(file("f-1.png") == frame);
+  make("expose --start 10ms --exposure 150ms" + source + "-o p.png");
+  expect_says(expect_made_again("p.png"), "--between 3");
+  make("video --out-fps 10" + source + "-o f-%d.png");
+  expect_made_again("f-1.png");
   // A clip that is read forward and its capture.
   make("encode -f 20 --transfer srgb --between 3 frames all.tik");
   make("expose --start 10ms --exposure 150ms --renderer reference --no-recipe all.tik -o r.png");
-  make(test::Words("expose --start 10ms --exposure 150ms --no-recipe") + source + "-o s.png");
+  make("expose --start 10ms --exposure 150ms --no-recipe" + source + "-o s.png");
   EXPECT_TRUE(file("r.png") == file("s.png"));
 }
 

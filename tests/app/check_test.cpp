@@ -22,11 +22,7 @@ constexpr int kClipHeight = 80;
 class Check : public test::AppTest {
  protected:
   void SetUp() override {
-    std::filesystem::create_directory(scratch_ / "frames");
-    for (int k = 0; k < 30; ++k) {
-      const std::string name = "frames/" + std::to_string(100 + k) + ".pgm";
-      cv::imwrite((scratch_ / name).string(), cv::Mat(kClipHeight, kClipWidth, CV_8UC1, cv::Scalar::all(8 * k)));
-    }
+    write_frames(30, [](int k) { return cv::Mat(kClipHeight, kClipWidth, CV_8UC1, cv::Scalar::all(8 * k)); });
     make("-f 10 frames clip.tik");
     mask_ = cv::Mat::zeros(kClipHeight, kClipWidth, CV_8UC1);
     cv::rectangle(mask_, {10, 10}, {39, 59}, cv::Scalar::all(128), cv::FILLED);
@@ -39,14 +35,11 @@ class Check : public test::AppTest {
   }
 
   [[nodiscard]] double still_gain(const test::Words& inputs) const {
-    test::Words words = "check --json" + inputs;
-    return json::parse(run(words).out).at("functions").at(0).at("still_gain");
+    return answer("check" + inputs).at("functions").at(0).at("still_gain");
   }
   void save_mask() const { cv::imwrite((scratch_ / "mask.pgm").string(), mask_); }
   json findings(const test::Words& inputs, int status) const {
-    test::Words words = "check --json" + inputs;
-    const ProgramResult result = run(words);
-    EXPECT_EQ(result.status, status) << result.out << result.err;
+    const ProgramResult result = make("check --json" + inputs, status);
     EXPECT_EQ(result.err, "");
     return json::parse(result.out).at("findings");
   }
@@ -94,8 +87,7 @@ TEST_F(Check, TellsTheFiguresOfNormalizedFunctions) {
 TEST_F(Check, CountsNoStepAsASample) {
   scratch_.write("last.fn", "M0 [2899999999:0], [2900000000:1], [3000000000:1], [3000000001:0]\n");
   EXPECT_TRUE(findings("-k last.fn clip.tik", 0).empty());
-  const json answer = json::parse(run("check --json -k last.fn clip.tik").out);
-  EXPECT_EQ(answer.at("functions").at(0).at("samples"), 1);
+  EXPECT_EQ(answer("check -k last.fn clip.tik").at("functions").at(0).at("samples"), 1);
   const ProgramResult exposed = run("-k last.fn clip.tik p.png");
   expect_says(exposed.out, "1 of 30 samples");
   EXPECT_EQ(exposed.err, "");
@@ -109,8 +101,7 @@ TEST_F(Check, SaysWhatFunctionsComeTo) {
   expect_says(result.out, "M128        1500  400 ms … 410 ms   10 ms   10 ms           1      0        1\n");
   expect_says(result.out, "\nnothing wrong\n");
 
-  const ProgramResult script = run("check --json -m mask.pgm -k good.fn clip.tik");
-  const json figures = json::parse(script.out).at("functions").at(2);
+  const json figures = answer("check -m mask.pgm -k good.fn clip.tik").at("functions").at(2);
   EXPECT_EQ(figures.at("mask_value"), 255);
   EXPECT_EQ(figures.at("pixels"), cv::countNonZero(mask_ == 255));
   EXPECT_EQ(figures.at("live_start_ns"), 999'999'999);
@@ -132,16 +123,13 @@ TEST_F(Check, SaysEverythingThatIsWrongAtOnce) {
   // In the first picture.
   capture[capture.size() / 2] ^= 0x55;
   scratch_.write("damaged.tik", capture);
-  const ProgramResult result = run("check -m small.pgm -k bad.fn damaged.tik");
-  EXPECT_EQ(result.status, 3);
-  for (const char* part :
-       {"bad.fn:1:12: time 5 stands twice", "\n    M0 [5:1], [5:0]\n               ^\n",
-        "bad.fn:3:2: mask value 300",
-        "bad.fn:2:19: warning: M1: time 100000000 probably has lost a digit: it is likely 1000000000",
-        "bad.fn:2:1: warning: M1: no pixel of small.pgm has the value 1",
-        "small.pgm: mask values without a function: 7 (2400 pixels)", "damaged.tik: "}) {
-    EXPECT_NE(result.out.find(part), std::string::npos) << "no '" << part << "' in:\n" << result.out;
-  }
+  const ProgramResult result = make("check -m small.pgm -k bad.fn damaged.tik", 3);
+  expect_says(
+      result.out,
+      {"bad.fn:1:12: time 5 stands twice", "\n    M0 [5:1], [5:0]\n               ^\n", "bad.fn:3:2: mask value 300",
+       "bad.fn:2:19: warning: M1: time 100000000 probably has lost a digit: it is likely 1000000000",
+       "bad.fn:2:1: warning: M1: no pixel of small.pgm has the value 1",
+       "small.pgm: mask values without a function: 7 (2400 pixels)", "damaged.tik: "});
 }
 
 TEST_F(Check, ADamagedBlockIsNamedAndTheRestIsChecked) {
@@ -173,16 +161,13 @@ TEST_F(Check, EachInputIsOptional) {
   EXPECT_EQ(alone.out.find("pixels"), std::string::npos);
   EXPECT_EQ(alone.out.find("samples"), std::string::npos);
   expect_refused("check", 2, "what should be checked?");
-  const ProgramResult quiet = run("check -q -k good.fn");
-  EXPECT_EQ(quiet.out, "");
+  EXPECT_EQ(run("check -q -k good.fn").out, "");
 }
 
 TEST_F(Check, WhatCannotBeReadIsOneFindingAmongOthers) {
   EXPECT_EQ(kinds("-m absent.pgm -k absent.fn absent.tik", 3),
             (Kinds{"function_file", "mask_file", "capture"}));
-  const ProgramResult result = run("check -m good.fn clip.tik");
-  EXPECT_EQ(result.status, 3);
-  expect_says(result.out, "good.fn: is neither a PGM nor a PNG");
+  expect_says(make("check -m good.fn clip.tik", 3).out, "good.fn: is neither a PGM nor a PNG");
   scratch_.write("deep.pgm", "P2 2 1 4095\n0 4095\n");
   expect_says(run("check -m deep.pgm").out, "16 bits");
 }
@@ -202,8 +187,7 @@ TEST_F(Check, MaskValuesWithoutAFunction) {
   mask_.setTo(9, mask_ == 128);
   save_mask();
   EXPECT_EQ(kinds(all_, 3), (Kinds{"unused_function", "unmapped_mask_values"}));
-  test::Words mapped = all_ + "--unmapped zero";
-  EXPECT_EQ(kinds(mapped, 0), Kinds{"unused_function"});
+  EXPECT_EQ(kinds(all_ + "--unmapped zero", 0), Kinds{"unused_function"});
   // A function with a mistake is there all the same.
   scratch_.write("broken.fn", test::read_file(scratch_ / "good.fn") + "M9 [0:x]\n");
   EXPECT_EQ(kinds("-m mask.pgm -k broken.fn clip.tik", 3), (Kinds{"function_file", "unused_function"}));
@@ -285,15 +269,10 @@ TEST_F(Check, ManyFindingsOfOneKindAreCounted) {
 }
 
 TEST_F(Check, RefusesWhatMakesNoSense) {
-  for (const auto& [words, part] : std::vector<std::pair<std::vector<std::string>, std::string>>{
-           {{"check", "clip.tik", "clip.tik"}, "is one file too many"},
-           {{"check", "-k", "good.fn", "--unmapped", "black"}, "the only choice is --unmapped zero"},
-           {{"check", "-k", "good.fn", "-o", "x.txt"}, "-o does not go with check"},
-           {{"check", "-f", "10", "clip.tik"}, "--fps describes a clip"}}) {
-    const ProgramResult result = run(words);
-    EXPECT_EQ(result.status, 2) << result.out;
-    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
-  }
+  expect_refused(2, {{"check clip.tik clip.tik", "is one file too many"},
+                     {"check -k good.fn --unmapped black", "the only choice is --unmapped zero"},
+                     {"check -k good.fn -o x.txt", "-o does not go with check"},
+                     {"check -f 10 clip.tik", "--fps describes a clip"}});
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ using Json = nlohmann::json;
 
 class Colour : public test::AppTest {
  protected:
-  void succeed(const test::Words& words) const { const auto result = make(test::over(words)); }
+  void succeed(const test::Words& words) const { make(test::over(words)); }
 
   // A still scene of a linear 12-bit camera: even fields of 64 x 64 pixels, from light 0.01 to 1.
   void write_scene() const {
@@ -48,34 +48,32 @@ TEST_F(Colour, OfALinearCaptureIsTheSameInPictureSheetAndVideo) {
   succeed("contact --every 4f --columns 1 --width 280 scene.tik sheet.png");
   succeed("sweep --start 0s --exposure 0.05s --shift 0..1f/1f --each each-%d.png scene.tik sweep.png");
   succeed("video --out-fps 10 --out-angle 360 scene.tik video.mkv");
-  const cv::Mat picture = cv::imread((scratch_ / "picture.png").string(), cv::IMREAD_UNCHANGED);
-  const cv::Mat each = cv::imread((scratch_ / "each-1.png").string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat exposed = picture("picture.png"), each = picture("each-1.png");
   const cv::Mat sheet = cv::imread((scratch_ / "sheet.png").string(), cv::IMREAD_COLOR);
   cv::Mat frame;
   ASSERT_TRUE(cv::VideoCapture((scratch_ / "video.mkv").string(), cv::CAP_FFMPEG).read(frame));
-  ASSERT_EQ(picture.depth(), CV_16U);
+  ASSERT_EQ(exposed.depth(), CV_16U);
   for (std::size_t field = 0; field < 4; ++field) {
     const int x = static_cast<int>(field) * 64 + 32;
     const double exact = 65'535 * Transfer::srgb().fraction_of(kCodes[field] / 4095.0);
-    EXPECT_NEAR(picture.at<std::uint16_t>(32, x), exact, 0.51);
+    EXPECT_NEAR(exposed.at<std::uint16_t>(32, x), exact, 0.51);
     EXPECT_NEAR(each.at<std::uint16_t>(32, x), exact, 0.51);
     EXPECT_EQ(sheet.at<cv::Vec3b>(12 + 26 + 32, 12 + x)[0], shown(field)) << "of the sheet, field " << field;
     EXPECT_NEAR(frame.at<cv::Vec3b>(32, x)[0], shown(field), 1) << "of the video, field " << field;
   }
-  EXPECT_EQ(picture.at<std::uint16_t>(32, 250), 65'535) << "white is white";
+  EXPECT_EQ(exposed.at<std::uint16_t>(32, 250), 65'535) << "white is white";
 }
 
 TEST_F(Colour, OfTheSourceIsKeptWhereThatIsAskedFor) {
   write_scene();
-  const auto result = run("--start 0s --exposure 1f -f 30 scene shown.png");
-  expect_says(result.out, "codes srgb with white 65535 (the capture's: linear with white 4095)");
+  expect_says(run("--start 0s --exposure 1f -f 30 scene shown.png").out,
+              "codes srgb with white 65535 (the capture's: linear with white 4095)");
   succeed("--start 0s --exposure 1f -f 30 --out-transfer source scene codes.png");
-  const cv::Mat codes = cv::imread((scratch_ / "codes.png").string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat codes = picture("codes.png");
   for (std::size_t field = 0; field < 4; ++field) {
     EXPECT_EQ(codes.at<std::uint16_t>(32, static_cast<int>(field) * 64 + 32), kCodes[field]);
   }
-  const auto again = run("reproduce codes.png");
-  expect_says(again.out, "--out-transfer source");
+  expect_says(run("reproduce codes.png").out, "--out-transfer source");
   expect_refused("--start 0s --exposure 1f -f 30 --out-transfer srgb scene x.pfm", 2, "(--out-transfer)");
 }
 
@@ -84,7 +82,7 @@ TEST_F(Colour, OfACaptureFollowsAStatedTransfer) {
   write_scene();
   succeed("-q -f 30 scene scene.tik");
   succeed("--start 0s --exposure 1f --transfer srgb --depth 8 scene.tik srgb.png");
-  const cv::Mat codes = cv::imread((scratch_ / "srgb.png").string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat codes = picture("srgb.png");
   for (std::size_t field = 0; field < 4; ++field) {
     EXPECT_EQ(codes.at<std::uint8_t>(32, static_cast<int>(field) * 64 + 32),
               std::lround(kCodes[field] / 4095.0 * 255));
@@ -96,10 +94,7 @@ TEST_F(Colour, AboveWhiteIsNotCutOffInSilence) {
   write_scene();
   const test::Words exposing("--start 0s --exposure 1f -f 30 scene");
   const auto told = [&](const std::string& transfer, const test::Words& more) {
-    std::vector<std::string> words = exposing;
-    words.insert(words.end(), {"--transfer", transfer});
-    words.insert(words.end(), more.begin(), more.end());
-    const auto result = make(words);
+    const auto result = make(exposing + "--transfer" + transfer + more);
     return result.out + result.err;
   };
   constexpr const char* kSaid = "brighter come out white";
@@ -107,30 +102,26 @@ TEST_F(Colour, AboveWhiteIsNotCutOffInSilence) {
   for (const auto& [transfer, share, stops] :
        std::vector<std::array<std::string, 3>>{{"hlg", "26.5", "-2.0"}, {"pq", "2.03", "-5.7"}}) {
     const std::string said = told(transfer, {"x.png"});
-    EXPECT_NE(said.find("note: white is " + share + " % of the light that " + transfer +
-                        " reaches, and 4096 pixels brighter come out white; nutik-cl expose --ev " + stops +
-                        " shows"),
-              std::string::npos)
-        << said;
+    expect_says(said, "note: white is " + share + " % of the light that " + transfer +
+                          " reaches, and 4096 pixels brighter come out white; nutik-cl expose --ev " + stops +
+                          " shows");
     const std::string all = told(transfer, {"--ev", stops, "x.png"});
     EXPECT_EQ(all.find(kSaid), std::string::npos) << all;
     expect_says(all, "no pixel saturated");
     expect_says(told(transfer, {"x.exr"}),
                 "note: white is " + share + " % of the light that " + transfer + " reaches, which is 1 here; --gain ");
     EXPECT_EQ(told(transfer, {"--out-transfer", "source", "x.png"}).find(kSaid), std::string::npos);
-    EXPECT_NE(told(transfer, {"--json", "x.png"}).find(kSaid), std::string::npos);
+    expect_says(told(transfer, {"--json", "x.png"}), kSaid);
   }
   EXPECT_EQ(told("srgb", {"x.png"}).find(kSaid), std::string::npos);
   scratch_.write("list", "--start 0s --exposure 1f a.png\n--start 1f --exposure 1f b.png\n");
-  const auto plate = run("background -f 30 --transfer hlg scene plate.png");
-  expect_says(plate.err, "4096 pixels hold more light than white and come out white; an .exr");
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"batch", "-f", "30", "--transfer", "hlg", "list", "scene"},
-        {"contact", "-f", "30", "--transfer", "hlg", "--every", "1f", "scene", "sheet.png"},
-        {"video", "-f", "30", "--transfer", "hlg", "--out-fps", "30", "scene", "x.mkv"}}) {
+  expect_says(run("background -f 30 --transfer hlg scene plate.png").err,
+              "4096 pixels hold more light than white and come out white; an .exr");
+  for (const test::Words words :
+       {"batch -f 30 --transfer hlg list scene", "contact -f 30 --transfer hlg --every 1f scene sheet.png",
+        "video -f 30 --transfer hlg --out-fps 30 scene x.mkv"}) {
     const auto result = make(words);
-    EXPECT_NE((result.out + result.err).find(kSaid), std::string::npos)
-        << words[0] << result.out << result.err;
+    expect_says(result.out + result.err, kSaid);
   }
 }
 
@@ -145,7 +136,7 @@ TEST_F(Colour, OfCamerasCurvesIsReflectance) {
     scratch_.write("raw", test::planes_of(std::vector<std::array<int, 3>>(32 * 32, {code, 512, 512})));
     test::make(scratch_, "-f rawvideo -s 32x32 -pix_fmt yuv444p10le -r 25 -i raw -c:v ffv1 -color_range tv grey.mkv");
     succeed("--start 0s --exposure 1f --transfer " + name + " --out-transfer linear --depth 16 grey.mkv grey.png");
-    const cv::Mat grey = cv::imread((scratch_ / "grey.png").string(), cv::IMREAD_UNCHANGED);
+    const cv::Mat grey = picture("grey.png");
     const double step = curve.is_of_whole_codes ? 0.5 / 1023 : 0.5 / 876;
     for (int channel = 0; channel < 3; ++channel) {
       const double light = grey.at<cv::Vec3w>(16, 16)[channel] / 65'535.0;
@@ -155,8 +146,8 @@ TEST_F(Colour, OfCamerasCurvesIsReflectance) {
   }
   succeed("-q --transfer vlog grey.mkv grey.tik");
   const auto info = run("info grey.tik");
-  EXPECT_NE((info.out + info.err).find("vlog:video"), std::string::npos) << info.out;
-  EXPECT_NE((info.out + info.err).find("vgamut"), std::string::npos) << info.out;
+  expect_says(info.out + info.err, "vlog:video");
+  expect_says(info.out + info.err, "vgamut");
 }
 
 // Light has another mean by another transfer function: what holds means is not said to be something else afterwards.
@@ -170,34 +161,29 @@ TEST_F(Colour, OfMeansOfLightStaysWhatItIs) {
       "curve sensor\n";
   scratch_.write("camera.noise", camera);
   const test::Words exposing("--start 0s --exposure 3f");
-  const auto with = [](test::Words words, const test::Words& more) {
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-  };
-  for (const auto& [options, reason] : std::vector<std::pair<std::vector<std::string>, std::string>>{
-           {{"--noise", "camera.noise"}, "what a camera's noise explains was held as its mean"},
-           {{"--scale", "1/2"}, "pictures were scaled"}}) {
-    succeed(with({"encode", "-q", "clip.mkv", "means.tik"}, options));
+  for (const auto& [options, reason] : std::vector<std::pair<test::Words, std::string>>{
+           {"--noise camera.noise", "what a camera's noise explains was held as its mean"},
+           {"--scale 1/2", "pictures were scaled"}}) {
+    succeed("encode -q clip.mkv means.tik" + options);
     const std::string said = "means.tik holds codes that are means of light by linear: " + reason;
-    expect_refused(with({"--transfer", "srgb", "means.tik", "x.png"}, exposing), 2, said);
+    expect_refused("--transfer srgb means.tik x.png" + exposing, 2, said);
     expect_refused("contact --transfer srgb means.tik x.png", 2, said);
     expect_refused("trace --pixel 1,1 --transfer srgb means.tik --start 0s --exposure 3f", 2, said);
     expect_refused("retime --transfer srgb means.tik x.tik", 2, said);
     EXPECT_FALSE(std::filesystem::exists(scratch_ / "x.tik"));
-    succeed(with({"--transfer", "linear", "means.tik", "x.png"}, exposing));
+    succeed("--transfer linear means.tik x.png" + exposing);
     // A corrected capture still knows.
     succeed("retime -f 50 means.tik fast.tik");
     expect_refused("retime --transfer srgb fast.tik x.tik", 2, reason);
     // The clip itself is read by any.
-    succeed(with(with({"--transfer", "srgb", "clip.mkv", "x.png"}, exposing), options));
+    succeed("--transfer srgb clip.mkv x.png" + exposing + options);
   }
   // Codes that no transfer function went into are the same by any: capture and clip make one picture.
-  for (const std::vector<std::string>& options :
-       {std::vector<std::string>{"--crop", "32x32+8+8"}, {"--deflicker"}, {"--tolerance", "2"}}) {
-    succeed(with({"encode", "-q", "clip.mkv", "codes.tik"}, options));
-    succeed(with({"--transfer", "srgb", "--no-recipe", "codes.tik", "held.png"}, exposing));
-    succeed(with(with({"--transfer", "srgb", "--no-recipe", "clip.mkv", "read.png"}, exposing), options));
-    EXPECT_EQ(test::read_file(scratch_ / "held.png"), test::read_file(scratch_ / "read.png")) << options[0];
+  for (const test::Words options : {"--crop 32x32+8+8", "--deflicker", "--tolerance 2"}) {
+    succeed("encode -q clip.mkv codes.tik" + options);
+    succeed("--transfer srgb --no-recipe codes.tik held.png" + exposing);
+    succeed("--transfer srgb --no-recipe clip.mkv read.png" + exposing + options);
+    EXPECT_EQ(file("held.png"), file("read.png")) << options[0];
   }
 }
 
@@ -241,14 +227,13 @@ TEST_F(Colour, StandsInTheFile) {
   EXPECT_EQ(gamma["gAMA"], std::string("\x00\x00\xD9\x04", 4));  // 1 / 1.8
 
   succeed("-q clip.mkv clip.tik");
-  const Json info = Json::parse(run("info --json clip.tik").out);
+  const Json info = answer("info clip.tik");
   EXPECT_EQ(info["pixel_aspect"], "32:27");
   EXPECT_EQ(info["primaries"], "bt2020");
   EXPECT_EQ(info["transfer"], "hlg");
   EXPECT_EQ(info["version"], 1);
   succeed("video --out-fps 25 --keep-pixels clip.tik video.mp4");
-  const auto probed = test::run_shell("ffprobe -v error -of json -show_streams video.mp4", scratch_.folder());
-  const Json stream = Json::parse(probed.out)["streams"][0];
+  const Json stream = Json::parse(shell("ffprobe -v error -of json -show_streams video.mp4").out)["streams"][0];
   EXPECT_EQ(stream["sample_aspect_ratio"], "32:27");
   EXPECT_EQ(stream["color_transfer"], "iec61966-2-1");
   EXPECT_EQ(stream["color_primaries"], "bt709");
@@ -269,15 +254,12 @@ class AnamorphicPixels : public Colour {
     scratch_.write("clip.raw", raw);
     succeed("--raw 64x48:rgb24 -f 25 --pixel-aspect 2:1 -q clip.raw clip.tik");
   }
-  [[nodiscard]] cv::Size size_of(const char* name) const {
-    return cv::imread((scratch_ / name).string(), cv::IMREAD_UNCHANGED).size();
-  }
+  [[nodiscard]] cv::Size size_of(const char* name) const { return picture(name).size(); }
 };
 
 TEST_F(AnamorphicPixels, AreSquareForEyesAndKeptForMeasuring) {
   const std::string exposure = "--start 0s --exposure 2f clip.tik ";
-  const auto made = run("--json " + exposure + "eyes.png");
-  const Json json = Json::parse(made.out);
+  const Json json = answer(exposure + "eyes.png");
   EXPECT_EQ(json["width"], 128);
   EXPECT_EQ(json["notes"][0], "pixels of 2:1 were made square: 64 x 48 became 128 x 48 (--keep-pixels)");
   succeed(exposure + "eyes.jpg");
@@ -308,9 +290,7 @@ TEST_F(AnamorphicPixels, AreSquareInPlatesStudiesAndFilms) {
   EXPECT_EQ(size_of("k.png"), cv::Size(64, 48));
   const auto shape_of = [&](const std::string& words, const std::string& film) {
     succeed("video --out-fps 25 " + words + " clip.tik " + film);
-    const auto probed =
-        test::run_shell("ffprobe -v error -of json -show_streams " + film, scratch_.folder());
-    const Json stream = Json::parse(probed.out)["streams"][0];
+    const Json stream = Json::parse(shell("ffprobe -v error -of json -show_streams " + film).out)["streams"][0];
     return format("{} x {}, {}", stream["width"].get<int>(), stream["height"].get<int>(),
                   stream.value("sample_aspect_ratio", "1:1"));
   };
@@ -332,17 +312,15 @@ TEST_F(Colour, ThatIsCutOffAtWhiteIsNotedWithWhatShowsIt) {
   std::istringstream advice(told.err.substr(at + start.size()));
   std::vector<std::string> words(3);
   for (std::string& word : words) advice >> word;
-  words.insert(words.end(), {"--start", "0f", "--exposure", "1f", "clip.mkv", "shown.png"});
-  const auto shown = run(words);
-  expect_says(shown.out, "no pixel saturated");
+  expect_says(run(test::Words(words) + "--start 0f --exposure 1f clip.mkv shown.png").out, "no pixel saturated");
 }
 
 TEST_F(Colour, OfACaptureIsCorrectedWithoutItsClip) {
   NEEDS_FFMPEG();
   test::make(scratch_, "-f lavfi -i testsrc2=s=64x48:d=1:r=30 -c:v ffv1 -pix_fmt yuv420p clip.mkv");
   succeed("-q clip.mkv clip.tik");
-  const auto told = make("retime clip.tik -f 960 -a 180 --transfer linear --in-place");
-  expect_says(told.out, "960 pictures a second, shutter 180 degrees, transfer linear");
+  expect_says(make("retime clip.tik -f 960 -a 180 --transfer linear --in-place").out,
+              "960 pictures a second, shutter 180 degrees, transfer linear");
   succeed("-q -f 960 -a 180 --transfer linear clip.mkv anew.tik");
   for (const char* name : {"clip", "anew"}) {
     succeed({"--start", "3f", "--exposure", "20ms", std::string(name) + ".tik", std::string(name) + ".pfm"});

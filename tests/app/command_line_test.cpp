@@ -32,7 +32,9 @@ class CommandLine : public test::AppTest {
 
 TEST_F(CommandLine, TakesThePapersForms) {
   make("-f120 -a180 clip.avi a.tik");
+  expect_says(run("info a.tik").out, "120 samples a second, shutter 180 degrees");
   make("-f960 -a200 -ob.tik clip.avi");
+  expect_says(run("info b.tik").out, "960 samples a second, shutter 200 degrees");
   make("-mmask.pgm -ktwo.fn a.tik");
   EXPECT_TRUE(exists("a-two.png"));
   make("-m./mask.pgm -k./two.fn b.tik");
@@ -48,7 +50,7 @@ TEST_F(CommandLine, NamesWhatWasMeant) {
           {"mask clip.tik --changed-between 0.1s",
            "--changed-between needs more words: --changed-between TIME TIME"},
           {{"--start", "0s", "--exposure", "1f", "-o", "", "clip.tik"}, "the output's name is empty"}});
-  ASSERT_EQ(test::run_shell("mkfifo pipe", scratch_.folder()).status, 0);
+  shell("mkfifo pipe");
   expect_refused("pipe x.tik", 3, "pipe is no regular file");
 }
 
@@ -59,20 +61,18 @@ TEST_F(CommandLine, SaysTheNameThatNobodyGave) {
 }
 
 TEST_F(CommandLine, ReportsHowAnExposureWasComputed) {
-  const ProgramResult result = make("-v --start 0s --exposure 3f clip.tik out.png");
-  expect_says(result.out, {", still gain 1,", "1 block of ", " MB on the device"});
+  expect_says(make("-v --start 0s --exposure 3f clip.tik out.png").out,
+              {", still gain 1,", "1 block of ", " MB on the device"});
 }
 
 TEST_F(CommandLine, SaysWhatACaptureHolds) {
   const ProgramResult info = make("info clip.tik --activity map.png");
-  for (const char* part : {"16 x 16 colour, 8 bits, white code 255, transfer srgb", "6 in 1 block",
-                           "25 samples a second, shutter 360 degrees", "5.00 records a pixel",
-                           "100.0 % dense", "map.png: black never changes, white 5 times",
-                           "try: nutik-cl --start 3f --exposure 1f clip.tik picture.png"}) {
-    EXPECT_NE(info.out.find(part), std::string::npos) << part << " is not in\n" << info.out;
-  }
+  expect_says(info.out, {"16 x 16 colour, 8 bits, white code 255, transfer srgb", "6 in 1 block",
+                         "25 samples a second, shutter 360 degrees", "5.00 records a pixel", "100.0 % dense",
+                         "map.png: black never changes, white 5 times",
+                         "try: nutik-cl --start 3f --exposure 1f clip.tik picture.png"});
   EXPECT_TRUE(exists("map.png"));
-  EXPECT_EQ(run("clip.tik").out, run("info clip.tik").out);
+  make("--start 3f --exposure 1f clip.tik picture.png");
   expect_refused(2, {{"info clip.tik --activity clip.tik", "is also an input"},
                      {"info clip.tik --activity map.txt", ".png"},
                      {"info clip.tik --activity map.pfm", "map.pfm holds floating point only"}});
@@ -83,10 +83,9 @@ TEST_F(CommandLine, TakesOptionsAndOperandsInAnyOrder) {
   make("-k one.fn clip.tik second.png");
   make("-o third.png clip.tik --functions=one.fn");
   make("expose clip.tik -qo fourth.png -kone.fn");
-  EXPECT_EQ(run("clip.tik fifth.png expose -k one.fn").status, 2);  // no command any more
-  const std::string first = test::read_file(scratch_ / "first.png");
+  make("clip.tik fifth.png expose -k one.fn", 2);  // no command any more
   for (const char* other : {"second.png", "third.png", "fourth.png"}) {
-    EXPECT_EQ(test::read_file(scratch_ / other), first) << other;
+    EXPECT_EQ(file(other), file("first.png")) << other;
   }
 }
 
@@ -121,22 +120,16 @@ TEST_F(CommandLine, TellsValuesFromOptionsAndOperands) {
 }
 
 TEST_F(CommandLine, NamesTheOutputWhereNoneIsGiven) {
-  const ProgramResult result = make("-k one.fn clip.tik");
-  expect_says(result.out, "clip-one.png:");
+  expect_says(make("-k one.fn clip.tik").out, "clip-one.png:");
   make("--start 1/100s --exposure 10ms clip.tik");
   EXPECT_TRUE(exists("clip-1_100s-10ms.png"));
 }
 
 TEST_F(CommandLine, ShowsInfoForACaptureAlone) {
+  EXPECT_EQ(run("clip.tik").out, run("info clip.tik").out);
   EXPECT_EQ(run("--json clip.tik").out, run("info --json clip.tik").out);
   make("--activity map.png clip.tik");
   EXPECT_TRUE(exists("map.png"));
-  const ProgramResult result = make("clip.tik");
-  expect_says(result.out, {"16 x 16 colour, 8 bits, white code 255, transfer srgb", "6 in 1 block"});
-  const auto suggestion = result.out.find("try: nutik-cl ");
-  ASSERT_NE(suggestion, std::string::npos);
-  EXPECT_NE(result.out.find("--start 3f --exposure 1f clip.tik picture.png", suggestion), std::string::npos);
-  make("--start 3f --exposure 1f clip.tik picture.png");
 }
 
 TEST_F(CommandLine, RefusesWhatMakesNoSense) {
@@ -278,8 +271,7 @@ TEST_F(CommandLine, RecoversACutOffCapture) {
   const std::string bytes = test::read_file(scratch_ / "clip.tik");
   scratch_.write("cut.tik", std::string_view(bytes).substr(0, bytes.size() - 10));
   expect_refused("cut.tik", 3, "nutik-cl recover cut.tik -o recovered.tik");
-  const ProgramResult result = make("recover cut.tik -o whole.tik");
-  expect_says(result.out, "6 samples in 1 block were saved");
+  expect_says(make("recover cut.tik -o whole.tik").out, "6 samples in 1 block were saved");
   make("-k one.fn whole.tik a.png --no-recipe");
   make("-k one.fn clip.tik b.png --no-recipe");
   EXPECT_EQ(test::read_file(scratch_ / "a.png"), test::read_file(scratch_ / "b.png"));

@@ -5,23 +5,17 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "support/app_test.hpp"
-#include "support/tik_files.hpp"
 
 namespace nutik {
 namespace {
 
 using nlohmann::json;
-using test::ProgramResult;
 
 // Eight pictures at 100 a second of linear light, picture k of code 10 k, 6 x 4 pixels.
 class DelayCommand : public test::AppTest {
  protected:
   void SetUp() override {
-    std::filesystem::create_directory(scratch_ / "frames");
-    for (int k = 0; k < 8; ++k) {
-      const cv::Mat picture(4, 6, CV_8UC1, cv::Scalar::all(10 * k));
-      cv::imwrite((scratch_ / ("frames/" + std::to_string(k) + ".pgm")).string(), picture);
-    }
+    write_frames(8, [](int k) { return cv::Mat(4, 6, CV_8UC1, cv::Scalar::all(10 * k)); });
     make("-f 100 --transfer linear frames clip.tik");
     cv::Mat map(4, 6, CV_16UC1);
     for (int y = 0; y < 4; ++y) {
@@ -32,14 +26,8 @@ class DelayCommand : public test::AppTest {
   }
 
   // One picture's time from 0 s on, with these delays, and what stands behind.
-  static std::vector<std::string> exposing(const std::string& delay, const std::vector<std::string>& behind) {
-    std::vector<std::string> words{"--start",        "0s",     "--exposure", "10ms",
-                                   "--out-transfer", "source", "--delay",    delay};
-    words.insert(words.end(), behind.begin(), behind.end());
-    return words;
-  }
-  [[nodiscard]] cv::Mat picture(const std::string& name) const {
-    return cv::imread((scratch_ / name).string(), cv::IMREAD_UNCHANGED);
+  static test::Words exposing(const std::string& delay, const test::Words& behind) {
+    return "--start 0s --exposure 10ms --out-transfer source --delay " + delay + behind;
   }
   [[nodiscard]] std::vector<int> column(const std::string& name) const {
     const cv::Mat read = picture(name);
@@ -54,35 +42,6 @@ class DelayCommand : public test::AppTest {
     return codes;
   }
 };
-
-// A mask value has few of a map's delays: 16 values and 4096 delays make 4096 tables, and not 65,536 of 200 MB.
-TEST_F(DelayCommand, TakesMemoryForThePairsThatOccur) {
-  constexpr int kSide = 64;
-  std::filesystem::create_directory(scratch_ / "squares");
-  cv::Mat map(kSide, kSide, CV_16UC1), mask(kSide, kSide, CV_8UC1);
-  for (int pixel = 0; pixel < kSide * kSide; ++pixel) {
-    map.at<std::uint16_t>(pixel / kSide, pixel % kSide) = static_cast<std::uint16_t>(16 * pixel);
-    mask.at<std::uint8_t>(pixel / kSide, pixel % kSide) = static_cast<std::uint8_t>(pixel / 256);
-  }
-  cv::imwrite((scratch_ / "each.tif").string(), map);
-  cv::imwrite((scratch_ / "sixteen.png").string(), mask);
-  std::string functions;
-  for (int value = 0; value < 16; ++value) {
-    functions += "M" + std::to_string(value) + " {[0:1],[10000000:1],[10000001:0]}\n";
-  }
-  scratch_.write("sixteen.fn", functions);
-  for (int k = 0; k < 8; ++k) {
-    cv::imwrite((scratch_ / ("squares/" + std::to_string(k) + ".pgm")).string(),
-                cv::Mat(kSide, kSide, CV_8UC1, cv::Scalar::all(10 * k)));
-  }
-  const auto exposed = [&](const std::string& name, const std::string& memory) {
-    return std::vector<std::string>{
-        "-f",         "100", "--transfer",  "linear",  "--memory",          memory, "-k",
-        "sixteen.fn", "-m",  "sixteen.png", "--delay", "each.tif:0s..70ms", name,   "o.pfm"};
-  };
-  expect_refused(exposed("squares", "8MB"), 2, "gain tables of a block");
-  make(exposed("squares", "60MB"));
-}
 
 TEST_F(DelayCommand, SweepsThroughTheCaptureInEveryArithmetic) {
   for (const char* precision : {"auto", "single", "compensated", "double", "fixed"}) {
@@ -119,14 +78,10 @@ TEST_F(DelayCommand, GoesWithMasksSoftOnesToo) {
       "f.fn",
       "M0 [0:1], [9999999:1], [10000000:0]\nM9 [9999999:0], [10000000:1], [19999999:1], [20000000:0]\n");
   const test::Words words("-k f.fn -m mask.pgm --delay rows:30ms --out-transfer source");
-  const auto with = [&](test::Words more) {
-    more.insert(more.begin(), words.begin(), words.end());
-    return more;
-  };
-  make(with({"clip.tik", "out.pgm"}));
+  make(words + "clip.tik out.pgm");
   EXPECT_EQ(row("out.pgm"), (std::vector<int>{10, 10, 10, 20, 20, 20}));
-  make(with({"--feather", "2px", "clip.tik", "soft.pgm"}));
-  make(with({"--feather", "2px", "--renderer", "reference", "clip.tik", "reference.pgm"}));
+  make(words + "--feather 2px clip.tik soft.pgm");
+  make(words + "--feather 2px --renderer reference clip.tik reference.pgm");
   EXPECT_EQ(row("soft.pgm"), (std::vector<int>{10, 11, 13, 17, 19, 20}));
   EXPECT_EQ(row("soft.pgm"), row("reference.pgm"));
 }
@@ -134,11 +89,7 @@ TEST_F(DelayCommand, GoesWithMasksSoftOnesToo) {
 TEST_F(DelayCommand, IsMadeAgainFromItsRecipe) {
   for (const std::string delay : {"rows:60ms", "radial:-5ms..20ms", "map.tif:20ms..70ms"}) {
     make(exposing(delay, {"--ev", "1", "clip.tik", "out.png"}));
-    const std::string before = test::read_file(scratch_ / "out.png");
-    const std::string command = make("reproduce out.png").out;
-    std::filesystem::remove(scratch_ / "out.png");
-    EXPECT_EQ(test::run_shell(command, scratch_.folder()).status, 0) << command;
-    EXPECT_TRUE(test::read_file(scratch_ / "out.png") == before) << command;
+    expect_made_again("out.png");
   }
   cv::imwrite((scratch_ / "map.tif").string(), cv::Mat(4, 6, CV_16UC1, cv::Scalar::all(7)));
   expect_says(make("reproduce out.png", 3).err, "map.tif is not the map of delays that the picture was made from");
@@ -147,10 +98,7 @@ TEST_F(DelayCommand, IsMadeAgainFromItsRecipe) {
 TEST_F(DelayCommand, GoesWithSeriesSweepsAndVideos) {
   make(exposing("rows:30ms", {"--every", "10ms", "--count", "3", "clip.tik", "s%d.pgm"}));
   EXPECT_EQ(column("s2.pgm"), (std::vector<int>{20, 30, 40, 50}));
-  std::vector<std::string> sweep =
-      exposing("rows:30ms", {"--shift", "0ms..20ms/10ms", "--each", "w%d.pgm", "clip.tik", "sheet.png"});
-  sweep.insert(sweep.begin(), "sweep");
-  make(sweep);
+  make("sweep" + exposing("rows:30ms", "--shift 0ms..20ms/10ms --each w%d.pgm clip.tik sheet.png"));
   EXPECT_EQ(column("w2.pgm"), (std::vector<int>{20, 30, 40, 50}));
   make(
       "video --delay rows:30ms --out-fps 100 --out-angle 360 --to 50ms --out-transfer source clip.tik "
@@ -171,25 +119,21 @@ TEST_F(DelayCommand, WeighsFunctionsByTheirWholeCourse) {
 }
 
 TEST_F(DelayCommand, WarnsOfPixelsThatLeaveTheCapture) {
-  const ProgramResult out = make(exposing("rows:-30ms..60ms", {"clip.tik", "out.pgm"}));
-  expect_says(out.err, "for 6 of 24 pixels the delay moves the whole function outside of the capture");
+  expect_says(make(exposing("rows:-30ms..60ms", {"clip.tik", "out.pgm"})).err,
+              "for 6 of 24 pixels the delay moves the whole function outside of the capture");
   EXPECT_EQ(make(exposing("rows:60ms", {"clip.tik", "out.pgm"})).err.find("warning"), std::string::npos);
 }
 
 TEST_F(DelayCommand, IsTracedAndChecked) {
-  std::vector<std::string> words = exposing("rows:60ms", {"--pixel", "2,3", "--json", "clip.tik"});
-  words.insert(words.begin(), "trace");
-  const json trace = json::parse(make(words).out);
+  const json trace = answer("trace" + exposing("rows:60ms", "--pixel 2,3 clip.tik"));
   EXPECT_NEAR(trace["light"][0].get<double>() * 255, 60, 1e-9);
   EXPECT_EQ(trace["nonzero_ns"], 10'000'000);
-  words = exposing("rows:60ms", {"clip.tik"});
-  words.insert(words.begin(), "validate");
-  make(words);
+  make("validate" + exposing("rows:60ms", "clip.tik"));
 
   scratch_.write("f.fn", "M0 [0:0], [1:1], [9999999:1], [10000000:0]\n");
   EXPECT_EQ(make("check -k f.fn --delay rows:60ms clip.tik").out.find("delay"), std::string::npos);
-  const ProgramResult check = make("check -k f.fn --delay rows:90ms clip.tik");
-  expect_says(check.out, "for 6 of 24 pixels the delay moves the whole function outside");
+  expect_says(make("check -k f.fn --delay rows:90ms clip.tik").out,
+              "for 6 of 24 pixels the delay moves the whole function outside");
 }
 
 TEST_F(DelayCommand, SaysWhatIsWrong) {
@@ -207,17 +151,12 @@ TEST_F(DelayCommand, SaysWhatIsWrong) {
                  "small.png is 6 x 3 pixels and the pictures are 6 x 4; a map of delays needs their size");
   cv::imwrite((scratch_ / "colour.png").string(), cv::Mat(4, 6, CV_8UC3, cv::Scalar(1, 2, 3)));
   expect_refused(exposing("colour.png:1s", {"clip.tik", "o.pgm"}), 3, "colour.png is a colour picture");
-  const ProgramResult check = run("check --delay small.png:1s clip.tik");
-  EXPECT_EQ(check.status, 3);
-  expect_says(check.out, "a map of delays needs their size");
+  expect_says(make("check --delay small.png:1s clip.tik", 3).out, "a map of delays needs their size");
 
   scratch_.write("six.pgm", "P5 6 4 255\n" + std::string(24, '\0'));
   scratch_.write("one.fn", "M0 [0:1], [10000000:1], [10000001:0]\n");
-  const ProgramResult by_mask = run("check -k one.fn -m six.pgm --delay small.png:1s");
-  EXPECT_EQ(by_mask.status, 3) << by_mask.out << by_mask.err;
-  expect_says(by_mask.out, "a map of delays needs their size");
-  const ProgramResult alone = make("check -k one.fn --delay rows:1s");
-  expect_says(alone.out, "without a capture it is not known which delays leave it");
+  expect_says(make("check -k one.fn -m six.pgm --delay small.png:1s", 3).out, "a map of delays needs their size");
+  expect_says(make("check -k one.fn --delay rows:1s").out, "without a capture it is not known which delays leave it");
   expect_refused("trace --tag 0 -k f.fn -m mask.pgm --delay rows:1ms clip.tik", 3, "f.fn");
   expect_refused(exposing("map.tif:1s", {"clip.tik", "map.tif"}), 2, "map.tif");
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "o.pgm"));

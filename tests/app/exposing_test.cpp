@@ -1,11 +1,11 @@
 // Whole paths through the program: clip to capture to picture, and clip to picture.
 #include <gtest/gtest.h>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
 #include "capture/transfer.hpp"
 #include "support/app_test.hpp"
+#include "support/ffmpeg.hpp"
 #include "support/random_case.hpp"
 
 namespace nutik {
@@ -28,12 +28,9 @@ void write_clip(const std::filesystem::path& path, int width, int height, int co
     raw.append(reinterpret_cast<const char*>(picture.data), picture.total() * picture.elemSize());
   }
   const Scratch scratch;
-  const auto encoded =
-      test::run_shell("ffmpeg -v error -f rawvideo -pix_fmt bgr24 -s " + std::to_string(width) + "x" +
-                          std::to_string(height) + " -r 25 -i " + scratch.write("raw", raw).string() +
-                          " -c:v ffv1 -pix_fmt bgr0 " + path.string(),
-                      scratch.folder());
-  ASSERT_EQ(encoded.status, 0) << encoded.err;
+  scratch.write("raw", raw);
+  const Shape shape{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), 3};
+  test::make(scratch, test::from_raw(shape, "bgr24") + "-c:v ffv1 -pix_fmt bgr0 " + path.string());
 }
 
 std::vector<cv::Mat> read_clip(const std::filesystem::path& path) {
@@ -61,12 +58,10 @@ TEST_P(Exposing, OneSampleGivesItsCodesBack) {
   const int sample = size.count / 2;
   const std::string start = std::to_string(sample) + "f";
   for (const std::string source : {"clip.tik", "clip.mkv"}) {
-    std::vector<std::string> words{"--start", start, "--exposure", "1f", source, "picture.png"};
-    if (source == "clip.mkv") words.insert(words.begin(), {"-f", "100"});
-    run(words);
-    const cv::Mat picture = cv::imread((scratch_ / "picture.png").string(), cv::IMREAD_UNCHANGED);
-    ASSERT_EQ(picture.size(), pictures[0].size());
-    EXPECT_EQ(cv::norm(picture, pictures[static_cast<std::size_t>(sample)], cv::NORM_INF), 0) << source;
+    run({"--start", start, "--exposure", "1f", source, "picture.png", source == "clip.mkv" ? "--fps=100" : "-q"});
+    const cv::Mat exposed = picture("picture.png");
+    ASSERT_EQ(exposed.size(), pictures[0].size());
+    EXPECT_EQ(cv::norm(exposed, pictures[static_cast<std::size_t>(sample)], cv::NORM_INF), 0) << source;
   }
 }
 
@@ -93,10 +88,8 @@ TEST_P(Exposing, EveryFormatHoldsTheSameLight) {
   run("-k f.fn clip.tik light.tif --depth float");
   run("-k f.fn clip.tik codes.png");
   run("-k f.fn clip.tik deep.png --depth 16");
-  const cv::Mat light = cv::imread((scratch_ / "light.pfm").string(), cv::IMREAD_UNCHANGED);
-  const cv::Mat tiff = cv::imread((scratch_ / "light.tif").string(), cv::IMREAD_UNCHANGED);
-  const cv::Mat codes = cv::imread((scratch_ / "codes.png").string(), cv::IMREAD_UNCHANGED);
-  const cv::Mat deep = cv::imread((scratch_ / "deep.png").string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat light = picture("light.pfm"), tiff = picture("light.tif");
+  const cv::Mat codes = picture("codes.png"), deep = picture("deep.png");
   ASSERT_EQ(light.type(), CV_32FC3);
   ASSERT_EQ(light.size(), cv::Size(size.width, size.height));
   ASSERT_EQ(deep.size(), light.size());

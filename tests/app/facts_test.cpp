@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "support/app_test.hpp"
+#include "support/ffmpeg.hpp"
 
 namespace nutik {
 namespace {
@@ -24,9 +25,7 @@ class Facts : public test::AppTest {
   };
 
   Told told(const fs::path& clip, const test::Words& options) const {
-    test::Words words =
-        test::Words{"encode", "--overwrite", "--to", "3f", clip.string(), "part.tik"} + options;
-    const auto encoded = make(words);
+    const auto encoded = make(test::Words{"encode", "--overwrite", "--to", "3f", clip.string(), "part.tik"} + options);
     const auto info = make("info part.tik");
     Told result{encoded.out + encoded.err, {}};
     std::istringstream lines(info.out);
@@ -146,8 +145,7 @@ TEST_F(Facts, OfEveryRecordingHaveTheirOrigin) {
     for (const auto& [subject, fact] : told.facts) subjects.insert(subject);
     expected.insert(more.begin(), more.end());
     EXPECT_EQ(subjects, expected) << name;
-    EXPECT_NE(told.summary.find(said), std::string::npos) << name << ": no '" << said << "' in\n"
-                                                          << told.summary;
+    expect_says(told.summary, said);
   }
   for (const auto& entry : fs::directory_iterator(kMedia)) {
     EXPECT_TRUE(files.contains(entry.path().filename().string())) << entry.path() << " is not tried here";
@@ -184,10 +182,8 @@ TEST_F(Facts, OfVideosAreWhatFfprobeFinds) {
 
 // Scripts are told what people are: every command that reads a clip names what was assumed of it.
 TEST_F(Facts, OfAClipAreToldToScriptsByEveryCommandThatReadsIt) {
-  const auto made = test::run_shell(
-      "ffmpeg -v error -y -f lavfi -i testsrc=s=64x48:r=30:d=0.5 -pix_fmt yuv420p -c:v ffv1 clip.mkv",
-      scratch_.folder());
-  if (made.status != 0) GTEST_SKIP() << "ffmpeg cannot make the clip: " << made.err;
+  NEEDS_FFMPEG();
+  test::make(scratch_, "-f lavfi -i testsrc=s=64x48:r=30:d=0.5 -pix_fmt yuv420p -c:v ffv1 clip.mkv");
   scratch_.write("list", "--start 0s --exposure 3f clip.mkv listed.png\n");
   scratch_.write("one.fn", "M0{[0:1], [100000000:1]}\n");
   scratch_.write("named.fn", "M0{[0:gain], [100000000:gain]}\n");
@@ -210,11 +206,8 @@ TEST_F(Facts, OfAClipAreToldToScriptsByEveryCommandThatReadsIt) {
       {"study", "clip.mkv", "-o", "study.png"},
       {"solve", "-k", "named.fn", "--wish", "all = 0.5s", "clip.mkv", "-o", "solved.fn"}};
   for (const auto& command : commands) {
-    std::vector<std::string> words = command;
-    words.push_back("--json");
-    const auto told = run(words);
-    SCOPED_TRACE(testing::PrintToString(command) + told.out + told.err);
-    EXPECT_EQ(told.status, 0);
+    SCOPED_TRACE(testing::PrintToString(command));
+    const auto told = make(test::Words(command) + "--json");
     const Json json = Json::parse(told.out);
     const Json& source = command.front() == "batch" ? json["clips"][0] : json;
     std::map<std::string, std::string> options;
@@ -232,41 +225,36 @@ TEST_F(Facts, OfAClipAreToldToScriptsByEveryCommandThatReadsIt) {
 
 // A capture's option is that of retime; what was decided while its clip was decoded has none.
 TEST_F(Facts, OfACaptureAreToldToScriptsWithWhatCorrectsThem) {
-  const auto made = test::run_shell(
-      "ffmpeg -v error -y -f lavfi -i testsrc=s=64x48:r=30:d=0.5 -vf \"select='not(eq(n,5))'\" -fps_mode vfr "
-      "-pix_fmt yuv420p -c:v ffv1 clip.mkv",
-      scratch_.folder());
-  if (made.status != 0) GTEST_SKIP() << "ffmpeg cannot make the clip: " << made.err;
+  NEEDS_FFMPEG();
+  test::make(scratch_,
+             "-f lavfi -i testsrc=s=64x48:r=30:d=0.5 -vf \"select='not(eq(n,5))'\" -fps_mode vfr "
+             "-pix_fmt yuv420p -c:v ffv1 clip.mkv");
   make("encode clip.mkv clip.tik");
   const auto options_of = [&](const test::Words& words) {
-    const auto told = make(words);
     std::map<std::string, std::string> options;
-    const Json json = Json::parse(told.out);
+    const Json json = answer(words);
     for (const Json& fact : json["facts"]) options[fact["fact"]] = fact.value("option", "none");
     return options;
   };
-  auto info = options_of({"info", "--json", "clip.tik"});
+  auto info = options_of("info clip.tik");
   const std::string rate = "irregular times, 27.84 pictures a second on average, from the file";
   EXPECT_EQ(info.size(), 7u);
   EXPECT_EQ(info[rate], "--fps");
   EXPECT_EQ(info["transfer srgb, assumed"], "--transfer");
   EXPECT_EQ(info["matrix bt601, assumed"], "none");
-  auto retimed = options_of({"retime", "--json", "--in-place", "-a", "180", "clip.tik"});
+  auto retimed = options_of("retime --in-place -a 180 clip.tik");
   EXPECT_EQ(retimed.size(), 7u);
   EXPECT_EQ(retimed[rate], "--fps");
   EXPECT_EQ(retimed["shutter 180 degrees, as stated"], "--shutter-angle");
-  const auto told = run("retime --in-place -a 90 clip.tik");
-  expect_says(told.out, "samples, irregular times, 27.84 pictures a second on average, shutter 90 degrees");
+  expect_says(run("retime --in-place -a 90 clip.tik").out,
+              "samples, irregular times, 27.84 pictures a second on average, shutter 90 degrees");
 }
 
 // A check of a clip lists them, too.
 TEST_F(Facts, OfAClipAreToldByACheck) {
-  const auto made = test::run_shell(
-      "ffmpeg -v error -y -f lavfi -i testsrc=s=64x48:r=30:d=0.5 -pix_fmt yuv420p -c:v ffv1 clip.mkv",
-      scratch_.folder());
-  if (made.status != 0) GTEST_SKIP() << "ffmpeg cannot make the clip: " << made.err;
-  const auto told = make("check clip.mkv");
-  expect_says(told.err,
+  NEEDS_FFMPEG();
+  test::make(scratch_, "-f lavfi -i testsrc=s=64x48:r=30:d=0.5 -pix_fmt yuv420p -c:v ffv1 clip.mkv");
+  expect_says(make("check clip.mkv").err,
               {"transfer srgb (assumed)", "what is assumed can be stated (--shutter-angle, --transfer",
                "note: the rate of 30 a second comes from the file"});
 }

@@ -26,10 +26,7 @@ class Farm : public test::AppTest {
 
 TEST_F(Farm, MakesTheFramesOfAVideoThatAreNotThere) {
   const test::Words film("video --out-fps 100 scene.tik f-%d.png --skip-existing");
-  const auto with = [&](test::Words more) {
-    more.insert(more.begin(), film.begin(), film.end());
-    return make(more).out;
-  };
+  const auto with = [&](const test::Words& more) { return make(film + more).out; };
   expect_says(with({"--frames", "1-100x2"}), "f-%d.png: 9 x 7 grey, 3 frames (");
   EXPECT_FALSE(exists("f-0.png"));
   EXPECT_TRUE(exists("f-5.png"));
@@ -55,15 +52,12 @@ TEST_F(Farm, MakesThePicturesOfASeriesThatAreNotThere) {
   std::vector<std::string> whole;
   for (int k = 0; k < 6; ++k) whole.push_back(file("s-0" + std::to_string(k) + ".png"));
   for (const char* name : {"s-01.png", "s-04.png", "s-05.png"}) std::filesystem::remove(scratch_ / name);
-  test::Words words = series + "--frames 0-1,5-9 --skip-existing";
-  const ProgramResult some = make(words);
-  expect_says(some.out, {"s-01.png … s-05.png: 2 exposures every 1f", ", 1 exposure there already"});
+  expect_says(make(series + "--frames 0-1,5-9 --skip-existing").out,
+              {"s-01.png … s-05.png: 2 exposures every 1f", ", 1 exposure there already"});
   EXPECT_FALSE(exists("s-04.png"));
   EXPECT_EQ(file("s-01.png"), whole[1]);
   EXPECT_EQ(file("s-05.png"), whole[5]);
-  words = series;
-  words.insert(words.end(), {"--frames", "6-9"});
-  expect_says(make(words, 2).err,
+  expect_says(make(series + "--frames 6-9", 2).err,
               "none of the exposures 6-9 is there: the series has 6, numbered from 0 to 5");
 }
 

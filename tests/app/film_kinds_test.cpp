@@ -14,25 +14,19 @@ namespace {
 
 class FilmKinds : public test::AppTest {
  protected:
-  void ffmpeg(const std::string& words) const {
-    const auto made = test::run_shell("ffmpeg -v error -y " + words, scratch_.folder());
-    ASSERT_EQ(made.status, 0) << words << made.err;
-  }
   // `codec_name=h264` and the like, a line each.
   [[nodiscard]] std::string probed(const std::string& name, const std::string& stream = "v") const {
-    return test::run_shell(
-               "ffprobe -v error -count_frames -select_streams " + stream +
-                   " -show_entries stream=codec_name,profile,pix_fmt,r_frame_rate,nb_read_frames,color_space,"
-                   "color_transfer,color_primaries,start_time -of default=nw=1 " +
-                   name,
-               scratch_.folder())
+    return shell("ffprobe -v error -count_frames -select_streams " + stream +
+                 " -show_entries stream=codec_name,profile,pix_fmt,r_frame_rate,nb_read_frames,color_space,"
+                 "color_transfer,color_primaries,start_time -of default=nw=1 " +
+                 name)
         .out;
   }
   // When each frame is shown, in seconds.
   [[nodiscard]] std::vector<double> times(const std::string& name) const {
-    std::istringstream lines(test::run_shell("ffprobe -v error -select_streams v -show_entries "
-                                             "frame=best_effort_timestamp_time -of csv=p=0 " + name,
-                                             scratch_.folder())
+    std::istringstream lines(shell("ffprobe -v error -select_streams v -show_entries "
+                                   "frame=best_effort_timestamp_time -of csv=p=0 " +
+                                   name)
                                  .out);
     std::vector<double> found;
     for (std::string line; std::getline(lines, line);)
@@ -41,8 +35,8 @@ class FilmKinds : public test::AppTest {
   }
   // All frames as others decode them, RGB of 8 bits. FFmpeg takes chroma as centred unless it is told.
   [[nodiscard]] std::string decoded(const std::string& name, bool has_left_chroma = false) const {
-    ffmpeg("-i " + name + (has_left_chroma ? " -vf scale=in_h_chr_pos=0" : "") +
-           " -vsync 0 -f rawvideo -pix_fmt rgb24 decoded");
+    test::make(scratch_, "-i " + name + (has_left_chroma ? " -vf scale=in_h_chr_pos=0" : "") +
+                             " -vsync 0 -f rawvideo -pix_fmt rgb24 decoded");
     return file("decoded");
   }
   static double mean_difference(const std::string& a, const std::string& b) {
@@ -91,9 +85,7 @@ TEST_F(FilmKinds, AreDecodedAgain) {
   };
   for (const Kind& kind : kinds) {
     SCOPED_TRACE(kind.codec);
-    const auto made = make("video --out-fps 24000/1001 --out-angle 360 --video-codec " + kind.codec +
-                           " clip.mkv " + kind.film);
-    ASSERT_EQ(made.status, 0);
+    make("video --out-fps 24000/1001 --out-angle 360 --video-codec " + kind.codec + " clip.mkv " + kind.film);
     const std::string told = probed(kind.film);
     expect_says(told,
                 {"codec_name=" + kind.is + "\n", "pix_fmt=" + kind.pixels + "\n", "nb_read_frames=6\n"});
@@ -191,7 +183,7 @@ TEST_F(FilmKinds, MayBeAFrameLong) {
 TEST_F(FilmKinds, KeepChromaInItsPlace) {
   NEEDS_FFMPEG();
   const auto edge = [&](const std::string& name) {  // in samples of chroma, the first 32 of a row
-    ffmpeg("-i " + name + " -vf extractplanes=u -frames:v 1 -f rawvideo -pix_fmt gray16le plane");
+    test::make(scratch_, "-i " + name + " -vf extractplanes=u -frames:v 1 -f rawvideo -pix_fmt gray16le plane");
     std::uint16_t row[32];
     std::memcpy(row, file("plane").data(), sizeof row);
     const double middle = (row[0] + row[31]) / 2.0;
@@ -209,7 +201,7 @@ TEST_F(FilmKinds, KeepChromaInItsPlace) {
       make("video --overwrite --out-fps 25 --out-angle 360 --video-codec " + std::string(codec) + " clip.mkv " + film);
       const bool is_centred = pixels != "yuv420p" && codec == std::string_view("h264");
       EXPECT_NEAR(edge(film), edge("clip.mkv") - (is_centred ? 0.25 : 0), 0.05) << pixels << " " << codec;
-      const auto said = test::run_shell("ffprobe -v error -show_streams " + film, scratch_.folder()).out;
+      const auto said = shell("ffprobe -v error -show_streams " + film).out;
       if (film == "film.mkv") expect_says(said, is_centred ? "chroma_location=center\n" : "chroma_location=left\n");
     }
   }
@@ -232,8 +224,8 @@ TEST_F(FilmKinds, KeepHighDynamicRange) {
     expect_says(told, {"pix_fmt=yuv420p10le\n", "color_space=bt2020nc\n",
                        "color_transfer=" + std::string(curve) + "\n", "color_primaries=bt2020\n",
                        "nb_read_frames=5\n"});
-    ffmpeg("-i hdr.mkv -f rawvideo -pix_fmt yuv420p10le before");
-    ffmpeg("-i film.mp4 -f rawvideo -pix_fmt yuv420p10le after");
+    test::make(scratch_, "-i hdr.mkv -f rawvideo -pix_fmt yuv420p10le before");
+    test::make(scratch_, "-i film.mp4 -f rawvideo -pix_fmt yuv420p10le after");
     const std::string before = file("before"), after = file("after");
     ASSERT_EQ(before.size(), after.size());
     double sum = 0;
@@ -244,8 +236,8 @@ TEST_F(FilmKinds, KeepHighDynamicRange) {
       sum += std::abs(a - b);
     }
     EXPECT_LE(sum / static_cast<double>(before.size() / 2), 2.5) << name;  // codes of 10 bits
-    const auto eight = make("video --out-transfer source --video-codec h265 hdr.mkv " + std::string(name) + ".mp4");
-    expect_says(eight.err, "h265 has 8 bits, in which " + std::string(name) + " shows bands");
+    expect_says(make("video --out-transfer source --video-codec h265 hdr.mkv " + std::string(name) + ".mp4").err,
+                "h265 has 8 bits, in which " + std::string(name) + " shows bands");
   }
 }
 
@@ -258,8 +250,7 @@ TEST_F(FilmKinds, KeepWhatIsSaidOfTheScreen) {
                        "screen.mp4");
   const auto told = [&](const std::string& words, const std::string& clip, const std::string& film) {
     make("video --out-fps 25 --out-angle 360 " + words + clip + " " + film);
-    return test::run_shell("ffprobe -v error -show_streams " + film, scratch_.folder())
-        .out;
+    return shell("ffprobe -v error -show_streams " + film).out;
   };
   const std::string source = "--out-transfer source --video-codec h265-10 ";
   expect_says(told(source, "screen.mp4", "a.mkv"), {"red_x=17/25\n", "max_luminance=1000/1\n", "max_content=900\n"});
@@ -304,16 +295,17 @@ class FilmSoundTest : public FilmKinds {
  protected:
   // Four seconds of 25 frames each: black and silent but for a flash of frame 50, and a tone that begins with it.
   void make_clap(const std::string& name, const std::string& sound) const {
-    ffmpeg(
-        "-f lavfi -i color=black:s=256x128:r=25:d=4 -f lavfi -i "
-        "aevalsrc=\"if(between(t\\,2\\,2.1)\\,sin(2*PI*1000*t)\\,0)\":s=48000:d=4 "
-        "-vf \"drawbox=c=white:t=fill:enable=eq(n\\,50)\" -c:v mpeg4 -q:v 2 -c:a " +
-        sound + " " + name);
+    test::make(scratch_,
+               "-f lavfi -i color=black:s=256x128:r=25:d=4 -f lavfi -i "
+               "aevalsrc=\"if(between(t\\,2\\,2.1)\\,sin(2*PI*1000*t)\\,0)\":s=48000:d=4 "
+               "-vf \"drawbox=c=white:t=fill:enable=eq(n\\,50)\" -c:v mpeg4 -q:v 2 -c:a " +
+                   sound + " " + name);
   }
   // The frame that is bright, and when the sound begins, in frames.
   [[nodiscard]] std::pair<double, double> clap(const std::string& name, double rate) const {
-    ffmpeg("-i " + name + " -vsync 0 -f rawvideo -pix_fmt gray frames");
-    ffmpeg("-copyts -i " + name + " -vn -af aresample=async=1:first_pts=0 -f f32le -ac 1 -ar 48000 sound");
+    test::make(scratch_, "-i " + name + " -vsync 0 -f rawvideo -pix_fmt gray frames");
+    test::make(scratch_,
+               "-copyts -i " + name + " -vn -af aresample=async=1:first_pts=0 -f f32le -ac 1 -ar 48000 sound");
     const std::string frames = file("frames"), sound = file("sound");
     std::size_t frame = 0;
     while (frame * 256 * 128 < frames.size() &&
@@ -331,7 +323,9 @@ class FilmSoundTest : public FilmKinds {
 TEST_F(FilmSoundTest, StaysOnItsFrameBehindAGap) {
   NEEDS_FFMPEG();
   make_clap("whole.mkv", "pcm_s16le");
-  ffmpeg("-i whole.mkv -c:v copy -c:a pcm_s16le -af \"asetnsamples=48,aselect=not(between(t\\,1\\,1.0795))\" gap.mkv");
+  test::make(
+      scratch_,
+      "-i whole.mkv -c:v copy -c:a pcm_s16le -af \"asetnsamples=48,aselect=not(between(t\\,1\\,1.0795))\" gap.mkv");
   make("video --out-fps 25 --out-angle 360 gap.mkv gap.mov");
   const auto [frame, sound] = clap("gap.mov", 25);
   EXPECT_EQ(frame, 50);
@@ -377,23 +371,23 @@ TEST_F(FilmSoundTest, LiesOnItsFrameWhateverIsTakenOfTheClip) {
   make_clap("clip.mp4", "aac");
   lies_at(100, "--deinterlace fields clip.mp4", "fields.mp4", 50);
   lies_at(50, "--between 3 clip.mp4", "between.mp4", 25);
-  ffmpeg("-i clip.mp4 -c:v mpeg2video -g 12 -bf 2 -q:v 2 -c:a mp2 whole.ts");
+  test::make(scratch_, "-i clip.mp4 -c:v mpeg2video -g 12 -bf 2 -q:v 2 -c:a mp2 whole.ts");
   // Broadcasts are cut anywhere, between packets of 188 bytes.
   const std::string whole = file("whole.ts");
   scratch_.write("cut.ts", whole.substr(whole.size() / 5 / 188 * 188));
   const auto late = clap("cut.ts", 25);
   lies_at(late.first, "cut.ts", "cut.mp4", 25);
-  ffmpeg("-i clip.mp4 -c:v ffv1 -g 1 -slicecrc 1 -c:a copy plain.mkv");
+  test::make(scratch_, "-i clip.mp4 -c:v ffv1 -g 1 -slicecrc 1 -c:a copy plain.mkv");
   std::string damaged = file("plain.mkv");
   damaged.replace(damaged.size() - damaged.size() / 8, 400, 400, '\xA5');
   scratch_.write("damaged.mkv", damaged);
   lies_at(50, "--ignore-errors damaged.mkv", "damaged.mp4", 25);
-  ffmpeg("-i clip.mp4 -itsoffset 1.5 -ss 1.5 -i clip.mp4 -map 0:v -map 1:a -c:v copy -c:a ac3 late.mkv");
+  test::make(scratch_, "-i clip.mp4 -itsoffset 1.5 -ss 1.5 -i clip.mp4 -map 0:v -map 1:a -c:v copy -c:a ac3 late.mkv");
   for (const char* film : {"late.avi", "late.mp4", "late.mov"}) lies_at(50, "late.mkv", film, 25);
-  ffmpeg("-i late.mkv -c:v copy -c:a flac flac.mkv");
+  test::make(scratch_, "-i late.mkv -c:v copy -c:a flac flac.mkv");
   lies_at(50, "flac.mkv", "flac.mp4", 25);
   // Opus, which a copy would move: from film to film it stays where it is.
-  ffmpeg("-i late.mkv -c:v libvpx-vp9 -c:a libopus opus0.webm");
+  test::make(scratch_, "-i late.mkv -c:v libvpx-vp9 -c:a libopus opus0.webm");
   for (int film = 1; film < 4; ++film) lies_at(50, format("opus{}.webm", film - 1), format("opus{}.webm", film), 25);
 }
 
@@ -426,7 +420,7 @@ TEST_F(FilmSoundTest, BeginsAndEndsWithACut) {
 TEST_F(FilmSoundTest, MayEndBeforeThePictures) {
   NEEDS_FFMPEG();
   make_clap("clap.mov", "pcm_s24le -ar 44100");
-  ffmpeg("-i clap.mov -t 2.5 -i clap.mov -map 0:v -map 1:a -c copy clip.mov");
+  test::make(scratch_, "-i clap.mov -t 2.5 -i clap.mov -map 0:v -map 1:a -c copy clip.mov");
   make("video --out-fps 30000/1001 --out-angle 360 --between off clip.mov a.mxf");
   expect_says(probed("a.mxf", "a"), "codec_name=pcm_s24le\n");
   expect_says(probed("a.mxf"), "nb_read_frames=119\n");
@@ -463,8 +457,8 @@ TEST_F(FilmSoundTest, IsMixedDownOrLeftOutForAReason) {
   const auto channels = [&](int count) {
     std::string each = "0";
     for (int k = 1; k < count; ++k) each += "|0";
-    ffmpeg("-i clip.mp4 -f lavfi -i \"aevalsrc=" + each + ":s=48000:d=4\" -map 0:v -map 1:a -c:v copy -c:a pcm_s16le " +
-           "many.mov");
+    test::make(scratch_, "-i clip.mp4 -f lavfi -i \"aevalsrc=" + each +
+                             ":s=48000:d=4\" -map 0:v -map 1:a -c:v copy -c:a pcm_s16le " + "many.mov");
     const auto made = make("video --overwrite --out-fps 25 many.mov many.webm");
     return made.out + made.err;
   };
@@ -483,8 +477,10 @@ TEST_F(FilmSoundTest, IsMixedDownOrLeftOutForAReason) {
 TEST_F(FilmSoundTest, IsToldOf) {
   NEEDS_FFMPEG();
   make_clap("clip.mp4", "aac");
-  ffmpeg("-i clip.mp4 -f lavfi -i anullsrc=r=48000:cl=mono -shortest -map 0:v -map 1:a -map 0:a -c:v copy -c:a:0 mp2 "
-         "-c:a:1 copy -disposition:a:0 0 -disposition:a:1 default two.mkv");
+  test::make(
+      scratch_,
+      "-i clip.mp4 -f lavfi -i anullsrc=r=48000:cl=mono -shortest -map 0:v -map 1:a -map 0:a -c:v copy -c:a:0 mp2 "
+      "-c:a:1 copy -disposition:a:0 0 -disposition:a:1 default two.mkv");
   const nlohmann::json told = answer("video --out-fps 25 --out-angle 360 --from 1s --to 3.5s two.mkv two.mp4");
   EXPECT_EQ(told["sound"]["codec"], "aac");
   EXPECT_EQ(told["sound"]["track"], 2);
@@ -499,7 +495,7 @@ TEST_F(FilmSoundTest, IsToldOf) {
   expect_says(told["notes"].dump(), "the clip has 2 tracks of sound, and the film track 2");
   EXPECT_NEAR(clap("two.mp4", 25).second, 25, 1.0);
   EXPECT_TRUE(answer("video --out-fps 25 --speed 0.5 two.mkv slow.mp4")["sound"].is_null());
-  ffmpeg("-i clip.mp4 -an -c copy silent.mp4");
+  test::make(scratch_, "-i clip.mp4 -an -c copy silent.mp4");
   EXPECT_TRUE(answer("video --out-fps 25 silent.mp4 none.mp4")["sound"].is_null());
   const auto stretched = make("video --out-fps 25 --sound stretch --overwrite silent.mp4 none.mp4");
   expect_says(stretched.out + stretched.err, "silent.mp4 has no sound to stretch");
@@ -525,7 +521,7 @@ TEST_F(FilmSoundTest, IsLeftOutAloudOrStretched) {
   const auto [flash, tone] = clap("drift.mov", 5);
   EXPECT_NEAR(flash, 600, 0.5);
   EXPECT_NEAR(tone, flash, 0.1);
-  ffmpeg("-i clip.mp4 -vf \"setpts=(N+min(N\\,50))/25/TB\" -vsync passthrough -c:a copy uneven.mp4");
+  test::make(scratch_, "-i clip.mp4 -vf \"setpts=(N+min(N\\,50))/25/TB\" -vsync passthrough -c:a copy uneven.mp4");
   const auto even = make("video -f 25 --out-fps 25 --between off --sound stretch uneven.mp4 even.mp4");
   expect_says(even.out + even.err, "the file's pictures do not lie at even times");
   make("video --out-fps 25 --sound no clip.mp4 mute.mp4");
@@ -534,7 +530,8 @@ TEST_F(FilmSoundTest, IsLeftOutAloudOrStretched) {
   expect_says(gif.out + gif.err, "the clip's sound is left out: .gif holds none");
   expect_refused("video --sound loud clip.mp4 x.mp4", 2, "choose clip, stretch or no");
   // A phone's slow motion, which plays at an eighth of the speed of life: so the film does that runs as slow.
-  ffmpeg("-i clip.mp4 -c copy -movflags use_metadata_tags -metadata com.android.capture.fps=200 phone.mp4");
+  test::make(scratch_,
+             "-i clip.mp4 -c copy -movflags use_metadata_tags -metadata com.android.capture.fps=200 phone.mp4");
   make("video --out-fps 25 --out-angle 360 --speed 1/8 phone.mp4 same.mp4");
   const auto [frame, sound] = clap("same.mp4", 25);
   EXPECT_EQ(frame, 50);

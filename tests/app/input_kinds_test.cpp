@@ -17,13 +17,8 @@ class InputKinds : public test::AppTest {
     make("encode -q -f 10 frame%d.pgm clip.tik");
   }
 
-  [[nodiscard]] test::ProgramResult shell(const std::string& command) const {
-    return test::run_shell("( " + command + " )", scratch_.folder());
-  }
   void expect_shell_refused(const std::string& command, std::string_view part) const {
-    const auto result = shell(command);
-    EXPECT_EQ(result.status, 3) << command;
-    EXPECT_NE(result.err.find(part), std::string::npos) << command << ": " << result.err;
+    expect_says(shell(command, 3).err, part);
   }
 
   const std::string program_ = NUTIK_TEST_PROGRAM;
@@ -33,19 +28,19 @@ TEST_F(InputKinds, ACaptureIsOneThroughAPipe) {
   const std::string wanted = " expose -q --start 1f --exposure 1f --out-transfer source ";
   for (const std::string& command : {program_ + wanted + "clip.tik file.pgm", program_ + wanted + "- file.pgm < clip.tik",
                                      "cat clip.tik | " + program_ + wanted + "- file.pgm"}) {
-    EXPECT_EQ(shell("rm -f file.pgm; " + command).status, 0) << command;
+    shell("rm -f file.pgm; " + command);
     EXPECT_TRUE(test::read_file(scratch_ / "file.pgm").ends_with(std::string(12, 60))) << command;
   }
   expect_says(shell("cat clip.tik | " + program_ + " info -").out, "3 in 1 block");
   expect_shell_refused("cat clip.tik | " + program_ + " encode -f 10 - x.tik", "standard input is a capture (.tik)");
-  EXPECT_EQ(shell("cat clip.tik | " + program_ + wanted + "-f 10 - x.pgm").status, 2);
+  shell("cat clip.tik | " + program_ + wanted + "-f 10 - x.pgm", 2);
   expect_shell_refused("mkfifo pipe; cat clip.tik > pipe & " + program_ + wanted +
                            "pipe x.pgm; status=$?; kill $!; exit $status",
                        "pipe is no regular file");
 }
 
 TEST_F(InputKinds, ACaptureIsNoPicture) {
-  ASSERT_EQ(shell("mkdir frames && cp clip.tik frames/1.pgm && cp clip.tik frames/2.pgm").status, 0);
+  shell("mkdir frames && cp clip.tik frames/1.pgm && cp clip.tik frames/2.pgm");
   for (const char* clip : {"frames", "'frames/*.pgm'", "frames/%d.pgm"}) {
     expect_shell_refused(program_ + " encode -f 10 " + clip + " x.tik", "frames/1.pgm is a capture (.tik)");
   }
@@ -87,7 +82,7 @@ TEST_F(InputKinds, WhatIsNotReadIsNamed) {
 }
 
 TEST_F(InputKinds, AFolderOfWhatIsNotReadNamesIt) {
-  ASSERT_EQ(shell("mkdir frames && printf 'BM\\1\\2\\3\\4\\0\\0\\0\\0' > frames/1.bmp").status, 0);
+  shell("mkdir frames && printf 'BM\\1\\2\\3\\4\\0\\0\\0\\0' > frames/1.bmp");
   expect_refused("encode -f 10 frames x.tik", 3, "frames/1.bmp is a BMP picture");
 }
 

@@ -15,18 +15,14 @@ class Join : public test::AppTest {
 
   void SetUp() override { test::write_still_clip(scratch_.folder(), 12, kStills); }
 
-  void done(const test::Words& words) const { const auto result = make(test::over(words)); }
+  void done(const test::Words& words) const { make(test::over(words)); }
   void encode(const std::string& from, const std::string& to, const std::string& output,
               const test::Words& more = {}) const {
-    test::Words words =
-        test::Words{"encode", "-q", "-f", "100", "--from", from, "--to", to, "frames", "-o", output} + more;
-    done(words);
+    done(test::Words{"encode", "-q", "-f", "100", "--from", from, "--to", to, "frames", "-o", output} + more);
   }
-  [[nodiscard]] std::string exposed(const std::string& capture, std::vector<std::string> words) const {
-    words.insert(words.begin(), "expose");
-    words.insert(words.end(), {"--no-recipe", "-q", capture, "-o", "p.pfm"});
-    done(words);
-    return test::read_file(scratch_ / "p.pfm");
+  [[nodiscard]] std::string exposed(const std::string& capture, const test::Words& words) const {
+    done("expose --no-recipe -q -o p.pfm " + capture + words);
+    return file("p.pfm");
   }
 };
 
@@ -60,9 +56,8 @@ TEST_F(Join, TellsWhatWasJoined) {
   EXPECT_EQ(json["parts"][1]["capture"], "b.tik");
   EXPECT_EQ(json["parts"][1]["first_sample"], 64);
   EXPECT_EQ(json["duration_ns"], 1'010'000'000);
-  const auto info = run("info w.tik");
-  expect_says(info.out, "joined of 2 captures, a.tik … b.tik");
-  const auto part = nlohmann::json::parse(run("info --json b.tik").out)["part"];
+  expect_says(run("info w.tik").out, "joined of 2 captures, a.tik … b.tik");
+  const auto part = answer("info b.tik")["part"];
   EXPECT_EQ(part["clip"], "frames");
   EXPECT_EQ(part["first_picture"], 64);
   EXPECT_EQ(part["start_ns"], 640'000'000);
@@ -81,7 +76,7 @@ TEST_F(Join, IsWithinWhatIsNoChange) {
     encode("37f", "38f", "b.tik", change);
     encode("38f", "101f", "c.tik", change);
     done("join -q a.tik b.tik c.tik -o w.tik");
-    const auto checked = make("validate -q --source frames --start 0s --exposure 10ms --runs 1 w.tik");
+    make("validate -q --source frames --start 0s --exposure 10ms --runs 1 w.tik");
   }
 }
 

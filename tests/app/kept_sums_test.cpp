@@ -16,37 +16,24 @@ class KeptSumsInFiles : public test::AppTest {
     test::write_still_clip(scratch_.folder(), 24, 400);
     make("-q -f 1000 --block-samples 16 frames clip.tik");
   }
-  void takes_sums_over(const test::Words& words) const {
-    expect_says(make(words).out, " sums of others kept");
-  }
-  void expect_same_again(const std::string& picture) const {
-    const std::string before = file(picture);
-    ASSERT_FALSE(before.empty()) << picture;
-    scratch_.write("again.sh", make({"reproduce", picture}).out);
-    std::filesystem::remove(scratch_ / picture);
-    EXPECT_EQ(test::run_shell("sh again.sh", scratch_.folder()).status, 0);
-    EXPECT_TRUE(file(picture) == before) << picture;
-  }
+  void takes_sums_over(const test::Words& words) const { expect_says(make(words).out, " sums of others kept"); }
 };
 
 TEST_F(KeptSumsInFiles, OfAFilmAreThoseOfItsParts) {
   const auto film = [](const std::string& folder) {
-    return std::vector<std::string>{"video", "-v",      "--out-fps", "100",      "--out-angle",
-                                    "10000", "--depth", "16",        "clip.tik", folder + "/f-%02d.png"};
+    return test::Words("video -v --out-fps 100 --out-angle 10000 --depth 16 clip.tik " + folder + "/f-%02d.png");
   };
   for (const char* folder : {"whole", "parts"}) std::filesystem::create_directory(scratch_ / folder);
   takes_sums_over(film("whole"));
   for (const char* frames : {"7-12", "0", "1-6"}) {
-    std::vector<std::string> part = film("parts");
-    part.insert(part.end(), {"--frames", frames});
-    make(part);
+    make(film("parts") + "--frames" + frames);
   }
   for (int k = 0; k <= 12; ++k) {
     const std::string name = format("/f-{:02}.png", k);
     EXPECT_FALSE(file("whole" + name).empty()) << k;
     EXPECT_TRUE(file("whole" + name) == file("parts" + name)) << k;
   }
-  for (const char* picture : {"whole/f-00.png", "whole/f-12.png"}) expect_same_again(picture);
+  for (const char* picture : {"whole/f-00.png", "whole/f-12.png"}) expect_made_again(picture);
 }
 
 TEST_F(KeptSumsInFiles, OfSeriesSweepsAndBatchesAreThoseOfOnePicture) {
@@ -60,17 +47,14 @@ TEST_F(KeptSumsInFiles, OfSeriesSweepsAndBatchesAreThoseOfOnePicture) {
                                       std::pair("alone-8.tif", std::vector{"s-8.tif", "b-1.tif"})}) {
     for (const char* other : others) EXPECT_TRUE(file(alone) == file(other)) << other;
   }
-  for (const char* picture : {"s-8.tif", "b-1.tif"}) expect_same_again(picture);
+  for (const char* picture : {"s-8.tif", "b-1.tif"}) expect_made_again(picture);
 
   // A sweep states times in other words: without them, too.
   const auto sweep = [&](const std::string& name, const test::Words& more) {
-    test::Words words = test::Words{"sweep",    "--exposure",  "0.31s",  "--shift",       "0ms..56ms/7ms",
-                                    "clip.tik", name + ".png", "--each", name + "-%d.tif"} +
-                        more;
-    make(words);
+    make("sweep --exposure 0.31s --shift 0ms..56ms/7ms clip.tik " + name + ".png --each " + name + "-%d.tif" + more);
   };
   sweep("w", {});
-  expect_same_again("w-8.tif");
+  expect_made_again("w-8.tif");
   sweep("n", {"--no-recipe"});
   make("--start 56ms --exposure 0.31s --no-recipe clip.tik plain.tif");
   EXPECT_TRUE(file("n-8.tif") == file("plain.tif"));

@@ -19,10 +19,8 @@ using test::ProgramResult;
 class MaskCommand : public test::MovingSquareTest {
  protected:
   // The tags that `nutik-cl mask` with these words gives, for a mask of the capture's size.
-  std::vector<std::uint8_t> tags(test::Words words) const {
-    words.insert(words.begin(), {"mask", "-q", "--overwrite"});
-    words.insert(words.end(), {"-o", "made.pgm"});
-    const ProgramResult result = make(words);
+  std::vector<std::uint8_t> tags(const test::Words& words) const {
+    const ProgramResult result = make("mask -q --overwrite" + words + "-o made.pgm");
     if (result.status != 0) return {};
     const Picture mask = read_mask(scratch_ / "made.pgm");
     EXPECT_EQ(mask.shape, (Shape{MovingSquare::kWidth, MovingSquare::kHeight, 1}));
@@ -158,7 +156,7 @@ TEST_F(MaskCommand, LaysLaterRegionsOverEarlierOnes) {
   EXPECT_EQ(tags("--size 96x48 --fill --tag 0 --polygon 10,10,30,10,30,20,10,20"),
             boxes({{0, 0, 96, 48, 255}, {10, 10, 20, 10, 0}}));
   EXPECT_EQ(tags("--size 96x48 --ellipse 50.5,20.5,0.9,0.9"), boxes({{50, 20, 1, 1, 255}}));
-  EXPECT_EQ(run("mask --size 96x48 --tag 3 --rectangle 10,10,20,20 -o base.png").status, 0);
+  make("mask --size 96x48 --tag 3 --rectangle 10,10,20,20 -o base.png");
   EXPECT_EQ(tags("--base base.png --tag 4 --moving clip.tik"),
             boxes({{10, 10, 20, 20, 3}, {4, 20, 32, 8, 4}}));
   EXPECT_EQ(tags("--base base.png"), boxes({{10, 10, 20, 20, 3}}));
@@ -180,6 +178,10 @@ TEST_F(MaskCommand, ExposesWithWhatItMade) {
   make("mask --moving clip.tik mask.pgm");
   scratch_.write("two.fn", "M0 [0:1], [200000000:1]\nM255 [0:1], [10000000:1], [10000001:0]\n");
   make("-m mask.pgm -k two.fn clip.tik out.png");
+  const cv::Mat out = picture("out.png"), mask = picture("mask.pgm"), first = picture("frames/00.pgm");
+  // Where it moves the first picture alone is exposed.
+  EXPECT_LE(cv::norm(out, first, cv::NORM_INF, mask), 1);
+  EXPECT_GT(cv::norm(out, first, cv::NORM_INF, mask == 0), 1);
 }
 
 TEST_F(MaskCommand, ReportsAndShows) {
@@ -187,16 +189,13 @@ TEST_F(MaskCommand, ReportsAndShows) {
   expect_says(text.out, {"clip-mask.pgm: 96 x 48, 2 tags", "256 pixels   5.56 %, by more than 15 codes"});
   EXPECT_TRUE(test::read_file(scratch_ / "seen.png").starts_with("\x89PNG"));
   EXPECT_EQ(run("mask -q --overwrite --moving clip.tik").out, "clip-mask.pgm\n");
-  const auto json = nlohmann::json::parse(run("mask --json --moving --grow 0 clip.tik m.png").out);
+  const auto json = answer("mask --moving --grow 0 clip.tik m.png");
   EXPECT_EQ(json["mask"], "m.png");
   EXPECT_EQ(json["steps"][0]["more_than_codes"], 15);
   EXPECT_EQ(json["tags"],
             nlohmann::json::parse(R"([{"tag":0,"pixel_count":4352},{"tag":255,"pixel_count":256}])"));
-  for (const std::vector<std::string>& when :
-       {std::vector<std::string>{"--start", "3f"}, {"--start", "30ms", "--exposure", "10ms"}}) {
-    std::vector<std::string> words{"mask", "--overwrite", "--moving", "clip.tik", "m.png", "--preview", when[1] + ".png"};
-    words.insert(words.end(), when.begin(), when.end());
-    make(words);
+  for (const test::Words when : {"--start 3f", "--start 30ms --exposure 10ms"}) {
+    make("mask --overwrite --moving clip.tik m.png --preview " + when[1] + ".png" + when);
   }
   // Picture 3 was exposed from 30 to 40 ms.
   EXPECT_EQ(test::read_file(scratch_ / "3f.png"), test::read_file(scratch_ / "30ms.png"));
@@ -235,10 +234,8 @@ TEST_F(MaskCommand, ReplacesMasksAndNoExposures) {
 
 // A tag that was asked for and that no pixel has in the end.
 TEST_F(MaskCommand, WarnsOfTagsThatLaterStepsCover) {
-  const auto warned = [&](test::Words words) {
-    words.insert(words.begin(), {"mask", "--overwrite"});
-    words.insert(words.end(), {"clip.tik", "covered.pgm"});
-    return run(words).err;
+  const auto warned = [&](const test::Words& words) {
+    return run("mask --overwrite" + words + "clip.tik covered.pgm").err;
   };
   EXPECT_EQ(warned({"--tag", "64", "--rectangle", "10,10,5,5", "--tag", "128", "--rectangle", "8,8,9,9"}),
             "warning: --rectangle: later steps cover all of M64, which no pixel has in the end\n");

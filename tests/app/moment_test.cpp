@@ -8,6 +8,7 @@
 #include <sstream>
 #include <thread>
 
+#include "support/ffmpeg.hpp"
 #include "support/moving_square_test.hpp"
 
 namespace nutik {
@@ -17,10 +18,6 @@ using test::ProgramResult;
 
 class Moment : public test::MovingSquareTest {
  protected:
-  [[nodiscard]] cv::Mat picture(std::string_view name) const {
-    return cv::imread((scratch_ / name).string(), cv::IMREAD_UNCHANGED);
-  }
-
   // Pixels that differ between two neighbouring pictures by more than `ignored` codes.
   [[nodiscard]] int changed_pixels(std::size_t sample, int ignored) const {
     int count = 0;
@@ -123,15 +120,12 @@ TEST_F(Moment, ActivityCountsChangesAtEachSample) {
 
 // A square that moves over a still scene of much detail: at its key frames H.264 draws all of it anew.
 TEST_F(Moment, ActivityIsThatOfTheSceneNotOfTheCodec) {
-  const auto made = test::run_shell(
-      "ffmpeg -v error -y -f lavfi -i "
-      "mandelbrot=s=320x180:r=60,trim=end_frame=1,loop=59:1:0,noise=alls=4:allf=t "
-      "-f lavfi -i color=red:s=32x32:r=60 -filter_complex "
-      "'[0][1]overlay=x=10+n*4:y=70:shortest=1,format=yuv420p' -frames:v 60 -c:v libx264 -threads 1 -g 12 "
-      "-bf 0 -crf 26 "
-      "key.mp4",
-      scratch_.folder());
-  if (made.status != 0) GTEST_SKIP() << "ffmpeg cannot make the clip: " << made.err;
+  NEEDS_FFMPEG();
+  test::make(scratch_,
+             "-f lavfi -i mandelbrot=s=320x180:r=60,trim=end_frame=1,loop=59:1:0,noise=alls=4:allf=t "
+             "-f lavfi -i color=red:s=32x32:r=60 -filter_complex "
+             "'[0][1]overlay=x=10+n*4:y=70:shortest=1,format=yuv420p' -frames:v 60 -c:v libx264 -threads 1 -g 12 "
+             "-bf 0 -crf 26 key.mp4");
   const auto scene = answer("activity key.mp4"), all = answer("activity --count-redrawn key.mp4");
   for (std::size_t k = 1; k < 60; ++k) {
     const double share = scene["samples"][k]["changed_share"];
@@ -198,9 +192,8 @@ TEST_F(Moment, ActivityCountsEachTagForItself) {
   }
   EXPECT_EQ(lines.out, expected);
   EXPECT_TRUE(differs) << "the square is not everywhere at once";
-  const ProgramResult busiest = run("activity --by 8 -m grid.pgm --tag all --moment busiest clip.tik");
-  EXPECT_EQ(busiest.status, 3) << "of a tag in which nothing moves";
-  expect_says(busiest.err, "clip.tik has no busiest moment where the mask is ");
+  expect_says(make("activity --by 8 -m grid.pgm --tag all --moment busiest clip.tik", 3).err,
+              "clip.tik has no busiest moment where the mask is ");  // a tag in which nothing moves
   const std::string text = run("activity --by 8 -m grid.pgm --tag all clip.tik").out;
   expect_says(text, "  M7: 576 pixels, quietest ");
 }
@@ -251,8 +244,7 @@ TEST_F(Moment, ActivityNamesAMomentForAnotherCommand) {
 }
 
 TEST_F(Moment, ActivityOfARegion) {
-  ASSERT_EQ(run("mask --tag 7 --rectangle 0,20,20,8 --tag 9 --rectangle 40,0,10,10 clip.tik mask.pgm").status,
-            0);
+  make("mask --tag 7 --rectangle 0,20,20,8 --tag 9 --rectangle 40,0,10,10 clip.tik mask.pgm");
   const auto region = answer("activity --by 8 -m mask.pgm --tag 7 clip.tik");
   EXPECT_EQ(region["counted_pixels"], 160);
   EXPECT_EQ(region["samples"][1]["changed_pixels"], 32);  // from 4 to 14
@@ -284,10 +276,7 @@ TEST_F(Moment, SweepExposesEachShift) {
   ASSERT_EQ(json["pictures"].size(), 6u);
   EXPECT_EQ(json["pictures"][3], nlohmann::json::parse(R"({"shift_ns":30000000,"file":"s3.png"})"));
   for (const int k : {0, 3, 5}) {
-    ASSERT_EQ(run({"--start", std::to_string(10 * k) + "ms", "--exposure", "10ms", "--no-recipe",
-                   "--overwrite", "clip.tik", "alone.png"})
-                  .status,
-              0);
+    make("--exposure 10ms --no-recipe --overwrite clip.tik alone.png --start " + std::to_string(10 * k) + "ms");
     EXPECT_EQ(file("s" + std::to_string(k) + ".png"), file("alone.png")) << k;
   }
   EXPECT_EQ(json["sheet"], "clip-0s-10ms-sweep.png");
@@ -318,24 +307,22 @@ TEST_F(Moment, SweepVariesGainAndLength) {
 }
 
 TEST_F(Moment, SweepWarnsOnceOfWhatLiesOutside) {
-  const ProgramResult result = make("sweep --start 0.15s --exposure 40ms --shift 0..0.1s/20ms clip.tik");
-  expect_says(result.err, "warning: +20 ms and 4 more: ");
+  expect_says(make("sweep --start 0.15s --exposure 40ms --shift 0..0.1s/20ms clip.tik").err,
+              "warning: +20 ms and 4 more: ");
 }
 
 // As expose warns of each of them.
 TEST_F(Moment, SweepWarnsOfPicturesThatComeOutBlack) {
   scratch_.write("negative.fn", "M0 [0:-1], [10000000:-1], [10000001:0]\n");
-  const ProgramResult result = make("sweep -k negative.fn --shift 0..20ms/10ms clip.tik sheet.png");
-  expect_says(result.err,
+  expect_says(make("sweep -k negative.fn --shift 0..20ms/10ms clip.tik sheet.png").err,
               "warning: as it is and 2 more: M0: the still gain is -1: whatever does not move "
               "comes out black; --negative offset shows light below 0");
 }
 
 TEST_F(Moment, SweepRefusesWhatMakesNoSense) {
   const test::Words exposure("sweep --start 0s --exposure 1f clip.tik");
-  const auto refused = [&](test::Words more, std::string_view part) {
-    more.insert(more.begin(), exposure.begin(), exposure.end());
-    expect_refused(more, 2, part);
+  const auto refused = [&](const test::Words& more, std::string_view part) {
+    expect_refused(exposure + more, 2, part);
   };
   refused({}, "what is varied? Add --shift 0..1s/0.1s");
   refused({"--shift", "1s"}, "--shift '1s' is no range; write FROM..TO/STEP: 0..1s/0.1s");

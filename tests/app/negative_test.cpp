@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <vector>
 
 #include "support/app_test.hpp"
@@ -27,64 +26,51 @@ double fraction_of(double light) {
 class Negative : public test::AppTest, public testing::WithParamInterface<const char*> {
  protected:
   void SetUp() override {
-    std::filesystem::create_directory(scratch_ / "frames");
-    for (std::size_t k = 0; k < 2; ++k) {
-      std::string text = "P2 4 2 255\n";
-      for (const int code : kCodes[k]) text += std::to_string(code) + " ";
-      scratch_.write("frames/" + std::to_string(k) + ".pgm", text);
-    }
+    write_frames(2, [](int k) { return cv::Mat(2, 4, CV_8UC1, const_cast<std::uint8_t*>(kCodes[k])); });
     scratch_.write("difference.fn", "M0 [0:1], [39999999:1], [40000000:-1], [79999999:-1], [80000000:0]\n");
     make("-f 25 frames clip.tik");
   }
 
-  ProgramResult expose(const std::string& output, std::vector<std::string> more) const {
-    more.insert(more.end(),
-                {"--renderer", GetParam(), "--gain", "4", "-k", "difference.fn", "clip.tik", "-o", output});
-    return run(more);
+  ProgramResult expose(const std::string& output, const test::Words& more, int status = 0) const {
+    return make(more + "--gain 4 -k difference.fn clip.tik -o" + output + "--renderer" + GetParam(), status);
   }
   [[nodiscard]] std::vector<int> codes(const std::string& name) const {
-    const cv::Mat picture = cv::imread((scratch_ / name).string(), cv::IMREAD_UNCHANGED);
-    EXPECT_EQ(picture.total(), 8u);
-    std::vector<int> values;
-    for (std::size_t i = 0; i < picture.total(); ++i) values.push_back(picture.ptr<std::uint8_t>()[i]);
-    return values;
+    const cv::Mat read = picture(name);
+    EXPECT_EQ(read.total(), 8u);
+    return {read.begin<std::uint8_t>(), read.end<std::uint8_t>()};
   }
   // (v0 - v1) / 2 times 4, but for two steps of 1 ns.
   [[nodiscard]] static double light(std::size_t pixel) {
     return 2 * (light_of(kCodes[0][pixel]) - light_of(kCodes[1][pixel]));
   }
 
-  static constexpr int kCodes[2][8] = {{0, 255, 128, 50, 10, 200, 0, 255},
-                                       {255, 0, 128, 60, 10, 100, 0, 255}};
+  static constexpr std::uint8_t kCodes[2][8] = {{0, 255, 128, 50, 10, 200, 0, 255}, {255, 0, 128, 60, 10, 100, 0, 255}};
 };
 
 TEST_P(Negative, SaturatesToBlackByItself) {
   const ProgramResult result = expose("a.png", {});
-  ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(expose("b.png", {"--no-recipe", "--negative", "saturate"}).status, 0);
+  expose("b.png", "--no-recipe --negative saturate");
   EXPECT_EQ(codes("a.png"), codes("b.png"));
   for (std::size_t i = 0; i < 8; ++i) {
     const double clipped = std::clamp(light(i), 0.0, 1.0);
     EXPECT_EQ(codes("a.png")[i], std::floor(255 * fraction_of(clipped) + 0.5)) << i;
   }
   // -2 and -0.03 below, 2 above; exactly 0 and 0.9 are held.
-  EXPECT_NE(result.out.find(", 2 pixels saturated below 0 and 1 above 1,"), std::string::npos) << result.out;
+  expect_says(result.out, ", 2 pixels saturated below 0 and 1 above 1,");
 }
 
 TEST_P(Negative, OffsetPutsZeroIntoTheMiddle) {
-  const ProgramResult result = expose("a.png", {"--negative", "offset"});
-  ASSERT_EQ(result.status, 0) << result.err;
+  const ProgramResult result = expose("a.png", "--negative offset");
   for (std::size_t i = 0; i < 8; ++i) {
     const double magnitude = std::floor(127 * fraction_of(std::min(std::fabs(light(i)), 1.0)) + 0.5);
     EXPECT_EQ(codes("a.png")[i], light(i) < 0 ? 128 - magnitude : 128 + magnitude) << i;
   }
   EXPECT_EQ(codes("a.png")[2], 128);
-  EXPECT_NE(result.out.find(", 1 pixel saturated below 0 and 1 above 1,"), std::string::npos) << result.out;
+  expect_says(result.out, ", 1 pixel saturated below 0 and 1 above 1,");
 }
 
 TEST_P(Negative, AbsShowsMagnitudes) {
-  const ProgramResult result = expose("a.png", {"--negative", "abs", "--json"});
-  ASSERT_EQ(result.status, 0) << result.err;
+  const ProgramResult result = expose("a.png", "--negative abs --json");
   for (std::size_t i = 0; i < 8; ++i) {
     EXPECT_EQ(codes("a.png")[i], std::floor(255 * fraction_of(std::min(std::fabs(light(i)), 1.0)) + 0.5))
         << i;
@@ -96,29 +82,19 @@ TEST_P(Negative, AbsShowsMagnitudes) {
 
 TEST_P(Negative, CountsNothingWhereLightFits) {
   // White that stays white is no saturation, nor is black that stays black.
-  const ProgramResult result =
-      run({"--renderer", GetParam(), "--start", "0s", "--exposure", "1f", "clip.tik", "a.png"});
-  ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.out.find(", no pixel saturated,"), std::string::npos) << result.out;
+  expect_says(make({"--renderer", GetParam(), "--start", "0s", "--exposure", "1f", "clip.tik", "a.png"}).out,
+              ", no pixel saturated,");
   const ProgramResult light = expose("a.pfm", {});
-  EXPECT_EQ(light.status, 0) << light.err;
   EXPECT_EQ(light.out.find("saturated"), std::string::npos) << light.out;
 }
 
 TEST_P(Negative, IsRefusedWhereLightIsKept) {
-  const ProgramResult result = expose("a.pfm", {"--negative", "abs"});
-  EXPECT_EQ(result.status, 2);
-  EXPECT_NE(result.err.find("a.pfm holds floating point, which keeps it"), std::string::npos) << result.err;
+  expect_says(expose("a.pfm", "--negative abs", 2).err, "a.pfm holds floating point, which keeps it");
 }
 
 TEST_P(Negative, SumsOverSeriesVideosBatchesAndSheets) {
-  const std::string renderer = GetParam();
   const auto expect = [&](const test::Words& words, const char* part) {
-    std::vector<std::string> all = words;
-    all.insert(all.end(), {"--renderer", renderer});
-    const ProgramResult result = run(all);
-    EXPECT_EQ(result.status, 0) << result.err;
-    EXPECT_NE(result.out.find(part), std::string::npos) << result.out;
+    expect_says(make(words + "--renderer" + GetParam()).out, part);
   };
   expect(
       {"--gain", "4", "-k", "difference.fn", "--every", "1s", "--count", "1", "clip.tik", "-o", "s-%d.png"},
@@ -135,9 +111,8 @@ TEST_P(Negative, SumsOverSeriesVideosBatchesAndSheets) {
 }
 
 TEST_P(Negative, IsInTheRecipe) {
-  ASSERT_EQ(expose("a.png", {"--negative", "offset"}).status, 0);
-  const ProgramResult again = run("reproduce a.png");
-  EXPECT_NE(again.out.find(" --negative offset "), std::string::npos) << again.out;
+  expose("a.png", "--negative offset");
+  expect_says(run("reproduce a.png").out, " --negative offset ");
 }
 
 INSTANTIATE_TEST_SUITE_P(Renderers, Negative, testing::Values("opencl", "reference"),

@@ -45,8 +45,7 @@ class Noise : public test::AppTest {
 TEST_F(Noise, IsMeasuredOnSeveralExposures) {
   film("dark", 0.2, 1);
   film("bright", 0.8, 2);
-  const auto result = run("noise dark bright -o camera.noise");
-  expect_says(result.out, "camera.noise: measured on 80 samples");
+  expect_says(run("noise dark bright -o camera.noise").out, "camera.noise: measured on 80 samples");
   const CameraNoise noise = noise_in("camera.noise");
   const test::NoisyCamera camera;
   for (const ChannelNoise& channel : noise.channels) {
@@ -60,23 +59,17 @@ TEST_F(Noise, GivesTheSamePictureFromAClipAndFromItsCapture) {
   film("clip", 0.8, 3);
   run("noise clip -o camera.noise");
   for (const char* noise : {"camera.noise", "auto"}) {
-    const std::vector<std::string> source{"-f",       "100", "--noise",         noise,
-                                          "--sigmas", "2.5", "--block-samples", "16"};
-    const auto with = [&](test::Words words) {
-      words.insert(words.end(), source.begin(), source.end());
-      return words;
-    };
-    run(with({"encode", "clip", "-o", "clip.tik"}));
+    const test::Words source = "-f 100 --sigmas 2.5 --block-samples 16 --noise" + test::Words(noise);
+    run("encode clip -o clip.tik" + source);
     // Within a block, across two, and of the last one, which is not full.
     for (const char* start : {"3f", "14f", "38f"}) {
-      run({"--start", start, "--exposure", "2f", "clip.tik", "-o", "a.pfm"});
-      run(with({"--start", start, "--exposure", "2f", "clip", "-o", "b.pfm"}));
-      EXPECT_EQ(test::read_file(scratch_ / "a.pfm"), test::read_file(scratch_ / "b.pfm")) << noise << start;
-      run({"--start", start, "--exposure", "2f", "clip.tik", "--renderer", "reference", "--no-recipe", "-o",
-           "c.png"});
-      run(with({"--start", start, "--exposure", "2f", "clip", "--renderer", "reference", "--no-recipe", "-o",
-                "d.png"}));
-      EXPECT_EQ(test::read_file(scratch_ / "c.png"), test::read_file(scratch_ / "d.png")) << noise << start;
+      const test::Words exposure{"--exposure", "2f", "--start", start};
+      run(exposure + "clip.tik -o a.pfm");
+      run(exposure + "clip -o b.pfm" + source);
+      EXPECT_EQ(file("a.pfm"), file("b.pfm")) << noise << start;
+      run(exposure + "clip.tik --renderer reference --no-recipe -o c.png");
+      run(exposure + "clip --renderer reference --no-recipe -o d.png" + source);
+      EXPECT_EQ(file("c.png"), file("d.png")) << noise << start;
     }
   }
   const tik::Reader reader(scratch_ / "clip.tik");
@@ -88,11 +81,8 @@ TEST_F(Noise, InfoTellsWhatIsHeld) {
   film("clip", 0.8, 4);
   run("encode -f 100 --noise auto clip -o clip.tik");
   const std::string info = run("info clip.tik").out;
-  for (const char* said :
-       {"16 bits, white code 65535", "means of the source's, whose white code is 255, times 257",
-        "beyond 3 sigmas of the noise", "codes of the source at a tenth of white", "% of 922 kB raw"}) {
-    EXPECT_NE(info.find(said), std::string::npos) << said << " is not in\n" << info;
-  }
+  expect_says(info, {"16 bits, white code 65535", "means of the source's, whose white code is 255, times 257",
+                     "beyond 3 sigmas of the noise", "codes of the source at a tenth of white", "% of 922 kB raw"});
   const auto at = info.find(" % of samples");
   const double share = std::stod(info.substr(info.rfind(' ', at - 1)));
   EXPECT_GT(share, 0.3);
@@ -130,8 +120,7 @@ TEST_F(Noise, IsNotMeasuredOnWhatMoves) {
   expect_refused("encode -f 100 --noise auto pour a.tik", 3,
                  "pour: no noise can be measured on it: pixels 4 apart vary together");
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "a.tik"));
-  const auto measured = run("noise pour -o pour.noise");
-  expect_says(measured.err, "note: pixels 4 apart vary together");
+  expect_says(run("noise pour -o pour.noise").err, "note: pixels 4 apart vary together");
 }
 
 // Waves that stand still, or whose light does not: by less than noise, so that no pixel is seen to change.
@@ -170,11 +159,8 @@ TEST_F(Noise, IsNotMeasuredOnWhatMovesWithinIt) {
   run("encode -q -f 100 --noise auto --crop 56x64+0+0 poured -o left.tik");
   // So little of it that the rest is worth it.
   waves("dripped", 0, 0, 0.012);
-  EXPECT_NE(
-      run("encode -f 100 --noise auto dripped -o dripped.tik")
-          .err.find(
-              "% of the picture light changes by less than its noise: what is held there is off by up to 0."),
-      std::string::npos);
+  expect_says(run("encode -f 100 --noise auto dripped -o dripped.tik").err,
+              "% of the picture light changes by less than its noise: what is held there is off by up to 0.");
   waves("still", 0, 0, 0);
   EXPECT_EQ(run("encode -f 100 --noise auto still -o still.tik").err, "");
 }
@@ -207,17 +193,12 @@ TEST_F(Noise, SaysWhatCannotBe) {
            "deep is of another kind than clip: 120 x 64 pixels, 3 channels, 16 bits, white code 4095"}});
   expect_refused("noise clip -o clip.tik", 2, "clip.tik is no name for a text");
   const test::Words encode("encode -f 100 clip -o b.tik");
-  const auto with = [&](std::initializer_list<std::string> more) {
-    std::vector<std::string> words = encode;
-    words.insert(words.end(), more);
-    return words;
-  };
-  expect_refused(2, {{with({"--noise", "camera.noise", "--tolerance", "2"}), "leave one out"},
-                     {with({"--sigmas", "2"}), "--sigmas counts standard deviations of a camera's noise"},
-                     {with({"--noise", "auto", "--sigmas", "0"}), "--sigmas '0' is no number of 0.1 … 100"}});
-  expect_refused(with({"--noise", "absent.noise"}), 3, "absent.noise");
+  expect_refused(2, {{encode + "--noise camera.noise --tolerance 2", "leave one out"},
+                     {encode + "--sigmas 2", "--sigmas counts standard deviations of a camera's noise"},
+                     {encode + "--noise auto --sigmas 0", "--sigmas '0' is no number of 0.1 … 100"}});
+  expect_refused(encode + "--noise absent.noise", 3, "absent.noise");
   scratch_.write("wrong.noise", "nutik noise 0\nwhite 255\ntransfer srbg\n");
-  expect_refused(with({"--noise", "wrong.noise"}), 3, "wrong.noise:3:10: transfer 'srbg' is not known");
+  expect_refused(encode + "--noise wrong.noise", 3, "wrong.noise:3:10: transfer 'srbg' is not known");
   expect_refused(2, {{"encode -f 100 deep -o b.tik --noise camera.noise",
                       "the noise was measured with white code 255 and the clip's is 4095"},
                      {"--start 0f --exposure 1f --noise auto clip.tik", "--noise describes a clip"}});

@@ -25,17 +25,12 @@ class Series : public test::AppTest {
 TEST_F(Series, IsTheSinglePictures) {
   for (const std::string renderer : {"opencl", "reference"}) {
     for (const std::string input : {"clip.tik", "frames"}) {
-      std::vector<std::string> common{"--exposure", "60ms",   "--shutter", "hann",
-                                      "--renderer", renderer, input};
-      if (input == "frames") common.insert(common.end(), {"-f", "40", "-a", "180"});
-      test::Words words("--start 0.01s --every 1/3s --count 3 -o s-%d.pfm");
-      words.insert(words.end(), common.begin(), common.end());
-      run(words);
+      const test::Words common = "--exposure 60ms --shutter hann --renderer " + renderer + " " + input +
+                                 (input == "frames" ? " -f 40 -a 180" : "");
+      run("--start 0.01s --every 1/3s --count 3 -o s-%d.pfm" + common);
       const char* starts[] = {"10ms", "343333333ns", "676666667ns"};
       for (int k = 0; k < 3; ++k) {
-        words = {"--start", starts[k], "-o", "single.pfm"};
-        words.insert(words.end(), common.begin(), common.end());
-        run(words);
+        run(test::Words{"-o", "single.pfm", "--start", starts[k]} + common);
         EXPECT_EQ(file("single.pfm"), file("s-" + std::to_string(k) + ".pfm"))
             << renderer << ", " << input << ", " << k;
       }
@@ -110,13 +105,10 @@ TEST_F(Series, HasAsManyAsFit) {
 // Who reads a folder's numbers on would take them for this series.
 TEST_F(Series, TellsOfOlderPicturesBehindItsLast) {
   EXPECT_EQ(run("--every 4f --count 6 --exposure 1f clip.tik s-%d.pfm").err, "");
-  const auto shorter = [&](test::Words words) {
-    words.insert(words.end(), {"clip.tik", "s-%d.pfm"});
-    return run(words).err;
-  };
+  const auto shorter = [&](const test::Words& words) { return run(words + "clip.tik s-%d.pfm").err; };
   const std::string older = "s-3.pfm … s-5.pfm were there before and are no part of this series";
-  EXPECT_NE(shorter({"--every", "8f", "--count", "3", "--exposure", "1f"}).find(older), std::string::npos);
-  EXPECT_NE(shorter({"video", "--out-fps", "20", "--to", "0.15s"}).find(older), std::string::npos);
+  expect_says(shorter({"--every", "8f", "--count", "3", "--exposure", "1f"}), older);
+  expect_says(shorter({"video", "--out-fps", "20", "--to", "0.15s"}), older);
   // A part of a series leaves the others to whoever makes them.
   EXPECT_EQ(shorter({"--every", "4f", "--count", "6", "--frames", "0-2", "--exposure", "1f"}), "");
   EXPECT_EQ(written("s"), 6);
@@ -124,10 +116,7 @@ TEST_F(Series, TellsOfOlderPicturesBehindItsLast) {
 
 TEST_F(Series, RefusesNamesThatAreTooLong) {
   for (const char* name : {"s-%300d.pfm", "s-%0300d.pfm", "s-%99999999999999999999d.pfm"}) {
-    const auto result =
-        test::run_here({"--every", "4f", "--exposure", "1f", "clip.tik", name}, scratch_.folder());
-    EXPECT_EQ(result.status, 5) << result.err;
-    expect_says(result.err, "File name too long");
+    expect_refused({"--every", "4f", "--exposure", "1f", "clip.tik", name}, 5, "File name too long");
   }
 }
 
@@ -137,9 +126,7 @@ TEST_F(Series, TellsItsWarningsAlsoWhereItEndsInAnError) {
   capture[capture.size() * 8 / 10] ^= 0x55;  // in one of the later blocks
   scratch_.write("blocks.tik", capture);
   scratch_.write("held.fn", "M0 [0:1], [20000000:1], [20000001:0]\n");
-  const test::ProgramResult result =
-      test::run_here({"-k", "held.fn", "--every", "4f", "blocks.tik", "-o", "d-%d.pfm"}, scratch_.folder());
-  EXPECT_EQ(result.status, 3) << result.err;
+  const test::ProgramResult result = make({"-k", "held.fn", "--every", "4f", "blocks.tik", "-o", "d-%d.pfm"}, 3);
   EXPECT_GT(written("d"), 1);
   expect_says(result.err, "warning: d-1.pfm");
   EXPECT_LT(result.err.find("warning: d-1.pfm"), result.err.find("is damaged")) << result.err;
@@ -152,9 +139,7 @@ TEST_F(Series, NamesTheFirstOfTwoDamagedBlocks) {
   for (const std::size_t eighths : {3, 6}) capture[capture.size() * eighths / 8] ^= 0x55;
   scratch_.write("blocks.tik", capture);
   const auto refusal = [&](const char* from) {
-    return test::run_here({"expose", "--start", from, "--exposure", "10s", "blocks.tik", "a.pfm", "--overwrite"},
-                          scratch_.folder())
-        .err;
+    return make({"expose", "--start", from, "--exposure", "10s", "blocks.tik", "a.pfm", "--overwrite"}, 3).err;
   };
   const std::string first = refusal("0s");
   expect_says(first, "is damaged");
@@ -164,28 +149,20 @@ TEST_F(Series, NamesTheFirstOfTwoDamagedBlocks) {
 
 TEST_F(Series, SaysWhatIsWrongBeforeItWrites) {
   const test::Words plain("--exposure 25ms clip.tik");
-  const auto with = [&](test::Words words) {
-    words.insert(words.end(), plain.begin(), plain.end());
-    return words;
-  };
-  expect_refused(2, {{with({"--every", "1s", "-o", "out.pfm"}),
-                      "needs a number in its pictures' name, as in out-%03d.pfm"},
-                     {with({"--every", "0s", "-o", "o%d.pfm"}), "every '0s' is not longer than nothing"},
-                     {with({"--every", "1.5f", "-o", "o%d.pfm"}), "is not a whole number of pictures"},
-                     {with({"--every", "40", "-o", "o%d.pfm"}), "every '40' is no time"},
-                     {with({"--every", "1s", "--count", "0", "-o", "o%d.pfm"}),
-                      "--count '0' is no whole number of 1 … 1000000"},
-                     {with({"--count", "3", "-o", "o%d.pfm"}), "--count goes with --every"},
-                     {with({"--every", "300ms", "--count", "5", "-o", "o%d.pfm"}),
-                      "exposure 4 of the series would start at 1.2 s, behind the end of the capture at 1 s; "
-                      "--count 4 at most"},
-                     {with({"--start", "2s", "--every", "1s", "-o", "o%d.pfm"}),
-                      "the series starts at 2 s, behind the end"},
-                     {"--exposure 2s --every 1s clip.tik o%d.pfm",
-                      "not one exposure of the series ends within the capture"}});
+  expect_refused(
+      2, {{plain + "--every 1s -o out.pfm", "needs a number in its pictures' name, as in out-%03d.pfm"},
+          {plain + "--every 0s -o o%d.pfm", "every '0s' is not longer than nothing"},
+          {plain + "--every 1.5f -o o%d.pfm", "is not a whole number of pictures"},
+          {plain + "--every 40 -o o%d.pfm", "every '40' is no time"},
+          {plain + "--every 1s --count 0 -o o%d.pfm", "--count '0' is no whole number of 1 … 1000000"},
+          {plain + "--count 3 -o o%d.pfm", "--count goes with --every"},
+          {plain + "--every 300ms --count 5 -o o%d.pfm",
+           "exposure 4 of the series would start at 1.2 s, behind the end of the capture at 1 s; "
+           "--count 4 at most"},
+          {plain + "--start 2s --every 1s -o o%d.pfm", "the series starts at 2 s, behind the end"},
+          {"--exposure 2s --every 1s clip.tik o%d.pfm", "not one exposure of the series ends within the capture"}});
   scratch_.write("o3.pfm", "notes of mine");
-  expect_refused(with({"--every", "100ms", "-o", "o%d.pfm"}), 2,
-                 "o3.pfm exists and is no picture; it is not replaced");
+  expect_refused(plain + "--every 100ms -o o%d.pfm", 2, "o3.pfm exists and is no picture; it is not replaced");
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "o0.pfm"));
   EXPECT_EQ(file("o3.pfm"), "notes of mine");
   expect_refused("-f 40 --exposure 25ms --every 100ms frames -o frames/%03d.pgm", 2, "is also an input");

@@ -1,8 +1,6 @@
 // Shutter shapes through the program: as text, and as exposures.
 #include <gtest/gtest.h>
 
-#include <sstream>
-
 #include "support/app_test.hpp"
 #include "support/clips.hpp"
 #include "support/still_clip.hpp"
@@ -40,16 +38,11 @@ TEST_F(ShutterCommand, CountsThePicturesOfACapture) {
   scratch_.write("stills.csv", table);
   out("stills.csv clip.tik");
   const test::Words box("shutter box --start 3f --exposure 1f");
-  const auto function_of = [&](const std::vector<std::string>& source) {
-    std::vector<std::string> words = box;
-    words.insert(words.end(), source.begin(), source.end());
-    return out(words);
-  };
   const std::string want =
       "# box from 3f for 1f\nM0 [289999999:0], [290000000:1], [300000000:1], [300000001:0]\n";
-  EXPECT_EQ(function_of({"clip.tik"}), want);
-  EXPECT_EQ(function_of({"stills.csv"}), want) << "a clip that was not encoded";
-  EXPECT_EQ(function_of({"-f", "50", "stills.csv"}),
+  EXPECT_EQ(out(box + "clip.tik"), want);
+  EXPECT_EQ(out(box + "stills.csv"), want) << "a clip that was not encoded";
+  EXPECT_EQ(out(box + "-f 50 stills.csv"),
             "# box from 3f for 1f\nM0 [59999999:0], [60000000:1], [80000000:1], [80000001:0]\n");
   // It exposes just that picture, with what a search for a moment prints.
   scratch_.write("f.fn", want);
@@ -57,9 +50,7 @@ TEST_F(ShutterCommand, CountsThePicturesOfACapture) {
   out("--start 3f --exposure 1f clip.tik b.pgm");
   EXPECT_EQ(test::read_all(*test::open_test_clip(scratch_ / "a.pgm")),
             test::read_all(*test::open_test_clip(scratch_ / "b.pgm")));
-  std::istringstream moment(out("activity --moment quietest clip.tik"));
-  std::vector<std::string> counted{"shutter", "box", "clip.tik"};
-  for (std::string word; moment >> word;) counted.push_back(word);
+  const test::Words counted = "shutter box clip.tik" + test::Words(out("activity --moment quietest clip.tik"));
   EXPECT_EQ(out(counted).substr(0, 11), "# box from ");
   expect_refused(
       2,
@@ -100,13 +91,10 @@ TEST_F(ShutterCommand, GivesTheExposureThatTheOptionGives) {
 
 // By hand: a still scene of one code under functions whose integrals are plain.
 TEST_F(ShutterCommand, NormalizesAsItSays) {
-  std::filesystem::create_directory(scratch_ / "frames");
-  for (int k = 0; k < 10; ++k) {
-    scratch_.write("frames/" + std::to_string(k) + ".pgm", "P2 2 1 255\n51 102\n");
-  }
+  write_frames(10, [](int) { return cv::Mat_<std::uint8_t>({1, 2}, {51, 102}); });
   out("-f 10 --transfer linear frames clip.tik");
   struct Case {
-    std::vector<std::string> words;
+    test::Words words;
     float light;  // of code 51, 0.2 in light
   };
   const test::Words triangle("--start 0.2s --exposure 0.4s --shutter triangle");
@@ -116,13 +104,10 @@ TEST_F(ShutterCommand, NormalizesAsItSays) {
         Case{{"--gain", "3"}, 0.3f}, Case{{"--ev", "2"}, 0.4f},
         Case{{"--normalize", "integral", "--ev", "-1", "--gain", "-3"}, -0.3f}}) {
     for (const std::string renderer : {"opencl", "reference"}) {
-      std::vector<std::string> words = triangle;
-      words.insert(words.end(), wanted.words.begin(), wanted.words.end());
-      words.insert(words.end(), {"--renderer", renderer, "clip.tik", "a.pfm"});
-      out(words);
+      out(triangle + wanted.words + "clip.tik a.pfm --renderer" + renderer);
       const std::vector<float> light = test::read_pfm(scratch_ / "a.pfm");
       ASSERT_EQ(light.size(), 2u);
-      EXPECT_FLOAT_EQ(light[0], wanted.light) << words.back();
+      EXPECT_FLOAT_EQ(light[0], wanted.light) << renderer;
       EXPECT_FLOAT_EQ(light[1], 2 * wanted.light);
     }
   }
@@ -136,10 +121,8 @@ TEST_F(ShutterCommand, NormalizesAsItSays) {
   out("-k f.fn -m mask.pgm --normalize absolute clip.tik a.pfm");
   EXPECT_FLOAT_EQ(test::read_pfm(scratch_ / "a.pfm")[0], -0.2f);
   scratch_.write("mask.pgm", "P2 2 1 255\n0 1\n");
-  const test::ProgramResult refused = test::run_here(
-      {"-k", "f.fn", "-m", "mask.pgm", "--normalize", "integral", "clip.tik", "b.pfm"}, scratch_.folder());
-  EXPECT_EQ(refused.status, 3);
-  expect_says(refused.err, "M0: the positive and negative parts of its gains cancel");
+  expect_refused({"-k", "f.fn", "-m", "mask.pgm", "--normalize", "integral", "clip.tik", "b.pfm"}, 3,
+                 "M0: the positive and negative parts of its gains cancel");
 }
 
 }  // namespace

@@ -5,23 +5,17 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "support/app_test.hpp"
-#include "support/tik_files.hpp"
 
 namespace nutik {
 namespace {
 
 using nlohmann::json;
-using test::ProgramResult;
 
 // Two pictures of linear light, codes 51 and 204. M0 exposes the first, M9 the second; M9 is the right half.
 class SoftMaskCommand : public test::AppTest {
  protected:
   void SetUp() override {
-    std::filesystem::create_directory(scratch_ / "frames");
-    for (const int k : {0, 1}) {
-      const cv::Mat picture(1, 6, CV_8UC1, cv::Scalar::all(k == 0 ? 51 : 204));
-      cv::imwrite((scratch_ / ("frames/" + std::to_string(k) + ".pgm")).string(), picture);
-    }
+    write_frames(2, [](int k) { return cv::Mat(1, 6, CV_8UC1, cv::Scalar::all(k == 0 ? 51 : 204)); });
     make("-f 100 --transfer linear frames clip.tik");
     cv::Mat mask(1, 6, CV_8UC1, cv::Scalar::all(0));
     mask.colRange(3, 6) = 9;
@@ -31,19 +25,13 @@ class SoftMaskCommand : public test::AppTest {
   }
 
   // An exposure's words: feathered by 2 pixels, unless others are wanted, and what stands behind them.
-  static std::vector<std::string> exposing(std::vector<std::string> behind,
-                                           const std::string& mask = "mask.pgm",
-                                           const std::string& feather = "2px") {
-    std::vector<std::string> words{"-k", "f.fn", "-m", mask, "--out-transfer", "source"};
-    if (!feather.empty()) words.insert(words.end(), {"--feather", feather});
-    words.insert(words.end(), behind.begin(), behind.end());
-    return words;
+  static test::Words exposing(const test::Words& behind, const std::string& mask = "mask.pgm",
+                              const std::string& feather = "2px") {
+    return "-k f.fn --out-transfer source -m " + mask + (feather.empty() ? "" : " --feather " + feather) + behind;
   }
   [[nodiscard]] std::vector<int> codes(const std::string& name) const {
-    const cv::Mat picture = cv::imread((scratch_ / name).string(), cv::IMREAD_UNCHANGED);
-    std::vector<int> codes;
-    for (int x = 0; x < picture.cols; ++x) codes.push_back(picture.at<std::uint8_t>(0, x));
-    return codes;
+    const cv::Mat read = picture(name);
+    return {read.begin<std::uint8_t>(), read.end<std::uint8_t>()};
   }
   void write_layer(const std::string& name, const std::vector<int>& codes) const {
     cv::Mat layer(1, static_cast<int>(codes.size()), CV_8UC1);
@@ -85,14 +73,11 @@ TEST_F(SoftMaskCommand, ReadsLayers) {
 }
 
 TEST_F(SoftMaskCommand, MakesLayersThatGiveTheSamePicture) {
-  const ProgramResult made = make(
-      "mask --size 6x1 --tag 9 --rectangle 3,0,3,1 --feather 2px -o soft-%d.png --preview preview.png "
-      "--json");
-  const json answer = json::parse(made.out);
-  EXPECT_EQ(answer["mixed_pixel_count"], 4);
-  EXPECT_EQ(answer["tags"][1]["layer"], "soft-9.png");
-  EXPECT_EQ(cv::imread((scratch_ / "soft-9.png").string(), cv::IMREAD_UNCHANGED).at<std::uint16_t>(0, 2),
-            21'845);
+  const json made =
+      answer("mask --size 6x1 --tag 9 --rectangle 3,0,3,1 --feather 2px -o soft-%d.png --preview preview.png");
+  EXPECT_EQ(made["mixed_pixel_count"], 4);
+  EXPECT_EQ(made["tags"][1]["layer"], "soft-9.png");
+  EXPECT_EQ(picture("soft-9.png").at<std::uint16_t>(0, 2), 21'845);
   make(exposing({"clip.tik", "feathered.pgm"}));
   make(exposing({"clip.tik", "layered.pgm"}, "soft-%d.png", ""));
   EXPECT_EQ(codes("layered.pgm"), codes("feathered.pgm"));
@@ -106,58 +91,42 @@ TEST_F(SoftMaskCommand, CarriesItsRecipe) {
   for (const std::string& mask : {std::string("mask.pgm"), std::string("soft-%d.png")}) {
     write_layer("soft-9.png", {0, 51, 102, 255, 255, 0});
     make(exposing({"clip.tik", "first.png"}, mask, mask == "mask.pgm" ? "1px,M9=2.5px" : ""));
-    const ProgramResult again = make("reproduce first.png");
-    EXPECT_NE(again.out.find(mask), std::string::npos) << again.out;
-    const std::string bytes = test::read_file(scratch_ / "first.png");
-    std::filesystem::remove(scratch_ / "first.png");
-    ASSERT_EQ(test::run_shell(again.out, scratch_.folder()).status, 0);
-    EXPECT_EQ(test::read_file(scratch_ / "first.png"), bytes);
+    expect_says(expect_made_again("first.png"), mask);
     // A layer that was changed since is another mask.
     if (mask == "mask.pgm") continue;
     write_layer("soft-9.png", {0, 51, 103, 255, 255, 0});
-    EXPECT_EQ(run("reproduce first.png").status, 3);
+    make("reproduce first.png", 3);
   }
 }
 
 TEST_F(SoftMaskCommand, TracesAPixelThroughAllItsFunctions) {
-  const ProgramResult trace =
-      make("trace --pixel 2,0 -k f.fn -m mask.pgm --feather 2px --out-transfer source clip.tik");
-  expect_says(trace.out,
+  expect_says(make("trace --pixel 2,0 -k f.fn -m mask.pgm --feather 2px --out-transfer source clip.tik").out,
               "clip.tik, pixel 2,0: light 0.4, code 102, of 2 functions\n"
               "  M0 (66.67 %): light 0.2;");
-  const json answer =
-      json::parse(make("trace --json --pixel 2,0 -k f.fn -m mask.pgm --feather 2px clip.tik").out);
-  EXPECT_NEAR(answer["light"][0], 0.4, 1e-7);  // gains change over a nanosecond
-  EXPECT_EQ(answer["functions"][1]["mask_value"], 9);
-  EXPECT_NEAR(answer["functions"][1]["share"], 1.0 / 3, 1e-12);
+  const json traced = answer("trace --pixel 2,0 -k f.fn -m mask.pgm --feather 2px clip.tik");
+  EXPECT_NEAR(traced["light"][0], 0.4, 1e-7);  // gains change over a nanosecond
+  EXPECT_EQ(traced["functions"][1]["mask_value"], 9);
+  EXPECT_NEAR(traced["functions"][1]["share"], 1.0 / 3, 1e-12);
   make("trace --pixel 2,0 -k f.fn -m mask.pgm --feather 2px clip.tik trace.csv");
   EXPECT_TRUE(test::read_file(scratch_ / "trace.csv").starts_with("mask_value,share,begin_ns,"));
   make("trace --pixel 2,0 -k f.fn -m mask.pgm --feather 2px clip.tik one.png");
   make("trace --pixel 0,0 -k f.fn -m mask.pgm --feather 2px clip.tik other.png");
-  EXPECT_EQ(cv::imread((scratch_ / "one.png").string()).rows,
-            2 * cv::imread((scratch_ / "other.png").string()).rows);
+  EXPECT_EQ(picture("one.png").rows, 2 * picture("other.png").rows);
 }
 
 TEST_F(SoftMaskCommand, IsKnownToOtherCommands) {
   const test::Words soft("-k f.fn -m mask.pgm --feather 2px");
-  const auto with = [&](std::vector<std::string> before, const std::vector<std::string>& behind) {
-    before.insert(before.end(), soft.begin(), soft.end());
-    before.insert(before.end(), behind.begin(), behind.end());
-    return before;
-  };
-  make(with({"check"}, {"clip.tik"}));
-  make(with({"validate", "--runs", "1"}, {"clip.tik"}));
-  make(with({"sweep", "--scale-gain", "1..2/1", "--each", "each-%d.pgm", "--out-transfer", "source"},
-            {"clip.tik", "sheet.png"}));
+  make("check" + soft + "clip.tik");
+  make("validate --runs 1" + soft + "clip.tik");
+  make("sweep --scale-gain 1..2/1 --each each-%d.pgm --out-transfer source" + soft + "clip.tik sheet.png");
   EXPECT_EQ(codes("each-0.pgm"), (std::vector<int>{51, 70, 102, 153, 185, 204}));
-  make(with({"video", "--out-fps", "50", "--out-transfer", "source"}, {"clip.tik", "filmed-%d.pgm"}));
+  make("video --out-fps 50 --out-transfer source" + soft + "clip.tik filmed-%d.pgm");
   EXPECT_EQ(codes("filmed-0.pgm"), codes("each-0.pgm"));
   scratch_.write("list.txt", "-k f.fn -m mask.pgm --feather 2px --out-transfer source listed.pgm\n");
   make("batch list.txt clip.tik");
   EXPECT_EQ(codes("listed.pgm"), codes("each-0.pgm"));
   write_layer("soft-9.png", {0, 51, 102, 255, 255, 0});
-  const ProgramResult check = make("check -k f.fn -m soft-%d.png clip.tik");
-  EXPECT_EQ(check.err, "");
+  EXPECT_EQ(make("check -k f.fn -m soft-%d.png clip.tik").err, "");
 }
 
 TEST_F(SoftMaskCommand, SaysWhatIsWrong) {

@@ -40,18 +40,14 @@ class Solve : public test::AppTest {
     scratch_.write("figure14.fn", kFigure14);
   }
 
-  [[nodiscard]] json solved(test::Words words) const {
-    words.insert(words.begin(), {"solve", "--json", "--overwrite"});
-    const auto result = make(words);
+  [[nodiscard]] json solved(const test::Words& words) const {
+    const auto result = make("solve --json --overwrite" + words);
     return result.status == 0 ? json::parse(result.out) : json();
   }
   // What the first wish got.
   [[nodiscard]] static double mean_light(const json& answer) { return answer["wishes"][0]["reached"][0]; }
   // The mean light of a rectangle of a picture of light.
-  [[nodiscard]] double mean(const char* name, const cv::Rect& at) const {
-    const cv::Mat picture = cv::imread((scratch_ / name).string(), cv::IMREAD_UNCHANGED);
-    return cv::mean(picture(at))[0];
-  }
+  [[nodiscard]] double mean(const char* name, const cv::Rect& at) const { return cv::mean(picture(name)(at))[0]; }
 };
 
 TEST_F(Solve, FindsThePapersGainForTheBallAtRest) {
@@ -98,8 +94,8 @@ TEST_F(Solve, ReachesConstructedWishes) {
 }
 
 TEST_F(Solve, ExposesRegionsAsTheyAreWished) {
-  ASSERT_EQ(run("mask --size 96x48 --tag 5 --rectangle 0,0,48,48 -o mask.pgm").status, 0);
-  ASSERT_EQ(run("mask --size 96x48 --tag 9 --ellipse 75,25,4,4 -o marks.pgm").status, 0);
+  make("mask --size 96x48 --tag 5 --rectangle 0,0,48,48 -o mask.pgm");
+  make("mask --size 96x48 --tag 9 --ellipse 75,25,4,4 -o marks.pgm");
   scratch_.write("two.fn",
                  "M0{[0:0], [1:a], [500000000:a], [500000001:0]}\nM5{[0:b], [1000000000:b], [1000000001:0]}");
   const json answer =
@@ -136,8 +132,7 @@ TEST_F(Solve, LooksForTimes) {
   scratch_.write("moved.fn", "M0{[when-1:0], [when:1], [when+10000000:1], [when+10000001:0]}");
   const test::Words words{"-k", "moved.fn", "--wish", "70,20,10,10 like 0.9s", "--wish", "10,20,10,10 like 0s..0.02s",
                           "clip.tik", "-o", "s.fn"};
-  test::Words by_picture = words + "--free when=0f..110f/1f";
-  const json steps = solved(by_picture);
+  const json steps = solved(words + "--free when=0f..110f/1f");
   EXPECT_EQ(steps["tried_exposures"], 111);
   EXPECT_GE(steps["times_ns"]["when"], 750'000'000);
   EXPECT_EQ(steps["times_ns"]["when"].get<std::int64_t>() % 10'000'000, 0);
@@ -181,11 +176,8 @@ TEST_F(Solve, SaysWhatMakesNoSense) {
   scratch_.write("plain.fn", "M0 [0:1], [1000000000:1], [1000000001:0]");
   scratch_.write("bad.fn", "M0 [0:a.b], [5:0]");
   scratch_.write("moved.fn", "M0{[when:1], [when+10000000:1], [when+10000001:0]}");
-  const std::string clip = "clip.tik";
-  const auto refused = [&](test::Words words, int status, std::string_view part) {
-    words.insert(words.begin(), "solve");
-    words.push_back(clip);
-    expect_refused(words, status, part);
+  const auto refused = [&](const test::Words& words, int status, std::string_view part) {
+    expect_refused("solve" + words + "clip.tik", status, part);
   };
   refused({"--wish", "all = 1"}, 2, "solve needs gain functions");
   refused({"-k", "figure14.fn"}, 2, "what is wished? Add --wish");

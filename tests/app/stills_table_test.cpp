@@ -21,12 +21,11 @@ TEST_F(StillsTableProgram, KeepsTheListedExposures) {
   scratch_.write("bright.pgm", flat(150));
   scratch_.write("stills.csv",
                 "file,start_ns,exposure_ns\ndark.pgm,7,10000000\nbright.pgm,40000007,10000000\n");
-  const test::ProgramResult encoded = make("--transfer linear stills.csv c.tik");
-  expect_says(encoded.out, "shutter 90 degrees (from the mean of the listed exposures)");
+  expect_says(make("--transfer linear stills.csv c.tik").out,
+              "shutter 90 degrees (from the mean of the listed exposures)");
   expect_says(make("info c.tik").out, "(irregular), shutter 90 degrees");
-  const auto code_of = [&](test::Words words) {
-    words.insert(words.end(), {"-q", "--out-transfer", "source", "p.pgm"});
-    make(words);
+  const auto code_of = [&](const test::Words& words) {
+    make(words + "-q --out-transfer source p.pgm");
     return static_cast<int>(test::read_all(*test::open_test_clip(scratch_ / "p.pgm")).front().front());
   };
   EXPECT_EQ(code_of({"--start", "0f", "--exposure", "1f", "c.tik"}), 50);
@@ -41,15 +40,9 @@ TEST_F(StillsTableProgram, KeepsTheListedExposures) {
   const int expected[] = {50, 67, 100, 133, 150};  // 50 + 100 · (1/6, 3/6, 5/6), rounded
   for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(static_cast<int>(frames[k].front()), expected[k]) << k;
 
-  const auto refused = test::run_program({"-a", "180", "stills.csv", "d.tik"}, scratch_.folder());
-  EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("stills.csv says how long each picture was exposed"), std::string::npos)
-      << refused.err;
+  expect_refused("-a 180 stills.csv d.tik", 2, "stills.csv says how long each picture was exposed");
   // What the table lists is an input, which no output replaces.
-  const auto replaced =
-      test::run_program({"--start", "0s", "--exposure", "1ms", "stills.csv", "dark.pgm"}, scratch_.folder());
-  EXPECT_EQ(replaced.status, 2);
-  EXPECT_NE(replaced.err.find("the output dark.pgm is also an input"), std::string::npos) << replaced.err;
+  expect_refused("--start 0s --exposure 1ms stills.csv dark.pgm", 2, "the output dark.pgm is also an input");
 }
 
 }  // namespace

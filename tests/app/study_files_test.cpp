@@ -11,39 +11,32 @@ namespace {
 
 class StudyFiles : public test::MovingSquareTest {
  protected:
-  [[nodiscard]] test::ProgramResult study(const char* output, const char* style = "trail") const {
-    return run({"study", "clip.tik", "--style", style, "-o", output});
+  test::ProgramResult study(const char* output, const char* style = "trail", int status = 0) const {
+    return make({"study", "clip.tik", "--style", style, "-o", output}, status);
   }
 };
 
 TEST_F(StudyFiles, AreReplacedWhereNobodyChangedThem) {
-  for (const char* style : {"trail", "strobe", "clean", "trail"}) {
-    const auto result = study("again.png", style);
-    EXPECT_EQ(result.status, 0) << style << ": " << result.err;
-  }
+  for (const char* style : {"trail", "strobe", "clean", "trail"}) study("again.png", style);
 }
 
 TEST_F(StudyFiles, AreKeptAsTheyWereChangedByHand) {
-  ASSERT_EQ(study("mine.png").status, 0);
+  study("mine.png");
   for (const char* name : {"mine.fn", "mine.pgm", "mine.txt"}) {
     const std::string written = file(name);
     std::string changed = written;
     changed[changed.size() / 2] ^= 1;
     scratch_.write(name, changed);
-    const auto refused = study("mine.png", "strobe");
-    EXPECT_EQ(refused.status, 2);
-    EXPECT_NE(
-        refused.err.find(std::string(name) + " was changed since its study was made; it is not replaced"),
-        std::string::npos)
-        << refused.err;
+    expect_says(study("mine.png", "strobe", 2).err,
+                std::string(name) + " was changed since its study was made; it is not replaced");
     EXPECT_EQ(file(name), changed);
     scratch_.write(name, written);
   }
   const std::string commands = file("mine.txt");
   scratch_.write("mine.txt", commands + "# mine\n");
-  expect_says(study("mine.png", "strobe").err, "mine.txt was changed");
+  expect_says(study("mine.png", "strobe", 2).err, "mine.txt was changed");
   scratch_.write("mine.txt", commands);
-  EXPECT_EQ(study("mine.png", "strobe").status, 0);
+  study("mine.png", "strobe");
 }
 
 TEST_F(StudyFiles, ReplaceNoneThatIsOfNoStudy) {
@@ -54,11 +47,7 @@ TEST_F(StudyFiles, ReplaceNoneThatIsOfNoStudy) {
        {std::pair("other.png", "other.pgm"), std::pair("notes.png", "notes.txt"),
         std::pair("light.png", "light.fn")}) {
     const std::string before = file(name);
-    const auto refused = study(picture);
-    EXPECT_EQ(refused.status, 2);
-    EXPECT_NE(refused.err.find(std::string(name) + " exists and is of no study; it is not replaced"),
-              std::string::npos)
-        << refused.err;
+    expect_says(study(picture, "trail", 2).err, std::string(name) + " exists and is of no study; it is not replaced");
     EXPECT_EQ(file(name), before);
     EXPECT_FALSE(std::filesystem::exists(scratch_ / picture));
   }
@@ -66,12 +55,11 @@ TEST_F(StudyFiles, ReplaceNoneThatIsOfNoStudy) {
 
 // Another picture's recipe and commands name them.
 TEST_F(StudyFiles, ReplaceNoneOfAnotherPicture) {
-  ASSERT_EQ(study("one.png").status, 0);
-  const auto refused = study("one.jpg");
-  EXPECT_EQ(refused.status, 2);
-  expect_says(refused.err, "one.pgm, one.fn and one.txt are those of one.png; they are not replaced");
+  study("one.png");
+  expect_says(study("one.jpg", "trail", 2).err,
+              "one.pgm, one.fn and one.txt are those of one.png; they are not replaced");
   std::filesystem::remove(scratch_ / "one.png");
-  EXPECT_EQ(study("one.jpg").status, 0);
+  study("one.jpg");
 }
 
 // Wherever a study is ended, the next one goes through; what was changed by hand since is still refused.
@@ -86,26 +74,24 @@ TEST_F(StudyFiles, AreReplacedByTheNextStudyWhereverOneEnds) {
         .status;
   };
   const std::vector<std::string> names{"s.fn", "s.pgm", "s.txt", "s.png"};
-  ASSERT_EQ(study("right.png", "strobe").status, 0);
+  study("right.png", "strobe");
   for (const bool is_first : {true, false}) {
     for (const auto& [call, error] : {std::pair("rename", "kill"), std::pair("rename", "28"),
                                       std::pair("fsync", "kill"), std::pair("write", "28")}) {
       int ended = 0;
       for (int at = 1;; ++at) {
         for (const std::string& name : names) std::filesystem::remove(scratch_ / name);
-        if (!is_first) {
-          ASSERT_EQ(study("s.png", "trail").status, 0);
-        }
+        if (!is_first) study("s.png", "trail");
         if (faulty(call, at, error, "strobe") == 0) break;
         ++ended;
         if (std::filesystem::exists(scratch_ / "s.pgm")) {
           const std::string written = file("s.pgm");
           scratch_.write("s.pgm", written + "mine");
-          EXPECT_EQ(study("s.png", "strobe").status, 2);
+          study("s.png", "strobe", 2);
           scratch_.write("s.pgm", written);
         }
-        const auto again = study("s.png", "strobe");
-        EXPECT_EQ(again.status, 0) << call << " " << at << " " << error << ": " << again.err;
+        SCOPED_TRACE(format("{} {} {}", call, at, error));
+        study("s.png", "strobe");
         EXPECT_TRUE(file("s.fn") == file("right.fn") && file("s.pgm") == file("right.pgm"));
         EXPECT_EQ(file("s.txt").find("not finished"), std::string::npos);
       }
@@ -116,7 +102,7 @@ TEST_F(StudyFiles, AreReplacedByTheNextStudyWhereverOneEnds) {
 
 TEST_F(StudyFiles, HaveCommandsThatRunWhateverTheClipIsCalled) {
   std::filesystem::copy_file(scratch_ / "clip.tik", scratch_ / "-clip.tik");
-  const auto result = make("study -- -clip.tik");
+  make("study -- -clip.tik");
   const std::string picture = file("-clip-study.png");
   std::filesystem::remove(scratch_ / "-clip-study.png");
   const std::string folder = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path().string();
@@ -134,7 +120,6 @@ TEST_F(StudyFiles, HaveCommandsThatRunWhateverTheClipIsCalled) {
 TEST_F(StudyFiles, AreNoneBesideStandardOutput) {
   for (const char* style : {"trail", "clean"}) {
     const auto result = study("-", style);
-    ASSERT_EQ(result.status, 0) << result.err;
     EXPECT_TRUE(result.out.starts_with("\x89PNG")) << style;
     for (const char* name : {"-.pgm", "-.fn", "-.txt"})
       EXPECT_FALSE(std::filesystem::exists(scratch_ / name)) << name;

@@ -33,9 +33,8 @@ class StudyStyles : public test::StudyTest {
   static int left(int picture) { return 4 + 7 * (picture - kEmpty); }
 
   // By how much the study differs from the scene without the square.
-  [[nodiscard]] cv::Mat difference(test::Words words) const {
-    words.insert(words.begin(), {"study", "-f", "100", "way", "-o", "styled.png"});
-    const auto result = make(words);
+  [[nodiscard]] cv::Mat difference(const test::Words& words) const {
+    make("study -f 100 way -o styled.png" + words);
     cv::Mat difference;
     cv::subtract(picture("styled.png"), ground_of(7), difference, {}, CV_16S);
     return difference;
@@ -93,16 +92,9 @@ TEST_F(StudyStyles, JoinTheTrailBetweenPictures) {
       EXPECT_LE(cv::norm(picture("made.png")(inner), drawn(moment, wide)(inner), cv::NORM_INF), 1) << moment;
     }
     const std::string by_hand = file("made.txt");
-    EXPECT_NE(by_hand.find(between == std::string_view() ? format("--between auto:0f..{}f", last) : "--between auto"),
-              std::string::npos)
-        << by_hand;
+    expect_says(by_hand, between == std::string_view() ? format("--between auto:0f..{}f", last) : "--between auto");
     EXPECT_EQ(by_hand.find("--between"), by_hand.rfind("--between")) << "of the picture, not of the mask:\n" << by_hand;
-    // Made again by what it says, byte for byte.
-    const std::string made = file("made.png");
-    std::string again = make("reproduce made.png").out;
-    again.erase(again.find_last_not_of('\n') + 1);
-    EXPECT_EQ(test::run_shell(again + " --overwrite", scratch_.folder()).status, 0) << again;
-    EXPECT_EQ(file("made.png"), made);
+    expect_made_again("made.png");
   }
   // A scene in which nothing goes anywhere is one long exposure, with samples between its pictures or without.
   DrawnClip still(scratch_ / "still");
@@ -181,8 +173,7 @@ TEST_F(StudyStyles, AreBlendedAsFarAsIsStated) {
   EXPECT_NEAR(wide, narrow / 2, narrow / 10);
   for (const auto& [style, feather] : {std::pair("trail", "6px"), std::pair("trail", "0px"),
                                        std::pair("trail", "3.51px"), std::pair("slit", "M1=4px")}) {
-    const auto result = make({"study", "-f", "100", "way", "--moments", "2", "--style", style, "--feather",
-                              feather, "-o", "study.png"});
+    make({"study", "-f", "100", "way", "--moments", "2", "--style", style, "--feather", feather, "-o", "study.png"});
     expect_the_same_by_hand(std::string(style) + " " + feather);
   }
   for (const auto& [words, why] :
@@ -190,10 +181,7 @@ TEST_F(StudyStyles, AreBlendedAsFarAsIsStated) {
         std::pair("--feather M1=6px", "the feather of a study is one width"),
         std::pair("--style clean --feather 6px", "--feather says nothing to --style clean"),
         std::pair("--style slit --by 6", "--by says nothing to --style slit")}) {
-    const test::Words all = "study -f 100 way -o no.png" + test::Words(words);
-    const auto refused = run(all);
-    EXPECT_EQ(refused.status, 2) << why;
-    EXPECT_NE(refused.err.find(why), std::string::npos) << refused.err;
+    expect_refused("study -f 100 way -o no.png" + test::Words(words), 2, why);
   }
 }
 
@@ -206,29 +194,18 @@ TEST_F(StudyChoices, FindsWhatDiffersByAsMuchAsIsStated) {
     frame(square) += 10;
     clip.add(frame);
   }
-  const auto study = [&](test::Words words) {
-    words.insert(words.begin(), {"study", "-f", "100", "faint", "-o", "study.png"});
-    return run(words);
-  };
-  const auto unseen = study({});
-  EXPECT_EQ(unseen.status, 0);
+  const test::Words study("study -f 100 faint -o study.png");
+  const auto unseen = make(study);
   expect_mean_of_all("-f 100 faint", 20, "study");
-  EXPECT_NE(unseen.err.find(
-                "nothing moves: no part of it differs from the rest of the time by more than 16 codes"),
-            std::string::npos)
-      << unseen.err;
-  const auto found = study({"--by", "6", "--moments", "2f,15f"});
-  ASSERT_EQ(found.status, 0) << found.err;
+  expect_says(unseen.err, "nothing moves: no part of it differs from the rest of the time by more than 16 codes");
+  make(study + "--by 6 --moments 2f,15f");
   const cv::Mat mask = picture("study.pgm");
   EXPECT_EQ(cv::countNonZero(mask(cv::Rect(4 + 7 * 2, 40, 12, 12)) != 1), 0);
   EXPECT_EQ(cv::countNonZero(mask(cv::Rect(4 + 7 * 15, 40, 12, 12)) != 2), 0);
   expect_the_same_by_hand("--by 6");
-  const auto none = study({"--by", "255"});
-  EXPECT_EQ(none.status, 2);
-  expect_says(none.err, "faint: no codes differ by more than 255, for white is 255; state fewer codes");
-  const auto zero = study({"--by", "0"});
-  EXPECT_EQ(zero.status, 2);
-  expect_says(zero.err, "--by '0'");
+  expect_refused(2,
+                 {{study + "--by 255", "faint: no codes differ by more than 255, for white is 255; state fewer codes"},
+                  {study + "--by 0", "--by '0'"}});
 }
 
 }  // namespace

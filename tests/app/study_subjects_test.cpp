@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "support/app_test.hpp"
@@ -27,19 +26,16 @@ class StudySubjects : public test::AppTest {
       drawn.add(frame);
     }
   }
-  [[nodiscard]] test::ProgramResult study(const char* clip, std::vector<std::string> words) const {
-    words.insert(words.begin(), {"study", "-f", "100", clip, "-o", "study.png"});
-    return run(words);
+  test::ProgramResult study(const char* clip, const test::Words& words, int status = 0) const {
+    return make(test::Words{"study", "-f", "100", clip, "-o", "study.png"} + words, status);
   }
-  [[nodiscard]] cv::Mat picture() const {
-    return cv::imread((scratch_ / "study.png").string(), cv::IMREAD_UNCHANGED);
+  [[nodiscard]] nlohmann::json moments_of(const char* clip, const test::Words& words) const {
+    return nlohmann::json::parse(study(clip, words + "--json").out)["moments"];
   }
   void expect_moments_before(int sample, const char* clip) const {
-    const auto result = study(clip, {"--style", "strobe", "--moments", "3", "--json"});
-    ASSERT_EQ(result.status, 0) << result.err;
-    const auto moments = nlohmann::json::parse(result.out)["moments"];
-    EXPECT_GE(moments.size(), 2u) << result.out;
-    for (const auto& moment : moments) EXPECT_LT(moment["sample"].get<int>(), sample) << result.out;
+    const auto moments = moments_of(clip, "--style strobe --moments 3");
+    EXPECT_GE(moments.size(), 2u) << moments;
+    for (const auto& moment : moments) EXPECT_LT(moment["sample"].get<int>(), sample) << moments;
   }
   // Two squares, one above the other, on opposite ways.
   void draw_two() const {
@@ -51,10 +47,7 @@ class StudySubjects : public test::AppTest {
   static cv::Rect upper(int k) { return {4 + 7 * k, 20, 12, 12}; }
   static cv::Rect lower(int k) { return {140 - 7 * k, 64, 12, 12}; }
 
-  static std::vector<std::string> in_both(test::Words words) {
-    words.insert(words.end(), {"--region", "0,0,160,48", "--region", "0,48,160,48"});
-    return words;
-  }
+  static test::Words in_both(const test::Words& words) { return words + "--region 0,0,160,48 --region 0,48,160,48"; }
 };
 
 // A thing that rests for half of the time is in the plate, and what it leaves behind is no ground to be taken away:
@@ -63,18 +56,16 @@ TEST_F(StudySubjects, MayRestBeforeTheyGo) {
   const cv::Rect rest(20, 40, 14, 14);
   draw("kick", 40, [&](cv::Mat& frame, int k) { frame(rest + cv::Point(8 * std::max(0, k - 24), 0)) = 250; });
   for (const char* style : {"trail", "rear-curtain", "strobe"}) {
-    const auto result = study("kick", {"--style", style, "--overwrite"});
-    ASSERT_EQ(result.status, 0) << result.err;
-    expect_says(result.out, "no pixel saturated");
-    const cv::Mat ground = ground_of(7), shown = picture();
+    expect_says(study("kick", {"--style", style, "--overwrite"}).out, "no pixel saturated");
+    const cv::Mat ground = ground_of(7), shown = picture("study.png");
     EXPECT_LE(cv::norm(shown(rest), ground(rest), cv::NORM_INF), 40) << style;  // and some trail
   }
-  const cv::Mat mask = cv::imread((scratch_ / "study.pgm").string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat mask = picture("study.pgm");
   double moments = 0;
   cv::minMaxLoc(mask, nullptr, &moments);
   EXPECT_EQ(moments, 5);
   for (int tag = 1; tag <= static_cast<int>(moments); ++tag) {
-    EXPECT_GE(cv::countNonZero((mask == tag) & (picture() > 240)), 190) << tag;  // of 196, but for corners
+    EXPECT_GE(cv::countNonZero((mask == tag) & (picture("study.png") > 240)), 190) << tag;  // of 196, but for corners
   }
 }
 
@@ -84,24 +75,19 @@ TEST_F(StudySubjects, LeaveNoneOfThemselvesInTheEmptyScene) {
     frame(cv::Rect(4 + 3 * k, 56, 24, 24)) = 250;
     frame(cv::Rect(4 + 7 * k, 12, 8, 8)) = 250;
   });
-  const auto result = study("two speeds", {"--style", "strobe"});
-  ASSERT_EQ(result.status, 0) << result.err;
-  expect_says(result.out, "subject 2 at");
+  expect_says(study("two speeds", "--style strobe").out, "subject 2 at");
   cv::Mat regions, difference;
-  cv::dilate(cv::imread((scratch_ / "study.pgm").string(), cv::IMREAD_UNCHANGED), regions, cv::Mat::ones(7, 7, CV_8U));
-  cv::absdiff(picture(), ground_of(7), difference);
+  cv::dilate(picture("study.pgm"), regions, cv::Mat::ones(7, 7, CV_8U));
+  cv::absdiff(picture("study.png"), ground_of(7), difference);
   EXPECT_EQ(cv::countNonZero((difference > 2) & (regions == 0)), 0);
 }
 
 // Their moments are the same samples.
 TEST_F(StudySubjects, MayShareTheirMoments) {
   draw_two();
-  for (const auto& words : {std::vector<std::string>{"--style", "strobe", "--moments", "3"},
-                            std::vector<std::string>{"--trail", "none", "--moments", "0.02s,0.1s,0.17s"}}) {
-    const auto result = study("two", in_both(words));
-    ASSERT_EQ(result.status, 0) << result.err;
-    const cv::Mat mask = cv::imread((scratch_ / "study.pgm").string(), cv::IMREAD_UNCHANGED),
-                  shown = picture();
+  for (const char* words : {"--style strobe --moments 3", "--trail none --moments 0.02s,0.1s,0.17s"}) {
+    study("two", in_both(words));
+    const cv::Mat mask = picture("study.pgm"), shown = picture("study.png");
     for (int tag = 1; tag <= 6; ++tag) {
       const cv::Mat values = shown.clone().setTo(128, mask != tag);
       double least = 0, most = 0;
@@ -113,47 +99,39 @@ TEST_F(StudySubjects, MayShareTheirMoments) {
 
 TEST_F(StudySubjects, AreNamedWithTheirMoments) {
   draw_two();
-  const auto told = study("two", in_both("--moments 1f,17f"));
-  ASSERT_EQ(told.status, 0) << told.err;
-  expect_says(told.out, "subject 1 at 10 ms (1f), 170 ms (17f); subject 2 at 10 ms (1f), 170 ms (17f)");
-  const auto result = study("two", in_both("--moments 1f,17f --json"));
-  const auto moments = nlohmann::json::parse(result.out)["moments"];
+  expect_says(study("two", in_both("--moments 1f,17f")).out,
+              "subject 1 at 10 ms (1f), 170 ms (17f); subject 2 at 10 ms (1f), 170 ms (17f)");
+  const auto moments = moments_of("two", in_both("--moments 1f,17f"));
   ASSERT_EQ(moments.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(moments[i]["mask"], i + 1);
     EXPECT_EQ(moments[i]["subject"], i / 2 + 1);
     EXPECT_EQ(moments[i]["sample"], i % 2 == 0 ? 1 : 17);
   }
-  const auto few = study("two", in_both("--moments 13"));
-  ASSERT_EQ(few.status, 0) << few.err;
-  for (const char* each : {"subject 1: ", "subject 2: "}) {
-    EXPECT_NE(few.err.find(std::string("note: ") + each), std::string::npos) << few.err;
-  }
+  expect_says(study("two", in_both("--moments 13")).err, {"note: subject 1: ", "note: subject 2: "});
 }
 
 TEST_F(StudySubjects, AreTwoThingsNotOne) {
   draw("one", 20, [](cv::Mat& frame, int k) { frame(upper(k)) = 250; });
-  const auto refused = study("one", {"--region", "0,0,100,96", "--region", "40,0,120,96"});
-  EXPECT_EQ(refused.status, 3);
-  expect_says(refused.err, "region 0,0,100,96 and region 40,0,120,96 overlap, and hold the same subject");
+  expect_says(study("one", "--region 0,0,100,96 --region 40,0,120,96", 3).err,
+              "region 0,0,100,96 and region 40,0,120,96 overlap, and hold the same subject");
 }
 
 TEST_F(StudySubjects, LeaveNoOtherUnmentioned) {
   draw_two();
-  const auto two = study("two", {"--moments", "3"});
-  ASSERT_EQ(two.status, 0) << two.err;
-  expect_says(two.err, "2 subjects are shown: another thing goes its way at the same time, within ");
-  expect_says(two.err, ". Name a region to show what moves in it");
-  const cv::Mat shown = cv::imread((scratch_ / "study.pgm").string(), cv::IMREAD_UNCHANGED);
+  expect_says(study("two", "--moments 3").err,
+              {"2 subjects are shown: another thing goes its way at the same time, within ",
+               ". Name a region to show what moves in it"});
+  const cv::Mat shown = picture("study.pgm");
   const auto is_above = [&](int tag) { return cv::countNonZero(shown(cv::Rect(0, 0, 160, 48)) == tag) > 0; };
   for (int tag = 1; tag <= 6; ++tag) {  // three of each
     EXPECT_EQ(is_above(tag), is_above(tag <= 3 ? 1 : 4)) << tag;
     EXPECT_GE(cv::countNonZero(shown == tag), 12 * 12) << tag;
   }
   EXPECT_NE(is_above(1), is_above(4));
-  const auto one_of_two = study("two", {"--style", "frozen"});
-  expect_says(one_of_two.err, "one subject is shown, and another thing goes its way at the same time, within ");
-  expect_says(one_of_two.err, ". Name a region for each of them to show both, or take the style trail or strobe");
+  expect_says(study("two", "--style frozen").err,
+              {"one subject is shown, and another thing goes its way at the same time, within ",
+               ". Name a region for each of them to show both, or take the style trail or strobe"});
   draw("crossing", 20, [](cv::Mat& frame, int k) {
     frame(cv::Rect(4 + 7 * k, 8 + 3 * k, 12, 12)) = 250;
     frame(cv::Rect(140 - 7 * k, 80 - 2 * k, 12, 12)) = 5;
@@ -161,17 +139,14 @@ TEST_F(StudySubjects, LeaveNoOtherUnmentioned) {
   expect_says(study("crossing", {"--moments", "3"}).err,
               ". Their ways overlap, so no region holds one alone: take a part of the time in which they lie apart");
   draw("one", 20, [](cv::Mat& frame, int k) { frame(upper(k)) = 250; });
-  const auto one = study("one", {"--moments", "3"});
-  ASSERT_EQ(one.status, 0) << one.err;
+  const auto one = study("one", "--moments 3");
   EXPECT_EQ(one.err.find("another thing"), std::string::npos) << one.err;
   draw("lesser", 20, [](cv::Mat& frame, int k) {
     frame(upper(k)) = 250;
     frame(lower(0) - cv::Point(2 * k, 0)) = 250;
   });
-  const auto lesser = study("lesser", {"--moments", "3"});
-  ASSERT_EQ(lesser.status, 0) << lesser.err;
-  expect_says(lesser.err, "another thing goes its way and is not shown, within ");
-  expect_says(lesser.err, ". Name a region to show what moves in it");
+  expect_says(study("lesser", "--moments 3").err,
+              {"another thing goes its way and is not shown, within ", ". Name a region to show what moves in it"});
 }
 
 // A bright square in a soft shadow that is wider than it. Beside the square lies its trail, dimmed as the ground is; the
@@ -194,12 +169,11 @@ TEST_F(StudySubjects, CastTheirShadowsOnTheirTrails) {
     clip.add(frame);
   }
   const auto shown_at = [&](const char* moments) {
-    const auto result = study("shadow", {"--moments", moments});
-    EXPECT_EQ(result.status, 0) << result.err;
-    return picture();
+    study("shadow", {"--moments", moments});
+    return picture("study.png");
   };
   const cv::Mat at_10 = shown_at("10f,30f"), at_20 = shown_at("20f,30f");
-  const cv::Mat mask = cv::imread((scratch_ / "study.pgm").string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat mask = picture("study.pgm");
   for (const int y : {kTop + 5, kTop + 10, kTop + 15}) {
     for (int x = left(10); x < left(10) + kSide; ++x) {
       ASSERT_NEAR(at_10.at<std::uint8_t>(y, x), 240, 2) << x << ", " << y;
@@ -221,10 +195,9 @@ TEST_F(StudySubjects, CastTheirShadowsOnTheirTrails) {
 // The region is empty while the square is elsewhere: no scene to be taken away.
 TEST_F(StudySubjects, LeaveNothingDarkOutsideOfTheirRegion) {
   draw("one", 40, [](cv::Mat& frame, int k) { frame(cv::Rect(4 + 7 * k / 2, 20, 12, 12)) = 250; });
-  const auto result = study("one", {"--region", "60,0,40,96", "--moments", "1"});
-  ASSERT_EQ(result.status, 0) << result.err;
+  study("one", "--region 60,0,40,96 --moments 1");
   cv::Mat difference;
-  cv::subtract(picture(), ground_of(7), difference, {}, CV_16S);
+  cv::subtract(picture("study.png"), ground_of(7), difference, {}, CV_16S);
   double darkest = 0;
   cv::minMaxLoc(difference, &darkest);
   EXPECT_GE(darkest, -2);
@@ -240,15 +213,11 @@ TEST_F(StudySubjects, AreNotShownWithHolesOfThePlate) {
   }
   const std::string why = "the scene at rest shows the subject, too";
   for (const char* style : {"frozen", "rear-curtain"}) {
-    const auto without = study("slow", {"--style", style});
-    EXPECT_EQ(without.status, 0) << style;
-    EXPECT_NE(without.err.find(why), std::string::npos) << without.err;
-    expect_says(without.err, "So the picture exposes all of the time and shows no moments");
-    EXPECT_EQ(cv::countNonZero(cv::imread((scratch_ / "study.pgm").string(), cv::IMREAD_UNCHANGED)), 0);
+    expect_says(study("slow", {"--style", style}).err,
+                {why, "So the picture exposes all of the time and shows no moments"});
+    EXPECT_EQ(cv::countNonZero(picture("study.pgm")), 0);
   }
-  const auto named = study("slow", {"--moments", "0f,9f"});
-  EXPECT_EQ(named.status, 0);
-  EXPECT_NE(named.err.find("note: " + why), std::string::npos) << named.err;
+  expect_says(study("slow", "--moments 0f,9f").err, "note: " + why);
 }
 
 // A square that is there for a third of the time.
@@ -256,13 +225,10 @@ TEST_F(StudySubjects, MayBeShownStillWhereTheyGoNowhere) {
   draw("comes", 30, [](cv::Mat& frame, int k) {
     if (k >= 10 && k < 20) frame(cv::Rect(40, 30, 24, 24)) = 250;
   });
-  const auto frozen = study("comes", {"--style", "frozen"});
-  ASSERT_EQ(frozen.status, 0) << frozen.err;
-  EXPECT_EQ(picture().at<std::uint8_t>(42, 52), 250);
-  const auto usual = study("comes", {});
-  EXPECT_EQ(usual.status, 0);
-  expect_says(usual.err, "It comes and goes in its place. So a single moment of it is shown");
-  EXPECT_EQ(picture().at<std::uint8_t>(42, 52), 250);
+  study("comes", "--style frozen");
+  EXPECT_EQ(picture("study.png").at<std::uint8_t>(42, 52), 250);
+  expect_says(study("comes", {}).err, "It comes and goes in its place. So a single moment of it is shown");
+  EXPECT_EQ(picture("study.png").at<std::uint8_t>(42, 52), 250);
 }
 
 // All are exposed as the first one is.
@@ -271,11 +237,11 @@ TEST_F(StudySubjects, AreNotAsDarkAsAFadeBegins) {
     frame(cv::Rect(4 + 4 * k, 40, 16, 16)) = 250;
     frame *= std::min(0.4 + 0.1 * k, 1.0);
   });
-  const auto result = study("fades", {"--json"});
-  ASSERT_EQ(result.status, 0) << result.err;
+  const auto result = study("fades", "--json");
   expect_says(result.out + result.err, "those before 6 were left out");
   expect_says(file("study.txt"), " --from 6f --to 30f");
-  EXPECT_NEAR(cv::mean(picture()(cv::Rect(0, 0, 160, 20)))[0], cv::mean(ground_of(7)(cv::Rect(0, 0, 160, 20)))[0], 3);
+  EXPECT_NEAR(cv::mean(picture("study.png")(cv::Rect(0, 0, 160, 20)))[0],
+              cv::mean(ground_of(7)(cv::Rect(0, 0, 160, 20)))[0], 3);
 }
 
 // It goes behind something: of 16 columns 10 are seen at 18, and 4 at the last.
@@ -284,17 +250,13 @@ TEST_F(StudySubjects, EndARearCurtainAsAWhole) {
     const int left = 4 + 6 * k, right = std::min(left + 16, 122);
     if (right > left) frame(cv::Rect(left, 40, right - left, 16)) = 250;
   });
-  const auto result = study("hides", {"--style", "rear-curtain", "--json"});
-  ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(nlohmann::json::parse(result.out)["moments"][0]["sample"], 18);
+  EXPECT_EQ(moments_of("hides", "--style rear-curtain")[0]["sample"], 18);
 }
 
 TEST_F(StudySubjects, MayBeTiny) {
   draw("tiny", 20, [](cv::Mat& frame, int k) { frame(cv::Rect(4 + 7 * k, 40, 3, 3)) = 250; });
   expect_moments_before(20, "tiny");
-  const auto frozen = study("tiny", {"--style", "frozen", "--json"});
-  ASSERT_EQ(frozen.status, 0) << frozen.err;
-  EXPECT_EQ(nlohmann::json::parse(frozen.out)["moments"].size(), 1u) << frozen.out;
+  EXPECT_EQ(moments_of("tiny", "--style frozen").size(), 1u);
 }
 
 // A block stands for most of the time, so that the background has it: a hole stays while it is gone, until something is

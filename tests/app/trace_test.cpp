@@ -1,6 +1,7 @@
 // nutik-cl trace as a user meets it: figures worked out by hand, tables, pictures, the reference's value.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
@@ -17,13 +18,11 @@ using test::ProgramResult;
 class TraceCommand : public test::AppTest {
  protected:
   void SetUp() override {
-    std::filesystem::create_directory(scratch_ / "frames");
-    const int codes[] = {51, 102, 102, 204};
-    for (int k = 0; k < 4; ++k) {
-      cv::Mat picture(6, 8, CV_8UC1, cv::Scalar::all(codes[k]));
+    write_frames(4, [](int k) {
+      cv::Mat picture(6, 8, CV_8UC1, cv::Scalar::all(std::array{51, 102, 102, 204}[static_cast<std::size_t>(k)]));
       picture.colRange(4, 8) = 153;
-      cv::imwrite((scratch_ / ("frames/" + std::to_string(k) + ".pgm")).string(), picture);
-    }
+      return picture;
+    });
     make("-f 100 --transfer linear frames clip.tik");
     cv::Mat mask(6, 8, CV_8UC1, cv::Scalar::all(0));
     mask.colRange(2, 6) = 9;  // half of it over each half of the picture
@@ -84,22 +83,19 @@ TEST_F(TraceCommand, ARegionsMeanAsJson) {
 
 TEST_F(TraceCommand, ItsLightIsTheReferencesPixel) {
   make("--renderer reference -m mask.pgm -k f.fn clip.tik reference.pfm");
-  const cv::Mat picture = cv::imread((scratch_ / "reference.pfm").string(), cv::IMREAD_UNCHANGED);
-  ASSERT_EQ(picture.type(), CV_32FC1);
+  const cv::Mat reference = picture("reference.pfm");
+  ASSERT_EQ(reference.type(), CV_32FC1);
   for (const auto& [x, y] : {std::pair{0, 0}, {3, 2}, {5, 5}, {7, 1}}) {
-    const ProgramResult result =
-        make({"trace", "--json", "--pixel", std::to_string(x) + "," + std::to_string(y), "-m", "mask.pgm",
-              "-k", "f.fn", "clip.tik"});
-    const json trace = json::parse(result.out);
+    const std::string pixel = std::to_string(x) + "," + std::to_string(y);
+    const json trace = answer("trace -m mask.pgm -k f.fn clip.tik --pixel " + pixel);
     EXPECT_EQ(trace.at("x"), x);
-    EXPECT_EQ(static_cast<float>(trace.at("light")[0].get<double>()), picture.at<float>(y, x));
+    EXPECT_EQ(static_cast<float>(trace.at("light")[0].get<double>()), reference.at<float>(y, x));
   }
 }
 
 TEST_F(TraceCommand, AClipIsTracedAsItsCapture) {
-  const test::Words what("--pixel 3,2 --start 5ms --exposure 20ms");
-  test::Words words = "trace -f 100 --transfer linear frames" + what;
-  expect_says(make(words).out, "frames, pixel 3,2, the exposure: light 0.35,");
+  expect_says(make("trace -f 100 --transfer linear frames --pixel 3,2 --start 5ms --exposure 20ms").out,
+              "frames, pixel 3,2, the exposure: light 0.35,");
 }
 
 TEST_F(TraceCommand, LongRunsAreFoldedUnlessAllIsWanted) {
@@ -114,15 +110,13 @@ TEST_F(TraceCommand, LongRunsAreFoldedUnlessAllIsWanted) {
   expect_says(folded, "(36 steps)");  // of 40, without two at each end
   expect_says(folded, "(10 steps)");  // where the gain is 0
   EXPECT_EQ(std::count(folded.begin(), folded.end(), '\n'), 1 + 5 + 1 + 1);
-  std::vector<std::string> all = words;
-  all.push_back("-v");
-  const std::string whole = make(all).out;
+  const std::string whole = make(words + "-v").out;
   EXPECT_EQ(std::count(whole.begin(), whole.end(), '\n'), 1 + 50 + 1);
 }
 
 TEST_F(TraceCommand, APicture) {
-  const ProgramResult result = make("trace --tag 9 -m mask.pgm -k f.fn clip.tik trace.png");
-  expect_says(result.out, "trace.png: clip.tik, mean of 24 pixels with mask value 9, M9: light 0.525,");
+  expect_says(make("trace --tag 9 -m mask.pgm -k f.fn clip.tik trace.png").out,
+              "trace.png: clip.tik, mean of 24 pixels with mask value 9, M9: light 0.525,");
   const cv::Mat picture = cv::imread((scratch_ / "trace.png").string(), cv::IMREAD_COLOR);
   ASSERT_FALSE(picture.empty());
   // Gains are above 0 everywhere: blue areas, no orange ones.

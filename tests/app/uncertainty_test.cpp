@@ -37,7 +37,7 @@ class UncertaintyOf : public test::AppTest {
     const std::string bytes = test::read_file(scratch_ / name);
     std::vector<std::vector<float>> layers(count, std::vector<float>(256));
     const std::size_t values = bytes.size() - count * 256 * sizeof(float);
-    EXPECT_NE(bytes.substr(0, values).find("(" + std::to_string(count) + ", 16, 16)"), std::string::npos);
+    expect_says(bytes.substr(0, values), "(" + std::to_string(count) + ", 16, 16)");
     for (std::size_t layer = 0; layer < count; ++layer)
       std::memcpy(layers[layer].data(), bytes.data() + values + layer * 256 * sizeof(float), 256 * sizeof(float));
     return layers;

@@ -7,8 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "support/program.hpp"
-#include "support/scratch.hpp"
+#include "support/app_test.hpp"
 #include "support/still_clip.hpp"
 
 namespace nutik {
@@ -17,49 +16,36 @@ namespace {
 using nlohmann::json;
 using test::ProgramResult;
 
-const std::vector<std::string> kInterval{"--start", "0s", "--exposure", "100ms"};
+const test::Words kInterval("--start 0s --exposure 100ms");
 
-class Validate : public testing::Test {
+class Validate : public test::AppTest {
  protected:
   void SetUp() override {
     test::write_still_clip(scratch_.folder(), 24, 20);
-    ASSERT_EQ(run({"-q", "encode", "-f", "100", "--tolerance", "4", "frames", "clip.tik"}).status, 0);
+    make("-q encode -f 100 --tolerance 4 frames clip.tik");
   }
 
-  ProgramResult run(const std::vector<std::string>& words,
-                    const std::vector<std::string>& settings = {}) const {
-    return test::run_program(words, scratch_.folder(), settings);
+  // In a process of its own.
+  ProgramResult run(const test::Words& words, int status = 0, const std::vector<std::string>& settings = {}) const {
+    ProgramResult result = test::run_program(words, scratch_.folder(), settings);
+    EXPECT_EQ(result.status, status) << result.out << result.err;
+    return result;
   }
   // validate of the interval, with more words.
-  ProgramResult validate(std::vector<std::string> words,
+  ProgramResult validate(const test::Words& words, int status = 0,
                          const std::vector<std::string>& settings = {}) const {
-    words.insert(words.begin(), "validate");
-    words.insert(words.end(), kInterval.begin(), kInterval.end());
-    return run(words, settings);
+    return run("validate" + words + kInterval, status, settings);
   }
-  json json_of(std::vector<std::string> words) const {
-    words.emplace_back("--json");
-    const ProgramResult result = validate(std::move(words));
-    EXPECT_EQ(result.status, 0) << result.err;
-    return json::parse(result.out);
+  json json_of(const test::Words& words) const { return json::parse(validate(words + "--json").out); }
+  void expect_refused(const test::Words& words, int status, std::string_view part) const {
+    expect_says(validate(words, status).err, part);
   }
-  void expect_refused(const std::vector<std::string>& words, int status, std::string_view part) const {
-    const ProgramResult result = validate(words);
-    EXPECT_EQ(result.status, status) << result.err;
-    EXPECT_NE(result.err.find(part), std::string::npos) << "no '" << part << "' in: " << result.err;
-  }
-
-  test::Scratch scratch_;
 };
 
 TEST_F(Validate, ShowsEveryArithmeticAndMarksTheChosenOne) {
-  const ProgramResult result = validate({"clip.tik"});
-  EXPECT_EQ(result.status, 0) << result.err;
-  for (const char* part : {"clip.tik: 24 x 24 grey, 10 of 20 samples, as 8-bit codes; medians of 5 on ",
-                           "\n*  single", "\n   fixed", "\n   compensated", "\n   reference",
-                           "\n* what --precision auto takes: light within "}) {
-    EXPECT_NE(result.out.find(part), std::string::npos) << "no '" << part << "' in: " << result.out;
-  }
+  expect_says(validate("clip.tik").out,
+              {"clip.tik: 24 x 24 grey, 10 of 20 samples, as 8-bit codes; medians of 5 on ", "\n*  single",
+               "\n   fixed", "\n   compensated", "\n   reference", "\n* what --precision auto takes: light within "});
 }
 
 TEST_F(Validate, AnswersInJson) {
@@ -96,11 +82,8 @@ TEST_F(Validate, TakesMasksFunctionsAndClips) {
   scratch_.write("f.fn",
                  "M0 [0:0], [50000000:1], [100000000:0]\nM7 [0:1e4], [99999999:1e4], [100000000:-9e3], "
                  "[200000000:-9e3]\n");
-  const ProgramResult result =
-      run({"validate", "--json", "-m", "mask.pgm", "-k", "f.fn", "-f", "100", "frames"});
-  EXPECT_EQ(result.status, 0) << result.err;
-  const json answer = json::parse(result.out);
-  for (const json& variant : answer["variants"]) {
+  const json told = json::parse(run("validate --json -m mask.pgm -k f.fn -f 100 frames").out);
+  for (const json& variant : told["variants"]) {
     EXPECT_FALSE(variant["is_chosen"] && variant["precision"] == "single") << variant;  // these gains cancel
   }
 }
@@ -116,41 +99,34 @@ TEST_F(Validate, ComparesWithTheSource) {
   EXPECT_EQ(source["file_bytes"], std::filesystem::file_size(scratch_ / "clip.tik"));
   EXPECT_GT(source["records"], 0);
 
-  ASSERT_EQ(run({"-q", "encode", "-f", "100", "frames", "exact.tik"}).status, 0);
+  make("-q encode -f 100 frames exact.tik");
   EXPECT_TRUE(json_of({"exact.tik", "--source", "frames"})["source"]["psnr_db"].is_null());
-  EXPECT_NE(validate({"exact.tik", "--source", "frames"}).out.find("frames: held exactly; "),
-            std::string::npos);
+  expect_says(validate("exact.tik --source frames").out, "frames: held exactly; ");
 }
 
 // The capture knows which pictures it has, and which rectangle of them.
 TEST_F(Validate, ComparesAPartWithItsPartOfTheSource) {
-  const std::string program = NUTIK_TEST_PROGRAM;
-  const std::string exposure = " --runs 1 --start 0s --exposure 20ms part.tik --source frames";
-  const auto told_by = [&](const std::string& words) {
-    const ProgramResult result = test::run_shell(program + " " + words, scratch_.folder());
-    EXPECT_EQ(result.status, 0) << result.err;
-    return result.out;
-  };
-  const auto encode = [&](const std::string& how) { told_by("encode --overwrite -f 100 " + how + " frames part.tik"); };
+  const test::Words validate("validate --runs 1 --start 0s --exposure 20ms part.tik --source frames");
+  const auto encode = [&](const std::string& how) { run("encode --overwrite -f 100 " + how + " frames part.tik"); };
   for (const std::string part : {"--from 3f", "--from 3f --to 9f", "--crop 9x7+3+5 --to 4f"}) {
     encode(part);
-    EXPECT_NE(told_by("validate" + exposure).find("frames: held exactly; "), std::string::npos) << part;
+    expect_says(run(validate).out, "frames: held exactly; ");
   }
   // Its edge tiles' padding is no change.
   encode("--crop 1x1+3+5");
-  const json told = json::parse(told_by("validate --json" + exposure));
+  const json told = json::parse(run(validate + "--json").out);
   EXPECT_LE(told["source"]["records"], 19);
-  const json known = json::parse(told_by("info --json part.tik"));
+  const json known = answer("info part.tik");
   EXPECT_EQ(known["records"], told["source"]["records"]);
   EXPECT_EQ(known["are_records_exact"], false) << "earlier programs counted it";
-  EXPECT_NE(told_by("info part.tik").find("  changes     at most "), std::string::npos);
-  EXPECT_EQ(json::parse(told_by("info --json clip.tik"))["are_records_exact"], true);
+  expect_says(make("info part.tik").out, "  changes     at most ");
+  EXPECT_EQ(answer("info clip.tik")["are_records_exact"], true);
   encode("--scale 1/2");
   expect_refused({"part.tik", "--source", "frames"}, 3, "(--crop, --scale)");
 }
 
 TEST_F(Validate, SaysWhereTheSourceIsFurthestOff) {
-  ASSERT_EQ(run({"-q", "encode", "-f", "100", "frames", "exact.tik"}).status, 0);
+  make("-q encode -f 100 frames exact.tik");
   std::vector<std::filesystem::path> pictures;
   for (const auto& entry : std::filesystem::directory_iterator(scratch_ / "frames"))
     pictures.push_back(entry.path());
@@ -159,10 +135,8 @@ TEST_F(Validate, SaysWhereTheSourceIsFurthestOff) {
   char& pixel = bytes[bytes.size() - 24 * 24 + 3 * 24 + 5];
   pixel = static_cast<char>(static_cast<unsigned char>(pixel) ^ 64);
   std::ofstream(pictures[7], std::ios::binary) << bytes;
-  const ProgramResult result = validate({"exact.tik", "--source", "frames"});
-  EXPECT_NE(result.out.find("worst error 64 codes at sample 7, pixel 5,3; 1 of 11520 values further off"),
-            std::string::npos)
-      << result.out;
+  expect_says(validate("exact.tik --source frames", 1).out,
+              "worst error 64 codes at sample 7, pixel 5,3; 1 of 11520 values further off");
 }
 
 TEST_F(Validate, AnotherSourceIsNoSource) {
@@ -217,27 +191,24 @@ std::filesystem::path default_cache() {
 // The kernel of `single` for codes that are sRGB is replaced by the one that takes them for linear light: a device
 // that computes wrongly.
 TEST_F(Validate, ExitsWithOneWhereADeviceComputesWrongly) {
-  ASSERT_EQ(validate({"clip.tik"}).status, 0);
+  validate("clip.tik");
   const std::filesystem::path cache = scratch_ / "cache", other = scratch_ / "other-cache";
   const std::string of_pocl = "POCL_CACHE_DIR=" + (default_cache() / "pocl" / "kcache").string();
-  const auto expose = [&](const std::filesystem::path& folder, const std::vector<std::string>& more) {
-    std::vector<std::string> words{"expose", "--precision", "single", "clip.tik", "picture.png"};
-    words.insert(words.end(), kInterval.begin(), kInterval.end());
-    words.insert(words.end(), more.begin(), more.end());
-    return run(words, {"XDG_CACHE_HOME=" + folder.string(), of_pocl}).status;
+  const auto expose = [&](const std::filesystem::path& folder, const test::Words& more) {
+    run("expose --precision single clip.tik picture.png" + kInterval + more, 0,
+        {"XDG_CACHE_HOME=" + folder.string(), of_pocl});
   };
-  ASSERT_EQ(expose(cache, {}), 0);
-  ASSERT_EQ(expose(other, {"--transfer", "linear"}), 0);
+  expose(cache, {});
+  expose(other, "--transfer linear");
   const std::filesystem::path kept = kept_kernel(cache);
   const std::string wrong =
       split(test::read_file(kept)).key + split(test::read_file(kept_kernel(other))).binary;
   std::ofstream(kept, std::ios::binary) << wrong;
   std::filesystem::copy(default_cache() / "nutik-cl", cache / "nutik-cl",
                         std::filesystem::copy_options::skip_existing);
-  const ProgramResult result = validate({"clip.tik"}, {"XDG_CACHE_HOME=" + cache.string(), of_pocl});
-  EXPECT_EQ(result.status, 1) << result.out;
-  EXPECT_NE(result.out.find("EXCEEDED"), std::string::npos) << result.out;
-  EXPECT_NE(result.err.find("an arithmetic exceeds its bound"), std::string::npos) << result.err;
+  const ProgramResult result = validate("clip.tik", 1, {"XDG_CACHE_HOME=" + cache.string(), of_pocl});
+  expect_says(result.out, "EXCEEDED");
+  expect_says(result.err, "an arithmetic exceeds its bound");
 }
 
 }  // namespace

@@ -30,13 +30,10 @@ class Video : public test::AppTest {
   test::ProgramResult run(const test::Words& words) const { return make(test::over(words)); }
 
   // The frames of `video OPTIONS INPUT`, as stills.
-  std::vector<std::vector<std::byte>> frames(test::Words options, bool from_clip = false) {
+  std::vector<std::vector<std::byte>> frames(const test::Words& options, bool from_clip = false) {
     std::filesystem::remove_all(scratch_ / "out");
     std::filesystem::create_directory(scratch_ / "out");
-    options.insert(options.begin(), "video");
-    if (from_clip) options.insert(options.end(), source_.begin(), source_.end());
-    options.insert(options.end(), {"-q", from_clip ? "frames" : "c.tik", "out/%05d.ppm"});
-    run(options);
+    run("video -q" + options + (from_clip ? source_ + "frames" : "c.tik") + "out/%05d.ppm");
     const auto clip = test::open_test_clip(scratch_ / "out/%05d.ppm");
     return test::read_all(*clip);
   }
@@ -59,7 +56,7 @@ class Video : public test::AppTest {
     }
   }
   std::vector<Picture> stills_;
-  std::vector<std::string> source_;
+  test::Words source_ = {};
 };
 
 TEST_F(Video, OfTheSourcesRateAndAngleIsTheSource) {
@@ -81,8 +78,7 @@ TEST_F(Video, OfTheSourcesRateAndAngleIsTheSource) {
     ASSERT_EQ(part.size(), 7u);
     for (std::size_t k = 0; k < part.size(); ++k) ASSERT_EQ(test::difference(part[k], stills_[13 + k]), "");
     // An end behind the capture's own changes nothing, and is told.
-    const test::ProgramResult beyond = run("video --to 9s c.tik v.mkv");
-    expect_says(beyond.err, "warning: the video's end 9s lies after the capture's end at ");
+    expect_says(run("video --to 9s c.tik v.mkv").err, "warning: the video's end 9s lies after the capture's end at ");
     EXPECT_EQ(run({"video", "--to", std::to_string(kCount) + "f", "c.tik", "v.mkv"}).err, "");
   }
 }
@@ -155,15 +151,10 @@ TEST_F(Video, ExposesEachFrameWithFunctionsFromItsStartOn) {
 TEST_F(Video, ShapesAndBrightensEachFrame) {
   make_capture("100", "360");
   const test::Words bright("--shutter hann --normalize integral --ev -1");
-  test::Words options = "--out-fps 20 --out-angle 270 --from 12ms" + bright;
-  const auto got = frames(options);
+  const auto got = frames("--out-fps 20 --out-angle 270 --from 12ms" + bright);
   ASSERT_EQ(got.size(), 14u);  // the last ends at 12 + 13 · 50 + 37.5 ms, of 700
   for (const int k : {0, 7, 13}) {
-    test::Words words =
-        test::Words{"expose",  "--start", std::to_string(12 + k * 50) + "ms", "--exposure", "37.5ms", "c.tik",
-                    "one.ppm", "-q"} +
-        bright;
-    run(words);
+    run("expose --exposure 37.5ms c.tik one.ppm -q --start " + std::to_string(12 + k * 50) + "ms" + bright);
     const auto one = test::read_all(*test::open_test_clip(scratch_ / "one.ppm"));
     EXPECT_EQ(got[static_cast<std::size_t>(k)], one.front()) << k;
   }
@@ -171,8 +162,7 @@ TEST_F(Video, ShapesAndBrightensEachFrame) {
 
 TEST_F(Video, GoesIntoContainers) {
   make_capture("960", "360");
-  const test::ProgramResult result = run("video --out-fps 30000/1001 --speed 0.5 c.tik v.mkv");
-  expect_says(result.out,
+  expect_says(run("video --out-fps 30000/1001 --speed 0.5 c.tik v.mkv").out,
               "v.mkv: 19 x 11 colour, 4 frames (30000/1001 frames a second, 180 degrees, speed 0.5), "
               "from 0 ns to 58.39 ms of the capture, ffv1");
   const auto stills = frames("--out-fps 30000/1001 --speed 0.5");
@@ -194,7 +184,7 @@ TEST_F(Video, SaysWhatMakesNoSense) {
   scratch_.write("long.fn", "M0 [0:1], [900000000:1], [900000001:0]\n");
   scratch_.write("v.mov", "no video");
   struct Case {
-    std::vector<std::string> words;
+    test::Words words;
     int status;
     const char* part;
   };
@@ -222,17 +212,11 @@ TEST_F(Video, SaysWhatMakesNoSense) {
       {{"/nowhere/v.mp4"}, 5, "/nowhere/v.mp4 cannot be created"},
   };
   for (const Case& tested : cases) {
-    std::vector<std::string> words{"video", "c.tik"};
-    words.insert(words.end(), tested.words.begin(), tested.words.end());
-    const test::ProgramResult result = test::run_here(words, scratch_.folder());
-    EXPECT_EQ(result.status, tested.status) << tested.part << "\n" << result.err;
-    EXPECT_NE(result.err.find(tested.part), std::string::npos) << tested.part << "\n" << result.err;
+    expect_refused("video c.tik" + tested.words, tested.status, tested.part);
   }
   EXPECT_EQ(test::read_file(scratch_ / "v.mov"), "no video");
   // A still that is an input is not replaced.
-  const auto replaced = test::run_here({"video", "-f", "100", "frames", "frames/%d.ppm"}, scratch_.folder());
-  EXPECT_EQ(replaced.status, 2);
-  expect_says(replaced.err, "the output frames/0.ppm is also an input");
+  expect_refused({"video", "-f", "100", "frames", "frames/%d.ppm"}, 2, "the output frames/0.ppm is also an input");
 }
 
 }  // namespace

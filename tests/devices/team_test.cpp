@@ -82,8 +82,7 @@ TEST(DeviceTeam, MakesThePictureOfOneDevice) {
     for (const std::optional<Precision> precision : precisions) {
       for (const OutputFormat& output :
            {kCodes, kLight, OutputFormat{ValueType::code16, 1000, NegativeLight::offset}}) {
-        RenderControl control;
-        control.precision = precision;
+        RenderControl control{.precision = precision};
         expect_same(alone, *team, plan, capture, output, control);
         for (const Rectangle& part :
              {Rectangle{0, 0, 1, 1}, Rectangle{20, 76, 1, 1}, Rectangle{3, 5, 11, 13}, Rectangle{0, 9, 21, 3},
@@ -122,8 +121,7 @@ TEST(DeviceTeam, MakesAnyPictureInFixed) {
 
 // Sums of the whole picture, of which each device needs its band.
 TEST(DeviceTeam, KeepsSumsOfLight) {
-  CaptureFormat format;
-  format.shape = {24, 40, 1};
+  const CaptureFormat format{.shape = {24, 40, 1}};
   constexpr std::uint64_t kSamples = 50 * 32;
   test::Random random(4);
   MemoryCapture capture(format, Timeline::constant({1000, 1}, {180, 1}, kSamples),
@@ -176,9 +174,7 @@ TEST(DeviceTeam, SaysWhoMadeThePicture) {
   MemoryCapture capture = scene.capture();
   const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
   EXPECT_EQ(team.render(plan, capture, kCodes).renderer, "2 x " + name);
-  RenderControl one_row;
-  one_row.rectangle = Rectangle{0, 16, 21, 8};
-  EXPECT_EQ(team.render(plan, capture, kCodes, one_row).renderer, name);
+  EXPECT_EQ(team.render(plan, capture, kCodes, {.rectangle = Rectangle{0, 16, 21, 8}}).renderer, name);
 }
 
 OpenClOptions block_by_block() {
@@ -237,9 +233,7 @@ TEST(DeviceTeam, EndsWhenItIsCancelled) {
     WatchedCapture stopping(capture, [&](std::uint64_t) {
       if (calls++ == at) stop.request_stop();
     });
-    RenderControl control;
-    control.stop = stop.get_token();
-    EXPECT_THROW(static_cast<void>(team.render(plan, stopping, kCodes, control)), Cancelled);
+    EXPECT_THROW(static_cast<void>(team.render(plan, stopping, kCodes, {.stop = stop.get_token()})), Cancelled);
   }
   EXPECT_NO_THROW(static_cast<void>(team.render(plan, capture, kCodes)));
 }
@@ -259,9 +253,7 @@ TEST(DeviceTeam, MakesPicturesSideBySide) {
     for (int i = 0; i < 3000 && began < 2; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     if (began < 2) met = false;
   });
-  RenderControl own;
-  own.by_one_device = true;
-  const auto render = [&] { return team.render(plan, waiting, kCodes, own); };
+  const auto render = [&] { return team.render(plan, waiting, kCodes, {.by_one_device = true}); };
   auto other = std::async(std::launch::async, render);
   const Rendered one = render(), two = other.get();
   EXPECT_TRUE(met);
@@ -283,17 +275,13 @@ TEST(DeviceTeam, MakesPicturesOfOneDeviceEach) {
   for (int round = 0; round < 3; ++round) {
     std::vector<std::future<Rendered>> pictures;
     for (int i = 0; i < 9; ++i) {
-      pictures.push_back(std::async(std::launch::async, [&] {
-        RenderControl own;
-        own.by_one_device = true;
-        return team.render(plan, capture, kCodes, own);
-      }));
+      pictures.push_back(
+          std::async(std::launch::async, [&] { return team.render(plan, capture, kCodes, {.by_one_device = true}); }));
     }
     for (auto& each : pictures) EXPECT_EQ(each.get().picture, picture);
     EXPECT_EQ(team.render(plan, capture, kCodes).picture, picture);  // in bands
     WatchedCapture lost(capture, [&](std::uint64_t) { throw DeviceError("it is lost"); });
-    RenderControl own;
-    own.by_one_device = true;
+    RenderControl own{.by_one_device = true};
     EXPECT_EQ(test::message_of<DeviceError>([&] { static_cast<void>(team.render(plan, lost, kCodes, own)); }),
               "device 0: it is lost");
     std::stop_source stop;
@@ -317,9 +305,7 @@ TEST(DeviceTeam, KeepsBandsWaitingNoLongerThanPicturesTake) {
   std::vector<std::jthread> others;
   for (int i = 0; i < 4; ++i) {
     others.emplace_back([&] {
-      RenderControl own;
-      own.by_one_device = true;
-      while (!is_done) static_cast<void>(team.render(plan, slow, kCodes, own));
+      while (!is_done) static_cast<void>(team.render(plan, slow, kCodes, {.by_one_device = true}));
     });
   }
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -336,9 +322,7 @@ TEST(DeviceTeam, MakesBandsWhereMemoryIsLittle) {
   const Scene scene;
   MemoryCapture capture = scene.capture();
   const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
-  RenderControl own;
-  own.by_one_device = true;
-  own.memory_bytes = 1;
+  RenderControl own{.by_one_device = true, .memory_bytes = 1};
   try {
     static_cast<void>(team.render(plan, capture, kCodes, own));
     FAIL() << "a byte is enough";
@@ -355,10 +339,8 @@ TEST(DeviceTeam, NamesTheLeastMemoryThatItWorksWith) {
   MemoryCapture capture = scene.capture();
   const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
   const auto least_of = [&](Renderer& renderer) -> std::uint64_t {
-    RenderControl control;
-    control.memory_bytes = 1;
     try {
-      static_cast<void>(renderer.render(plan, capture, kCodes, control));
+      static_cast<void>(renderer.render(plan, capture, kCodes, {.memory_bytes = 1}));
     } catch (const MemoryTooLittle& error) {
       std::set<std::string> parts;
       for (const MemoryPart& part : error.needs.parts())
@@ -371,8 +353,7 @@ TEST(DeviceTeam, NamesTheLeastMemoryThatItWorksWith) {
   const std::uint64_t of_one = least_of(alone);
   for (const auto devices : {std::span<const std::size_t>(kTwice), std::span<const std::size_t>(kThrice)}) {
     DeviceTeam team(devices, options);
-    RenderControl control;
-    control.memory_bytes = least_of(team);
+    RenderControl control{.memory_bytes = least_of(team)};
     EXPECT_GE(control.memory_bytes, of_one + capture.format().shape.value_count());
     expect_same(alone, team, plan, capture, kCodes, control);
     --control.memory_bytes;
@@ -392,8 +373,7 @@ TEST(DeviceTeam, ChoosesAmongWhatAllComputeRightly) {
   const Rendered rendered = team.render(plan, capture, kCodes);
   EXPECT_NE(rendered.precision, Precision::single_);
   EXPECT_TRUE(rendered.passed_self_test);
-  RenderControl asked;
-  asked.precision = Precision::single_;
+  RenderControl asked{.precision = Precision::single_};
   const std::string message = test::message_of<DeviceError>(
       [&] { static_cast<void>(team.render(plan, capture, kCodes, asked)); });
   EXPECT_NE(message.find("computes `single` wrongly"), std::string::npos) << message;

@@ -37,9 +37,7 @@ TEST(InputCheck, TakesUnmappedValuesForBlackWhereAskedTo) {
 TEST(InputCheck, CountsTheSamplesOfACapture) {
   InputCheck check;
   check.add_functions("f.fn", "M0 [0:1], [20000000:0]");
-  CaptureFormat format;
-  format.shape = {4, 3, 1};
-  check.add_capture({"c.tik", format, Timeline::constant({100, 1}, {360, 1}, 10)});
+  check.add_capture({"c.tik", {.shape = {4, 3, 1}}, Timeline::constant({100, 1}, {360, 1}, 10)});
   check.add_mask("m.pgm", {2, 1, {0, 0}});
   check.finish(false);
   EXPECT_EQ(kinds(check), (std::vector<std::string>{"mask_size"}));

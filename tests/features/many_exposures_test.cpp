@@ -13,6 +13,7 @@
 #include "media/writers/picture_writer.hpp"
 #include "media/writers/recipe.hpp"
 #include "session/text/shared_warnings.hpp"
+#include "support/clips.hpp"
 #include "support/messages.hpp"
 #include "support/scratch.hpp"
 #include "support/still_clip.hpp"
@@ -82,15 +83,11 @@ TEST(VideoOutput, RefusesACodecForStillsAndHoldsTheSetting) {
 class ManyExposures : public ::testing::Test {
  protected:
   static Session session_of(const test::Scratch& scratch) {
-    const auto modules = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path();
-    setenv("NUTIK_MODULES", modules.c_str(), 0);
+    test::use_modules();
     test::write_still_clip(scratch.folder(), 16, 12);
-    SourceRequest source;
-    source.path = scratch / "frames";
-    source.clip.rate = Rational{100, 1};
     ComputingRequest computing;
     computing.renderer = RendererKind::reference;
-    return Session(source, computing);
+    return Session({.path = scratch / "frames", .clip = {.rate = Rational{100, 1}}}, computing);
   }
 
   test::Scratch scratch_;

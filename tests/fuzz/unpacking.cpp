@@ -12,9 +12,8 @@ void read(Bytes input) {
   constexpr std::size_t kChoices = 8;
   if (input.size() < kChoices) return;
   const auto choice = [&](std::size_t i) { return static_cast<std::uint32_t>(input[i]); };
-  CaptureFormat format;
-  format.shape = {1 + choice(0) % 40, 1 + choice(1) % 40, choice(2) % 2 == 0 ? 1u : 3u};
-  format.code_bytes = 1 + choice(3) % 2;
+  CaptureFormat format{.shape = {1 + choice(0) % 40, 1 + choice(1) % 40, choice(2) % 2 == 0 ? 1u : 3u},
+                       .code_bytes = 1 + choice(3) % 2};
   format.white_code = format.code_bytes == 1 ? 255 : 4095;
   const BlockGeometry geometry(format, 1 + choice(4) % 70);
   std::vector<std::byte> payload((choice(5) + 256 * choice(6)) * 64);

@@ -86,15 +86,13 @@ TEST(Activity, CountsThePixelsThatChangeAtASample) {
 // 16 x 16 pixels of code 100, of which some have other codes at some samples.
 MemoryCapture scene(const std::function<int(std::size_t sample, std::size_t pixel)>& code,
                     std::uint32_t block_samples) {
-  CaptureFormat capture;
-  capture.shape = {16, 16, 1};
   std::vector<std::vector<std::byte>> rasters(20, std::vector<std::byte>(256));
   for (std::size_t k = 0; k < rasters.size(); ++k) {
     for (std::size_t pixel = 0; pixel < 256; ++pixel)
       rasters[k][pixel] = static_cast<std::byte>(code(k, pixel));
   }
-  return {capture, Timeline::constant({100, 1}, Timeline::kFullShutter, rasters.size()), rasters,
-          block_samples};
+  const CaptureFormat capture{.shape = {16, 16, 1}};
+  return {capture, Timeline::constant({100, 1}, Timeline::kFullShutter, rasters.size()), rasters, block_samples};
 }
 
 TEST(RedrawnSamples, AreThoseAtWhichAllChangesAtOnceAndALittle) {

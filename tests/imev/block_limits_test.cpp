@@ -46,11 +46,7 @@ test::Rasters four_tiles(std::size_t samples, Changing changing) {
   return rasters;
 }
 
-CaptureFormat four_tiles_format() {
-  CaptureFormat format;
-  format.shape = {32, 8, 1};
-  return format;
-}
+CaptureFormat four_tiles_format() { return {.shape = {32, 8, 1}}; }
 
 TEST(BlockLimits, CloseABlockWithTheSampleThatReachesThem) {
   using Lengths = std::vector<std::uint32_t>;
@@ -100,8 +96,7 @@ TEST(BlockLimits, ChangeNothingOfWhatIsHeld) {
 // Tiles that change at their own times leave rooms behind: what a block takes while it is built stays within twice the
 // limit and a sample all the same.
 TEST(BlockLimits, KeepToTheirMemory) {
-  CaptureFormat format;
-  format.shape = {256, 256, 1};
+  const CaptureFormat format{.shape = {256, 256, 1}};
   const BlockGeometry geometry(format, 64);
   const std::uint64_t sample = geometry.tile_count * (geometry.row_bytes() + kBlockAlignment);
   const TileGrid grid(format.shape);
@@ -149,8 +144,7 @@ TEST(BlockLimits, FollowTheContentUnlessTheNoiseIsKnown) {
   EXPECT_EQ(default_block_limits(format, 3 * raw).changed_bytes, raw);
   EXPECT_EQ(default_block_limits(format, 3 * raw - 1).samples, default_block_samples(format, 128u << 20));
 
-  CaptureFormat noisy;
-  noisy.shape = {1920, 1080, 3};
+  CaptureFormat noisy{.shape = {1920, 1080, 3}};
   noisy.noise.camera.emplace();
   EXPECT_EQ(default_block_limits(noisy).samples, default_block_samples(noisy));
   EXPECT_EQ(default_block_limits(noisy).changed_bytes, BlockLimits::kAnyChanges);
@@ -158,8 +152,7 @@ TEST(BlockLimits, FollowTheContentUnlessTheNoiseIsKnown) {
 
 // 8K, 64 samples, 6.4 GB as rasters: 2 % of the tiles change at every sample, others every time.
 TEST(BlockLimits, KeepALargeSceneInOneBlock) {
-  CaptureFormat format;
-  format.shape = {7680, 4320, 3};
+  const CaptureFormat format{.shape = {7680, 4320, 3}};
   BlockBuilder builder(format, default_block_limits(format), TilePolicy::automatic);
   std::vector<std::byte> raster(format.sample_bytes());
   const TileGrid grid(format.shape);

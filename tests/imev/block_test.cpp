@@ -115,10 +115,8 @@ TEST(Block, ToleratesWhateverATolerancePermits) {
   for (const Case& each :
        {Case{1, 254, true}, Case{1, 255, false}, Case{1, 256, false}, Case{1, 300, false},
         Case{2, 65'534, true}, Case{2, 65'535, false}, Case{2, 65'536, false}, Case{2, 65'836, false}}) {
-    CaptureFormat capture;
-    capture.shape = {9, 8, 3};
-    capture.code_bytes = each.code_bytes;
-    capture.white_code = each.code_bytes == 1 ? 255 : 65'535;
+    CaptureFormat capture{
+        .shape = {9, 8, 3}, .code_bytes = each.code_bytes, .white_code = each.code_bytes == 1 ? 255u : 65'535u};
     capture.noise.tolerance = each.tolerance;
     const Rasters rasters{std::vector<std::byte>(capture.sample_bytes(), std::byte{0}),
                           std::vector<std::byte>(capture.sample_bytes(), std::byte{0xFF})};
@@ -130,8 +128,7 @@ TEST(Block, ToleratesWhateverATolerancePermits) {
 
 // By hand, a tolerance of 4: steps of 9, and the ends of the scale.
 TEST(Block, MovesByWholeSteps) {
-  CaptureFormat capture;
-  capture.shape = {1, 1, 1};
+  CaptureFormat capture{.shape = {1, 1, 1}};
   capture.noise.tolerance = 4;
   using Codes = std::vector<int>;
   const auto held = [&](const Codes& codes) {
@@ -164,16 +161,14 @@ TEST(Block, GivesASourceBackExactlyAtToleranceZero) {
 // A grey capture of one tile whose samples are all `codes`, but for what `change` does.
 MemoryCapture one_tile(std::uint32_t samples, std::uint32_t block_samples, TilePolicy policy,
                        const std::function<void(std::uint32_t, std::vector<std::byte>&)>& change) {
-  CaptureFormat capture;
-  capture.shape = {8, 8, 1};
   Rasters rasters;
   std::vector<std::byte> raster(64, std::byte{100});
   for (std::uint32_t k = 0; k < samples; ++k) {
     change(k, raster);
     rasters.push_back(raster);
   }
-  return {capture, Timeline::constant({100, 1}, Timeline::kFullShutter, samples), rasters, block_samples,
-          policy};
+  const CaptureFormat capture{.shape = {8, 8, 1}};
+  return {capture, Timeline::constant({100, 1}, Timeline::kFullShutter, samples), rasters, block_samples, policy};
 }
 
 TEST(Block, StoresATileTheCheapestWay) {
@@ -213,21 +208,14 @@ TEST(Block, AStartIsNoRecord) {
 }
 
 TEST(BlockBuilder, RefusesCodesAboveWhite) {
-  CaptureFormat capture;
-  capture.shape = {1, 1, 1};
-  capture.code_bytes = 2;
-  capture.white_code = 4095;
-  BlockBuilder builder(capture, 4, TilePolicy::automatic);
+  BlockBuilder builder({.shape = {1, 1, 1}, .code_bytes = 2, .white_code = 4095}, 4, TilePolicy::automatic);
   const std::vector<std::byte> raster{std::byte{0x00}, std::byte{0x10}};  // 4096
   EXPECT_EQ(test::message_of<InputError>([&] { builder.add(raster); }),
             "sample 0 has a code of 4096, above the white code 4095; state the right one");
 }
 
 TEST(BlockBuilder, RefusesBlocksThatMayComeToMoreThanAnOffsetReaches) {
-  CaptureFormat capture;
-  capture.shape = {3840, 2160, 3};
-  capture.code_bytes = 2;
-  capture.white_code = 65'535;
+  CaptureFormat capture{.shape = {3840, 2160, 3}, .code_bytes = 2, .white_code = 65'535};
   const auto message = [&](std::uint32_t samples, TilePolicy policy) {
     return test::message_of<UsageError>([&] { BlockBuilder(capture, samples, policy); });
   };

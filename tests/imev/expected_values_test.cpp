@@ -27,11 +27,8 @@ using test::Rasters;
 
 // Grey noise of a constant standard deviation in codes.
 CaptureFormat flat_noise(Shape shape, std::uint32_t white, double sd) {
-  CaptureFormat capture;
-  capture.shape = shape;
-  capture.code_bytes = white > 255 ? 2 : 1;
-  capture.white_code = white;
-  capture.transfer = Transfer::linear();
+  CaptureFormat capture{
+      .shape = shape, .code_bytes = white > 255 ? 2u : 1u, .white_code = white, .transfer = Transfer::linear()};
   const ChannelNoise channel{NoiseCurve::points, 0, 0, {{0, sd, 1}}};
   capture.noise.camera =
       CameraNoise{white, capture.transfer, std::vector<ChannelNoise>(shape.channels, channel)};

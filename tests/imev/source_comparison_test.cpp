@@ -61,8 +61,7 @@ TEST(SourceComparison, FindsNothingBeyondWhatACapturePromises) {
 
 // By hand: 2 x 1 grey pixels that hold 100 and 50, and a source that is off by 0, 3, 4 and 5 codes.
 TEST(SourceComparison, CountsErrorsInCodes) {
-  CaptureFormat format;
-  format.shape = {2, 1, 1};
+  CaptureFormat format{.shape = {2, 1, 1}};
   const auto raster = [](int a, int b) {
     return std::vector<std::byte>{static_cast<std::byte>(a), static_cast<std::byte>(b)};
   };

@@ -69,8 +69,7 @@ TEST(StreamingCapture, LeavesAlonePayloadsThatAreLent) {
 
 // Whoever gives each block back before the next one never has a stream build in other memory.
 TEST(StreamingCapture, BuildsWhereBlocksWereGivenBack) {
-  CaptureFormat format;
-  format.shape = {64, 48, 3};
+  const CaptureFormat format{.shape = {64, 48, 3}};
   const std::vector<std::vector<std::byte>> rasters(20, std::vector<std::byte>(format.sample_bytes()));
   StreamingCapture streaming(format, Timeline::constant({30, 1}, Timeline::kFullShutter, 20), {0, 20}, 4,
                              TilePolicy::automatic, test::RasterStream(rasters));
@@ -82,9 +81,7 @@ TEST(StreamingCapture, BuildsWhereBlocksWereGivenBack) {
 
 TEST(StreamingCapture, IsAskedForBlocksInOrder) {
   const std::vector<std::vector<std::byte>> rasters(9, std::vector<std::byte>(3));
-  CaptureFormat format;
-  format.shape = {1, 1, 3};
-  StreamingCapture streaming(format, Timeline::constant({30, 1}, Timeline::kFullShutter, 9), {0, 9}, 3,
+  StreamingCapture streaming({.shape = {1, 1, 3}}, Timeline::constant({30, 1}, Timeline::kFullShutter, 9), {0, 9}, 3,
                              TilePolicy::automatic, test::RasterStream(rasters));
   EXPECT_EQ(streaming.acquire(1).extent(), (BlockExtent{3, 3}));
   for (const std::uint64_t block : {0u, 1u}) {

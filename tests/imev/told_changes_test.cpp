@@ -109,9 +109,7 @@ TEST(ToldChanges, MakeTheBlocksOfWholeSamples) {
 }
 
 TEST(ToldChanges, OfASampleThatBeginsABlockAreRefused) {
-  CaptureFormat capture;
-  capture.shape = {9, 9, 1};
-  BlockBuilder builder(capture, 4, TilePolicy::automatic);
+  BlockBuilder builder({.shape = {9, 9, 1}}, 4, TilePolicy::automatic);
   EXPECT_THROW(builder.add_changes({}), std::logic_error);
   builder.add(std::vector<std::byte>(81));
   const PixelChange outside{81, {1}};
@@ -119,10 +117,7 @@ TEST(ToldChanges, OfASampleThatBeginsABlockAreRefused) {
 }
 
 TEST(ToldChanges, AboveWhiteAreRefusedAsCodesOfPicturesAre) {
-  CaptureFormat capture;
-  capture.shape = {9, 9, 1};
-  capture.white_code = 200;
-  BlockBuilder builder(capture, 4, TilePolicy::automatic);
+  BlockBuilder builder({.shape = {9, 9, 1}, .white_code = 200}, 4, TilePolicy::automatic);
   builder.add(std::vector<std::byte>(81));
   const PixelChange change{3, {201}};
   EXPECT_EQ(test::message_of<InputError>([&] { builder.add_changes({&change, 1}); }),
@@ -130,9 +125,7 @@ TEST(ToldChanges, AboveWhiteAreRefusedAsCodesOfPicturesAre) {
 }
 
 TEST(ToldChanges, AreNotTakenWhereAllTilesAreDenseOrNoiseIsKnown) {
-  CaptureFormat capture;
-  capture.shape = {9, 9, 1};
-  EXPECT_FALSE(BlockBuilder(capture, 4, TilePolicy::dense).takes_changes());
+  EXPECT_FALSE(BlockBuilder({.shape = {9, 9, 1}}, 4, TilePolicy::dense).takes_changes());
 }
 
 }  // namespace

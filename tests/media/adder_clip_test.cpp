@@ -9,6 +9,7 @@
 
 #include "capture/error.hpp"
 #include "capture/memory_needs.hpp"
+#include "support/bytes.hpp"
 #include "support/clips.hpp"
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
@@ -17,15 +18,11 @@
 namespace nutik {
 namespace {
 
+using test::big_endian;
 using test::message_of;
+using test::notes_of;
 using test::open_test_clip;
 using test::Scratch;
-
-std::string big_endian(std::uint64_t number, int bytes) {
-  std::string text;
-  for (int i = bytes - 1; i >= 0; --i) text += static_cast<char>(number >> (8 * i) & 255);
-  return text;
-}
 
 struct File {
   unsigned version = 3, width = 5, height = 3, ticks_a_second = 120'000, interval = 5000, channels = 1, source = 6;
@@ -152,9 +149,7 @@ TEST(AdderClip, TakesWhiteFromItsSourceOrAsItIsStated) {
   const auto code = [&](std::optional<std::uint32_t> white) {
     // 2^6 units in one reference interval.
     const auto path = scratch.write("a.adder", file.header() + file.event(0, 0, 0, 6, file.interval) + file.end());
-    ClipOptions options;
-    options.white_code = white;
-    const auto clip = open_test_clip(path, options);
+    const auto clip = open_test_clip(path, {.white_code = white});
     std::vector<std::byte> raster(clip->info().format.sample_bytes());
     EXPECT_TRUE(clip->read(raster));
     std::uint16_t found = 0;
@@ -172,20 +167,14 @@ TEST(AdderClip, TakesWhiteFromItsSourceOrAsItIsStated) {
   EXPECT_EQ(code({}), (Found{64, "white 65535 units in a reference interval, from the file's source 1"}));
 }
 
-std::string notes_of(const std::filesystem::path& path) {
-  std::string all;
-  const auto clip = open_test_clip(path);
-  for (const Note& note : clip->info().notes) all += note.text + "\n";
-  return all;
-}
-
 TEST(AdderClip, TellsWhatIsWrongWithAFile) {
   const Scratch scratch;
   const File file;
   const std::string whole = file.header() + file.event(1, 1, 0, 4, 600) + file.event(1, 1, 0, 3, 900);
-  EXPECT_EQ(notes_of(scratch.write("whole.adder", whole + file.end())), "14 values have no event: they are black\n");
+  EXPECT_EQ(notes_of(*open_test_clip(scratch.write("whole.adder", whole + file.end()))),
+            "14 values have no event: they are black\n");
   const auto expect = [&](const std::string& content, const std::string& part) {
-    const std::string notes = notes_of(scratch.write("a.adder", content));
+    const std::string notes = notes_of(*open_test_clip(scratch.write("a.adder", content)));
     EXPECT_NE(notes.find(part), std::string::npos) << "no '" << part << "' in: " << notes;
   };
   expect(whole, "the file has no end mark");
@@ -245,9 +234,8 @@ TEST(AdderClip, RefusesWhatItCannotRead) {
   file.interval = 0;
   expect(file.header(), "neither can be 0");
   const auto path = scratch.write("b.adder", File().header() + File().event(0, 0, 0, 1, 1));
-  ClipOptions options;
-  options.events.contrast = Contrast{0.2, 0.2};
-  EXPECT_NE(message_of<UsageError>([&] { open_test_clip(path, options); }).find("tells light itself"), std::string::npos);
+  test::expect_error<UsageError>([&] { open_test_clip(path, {.events = {.contrast = Contrast{0.2, 0.2}}}); },
+                                 {"tells light itself"});
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "media/cameras/photron_header.hpp"
+#include "support/bytes.hpp"
 #include "support/clips.hpp"
 #include "support/ffmpeg.hpp"
 #include "support/scratch.hpp"
@@ -22,35 +23,22 @@ std::string phone_clip(const char* played, const std::string& words) {
 
 std::string android(const char* rate) { return "-metadata com.android.capture.fps=" + std::string(rate); }
 
-std::string notes_of(const Clip& clip) {
-  std::string all;
-  for (const Note& note : clip.info().notes) all += note.text + "\n";
-  return all;
-}
-
 TEST(CaptureRate, IsAndroidsWhereTheFilePlaysSlower) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   test::make(scratch, phone_clip("30", android("240.000000")));
   const auto clip = test::open_test_clip(scratch / "clip.mp4");
   EXPECT_EQ(clip->info().timing.rate, (Rational{240, 1}));
-  EXPECT_NE(notes_of(*clip).find("com.android.capture.fps says that 240"), std::string::npos);
-  ClipOptions options;
-  options.rate = Rational{960, 1};
+  EXPECT_NE(test::notes_of(*clip).find("com.android.capture.fps says that 240"), std::string::npos);
+  const ClipOptions options{.rate = Rational{960, 1}};
   const auto stated = test::open_test_clip(scratch / "clip.mp4", options);
   EXPECT_EQ(timeline_of("", stated->info(), options, 30).rate(), (Rational{960, 1}));
   test::make(scratch, phone_clip("30", android("3")));  // time-lapse
   EXPECT_EQ(test::open_test_clip(scratch / "clip.mp4")->info().timing.rate, (Rational{3, 1}));
 }
 
-std::string number(std::uint64_t value, int bytes) {
-  std::string text;
-  for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8) text += static_cast<char>(value >> shift);
-  return text;
-}
-
 std::string box(const std::string& type, const std::string& data) {
-  return number(data.size() + 8, 4) + type + data;
+  return test::big_endian(data.size() + 8, 4) + type + data;
 }
 
 std::string sony_story(const char* rate, const char* curve, const char* gamut) {
@@ -71,7 +59,8 @@ TEST(CaptureRate, AndCurveAreSonysWhereItsXmlSaysThem) {
   EXPECT_EQ(beside->info().timing.rate, (Rational{120'000, 1001}));
   EXPECT_EQ(beside->info().format.transfer.text(), "slog3:video");
   EXPECT_EQ(beside->info().format.primaries, Primaries::sgamut3_cine);
-  EXPECT_NE(notes_of(*beside).find("Sony's captureFps says that 120000/1001"), std::string::npos) << notes_of(*beside);
+  EXPECT_NE(test::notes_of(*beside).find("Sony's captureFps says that 120000/1001"), std::string::npos)
+      << test::notes_of(*beside);
   EXPECT_EQ(beside->info().timing.rate_from, "clipM01.XML");
   EXPECT_EQ(beside->info().facts.front().line(), "transfer slog3, from clipM01.XML");
   scratch.write("otherM01.XML", "<other/>");
@@ -89,32 +78,33 @@ TEST(CaptureRate, AndCurveAreSonysWhereItsXmlSaysThem) {
 }
 
 std::string item(const std::string& key, const std::string& value) {
-  return "\x06\x0E\x2B\x34" + key + "\x83" + number(value.size(), 3) + value;
+  return "\x06\x0E\x2B\x34" + key + "\x83" + test::big_endian(value.size(), 3) + value;
 }
 
 const std::string kBt709Curve = "\x06\x0E\x2B\x34\x04\x01\x01\x01\x04\x01\x01\x01\x01\x02" + std::string(2, '\0');
 
 std::string sonys_label(std::uint32_t which) {
-  return "\x06\x0E\x2B\x34\x04\x01\x01\x06\x0E\x06\x04\x01" + number(which, 4);
+  return "\x06\x0E\x2B\x34\x04\x01\x01\x06\x0E\x06\x04\x01" + test::big_endian(which, 4);
 }
 
 // Ancillary data: a packet of another kind, then the camera unit's set in two.
 std::string camera_packets(std::uint32_t curve, std::uint32_t gamut, std::uint32_t rate) {
   const auto tagged = [](std::uint32_t tag, const std::string& value) {
-    return number(tag, 2) + number(value.size(), 2) + value;
+    return test::big_endian(tag, 2) + test::big_endian(value.size(), 2) + value;
   };
   const std::string unit =
       item("\x02\x53\x01\x01\x0C\x02\x01\x01\x02\x01" + std::string(2, '\0'),
            tagged(0x8114, "S-Log") + tagged(0x3210, sonys_label(curve)) + tagged(0x3219, sonys_label(gamut)) +
-               tagged(0x8106, number(rate, 4) + number(1001, 4)));
+               tagged(0x8106, test::big_endian(rate, 4) + test::big_endian(1001, 4)));
   const auto packet = [](const std::string& kind, const std::string& data) {
-    std::string bytes = kind + number(data.size(), 1) + data;
+    std::string bytes = kind + test::big_endian(data.size(), 1) + data;
     bytes.resize((bytes.size() + 3) / 4 * 4);
-    return number(10, 2) + "\x01\x04" + number(bytes.size(), 2) + number(bytes.size(), 4) + number(1, 4) + bytes;
+    return test::big_endian(10, 2) + "\x01\x04" + test::big_endian(bytes.size(), 2) +
+           test::big_endian(bytes.size(), 4) + test::big_endian(1, 4) + bytes;
   };
-  return item("\x01\x02\x01\x01\x0D\x01\x03\x01\x17\x01\x02\x01",
-              number(3, 2) + packet("\x61\x01", "other") + packet("\x43\x05", "\x01" + unit.substr(0, 30)) +
-                  packet("\x43\x05", "\x02" + unit.substr(30)));
+  return item("\x01\x02\x01\x01\x0D\x01\x03\x01\x17\x01\x02\x01", test::big_endian(3, 2) + packet("\x61\x01", "other") +
+                                                                      packet("\x43\x05", "\x01" + unit.substr(0, 30)) +
+                                                                      packet("\x43\x05", "\x02" + unit.substr(30)));
 }
 
 TEST(CaptureRate, AndCurveAreSonysWhereMxfSaysThem) {
@@ -182,7 +172,7 @@ TEST(CaptureRate, AndCurvesOfApplesAndArrisAreReadFromTheirKeys) {
   EXPECT_EQ(keyed("-metadata com.arri.camera.ColorGammaSxS=LOG-C -metadata com.arri.camera.ExposureIndexAsa=400"),
             "srgb bt709");
   const auto other = test::open_test_clip(scratch / "clip.mp4");
-  EXPECT_NE(notes_of(*other).find("LOG-C at exposure index 400"), std::string::npos) << notes_of(*other);
+  EXPECT_NE(test::notes_of(*other).find("LOG-C at exposure index 400"), std::string::npos) << test::notes_of(*other);
   scratch.write("in-track.mp4", described(plain, box("logs", "com.apple.rec2020.apple-log")));
   EXPECT_EQ(curve_of("in-track.mp4"), "applelog bt2020");
   scratch.write("beside.mp4", plain + box("logs", "com.apple.rec2020.apple-log"));
@@ -195,7 +185,7 @@ TEST(CaptureRate, ChangesNothingWhereTheFileRunsAtIt) {
   test::make(scratch, phone_clip("240", android("240")));
   const auto clip = test::open_test_clip(scratch / "clip.mp4");
   EXPECT_EQ(clip->info().timing.rate, (Rational{240, 1}));
-  EXPECT_EQ(notes_of(*clip), "");
+  EXPECT_EQ(test::notes_of(*clip), "");
   EXPECT_NE(clip->info().timing.rate_from.find("com.android.capture.fps"), std::string::npos);
 }
 
@@ -206,7 +196,7 @@ TEST(CaptureRate, IsOnlyNamedWhereItFitsNoTimes) {
   const auto clip = test::open_test_clip(scratch / "clip.mp4");
   EXPECT_EQ(clip->info().timing.rate, (Rational{25, 1}));
   ASSERT_EQ(clip->info().notes.size(), 1u);
-  EXPECT_NE(notes_of(*clip).find("its own times are taken"), std::string::npos);
+  EXPECT_NE(test::notes_of(*clip).find("its own times are taken"), std::string::npos);
   EXPECT_EQ(clip->info().notes[0].settings, std::vector{Setting::frame_rate});
 }
 
@@ -218,10 +208,9 @@ TEST(CaptureRate, ThatIsNoneIsSaid) {
     const auto clip = test::open_test_clip(scratch / "clip.mp4");
     EXPECT_EQ(clip->info().timing.rate, (Rational{25, 1})) << value;
     ASSERT_EQ(clip->info().notes.size(), 1u) << value;
-    EXPECT_NE(
-        notes_of(*clip).find("com.android.capture.fps is '" + std::string(value) + "', which is no rate"),
-        std::string::npos)
-        << notes_of(*clip);
+    EXPECT_NE(test::notes_of(*clip).find("com.android.capture.fps is '" + std::string(value) + "', which is no rate"),
+              std::string::npos)
+        << test::notes_of(*clip);
     EXPECT_EQ(clip->info().notes[0].settings, std::vector{Setting::frame_rate});
   }
 }
@@ -256,7 +245,7 @@ TEST(CaptureRate, KeepsTheUnevennessOfTimes) {
       SCOPED_TRACE(std::string(dropped.left_out) + " " + file);
       make_phone_clip_without(scratch, dropped.left_out, words);
       const auto clip = test::open_test_clip(scratch / file);
-      EXPECT_NE(notes_of(*clip).find("which the file plays as 30"), std::string::npos) << notes_of(*clip);
+      EXPECT_NE(test::notes_of(*clip).find("which the file plays as 30"), std::string::npos) << test::notes_of(*clip);
       const Timeline timeline = timeline_of("", clip->info(), {}, clip->info().sample_count);
       ASSERT_FALSE(timeline.is_constant());
       std::uint64_t sample = 0;
@@ -282,10 +271,10 @@ TEST(CaptureRate, IsNotMistakenForSingleTimes) {
     return test::open_test_clip(scratch / "clip.mp4");
   };
   const auto late = clip_of("2000*N+1000*gte(N,30)");
-  EXPECT_NE(notes_of(*late).find("which the file plays as 30"), std::string::npos) << notes_of(*late);
+  EXPECT_NE(test::notes_of(*late).find("which the file plays as 30"), std::string::npos) << test::notes_of(*late);
   EXPECT_NEAR(static_cast<double>(late->info().timing.starts_ns[29]), 29e9 / 240, 2);
   const auto trembling = clip_of("250*N+14*mod(N*N,7)");
-  EXPECT_EQ(notes_of(*trembling).find("com.android"), std::string::npos) << notes_of(*trembling);
+  EXPECT_EQ(test::notes_of(*trembling).find("com.android"), std::string::npos) << test::notes_of(*trembling);
   EXPECT_EQ(trembling->info().timing.rate_from, "the file, as com.android.capture.fps says");
 }
 
@@ -301,9 +290,9 @@ TEST(CaptureRate, IsOnlyNamedWhereTimesFollowNoRate) {
   const auto clip = test::open_test_clip(scratch / "clip.mp4");
   ASSERT_FALSE(clip->info().timing.rate);
   EXPECT_EQ(clip->info().timing.starts_ns[1], 47'000'000);
-  EXPECT_NE(notes_of(*clip).find("at uneven times, of no rate that can be told: its own times are taken"),
+  EXPECT_NE(test::notes_of(*clip).find("at uneven times, of no rate that can be told: its own times are taken"),
             std::string::npos)
-      << notes_of(*clip);
+      << test::notes_of(*clip);
 }
 
 // Adds boxes at the end of the last box, moov.
@@ -345,7 +334,8 @@ TEST(CaptureRate, IsNotKnownOfAllOfSamsungsSlowModes) {
     const auto clip = test::open_test_clip(scratch / "clip.mp4");
     EXPECT_EQ(clip->info().timing.rate, (Rational{30, 1})) << mode;
     ASSERT_EQ(clip->info().notes.size(), 1u) << mode;
-    EXPECT_NE(notes_of(*clip).find("calls the recording slow motion"), std::string::npos) << notes_of(*clip);
+    EXPECT_NE(test::notes_of(*clip).find("calls the recording slow motion"), std::string::npos)
+        << test::notes_of(*clip);
     EXPECT_EQ(clip->info().notes[0].settings, std::vector{Setting::frame_rate});
   }
 }
@@ -359,7 +349,7 @@ TEST(CaptureRate, IsNotKnownOfSamsungsSlowParts) {
       << "SEFT";
   const auto clip = test::open_test_clip(scratch / "clip.mp4");
   EXPECT_EQ(clip->info().timing.rate, (Rational{30, 1}));
-  EXPECT_NE(notes_of(*clip).find("slow motion"), std::string::npos) << notes_of(*clip);
+  EXPECT_NE(test::notes_of(*clip).find("slow motion"), std::string::npos) << test::notes_of(*clip);
 }
 
 TEST(CaptureRate, OfACineComesWithItsShutter) {
@@ -397,8 +387,7 @@ TEST(CaptureRate, OfPhotronsComesWithAShutterThatStaysOpen) {
   scratch.write("raw.mraw", std::string(4 * 4 * 2 * 3, '\1'));
   const auto angle_of = [&](const std::string& lines) {
     scratch.write("raw.cih", lines);
-    ClipOptions raw;
-    raw.raw = RawVideo{4, 4, "gray16le"};
+    const ClipOptions raw{.raw = RawVideo{4, 4, "gray16le"}};
     const auto clip = test::open_test_clip(scratch / "raw.mraw", raw);
     EXPECT_TRUE(clip->info().timing.exposed_ns) << lines;
     return timeline_of("", clip->info(), raw, 3).shutter_angle().value();
@@ -424,8 +413,7 @@ TEST(CaptureRate, OfPicturesIsThatOfTheHeaderBesideThem) {
   scratch.write("stills/camera.cih", header);
   scratch.write("raw.mraw", std::string(4 * 4 * 2 * 3, '\1'));
   scratch.write("raw.cihx", "<recordRate>500</recordRate>");
-  ClipOptions raw;
-  raw.raw = RawVideo{4, 4, "gray16le"};
+  const ClipOptions raw{.raw = RawVideo{4, 4, "gray16le"}};
   const auto folder = test::open_test_clip(scratch / "stills"),
              file = test::open_test_clip(scratch / "raw.mraw", raw);
   EXPECT_EQ(folder->info().timing.rate_from, "camera.cih");

@@ -27,12 +27,6 @@ void write_stills(const Scratch& scratch, const std::vector<Picture>& stills) {
   }
 }
 
-ClipOptions at_rate(Rational rate) {
-  ClipOptions options;
-  options.rate = rate;
-  return options;
-}
-
 std::uint32_t code_at(std::span<const std::byte> raster, bool is_wide, std::size_t index) {
   if (!is_wide) return std::to_integer<std::uint32_t>(raster[index]);
   return reinterpret_cast<const std::uint16_t*>(raster.data())[index];
@@ -45,9 +39,7 @@ TEST(ClipPart, CutsARectangleOut) {
       const auto stills = test::random_stills(shape, white, 2, white);
       write_stills(scratch, stills);
       for (const Rectangle& crop : {Rectangle{0, 0, 17, 9}, Rectangle{3, 2, 5, 7}, Rectangle{16, 8, 1, 1}}) {
-        ClipOptions options = at_rate({100, 1});
-        options.crop = crop;
-        const auto clip = open_test_clip(scratch.folder(), options);
+        const auto clip = open_test_clip(scratch.folder(), {.rate = Rational{100, 1}, .crop = crop});
         EXPECT_EQ(clip->info().format.shape, (Shape{crop.width, crop.height, shape.channels}));
         EXPECT_EQ(clip->info().format.white_code, white);
         const auto rasters = read_all(*clip);
@@ -121,11 +113,10 @@ TEST(ClipPart, ScalesToMeansOfLight) {
         for (const Case& tested : cases) {
           SCOPED_TRACE(std::string(tested.scale) + ", white " + std::to_string(white) + ", " +
                        transfer.text());
-          ClipOptions options = at_rate({100, 1});
-          options.transfer = transfer;
-          options.crop = crop;
-          options.scale = parse_scale(tested.scale);
-          const auto clip = open_test_clip(scratch.folder(), options);
+          const auto clip = open_test_clip(scratch.folder(), {.rate = Rational{100, 1},
+                                                              .transfer = transfer,
+                                                              .crop = crop,
+                                                              .scale = parse_scale(tested.scale)});
           Shape scaled = tested.scaled;
           scaled.channels = channels;
           ASSERT_EQ(clip->info().format.shape, scaled);
@@ -163,9 +154,7 @@ TEST(ClipPart, KeepsTheCodesOfEvenAreas) {
         if (white > 255) still.values<std::uint16_t>()[i] = static_cast<std::uint16_t>(code);
       }
       write_stills(scratch, {still});
-      ClipOptions options = at_rate({100, 1});
-      options.transfer = transfer;
-      options.scale = parse_scale("16x4");
+      const ClipOptions options{.rate = Rational{100, 1}, .transfer = transfer, .scale = parse_scale("16x4")};
       const auto raster = read_all(*open_test_clip(scratch.folder(), options)).at(0);
       for (std::size_t block = 0; block < 64; ++block) {
         EXPECT_EQ(code_at(raster, white > 255, block), block * white / 63) << transfer.text();
@@ -193,10 +182,8 @@ TEST(ClipPart, TakesThePicturesBetweenTwoMoments) {
                         {ClipMoment{0, false}, ClipMoment{166'666'668, false}, 0, 6},
                         {ClipMoment{0, false}, ClipMoment{9'000'000'000, false}, 0, 6}};
   for (const Case& tested : cases) {
-    ClipOptions options = at_rate({30, 1});
-    options.from = tested.from;
-    options.to = tested.to;
-    const auto clip = open_test_clip(scratch.folder(), options);
+    const auto clip =
+        open_test_clip(scratch.folder(), {.rate = Rational{30, 1}, .from = tested.from, .to = tested.to});
     EXPECT_EQ(clip->info().sample_count, tested.end - tested.first);
     const auto rasters = read_all(*clip);
     ASSERT_EQ(rasters.size(), tested.end - tested.first);
@@ -210,9 +197,7 @@ TEST(ClipPart, KeepsWhenItsPicturesWereExposed) {
   const Scratch scratch;
   write_stills(scratch, test::random_stills({4, 3, 1}, 255, 4, 1));
   const auto table = scratch.write("t.csv", "f0.pgm,0,5\nf1.pgm,10,7\nf2.pgm,30,20\nf3.pgm,70,1\n");
-  ClipOptions options;
-  options.from = ClipMoment{5, false};
-  options.to = ClipMoment{70, false};
+  const ClipOptions options{.from = ClipMoment{5, false}, .to = ClipMoment{70, false}};
   const auto clip = open_test_clip(table, options);
   const Timeline timeline = timeline_of("", clip->info(), options, read_all(*clip).size());
   // Time 0 is the start of the first that is taken.
@@ -233,9 +218,8 @@ TEST(ClipPart, HoldsItsPicturesAsLongAsTheClip) {
   const std::int64_t starts[] = {0, 10, 30, 70, 110};
   for (std::uint64_t first = 0; first < 4; ++first) {
     for (std::uint64_t end = first + 1; end <= 4; ++end) {
-      ClipOptions options;
-      options.from = ClipMoment{static_cast<std::int64_t>(first), true};
-      options.to = ClipMoment{static_cast<std::int64_t>(end), true};
+      const ClipOptions options{.from = ClipMoment{static_cast<std::int64_t>(first), true},
+                                .to = ClipMoment{static_cast<std::int64_t>(end), true}};
       const auto clip = open_test_clip(table, options);
       EXPECT_EQ(clip->info().part, (PartOfClip{first, starts[first], 4, "t.csv"}));
       const Timeline timeline = timeline_of("", clip->info(), options, {180, 1}, end - first);
@@ -262,10 +246,9 @@ TEST(ClipPart, OfAVideoHasTheSamePictures) {
     const std::string name = std::string(coding).substr(std::string(coding).rfind(' ') + 1);
     const auto whole = read_all(*open_test_clip(scratch / name));
     for (std::size_t first = 0; first < whole.size(); first += 3) {
-      ClipOptions options;
-      options.from = ClipMoment{static_cast<std::int64_t>(first), true};
-      options.to = ClipMoment{static_cast<std::int64_t>(first + 2), true};
-      const auto part = read_all(*open_test_clip(scratch / name, options));
+      const auto part =
+          read_all(*open_test_clip(scratch / name, {.from = ClipMoment{static_cast<std::int64_t>(first), true},
+                                                    .to = ClipMoment{static_cast<std::int64_t>(first + 2), true}}));
       ASSERT_EQ(part.size(), std::min<std::size_t>(2, whole.size() - first));
       for (std::size_t k = 0; k < part.size(); ++k) EXPECT_TRUE(part[k] == whole[first + k]) << first + k;
     }
@@ -276,7 +259,7 @@ TEST(ClipPart, IsRefusedWhereTheClipHasNone) {
   const Scratch scratch;
   write_stills(scratch, test::random_stills({17, 9, 1}, 255, 4, 1));
   const auto refusal = [&](auto change, Rational rate = {100, 1}) {
-    ClipOptions options = at_rate(rate);
+    ClipOptions options{.rate = rate};
     change(options);
     return message_of<Error>([&] { read_all(*open_test_clip(scratch.folder(), options)); });
   };

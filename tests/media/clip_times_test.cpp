@@ -56,9 +56,7 @@ TEST(ClipTimes, TakesIrregularTimesFromTheContainer) {
     }
     EXPECT_EQ(timeline.duration_ns(), 730'000'000);
     // A stated rate goes before them.
-    ClipOptions stated;
-    stated.rate = Rational{100, 1};
-    EXPECT_TRUE(timeline_of(output, clip->info(), stated, {360, 1}, kStarts.size()).is_constant());
+    EXPECT_TRUE(timeline_of(output, clip->info(), {.rate = Rational{100, 1}}, {360, 1}, kStarts.size()).is_constant());
   }
 }
 
@@ -76,8 +74,7 @@ TEST(ClipTimes, RefusesTimesThatDoNotIncrease) {
       clip, {},
       "same.mkv: sample 5 starts at 240000000 ns, not after sample 4 at 240000000 ns; if they "
       "were taken at a constant rate, state it");
-  ClipOptions stated;
-  stated.rate = Rational{25, 1};
+  const ClipOptions stated{.rate = Rational{25, 1}};
   EXPECT_TRUE(timeline_of("", open_test_clip(clip, stated)->info(), stated, {360, 1}, 7).is_constant());
 }
 
@@ -89,8 +86,7 @@ TEST(ClipTimes, ThatRunBackAreThoseOfTwoClips) {
     const std::string bytes = test::read_file(scratch / clip);
     const auto twice = scratch.write("twice-" + clip, bytes + bytes);
     expect_clip_refused(twice, {}, "does not say how fast it was taken: its times run back at picture 25, as if");
-    ClipOptions stated;
-    stated.rate = Rational{25, 1};
+    const ClipOptions stated{.rate = Rational{25, 1}};
     EXPECT_TRUE(timeline_of("", open_test_clip(twice, stated)->info(), stated, {360, 1}, 50).is_constant());
   }
 }
@@ -256,9 +252,8 @@ TEST(ClipTimes, OfFramesThatLastAFieldAreThoseOfFrames) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   make(scratch, "-f lavfi -i testsrc2=s=720x576:r=25 -frames:v 8 a.gxf");
-  ClipOptions options;
-  options.interlaced = Interlaced::ignored;
-  EXPECT_EQ(open_test_clip(scratch / "a.gxf", options)->info().timing.rate, (Rational{25, 1}));
+  EXPECT_EQ(open_test_clip(scratch / "a.gxf", {.interlaced = Interlaced::ignored})->info().timing.rate,
+            (Rational{25, 1}));
 }
 
 TEST(ClipTimes, OfASinglePictureAreNoClocksTicks) {

@@ -145,9 +145,7 @@ TEST(ColourProfile, OfPrimariesThatAreNotKnownIsNamed) {
   ASSERT_EQ(clip->info().notes.size(), 1u);
   EXPECT_NE(clip->info().notes[0].text.find("'Adobe RGB (1998)'"), std::string::npos);
   EXPECT_EQ(clip->info().notes[0].settings, std::vector{Setting::primaries});
-  ClipOptions stated;
-  stated.primaries = Primaries::p3;
-  EXPECT_TRUE(open_test_clip(scratch / "still.jpg", stated)->info().notes.empty());
+  EXPECT_TRUE(open_test_clip(scratch / "still.jpg", {.primaries = Primaries::p3})->info().notes.empty());
 }
 
 TEST(ColourProfile, OfACurveThatIsNotKnownIsNamed) {
@@ -184,9 +182,7 @@ TEST(ColourProfile, OfOneStillIsThatOfAll) {
   ASSERT_TRUE(error) << "both were read";
   EXPECT_NE(std::string(error->what()).find("2.jpg has transfer linear"), std::string::npos) << error->what();
   EXPECT_EQ(error->settings(), std::vector{Setting::transfer});
-  ClipOptions stated;
-  stated.transfer = Transfer::srgb();
-  EXPECT_EQ(test::read_all(*open_test_clip(scratch.folder(), stated)).size(), 2u);
+  EXPECT_EQ(test::read_all(*open_test_clip(scratch.folder(), {.transfer = Transfer::srgb()})).size(), 2u);
   // What is not known is not what is usual.
   const Curve other(cmsBuildParametricToneCurve(nullptr, 4, std::array{1.8, 0.9, 0.1, 0.08, 0.05}.data()), &cmsFreeToneCurve);
   write_jpeg_with(scratch / "2.jpg", rgb_profile("other", other.get(), kSrgb));

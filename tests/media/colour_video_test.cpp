@@ -81,11 +81,10 @@ TEST(ColourVideo, HasTheNearestCodesThatThereAre) {
                                               {YuvMatrix::bt709, 0.2126, 0.0722},
                                               {YuvMatrix::bt2020, 0.2627, 0.0593}}) {
         for (const CodeRange range : {CodeRange::limited, CodeRange::full}) {
-          ClipOptions options;
-          options.raw = RawVideo{shape.width, shape.height, kind.name};
-          options.rate = Rational{25, 1};
-          options.matrix = matrix;
-          options.range = range;
+          const ClipOptions options{.rate = Rational{25, 1},
+                                    .raw = RawVideo{shape.width, shape.height, kind.name},
+                                    .matrix = matrix,
+                                    .range = range};
           const auto codes = test::read_all(*test::open_test_clip(scratch / "raw", options)).at(0);
           const bool is_full = range == CodeRange::full;
           const auto byte = [&](std::size_t at) { return double(static_cast<unsigned char>(raw[at])); };

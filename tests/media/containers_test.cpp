@@ -43,9 +43,7 @@ TEST(Containers, WithoutASizeAreReadHoweverLargeTheyAre) {
     SCOPED_TRACE(name);
     make(scratch, test::from_raw(kShape, "gray") + "-pix_fmt yuv420p " + codec + " " + name);
     ASSERT_GT(std::filesystem::file_size(scratch / name), 261'000u);
-    ClipOptions options;
-    options.interlaced = Interlaced::ignored;
-    EXPECT_EQ(read_all(*open_test_clip(scratch / name, options)).size(), 12u);
+    EXPECT_EQ(read_all(*open_test_clip(scratch / name, {.interlaced = Interlaced::ignored})).size(), 12u);
   }
 }
 
@@ -169,8 +167,7 @@ TEST(Containers, WhoseRateNobodyStatesNeedOne) {
   const auto expect_untold = [&](const std::string& name, const std::string& said) {
     SCOPED_TRACE(name);
     test::expect_clip_refused(scratch / name, {}, name + said);
-    ClipOptions stated;
-    stated.rate = Rational{240, 1};
+    const ClipOptions stated{.rate = Rational{240, 1}};
     const auto clip = open_test_clip(scratch / name, stated);
     EXPECT_GT(read_all(*clip).size(), 0u);
     EXPECT_EQ(timeline_of(name, clip->info(), stated, {360, 1}, 6).rate(), (Rational{240, 1}));

@@ -68,9 +68,7 @@ TEST_F(DamagedVideo, WithAHoleIsRefused) {
   const auto path = write_hole();
   const std::string said = test::message_of<InputError>([&] { read_all(*open_test_clip(path)); });
   EXPECT_NE(said.find("pictures before it can be taken"), std::string::npos) << said;
-  ClipOptions options;
-  options.ends_at_damage = true;
-  const auto clip = open_test_clip(path, options);
+  const auto clip = open_test_clip(path, {.ends_at_damage = true});
   const auto read = read_all(*clip);
   EXPECT_TRUE(clip->ended_early());
   ASSERT_LE(read.size(), 15u);
@@ -84,8 +82,7 @@ TEST_F(DamagedVideo, WithAHoleBeforeAPartIsRefused) {
   make_clip("-c:v rawvideo", "whole.mkv");
   const auto pictures = read_all(*open_test_clip(scratch_ / "whole.mkv"));
   const auto path = write_hole();
-  ClipOptions options;
-  options.from = ClipMoment{22, true};
+  const ClipOptions options{.from = ClipMoment{22, true}};
   const std::string said = test::message_of<InputError>([&] { read_all(*open_test_clip(path, options)); });
   EXPECT_NE(said.find("pictures are missing behind the first "), std::string::npos) << said;
   EXPECT_TRUE(read_all(*open_test_clip(scratch_ / "whole.mkv", options)) ==
@@ -167,8 +164,7 @@ TEST_F(DamagedVideo, IsTakenAsFarAsItGoesWhereThatIsAsked) {
   const auto error = test::error_of<InputError>([&] { read_all(*open_test_clip(path)); });
   ASSERT_TRUE(error) << "it was read";
   EXPECT_EQ(error->settings(), std::vector{Setting::end_at_damage}) << error->what();
-  ClipOptions options;
-  options.ends_at_damage = true;
+  const ClipOptions options{.ends_at_damage = true};
   const auto clip = open_test_clip(path, options);
   const auto read = read_all(*clip);
   // Some pictures before the damaged one, at 2/3 of the file, may be lost with it: decoders are ahead.

@@ -69,9 +69,7 @@ std::vector<std::vector<std::byte>> read_deflickered(const std::vector<Picture>&
   for (std::size_t k = 0; k < pictures.size(); ++k) {
     scratch.write("f" + std::to_string(k) + ".ppm", test::netpbm_file(pictures[k], false));
   }
-  ClipOptions options;
-  options.rate = Rational{100, 1};
-  const auto clip = deflicker(test::open_test_clip(scratch.folder(), options));
+  const auto clip = deflicker(test::open_test_clip(scratch.folder(), {.rate = Rational{100, 1}}));
   auto rasters = test::read_all(*clip);
   remarks = clip->remarks();
   return rasters;

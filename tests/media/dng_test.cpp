@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "capture/error.hpp"
+#include "support/bytes.hpp"
 #include "support/clips.hpp"
 #include "support/messages.hpp"
 #include "support/scratch.hpp"
@@ -49,14 +50,13 @@ constexpr Matrix kXyzOfRgb{
 
 std::string shorts(std::initializer_list<int> values) {
   std::string data;
-  for (const int value : values) data += {static_cast<char>(value & 255), static_cast<char>(value >> 8)};
+  for (const int value : values) data += test::little_endian(static_cast<std::uint64_t>(value), 2);
   return data;
 }
 
 std::string longs(std::initializer_list<std::int64_t> values) {
   std::string data;
-  for (const std::int64_t value : values)
-    for (int byte = 0; byte < 4; ++byte) data += static_cast<char>(value >> (8 * byte) & 255);
+  for (const std::int64_t value : values) data += test::little_endian(static_cast<std::uint64_t>(value), 4);
   return data;
 }
 
@@ -236,9 +236,7 @@ TEST(Dng, TellsItsRateAndExposure) {
   write("f2.dng", dng);
   auto clip = open_test_clip(scratch / "f%d.dng");
   EXPECT_FALSE(clip->info().timing.is_known());
-  ClipOptions stated;
-  stated.rate = Rational{24, 1};
-  EXPECT_EQ(timeline_of("", clip->info(), stated, 2).end_ns(0), 20'833'333) << "1/48 s of 1/24 s";
+  EXPECT_EQ(timeline_of("", clip->info(), {.rate = Rational{24, 1}}, 2).end_ns(0), 20'833'333) << "1/48 s of 1/24 s";
 
   dng.rate = {24'000, 1001};
   write("f1.dng", dng);

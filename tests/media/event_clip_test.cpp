@@ -103,10 +103,7 @@ TEST(EventClip, HoldsTheEventsOfEveryFormat) {
 TEST(EventClip, TellsWhatChanges) {
   const Scratch scratch;
   const auto path = scratch.write("a.dat", test::dat_file(random_events(5, 40), kWidth, kHeight));
-  ClipOptions part;
-  part.from = ClipMoment{30, true};
-  part.to = ClipMoment{60, true};
-  part.crop = Rectangle{3, 2, 50, 6};
+  const ClipOptions part{.from = ClipMoment{30, true}, .to = ClipMoment{60, true}, .crop = Rectangle{3, 2, 50, 6}};
   for (const ClipOptions& options : {ClipOptions{}, part}) {
     const auto whole = open_test_clip(path, options), told = open_test_clip(path, options);
     ASSERT_TRUE(told->tells_changes());
@@ -138,8 +135,7 @@ TEST(EventClip, TakesLightAsItIsStated) {
   const Scratch scratch;
   const Events events = random_events(1, 0);
   const auto path = scratch.write("a.dat", test::dat_file(events, kWidth, kHeight));
-  ClipOptions options;
-  options.events.contrast = parse_contrast("0.31:0.17");
+  ClipOptions options{.events = {.contrast = parse_contrast("0.31:0.17")}};
   expect_events(*open_test_clip(path, options), events, 0.31, 0.17);
   EXPECT_EQ(test::facts_of(*open_test_clip(path, options)).at(Setting::contrast).line(),
             "an event is 0.31 of log light up, 0.17 down, as stated");
@@ -169,9 +165,8 @@ TEST(EventClip, TakesLightAsItIsStated) {
 TEST(EventClip, CountsChangesAtTheStartOfTheirTick) {
   const Scratch scratch;
   const Events events{{1000, 1, 1, true}, {1099, 2, 1, true}, {1100, 1, 1, true}, {1350, 3, 1, true}};
-  ClipOptions options;
-  options.events.tick_ns = 100'000;
-  const auto clip = open_test_clip(scratch.write("a.dat", test::dat_file(events, 8, 8)), options);
+  const auto clip =
+      open_test_clip(scratch.write("a.dat", test::dat_file(events, 8, 8)), {.events = {.tick_ns = 100'000}});
   const std::vector<Exposure> expected{{0, 100'000}, {100'000, 300'000}, {300'000, 351'000}};
   EXPECT_EQ(clip->info().timing.exposures, expected);
 }
@@ -192,39 +187,31 @@ TEST(EventClip, KeepsLightAboveWhiteForTheWayBack) {
   EXPECT_NE(clip->info().notes[0].text.find("1 pixels become brighter than white"), std::string::npos);
 }
 
-std::string event_notes_of(const std::filesystem::path& path) {
-  std::string all;
-  const auto clip = open_test_clip(path);
-  for (const Note& note : clip->info().notes) all += note.text + "\n";
-  return all;
-}
-
 TEST(EventClip, TellsWhatIsWrongWithAFile) {
   const Scratch scratch;
+  const auto expect_noted = [&](const char* name, const std::string& file, const std::string& part) {
+    const std::string notes = test::notes_of(*open_test_clip(scratch.write(name, file)));
+    EXPECT_NE(notes.find(part), std::string::npos) << notes;
+  };
   const Events events = random_events(8, 500'000);
   const std::string words = test::evt2_words(events);
-  EXPECT_NE(event_notes_of(scratch.write("cut.raw", raw("EVT2", words + "ab"))).find("its last 2 bytes are left out"),
-            std::string::npos);
-  EXPECT_NE(event_notes_of(scratch.write("early.raw", raw("EVT2", test::little_endian(1 << 28, 4) + words)))
-                .find("1 events come before the first time"),
-            std::string::npos);
+  expect_noted("cut.raw", raw("EVT2", words + "ab"), "its last 2 bytes are left out");
+  expect_noted("early.raw", raw("EVT2", test::little_endian(1 << 28, 4) + words),
+               "1 events come before the first time");
   Events back = events;
   back[200].us -= 30;
   std::ranges::stable_sort(back.begin(), back.begin() + 200, {}, &Event::us);
-  EXPECT_NE(event_notes_of(scratch.write("back.dat", test::dat_file(back, kWidth, kHeight))).find("events come after later ones, by up to"),
-            std::string::npos);
+  expect_noted("back.dat", test::dat_file(back, kWidth, kHeight), "events come after later ones, by up to");
   Events outside = events;
   outside[7].x = kWidth;
-  EXPECT_NE(event_notes_of(scratch.write("outside.dat", test::dat_file(outside, kWidth, kHeight)))
-                .find("lie outside the sensor's 70 x 9 pixels (the file), the first at 70,"),
-            std::string::npos);
+  expect_noted("outside.dat", test::dat_file(outside, kWidth, kHeight),
+               "lie outside the sensor's 70 x 9 pixels (the file), the first at 70,");
   // Without a size in the header: by the sensor, else by the events.
   EXPECT_EQ(open_test_clip(scratch.write("gen.raw", "% plugin_name hal_plugin_gen41_evk3\n% evt 2.0\n" + words))
                 ->info()
                 .format.shape,
             (Shape{1280, 720, 1}));
-  EXPECT_NE(event_notes_of(scratch.write("none.raw", "% evt 2.0\n" + words)).find("does not say how many pixels"),
-            std::string::npos);
+  expect_noted("none.raw", "% evt 2.0\n" + words, "does not say how many pixels");
 }
 
 // A vector of EVT 3.0 advances the column on and on, also past 16 bits.
@@ -284,8 +271,7 @@ TEST(EventClip, CountsMemoryBeforeItIsTaken) {
 TEST(EventClip, RefusesWhatIsSaidOfPictures) {
   const Scratch scratch;
   const auto path = scratch.write("a.dat", test::dat_file(random_events(1, 0), kWidth, kHeight));
-  ClipOptions options;
-  options.rate = Rational{100, 1};
+  ClipOptions options{.rate = Rational{100, 1}};
   EXPECT_NE(message_of<UsageError>([&] { open_test_clip(path, options); }).find("times of its own at every pixel"),
             std::string::npos);
   options = {};

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "support/bytes.hpp"
+
 namespace nutik::test {
 
 struct Event {
@@ -15,12 +17,6 @@ struct Event {
   friend bool operator==(const Event&, const Event&) = default;
 };
 using Events = std::vector<Event>;
-
-inline std::string little_endian(std::uint64_t word, int bytes) {
-  std::string text;
-  for (int i = 0; i < bytes; ++i) text += static_cast<char>(word >> (8 * i) & 255);
-  return text;
-}
 
 inline std::string raw_header(const std::string& format, unsigned width, unsigned height) {
   return "% camera_integrator_name Prophesee\n% date 2023-03-29 16:37:46\n% format " + format +

@@ -27,9 +27,7 @@ void make_interlaced(const Scratch& scratch, char first, const std::string& code
 class InterlacedVideo : public testing::Test {
  protected:
   [[nodiscard]] std::vector<std::vector<std::byte>> read(const std::string& name, Interlaced wish) const {
-    ClipOptions options;
-    options.interlaced = wish;
-    return read_all(*open_test_clip(scratch_ / name, options));
+    return read_all(*open_test_clip(scratch_ / name, {.interlaced = wish}));
   }
   // What ffmpeg's command makes of it.
   [[nodiscard]] std::string by_ffmpeg(const std::string& name, const std::string& filter) const {
@@ -72,11 +70,8 @@ TEST_F(InterlacedVideo, IsTakenAsItIsWhereThatIsAsked) {
   NEEDS_FFMPEG();
   make_interlaced(scratch_, 't', "-c:v ffv1", "t.mkv");
   EXPECT_EQ(joined(read("t.mkv", Interlaced::ignored)), by_ffmpeg("t.mkv", ""));
-  ClipOptions as_they_are;
-  as_they_are.interlaced = Interlaced::ignored;
-  EXPECT_EQ(
-      test::facts_of(*test::open_test_clip(scratch_ / "t.mkv", as_they_are)).at(Setting::deinterlace).line(),
-      "interlaced frames as they are, as stated");
+  const auto clip = test::open_test_clip(scratch_ / "t.mkv", {.interlaced = Interlaced::ignored});
+  EXPECT_EQ(test::facts_of(*clip).at(Setting::deinterlace).line(), "interlaced frames as they are, as stated");
 }
 
 TEST_F(InterlacedVideo, BecomesWhatFfmpegMakesOfIt) {
@@ -104,9 +99,7 @@ TEST_F(InterlacedVideo, IsSaidWhereWhatIsAskedDoesNotFit) {
   test::make(scratch_, still + "-vf setfield=prog -c:v ffv1 whole-told.mkv");
   test::make(scratch_, still + "-c:v mjpeg -pix_fmt yuvj420p whole.avi");
   const auto said = [&](const std::string& name, Interlaced wish) {
-    ClipOptions options;
-    options.interlaced = wish;
-    const auto clip = open_test_clip(scratch_ / name, options);
+    const auto clip = open_test_clip(scratch_ / name, {.interlaced = wish});
     read_all(*clip);
     std::string all;
     for (const Note& note : clip->info().notes) all += note.text + "\n";
@@ -141,10 +134,8 @@ TEST_F(InterlacedVideo, IsSaidWhereWhatIsAskedDoesNotFit) {
 TEST_F(InterlacedVideo, IsSaidOfPicturesWithoutAHeader) {
   NEEDS_FFMPEG();
   test::make(scratch_, "-f lavfi -i testsrc2=size=64x48:rate=25 -frames:v 2 -pix_fmt gray -f rawvideo whole.bytes");
-  ClipOptions options;
-  options.raw = RawVideo{64, 48, "gray"};
-  options.interlaced = Interlaced::frames;
-  const auto clip = open_test_clip(scratch_ / "whole.bytes", options);
+  const auto clip =
+      open_test_clip(scratch_ / "whole.bytes", {.raw = RawVideo{64, 48, "gray"}, .interlaced = Interlaced::frames});
   read_all(*clip);
   ASSERT_EQ(clip->remarks().size(), 1u);
   EXPECT_TRUE(clip->remarks()[0].starts_with("nothing in the clip says that it is interlaced")) << clip->remarks()[0];
@@ -155,8 +146,7 @@ TEST_F(InterlacedVideo, OfFieldsRunsTwiceAsFast) {
   make_interlaced(scratch_, 't', "-c:v ffv1", "t.mkv");
   for (const auto& [wish, rate, count] :
        {std::tuple(Interlaced::frames, 25, kFrames), std::tuple(Interlaced::fields, 50, 2 * kFrames)}) {
-    ClipOptions options;
-    options.interlaced = wish;
+    const ClipOptions options{.interlaced = wish};
     const auto clip = open_test_clip(scratch_ / "t.mkv", options);
     EXPECT_EQ(clip->info().sample_count, static_cast<std::uint64_t>(count));
     EXPECT_EQ(timeline_of("", clip->info(), options, clip->info().sample_count).rate(), (Rational{rate, 1}));

@@ -198,9 +198,7 @@ TEST(OpenExr, IsAClipByWhatItSays) {
     FileWishes halves;
     halves.as_half = true;
     write_picture(scratch / "a.exr", picture, {}, halves);
-    ClipOptions options;
-    options.white_light = 1.0;
-    const auto clip = test::open_test_clip(scratch / "a.exr", options);
+    const auto clip = test::open_test_clip(scratch / "a.exr", {.white_light = 1.0});
     const CaptureFormat& format = clip->info().format;
     EXPECT_EQ(format.shape, shape);
     EXPECT_TRUE(format.transfer.is_linear());

@@ -192,8 +192,7 @@ TEST(PhotronClip, IsTakenAsFarAsItGoes) {
   const std::string whole = words(stills, 0);
   scratch.write("ball.mraw", whole.substr(0, whole.size() - 1));
   scratch.write("ball.cih", Header{}.text());
-  ClipOptions options;
-  options.ends_at_damage = true;
+  const ClipOptions options{.ends_at_damage = true};
   const auto clip = open_test_clip(scratch / "ball.mraw", options);
   const auto rasters = read_all(*clip);
   ASSERT_EQ(rasters.size(), 2u);
@@ -265,9 +264,7 @@ TEST(PhotronClip, ARecordingIsWhatItsPngsAre) {
   const std::filesystem::path media = NUTIK_TEST_MEDIA;
   if (!std::filesystem::exists(media / "ball_12bit.mraw")) GTEST_SKIP() << "no clips in " << media;
   const auto recording = open_test_clip(media / "ball_12bit.mraw");
-  ClipOptions white;
-  white.white_code = 4095;
-  const auto pngs = open_test_clip(media / "ball_12bit_png", white);
+  const auto pngs = open_test_clip(media / "ball_12bit_png", {.white_code = 4095});
   EXPECT_EQ(recording->info().format, pngs->info().format);
   EXPECT_EQ(timeline_of("", recording->info(), {}, 15).rate(), (Rational{30'000, 1}));
   const auto got = read_all(*recording), wanted = read_all(*pngs);

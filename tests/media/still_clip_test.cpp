@@ -295,9 +295,7 @@ TEST(StillClip, AStatedWhiteCodeGoesBeforeTheFiles) {
   const Scratch scratch;
   const auto stills = test::random_stills(kGreyShape, 4095, 1, 3);
   write_with_opencv(scratch / "f.png", stills[0]);
-  ClipOptions options;
-  options.white_code = 4095;
-  const auto clip = open_test_clip(scratch / "f.png", options);
+  const auto clip = open_test_clip(scratch / "f.png", {.white_code = 4095});
   EXPECT_EQ(clip->info().format.white_code, 4095u);
   EXPECT_TRUE(clip->info().notes.empty());
 }
@@ -360,9 +358,7 @@ TEST(StillClip, SaysWhichStillDiffersAndHow) {
   write("white/f1.pgm", kGreyShape, 4095);
   expect_refused(scratch / "white", {"f1.pgm is 17 x 9 grey of 16 bits, white code 4095", "white code 1023",
                                      "state what is white"});
-  ClipOptions options;
-  options.white_code = 4095;
-  EXPECT_EQ(read_all(*open_test_clip(scratch / "white", options)).size(), 2u);
+  EXPECT_EQ(read_all(*open_test_clip(scratch / "white", {.white_code = 4095})).size(), 2u);
 
   auto pages = test::random_stills(kGreyShape, 65'535, 2, 1);
   pages.push_back(test::random_stills({9, 17, 1}, 65'535, 1, 1)[0]);
@@ -480,9 +476,8 @@ TEST(StillClip, TakesThePixelAspectFromTheFile) {
       const auto clip = open_test_clip(scratch / name);
       EXPECT_EQ(clip->info().format.pixel_aspect, aspect) << name;
       EXPECT_EQ(clip->info().facts.back().line(), std::string(text) + ", from the file");
-      ClipOptions stated;
-      stated.pixel_aspect = Rational{2, 1};
-      EXPECT_EQ(open_test_clip(scratch / name, stated)->info().format.pixel_aspect, (Rational{2, 1}));
+      EXPECT_EQ(open_test_clip(scratch / name, {.pixel_aspect = Rational{2, 1}})->info().format.pixel_aspect,
+                (Rational{2, 1}));
     }
     Picture square = test::random_stills(kGreyShape, 255, 1, 3).front();
     write_picture(scratch / name, square);
@@ -502,9 +497,7 @@ TEST(StillClip, OfPixelsOfOtherShapesIsRefused) {
     write_picture(folder / ("b" + name), pictures[1]);
     expect_refused(folder, {"b" + name + " has square pixels, the first still, " + (folder / name).string() +
                             ", pixels 32:27. All must be alike; state what all have"});
-    ClipOptions stated;
-    stated.pixel_aspect = Rational{4, 3};
-    EXPECT_EQ(read_all(*open_test_clip(folder, stated)).size(), 2u);
+    EXPECT_EQ(read_all(*open_test_clip(folder, {.pixel_aspect = Rational{4, 3}})).size(), 2u);
   }
 }
 
@@ -546,9 +539,7 @@ TEST(StillClip, OfPngStandsForWhatItsChunksName) {
   EXPECT_EQ(open_test_clip(scratch / "older.png")->info().facts[2].line(), "primaries p3, from the file");
   picture.transfer = Transfer::gamma(3);
   EXPECT_EQ(facts_of(picture).second[0], "transfer gamma:3, from the ICC profile 'p3, gamma:3'");
-  ClipOptions stated;
-  stated.transfer = Transfer::srgb();
-  EXPECT_EQ(facts_of(picture, stated).second[0], "transfer srgb, as stated");
+  EXPECT_EQ(facts_of(picture, {.transfer = Transfer::srgb()}).second[0], "transfer srgb, as stated");
   std::string png = test::read_file(scratch / "a.png");
   const auto profile = png.find("iCCP");
   ASSERT_NE(profile, std::string::npos);

@@ -68,8 +68,7 @@ TEST(StillsTable, WithoutExposuresTheShutterAngleCounts) {
   EXPECT_EQ(timeline.end_ns(1), 2500);
   // A rate that is stated goes before the table's times, which need not even be there.
   scratch.write("shots/stills.csv", "file\na.pgm\nb.pgm\n\"c, 2.pgm\"\n");
-  ClipOptions options;
-  options.rate = {100, 1};
+  const ClipOptions options{.rate = Rational{100, 1}};
   const auto constant = open_test_clip(path, options);
   EXPECT_TRUE(timeline_of(path.string(), constant->info(), options, {360, 1}, 3).is_constant());
 }

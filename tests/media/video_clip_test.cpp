@@ -32,10 +32,7 @@ std::string with_bytes_swapped(std::string bytes) {
 }
 
 ClipOptions raw_options(Shape shape, const std::string& pixels) {
-  ClipOptions options;
-  options.raw = RawVideo{shape.width, shape.height, pixels};
-  options.rate = Rational{25, 1};
-  return options;
+  return {.rate = Rational{25, 1}, .raw = RawVideo{shape.width, shape.height, pixels}};
 }
 
 void expect_codes(Clip& clip, const std::vector<Picture>& pictures) {

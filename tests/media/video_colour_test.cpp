@@ -44,10 +44,8 @@ TEST(VideoColour, OfFilesThatSayNothingDependsOnTheirLines) {
   EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "low.mkv"))[Setting::transfer],
             assumed("transfer srgb"));
   // It matters: the codes are those of the matrix that was taken.
-  ClipOptions other;
-  other.matrix = YuvMatrix::bt601;
   const auto usual = test::open_test_clip(scratch / "high.mkv"),
-             changed = test::open_test_clip(scratch / "high.mkv", other);
+             changed = test::open_test_clip(scratch / "high.mkv", {.matrix = YuvMatrix::bt601});
   EXPECT_NE(test::read_all(*usual).at(0), test::read_all(*changed).at(0));
   EXPECT_EQ(facts_of(*changed)[Setting::matrix], stated("matrix bt601"));
 }
@@ -214,9 +212,7 @@ TEST(VideoColour, TellsWhatWhiteIsTakenToBe) {
     ASSERT_EQ(clip->info().notes.size(), notes) << pixels;
     for (const Note& note : clip->info().notes) EXPECT_EQ(note.settings, std::vector{Setting::white_code});
   }
-  ClipOptions options;
-  options.white_code = 4095;
-  const auto stated = test::open_test_clip(scratch / "clip.mkv", options);
+  const auto stated = test::open_test_clip(scratch / "clip.mkv", {.white_code = 4095});
   EXPECT_EQ(test::facts_of(*stated).at(Setting::white_code).line(), "white 4095, as stated");
   EXPECT_TRUE(stated->info().notes.empty());
 }
@@ -236,9 +232,7 @@ TEST(VideoColour, OfGreyInTheLimitedRangeIsScaledToTheFullOne) {
     test::make(scratch, words + "bare.mkv");
     test::make(scratch, words + "-color_range tv limited.mkv");
     const auto codes_of = [&](const char* name, std::optional<CodeRange> range, const std::string& fact) {
-      ClipOptions options;
-      options.range = range;
-      const auto clip = test::open_test_clip(scratch / name, options);
+      const auto clip = test::open_test_clip(scratch / name, {.range = range});
       const auto facts = test::facts_of(*clip);
       EXPECT_EQ(facts.contains(Setting::range) ? facts.at(Setting::range).line() : "", fact) << name;
       std::vector<long> codes;
@@ -257,9 +251,7 @@ TEST(VideoColour, OfGreyInTheLimitedRangeIsScaledToTheFullOne) {
     EXPECT_EQ(codes_of("bare.mkv", CodeRange::limited, "limited range, as stated"), scaled);
     EXPECT_EQ(codes_of("bare.mkv", {}, ""), full);
     EXPECT_EQ(codes_of("limited.mkv", CodeRange::full, "full range, as stated"), full);
-    ClipOptions options;
-    options.white_code = 4095;
-    test::expect_clip_refused(scratch / "limited.mkv", options, "scaled to the full one, whose white is ");
+    test::expect_clip_refused(scratch / "limited.mkv", {.white_code = 4095}, "scaled to the full one, whose white is ");
   }
 }
 
@@ -278,8 +270,7 @@ TEST(VideoColour, ThatChangesInMidClipIsRefused) {
         {clip_of("0", "6", "1"), "picture 25 is of matrix bt601, the ones before it of matrix bt709"},
         {clip_of("0", "1", "16"), "picture 25 is of transfer pq, the ones before it of transfer srgb"},
         {clip_of("0", "1", "6"), ""}}) {
-    ClipOptions options;
-    options.rate = Rational{25, 1};
+    ClipOptions options{.rate = Rational{25, 1}};
     const auto path = scratch.write("joined.ts", first + second);
     if (*said != 0) test::expect_clip_refused(path, options, said);
     options.ends_at_damage = true;

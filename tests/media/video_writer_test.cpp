@@ -22,13 +22,9 @@ VideoFormat format_of(const Picture& picture, Rational rate) {
   return {picture.shape, picture.type, picture.white_code, Transfer::srgb(), rate};
 }
 
-void use_the_programs_modules() {
-  setenv("NUTIK_MODULES", std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path().c_str(), 0);
-}
-
 void write_video(const std::filesystem::path& path, const std::vector<Picture>& pictures, Rational rate,
                  const std::optional<std::string>& codec = std::nullopt) {
-  use_the_programs_modules();
+  test::use_modules();
   const auto writer =
       open_video_writer(path, format_of(pictures.front(), rate), video_codec_for(path, codec));
   for (const Picture& picture : pictures) writer->write(picture);
@@ -148,7 +144,7 @@ TEST(VideoWriter, EveryCodecKeepsTheColours) {
 
 // A grey of ten bits is the nearest code of the limited range, not one of 255/256 of it.
 TEST(VideoWriter, DeepFilmsAreAsBrightAsTheirFrames) {
-  use_the_programs_modules();
+  test::use_modules();
   for (const auto& [name, codec_name] :
        {std::pair("v.mov", "prores-4444"), {"v.mov", "dnxhr-444"}, {"v.mp4", "h264-10"}}) {
     for (const std::uint16_t grey : std::array<std::uint16_t, 3>{2'000, 32'768, 60'000}) {
@@ -166,7 +162,7 @@ TEST(VideoWriter, DeepFilmsAreAsBrightAsTheirFrames) {
 }
 
 TEST(VideoWriter, SaysWhatAnEncoderDoesNotTake) {
-  use_the_programs_modules();
+  test::use_modules();
   const Scratch scratch;
   const Picture small({64, 48, 3}, ValueType::code16, 65'535);
   EXPECT_THROW(static_cast<void>(video_codec_for("v.m4v", "h265")), UsageError);  // FFmpeg's muxer knows no tag for it
@@ -182,7 +178,7 @@ TEST(VideoWriter, SaysWhatAnEncoderDoesNotTake) {
 
 // All but WebM have a place for the shape of pixels.
 TEST(VideoWriter, KeepsPixelsThatAreNotSquareOrSaysWhatBecomesOfThem) {
-  use_the_programs_modules();
+  test::use_modules();
   for (const auto& [name, width, aspect, kept] :
        {std::tuple("v.mp4", 64u, Rational{32, 27}, Rational{32, 27}),
         {"v.mov", 64u, {32, 27}, {32, 27}},
@@ -214,7 +210,7 @@ TEST(VideoWriter, KeepsPixelsThatAreNotSquareOrSaysWhatBecomesOfThem) {
 
 TEST(VideoWriter, RepeatsTheLastRowAndColumnOfOddSizes) {
   const Scratch scratch;
-  use_the_programs_modules();
+  test::use_modules();
   Picture picture({65, 33, 3}, ValueType::code8, 255);
   for (auto& code : picture.values<std::uint8_t>()) code = 90;
   const auto writer = open_video_writer(scratch / "v.mp4", format_of(picture, {24, 1}),
@@ -232,7 +228,7 @@ TEST(VideoWriter, RepeatsTheLastRowAndColumnOfOddSizes) {
 
 TEST(VideoWriter, LeavesNothingOfAVideoThatIsNotFinished) {
   const Scratch scratch;
-  use_the_programs_modules();
+  test::use_modules();
   const auto pictures = test::random_stills({32, 32, 3}, 255, 2, 1);
   {
     const auto writer = open_video_writer(scratch / "v.mkv", format_of(pictures[0], {24, 1}),
@@ -282,7 +278,7 @@ TEST(VideoWriter, RefusesWhatAContainerOrCodecCannotHold) {
 }
 
 TEST(VideoWriter, SaysWhatCannotBeWritten) {
-  use_the_programs_modules();
+  test::use_modules();
   const auto pictures = test::random_stills({32, 32, 3}, 255, 1, 1);
   const std::string message = test::message_of<Error>([&] {
     const auto writer = open_video_writer("/nowhere/v.mkv", format_of(pictures[0], {24, 1}),

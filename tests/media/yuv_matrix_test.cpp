@@ -39,9 +39,8 @@ TEST(MatrixOfYuv, OfAMatrixThatIsNotKnownIsRefused) {
               std::string::npos)
         << message;
     EXPECT_EQ(error->settings(), std::vector{Setting::matrix});
-    ClipOptions options;
-    options.matrix = YuvMatrix::bt709;
-    EXPECT_EQ(matrix_of(*test::open_test_clip(scratch / "clip.mkv", options)), "matrix bt709, as stated");
+    EXPECT_EQ(matrix_of(*test::open_test_clip(scratch / "clip.mkv", {.matrix = YuvMatrix::bt709})),
+              "matrix bt709, as stated");
   }
   // What has no YUV needs none.
   test::make(scratch,
@@ -132,8 +131,7 @@ TEST(MatrixOfYuv, TakesChromaFromWhereItIsStatedToLie) {
     EXPECT_EQ(test::facts_of(*clip).at(Setting::chroma_place).line(), fact);
     return test::read_all(*clip).at(0);
   };
-  ClipOptions stated;
-  stated.chroma_at = ChromaPlace::center;
+  const ClipOptions stated{.chroma_at = ChromaPlace::center};
   make_clip("yuv420p10", "center");
   const auto centred = raster_of({}, "chroma at center, from the file");
   make_clip("yuv420p10", "unspecified");
@@ -156,9 +154,7 @@ TEST(MatrixOfYuv, TakesChromaFromWhereItIsStatedToLie) {
 TEST(PackedVideo, HasTheCodesOfItsPlanes) {
   const Scratch scratch;
   const auto open = [&](const std::string& bytes, const char* pixels) {
-    ClipOptions options;
-    options.raw = RawVideo{16, 16, pixels};
-    return test::open_test_clip(scratch.write(pixels, bytes), options);
+    return test::open_test_clip(scratch.write(pixels, bytes), {.raw = RawVideo{16, 16, pixels}});
   };
   const auto append = [](std::string& to, std::uint32_t value, int bytes) {
     for (int i = 0; i < bytes; ++i) to += static_cast<char>(value >> 8 * i & 255);
@@ -192,9 +188,8 @@ TEST(PackedVideo, HasTheCodesOfItsPlanes) {
     EXPECT_TRUE(raster == test::read_all(*open(in_planes, planar)).at(0)) << packed;
     EXPECT_TRUE(!is_rgb || raster[0] == std::byte{255}) << "white";
   }
-  ClipOptions options;
-  options.raw = RawVideo{16, 16, "uyyvyy411"};
-  test::expect_clip_refused(scratch.write("411", std::string(384, 'x')), options, "those of yuv411p can");
+  test::expect_clip_refused(scratch.write("411", std::string(384, 'x')), {.raw = RawVideo{16, 16, "uyyvyy411"}},
+                            "those of yuv411p can");
 }
 
 // H.273, equations of MatrixCoefficients 8, from their words: of codes whose range is that of luma.
@@ -291,10 +286,7 @@ TEST(MatrixOfYuv, OfEveryMatrixAndRangeIsThatOfZscale) {
         std::ifstream file(scratch / "wanted", std::ios::binary);
         const std::string wanted((std::istreambuf_iterator<char>(file)), {});
         ASSERT_EQ(wanted.size(), kSide * kSide * 3 * bytes);
-        ClipOptions options;
-        options.matrix = matrix;
-        options.range = range;
-        const auto clip = test::open_test_clip(scratch / "clip.mkv", options);
+        const auto clip = test::open_test_clip(scratch / "clip.mkv", {.matrix = matrix, .range = range});
         const auto raster = test::read_all(*clip).at(0);
         const double white = clip->info().format.white_code, most = (1 << kind.bits) - 1;
         for (std::size_t y = kPatch / 2; y < kSide; y += kPatch) {

@@ -13,8 +13,7 @@ namespace {
 
 // 240 samples at 240 a second, sRGB of 8 bits: random codes, moving or still.
 MemoryCapture clip(bool is_still = false) {
-  CaptureFormat format;
-  format.shape = {24, 16, 3};
+  const CaptureFormat format{.shape = {24, 16, 3}};
   test::Random random(11);
   test::Rasters rasters = test::random_rasters(random, format, 240);
   if (is_still) std::fill(rasters.begin(), rasters.end(), rasters.front());

@@ -197,8 +197,6 @@ TEST(BlockFeed, ReadsAheadWhileAKernelRuns) {
   OpenClOptions options = test::renderer_options(test::precise());
   options.chunk_bytes = 1;  // a launch for each block
   OpenClRenderer renderer(options);
-  RenderControl control;
-  control.progress = [&](std::uint64_t blocks, std::uint64_t /*of*/) { exposed = blocks; };
   const auto until_it_is_read = [&, exposer = std::this_thread::get_id()] {
     // A launch needs its own block, and the next one was read to find that it has no room: one more is read ahead.
     if (!overlaps || std::this_thread::get_id() != exposer || exposed + 2 >= plan.blocks.size()) return;
@@ -206,7 +204,8 @@ TEST(BlockFeed, ReadsAheadWhileAKernelRuns) {
     overlaps = changed.wait_for(lock, std::chrono::seconds(20), [&] { return asked_for > exposed + 2; });
   };
   test::before_waiting = until_it_is_read;
-  static_cast<void>(renderer.render(plan, watched, kLight, control));
+  static_cast<void>(renderer.render(
+      plan, watched, kLight, {.progress = [&](std::uint64_t blocks, std::uint64_t /*of*/) { exposed = blocks; }}));
   test::before_waiting = {};
   EXPECT_EQ(exposed, plan.blocks.size());
   EXPECT_TRUE(overlaps);

@@ -19,12 +19,6 @@ namespace {
 
 using test::RandomCase;
 
-PlanOptions combining(Combine how) {
-  PlanOptions options;
-  options.combine = how;
-  return options;
-}
-
 // Gains of a random function that are not below 0, or one gain while its live interval lasts.
 FunctionSet functions_of(const RandomCase& random, bool scales) {
   FunctionSet functions;
@@ -46,7 +40,7 @@ void expect_the_references(OpenClRenderer& renderer, const RandomCase& random, M
                            const RenderControl& control = {}) {
   for (const bool scales : {false, true}) {
     for (const Combine how : {Combine::lighten, Combine::darken, Combine::median}) {
-      const RenderPlan plan = make_plan(capture, functions_of(random, scales), random.mask, combining(how));
+      const RenderPlan plan = make_plan(capture, functions_of(random, scales), random.mask, {.combine = how});
       for (const OutputFormat& output : {test::kLight, OutputFormat{ValueType::code8, 255}}) {
         const Rendered found = renderer.render(plan, capture, output, control);
         const Rendered expected = ReferenceRenderer().render(plan, capture, output, control);
@@ -126,10 +120,9 @@ TEST(CombiningOnDevices, BlendsAndCutsAsTheReferenceDoes) {
     MemoryCapture capture = random.encode();
     test::soften(random.mask, random.functions, seed);
     const Shape& shape = random.capture.shape;
-    RenderControl part;
-    part.rectangle = Rectangle{shape.width / 3, shape.height / 4, shape.width - shape.width / 3,
-                               (shape.height + 1) / 2};
-    expect_the_references(renderer, random, capture, part);
+    expect_the_references(renderer, random, capture,
+                          {.rectangle = Rectangle{shape.width / 3, shape.height / 4, shape.width - shape.width / 3,
+                                                  (shape.height + 1) / 2}});
     expect_the_references(renderer, random, capture);
   }
 }
@@ -144,7 +137,8 @@ TEST(CombiningOnDevices, IsTheProcessorsWhereADriverIsWrong) {
   const RandomCase random(17);
   MemoryCapture capture = random.encode();
   for (const bool scales : {false, true}) {
-    const RenderPlan plan = make_plan(capture, functions_of(random, scales), random.mask, combining(Combine::lighten));
+    const RenderPlan plan =
+        make_plan(capture, functions_of(random, scales), random.mask, {.combine = Combine::lighten});
     const Rendered found = renderer.render(plan, capture, test::kLight);
     ASSERT_EQ(found.warnings.size(), 1u);
     EXPECT_NE(found.warnings.front().find("combines light wrongly (self-test: "), std::string::npos);
@@ -160,7 +154,8 @@ TEST(CombiningOnDevices, IsValidated) {
   const RandomCase random(17);
   MemoryCapture capture = random.encode();
   for (const bool scales : {false, true}) {
-    const RenderPlan plan = make_plan(capture, functions_of(random, scales), random.mask, combining(Combine::lighten));
+    const RenderPlan plan =
+        make_plan(capture, functions_of(random, scales), random.mask, {.combine = Combine::lighten});
     EXPECT_TRUE(renderer.render(plan, capture, test::kLight).warnings.empty());
     const Validation validation = validate(plan, capture, {ValueType::code8, 255}, renderer, 1, [](auto, auto) {});
     ASSERT_EQ(validation.variants.size(), 1u);

@@ -20,11 +20,9 @@ class OneTile {
   static constexpr std::uint64_t kBehindTheTable = 1'000'000;
 
   explicit OneTile(std::uint32_t sample_count) : sample_count_(sample_count) {
-    CaptureFormat capture;
-    capture.shape = {8, 8, 1};
     const Work work{Precision::fixed, {8, 1, 8, 1}, false};
     program_ = cl::Program(context_, std::string(kernel_source("expose")));
-    program_.build({device_}, expose_options(work, capture, "NUTIK_LIGHT_LINEAR", false).c_str());
+    program_.build({device_}, expose_options(work, {.shape = {8, 8, 1}}, "NUTIK_LIGHT_LINEAR", false).c_str());
   }
 
   // Bytes of an index list: one for each of `count` indices, or two in long blocks.

@@ -63,12 +63,6 @@ struct DelayScene {
   test::Rasters rasters;
 };
 
-PlanOptions delayed_by(DelayMap map) {
-  PlanOptions options;
-  options.delays = std::make_shared<const DelayMap>(std::move(map));
-  return options;
-}
-
 GainFunction triangle(std::int64_t begin_ns, std::int64_t end_ns) {
   return GainFunction({{begin_ns, 0.0}, {(begin_ns + end_ns) / 2, 1.5}, {end_ns, 0.0}});
 }
@@ -82,7 +76,7 @@ TEST(Delays, OfOneLengthAreAMovedFunctionToTheLastBit) {
     const RenderPlan moved = make_plan(capture, {{0, function.shifted(delay_ns)}}, scene.mask(), {});
     const RenderPlan delayed =
         make_plan(capture, {{0, function}}, scene.mask(),
-                  delayed_by(DelayMap::by_rows(scene.format.shape, {delay_ns, delay_ns})));
+                  test::delayed_by(DelayMap::by_rows(scene.format.shape, {delay_ns, delay_ns})));
     ReferenceRenderer reference;
     EXPECT_EQ(reference.render(delayed, capture, kLight).picture.bytes,
               reference.render(moved, capture, kLight).picture.bytes);
@@ -117,7 +111,7 @@ TEST(Delays, Of256StepsAreARecipeOf256Strips) {
   const RenderPlan recipe = make_plan(capture, functions, strips, {});
   const RenderPlan map =
       make_plan(capture, {{0, GainFunction::boxcar(0, 40'000'000)}}, Mask::uniform(40, 256, 0),
-                delayed_by(DelayMap::by_picture(steps, {0, start_ns(255)}, "steps")));
+                test::delayed_by(DelayMap::by_picture(steps, {0, start_ns(255)}, "steps")));
   EXPECT_TRUE(map.warnings.empty());
   for (const Precision precision : test::first_precisions()) {
     OpenClRenderer renderer(test::renderer_options(precision));
@@ -138,7 +132,7 @@ TEST(Delays, GiveTheSamePictureFromAResidentCapture) {
   for (const std::int64_t start_ns : {0, 10'000'000, 10'000'000, 250'000'000}) {
     const RenderPlan plan =
         make_plan(capture, {{0, GainFunction::boxcar(start_ns, start_ns + 200'000'000)}}, scene.mask(),
-                  delayed_by(DelayMap::by_rows(scene.format.shape, {0, 100'000'000})));
+                  test::delayed_by(DelayMap::by_rows(scene.format.shape, {0, 100'000'000})));
     ASSERT_EQ(plan.function_count(), 264u);
     OpenClRenderer fresh(test::renderer_options(Precision::single_));
     EXPECT_EQ(resident.render(plan, capture, kLight).picture.bytes,
@@ -150,7 +144,7 @@ TEST(Delays, AreTestedByTheRenderersOwnTest) {
   const DelayScene scene;
   MemoryCapture capture = scene.capture();
   const RenderPlan plan = make_plan(capture, {{0, triangle(0, 90'000'000)}}, scene.mask(),
-                                    delayed_by(DelayMap::by_rows(scene.format.shape, {0, 100'000'000})));
+                                    test::delayed_by(DelayMap::by_rows(scene.format.shape, {0, 100'000'000})));
   for (const Precision precision : test::first_precisions()) {
     OpenClOptions options = test::renderer_options(precision);
     options.tests_itself = true;

@@ -17,8 +17,7 @@ class Incremental : public test::OfPrecision {
  protected:
   Incremental() {
     test::Random random(1);
-    CaptureFormat format;
-    format.shape = {kWidth, kHeight, 3};
+    const CaptureFormat format{.shape = {kWidth, kHeight, 3}};
     capture_.emplace(format, Timeline::constant({100, 1}, {180, 1}, kSamples),
                      test::random_rasters(random, format, kSamples), kBlockSamples);
     mask_ = Mask::uniform(kWidth, kHeight, 0);

@@ -106,8 +106,7 @@ class KeptSumsOf : public test::OfPrecision {
   std::vector<RenderStatistics> statistics_of_moved_boxcar(std::uint64_t blocks, std::uint32_t block_samples,
                                                            std::initializer_list<std::int64_t> starts_ms,
                                                            std::int64_t length_ms) {
-    CaptureFormat format;
-    format.shape = {24, 16, 1};
+    const CaptureFormat format{.shape = {24, 16, 1}};
     const std::uint64_t samples = blocks * block_samples;
     test::Random random(3);
     MemoryCapture capture(format, Timeline::constant({1000, 1}, {180, 1}, samples),
@@ -183,6 +182,7 @@ TEST_P(KeptSumsOf, RandomCasesAreWithinTheBoundAndTheSameBits) {
     EXPECT_GT(bundles, 0u);
     EXPECT_GT(corrected, 0u);
     EXPECT_GT(halves, 0u);
+    EXPECT_GT(noisy, 0u);
   }
 }
 
@@ -256,8 +256,7 @@ TEST_P(KeptSumsOf, AChangedFunctionAloneIsExposed) {
 
 // Nothing, times less than nothing, is 0 and not -0, wherever a pixel's sums begin.
 TEST_P(KeptSumsOf, BlackIsZeroWhateverIsExposedFirst) {
-  CaptureFormat format;
-  format.shape = {16, 8, 1};
+  const CaptureFormat format{.shape = {16, 8, 1}};
   const test::Rasters black(48, std::vector<std::byte>(format.sample_bytes()));
   MemoryCapture capture(format, Timeline::constant({1000, 1}, {360, 1}, 48), black, 16);
   Mask mask = Mask::uniform(16, 8, 0);
@@ -295,9 +294,7 @@ TEST_P(KeptSumsOf, AnyMemoryHasTheSamePictures) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, KeptSumsOf,
-                         testing::Values(Precision::single_, Precision::compensated, Precision::double_,
-                                         Precision::fixed),
+INSTANTIATE_TEST_SUITE_P(, KeptSumsOf, testing::ValuesIn(kPrecisions),
                          [](const auto& test) { return to_text(test.param); });
 
 }  // namespace

@@ -71,11 +71,10 @@ class BuildScene {
   static std::uint32_t tile_of(std::size_t pixel) { return static_cast<std::uint32_t>(pixel % kWidth / 8); }
 
   static MemoryCapture capture_of(const KernelBuild& build) {
-    CaptureFormat format;
-    format.shape = {kWidth, kHeight, build.channels};
-    format.code_bytes = build.code_bytes;
-    format.white_code = build.code_bytes == 1 ? 255 : 4095;
-    format.transfer = build.transfer();
+    const CaptureFormat format{.shape = {kWidth, kHeight, build.channels},
+                               .code_bytes = build.code_bytes,
+                               .white_code = build.code_bytes == 1 ? 255u : 4095u,
+                               .transfer = build.transfer()};
     test::Random random(11);
     test::Rasters rasters;
     std::vector<std::byte> raster(format.sample_bytes());
@@ -182,9 +181,7 @@ TEST_P(KernelBuilds, StayWithinTheirBounds) {
               worst_name.c_str());
 }
 
-INSTANTIATE_TEST_SUITE_P(, KernelBuilds,
-                         testing::Values(Precision::single_, Precision::compensated, Precision::double_,
-                                         Precision::fixed),
+INSTANTIATE_TEST_SUITE_P(, KernelBuilds, testing::ValuesIn(kPrecisions),
                          [](const auto& instance) { return to_text(instance.param); });
 
 // The few builds are enough, and what no build has is left out for a reason that is told.
@@ -204,8 +201,7 @@ TEST(KernelBuildTable, MeetsAnyTwoValues) {
   const auto met = pairs_of(few);
   EXPECT_EQ(met, pairs_of(possible));
   EXPECT_LE(few.size(), 60u);
-  for (const Precision precision :
-       {Precision::single_, Precision::compensated, Precision::double_, Precision::fixed}) {
+  for (const Precision precision : kPrecisions) {
     EXPECT_TRUE(std::ranges::any_of(few, [&](const KernelBuild& build) {
       return build.precision == precision && build.lanes == 4 && build.item_pixels == 4 &&
              build.item_tiles == 1;

@@ -69,19 +69,6 @@ class LargeScene final : public CaptureSource {
   std::uint64_t bytes_ = 0;
 };
 
-// A picture's part, by itself.
-std::vector<std::byte> part_of(const Picture& picture, const Rectangle& part) {
-  const std::uint64_t pixel_bytes = picture.shape.channels * value_bytes(picture.type);
-  std::vector<std::byte> bytes;
-  for (std::uint32_t y = part.y; y < part.y + part.height; ++y) {
-    const auto first =
-        picture.bytes.begin() +
-        static_cast<std::ptrdiff_t>((std::uint64_t{y} * picture.shape.width + part.x) * pixel_bytes);
-    bytes.insert(bytes.end(), first, first + static_cast<std::ptrdiff_t>(part.width * pixel_bytes));
-  }
-  return bytes;
-}
-
 // Blocks, tables, sums and functions of pixels, as they are allocated, in every arithmetic. The picture is that of a
 // column of it, whose sums are there at once.
 TEST(LargePicture, TakesLittleOfTheDevice) {
@@ -92,8 +79,7 @@ TEST(LargePicture, TakesLittleOfTheDevice) {
   const double raw = static_cast<double>(LargeScene::kSamples * scene.format().sample_bytes());
   for (const Precision precision : test::first_precisions()) {
     OpenClRenderer renderer(test::renderer_options(precision));
-    RenderControl of_column;
-    of_column.rectangle = Rectangle{3001, 0, 40, shape.height};
+    const RenderControl of_column{.rectangle = Rectangle{3001, 0, 40, shape.height}};
     const Rendered column = renderer.render(plan, scene, {ValueType::code8, 255}, of_column);
     EXPECT_EQ(column.statistics.launches, 1u);
     for (const bool is_copied : {false, true}) {
@@ -108,7 +94,7 @@ TEST(LargePicture, TakesLittleOfTheDevice) {
       EXPECT_LE(share, 0.1) << to_text(precision);
       EXPECT_GT(rendered.statistics.launches, 1u);
       EXPECT_EQ(rendered.statistics.blocks, 1u);
-      EXPECT_TRUE(part_of(rendered.picture, *of_column.rectangle) == column.picture.bytes);
+      EXPECT_TRUE(test::part_of(rendered.picture, *of_column.rectangle) == column.picture.bytes);
     }
   }
 }

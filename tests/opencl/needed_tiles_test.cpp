@@ -55,10 +55,8 @@ TEST(NeededTiles, LeaveThePictureAsItIs) {
         control.rectangle = Rectangle{x, y, static_cast<std::uint32_t>(draw.whole(1, shape.width - x)),
                                       static_cast<std::uint32_t>(draw.whole(1, shape.height - y))};
       }
-      PlanOptions options;
-      options.unmapped_is_zero = true;
-      const RenderPlan plan =
-          make_plan(capture, short_functions(random.functions, random.timeline, draw), mask, options);
+      const RenderPlan plan = make_plan(capture, short_functions(random.functions, random.timeline, draw), mask,
+                                        {.unmapped_is_zero = true});
       const Picture expected = plain.render(plan, capture, kLight, control).picture;
       EXPECT_EQ(passing.render(plan, packed, kLight, control).picture, expected) << turn;
       EXPECT_EQ(holding.render(plan, packed, kLight, control).picture, expected) << turn;
@@ -75,8 +73,7 @@ TEST(NeededTiles, LeaveThePictureAsItIs) {
 
 // A mask of one region, whose background is 0: only the region's tile is unpacked.
 TEST(NeededTiles, AreThoseOfTheFunctionsThatAreNotZero) {
-  CaptureFormat format;
-  format.shape = {64, 64, 3};
+  const CaptureFormat format{.shape = {64, 64, 3}};
   const Timeline timeline = Timeline::constant({100, 1}, Timeline::kFullShutter, 20);
   test::Random random(3);
   MemoryCapture capture(format, timeline, test::random_rasters(random, format, 20), 5);
@@ -87,9 +84,7 @@ TEST(NeededTiles, AreThoseOfTheFunctionsThatAreNotZero) {
   }
   FunctionSet functions;
   functions.emplace(std::uint8_t{7}, GainFunction::boxcar(0, 150'000'000));  // three blocks of four
-  PlanOptions options;
-  options.unmapped_is_zero = true;
-  const RenderPlan plan = make_plan(capture, functions, mask, options);
+  const RenderPlan plan = make_plan(capture, functions, mask, {.unmapped_is_zero = true});
   ASSERT_EQ(plan.blocks.size(), 3u);
   OpenClRenderer renderer(test::renderer_options(Precision::fixed));
   const Picture expected = renderer.render(plan, capture, kLight).picture;

@@ -67,12 +67,11 @@ TEST(OutTransfer, IsWithinTheBoundInEveryArithmetic) {
 TEST(OutTransfer, ShowsReferenceWhiteAsWhite) {
   for (const auto& [transfer, code] :
        {std::pair{Transfer::hlg(), 0.75 * 65'535}, {Transfer::pq(), 0.58069 * 65'535}}) {
-    CaptureFormat format;
-    format.shape = {1, 1, 3};
-    format.code_bytes = 2;
-    format.white_code = 65'535;
-    format.transfer = transfer;
-    format.primaries = Primaries::bt2020;
+    const CaptureFormat format{.shape = {1, 1, 3},
+                               .code_bytes = 2,
+                               .white_code = 65'535,
+                               .transfer = transfer,
+                               .primaries = Primaries::bt2020};
     std::vector<std::byte> raster(format.sample_bytes());
     for (std::uint64_t i = 0; i < 3; ++i) {
       test::set_code(format, raster, i, static_cast<std::uint32_t>(code + 0.5));

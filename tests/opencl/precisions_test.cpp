@@ -53,9 +53,7 @@ TEST_F(Precisions, StayWithinTheirBoundsOnRandomCases) {
 
 // 128 samples at 100 a second in two blocks, random 8-bit codes or a still scene.
 MemoryCapture clip_of(const Transfer& transfer, bool is_still, TilePolicy policy = TilePolicy::automatic) {
-  CaptureFormat format;
-  format.shape = {19, 9, 1};
-  format.transfer = transfer;
+  const CaptureFormat format{.shape = {19, 9, 1}, .transfer = transfer};
   test::Random random(7);
   test::Rasters rasters = test::random_rasters(random, format, 128);
   if (is_still) std::fill(rasters.begin(), rasters.end(), rasters.front());
@@ -119,9 +117,7 @@ TEST_F(Precisions, BoundOfSingleIsUseful) {
   test::Random random(77);
   std::vector<double> shares;
   for (int i = 0; i < 60; ++i) {
-    CaptureFormat format;
-    format.shape = {16, 16, 1};
-    format.transfer = i % 2 == 0 ? Transfer::srgb() : Transfer::linear();
+    const CaptureFormat format{.shape = {16, 16, 1}, .transfer = i % 2 == 0 ? Transfer::srgb() : Transfer::linear()};
     const auto samples = static_cast<std::uint64_t>(std::exp(random.real(0.0, std::log(1001.0))));
     const test::Rasters rasters = test::random_rasters(random, format, samples);
     MemoryCapture capture(format, test::random_timeline(random, samples), rasters, 64);
@@ -254,8 +250,7 @@ TEST(FixedPoint, GivesTheSameBytesHoweverTheWorkIsCut) {
   struct Shape {
     std::uint32_t item_pixels, item_tiles, lanes;
   };
-  CaptureFormat format;
-  format.shape = {43, 21, 3};
+  const CaptureFormat format{.shape = {43, 21, 3}};
   test::Random random(5);
   const Timeline timeline = test::random_timeline(random, 150);
   const test::Rasters rasters = test::random_rasters(random, format, 150);

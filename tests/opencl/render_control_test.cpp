@@ -22,18 +22,6 @@ using test::RandomCase;
 
 const test::CodeFormat kColour{3, 1, 255, Transfer::srgb()};
 
-std::vector<std::byte> cut_of(const Picture& picture, const Rectangle& rectangle) {
-  std::vector<std::byte> part;
-  const std::size_t pixel_bytes = picture.bytes.size() / picture.shape.pixel_count();
-  for (std::uint32_t y = 0; y < rectangle.height; ++y) {
-    const std::byte* from =
-        picture.bytes.data() +
-        ((rectangle.y + std::size_t{y}) * picture.shape.width + rectangle.x) * pixel_bytes;
-    part.insert(part.end(), from, from + rectangle.width * pixel_bytes);
-  }
-  return part;
-}
-
 std::vector<Rectangle> rectangles_of(const Shape& shape) {
   const std::uint32_t right = shape.width - 1, bottom = shape.height - 1;
   return {{0, 0, 1, 1},
@@ -57,7 +45,7 @@ void expect_rectangles(Renderer& renderer, const RandomCase& random, RenderContr
       control.rectangle = rectangle;
       const Picture part = renderer.render(plan, capture, output, control).picture;
       ASSERT_EQ(part.shape, (Shape{rectangle.width, rectangle.height, plan.capture.shape.channels}));
-      EXPECT_EQ(part.bytes, cut_of(whole, rectangle))
+      EXPECT_EQ(part.bytes, test::part_of(whole, rectangle))
           << rectangle.x << "," << rectangle.y << " " << rectangle.width << " x " << rectangle.height << ": "
           << random.text();
     }
@@ -109,21 +97,17 @@ TEST(RenderControl, RefusesRectanglesThatAreNoPart) {
   ReferenceRenderer reference;
   for (const Rectangle& rectangle : {Rectangle{0, 0, 0, 1}, Rectangle{shape.width, 0, 1, 1},
                                      Rectangle{0, 0, 1, shape.height + 1}, Rectangle{~0u, 0, 2, 1}}) {
-    RenderControl control;
-    control.rectangle = rectangle;
-    const std::string message = test::message_of<UsageError>([&] {
-      static_cast<void>(reference.render(plan, capture, {ValueType::code8, 255}, control));
-    });
-    EXPECT_NE(message.find("is no part of a picture of"), std::string::npos) << message;
+    const auto render = [&] {
+      static_cast<void>(reference.render(plan, capture, {ValueType::code8, 255}, {.rectangle = rectangle}));
+    };
+    test::expect_error<UsageError>(render, {"is no part of a picture of"});
   }
 }
 
 TEST(RenderControl, EndsWhenItIsCancelled) {
   const RandomCase random(3, kColour);
   MemoryCapture capture = random.encode(1, TilePolicy::automatic);
-  PlanOptions every;
-  every.live_all = true;
-  const RenderPlan plan = make_plan(capture, random.functions, random.mask, every);
+  const RenderPlan plan = make_plan(capture, random.functions, random.mask, {.live_all = true});
   const std::uint64_t last = capture.block_count() - 1;
   OpenClOptions options = test::renderer_options(std::nullopt);
   options.chunk_bytes = 1;
@@ -136,9 +120,8 @@ TEST(RenderControl, EndsWhenItIsCancelled) {
       test::WatchedCapture cancelling(capture, [&](std::uint64_t asked) {
         if (asked == block) stop.request_stop();
       });
-      RenderControl control;
-      control.stop = stop.get_token();
-      EXPECT_THROW(static_cast<void>(renderer->render(plan, cancelling, output, control)), Cancelled);
+      EXPECT_THROW(static_cast<void>(renderer->render(plan, cancelling, output, {.stop = stop.get_token()})),
+                   Cancelled);
     }
     // The next render starts anew.
     EXPECT_NO_THROW(static_cast<void>(renderer->render(plan, capture, output)));
@@ -154,9 +137,7 @@ TEST(RenderControl, ManyThreadsMayAskAtATime) {
   const OutputFormat output{ValueType::light64, 0};
   std::vector<Picture> expected;
   for (const Precision precision : renderer.precisions()) {
-    RenderControl control;
-    control.precision = precision;
-    expected.push_back(renderer.render(plan, capture, output, control).picture);
+    expected.push_back(renderer.render(plan, capture, output, {.precision = precision}).picture);
   }
   renderer.keep_resident(&capture);
   const std::vector<Rectangle> rectangles = rectangles_of(plan.capture.shape);
@@ -167,16 +148,15 @@ TEST(RenderControl, ManyThreadsMayAskAtATime) {
       threads.emplace_back([&, thread] {
         for (std::size_t i = 0; i < 12; ++i) {
           const std::size_t p = (thread + i) % renderer.precisions().size();
-          RenderControl control;
-          control.precision = renderer.precisions()[p];
-          control.rectangle = rectangles[(thread * 3 + i) % rectangles.size()];
+          RenderControl control{.rectangle = rectangles[(thread * 3 + i) % rectangles.size()],
+                                .precision = renderer.precisions()[p]};
           std::stop_source stop;
           control.stop = stop.get_token();
           if (i % 3 == 0) stop.request_stop();
           try {
             const Rendered rendered = renderer.render(plan, capture, output, control);
             wrong += rendered.precision != *control.precision ||
-                     rendered.picture.bytes != cut_of(expected[p], *control.rectangle);
+                     rendered.picture.bytes != test::part_of(expected[p], *control.rectangle);
           } catch (const Cancelled&) {
             ++cancelled;
           }

@@ -82,8 +82,7 @@ TEST(OpenClRenderer, ReadsBlocksOfAnyLength) {
   OpenClRenderer renderer(test::renderer_options(test::precise()));
   ReferenceRenderer reference;
   test::Random random(3000);
-  CaptureFormat format;
-  format.shape = {17, 9, 1};
+  const CaptureFormat format{.shape = {17, 9, 1}};
   const test::Rasters rasters = test::random_rasters(random, format, kSamples);
   for (const std::uint32_t block_samples : {254u, 255u, 256u, 257u, 1000u}) {
     for (const TilePolicy policy :
@@ -119,10 +118,8 @@ TEST(OpenClRenderer, NothingLiveIsBlack) {
 }
 
 TEST(OpenClRenderer, ReadsOnlyTheBlocksOfThePlan) {
-  CaptureFormat format;
-  format.shape = {16, 16, 1};
   const test::Rasters rasters(100, std::vector<std::byte>(256, std::byte{90}));
-  MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100), rasters, 10);
+  MemoryCapture capture({.shape = {16, 16, 1}}, Timeline::constant({100, 1}, Timeline::kFullShutter, 100), rasters, 10);
   const FunctionSet functions{{0, GainFunction::boxcar(250'000'000, 260'000'000)}};
   const RenderPlan plan = make_plan(capture, functions, Mask::uniform(16, 16, 0), {});
   OpenClRenderer renderer(test::renderer_options(test::precise()));

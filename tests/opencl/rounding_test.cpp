@@ -52,11 +52,10 @@ struct Sequence {
     codes.push_back(code);
   }
   [[nodiscard]] MemoryCapture capture(std::uint32_t block_samples) const {
-    CaptureFormat format;
-    format.shape = {8, 1, 1};
-    format.code_bytes = white_code > 255 ? 2 : 1;
-    format.white_code = white_code;
-    format.transfer = Transfer::linear();
+    const CaptureFormat format{.shape = {8, 1, 1},
+                               .code_bytes = white_code > 255 ? 2u : 1u,
+                               .white_code = white_code,
+                               .transfer = Transfer::linear()};
     test::Rasters rasters(codes.size(), std::vector<std::byte>(format.sample_bytes()));
     for (std::size_t k = 0; k < codes.size(); ++k) {
       for (std::uint64_t pixel = 0; pixel < 8; ++pixel) test::set_code(format, rasters[k], pixel, codes[k]);
@@ -161,10 +160,7 @@ TEST(Roundings, OfBoundariesReachTheBoundOfFixed) {
 
 // One sample shows every code, and the one counts whose light errs most: by a curve, by pieces or by a table.
 TEST(Roundings, OfLightReachTheBounds) {
-  CaptureFormat format;
-  format.shape = {256, 256, 1};
-  format.code_bytes = 2;
-  format.white_code = 65'535;
+  CaptureFormat format{.shape = {256, 256, 1}, .code_bytes = 2, .white_code = 65'535};
   test::Rasters rasters(1, std::vector<std::byte>(format.sample_bytes()));
   for (std::uint32_t code = 0; code < 65'536; ++code) test::set_code(format, rasters[0], code, code);
   // Held exactly by floats, so that only products round, and above 1, so that those of bright codes round most.
@@ -228,13 +224,7 @@ class ExactSums : public test::OfPrecision {
     return 53;
   }
 
-  static CaptureFormat format() {
-    CaptureFormat format;
-    format.shape = kShape;
-    format.white_code = kWhite;
-    format.transfer = Transfer::linear();
-    return format;
-  }
+  static CaptureFormat format() { return {.shape = kShape, .white_code = kWhite, .transfer = Transfer::linear()}; }
 };
 
 TEST_P(ExactSums, ComeOutExactly) {
@@ -272,9 +262,7 @@ TEST_P(ExactSums, ComeOutExactly) {
   std::printf("%zu values of up to %d bits, all exact\n", values, digits());
 }
 
-INSTANTIATE_TEST_SUITE_P(, ExactSums,
-                         testing::Values(Precision::single_, Precision::compensated, Precision::double_,
-                                         Precision::fixed),
+INSTANTIATE_TEST_SUITE_P(, ExactSums, testing::ValuesIn(kPrecisions),
                          [](const auto& instance) { return to_text(instance.param); });
 
 }  // namespace

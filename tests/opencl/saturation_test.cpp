@@ -51,9 +51,7 @@ TEST_P(SaturationOf, PixelsIsThatOfTheirLight) {
         const Rectangle inner{shape.width / 3, shape.height / 3, (shape.width + 1) / 2,
                               (shape.height + 1) / 2};
         for (const Rectangle& rectangle : {Rectangle::whole(shape), inner}) {
-          RenderControl control;
-          control.rectangle = rectangle;
-          const Saturation found = renderer.render(plan, capture, output, control).saturation;
+          const Saturation found = renderer.render(plan, capture, output, {.rectangle = rectangle}).saturation;
           const auto between = [&](std::uint64_t count, auto is_out) {
             EXPECT_GE(count, count_pixels(light, rectangle,
                                           [&](double value, std::uint64_t pixel) {
@@ -80,9 +78,7 @@ TEST_P(SaturationOf, PixelsIsThatOfTheirLight) {
   EXPECT_GT(above, 100u);
 }
 
-INSTANTIATE_TEST_SUITE_P(, SaturationOf,
-                         testing::Values(Precision::single_, Precision::compensated, Precision::double_,
-                                         Precision::fixed),
+INSTANTIATE_TEST_SUITE_P(, SaturationOf, testing::ValuesIn(kPrecisions),
                          [](const auto& test) { return to_text(test.param); });
 
 }  // namespace

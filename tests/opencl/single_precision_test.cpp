@@ -26,12 +26,10 @@ struct EveryCode {
 
  private:
   static CaptureFormat format_of(const CodeFormat& codes) {
-    CaptureFormat format;
-    format.shape = {256, (codes.white_code + 256) / 256, 1};
-    format.code_bytes = codes.code_bytes;
-    format.white_code = codes.white_code;
-    format.transfer = codes.transfer;
-    return format;
+    return {.shape = {256, (codes.white_code + 256) / 256, 1},
+            .code_bytes = codes.code_bytes,
+            .white_code = codes.white_code,
+            .transfer = codes.transfer};
   }
   static MemoryCapture capture_of(const CaptureFormat& format) {
     test::Rasters rasters(1, std::vector<std::byte>(format.sample_bytes()));

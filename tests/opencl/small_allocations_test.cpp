@@ -14,8 +14,7 @@
 #include "support/raster_stream.hpp"
 #include "support/rendering.hpp"
 #include "support/scratch.hpp"
-#include "tik/reader.hpp"
-#include "tik/writer.hpp"
+#include "support/tik_files.hpp"
 
 namespace nutik {
 namespace {
@@ -116,22 +115,7 @@ class SmallAllocations : public test::OfPrecision {
 
 // A capture as a file, unpacked: blocks are read where they are mapped.
 tik::Reader mapped(const Scene& scene, const MemoryCapture& capture, const test::Scratch& scratch) {
-  const std::filesystem::path path = scratch / "capture.tik";
-  tik::Header header;
-  header.capture = scene.format;
-  header.shutter_angle = scene.timeline.shutter_angle();
-  if (scene.timeline.is_constant()) header.rate = scene.timeline.rate();
-  tik::Writer writer(path, header, tik::Codec::parse("none"), scene.rasters.front());
-  for (std::uint64_t block = 0; block < capture.block_count(); ++block) {
-    const BlockView view = capture.view(block);
-    std::span<const Exposure> exposures;
-    if (!scene.timeline.is_constant()) {
-      exposures = scene.timeline.table().subspan(view.extent().first_sample, view.extent().sample_count);
-    }
-    writer.append({view.extent(), view.payload(), 0}, exposures);
-  }
-  writer.finish(scene.timeline);
-  return tik::Reader(path);
+  return tik::Reader(test::write_tik(capture, scene.rasters.front(), tik::Codec::parse("none"), scratch));
 }
 
 // Codes and light, to the last bit, under limits that force bands, slices and chunks; of captures that are held,

@@ -17,12 +17,6 @@ namespace {
 
 constexpr Combine kAll[] = {Combine::lighten, Combine::darken, Combine::median};
 
-PlanOptions combining(Combine how) {
-  PlanOptions options;
-  options.combine = how;
-  return options;
-}
-
 FunctionSet without_gains_below_zero(const FunctionSet& functions) {
   FunctionSet positive;
   for (const auto& [tag, function] : functions) {
@@ -100,7 +94,7 @@ TEST(Combining, IsTheReferencesToTheLastBit) {
     MemoryCapture capture = random.encode();
     const FunctionSet functions = without_gains_below_zero(random.functions);
     for (const Combine how : kAll) {
-      const RenderPlan plan = make_plan(capture, functions, random.mask, combining(how));
+      const RenderPlan plan = make_plan(capture, functions, random.mask, {.combine = how});
       RenderControl little;
       little.memory_bytes = 1;  // as few rows at a time as there can be
       for (const RenderControl& control : {RenderControl(), little}) {
@@ -119,14 +113,12 @@ TEST(Combining, IsTheReferencesToTheLastBit) {
 class CombiningByHand : public testing::Test {
  protected:
   static double light(Combine how, const GainFunction& function) {
-    CaptureFormat format;
-    format.shape = {1, 1, 1};
-    format.transfer = Transfer::linear();
     test::Rasters rasters;
     for (const int code : {10, 90, 30, 200, 60, 20, 50, 70})
       rasters.push_back({static_cast<std::byte>(code)});
-    MemoryCapture source(format, Timeline::constant({100, 1}, {180, 1}, 8), rasters, 3);
-    const RenderPlan plan = make_plan(source, {{0, function}}, Mask::uniform(1, 1, 0), combining(how));
+    MemoryCapture source({.shape = {1, 1, 1}, .transfer = Transfer::linear()},
+                         Timeline::constant({100, 1}, {180, 1}, 8), rasters, 3);
+    const RenderPlan plan = make_plan(source, {{0, function}}, Mask::uniform(1, 1, 0), {.combine = how});
     return CombiningRenderer().render(plan, source, test::kLight).picture.values<double>()[0] * 255;
   }
 };

@@ -24,12 +24,6 @@ using test::RandomCase;
 
 constexpr std::int64_t kMs = 1'000'000;
 
-PlanOptions delayed_by(DelayMap map) {
-  PlanOptions options;
-  options.delays = std::make_shared<const DelayMap>(std::move(map));
-  return options;
-}
-
 // Every other case holds ends. NUTIK_TEST_CASES=10000 is the full run.
 TEST(DelayedReference, StaysWithinAFewUlpOfExactArithmetic) {
   std::vector<double> shares;  // of the bound, each case's largest
@@ -45,17 +39,8 @@ TEST(DelayedReference, StaysWithinAFewUlpOfExactArithmetic) {
     options.delays = test::random_delays(draw, random.capture.shape, random.timeline.duration_ns());
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, options);
     const Picture picture = ReferenceRenderer().render(plan, capture, kLight).picture;
-    const test::ExactExposure exact(plan, random.timeline,
-                                    [&](std::uint64_t k) { return random.rasters[k]; });
-    shares.push_back(0.0);
-    for (const std::uint64_t value : test::values_to_compare(plan, 12, seed)) {
-      const double rendered = picture.values<double>()[value];
-      const double units =
-          test::error_in(exact.scale(value), rendered, exact.light(value)) / test::kRoundoff64;
-      EXPECT_LE(units, test::kReferenceRoundings + 3)
-          << random.text() << ", value " << value << "; rerun: " << test::rerun(seed);
-      shares.back() = std::max(shares.back(), units / (test::kReferenceRoundings + 3));
-    }
+    constexpr double kRoundings = test::kReferenceRoundings + 3;
+    shares.push_back(test::worst_roundings(plan, random, picture, seed, kRoundings) / kRoundings);
     if (HasFailure()) return;
   }
   test::print_shares("reference, delays", shares);
@@ -64,12 +49,7 @@ TEST(DelayedReference, StaysWithinAFewUlpOfExactArithmetic) {
 // 8 samples at 100 a second, codes 10 k of 255 in each of 4 rows, linear.
 class DelayedRows : public testing::Test {
  protected:
-  static CaptureFormat format() {
-    CaptureFormat capture;
-    capture.shape = {1, 4, 1};
-    capture.transfer = Transfer::linear();
-    return capture;
-  }
+  static CaptureFormat format() { return {.shape = {1, 4, 1}, .transfer = Transfer::linear()}; }
   static test::Rasters rasters() {
     test::Rasters rasters;
     for (int k = 0; k < 8; ++k) rasters.emplace_back(4, static_cast<std::byte>(10 * k));
@@ -78,7 +58,7 @@ class DelayedRows : public testing::Test {
 
   RenderPlan plan(const GainFunction& function, const DelayRange& range) {
     return make_plan(capture_, {{0, function}}, Mask::uniform(1, 4, 0),
-                     delayed_by(DelayMap::by_rows(format().shape, range)));
+                     test::delayed_by(DelayMap::by_rows(format().shape, range)));
   }
   std::vector<double> codes(const GainFunction& function, const DelayRange& range) {
     const Picture light = ReferenceRenderer().render(plan(function, range), capture_, kLight).picture;
@@ -130,7 +110,7 @@ TEST_F(DelayedRows, AreWarnedOfOnceWhereItHoldsOfSeveralFunctions) {
   Mask mask = Mask::uniform(1, 4, 0);
   mask.tags = {0, 1, 0, 1};
   const RenderPlan both = make_plan(capture_, {{0, held}, {1, held}}, mask,
-                                    delayed_by(DelayMap::by_rows(format().shape, {0, 30 * kMs})));
+                                    test::delayed_by(DelayMap::by_rows(format().shape, {0, 30 * kMs})));
   ASSERT_EQ(both.warnings.size(), 1u);
   EXPECT_TRUE(both.warnings[0].starts_with("M0, M1: its last gain is not 0")) << both.warnings[0];
 }
@@ -145,7 +125,7 @@ TEST_F(DelayedRows, AreTracedTogetherWithTheirDelay) {
 }
 
 TEST_F(DelayedRows, NeedTheSamplesOfAllDelays) {
-  const PlanOptions options = delayed_by(DelayMap::by_rows(format().shape, {20 * kMs, 50 * kMs}));
+  const PlanOptions options = test::delayed_by(DelayMap::by_rows(format().shape, {20 * kMs, 50 * kMs}));
   const SampleRange needed = needed_samples(capture_.timeline(), {{0, GainFunction::boxcar(0, 10 * kMs)}},
                                             Mask::uniform(1, 4, 0), options);
   EXPECT_EQ(needed, (SampleRange{2, 6}));
@@ -154,21 +134,20 @@ TEST_F(DelayedRows, NeedTheSamplesOfAllDelays) {
 TEST_F(DelayedRows, AreRefusedWhereTheirMapHasAnotherSize) {
   EXPECT_NE(test::message_of<InputError>([&] {
               static_cast<void>(make_plan(capture_, {{0, GainFunction({{0, 1.0}})}}, Mask::uniform(1, 4, 0),
-                                          delayed_by(DelayMap::by_rows({2, 4, 1}, {0, 1}))));
+                                          test::delayed_by(DelayMap::by_rows({2, 4, 1}, {0, 1}))));
             }).find("the map of delays is 2 x 4 pixels and the pictures are 1 x 4"),
             std::string::npos);
 }
 
 TEST(DelayedPlan, TellsRegionsByMaskValueAndDelay) {
-  CaptureFormat format;
-  format.shape = {4, 2, 1};
+  const CaptureFormat format{.shape = {4, 2, 1}};
   MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, 1),
                         test::Rasters(1, std::vector<std::byte>(8)), 64);
   Mask mask = Mask::uniform(4, 2, 3);
   mask.tags[7] = 9;
   mask.mixed.add(7, std::array<Share, 2>{{{3, 20'000}, {9, 45'535}}});
   const FunctionSet functions{{3, GainFunction({{0, 1.0}})}, {9, GainFunction({{0, 0.5}})}};
-  const PlanOptions options = delayed_by(DelayMap::by_columns(format.shape, {0, 3}));
+  const PlanOptions options = test::delayed_by(DelayMap::by_columns(format.shape, {0, 3}));
   PlanCache cache;
   const RenderPlan plan = cache.plan(capture, functions, mask, options);
   ASSERT_EQ(plan.function_count(), 5u) << "four delays of M3, and the one that M9 has";
@@ -180,9 +159,9 @@ TEST(DelayedPlan, TellsRegionsByMaskValueAndDelay) {
   EXPECT_EQ(plan.shares_of(7)[0], (Share{3, 20'000}));
   EXPECT_EQ(plan.shares_of(7)[1], (Share{4, 45'535}));
 
-  const PlanOptions equal = delayed_by(DelayMap::by_columns(format.shape, {0, 3}));
+  const PlanOptions equal = test::delayed_by(DelayMap::by_columns(format.shape, {0, 3}));
   EXPECT_EQ(cache.plan(capture, functions, mask, equal).map, plan.map) << "equal maps are one";
-  EXPECT_NE(cache.plan(capture, functions, mask, delayed_by(DelayMap::by_columns(format.shape, {0, 4}))).map,
+  EXPECT_NE(cache.plan(capture, functions, mask, test::delayed_by(DelayMap::by_columns(format.shape, {0, 4}))).map,
             plan.map);
   EXPECT_NE(cache.plan(capture, functions, mask, {}).map, plan.map);
 }

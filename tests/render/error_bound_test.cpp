@@ -169,10 +169,9 @@ TEST(FixedScale, TablesDoNotDependOnBlocks) {
 }
 
 TEST(PrecisionChoice, TakesTheFirstThatIsRightEnoughElseTheBest) {
-  CaptureFormat format;
-  format.shape = {1, 1, 1};
   const test::Rasters rasters(100, std::vector<std::byte>(1, std::byte{90}));
-  const MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100), rasters, 64);
+  const MemoryCapture capture({.shape = {1, 1, 1}}, Timeline::constant({100, 1}, Timeline::kFullShutter, 100), rasters,
+                              64);
   const auto choose = [&](double gain, const OutputFormat& output, std::vector<Precision> available) {
     const GainFunction function({{640'000'000, gain}, {640'000'000, 2 - gain}});
     return choose_precision(make_plan(capture, {{0, function}}, Mask::uniform(1, 1, 0), {}), output,
@@ -197,10 +196,9 @@ TEST(PrecisionChoice, TakesTheFirstThatIsRightEnoughElseTheBest) {
 
 // Where every arithmetic may be wrong by all codes there are, light still tells them apart.
 TEST(PrecisionChoice, TakesTheLeastInLightWhereAllCodesMayBeWrong) {
-  CaptureFormat format;
-  format.shape = {1, 1, 1};
   const test::Rasters rasters(100, std::vector<std::byte>(1, std::byte{90}));
-  const MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100), rasters, 64);
+  const MemoryCapture capture({.shape = {1, 1, 1}}, Timeline::constant({100, 1}, Timeline::kFullShutter, 100), rasters,
+                              64);
   for (const double gain : {1e20, 1e100, 1e300}) {
     const GainFunction function({{640'000'000, gain}, {640'000'000, 2 - gain}});
     const RenderPlan plan = make_plan(capture, {{0, function}}, Mask::uniform(1, 1, 0), {});

@@ -35,13 +35,11 @@ TEST(OnePass, StaysWithinTheBoundOfDouble) {
       part.width -= part.x;
       part.height -= part.y;
     }
-    RenderControl control;
-    control.rectangle = part;
     const std::vector<Picture> made = expose_in_one_pass(plans, capture, part, {});
     ASSERT_EQ(made.size(), plans.size());
     for (std::size_t i = 0; i < plans.size(); ++i) {
       const double bound = error_bound(plans[i], Precision::double_, test::kLight).worst.light;
-      const Picture wanted = ReferenceRenderer().render(plans[i], capture, test::kLight, control).picture;
+      const Picture wanted = ReferenceRenderer().render(plans[i], capture, test::kLight, {.rectangle = part}).picture;
       ASSERT_EQ(made[i].shape, wanted.shape);
       for (std::size_t v = 0; v < wanted.values<double>().size(); ++v) {
         const double error = std::fabs(made[i].values<double>()[v] - wanted.values<double>()[v]);
@@ -61,9 +59,7 @@ TEST(OnePass, LeavesTheRestToDevices) {
   const Shape& shape = random.capture.shape;
   const FunctionSet functions{{0, GainFunction::boxcar(0, 1000)}, {1, GainFunction::boxcar(0, 2000)}};
   Mask mask = Mask::uniform(shape.width, shape.height, 0);
-  PlanOptions options;
-  options.combine = Combine::lighten;
-  EXPECT_FALSE(suits_one_pass(make_plan(capture, functions, mask, options)));
+  EXPECT_FALSE(suits_one_pass(make_plan(capture, functions, mask, {.combine = Combine::lighten})));
   mask.tags.front() = 1;
   EXPECT_FALSE(suits_one_pass(make_plan(capture, functions, mask, {})));
 }
@@ -76,9 +72,8 @@ TEST(OnePass, IsStopped) {
                                     Mask::uniform(shape.width, shape.height, 0), {});
   std::stop_source stop;
   stop.request_stop();
-  RenderControl control;
-  control.stop = stop.get_token();
-  EXPECT_THROW((void)expose_in_one_pass({&plan, 1}, capture, Rectangle::whole(shape), control), Cancelled);
+  EXPECT_THROW((void)expose_in_one_pass({&plan, 1}, capture, Rectangle::whole(shape), {.stop = stop.get_token()}),
+               Cancelled);
 }
 
 }  // namespace

@@ -21,8 +21,7 @@ using test::RandomCase;
 struct Scene {
   Scene() {
     const test::Rasters rasters(50, std::vector<std::byte>(16 * 64, std::byte{90}));
-    CaptureFormat format;
-    format.shape = {16, 64, 1};
+    const CaptureFormat format{.shape = {16, 64, 1}};
     capture.emplace(format, Timeline::constant({100, 1}, Timeline::kFullShutter, 50), rasters, 10);
     mask = Mask::uniform(16, 64, 0);
     for (std::uint32_t y = 0; y < 64; ++y) {
@@ -127,11 +126,9 @@ TEST(PlanCache, KeepsToItsBudget) {
 
 // Runs of blocks end within a table: a long capture in little memory.
 TEST(PlanCache, MakesLongTablesRunByRun) {
-  CaptureFormat format;
-  format.shape = {1, 1, 1};
   constexpr std::uint64_t kSamples = 5 * CaptureLayout::kRunSamples / 2;
   const test::Rasters rasters(kSamples, std::vector<std::byte>(1, std::byte{9}));
-  const MemoryCapture capture(format, Timeline::constant({1000, 1}, {180, 1}, kSamples), rasters, 100);
+  const MemoryCapture capture({.shape = {1, 1, 1}}, Timeline::constant({1000, 1}, {180, 1}, kSamples), rasters, 100);
   const FunctionSet functions{
       {0, GainFunction({{1'000'000'000, 0.0}, {9'000'000'000, 3.0}, {25'000'000'000, -1.0}})}};
   const Mask mask = Mask::uniform(1, 1, 0);

@@ -11,10 +11,8 @@ namespace {
 
 // 4 × 2 pixels, 100 samples a second, blocks of 10 samples.
 MemoryCapture capture_of(std::uint32_t samples) {
-  CaptureFormat capture;
-  capture.shape = {4, 2, 1};
   const test::Rasters rasters(samples, std::vector<std::byte>(8, std::byte{50}));
-  return {capture, Timeline::constant({100, 1}, Timeline::kFullShutter, samples), rasters, 10};
+  return {{.shape = {4, 2, 1}}, Timeline::constant({100, 1}, Timeline::kFullShutter, samples), rasters, 10};
 }
 
 FunctionSet functions_of(const std::string& text) {
@@ -35,9 +33,7 @@ TEST(RenderPlan, TouchesOnlyTheBlocksThatUsedFunctionsNeed) {
   EXPECT_EQ(plan.blocks[0].block, 2u);
   EXPECT_EQ(plan.functions[0].table->span_in(plan.blocks[0].extent), (SampleSpan{0, 1}));
   EXPECT_EQ(needed_samples(capture.timeline(), functions, Mask::uniform(4, 2, 0), {}), (SampleRange{20, 21}));
-  PlanOptions all;
-  all.live_all = true;
-  EXPECT_EQ(make_plan(capture, functions, Mask::uniform(4, 2, 0), all).blocks.size(), 10u);
+  EXPECT_EQ(make_plan(capture, functions, Mask::uniform(4, 2, 0), {.live_all = true}).blocks.size(), 10u);
 }
 
 // Files write jumps as steps of 1 ns. Their half nanosecond of light is exposed, and counts as no sample.
@@ -55,9 +51,8 @@ TEST(RenderPlan, CountsTheSamplesThatAFunctionMeans) {
   // Ramps of 2 ns are meant, and what is nothing but steps.
   EXPECT_EQ(samples("M0 [499999998:0], [500000000:1], [510000000:1], [510000002:0]"), Counts(3, 3));
   EXPECT_EQ(samples("M0 [499999999:0], [500000000:1], [500000001:0]"), Counts(2, 2));
-  PlanOptions all;
-  all.live_all = true;
-  EXPECT_EQ(samples("M0 [499999999:0], [500000000:1], [510000000:1], [510000001:0]", all), Counts(100, 100));
+  EXPECT_EQ(samples("M0 [499999999:0], [500000000:1], [510000000:1], [510000001:0]", {.live_all = true}),
+            Counts(100, 100));
 }
 
 TEST(RenderPlan, RefusesAMaskThatDoesNotFit) {
@@ -76,9 +71,7 @@ TEST(RenderPlan, RefusesAMaskThatDoesNotFit) {
   EXPECT_EQ(test::message_of<InputError>([&] { static_cast<void>(make_plan(capture, functions, mask, {})); }),
             "mask values without a function: 7 (1 pixels), 9 (2 pixels); add a line M<value> for each, or "
             "expose them to black");
-  PlanOptions zero;
-  zero.unmapped_is_zero = true;
-  EXPECT_EQ(make_plan(capture, functions, mask, zero).functions.size(), 3u);
+  EXPECT_EQ(make_plan(capture, functions, mask, {.unmapped_is_zero = true}).functions.size(), 3u);
 }
 
 TEST(RenderPlan, WarnsOfWhatDoesNotCount) {

@@ -25,16 +25,7 @@ TEST(Reference, StaysWithinAFewUlpOfExactArithmetic) {
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
     const Picture picture = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}).picture;
-    const test::ExactExposure exact(plan, random.timeline,
-                                    [&](std::uint64_t k) { return random.rasters[k]; });
-    for (const std::uint64_t value : test::values_to_compare(plan, 12, seed)) {
-      const double rendered = picture.values<double>()[value];
-      const double units =
-          test::error_in(exact.scale(value), rendered, exact.light(value)) / test::kRoundoff64;
-      EXPECT_LE(units, test::kReferenceRoundings)
-          << random.text() << ", value " << value << "; rerun: " << test::rerun(seed);
-      worst = std::max(worst, units);
-    }
+    worst = std::max(worst, test::worst_roundings(plan, random, picture, seed, test::kReferenceRoundings));
   }
   std::printf("worst error of the reference: %.2f u of ∫|g|/D\n", worst);
 }
@@ -43,12 +34,10 @@ TEST(Reference, StaysWithinAFewUlpOfExactArithmetic) {
 class ByHand : public testing::Test {
  protected:
   static double light(const GainFunction& function) {
-    CaptureFormat capture;
-    capture.shape = {1, 1, 1};
-    capture.transfer = Transfer::linear();
     test::Rasters rasters;
     for (int k = 0; k < 8; ++k) rasters.push_back({static_cast<std::byte>(10 * k)});
-    MemoryCapture source(capture, Timeline::constant({100, 1}, {180, 1}, 8), rasters, 3);
+    MemoryCapture source({.shape = {1, 1, 1}, .transfer = Transfer::linear()},
+                         Timeline::constant({100, 1}, {180, 1}, 8), rasters, 3);
     const RenderPlan plan = make_plan(source, {{0, function}}, Mask::uniform(1, 1, 0), {});
     return ReferenceRenderer().render(plan, source, {ValueType::light64, 0}).picture.values<double>()[0] *
            255.0;
@@ -114,8 +103,6 @@ class CraftedCapture final : public CaptureSource {
 };
 
 TEST(Reference, RefusesSampleNumbersThatNoTileCanHave) {
-  CaptureFormat format;
-  format.shape = {8, 8, 1};
   test::Rasters rasters;
   for (const int code : {0, 0, 5, 5, 9, 9}) rasters.emplace_back(64, static_cast<std::byte>(code));
   const Timeline timeline = Timeline::constant({100, 1}, {180, 1}, 6);
@@ -130,7 +117,7 @@ TEST(Reference, RefusesSampleNumbersThatNoTileCanHave) {
        {Case{TilePolicy::rows, 64, 2}, Case{TilePolicy::rows, 64, 255}, Case{TilePolicy::rows, 65, 0},
         Case{TilePolicy::rows, 65, 4}, Case{TilePolicy::records, 128, 0}, Case{TilePolicy::records, 128, 5},
         Case{TilePolicy::records, 128, 255}}) {
-    MemoryCapture capture(format, timeline, rasters, 6, each.policy);
+    MemoryCapture capture({.shape = {8, 8, 1}}, timeline, rasters, 6, each.policy);
     const GainFunction gain = GainFunction::boxcar(0, 60'000'000);
     const RenderPlan plan = make_plan(capture, {{0, gain}}, Mask::uniform(8, 8, 0), {});
     EXPECT_NO_THROW(static_cast<void>(ReferenceRenderer().render(plan, capture, {ValueType::light64, 0})));

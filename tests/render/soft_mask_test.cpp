@@ -30,16 +30,7 @@ TEST(SoftMask, TheReferenceStaysWithinItsBoundOfExactArithmetic) {
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
     const Picture picture = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}).picture;
-    const test::ExactExposure exact(plan, random.timeline,
-                                    [&](std::uint64_t k) { return random.rasters[k]; });
-    for (const std::uint64_t value : test::values_to_compare(plan, 12, seed)) {
-      const double units =
-          test::error_in(exact.scale(value), picture.values<double>()[value], exact.light(value)) /
-          test::kRoundoff64;
-      EXPECT_LE(units, kRoundings) << random.text() << ", value " << value
-                                   << "; rerun: " << test::rerun(seed);
-      worst = std::max(worst, units);
-    }
+    worst = std::max(worst, test::worst_roundings(plan, random, picture, seed, kRoundings));
   }
   std::printf("worst error of the reference: %.2f u of Σ α ∫|g|/D\n", worst);
 }
@@ -58,11 +49,9 @@ TEST(SoftMask, LightIsMixedByShares) {
   EXPECT_NEAR(light.values<double>()[1], 0.8 * 2 * 0.6 - 0.2 * 0.6, 1e-15);
   // Rectangles, and memory for few rows at a time, change no bit.
   for (std::uint32_t x = 0; x < 2; ++x) {
-    RenderControl control;
-    control.rectangle = Rectangle{x, 0, 1, 1};
-    control.memory_bytes = 1 << 20;
     EXPECT_EQ(ReferenceRenderer()
-                  .render(plan, capture, {ValueType::light64, 0}, control)
+                  .render(plan, capture, {ValueType::light64, 0},
+                          {.rectangle = Rectangle{x, 0, 1, 1}, .memory_bytes = 1 << 20})
                   .picture.values<double>()[0],
               light.values<double>()[x]);
   }
@@ -112,8 +101,7 @@ TEST(SoftMask, TheBoundOfAPlanIsNoLessThanThatOfAnyPixel) {
     test::soften(random.mask, random.functions, seed);
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
-    for (const Precision precision :
-         {Precision::single_, Precision::compensated, Precision::double_, Precision::fixed}) {
+    for (const Precision precision : kPrecisions) {
       for (const ValueType type :
            {ValueType::code8, ValueType::code16, ValueType::light32, ValueType::light64}) {
         const ErrorBound bound = error_bound(plan, precision, {type, 255});

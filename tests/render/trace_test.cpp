@@ -54,9 +54,7 @@ TEST(Trace, StepsFollowEachOtherAndAddUp) {
     const RandomCase random(seed);
     SCOPED_TRACE(random.text());
     MemoryCapture capture = random.encode();
-    PlanOptions all;
-    all.live_all = true;
-    const RenderPlan plan = make_plan(capture, random.functions, random.mask, all);
+    const RenderPlan plan = make_plan(capture, random.functions, random.mask, {.live_all = true});
     const Trace trace = trace_pixel(plan, capture, 0, 0).front();
     ASSERT_FALSE(trace.steps.empty());
     EXPECT_EQ(trace.steps.front().begin_ns, 0);

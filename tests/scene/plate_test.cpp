@@ -15,11 +15,7 @@ using test::Rasters;
 constexpr std::uint32_t kWidth = 53, kHeight = 29;  // no whole tiles
 
 CaptureFormat format(std::uint32_t channels, std::uint32_t code_bytes, std::uint32_t white) {
-  CaptureFormat capture;
-  capture.shape = {kWidth, kHeight, channels};
-  capture.code_bytes = code_bytes;
-  capture.white_code = white;
-  return capture;
+  return {.shape = {kWidth, kHeight, channels}, .code_bytes = code_bytes, .white_code = white};
 }
 
 // What the scene is without its subject, in light.

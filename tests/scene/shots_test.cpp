@@ -22,8 +22,6 @@ int scene(int number, int x, int y) {
 }
 
 std::vector<SampleRange> shots(const std::function<int(int x, int y, std::uint64_t sample)>& code) {
-  CaptureFormat format;
-  format.shape = kShape;
   std::vector<std::vector<std::byte>> rasters;
   for (std::uint64_t k = 0; k < kSamples; ++k) {
     std::vector<std::byte>& raster = rasters.emplace_back();
@@ -31,7 +29,7 @@ std::vector<SampleRange> shots(const std::function<int(int x, int y, std::uint64
       for (int x = 0; x < static_cast<int>(kShape.width); ++x)
         raster.push_back(static_cast<std::byte>(code(x, y, k)));
   }
-  MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, kSamples), rasters, 16);
+  MemoryCapture capture({.shape = kShape}, Timeline::constant({100, 1}, Timeline::kFullShutter, kSamples), rasters, 16);
   return shots_of(capture);
 }
 

@@ -21,8 +21,7 @@ int left_at(std::uint64_t sample) { return 10 + 3 * static_cast<int>(sample); }
 // Grey but where `differs(x, y, sample)`.
 std::vector<SubjectTrack> tracked(const std::function<bool(int, int, std::uint64_t)>& differs,
                                   const Rectangle& region = Rectangle::whole(kSceneShape)) {
-  CaptureFormat format;
-  format.shape = kSceneShape;
+  const CaptureFormat format{.shape = kSceneShape};
   std::vector<std::vector<std::byte>> rasters;
   for (std::uint64_t k = 0; k < kSceneSamples; ++k) {
     std::vector<std::byte>& raster = rasters.emplace_back(format.sample_bytes(), std::byte{100});

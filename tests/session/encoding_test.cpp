@@ -16,10 +16,8 @@ namespace {
 
 std::vector<std::string> warnings_of(std::uint64_t pictures, std::uint64_t announced) {
   const test::Scratch scratch;
-  SourceRequest source;
-  source.path = "clip";
   const EncodedCapture encoded = encode(
-      source, [&] { return std::make_unique<test::MadeClip>(pictures, announced); }, {scratch / "c.tik"},
+      {.path = "clip"}, [&] { return std::make_unique<test::MadeClip>(pictures, announced); }, {scratch / "c.tik"},
       MemoryBudget::of_machine());
   EXPECT_EQ(encoded.timeline.sample_count(), pictures);
   return encoded.warnings;
@@ -74,12 +72,9 @@ TEST(Encoding, ReplacesNothingThatWasPutThereMeanwhile) {
     }
     const test::Scratch& scratch_;
   };
-  SourceRequest source;
-  source.path = "clip";
   check_output(scratch / "c.tik", OutputKind::tik, {}, Replacing::made_by_recipe);
-  EXPECT_THROW(encode(source, [&] { return std::make_unique<Meddling>(scratch); }, {scratch / "c.tik"},
-                      MemoryBudget::of_machine()),
-               OutputError);
+  const auto open = [&] { return std::make_unique<Meddling>(scratch); };
+  EXPECT_THROW(encode({.path = "clip"}, open, {scratch / "c.tik"}, MemoryBudget::of_machine()), OutputError);
   EXPECT_EQ(test::read_file(scratch / "c.tik"), "precious");
 }
 

@@ -41,10 +41,7 @@ class LivePicturesTest : public ::testing::Test {
   }
 
   [[nodiscard]] ExposedPicture alone(const LivePart& part, std::optional<Precision> precision) {
-    RenderControl control;
-    control.rectangle = part.rectangle;
-    control.precision = precision;
-    return session_.render(part.exposure, part.output, control);
+    return session_.render(part.exposure, part.output, {.rectangle = part.rectangle, .precision = precision});
   }
 
   RandomCase random_{33, {3, 1, 255, Transfer::srgb()}};

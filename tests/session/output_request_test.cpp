@@ -8,12 +8,7 @@ namespace nutik {
 namespace {
 
 CaptureFormat twelve_bits() {
-  CaptureFormat format;
-  format.shape = {2, 1, 3};
-  format.code_bytes = 2;
-  format.white_code = 4095;
-  format.transfer = Transfer::linear();
-  return format;
+  return {.shape = {2, 1, 3}, .code_bytes = 2, .white_code = 4095, .transfer = Transfer::linear()};
 }
 
 OutputRequest of_transfer(const char* text) { return {{}, {}, parse_out_transfer(text)}; }

@@ -97,8 +97,7 @@ Asked random_request(test::Random& random, const test::RandomCase& of) {
 TEST(RandomRequests, OfFourThreadsGetWhatASessionOfTheirOwnGets) {
   const test::RandomCase capture = long_case();
   const test::Scratch scratch;
-  SourceRequest source;
-  source.path = test::write_tik(capture, {tik::CodecId::zstd, 0}, scratch);
+  const SourceRequest source{.path = test::write_tik(capture, {tik::CodecId::zstd, 0}, scratch)};
   ComputingRequest computing;
   computing.cache_folder = std::filesystem::temp_directory_path() / "nutik-test-kernels";
   const auto devices = std::make_shared<Devices>(computing);

@@ -60,10 +60,8 @@ TEST_P(ReducedSession, OfSomePicturesHasThoseThatBeginBetweenTwoMoments) {
   Session session(source);
   const Timeline& whole = session.timeline();
   if (whole.sample_count() < 3) return;  // no picture lies between others
-  ClipOptions part;
-  part.from = ClipMoment{whole.start_ns(0) + 1};
-  part.to = ClipMoment{whole.start_ns(whole.sample_count() - 1)};
-  const auto taken = session_of_part(session, part);
+  const auto taken = session_of_part(
+      session, {.from = ClipMoment{whole.start_ns(0) + 1}, .to = ClipMoment{whole.start_ns(whole.sample_count() - 1)}});
   const Timeline& is = taken->timeline();
   ASSERT_EQ(is.sample_count(), whole.sample_count() - 2);
   const auto& of_clip = taken->capture().header().part;

@@ -35,10 +35,8 @@ class ScratchCaptures : public testing::Test {
   }
 
   static ScratchCapture make() {
-    SourceRequest source;
-    source.path = "clip";
     return encode_to_scratch(
-        source, [] { return std::make_unique<test::MadeClip>(7, 7); }, MemoryBudget::of_machine(),
+        {.path = "clip"}, [] { return std::make_unique<test::MadeClip>(7, 7); }, MemoryBudget::of_machine(),
         [](const CaptureFormat&) { return MemoryNeeds(); });
   }
   // With a file, as programs of earlier versions left one that were killed; `age` ago.
@@ -71,11 +69,9 @@ TEST_F(ScratchCaptures, HaveTheBlocksOfAStreamWhateverTheyHold) {
       return has_read;
     }
   };
-  SourceRequest source;
-  source.path = "clip";
   const Shape shape{4096, 2048, 1};
   const ScratchCapture made = encode_to_scratch(
-      source, [&] { return std::make_unique<StillClip>(20, 20, shape); }, MemoryBudget::of_machine(),
+      {.path = "clip"}, [&] { return std::make_unique<StillClip>(20, 20, shape); }, MemoryBudget::of_machine(),
       [](const CaptureFormat&) { return MemoryNeeds(); });
   EXPECT_EQ(made.reader->block_extent(0).sample_count, default_block_samples(made.reader->format()));
   EXPECT_EQ(made.reader->block_count(), 2u);
@@ -84,13 +80,11 @@ TEST_F(ScratchCaptures, HaveTheBlocksOfAStreamWhateverTheyHold) {
 TEST_F(ScratchCaptures, LeaveNothingWhereAProcessIsKilledWhileItReads) {
   const pid_t child = fork();
   if (child == 0) {
-    SourceRequest source;
-    source.path = "clip";
     const auto killed = [](std::uint64_t samples, std::uint64_t) {
       if (samples > 0) kill(getpid(), SIGKILL);
     };
     const ScratchCapture made = encode_to_scratch(
-        source, [] { return std::make_unique<test::MadeClip>(70, 7); }, MemoryBudget::of_machine(),
+        {.path = "clip"}, [] { return std::make_unique<test::MadeClip>(70, 7); }, MemoryBudget::of_machine(),
         [](const CaptureFormat&) { return MemoryNeeds(); }, killed);
     _exit(0);
   }

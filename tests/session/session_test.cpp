@@ -12,6 +12,7 @@
 #include "features/series/series_request.hpp"
 #include "session/clips/encoding.hpp"
 #include "session/uncertainty.hpp"
+#include "support/clips.hpp"
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
@@ -33,8 +34,7 @@ ComputingRequest reference() {
 class SessionOfClip : public ::testing::Test {
  protected:
   SessionOfClip() {
-    const auto modules = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path();
-    setenv("NUTIK_MODULES", modules.c_str(), 0);
+    test::use_modules();
     test::write_still_clip(scratch_.folder(), 16, 24);
     source_.path = scratch_ / "frames";
     source_.clip.rate = Rational{100, 1};
@@ -77,11 +77,7 @@ TEST_F(SessionOfClip, TellsWhatIsNoBoundByItsValues) {
 
 // By hand, in linear light: a sensor's variance is read² + shot · light, and three deviations count as none.
 TEST(Session, KnowsNoiseByItsModel) {
-  CaptureFormat capture;
-  capture.shape = {1, 1, 1};
-  capture.code_bytes = 2;
-  capture.white_code = 65'535;
-  capture.transfer = Transfer::linear();
+  CaptureFormat capture{.shape = {1, 1, 1}, .code_bytes = 2, .white_code = 65'535, .transfer = Transfer::linear()};
   capture.noise.camera = CameraNoise{4095, Transfer::linear(), {{NoiseCurve::sensor, 0.001, 1e-4, {}}}};
   const CaptureErrors errors = CaptureErrors::of(capture, {0.5});
   EXPECT_NEAR(errors.rounded.most(), 0.5 / 4095, 1e-9) << "of the clip's codes";
@@ -105,8 +101,7 @@ TEST(Session, KnowsNoiseByItsModel) {
 // The curve bends down, lies below nothing that a sample may be off by, and of powers is that itself: means of samples are
 // off by as many codes as each of them.
 TEST_F(SessionOfClip, WhatIsHeldOfTheDarkIsHeldCloser) {
-  CaptureFormat capture;
-  capture.shape = {1, 1, 1};
+  CaptureFormat capture{.shape = {1, 1, 1}};
   for (const char* name : {"srgb", "bt709", "gamma:2.2", "gamma:0.5", "linear", "hlg", "pq", "slog3"}) {
     capture.transfer = Transfer::parse(name);
     for (const std::uint32_t tolerance : {1u, 4u, 100u}) {
@@ -183,9 +178,7 @@ TEST_F(SessionOfClip, WithAToleranceEveryCodecPacksAsWellAsRices) {
     source_.tolerance = tolerance;
     const std::filesystem::path output = scratch_ / format("{}{}.tik", codec, tolerance);
     const auto encoded = encode(source_, {output, tik::Codec::parse(codec)}, MemoryBudget::of_machine());
-    SourceRequest again;
-    again.path = output;
-    EXPECT_EQ(Session(again, reference()).compare_with(source_).comparison.values_beyond(), 0u) << codec;
+    EXPECT_EQ(Session({.path = output}, reference()).compare_with(source_).comparison.values_beyond(), 0u) << codec;
     return encoded.file_bytes;
   };
   for (const std::uint32_t tolerance : {1u, 4u}) {
@@ -242,8 +235,7 @@ TEST_F(SessionOfClip, DoubtsAnArithmeticThatIsAskedForAndTooCoarse) {
   EXPECT_TRUE(session.render(request_, codes8).warnings.empty());
   EXPECT_TRUE(session.render(request_, kFloats).warnings.empty());
   EXPECT_TRUE(Session(source_, ComputingRequest()).render(request_, codes16).warnings.empty());
-  RenderControl control;
-  control.precision = Precision::fixed;
+  RenderControl control{.precision = Precision::fixed};
   EXPECT_EQ(session.render(request_, codes16, control).warnings, warnings);
   control.is_chosen = true;  // by a program
   EXPECT_TRUE(session.render(request_, codes16, control).warnings.empty());
@@ -267,9 +259,7 @@ TEST_F(SessionOfClip, RefusesWhatNoRequestMayBe) {
                                     std::pair(ValueType::code16, 65'536u)}) {
     EXPECT_THROW(static_cast<void>(session.render(request_, {type, white})), UsageError) << white;
   }
-  RenderControl narrow;
-  narrow.memory_bytes = 1;
-  EXPECT_THROW(static_cast<void>(session.render(request_, kFloats, narrow)), MemoryTooLittle);
+  EXPECT_THROW(static_cast<void>(session.render(request_, kFloats, {.memory_bytes = 1})), MemoryTooLittle);
   EXPECT_THROW(static_cast<void>(session.validate(request_, kFloats, 0)), UsageError);
   EXPECT_THROW(Session(source_, std::shared_ptr<Devices>()), UsageError);
   SeriesRequest series;
@@ -321,8 +311,7 @@ TEST_F(SessionOfClip, IsComparedWithItsClip) {
 
 TEST(Session, RefusesADescriptionOfWhatWasDescribed) {
   const test::Scratch scratch;
-  SourceRequest source;
-  source.path = test::write_tik(test::RandomCase(3), {tik::CodecId::none, 0}, scratch);
+  SourceRequest source{.path = test::write_tik(test::RandomCase(3), {tik::CodecId::none, 0}, scratch)};
   EXPECT_FALSE(source.describes_clip());
   source.clip.transfer = Transfer::linear();
   EXPECT_FALSE(source.describes_clip()) << "an exposure may take codes for other light";

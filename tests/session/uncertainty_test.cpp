@@ -12,6 +12,7 @@
 #include "capture/format.hpp"
 #include "render/code_scale.hpp"
 #include "session/session.hpp"
+#include "support/clips.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 
@@ -52,8 +53,7 @@ float most_of(const ExposedPicture& picture, std::string_view layer) {
 class Held : public ::testing::Test {
  protected:
   explicit Held(const std::string& name) {
-    const auto modules = std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path();
-    setenv("NUTIK_MODULES", modules.c_str(), 0);
+    test::use_modules();
     source_.path = scratch_ / name;
     source_.clip.rate = Rational{100, 1};
     std::filesystem::create_directory(source_.path);
@@ -98,8 +98,7 @@ TEST_P(Ramps, NoPixelIsFurtherFromTheFilmedLightThanItsMap) {
     mask.mixed.add(pixel, std::array<Share, 2>{{{0, 40'000}, {9, 25'535}}});
   double most = 0.0;
   for (const char* captured : {"linear", "srgb", "bt709", "gamma:2.2", "gamma:0.5", "hlg", "pq", "slog3", "applelog"}) {
-    PlanOptions options;
-    options.transfer = Transfer::parse(captured);
+    const PlanOptions options{.transfer = Transfer::parse(captured)};
     CaptureFormat capture = held.format();
     capture.transfer = *options.transfer;
     for (const char* shown : {"", "srgb", "linear", "gamma:2.2", "gamma:0.5", "pq", "slog3", "applelog"}) {
@@ -137,9 +136,7 @@ TEST_P(Ramps, CombinedSamplesAreNoFurtherFromTheFilmedOnes) {
   double most = 0.0;
   for (const char* captured : {"linear", "srgb", "gamma:2.2", "gamma:0.5", "pq"}) {
     for (const Combine combine : {Combine::lighten, Combine::darken, Combine::median}) {
-      PlanOptions options;
-      options.transfer = Transfer::parse(captured);
-      options.combine = combine;
+      const PlanOptions options{.transfer = Transfer::parse(captured), .combine = combine};
       OutputFormat output;
       output.maps_bounds = true;
       CaptureFormat capture = held.format();
@@ -159,9 +156,9 @@ TEST_P(Ramps, CombinedSamplesAreNoFurtherFromTheFilmedOnes) {
 TEST_P(Ramps, HeldEndsOfDelayedFunctionsCountWhereTheyWeighMost) {
   Session held = session(GetParam()), filmed = session(0);
   const FunctionSet functions{{0, GainFunction({{0, 0.001}, {3 * kSampleNs, 0.001}, {3 * kSampleNs + 100'000, 1.0}})}};
-  PlanOptions options;
-  options.transfer = Transfer::linear();
-  options.delays = std::make_shared<const DelayMap>(DelayMap::by_rows({16, 16, 1}, {0, -5 * kSampleNs / 2}));
+  const PlanOptions options{
+      .transfer = Transfer::linear(),
+      .delays = std::make_shared<const DelayMap>(DelayMap::by_rows({16, 16, 1}, {0, -5 * kSampleNs / 2}))};
   CaptureFormat capture = held.format();
   capture.transfer = *options.transfer;
   OutputFormat output;

@@ -21,9 +21,7 @@ using test::RandomCase;
 using Kind = LightWish::Kind;
 
 Picture exposed(CaptureSource& capture, const FunctionSet& functions, const Mask& mask) {
-  PlanOptions options;
-  options.unmapped_is_zero = true;
-  const RenderPlan plan = make_plan(capture, functions, mask, options);
+  const RenderPlan plan = make_plan(capture, functions, mask, {.unmapped_is_zero = true});
   OutputFormat light;
   light.type = ValueType::light64;
   return ReferenceRenderer().render(plan, capture, light).picture;

@@ -44,10 +44,7 @@ TEST(Wand, TakesWhatHangsTogetherAndLooksAlike) {
 
 TEST_F(CanvasTest, ShowsThePictureOfTheCommandLine) {
   open_clip();
-  const test::ProgramResult made = test::run_shell(
-      std::string(NUTIK_TEST_PROGRAM) + " " + window_.command_for(path("alone.png")).mid(9).toStdString(),
-      scratch_.folder());
-  ASSERT_EQ(made.status, 0) << made.err;
+  run_line(window_.command_for(path("alone.png")));
   EXPECT_EQ(difference(canvas().image(), QImage(path("alone.png"))), "");
 }
 

@@ -21,9 +21,7 @@ constexpr std::uint8_t kTag = 3;
 class CurveEditorTest : public testing::Test {
  protected:
   CurveEditorTest() : editor_(document_, axis_) {
-    CaptureFormat format;
-    format.shape = {8, 6, 3};
-    document_.start({"clip.tik", format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)});
+    document_.start({"clip.tik", {.shape = {8, 6, 3}}, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)});
     axis_.set_duration(document_.duration_ns());
     document_.set_points(0, {{0, 0.0}, {650 * kMs, 0.5}, {650 * kMs + 1, 0.0}}, "Ramp");
     document_.set_points(kTag, boxcar_, "Boxcar");
@@ -287,23 +285,18 @@ TEST_F(CurveEditorTest, TakesTypedNumbersExactlyAndSaysWhatIsWrongWithOthers) {
   ASSERT_EQ(lines.size(), 2);
   EXPECT_EQ(lines[0]->text(), "500 ms");
   EXPECT_EQ(lines[1]->text(), "1");
-  const auto type = [&](QLineEdit* line, const QString& text) {
-    line->selectAll();
-    QTest::keyClicks(line, text);
-    QTest::keyClick(line, Qt::Key_Return);
-  };
-  type(lines[0], "half a second");
+  type_into(*lines[0], "half a second");
   EXPECT_TRUE(numbers->isVisible());
   EXPECT_TRUE(numbers->findChild<QLabel*>() != nullptr);
   EXPECT_EQ(points(), boxcar_) << "what is wrong changes nothing";
-  type(lines[0], "100 ms");
+  type_into(*lines[0], "100 ms");
   EXPECT_TRUE(numbers->isVisible()) << "before the point in front of it";
   EXPECT_EQ(points(), boxcar_);
-  type(lines[0], "499.999999 ms");
+  type_into(*lines[0], "499.999999 ms");
   EXPECT_FALSE(numbers->isVisible());
   EXPECT_EQ(points()[2].time_ns, 500 * kMs - 1);
   key(Qt::Key_Return);
-  type(lines[1], "-0.125");
+  type_into(*lines[1], "-0.125");
   EXPECT_EQ(points()[2], (ControlPoint{500 * kMs - 1, -0.125}));
   key(Qt::Key_Return);
   QTest::keyClicks(lines[1], "77");

@@ -10,9 +10,7 @@ namespace nutik::studio {
 namespace {
 
 CaptureFacts facts_of_one_second() {
-  CaptureFormat format;
-  format.shape = {8, 6, 3};
-  return {"clip.tik", format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)};
+  return {"clip.tik", {.shape = {8, 6, 3}}, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)};
 }
 
 TEST(Document, MakesOneStepOfADrag) {

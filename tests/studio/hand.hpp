@@ -19,4 +19,13 @@ inline void drag(QWidget& widget, QPoint from, QPoint to, Qt::KeyboardModifiers 
   QTest::mouseRelease(&widget, Qt::LeftButton, keys, to);
 }
 
+// In place of what a field holds.
+template <typename Field>
+void type_into(Field& field, const QString& text, Qt::Key end = Qt::Key_Return) {
+  field.setFocus();
+  field.selectAll();
+  text.isEmpty() ? QTest::keyClick(&field, Qt::Key_Delete) : QTest::keyClicks(&field, text);
+  QTest::keyClick(&field, end);
+}
+
 }  // namespace nutik::studio

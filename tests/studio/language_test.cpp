@@ -139,11 +139,7 @@ TEST_F(LanguageTest, WhatIsTypedWrongIsSaidInGermanWithTheFieldsName) {
   const std::pair<const char*, const char*> fields[] = {
       {"start", "Start: 'bald' ist"}, {"width", "Länge: 'bald' ist"}, {"in", "In: 'bald' ist"}};
   for (const auto& [name, said] : fields) {
-    auto& field = child<QLineEdit>(name);
-    field.setFocus();
-    field.selectAll();
-    QTest::keyClicks(&field, "bald");
-    QTest::keyClick(&field, Qt::Key_Return);
+    type_into(child<QLineEdit>(name), "bald");
     EXPECT_TRUE(child<QLabel>("said").text().startsWith(said)) << child<QLabel>("said").text().toStdString();
   }
   EXPECT_EQ(missing_.texts(), "");
@@ -157,8 +153,7 @@ TEST_F(LanguageTest, FilesCommandsAndNamesOfObjectsAreTheSame) {
   forget();
   MainWindow english{ComputingRequest()};
   english.show();
-  english.open(path("frames/%02d.pgm"), "100");
-  ASSERT_TRUE(QTest::qWaitFor([&] { return english.is_settled(); }, kMaxWaitMs));
+  open_in(english);
   EXPECT_EQ(object_names(english), names);
   EXPECT_EQ(written(english, path("english")), german);
 }

@@ -34,10 +34,8 @@ class LiveViewTest : public StudioTest {
                             "Ramp");
     }
     right_ = document().selected_tag();
-    SourceRequest source;
-    source.path = document().facts()->path.toStdString();
-    source.clip.rate = Rational::parse("100", "rate");
-    session_ = std::make_shared<Session>(source);
+    session_ = std::make_shared<Session>(SourceRequest{.path = document().facts()->path.toStdString(),
+                                                       .clip = {.rate = Rational::parse("100", "rate")}});
     QObject::connect(&live_, &LiveView::pictured, [this](const ShownPicture& picture) {
       if (shown_.isNull()) shown_ = QImage(kWidth, kHeight, QImage::Format_RGB32);
       QPainter(&shown_).drawImage(picture.place.topLeft(), picture.image);
@@ -59,10 +57,9 @@ class LiveViewTest : public StudioTest {
     return QTest::qWaitFor([this] { return !live_.is_busy(); }, kMaxWaitMs);
   }
   void expect_what_all_together_would_show() {
-    RenderControl control;
-    control.precision = Precision::single_;
     const DocumentState& state = document().state();
-    const auto whole = session_->render(exposure_of(state, state.mask), screen_format(), control);
+    const auto whole =
+        session_->render(exposure_of(state, state.mask), screen_format(), {.precision = Precision::single_});
     EXPECT_EQ(difference(shown_, image_of(whole.picture)), "");
   }
   void ramp(std::uint8_t tag, double gain) {
@@ -166,10 +163,8 @@ TEST_F(LiveViewTest, WhatIsSeenSmallIsExposedSmall) {
   for (std::uint32_t y = 0; y < mask.height; ++y)
     for (std::uint32_t x = 0; x < mask.width; ++x)
       mask.tags[y * mask.width + x] = (*state.mask)->mask.tags[(2 * y + 1) * kWidth + 2 * x + 1];
-  RenderControl control;
-  control.precision = Precision::single_;
-  const auto wanted =
-      reduced->render(exposure_of(state, Shared(MaskWithRegions(mask))), screen_format(), control);
+  const auto wanted = reduced->render(exposure_of(state, Shared(MaskWithRegions(mask))), screen_format(),
+                                      {.precision = Precision::single_});
   EXPECT_EQ(difference(whole.image, image_of(wanted.picture)), "");
   ramp(right_, 0.7);
   const ShownPicture part = exposed_now();

@@ -47,12 +47,6 @@ class PanelsTest : public StudioTest {
   void click_in_list(QPoint at) { QTest::mouseClick(list().viewport(), Qt::LeftButton, {}, at); }
   [[nodiscard]] QString status(const char* label) { return child<QLabel>(label).text(); }
   [[nodiscard]] QImage shown() { return canvas().grab().toImage(); }
-  void type(QDoubleSpinBox& box, const QString& text) {
-    box.setFocus();
-    box.selectAll();
-    QTest::keyClicks(&box, text);
-    QTest::keyClick(&box, Qt::Key_Return);
-  }
 };
 
 // ---- regions ----
@@ -106,6 +100,10 @@ TEST_F(PanelsTest, ARegionIsHiddenAndShownAlone) {
   QTest::keyClick(&list(), Qt::Key_Space);
   EXPECT_FALSE(document().solo()) << "by keyboard";
   EXPECT_EQ(shown(), outlined);
+  click_in_list(box_of(*list().currentItem(), kSolo));
+  click_button("remove_region");
+  EXPECT_EQ(list().topLevelItemCount(), 1);
+  EXPECT_FALSE(document().solo()) << "it goes with the region";
 }
 
 TEST_F(PanelsTest, ARegionsColourIsChosen) {
@@ -155,7 +153,7 @@ TEST_F(PanelsTest, AllEdgesAreFeatheredAsTyped) {
   document().set_points(kBackground, {{0, 1.0}, {document().duration_ns(), 1.0}}, "Shape");
   ASSERT_TRUE(settles());
   const QImage hard = canvas().image();
-  type(child<QDoubleSpinBox>("feather"), "2.5");
+  type_into(child<QDoubleSpinBox>("feather"), "2.5");
   EXPECT_EQ(document().state().feather, (Feather{250, {}}));
   ASSERT_TRUE(settles());
   EXPECT_NE(canvas().image().pixel(11, 20), hard.pixel(11, 20));
@@ -167,10 +165,7 @@ TEST_F(PanelsTest, TheWindowsKeysAreItsOwnInFields) {
   open_clip();
   auto& box = child<QDoubleSpinBox>("feather");
   const DocumentState before = document().state();
-  box.setFocus();
-  box.selectAll();
-  QTest::keyClicks(&box, "3");
-  QTest::keyClick(&box, Qt::Key_Return);
+  type_into(box, "3");
   EXPECT_NE(document().state(), before);
   QTest::keyClick(&box, Qt::Key_Z, Qt::ControlModifier);
   EXPECT_EQ(document().state(), before);
@@ -185,10 +180,7 @@ TEST_F(PanelsTest, TheWindowsKeysAreItsOwnInFields) {
   window_.activateWindow();  // which a desktop does once the dialog is gone
   ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
   auto& start = child<QLineEdit>("start");
-  start.setFocus();
-  start.selectAll();
-  QTest::keyClicks(&start, "10 ms");
-  QTest::keyClick(&start, Qt::Key_Return);
+  type_into(start, "10 ms");
   EXPECT_EQ(document().boxcar().start_ns, 10'000'000);
   QTest::keyClick(&start, Qt::Key_Z, Qt::ControlModifier);
   EXPECT_EQ(document().state(), before);
@@ -242,7 +234,7 @@ TEST_F(PanelsTest, TheStatusTellsThePixelTheArithmeticAndTheTime) {
   EXPECT_TRUE(QRegularExpression("^after \\d+ ms$").match(status("milliseconds")).hasMatch())
       << status("milliseconds").toStdString();
   EXPECT_EQ(status("saturated"), "");
-  type(child<QDoubleSpinBox>("brightness"), "8");
+  type_into(child<QDoubleSpinBox>("brightness"), "8");
   ASSERT_TRUE(settles());
   EXPECT_EQ(document().state().brightness_ev, 8);
   EXPECT_EQ(difference(canvas().image(), fresh_picture()), "");
@@ -255,8 +247,8 @@ TEST_F(PanelsTest, EachRegionTellsHowManyOfItsPixelsAreClipped) {
   EXPECT_EQ(square.text(kClipped) + background.text(kClipped), "");
   document().set_points(kBackground, {{0, 0.25}, {document().duration_ns(), 0.25}}, "Shape");
   document().set_points(document().selected_tag(), {{0, 1.0}, {document().duration_ns(), 1.0}}, "Shape");
-  type(child<QDoubleSpinBox>("brightness"),
-       "5");  // of light 0.045: 1.4, and 0.36 where the gain is a quarter
+  // Of light 0.045: 1.4, and 0.36 where the gain is a quarter.
+  type_into(child<QDoubleSpinBox>("brightness"), "5");
   ASSERT_TRUE(settles());
   EXPECT_EQ(square.text(kClipped), "400") << "all of it";
   EXPECT_EQ(status("saturated"), QString("%1 px clipped").arg(400 + background.text(kClipped).toInt()))
@@ -272,20 +264,16 @@ TEST_F(PanelsTest, NumbersHaveAPointAndAreTypedWithACommaToo) {
   {
     MainWindow window;
     window.show();
-    window.open(path("frames/%02d.pgm"), "100");
-    ASSERT_TRUE(QTest::qWaitFor([&] { return window.is_settled(); }, kMaxWaitMs));
+    open_in(window);
     for (const char* typed : {"2,5", "2.5"}) {
       for (const char* name : {"brush_radius", "brightness", "feather", "radius"}) {
         auto& box = *window.findChild<QDoubleSpinBox*>(name);
         box.setValue(1);
-        type(box, typed);
+        type_into(box, typed);
         EXPECT_EQ(box.value(), 2.5) << name;
         EXPECT_TRUE(box.text().contains("2.5")) << box.text().toStdString();
       }
-      auto& width = *window.findChild<QLineEdit*>("width");
-      width.selectAll();
-      QTest::keyClicks(&width, QString(typed) + " ms");
-      QTest::keyClick(&width, Qt::Key_Return);
+      type_into(*window.findChild<QLineEdit*>("width"), QString(typed) + " ms");
       EXPECT_EQ(window.document().boxcar().length_ns, 2'500'000) << typed;
       EXPECT_EQ(read_typed_gain(typed).value, 2.5);
       window.document().set_boxcar({0, 1'000}, "Scrub");
@@ -408,8 +396,7 @@ TEST_F(PanelsTest, TheWindowFitsItsScreenAndIsAsItWasClosed) {
     window.show();
     // Qt makes a window that is larger than its screen as small as it gets, with the page that it begins with.
     window.resize(QSize(1000, 640).boundedTo(screen - QSize(16, 48)).expandedTo(window.minimumSizeHint()));
-    window.open(path("frames/%02d.pgm"), "100");
-    ASSERT_TRUE(QTest::qWaitFor([&] { return window.is_settled(); }, kMaxWaitMs));
+    open_in(window);
     window.findChild<QSplitter*>("row")->setSizes({600, 320});
     window.findChild<QSplitter*>("panes")->setSizes({180, 122, 260});
     QTest::keyClick(&window, Qt::Key_B);
@@ -422,8 +409,7 @@ TEST_F(PanelsTest, TheWindowFitsItsScreenAndIsAsItWasClosed) {
   }
   MainWindow window;
   window.show();
-  window.open(path("frames/%02d.pgm"), "100");
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window.is_settled(); }, kMaxWaitMs));
+  open_in(window);
   EXPECT_EQ(window.size(), size);
   EXPECT_EQ(sizes(window, "row"), row);
   EXPECT_EQ(sizes(window, "panes"), column);
@@ -475,8 +461,7 @@ TEST_F(PanelsTest, ThePictureHasHalfOfTheWindowAndPanelsFold) {
   MainWindow window;
   window.resize(1280, 800);
   window.show();
-  window.open(path("frames/%02d.pgm"), "100");
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window.is_settled(); }, kMaxWaitMs));
+  open_in(window);
   const auto share = [&] {
     QApplication::processEvents();
     return 1.0 * window.canvas().width() * window.canvas().height() / (window.width() * window.height());
@@ -490,8 +475,7 @@ TEST_F(PanelsTest, ThePictureHasHalfOfTheWindowAndPanelsFold) {
   ASSERT_TRUE(window.close());
   MainWindow next;
   next.show();
-  next.open(path("frames/%02d.pgm"), "100");
-  ASSERT_TRUE(QTest::qWaitFor([&] { return next.is_settled(); }, kMaxWaitMs));
+  open_in(next);
   EXPECT_FALSE(next.findChild<QWidget*>("side")->isVisible());
   EXPECT_FALSE(next.findChild<QWidget*>("time_strip")->isVisible());
   EXPECT_TRUE(next.findChild<QWidget*>("curves")->isVisible());
@@ -513,9 +497,7 @@ TEST_F(PanelsTest, ToolsHaveIconsAndTheirNamesOnHover) {
 }
 
 TEST_F(PanelsTest, HelpTellsKeysAndRightClicksOfferMenus) {
-  window_.activateWindow();
-  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
-  QTest::keyClick(&window_, Qt::Key_F1);
+  shortcut(Qt::Key_F1, {});
   const auto* text = window_.findChild<QTextBrowser*>();
   ASSERT_NE(text, nullptr);
   for (const char* words : {"Ctrl+E", "Export picture", "Strip: I, O", "Brush"})

@@ -9,6 +9,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "studio/regions/region_edits.hpp"
+#include "support/messages.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"
 
@@ -20,9 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::uint32_t kAcross = 8, kDown = 6;
 
 CaptureFacts small_facts(const QString& capture) {
-  CaptureFormat format;
-  format.shape = {kAcross, kDown, 3};
-  return {capture, format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)};
+  return {capture, {.shape = {kAcross, kDown, 3}}, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)};
 }
 
 // Functions, mask and looks that all differ from those of another number.
@@ -172,12 +171,8 @@ TEST_F(ProjectFile, SaysWhatIsDamagedInOneThatHoldsAll) {
     std::string text = whole;
     text.replace(text.find(what), what.size(), by);
     scratch_.write("p.nutik", text);
-    try {
-      static_cast<void>(load_project(path("p.nutik")));
-      ADD_FAILURE() << by;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string_view(error.what()).find(words), std::string::npos) << error.what();
-    }
+    SCOPED_TRACE(by);
+    test::expect_error<InputError>([&] { static_cast<void>(load_project(path("p.nutik"))); }, {words});
   };
   refused("\"width\": 8", "\"width\": 9", "the mask in it is damaged");
   refused("\"width\": 8", "\"width\": -8", "its mask's width is not from 1 to 32767");

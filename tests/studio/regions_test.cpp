@@ -43,9 +43,8 @@ class SheetsOnATable : public ::testing::Test {
   static constexpr std::uint32_t kColumns = 9, kRows = 7;
 
   SheetsOnATable() {
-    CaptureFormat format;
-    format.shape = {kColumns, kRows, 3};
-    document_.start({"clip.tik", format, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)});
+    document_.start(
+        {"clip.tik", {.shape = {kColumns, kRows, 3}}, Timeline::constant({100, 1}, Timeline::kFullShutter, 100)});
   }
 
   [[nodiscard]] Region some_pixels(Random& random) {
@@ -267,10 +266,7 @@ TEST_F(RegionsTest, HaveAFeatherOfTheirOwn) {
   const QImage hard = canvas().image();
   auto& own = child<QDoubleSpinBox>("own_feather");
   EXPECT_EQ(own.text(), "as all edges");
-  own.setFocus();
-  own.selectAll();
-  QTest::keyClicks(&own, "3");
-  QTest::keyClick(&own, Qt::Key_Return);
+  type_into(own, "3");
   EXPECT_EQ(document().state().feather, (Feather{0, {{before_, 300}}}));
   ASSERT_TRUE(settles());
   EXPECT_NE(difference(canvas().image(), hard), "");
@@ -284,15 +280,10 @@ TEST_F(RegionsTest, HaveAFeatherOfTheirOwn) {
   ASSERT_TRUE(window_.save_project(path("feathered.nutik")));
   const QString line = window_.command_for(path("line.png"));
   EXPECT_TRUE(line.contains(QString("--feather M%1=3px").arg(before_))) << line.toStdString();
-  const test::ProgramResult made =
-      test::run_shell(std::string(NUTIK_TEST_PROGRAM) + line.mid(8).toStdString(), scratch_.folder());
-  ASSERT_EQ(made.status, 0) << made.err;
+  run_line(line);
   EXPECT_EQ(difference(canvas().image(), QImage(path("line.png"))), "");
 
-  own.setFocus();
-  own.selectAll();
-  QTest::keyClicks(&own, "0");
-  QTest::keyClick(&own, Qt::Key_Down);
+  type_into(own, "0", Qt::Key_Down);
   EXPECT_EQ(own.text(), "as all edges") << "one step below 0";
   EXPECT_EQ(document().state().feather, Feather());
   ASSERT_TRUE(settles());
@@ -308,8 +299,7 @@ TEST_F(RegionsTest, AreSavedInTheirOrderWithWhatIsCovered) {
   ASSERT_TRUE(window_.save_project(path("order.nutik")));
   const QImage picture = canvas().image();
   MainWindow other;
-  other.open(path("order.nutik"));
-  ASSERT_TRUE(QTest::qWaitFor([&] { return other.is_settled(); }, kMaxWaitMs));
+  open_in(other, path("order.nutik"));
   EXPECT_EQ(other.document().state(), saved) << other.notice().text().toStdString();
   EXPECT_EQ(difference(other.canvas().image(), picture), "");
   move_region(other.document(), before_, Move::up);

@@ -8,7 +8,6 @@
 #include "studio/regions/region_edits.hpp"
 #include "studio/window/project_file.hpp"
 #include "studio_test.hpp"
-#include "support/program.hpp"
 
 namespace nutik::studio {
 namespace {
@@ -17,10 +16,7 @@ class SelectionsTest : public StudioTest {
  protected:
   // What the command line's mask has in its tag 255.
   [[nodiscard]] Region by_command(const std::string& selection) {
-    const test::ProgramResult made = test::run_shell(
-        std::string(NUTIK_TEST_PROGRAM) + " mask -f 100 " + selection + " frames/%02d.pgm by-command.pgm",
-        scratch_.folder());
-    if (made.status != 0) throw std::runtime_error(made.err);
+    run_line(QString::fromStdString("nutik-cl mask -f 100 " + selection + " frames/%02d.pgm by-command.pgm"));
     const Shared<MaskWithRegions> loaded = load_mask(path("by-command.pgm"));
     const Mask& mask = loaded->mask;
     Region region = Region::none(mask.width, mask.height);
@@ -57,9 +53,7 @@ TEST_F(SelectionsTest, SelectWhatDiffersBetweenTwoMoments) {
   EXPECT_TRUE(window_.notice().text().contains("differ between 0 s and 120 ms"))
       << window_.notice().text().toStdString();
   EXPECT_EQ(document().undo_stack().undoText(), "Select what differs");
-  window_.activateWindow();  // which a desktop does once the dialog is gone
-  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
-  QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
+  shortcut(Qt::Key_Z);
   EXPECT_EQ(document().state(), before);
   ASSERT_TRUE(settles());
   EXPECT_EQ(difference(canvas().image(), unselected), "");

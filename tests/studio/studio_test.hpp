@@ -45,10 +45,13 @@ class StudioTest : public ::testing::Test {
   [[nodiscard]] bool settles() {
     return QTest::qWaitFor([this] { return window_.is_settled(); }, kMaxWaitMs);
   }
-  void open_clip() {
-    window_.open(path("frames/%02d.pgm"), "100");
-    if (!settles() || document().facts() == nullptr)
-      throw std::runtime_error("the clip was not opened: " + window_.notice().text().toStdString());
+  void open_clip() { open_in(window_); }
+  void open_in(MainWindow& window) { open_in(window, path("frames/%02d.pgm"), "100"); }
+  void open_in(MainWindow& window, const QString& file, const QString& rate = {}) {
+    window.open(file, rate);
+    const bool is_settled = QTest::qWaitFor([&] { return window.is_settled(); }, kMaxWaitMs);
+    if (!is_settled || window.document().facts() == nullptr)
+      throw std::runtime_error("it was not opened: " + window.notice().text().toStdString());
   }
 
   [[nodiscard]] Document& document() { return window_.document(); }
@@ -85,6 +88,13 @@ class StudioTest : public ::testing::Test {
     QTest::mouseClick(&bar, Qt::LeftButton, {}, place);
     QMenu& rows = *title->menu();
     QTest::mouseClick(&rows, Qt::LeftButton, {}, rows.actionGeometry(named(rows, row)).center());
+  }
+
+  // A key in the window, once it is active: a desktop makes it so when a dialog is gone.
+  void shortcut(Qt::Key key, Qt::KeyboardModifiers keys = Qt::ControlModifier) {
+    window_.activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+    QTest::keyClick(&window_, key, keys);
   }
 
   // To the dialog that comes next, once it is there.
@@ -133,10 +143,12 @@ class StudioTest : public ::testing::Test {
   }
 
   // Runs a line that was copied, with the program that was built.
-  [[nodiscard]] test::ProgramResult run_line(const QString& line) {
+  test::ProgramResult run_line(const QString& line, int status = 0) {
     const std::string words = line.toStdString();
     EXPECT_TRUE(words.starts_with("nutik-cl ")) << words;
-    return test::run_shell(std::string(NUTIK_TEST_PROGRAM) + words.substr(8), scratch_.folder());
+    test::ProgramResult made = test::run_shell(std::string(NUTIK_TEST_PROGRAM) + words.substr(8), scratch_.folder());
+    EXPECT_EQ(made.status, status) << words << made.out << made.err;
+    return made;
   }
 
   [[nodiscard]] std::size_t pixels_of(std::uint8_t tag) {
@@ -147,14 +159,12 @@ class StudioTest : public ::testing::Test {
   // What a session of its own makes of the document, as a picture that is written.
   [[nodiscard]] QImage fresh_picture() {
     const DocumentState& state = document().state();
-    SourceRequest source;
-    source.path = document().facts()->path.toStdString();
+    SourceRequest source{.path = document().facts()->path.toStdString()};
     const Stated& stated = document().facts()->stated;
     if (stated.contains("fps")) source.clip.rate = Rational::parse(stated.at("fps"), "rate");
     Session session(source);
     const auto mask = state.mask ? std::optional(LiveView::feathered_mask(state)) : std::nullopt;
-    RenderControl control;
-    control.precision = document().facts()->precision;
+    const RenderControl control{.precision = document().facts()->precision};
     return image_of(session.render(exposure_of(state, mask), screen_format(), control).picture);
   }
 

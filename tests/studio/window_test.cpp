@@ -2,8 +2,6 @@
 #include <QDir>
 #include <QFile>
 #include <QMimeData>
-#include <QToolButton>
-#include <QTreeWidget>
 #include <csignal>
 
 #include "studio/regions/region_edits.hpp"
@@ -20,11 +18,6 @@ class WindowTest : public StudioTest {
   static QDir kept_folder() { return {QStandardPaths::writableLocation(QStandardPaths::AppDataLocation)}; }
   static void remove_all_kept() {
     for (const Autosave::Found& each : Autosave::found()) KeptProject(each.path).remove();
-  }
-  void open_in(MainWindow& window) {
-    window.open(path("frames/%02d.pgm"), "100");
-    ASSERT_TRUE(QTest::qWaitFor([&] { return window.is_settled(); }, kMaxWaitMs));
-    ASSERT_NE(window.document().facts(), nullptr);
   }
   // As a crash leaves it: the window goes, and nothing is asked.
   DocumentState leave_unsaved(int width) {
@@ -54,8 +47,7 @@ class WindowTest : public StudioTest {
   void expect_same_picture_by_command() {
     window_.export_picture(path("window.png"));
     ASSERT_TRUE(settles());
-    const test::ProgramResult made = run_line(window_.command_for(path("line.png")));
-    ASSERT_EQ(made.status, 0) << made.err;
+    run_line(window_.command_for(path("line.png")));
     const std::string by_window = test::read_file(scratch_ / "window.png");
     ASSERT_FALSE(by_window.empty()) << window_.notice().text().toStdString();
     EXPECT_TRUE(by_window == test::read_file(scratch_ / "line.png"));
@@ -91,17 +83,13 @@ TEST_F(WindowTest, WritesTheSamePictureHoweverSamplesArePartedIntoBlocks) {
       file += static_cast<char>(pixel % 10 + (k + pixel / kSide) % 2);
     scratch_.write("ties/" + std::to_string(k) + ".pgm", file);
   }
-  window_.open(path("ties/%d.pgm"), "160");
-  ASSERT_TRUE(settles());
-  ASSERT_NE(document().facts(), nullptr) << window_.notice().text().toStdString();
+  open_in(window_, path("ties/%d.pgm"), "160");
   for (const int samples : {22, 34}) {
     document().set_boxcar({18'750'000, samples * 6'250'000}, "Scrub");
     ASSERT_TRUE(settles());
     expect_same_picture_by_command();
     for (const char* blocks : {" --block-samples 7", " --block-samples 11"}) {
-      const test::ProgramResult made =
-          run_line(window_.command_for(path("line.png")) + " --overwrite" + blocks);
-      ASSERT_EQ(made.status, 0) << made.err;
+      run_line(window_.command_for(path("line.png")) + " --overwrite" + blocks);
       EXPECT_EQ(difference(QImage(path("line.png")), canvas().image()), "") << samples << blocks;
     }
   }
@@ -122,8 +110,7 @@ TEST_F(WindowTest, OpensAProjectAsItWasSaved) {
   EXPECT_FALSE(window_.isWindowModified());
 
   MainWindow other;
-  other.open(QDir::current().relativeFilePath(path("saved.nutik")));
-  ASSERT_TRUE(QTest::qWaitFor([&] { return other.is_settled(); }, kMaxWaitMs));
+  open_in(other, QDir::current().relativeFilePath(path("saved.nutik")));
   const DocumentState& loaded = other.document().state();
   EXPECT_EQ(loaded.functions, saved.functions);
   EXPECT_EQ(loaded.looks, saved.looks);
@@ -246,28 +233,6 @@ TEST_F(WindowTest, SaysWhyAFileIsRefused) {
   refuses("bad.nutik", R"({"nutik-studio": 1, "capture": "clip.tik", "functions": "bad.fn"})", "bad.fn:1:");
 }
 
-TEST_F(WindowTest, StaysWithItsCaptureWhereAnotherCannotBeOpened) {
-  open_clip();
-  const QImage picture = canvas().image();
-  std::filesystem::create_directory(scratch_ / "damaged");
-  scratch_.write("damaged/0.pgm", "P5 16 8 255\n" + std::string(128, 'a'));  // which is shown at first
-  scratch_.write("damaged/1.pgm", "P5 16 8 255\n" + std::string(100, 'a'));
-  window_.open(path("damaged/%d.pgm"), "100");
-  ASSERT_TRUE(settles());
-  EXPECT_TRUE(window_.notice().text().contains("1.pgm")) << window_.notice().text().toStdString();
-  EXPECT_EQ(document().facts()->path, path("frames/%02d.pgm"));
-  EXPECT_EQ(difference(canvas().image(), picture), "");
-}
-
-TEST_F(WindowTest, CancelsOpening) {
-  window_.open(path("frames/%02d.pgm"), "100");
-  QTest::mouseClick(&child<QToolButton>("cancel"), Qt::LeftButton);
-  ASSERT_TRUE(settles());
-  EXPECT_EQ(document().facts(), nullptr);
-  EXPECT_EQ(window_.notice().text(), "") << "who cancels knows why";
-  open_clip();
-}
-
 TEST_F(WindowTest, MayGoAtAnyTime) {
   {
     MainWindow other;
@@ -361,10 +326,8 @@ TEST_F(WindowTest, AsksBeforeItReplacesWhatChangedOutside) {
   QTest::keyClick(&window_, Qt::Key_S, Qt::ControlModifier);
   EXPECT_TRUE(is_asked_);
   EXPECT_EQ(test::read_file(scratch_ / "saved.fn"), "M0 [0:1]\n");
-  window_.activateWindow();  // which a desktop does once the question is gone
-  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
   answer_next(QMessageBox::Yes);
-  QTest::keyClick(&window_, Qt::Key_S, Qt::ControlModifier);
+  shortcut(Qt::Key_S);
   EXPECT_TRUE(is_asked_);
   EXPECT_NE(test::read_file(scratch_ / "saved.fn"), "M0 [0:1]\n") << window_.notice().text().toStdString();
 }
@@ -385,14 +348,12 @@ TEST_F(WindowTest, AsksBeforeItReplacesWhatAProjectMerelyNames) {
   ASSERT_TRUE(settles());
   document().set_points(0, {{0, 0.25}}, "Move point");
   const auto save_answering = [&](QMessageBox::StandardButton button) {
-    window_.activateWindow();  // which a desktop does once a question is gone
-    ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
     QString said;
     answer_next<QMessageBox>([&](QMessageBox& question) {
       said = question.text();
       QTest::mouseClick(question.button(button), Qt::LeftButton);
     });
-    QTest::keyClick(&window_, Qt::Key_S, Qt::ControlModifier);
+    shortcut(Qt::Key_S);
     ASSERT_TRUE(is_asked_);
     EXPECT_TRUE(said.contains("theirs.pgm was not written for this project")) << said.toStdString();
     EXPECT_TRUE(said.contains("theirs.fn was not written for this project")) << said.toStdString();
@@ -404,9 +365,7 @@ TEST_F(WindowTest, AsksBeforeItReplacesWhatAProjectMerelyNames) {
   ASSERT_NO_FATAL_FAILURE(save_answering(QMessageBox::Yes));
   EXPECT_NE(test::read_file(scratch_ / "theirs.fn"), functions);
   document().set_points(0, {{0, 0.75}}, "Move point");
-  window_.activateWindow();
-  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
-  QTest::keyClick(&window_, Qt::Key_S, Qt::ControlModifier);
+  shortcut(Qt::Key_S);
   EXPECT_FALSE(window_.isWindowModified()) << "nothing is asked: they are its own now";
   EXPECT_EQ(load_functions(path("theirs.fn")), document().functions());
 }
@@ -428,8 +387,7 @@ TEST_F(WindowTest, ShowsAProjectWhoseSaveWasEndedAsItWasToBe) {
 
   MainWindow other;
   other.show();
-  other.open(path("saved.nutik"));
-  ASSERT_TRUE(QTest::qWaitFor([&] { return other.is_settled(); }, kMaxWaitMs));
+  open_in(other, path("saved.nutik"));
   EXPECT_TRUE(other.document().state() == document().state());
   EXPECT_TRUE(other.notice().text().contains("did not come to its end"))
       << other.notice().text().toStdString();
@@ -479,9 +437,7 @@ TEST_F(WindowTest, ChoosesToolsByKeyboard) {
 }
 
 TEST_F(WindowTest, OpensWhatIsDropped) {
-  const auto encoded =
-      test::run_program({"encode", "-f", "100", "frames/%02d.pgm", "clip.tik"}, scratch_.folder());
-  ASSERT_EQ(encoded.status, 0) << encoded.err;
+  run_line("nutik-cl encode -f 100 frames/%02d.pgm clip.tik");
   QMimeData files;
   files.setUrls({QUrl::fromLocalFile(path("clip.tik"))});
   QDragEnterEvent enter({10, 10}, Qt::CopyAction, &files, Qt::LeftButton, {});
@@ -559,22 +515,6 @@ TEST_F(WindowTest, WorkGoesOnBetweenTheMarks) {
   EXPECT_EQ(document().mark_out(), kOut);
   open_clip();
   EXPECT_EQ(document().marks(), Marks());
-}
-
-TEST_F(WindowTest, ListsRegionsAndTheirStillGain) {
-  open_clip();
-  click_button("add_region");
-  auto& list = child<QTreeWidget>("regions");
-  ASSERT_EQ(list.topLevelItemCount(), 2);
-  const std::uint8_t tag = document().selected_tag();
-  EXPECT_TRUE(list.currentItem()->toolTip(0).contains(QString("M%1 in mask").arg(tag)));
-  list.currentItem()->setText(0, "Ball");
-  EXPECT_EQ(document().state().looks.at(tag).name, "Ball");
-  list.currentItem()->setCheckState(4, Qt::Checked);
-  EXPECT_EQ(document().solo(), tag);
-  click_button("remove_region");
-  EXPECT_EQ(list.topLevelItemCount(), 1);
-  EXPECT_FALSE(document().solo());
 }
 
 }  // namespace

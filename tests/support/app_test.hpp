@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -56,6 +58,23 @@ class AppTest : public testing::Test {
   static void expect_says(std::string_view text, std::initializer_list<std::string_view> parts) {
     for (const std::string_view part : parts) expect_says(text, part);
   }
+  // A command line of a shell, in a group, whose last command has no other input than the pipe's.
+  ProgramResult shell(const std::string& command, int status = 0) const {
+    ProgramResult result = run_shell("( " + command + " )", scratch_.folder());
+    EXPECT_EQ(result.status, status) << command << "\n" << result.out << result.err;
+    return result;
+  }
+  // The command that `reproduce` prints, which makes the picture again, byte for byte.
+  std::string expect_made_again(const std::string& picture, const std::string& by = "expose") const {
+    const std::string before = file(picture), command = make({"reproduce", picture}).out;
+    EXPECT_FALSE(before.empty()) << picture;
+    expect_says(command, " " + by + " ");
+    std::filesystem::remove(scratch_ / picture);
+    scratch_.write("again.sh", command);
+    shell("sh again.sh");
+    EXPECT_TRUE(file(picture) == before) << command;
+    return command;
+  }
   // What it answers to --json.
   [[nodiscard]] nlohmann::json answer(const Words& words, int status = 0) const {
     const ProgramResult result = run(words + "--json");
@@ -70,6 +89,17 @@ class AppTest : public testing::Test {
       scratch_.write("still" + std::to_string(k) + ".pgm", still);
     }
     make("-f 100 still%d.pgm scene.tik");
+  }
+  // A folder `frames` of so many PGMs.
+  void write_frames(int count, const std::function<cv::Mat(int)>& picture) const {
+    std::filesystem::create_directory(scratch_ / "frames");
+    for (int k = 0; k < count; ++k) {
+      cv::imwrite((scratch_ / "frames" / (std::to_string(100 + k) + ".pgm")).string(), picture(k));
+    }
+  }
+  // A picture that was made, as its file holds it.
+  [[nodiscard]] cv::Mat picture(std::string_view name) const {
+    return cv::imread((scratch_ / name).string(), cv::IMREAD_UNCHANGED);
   }
   [[nodiscard]] std::string file(const std::string& name) const { return read_file(scratch_ / name); }
   [[nodiscard]] bool exists(const std::string& name) const { return std::filesystem::exists(scratch_ / name); }

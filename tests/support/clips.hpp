@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "media/clip.hpp"
@@ -27,6 +28,13 @@ inline std::map<Setting, Fact> facts_of(const Clip& clip) {
   std::map<Setting, Fact> facts;
   for (const Fact& fact : clip.info().facts) facts.insert({fact.setting, fact});
   return facts;
+}
+
+// What is doubtful about a clip, a line each.
+inline std::string notes_of(const Clip& clip) {
+  std::string all;
+  for (const Note& note : clip.info().notes) all += note.text + "\n";
+  return all;
 }
 
 inline std::vector<std::vector<std::byte>> read_all(Clip& clip) {

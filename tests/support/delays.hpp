@@ -1,4 +1,4 @@
-// Random time maps.
+// Time maps, given and random.
 #pragma once
 
 #include <algorithm>
@@ -10,6 +10,8 @@
 #include "support/random_case.hpp"
 
 namespace nutik::test {
+
+inline PlanOptions delayed_by(DelayMap map) { return {.delays = std::make_shared<const DelayMap>(std::move(map))}; }
 
 // Rows, columns, circles, or a picture pixel by pixel, of few values or of many; to either side by up to the capture's
 // length or a little, so that functions leave the capture wholly, in part, or not at all.

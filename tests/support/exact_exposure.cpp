@@ -1,10 +1,13 @@
 #include "support/exact_exposure.hpp"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <set>
 #include <utility>
 
-#include "support/random_case.hpp"
+#include "support/bounds.hpp"
+#include "support/seeds.hpp"
 
 namespace nutik::test {
 namespace {
@@ -94,6 +97,19 @@ std::vector<std::uint64_t> values_to_compare(const RenderPlan& plan, std::size_t
     values.insert(static_cast<std::uint64_t>(random.whole(0, static_cast<std::int64_t>(count) - 1)));
   }
   return {values.begin(), values.end()};
+}
+
+double worst_roundings(const RenderPlan& plan, const RandomCase& random, const Picture& picture, std::uint64_t seed,
+                       double most) {
+  const ExactExposure exact(plan, random.timeline, [&](std::uint64_t k) { return random.rasters[k]; });
+  double worst = 0.0;
+  for (const std::uint64_t value : values_to_compare(plan, 12, seed)) {
+    const double rendered = picture.values<double>()[value];
+    const double units = error_in(exact.scale(value), rendered, exact.light(value)) / kRoundoff64;
+    EXPECT_LE(units, most) << random.text() << ", value " << value << "; rerun: " << rerun(seed);
+    worst = std::max(worst, units);
+  }
+  return worst;
 }
 
 }  // namespace nutik::test

@@ -15,6 +15,7 @@
 #include "render/render_plan.hpp"
 #include "support/exact.hpp"
 #include "support/hard_cases.hpp"
+#include "support/random_case.hpp"
 
 namespace nutik::test {
 
@@ -54,5 +55,9 @@ class ExactExposure {
 constexpr std::size_t kMaxComparedFunctions = 256;
 [[nodiscard]] std::vector<std::uint64_t> values_to_compare(const RenderPlan& plan, std::size_t most,
                                                            std::uint64_t seed);
+
+// The largest error of a case's picture of light64, in u of S; each of these values is to be within `most`.
+[[nodiscard]] double worst_roundings(const RenderPlan& plan, const RandomCase& random, const Picture& picture,
+                                     std::uint64_t seed, double most);
 
 }  // namespace nutik::test

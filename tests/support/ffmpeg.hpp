@@ -14,6 +14,7 @@
 #include "capture/error.hpp"
 #include "capture/picture.hpp"
 #include "support/clips.hpp"
+#include "support/messages.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"
 
@@ -85,14 +86,12 @@ inline void set_display_matrix(const std::filesystem::path& path, const std::arr
 // A clip that is opened, read to its end or given a timeline must throw, saying `part`.
 inline void expect_clip_refused(const std::filesystem::path& path, const ClipOptions& options,
                                 const std::string& part) {
-  try {
+  const auto read = [&] {
     const auto clip = open_test_clip(path, options);
     const auto rasters = read_all(*clip);
     static_cast<void>(timeline_of(path.string(), clip->info(), options, {360, 1}, rasters.size()));
-    FAIL() << path << " was read";
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-  }
+  };
+  expect_error<Error>(read, {part});
 }
 
 }  // namespace nutik::test

@@ -6,19 +6,14 @@
 #include <cstdint>
 #include <string>
 
-namespace nutik::test {
+#include "support/bytes.hpp"
 
-// Four bytes, the highest first.
-inline std::string png_number(std::uint32_t value) {
-  std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xFF);
-  return bytes;
-}
+namespace nutik::test {
 
 inline std::string png_chunk(const std::string& type, const std::string& data) {
   const std::string summed = type + data;
   const auto sum = crc32(0, reinterpret_cast<const Bytef*>(summed.data()), static_cast<uInt>(summed.size()));
-  return png_number(static_cast<std::uint32_t>(data.size())) + summed + png_number(static_cast<std::uint32_t>(sum));
+  return big_endian(data.size(), 4) + summed + big_endian(sum, 4);
 }
 
 // With a chunk behind the first, which tells the size.
@@ -44,7 +39,7 @@ inline std::string black_png(std::uint32_t width, std::uint32_t height, std::uin
     } while (stream.avail_out == 0);
   }
   deflateEnd(&stream);
-  const std::string header = png_number(width) + png_number(height) + std::string("\x08\0\0\0\0", 5);
+  const std::string header = big_endian(width, 4) + big_endian(height, 4) + std::string("\x08\0\0\0\0", 5);
   return "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) + png_chunk("IDAT", packed) + png_chunk("IEND", "");
 }
 
@@ -54,24 +49,16 @@ inline std::string tiny_tiff(std::uint32_t width, std::uint32_t height, std::uin
   const std::string data = compression == 8 ? std::string("\x78\x9c\x63\x60\x60\x00\x00\x00\x03\x00\x01", 11)
                                             : std::string(40, '\x80');
   std::string file("II*\0", 4);
-  const auto add = [&](std::uint32_t value, int bytes) {
-    for (int i = 0; i < bytes; ++i) file += static_cast<char>(value >> (8 * i) & 0xFF);
-  };
-  add(static_cast<std::uint32_t>(8 + data.size()), 4);
-  file += data;
+  file += little_endian(8 + data.size(), 4) + data;
   const auto size = static_cast<std::uint32_t>(data.size());
   const std::uint32_t entries[][3] = {{256, 4, width},       {257, 4, height}, {258, 3, 16},
                                       {259, 3, compression}, {262, 3, 1},      {273, 4, 8},
                                       {277, 3, 1},           {278, 4, height}, {279, 4, size}};
-  add(std::size(entries), 2);
+  file += little_endian(std::size(entries), 2);
   for (const auto& [tag, type, value] : entries) {
-    add(tag, 2);
-    add(type, 2);
-    add(1, 4);
-    add(value, 4);
+    file += little_endian(tag, 2) + little_endian(type, 2) + little_endian(1, 4) + little_endian(value, 4);
   }
-  add(0, 4);
-  return file;
+  return file + little_endian(0, 4);
 }
 
 }  // namespace nutik::test

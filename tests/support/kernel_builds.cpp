@@ -11,8 +11,6 @@
 namespace nutik::test {
 namespace {
 
-constexpr Precision kPrecisions[] = {Precision::single_, Precision::compensated, Precision::double_,
-                                     Precision::fixed};
 constexpr LightKind kLights[] = {LightKind::linear, LightKind::curve, LightKind::pieces, LightKind::table,
                                 LightKind::near_table};
 constexpr std::uint32_t kLanes[] = {1, 4, 8, 16};

@@ -76,6 +76,18 @@ inline DeviceInfo device_allocating(std::uint64_t bytes) {
   return device;
 }
 
+// A part of a picture, by itself.
+inline std::vector<std::byte> part_of(const Picture& picture, const Rectangle& part) {
+  const std::size_t pixel_bytes = picture.shape.channels * value_bytes(picture.type);
+  std::vector<std::byte> bytes;
+  for (std::size_t y = part.y; y < std::size_t{part.y} + part.height; ++y) {
+    const auto row =
+        std::span(picture.bytes).subspan((y * picture.shape.width + part.x) * pixel_bytes, part.width * pixel_bytes);
+    bytes.insert(bytes.end(), row.begin(), row.end());
+  }
+  return bytes;
+}
+
 // S of a value's pixel.
 inline double scale_of(const RenderPlan& plan, std::uint64_t value) {
   return plan.error_scale(value / plan.capture.shape.channels);

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 
 #include "support/moving_square_test.hpp"
@@ -13,9 +12,6 @@ namespace nutik::test {
 
 class StudyTest : public MovingSquareTest {
  protected:
-  [[nodiscard]] cv::Mat picture(std::string_view name) const {
-    return cv::imread((scratch_ / name).string(), cv::IMREAD_UNCHANGED);
-  }
   // Whether a study without moments is what a plain exposure of all of the clip is, but for how its light was corrected.
   void expect_mean_of_all(const std::string& clip, int pictures, const std::string& study) const {
     EXPECT_EQ(cv::countNonZero(picture(study + ".pgm")), 0) << study;

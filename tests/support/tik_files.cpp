@@ -8,24 +8,29 @@
 
 namespace nutik::test {
 
-std::filesystem::path write_tik(const RandomCase& random, const tik::Codec& codec, const Scratch& scratch) {
+std::filesystem::path write_tik(const MemoryCapture& capture, std::span<const std::byte> first, const tik::Codec& codec,
+                                const Scratch& scratch) {
   const std::filesystem::path path = scratch / "capture.tik";
+  const Timeline& timeline = capture.timeline();
   tik::Header header;
-  header.capture = held_format(random.capture);
-  if (random.timeline.is_constant()) header.rate = random.timeline.rate();
-  header.shutter_angle = random.timeline.shutter_angle();
-  tik::Writer writer(path, header, codec, to_held_codes(random.capture, random.rasters.front()));
-  const MemoryCapture capture = random.encode();
+  header.capture = capture.format();
+  if (timeline.is_constant()) header.rate = timeline.rate();
+  header.shutter_angle = timeline.shutter_angle();
+  tik::Writer writer(path, header, codec, first);
   for (std::uint64_t b = 0; b < capture.block_count(); ++b) {
     const BlockView view = capture.view(b);
     std::span<const Exposure> exposures;
-    if (!random.timeline.is_constant()) {
-      exposures = random.timeline.table().subspan(view.extent().first_sample, view.extent().sample_count);
+    if (!timeline.is_constant()) {
+      exposures = timeline.table().subspan(view.extent().first_sample, view.extent().sample_count);
     }
     writer.append({view.extent(), view.payload(), 0}, exposures);
   }
-  writer.finish(random.timeline);
+  writer.finish(timeline);
   return path;
+}
+
+std::filesystem::path write_tik(const RandomCase& random, const tik::Codec& codec, const Scratch& scratch) {
+  return write_tik(random.encode(), to_held_codes(random.capture, random.rasters.front()), codec, scratch);
 }
 
 RandomCase noisy_case(std::uint64_t seed) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "support/random_case.hpp"
@@ -13,7 +14,9 @@
 
 namespace nutik::test {
 
-// Encodes a case into `capture.tik` and returns its path.
+// Writes a capture, whose first sample is held so, or a case's into `capture.tik`, and returns its path.
+std::filesystem::path write_tik(const MemoryCapture& capture, std::span<const std::byte> first, const tik::Codec& codec,
+                                const Scratch& scratch);
 std::filesystem::path write_tik(const RandomCase& random, const tik::Codec& codec, const Scratch& scratch);
 
 // A random case whose camera's noise is known: points or a sensor, with as many digits as doubles have.

@@ -157,8 +157,7 @@ TEST(Codec, RefusesWhatNoPayloadIsStoredAs) {
 }
 
 TEST(Codec, RefusesATileThatNoBlockCanHave) {
-  CaptureFormat capture;
-  capture.shape = {8, 8, 1};
+  const CaptureFormat capture{.shape = {8, 8, 1}};
   const BlockGeometry geometry(capture, 3);
   // A longer block's payload: 9 rows, or 8 slots of records.
   const BlockGeometry longer(capture, 9);

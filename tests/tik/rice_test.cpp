@@ -97,11 +97,8 @@ TEST(Rice, AnyInstructionsMakeTheSameBytesOfCaptures) {
 TEST(Rice, AnyInstructionsMakeTheSameBytesOfNoise) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     test::Random draw(seed);
-    CaptureFormat capture;
-    capture.shape = {8, 8, seed % 2 == 0 ? 1u : 3u};
-    capture.code_bytes = seed % 4 < 2 ? 1 : 2;
     const std::uint32_t samples = seed % 8 < 4 ? 20 : 300;
-    DrawnPayload payload(capture, samples);
+    DrawnPayload payload({.shape = {8, 8, seed % 2 == 0 ? 1u : 3u}, .code_bytes = seed % 4 < 2 ? 1u : 2u}, samples);
     for (std::int64_t spread = 0; spread < 65'536; spread = spread * 3 + 1) {
       payload.add_tile(1, draw, spread);
       payload.add_tile(8, draw, spread);
@@ -129,10 +126,8 @@ TEST(Rice, ARoomIsUsedAgain) {
 TEST(Rice, CountsStepsOfATolerance) {
   for (const std::uint32_t code_bytes : {1u, 2u}) {
     for (const std::uint32_t channels : {1u, 3u}) {
-      CaptureFormat capture;
-      capture.shape = {8, 8, channels};
-      capture.code_bytes = code_bytes;
-      capture.white_code = code_bytes == 1 ? 255 : 4095;
+      CaptureFormat capture{
+          .shape = {8, 8, channels}, .code_bytes = code_bytes, .white_code = code_bytes == 1 ? 255u : 4095u};
       const auto packed_bytes = [&](std::int64_t step, std::uint32_t tolerance, bool strays) {
         capture.noise.tolerance = tolerance;
         test::Random draw(7);
@@ -162,10 +157,7 @@ TEST(Rice, CountsStepsOfATolerance) {
 
 TEST(Rice, LeavesOutLowBitsThatNoCodeHas) {
   test::Random draw(1);
-  CaptureFormat capture;
-  capture.shape = {8, 8, 1};
-  capture.code_bytes = 2;
-  DrawnPayload payload(capture, 20);
+  DrawnPayload payload({.shape = {8, 8, 1}, .code_bytes = 2}, 20);
   payload.add_tile(20, draw, 200);
   const TileGroup group{payload.entries, payload.geometry};
   const std::size_t plain = packed(group, payload.bytes).body.size();

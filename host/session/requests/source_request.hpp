@@ -50,23 +50,23 @@ struct AlignRequest {
 };
 
 struct SourceRequest {
-  std::filesystem::path path;  // a .tik, a video, a sequence of stills or a table of them
-  ClipOptions clip;
+  std::filesystem::path path = {};  // a .tik, a video, a sequence of stills or a table of them
+  ClipOptions clip = {};
   // Degrees; none: as listed in the files, else Timeline::kFullShutter.
-  std::optional<Rational> shutter_angle;
+  std::optional<Rational> shutter_angle = std::nullopt;
 
-  std::optional<AlignRequest> align;
+  std::optional<AlignRequest> align = std::nullopt;
   bool deflickered = false;  // media/deflicker.hpp, of pictures that are aligned
-  std::optional<BetweenRequest> between;  // of these
+  std::optional<BetweenRequest> between = std::nullopt;  // of these
 
   // What counts as no change.
   std::uint32_t tolerance = 0;  // codes
-  std::variant<NoNoise, NoiseOfClip, StatedNoise> noise;
+  std::variant<NoNoise, NoiseOfClip, StatedNoise> noise = {};
   static constexpr double kMinSigmas = 0.1, kMaxSigmas = 100;
   double sigmas = NoiseModel::kDefaultSigmas;  // of the camera's noise
 
   TilePolicy tiles = TilePolicy::automatic;
-  std::optional<std::uint32_t> block_samples;  // none: as many as fit a block of usual size
+  std::optional<std::uint32_t> block_samples = std::nullopt;  // none: as many as fit a block of usual size
 
   // Whether anything is stated that only a clip can have. A .tik was described when it was made.
   [[nodiscard]] bool describes_clip() const;

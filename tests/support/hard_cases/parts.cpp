@@ -32,12 +32,7 @@ std::span<const NamedHardCase> hard_cases() {
 }
 
 CaptureFormat format_of(Shape shape, Transfer transfer, std::uint32_t white_code) {
-  CaptureFormat format;
-  format.shape = shape;
-  format.code_bytes = white_code > 255 ? 2 : 1;
-  format.white_code = white_code;
-  format.transfer = transfer;
-  return format;
+  return {.shape = shape, .code_bytes = white_code > 255 ? 2u : 1u, .white_code = white_code, .transfer = transfer};
 }
 
 FunctionSet number(std::vector<GainFunction> functions) {
