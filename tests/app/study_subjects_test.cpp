@@ -173,7 +173,8 @@ TEST_F(StudySubjects, CastTheirShadowsOnTheirTrails) {
     return picture("study.png");
   };
   const cv::Mat at_10 = shown_at("10f,30f"), at_20 = shown_at("20f,30f");
-  const cv::Mat mask = picture("study.pgm");
+  cv::Mat mask = picture("study.pgm");
+  cv::dilate(mask, mask, cv::Mat::ones(5, 5, CV_8U));  // as far as edges are blended
   for (const int y : {kTop + 5, kTop + 10, kTop + 15}) {
     for (int x = left(10); x < left(10) + kSide; ++x) {
       ASSERT_NEAR(at_10.at<std::uint8_t>(y, x), 240, 2) << x << ", " << y;
@@ -190,6 +191,22 @@ TEST_F(StudySubjects, CastTheirShadowsOnTheirTrails) {
       EXPECT_LE(shaded, trail + 4) << x << ", " << y;
     }
   }
+}
+
+// A small thing shakes where the square ends, so that no time shows that ground bare. What lies beside the square is the
+// trail's.
+TEST_F(StudySubjects, EndTheirTrailsWithoutHalo) {
+  draw("halo", 20, [](cv::Mat& frame, int k) {
+    if (k < 14) frame(cv::Rect(82 + 8 * (k % 3), 34, 7, 7)) = 250;
+    frame(cv::Rect(4 + 4 * k, 30, 20, 20)) = 5;
+  });
+  study("halo", "--style rear-curtain");
+  EXPECT_EQ(cv::boundingRect(picture("study.pgm")), cv::Rect(80, 30, 20, 20));
+  const auto dimmed = [&](int x) {
+    const cv::Rect strip(x, 42, 6, 6);
+    return cv::mean(picture("study.png")(strip))[0] / cv::mean(ground_of(7)(strip))[0];
+  };
+  EXPECT_NEAR(dimmed(74), dimmed(66), 0.1);
 }
 
 // The region is empty while the square is elsewhere: no scene to be taken away.

@@ -211,6 +211,7 @@ class StudyPlanner {
     std::vector<MaskStep> around;
     study.mask.steps.clear();
     study.grounds.assign(study.moments.size(), {});
+    const std::uint32_t border = border_pixels(request_);
     for (std::size_t i = 0; i < study.moments.size(); ++i) {
       MaskStep step;
       step.name = {nutik::format("subject {}", i + 1)};
@@ -225,12 +226,14 @@ class StudyPlanner {
             followed_.size() > 1 ? " in " + text_of(followed_[study.subjects[i]].region) : ""));
       }
       step.by_codes = request_.by_codes;
+      study.grounds[i] = ground_of(study, i);
+      // Where a trail ends at the subject itself, ground of its moment between the two would be a halo.
+      const std::uint32_t within = has_trail(request_) && study.grounds[i].empty() ? kStudyFeather / 100 : 0;
       step.changes = {{RegionChange::Kind::within, 0.0, box_at(study.subjects[i], study.moments[i])},
                       {RegionChange::Kind::largest, 0.0, {}},
                       {RegionChange::Kind::smooth, kSmoothRadius, {}},
-                      {RegionChange::Kind::grow, kCloseRadius + border_pixels(request_), {}},
-                      {RegionChange::Kind::shrink, kCloseRadius, {}}};
-      study.grounds[i] = ground_of(study, i);
+                      {RegionChange::Kind::grow, kCloseRadius + border, {}},
+                      {RegionChange::Kind::shrink, kCloseRadius + within, {}}};
       if (!study.grounds[i].empty()) {
         for (std::size_t level = 0; level < kAround.size(); ++level) {
           MaskStep& all = around.emplace_back(step);
