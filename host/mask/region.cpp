@@ -119,6 +119,20 @@ Region largest_part(const Region& region) {
   return result;
 }
 
+Region with_holes_filled(const Region& region) {
+  Region result = region;
+  const std::size_t last_column = region.width - 1, last_row = std::size_t{region.width} * (region.height - 1);
+  for (const auto& part : parts_of(inverted(region), 1)) {
+    const auto is_at_border = [&](std::size_t pixel) {
+      const std::size_t column = pixel % region.width;
+      return column == 0 || column == last_column || pixel < region.width || pixel >= last_row;
+    };
+    if (std::ranges::any_of(part, is_at_border)) continue;
+    for (const std::size_t pixel : part) result.inside[pixel] = 1;
+  }
+  return result;
+}
+
 void paint(Mask& mask, const Region& region, std::uint8_t tag) {
   for (std::size_t pixel = 0; pixel < mask.tags.size(); ++pixel) {
     if (region.inside[pixel] != 0) mask.tags[pixel] = tag;

@@ -57,6 +57,9 @@ struct Point {
 // by row.
 [[nodiscard]] Region largest_part(const Region& region);
 
+// With what it encloses: from where no way leads to the picture's border, not even over corners.
+[[nodiscard]] Region with_holes_filled(const Region& region);
+
 // The parts that hang together, also over corners, of so many pixels or more, as pixels counted row by row: the largest
 // first.
 [[nodiscard]] std::vector<std::vector<std::size_t>> parts_of(const Region& region, std::size_t min_pixels);

@@ -270,6 +270,19 @@ TEST_F(StudySubjects, EndARearCurtainAsAWhole) {
   EXPECT_EQ(moments_of("hides", "--style rear-curtain")[0]["sample"], 18);
 }
 
+// Its middle is in the plate, which shows it for most of the time.
+TEST_F(StudySubjects, MayGrow) {
+  draw("grows", 20, [](cv::Mat& frame, int k) { cv::circle(frame, {80, 48}, 4 + 2 * k, cv::Scalar(250), cv::FILLED); });
+  study("grows", "--style frozen --moments 19f");
+  EXPECT_EQ(picture("study.pgm").at<std::uint8_t>(48, 80), 1);
+}
+
+// One of them is the scene that the other is compared with.
+TEST_F(StudySubjects, AreNotToldFromTheSceneInTwoPictures) {
+  draw("pair", 2, [](cv::Mat& frame, int k) { frame(cv::Rect(4 + 90 * k, 40, 16, 16)) = 250; });
+  expect_says(study("pair", {}).err, {"two pictures cannot tell what moves from the scene at rest"});
+}
+
 TEST_F(StudySubjects, MayBeTiny) {
   draw("tiny", 20, [](cv::Mat& frame, int k) { frame(cv::Rect(4 + 7 * k, 40, 3, 3)) = 250; });
   expect_moments_before(20, "tiny");

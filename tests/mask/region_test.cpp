@@ -81,6 +81,9 @@ TEST(Region, LargestPartHangsTogetherOverCorners) {
   EXPECT_REGION(largest_part(parts), {".....#", "....#.", "...#..", "......"});
   EXPECT_REGION(largest_part(drawn({"#.#"})), {"#.."});  // the first of equals
   EXPECT_EQ(largest_part(Region::none(3, 2)).pixel_count(), 0u);
+  EXPECT_REGION(with_holes_filled(drawn({".####.", ".#..##", ".#.#.#", ".#####"})),
+                {".####.", ".#####", ".#####", ".#####"});
+  EXPECT_REGION(with_holes_filled(drawn({"###", "#.#", "##."})), {"###", "#.#", "##."});
   EXPECT_EQ(largest_part(Region::all(3, 2)).pixel_count(), 6u);
 }
 

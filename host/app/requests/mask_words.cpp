@@ -144,7 +144,8 @@ double radius_of(const Said& said) {
 constexpr std::pair<std::string_view, RegionChange::Kind> kChanges[] = {
     {"largest", RegionChange::Kind::largest}, {"invert", RegionChange::Kind::invert},
     {"within", RegionChange::Kind::within},   {"grow", RegionChange::Kind::grow},
-    {"shrink", RegionChange::Kind::shrink},   {"smooth", RegionChange::Kind::smooth}};
+    {"shrink", RegionChange::Kind::shrink},   {"smooth", RegionChange::Kind::smooth},
+    {"fill", RegionChange::Kind::fill}};
 
 // The change of a step that changes a region; none for another step.
 std::optional<RegionChange> change_of(const Said& said) {

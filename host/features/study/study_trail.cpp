@@ -195,13 +195,34 @@ class StudyFunctions {
       way_ns += pieces.back().integral();
     }
     if (!is_apart || request_.style == StudyStyle::frozen) return pieces;
-    const double wanted = kTrailOpacity / covered;
-    study.trail_strength = std::round(10 * std::clamp(wanted, 1.0, kMaxStrength)) / 10;
+    // Where something is for a share of the trail's light, more than all of it would be taken away; and with more than
+    // this the empty scene would have more noise than a picture.
+    const double most = std::min(1 / most_covered_share(pieces), 1 + std::sqrt(static_cast<double>(study.empty.size())));
+    const double wanted = std::min(kTrailOpacity / covered, most);
+    study.trail_strength = std::floor(10 * std::clamp(wanted, 1.0, kMaxStrength)) / 10;
     const double taken =
         -(1 - 1 / study.trail_strength) * way_ns / static_cast<double>(without.end_ns - without.begin_ns);
     const double rounded = std::round(1000 * taken) / 1000;
     pieces.push_back({without, rounded, rounded});
     return pieces;
+  }
+
+  // The largest share of the trail's light for which anything is at a place.
+  [[nodiscard]] double most_covered_share(const std::vector<GainPiece>& trail) const {
+    const SubjectTrack& any = tracks_.front();
+    double all = 0;
+    std::vector<double> of_cells(any.differing->front().size());
+    for (std::size_t look = 0; look < any.looked_at.size(); ++look) {
+      const std::int64_t time_ns = timeline_.start_ns(any.looked_at[look]);
+      const auto piece = std::ranges::find_if(trail, [&](const GainPiece& each) {
+        return each.interval.begin_ns <= time_ns && time_ns < each.interval.end_ns;
+      });
+      if (piece == trail.end()) continue;
+      const double gain = piece->at(time_ns);
+      all += gain;
+      for (std::size_t cell = 0; cell < of_cells.size(); ++cell) of_cells[cell] += (*any.differing)[look][cell] ? gain : 0;
+    }
+    return all > 0 ? std::ranges::max(of_cells) / all : 1;
   }
 
   // Parts of the way in which a single subject goes on; all of it for several, or for a scene that is exposed for all of
