@@ -1,6 +1,6 @@
 // What is said of a clip whose pictures are not those that it announces.
+#include "session/clips/clip_source.hpp"
 #include "session/clips/encoding.hpp"
-#include "session/clips/evened_times.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,9 +18,9 @@ std::vector<std::string> warnings_of(std::uint64_t pictures, std::uint64_t annou
   const test::Scratch scratch;
   SourceRequest source;
   source.path = "clip";
-  const EncodedCapture encoded = encode(
-      source, [&] { return std::make_unique<test::MadeClip>(pictures, announced); }, {scratch / "c.tik"},
-      MemoryBudget::of_machine());
+  const EncodedCapture encoded =
+      encode(source, {scratch / "c.tik"}, MemoryBudget::of_machine(), {}, {},
+             [&] { return std::make_unique<test::MadeClip>(pictures, announced); });
   EXPECT_EQ(encoded.timeline.sample_count(), pictures);
   return encoded.warnings;
 }
@@ -77,8 +77,8 @@ TEST(Encoding, ReplacesNothingThatWasPutThereMeanwhile) {
   SourceRequest source;
   source.path = "clip";
   check_output(scratch / "c.tik", OutputKind::tik, {}, Replacing::made_by_recipe);
-  EXPECT_THROW(encode(source, [&] { return std::make_unique<Meddling>(scratch); }, {scratch / "c.tik"},
-                      MemoryBudget::of_machine()),
+  EXPECT_THROW(encode(source, {scratch / "c.tik"}, MemoryBudget::of_machine(), {}, {},
+                      [&] { return std::make_unique<Meddling>(scratch); }),
                OutputError);
   EXPECT_EQ(test::read_file(scratch / "c.tik"), "precious");
 }
