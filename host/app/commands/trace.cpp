@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
