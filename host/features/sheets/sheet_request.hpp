@@ -48,7 +48,7 @@ struct SweepRange {
   // `0..1s/0.1s`, `-5f..5f/1f`; of factors `0.5..2/0.25`. Throws UsageError naming `what`.
   static SweepRange parse(SweepParameter parameter, const std::string& text, std::string_view what);
   [[nodiscard]] std::uint64_t count() const;
-  // The value with a number of 0 … count() - 1, exactly.
+  // The value with a number of 0 … count() - 1, exactly: of a factor, or of counted pictures.
   [[nodiscard]] Rational value(std::uint64_t number) const;
   // That of a shift in time, rounded once.
   [[nodiscard]] std::int64_t shift_ns(std::uint64_t number) const;
