@@ -126,10 +126,10 @@ void align(ClipSource& source, OpenClip& open, const MemoryBudget& memory, const
   AlignRequest& request = *source.request.align;
   const ClipToAlign clip{source.name(),
                          source.capture,
-                         reference_of(request, source),
                          source.announced_samples(),
                          source.clip->info().decoder_bytes,
-                         open};
+                         open,
+                         reference_of(request, source)};
   source.clip.reset();
   if (!request.path) {
     request.path.emplace(find_camera_path(clip, request.motion, memory.bytes, progress, stop));
@@ -153,7 +153,7 @@ void fill(ClipSource& source, const OpenClip& open, const MemoryBudget& memory, 
   }
   CaptureFormat pictures = source.capture;
   pictures.noise = {};
-  const ClipToFill clip{source.name(), pictures, source.announced_samples(), source.clip->info().decoder_bytes, open};
+  const ClipToAlign clip{source.name(), pictures, source.announced_samples(), source.clip->info().decoder_bytes, open};
   source.clip.reset();
   if (!request.made) request.made.emplace(plan_between(clip, request, memory.bytes, progress, stop));
   source.clip = open_between(clip, *request.made);
