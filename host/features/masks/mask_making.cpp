@@ -13,7 +13,6 @@
 #include "mask/layers.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "scene/clean_plate.hpp"
-#include "scene/shadow.hpp"
 #include "session/requests/function_input.hpp"
 #include "session/requests/output_request.hpp"
 
