@@ -1,5 +1,5 @@
-// The two ways in which a session reads a clip: whole, as a temporary capture that can be read anywhere and repeatedly, or
-// forward while a picture is exposed, no further than that needs.
+// The two ways in which a session reads a clip: whole, as a temporary capture that can be read anywhere and repeatedly,
+// or forward while a picture is exposed, no further than that needs.
 #pragma once
 
 #include <functional>
