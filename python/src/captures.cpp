@@ -92,8 +92,7 @@ py::tuple encoded(const Opening& terms, const std::optional<std::string>& output
   const EncodeRequest request{*output, packed};
   const EncodedCapture made = without_lock([&](const Stopping& stopping) {
     const MemoryBudget& memory = terms.devices->request().memory;
-    return terms.open ? encode(terms.source, terms.open, request, memory, stopping.progress(), stopping.stop)
-                      : encode(terms.source, request, memory, stopping.progress(), stopping.stop);
+    return encode(terms.source, request, memory, stopping.progress(), stopping.stop, terms.open);
   }, progress);
   return py::make_tuple(opened_file(*output, terms.devices), made.warnings, note_texts(made.notes, Dialect::python));
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "app/commands/opened_session.hpp"
 #include "app/output/console.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
