@@ -1,6 +1,7 @@
 #include "features/check/input_check.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "capture/format.hpp"
 #include "exposure/gain_function.hpp"
@@ -125,7 +126,8 @@ FunctionFigures InputCheck::figures_of(std::uint8_t tag, const GainSummary& summ
 void InputCheck::check_functions() {
   std::vector<Finding> found;
   for (const auto& [tag, read] : functions_->file.functions) {
-    GainSummary summary = summary_of(read.function);
+    const GainSummary written = summary_of(read.function);
+    GainSummary summary = written;
     try {
       summary = summary_of(normalization_.normalized(read.function, domain_.duration_ns, gain_,
                                                      format("M{}", tag), delay_.has_value()));
@@ -148,6 +150,7 @@ void InputCheck::check_functions() {
                                        format("no pixel of {} has the value {}", mask_->name, tag)));
     }
     figures_.push_back(figures_of(tag, summary));
+    figures_.back().integral_ns = std::scalbn(written.integral_ns, written.exponent);
   }
   std::ranges::stable_sort(found, {}, [](const Finding& finding) { return *finding.place; });
   std::ranges::move(found, std::back_inserter(findings_));
