@@ -177,8 +177,7 @@ std::string figures_text(const InputCheck& check) {
     const Interval& live = summary.live;
     add_row(format("M{}", figures.tag), count(figures.pixels),
             {live.empty() ? "never" : time(live.begin_ns) + " … " + time(live.end_ns),
-             time(summary.support_ns), integral_text(std::scalbn(summary.integral_ns, summary.exponent)),
-             format("{:.6g}", summary.still_gain()), stops_text(summary)},
+             time(summary.support_ns), integral_text(figures.integral_ns), format("{:.6g}", summary.still_gain()), stops_text(summary)},
             count(figures.samples));
   }
   return table_text(rows, std::string("l") + (has_pixels ? "r" : "") + "lrrrr" + (has_samples ? "r" : ""));
@@ -194,7 +193,7 @@ Json check_json(const InputCheck& check) {
                   {"live_start_ns", summary.live.begin_ns},
                   {"live_end_ns", summary.live.end_ns},
                   {"nonzero_ns", summary.support_ns},
-                  {"integral_ns", std::scalbn(summary.integral_ns, summary.exponent)},
+                  {"integral_ns", figures.integral_ns},
                   {"still_gain", summary.still_gain()},
                   {"stops", stops ? Json(*stops) : Json()},
                   {"samples", figures.samples ? Json(*figures.samples) : Json()}};

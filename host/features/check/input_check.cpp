@@ -1,6 +1,7 @@
 #include "features/check/input_check.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "capture/format.hpp"
 #include "exposure/gain_function.hpp"
@@ -120,7 +121,8 @@ FunctionFigures InputCheck::figures_of(std::uint8_t tag, const GainSummary& summ
 void InputCheck::check_functions() {
   std::vector<Finding> found;
   for (const auto& [tag, read] : functions->file.functions) {
-    GainSummary summary = summary_of(read.function);
+    const GainSummary written = summary_of(read.function);
+    GainSummary summary = written;
     try {
       summary = summary_of(normalization.normalized(read.function, domain.duration_ns, gain,
                                                      format("M{}", tag), delay.has_value()));
@@ -143,6 +145,7 @@ void InputCheck::check_functions() {
                                        format("no pixel of {} has the value {}", mask->name, tag)));
     }
     figures.push_back(figures_of(tag, summary));
+    figures.back().integral_ns = std::scalbn(written.integral_ns, written.exponent);
   }
   std::ranges::stable_sort(found, {}, [](const Finding& finding) { return *finding.place; });
   std::ranges::move(found, std::back_inserter(findings));

@@ -67,9 +67,10 @@ struct CheckedCapture {
 // What a function comes to.
 struct FunctionFigures {
   std::uint8_t tag;
-  GainSummary summary;
+  GainSummary summary;  // normalized
   std::optional<std::uint64_t> pixels;
   std::optional<std::uint64_t> samples;
+  double integral_ns = 0.0;  // as it is written
 };
 
 struct InputCheck {
