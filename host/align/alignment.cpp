@@ -82,9 +82,7 @@ class AlignedClip final : public Clip {
       // What was not seen holds.
       warp_.take(raster_, path_->pictures[picture].warp, held_.empty() ? raster : std::span(held_));
     } catch (const CodeAboveWhite& error) {
-      throw InputError(
-          format("{}: picture {} has the code {}, which is above white", name_, picture, error.code),
-          {Setting::white_code});
+      refuse_above_white(name_, picture, error);
     }
     if (!held_.empty()) std::memcpy(raster.data(), held_.data(), held_.size());
     return true;
@@ -105,6 +103,11 @@ class AlignedClip final : public Clip {
 };
 
 }  // namespace
+
+void refuse_above_white(const std::string& name, std::uint64_t picture, const CodeAboveWhite& error) {
+  throw InputError(format("{}: picture {} has the code {}, which is above white", name, picture, error.code),
+                   {Setting::white_code});
+}
 
 CameraPath find_camera_path(const ClipToAlign& clip, CameraMotion motion, std::uint64_t memory_bytes,
                             const ReportedProgress& progress, const std::stop_token& stop) {

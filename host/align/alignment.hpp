@@ -12,6 +12,7 @@
 
 #include "align/camera_path.hpp"
 #include "capture/error.hpp"
+#include "capture/light_codes.hpp"
 #include "capture/memory_needs.hpp"
 #include "media/clip.hpp"
 #include "system/interruption.hpp"
@@ -30,11 +31,13 @@ struct CannotAlign : InputError {
 struct ClipToAlign {
   std::string name;
   CaptureFormat format;  // of its samples, as they are or as they were stated
-  std::uint64_t reference = 0;
   std::uint64_t announced_samples = 0;  // 0: they are not
   std::uint64_t decoder_bytes = 0;
   OpenClip open;
+  std::uint64_t reference = 0;  // the picture that others are moved onto
 };
+
+[[noreturn]] void refuse_above_white(const std::string& name, std::uint64_t picture, const CodeAboveWhite& error);
 
 // Reads all of the clip; `progress` counts its pictures. Throws CannotAlign, MemoryTooLittle, Cancelled, InputError where
 // the clip ends before the reference.

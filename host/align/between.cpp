@@ -26,14 +26,9 @@ std::uint32_t planned_side(const Shape& shape) {
                           static_cast<double>(shape.pixel_count()) / kPlannedPixels))));
 }
 
-[[noreturn]] void refuse_above_white(const std::string& name, std::uint64_t picture, const CodeAboveWhite& error) {
-  throw InputError(format("{}: picture {} has the code {}, which is above white", name, picture, error.code),
-                   {Setting::white_code});
-}
-
 class FilledClip final : public Clip {
  public:
-  FilledClip(const ClipToFill& clip, Shared<MadeSamples> made)
+  FilledClip(const ClipToAlign& clip, Shared<MadeSamples> made)
       : name_(clip.name),
         made_(std::move(made)),
         between_(clip.format),
@@ -153,7 +148,7 @@ std::string BetweenRequest::text() const {
   return last == UINT64_MAX ? how : format("{}:{}f..{}f", how, first, last);
 }
 
-MadeSamples plan_between(const ClipToFill& clip, const BetweenRequest& request, std::uint64_t memory_bytes,
+MadeSamples plan_between(const ClipToAlign& clip, const BetweenRequest& request, std::uint64_t memory_bytes,
                          const ReportedProgress& progress, const std::stop_token& stop) {
   const auto is_wanted = [&](std::uint64_t picture) { return picture >= request.first && picture < request.last; };
   const EvenGrey grey(clip.format, planned_side(clip.format.shape));
@@ -246,7 +241,7 @@ MadeSamples plan_between(const ClipToFill& clip, const BetweenRequest& request, 
   return made;
 }
 
-std::unique_ptr<Clip> open_between(const ClipToFill& clip, const Shared<MadeSamples>& made) {
+std::unique_ptr<Clip> open_between(const ClipToAlign& clip, const Shared<MadeSamples>& made) {
   return std::make_unique<FilledClip>(clip, made);
 }
 

@@ -32,20 +32,13 @@ struct BetweenRequest {
 // UsageError.
 [[nodiscard]] std::optional<BetweenRequest> parse_between(std::string_view text);
 
-struct ClipToFill {
-  std::string name;
-  CaptureFormat format;  // of its samples, as they are or as they were stated
-  std::uint64_t announced_samples = 0;
-  std::uint64_t decoder_bytes = 0;
-  OpenClip open;
-};
-
 // Reads all of the clip; `progress` counts its pictures. Throws MemoryTooLittle, Cancelled, InputError where it cannot
 // be read or has no picture.
-[[nodiscard]] MadeSamples plan_between(const ClipToFill& clip, const BetweenRequest& request, std::uint64_t memory_bytes,
-                                       const ReportedProgress& progress, const std::stop_token& stop);
+[[nodiscard]] MadeSamples plan_between(const ClipToAlign& clip, const BetweenRequest& request,
+                                       std::uint64_t memory_bytes, const ReportedProgress& progress,
+                                       const std::stop_token& stop);
 
 // read() throws InputError where the clip has not as many pictures as were planned for.
-[[nodiscard]] std::unique_ptr<Clip> open_between(const ClipToFill& clip, const Shared<MadeSamples>& made);
+[[nodiscard]] std::unique_ptr<Clip> open_between(const ClipToAlign& clip, const Shared<MadeSamples>& made);
 
 }  // namespace nutik

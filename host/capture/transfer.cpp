@@ -60,14 +60,17 @@ double hlg_fraction(double light) {
   return kHlgA * std::log(12.0 * light - kHlgB) + kHlgC;
 }
 
+// The formulas of the standard in what is missing to 1, with c1 = 1 + c3 - c2: as it prints them, nearly equal numbers are
+// subtracted, and what rounding left is raised to 6.3 or 79.
 double pq_light(double fraction) {
-  const double power = std::pow(std::max(fraction, 0.0), 1.0 / kPqM2);
-  return std::pow(std::max(power - kPqC1, 0.0) / (kPqC2 - kPqC3 * power), 1.0 / kPqM1);
+  const double missing = -std::expm1(std::log(std::max(fraction, 0.0)) / kPqM2);
+  const double over = std::max(1.0 - kPqC1 - missing, 0.0), under = kPqC2 - kPqC3 + kPqC3 * missing;
+  return std::exp((over < under / 2 ? std::log(over / under) : std::log1p(-(1.0 + kPqC3) * missing / under)) / kPqM1);
 }
 
 double pq_fraction(double light) {
-  const double power = std::pow(std::max(light, 0.0), kPqM1);
-  return std::pow((kPqC1 + kPqC2 * power) / (1.0 + kPqC3 * power), kPqM2);
+  const double missing = -std::expm1(std::log(std::max(light, 0.0)) * kPqM1);
+  return std::exp(std::log1p(-(1.0 - kPqC1) * missing / (1.0 + kPqC3 - kPqC3 * missing)) * kPqM2);
 }
 
 }  // namespace
@@ -205,7 +208,14 @@ double Transfer::fraction_of_signal(double signal) const {
 double Transfer::log_light(double fraction) const {
   const double black = fraction_of_signal(curve_->signal_of(0.0));
   if (fraction <= black) return kLogBlack * std::max(fraction, 0.0) / black;
-  return kLogBlack + (1.0 - kLogBlack) * curve_->light_of(signal_of(fraction)) / curve_->light_of(signal_of(1.0));
+  const double signal = signal_of(fraction), white = curve_->light_of(signal_of(1.0));
+  double light = curve_->light_of(signal) / white;
+  if (signal >= curve_->toe_end) {
+    // From white, beside which signals err least, for there light changes most with them.
+    const double power = std::pow(10.0, (is_of_video_ ? kVideoSpan : 1.0) * (fraction - 1.0) / curve_->scale);
+    light = power + curve_->offset / (curve_->gain * white) * (power - 1.0);
+  }
+  return kLogBlack + (1.0 - kLogBlack) * light;
 }
 
 double Transfer::log_fraction(double light) const {

@@ -23,7 +23,6 @@
 #include "features/series/picture_queue.hpp"
 #include "features/series/series_making.hpp"
 #include "features/series/series_request.hpp"
-#include "features/sheets/sheet_making.hpp"
 #include "features/sheets/sheet_request.hpp"
 #include "features/solve/solving.hpp"
 #include "features/solve/wish.hpp"

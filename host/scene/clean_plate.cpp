@@ -16,56 +16,21 @@
 namespace nutik {
 namespace {
 
-// Small holes of a region: what it surrounds, and no more than so many pixels of it.
-enum class Seen : std::uint8_t { no, now, open };  // open: it belongs to more than a small hole
+// What filling holes takes for each pixel: two regions and, where all is one part, that part while it grows.
+constexpr std::uint64_t kHoleBytes = 2 + 3 * sizeof(std::size_t);
 
-class HoleFiller {
- public:
-  HoleFiller(Region& region, std::size_t max_pixels)
-      : region_(region), max_pixels_(max_pixels), seen_(region.inside.size(), Seen::no) {}
-
-  void fill() {
-    for (std::size_t pixel = 0; pixel < seen_.size(); ++pixel) {
-      if (region_.inside[pixel] != 0 || seen_[pixel] != Seen::no) continue;
-      const bool is_small = spreads_little(pixel);
-      for (const std::size_t each : part_) {
-        if (is_small) region_.inside[each] = 1;
-        seen_[each] = Seen::open;
-      }
-    }
+// Adds to a region its small holes: what it surrounds, and no more than so many pixels of it. A hole that hangs
+// together, also over corners, with the picture's border or with more than `max_pixels` stays.
+void fill_small_holes(Region& region, std::size_t max_pixels) {
+  for (const std::vector<std::size_t>& part : parts_of(inverted(region), 1)) {
+    const bool is_surrounded = std::ranges::none_of(part, [&](std::size_t pixel) {
+      const std::size_t x = pixel % region.width, y = pixel / region.width;
+      return x == 0 || y == 0 || x + 1 == region.width || y + 1 == region.height;
+    });
+    if (part.size() > max_pixels || !is_surrounded) continue;
+    for (const std::size_t pixel : part) region.inside[pixel] = 1;
   }
-
- private:
-  // Gathers what hangs together with a pixel, until it is too much for a small hole.
-  bool spreads_little(std::size_t first) {
-    part_.assign(1, first);
-    seen_[first] = Seen::now;
-    for (std::size_t i = 0; i < part_.size(); ++i) {
-      const std::size_t x = part_[i] % region_.width, y = part_[i] / region_.width;
-      if (x == 0 || y == 0 || x + 1 == region_.width || y + 1 == region_.height) return false;
-      for (std::size_t row = y - 1; row <= y + 1; ++row) {
-        for (std::size_t beside = row * region_.width + x - 1; beside <= row * region_.width + x + 1;
-             ++beside) {
-          if (region_.inside[beside] != 0 || seen_[beside] == Seen::now) continue;
-          if (seen_[beside] == Seen::open) return false;
-          seen_[beside] = Seen::now;
-          part_.push_back(beside);
-        }
-      }
-      if (part_.size() > max_pixels_) return false;
-    }
-    return true;
-  }
-
-  Region& region_;
-  std::size_t max_pixels_;
-  std::vector<Seen> seen_;
-  std::vector<std::size_t> part_;
-};
-
-// Adds them to the region. A hole that hangs together, also over corners, with the picture's border or with more than
-// `max_pixels` stays. Takes a byte a pixel.
-void fill_small_holes(Region& region, std::size_t max_pixels) { HoleFiller(region, max_pixels).fill(); }
+}
 
 // Finds the light that pixels hold longest, one pixel after another.
 class LongestHeld {
@@ -320,6 +285,9 @@ class PlateMaker {
 
 MemoryNeeds plate_needs(const CaptureFormat& capture) {
   MemoryNeeds needs = PlaceTimes::needs(capture);
+  // Which are sought in before anything is looked at.
+  const std::uint64_t hole_bytes = capture.shape.pixel_count() * kHoleBytes;
+  if (hole_bytes > needs.bytes()) needs = {{"holes of uncertain places", hole_bytes}};
   needs.add("the background", capture.shape.pixel_count() * (capture.shape.channels * sizeof(double) + 4));
   return needs;
 }

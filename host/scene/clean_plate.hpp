@@ -44,4 +44,9 @@ struct Plate {
 [[nodiscard]] double plate_edge_share(const Picture& picture, const Picture& plate, const Region& region,
                                       std::uint32_t by_codes, std::uint32_t margin);
 
+// What differs from the plate without what is a shadow: the ground, with less light on it. Both pictures hold codes of
+// one type. A shadow begins softly: from where nothing differs, the light on the ground falls by little from pixel to
+// pixel, by about as much in all colours, and never to nothing. A shadow with a hard edge stays.
+[[nodiscard]] Region without_shadow(const Picture& picture, const Picture& plate, const Region& differing);
+
 }  // namespace nutik

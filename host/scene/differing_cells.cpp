@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cstring>
 
-#include "scene/shadow.hpp"
+#include "scene/clean_plate.hpp"
 #include "system/parallel.hpp"
 
 namespace nutik {

@@ -116,94 +116,75 @@ bool overlap(const SubjectPlace& a, const SubjectPlace& b, std::size_t columns, 
   return false;
 }
 
-class Chooser {
- public:
-  Chooser(const SubjectTrack& track, std::uint32_t count, std::uint32_t gap_pixels,
-          const std::vector<SubjectPlace>& taken)
-      : track_(track),
-        count_(count),
-        gap_(gap_pixels == 0 ? 0 : (gap_pixels - 1) / track.cell_side + 1),
-        taken_(taken) {}
-
-  // Those nearest to wishes that are spread evenly over candidates.
-  void add_evenly(const Places& candidates, MomentSpacing spacing) {
-    std::vector<double> along{0};  // how far each candidate is along the way, or in time
-    for (std::size_t i = 1; i < candidates.size(); ++i) {
-      const SubjectPlace &from = *candidates[i - 1], &to = *candidates[i];
-      along.push_back(along.back() + (spacing == MomentSpacing::time
-                                          ? static_cast<double>(to.sample - from.sample)
-                                          : distance(from.centre, to.centre)));
+// Adds those nearest to wishes that are spread evenly over candidates.
+void add_evenly(const Places& candidates, std::uint32_t count, MomentSpacing spacing, const auto& is_free,
+                Places& chosen) {
+  std::vector<double> along{0};  // how far each candidate is along the way, or in time
+  for (std::size_t i = 1; i < candidates.size(); ++i) {
+    const SubjectPlace &from = *candidates[i - 1], &to = *candidates[i];
+    along.push_back(along.back() + (spacing == MomentSpacing::time ? static_cast<double>(to.sample - from.sample)
+                                                                   : distance(from.centre, to.centre)));
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double wanted = count == 1 ? along.back() / 2 : along.back() * i / (count - 1);
+    // Within half of the way to the next wish.
+    const double reach = count == 1 ? along.back() : along.back() / (2 * (count - 1));
+    const SubjectPlace* best = nullptr;
+    double best_away = reach;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      const double away = std::abs(along[k] - wanted);
+      if (away > best_away || (best != nullptr && away == best_away) || !is_free(*candidates[k])) continue;
+      best = candidates[k];
+      best_away = away;
     }
-    for (std::uint32_t i = 0; i < count_; ++i) {
-      const double wanted = count_ == 1 ? along.back() / 2 : along.back() * i / (count_ - 1);
-      // Within half of the way to the next wish.
-      const double reach = count_ == 1 ? along.back() : along.back() / (2 * (count_ - 1));
-      const SubjectPlace* best = nullptr;
-      double best_away = reach;
-      for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const double away = std::abs(along[k] - wanted);
-        if (away > best_away || (best != nullptr && away == best_away) || !is_free(*candidates[k])) continue;
-        best = candidates[k];
-        best_away = away;
+    if (best != nullptr) chosen.push_back(best);
+  }
+}
+
+// Adds what there is room for beside those, the furthest first.
+void add_others(const Places& candidates, std::uint32_t count, const auto& is_free, Places& chosen) {
+  while (chosen.size() < count) {
+    const SubjectPlace* best = nullptr;
+    double furthest = -1;
+    for (const SubjectPlace* candidate : candidates) {
+      double nearest = HUGE_VAL;
+      for (const SubjectPlace* other : chosen) {
+        nearest = std::min(nearest, distance(candidate->centre, other->centre));
       }
-      if (best != nullptr) chosen_.push_back(best);
+      if (nearest <= furthest || !is_free(*candidate)) continue;
+      furthest = nearest;
+      best = candidate;
     }
+    if (best == nullptr) return;
+    chosen.push_back(best);
   }
-
-  // What there is room for beside those, the furthest first.
-  void add_others(const Places& candidates) {
-    while (chosen_.size() < count_) {
-      const SubjectPlace* best = nullptr;
-      double furthest = -1;
-      for (const SubjectPlace* candidate : candidates) {
-        double nearest = HUGE_VAL;
-        for (const SubjectPlace* other : chosen_) {
-          nearest = std::min(nearest, distance(candidate->centre, other->centre));
-        }
-        if (nearest <= furthest || !is_free(*candidate)) continue;
-        furthest = nearest;
-        best = candidate;
-      }
-      if (best == nullptr) return;
-      chosen_.push_back(best);
-    }
-  }
-
-  [[nodiscard]] std::vector<SubjectPlace> chosen() const {
-    std::vector<SubjectPlace> moments;
-    for (const SubjectPlace* each : chosen_) moments.push_back(*each);
-    std::ranges::sort(moments, {}, &SubjectPlace::sample);
-    return moments;
-  }
-
- private:
-  [[nodiscard]] bool is_free(const SubjectPlace& place) const {
-    const auto is_near = [&](const SubjectPlace& other) { return overlap(place, other, track_.cell_columns, gap_); };
-    return std::ranges::none_of(chosen_, [&](const SubjectPlace* other) { return is_near(*other); }) &&
-           std::ranges::none_of(taken_, is_near);
-  }
-
-  const SubjectTrack& track_;
-  std::uint32_t count_;
-  std::size_t gap_;  // in cells
-  const std::vector<SubjectPlace>& taken_;
-  Places chosen_;
-};
+}
 
 }  // namespace
 
 std::vector<SubjectPlace> choose_moments(const SubjectTrack& track, std::uint32_t count,
                                          MomentSpacing spacing, std::uint32_t gap_pixels,
                                          const std::vector<SubjectPlace>& taken) {
+  const std::size_t gap_cells = gap_pixels == 0 ? 0 : (gap_pixels - 1) / track.cell_side + 1;
+  Places chosen;
+  const auto is_free = [&](const SubjectPlace& place) {
+    const auto is_near = [&](const SubjectPlace& other) {
+      return overlap(place, other, track.cell_columns, gap_cells);
+    };
+    return std::ranges::none_of(chosen, [&](const SubjectPlace* other) { return is_near(*other); }) &&
+           std::ranges::none_of(taken, is_near);
+  };
   const Places candidates = telling_places(track.places);
   const Places whole = whole_places(candidates);
-  Chooser chooser(track, count, gap_pixels, taken);
   if (const Places& most = whole.size() >= count ? whole : candidates; !most.empty()) {
-    chooser.add_evenly(most, spacing);
+    add_evenly(most, count, spacing, is_free, chosen);
   }
-  chooser.add_others(whole);
-  chooser.add_others(candidates);
-  return chooser.chosen();
+  add_others(whole, count, is_free, chosen);
+  add_others(candidates, count, is_free, chosen);
+  std::vector<SubjectPlace> moments;
+  for (const SubjectPlace* each : chosen) moments.push_back(*each);
+  std::ranges::sort(moments, {}, &SubjectPlace::sample);
+  return moments;
 }
 
 }  // namespace nutik

@@ -1,9 +1,11 @@
-#include "scene/shadow.hpp"
+// Which of what differs from the plate is a shadow.
+#include "scene/clean_plate.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace nutik {
@@ -38,69 +40,56 @@ std::vector<float> light_left(const Picture& picture, const Picture& plate, cons
   return left;
 }
 
-class ShadowFlood {
- public:
-  ShadowFlood(const Region& differing, std::vector<float> left)
-      : width_(differing.width), height_(differing.height), differing_(differing), left_(std::move(left)) {}
-
-  [[nodiscard]] Region rest() {
-    Region rest = differing_;
-    std::vector<std::size_t> reached;
-    for (std::size_t pixel = 0; pixel < left_.size(); ++pixel) {
-      if (differing_.inside[pixel] == 0) continue;
-      for_each_neighbour(pixel, [&](std::size_t from) {
-        if (differing_.inside[from] == 0) spread(from, pixel, rest, reached);
-      });
+// Without noise: of the pixels round it that may be shadow.
+double mean_at(std::size_t pixel, std::span<const float> left, std::size_t width, std::size_t height) {
+  const std::size_t x = pixel % width, y = pixel / width;
+  double sum = 0;
+  int count = 0;
+  for (std::size_t row = y - std::min(y, kMean); row <= std::min(height - 1, y + kMean); ++row) {
+    for (std::size_t column = x - std::min(x, kMean); column <= std::min(width - 1, x + kMean); ++column) {
+      const float each = left[row * width + column];
+      if (each < 0) continue;
+      sum += each;
+      ++count;
     }
-    while (!reached.empty()) {
-      const std::size_t pixel = reached.back();
-      reached.pop_back();
-      for_each_neighbour(pixel, [&](std::size_t to) { spread(pixel, to, rest, reached); });
-    }
-    return rest;
   }
-
- private:
-  template <typename Use>
-  void for_each_neighbour(std::size_t pixel, Use use) const {
-    const std::size_t x = pixel % width_, y = pixel / width_;
-    if (x > 0) use(pixel - 1);
-    if (x + 1 < width_) use(pixel + 1);
-    if (y > 0) use(pixel - width_);
-    if (y + 1 < height_) use(pixel + width_);
-  }
-  void spread(std::size_t from, std::size_t to, Region& rest, std::vector<std::size_t>& reached) const {
-    if (rest.inside[to] == 0 || left_[to] < 0 || std::abs(mean_at(to) - mean_at(from)) > kMaxStep) return;
-    rest.inside[to] = 0;
-    reached.push_back(to);
-  }
-  [[nodiscard]] double mean_at(std::size_t pixel) const {
-    const std::size_t x = pixel % width_, y = pixel / width_;
-    double sum = 0;
-    int count = 0;
-    for (std::size_t row = y - std::min(y, kMean); row <= std::min(height_ - 1, y + kMean); ++row) {
-      for (std::size_t column = x - std::min(x, kMean); column <= std::min(width_ - 1, x + kMean); ++column) {
-        const float each = left_[row * width_ + column];
-        if (each < 0) continue;
-        sum += each;
-        ++count;
-      }
-    }
-    return count > 0 ? sum / count : 0;
-  }
-
-  std::size_t width_, height_;
-  const Region& differing_;
-  std::vector<float> left_;
-};
+  return count > 0 ? sum / count : 0;
+}
 
 }  // namespace
 
 Region without_shadow(const Picture& picture, const Picture& plate, const Region& differing) {
-  return ShadowFlood(differing, picture.type == ValueType::code8
-                                    ? light_left<std::uint8_t>(picture, plate, differing)
-                                    : light_left<std::uint16_t>(picture, plate, differing))
-      .rest();
+  const std::vector<float> left = picture.type == ValueType::code8
+                                      ? light_left<std::uint8_t>(picture, plate, differing)
+                                      : light_left<std::uint16_t>(picture, plate, differing);
+  const std::size_t width = differing.width, height = differing.height;
+  const auto for_each_neighbour = [&](std::size_t pixel, auto use) {
+    const std::size_t x = pixel % width, y = pixel / width;
+    if (x > 0) use(pixel - 1);
+    if (x + 1 < width) use(pixel + 1);
+    if (y > 0) use(pixel - width);
+    if (y + 1 < height) use(pixel + width);
+  };
+  Region rest = differing;
+  std::vector<std::size_t> reached;
+  const auto spread = [&](std::size_t from, std::size_t to) {
+    if (rest.inside[to] == 0 || left[to] < 0) return;
+    if (std::abs(mean_at(to, left, width, height) - mean_at(from, left, width, height)) > kMaxStep) return;
+    rest.inside[to] = 0;
+    reached.push_back(to);
+  };
+  for (std::size_t pixel = 0; pixel < left.size(); ++pixel) {
+    if (differing.inside[pixel] == 0) continue;
+    for_each_neighbour(pixel, [&](std::size_t from) {
+      if (differing.inside[from] == 0) spread(from, pixel);
+    });
+  }
+  while (!reached.empty()) {
+    const std::size_t pixel = reached.back();
+    reached.pop_back();
+    for_each_neighbour(pixel, [&](std::size_t to) { spread(pixel, to); });
+  }
+  return rest;
 }
 
 }  // namespace nutik

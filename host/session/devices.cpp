@@ -14,7 +14,7 @@
 #include "opencl/device_succession.hpp"
 #include "opencl/device_team.hpp"
 #include "render/reference_renderer.hpp"
-#include "session/text/suggestion.hpp"
+#include "session/text/text_table.hpp"
 
 namespace nutik {
 namespace {

@@ -19,6 +19,7 @@
 #include <span>
 #include <stop_token>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "align/alignment.hpp"
@@ -48,6 +49,7 @@ struct TracedPixel {
 struct TracedTag {
   std::uint8_t tag = 0;
 };
+using Followed = std::variant<TracedPixel, TracedTag>;
 
 struct TracedExposure {
   std::vector<Trace> traces;  // one for each function: of a mixed pixel there are several
@@ -126,10 +128,8 @@ class Session {
   void render_many(std::span<const ExposureRequest> requests, const OutputFormat& output, const RenderControl& control,
                    const RenderedOne& done);
 
-  // How the light of a pixel came about, and of the mean of all pixels of a mask value.
-  [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const TracedPixel& pixel,
-                                     const ReportedProgress& progress = {});
-  [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const TracedTag& tag,
+  // How the light of a pixel came about, or of the mean of all pixels of a mask value.
+  [[nodiscard]] TracedExposure trace(const ExposureRequest& request, const Followed& followed,
                                      const ReportedProgress& progress = {});
 
   // Every arithmetic of the OpenCL device against the reference.

@@ -63,9 +63,10 @@ SheetLayout lay_out(const Shape& picture, std::uint32_t count, const SheetWishes
   if (total > plot::kLargestSide - 2 * kSheetMargin - kHeadingHeight) {
     throw UsageError(
         format(
-            "{} rows of pictures {} pixels high pass the {} that a sheet can have; make fewer pictures, or "
-            "smaller ones with more columns or a smaller width",
-            layout.rows, layout.cell_height, plot::kLargestSide),
+            "{} {} pixels high {} the {} that a sheet can have; make fewer pictures, or smaller ones with more columns "
+            "or a smaller width",
+            layout.rows == 1 ? "a row of pictures" : format("{} rows of pictures", layout.rows), height,
+            layout.rows == 1 ? "passes" : "pass", plot::kLargestSide),
         {Setting::columns, Setting::width});
   }
   return layout;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "capture/error.hpp"
@@ -304,7 +305,8 @@ void GainSearch::descend() {
 }
 
 // A divisor that depends on gains bends light, so that a descent may end in a hollow that is not the lowest: others
-// begin at places unlike the first, each gain's spread evenly over its bounds.
+// begin at places unlike the first, each gain's spread evenly over its bounds, every other time between -1 and 1, where
+// most are found however wide their bounds are.
 void GainSearch::descend_from_several() {
   descend();
   double least = cost_at(gains_);
@@ -312,7 +314,9 @@ void GainSearch::descend_from_several() {
   for (int begin = 1; begin <= kOtherBegins && least > kMinCost; ++begin) {
     for (std::size_t i = 0; i < bounds_.size(); ++i) {
       const double turn = begin * std::sqrt(static_cast<double>((i + 1) * (i + 2)));  // irrational
-      gains_[i] = place_within(bounds_[i], turn - std::floor(turn));
+      const auto& [low, high] = bounds_[i];
+      const Bounds usual{std::clamp(-1.0, low, high), std::clamp(1.0, low, high)};
+      gains_[i] = place_within(begin % 2 == 0 ? usual : bounds_[i], turn - std::floor(turn));
     }
     if (!std::isfinite(cost_at(gains_))) continue;
     descend();
@@ -324,6 +328,45 @@ void GainSearch::descend_from_several() {
   gains_ = std::move(best);
 }
 
+// What rounding left of 0 becomes 0.
+void GainSearch::drop_rests() {
+  double largest = 0.0;
+  for (const double gain : gains_) largest = std::max(largest, std::fabs(gain));
+  for (std::size_t i = 0; i < gains_.size(); ++i) {
+    const bool may_be_zero = bounds_[i].low <= 0.0 && bounds_[i].high >= 0.0;
+    if (may_be_zero && std::fabs(gains_[i]) <= kNoGain * largest) gains_[i] = 0.0;
+  }
+}
+
+// Up to here the time of every gain counts. At 0 it leaves the support, and all light jumps: one gain after another
+// stays at 0, the one with which the others find the least cost, as long as that lessens it; a gain that came to 0
+// does where it costs no more.
+void GainSearch::choose_zeros() {
+  double least = cost_at(gains_);
+  for (bool is_better = true; is_better;) {
+    is_better = false;
+    auto best = std::tuple(gains_, bounds_, is_zero_);
+    const auto from = best;
+    for (std::size_t i = 0; i < bounds_.size(); ++i) {
+      std::tie(gains_, bounds_, is_zero_) = from;
+      const bool came_to_zero = gains_[i] == 0.0;
+      if (is_zero_[i] || bounds_[i].low > 0.0 || bounds_[i].high < 0.0) continue;
+      if (!came_to_zero && least <= kMinCost) continue;
+      gains_[i] = 0.0;
+      bounds_[i] = {0.0, 0.0};
+      is_zero_[i] = true;
+      descend();
+      drop_rests();
+      const double cost = cost_at(gains_);
+      if (came_to_zero ? cost > least + kMinCost : cost >= least - kMinCost) continue;
+      is_better = true;
+      least = cost;
+      best = std::tuple(gains_, bounds_, is_zero_);
+    }
+    std::tie(gains_, bounds_, is_zero_) = std::move(best);
+  }
+}
+
 std::optional<FoundGains> GainSearch::find(const std::vector<std::int64_t>& times_ns) {
   for (const auto& [tag, function] : exposure_.functions) {
     const auto known = parts_.find(tag);
@@ -333,29 +376,23 @@ std::optional<FoundGains> GainSearch::find(const std::vector<std::int64_t>& time
     parts_.insert_or_assign(tag, std::move(*parts));
   }
   bounds_ = exposure_.bounds;
-  is_zero_.assign(bounds_.size(), false);
+  is_zero_.clear();
   gains_.clear();
-  for (const Bounds& bounds : bounds_) gains_.push_back(begin_within(bounds));
-  for (std::size_t turn = 0; turn <= bounds_.size(); ++turn) {
-    if (turn == 0 && exposure_.normalization.depends_on_gains()) {
-      descend_from_several();
-    } else {
-      descend();
-    }
-    // A gain of 0, or what rounding leaves of it, counts in no support: with that the others are found again.
-    bool has_new = false;
-    double largest = 0.0;
-    for (const double gain : gains_) largest = std::max(largest, std::fabs(gain));
-    for (std::size_t i = 0; i < gains_.size(); ++i) {
-      const bool may_be_zero = bounds_[i].low <= 0.0 && bounds_[i].high >= 0.0;
-      if (!may_be_zero || std::fabs(gains_[i]) > kNoGain * largest || is_zero_[i]) continue;
-      gains_[i] = 0.0;
-      is_zero_[i] = has_new = true;
-      bounds_[i] = {0.0, 0.0};
-    }
-    if (!has_new) break;
+  for (const Bounds& bounds : bounds_) {
+    is_zero_.push_back(bounds.low == 0.0 && bounds.high == 0.0);
+    gains_.push_back(begin_within(bounds));
   }
-  return FoundGains{gains_, cost_of(differences(gains_))};
+  const bool is_support = exposure_.normalization == Normalization();
+  exposure_.normalization.depends_on_gains() ? descend_from_several() : descend();
+  drop_rests();
+  if (is_support) choose_zeros();
+  FoundGains found{gains_, cost_of(differences(gains_))};
+  for (std::size_t i = 0; i < gains_.size() && is_support; ++i) {
+    const Bounds& bounds = exposure_.bounds[i];
+    if (gains_[i] == 0.0 && !is_zero_[i])
+      found.gains[i] = bounds.high > 0.0 ? std::min(kLeastGain, bounds.high) : std::max(-kLeastGain, bounds.low);
+  }
+  return found;
 }
 
 }  // namespace nutik

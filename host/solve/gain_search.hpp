@@ -52,6 +52,9 @@ struct WishedExposure {
   std::uint32_t channels = 1;
 };
 
+// What a gain next to 0 is given, whose time in the support is better counted than left out.
+inline constexpr double kLeastGain = 1e-12;
+
 struct FoundGains {
   std::vector<double> gains;
   double cost = 0.0;  // Σ weight · missed²
@@ -119,13 +122,15 @@ class GainSearch {
   [[nodiscard]] std::vector<LeastSquaresRow> changes_of_found() const;
   void descend_from_several();
   void descend();
+  void drop_rests();
+  void choose_zeros();
   [[nodiscard]] std::vector<double> stepped() const;
 
   WishedExposure exposure_;
   std::vector<LightWish::Kind> row_kinds_;  // of differences
   std::map<std::uint8_t, Parts> parts_;
   std::vector<Bounds> bounds_;
-  std::vector<bool> is_zero_;  // gains that came to 0, and so count in no support
+  std::vector<bool> is_zero_;  // gains that stay at 0, and so count in no support
   std::vector<double> gains_;
 };
 

@@ -482,8 +482,8 @@ class Capture:
         at_ends = ", ".join(told["at_ends"])
         ends = f"; {at_ends} came to an end of free=: beyond it may be nearer" if at_ends else ""
         warn([*told.pop("warnings"), *([] if told["is_kept"] else [
-            f"not all wishes could be kept: the numbers are those with the least cost of all, {told['cost']:.2g}"
-            f"{ends}"])])
+            "not all wishes could be kept: the numbers are those with the least cost that was found, "
+            f"{told['cost']:.2g}{ends}"])])
         return Solution(functions=parse_functions(told["text"], name="the solution"), **told)
 
     def _asked(self, functions: Optional[dict[int, Function]], stated: Mapping[str, Any],

@@ -89,6 +89,7 @@ def open(path: str, settings: Mapping[str, str], computing: Mapping[str, str],
 def encode_clip(path: str, output: Optional[str], codec: Optional[str], settings: Mapping[str, str],
                 computing: Mapping[str, str],
                 progress: Progress) -> tuple[Capture, list[str], list[str]]: ...
+def code_thresholds(transfer: str) -> list[float]: ...
 def encode_pictures(pictures: Iterable[Array], first: Array, count: int, name: str, starts_ns: Sequence[int],
                     exposures_ns: Sequence[tuple[int, int]], exposed_ns: Optional[int], white_light: Optional[float],
                     output: Optional[str], codec: Optional[str], settings: Mapping[str, str],

@@ -127,7 +127,7 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
         with as_file(source, "clip") as clip_name, reading(clip_name):
             return _told(_nutik.encode_clip(clip_name, path, codec, settings_of(stated), computing, progress))
     name, white = text_of(name or "array", "name"), scalar(white)
-    pictures, first, length, is_light = _pictures_of(source, white, name)
+    pictures, first, length, is_light = _pictures_of(source, white, transfer, name)
     if is_light:
         stated["white"] = None  # of the codes it is the last one
     starts, intervals, exposed = _timing(rate, times, exposures, shutter_angle, length)
@@ -201,7 +201,8 @@ def _told(opened: tuple[_nutik.Capture, list[str], list[str]]) -> Capture:
     return Capture(capture, notes)
 
 
-def _pictures_of(source: Any, white: Optional[float], name: str) -> tuple[Iterable[Array], Array, Optional[int], bool]:
+def _pictures_of(source: Any, white: Optional[float], transfer: Optional[str],
+                 name: str) -> tuple[Iterable[Array], Array, Optional[int], bool]:
     """Pictures of codes, one by one; the first; how many, of an array; whether they were light, which becomes codes."""
     kinds: set[bool] = set()
 
@@ -224,7 +225,10 @@ def _pictures_of(source: Any, white: Optional[float], name: str) -> tuple[Iterab
         # White as its type rounds it, for pictures were clipped to that.
         refuse(not (picture >= 0).all() or (picture > picture.dtype.type(white)).any(), "a value of light is none "
                f"between 0 and white={white:g}; clip it, or state a larger white", InputError)
-        return (share * 65535 + 0.5).astype(np.uint16)
+        if transfer is None or transfer == "linear":
+            return (share * 65535 + 0.5).astype(np.uint16)
+        thresholds = _nutik.code_thresholds(text_of(transfer, "transfer"))
+        return (np.searchsorted(thresholds, share, "right") - 1).astype(np.uint16)
 
     if isinstance(source, Capture):
         raise UsageError(f"{source.name} is a capture already; pictures of it are numpy.asarray(capture)")

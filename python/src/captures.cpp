@@ -92,8 +92,7 @@ py::tuple encoded(const Opening& terms, const std::optional<std::string>& output
   const EncodeRequest request{*output, packed};
   const EncodedCapture made = without_lock([&](const Stopping& stopping) {
     const MemoryBudget& memory = terms.devices->request().memory;
-    return terms.open ? encode(terms.source, terms.open, request, memory, stopping.progress(), stopping.stop)
-                      : encode(terms.source, request, memory, stopping.progress(), stopping.stop);
+    return encode(terms.source, request, memory, stopping.progress(), stopping.stop, terms.open);
   }, progress);
   return py::make_tuple(opened_file(*output, terms.devices), made.warnings, note_texts(made.notes, Dialect::python));
 }
@@ -404,6 +403,9 @@ void bind_captures(py::module_& module) {
   module.def("encode_pictures", &encode_pictures, "pictures"_a, "first"_a, "count"_a, "name"_a, "starts_ns"_a,
              "exposures_ns"_a, "exposed_ns"_a, "white_light"_a, "output"_a, "codec"_a, "settings"_a, "computing"_a,
              "progress"_a);
+  module.def(
+      "code_thresholds",
+      [](const std::string& transfer) { return Transfer::parse(transfer).code_thresholds(kLightSteps); }, "transfer"_a);
   module.def("join", &joined, "captures"_a, "output"_a, "computing"_a, "progress"_a);
 }
 

@@ -230,8 +230,8 @@ py::tuple trace(const OpenCapture& capture, const AskedExposure& asked,
                 std::optional<std::uint8_t> tag, const py::object& progress) {
   Session& session = *capture.session;
   const TracedExposure exposure = without_lock([&](const Stopping& stopping) {
-    return pixel ? session.trace(asked.request, TracedPixel{pixel->first, pixel->second}, stopping.progress())
-                 : session.trace(asked.request, TracedTag{tag.value_or(0)}, stopping.progress());
+    const Followed followed = pixel ? Followed(TracedPixel{pixel->first, pixel->second}) : TracedTag{tag.value_or(0)};
+    return session.trace(asked.request, followed, stopping.progress());
   }, progress);
   py::list traces;
   for (const Trace& each : exposure.traces) traces.append(arrays_of(exposure, each));

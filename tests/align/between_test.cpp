@@ -69,16 +69,16 @@ class DrawnClip final : public Clip {
   std::size_t next_ = 0;
 };
 
-ClipToFill clip_of(const std::vector<std::vector<std::byte>>& pictures) {
+ClipToAlign clip_of(const std::vector<std::vector<std::byte>>& pictures) {
   test::use_modules();
   return {"drawn", format(), pictures.size(), 0, [pictures] { return std::make_unique<DrawnClip>(pictures); }};
 }
 
-MadeSamples planned(const ClipToFill& clip, std::optional<std::uint32_t> each = std::nullopt) {
+MadeSamples planned(const ClipToAlign& clip, std::optional<std::uint32_t> each = std::nullopt) {
   return plan_between(clip, {.each = each}, std::uint64_t{1} << 32, {}, {});
 }
 
-std::vector<std::vector<std::byte>> filled(const ClipToFill& clip, const MadeSamples& made) {
+std::vector<std::vector<std::byte>> filled(const ClipToAlign& clip, const MadeSamples& made) {
   return test::read_all(*open_between(clip, Shared(made)));
 }
 
@@ -116,7 +116,7 @@ double share_of_error(const Scene& scene, int count, const MadeSamples& made,
 TEST(Between, ShowsWhatFliesWhereItIsAtThatTime) {
   std::vector<std::vector<std::byte>> pictures;
   for (int k = 0; k < 5; ++k) pictures.push_back(drawn(disc_at, k));
-  const ClipToFill clip = clip_of(pictures);
+  const ClipToAlign clip = clip_of(pictures);
   const MadeSamples made = planned(clip);
   // 14 to 15 pixels a picture: steps of 0.7 to 1.4.
   EXPECT_EQ(made.after, (std::vector<std::uint8_t>{15, 15, 15, 15, 0}));
@@ -154,7 +154,7 @@ double ball_at(double x, double y, double time) {
 TEST(Between, FollowsSmallThingsThatFlyFurtherThanTheyAreLarge) {
   std::vector<std::vector<std::byte>> pictures;
   for (int k = 0; k < 6; ++k) pictures.push_back(drawn(ball_at, k));
-  const ClipToFill clip = clip_of(pictures);
+  const ClipToAlign clip = clip_of(pictures);
   const MadeSamples made = planned(clip);
   // 59 to 79 pixels a picture: steps of 0.9 to 1.2.
   EXPECT_EQ(made.after, (std::vector<std::uint8_t>{63, 63, 63, 63, 63, 0}));
@@ -193,7 +193,7 @@ TEST(Between, BendsWaysAsThePicturesRoundThemShow) {
   const auto error = [&](int first, int last) {
     std::vector<std::vector<std::byte>> pictures;
     for (int k = first; k <= last; ++k) pictures.push_back(drawn(falls, k));
-    const ClipToFill clip = clip_of(pictures);
+    const ClipToAlign clip = clip_of(pictures);
     const auto made = filled(clip, planned(clip, 1)).at(static_cast<std::size_t>(2 * (1 - first) + 1));
     const auto truth = drawn(falls, 1.5);
     double squares = 0;
@@ -217,7 +217,7 @@ TEST(Between, LetsNothingFlyFromOneThingToAnother) {
   };
   std::vector<std::vector<std::byte>> pictures;
   for (int k = 0; k < 3; ++k) pictures.push_back(drawn(meet, k));
-  const ClipToFill clip = clip_of(pictures);
+  const ClipToAlign clip = clip_of(pictures);
   const auto samples = filled(clip, planned(clip, 1));
   for (std::size_t k = 0; k < samples.size(); ++k) {
     for (std::uint32_t x = 140; x < 180; ++x) {
@@ -230,7 +230,7 @@ TEST(Between, LetsNothingFlyFromOneThingToAnother) {
 TEST(Between, KeepsWhatIsStillAsItIs) {
   std::vector<std::vector<std::byte>> pictures;
   for (unsigned k = 0; k < 4; ++k) pictures.push_back(drawn(disc_at, k, 2.0, k));
-  const ClipToFill clip = clip_of(pictures);
+  const ClipToAlign clip = clip_of(pictures);
   const auto samples = filled(clip, planned(clip, 3));
   ASSERT_EQ(samples.size(), 13U);
   for (std::size_t i = 0; i < 12; ++i) {
@@ -302,7 +302,7 @@ TEST(Between, MakesNothingOfWhatTrembles) {
 TEST(Between, IsTheSameWhoeverComputesBeside) {
   std::vector<std::vector<std::byte>> pictures;
   for (int k = 0; k < 3; ++k) pictures.push_back(drawn(disc_at, k));
-  const ClipToFill clip = clip_of(pictures);
+  const ClipToAlign clip = clip_of(pictures);
   const MadeSamples made = planned(clip);
   const auto alone = filled(clip, made);
   std::vector<std::vector<std::vector<std::byte>>> beside(4);
@@ -316,7 +316,7 @@ TEST(Between, IsTheSameWhoeverComputesBeside) {
 TEST(Between, PassesOverWhatIsSkipped) {
   std::vector<std::vector<std::byte>> pictures;
   for (int k = 0; k < 3; ++k) pictures.push_back(drawn(disc_at, k));
-  const ClipToFill clip = clip_of(pictures);
+  const ClipToAlign clip = clip_of(pictures);
   const MadeSamples made = planned(clip, 3);
   const auto all = filled(clip, made);
   const auto some = open_between(clip, Shared(made));

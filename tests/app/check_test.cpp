@@ -110,6 +110,8 @@ TEST_F(Check, SaysWhatFunctionsComeTo) {
   EXPECT_DOUBLE_EQ(figures.at("integral_ns"), 100'000'000.5);
   EXPECT_NEAR(figures.at("still_gain"), 0.5, 1e-8);
   EXPECT_NEAR(figures.at("stops"), -1.0, 1e-7);
+  const ProgramResult scaled = run("check --json --normalize seconds:1 -m mask.pgm -k good.fn clip.tik");
+  EXPECT_EQ(json::parse(scaled.out).at("functions").at(2).at("integral_ns"), figures.at("integral_ns"));
   EXPECT_EQ(figures.at("samples"), 2);  // 1 s … 1.2 s are two tenths; the steps beside them count as none
 }
 

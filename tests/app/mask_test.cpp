@@ -273,6 +273,8 @@ TEST_F(MaskCommand, RefusesWhatMakesNoSense) {
           {"mask --moving --by 0 clip.tik", "--by '0' is no whole number of 1"},
           {"mask --threshold 0f 9..1 clip.tik", "'9..1' is no range of codes"},
           {"mask --threshold 0f 40%..60 clip.tik", "is no range of codes"},
+          {"mask --threshold 99999999999s 0..3 clip.tik", "--threshold '99999999999s' is longer than 126 years"},
+          {"mask --difference 0f 0.12345678901234567s clip.tik", "'0.12345678901234567s' needs more than 15 digits"},
           {"mask --changed-between 0.3 0.5s clip.tik", "'0.3' is no time"},
           {"mask --changed-between 9f 3f clip.tik", "write the earlier first"},
           {"mask --changed-between 0s 9s clip.tik", "outside the capture, which lasts 200 ms"},

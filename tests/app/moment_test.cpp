@@ -8,6 +8,7 @@
 #include <sstream>
 #include <thread>
 
+#include "capture/format.hpp"
 #include "support/ffmpeg.hpp"
 #include "support/moving_square_test.hpp"
 

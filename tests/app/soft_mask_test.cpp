@@ -84,7 +84,9 @@ TEST_F(SoftMaskCommand, MakesLayersThatGiveTheSamePicture) {
 
   expect_refused("mask --overwrite --size 6x1 --tag 7 --rectangle 3,0,3,1 --feather 2px -o soft-%d.png", 5,
                  "soft-9.png is there, and M9 has no pixel in this mask");
-  expect_refused("mask --size 6x1 --fill --feather 2px -o soft.png", 2, "as in soft-%d.png");
+  expect_refused(2, {{"mask --size 6x1 --fill --feather 2px -o soft.png", "as in soft-%d.png"},
+                     {"mask --size 6x1 --fill --feather 2px -o new-%d.png --preview new-255.png", "another output"},
+                     {"mask --size 6x1 --fill --feather 2px -o new-%d.png --preview new-7.png", "another output"}});
 }
 
 TEST_F(SoftMaskCommand, CarriesItsRecipe) {

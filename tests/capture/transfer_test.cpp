@@ -56,6 +56,17 @@ TEST(Transfer, HasThoseOfHighDynamicRange) {
   EXPECT_NEAR(above / below, 1.0, 1e-5);
 }
 
+// What bounds of light take for granted: next to white, where rounding counts most, 14 units of it.
+TEST(Transfer, ErrsByFewRoundings) {
+  const std::pair<std::pair<const char*, int>, double> exact[]{
+      {{"pq", 64491}, 0.859200194631876885211},      {{"pq", 65307}, 0.967327963411786312206},
+      {{"hlg", 64522}, 0.919159626113872243602},     {{"logc4", 64557}, 0.852440047349006342326},
+      {{"acescct", 64524}, 0.829159306080818448284}, {{"clog2:video", 64564}, 0.885956747830794947352},
+      {{"slog3:video", 65343}, 0.977643034127646444858}};
+  for (const auto& [of, light] : exact)
+    EXPECT_NEAR(Transfer::parse(of.first).light_of(of.second / 65535.0), light, 14 * 0x1p-53 * light) << of.first;
+}
+
 // What bounds of codes take for granted (render/error_bound.hpp): that nowhere do codes change more with light than at one
 // end.
 TEST(Transfer, ChangesMostAtAnEnd) {

@@ -1,4 +1,5 @@
-// Sheets, their warnings, where videos go, and what changes in a capture: what applications share beside pictures.
+// Series, warnings of many pictures, where videos go, and what changes in a capture: what applications share beside
+// pictures.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -8,7 +9,6 @@
 #include "features/film/film_making.hpp"
 #include "features/series/picture_queue.hpp"
 #include "features/series/series_making.hpp"
-#include "features/sheets/sheet_making.hpp"
 #include "media/formats/numbered_name.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "media/writers/recipe.hpp"
@@ -21,8 +21,6 @@
 
 namespace nutik {
 namespace {
-
-constexpr std::int64_t kMillisecond = 1'000'000;
 
 TEST(SharedWarnings, AreSaidOnceWhoeverAddsThem) {
   SharedWarnings warnings;
@@ -93,27 +91,6 @@ class ManyExposures : public ::testing::Test {
   test::Scratch scratch_;
   Session session_ = session_of(scratch_);
 };
-
-TEST_F(ManyExposures, OfASheetAreThoseOfTheSession) {
-  SheetRequest request;
-  request.heading = "two";
-  request.mask = Mask::uniform(16, 16, 0);
-  for (const std::int64_t start_ms : {0, 50}) {
-    request.exposures.push_back(
-        {"", {{0, GainFunction::boxcar(start_ms * kMillisecond, (start_ms + 30) * kMillisecond)}}});
-  }
-  std::vector<std::size_t> numbers;
-  const Sheet sheet = make_sheet(session_, request, {}, [&](std::size_t i, const ExposedPicture& exposed) {
-    numbers.push_back(i);
-    const ExposedPicture alone =
-        session_.render(request.exposures[i].functions, request.mask, request.plan, exposed.output);
-    EXPECT_EQ(exposed.picture.bytes, alone.picture.bytes) << i;
-    EXPECT_EQ(exposed.output.white_code, session_.format().white_code);
-  });
-  EXPECT_EQ(numbers, (std::vector<std::size_t>{0, 1}));
-  EXPECT_EQ(sheet.layout.columns * sheet.layout.rows, 2u);
-  EXPECT_EQ(sheet.picture.shape.channels, 3u);
-}
 
 // The file that holds this picture, byte by byte.
 std::string file_of(const test::Scratch& scratch, const Picture& picture) {

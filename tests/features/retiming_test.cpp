@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "capture/error.hpp"
-#include "session/clips/evened_times.hpp"
+#include "session/clips/clip_source.hpp"
+#include "session/requests/source_request.hpp"
 #include "support/messages.hpp"
 #include "support/payloads.hpp"
 #include "support/random_case.hpp"

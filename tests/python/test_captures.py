@@ -67,6 +67,11 @@ class Arrays(support.TestCase):
                 self.assertIn("light 1.5 is white, to the nearest of 65535 steps, as stated", capture.facts)
                 self.assertEqual(sorted(capture.facts[-3:]), sorted(file.facts[-3:]))
                 self.assertEqual(capture.render(exposure="20ms").uncertainty["terms"], terms)
+        for transfer in ("srgb", "pq"):  # codes of that curve hold the same light
+            held = [nutik.encode(source, rate=100, white=1.5, transfer=transfer).render(exposure="20ms", dtype="float64")
+                    for source in (light, self.path("light.npy"))]
+            self.assert_same(held[0].array, held[1].array)
+            self.assertLess(np.abs(held[0].array - light[:2].mean(0) / 1.5).max(), 1e-4)
         clipped = np.full((2, 6, 7), 0.1, np.float32)  # which is above 0.1
         np.save(self.path("clipped.npy"), clipped)
         for source in (clipped, self.path("clipped.npy")):

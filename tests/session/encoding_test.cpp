@@ -1,6 +1,6 @@
 // What is said of a clip whose pictures are not those that it announces.
+#include "session/clips/clip_source.hpp"
 #include "session/clips/encoding.hpp"
-#include "session/clips/evened_times.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,9 +16,9 @@ namespace {
 
 std::vector<std::string> warnings_of(std::uint64_t pictures, std::uint64_t announced) {
   const test::Scratch scratch;
-  const EncodedCapture encoded = encode(
-      {.path = "clip"}, [&] { return std::make_unique<test::MadeClip>(pictures, announced); }, {scratch / "c.tik"},
-      MemoryBudget::of_machine());
+  const EncodedCapture encoded =
+      encode({.path = "clip"}, {scratch / "c.tik"}, MemoryBudget::of_machine(), {}, {},
+             [&] { return std::make_unique<test::MadeClip>(pictures, announced); });
   EXPECT_EQ(encoded.timeline.sample_count(), pictures);
   return encoded.warnings;
 }
@@ -74,7 +74,7 @@ TEST(Encoding, ReplacesNothingThatWasPutThereMeanwhile) {
   };
   check_output(scratch / "c.tik", OutputKind::tik, {}, Replacing::made_by_recipe);
   const auto open = [&] { return std::make_unique<Meddling>(scratch); };
-  EXPECT_THROW(encode({.path = "clip"}, open, {scratch / "c.tik"}, MemoryBudget::of_machine()), OutputError);
+  EXPECT_THROW(encode({.path = "clip"}, {scratch / "c.tik"}, MemoryBudget::of_machine(), {}, {}, open), OutputError);
   EXPECT_EQ(test::read_file(scratch / "c.tik"), "precious");
 }
 

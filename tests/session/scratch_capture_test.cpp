@@ -1,5 +1,4 @@
 // Temporary captures: nothing is left of them, and nothing of anybody else is touched.
-#include "session/clips/scratch_capture.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -10,6 +9,7 @@
 #include <cstdlib>
 
 #include "imev/block_builder.hpp"
+#include "session/clips/clip_reading.hpp"
 #include "session/made_clip.hpp"
 #include "support/scratch.hpp"
 

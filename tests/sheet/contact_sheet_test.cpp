@@ -43,6 +43,7 @@ TEST(SheetLayout, RefusesWhatCannotBeSeenOrDrawn) {
             std::string::npos);
   EXPECT_NE(refusal({100, 3000, 1}, 400, {.columns = 1, .width = {}}).find("make fewer pictures"),
             std::string::npos);
+  EXPECT_EQ(refusal({600, 60'000, 1}, 1, {}).find("a row of pictures 60000 pixels high passes the 32767 that"), 0u);
 }
 
 TEST(ContactSheet, HasEachPictureInItsPlace) {

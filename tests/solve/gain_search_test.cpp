@@ -173,7 +173,7 @@ constexpr const char* kTwoBoxes = "M0 [0:a], [19999999:a], [20000000:b], [400000
 TEST(GainSearch, StaysWithinBounds) {
   OnePixel pixel({0.2, 0.2, 0.6, 0.6, 0.5});
   pixel.set(kTwoBoxes);
-  pixel.wished.bounds = {{0.0, 1.0}, {-2.0, 0.5}};
+  pixel.wished.bounds = {{0.1, 1.0}, {-2.0, 0.5}};
   pixel.wish(Kind::equal, 0.9);
   GainSearch search(pixel.wished);
   const auto found = search.find({});
@@ -324,6 +324,18 @@ TEST(GainSearch, CountsNoTimeOfAGainThatCameToNothing) {
   EXPECT_EQ(found->gains[1], 0.0) << "what is bright moves";
   // 20 ms are exposed, not 40, for which a would have to be 2; but for half a nanosecond of its step.
   EXPECT_NEAR(found->gains[0], 1.0, 1e-7);
+
+  // Twice the light without b's time: too much for 0.09, to which b at next to nothing comes nearest; to 0.19 no b.
+  const auto only_b = [](Bounds bounds, double light) {
+    OnePixel still({0.2, 0.2, 0.2, 0.2, 0.5});
+    still.set("M0 [0:1], [19999999:1], [20000000:b], [40000000:b], [40000001:0]");
+    still.wished.bounds = {bounds};
+    still.wish(Kind::equal, light);
+    return *GainSearch(still.wished).find({});
+  };
+  EXPECT_EQ(only_b({0.0, 1.0}, 0.09).gains[0], kLeastGain);
+  EXPECT_NEAR(only_b({0.0, 1.0}, 0.09).cost, 1e-4, 1e-9);
+  EXPECT_EQ(only_b({-0.5, 0.2}, 0.19).gains[0], 0.0);
 }
 
 }  // namespace

@@ -41,6 +41,8 @@ TEST(TikFields, AreRefusedWhereABitDiffersOrTheEndIsMissing) {
     damaged[bit / 8] ^= std::byte{1} << bit % 8;
     EXPECT_THROW(static_cast<void>(read_fields(damaged, "x.tik")), InputError) << bit;
   }
+  test::expect_error<InputError>([&] { return read_fields(std::vector<std::byte>(bytes.size()), "x.tik"); },
+                                 {"there is no list of fields"});
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     EXPECT_THROW(static_cast<void>(read_fields(std::span(bytes).first(size), "x.tik")), InputError) << size;
   }

@@ -1,9 +1,10 @@
 // Dense inverse search (Kroeger, Timofte, Dai and Van Gool, "Fast Optical Flow using Dense Inverse Search"), refined by
 // variations, as OpenCV has it.
-#include "align/motion/dense_flow.hpp"
-
 #include <cmath>
+#include <memory>
 #include <opencv2/video/tracking.hpp>
+
+#include "align/flow.hpp"
 
 namespace nutik::motion {
 namespace {

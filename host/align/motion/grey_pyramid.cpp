@@ -53,29 +53,20 @@ void write_grey(const CaptureFormat& format, const Code* codes, std::uint32_t si
 }  // namespace
 
 void GreyPyramid::take(const CaptureFormat& format, std::span<const std::byte> raster) {
-  std::size_t smallest = 0;
-  const auto grey_at = [&](std::size_t size) -> cv::Mat& {
-    if (size == greys_.size()) greys_.emplace_back();
-    return greys_[size];
-  };
-  const auto halve = [&] {
-    cv::Mat& half = grey_at(smallest + 1);
-    cv::pyrDown(greys_[smallest++], half);
-  };
   finest = registered_halvings(format.shape);
   const std::uint32_t side = 1U << finest;
   const auto write = [&]<typename Code>(const Code* codes) {
-    format.shape.channels == 1 ? write_grey<1>(format, codes, side, grey_at(0))
-                               : write_grey<3>(format, codes, side, grey_at(0));
+    format.shape.channels == 1 ? write_grey<1>(format, codes, side, greys_[0])
+                               : write_grey<3>(format, codes, side, greys_[0]);
   };
   format.code_bytes == 1 ? write(reinterpret_cast<const std::uint8_t*>(raster.data()))
                          : write(reinterpret_cast<const std::uint16_t*>(raster.data()));
   for (std::size_t level = 0;; ++level) {
-    const cv::Mat& grey = greys_[smallest];
+    const cv::Mat& grey = greys_[level];
     if (level == levels.size()) levels.emplace_back();
     cv::GaussianBlur(grey, levels[level], {}, kBlurPixels);
     if (std::min(grey.cols, grey.rows) < 2 * kMinSide) return;
-    halve();
+    cv::pyrDown(grey, greys_[level + 1]);
   }
 }
 

@@ -2,6 +2,7 @@
 // recognized in another.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <opencv2/core.hpp>
@@ -26,7 +27,7 @@ struct GreyPyramid {
   std::vector<cv::Mat> levels;  // of floats; pixel (x, y) of each lies at a pixel of the one before
 
  private:
-  std::vector<cv::Mat> greys_;  // before they are blurred
+  std::array<cv::Mat, 16> greys_;  // before they are blurred; no picture has more levels
 };
 
 struct Point {

@@ -9,21 +9,27 @@
 #include <cstring>
 #include <memory>
 #include <mutex>
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
+#include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
-#include "align/motion/dense_flow.hpp"
+#include "align/flow.hpp"
 #include "align/motion/feature_start.hpp"
 #include "align/motion/grey_pyramid.hpp"
-#include "align/motion/normal_equations.hpp"
 #include "align/registrar.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/median.hpp"
+#include "system/simd_clones.hpp"
 
 namespace nutik::motion {
+
+std::unique_ptr<FlowFinder> open_dense_flow();  // dense_flow.cpp
+
 namespace {
 
 constexpr std::size_t kMinPoints = 60;
@@ -131,6 +137,44 @@ class Frame {
 struct Fit {
   Warp warp;
   double gain = 1, offset = 0;
+};
+
+// As many as fill vectors: those beyond the numbers that are fitted are zero.
+using Row = std::array<double, 12>;
+
+NUTIK_SIMD_CLONES void add_squares(const Row& slopes, double weight, double value, std::size_t numbers,
+                                   Row* __restrict squares, Row& __restrict values) {
+  for (std::size_t i = 0; i < numbers; ++i) {
+    double* const row = squares[i].data();
+    const double weighed = weight * slopes.data()[i];
+    for (std::size_t k = 0; k < std::tuple_size_v<Row>; ++k) row[k] += weighed * slopes.data()[k];
+    values.data()[i] += weighed * value;
+  }
+}
+
+// Weighted least squares of a few numbers: what is added up for them, and their solution.
+class NormalEquations {
+ public:
+  static constexpr std::size_t kMaxNumbers = 10;
+
+  explicit NormalEquations(std::size_t numbers) : numbers_(numbers) {}
+
+  // That the numbers, each times the slope of the same place, add up to `value`.
+  void add(const Row& slopes, double weight, double value) {
+    add_squares(slopes, weight, value, numbers_, squares_.data(), values_);
+  }
+
+  // False where nothing tells some of the numbers.
+  [[nodiscard]] bool solve(std::span<double> numbers) {
+    const auto count = static_cast<int>(numbers_);
+    const cv::Mat squares(count, count, CV_64F, squares_.data(), sizeof(Row)), values(count, 1, CV_64F, values_.data());
+    return cv::solve(squares, values, cv::Mat(count, 1, CV_64F, numbers.data()), cv::DECOMP_CHOLESKY);
+  }
+
+ private:
+  std::size_t numbers_;
+  std::array<Row, kMaxNumbers> squares_{};
+  Row values_{};
 };
 
 struct Sampled {
@@ -329,7 +373,7 @@ class RobustRegistrar final : public Registrar {
       for (const Sampled& sample : seen) sizes.push_back(std::abs(residual(sample, fit)));
       const double limit = kTukey * std::max(kMinSigma, 1.4826 * median(sizes));
       NormalEquations equations(count);
-      NormalEquations::Row slopes{};
+      Row slopes{};
       for (const Sampled& sample : seen) {
         const double share = residual(sample, fit) / limit;
         double weight = 1 / (1 + 9 * share * share);  // Cauchy's, which excludes nothing

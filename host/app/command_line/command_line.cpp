@@ -8,7 +8,6 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "session/text/shell_text.hpp"
-#include "session/text/suggestion.hpp"
 #include "session/text/text_table.hpp"
 #include "system/input_bytes.hpp"
 #include "system/is_absent.hpp"

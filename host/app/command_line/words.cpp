@@ -10,7 +10,6 @@
 #include "capture/format.hpp"
 #include "capture/source_text.hpp"
 #include "capture/text.hpp"
-#include "session/text/suggestion.hpp"
 #include "session/text/text_table.hpp"
 #include "system/is_absent.hpp"
 
@@ -47,6 +46,11 @@ void check_choice(std::string_view what, const std::string& value, const Option&
   throw UsageError(format("{} {} is not known{} It is one of: {}", what, value, suggestion, joined(known)));
 }
 
+namespace {
+
+// Throws UsageError where a value is most likely another word of the command line, or a mistyped one of the
+// option's choices: an option's name, a file for a number, a capture for functions. What it lets pass is for
+// whoever reads the value to judge. `name` is the option as it was written.
 void check_value(const Option& option, const std::string& name, const std::string& value) {
   if (is_option(value)) {
     const std::vector<std::string> choices = option.choices();
@@ -73,8 +77,6 @@ void check_value(const Option& option, const std::string& name, const std::strin
     check_choice(name, value, option);
   }
 }
-
-namespace {
 
 // Suggests options of the command that is named; where none is, of those that need not be.
 [[noreturn]] void fail_unknown(const std::string& name, std::span<const std::string> words) {

@@ -13,13 +13,6 @@
 
 namespace nutik::app {
 
-// Values that cannot be what an option takes, before anything is done with them.
-
-// Throws UsageError where a value is most likely another word of the command line, or a mistyped one of the
-// option's choices: an option's name, a file for a number, a capture for functions. What it lets pass is for
-// whoever reads the value to judge. `name` is the option as it was written.
-void check_value(const Option& option, const std::string& name, const std::string& value);
-
 // Throws UsageError where a value is most likely a mistyped one of the option's choices; `what` says what it is.
 void check_choice(std::string_view what, const std::string& value, const Option& option);
 
@@ -40,7 +33,7 @@ struct Words {
   bool is_help_word = false;  // `help`, and what follows is a command
   bool version = false;
 
-  // Throws UsageError for an option that there is not, and for a value that is none (check_value()).
+  // Throws UsageError for an option that there is not, and for a value that cannot be what it takes.
   static Words of(std::span<const std::string> words);
 };
 

@@ -1,6 +1,5 @@
 #include "features/activity/activity.hpp"
 
-#include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"

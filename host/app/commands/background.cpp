@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"

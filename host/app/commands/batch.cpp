@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <deque>
+#include <exception>
 #include <map>
 #include <mutex>
 #include <set>
@@ -6,7 +8,6 @@
 #include <utility>
 
 #include "app/command_line/command_line.hpp"
-#include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
@@ -84,6 +85,20 @@ Options line_options(const std::string& text, const Options& batch, const std::o
   return options;
 }
 
+// Tells what is wrong with one picture, and goes on.
+template <typename Work, typename Tell>
+void unless_wrong(const Work& work, const Tell& tell) {
+  try {
+    work();
+  } catch (const UsageError& error) {
+    tell(error);
+  } catch (const InputError& error) {
+    tell(error);
+  } catch (const ImpreciseError& error) {
+    tell(error);
+  }
+}
+
 class Batch {
  public:
   Batch(const Options& options, const std::string& list_name, std::size_t exposures)
@@ -140,16 +155,21 @@ class Batch {
       }
       maps.check(0, input_files(line), output, replacing(line));
       Session& session = session_of(line.operands.front());
-      listed_->add(request, output_format(line.picture, output, session.format()),
-                   [this, number = listed.line, line, output, maps](const ListedPictures::Take& take) {
-                     reported(number, [&] { write(number, line, output, maps, take()); });
-                   });
+      waiting_.push_back({listed.line, line, output, maps});
+      line_->add([&session, request, format = output_format(line.picture, output, session.format())](
+                     const RenderControl& control) {
+        Made made;
+        unless_wrong([&] { made.exposed = session.render(request, format, control); },
+                     [&](const Error&) { made.error = std::current_exception(); });
+        return made;
+      });
+      if (line_->is_full()) hand_on();
     });
   }
 
   // After the last one: how many of the exposures failed.
   [[nodiscard]] std::size_t finish() {
-    if (listed_) listed_->finish();
+    hand_on_all();
     pictures_.finish();
     return failed_lines_.size();
   }
@@ -170,8 +190,35 @@ class Batch {
   [[nodiscard]] std::string renderer_name() const { return devices_->renderer().name(); }
 
  private:
-  void write(std::size_t number, const Options& line, const std::filesystem::path& output, const BoundsMaps& maps,
-             ExposedPicture exposed) {
+  // A line whose picture is being made.
+  struct Waiting {
+    std::size_t number;
+    Options line;
+    std::filesystem::path output;
+    BoundsMaps maps;
+  };
+  // Its picture, or what is wrong with it, which stops no other.
+  struct Made {
+    std::optional<ExposedPicture> exposed;
+    std::exception_ptr error;
+  };
+
+  // The oldest. Throws what ends the list: DeviceError, Interrupted …
+  void hand_on() {
+    const Waiting oldest = std::move(waiting_.front());
+    waiting_.pop_front();
+    Made made = line_->take();
+    reported(oldest.number, [&] {
+      if (made.error) std::rethrow_exception(made.error);
+      write(oldest, std::move(*made.exposed));
+    });
+  }
+  void hand_on_all() {
+    while (!waiting_.empty()) hand_on();
+  }
+
+  void write(const Waiting& waiting, ExposedPicture exposed) {
+    const auto& [number, line, output, maps] = waiting;
     std::optional<Recipe::Input> map;
     try {
       map = maps.write(0, exposed);
@@ -208,11 +255,11 @@ class Batch {
   // Lines mostly expose one capture, or one after another: the last one stays open.
   Session& session_of(const std::string& name) {
     if (!session_ || session_->source().path != name) {
-      if (listed_) listed_->finish();
-      listed_.reset();
+      hand_on_all();
+      line_.reset();
       session_.reset();
       session_.emplace(open_session(name, options_, devices_, {.besides = PictureQueue::needs(widest)}));
-      listed_.emplace(*session_, widest({}), exposures_);
+      line_.emplace(session_->pictures_at_once(widest({}), exposures_));
       Answer source{{{"capture", name}}};
       source.tell_source(*session_);
       source.json["notes"] = source.notes;
@@ -244,7 +291,8 @@ class Batch {
   bool failed_to_write_ = false, was_imprecise_ = false;
   std::size_t exposures_;
   std::optional<Session> session_;
-  std::optional<ListedPictures> listed_;
+  std::deque<Waiting> waiting_;  // what is in line
+  std::optional<PictureLine<Made>> line_;
   Json clips_ = Json::array(), exposures_told_ = Json::array();
   std::map<std::filesystem::path, std::size_t> line_of_input_, line_of_output_;
   std::string last_capture_;

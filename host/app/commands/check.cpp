@@ -128,24 +128,24 @@ std::string stops_text(const GainSummary& summary) {
 std::string heading_text(const InputCheck& check) {
   std::string text;
   const auto append = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
-  if (check.functions()) {
+  if (check.functions) {
     const std::size_t count =
-        check.functions()->file.functions.size() + check.functions()->file.broken.size();
-    append(format("{}: {}", check.functions()->name, counted(count, "function")));
+        check.functions->file.functions.size() + check.functions->file.broken.size();
+    append(format("{}: {}", check.functions->name, counted(count, "function")));
   }
-  if (check.mask())
-    append(format("{}: {} x {}", check.mask()->name, check.mask()->mask.width, check.mask()->mask.height));
-  if (check.capture() && check.capture()->timeline) {
-    append(format("{}: {}, {}, {}", check.capture()->name, shape_text(check.capture()->format.shape),
-                  counted(check.capture()->timeline->sample_count(), "sample"),
-                  duration_text(check.domain().duration_ns)));
-  } else if (check.capture()) {
-    append(format("{}: {}, its length is not known before it is decoded", check.capture()->name,
-                  shape_text(check.capture()->format.shape)));
+  if (check.mask)
+    append(format("{}: {} x {}", check.mask->name, check.mask->mask.width, check.mask->mask.height));
+  if (check.capture && check.capture->timeline) {
+    append(format("{}: {}, {}, {}", check.capture->name, shape_text(check.capture->format.shape),
+                  counted(check.capture->timeline->sample_count(), "sample"),
+                  duration_text(check.domain.duration_ns)));
+  } else if (check.capture) {
+    append(format("{}: {}, its length is not known before it is decoded", check.capture->name,
+                  shape_text(check.capture->format.shape)));
   }
-  if (check.functions() && !check.domain().is_capture) {
+  if (check.functions && !check.domain.is_capture) {
     append(format("figures are for 0 … {}, not for a capture",
-                  integral_text(static_cast<double>(check.domain().duration_ns))));
+                  integral_text(static_cast<double>(check.domain.duration_ns))));
   }
   return text.empty() ? "nothing could be read" : text;
 }
@@ -153,7 +153,7 @@ std::string heading_text(const InputCheck& check) {
 // A row for each function, without columns of what is not known. For at least one function.
 std::string figures_text(const InputCheck& check) {
   const auto is_known = [&](auto member) {
-    return std::ranges::any_of(check.figures(),
+    return std::ranges::any_of(check.figures,
                                [&](const auto& figures) { return (figures.*member).has_value(); });
   };
   const bool has_pixels = is_known(&FunctionFigures::pixels);
@@ -172,13 +172,12 @@ std::string figures_text(const InputCheck& check) {
     rows.push_back(std::move(row));
   };
   add_row("function", "pixels", {"live", "D", "∫g", "still gain", "stops"}, "samples");
-  for (const FunctionFigures& figures : check.figures()) {
+  for (const FunctionFigures& figures : check.figures) {
     const GainSummary& summary = figures.summary;
     const Interval& live = summary.live;
     add_row(format("M{}", figures.tag), count(figures.pixels),
             {live.empty() ? "never" : time(live.begin_ns) + " … " + time(live.end_ns),
-             time(summary.support_ns), integral_text(std::scalbn(summary.integral_ns, summary.exponent)),
-             format("{:.6g}", summary.still_gain()), stops_text(summary)},
+             time(summary.support_ns), integral_text(figures.integral_ns), format("{:.6g}", summary.still_gain()), stops_text(summary)},
             count(figures.samples));
   }
   return table_text(rows, std::string("l") + (has_pixels ? "r" : "") + "lrrrr" + (has_samples ? "r" : ""));
@@ -186,7 +185,7 @@ std::string figures_text(const InputCheck& check) {
 
 Json check_json(const InputCheck& check) {
   Json functions = Json::array();
-  for (const FunctionFigures& figures : check.figures()) {
+  for (const FunctionFigures& figures : check.figures) {
     const GainSummary& summary = figures.summary;
     const auto stops = still_stops(summary);
     Json function{{"mask_value", figures.tag},
@@ -194,16 +193,16 @@ Json check_json(const InputCheck& check) {
                   {"live_start_ns", summary.live.begin_ns},
                   {"live_end_ns", summary.live.end_ns},
                   {"nonzero_ns", summary.support_ns},
-                  {"integral_ns", std::scalbn(summary.integral_ns, summary.exponent)},
+                  {"integral_ns", figures.integral_ns},
                   {"still_gain", summary.still_gain()},
                   {"stops", stops ? Json(*stops) : Json()},
                   {"samples", figures.samples ? Json(*figures.samples) : Json()}};
     functions.push_back(std::move(function));
   }
-  return Json{{"mistakes", count_of(check.findings(), Severity::error)},
-              {"findings", findings_json(check.findings())},
-              {"domain_end_ns", check.domain().duration_ns},
-              {"domain_is_capture", check.domain().is_capture},
+  return Json{{"mistakes", count_of(check.findings, Severity::error)},
+              {"findings", findings_json(check.findings)},
+              {"domain_end_ns", check.domain.duration_ns},
+              {"domain_is_capture", check.domain.is_capture},
               {"functions", functions}};
 }
 
@@ -220,7 +219,7 @@ void attempt(InputCheck& check, const std::string& name, const std::string& kind
     for (const char* behind : {": ", " "}) {
       if (message.starts_with(name + behind)) message.erase(0, message.find(' ', name.size()) + 1);
     }
-    check.add({severity, kind, name, message});
+    check.findings.push_back({severity, kind, name, message});
   }
 }
 
@@ -230,15 +229,16 @@ void read_capture(InputCheck& check, const std::string& name, const Options& opt
     const ClipSource source = open_clip_source(request, memory_budget(options));
     const std::uint64_t announced = source.announced_samples();
     CheckedCapture clip{name, source.capture, std::nullopt, source.clip->info().facts, source.notes};
-    check.add_capture(clip);
+    check.capture = clip;
     if (announced == 0) return;
     clip.timeline = source.timeline(announced);
     clip.facts = source.facts(announced);
     clip.notes = source.all_notes(announced);
-    return check.add_capture(std::move(clip));
+    check.capture = std::move(clip);
+    return;
   }
   tik::Reader reader(name);
-  check.add_capture({name, reader.format(), reader.timeline()});
+  check.capture = {name, reader.format(), reader.timeline()};
   MemoryNeeds needs = camera_check_needs(reader.format());
   needs.add("a block", largest_block(reader));
   needs.rest_of(memory_budget(options).bytes);
@@ -248,18 +248,19 @@ void read_capture(InputCheck& check, const std::string& name, const Options& opt
       attempt(check, name, "capture_block", [&] { static_cast<void>(blocks.at(block)); });
     }
   }
-  if (count_of(check.findings(), Severity::error) > 0) return;
+  if (count_of(check.findings, Severity::error) > 0) return;
   const auto look = [&] {
     if (const auto moved = moved_camera(reader))
-      check.add({Finding::Severity::warning, "camera_moved", name,
-                 moved->text() + "; encode the clip again with --align rigid"});
+      check.findings.push_back({Finding::Severity::warning, "camera_moved", name,
+                                moved->text() + "; encode the clip again with --align rigid"});
   };
   attempt(check, name, "camera_unknown", look, Finding::Severity::warning);
 }
 
 InputCheck checked_inputs(const Options& options) {
   InputCheck check;
-  check.set_weight(options.normalization, brightening(options));
+  check.normalization = options.normalization;
+  check.gain = brightening(options);
   if (options.functions) {
     const std::string name = input_title(*options.functions);
     attempt(check, name, "function_file",
@@ -267,7 +268,7 @@ InputCheck checked_inputs(const Options& options) {
   }
   if (options.mask) {
     const std::string name = input_title(*options.mask);
-    const auto& functions = check.functions();
+    const auto& functions = check.functions;
     const std::uint8_t first = functions && !functions->file.functions.empty()
                                    ? functions->file.functions.begin()->first
                                    : std::uint8_t{0};
@@ -286,7 +287,7 @@ InputCheck checked_inputs(const Options& options) {
     DelayRequest delay = *options.delay;
     attempt(check, delay.file.empty() ? "delays" : delay.file, "delay_map", [&] {
       delay.read();
-      check.add_delay(std::move(delay));
+      check.delay = std::move(delay);
     });
   }
   check.finish(options.unmapped_is_zero);
@@ -294,12 +295,12 @@ InputCheck checked_inputs(const Options& options) {
 }
 
 void print_check(const InputCheck& check, bool quiet) {
-  const std::string text = findings_text(check.findings());
+  const std::string text = findings_text(check.findings);
   if (!quiet) print_line(heading_text(check));
   if (!text.empty()) print_line(text);
   if (quiet) return;
-  if (!check.figures().empty()) print_line(figures_text(check));
-  print_line(verdict(check.findings()));
+  if (!check.figures.empty()) print_line(figures_text(check));
+  print_line(verdict(check.findings));
 }
 
 // The control points of a function file as a table, for programs that draw or change them.
@@ -335,10 +336,10 @@ int run_check(const Options& options) {
   }
   const InputCheck check = checked_inputs(options);
   Answer answer{check_json(check)};
-  if (check.capture()) answer.tell_source(check.capture()->facts, check.capture()->notes);
+  if (check.capture) answer.tell_source(check.capture->facts, check.capture->notes);
   if (!options.json) print_check(check, options.quiet);
   tell(options, {}, answer, true);
-  return count_of(check.findings(), Severity::error) > 0 ? ExitStatus::input : ExitStatus::ok;
+  return count_of(check.findings, Severity::error) > 0 ? ExitStatus::input : ExitStatus::ok;
 }
 
 }  // namespace nutik::app

@@ -2,7 +2,6 @@
 #include <iterator>
 #include <utility>
 
-#include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"

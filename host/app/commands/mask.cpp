@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
@@ -36,7 +35,6 @@ struct MaskJob {
   std::filesystem::path output;
   std::optional<Feather> feather;    // of a soft one, which is written as layers
   std::optional<MaskLayers> layers;  // that take the place of the output
-  BackdropTime backdrop;             // of the preview, where there is a capture
 };
 
 // Nothing large is read before all of it makes sense.
@@ -65,10 +63,10 @@ MaskJob job_of(const Options& options) {
   }
   for (const MaskStep& step : steps) {
     if (step.reads_capture() && !job.capture) {
-      throw UsageError(format("{} needs a capture or a clip: nutik-cl mask … clip.tik -o {}", step.name.text,
+      throw UsageError(format("{} needs a capture or a clip: nutik-cl mask … clip.tik -o {}", step.name,
                               job.output.string()));
     }
-    for (const NamedPicture* picture : step.pictures()) inputs.push_back(picture->name.text);
+    for (const NamedPicture* picture : step.pictures()) inputs.push_back(picture->name);
   }
   if (options.feather) {
     job.feather = *options.feather;
@@ -79,6 +77,8 @@ MaskJob job_of(const Options& options) {
   if (options.preview) {
     constexpr std::uint32_t kColour = 3;
     inputs.push_back(job.output.string());
+    for (std::uint32_t tag = 0; job.layers && tag < kMaskValues; ++tag)
+      inputs.push_back(job.layers->file(tag).string());
     check_picture_output(*options.preview, kColour, inputs, replacing(options));
   } else if (options.start || options.exposure) {
     throw UsageError("--start and --exposure say what --preview shows; add --preview picture.png");
@@ -86,16 +86,14 @@ MaskJob job_of(const Options& options) {
   if ((options.start || options.exposure) && !job.capture) {
     throw UsageError("--start and --exposure need a capture: nutik-cl mask … clip.tik");
   }
-  if (options.start) job.backdrop.start = *options.start;
-  job.backdrop.length = options.exposure;
   read_inputs(job.request, options);
   return job;
 }
 
 // What the mask is laid over.
-Picture backdrop(const MaskJob& job, const Mask& mask, Session* session) {
+Picture backdrop(const MaskJob& job, const Options& options, const Mask& mask, Session* session) {
   if (session == nullptr) return backdrop_of(job.request, mask);
-  ExposedPicture exposed = backdrop_of(*session, job.backdrop);
+  ExposedPicture exposed = backdrop_of(*session, options.start, options.exposure);
   print_warnings(exposure_warnings(exposed));
   return std::move(exposed.picture);
 }
@@ -176,7 +174,7 @@ int run_mask(const Options& options) {
   // Before anything is written: what cannot be looked at is an error.
   const auto moved = job.request.tells_by_rest() ? moved_camera(session->capture()) : std::nullopt;
   if (options.preview) {
-    const Picture below = backdrop(job, made.mask, session ? &*session : nullptr);
+    const Picture below = backdrop(job, options, made.mask, session ? &*session : nullptr);
     write_picture(*options.preview, sheet::mask_overlay(made.mask, below));
   }
   if (job.layers) {

@@ -1,4 +1,4 @@
-#include "app/commands/opened_session.hpp"
+#include "app/requests/requests.hpp"
 
 #include <malloc.h>
 
@@ -6,7 +6,6 @@
 
 #include "app/output/console.hpp"
 #include "app/output/progress.hpp"
-#include "app/requests/requests.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/schema/option.hpp"

@@ -4,7 +4,6 @@
 #include <functional>
 #include <optional>
 
-#include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
@@ -12,10 +11,11 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/schema/options.hpp"
-#include "features/sheets/sheet_making.hpp"
+#include "features/sheets/sheet_request.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "media/writers/recipe.hpp"
 #include "session/text/number_text.hpp"
+#include "sheet/contact_sheet.hpp"
 
 namespace nutik::app {
 namespace {
@@ -23,6 +23,29 @@ namespace {
 constexpr const char* kNoRecipe =
     "it carries no recipe: neither a plain interval in the capture nor a function file, which has no jumps, "
     "says its gains";
+
+// What is exposed for a sheet: every picture is what expose would write at the capture's own depth.
+struct SheetRequest {
+  struct Exposed {
+    std::string label;
+    FunctionSet functions;
+  };
+
+  std::string heading;
+  std::vector<Exposed> exposures;
+  Mask mask;
+  PlanOptions plan;
+  sheet::SheetWishes wishes;
+};
+
+// What a sheet takes while it is drawn, if it is no higher than wide.
+NeedsOfFormat sheet_needs(const sheet::SheetWishes& wishes) {
+  constexpr std::uint64_t kPixelBytes = 8;  // on the canvas and in the picture
+  const std::uint64_t width = wishes.width.value_or(sheet::kDefaultWidth);
+  return [bytes = kPixelBytes * width * width](const CaptureFormat&) {
+    return MemoryNeeds{{"the sheet", bytes}};
+  };
+}
 
 // A sheet of one capture, from the command line to the answer.
 class SheetJob {
@@ -52,28 +75,35 @@ class SheetJob {
   // `each` is told every picture beside that. Returns the exit status.
   int run(Session& session, SheetRequest request, const std::string& counted_as, std::string_view key,
           Json exposures, const Each& each = {}) {
-    request.codes = codes_;
     request.plan.transfer = options_.source.clip.transfer;
     PictureRecipe recipe(recipe_sources(options_, {}, of_));
-    const Sheet sheet = [&] {
+    const CaptureFormat& capture = session.format();
+    const std::size_t count = request.exposures.size();
+    const sheet::SheetLayout layout =
+        sheet::lay_out(capture.shown_shape(), static_cast<std::uint32_t>(count), request.wishes);
+    const OutputFormat format_of_each = output_format(codes_, {}, code_type(capture), capture);
+    sheet::ContactSheet sheet(layout, request.heading);
+    {
       WarningsAtEnd warnings;
-      return make_sheet(session, request, progress_bar("exposing", options_.quiet),
-                        [&](std::size_t i, const ExposedPicture& exposed) {
-                          tally_.add(exposed);
-                          warnings.add(request.exposures[i].label, exposure_warnings(exposed));
-                          if (each) each(i, exposed, warnings);
-                        });
-    }();
+      const ReportedProgress progress = progress_bar("exposing", options_.quiet);
+      for (std::size_t i = 0; i < count; ++i) {
+        if (progress) progress(i, count);
+        const auto& [label, functions] = request.exposures[i];
+        const ExposedPicture exposed = session.render(functions, request.mask, request.plan, format_of_each);
+        sheet.add(label, exposed.picture);
+        tally_.add(exposed);
+        warnings.add(label, exposure_warnings(exposed));
+        if (each) each(i, exposed, warnings);
+      }
+    }
     // With `auto` each of its pictures has an arithmetic of its own.
-    write_picture(output_, sheet.picture, recipe.text(options_.text("precision", "auto")),
-                  file_wishes(codes_));
-    const auto columns = sheet.layout.columns, rows = sheet.layout.rows;
+    write_picture(output_, sheet.finished(), recipe.text(options_.text("precision", "auto")), file_wishes(codes_));
+    const auto columns = layout.columns, rows = layout.rows;
     Answer answer{{{"sheet", output_.string()}, {"columns", columns}, {"rows", rows}}};
     answer.json[key] = std::move(exposures);
     answer.line = format("{}: {}, {}, {}", output_.string(), counted_as, counted(columns, "column"),
                          counted(rows, "row"));
     if (options_.each) {
-      const CaptureFormat& capture = session.format();
       tally_.wrote(capture, written_shape(*options_.each, capture.shape, capture.pixel_aspect, file_wishes(codes_)));
     }
     tally_.end(answer, session, options_.verbose);

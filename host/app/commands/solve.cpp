@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "app/commands/opened_session.hpp"
 #include "app/output/console.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
@@ -185,7 +184,7 @@ int run_solve(const Options& options) {
   std::vector<std::string> warnings = solved.warnings;
   if (!solved.is_kept()) {
     warnings.push_back(
-        format("not all wishes could be kept: the numbers are those with the least cost of all, {:.2g}{}",
+        format("not all wishes could be kept: the numbers are those with the least cost that was found, {:.2g}{}",
                solved.cost(), stopped_text(solved)));
   }
   print_warnings(warnings);

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
@@ -190,36 +189,14 @@ Json trace_json(const TracedExposure& exposure) {
 // `79.99 %`: what of a pixel's light a trace's function has.
 std::string share_text(const Trace& trace) { return format("{:.4g} %", 100 * share_of(trace)); }
 
-// What is followed: a pixel, or all pixels of a mask value.
-struct Traced {
-  std::optional<std::pair<std::uint32_t, std::uint32_t>> pixel;
-  std::uint8_t tag = 0;
-
-  static Traced from(const Options& options) {
-    if (options.pixel.has_value() == options.tag.has_value()) {
-      throw UsageError("what should be followed? Either --pixel X,Y or --tag VALUE of a mask");
-    }
-    Traced traced;
-    if (options.tag) {
-      if (!options.mask) throw UsageError("--tag is a value of a mask; add -m mask.pgm");
-      traced.tag = *options.tag;
-      return traced;
-    }
-    traced.pixel = options.pixel;
-    return traced;
+Followed followed_of(const Options& options) {
+  if (options.pixel.has_value() == options.tag.has_value()) {
+    throw UsageError("what should be followed? Either --pixel X,Y or --tag VALUE of a mask");
   }
-
-  [[nodiscard]] TracedExposure follow(Session& session, const ExposureRequest& request, bool quiet) const {
-    const ReportedProgress progress = progress_bar("tracing", quiet);
-    return pixel ? session.trace(request, TracedPixel{pixel->first, pixel->second}, progress)
-                 : session.trace(request, TracedTag{tag}, progress);
-  }
-
-  [[nodiscard]] std::string text(const Trace& trace) const {
-    return pixel ? format("pixel {},{}", pixel->first, pixel->second)
-                 : format("mean of {} pixels with mask value {}", trace.pixel_count, tag);
-  }
-};
+  if (options.pixel) return TracedPixel{options.pixel->first, options.pixel->second};
+  if (!options.mask) throw UsageError("--tag is a value of a mask; add -m mask.pgm");
+  return TracedTag{*options.tag};
+}
 
 bool is_table_name(const std::filesystem::path& path) { return path.extension() == ".csv"; }
 
@@ -257,7 +234,7 @@ std::string sums_text(const TracedExposure& exposure, const Trace& trace) {
 int run_trace(const Options& options) {
   const auto output = stated_output(options, "trace");
   const std::string& input = options.operands.front();
-  const Traced traced = Traced::from(options);
+  const Followed followed = followed_of(options);
   const ExposureRequest request = exposure_request(options);
   if (output) {
     if (!is_table_name(*output) && !is_picture_name(*output)) {
@@ -274,11 +251,14 @@ int run_trace(const Options& options) {
   }
 
   Session session = open_session(input, options, make_devices(options));
-  const TracedExposure exposure = traced.follow(session, request, options.quiet);
+  const TracedExposure exposure = session.trace(request, followed, progress_bar("tracing", options.quiet));
   print_warnings(exposure.warnings);
   const std::vector<Trace>& traces = exposure.traces;
   const bool is_plain = !options.functions;
-  const std::string title = format("{}, {}", input, traced.text(traces.front()));
+  const std::string what = options.pixel ? format("pixel {},{}", options.pixel->first, options.pixel->second)
+                                         : format("mean of {} pixels with mask value {}", traces.front().pixel_count,
+                                                  *options.tag);
+  const std::string title = format("{}, {}", input, what);
   if (output && is_table_name(*output)) {
     write_text(*output, steps_csv(exposure));
   } else if (output) {
@@ -286,7 +266,7 @@ int run_trace(const Options& options) {
   }
 
   Answer answer{{{"capture", input}}};
-  if (traced.pixel) answer.json.update({{"x", traced.pixel->first}, {"y", traced.pixel->second}});
+  if (options.pixel) answer.json.update({{"x", options.pixel->first}, {"y", options.pixel->second}});
   if (options.json) answer.json.update(trace_json(exposure));
   const bool is_mixed = traces.size() > 1;
   for (const Trace& trace : traces) {

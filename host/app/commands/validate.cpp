@@ -1,7 +1,6 @@
 #include <cmath>
 #include <string>
 
-#include "app/commands/opened_session.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
 #include "app/requests/requests.hpp"

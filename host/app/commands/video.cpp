@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/commands/opened_session.hpp"
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"

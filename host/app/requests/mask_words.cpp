@@ -6,11 +6,13 @@
 #include <string_view>
 #include <utility>
 
+#include "capture/digits.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "session/requests/function_input.hpp"
 #include "session/text/number_text.hpp"
 #include "system/input_bytes.hpp"
+#include "system/is_absent.hpp"
 
 namespace nutik::app {
 namespace {
@@ -55,19 +57,13 @@ Selection polygon_of(const Said& said) {
   return select::Polygon{std::move(corners)};
 }
 
-std::optional<StatedTime> time_of(const std::string& word) {
-  // A file's name ends in an extension that is no unit: bright.png, frame.7.
-  try {
-    return StatedTime::parse(word, "time");
-  } catch (const UsageError&) {
-    return std::nullopt;
-  }
-}
-
-// A picture is read later, when all that was said is known to make sense.
-PictureSource picture_or_time(const std::string& word) {
-  if (const auto time = time_of(word)) return *time;
-  return NamedPicture{{word}, Shared(Picture())};
+// A file's name ends in an extension that is no unit: bright.png, frame.7. A picture is read later, when all that was
+// said is known to make sense.
+PictureSource picture_or_time(const Said& said, std::size_t place) {
+  const std::string& word = said.words[place];
+  if (StatedTime::read(word) || (has_too_many_digits(word) && is_absent(word)))
+    return StatedTime::parse(word, "--" + std::string(said.option));
+  return NamedPicture{word, Shared(Picture())};
 }
 
 // `100..255`, `100` (and above), or shares of white: `40%..100%`.
@@ -80,7 +76,7 @@ Selection threshold_of(const Said& said) {
         said.words[0], text, text));
   };
   select::Threshold threshold;
-  threshold.picture = picture_or_time(said.words[0]);
+  threshold.picture = picture_or_time(said, 0);
   const auto dots = text.find("..");
   std::string low = text.substr(0, dots);
   std::string high = dots == std::string::npos ? std::string() : text.substr(dots + 2);
@@ -110,7 +106,7 @@ MaskStep grid_step(const Said& said, std::optional<std::uint8_t> first_tag) {
     throw UsageError(format("--grid {} has {} cells, tagged from {} on: tags end at {}", text, cells, first,
                             kMaskValues - 1));
   }
-  return {{"--grid"}, first, select::Grid{columns, rows}, std::nullopt, {}};
+  return {"--grid", first, select::Grid{columns, rows}, std::nullopt, {}};
 }
 
 // The selection of a step that says which pixels; none for another step.
@@ -121,7 +117,7 @@ std::optional<Selection> selection_of(const Said& said) {
   if (said.option == "polygon") return polygon_of(said);
   if (said.option == "threshold") return threshold_of(said);
   if (said.option == "difference")
-    return select::Difference{picture_or_time(said.words[0]), picture_or_time(said.words[1])};
+    return select::Difference{picture_or_time(said, 0), picture_or_time(said, 1)};
   if (said.option == "subject") return select::Subject{StatedTime::parse(said.words[0], "--subject")};
   if (said.option == "body") return select::Subject{StatedTime::parse(said.words[0], "--body"), true};
   if (said.option == "moving") return select::Motion{};
@@ -183,7 +179,7 @@ std::vector<MaskStep> steps_of(const Options& options) {
       steps.push_back(grid_step(said, tag));
       has_region = true;
     } else if (auto selection = selection_of(said)) {
-      steps.push_back({{name}, tag.value_or(255), std::move(*selection), std::nullopt, {}});
+      steps.push_back({name, tag.value_or(255), std::move(*selection), std::nullopt, {}});
       has_region = true;
     } else if (auto change = change_of(said); change || said.option == "by") {
       if (!has_region) {
@@ -197,7 +193,7 @@ std::vector<MaskStep> steps_of(const Options& options) {
         continue;
       }
       if (!step.compares()) {
-        throw UsageError(format("--by says how much codes must change; {} compares none", step.name.text));
+        throw UsageError(format("--by says how much codes must change; {} compares none", step.name));
       }
       step.by_codes = parse_whole_number(said.words.front(), "--by", 1, 65'535);
     }
@@ -215,13 +211,13 @@ std::vector<MaskStep> steps_of(const Options& options) {
 MaskRequest mask_request(const Options& options) {
   MaskRequest request;
   request.steps = steps_of(options);
-  if (options.size) request.size = NamedSize{{"--size"}, *options.size};
+  if (options.size) request.size = NamedSize{"--size", *options.size};
   return request;
 }
 
 void read_inputs(MaskRequest& request, const Options& options) {
   if (options.base)
-    request.base = NamedMask{{input_title(*options.base)}, Shared(read_mask_input(*options.base))};
+    request.base = NamedMask{input_title(*options.base), Shared(read_mask_input(*options.base))};
   read_named_pictures(request);
 }
 

@@ -1,4 +1,4 @@
-// The session's requests, as the command line states them.
+// The session and its requests, as the command line states them.
 //
 //   always:  contradicting options are refused as UsageError before anything large is read. Function files and masks
 //            are read here: InputError with all mistakes of a text; warnings are printed
@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/command_line/command_table.hpp"
 #include "features/film/film_request.hpp"
@@ -19,6 +20,7 @@
 #include "session/requests/exposure_request.hpp"
 #include "session/requests/output_request.hpp"
 #include "session/requests/source_request.hpp"
+#include "session/session.hpp"
 
 namespace nutik::app {
 
@@ -29,6 +31,18 @@ namespace nutik::app {
 [[nodiscard]] MemoryBudget memory_budget(const Options& options);
 // What computes, not started yet. Kernels that are built are told of, unless --quiet.
 [[nodiscard]] std::shared_ptr<Devices> make_devices(const Options& options);
+
+// A session on the first operand; its devices start beside it. A clip that is read whole is read with a progress bar,
+// which says `what` is done. Prints what is doubtful about what came of it. Throws UsageError where options describe a
+// clip and this is a .tik, and what Session throws.
+[[nodiscard]] Session open_session(const Options& options, Session::Terms terms = {}, const char* what = "reading");
+// On another capture, with devices that start when the first picture is asked for.
+[[nodiscard]] Session open_session(const std::string& name, const Options& options,
+                                   std::shared_ptr<Devices> devices, Session::Terms terms = {},
+                                   const char* what = "reading");
+
+// That the camera of a capture moved and nobody aligned it, as a note.
+[[nodiscard]] std::vector<std::string> camera_notes(const std::optional<MovedCamera>& moved);
 
 [[nodiscard]] ExposureRequest exposure_request(const Options& options);
 // With functions that -k only names.

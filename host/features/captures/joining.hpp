@@ -20,7 +20,6 @@ namespace nutik {
 struct JoinRequest {
   std::vector<std::filesystem::path> captures;
   std::filesystem::path output;
-  friend bool operator==(const JoinRequest&, const JoinRequest&) = default;
 };
 
 struct JoinedPart {

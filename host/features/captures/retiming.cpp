@@ -13,7 +13,6 @@
 #include "media/clip.hpp"
 #include "media/settled_fact.hpp"
 #include "session/clips/clip_source.hpp"
-#include "session/clips/evened_times.hpp"
 #include "session/requests/source_request.hpp"
 #include "session/text/number_text.hpp"
 #include "system/interruption.hpp"

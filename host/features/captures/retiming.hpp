@@ -27,7 +27,6 @@ struct RetimeRequest {
   [[nodiscard]] bool changes_nothing() const {
     return !rate && !shutter_angle && !transfer && !primaries && !pixel_aspect;
   }
-  friend bool operator==(const RetimeRequest&, const RetimeRequest&) = default;
 };
 
 struct Retimed {

@@ -67,37 +67,35 @@ struct CheckedCapture {
 // What a function comes to.
 struct FunctionFigures {
   std::uint8_t tag;
-  GainSummary summary;
+  GainSummary summary;  // normalized
   std::optional<std::uint64_t> pixels;
   std::optional<std::uint64_t> samples;
+  double integral_ns = 0.0;  // as it is written
 };
 
-class InputCheck {
- public:
-  void add(Finding finding) { findings_.push_back(std::move(finding)); }
+struct InputCheck {
+  std::optional<CheckedFunctions> functions;  // add_functions() reads them
+  std::optional<CheckedMask> mask;            // add_mask() counts its pixels
+  std::optional<CheckedCapture> capture;
+  std::optional<DelayRequest> delay;  // its picture, if it is one, has been read
+  // What the figures are for.
+  Normalization normalization;
+  double gain = 1.0;
+
+  CheckedDomain domain;
+  std::vector<FunctionFigures> figures;  // by mask value
+  std::vector<Finding> findings;
+
   // Finds the mistakes of its text.
   void add_functions(const std::string& name, std::string_view text);
-  void add_mask(const std::string& name, Mask mask) {
-    const auto pixels = mask.pixels_per_tag();
-    mask_.emplace(CheckedMask{name, std::move(mask), pixels});
+  void add_mask(const std::string& name, Mask read) {
+    const auto pixels = read.pixels_per_tag();
+    mask.emplace(CheckedMask{name, std::move(read), pixels});
   }
-  void add_capture(CheckedCapture capture) { capture_ = std::move(capture); }
-  // Its picture, if it is one, has been read.
-  void add_delay(DelayRequest delay) { delay_ = std::move(delay); }
-
-  // Normalization and gain that the figures are for; without a call, the usual ones.
-  void set_weight(const Normalization& normalization, double gain);
 
   // Checks them against each other, once all have been added. Mask values without a function are no mistake if they are
   // exposed to black.
   void finish(bool unmapped_is_zero);
-
-  [[nodiscard]] const std::optional<CheckedFunctions>& functions() const { return functions_; }
-  [[nodiscard]] const std::optional<CheckedMask>& mask() const { return mask_; }
-  [[nodiscard]] const std::optional<CheckedCapture>& capture() const { return capture_; }
-  [[nodiscard]] const CheckedDomain& domain() const { return domain_; }
-  [[nodiscard]] const std::vector<FunctionFigures>& figures() const { return figures_; }  // by mask value
-  [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
 
  private:
   [[nodiscard]] CheckedDomain domain_of_inputs() const;
@@ -109,16 +107,6 @@ class InputCheck {
   // Warns of functions that delays move outside of the capture.
   void check_delay();
   [[nodiscard]] GainSummary summary_of(const GainFunction& function) const;
-
-  std::optional<CheckedFunctions> functions_;
-  std::optional<CheckedMask> mask_;
-  std::optional<CheckedCapture> capture_;
-  std::optional<DelayRequest> delay_;
-  Normalization normalization_;
-  double gain_ = 1.0;
-  CheckedDomain domain_;
-  std::vector<FunctionFigures> figures_;
-  std::vector<Finding> findings_;
 };
 
 }  // namespace nutik

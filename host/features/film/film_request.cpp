@@ -9,6 +9,7 @@
 #include "capture/text.hpp"
 #include "exposure/between.hpp"
 #include "session/text/number_text.hpp"
+#include "session/text/text_table.hpp"
 
 namespace nutik {
 namespace {
@@ -130,11 +131,8 @@ FilmCurve FilmCurve::parse(std::string_view text, const std::string& title, cons
   }
   FilmCurve curve{title, {}};
   std::size_t number = 0;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string_view whole = text.substr(begin, end - begin);
-    const std::string_view line = trimmed(whole.substr(0, whole.find('#')));
-    begin = end + 1;
+  for (const std::string& whole : parts_of(text, '\n')) {
+    const std::string_view line = trimmed(std::string_view(whole).substr(0, whole.find('#')));
     ++number;
     if (line.empty()) continue;
     try {

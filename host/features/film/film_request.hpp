@@ -28,7 +28,6 @@ struct FilmCurve {
   struct Point {
     std::int64_t film_ns = 0;
     StatedTime capture;
-    friend bool operator==(const Point&, const Point&) = default;
   };
   std::string name;           // of the file, for messages
   std::vector<Point> points;  // two or more; film times begin at 0 and increase
@@ -37,8 +36,6 @@ struct FilmCurve {
   // `37f` for that of picture 37. Empty lines count for nothing, nor does what follows a `#`. Throws InputError
   // with the line of what is wrong.
   static FilmCurve parse(std::string_view text, const std::string& title, const FrameTimes& film);
-
-  friend bool operator==(const FilmCurve&, const FilmCurve&) = default;
 };
 
 // A curve on a capture.
@@ -87,8 +84,6 @@ struct FramesRequest {
   [[nodiscard]] std::string text() const;
   // When the frames are exposed in the film's own time, from 0 on.
   [[nodiscard]] FrameTimes film_times() const { return {{}, rate, {1, 1}, angle}; }
-
-  friend bool operator==(const FramesRequest&, const FramesRequest&) = default;
 };
 
 // The frames of a video of one capture.

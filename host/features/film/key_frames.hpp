@@ -22,7 +22,6 @@ struct FunctionKey {
   std::int64_t film_ns = 0;
   std::string name;  // of the file, for messages
   Shared<FunctionSet> functions;
-  friend bool operator==(const FunctionKey&, const FunctionKey&) = default;
 };
 
 struct MaskKey {
@@ -30,7 +29,6 @@ struct MaskKey {
   std::string name;
   std::string checksum;  // as recipes know it
   Shared<Mask> mask;     // without a feather
-  friend bool operator==(const MaskKey&, const MaskKey&) = default;
 };
 
 // Between masks[key] and the next, `way` of kWholeWay from the first.
@@ -57,8 +55,6 @@ struct KeyFrames {
 
   // `exposure` with the functions and the mask of a moment, where there are keys of them.
   [[nodiscard]] ExposureRequest exposure_at(std::int64_t film_ns, const ExposureRequest& exposure) const;
-
-  friend bool operator==(const KeyFrames&, const KeyFrames&) = default;
 };
 
 // The mask between two, with its edges blended: by distance after the edges moved, by alpha before one fades into the

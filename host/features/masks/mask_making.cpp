@@ -13,7 +13,6 @@
 #include "mask/layers.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "scene/clean_plate.hpp"
-#include "scene/shadow.hpp"
 #include "session/requests/function_input.hpp"
 #include "session/requests/output_request.hpp"
 
@@ -40,7 +39,7 @@ Picture picture_of_sample(CaptureSource& source, std::uint64_t sample) {
 
 std::string text_of(const PictureSource& source) {
   const auto* picture = std::get_if<NamedPicture>(&source);
-  return picture != nullptr ? picture->name.text : std::get<StatedTime>(source).text();
+  return picture != nullptr ? picture->name : std::get<StatedTime>(source).text();
 }
 
 Region changed_by(const RegionChange& change, const Region& region) {
@@ -73,7 +72,7 @@ MaskSize size_of(const MaskRequest& request, const CaptureSource* capture, const
   if (request.size) sizes.push_back(*request.size);
   if (capture != nullptr) {
     const Shape& shape = capture->format().shape;
-    sizes.push_back({{capture_name}, {shape.width, shape.height}});
+    sizes.push_back({capture_name, {shape.width, shape.height}});
   }
   if (request.base) {
     sizes.push_back({request.base->name, {request.base->mask->width, request.base->mask->height}});
@@ -88,8 +87,8 @@ MaskSize size_of(const MaskRequest& request, const CaptureSource* capture, const
   const NamedSize& first = sizes.front();
   for (const NamedSize& other : sizes) {
     if (other.size == first.size) continue;
-    throw UsageError(format("{} is {} x {}, {} is {} x {}: the sizes must agree", first.name.text,
-                            first.size.width, first.size.height, other.name.text, other.size.width,
+    throw UsageError(format("{} is {} x {}, {} is {} x {}: the sizes must agree", first.name,
+                            first.size.width, first.size.height, other.name, other.size.width,
                             other.size.height));
   }
   return first.size;
@@ -101,7 +100,7 @@ class MaskMaker {
       : made_{std::move(base), {}}, capture_(capture), make_plate_(plate) {}
 
   void add(const MaskStep& step) {
-    StepReport report{step.name.text, step.tag, step.last_tag(), 0, std::nullopt, std::nullopt, std::nullopt, {}};
+    StepReport report{step.name, step.tag, step.last_tag(), 0, std::nullopt, std::nullopt, std::nullopt, {}};
     Region region = region_of(step, report);
     for (const RegionChange& change : step.changes) region = changed_by(change, region);
     report.pixel_count = region.pixel_count();
@@ -113,7 +112,7 @@ class MaskMaker {
     if (const auto* grid = std::get_if<select::Grid>(&step.selection)) {
       if (grid->columns > mask().width || grid->rows > mask().height) {
         throw InputError(format("{} {}x{} has more cells than pixels along a side: the mask is {} x {}",
-                                step.name.text, grid->columns, grid->rows, mask().width, mask().height));
+                                step.name, grid->columns, grid->rows, mask().width, mask().height));
       }
       paint_grid(made_.mask, region, grid->columns, grid->rows, step.tag);
     } else {
@@ -167,7 +166,7 @@ class MaskMaker {
               const Shared<Picture> before = picture_of(difference.before, step);
               const Shared<Picture> after = picture_of(difference.after, step);
               if (before->shape != after->shape || before->white_code != after->white_code) {
-                throw InputError(format("{} {} {}: the pictures differ in {}", step.name.text,
+                throw InputError(format("{} {} {}: the pictures differ in {}", step.name,
                                         text_of(difference.before), text_of(difference.after),
                                         before->shape != after->shape ? "kind, one is grey and one colour"
                                                                       : "depth or white code"));
@@ -177,7 +176,7 @@ class MaskMaker {
             [&](const select::Motion& motion) { return moving(samples_of(motion, step), step, report); },
             [&](const select::Subject& subject) {
               if (!plate_) plate_ = make_plate_();
-              const std::uint64_t sample = sample_at(subject.at, step.name.text, capture_->timeline());
+              const std::uint64_t sample = sample_at(subject.at, step.name, capture_->timeline());
               seen_ = picture_of_sample(*capture_, sample);
               const Region all = changed(differences(*seen_, *plate_), plate_->white_code, step, report);
               return subject.is_without_shadow ? without_shadow(*seen_, *plate_, all) : all;
@@ -193,13 +192,13 @@ class MaskMaker {
     const Timeline& timeline = capture_->timeline();
     if (!motion.between) return {0, timeline.sample_count()};
     const auto& [begin, end] = *motion.between;
-    const std::uint64_t from = sample_at(begin, step.name.text, timeline);
-    const std::uint64_t to = sample_at(end, step.name.text, timeline);
+    const std::uint64_t from = sample_at(begin, step.name, timeline);
+    const std::uint64_t to = sample_at(end, step.name, timeline);
     if (from >= to) {
       throw UsageError(
           format("{} {} {}: both times lie in picture {} or in the wrong order, so nothing changes between "
                  "them; write the earlier first, at least a picture apart",
-                 step.name.text, begin.text(), end.text(), to));
+                 step.name, begin.text(), end.text(), to));
     }
     return {from, to + 1};
   }
@@ -218,7 +217,7 @@ class MaskMaker {
                                const MaskStep& step, StepReport& report) const {
     if (step.by_codes && *step.by_codes >= white_code) {
       throw UsageError(format("{}: no codes differ by more than {}, for white is {}; state fewer codes",
-                              step.name.text, *step.by_codes, white_code));
+                              step.name, *step.by_codes, white_code));
     }
     report.by_codes = step.by_codes ? *step.by_codes : default_noise(spans, white_code);
     return spanning_more({mask().width, mask().height, 1}, spans, *report.by_codes);
@@ -226,12 +225,12 @@ class MaskMaker {
 
   [[nodiscard]] Shared<Picture> picture_of(const PictureSource& source, const MaskStep& step) const {
     if (const auto* time = std::get_if<StatedTime>(&source)) {
-      return Shared(picture_of_sample(*capture_, sample_at(*time, step.name.text, capture_->timeline())));
+      return Shared(picture_of_sample(*capture_, sample_at(*time, step.name, capture_->timeline())));
     }
     const auto& [name, picture] = std::get<NamedPicture>(source);
     if (picture->shape.width != mask().width || picture->shape.height != mask().height) {
       throw InputError(format("{} {}: the picture is {} x {}, the mask {} x {}; they must be of one size",
-                              step.name.text, name.text, picture->shape.width, picture->shape.height,
+                              step.name, name, picture->shape.width, picture->shape.height,
                               mask().width, mask().height));
     }
     return picture;
@@ -258,9 +257,9 @@ MadeMask make_mask(const MaskRequest& request, CaptureSource* capture, const std
                    const std::function<Picture()>& plate) {
   for (const MaskStep& step : request.steps) {
     if (step.reads_capture() && capture == nullptr)
-      throw UsageError(format("{} looks at a capture, and none is given", step.name.text));
+      throw UsageError(format("{} looks at a capture, and none is given", step.name));
     if (step.needs_plate() && !plate)
-      throw UsageError(format("{} looks at the capture's background, and nothing makes it", step.name.text));
+      throw UsageError(format("{} looks at the capture's background, and nothing makes it", step.name));
   }
   const MaskSize size = size_of(request, capture, capture_name);
   MaskMaker maker(request.base ? *request.base->mask : Mask::uniform(size.width, size.height, 0), capture,
@@ -286,13 +285,14 @@ std::vector<std::string> warnings_of(const MadeMask& made) {
   return warnings;
 }
 
-ExposedPicture backdrop_of(Session& session, const BackdropTime& time) {
+ExposedPicture backdrop_of(Session& session, const std::optional<StatedTime>& start,
+                           const std::optional<StatedTime>& length) {
   const Timeline& timeline = session.timeline();
   Exposure interval{0, timeline.duration_ns()};
-  if (time.length) {
-    interval = plain_interval(time.start.value_or(StatedTime{}), *time.length, timeline);
-  } else if (time.start) {
-    const std::uint64_t sample = sample_at(*time.start, "start", timeline);
+  if (length) {
+    interval = plain_interval(start.value_or(StatedTime{}), *length, timeline);
+  } else if (start) {
+    const std::uint64_t sample = sample_at(*start, "start", timeline);
     interval = {timeline.start_ns(sample), timeline.end_ns(sample)};
   }
   const CaptureFormat& format = session.format();

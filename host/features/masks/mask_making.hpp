@@ -54,14 +54,10 @@ struct MadeMask {
 // Warns of steps that select no pixel, and of tags that later steps cover.
 [[nodiscard]] std::vector<std::string> warnings_of(const MadeMask& made);
 
-// What a mask's preview lies on: an interval as a plain exposure's, the picture at a start alone, or, with neither, all
-// of the capture.
-struct BackdropTime {
-  std::optional<StatedTime> start, length;
-};
-
-// An exposure of the capture.
-[[nodiscard]] ExposedPicture backdrop_of(Session& session, const BackdropTime& time);
+// What a mask's preview lies on: an exposure of an interval as a plain exposure's, of the picture at a start alone, or,
+// with neither, of all of the capture.
+[[nodiscard]] ExposedPicture backdrop_of(Session& session, const std::optional<StatedTime>& start,
+                                         const std::optional<StatedTime>& length);
 
 // Without a capture: the first picture that the mask was made from, else plain grey.
 [[nodiscard]] Picture backdrop_of(const MaskRequest& request, const Mask& mask);

@@ -45,7 +45,7 @@ std::vector<const NamedPicture*> MaskStep::pictures() const {
 void read_named_pictures(MaskRequest& request) {
   const auto read = [](PictureSource& source) {
     if (auto* picture = std::get_if<NamedPicture>(&source))
-      picture->picture = Shared(read_picture(picture->name.text));
+      picture->picture = Shared(read_picture(picture->name));
   };
   for (MaskStep& step : request.steps) {
     if (auto* threshold = std::get_if<select::Threshold>(&step.selection)) read(threshold->picture);

@@ -21,8 +21,6 @@ struct PlateRequest {
   std::optional<std::uint32_t> by_codes;
   // Where the capture has more samples, so many are looked at, evenly in time.
   std::uint64_t max_samples = ~std::uint64_t{0};
-
-  friend bool operator==(const PlateRequest&, const PlateRequest&) = default;
 };
 
 struct MadePlate {

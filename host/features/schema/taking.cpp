@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "capture/format.hpp"
-#include "session/text/number_text.hpp"
 #include "session/text/text_table.hpp"
 
 namespace nutik {
@@ -104,15 +103,11 @@ double parse_signed(std::string_view word, std::string_view what) {
 std::variant<std::uint32_t, std::vector<StatedTime>> parse_moments(std::string_view word, std::string_view what) {
   if (word.find_first_not_of("0123456789") == word.npos)
     return parse_whole_number(word, what, 0, std::numeric_limits<std::uint32_t>::max());
+  const std::vector<std::string> parts = parts_of(std::string(word) + ",", ',');
+  if (parts.size() == 1 && !StatedTime::read(word))
+    throw UsageError(format("{} '{}' is neither a number of moments, 7, nor their times, 0.4s,12f,1.5s", what, word));
   std::vector<StatedTime> times;
-  for (std::size_t begin = 0; begin <= word.size();) {
-    const std::size_t end = std::min(word.find(',', begin), word.size());
-    const std::string_view one = word.substr(begin, end - begin);
-    if (begin == 0 && end == word.size() && !StatedTime::read(one))
-      throw UsageError(format("{} '{}' is neither a number of moments, 7, nor their times, 0.4s,12f,1.5s", what, word));
-    times.push_back(StatedTime::parse(one, what));
-    begin = end + 1;
-  }
+  for (const std::string& part : parts) times.push_back(StatedTime::parse(part, what));
   return times;
 }
 
@@ -124,11 +119,6 @@ StatedTime parse_step(std::string_view word, std::string_view what) {
   return step;
 }
 
-std::uint32_t parse_whole(std::string_view word, std::string_view what, std::uint32_t low,
-                          std::uint32_t high) {
-  return parse_whole_number(word, what, low, high);
-}
-
 void take_white(Options& options, const Option&, std::string_view what, const std::string& word) {
   ClipOptions& clip = options.source.clip;
   const bool is_whole = word.find_first_not_of("0123456789") == word.npos;
@@ -138,13 +128,13 @@ void take_white(Options& options, const Option&, std::string_view what, const st
     throw UsageError(format("{} '{}' is no whole number of 1 … 65535; light of floating-point clips has a point: {}.0",
                             what, word, word));
   }
-  if (!light || !(*light > 0)) clip.white_code = parse_whole(word, what, 1, 65'535);
+  if (!light || !(*light > 0)) clip.white_code = parse_whole_number(word, what, 1, 65'535);
   clip.white_light = clip.white_code ? *clip.white_code : *light;
 }
 
 void take_activity_tag(Options& options, const Option&, std::string_view what, const std::string& word) {
   options.each_tag = word == "all";
-  if (!options.each_tag) options.tag = static_cast<std::uint8_t>(parse_whole(word, what, 0, 255));
+  if (!options.each_tag) options.tag = static_cast<std::uint8_t>(parse_whole_number(word, what, 0, 255));
 }
 
 }  // namespace nutik

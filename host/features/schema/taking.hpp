@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "features/schema/option.hpp"
+#include "session/text/number_text.hpp"
 
 namespace nutik {
 
@@ -37,9 +38,6 @@ namespace nutik {
 [[nodiscard]] std::variant<std::uint32_t, std::vector<StatedTime>> parse_moments(std::string_view word,
                                                                                  std::string_view what);
 [[nodiscard]] StatedTime parse_step(std::string_view word, std::string_view what);  // longer than nothing
-// A whole number of low … high.
-[[nodiscard]] std::uint32_t parse_whole(std::string_view word, std::string_view what, std::uint32_t low,
-                                        std::uint32_t high);
 
 // A field of Options, or of what stands in it.
 template <auto... path>
@@ -96,7 +94,7 @@ void take_choice(Options& options, const Option& row, std::string_view what, con
 
 template <typename Field, std::uint32_t low, std::uint32_t high>
 void take_whole(Options& options, const Option&, std::string_view what, const std::string& word) {
-  Field::of(options) = parse_whole(word, what, low, high);
+  Field::of(options) = parse_whole_number(word, what, low, high);
 }
 
 // By a parser that is told what is read, or one that says itself what it reads.

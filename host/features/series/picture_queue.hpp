@@ -28,9 +28,21 @@ class PictureQueue {
   // `failed` is called on that thread, one call at a time, for a picture that could not be written, with
   // what was given to push() and why.
   using Failed = std::function<void(std::size_t number, const Error& error)>;
-  explicit PictureQueue(Failed failed);
+  explicit PictureQueue(Failed failed)
+      : writing_(std::async(std::launch::async, [this, failed = std::move(failed)] {
+          const ClosedAtEnd closed(jobs_);  // nobody waits for a writer that is gone
+          while (const auto job = jobs_.pop()) {
+            try {
+              write_picture(job->path, job->picture, job->text, job->wishes);
+            } catch (const OutputError& error) {
+              failed(job->number, error);
+            } catch (const UsageError& error) {
+              failed(job->number, error);
+            }
+          }
+        })) {}
   // Waits until everything is written.
-  ~PictureQueue();
+  ~PictureQueue() { jobs_.close(); }
   PictureQueue(const PictureQueue&) = delete;
   PictureQueue& operator=(const PictureQueue&) = delete;
 
@@ -45,9 +57,16 @@ class PictureQueue {
   // Waits while kWaiting pictures wait. Throws what ended the writing thread. `number` comes back in `failed`; `text`
   // goes into the picture.
   void push(std::size_t number, std::filesystem::path path, Picture picture, std::string text,
-            const FileWishes& wishes);
+            const FileWishes& wishes) {
+    Job job{number, std::move(path), std::move(picture), std::move(text), wishes};
+    job.wishes.check = {};  // a picture that is made is kept
+    if (!jobs_.push(std::move(job))) finish();
+  }
   // Waits until everything is written. Nothing can be pushed any more.
-  void finish();
+  void finish() {
+    jobs_.close();
+    writing_.get();
+  }
 
  private:
   struct Job {

@@ -1,17 +1,13 @@
 // Makes a series: exposures of one capture, each in a file of its own, which is written while the next is exposed.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <deque>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "features/series/picture_queue.hpp"
 #include "session/requests/exposure_request.hpp"
 #include "session/requests/output_request.hpp"
 #include "session/session.hpp"
@@ -30,51 +26,6 @@ struct SeriesPicture {
 void make_series(Session& session, ExposureRequest exposure, const std::vector<SeriesPicture>& pictures,
                  const OutputFormat& output, const FileWishes& file, const ReportedProgress& progress,
                  const std::function<std::string(std::uint64_t number, ExposedPicture& exposed)>& add);
-
-// Tells what is wrong with one picture, and goes on.
-template <typename Work, typename Tell>
-void unless_wrong(const Work& work, const Tell& tell) {
-  try {
-    work();
-  } catch (const UsageError& error) {
-    tell(error);
-  } catch (const InputError& error) {
-    tell(error);
-  } catch (const ImpreciseError& error) {
-    tell(error);
-  }
-}
-
-// Pictures of a list, each of which may be wrong by itself: what is wrong with one stops no other.
-//
-//   in:      exposures of one session, one after another
-//   out:     each handed to its Done, in that order, while others may be made
-class ListedPictures {
- public:
-  // Returns the picture, once; or throws UsageError, InputError or ImpreciseError, which say what is wrong with this
-  // one.
-  using Take = std::function<ExposedPicture()>;
-  using Done = std::function<void(const Take& take)>;
-
-  // No picture of the `count` has wider values than these.
-  ListedPictures(Session& session, ValueType widest, std::size_t count)
-      : session_(session), line_(session.pictures_at_once(widest, count)) {}
-
-  // Hands on a picture where enough are being made. Throws what ends the list: DeviceError, Interrupted …
-  void add(const ExposureRequest& request, const OutputFormat& output, Done done);
-  void finish();
-
- private:
-  struct Made {
-    std::optional<ExposedPicture> exposed;
-    std::exception_ptr error;
-  };
-  void hand_on();
-
-  Session& session_;
-  std::deque<Done> done_;  // of those in line
-  PictureLine<Made> line_;
-};
 
 // Whether `picture` is there with the very recipe, byte for byte, that `recipe_of` makes for its precision: the same
 // capture, functions, mask, options and version of the program. `precision`: the only one that counts; none: any, for

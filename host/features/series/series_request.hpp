@@ -30,14 +30,12 @@ class FrameRanges {
   [[nodiscard]] std::vector<std::uint64_t> below(std::uint64_t count) const;
 
   [[nodiscard]] const std::string& text() const { return text_; }
-  friend bool operator==(const FrameRanges&, const FrameRanges&) = default;
 
  private:
   struct Range {
     std::uint64_t least, most;
     std::uint64_t from, step;  // every step-th, from that one on to either side
     bool leaves_out;           // those, and takes the others
-    friend bool operator==(const Range&, const Range&) = default;
   };
   std::vector<Range> ranges_;
   std::string text_;
@@ -60,8 +58,6 @@ struct SeriesRequest {
   StatedTime every;                    // longer than nothing; pictures are whole ones
   std::optional<std::uint64_t> count;  // none: as many as end within the capture
   std::optional<FrameRanges> numbers = {};  // of the exposures to make; none: all
-
-  friend bool operator==(const SeriesRequest&, const SeriesRequest&) = default;
 };
 
 // The start of each exposure, exactly start + k · every: no drift, and what is added to it is rounded once with it.

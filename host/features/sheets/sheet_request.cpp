@@ -117,15 +117,6 @@ std::vector<std::string> labels_of(const std::vector<Exposure>& exposures, const
 
 namespace {
 
-int128 common_divisor(int128 a, int128 b) {
-  while (b != 0) {
-    const int128 rest = a % b;
-    a = b;
-    b = rest;
-  }
-  return a < 0 ? -a : a;
-}
-
 // So many periods of a clip: its mean ones where its times are irregular.
 std::int64_t periods_ns(const Rational& count, const Timeline& timeline) {
   const Rational rate = timeline.rate();
@@ -257,10 +248,9 @@ std::uint64_t SweepRange::count() const {
 }
 
 Rational SweepRange::value(std::uint64_t number) const {
+  // What require_modest() lets pass holds, so often added: 4e17 at most.
   const auto [numerator, denominator] = exact_value(*this, number);
-  const int128 divisor = common_divisor(numerator, denominator);
-  return Rational::of(static_cast<std::int64_t>(numerator / divisor),
-                      static_cast<std::int64_t>(denominator / divisor));
+  return Rational::of(static_cast<std::int64_t>(numerator), static_cast<std::int64_t>(denominator));
 }
 
 std::int64_t SweepRange::shift_ns(std::uint64_t number) const {

@@ -22,8 +22,6 @@ struct ContactRequest {
   StatedTime start;
   std::optional<StatedTime> every;   // longer than nothing; pictures are whole ones. None: so that 24 fit
   std::optional<StatedTime> length;  // of each. None: what the camera exposed at that time
-
-  friend bool operator==(const ContactRequest&, const ContactRequest&) = default;
 };
 
 // Sample by sample where pictures are counted or nothing is stated, else at exact multiples of a time. An exposure
@@ -50,14 +48,12 @@ struct SweepRange {
   // `0..1s/0.1s`, `-5f..5f/1f`; of factors `0.5..2/0.25`. Throws UsageError naming `what`.
   static SweepRange parse(SweepParameter parameter, const std::string& text, std::string_view what);
   [[nodiscard]] std::uint64_t count() const;
-  // The value with a number of 0 … count() - 1, exactly.
+  // The value with a number of 0 … count() - 1, exactly: of a factor, or of counted pictures.
   [[nodiscard]] Rational value(std::uint64_t number) const;
   // That of a shift in time, rounded once.
   [[nodiscard]] std::int64_t shift_ns(std::uint64_t number) const;
   // `+100 ms`, `−3 f`, `gain × 0.5`; `as it is` where nothing is shifted.
   [[nodiscard]] std::string label(std::uint64_t number) const;
-
-  friend bool operator==(const SweepRange&, const SweepRange&) = default;
 };
 
 // One picture of a sweep: the number of its value in each range.
@@ -73,8 +69,6 @@ struct SweepRequest {
   // functions as they are given begins to expose; pictures of the clip are periods of its mean rate.
   [[nodiscard]] FunctionSet varied(FunctionSet functions, const SweepPoint& point,
                                    const Timeline& timeline) const;
-
-  friend bool operator==(const SweepRequest&, const SweepRequest&) = default;
 };
 
 // How a picture of a sweep is exposed on its own.

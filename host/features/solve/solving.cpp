@@ -268,7 +268,7 @@ class Solver {
       const auto gain = std::ranges::find(functions.gains, free.name);
       if (bounds == nullptr || gain == functions.gains.end()) continue;
       const double found = numbers.gains[static_cast<std::size_t>(gain - functions.gains.begin())];
-      if (found <= bounds->low || found >= bounds->high) names.push_back(free.name);
+      if (found <= bounds->low + kLeastGain || found >= bounds->high - kLeastGain) names.push_back(free.name);
     }
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       const std::int64_t found_ns = numbers.times_ns[i];

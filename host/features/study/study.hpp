@@ -53,8 +53,6 @@ struct StudyRequest {
   std::optional<Feather> feather;  // none: kStudyFeather, and none of a slit's strips
   // Where the trail would show the subject again and again, samples are made between the pictures of its way.
   bool joins_trail = false;
-
-  friend bool operator==(const StudyRequest&, const StudyRequest&) = default;
 };
 
 // There is no scene that rests.

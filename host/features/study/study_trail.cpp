@@ -15,27 +15,6 @@
 namespace nutik {
 namespace {
 
-// A gain function put together from pieces in time order, each with its own interval.
-class GainPieces {
- public:
-  void add(Interval interval, double begin_gain, double end_gain) {
-    if (!points_.empty() && points_.back().time_ns == interval.begin_ns) {
-      points_.pop_back();  // it goes on from the piece before it
-      if (points_.back().gain == begin_gain) points_.pop_back();
-    } else {
-      points_.push_back({interval.begin_ns, 0.0});
-    }
-    if (points_.empty() || points_.back().gain != begin_gain)
-      points_.push_back({interval.begin_ns, begin_gain});
-    points_.push_back({interval.end_ns, end_gain});
-    points_.push_back({interval.end_ns, 0.0});
-  }
-  [[nodiscard]] GainFunction function() const { return with_steps(GainFunction(points_)); }
-
- private:
-  std::vector<ControlPoint> points_;
-};
-
 // Where a subject covers a place of its way for a share of the time, the trail shows so much of it.
 constexpr double kTrailOpacity = 0.5;
 constexpr double kMaxStrength = 8;  // more shows the noise of the empty scene
@@ -57,7 +36,7 @@ struct GainPiece {
 GainFunction sum_of(const std::vector<GainPiece>& pieces) {
   std::set<std::int64_t> times;
   for (const GainPiece& piece : pieces) times.insert({piece.interval.begin_ns, piece.interval.end_ns});
-  GainPieces sum;
+  std::vector<ControlPoint> points;
   for (auto end = std::next(times.begin()); end != times.end(); ++end) {
     const Interval interval{*std::prev(end), *end};
     double begin_gain = 0, end_gain = 0;
@@ -68,9 +47,25 @@ GainFunction sum_of(const std::vector<GainPiece>& pieces) {
       end_gain += piece.at(interval.end_ns);
       is_exposed = true;
     }
-    if (is_exposed) sum.add(interval, begin_gain, end_gain);
+    if (!is_exposed) continue;
+    if (!points.empty() && points.back().time_ns == interval.begin_ns) {
+      points.pop_back();  // it goes on from the piece before it
+      if (points.back().gain == begin_gain) points.pop_back();
+    } else {
+      points.push_back({interval.begin_ns, 0.0});
+    }
+    if (points.empty() || points.back().gain != begin_gain) points.push_back({interval.begin_ns, begin_gain});
+    points.push_back({interval.end_ns, end_gain});
+    points.push_back({interval.end_ns, 0.0});
   }
-  return sum.function();
+  return with_steps(GainFunction(points));
+}
+
+// A gain of 1 over each of them, and of 0 elsewhere.
+GainFunction exposing(const std::vector<Interval>& intervals) {
+  std::vector<GainPiece> pieces;
+  for (const Interval& each : intervals) pieces.push_back({each, 1, 1});
+  return sum_of(pieces);
 }
 
 class StudyFunctions {
@@ -84,11 +79,8 @@ class StudyFunctions {
         shape_(trail_shape(request)) {}
 
   void add_to(Study& study) const {
-    for (std::size_t i = 0; i < study.moments.size(); ++i) {
-      GainPieces moment;
-      moment.add(moment_of(study.moments[i]), 1, 1);
-      study.functions.emplace(static_cast<std::uint8_t>(i + 1), moment.function());
-    }
+    for (std::size_t i = 0; i < study.moments.size(); ++i)
+      study.functions.emplace(static_cast<std::uint8_t>(i + 1), exposing({moment_of(study.moments[i])}));
     study.empty = tracks_.front().empty;  // of all the picture, and so of all subjects
     const auto was_there = [](const SubjectTrack& track) { return !track.bare.empty(); };
     if (study.empty.size() < kMinEmptySamples || std::ranges::any_of(tracks_, was_there)) study.empty = {};
@@ -133,17 +125,12 @@ class StudyFunctions {
   // seen. Where there are several subjects, the moments of one show the others elsewhere: then the samples that show
   // the least of them beside the regions.
   [[nodiscard]] GainFunction background(const Study& study) const {
-    GainPieces pieces;
-    if (!study.empty.empty()) {
-      pieces.add(interval_of(study.empty), 1, 1);
-    } else if (tracks_.size() > 1) {
-      for (const std::uint64_t sample : least_covered(study)) pieces.add(interval_of({sample, sample + 1}), 1, 1);
-    } else {
-      for (const std::uint64_t sample : std::set(study.moments.begin(), study.moments.end())) {
-        pieces.add(interval_of({sample, sample + 1}), 1, 1);
-      }
-    }
-    return pieces.function();
+    if (!study.empty.empty()) return exposing({interval_of(study.empty)});
+    const std::vector<std::uint64_t> samples = tracks_.size() > 1 ? least_covered(study) : study.moments;
+    std::vector<Interval> shown;
+    for (const std::uint64_t sample : std::set(samples.begin(), samples.end()))
+      shown.push_back(interval_of({sample, sample + 1}));
+    return exposing(shown);
   }
 
   // In time order.
@@ -263,13 +250,12 @@ Study slit_study(CaptureSource& capture, const std::string& name, std::uint32_t 
   for (std::uint32_t i = 0; i < strips; ++i) {
     const std::uint64_t moment = are_reversed ? strips - 1 - i : i;
     const std::uint64_t sample = moment * (samples - 1) / (strips - 1);
-    GainPieces pieces;
-    pieces.add({capture.timeline().start_ns(sample), capture.timeline().end_ns(sample)}, 1, 1);
     study.moments.push_back(sample);
-    study.functions.emplace(static_cast<std::uint8_t>(i), pieces.function());
+    study.functions.emplace(static_cast<std::uint8_t>(i),
+                            exposing({{capture.timeline().start_ns(sample), capture.timeline().end_ns(sample)}}));
   }
   const select::Grid grid{are_columns ? strips : 1, are_columns ? 1 : strips};
-  study.mask.steps.push_back({{"slits"}, 0, grid, std::nullopt, {}});
+  study.mask.steps.push_back({"slits", 0, grid, std::nullopt, {}});
   if (strips < wanted) {
     study.notes.push_back(format("{} {}s, not {}: there are no more {}", strips, strip, wanted,
                                  strips == samples ? "pictures"
@@ -293,11 +279,7 @@ TrailShape trail_shape(const StudyRequest& request) {
 }
 
 FunctionSet whole_time(const Timeline& timeline) {
-  GainPieces pieces;
-  pieces.add({timeline.start_ns(0), timeline.end_ns(timeline.sample_count() - 1)}, 1, 1);
-  FunctionSet functions;
-  functions.emplace(std::uint8_t{0}, pieces.function());
-  return functions;
+  return {{std::uint8_t{0}, exposing({{timeline.start_ns(0), timeline.end_ns(timeline.sample_count() - 1)}})}};
 }
 
 void add_functions(Study& study, const StudyRequest& request, const Timeline& timeline,

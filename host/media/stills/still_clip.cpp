@@ -9,6 +9,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/light_codes.hpp"
 #include "media/formats/colour_profile.hpp"
 #include "media/formats/file_kinds.hpp"
 #include "media/stills/picture_files.hpp"
@@ -71,9 +72,11 @@ Still still_of(Picture&& picture, std::optional<std::uint32_t> maximum) {
           std::move(picture.bytes)};
 }
 
-// Light as the nearest of equal steps up to white. Throws InputError where a capture cannot hold a value.
+// Light as the nearest of equal steps up to white, or of a stated curve's. Throws InputError where a capture cannot hold
+// a value.
 template <typename Value>
-Picture codes_of_light(const Picture& light, std::optional<double> white, const std::string& name) {
+Picture codes_of_light(const Picture& light, std::optional<double> white, const std::optional<LightCodes>& curve,
+                       const std::string& name) {
   const auto values = light.values<Value>();
   if (!white) {
     const double largest = *std::ranges::max_element(values);
@@ -89,7 +92,8 @@ Picture codes_of_light(const Picture& light, std::optional<double> white, const 
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double value = values[i];
     if (value >= 0 && values[i] <= most) {
-      *code++ = static_cast<std::uint16_t>(std::floor(value / *white * kLightSteps + 0.5));
+      const double share = value / *white;
+      *code++ = static_cast<std::uint16_t>(curve ? curve->code_of(share) : std::floor(share * kLightSteps + 0.5));
       continue;
     }
     const std::size_t pixel = i / light.shape.channels;
@@ -105,9 +109,10 @@ Picture codes_of_light(const Picture& light, std::optional<double> white, const 
   return codes;
 }
 
-Still still_of_light(const Picture& light, std::optional<double> white, const std::string& name) {
-  Still still = still_of(light.type == ValueType::light64 ? codes_of_light<double>(light, white, name)
-                                                          : codes_of_light<float>(light, white, name),
+Still still_of_light(const Picture& light, std::optional<double> white, const std::optional<LightCodes>& curve,
+                     const std::string& name) {
+  Still still = still_of(light.type == ValueType::light64 ? codes_of_light<double>(light, white, curve, name)
+                                                          : codes_of_light<float>(light, white, curve, name),
                          kLightSteps);
   still.holds_light = true;
   return still;
@@ -304,6 +309,8 @@ class StillClip final : public Clip {
       }
     }
     stated_ = options;
+    if (options.white_light && options.transfer && !options.transfer->is_linear())
+      curve_.emplace(*options.transfer, kLightSteps);
     first_ = read_page(pages_.front());
     first_maximum_ = first_.maximum;
     unread_transfer_ = first_.unread_transfer;
@@ -421,7 +428,7 @@ class StillClip final : public Clip {
     const std::optional<double>& white = stated_.white_light;
     if (*page.kind == readers::kExr) {
       const ExrPicture read = read_exr(page.file);
-      Still still = still_of_light(read.light, white, page.name());
+      Still still = still_of_light(read.light, white, curve_, page.name());
       still.primaries = read.primaries;
       if (read.names_others) still.unread_primaries = kOtherPrimaries;
       still.pixel_aspect = aspect_of(1, read.pixel_aspect);
@@ -431,7 +438,7 @@ class StillClip final : public Clip {
       const MappedFile mapped(page.file);
       Picture picture = *page.kind == readers::kPfm ? read_pfm(mapped.bytes(), page.name())
                                                     : read_npy(mapped.bytes(), page.name(), page.number - 1);
-      if (!holds_codes(picture.type)) return still_of_light(picture, white, page.name());
+      if (!holds_codes(picture.type)) return still_of_light(picture, white, curve_, page.name());
       return still_of(std::move(picture), std::nullopt);
     }
     if (*page.kind == readers::kJpeg) return read_jpeg_still(page.file);
@@ -440,7 +447,7 @@ class StillClip final : public Clip {
     std::optional<TiffPage> read = tiff_->next();
     if (!read) throw InputError(format("{} cannot be read: the file was cut off", page.name()));
     Still still = holds_codes(read->picture.type) ? still_of(std::move(read->picture), read->maximum)
-                                                  : still_of_light(read->picture, white, page.name());
+                                                  : still_of_light(read->picture, white, curve_, page.name());
     if (!read->profile.empty()) follow_profile(still, read->profile);
     if (read->resolution) still.pixel_aspect = aspect_of(read->resolution->first, read->resolution->second);
     turn_upright(still, read->orientation);
@@ -509,6 +516,7 @@ class StillClip final : public Clip {
   std::optional<std::uint32_t> first_maximum_;
   std::string unread_transfer_, unread_primaries_;  // of the first
   ClipOptions stated_;
+  std::optional<LightCodes> curve_;  // stated, of light
   std::size_t next_ = 0;
   ClipInfo info_;
 };

@@ -5,7 +5,6 @@
 #include "capture/format.hpp"
 #include "media/deflicker.hpp"
 #include "media/events/event_clip.hpp"
-#include "session/clips/evened_times.hpp"
 #include "session/clips/measured_noise.hpp"
 #include "session/text/number_text.hpp"
 #include "system/mapped_file.hpp"
@@ -127,10 +126,10 @@ void align(ClipSource& source, OpenClip& open, const MemoryBudget& memory, const
   AlignRequest& request = *source.request.align;
   const ClipToAlign clip{source.name(),
                          source.capture,
-                         reference_of(request, source),
                          source.announced_samples(),
                          source.clip->info().decoder_bytes,
-                         open};
+                         open,
+                         reference_of(request, source)};
   source.clip.reset();
   if (!request.path) {
     request.path.emplace(find_camera_path(clip, request.motion, memory.bytes, progress, stop));
@@ -154,7 +153,7 @@ void fill(ClipSource& source, const OpenClip& open, const MemoryBudget& memory, 
   }
   CaptureFormat pictures = source.capture;
   pictures.noise = {};
-  const ClipToFill clip{source.name(), pictures, source.announced_samples(), source.clip->info().decoder_bytes, open};
+  const ClipToAlign clip{source.name(), pictures, source.announced_samples(), source.clip->info().decoder_bytes, open};
   source.clip.reset();
   if (!request.made) request.made.emplace(plan_between(clip, request, memory.bytes, progress, stop));
   source.clip = open_between(clip, *request.made);
@@ -260,19 +259,15 @@ ClipToRead ClipSource::clip_to_read() const {
           clip->tells_changes()};
 }
 
-ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory,
-                            const ReportedProgress& progress, const std::stop_token& stop) {
-  refuse_streams(request.path);
-  ClipOptions options = request.clip;
-  // Pictures are decoded beside much else; a recording of events is held whole before anything else is allocated.
-  options.decoder_bytes = is_event_recording(request.path) ? memory.bytes : memory.bytes / 8;
-  return open_clip_source(
-      request, [path = request.path, options] { return open_clip(path, options); }, memory, progress, stop);
-}
-
-ClipSource open_clip_source(const SourceRequest& request, const OpenClip& open_whole,
-                            const MemoryBudget& memory, const ReportedProgress& progress,
-                            const std::stop_token& stop) {
+ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory, const ReportedProgress& progress,
+                            const std::stop_token& stop, OpenClip open) {
+  if (!open) {
+    refuse_streams(request.path);
+    ClipOptions options = request.clip;
+    // Pictures are decoded beside much else; a recording of events is held whole before anything else is allocated.
+    options.decoder_bytes = is_event_recording(request.path) ? memory.bytes : memory.bytes / 8;
+    open = [path = request.path, options] { return open_clip(path, options); };
+  }
   if (request.path.empty()) throw UsageError("no clip is named");
   if (!(request.sigmas >= SourceRequest::kMinSigmas && request.sigmas <= SourceRequest::kMaxSigmas)) {
     throw UsageError(format("{} standard deviations of noise are not within {} … {}", request.sigmas,
@@ -280,7 +275,6 @@ ClipSource open_clip_source(const SourceRequest& request, const OpenClip& open_w
   }
   ClipSource source;
   source.request = request;
-  OpenClip open = open_whole;
   source.clip = open();
   if (request.shutter_angle && !request.clip.rate && !source.clip->info().timing.exposures.empty()) {
     throw UsageError(source.name() + " says how long each picture was exposed",

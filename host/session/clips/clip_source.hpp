@@ -59,15 +59,13 @@ struct ClipSource {
 // Throws InputError where the clip cannot be read, UsageError where the request does not fit it;
 // MemoryTooLittle where its own noise cannot be measured in the memory; what find_camera_path() throws. `progress` counts
 // pictures while that reads the clip; the source's own request knows the path then.
+//
+// `open` is of a clip that its owner makes: it does so from the start, as often as the clip is read. The request's path
+// is its name in messages then; what of the request only files have, the part of the clip for example, is the owner's
+// business.
 [[nodiscard]] ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory,
-                                          const ReportedProgress& progress = {},
-                                          const std::stop_token& stop = {});
-
-// The same of a clip that its owner makes: `open` does, from the start, as often as it is read. The request's path is its
-// name in messages. What of the request only files have, the part of the clip for example, is the owner's business.
-[[nodiscard]] ClipSource open_clip_source(const SourceRequest& request, const OpenClip& open,
-                                          const MemoryBudget& memory, const ReportedProgress& progress = {},
-                                          const std::stop_token& stop = {});
+                                          const ReportedProgress& progress = {}, const std::stop_token& stop = {},
+                                          OpenClip open = {});
 
 // The progress of a clip that is read twice, once for its camera's path: both times in one.
 struct TwofoldProgress {
@@ -78,5 +76,14 @@ struct TwofoldProgress {
 // When the pictures of a .tik or a clip were exposed, as far as that is known before one is decoded. Throws InputError
 // where nothing tells how many there are or how fast they were taken, and what open_clip_source() throws.
 [[nodiscard]] Timeline known_timeline(const SourceRequest& request, const MemoryBudget& memory);
+
+// What a stated rate does to times of none: which steps from one picture to the next become even, and how long they
+// were; nothing where there are fewer than two steps, for these are even. Times are in order.
+[[nodiscard]] std::optional<Note> evened_note(const std::vector<std::int64_t>& starts_ns);
+
+// How many steps are longer than one and a half usual ones, as where pictures were dropped, and that the picture before
+// such a step counts as exposed for the shutter's share of the whole step. For a timeline that was made from starts and
+// an angle; one with a rate has no note.
+[[nodiscard]] std::optional<Note> gap_note(const Timeline& timeline);
 
 }  // namespace nutik

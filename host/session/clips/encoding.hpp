@@ -18,7 +18,6 @@ struct EncodeRequest {
   std::filesystem::path output;  // .tik; gets its name when it is complete
   tik::Codec codec{tik::CodecId::rice, 0};
   OutputFile::Lasting lasting = OutputFile::Lasting::recoverable;
-  friend bool operator==(const EncodeRequest&, const EncodeRequest&) = default;
 };
 
 // A capture that was encoded, and what there is to say of it.
@@ -39,13 +38,9 @@ struct EncodedCapture {
                                     const ReportedProgress& progress = {}, std::stop_token stop = {});
 
 // Opens the clip first: throws what open_clip_source() and memory_for_encoding() do, too; UsageError if the
-// output is the clip, or no name of a .tik.
+// output is the clip, or no name of a .tik. `open` as open_clip_source() has it.
 [[nodiscard]] EncodedCapture encode(const SourceRequest& source, const EncodeRequest& request,
                                     const MemoryBudget& memory, const ReportedProgress& progress = {},
-                                    std::stop_token stop = {});
-// The same of a clip that its owner makes (clip_source.hpp).
-[[nodiscard]] EncodedCapture encode(const SourceRequest& source, const OpenClip& open,
-                                    const EncodeRequest& request, const MemoryBudget& memory,
-                                    const ReportedProgress& progress = {}, std::stop_token stop = {});
+                                    std::stop_token stop = {}, const OpenClip& open = {});
 
 }  // namespace nutik

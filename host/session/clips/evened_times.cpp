@@ -1,4 +1,6 @@
-#include "session/clips/evened_times.hpp"
+// What is made of times that are not those of any rate: what a stated rate does to them, and what is taken for exposed
+// where pictures are missing.
+#include "session/clips/clip_source.hpp"
 
 #include <algorithm>
 #include <span>

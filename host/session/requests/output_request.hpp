@@ -14,9 +14,7 @@
 namespace nutik {
 
 // The codes of the capture itself, as they are: its transfer function, its white code where the depth is its own.
-struct SourceCodes {
-  friend bool operator==(const SourceCodes&, const SourceCodes&) = default;
-};
+struct SourceCodes {};
 
 struct OutputRequest {
   std::optional<Depth> depth;             // none: the capture's own, light where the file holds no codes
@@ -27,8 +25,6 @@ struct OutputRequest {
   std::optional<std::uint32_t> crf = std::nullopt;  // of films, on their codec's own scale
   std::optional<std::string> bounds = std::nullopt;  // the file of a map of what each pixel may be off by
   bool keep_pixels = false;  // in files that people look at, too, whose pixels are made square otherwise
-
-  friend bool operator==(const OutputRequest&, const OutputRequest&) = default;
 };
 
 // `source`, or what Transfer::parse() knows, but for functions that go beyond a screen's white. Throws UsageError.

@@ -1,7 +1,8 @@
-// Lists and tables for people.
+// Lists and tables for people, and what somebody may have meant by a word that is not known.
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,10 @@ namespace nutik {
 [[nodiscard]] std::vector<std::string> parts_of(std::string_view text, char separator);
 // `a, b or c`
 [[nodiscard]] std::string alternatives(const std::vector<std::string>& parts);
+
+// `; did you mean --exposure?` for the known words that `word` is the beginning of (at most four), else the
+// nearest one where it is near enough, else nothing.
+[[nodiscard]] std::string did_you_mean(std::string_view word, std::span<const std::string> known);
 
 // Rows of equal length, the first the heading; a letter of `alignment` for each column: l or r. Lines
 // without blanks at their ends and without a line end behind the last.

@@ -34,13 +34,8 @@ plot::Colour channel_colour(const Trace& trace, std::uint32_t channel) {
   return trace.channels == 1 ? plot::kText : kChannelColours[channel];
 }
 
-struct ShownRange {
-  std::int64_t begin_ns;
-  std::int64_t end_ns;
-};
-
-ShownRange shown_range(const Trace& trace, const PlannedFunction& function) {
-  ShownRange all{trace.steps.front().begin_ns, trace.steps.back().end_ns};
+Interval shown_range(const Trace& trace, const PlannedFunction& function) {
+  const Interval all{trace.steps.front().begin_ns, trace.steps.back().end_ns};
   const Interval& live = function.summary.live;
   if (live.empty()) return all;
   const auto margin =
@@ -51,7 +46,7 @@ ShownRange shown_range(const Trace& trace, const PlannedFunction& function) {
 // Lines through the steps that are shown; two points at one time where a value jumps.
 class Lines {
  public:
-  Lines(const Trace& trace, const ShownRange& range) : channels_(trace.channels) {
+  Lines(const Trace& trace, const Interval& range) : channels_(trace.channels) {
     for (const TraceStep& step : trace.steps) {
       if (step.end_ns <= range.begin_ns || step.begin_ns >= range.end_ns) continue;
       add(step);
@@ -160,7 +155,7 @@ std::string traced_codes(std::span<const Trace> traces, const CaptureFormat& cap
 }
 
 Picture trace_picture(const Trace& trace, const PlannedFunction& function, const std::string& heading) {
-  const ShownRange range = shown_range(trace, function);
+  const Interval range = shown_range(trace, function);
   const Lines lines(trace, range);
   const GainSummary& summary = function.summary;
   plot::Canvas canvas(kWidth, kHeight);

@@ -26,7 +26,7 @@ constexpr std::uint8_t kInside = 255;  // of the mask that is made
 // `what` names it for undo; `found` begins what is said of it: "12 pixels …".
 Jobs::Work selecting(Document& document, std::shared_ptr<Session> session, const Marks& marks, MaskStep step,
                      const QString& what, const QString& found, Told told) {
-  step.name.text = what.toStdString();
+  step.name = what.toStdString();
   step.tag = kInside;
   step.changes.push_back({RegionChange::Kind::smooth, kSmooth, {}});
   return [&document, session = std::move(session), marks, step = std::move(step), what, found,
