@@ -54,7 +54,7 @@ class SheetJob {
           Json exposures, const Each& each = {}) {
     request.codes = codes_;
     request.plan.transfer = options_.source.clip.transfer;
-    PictureRecipe recipe(recipe_sources(options_, {}, of_));
+    PictureRecipe recipe(recipe_sources(options_, of_));
     const Sheet sheet = [&] {
       WarningsAtEnd warnings;
       return make_sheet(session, request, progress_bar("exposing", options_.quiet),

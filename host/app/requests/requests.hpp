@@ -59,11 +59,8 @@ void read_inputs(MaskRequest& request, const Options& options);
 // As mask_request() reads it.
 [[nodiscard]] std::string change_words(const RegionChange& change);
 
-// What the recipes of a command's pictures have in common; none with --no-recipe. A capture that is exposed many times
-// may be known by its checksum already.
-[[nodiscard]] std::optional<RecipeSources> recipe_sources(const Options& options,
-                                                          std::optional<std::string> capture_checksum = {},
-                                                          RecipeOf of = RecipeOf::expose);
+// What the recipes of a command's pictures have in common; none with --no-recipe.
+[[nodiscard]] std::optional<RecipeSources> recipe_sources(const Options& options, RecipeOf of = RecipeOf::expose);
 // What the recipe of a sweep's picture states in place of the sweep's options.
 [[nodiscard]] OwnRecipe own_recipe(const OwnExposure& exposure);
 // Whether such a recipe may state this option with this value: it makes the picture, and stands in no other place of

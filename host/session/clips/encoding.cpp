@@ -88,7 +88,7 @@ Encoding::Encoding(ClipSource source, const EncodeRequest& request, const ClipMe
   header.part = source_.clip->info().part;
   // A capture without a name is joined to none.
   if (header.part && request.lasting != OutputFile::Lasting::no)
-    header.part->checksum = input_checksum(source_.request.path);
+    header.part->checksum = input_checksum(source_.request.path, source_.request.clip.raw.has_value());
   if (source_.camera) header.alignment = kept_alignment(**source_.camera, source_.request.align->unseen);
   if (source_.made) header.made = **source_.made;
   writer_.emplace(request.output, header, request.codec, to_held_codes(source_.capture, first_.front()),
