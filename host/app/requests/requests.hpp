@@ -30,6 +30,8 @@ namespace nutik::app {
 // What computes, not started yet. Kernels that are built are told of, unless --quiet.
 [[nodiscard]] std::shared_ptr<Devices> make_devices(const Options& options);
 
+// Throws UsageError where an option says something of a mask that is not there.
+void refuse_without_mask(const Options& options);
 [[nodiscard]] ExposureRequest exposure_request(const Options& options);
 // With functions that -k only names.
 [[nodiscard]] ExposureRequest exposure_request(const Options& options, const Shared<FunctionSet>& functions);
