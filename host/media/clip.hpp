@@ -189,8 +189,8 @@ class Clip {
 // none, or none that can be read.
 [[nodiscard]] std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOptions& options);
 
-// The files that it would read: a table before its stills, Photron's pictures before their header.
-[[nodiscard]] std::vector<std::filesystem::path> files_of_clip(const std::filesystem::path& path);
+// The files that it would read: a table before its stills, pictures before what a camera wrote beside them.
+[[nodiscard]] std::vector<std::filesystem::path> files_of_clip(const std::filesystem::path& path, bool is_raw = false);
 
 // That a clip announces other pictures than could be decoded; nothing where it announces none, or as many.
 [[nodiscard]] std::optional<std::string> lost_pictures_text(const std::string& name, std::uint64_t announced,

@@ -188,7 +188,8 @@ struct FormatOf {
   Files files;
 };
 
-FormatOf format_of(const std::filesystem::path& path) {
+FormatOf format_of(const std::filesystem::path& path, bool is_raw) {
+  if (is_raw) return {kDescribed, {path}};
   for (const ClipFormat& format : kFormats) {
     if (auto files = format.files(path)) return {format, std::move(*files)};
   }
@@ -198,14 +199,25 @@ FormatOf format_of(const std::filesystem::path& path) {
 // All of it, as its files have it.
 std::unique_ptr<Clip> open_whole(const std::filesystem::path& path, const ClipOptions& options) {
   if (!options.raw) refuse_unread_kind(path);
-  const auto [format, files] = options.raw ? FormatOf{kDescribed, {path}} : format_of(path);
+  const auto [format, files] = format_of(path, options.raw.has_value());
   if (*format.reader != readers::kProphesee) refuse_event_options(path, options.events);
   return format.open(path, files, options);
 }
 
 }  // namespace
 
-std::vector<std::filesystem::path> files_of_clip(const std::filesystem::path& path) { return format_of(path).files; }
+std::vector<std::filesystem::path> files_of_clip(const std::filesystem::path& path, bool is_raw) {
+  auto [format, files] = format_of(path, is_raw);
+  std::error_code error;
+  const bool is_folder = *format.reader == readers::kSequence && std::filesystem::is_directory(path, error);
+  if (is_raw || is_folder) {
+    if (const auto header = photron_header_of(path)) files.push_back(header->file);
+  } else if (*format.reader == readers::kVideo && !is_absent(sony_file_of(path))) {
+    const std::filesystem::path story = video_module().story_beside(path);
+    if (!story.empty()) files.push_back(story);
+  }
+  return files;
+}
 
 std::unique_ptr<Clip> open_clip(const std::filesystem::path& name, const ClipOptions& options) {
   const std::filesystem::path& path = is_standard_input(name.string()) ? standard_input_file() : name;

@@ -29,8 +29,10 @@ constexpr std::size_t kLongestHeader = 65'536;
 // Tags of fields. `rice` stands where blocks may be packed with that codec, which the first programs of version 1 do not
 // know: with a tolerance whatever codec was asked for.
 constexpr std::string_view kPixelAspect = "aspc", kPrimaries = "prim", kFacts = "fact", kAligned = "algn",
-                           kMeans = "mean", kRounded = "rond", kRice = "rice", kSteps = "step", kPart = "part", kMade = "made";
-constexpr std::array kKnownFields{kPixelAspect, kPrimaries, kFacts, kAligned, kMeans, kRounded, kRice, kSteps, kPart, kMade};
+                           kMeans = "mean", kRounded = "rond", kRice = "rice", kSteps = "step", kPart = "part",
+                           kClip = "clip", kMade = "made";
+constexpr std::array kKnownFields{kPixelAspect, kPrimaries, kFacts, kAligned, kMeans, kRounded,
+                                  kRice,        kSteps,     kPart,  kClip,    kMade};
 
 class HeaderParser {
  public:
@@ -269,6 +271,8 @@ void take_fields(std::span<const Field> fields, Header& header) {
       header.roundings = CodeRoundings::parse(field.data);
     } else if (field.tag == kPart) {
       header.part = parse_part(field.data);
+    } else if (field.tag == kClip && header.part) {
+      header.part->checksum = printable(field.data);
     } else if (field.tag == kMade) {
       header.made = MadeSamples::parse(field.data);
     } else if (field.tag == kFacts) {
@@ -336,6 +340,7 @@ std::vector<Field> Header::fields() const {
   if (codec == kRice || counts_steps) fields.push_back({std::string(kRice), true, "1"});
   if (counts_steps) fields.push_back({std::string(kSteps), true, "1"});
   if (part) fields.push_back({std::string(kPart), false, text_of(*part)});
+  if (part && !part->checksum.empty()) fields.push_back({std::string(kClip), false, part->checksum});
   if (made) fields.push_back({std::string(kMade), false, made->kept_text()});
   return fields;
 }

@@ -182,4 +182,10 @@ bool holds_several_pictures(const std::filesystem::path& file) {
   return is_png ? is_png_of_several(bytes) : is_jpeg_of_several(bytes);
 }
 
+std::filesystem::path sony_file_of(const std::filesystem::path& clip) {
+  const std::string extension = extension_of(clip);
+  if (extension != ".mxf" && extension != ".mp4") return {};  // an export of another kind has other codes
+  return clip.parent_path() / (clip.stem().string() + "M01.XML");
+}
+
 }  // namespace nutik

@@ -32,4 +32,7 @@ void refuse_text(const std::filesystem::path& file);
 // Whether PNGs or JPEGs stand in it one behind the other, or an animated PNG: a video, whatever its name ends with.
 [[nodiscard]] bool holds_several_pictures(const std::filesystem::path& file);
 
+// Where Sony's cameras write what they know of a clip: C0001M01.XML beside C0001.MP4. Empty for clips of other kinds.
+[[nodiscard]] std::filesystem::path sony_file_of(const std::filesystem::path& clip);
+
 }  // namespace nutik

@@ -24,6 +24,9 @@ namespace nutik {
     std::span<const std::byte> file, const std::string& name,
     const std::function<void(std::uint32_t, std::uint32_t)>& check_size = {});
 
+// Throws InputError where a pixel's colour is not in the palette, which decoders show as black.
+void check_png_palette(std::span<const std::byte> file, const std::string& name);
+
 // How a PNG's picture lies, as EXIF numbers it: 1, upright, where its chunk eXIf does not say.
 [[nodiscard]] unsigned png_orientation(std::span<const std::byte> file);
 

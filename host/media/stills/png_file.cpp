@@ -239,6 +239,32 @@ Picture read_8_bit_png(std::span<const std::byte> file, const std::string& name,
   return picture;
 }
 
+void check_png_palette(std::span<const std::byte> file, const std::string& name) {
+  std::string error_name = name;
+  ReadStructure read(error_name);
+  ByteReader reader{file};
+  read_info(read, reader);
+  png_colorp colours = nullptr;
+  int count = 0;
+  png_get_PLTE(read.png, read.info, &colours, &count);
+  const bool is_indexed = png_get_color_type(read.png, read.info) == PNG_COLOR_TYPE_PALETTE;
+  if (!is_indexed || count == 1 << png_get_bit_depth(read.png, read.info)) return;
+  png_set_packing(read.png);  // a byte for each pixel
+  int passes = png_set_interlace_handling(read.png);
+  png_read_update_info(read.png, read.info);
+  std::vector<png_byte> row(png_get_rowbytes(read.png, read.info));
+  for (; passes > 0; --passes) {
+    for (png_uint_32 y = png_get_image_height(read.png, read.info); y > 0; --y) {
+      check_interruption();
+      png_read_row(read.png, row.data(), nullptr);
+      const int largest = *std::ranges::max_element(row);
+      if (largest < count) continue;
+      throw InputError(format("{} cannot be read: it is damaged: a pixel has colour {}, and its palette {}, from 0 on",
+                              name, largest, count));
+    }
+  }
+}
+
 // Chunks: u32 length, four letters, so many bytes, a checksum. EXIF is a TIFF: its first directory is looked at.
 unsigned png_orientation(std::span<const std::byte> file) {
   const std::string_view bytes(reinterpret_cast<const char*>(file.data()), file.size());

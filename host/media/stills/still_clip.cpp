@@ -253,6 +253,7 @@ Still read_with_opencv(const std::filesystem::path& file) {
   if (picture.empty()) {
     throw InputError(format("{} cannot be read: it is damaged or no picture", name));
   }
+  if (readers::kPng.begins(first_bytes(file))) check_png_palette(MappedFile(file).bytes(), name);
   if (picture.depth() != CV_8U && picture.depth() != CV_16U) {
     throw InputError(
         format("{} holds neither 8- nor 16-bit values; save it as a PNG or TIFF with one of these", name));

@@ -9,7 +9,6 @@
 
 #include "capture/error.hpp"
 #include "capture/median.hpp"
-#include "media/formats/extension.hpp"
 #include "media/formats/file_kinds.hpp"
 #include "media/videos/mxf_unit.hpp"
 #include "system/mapped_file.hpp"
@@ -89,8 +88,8 @@ SamsungRecording samsung_recording(std::string_view file) {
   return {};
 }
 
-// The text of Sony's NonRealTimeMeta; empty where there is none. Where another file has it, `from` becomes its name.
-std::string sony_story(const std::filesystem::path& path, std::string& from) {
+// The text of Sony's NonRealTimeMeta; empty where there is none. Where another file has it, `other` becomes that.
+std::string sony_story(const std::filesystem::path& path, std::filesystem::path& other) {
   constexpr std::string_view kName = "<NonRealTimeMeta";
   constexpr std::uintmax_t kMaxBytes = 1u << 20;
   const MappedFile mapped(path);
@@ -98,9 +97,7 @@ std::string sony_story(const std::filesystem::path& path, std::string& from) {
     const std::string_view text = box_at(bytes_of(mapped), boxes);
     if (const auto at = text.find(kName); at != text.npos) return std::string(text.substr(at));
   }
-  const std::string extension = extension_of(path);
-  if (extension != ".mxf" && extension != ".mp4") return {};  // an export of another kind has other codes
-  const std::filesystem::path beside = path.parent_path() / (path.stem().string() + "M01.XML");
+  const std::filesystem::path beside = sony_file_of(path);
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(beside, error);
   if (error || bytes == 0 || bytes > kMaxBytes) return {};
@@ -108,7 +105,7 @@ std::string sony_story(const std::filesystem::path& path, std::string& from) {
     const MappedFile story(beside);
     std::string text(bytes_of(story));
     if (text.find(kName) == text.npos) return {};
-    from = beside.filename().string();
+    other = beside;
     return text;
   } catch (const InputError&) {
     return {};  // the clip can be read without it
@@ -145,10 +142,11 @@ std::optional<Rational> sony_rate(const std::string& story) {
 
 // What Sony's camera says: its XML, else the file's own metadata.
 CameraUnit camera_unit(const std::filesystem::path& path) {
-  std::string from = CameraUnit().from;
-  const std::string story = sony_story(path, from);
+  std::filesystem::path beside;
+  const std::string story = sony_story(path, beside);
   if (story.empty()) return mxf_unit(bytes_of(MappedFile(path)));
-  return {item_of(story, "CaptureGammaEquation"), item_of(story, "CaptureColorPrimaries"), sony_rate(story), from};
+  return {item_of(story, "CaptureGammaEquation"), item_of(story, "CaptureColorPrimaries"), sony_rate(story),
+          beside.empty() ? CameraUnit().from : beside.filename().string()};
 }
 
 bool is_mp4(std::string_view file) { return file.size() >= 8 && file.substr(4, 4) == "ftyp"; }
@@ -194,6 +192,12 @@ double steady_rate(const std::vector<std::int64_t>& starts_ns) {
 }
 
 }  // namespace
+
+std::filesystem::path story_beside(const std::filesystem::path& path) {
+  std::filesystem::path beside;
+  static_cast<void>(sony_story(path, beside));
+  return beside;
+}
 
 std::optional<NamedCurve> named_curve(const AVFormatContext& format, const std::filesystem::path& path,
                                       std::vector<Note>& notes) {

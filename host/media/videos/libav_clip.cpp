@@ -6,6 +6,7 @@
 #include "media/clip.hpp"
 #include "media/formats/coding_points.hpp"
 #include "media/settled_fact.hpp"
+#include "media/videos/capture_rate.hpp"
 #include "media/videos/deinterlacer.hpp"
 #include "media/videos/eight_bit_yuv.hpp"
 #include "media/videos/libav.hpp"
@@ -374,6 +375,7 @@ std::unique_ptr<Clip> open_video_clip(const std::filesystem::path& path, const C
 
 // What nutik-videos.so gives the program (media/module.hpp).
 extern "C" __attribute__((visibility("default"))) const nutik::VideoModule nutik_video_module{
-    nutik::use_shared_state, nutik::videos::open_video_clip, nutik::videos::open_libav_writer};
+    nutik::use_shared_state, nutik::videos::open_video_clip, nutik::videos::story_beside,
+    nutik::videos::open_libav_writer};
 
 extern "C" __attribute__((visibility("default"))) const char nutik_module_version[] = NUTIK_VERSION;
