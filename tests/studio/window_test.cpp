@@ -66,6 +66,8 @@ class WindowTest : public StudioTest {
 TEST_F(WindowTest, CopiesTheLineOfWhateverIsExposed) {
   open_clip();
   expect_same_picture_by_command();  // an interval needs no files
+  QTest::keyClick(&window_, Qt::Key_C, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_TRUE(QGuiApplication::clipboard()->text().endsWith(path("frames.png"))) << "beside the folder of its stills";
   add_region(document());
   paint_region(document(), ellipse(96, 48, {40, 24}, 20, 12), document().selected_tag(), "Ellipse");
   set_feather(document(), 250);

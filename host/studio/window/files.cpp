@@ -69,7 +69,7 @@ QString MainWindow::named_file(const QString& title, const QString& ending, cons
 bool MainWindow::save_project(const QString& path) {
   if (document_.facts() == nullptr) return false;
   const CommandFiles files =
-      path == project_ && !files_.functions.isEmpty() ? files_ : free_files_beside(path);
+      path == project_ && !files_.functions.isEmpty() ? files_ : free_files_beside(path, document_.facts()->path);
   const bool is_saved = try_to([&] { nutik::studio::save_project(path, document_, files); });
   if (is_saved || path == project_) {  // what a save that failed has written is ours as well
     known_ = times_of({path, files.functions, files.mask});
@@ -331,9 +331,10 @@ void MainWindow::save_whole_part(const QString& path, const Origin& origin) {
   });
 }
 
-// Beside the project, else beside the capture.
+// Beside the project, else beside the capture: its file, or the folder of its stills.
 QString MainWindow::suggested(const QString& ending) const {
-  const QFileInfo from(project_.isEmpty() ? document_.facts()->path : project_);
+  QFileInfo from(project_.isEmpty() ? document_.facts()->path : project_);
+  if (is_pattern(from.filePath())) from.setFile(from.path());
   return from.dir().filePath(from.completeBaseName() + ending);
 }
 
