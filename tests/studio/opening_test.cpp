@@ -477,6 +477,11 @@ TEST_F(OpeningTest, FilesAreChosenInDialogsByKeyboard) {
   const std::string by_window = test::read_file(scratch_ / "window.png");
   ASSERT_FALSE(by_window.empty()) << window_.notice().text().toStdString();
   EXPECT_TRUE(by_window == test::read_file(scratch_ / "mine.png")) << "byte for byte";
+  std::filesystem::last_write_time(scratch_ / "clip.tik", std::filesystem::file_time_type());
+  ASSERT_TRUE(window_.save_project(path("mine.nutik")));
+  window_.export_picture(path("changed.png"));
+  EXPECT_TRUE(window_.notice().text().contains("clip.tik is not what was read")) << "nor does saving change that";
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "changed.png"));
 }
 
 TEST_F(OpeningTest, ReadsAClipAsItIsTold) {

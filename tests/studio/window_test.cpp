@@ -447,6 +447,7 @@ TEST_F(WindowTest, ShowsAProjectWhoseSaveWasEndedAsItWasToBe) {
 TEST_F(WindowTest, SaysOnceWhatHappenedToItsFilesOutside) {
   open_clip();
   add_region(document());
+  document().set_mode(ExposureMode::functions);
   ASSERT_TRUE(window_.save_project(path("saved.nutik")));
   const auto come_back = [&] {
     window_.notice().clear();
@@ -463,6 +464,7 @@ TEST_F(WindowTest, SaysOnceWhatHappenedToItsFilesOutside) {
   EXPECT_TRUE(said.contains("saved.pgm is gone")) << said.toStdString();
   EXPECT_TRUE(said.contains("saved.fn was changed by another program")) << said.toStdString();
   EXPECT_EQ(come_back(), "") << "once";
+  EXPECT_FALSE(window_.has_files()) << "a recipe would name what is not shown";
   save_mask(path("saved.pgm"), (*document().state().mask)->mask);
   QTest::keyClick(&window_, Qt::Key_F5);
   ASSERT_TRUE(settles());

@@ -1452,6 +1452,10 @@ Trotzdem verwenden? Funktionen und Marken behalten ihre Zeiten.</translation>
         <source>Another clip</source>
         <translation>Ein anderer Clip</translation>
     </message>
+    <message>
+        <source>%1 is not what was read any more: File, Open again (F5) reads what recipes would name.</source>
+        <translation>%1 ist nicht mehr, was gelesen wurde: „Datei, Erneut öffnen“ (F5) liest, was Rezepte nennen würden.</translation>
+    </message>
 </context>
 <context>
     <name>nutik::studio::Notice</name>

@@ -72,8 +72,10 @@ bool MainWindow::save_project(const QString& path) {
       path == project_ && !files_.functions.isEmpty() ? files_ : free_files_beside(path, document_.facts()->path);
   const bool is_saved = try_to([&] { nutik::studio::save_project(path, document_, files); });
   if (is_saved || path == project_) {  // what a save that failed has written is ours as well
+    FileTimes capture{*known_.find(document_.facts()->path)};
     known_ = times_of({path, files.functions, files.mask});
-    note_capture();
+    known_.merge(capture);
+    told_changes_.clear();
   }
   if (!is_saved) return false;
   project_ = path;
@@ -102,7 +104,7 @@ bool MainWindow::save(const QString& why) {
 }
 
 void MainWindow::note_capture() {
-  known_.merge(times_of({document_.facts()->path}));
+  known_[document_.facts()->path] = QFileInfo(document_.facts()->path).lastModified();
   told_changes_.clear();
 }
 
@@ -226,12 +228,21 @@ QStringList MainWindow::written_meanwhile() {
 
 bool MainWindow::has_files() const {
   return document_.mode() == ExposureMode::boxcar ||
-         (!project_.isEmpty() && document_.undo_stack().isClean());
+         (!project_.isEmpty() && document_.undo_stack().isClean() && changed_outside().isEmpty());
+}
+
+bool MainWindow::has_capture() {
+  const QString& path = document_.facts()->path;
+  if (known_[path] == QFileInfo(path).lastModified()) return true;
+  notice_->say(Notice::Kind::error,
+               tr("%1 is not what was read any more: File, Open again (F5) reads what recipes would name.").arg(path));
+  return false;
 }
 
 // A command names files: they have to hold what is shown.
 bool MainWindow::ensure_files() {
-  return document_.facts() != nullptr && (has_files() || save(tr("Save the project first: recipes name its files")));
+  return document_.facts() != nullptr && has_capture() &&
+         (has_files() || save(tr("Save the project first: recipes name its files")));
 }
 
 QString MainWindow::command_for(const QString& picture) const {

@@ -154,7 +154,7 @@ class MainWindow : public QMainWindow {
   // starting.cpp
   void choose_file(const StartingPoint* then = nullptr);
   void choose_export();
-  [[nodiscard]] bool names_files();  // has_files(); else it is said
+  [[nodiscard]] bool names_files();  // has_files(), and the capture; else it is said
   void write(const QString& what, Jobs::Work work);
   void choose_film();
   void choose_study();
@@ -184,6 +184,7 @@ class MainWindow : public QMainWindow {
   bool may_leave_writing();  // asks what becomes of what is being written
   [[nodiscard]] static QStringList written_meanwhile();
   bool ensure_files();
+  [[nodiscard]] bool has_capture();  // as it was read; else it is said
   void note_capture();
   [[nodiscard]] QStringList changed_outside() const;
   void tell_changes();

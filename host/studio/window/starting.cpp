@@ -189,7 +189,7 @@ void MainWindow::export_film(const QString& path, const Stated& options) {
 bool MainWindow::names_files() {
   if (!has_files())
     notice_->say(Notice::Kind::error, tr("Save the project first: recipes name its files"));
-  return has_files();
+  return has_files() && has_capture();
 }
 
 void MainWindow::choose_export() {
