@@ -471,6 +471,35 @@ TEST_F(WindowTest, SaysOnceWhatHappenedToItsFilesOutside) {
   EXPECT_EQ(document().points(0), (std::vector<ControlPoint>{{0, 0.5}})) << "F5 takes the change";
 }
 
+TEST_F(WindowTest, WritesNothingOverOrAmongTheStillsOfItsClip) {
+  open_clip();
+  add_region(document());
+  window_.write_mask(path("frames/03.pgm"));
+  EXPECT_TRUE(window_.notice().text().contains("is also an input")) << window_.notice().text().toStdString();
+  SourceRequest source;
+  source.path = document().facts()->path.toStdString();
+  source.clip.rate = Rational{100, 1};
+  EXPECT_THROW(writing_plate({}, std::make_shared<Session>(source), path("frames/03.pgm"), {}), UsageError);
+  window_.document().undo_stack().setClean();
+
+  window_.open(path("frames/"), "100");
+  ASSERT_TRUE(settles());
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  QTest::keyClick(&window_, Qt::Key_C, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_TRUE(QGuiApplication::clipboard()->text().endsWith(path("frames ") + path("frames.png")))
+      << QGuiApplication::clipboard()->text().toStdString();
+  window_.export_picture(path("frames/out.tif"));
+  EXPECT_TRUE(window_.notice().text().contains("taken for one of the clip's stills"));
+  add_region(document());
+  EXPECT_FALSE(window_.save_project(path("frames/saved.nutik"))) << "its mask is a picture, too";
+  ASSERT_TRUE(settles());
+  window_.write_functions(path("frames/written.fn"));
+  window_.export_picture(path("picture.png"));
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(window_.notice().text().contains("no pixel")) << window_.notice().text().toStdString();
+}
+
 TEST_F(WindowTest, ChoosesToolsByKeyboard) {
   open_clip();
   const std::pair<Qt::Key, const char*> keys[] = {{Qt::Key_B, "tool_brush"},   {Qt::Key_R, "tool_rectangle"},

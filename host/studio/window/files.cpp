@@ -70,12 +70,16 @@ bool MainWindow::save_project(const QString& path) {
   if (document_.facts() == nullptr) return false;
   const CommandFiles files =
       path == project_ && !files_.functions.isEmpty() ? files_ : free_files_beside(path, document_.facts()->path);
+  if (document_.state().mask && !QFileInfo::exists(files.mask) &&
+      !try_to([&] { clip_files(document_.facts()->path, files.mask); }))
+    return false;
   const bool is_saved = try_to([&] { nutik::studio::save_project(path, document_, files); });
   if (is_saved || path == project_) {  // what a save that failed has written is ours as well
     FileTimes capture{*known_.find(document_.facts()->path)};
     known_ = times_of({path, files.functions, files.mask});
     known_.merge(capture);
     told_changes_.clear();
+    note_written(path);
   }
   if (!is_saved) return false;
   project_ = path;
@@ -106,6 +110,11 @@ bool MainWindow::save(const QString& why) {
 void MainWindow::note_capture() {
   known_[document_.facts()->path] = QFileInfo(document_.facts()->path).lastModified();
   told_changes_.clear();
+}
+
+// A clip's folder is another one with what the window writes into it.
+void MainWindow::note_written(const QString& path) {
+  if (document_.facts() && QFileInfo(QFileInfo(path).path()) == QFileInfo(document_.facts()->path)) note_capture();
 }
 
 QStringList MainWindow::changed_outside() const {
@@ -209,8 +218,9 @@ void MainWindow::write(const QString& what, Jobs::Work work) {
   being_written_.keep(writing_.open());
 }
 
-Told MainWindow::told_written() {
-  return [this](const QString& line) {
+Told MainWindow::told_written(const QString& path) {
+  return [this, path](const QString& line) {
+    note_written(path);
     notice_->say(Notice::Kind::note, line);
     QSettings kept;
     if (!isVisible()) kept.setValue(kWrittenKey, kept.value(kWrittenKey).toStringList() + QStringList(line));
@@ -296,6 +306,7 @@ void MainWindow::write_functions(const QString& path) {
     check_output(path.toStdString(), OutputKind::functions,
                  std::vector{document_.facts()->path.toStdString()});
     save_functions(path, document_.functions());
+    note_written(path);
     notice_->say(Notice::Kind::note, tr("Written: %1").arg(path));
   });
 }
@@ -305,7 +316,7 @@ void MainWindow::write_mask(const QString& path) {
   try_to([&] {
     if (!document_.state().mask)
       throw InputError("there is no mask yet: all of the picture is the background, M0. Add a region first");
-    check_mask_output(path.toStdString(), std::vector{document_.facts()->path.toStdString()});
+    check_mask_output(path.toStdString(), clip_files(document_.facts()->path, path));
     save_mask(path, (*document_.state().mask)->mask);
     const Feather feather = feather_of(document_.state());
     const QString soft = feather == Feather()

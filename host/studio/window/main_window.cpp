@@ -229,13 +229,13 @@ void MainWindow::connect_parts() {
 
 void MainWindow::open(const QString& path, const QString& rate, const StartingPoint* then) {
   notice_->clear();
-  if (path.endsWith(QLatin1String(kProjectExtension), Qt::CaseInsensitive))
-    return open_project(QFileInfo(path).absoluteFilePath(), {}, then);
+  const QString file = QDir::cleanPath(QFileInfo(path).absoluteFilePath());  // `frames/` is a name like `frames`
+  if (file.endsWith(QLatin1String(kProjectExtension), Qt::CaseInsensitive)) return open_project(file, {}, then);
   Stated stated;
   if (!rate.isEmpty()) stated.emplace("fps", rate.toStdString());
   Origin origin;
   origin.then = then;
-  open_capture_file(QFileInfo(path).absoluteFilePath(), stated, std::move(origin));
+  open_capture_file(file, stated, std::move(origin));
 }
 
 void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptProject> kept,

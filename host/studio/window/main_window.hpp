@@ -186,6 +186,7 @@ class MainWindow : public QMainWindow {
   bool ensure_files();
   [[nodiscard]] bool has_capture();  // as it was read; else it is said
   void note_capture();
+  void note_written(const QString& path);
   [[nodiscard]] QStringList changed_outside() const;
   void tell_changes();
   void copy_command();
@@ -201,7 +202,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] Told told() {
     return [this](const QString& line) { notice_->say(Notice::Kind::note, line); };
   }
-  [[nodiscard]] Told told_written();
+  [[nodiscard]] Told told_written(const QString& path);
 
   Document document_;
   // What a person waits for and may cancel; what is there in no time; pictures on their way to files, which opening
