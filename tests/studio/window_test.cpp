@@ -242,6 +242,9 @@ TEST_F(WindowTest, SaysWhyAFileIsRefused) {
     EXPECT_TRUE(window_.notice().text().contains(words)) << window_.notice().text().toStdString();
   };
   refuses("broken.nutik", "{", "it is no project");
+  refuses("list.nutik", "[]", "it is no project: it holds no JSON object");
+  refuses("none.nutik", "{}", "it is no project: it has no 'nutik-studio'");
+  refuses("text.nutik", R"({"nutik-studio": "1"})", "'nutik-studio' is no number");
   refuses("newer.nutik", R"({"nutik-studio": 2})", "this program reads 1");
   refuses("empty.nutik", R"({"nutik-studio": 1})", "'capture' names no file");
   scratch_.write("bad.fn", "M0 [5:1], [3:1]\n");
@@ -268,6 +271,20 @@ TEST_F(WindowTest, CancelsOpening) {
   EXPECT_EQ(document().facts(), nullptr);
   EXPECT_EQ(window_.notice().text(), "") << "who cancels knows why";
   open_clip();
+}
+
+TEST(StatusLine, CancelsNothingButTheJobThatItShows) {
+  Jobs jobs;
+  const StatusLine line({&jobs});
+  jobs.start("First", [](const Job& job) -> Jobs::Finish {
+    for (;; std::this_thread::sleep_for(std::chrono::milliseconds(1))) job.progress(0, 2);
+  });
+  bool is_done = false;
+  jobs.start("Second", [&](const Job&) { return [&] { is_done = true; }; });
+  auto& cancel = *line.findChild<QToolButton*>("cancel");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !cancel.isHidden(); }));
+  cancel.click();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return is_done; }));
 }
 
 TEST_F(WindowTest, MayGoAtAnyTime) {
@@ -516,7 +533,7 @@ TEST_F(WindowTest, OpensWhatIsDropped) {
       test::run_program({"encode", "-f", "100", "frames/%02d.pgm", "clip.tik"}, scratch_.folder());
   ASSERT_EQ(encoded.status, 0) << encoded.err;
   QMimeData files;
-  files.setUrls({QUrl::fromLocalFile(path("clip.tik"))});
+  files.setUrls({QUrl::fromLocalFile(path("clip.tik")), QUrl::fromLocalFile(path("other.tik"))});
   QDragEnterEvent enter({10, 10}, Qt::CopyAction, &files, Qt::LeftButton, {});
   QApplication::sendEvent(&window_, &enter);
   EXPECT_TRUE(enter.isAccepted());
@@ -525,6 +542,7 @@ TEST_F(WindowTest, OpensWhatIsDropped) {
   ASSERT_TRUE(settles());
   ASSERT_NE(document().facts(), nullptr) << window_.notice().text().toStdString();
   EXPECT_EQ(document().facts()->path, path("clip.tik"));
+  EXPECT_TRUE(window_.notice().text().endsWith("clip.tik is opened, not " + path("other.tik") + "."));
   EXPECT_EQ(document().overview().changed_share.size(), static_cast<std::size_t>(test::MovingSquare::kCount));
   EXPECT_FALSE(document().overview().thumbnails.empty());
 }
@@ -601,8 +619,10 @@ TEST_F(WindowTest, ListsRegionsAndTheirStillGain) {
   ASSERT_EQ(list.topLevelItemCount(), 2);
   const std::uint8_t tag = document().selected_tag();
   EXPECT_TRUE(list.currentItem()->toolTip(0).contains(QString("M%1 in mask").arg(tag)));
-  list.currentItem()->setText(0, "Ball");
-  EXPECT_EQ(document().state().looks.at(tag).name, "Ball");
+  list.currentItem()->setText(0, "<b>50%2");
+  EXPECT_EQ(document().state().looks.at(tag).name, "<b>50%2");
+  EXPECT_TRUE(list.currentItem()->toolTip(0).startsWith(QString("<qt>&lt;b&gt;50%2, M%1 in").arg(tag)));
+  EXPECT_TRUE(child<QWidget>("curves").accessibleDescription().startsWith(QString("<b>50%2 (M%1), ").arg(tag)));
   list.currentItem()->setCheckState(4, Qt::Checked);
   EXPECT_EQ(document().solo(), tag);
   click_button("remove_region");

@@ -345,7 +345,7 @@ void MainWindow::save_whole_part(const QString& path, const Origin& origin) {
     return tik::recover(damaged, whole.toStdString());
   };
   jobs_.start(tr("Saving what is whole"), save, [this, whole, origin](const tik::Recovery& saved) {
-    notice_->say(Notice::Kind::note, tr("%1: %2 samples were saved").arg(whole).arg(saved.sample_count));
+    notice_->say(Notice::Kind::note, tr("%1: %2 samples were saved").arg(whole, QString::number(saved.sample_count)));
     Origin elsewhere = origin;
     elsewhere.is_elsewhere = true;
     elsewhere.duration_ns = 0;
@@ -368,7 +368,7 @@ void MainWindow::fill_recent(QMenu& menu) {
   menu.clear();
   for (const RecentFile& file : recent_files()) {
     QAction* action = menu.addAction(file.path);
-    action->setEnabled(QFileInfo::exists(file.path));
+    action->setEnabled(QFileInfo::exists(file.path) || is_pattern(file.path));
     connect(action, &QAction::triggered, this, [this, path = file.path] {
       if (may_leave()) open(path);
     });

@@ -55,7 +55,7 @@ struct Origin {
   std::optional<std::pair<DocumentState, Marks>> left = {};  // what the document was when it was left for this
   std::shared_ptr<const KeptProject> kept = {};  // of Kind::recovered
   bool is_unwritten = false;                     // of Kind::project: its last save was ended in the middle
-  bool is_elsewhere = false;                     // the capture, than where the project says
+  bool is_elsewhere = false;                     // the capture, or read otherwise, than the project says
   const StartingPoint* then = nullptr;           // is started once it is open
 };
 
@@ -68,6 +68,7 @@ class MainWindow : public QMainWindow {
 
   // A capture, a clip or a project, in the background; `rate`, pictures a second, is stated of a clip.
   void open(const QString& path, const QString& rate = {}, const StartingPoint* then = nullptr);
+  void open_first(const QStringList& paths, const QString& rate = {});  // says which it leaves out
   // False: it failed, and why is said above the picture.
   bool save_project(const QString& path);
   // For an open capture. The reason why a file is refused is said above the picture.
@@ -117,7 +118,7 @@ class MainWindow : public QMainWindow {
   void restore_window();
   void keep_window();
   void open_project(const QString& path, std::shared_ptr<const KeptProject> kept = {},
-                    const StartingPoint* then = nullptr);
+                    const StartingPoint* then = nullptr, bool asks = false);  // how the clip is read
   void open_capture_file(const QString& path, const Stated& stated, Origin origin);
   void tell_way_out(const QString& path, const Stated& stated, const Origin& origin,
                     const std::exception_ptr& error);

@@ -344,11 +344,14 @@ Project load_project(const QString& path) {
   const QJsonDocument json = QJsonDocument::fromJson(file.readAll(), &mistake);
   if (!json.isObject())
     refuse(path,
-           format("it is no project: {} at byte {}", mistake.errorString().toStdString(), mistake.offset));
+           mistake.error == QJsonParseError::NoError
+               ? "it is no project: it holds no JSON object"
+               : format("it is no project: {} at byte {}", mistake.errorString().toStdString(), mistake.offset));
   const QJsonObject object = json.object();
-  if (object[kVersionKey].toInt() != kVersion)
-    refuse(path, format("it says '{}': {}, and this program reads {}", kVersionKey,
-                        object[kVersionKey].toInt(), kVersion));
+  if (!object.contains(kVersionKey)) refuse(path, format("it is no project: it has no '{}'", kVersionKey));
+  const double version = value_in(object, kVersionKey, 0.0, path).toDouble();
+  if (version != kVersion)
+    refuse(path, format("it says '{}': {}, and this program reads {}", kVersionKey, version, kVersion));
   const QDir folder = QFileInfo(path).absoluteDir();
   const auto resolved = [&](const char* name) {
     const QString text = object[name].toString();
