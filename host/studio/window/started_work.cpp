@@ -273,7 +273,8 @@ Jobs::Work filming(const Document& document, std::shared_ptr<Session> session, s
     const QString line = made.interruption
                              ? Document::tr("%1: %2 of %3 frames were written")
                              : Document::tr("%1: %n frame(s)", nullptr, static_cast<int>(made.frames));
-    QStringList lines{made.interruption ? line.arg(film, QString::number(made.frames), QString::number(frames.numbers.size()))
+    const auto count = [](std::size_t frames) { return QString::number(frames); };
+    QStringList lines{made.interruption ? line.arg(film, count(made.frames), count(frames.numbers.size()))
                                         : line.arg(film)};
     lines += notes;
     for (const std::string& note : made.notes) lines += sentence(note);
