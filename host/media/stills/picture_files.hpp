@@ -36,8 +36,8 @@ namespace nutik {
                                                       const std::string& name);
 
 // Writes codes: 8 or 16 bits, grey or RGB; what they mean in the chunks cICP, sRGB or gAMA and cHRM, and in iCCP what
-// cICP has no number for; pixels that are
-// not square in pHYs. `text` is kept as picture_text.hpp says; none where it is empty.
+// cICP has no number for; pixels that are not square in pHYs. `text` is kept as picture_text.hpp says; none where it is
+// empty.
 void write_png(OutputFile& file, const Picture& picture, const std::string& text);
 
 // JPEG, through libjpeg.

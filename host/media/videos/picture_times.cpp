@@ -57,11 +57,10 @@ bool y4m_states_rate(std::string_view file) {
 
 // Whether an AVI states a rate: as scale and rate of its stream, else as microseconds a picture.
 bool avi_states_rate(std::string_view file) {
-  const auto is_zero = [&](std::size_t at) {
-    return at > file.size() || file.substr(at, 4) == std::string_view("\0\0\0\0", 4);
-  };
+  const auto four_at = [&](std::size_t at) { return file.substr(std::min(at, file.size()), 4); };
+  const auto is_zero = [&](std::size_t at) { return std::string_view("\0\0\0\0", 4).starts_with(four_at(at)); };
   std::size_t stream = file.find("strh");
-  while (stream != file.npos && file.substr(stream + 8, 4) != "vids") stream = file.find("strh", stream + 1);
+  while (stream != file.npos && four_at(stream + 8) != "vids") stream = file.find("strh", stream + 1);
   if (stream == file.npos || (!is_zero(stream + 28) && !is_zero(stream + 32))) return true;
   const std::size_t header = file.find("avih");
   return header != file.npos && !is_zero(header + 8);
