@@ -183,10 +183,6 @@ void check_attributes(std::string_view bytes) {
   } while (several_parts && in_header());
 }
 
-}  // namespace
-
-namespace {
-
 // With the channels of a buffer.
 void write_file(OutputFile& file, const Imf::Header& header, const Imf::FrameBuffer& buffer) {
   FileStream stream(file);
@@ -199,6 +195,33 @@ void write_file(OutputFile& file, const Imf::Header& header, const Imf::FrameBuf
     throw OutputError(format("the OpenEXR file cannot be written: {}", error.what()));
   }
   stream.check();
+}
+
+// Whether it is a channel of write_exr_layers(), which gives each layer an attribute of its name.
+bool is_layer(const Imf::Header& header, std::string_view channel) {
+  if (!channel.ends_with(".Y")) return false;
+  channel.remove_suffix(2);
+  return header.findTypedAttribute<Imf::StringAttribute>(std::string(channel)) != nullptr;
+}
+
+// The channels of a picture of light, in a raster's order. Throws where they are none.
+std::vector<std::string> channels_of(const Imf::Header& header) {
+  const Imf::ChannelList& channels = header.channels();
+  std::string all;
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+    if (is_layer(header, channel.name())) continue;
+    all += (all.empty() ? "" : ", ") + std::string(channel.name());
+  }
+  if (all == "B, G, R") return {"R", "G", "B"};
+  if (!all.empty() && all.find(',') == std::string::npos) return {all};
+  throw InputError(format("its channels are {}; R, G and B, or one of grey, are read, transparency is not", all));
+}
+
+std::optional<Primaries> named_primaries(const Imf::Header& header) {
+  if (!Imf::hasChromaticities(header)) return std::nullopt;
+  const Imf::Chromaticities& named = Imf::chromaticities(header);
+  const auto at = [](const Imath::V2f& point) { return std::array{double{point.x}, double{point.y}}; };
+  return primaries_at({at(named.red), at(named.green), at(named.blue), at(named.white)});
 }
 
 }  // namespace
@@ -235,37 +258,6 @@ void write_exr_layers(OutputFile& file, std::span<const PictureLayer> layers) {
   }
   write_file(file, header, buffer);
 }
-
-namespace {
-
-// Whether it is a channel of write_exr_layers(), which gives each layer an attribute of its name.
-bool is_layer(const Imf::Header& header, std::string_view channel) {
-  if (!channel.ends_with(".Y")) return false;
-  channel.remove_suffix(2);
-  return header.findTypedAttribute<Imf::StringAttribute>(std::string(channel)) != nullptr;
-}
-
-// The channels of a picture of light, in a raster's order. Throws where they are none.
-std::vector<std::string> channels_of(const Imf::Header& header) {
-  const Imf::ChannelList& channels = header.channels();
-  std::string all;
-  for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
-    if (is_layer(header, channel.name())) continue;
-    all += (all.empty() ? "" : ", ") + std::string(channel.name());
-  }
-  if (all == "B, G, R") return {"R", "G", "B"};
-  if (!all.empty() && all.find(',') == std::string::npos) return {all};
-  throw InputError(format("its channels are {}; R, G and B, or one of grey, are read, transparency is not", all));
-}
-
-std::optional<Primaries> named_primaries(const Imf::Header& header) {
-  if (!Imf::hasChromaticities(header)) return std::nullopt;
-  const Imf::Chromaticities& named = Imf::chromaticities(header);
-  const auto at = [](const Imath::V2f& point) { return std::array{double{point.x}, double{point.y}}; };
-  return primaries_at({at(named.red), at(named.green), at(named.blue), at(named.white)});
-}
-
-}  // namespace
 
 std::optional<Primaries> primaries_at(const std::array<std::array<double, 2>, 4>& points) {
   constexpr double kAgree = 5e-4;

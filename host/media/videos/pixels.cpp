@@ -104,6 +104,74 @@ void copy_upright(const std::uint8_t* from, std::ptrdiff_t stride, std::size_t w
   }
 }
 
+constexpr std::pair<unsigned, ChromaPlace> kChromaPlaces[] = {
+    {AVCHROMA_LOC_LEFT, ChromaPlace::left},
+    {AVCHROMA_LOC_CENTER, ChromaPlace::center},
+    {AVCHROMA_LOC_TOPLEFT, ChromaPlace::topleft},
+    {AVCHROMA_LOC_TOP, ChromaPlace::top},
+    {AVCHROMA_LOC_BOTTOMLEFT, ChromaPlace::bottomleft},
+    {AVCHROMA_LOC_BOTTOM, ChromaPlace::bottom},
+};
+
+std::optional<ChromaPlace> chroma_place(unsigned location) {
+  for (const auto& [theirs, ours] : kChromaPlaces) {
+    if (theirs == location) return ours;
+  }
+  return std::nullopt;
+}
+
+// The format that has the same components, each in a plane of its own.
+AVPixelFormat planar_kin(AVPixelFormat format) {
+  const AVPixFmtDescriptor& packed = *av_pix_fmt_desc_get(format);
+  constexpr std::uint64_t kCompared = AV_PIX_FMT_FLAG_PLANAR | AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_BE;
+  const std::uint64_t wanted = AV_PIX_FMT_FLAG_PLANAR | (packed.flags & AV_PIX_FMT_FLAG_RGB);
+  const AVPixFmtDescriptor* each = nullptr;
+  while ((each = av_pix_fmt_desc_next(each)) != nullptr) {
+    if (each->nb_components == 3 && (each->flags & kCompared) == wanted && each->comp[0].shift == 0 &&
+        each->comp[0].depth == packed.comp[0].depth && each->comp[1].step == (packed.comp[0].depth + 7) / 8 &&
+        each->log2_chroma_w == packed.log2_chroma_w && each->log2_chroma_h == packed.log2_chroma_h) {
+      return av_pix_fmt_desc_get_id(each);
+    }
+  }
+  return AV_PIX_FMT_NONE;
+}
+
+// Whether libswscale does not read such pixels, or has a white of its own for them. FFmpeg does not tell where the luma
+// of uyyvyy411 lies.
+bool is_unpacked_here(AVPixelFormat format) {
+  const bool is_read = format != AV_PIX_FMT_X2RGB10LE && format != AV_PIX_FMT_X2BGR10LE && sws_isSupportedInput(format);
+  return !is_read && format != AV_PIX_FMT_UYYVYY411 && planar_kin(format) != AV_PIX_FMT_NONE;
+}
+
+// Null where such pixels cannot be converted.
+SwsContext* new_scaler(const AVFrame& frame, AVPixelFormat wanted, ChromaPlace at) {
+  std::unique_ptr<SwsContext, decltype(&sws_freeContext)> scaler(sws_alloc_context(), &sws_freeContext);
+  if (!scaler) return nullptr;
+  const auto from = static_cast<AVPixelFormat>(frame.format);
+  const auto set = [&](const char* option, std::int64_t value) {
+    av_opt_set_int(scaler.get(), option, value, 0);
+  };
+  for (const char* end : {"src", "dst"}) {
+    set((end + std::string("w")).c_str(), frame.width);
+    set((end + std::string("h")).c_str(), frame.height);
+  }
+  set("src_format", from);
+  set("dst_format", wanted);
+  set("sws_flags", SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT);
+  // Where samples of chroma lie between those of luma, in 256ths of their distance.
+  constexpr int kBetween = 128;
+  const AVPixFmtDescriptor& pixels = *av_pix_fmt_desc_get(from);
+  const bool is_centred = at == ChromaPlace::center || at == ChromaPlace::top || at == ChromaPlace::bottom;
+  const bool is_top = at == ChromaPlace::topleft || at == ChromaPlace::top;
+  const bool is_bottom = at == ChromaPlace::bottomleft || at == ChromaPlace::bottom;
+  const bool is_interpolated = is_yuv(from) && av_pix_fmt_desc_get(wanted)->log2_chroma_w == 0;
+  if (is_interpolated && pixels.log2_chroma_w == 1) set("src_h_chr_pos", is_centred ? kBetween : 0);
+  if (is_interpolated && pixels.log2_chroma_h == 1) {
+    set("src_v_chr_pos", is_top ? 0 : is_bottom ? 2 * kBetween : kBetween);
+  }
+  return sws_init_context(scaler.get(), nullptr, nullptr) < 0 ? nullptr : scaler.release();
+}
+
 }  // namespace
 
 std::uint32_t PixelKind::white_code() const {
@@ -220,26 +288,6 @@ std::optional<CodeRange> named_range(unsigned range, AVPixelFormat format) {
   return range == AVCOL_RANGE_MPEG ? std::optional(CodeRange::limited) : std::nullopt;
 }
 
-namespace {
-
-constexpr std::pair<unsigned, ChromaPlace> kChromaPlaces[] = {
-    {AVCHROMA_LOC_LEFT, ChromaPlace::left},
-    {AVCHROMA_LOC_CENTER, ChromaPlace::center},
-    {AVCHROMA_LOC_TOPLEFT, ChromaPlace::topleft},
-    {AVCHROMA_LOC_TOP, ChromaPlace::top},
-    {AVCHROMA_LOC_BOTTOMLEFT, ChromaPlace::bottomleft},
-    {AVCHROMA_LOC_BOTTOM, ChromaPlace::bottom},
-};
-
-std::optional<ChromaPlace> chroma_place(unsigned location) {
-  for (const auto& [theirs, ours] : kChromaPlaces) {
-    if (theirs == location) return ours;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
 std::optional<ChromaPlace> named_chroma_place(const AVCodecParameters& codec) {
   return chroma_place(number_of(codec.chroma_location));
 }
@@ -285,62 +333,6 @@ Upright upright_of(std::span<const std::uint8_t> display_matrix) {
   }
   return upright;
 }
-
-namespace {
-
-// The format that has the same components, each in a plane of its own.
-AVPixelFormat planar_kin(AVPixelFormat format) {
-  const AVPixFmtDescriptor& packed = *av_pix_fmt_desc_get(format);
-  constexpr std::uint64_t kCompared = AV_PIX_FMT_FLAG_PLANAR | AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_BE;
-  const std::uint64_t wanted = AV_PIX_FMT_FLAG_PLANAR | (packed.flags & AV_PIX_FMT_FLAG_RGB);
-  const AVPixFmtDescriptor* each = nullptr;
-  while ((each = av_pix_fmt_desc_next(each)) != nullptr) {
-    if (each->nb_components == 3 && (each->flags & kCompared) == wanted && each->comp[0].shift == 0 &&
-        each->comp[0].depth == packed.comp[0].depth && each->comp[1].step == (packed.comp[0].depth + 7) / 8 &&
-        each->log2_chroma_w == packed.log2_chroma_w && each->log2_chroma_h == packed.log2_chroma_h) {
-      return av_pix_fmt_desc_get_id(each);
-    }
-  }
-  return AV_PIX_FMT_NONE;
-}
-
-// Whether libswscale does not read such pixels, or has a white of its own for them. FFmpeg does not tell where the luma
-// of uyyvyy411 lies.
-bool is_unpacked_here(AVPixelFormat format) {
-  const bool is_read = format != AV_PIX_FMT_X2RGB10LE && format != AV_PIX_FMT_X2BGR10LE && sws_isSupportedInput(format);
-  return !is_read && format != AV_PIX_FMT_UYYVYY411 && planar_kin(format) != AV_PIX_FMT_NONE;
-}
-
-// Null where such pixels cannot be converted.
-SwsContext* new_scaler(const AVFrame& frame, AVPixelFormat wanted, ChromaPlace at) {
-  std::unique_ptr<SwsContext, decltype(&sws_freeContext)> scaler(sws_alloc_context(), &sws_freeContext);
-  if (!scaler) return nullptr;
-  const auto from = static_cast<AVPixelFormat>(frame.format);
-  const auto set = [&](const char* option, std::int64_t value) {
-    av_opt_set_int(scaler.get(), option, value, 0);
-  };
-  for (const char* end : {"src", "dst"}) {
-    set((end + std::string("w")).c_str(), frame.width);
-    set((end + std::string("h")).c_str(), frame.height);
-  }
-  set("src_format", from);
-  set("dst_format", wanted);
-  set("sws_flags", SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT);
-  // Where samples of chroma lie between those of luma, in 256ths of their distance.
-  constexpr int kBetween = 128;
-  const AVPixFmtDescriptor& pixels = *av_pix_fmt_desc_get(from);
-  const bool is_centred = at == ChromaPlace::center || at == ChromaPlace::top || at == ChromaPlace::bottom;
-  const bool is_top = at == ChromaPlace::topleft || at == ChromaPlace::top;
-  const bool is_bottom = at == ChromaPlace::bottomleft || at == ChromaPlace::bottom;
-  const bool is_interpolated = is_yuv(from) && av_pix_fmt_desc_get(wanted)->log2_chroma_w == 0;
-  if (is_interpolated && pixels.log2_chroma_w == 1) set("src_h_chr_pos", is_centred ? kBetween : 0);
-  if (is_interpolated && pixels.log2_chroma_h == 1) {
-    set("src_v_chr_pos", is_top ? 0 : is_bottom ? 2 * kBetween : kBetween);
-  }
-  return sws_init_context(scaler.get(), nullptr, nullptr) < 0 ? nullptr : scaler.release();
-}
-
-}  // namespace
 
 PixelConverter::PixelConverter(PixelKind kind, Upright upright, YuvCoding coding)
     : kind_(kind), upright_(upright), coding_(coding) {

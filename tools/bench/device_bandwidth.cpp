@@ -1,4 +1,4 @@
-#include "opencl/device_bandwidth.hpp"
+#include "device_bandwidth.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -7,7 +7,7 @@
 #include "opencl/opencl_api.hpp"
 #include "system/page_buffer.hpp"
 
-namespace nutik {
+namespace nutik::bench {
 namespace {
 
 constexpr int kRuns = 5;
@@ -77,4 +77,4 @@ double device_copy_bandwidth(std::size_t device, std::uint64_t bytes) {
   }
 }
 
-}  // namespace nutik
+}  // namespace nutik::bench
