@@ -12,6 +12,7 @@
 #include "capture/format.hpp"
 #include "capture/noise_file.hpp"
 #include "capture/source_text.hpp"
+#include "capture/text.hpp"
 #include "imev/block.hpp"
 #include "imev/expected_values.hpp"
 #include "tik/codec.hpp"
@@ -282,7 +283,7 @@ void take_fields(std::span<const Field> fields, Header& header) {
 }
 
 std::string_view front_text(std::span<const std::byte> file) {
-  return {reinterpret_cast<const char*>(file.data()), std::min(file.size(), kLongestHeader)};
+  return as_text(file).substr(0, kLongestHeader);
 }
 
 // The picture at the front, of all pixels and not packed: what a file says of its size is true, and whatever is

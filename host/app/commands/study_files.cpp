@@ -6,6 +6,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "media/stills/netpbm.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "session/text/shell_text.hpp"
@@ -28,8 +29,7 @@ constexpr std::string_view kBeforeName = "# ";
 constexpr std::string_view kPicture = "# the picture ";
 
 std::string content_of(const std::filesystem::path& file) {
-  const MappedFile mapped(file);
-  return {reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size()};
+  return std::string(as_text(MappedFile(file).bytes()));
 }
 
 std::string sum_of(std::string_view content) { return format("{:016x}", checksum(content)); }

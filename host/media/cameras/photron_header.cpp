@@ -155,7 +155,7 @@ PhotronHeader read_photron_header(const fs::path& file) {
   const MappedFile mapped(file);
   const auto bytes = mapped.bytes();
   check_text_bytes(file.string(), bytes.size());
-  PhotronHeader header = parse_photron_header({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  PhotronHeader header = parse_photron_header(as_text(bytes));
   header.file = file;
   return header;
 }

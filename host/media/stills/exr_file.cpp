@@ -24,6 +24,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "media/stills/picture_text.hpp"
 #include "media/stills/stills.hpp"
 #include "system/mapped_file.hpp"
@@ -278,7 +279,7 @@ ExrPicture read_exr(const std::filesystem::path& file) {
   constexpr std::uint64_t kSmall = 64 << 20, kMaxExpansion = 2560;
   try {
     const MappedFile mapped(file);
-    check_attributes({reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size()});
+    check_attributes(as_text(mapped.bytes()));
     Imf::InputFile input(file.c_str(), 0);
     const Imf::Header& header = input.header();
     const Imath::Box2i window = header.dataWindow();
@@ -321,7 +322,7 @@ ExrPicture read_exr(const std::filesystem::path& file) {
 std::optional<std::string> read_exr_text(const std::filesystem::path& file, const char* keyword) {
   try {
     const MappedFile mapped(file);
-    check_attributes({reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size()});
+    check_attributes(as_text(mapped.bytes()));
     const Imf::InputFile input(file.c_str(), 0);
     const auto* text = input.header().findTypedAttribute<Imf::StringAttribute>(keyword);
     if (text == nullptr) return std::nullopt;

@@ -81,7 +81,7 @@ void append_values(std::string& text, const Picture& picture) {
 }  // namespace
 
 NpyFront read_npy_front(std::span<const std::byte> file, const std::string& name) {
-  const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+  const std::string_view text = as_text(file);
   if (!text.starts_with(kMagic) || text.size() < kLengthAt + 4) fail(name, "it is no array of NumPy's, or was cut off");
   // The length of the front has two bytes in version 1, and four since; the low one first.
   const std::size_t length_bytes = text[kMagic.size()] == 1 ? 2 : 4;

@@ -85,7 +85,7 @@ std::optional<std::string> read_tiff_description(const std::filesystem::path& pa
   return text;
 }
 
-void write_tiff(OutputFile& file, const Picture& picture, const std::string& text) {
+void write_tiff(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
   write_pages(file, picture.bytes.size(), 1,
               [&](TIFF* tiff, std::size_t) { return write_page(tiff, file, picture, text); });
 }

@@ -9,6 +9,7 @@
 
 #include "capture/error.hpp"
 #include "capture/median.hpp"
+#include "capture/text.hpp"
 #include "media/formats/extension.hpp"
 #include "media/formats/file_kinds.hpp"
 #include "media/videos/mxf_unit.hpp"
@@ -19,10 +20,6 @@ namespace {
 
 // Rates that lie this close are the same, as cameras keep time.
 constexpr double kSameRate = 0.02;
-
-std::string_view bytes_of(const MappedFile& file) {
-  return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
-}
 
 constexpr std::string_view kAnyCodec = "????";
 
@@ -95,7 +92,7 @@ std::string sony_story(const std::filesystem::path& path, std::string& from) {
   constexpr std::uintmax_t kMaxBytes = 1u << 20;
   const MappedFile mapped(path);
   for (const auto& boxes : {std::vector<std::string_view>{"meta"}, {"moov", "meta"}}) {
-    const std::string_view text = box_at(bytes_of(mapped), boxes);
+    const std::string_view text = box_at(as_text(mapped.bytes()), boxes);
     if (const auto at = text.find(kName); at != text.npos) return std::string(text.substr(at));
   }
   const std::string extension = extension_of(path);
@@ -106,7 +103,7 @@ std::string sony_story(const std::filesystem::path& path, std::string& from) {
   if (error || bytes == 0 || bytes > kMaxBytes) return {};
   try {
     const MappedFile story(beside);
-    std::string text(bytes_of(story));
+    std::string text(as_text(story.bytes()));
     if (text.find(kName) == text.npos) return {};
     from = beside.filename().string();
     return text;
@@ -147,7 +144,7 @@ std::optional<Rational> sony_rate(const std::string& story) {
 CameraUnit camera_unit(const std::filesystem::path& path) {
   std::string from = CameraUnit().from;
   const std::string story = sony_story(path, from);
-  if (story.empty()) return mxf_unit(bytes_of(MappedFile(path)));
+  if (story.empty()) return mxf_unit(as_text(MappedFile(path).bytes()));
   return {item_of(story, "CaptureGammaEquation"), item_of(story, "CaptureColorPrimaries"), sony_rate(story), from};
 }
 
@@ -214,7 +211,7 @@ std::optional<NamedCurve> named_curve(const AVFormatContext& format, const std::
   // As Apple's VideoToolbox names them, kCVImageBufferLogTransferFunction_AppleLog and _AppleLog2.
   const MappedFile mapped(path);
   const std::string_view in_track =
-      box_at(bytes_of(mapped), {"moov", "trak", "mdia", "minf", "stbl", "stsd", kAnyCodec, "logs"});
+      box_at(as_text(mapped.bytes()), {"moov", "trak", "mdia", "minf", "stbl", "stsd", kAnyCodec, "logs"});
   const auto is_apples = [&](std::string_view name) {
     return in_track == name || said("com.apple.proapps.customgamma") == name;
   };
@@ -247,8 +244,8 @@ std::optional<CaptureRate> capture_rate(const AVFormatContext& format, const std
   }
   if (const CameraUnit unit = camera_unit(path); unit.rate) return CaptureRate{*unit.rate, "Sony's captureFps", unit.from};
   const MappedFile mapped(path);
-  if (!is_mp4(bytes_of(mapped))) return std::nullopt;
-  const SamsungRecording samsung = samsung_recording(bytes_of(mapped));
+  if (!is_mp4(as_text(mapped.bytes()))) return std::nullopt;
+  const SamsungRecording samsung = samsung_recording(as_text(mapped.bytes()));
   if (samsung.rate) return CaptureRate{*samsung.rate, "Samsung's smta"};
   if (samsung.is_slow) {
     notes.emplace_back(
@@ -262,7 +259,7 @@ std::optional<CaptureRate> capture_rate(const AVFormatContext& format, const std
 
 bool has_edits(const std::filesystem::path& path) {
   const MappedFile mapped(path);
-  std::string_view boxes = box_at(bytes_of(mapped), {"moov"});
+  std::string_view boxes = box_at(as_text(mapped.bytes()), {"moov"});
   while (!boxes.empty()) {
     const std::string_view track = box_at(boxes, {"trak"});
     if (track.empty()) return false;
@@ -290,7 +287,7 @@ bool has_slow_parts(const std::filesystem::path& path) {
   constexpr std::string_view kEnd = "SEFT", kName = "SlowMotion_Data";
   constexpr std::size_t kTail = 8, kMaxBytes = 1u << 20;
   const MappedFile mapped(path);
-  const std::string_view file = bytes_of(mapped);
+  const std::string_view file = as_text(mapped.bytes());
   return is_mp4(file) && file.ends_with(kEnd) &&
          file.substr(file.size() - std::min(file.size(), kMaxBytes + kTail)).find(kName) != file.npos;
 }

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "capture/text.hpp"
 #include "media/videos/containers.hpp"
 
 namespace nutik::videos {
@@ -144,8 +145,7 @@ std::optional<std::string> doubt_about_rate(const AVFormatContext& file, const A
                                             std::span<const std::byte> bytes) {
   constexpr std::size_t kHeaderBytes = 1u << 16;
   const std::string_view kind = file.iformat->name;
-  const std::string_view start(reinterpret_cast<const char*>(bytes.data()),
-                               std::min(bytes.size(), kHeaderBytes));
+  const std::string_view start = as_text(bytes).substr(0, kHeaderBytes);
   const AVRational rate = stream.r_frame_rate;
   const bool is_made_up =
       std::ranges::find(kUntimed, kind) != std::end(kUntimed) || av_cmp_q(rate, kUnstatedRate) == 0 ||

@@ -12,31 +12,20 @@
 namespace nutik::videos {
 namespace {
 
+// FFmpeg's format of these components with so many bits, else with 16.
+AVPixelFormat with_bits(const std::string& components, std::uint32_t bits) {
+  const AVPixelFormat found = av_get_pix_fmt((components + std::to_string(std::min(bits, 16u))).c_str());
+  return found == AV_PIX_FMT_NONE ? av_get_pix_fmt((components + "16").c_str()) : found;
+}
+
 AVPixelFormat raster_format(const PixelKind& kind) {
   if (!kind.is_grey) return kind.bits <= 8 ? AV_PIX_FMT_RGB24 : AV_PIX_FMT_RGB48;
-  switch (kind.bits + kind.padding_bits) {
-    case 8: return AV_PIX_FMT_GRAY8;
-    case 9: return AV_PIX_FMT_GRAY9;
-    case 10: return AV_PIX_FMT_GRAY10;
-    case 12: return AV_PIX_FMT_GRAY12;
-    case 14: return AV_PIX_FMT_GRAY14;
-    default: return AV_PIX_FMT_GRAY16;
-  }
+  return with_bits("gray", kind.bits + kind.padding_bits);
 }
 
 bool has_j_name(AVPixelFormat format) {
   const char* name = av_get_pix_fmt_name(format);
   return name != nullptr && std::string_view(name).starts_with("yuvj");
-}
-
-AVPixelFormat planar_format(std::uint32_t bits) {
-  switch (bits) {
-    case 9: return AV_PIX_FMT_YUV444P9;
-    case 10: return AV_PIX_FMT_YUV444P10;
-    case 12: return AV_PIX_FMT_YUV444P12;
-    case 14: return AV_PIX_FMT_YUV444P14;
-    default: return AV_PIX_FMT_YUV444P16;
-  }
 }
 
 // Turns planes of Y, U and V of `bits` bits into RGB over 16 bits, each code the nearest there is.
@@ -104,20 +93,12 @@ void copy_upright(const std::uint8_t* from, std::ptrdiff_t stride, std::size_t w
   }
 }
 
-constexpr std::pair<unsigned, ChromaPlace> kChromaPlaces[] = {
-    {AVCHROMA_LOC_LEFT, ChromaPlace::left},
-    {AVCHROMA_LOC_CENTER, ChromaPlace::center},
-    {AVCHROMA_LOC_TOPLEFT, ChromaPlace::topleft},
-    {AVCHROMA_LOC_TOP, ChromaPlace::top},
-    {AVCHROMA_LOC_BOTTOMLEFT, ChromaPlace::bottomleft},
-    {AVCHROMA_LOC_BOTTOM, ChromaPlace::bottom},
-};
-
 std::optional<ChromaPlace> chroma_place(unsigned location) {
-  for (const auto& [theirs, ours] : kChromaPlaces) {
-    if (theirs == location) return ours;
-  }
-  return std::nullopt;
+  // Ours have FFmpeg's order.
+  static_assert(AVCHROMA_LOC_CENTER - AVCHROMA_LOC_LEFT == static_cast<int>(ChromaPlace::center));
+  static_assert(AVCHROMA_LOC_BOTTOM - AVCHROMA_LOC_LEFT == static_cast<int>(ChromaPlace::bottom));
+  if (location < AVCHROMA_LOC_LEFT || location > AVCHROMA_LOC_BOTTOM) return std::nullopt;
+  return static_cast<ChromaPlace>(location - AVCHROMA_LOC_LEFT);
 }
 
 // The format that has the same components, each in a plane of its own.
@@ -335,7 +316,11 @@ Upright upright_of(std::span<const std::uint8_t> display_matrix) {
 }
 
 PixelConverter::PixelConverter(PixelKind kind, Upright upright, YuvCoding coding)
-    : kind_(kind), upright_(upright), coding_(coding) {
+    : kind_(kind),
+      upright_(upright),
+      coding_(coding),
+      raster_format_(raster_format(kind)),
+      planar_format_(with_bits("yuv444p", kind.bits)) {
   if (kind.padding_bits == 0 && !kind.is_limited_grey) return;
   const double white = kind.white_code(), unit = std::ldexp(1.0, static_cast<int>(std::max(kind.bits, 8u)) - 8);
   code_of_.resize(kind.bits > 8 ? 65'536 : 256);
@@ -401,7 +386,7 @@ const AVFrame& PixelConverter::byte_planes(const AVFrame& frame, const std::stri
 
 const AVFrame& PixelConverter::converted(const AVFrame& frame, const std::string& name) {
   if (kind_.is_grey || !is_yuv(static_cast<AVPixelFormat>(frame.format))) {
-    return scaled(frame, raster_format(kind_), name);
+    return scaled(frame, raster_format_, name);
   }
   if (kind_.is_everyday()) {
     if (!rgb_) rgb_ = new_frame(AV_PIX_FMT_RGB24, frame.width, frame.height);
@@ -409,7 +394,7 @@ const AVFrame& PixelConverter::converted(const AVFrame& frame, const std::string
     return *rgb_;
   }
   // libswscale only gives every pixel its U and V.
-  const AVFrame& planes = scaled(frame, planar_format(kind_.bits), name);
+  const AVFrame& planes = scaled(frame, planar_format_, name);
   if (!rgb_) rgb_ = new_frame(AV_PIX_FMT_RGB48, frame.width, frame.height);
   yuv_to_rgb(planes, kind_.bits, coding_, *rgb_);
   return *rgb_;
@@ -420,16 +405,15 @@ void PixelConverter::convert(const AVFrame& given, std::span<std::byte> raster, 
   const AVFrame& frame = is_unpacked ? unpacked(given) : given;
   const std::size_t pixel_bytes = (kind_.is_grey ? 1u : 3u) * (kind_.bits > 8 ? 2u : 1u);
   const std::size_t row_bytes = static_cast<std::size_t>(frame.width) * pixel_bytes;
-  const AVPixelFormat wanted = raster_format(kind_);
   const bool stays = upright_.quarter_turns == 0 && !upright_.is_mirrored;
   auto* row = reinterpret_cast<std::uint8_t*>(raster.data());
   if (kind_.is_everyday() && is_yuv(static_cast<AVPixelFormat>(frame.format)) && stays) {
     eight_bit_rgb(byte_planes(frame, name), coding_, row, static_cast<std::ptrdiff_t>(row_bytes));
     return;
   }
-  if (wanted == AV_PIX_FMT_RGB24 && frame.format != wanted && stays && is_aligned(raster, row_bytes)) {
+  if (raster_format_ == AV_PIX_FMT_RGB24 && frame.format != raster_format_ && stays && is_aligned(raster, row_bytes)) {
     const int stride = static_cast<int>(row_bytes);
-    scale(frame, wanted, name, &row, &stride);
+    scale(frame, raster_format_, name, &row, &stride);
     return;
   }
   const AVFrame& picture = converted(frame, name);
