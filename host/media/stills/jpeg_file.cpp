@@ -165,7 +165,7 @@ std::optional<std::string> read_jpeg_comments(std::span<const std::byte> file, c
 JpegPicture read_jpeg(std::span<const std::byte> file, const std::string& name) {
   std::string title = format("{} cannot be read: it is damaged or no picture", name);
   Decompressor jpeg(title);
-  // libjpeg goes on behind damage, with whatever comes; only behind the picture may there be more than there should.
+  // libjpeg goes on behind damage, with whatever comes: in front of a picture, also behind bytes of no segment.
   jpeg.err->emit_message = [](j_common_ptr of, int) {
     constexpr std::array kDamage{JWRN_ARITH_BAD_CODE, JWRN_HIT_MARKER, JWRN_HUFF_BAD_CODE, JWRN_JPEG_EOF, JWRN_MUST_RESYNC};
     if (of->err->msg_code == JWRN_EXTRANEOUS_DATA) ++of->err->num_warnings;
