@@ -85,17 +85,18 @@ bool lacks_a_jpeg(LibRaw& raw, const std::filesystem::path& file) {
   const auto& sizes = raw.imgdata.sizes;
   if (unpacker.tiff_compress != kJpeg || sizes.raw_width == 0 || sizes.raw_height == 0) return false;
   const MappedFile mapped(file);
+  const std::string_view bytes = as_text(mapped.bytes());
   const auto begin = static_cast<std::uint64_t>(unpacker.data_offset);
   if (unpacker.tile_length >= std::numeric_limits<int>::max()) {
-    return !is_of_size(jpeg_front(as_text(mapped.bytes()), begin).samples, sizes.raw_width, sizes.raw_height);
+    return !is_of_size(jpeg_front(bytes, begin).samples, sizes.raw_width, sizes.raw_height);
   }
   if (unpacker.tile_width == 0 || unpacker.tile_length == 0) return true;
   const std::uint64_t across = (sizes.raw_width - 1) / unpacker.tile_width + 1;
   const std::uint64_t tiles = across * ((sizes.raw_height - 1) / unpacker.tile_length + 1);
   for (std::uint64_t tile = 0; tile < tiles; ++tile) {
     const bool big_end_first = static_cast<unsigned short>(unpacker.order) == kBigEnd;
-    const std::uint64_t at = tile_at(as_text(mapped.bytes()), begin, tile, big_end_first);
-    if (!is_of_size(jpeg_front(as_text(mapped.bytes()), at).samples, unpacker.tile_width, unpacker.tile_length)) return true;
+    const std::uint64_t at = tile_at(bytes, begin, tile, big_end_first);
+    if (!is_of_size(jpeg_front(bytes, at).samples, unpacker.tile_width, unpacker.tile_length)) return true;
   }
   return false;
 }
