@@ -184,9 +184,9 @@ class Clip {
 };
 
 // Opens a video (`-` is one from standard input), a sequence of stills (media/stills/still_sequence.hpp), a table of stills
-// (media/stills/stills_table.hpp), a Photron camera's pictures (media/clip_formats.hpp), or a recording without pictures
-// (media/events/event_clip.hpp). Their times do not count where a rate is stated. Throws InputError where there is
-// none, or none that can be read.
+// (media/stills/stills_table.hpp), a Photron camera's pictures (media/cameras/photron_header.hpp), or a recording
+// without pictures (media/events/event_clip.hpp). Their times do not count where a rate is stated. Throws InputError
+// where there is none, or none that can be read.
 [[nodiscard]] std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOptions& options);
 
 // The files that it would read: a table before its stills, pictures before what a camera wrote beside them.

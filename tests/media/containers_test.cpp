@@ -182,6 +182,8 @@ TEST(Containers, WhoseRateNobodyStatesNeedOne) {
   make(scratch, film + "-c:v mjpeg -pix_fmt yuvj420p -f mpjpeg a.mpjpeg");
   make(scratch, film + "-c:v mjpeg -pix_fmt yuvj420p told.avi");
   std::string avi = test::read_file(scratch / "told.avi");
+  const std::string junk("JUNK\xEC\xFF\0\0", 8);  // fills the 64 KiB that are searched for a rate
+  scratch.write("junk.avi", avi.substr(0, 12) + junk + std::string(65'512, '.') + "strh" + avi.substr(12));
   avi.replace(avi.find("avih") + 8, 4, 4, '\0');
   avi.replace(avi.find("strh") + 28, 8, 8, '\0');
   scratch.write("a.avi", avi);
@@ -198,7 +200,7 @@ TEST(Containers, WhoseRateNobodyStatesNeedOne) {
     make(scratch, vui + ticks + " " + name);
     expect_untold(name, " does not say how fast it was taken: its header states ");
   }
-  for (const char* name : {"told.avi", "told.gif", "t.h264"}) {
+  for (const char* name : {"told.avi", "junk.avi", "told.gif", "t.h264"}) {
     const auto rate = open_test_clip(scratch / name)->info().timing.rate;
     EXPECT_EQ(rate, (Rational{50, 1})) << name << " has " << (rate ? rate->text() : "no rate");
   }

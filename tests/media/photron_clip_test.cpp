@@ -6,8 +6,8 @@
 #include <span>
 
 #include "capture/error.hpp"
+#include "media/cameras/photron_header.hpp"
 #include "media/input_checksum.hpp"
-#include "media/clip_formats.hpp"
 #include "support/clips.hpp"
 #include "support/messages.hpp"
 #include "support/scratch.hpp"

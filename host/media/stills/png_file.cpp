@@ -13,6 +13,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "media/formats/coding_points.hpp"
 #include "media/formats/colour_profile.hpp"
 #include "media/stills/picture_text.hpp"
@@ -192,10 +193,6 @@ void read_info(const ReadStructure& read, ByteReader& reader) {
 
 }  // namespace
 
-bool is_png(std::span<const std::byte> file) {
-  return file.size() >= 8 && png_sig_cmp(reinterpret_cast<png_const_bytep>(file.data()), 0, 8) == 0;
-}
-
 Picture read_8_bit_png(std::span<const std::byte> file, const std::string& name,
                        const std::function<void(std::uint32_t, std::uint32_t)>& check_size) {
   std::string error_name = name;
@@ -267,7 +264,7 @@ void check_png_palette(std::span<const std::byte> file, const std::string& name)
 
 // Chunks: u32 length, four letters, so many bytes, a checksum. EXIF is a TIFF: its first directory is looked at.
 unsigned png_orientation(std::span<const std::byte> file) {
-  const std::string_view bytes(reinterpret_cast<const char*>(file.data()), file.size());
+  const std::string_view bytes = as_text(file);
   constexpr std::size_t kSignature = 8, kFrame = 12, kData = 8, kEntry = 12;
   std::string_view exif;
   for (std::size_t at = kSignature; at + kFrame <= bytes.size();) {
@@ -321,7 +318,7 @@ std::vector<std::byte> read_png_profile(std::span<const std::byte> file, const s
   return {bytes, bytes + size};
 }
 
-void write_png(OutputFile& file, const Picture& picture, const std::string& text) {
+void write_png(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
   const Shape& shape = picture.shape;
   const std::size_t bytes = value_bytes(picture.type);
   WriteStructure write;

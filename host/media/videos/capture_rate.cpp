@@ -9,6 +9,7 @@
 
 #include "capture/error.hpp"
 #include "capture/median.hpp"
+#include "capture/text.hpp"
 #include "media/formats/file_kinds.hpp"
 #include "media/videos/mxf_unit.hpp"
 #include "system/mapped_file.hpp"
@@ -18,10 +19,6 @@ namespace {
 
 // Rates that lie this close are the same, as cameras keep time.
 constexpr double kSameRate = 0.02;
-
-std::string_view bytes_of(const MappedFile& file) {
-  return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
-}
 
 constexpr std::string_view kAnyCodec = "????";
 
@@ -94,7 +91,7 @@ std::string sony_story(const std::filesystem::path& path, std::filesystem::path&
   constexpr std::uintmax_t kMaxBytes = 1u << 20;
   const MappedFile mapped(path);
   for (const auto& boxes : {std::vector<std::string_view>{"meta"}, {"moov", "meta"}}) {
-    const std::string_view text = box_at(bytes_of(mapped), boxes);
+    const std::string_view text = box_at(as_text(mapped.bytes()), boxes);
     if (const auto at = text.find(kName); at != text.npos) return std::string(text.substr(at));
   }
   const std::filesystem::path beside = sony_file_of(path);
@@ -103,7 +100,7 @@ std::string sony_story(const std::filesystem::path& path, std::filesystem::path&
   if (error || bytes == 0 || bytes > kMaxBytes) return {};
   try {
     const MappedFile story(beside);
-    std::string text(bytes_of(story));
+    std::string text(as_text(story.bytes()));
     if (text.find(kName) == text.npos) return {};
     other = beside;
     return text;
@@ -144,7 +141,7 @@ std::optional<Rational> sony_rate(const std::string& story) {
 CameraUnit camera_unit(const std::filesystem::path& path) {
   std::filesystem::path beside;
   const std::string story = sony_story(path, beside);
-  if (story.empty()) return mxf_unit(bytes_of(MappedFile(path)));
+  if (story.empty()) return mxf_unit(as_text(MappedFile(path).bytes()));
   return {item_of(story, "CaptureGammaEquation"), item_of(story, "CaptureColorPrimaries"), sony_rate(story),
           beside.empty() ? CameraUnit().from : beside.filename().string()};
 }
@@ -218,7 +215,7 @@ std::optional<NamedCurve> named_curve(const AVFormatContext& format, const std::
   // As Apple's VideoToolbox names them, kCVImageBufferLogTransferFunction_AppleLog and _AppleLog2.
   const MappedFile mapped(path);
   const std::string_view in_track =
-      box_at(bytes_of(mapped), {"moov", "trak", "mdia", "minf", "stbl", "stsd", kAnyCodec, "logs"});
+      box_at(as_text(mapped.bytes()), {"moov", "trak", "mdia", "minf", "stbl", "stsd", kAnyCodec, "logs"});
   const auto is_apples = [&](std::string_view name) {
     return in_track == name || said("com.apple.proapps.customgamma") == name;
   };
@@ -251,8 +248,8 @@ std::optional<CaptureRate> capture_rate(const AVFormatContext& format, const std
   }
   if (const CameraUnit unit = camera_unit(path); unit.rate) return CaptureRate{*unit.rate, "Sony's captureFps", unit.from};
   const MappedFile mapped(path);
-  if (!is_mp4(bytes_of(mapped))) return std::nullopt;
-  const SamsungRecording samsung = samsung_recording(bytes_of(mapped));
+  if (!is_mp4(as_text(mapped.bytes()))) return std::nullopt;
+  const SamsungRecording samsung = samsung_recording(as_text(mapped.bytes()));
   if (samsung.rate) return CaptureRate{*samsung.rate, "Samsung's smta"};
   if (samsung.is_slow) {
     notes.emplace_back(
@@ -266,7 +263,7 @@ std::optional<CaptureRate> capture_rate(const AVFormatContext& format, const std
 
 bool has_edits(const std::filesystem::path& path) {
   const MappedFile mapped(path);
-  std::string_view boxes = box_at(bytes_of(mapped), {"moov"});
+  std::string_view boxes = box_at(as_text(mapped.bytes()), {"moov"});
   while (!boxes.empty()) {
     const std::string_view track = box_at(boxes, {"trak"});
     if (track.empty()) return false;
@@ -294,7 +291,7 @@ bool has_slow_parts(const std::filesystem::path& path) {
   constexpr std::string_view kEnd = "SEFT", kName = "SlowMotion_Data";
   constexpr std::size_t kTail = 8, kMaxBytes = 1u << 20;
   const MappedFile mapped(path);
-  const std::string_view file = bytes_of(mapped);
+  const std::string_view file = as_text(mapped.bytes());
   return is_mp4(file) && file.ends_with(kEnd) &&
          file.substr(file.size() - std::min(file.size(), kMaxBytes + kTail)).find(kName) != file.npos;
 }

@@ -85,7 +85,7 @@ OpenedVideo open_video(const std::filesystem::path& path, const std::optional<Ra
   OpenedVideo opened;
   opened.format.reset(allocated(avformat_alloc_context()));
   AVFormatContext* context = opened.format.get();
-  opened.log->listen_to(*context);
+  opened.log->listen_to(context->opaque);
   context->io_open = open_nothing;
   context->flags |= AVFMT_FLAG_CUSTOM_IO;
   int code = avio_open(&context->pb, url_of(path).c_str(), AVIO_FLAG_READ);

@@ -95,6 +95,8 @@ class PixelConverter {
   PixelKind kind_;
   Upright upright_;
   YuvCoding coding_;
+  AVPixelFormat raster_format_;
+  AVPixelFormat planar_format_;         // of YUV, before it is RGB
   std::vector<std::uint16_t> code_of_;  // what becomes of each code of grey; empty: it stays
   ScalerPointer scaler_;
   AVPixelFormat scales_from_ = AV_PIX_FMT_NONE, scales_to_ = AV_PIX_FMT_NONE;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -186,6 +187,14 @@ std::optional<std::string> matroska_cut_note(std::span<const std::byte> bytes) {
   return {};
 }
 
+// With its buffer, which it may have replaced.
+struct FreeReader {
+  void operator()(AVIOContext* reader) const {
+    av_freep(&reader->buffer);
+    avio_context_free(&reader);
+  }
+};
+
 // Whether a NUT file without an index, whose last picture ends with the file, has all of that picture: what reads more than
 // there is would take a byte that is added to it.
 bool has_all_of_last(const AVInputFormat& kind, std::span<const std::byte> bytes) {
@@ -203,18 +212,18 @@ bool has_all_of_last(const AVInputFormat& kind, std::span<const std::byte> bytes
     return static_cast<int>(std::max<std::size_t>(count, 1));
   };
   constexpr int kBufferBytes = 1 << 16;
-  auto* buffer = static_cast<unsigned char*>(allocated(av_malloc(kBufferBytes)));
+  std::unique_ptr<void, decltype(&av_free)> buffer(allocated(av_malloc(kBufferBytes)), av_free);
+  const std::unique_ptr<AVIOContext, FreeReader> reader(allocated(avio_alloc_context(
+      static_cast<unsigned char*>(buffer.get()), kBufferBytes, 0, &longer, read, nullptr, nullptr)));
+  static_cast<void>(buffer.release());
+  const PacketPointer packet(allocated(av_packet_alloc()));
   AVFormatContext* context = allocated(avformat_alloc_context());
-  context->pb = allocated(avio_alloc_context(buffer, kBufferBytes, 0, &longer, read, nullptr, nullptr));
-  AVIOContext* bytes_of = context->pb;
+  context->pb = reader.get();
   std::int64_t end = 0;
   if (avformat_open_input(&context, "", &kind, nullptr) == 0) {
-    const PacketPointer packet(allocated(av_packet_alloc()));
     for (; av_read_frame(context, packet.get()) >= 0; av_packet_unref(packet.get())) end = packet->pos + packet->size;
     avformat_close_input(&context);
   }
-  av_freep(&bytes_of->buffer);
-  avio_context_free(&bytes_of);
   return end == static_cast<std::int64_t>(bytes.size());
 }
 
