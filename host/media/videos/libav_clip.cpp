@@ -164,10 +164,16 @@ class LibavClip final : public Clip {
                           decoded_bytes(parameters);
     describe(info_, probe, options);
     const YuvCoding coding = yuv_coding(probe, options, name_);
-    if (is_colour_yuv(probe) && !options.matrix) matrix_ = coding.matrix;
-    if ((is_colour_yuv(probe) || pixels.is_grey) && !options.range) range_ = coding.range;
-    if (!options.transfer) transfer_ = capture.transfer;
     is_everyday_ = pixels.is_everyday();
+    const ColourNumbers coded = colours_of(parameters);
+    if (is_colour_yuv(probe) && !options.matrix)
+      matrix_ = named_matrix(coded.matrix, coded.primaries).value_or(coding.matrix);
+    if ((is_colour_yuv(probe) || pixels.is_grey) && !options.range)
+      range_ = named_range(coded.range, probe.pixel_format).value_or(coding.range);
+    if (!options.transfer) transfer_ = named_transfer(coded.curve).value_or(capture.transfer);
+    if (!pixels.is_grey && !options.primaries)
+      primaries_ = primaries_of_coding_point(coded.primaries).value_or(capture.primaries);
+    if (!options.pixel_aspect) aspect_ = named_aspect(parameters.sample_aspect_ratio).value_or(Rational{1, 1});
     settle_fields(options.interlaced);
   }
 
@@ -191,6 +197,7 @@ class LibavClip final : public Clip {
     const bool takes_frames = interlaced_ == Interlaced::refused || interlaced_ == Interlaced::ignored;
     if (takes_frames && !is_decoding_ && !refers_to_others(*decoder_.stream().codecpar)) {
       if (!decoder_.skip()) return false;
+      is_first_ = false;
     } else {
       if (!next_picture()) return false;
       check_whole();
@@ -200,6 +207,25 @@ class LibavClip final : public Clip {
   }
 
  private:
+  // None for what everyday cameras name whatever theirs is.
+  [[nodiscard]] std::optional<Transfer> named_transfer(unsigned curve) const {
+    const auto transfer = transfer_of_coding_point(curve);
+    return is_everyday_ && transfer == Transfer::bt709() ? std::nullopt : transfer;
+  }
+
+  [[nodiscard]] static std::optional<Rational> named_aspect(AVRational aspect) {
+    return aspect.num > 0 && aspect.den > 0 ? std::optional(Rational::of(aspect.num, aspect.den)) : std::nullopt;
+  }
+
+  // What rasters are made of.
+  [[nodiscard]] std::string pixels_text(int format) const {
+    AVCodecParameters parameters = *decoder_.stream().codecpar;
+    parameters.format = format;
+    const PixelKind kind = pixel_kind(parameters, name_);
+    const bool is_of_yuv = is_yuv(static_cast<AVPixelFormat>(format));
+    return nutik::format("{} of {} bits", kind.is_grey ? "grey" : is_of_yuv ? "YUV" : "RGB", kind.bits);
+  }
+
   // Throws where the picture names another coding than the first one, where that was not stated.
   void check_colour() {
     const auto check = [&](const auto& named, auto& taken, const auto& text) {
@@ -209,16 +235,21 @@ class LibavClip final : public Clip {
       throw InputError(format("{}: picture {} is of {}, the ones before it of {}", name_, frames_read_, text(*named),
                               text(*taken)));
     };
-    const unsigned curve = number_of(frame_->color_trc);
     const auto pixels = static_cast<AVPixelFormat>(frame_->format);
-    auto transfer = transfer_of_coding_point(curve);
-    if (is_everyday_ && transfer == Transfer::bt709()) transfer.reset();
     check(named_range(number_of(frame_->color_range), pixels), range_,
           [](CodeRange each) { return format("the {} range", to_text(each)); });
     check(named_matrix(number_of(frame_->colorspace), number_of(frame_->color_primaries)), matrix_,
           [](YuvMatrix each) { return format("matrix {}", to_text(each)); });
-    check(transfer, transfer_, [](const Transfer& each) { return "transfer " + each.text(); });
+    check(named_transfer(number_of(frame_->color_trc)), transfer_,
+          [](const Transfer& each) { return "transfer " + each.text(); });
+    check(primaries_of_coding_point(number_of(frame_->color_primaries)), primaries_,
+          [](Primaries each) { return format("primaries {}", to_text(each)); });
+    check(named_aspect(frame_->sample_aspect_ratio), aspect_, pixel_aspect_text);
     is_first_ = false;
+    const int taken_format = decoder_.stream().codecpar->format;
+    if (frame_->format == taken_format) return;
+    std::optional taken(pixels_text(taken_format));
+    check(std::optional(pixels_text(frame_->format)), taken, [](const std::string& each) { return each; });
   }
 
   // Throws where the picture is of another size or coding, or damaged.
@@ -350,6 +381,8 @@ class LibavClip final : public Clip {
   std::optional<CodeRange> range_;
   std::optional<YuvMatrix> matrix_;
   std::optional<Transfer> transfer_;
+  std::optional<Primaries> primaries_;
+  std::optional<Rational> aspect_;
   bool is_everyday_ = false, is_first_ = true;
   Interlaced interlaced_ = Interlaced::refused;
   std::optional<FieldOrder> fields_;  // as the container says of all frames

@@ -119,6 +119,8 @@ OpenedVideo open_video(const std::filesystem::path& path, const std::optional<Ra
         {Setting::raw_layout});
   }
   opened.format.reset(context);
+  std::vector<ColourNumbers> named;  // before decoders name others
+  for (unsigned i = 0; i < context->nb_streams; ++i) named.push_back(colours_of(*context->streams[i]->codecpar));
   code = find_stream_info(*context, title);
   for (unsigned i = 0; i < context->nb_streams; ++i) {
     AVStream& each = *context->streams[i];
@@ -128,6 +130,7 @@ OpenedVideo open_video(const std::filesystem::path& path, const std::optional<Ra
   if (code >= 0) code = av_find_best_stream(context, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
   if (code < 0) throw InputError(format("{} has no video stream", title));
   opened.stream = code;
+  if (static_cast<std::size_t>(code) < named.size()) opened.container = named[static_cast<std::size_t>(code)];
   set_rates_of_header(*context->streams[code]);
   return opened;
 }

@@ -216,8 +216,8 @@ std::optional<YuvMatrix> named_matrix(unsigned space, unsigned primaries) {
 }
 
 std::optional<CodeRange> named_range(unsigned range, AVPixelFormat format) {
-  if (range == AVCOL_RANGE_JPEG || has_j_name(format)) return CodeRange::full;
-  return range == AVCOL_RANGE_MPEG ? std::optional(CodeRange::limited) : std::nullopt;
+  if (range == AVCOL_RANGE_MPEG) return CodeRange::limited;
+  return range == AVCOL_RANGE_JPEG || has_j_name(format) ? std::optional(CodeRange::full) : std::nullopt;
 }
 
 namespace {

@@ -33,12 +33,57 @@ std::string transfer_name(unsigned number) {
   return name == nullptr ? std::to_string(number) : name;
 }
 
-// Null where FFmpeg knows none.
-const char* matrix_name(unsigned number) {
-  return number < AVCOL_SPC_NB ? av_color_space_name(static_cast<AVColorSpace>(number)) : nullptr;
+// By its number where FFmpeg knows none.
+std::string matrix_name(unsigned number) {
+  const char* const name = number < AVCOL_SPC_NB ? av_color_space_name(static_cast<AVColorSpace>(number)) : nullptr;
+  return name != nullptr ? name : format("number {} of H.273", number);
 }
-const char* primaries_name(unsigned number) {
-  return number < AVCOL_PRI_NB ? av_color_primaries_name(static_cast<AVColorPrimaries>(number)) : nullptr;
+std::string primaries_name(unsigned number) {
+  const char* const name =
+      number < AVCOL_PRI_NB ? av_color_primaries_name(static_cast<AVColorPrimaries>(number)) : nullptr;
+  return name != nullptr ? name : format("number {} of H.273", number);
+}
+
+// Those that count: a container's go before those that its pictures name (ISO/IEC 14496-12, 12.1.5), with a note where
+// these are others. But programs write the limited range into MP4s of RGB whose pictures name the full one.
+ColourNumbers named_colours(const OpenedVideo& opened, const ColourNumbers& coded, std::vector<Note>& notes) {
+  using Numbers = const ColourNumbers&;
+  const auto pixels = static_cast<AVPixelFormat>(opened.format->streams[opened.stream]->codecpar->format);
+  ColourNumbers taken = coded;
+  std::string theirs, others;
+  std::vector<Setting> settings;
+  const auto settle = [&](unsigned ColourNumbers::* number, unsigned none, Setting setting, const auto& text) {
+    if (opened.container.*number == none) return;
+    taken.*number = opened.container.*number;
+    const std::string here = text(opened.container), there = text(coded);
+    if (coded.*number == none || here == there) return;
+    theirs += (theirs.empty() ? "" : ", ") + here;
+    others += (others.empty() ? "" : ", ") + there;
+    settings.push_back(setting);
+  };
+  if (is_yuv(pixels) || coded.range != AVCOL_RANGE_JPEG) {
+    settle(&ColourNumbers::range, AVCOL_RANGE_UNSPECIFIED, Setting::range,
+           [](Numbers each) { return std::string(each.range == AVCOL_RANGE_JPEG ? "full range" : "limited range"); });
+  }
+  settle(&ColourNumbers::matrix, AVCOL_SPC_UNSPECIFIED, Setting::matrix, [](Numbers each) {
+    const auto known = named_matrix(each.matrix, each.primaries);
+    return format("matrix {}", known ? to_text(*known) : matrix_name(each.matrix));
+  });
+  settle(&ColourNumbers::curve, AVCOL_TRC_UNSPECIFIED, Setting::transfer, [](Numbers each) {
+    const auto known = transfer_of_coding_point(each.curve);
+    return "transfer " + (known ? known->text() : transfer_name(each.curve));
+  });
+  settle(&ColourNumbers::primaries, AVCOL_PRI_UNSPECIFIED, Setting::primaries, [](Numbers each) {
+    const auto known = primaries_of_coding_point(each.primaries);
+    return "primaries " + (known ? std::string(to_text(*known)) : primaries_name(each.primaries));
+  });
+  if (!settings.empty()) {
+    notes.emplace_back(format("the container names {}, and by its pictures it would be {}: the container's count; state "
+                              "others if these are wrong",
+                              theirs, others),
+                       std::move(settings));
+  }
+  return taken;
 }
 
 std::optional<Rational> pixel_aspect(AVFormatContext* format, AVStream& stream, const Upright& upright) {
@@ -327,12 +372,12 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
   }
   result.pixel_format = static_cast<AVPixelFormat>(codec.format);
   result.upright = upright_of(side_data(stream, AV_PKT_DATA_DISPLAYMATRIX));
-  const unsigned curve = number_of(codec.color_trc), matrix = number_of(codec.color_space),
-                 primaries = number_of(codec.color_primaries);
+  const ColourNumbers coded = colours_of(codec);
+  const auto& [range, matrix, curve, primaries] = named_colours(opened, coded, result.notes);
   result.transfer = is_phantom_packed(codec) ? Transfer::linear() : transfer_of_coding_point(curve);
   result.transfer_name = transfer_name(curve);
   result.matrix = named_matrix(matrix, primaries);
-  result.range = named_range(number_of(codec.color_range), result.pixel_format);
+  result.range = named_range(range, result.pixel_format);
   result.chroma_at = named_chroma_place(codec);
   result.primaries = primaries_of_coding_point(primaries);
   if (const auto named = raw ? std::nullopt : named_curve(*opened.format, path, result.notes)) {
@@ -363,25 +408,20 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
         format("the file's display matrix {}, and only quarter turns are made: they are turned by {} degrees",
                result.upright.left_out, 90 * result.upright.quarter_turns));
   }
-  const auto note_unknown = [&](bool is_known, const char* what, const char* name, Setting setting) {
-    if (is_known || name == nullptr || *name == 0) return;
+  const auto note_unknown = [&](bool is_known, const char* what, const std::string& name, Setting setting) {
+    if (is_known || name.empty()) return;
     result.notes.emplace_back(
         format("the file's {}, {}, is not known here and another is taken; state which", what, name),
         std::vector{setting});
   };
-  note_unknown(result.transfer.has_value(), "transfer function", result.transfer_name.c_str(),
-               Setting::transfer);
+  note_unknown(result.transfer.has_value(), "transfer function", result.transfer_name, Setting::transfer);
   if (matrix != AVCOL_SPC_UNSPECIFIED && matrix != AVCOL_SPC_RESERVED && is_yuv(result.pixel_format) &&
       !result.pixels.is_grey && !result.matrix) {
-    const char* const name = matrix_name(matrix);
-    result.unread_matrix = name != nullptr ? name : format("number {} of H.273", matrix);
+    result.unread_matrix = matrix_name(matrix);
   }
   if (primaries != AVCOL_PRI_UNSPECIFIED && primaries != AVCOL_PRI_RESERVED &&
       primaries != AVCOL_PRI_RESERVED0 && !(result.transfer && result.transfer->usual_primaries())) {
-    const char* const name = primaries_name(primaries);
-    note_unknown(result.primaries.has_value(), "set of primaries",
-                 name != nullptr ? name : format("number {} of H.273", primaries).c_str(),
-                 Setting::primaries);
+    note_unknown(result.primaries.has_value(), "set of primaries", primaries_name(primaries), Setting::primaries);
   }
   if ((av_pix_fmt_desc_get(static_cast<AVPixelFormat>(codec.format))->flags & AV_PIX_FMT_FLAG_ALPHA) != 0) {
     result.notes.emplace_back("the file's transparency is left out");
