@@ -22,13 +22,19 @@ namespace {
 // What a video's codes are taken for: as stated, else as the file says, else as most such files are.
 bool is_colour_yuv(const Probe& probe) { return is_yuv(probe.pixel_format) && !probe.pixels.is_grey; }
 
-// Where no matrix is named it is the usual one; where no range is named it is the limited one, of grey the full one.
-// Throws InputError naming the file where the matrix that it names is none that is known here.
+// Where no matrix is named it is the usual one; where no range is named it is the limited one, of grey and RGB the full
+// one. Throws InputError naming the file where the matrix or range that it names cannot be taken.
 YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options, const std::string& name) {
   if (!is_colour_yuv(probe)) {
     ClipOptions rest = options;
-    if (probe.pixels.is_grey) rest.range.reset();
+    rest.range.reset();
     refuse_yuv_options(rest);
+    if (!probe.pixels.is_grey && !options.range && probe.range == CodeRange::limited) {
+      throw InputError(format("{} holds RGB and names the limited range, which some encoders write beside codes of the "
+                              "full one, too: state the range, limited or full",
+                              name),
+                       {Setting::range});
+    }
   }
   if (options.chroma_at && !interpolates_chroma(probe.pixel_format, probe.pixels)) {
     throw UsageError(format("each pixel of {} has {}: leave the place of chroma out", name,
@@ -45,7 +51,7 @@ YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options, const std::
         {Setting::matrix});
   }
   return {options.matrix.value_or(probe.matrix.value_or(usual_matrix(probe.shape.height))),
-          options.range.value_or(probe.range.value_or(probe.pixels.is_grey ? CodeRange::full : CodeRange::limited)),
+          options.range.value_or(probe.range.value_or(is_colour_yuv(probe) ? CodeRange::limited : CodeRange::full)),
           options.chroma_at};
 }
 
@@ -55,7 +61,7 @@ void describe(ClipInfo& info, const Probe& probe, const ClipOptions& options) {
   const PixelKind& pixels = probe.pixels;
   CaptureFormat& capture = info.format;
   std::vector<Fact>& facts = info.facts;
-  if (pixels.is_grey && pixels.bits > 8 && !pixels.is_limited_grey) {
+  if (pixels.is_grey && pixels.bits > 8 && !pixels.is_limited) {
     const bool fills_its_bits = pixels.bits == 16;
     settle_white(info, options.white_code,
                  fills_its_bits ? std::nullopt : std::optional(pixels.white_code()));
@@ -79,8 +85,8 @@ void describe(ClipInfo& info, const Probe& probe, const ClipOptions& options) {
     info.roundings.add(pixels.is_everyday() ? kMostOff : 0.5, 1.0,
                        shares_chroma(probe.pixel_format) ? "chroma" : "");
   }
-  if (pixels.is_limited_grey) info.roundings.add(0.5, 1.0, "");
-  if (is_colour_yuv(probe) || pixels.is_limited_grey || (pixels.is_grey && options.range)) {
+  if (pixels.is_limited) info.roundings.add(0.5, 1.0, "");
+  if (is_colour_yuv(probe) || pixels.is_limited || options.range) {
     const CodeRange range = settle(facts, options.range, probe.range, CodeRange::limited, Setting::range,
                                    [](CodeRange each) { return format("{} range", to_text(each)); });
     if (range == CodeRange::limited) capture.transfer = capture.transfer.scaled_from_video();
@@ -168,8 +174,7 @@ class LibavClip final : public Clip {
     const ColourNumbers coded = colours_of(parameters);
     if (is_colour_yuv(probe) && !options.matrix)
       matrix_ = named_matrix(coded.matrix, coded.primaries).value_or(coding.matrix);
-    if ((is_colour_yuv(probe) || pixels.is_grey) && !options.range)
-      range_ = named_range(coded.range, probe.pixel_format).value_or(coding.range);
+    if (!options.range) range_ = named_range(coded.range, probe.pixel_format).value_or(coding.range);
     if (!options.transfer) transfer_ = named_transfer(coded.curve).value_or(capture.transfer);
     if (!pixels.is_grey && !options.primaries)
       primaries_ = primaries_of_coding_point(coded.primaries).value_or(capture.primaries);
@@ -325,7 +330,7 @@ class LibavClip final : public Clip {
   }
 
   void set_white(std::uint32_t white, const PixelKind& pixels) {
-    if ((!pixels.is_grey || pixels.is_limited_grey) && white != pixels.white_code()) {
+    if ((!pixels.is_grey || pixels.is_limited) && white != pixels.white_code()) {
       throw UsageError(
           format("{}, whose white is {} whatever its depth was, not {}; leave the white code out",
                  pixels.is_grey ? "grey video of the limited range is scaled to the full one"
@@ -395,8 +400,8 @@ class LibavClip final : public Clip {
 std::unique_ptr<Clip> open_video_clip(const std::filesystem::path& path, const ClipOptions& options) {
   listen_to_ffmpeg();
   Probe probed = probe(path, options.raw);
-  probed.pixels.is_limited_grey =
-      probed.pixels.is_grey && options.range.value_or(probed.range.value_or(CodeRange::full)) == CodeRange::limited;
+  probed.pixels.is_limited =
+      !is_colour_yuv(probed) && options.range.value_or(probed.range.value_or(CodeRange::full)) == CodeRange::limited;
   OpenedVideo opened = open_video(path, options.raw);
   const int threads = decoder_threads(opened, options);
   return std::make_unique<LibavClip>(std::move(opened), threads, path, probed, options);
