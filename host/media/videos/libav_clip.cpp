@@ -46,8 +46,8 @@ YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options, const std::
   if (!probe.unread_matrix.empty() && !options.matrix) {
     throw InputError(
         format("{} names a matrix by which no RGB is made here, {}: its colours would be wrong. Convert "
-               "it, for example with ffmpeg -vf zscale=matrix=709, or state the matrix that it really has",
-               name, probe.unread_matrix),
+               "it, for example with ffmpeg -vf {}, or state the matrix that it really has",
+               name, probe.unread_matrix, probe.matrix_filter),
         {Setting::matrix});
   }
   return {options.matrix.value_or(probe.matrix.value_or(usual_matrix(probe.shape.height))),

@@ -419,6 +419,14 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
       !result.pixels.is_grey && !result.matrix) {
     result.unread_matrix = matrix_name(matrix);
   }
+  AVDOVIDecoderConfigurationRecord vision;
+  if (const auto dolby = side_data(stream, AV_PKT_DATA_DOVI_CONF); dolby.size() >= sizeof vision) {
+    std::memcpy(&vision, dolby.data(), sizeof vision);
+    if (vision.dv_profile == 5 || (vision.dv_profile == 10 && vision.dv_bl_signal_compatibility_id == 0)) {
+      result.unread_matrix = format("IPT of Dolby Vision's profile {}", vision.dv_profile);
+      result.matrix_filter = "libplacebo=colorspace=bt709:color_primaries=bt709:color_trc=bt709:format=yuv420p10";
+    }
+  }
   if (primaries != AVCOL_PRI_UNSPECIFIED && primaries != AVCOL_PRI_RESERVED &&
       primaries != AVCOL_PRI_RESERVED0 && !(result.transfer && result.transfer->usual_primaries())) {
     note_unknown(result.primaries.has_value(), "set of primaries", primaries_name(primaries), Setting::primaries);

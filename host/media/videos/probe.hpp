@@ -24,6 +24,7 @@ struct Probe {
   Upright upright;
   std::optional<YuvMatrix> matrix;  // as the file names them
   std::string unread_matrix;        // that it names, and by which nothing here makes RGB
+  std::string matrix_filter = "zscale=matrix=709";  // of FFmpeg, that makes another of it
   std::optional<CodeRange> range;
   std::optional<ChromaPlace> chroma_at;
   std::optional<Primaries> primaries;
