@@ -213,6 +213,15 @@ TEST(VideoColour, StandsUprightInAllEightDirections) {
       }
     }
   }
+  // H.264 says it itself, as well.
+  test::make(scratch, "-i clip.mkv -c:v libx264 -pix_fmt yuv420p -bsf:v h264_metadata=display_orientation=insert:rotate=90 "
+                      "turned.mkv");
+  const auto turned = test::open_test_clip(scratch / "turned.mkv");
+  EXPECT_EQ(turned->info().format.shape, (Shape{32, 48, 3}));
+  EXPECT_EQ(turned->info().format.pixel_aspect, (Rational{3, 4}));
+  const auto raster = test::read_all(*turned).at(0);
+  for (const std::size_t row : {8u, 40u})  // at the bottom left
+    EXPECT_EQ(test::code_at(turned->info().format, raster, (row * 32 + 8) * 3) > 128, row == 40);
 }
 
 // What a camera put into the 16 bits of grey video is not known.

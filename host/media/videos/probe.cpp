@@ -347,6 +347,22 @@ std::vector<std::int64_t> picture_times(const std::filesystem::path& path, const
   return times;
 }
 
+// How pictures come to stand upright that say it themselves: of H.264 or HEVC, from a stream's first packet.
+Upright upright_of_first(const AVPacket& packet, const AVCodecParameters& codec) {
+  if (codec.codec_id != AV_CODEC_ID_H264 && codec.codec_id != AV_CODEC_ID_HEVC) return {};
+  const CodecPointer decoder(allocated(avcodec_alloc_context3(avcodec_find_decoder(codec.codec_id))));
+  const FramePointer picture(allocated(av_frame_alloc()));
+  avcodec_parameters_to_context(decoder.get(), &codec);
+  decoder->skip_loop_filter = decoder->skip_idct = AVDISCARD_ALL;
+  decoder->max_pixels = most_pixels(codec).value_or(decoder->max_pixels);
+  if (avcodec_open2(decoder.get(), nullptr, nullptr) < 0) return {};
+  avcodec_send_packet(decoder.get(), &packet);
+  avcodec_send_packet(decoder.get(), nullptr);
+  if (avcodec_receive_frame(decoder.get(), picture.get()) < 0) return {};
+  const AVFrameSideData* const data = av_frame_get_side_data(picture.get(), AV_FRAME_DATA_DISPLAYMATRIX);
+  return data == nullptr ? Upright{} : upright_of(std::span(data->data, data->size));
+}
+
 }  // namespace
 
 Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& raw) {
@@ -371,7 +387,8 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
                input_title(path.string())));
   }
   result.pixel_format = static_cast<AVPixelFormat>(codec.format);
-  result.upright = upright_of(side_data(stream, AV_PKT_DATA_DISPLAYMATRIX));
+  const auto display_matrix = side_data(stream, AV_PKT_DATA_DISPLAYMATRIX);
+  result.upright = upright_of(display_matrix);
   const ColourNumbers coded = colours_of(codec);
   const auto& [range, matrix, curve, primaries] = named_colours(opened, coded, result.notes);
   result.transfer = is_phantom_packed(codec) ? Transfer::linear() : transfer_of_coding_point(curve);
@@ -401,12 +418,6 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
         format("the file has {} streams of pictures, and stream {} is taken: ffmpeg -i CLIP -map 0:N -c copy film.mkv "
                "makes a clip of another",
                films, opened.stream));
-  }
-  result.pixel_aspect = pixel_aspect(opened.format.get(), stream, result.upright);
-  if (!result.upright.left_out.empty()) {
-    result.notes.emplace_back(
-        format("the file's display matrix {}, and only quarter turns are made: they are turned by {} degrees",
-               result.upright.left_out, 90 * result.upright.quarter_turns));
   }
   const auto note_unknown = [&](bool is_known, const char* what, const std::string& name, Setting setting) {
     if (is_known || name.empty()) return;
@@ -457,6 +468,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
       is_last_whole = is_whole(*opened.format, *packet, file_bytes);
     }
     if (counts) {
+      if (packets.empty() && display_matrix.empty()) result.upright = upright_of_first(*packet, codec);
       packets.push_back({packet->pts, packet->dts, packet->duration, (packet->flags & AV_PKT_FLAG_KEY) != 0});
       last_byte = packet->pos + packet->size;
       const std::int64_t time = packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts;
@@ -465,6 +477,12 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
       }
     }
     av_packet_unref(packet.get());
+  }
+  result.pixel_aspect = pixel_aspect(opened.format.get(), stream, result.upright);
+  if (!result.upright.left_out.empty()) {
+    result.notes.emplace_back(
+        format("the file's display matrix {}, and only quarter turns are made: they are turned by {} degrees",
+               result.upright.left_out, 90 * result.upright.quarter_turns));
   }
   if (code != AVERROR_EOF) {
     result.notes.push_back(warning_of(
