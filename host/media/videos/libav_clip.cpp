@@ -185,7 +185,7 @@ class LibavClip final : public Clip {
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
 
   [[nodiscard]] std::vector<std::string> remarks() const override {
-    auto doubt = is_told_ || frames_read_ == 0 ? std::nullopt : doubt_about_fields(has_interlaced_);
+    auto doubt = fields_ || frames_read_ == 0 ? std::nullopt : doubt_about_fields(has_interlaced_);
     return doubt ? std::vector{std::move(*doubt)} : std::vector<std::string>();
   }
 
@@ -283,12 +283,9 @@ class LibavClip final : public Clip {
     interlaced_ = wish;
     if (wish == Interlaced::refused && fields_) refuse_fields(name_, *fields_);
     const bool is_progressive = decoder_.stream().codecpar->field_order == AV_FIELD_PROGRESSIVE;
-    is_told_ = fields_.has_value() || is_progressive;
-    if (is_told_) {
-      if (auto doubt = doubt_about_fields(fields_.has_value()))
-        info_.notes.emplace_back(std::move(*doubt), std::vector{Setting::deinterlace});
-    }
-    if (wish == Interlaced::refused && !is_told_)
+    if (auto doubt = fields_ ? doubt_about_fields(true) : std::nullopt)
+      info_.notes.emplace_back(std::move(*doubt), std::vector{Setting::deinterlace});
+    if (wish == Interlaced::refused && !fields_ && !is_progressive)
       info_.facts.push_back({"progressive frames", Origin::assumed, Setting::deinterlace});
     if (wish == Interlaced::ignored) {
       info_.facts.push_back({fields_ ? "interlaced frames as they are" : "frames as they are", Origin::stated,
@@ -391,7 +388,6 @@ class LibavClip final : public Clip {
   bool is_everyday_ = false, is_first_ = true;
   Interlaced interlaced_ = Interlaced::refused;
   std::optional<FieldOrder> fields_;  // as the container says of all frames
-  bool is_told_ = false;              // by the container, whether they are interlaced
   bool has_interlaced_ = false;       // a frame that says so itself
   std::optional<Deinterlacer> deinterlacer_;
   bool has_ended_ = false;  // the decoder
