@@ -113,10 +113,12 @@ OpenedVideo open_video(const std::filesystem::path& path, const std::optional<Ra
                  "programs that repair such files make it anew from another recording of the same camera",
                  title));
     }
+    const std::string why = opened.log->said().value_or(error_text(code));
+    if (raw) throw InputError(format("{} cannot be read as it is described: {}", title, why), {Setting::raw_layout});
     throw InputError(
-        format("{} is no video that can be read: {}; a video without a header has to be described", title,
-               error_text(code)),
-        {Setting::raw_layout});
+        format("{} is no video that can be read: its header, of {} ({}), is damaged or names what FFmpeg does not read "
+               "({}); if it plays elsewhere, save it there as another kind of film",
+               title, kind.name, kind.long_name, why));
   }
   opened.format.reset(context);
   std::vector<ColourNumbers> named;  // before decoders name others
