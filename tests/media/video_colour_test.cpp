@@ -342,6 +342,22 @@ TEST(VideoColour, ThatChangesBeforeAPartIsRefused) {
                             "picture 30 is of pixels 2:1, the ones before it of square pixels");
 }
 
+TEST(VideoColour, TellsOfTransparencyWhereThereIsSome) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  for (const auto& [words, is_told] :
+       {std::pair("testsrc2=s=32x32:r=25:d=0.2' opaque.gif", false),
+        {"color=red@0:s=32x32:r=25:d=0.2,format=rgba,split[a][b];[a]palettegen[p];[b][p]paletteuse' clear.gif", true},
+        {"testsrc2=s=32x32:r=25:d=0.2' -c:v libvpx-vp9 -pix_fmt yuva420p clear.webm", true}}) {
+    test::make(scratch, "-f lavfi -i '" + std::string(words));
+    const auto clip = test::open_test_clip(scratch / std::string(words).substr(std::string(words).rfind(' ') + 1));
+    test::read_all(*clip);
+    auto told = clip->remarks();
+    for (const Note& note : clip->info().notes) told.push_back(note.text);
+    EXPECT_EQ(std::ranges::count(told, "the file's transparency is left out"), is_told) << words;
+  }
+}
+
 TEST(VideoColour, OfDigitalCinemaIsRefusedWithItsWayOut) {
   NEEDS_FFMPEG();
   const Scratch scratch;

@@ -143,6 +143,18 @@ int decoder_threads(const OpenedVideo& opened, const ClipOptions& options) {
   return static_cast<int>(std::clamp<std::uint64_t>(pictures - std::min(pictures, kept), 1, cores));
 }
 
+// Whether a picture of a GIF has a pixel that is transparent.
+bool is_transparent(const AVFrame& frame) {
+  if (frame.format != AV_PIX_FMT_RGB32) return false;
+  for (int y = 0; y < frame.height; ++y) {
+    const std::uint8_t* const row = frame.data[0] + std::ptrdiff_t{y} * frame.linesize[0];
+    for (int x = 0; x < frame.width; ++x) {
+      if (row[4 * x + 3] != 255) return true;
+    }
+  }
+  return false;
+}
+
 class LibavClip final : public Clip {
  public:
   LibavClip(OpenedVideo opened, int threads, const std::filesystem::path& path, const Probe& probe,
@@ -186,12 +198,16 @@ class LibavClip final : public Clip {
 
   [[nodiscard]] std::vector<std::string> remarks() const override {
     auto doubt = fields_ || frames_read_ == 0 ? std::nullopt : doubt_about_fields(has_interlaced_);
-    return doubt ? std::vector{std::move(*doubt)} : std::vector<std::string>();
+    std::vector<std::string> all;
+    if (doubt) all.push_back(std::move(*doubt));
+    if (has_transparent_) all.emplace_back(kNoTransparency);
+    return all;
   }
 
   bool read(std::span<std::byte> raster) override {
     if (!next_picture()) return false;
     check_whole();
+    if (decoder_.stream().codecpar->codec_id == AV_CODEC_ID_GIF) has_transparent_ |= is_transparent(*frame_);
     if (is_phantom_packed(*decoder_.stream().codecpar)) expand_phantom_codes(*frame_);
     converter_.convert(*frame_, raster, name_);
     ++frames_read_;
@@ -389,6 +405,7 @@ class LibavClip final : public Clip {
   Interlaced interlaced_ = Interlaced::refused;
   std::optional<FieldOrder> fields_;  // as the container says of all frames
   bool has_interlaced_ = false;       // a frame that says so itself
+  bool has_transparent_ = false;      // a GIF's picture
   std::optional<Deinterlacer> deinterlacer_;
   bool has_ended_ = false;  // the decoder
 };

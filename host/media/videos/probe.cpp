@@ -442,9 +442,11 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
       primaries != AVCOL_PRI_RESERVED0 && !(result.transfer && result.transfer->usual_primaries())) {
     note_unknown(result.primaries.has_value(), "set of primaries", primaries_name(primaries), Setting::primaries);
   }
-  if ((av_pix_fmt_desc_get(static_cast<AVPixelFormat>(codec.format))->flags & AV_PIX_FMT_FLAG_ALPHA) != 0) {
-    result.notes.emplace_back("the file's transparency is left out");
-  }
+  // Every GIF is decoded with transparency, whether its pictures have any, and no VP9.
+  const bool has_alpha = (av_pix_fmt_desc_get(result.pixel_format)->flags & AV_PIX_FMT_FLAG_ALPHA) != 0;
+  const AVDictionaryEntry* const mode = av_dict_get(stream.metadata, "alpha_mode", nullptr, 0);
+  if ((has_alpha && codec.codec_id != AV_CODEC_ID_GIF) || (mode != nullptr && mode->value == std::string_view("1")))
+    result.notes.emplace_back(kNoTransparency);
   if (raw) {
     result.sample_count = count_raw_pictures(path, *raw);
     return result;
