@@ -69,14 +69,14 @@ TEST(VideoColour, ThatIsNotKnownIsNamed) {
 TEST(VideoColour, IsWhatTheFileSaysAndBeforeThatWhatWasStated) {
   NEEDS_FFMPEG();
   const Scratch scratch;
-  const std::string of_pictures = "the container names full range";
-  for (const auto& [encoder, note] : {std::pair("ffv1", std::string()),
-                                      {"libx265 -x265-params log-level=0", of_pictures + ", and by its pictures it would "
-                                                                           "be limited range"},
-                                      {"libx264 -x264-params colormatrix=fcc:colorprim=bt709:transfer=bt709:range=tv",
-                                       of_pictures + ", matrix bt709, transfer hlg, primaries bt2020, and by its pictures "
-                                       "it would be limited range, matrix fcc, transfer bt709, primaries bt709"}}) {
-    test::make(scratch, test_picture("64x48") + "-c:v " + encoder +
+  for (const auto& [encoder, note] :
+       {std::pair("ffv1", ""),
+        {"libx265 -x265-params log-level=0",
+         "the container names full range, and by its pictures it would be limited range: the container's count"},
+        {"libx264 -x264-params colormatrix=fcc:colorprim=bt709:transfer=bt709:range=tv",
+         "the container names full range, matrix bt709, transfer hlg, primaries bt2020, and by its pictures it would be "
+         "limited range, matrix fcc, transfer bt709, primaries bt709: the container's count"}}) {
+    test::make(scratch, test_picture("64x48") + "-c:v " + std::string(encoder) +
                             " -vf setsar=32/27 -colorspace bt709 -color_range pc -color_primaries bt2020 "
                             "-color_trc arib-std-b67 clip.mkv");
     const auto clip = test::open_test_clip(scratch / "clip.mkv");
@@ -90,7 +90,7 @@ TEST(VideoColour, IsWhatTheFileSaysAndBeforeThatWhatWasStated) {
     EXPECT_EQ(clip->info().format.pixel_aspect, (Rational{32, 27}));
     EXPECT_EQ(test::read_all(*clip).size(), 2u);
     const auto& notes = clip->info().notes;
-    EXPECT_TRUE(note.empty() ? notes.empty() : notes.at(0).text.starts_with(note)) << encoder << notes.size();
+    EXPECT_TRUE(*note == 0 ? notes.empty() : notes.at(0).text.starts_with(note)) << encoder << notes.size();
   }
   const ClipOptions options{{},
                             {},
@@ -214,8 +214,8 @@ TEST(VideoColour, StandsUprightInAllEightDirections) {
     }
   }
   // H.264 says it itself, as well.
-  test::make(scratch, "-i clip.mkv -c:v libx264 -pix_fmt yuv420p -bsf:v h264_metadata=display_orientation=insert:rotate=90 "
-                      "turned.mkv");
+  test::make(scratch, "-i clip.mkv -c:v libx264 -pix_fmt yuv420p "
+                      "-bsf:v h264_metadata=display_orientation=insert:rotate=90 turned.mkv");
   const auto turned = test::open_test_clip(scratch / "turned.mkv");
   EXPECT_EQ(turned->info().format.shape, (Shape{32, 48, 3}));
   EXPECT_EQ(turned->info().format.pixel_aspect, (Rational{3, 4}));

@@ -348,7 +348,7 @@ PixelConverter::PixelConverter(PixelKind kind, Upright upright, YuvCoding coding
   const double white = kind.white_code(), unit = std::ldexp(1.0, static_cast<int>(std::max(kind.bits, 8u)) - 8);
   code_of_.resize(kind.bits > 8 ? 65'536 : 256);
   // RGB of 9 to 15 bits was spread over 16.
-  const double steps = kind.is_grey ? 1 : (std::exp2(std::max(kind.bits, 8u)) - 1) / static_cast<double>(code_of_.size() - 1);
+  const double steps = kind.is_grey ? 1 : (256 * unit - 1) / static_cast<double>(code_of_.size() - 1);
   for (std::uint32_t i = 0; i < code_of_.size(); ++i) {
     double code = std::round((i >> kind.padding_bits) * steps);
     if (kind.is_limited) code = std::clamp((code - 16 * unit) / (219 * unit), 0.0, 1.0) * white + 0.5;

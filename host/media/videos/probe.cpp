@@ -78,10 +78,11 @@ ColourNumbers named_colours(const OpenedVideo& opened, const ColourNumbers& code
     return "primaries " + (known ? std::string(to_text(*known)) : primaries_name(each.primaries));
   });
   if (!settings.empty()) {
-    notes.emplace_back(format("the container names {}, and by its pictures it would be {}: the container's count; state "
-                              "others if these are wrong",
-                              theirs, others),
-                       std::move(settings));
+    notes.emplace_back(
+        format("the container names {}, and by its pictures it would be {}: the container's count; state others if these "
+               "are wrong",
+               theirs, others),
+        std::move(settings));
   }
   return taken;
 }
