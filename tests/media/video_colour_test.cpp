@@ -74,8 +74,8 @@ TEST(VideoColour, IsWhatTheFileSaysAndBeforeThatWhatWasStated) {
         {"libx265 -x265-params log-level=0",
          "the container names full range, and by its pictures it would be limited range: the container's count"},
         {"libx264 -x264-params colormatrix=fcc:colorprim=bt709:transfer=bt709:range=tv",
-         "the container names full range, matrix bt709, transfer hlg, primaries bt2020, and by its pictures it would be "
-         "limited range, matrix fcc, transfer bt709, primaries bt709: the container's count"}}) {
+         "the container names full range, matrix bt709, transfer hlg, primaries bt2020, and by its pictures it would "
+         "be limited range, matrix fcc, transfer bt709, primaries bt709: the container's count"}}) {
     test::make(scratch, test_picture("64x48") + "-c:v " + std::string(encoder) +
                             " -vf setsar=32/27 -colorspace bt709 -color_range pc -color_primaries bt2020 "
                             "-color_trc arib-std-b67 clip.mkv");

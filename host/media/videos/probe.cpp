@@ -79,8 +79,8 @@ ColourNumbers named_colours(const OpenedVideo& opened, const ColourNumbers& code
   });
   if (!settings.empty()) {
     notes.emplace_back(
-        format("the container names {}, and by its pictures it would be {}: the container's count; state others if these "
-               "are wrong",
+        format("the container names {}, and by its pictures it would be {}: the container's count; state others if "
+               "these are wrong",
                theirs, others),
         std::move(settings));
   }
