@@ -123,7 +123,9 @@ TEST(Containers, OfWhichTooLittleIsKnownAreRefusedByName) {
   for (const std::uint32_t number : {0u, 0u, 0u, 8u, 4u, 16u, 1u})
     ser.append(reinterpret_cast<const char*>(&number), sizeof number);
   scratch.write("a.ser", ser.append(136 + 64, '\0'));
+  scratch.write("a.y4m", "YUV4MPEG2 W8 H6 F25:1 Im C420jpeg\nFRAME I12p\n" + std::string(72, 'x'));
   for (const auto& [name, said] : std::vector<std::pair<std::string, std::string>>{
+           {"a.y4m", " is no video that can be read: its header, of yuv4mpegpipe (YUV4MPEG pipe), is damaged or "},
            {"n.txt", " is a text, and no clip; stills are listed in a .csv"},
            {"a.fits",
             " is no video that can be read: it is taken for fits (Flexible Image Transport System), which would be "

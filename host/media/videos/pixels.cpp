@@ -156,7 +156,7 @@ SwsContext* new_scaler(const AVFrame& frame, AVPixelFormat wanted, ChromaPlace a
 }  // namespace
 
 std::uint32_t PixelKind::white_code() const {
-  if (is_grey && !is_limited_grey) return (1u << bits) - 1;
+  if (is_grey && !is_limited) return (1u << bits) - 1;
   return bits <= 8 ? 255 : 65'535;
 }
 
@@ -265,8 +265,8 @@ std::optional<YuvMatrix> named_matrix(unsigned space, unsigned primaries) {
 }
 
 std::optional<CodeRange> named_range(unsigned range, AVPixelFormat format) {
-  if (range == AVCOL_RANGE_JPEG || has_j_name(format)) return CodeRange::full;
-  return range == AVCOL_RANGE_MPEG ? std::optional(CodeRange::limited) : std::nullopt;
+  if (range == AVCOL_RANGE_MPEG) return CodeRange::limited;
+  return range == AVCOL_RANGE_JPEG || has_j_name(format) ? std::optional(CodeRange::full) : std::nullopt;
 }
 
 std::optional<ChromaPlace> named_chroma_place(const AVCodecParameters& codec) {
@@ -321,12 +321,14 @@ PixelConverter::PixelConverter(PixelKind kind, Upright upright, YuvCoding coding
       coding_(coding),
       raster_format_(raster_format(kind)),
       planar_format_(with_bits("yuv444p", kind.bits)) {
-  if (kind.padding_bits == 0 && !kind.is_limited_grey) return;
+  if (kind.padding_bits == 0 && !kind.is_limited) return;
   const double white = kind.white_code(), unit = std::ldexp(1.0, static_cast<int>(std::max(kind.bits, 8u)) - 8);
   code_of_.resize(kind.bits > 8 ? 65'536 : 256);
+  // RGB of 9 to 15 bits was spread over 16.
+  const double steps = kind.is_grey ? 1 : (256 * unit - 1) / static_cast<double>(code_of_.size() - 1);
   for (std::uint32_t i = 0; i < code_of_.size(); ++i) {
-    double code = i >> kind.padding_bits;
-    if (kind.is_limited_grey) code = std::clamp((code - 16 * unit) / (219 * unit), 0.0, 1.0) * white + 0.5;
+    double code = std::round((i >> kind.padding_bits) * steps);
+    if (kind.is_limited) code = std::clamp((code - 16 * unit) / (219 * unit), 0.0, 1.0) * white + 0.5;
     code_of_[i] = static_cast<std::uint16_t>(code);
   }
 }
@@ -411,7 +413,8 @@ void PixelConverter::convert(const AVFrame& given, std::span<std::byte> raster, 
     eight_bit_rgb(byte_planes(frame, name), coding_, row, static_cast<std::ptrdiff_t>(row_bytes));
     return;
   }
-  if (raster_format_ == AV_PIX_FMT_RGB24 && frame.format != raster_format_ && stays && is_aligned(raster, row_bytes)) {
+  if (raster_format_ == AV_PIX_FMT_RGB24 && frame.format != raster_format_ && stays && code_of_.empty() &&
+      is_aligned(raster, row_bytes)) {
     const int stride = static_cast<int>(row_bytes);
     scale(frame, raster_format_, name, &row, &stride);
     return;
