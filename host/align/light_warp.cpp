@@ -310,11 +310,9 @@ void LightWarp::take(std::span<const std::byte> raster, const Warp& warp, std::s
                      std::min(kPartHeight, area_.height - y)});
         });
   };
-  if (format_.code_bytes == 1) {
-    move(reinterpret_cast<const std::uint8_t*>(raster.data()), reinterpret_cast<std::uint8_t*>(warped.data()));
-  } else {
-    move(reinterpret_cast<const std::uint16_t*>(raster.data()), reinterpret_cast<std::uint16_t*>(warped.data()));
-  }
+  with_codes(format_.code_bytes, raster.data(), [&]<typename Code>(const Code* codes) {
+    move(codes, reinterpret_cast<Code*>(warped.data()));
+  });
 }
 
 }  // namespace nutik

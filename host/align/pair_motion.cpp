@@ -439,14 +439,9 @@ void EvenGrey::take(std::span<const std::byte> raster, std::vector<std::uint8_t>
         },
         max_threads);
   };
-  const bool is_grey = format_.shape.channels == 1;
-  if (format_.code_bytes == 1) {
-    const auto* const codes = reinterpret_cast<const std::uint8_t*>(raster.data());
-    is_grey ? look.template operator()<std::uint8_t, 1>(codes) : look.template operator()<std::uint8_t, 3>(codes);
-  } else {
-    const auto* const codes = reinterpret_cast<const std::uint16_t*>(raster.data());
-    is_grey ? look.template operator()<std::uint16_t, 1>(codes) : look.template operator()<std::uint16_t, 3>(codes);
-  }
+  with_codes(format_.code_bytes, raster.data(), [&]<typename Code>(const Code* codes) {
+    format_.shape.channels == 1 ? look.template operator()<Code, 1>(codes) : look.template operator()<Code, 3>(codes);
+  });
 }
 
 InBetween::InBetween(const CaptureFormat& format)
@@ -476,12 +471,8 @@ void InBetween::take(Picture& first, Picture& second, Picture& before, Picture& 
   motion_.find_bends(pictures, ~0U);
   made_.assign(first_.begin(), first_.end());
   shares_.assign(motion_.ways_.size(), 0);
-  const auto read = [&]<typename Code>(const Code*) {
-    read_light(reinterpret_cast<const Code*>(first_.data()), first_light_);
-    read_light(reinterpret_cast<const Code*>(second_.data()), second_light_);
-  };
-  format_.code_bytes == 1 ? read(static_cast<const std::uint8_t*>(nullptr))
-                          : read(static_cast<const std::uint16_t*>(nullptr));
+  with_codes(format_.code_bytes, first_.data(), [&](const auto* codes) { read_light(codes, first_light_); });
+  with_codes(format_.code_bytes, second_.data(), [&](const auto* codes) { read_light(codes, second_light_); });
   taken_.clear();
   for (const Flight& flight : motion_.flights_) {
     Taken first = taken(flight.first, first_light_, second_light_);

@@ -13,6 +13,7 @@ struct PartOfClip {
   std::int64_t start_ns = 0;   // of that one, from the start of the clip's first: 0 or more
   std::uint64_t pictures = 0;  // that the clip has; 0: it does not say
   std::string clip;            // its file's name, without folders
+  std::string checksum = {};   // of its files; empty: not known
 
   // `pictures 2 … 5 of 6, whose time 0 is 0.02 s after the clip's`; `end` is behind the last one, if that is known.
   [[nodiscard]] std::string text(std::optional<std::uint64_t> end) const;

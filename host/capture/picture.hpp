@@ -11,6 +11,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "capture/noise_model.hpp"
@@ -149,16 +150,22 @@ struct PictureLayer {
   Picture values;
 };
 
+// Calls visit() with codes of 1 or 2 bytes as what they are.
+template <typename Byte, typename Visit>
+decltype(auto) with_codes(std::uint32_t code_bytes, Byte* codes, Visit visit) {
+  const auto as = [&]<typename Code>(Code) {
+    return reinterpret_cast<std::conditional_t<std::is_const_v<Byte>, const Code, Code>*>(codes);
+  };
+  return code_bytes == 1 ? visit(as(std::uint8_t{})) : visit(as(std::uint16_t{}));
+}
+
 // The largest of a raster's codes; 0 where it has none.
 [[nodiscard]] inline std::uint32_t largest_code(std::span<const std::byte> raster, std::uint32_t code_bytes) {
-  std::uint32_t largest = 0;
-  if (code_bytes == 1) {
-    for (const std::byte code : raster) largest = std::max(largest, static_cast<std::uint32_t>(code));
-  } else {
-    const auto* codes = reinterpret_cast<const std::uint16_t*>(raster.data());
-    for (std::size_t i = 0; i < raster.size() / 2; ++i) largest = std::max<std::uint32_t>(largest, codes[i]);
-  }
-  return largest;
+  return with_codes(code_bytes, raster.data(), [&](const auto* codes) {
+    std::uint32_t largest = 0;
+    for (std::size_t i = 0; i < raster.size() / code_bytes; ++i) largest = std::max<std::uint32_t>(largest, codes[i]);
+    return largest;
+  });
 }
 
 }  // namespace nutik

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "capture/digits.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 

@@ -42,6 +42,10 @@ struct Rational {
 // What is wrong with `29,97`; empty of any other text.
 [[nodiscard]] std::string_view decimal_mark_hint(std::string_view text);
 
+// Whether a text is a decimal number, of a time with its unit, for which the 15 digits of Rational::read() and
+// StatedTime::read() are too few.
+[[nodiscard]] bool has_too_many_digits(std::string_view text);
+
 // numerator / denominator rounded to the nearest whole number, halves upward. denominator > 0.
 std::int64_t round_half_up(int128 numerator, int128 denominator);
 

@@ -5,7 +5,6 @@
 #include <numeric>
 #include <utility>
 
-#include "capture/digits.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/text.hpp"

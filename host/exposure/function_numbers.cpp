@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <optional>
 
-#include "capture/digits.hpp"
 #include "capture/format.hpp"
 #include "capture/source_text.hpp"
 #include "capture/stated_time.hpp"

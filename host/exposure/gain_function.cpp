@@ -65,6 +65,29 @@ double interpolate_exactly(const GainPiece& piece, std::int64_t time_ns) {
   return std::scalbn(numerator.value() / static_cast<double>(piece.end_ns - piece.begin_ns), exponent);
 }
 
+// ∫|g| over a piece, of scaled gains.
+double absolute_integral(const GainPiece& piece, double begin_gain, double end_gain) {
+  const auto length = static_cast<double>(piece.end_ns - piece.begin_ns);
+  const double begin = std::fabs(begin_gain);
+  const double end = std::fabs(end_gain);
+  if ((begin_gain < 0) == (end_gain < 0) || begin == 0 || end == 0) return length * (begin + end) / 2;
+  return length * (begin * begin + end * end) / (2 * (begin + end));  // two triangles
+}
+
+Interval live_interval(const GainFunction& function, std::int64_t duration_ns) {
+  const auto points = function.points();
+  const auto is_live = [](const ControlPoint& point) { return point.gain != 0.0; };
+  const auto first = std::find_if(points.begin(), points.end(), is_live);
+  if (first == points.end()) return {};
+  const auto last = std::find_if(points.rbegin(), points.rend(), is_live).base() - 1;
+  Interval live;
+  live.begin_ns = first == points.begin() ? 0 : (first - 1)->time_ns;
+  live.end_ns = last + 1 == points.end() ? duration_ns : (last + 1)->time_ns;
+  live.begin_ns = std::clamp<std::int64_t>(live.begin_ns, 0, duration_ns);
+  live.end_ns = std::clamp<std::int64_t>(live.end_ns, 0, duration_ns);
+  return live.empty() ? Interval{} : live;
+}
+
 }  // namespace
 
 GainFunction GainFunction::shifted(std::int64_t by_ns) const {
@@ -140,33 +163,6 @@ std::vector<GainPiece> GainFunction::pieces(std::int64_t duration_ns) const {
   append({points_.back().time_ns, duration_ns, last_gain(), last_gain()});
   return pieces;
 }
-
-namespace {
-
-// ∫|g| over a piece, of scaled gains.
-double absolute_integral(const GainPiece& piece, double begin_gain, double end_gain) {
-  const auto length = static_cast<double>(piece.end_ns - piece.begin_ns);
-  const double begin = std::fabs(begin_gain);
-  const double end = std::fabs(end_gain);
-  if ((begin_gain < 0) == (end_gain < 0) || begin == 0 || end == 0) return length * (begin + end) / 2;
-  return length * (begin * begin + end * end) / (2 * (begin + end));  // two triangles
-}
-
-Interval live_interval(const GainFunction& function, std::int64_t duration_ns) {
-  const auto points = function.points();
-  const auto is_live = [](const ControlPoint& point) { return point.gain != 0.0; };
-  const auto first = std::find_if(points.begin(), points.end(), is_live);
-  if (first == points.end()) return {};
-  const auto last = std::find_if(points.rbegin(), points.rend(), is_live).base() - 1;
-  Interval live;
-  live.begin_ns = first == points.begin() ? 0 : (first - 1)->time_ns;
-  live.end_ns = last + 1 == points.end() ? duration_ns : (last + 1)->time_ns;
-  live.begin_ns = std::clamp<std::int64_t>(live.begin_ns, 0, duration_ns);
-  live.end_ns = std::clamp<std::int64_t>(live.end_ns, 0, duration_ns);
-  return live.empty() ? Interval{} : live;
-}
-
-}  // namespace
 
 GainSummary summarize(const GainFunction& function, std::int64_t duration_ns) {
   GainSummary summary;

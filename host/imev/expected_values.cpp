@@ -344,11 +344,7 @@ void ExpectedValues::find_in(const Code* codes, std::uint32_t samples, Held& hel
 }
 
 void ExpectedValues::find(const std::byte* codes, std::uint32_t samples, Held& held) const {
-  if (code_bytes_ == 1) {
-    find_in(reinterpret_cast<const std::uint8_t*>(codes), samples, held);
-  } else {
-    find_in(reinterpret_cast<const std::uint16_t*>(codes), samples, held);
-  }
+  with_codes(code_bytes_, codes, [&](const auto* of_tile) { find_in(of_tile, samples, held); });
 }
 
 }  // namespace nutik

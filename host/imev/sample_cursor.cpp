@@ -57,14 +57,9 @@ std::uint32_t SampleCursor::code(std::uint32_t x, std::uint32_t y, std::uint32_t
 }
 
 void SampleCursor::read(std::span<std::byte> raster) const {
-  const bool is_grey = shape_.channels == 1;
-  if (block_.geometry().code_bytes == 1) {
-    auto* const codes = reinterpret_cast<std::uint8_t*>(raster.data());
-    is_grey ? read<std::uint8_t, 1>(codes) : read<std::uint8_t, 3>(codes);
-  } else {
-    auto* const codes = reinterpret_cast<std::uint16_t*>(raster.data());
-    is_grey ? read<std::uint16_t, 1>(codes) : read<std::uint16_t, 3>(codes);
-  }
+  with_codes(block_.geometry().code_bytes, raster.data(), [&]<typename Code>(Code* codes) {
+    shape_.channels == 1 ? read<Code, 1>(codes) : read<Code, 3>(codes);
+  });
 }
 
 template <typename Code, std::uint32_t kChannels>
@@ -137,7 +132,7 @@ void SampleCursor::gather_records(std::uint32_t tile, std::uint32_t sample) {
   }
   tiles_[tile].next = next < geometry.sample_count ? std::uint32_t{next} : kNever;
   std::byte* const to = gathered_.data() + (tiles_[tile].codes - gathered_.data());
-  const auto gather = [&](auto* codes) {
+  with_codes(geometry.code_bytes, to, [&](auto* codes) {
     for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
       const std::byte* from = body;
       if (passed[lane] > 0) {
@@ -148,12 +143,7 @@ void SampleCursor::gather_records(std::uint32_t tile, std::uint32_t sample) {
         std::memcpy(codes + at, from + at * sizeof *codes, sizeof *codes);
       }
     }
-  };
-  if (geometry.code_bytes == 1) {
-    gather(reinterpret_cast<std::uint8_t*>(to));
-  } else {
-    gather(reinterpret_cast<std::uint16_t*>(to));
-  }
+  });
 }
 
 }  // namespace nutik

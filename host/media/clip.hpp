@@ -184,13 +184,13 @@ class Clip {
 };
 
 // Opens a video (`-` is one from standard input), a sequence of stills (media/stills/still_sequence.hpp), a table of stills
-// (media/stills/stills_table.hpp), a Photron camera's pictures (media/clip_formats.hpp), or a recording without pictures
-// (media/events/event_clip.hpp). Their times do not count where a rate is stated. Throws InputError where there is
-// none, or none that can be read.
+// (media/stills/stills_table.hpp), a Photron camera's pictures (media/cameras/photron_header.hpp), or a recording
+// without pictures (media/events/event_clip.hpp). Their times do not count where a rate is stated. Throws InputError
+// where there is none, or none that can be read.
 [[nodiscard]] std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOptions& options);
 
-// The files that it would read: a table before its stills, Photron's pictures before their header.
-[[nodiscard]] std::vector<std::filesystem::path> files_of_clip(const std::filesystem::path& path);
+// The files that it would read: a table before its stills, pictures before what a camera wrote beside them.
+[[nodiscard]] std::vector<std::filesystem::path> files_of_clip(const std::filesystem::path& path, bool is_raw = false);
 
 // That a clip announces other pictures than could be decoded; nothing where it announces none, or as many.
 [[nodiscard]] std::optional<std::string> lost_pictures_text(const std::string& name, std::uint64_t announced,

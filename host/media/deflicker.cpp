@@ -49,8 +49,7 @@ class Blocks {
         rows_(places(format.shape.height)) {}
 
   [[nodiscard]] std::vector<std::vector<double>> means(std::span<const std::byte> raster) const {
-    return format_.code_bytes == 1 ? means(reinterpret_cast<const std::uint8_t*>(raster.data()))
-                                   : means(reinterpret_cast<const std::uint16_t*>(raster.data()));
+    return with_codes(format_.code_bytes, raster.data(), [&](const auto* codes) { return means(codes); });
   }
 
   // Noise that both pictures have alike gives each tile's difference either sign with the same chance: they might be
@@ -154,14 +153,9 @@ class DeflickeredClip final : public Clip {
     }
     if (!is_shifted_) return true;
     ++corrected_;
-    const bool is_grey = info_.format.shape.channels == 1;
-    if (info_.format.code_bytes == 1) {
-      auto* const codes = reinterpret_cast<std::uint8_t*>(raster.data());
-      is_grey ? correct<1>(codes) : correct<3>(codes);
-    } else {
-      auto* const codes = reinterpret_cast<std::uint16_t*>(raster.data());
-      is_grey ? correct<1>(codes) : correct<3>(codes);
-    }
+    with_codes(info_.format.code_bytes, raster.data(), [&](auto* codes) {
+      info_.format.shape.channels == 1 ? correct<1>(codes) : correct<3>(codes);
+    });
     return true;
   }
 

@@ -35,9 +35,9 @@ std::uint64_t size_of(const fs::path& file) {
 
 }  // namespace
 
-std::string input_checksum(const fs::path& name) {
+std::string input_checksum(const fs::path& name, bool is_raw) {
   const fs::path& path = is_standard_input(name.string()) ? standard_input_file() : name;
-  return files_checksum(files_of_clip(path));
+  return files_checksum(files_of_clip(path, is_raw));
 }
 
 std::string files_checksum(std::span<const fs::path> files) {

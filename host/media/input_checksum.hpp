@@ -20,9 +20,9 @@ inline constexpr std::uint64_t kWholeChecksumBytes = 256ull << 20;
 // other. Of more than kWholeChecksumBytes only the size and the first and last bytes of each file are taken, up to
 // 1 MiB each, less where there are many: `xxh3-64-ends:`. That costs next to nothing and tells one recording
 // from another, but not an edit in the middle that keeps the size. `path` may be a sequence of
-// stills (still_sequence.hpp); a table of stills is the first of its files. Throws InputError where a
-// file cannot be read.
-[[nodiscard]] std::string input_checksum(const std::filesystem::path& path);
+// stills (still_sequence.hpp), `is_raw`: a raw video; its files are files_of_clip() (clip.hpp). Throws InputError where
+// a file cannot be read.
+[[nodiscard]] std::string input_checksum(const std::filesystem::path& path, bool is_raw = false);
 // The same of these files.
 [[nodiscard]] std::string files_checksum(std::span<const std::filesystem::path> files);
 

@@ -55,13 +55,9 @@ void LightMeans::take_codes(const Code* raster, Code* scaled) {
 }
 
 void LightMeans::take(std::span<const std::byte> raster, std::span<std::byte> scaled) {
-  if (code_bytes_ == 1) {
-    take_codes(reinterpret_cast<const std::uint8_t*>(raster.data()),
-               reinterpret_cast<std::uint8_t*>(scaled.data()));
-  } else {
-    take_codes(reinterpret_cast<const std::uint16_t*>(raster.data()),
-               reinterpret_cast<std::uint16_t*>(scaled.data()));
-  }
+  with_codes(code_bytes_, raster.data(), [&]<typename Code>(const Code* codes) {
+    take_codes(codes, reinterpret_cast<Code*>(scaled.data()));
+  });
 }
 
 }  // namespace nutik

@@ -25,6 +25,7 @@ struct VideoModule {
 
   void (*use_shared_state)(SharedState& of_program);  // first
   std::unique_ptr<Clip> (*open)(const std::filesystem::path& path, const ClipOptions& options);
+  std::filesystem::path (*story_beside)(const std::filesystem::path& path);  // videos/capture_rate.hpp
   std::unique_ptr<VideoWriter> (*open_writer)(const std::filesystem::path& path, const VideoFormat& format,
                                               const VideoCodec& codec);
 };

@@ -4,10 +4,10 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/cameras/photron_header.hpp"
-#include "media/clip_formats.hpp"
 #include "media/clip_part.hpp"
 #include "media/events/event_clip.hpp"
 #include "media/formats/file_kinds.hpp"
+#include "media/formats/readers.hpp"
 #include "media/module.hpp"
 #include "media/stills/still_sequence.hpp"
 #include "media/stills/stills_table.hpp"
@@ -16,6 +16,18 @@
 
 namespace nutik {
 namespace {
+
+using Files = std::vector<std::filesystem::path>;
+
+// Which files are of a format, and how they are opened. What is believed of each stands in media/formats/readers.hpp.
+struct ClipFormat {
+  const readers::Reader* reader;  // one that tells of it
+  // What a name stands for if it is of this format. Throws InputError if that is damaged or not all there.
+  std::optional<Files> (*files)(const std::filesystem::path& path);
+  std::unique_ptr<Clip> (*open)(const std::filesystem::path& path, const Files& files, const ClipOptions& options);
+  // Adds what there is to tell besides what its module knows.
+  void (*describe)(ClipInfo& info, const std::filesystem::path& path, const Files& files) = nullptr;
+};
 
 std::unique_ptr<Clip> open_table(const std::filesystem::path& path, const Files& files, const ClipOptions& options) {
   const StillModule& module = still_module();
@@ -32,29 +44,16 @@ std::unique_ptr<Clip> open_table(const std::filesystem::path& path, const Files&
   return module.open(std::span(files).subspan(1), options.rate ? listed : timing_of(path, stills, exif), options);
 }
 
-// A clip of which there is more to tell than its module knows.
-class DescribedClip final : public Clip {
- public:
-  DescribedClip(std::unique_ptr<Clip> clip, ClipInfo info) : clip_(std::move(clip)), info_(std::move(info)) {}
-
-  [[nodiscard]] const ClipInfo& info() const override { return info_; }
-  bool read(std::span<std::byte> raster) override { return clip_->read(raster); }
-  bool skip(std::span<std::byte> room) override { return clip_->skip(room); }
-  [[nodiscard]] bool makes_codes() const override { return clip_->makes_codes(); }
-  [[nodiscard]] std::vector<std::string> remarks() const override { return clip_->remarks(); }
-
- private:
-  std::unique_ptr<Clip> clip_;
-  ClipInfo info_;
-};
-
 // A clip with a picture that cannot be read: that is its end, or an error which says that it could be.
 class PerhapsDamaged final : public Clip {
  public:
-  PerhapsDamaged(std::unique_ptr<Clip> clip, const std::filesystem::path& path, bool ends_at_damage)
-      : clip_(std::move(clip)), name_(input_title(path.string())), ends_at_damage_(ends_at_damage) {}
+  PerhapsDamaged(std::unique_ptr<Clip> clip, ClipInfo info, const std::filesystem::path& path, bool ends_at_damage)
+      : clip_(std::move(clip)),
+        info_(std::move(info)),
+        name_(input_title(path.string())),
+        ends_at_damage_(ends_at_damage) {}
 
-  [[nodiscard]] const ClipInfo& info() const override { return clip_->info(); }
+  [[nodiscard]] const ClipInfo& info() const override { return info_; }
 
   bool read(std::span<std::byte> raster) override {
     return take([&] { return clip_->read(raster); });
@@ -89,13 +88,14 @@ class PerhapsDamaged final : public Clip {
                          {Setting::end_at_damage});
       }
       reason_ = format("{} is taken as far as it goes, {} of {} pictures: {}", name_, samples_read_,
-                       clip_->info().sample_count, error.what());
+                       info_.sample_count, error.what());
       has_ended_ = true;
       return false;
     }
   }
 
   std::unique_ptr<Clip> clip_;
+  ClipInfo info_;
   std::string name_;
   bool ends_at_damage_;
   std::uint64_t samples_read_ = 0;
@@ -104,7 +104,7 @@ class PerhapsDamaged final : public Clip {
 };
 
 // Pictures that tell no times themselves have those of the camera's header beside them.
-void add_photron_header(ClipInfo& info, const std::filesystem::path& pictures) {
+void add_photron_header(ClipInfo& info, const std::filesystem::path& pictures, const Files&) {
   if (info.timing.is_known()) return;
   const auto header = photron_header_of(pictures);
   if (!header) return;
@@ -113,18 +113,18 @@ void add_photron_header(ClipInfo& info, const std::filesystem::path& pictures) {
   info.timing.rate_from = header->file.filename().string();
 }
 
-std::unique_ptr<Clip> open_stills(const std::filesystem::path& path, const Files& stills, const ClipOptions& options) {
-  std::unique_ptr<Clip> clip = still_module().open(stills, {}, options);
+std::unique_ptr<Clip> open_stills(const std::filesystem::path&, const Files& stills, const ClipOptions& options) {
+  return still_module().open(stills, {}, options);
+}
+
+void describe_stills(ClipInfo& info, const std::filesystem::path& path, const Files& stills) {
   std::error_code error;
   const bool is_folder = std::filesystem::is_directory(path, error);
-  ClipInfo info = clip->info();
   for (auto note : {is_folder ? missing_still_note(path, stills) : mixed_note(path, stills),
                     is_folder ? left_out_note(path, stills) : std::nullopt}) {
     if (note) info.notes.emplace_back(std::move(*note));
   }
-  if (!is_folder && info.notes.size() == clip->info().notes.size()) return clip;
-  if (is_folder) add_photron_header(info, path);
-  return std::make_unique<DescribedClip>(std::move(clip), std::move(info));
+  if (is_folder) add_photron_header(info, path, stills);
 }
 
 void refuse_absent(const std::filesystem::path& path) {
@@ -132,14 +132,6 @@ void refuse_absent(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_regular_file(path, error) && std::filesystem::is_empty(path, error))
     throw InputError(format("{} is empty; was it copied, or recorded, to its end?", input_title(path.string())));
-}
-
-std::unique_ptr<Clip> open_raw(const std::filesystem::path& path, const Files&, const ClipOptions& options) {
-  refuse_absent(path);
-  std::unique_ptr<Clip> clip = video_module().open(path, options);
-  ClipInfo info = clip->info();
-  add_photron_header(info, path);
-  return std::make_unique<DescribedClip>(std::move(clip), std::move(info));
 }
 
 void refuse_event_options(const std::filesystem::path& path, const EventOptions& events) {
@@ -170,7 +162,7 @@ std::unique_ptr<Clip> open_events(const std::filesystem::path& path, const Files
 
 std::unique_ptr<Clip> open_video(const std::filesystem::path& path, const Files&, const ClipOptions& options) {
   refuse_absent(path);
-  refuse_text(path);
+  if (!options.raw) refuse_text(path);
   return video_module().open(path, options);
 }
 
@@ -179,39 +171,49 @@ constexpr ClipFormat kFormats[] = {
     {&readers::kPhotron, photron_files, open_photron_clip},
     {&readers::kProphesee, files_of_events, open_events},
     {&readers::kTable, files_of_table, open_table},
-    {&readers::kSequence, list_stills, open_stills},
+    {&readers::kSequence, list_stills, open_stills, describe_stills},
 };
-constexpr ClipFormat kVideos{&readers::kVideo, nullptr, open_video}, kDescribed{&readers::kRawVideo, nullptr, open_raw};
+constexpr ClipFormat kVideos{&readers::kVideo, nullptr, open_video},
+    kDescribed{&readers::kRawVideo, nullptr, open_video, add_photron_header};
 
 struct FormatOf {
   const ClipFormat& format;
   Files files;
 };
 
-FormatOf format_of(const std::filesystem::path& path) {
+FormatOf format_of(const std::filesystem::path& path, bool is_raw) {
+  if (is_raw) return {kDescribed, {path}};
   for (const ClipFormat& format : kFormats) {
     if (auto files = format.files(path)) return {format, std::move(*files)};
   }
   return {kVideos, {path}};
 }
 
-// All of it, as its files have it.
-std::unique_ptr<Clip> open_whole(const std::filesystem::path& path, const ClipOptions& options) {
-  if (!options.raw) refuse_unread_kind(path);
-  const auto [format, files] = options.raw ? FormatOf{kDescribed, {path}} : format_of(path);
-  if (*format.reader != readers::kProphesee) refuse_event_options(path, options.events);
-  return format.open(path, files, options);
-}
-
 }  // namespace
 
-std::vector<std::filesystem::path> files_of_clip(const std::filesystem::path& path) { return format_of(path).files; }
+std::vector<std::filesystem::path> files_of_clip(const std::filesystem::path& path, bool is_raw) {
+  auto [format, files] = format_of(path, is_raw);
+  std::error_code error;
+  const bool is_folder = *format.reader == readers::kSequence && std::filesystem::is_directory(path, error);
+  if (is_raw || is_folder) {
+    if (const auto header = photron_header_of(path)) files.push_back(header->file);
+  } else if (*format.reader == readers::kVideo && !is_absent(sony_file_of(path))) {
+    const std::filesystem::path story = video_module().story_beside(path);
+    if (!story.empty()) files.push_back(story);
+  }
+  return files;
+}
 
 std::unique_ptr<Clip> open_clip(const std::filesystem::path& name, const ClipOptions& options) {
   const std::filesystem::path& path = is_standard_input(name.string()) ? standard_input_file() : name;
-  std::unique_ptr<Clip> clip = open_whole(path, options);
-  return take_part(std::make_unique<PerhapsDamaged>(std::move(clip), path, options.ends_at_damage), path,
-                   options);
+  if (!options.raw) refuse_unread_kind(path);
+  const auto [format, files] = format_of(path, options.raw.has_value());
+  if (*format.reader != readers::kProphesee) refuse_event_options(path, options.events);
+  std::unique_ptr<Clip> clip = format.open(path, files, options);
+  ClipInfo info = clip->info();
+  if (format.describe != nullptr) format.describe(info, path, files);
+  return take_part(
+      std::make_unique<PerhapsDamaged>(std::move(clip), std::move(info), path, options.ends_at_damage), path, options);
 }
 
 }  // namespace nutik

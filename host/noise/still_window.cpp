@@ -52,11 +52,7 @@ StillWindow::StillWindow(const CaptureFormat& capture) : format_(capture) {
 
 void StillWindow::add(std::span<const std::byte> raster) {
   if (is_full()) throw std::logic_error("a full window was given another sample");
-  if (format_.code_bytes == 1) {
-    add(reinterpret_cast<const std::uint8_t*>(raster.data()));
-  } else {
-    add(reinterpret_cast<const std::uint16_t*>(raster.data()));
-  }
+  with_codes(format_.code_bytes, raster.data(), [&](const auto* codes) { add(codes); });
   ++samples_;
 }
 

@@ -28,6 +28,30 @@ bool is_one_gain(const SampleGains& each) {
                                 }));
 }
 
+// Rows of tiles whose light is there at a time.
+constexpr std::uint32_t kRowsAtOnce = 16 * kTileSide;
+
+// Calls visit(tile of the band, lane, pixel of the picture, pixel of the rectangle) for each pixel that both have.
+template <typename Visit>
+void for_each_pixel(const Band& band, const Shape& shape, const Rectangle& rectangle, Visit visit) {
+  const std::uint32_t columns = TileGrid(shape).columns();
+  parallel_for(band.tile_count / band.columns, [&](std::uint64_t row) {
+    for (std::uint64_t tile = row * band.columns; tile < (row + 1) * band.columns; ++tile) {
+      const std::uint64_t in_picture = band.tile_in_picture(tile);
+      const auto left = static_cast<std::uint32_t>(in_picture % columns) * kTileSide;
+      const auto top = static_cast<std::uint32_t>(in_picture / columns) * kTileSide;
+      const std::uint32_t right = std::min(left + kTileSide, rectangle.x + rectangle.width);
+      const std::uint32_t bottom = std::min(top + kTileSide, rectangle.y + rectangle.height);
+      for (std::uint32_t y = std::max(top, rectangle.y); y < bottom; ++y) {
+        for (std::uint32_t x = std::max(left, rectangle.x); x < right; ++x) {
+          visit(tile, TileGrid::lane_of(x, y), std::uint64_t{y} * shape.width + x,
+                std::uint64_t{y - rectangle.y} * rectangle.width + (x - rectangle.x));
+        }
+      }
+    }
+  });
+}
+
 }  // namespace
 
 Combining::Combining(const RenderPlan& plan, std::vector<SampleGains> gains)
@@ -89,34 +113,6 @@ SliceTables Combining::tables(const TableSlice& slice, DeviceMemory& memory) con
   }
   return {{}, {}, memory.upload(parts), memory.upload(gains)};
 }
-
-namespace {
-
-// Rows of tiles whose light is there at a time.
-constexpr std::uint32_t kRowsAtOnce = 16 * kTileSide;
-
-// Calls visit(tile of the band, lane, pixel of the picture, pixel of the rectangle) for each pixel that both have.
-template <typename Visit>
-void for_each_pixel(const Band& band, const Shape& shape, const Rectangle& rectangle, Visit visit) {
-  const std::uint32_t columns = TileGrid(shape).columns();
-  parallel_for(band.tile_count / band.columns, [&](std::uint64_t row) {
-    for (std::uint64_t tile = row * band.columns; tile < (row + 1) * band.columns; ++tile) {
-      const std::uint64_t in_picture = band.tile_in_picture(tile);
-      const auto left = static_cast<std::uint32_t>(in_picture % columns) * kTileSide;
-      const auto top = static_cast<std::uint32_t>(in_picture / columns) * kTileSide;
-      const std::uint32_t right = std::min(left + kTileSide, rectangle.x + rectangle.width);
-      const std::uint32_t bottom = std::min(top + kTileSide, rectangle.y + rectangle.height);
-      for (std::uint32_t y = std::max(top, rectangle.y); y < bottom; ++y) {
-        for (std::uint32_t x = std::max(left, rectangle.x); x < right; ++x) {
-          visit(tile, TileGrid::lane_of(x, y), std::uint64_t{y} * shape.width + x,
-                std::uint64_t{y - rectangle.y} * rectangle.width + (x - rectangle.x));
-        }
-      }
-    }
-  });
-}
-
-}  // namespace
 
 // The light of a part of the picture.
 template <typename Result, typename LightOf>

@@ -234,7 +234,9 @@ std::size_t DeviceTeam::take_free(const std::stop_token& stop) {
   std::unique_lock lock(freeing_);
   const std::uint64_t place = next_in_line_++;
   // Also whoever is cancelled waits for its place, and does not keep it.
-  freed_.wait(lock, [&] { return served_ == place && (!free_.empty() || stop.stop_requested()); });
+  // A request to stop wakes who waits for a device, and the second wait is for the place alone.
+  freed_.wait(lock, stop, [&] { return served_ == place && !free_.empty(); });
+  freed_.wait(lock, [&] { return served_ == place; });
   ++served_;
   freed_.notify_all();
   if (stop.stop_requested()) throw Cancelled();

@@ -85,7 +85,7 @@ class DeviceTeam final : public Renderer {
   std::mutex choosing_;               // guards the faults
   std::vector<KnownFault> known_faults_;
   std::mutex freeing_;  // guards the free ones, and who waits for one
-  std::condition_variable freed_;
+  std::condition_variable_any freed_;
   std::set<std::size_t> free_;
   std::uint64_t next_in_line_ = 0, served_ = 0;
   std::mutex door_;         // to the turn

@@ -20,42 +20,6 @@ bool is_jump(const GainPiece& piece) {
   return piece.end_ns - piece.begin_ns <= 1 && piece.at(piece.begin_ns) != piece.at(piece.end_ns);
 }
 
-}  // namespace
-
-SampleGains::SampleGains(const PlannedFunction& planned, const Timeline& timeline, std::int64_t duration_ns)
-    : samples(exposed_samples(planned, timeline)) {
-  std::vector<GainPiece> pieces = planned.function.pieces(duration_ns);
-  std::erase_if(pieces, is_jump);
-  const auto find = [&](bool holds) {
-    gains.clear();
-    std::size_t piece = 0;
-    for (std::uint64_t sample = samples.first; sample < samples.last; ++sample) {
-      const std::int64_t start_ns = timeline.start_ns(sample),
-                         end_ns = holds ? timeline.reach_end_ns(sample) : timeline.end_ns(sample);
-      while (piece + 1 < pieces.size() && pieces[piece].end_ns <= start_ns) ++piece;
-      double& largest = gains.emplace_back(0.0);
-      for (std::size_t p = piece; p < pieces.size() && pieces[p].begin_ns < end_ns; ++p) {
-        if (pieces[p].end_ns <= start_ns) continue;
-        for (const std::int64_t time_ns : {std::max(start_ns, pieces[p].begin_ns), std::min(end_ns, pieces[p].end_ns)}) {
-          const double gain = pieces[p].at(time_ns);
-          if (gain < 0.0) throw UsageError("light that is combined takes no gains below 0: they subtract it");
-          largest = std::max(largest, gain);
-        }
-      }
-    }
-    return std::ranges::any_of(gains, [](double gain) { return gain > 0.0; });
-  };
-  if (!find(false)) find(true);
-}
-
-std::vector<SampleGains> sample_gains(const RenderPlan& plan, const Timeline& timeline) {
-  std::vector<SampleGains> gains;
-  for (const PlannedFunction& planned : plan.functions) gains.emplace_back(planned, timeline, plan.duration_ns);
-  return gains;
-}
-
-namespace {
-
 class Combiner {
  public:
   // `gains` are those of the plan's functions. Throws MemoryTooLittle where it takes more than `allowed` bytes; 0: any
@@ -246,6 +210,38 @@ std::uint32_t rows_at_once(const RenderPlan& plan, const CaptureSource& source, 
 }
 
 }  // namespace
+
+SampleGains::SampleGains(const PlannedFunction& planned, const Timeline& timeline, std::int64_t duration_ns)
+    : samples(exposed_samples(planned, timeline)) {
+  std::vector<GainPiece> pieces = planned.function.pieces(duration_ns);
+  std::erase_if(pieces, is_jump);
+  const auto find = [&](bool holds) {
+    gains.clear();
+    std::size_t piece = 0;
+    for (std::uint64_t sample = samples.first; sample < samples.last; ++sample) {
+      const std::int64_t start_ns = timeline.start_ns(sample),
+                         end_ns = holds ? timeline.reach_end_ns(sample) : timeline.end_ns(sample);
+      while (piece + 1 < pieces.size() && pieces[piece].end_ns <= start_ns) ++piece;
+      double& largest = gains.emplace_back(0.0);
+      for (std::size_t p = piece; p < pieces.size() && pieces[p].begin_ns < end_ns; ++p) {
+        if (pieces[p].end_ns <= start_ns) continue;
+        for (const std::int64_t time_ns : {std::max(start_ns, pieces[p].begin_ns), std::min(end_ns, pieces[p].end_ns)}) {
+          const double gain = pieces[p].at(time_ns);
+          if (gain < 0.0) throw UsageError("light that is combined takes no gains below 0: they subtract it");
+          largest = std::max(largest, gain);
+        }
+      }
+    }
+    return std::ranges::any_of(gains, [](double gain) { return gain > 0.0; });
+  };
+  if (!find(false)) find(true);
+}
+
+std::vector<SampleGains> sample_gains(const RenderPlan& plan, const Timeline& timeline) {
+  std::vector<SampleGains> gains;
+  for (const PlannedFunction& planned : plan.functions) gains.emplace_back(planned, timeline, plan.duration_ns);
+  return gains;
+}
 
 Rendered CombiningRenderer::render_part(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output,
                                         const Rectangle& rectangle, const RenderControl& control) {

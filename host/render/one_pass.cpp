@@ -19,7 +19,10 @@ constexpr std::uint64_t kLightBytes = 4u << 20;  // of samples that are weighed 
 // A plan's sums: of the block that is read, and of all before.
 struct Sums {
   explicit Sums(const RenderPlan& plan, std::size_t values)
-      : table(*plan.functions.front().table), exponent(table.summary().exponent), block(values), all(values) {}
+      : table(*plan.functions.front().table),
+        exponent(plan.functions.front().table->summary().exponent),
+        block(values),
+        all(values) {}
 
   void start(std::uint64_t number) {
     weights = table.block(number);
@@ -39,16 +42,7 @@ struct Sums {
     }
   }
 
-  class Table {
-   public:
-    explicit Table(const GainTable& of) : of_(of), reader_(of) {}
-    [[nodiscard]] BlockTable block(std::uint64_t number) { return reader_.block(number); }
-    [[nodiscard]] const GainSummary& summary() const { return of_.summary(); }
-
-   private:
-    const GainTable& of_;
-    GainTable::Reader reader_;
-  } table;
+  GainTable::Reader table;
   int exponent;
   BlockTable weights = {};
   std::vector<double> block, all;
@@ -65,11 +59,7 @@ class Rows {
 
   void read(const SampleCursor& sample, double* light) {
     sample.read(raster_);
-    if (capture_.code_bytes == 1) {
-      look_up(reinterpret_cast<const std::uint8_t*>(raster_.data()), light);
-    } else {
-      look_up(reinterpret_cast<const std::uint16_t*>(raster_.data()), light);
-    }
+    with_codes(capture_.code_bytes, raster_.data(), [&](const auto* codes) { look_up(codes, light); });
   }
 
  private:

@@ -7,6 +7,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "exposure/function_file.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "media/writers/recipe.hpp"
@@ -44,7 +45,7 @@ bool carries_recipe(const std::filesystem::path& file) {
 bool is_mask_content(const std::filesystem::path& file) {
   constexpr std::size_t kPngColourType = 25;
   const MappedFile mapped(file);
-  const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
+  const std::string_view bytes = as_text(mapped.bytes());
   const bool is_pgm = bytes.starts_with("P2") || bytes.starts_with("P5");
   const bool is_grey_png =
       bytes.starts_with("\x89PNG") && bytes.size() > kPngColourType && bytes[kPngColourType] == 0;
@@ -59,9 +60,7 @@ bool is_table_content(std::string_view bytes) {
 }
 
 bool is_functions_content(const std::filesystem::path& file) {
-  const MappedFile mapped(file);
-  const FunctionFile functions =
-      parse_functions({reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size()});
+  const FunctionFile functions = parse_functions(as_text(MappedFile(file).bytes()));
   return !functions.functions.empty() || !functions.broken.empty();
 }
 

@@ -43,8 +43,7 @@ int main(int count, char** words) {
   using nutik::studio::MainWindow;
   MainWindow window(computing);
   window.show();
-  const QStringList files = parser.positionalArguments();
-  if (!files.isEmpty()) window.open(files.front(), parser.value(rate));
+  window.open_first(parser.positionalArguments(), parser.value(rate));
   window.autosave().keep_at_signals();
   return QApplication::exec();
 }

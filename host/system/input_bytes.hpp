@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "capture/text.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik {
@@ -39,7 +40,7 @@ class InputBytes {
   // Throws InputError where it is longer than a text is.
   [[nodiscard]] std::string_view text() const {
     check_text_bytes(title_, bytes_.size());
-    return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()};
+    return as_text(bytes_);
   }
 
  private:

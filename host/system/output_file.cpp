@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <sys/random.h>
 #include <sys/stat.h>
-#include <sys/uio.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -240,30 +239,6 @@ void OutputFile::write(std::span<const std::byte> bytes) {
     }
     bytes = bytes.subspan(static_cast<std::size_t>(written));
     size_ += static_cast<std::uint64_t>(written);
-  }
-}
-
-void OutputFile::write(std::span<const std::span<const std::byte>> parts) {
-  std::array<iovec, 1024> vectors;  // as many as the system takes at once
-  while (!parts.empty()) {
-    const std::size_t count = std::min(parts.size(), vectors.size());
-    for (std::size_t i = 0; i < count; ++i) {
-      vectors[i] = {const_cast<std::byte*>(parts[i].data()), parts[i].size()};
-    }
-    ssize_t written = writev(descriptor_, vectors.data(), static_cast<int>(count));
-    if (written < 0) {
-      if (errno == EINTR) continue;
-      fail("cannot be written");
-    }
-    size_ += static_cast<std::uint64_t>(written);
-    while (!parts.empty() && static_cast<std::size_t>(written) >= parts.front().size()) {
-      written -= static_cast<ssize_t>(parts.front().size());
-      parts = parts.subspan(1);
-    }
-    if (written > 0) {  // the rest of a part of which a share was taken
-      write(parts.front().subspan(static_cast<std::size_t>(written)));
-      parts = parts.subspan(1);
-    }
   }
 }
 

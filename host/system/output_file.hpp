@@ -67,8 +67,6 @@ class OutputFile {
 
   // Appends; throws OutputError with the system's reason (disk full, …).
   void write(std::span<const std::byte> bytes);
-  // The same of parts that lie apart in memory, one behind the other.
-  void write(std::span<const std::span<const std::byte>> parts);
   void write(std::string_view text);
   [[nodiscard]] std::uint64_t size() const { return size_; }
 

@@ -12,6 +12,7 @@
 #include "capture/format.hpp"
 #include "capture/noise_file.hpp"
 #include "capture/source_text.hpp"
+#include "capture/text.hpp"
 #include "imev/block.hpp"
 #include "imev/expected_values.hpp"
 #include "tik/codec.hpp"
@@ -29,8 +30,10 @@ constexpr std::size_t kLongestHeader = 65'536;
 // Tags of fields. `rice` stands where blocks may be packed with that codec, which the first programs of version 1 do not
 // know: with a tolerance whatever codec was asked for.
 constexpr std::string_view kPixelAspect = "aspc", kPrimaries = "prim", kFacts = "fact", kAligned = "algn",
-                           kMeans = "mean", kRounded = "rond", kRice = "rice", kSteps = "step", kPart = "part", kMade = "made";
-constexpr std::array kKnownFields{kPixelAspect, kPrimaries, kFacts, kAligned, kMeans, kRounded, kRice, kSteps, kPart, kMade};
+                           kMeans = "mean", kRounded = "rond", kRice = "rice", kSteps = "step", kPart = "part",
+                           kClip = "clip", kMade = "made";
+constexpr std::array kKnownFields{kPixelAspect, kPrimaries, kFacts, kAligned, kMeans, kRounded,
+                                  kRice,        kSteps,     kPart,  kClip,    kMade};
 
 class HeaderParser {
  public:
@@ -269,6 +272,8 @@ void take_fields(std::span<const Field> fields, Header& header) {
       header.roundings = CodeRoundings::parse(field.data);
     } else if (field.tag == kPart) {
       header.part = parse_part(field.data);
+    } else if (field.tag == kClip && header.part) {
+      header.part->checksum = printable(field.data);
     } else if (field.tag == kMade) {
       header.made = MadeSamples::parse(field.data);
     } else if (field.tag == kFacts) {
@@ -282,7 +287,19 @@ void take_fields(std::span<const Field> fields, Header& header) {
 }
 
 std::string_view front_text(std::span<const std::byte> file) {
-  return {reinterpret_cast<const char*>(file.data()), std::min(file.size(), kLongestHeader)};
+  return as_text(file).substr(0, kLongestHeader);
+}
+
+// The picture at the front, of all pixels and not packed: what a file says of its size is true, and whatever is
+// allocated for it no surprise.
+void check_raster(const ParsedHeader& parsed, std::uint64_t file_bytes, const std::string& name) {
+  const Shape& shape = parsed.header.capture.shape;
+  // So that its bytes can be counted in 64 bits.
+  const bool is_possible = shape.pixel_count() <= file_bytes;
+  if (is_possible && parsed.raster_offset + raster_bytes(parsed.header.capture) < file_bytes) return;
+  throw InputError(
+      format("{}: it was cut off or is damaged: it states {} x {} pixels, which its {} bytes do not hold",
+             name, shape.width, shape.height, file_bytes));
 }
 
 }  // namespace
@@ -336,6 +353,7 @@ std::vector<Field> Header::fields() const {
   if (codec == kRice || counts_steps) fields.push_back({std::string(kRice), true, "1"});
   if (counts_steps) fields.push_back({std::string(kSteps), true, "1"});
   if (part) fields.push_back({std::string(kPart), false, text_of(*part)});
+  if (part && !part->checksum.empty()) fields.push_back({std::string(kClip), false, part->checksum});
   if (made) fields.push_back({std::string(kMade), false, made->kept_text()});
   return fields;
 }
@@ -353,22 +371,6 @@ void refuse_unknown(std::span<const Field> fields, const std::string& name) {
 std::uint64_t raster_bytes(const CaptureFormat& capture) {
   return capture.shape.value_count() * (capture.white_code > 255 ? 2 : 1);
 }
-
-namespace {
-
-// The picture at the front, of all pixels and not packed: what a file says of its size is true, and whatever is
-// allocated for it no surprise.
-void check_raster(const ParsedHeader& parsed, std::uint64_t file_bytes, const std::string& name) {
-  const Shape& shape = parsed.header.capture.shape;
-  // So that its bytes can be counted in 64 bits.
-  const bool is_possible = shape.pixel_count() <= file_bytes;
-  if (is_possible && parsed.raster_offset + raster_bytes(parsed.header.capture) < file_bytes) return;
-  throw InputError(
-      format("{}: it was cut off or is damaged: it states {} x {} pixels, which its {} bytes do not hold",
-             name, shape.width, shape.height, file_bytes));
-}
-
-}  // namespace
 
 bool looks_like_tik(std::span<const std::byte> file) {
   return begins_as_capture(front_text(file));

@@ -148,20 +148,17 @@ void Writer::append(BlockHeader header, std::span<const std::span<const std::byt
 std::uint64_t Writer::write_summed(std::span<const std::span<const std::byte>> parts) {
   constexpr std::size_t kRunBytes = 256 << 10;  // stays in a core's cache
   Checksum checksum;
-  std::vector<std::span<const std::byte>> run;
-  std::size_t room = kRunBytes;
   const auto write_run = [&] {
-    file_.write(run);
-    run.clear();
-    room = kRunBytes;
+    checksum.add(run_);
+    file_.write(run_);
+    run_.clear();
   };
   for (std::span<const std::byte> part : parts) {
     while (!part.empty()) {
-      run.push_back(part.first(std::min(part.size(), room)));
-      checksum.add(run.back());
-      part = part.subspan(run.back().size());
-      room -= run.back().size();
-      if (room == 0) write_run();
+      const auto taken = part.first(std::min(part.size(), kRunBytes - run_.size()));
+      run_.insert(run_.end(), taken.begin(), taken.end());
+      part = part.subspan(taken.size());
+      if (run_.size() == kRunBytes) write_run();
     }
   }
   write_run();

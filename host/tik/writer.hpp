@@ -74,6 +74,7 @@ class Writer {
   ReportedProgress packing_;
   // The last block, whose memory the next one is packed into; and the same where two codecs pack it.
   std::vector<std::vector<std::byte>> packed_, other_;
+  std::vector<std::byte> run_;  // of what is packed, to be written at once
   std::vector<IndexEntry> index_;
   Checksum headers_;  // of all block headers so far
   std::uint64_t front_checksum_ = 0;  // of what stands before the first block

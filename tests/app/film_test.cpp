@@ -138,6 +138,10 @@ TEST_F(Film, FramesAreExposuresForOtherCommands) {
       make("check -m a.pgm --mask-to none.pgm --mask-share 1/2 -k f.fn c.tik", 3);
   expect_says((missing.out + missing.err), "mask value 255 is in a.pgm and not in none.pgm");
   expect_refused(2, {{"--mask-share 0.5 --start 0s --exposure 1f c.tik p.png", "add --mask-to"},
+                     {"--mask-blend alpha --start 0s --exposure 1f c.tik p.png", "a second one: add --mask-to"},
+                     {"check --mask-blend alpha c.tik", "a second one: add --mask-to"},
+                     {"--unmapped zero --start 0s --exposure 1f c.tik p.png", "add -m mask.pgm"},
+                     {"--shutter-error 0.1 --start 0s --exposure 1f c.tik p.png", "add --shutter hann"},
                      {"--mask-share nan --start 0s --exposure 1f c.tik p.png", "--mask-share 'nan'"}});
 }
 

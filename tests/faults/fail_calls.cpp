@@ -15,7 +15,6 @@
 #include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
-#include <sys/uio.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -83,7 +82,6 @@ constinit Next<std::FILE*(const char*, const char*)> next_fopen64{"fopen64"};
 constinit Next<ssize_t(int, void*, std::size_t)> next_read{"read"};
 constinit Next<ssize_t(int, void*, std::size_t, off64_t)> next_pread64{"pread64"};
 constinit Next<ssize_t(int, const void*, std::size_t)> next_write{"write"};
-constinit Next<ssize_t(int, const iovec*, int)> next_writev{"writev"};
 constinit Next<ssize_t(int, const void*, std::size_t, off64_t)> next_pwrite64{"pwrite64"};
 constinit Next<ssize_t(int, void*, std::size_t, off64_t)> next_pread{"pread"};
 constinit Next<ssize_t(int, const void*, std::size_t, off64_t)> next_pwrite{"pwrite"};
@@ -99,8 +97,8 @@ constinit Next<int(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*)> 
 // Later, a search would wait for the loader, and the loader for whoever calls from a library that it is loading.
 [[gnu::constructor]] void find_all() {
   const auto find = [](auto&... each) { (each.get(), ...); };
-  find(next_open, next_open64, next_fopen, next_fopen64, next_read, next_pread64, next_write, next_writev,
-       next_pwrite64, next_pread, next_pwrite, next_fsync, next_flock, next_rename, next_linkat, next_mmap64, next_mremap,
+  find(next_open, next_open64, next_fopen, next_fopen64, next_read, next_pread64, next_write, next_pwrite64,
+       next_pread, next_pwrite, next_fsync, next_flock, next_rename, next_linkat, next_mmap64, next_mremap,
        next_posix_memalign, next_pthread_create);
 }
 
@@ -165,10 +163,6 @@ ssize_t pread64(int descriptor, void* into, std::size_t bytes, off64_t offset) {
 
 ssize_t write(int descriptor, const void* from, std::size_t bytes) {
   return lies_in_folder(descriptor) && fails("write") ? -1 : next_write.get()(descriptor, from, bytes);
-}
-
-ssize_t writev(int descriptor, const iovec* parts, int count) {
-  return lies_in_folder(descriptor) && fails("write") ? -1 : next_writev.get()(descriptor, parts, count);
 }
 
 ssize_t pwrite64(int descriptor, const void* from, std::size_t bytes, off64_t offset) {

@@ -341,10 +341,19 @@ TEST_F(Joining, RefusesWhatDoesNotFollow) {
   night.path = scratch_ / "other/night";
   EXPECT_NE(refusal({a, part(8, 20, night)}).find("part0-8.tik is a part of frames, and "),
             std::string::npos);
-  // A clip of the same name, but with fewer pictures.
   std::filesystem::rename(scratch_ / "other/night", scratch_ / "other/frames");
-  std::filesystem::remove(scratch_ / "other/frames/025.pgm");
   night.path = scratch_ / "other/frames";
+  const Path copied = part(8, 20, night);
+  static_cast<void>(join({{a, copied}, scratch_ / "joined.tik"}));
+  // A clip of the same name, but with other pictures, which captures of earlier programs do not tell.
+  std::filesystem::copy(scratch_ / "frames/000.pgm", night.path / "025.pgm",
+                        std::filesystem::copy_options::overwrite_existing);
+  EXPECT_NE(refusal({a, part(8, 20, night)}).find("parts of two clips named frames, whose content differs"),
+            std::string::npos);
+  const Path silent = saying(copied, [](tik::Header& header) { header.part->checksum.clear(); });
+  static_cast<void>(join({{a, silent}, scratch_ / "joined.tik"}));
+  // Or with fewer.
+  std::filesystem::remove(night.path / "025.pgm");
   EXPECT_NE(refusal({a, part(8, 20, night)}).find("is a part of a clip frames with 26 pictures, and "),
             std::string::npos);
 }

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "fuzz/target.hpp"
-#include "media/clip_formats.hpp"
+#include "media/cameras/photron_header.hpp"
 
 namespace nutik::fuzz {
 namespace {

@@ -14,6 +14,8 @@
 #include <span>
 #include <string_view>
 
+#include "capture/text.hpp"
+
 namespace nutik::fuzz {
 
 using Bytes = std::span<const std::byte>;
@@ -37,10 +39,6 @@ extern const Target kTarget;
 
 // Writes the input to a file of that name in a folder of this process, and returns its path.
 std::filesystem::path as_file(Bytes input, std::string_view name);
-
-inline std::string_view as_text(Bytes input) {
-  return {reinterpret_cast<const char*>(input.data()), input.size()};
-}
 
 // Ends the process with a finding, unless `holds`.
 void demand(bool holds, std::string_view what);

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "media/cameras/photron_header.hpp"
+#include "media/input_checksum.hpp"
 #include "support/bytes.hpp"
 #include "support/clips.hpp"
 #include "support/ffmpeg.hpp"
@@ -54,6 +55,7 @@ TEST(CaptureRate, AndCurveAreSonysWhereItsXmlSaysThem) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   test::make(scratch, phone_clip("24000/1001", ""));
+  const std::string without = input_checksum(scratch / "clip.mp4");
   scratch.write("clipM01.XML", sony_story("119.88p", "s-log3-cine", "s-gamut3-cine"));
   const auto beside = test::open_test_clip(scratch / "clip.mp4");
   EXPECT_EQ(beside->info().timing.rate, (Rational{120'000, 1001}));
@@ -62,6 +64,7 @@ TEST(CaptureRate, AndCurveAreSonysWhereItsXmlSaysThem) {
   EXPECT_NE(test::notes_of(*beside).find("Sony's captureFps says that 120000/1001"), std::string::npos)
       << test::notes_of(*beside);
   EXPECT_EQ(beside->info().timing.rate_from, "clipM01.XML");
+  EXPECT_NE(input_checksum(scratch / "clip.mp4"), without);
   EXPECT_EQ(beside->info().facts.front().line(), "transfer slog3, from clipM01.XML");
   scratch.write("otherM01.XML", "<other/>");
   const std::string story = sony_story("240p", "s-log2", "s-gamut");
@@ -71,6 +74,9 @@ TEST(CaptureRate, AndCurveAreSonysWhereItsXmlSaysThem) {
   const auto within = test::open_test_clip(scratch / "within.mp4");
   EXPECT_EQ(within->info().format.transfer.text(), "slog2:video");
   EXPECT_EQ(within->info().format.primaries, Primaries::sgamut3);
+  const std::string own = input_checksum(scratch / "within.mp4");
+  scratch.write("withinM01.XML", story);
+  EXPECT_EQ(input_checksum(scratch / "within.mp4"), own);
   scratch.write("other.mp4", plain + box("meta", version + box("xml ", version + sony_story("x", "rec709", ""))));
   const auto other = test::open_test_clip(scratch / "other.mp4");
   EXPECT_EQ(other->info().format.transfer, Transfer::srgb());

@@ -123,7 +123,9 @@ TEST(Containers, OfWhichTooLittleIsKnownAreRefusedByName) {
   for (const std::uint32_t number : {0u, 0u, 0u, 8u, 4u, 16u, 1u})
     ser.append(reinterpret_cast<const char*>(&number), sizeof number);
   scratch.write("a.ser", ser.append(136 + 64, '\0'));
+  scratch.write("a.y4m", "YUV4MPEG2 W8 H6 F25:1 Im C420jpeg\nFRAME I12p\n" + std::string(72, 'x'));
   for (const auto& [name, said] : std::vector<std::pair<std::string, std::string>>{
+           {"a.y4m", " is no video that can be read: its header, of yuv4mpegpipe (YUV4MPEG pipe), is damaged or "},
            {"n.txt", " is a text, and no clip; stills are listed in a .csv"},
            {"a.fits",
             " is no video that can be read: it is taken for fits (Flexible Image Transport System), which would be "
@@ -182,6 +184,8 @@ TEST(Containers, WhoseRateNobodyStatesNeedOne) {
   make(scratch, film + "-c:v mjpeg -pix_fmt yuvj420p -f mpjpeg a.mpjpeg");
   make(scratch, film + "-c:v mjpeg -pix_fmt yuvj420p told.avi");
   std::string avi = test::read_file(scratch / "told.avi");
+  const std::string junk("JUNK\xEC\xFF\0\0", 8);  // fills the 64 KiB that are searched for a rate
+  scratch.write("junk.avi", avi.substr(0, 12) + junk + std::string(65'512, '.') + "strh" + avi.substr(12));
   avi.replace(avi.find("avih") + 8, 4, 4, '\0');
   avi.replace(avi.find("strh") + 28, 8, 8, '\0');
   scratch.write("a.avi", avi);
@@ -198,7 +202,7 @@ TEST(Containers, WhoseRateNobodyStatesNeedOne) {
     make(scratch, vui + ticks + " " + name);
     expect_untold(name, " does not say how fast it was taken: its header states ");
   }
-  for (const char* name : {"told.avi", "told.gif", "t.h264"}) {
+  for (const char* name : {"told.avi", "junk.avi", "told.gif", "t.h264"}) {
     const auto rate = open_test_clip(scratch / name)->info().timing.rate;
     EXPECT_EQ(rate, (Rational{50, 1})) << name << " has " << (rate ? rate->text() : "no rate");
   }

@@ -95,6 +95,7 @@ TEST_F(InterlacedVideo, IsSaidWhereWhatIsAskedDoesNotFit) {
   NEEDS_FFMPEG();
   make_interlaced(scratch_, 't', "-c:v ffv1", "told.mkv");
   make_interlaced(scratch_, 't', "-c:v mpeg4 -flags +ilme+ildct -pix_fmt yuv420p", "by-picture.avi");
+  test::make(scratch_, "-i by-picture.avi -c copy -field_order progressive else-told.mkv");
   const std::string still = "-f lavfi -i testsrc2=size=64x48:rate=25 -frames:v 4 ";
   test::make(scratch_, still + "-vf setfield=prog -c:v ffv1 whole-told.mkv");
   test::make(scratch_, still + "-c:v mjpeg -pix_fmt yuvj420p whole.avi");
@@ -106,7 +107,7 @@ TEST_F(InterlacedVideo, IsSaidWhereWhatIsAskedDoesNotFit) {
     for (const std::string& remark : clip->remarks()) all += remark + "\n";
     return all;
   };
-  for (const char* name : {"told.mkv", "by-picture.avi"}) {
+  for (const char* name : {"told.mkv", "by-picture.avi", "else-told.mkv"}) {
     EXPECT_NE(said(name, Interlaced::ignored)
                   .find("says that it is interlaced, and its frames are taken as they are"),
               std::string::npos)

@@ -6,8 +6,8 @@
 #include <span>
 
 #include "capture/error.hpp"
+#include "media/cameras/photron_header.hpp"
 #include "media/input_checksum.hpp"
-#include "media/clip_formats.hpp"
 #include "support/clips.hpp"
 #include "support/messages.hpp"
 #include "support/scratch.hpp"
@@ -251,12 +251,17 @@ TEST(PhotronClip, CountsSavedPicturesAndSaysSo) {
 // A recipe knows a recording by its pictures and by what says how they are read.
 TEST(PhotronClip, ItsChecksumIsThatOfBothFiles) {
   const Scratch scratch;
-  const auto pictures = scratch.write("ball.mraw", std::string(8 * 5 * 2 * 3, '\1'));
-  const auto header = scratch.write("ball.cih", Header{}.text());
-  const std::string checksum = input_checksum(pictures);
-  EXPECT_EQ(input_checksum(header), checksum);
-  scratch.write("ball.cih", Header{kPhotronGrey, "Mono", 16, 12}.text());
-  EXPECT_NE(input_checksum(pictures), checksum);
+  const auto checksums = [&](const std::string& header) {
+    scratch.write("ball.cih", header);
+    return std::vector{input_checksum(scratch.write("ball.mraw", std::string(8 * 5 * 2 * 3, '\1'))),
+                       input_checksum(scratch.write("ball.yuv", "raw"), true), input_checksum(scratch.folder()),
+                       input_checksum(scratch / "*.pgm"), input_checksum(scratch / "ball.yuv")};
+  };
+  scratch.write("0.pgm", "P5 1 1 255 x");
+  const auto before = checksums(Header{}.text()), after = checksums(Header{kPhotronGrey, "Mono", 16, 12}.text());
+  EXPECT_EQ(input_checksum(scratch / "ball.cih"), after[0]);
+  // The last two are read without it.
+  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(before[i] == after[i], i > 2) << i;
 }
 
 // The shared recording, which its owner converted to PNG, too.

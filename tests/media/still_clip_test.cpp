@@ -391,6 +391,16 @@ TEST(StillClip, RefusesWhatIsDamagedOrOfAnotherKind) {
   // OpenCV would take it for DICOM, whose decoder ends the program.
   expect_refused(scratch.write("medical.png", std::string(128, '\0') + "DICM and more"),
                  {"medical.png cannot be read", "neither a PNG nor a JPEG begins like that"});
+  // Decoders show black where a palette ends before a pixel's colour.
+  write_with_opencv(scratch / "grey.png", test::random_stills(kGreyShape, 3, 1, 5)[0]);
+  const std::string grey = test::read_file(scratch / "grey.png");
+  const std::string header = test::png_chunk("IHDR", grey.substr(16, 9) + std::string("\3\0\0\0", 4));
+  const auto indexed = [&](std::size_t colours) {
+    return scratch.write("indexed.png", test::with_chunk(grey.substr(0, 8) + header + grey.substr(33), "PLTE",
+                                                         std::string(3 * colours, '\1')));
+  };
+  EXPECT_EQ(open_test_clip(indexed(4))->info().sample_count, 1u);
+  expect_refused(indexed(3), {"indexed.png cannot be read: it is damaged: a pixel has colour 3, and its palette 3,"});
   cv::imwrite((scratch / "alpha.png").string(), cv::Mat::zeros(9, 9, CV_8UC4));
   expect_refused(scratch / "alpha.png", {"alpha.png has 4 channels", "transparency is not"});
   for (const auto& [number, word] : {std::pair(2, "signed"), {5, "complex"}, {6, "complex"}}) {

@@ -177,6 +177,14 @@ TEST(StillsTable, ReadsTimesFromExifDataWhereColumnsAreEmpty) {
   write_jpeg(scratch / "b.jpg", 20, "2026:03:29 03:00:00", "", 1, 30, "+02:00");
   scratch.write("stills.csv", "a.jpg\nb.jpg\n");
   EXPECT_EQ(timeline_of_table(path).start_ns(1), 10'000'000'000);
+  // No clock is so far ahead.
+  write_jpeg(scratch / "b.jpg", 20, "2026:03:29 02:00:00", "", 1, 30, "+99:99");
+  write_jpeg(scratch / "a.jpg", 10, "2026:03:29 01:59:50", "", 1, 60);
+  EXPECT_EQ(timeline_of_table(path).start_ns(1), 10'000'000'000);
+  for (const char* time : {"24:00:00", "10:60:00", "10:00:61", "99:99:99"}) {
+    write_jpeg(scratch / "a.jpg", 10, std::string("2026:03:29 ") + time, "", 1, 60);
+    test::expect_clip_refused(path, {}, "a.jpg has no start_ns, neither here nor in EXIF data");
+  }
   // Two pictures of one second that does not tell its fraction.
   for (const char* name : {"a.jpg", "b.jpg"}) write_jpeg(scratch / name, 20, "2026:02:28 23:59:59", "", 1, 30);
   scratch.write("stills.csv", "a.jpg\nb.jpg\n");

@@ -43,6 +43,9 @@ TEST(VideoColour, OfFilesThatSayNothingDependsOnTheirLines) {
   EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "low.mkv"))[Setting::range], assumed("limited range"));
   EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "low.mkv"))[Setting::transfer],
             assumed("transfer srgb"));
+  test::make(scratch, "-i low.mkv -c:v prores_ks -bsf:v prores_metadata=color_primaries=unknown:color_trc=unknown:"
+                      "colorspace=unknown pro.mov");
+  EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "pro.mov"))[Setting::matrix], assumed("matrix bt601"));
   // It matters: the codes are those of the matrix that was taken.
   const auto usual = test::open_test_clip(scratch / "high.mkv"),
              changed = test::open_test_clip(scratch / "high.mkv", {.matrix = YuvMatrix::bt601});
@@ -64,18 +67,29 @@ TEST(VideoColour, ThatIsNotKnownIsNamed) {
 TEST(VideoColour, IsWhatTheFileSaysAndBeforeThatWhatWasStated) {
   NEEDS_FFMPEG();
   const Scratch scratch;
-  test::make(scratch, test_picture("64x48") +
-                          "-vf setsar=32/27 -colorspace bt709 -color_range pc -color_primaries bt2020 "
-                          "-color_trc arib-std-b67 clip.mkv");
-  const auto clip = test::open_test_clip(scratch / "clip.mkv");
-  auto facts = facts_of(*clip);
-  EXPECT_EQ(facts[Setting::matrix], from_file("matrix bt709"));
-  EXPECT_EQ(facts[Setting::range], from_file("full range"));
-  EXPECT_EQ(facts[Setting::primaries], from_file("primaries bt2020"));
-  EXPECT_EQ(facts[Setting::transfer], from_file("transfer hlg"));
-  EXPECT_EQ(facts[Setting::pixel_aspect], from_file("pixels 32:27"));
-  EXPECT_EQ(clip->info().format.primaries, Primaries::bt2020);
-  EXPECT_EQ(clip->info().format.pixel_aspect, (Rational{32, 27}));
+  for (const auto& [encoder, note] :
+       {std::pair("ffv1", ""),
+        {"libx265 -x265-params log-level=0",
+         "the container names full range, and by its pictures it would be limited range: the container's count"},
+        {"libx264 -x264-params colormatrix=fcc:colorprim=bt709:transfer=bt709:range=tv",
+         "the container names full range, matrix bt709, transfer hlg, primaries bt2020, and by its pictures it would "
+         "be limited range, matrix fcc, transfer bt709, primaries bt709: the container's count"}}) {
+    test::make(scratch, test_picture("64x48") + "-c:v " + std::string(encoder) +
+                            " -vf setsar=32/27 -colorspace bt709 -color_range pc -color_primaries bt2020 "
+                            "-color_trc arib-std-b67 clip.mkv");
+    const auto clip = test::open_test_clip(scratch / "clip.mkv");
+    auto facts = facts_of(*clip);
+    EXPECT_EQ(facts[Setting::matrix], from_file("matrix bt709"));
+    EXPECT_EQ(facts[Setting::range], from_file("full range"));
+    EXPECT_EQ(facts[Setting::primaries], from_file("primaries bt2020"));
+    EXPECT_EQ(facts[Setting::transfer], from_file("transfer hlg"));
+    EXPECT_EQ(facts[Setting::pixel_aspect], from_file("pixels 32:27"));
+    EXPECT_EQ(clip->info().format.primaries, Primaries::bt2020);
+    EXPECT_EQ(clip->info().format.pixel_aspect, (Rational{32, 27}));
+    EXPECT_EQ(test::read_all(*clip).size(), 2u);
+    const auto& notes = clip->info().notes;
+    EXPECT_TRUE(*note == 0 ? notes.empty() : notes.at(0).text.starts_with(note)) << encoder << notes.size();
+  }
   const ClipOptions options{{},
                             {},
                             Transfer::pq(),
@@ -86,7 +100,7 @@ TEST(VideoColour, IsWhatTheFileSaysAndBeforeThatWhatWasStated) {
                             Primaries::p3,
                             parse_pixel_aspect("4:3")};
   const auto other = test::open_test_clip(scratch / "clip.mkv", options);
-  facts = facts_of(*other);
+  auto facts = facts_of(*other);
   EXPECT_EQ(facts[Setting::matrix], stated("matrix bt2020"));
   EXPECT_EQ(facts[Setting::range], stated("limited range"));
   EXPECT_EQ(facts[Setting::primaries], stated("primaries p3"));
@@ -197,6 +211,15 @@ TEST(VideoColour, StandsUprightInAllEightDirections) {
       }
     }
   }
+  // H.264 says it itself, as well.
+  test::make(scratch, "-i clip.mkv -c:v libx264 -pix_fmt yuv420p "
+                      "-bsf:v h264_metadata=display_orientation=insert:rotate=90 turned.mkv");
+  const auto turned = test::open_test_clip(scratch / "turned.mkv");
+  EXPECT_EQ(turned->info().format.shape, (Shape{32, 48, 3}));
+  EXPECT_EQ(turned->info().format.pixel_aspect, (Rational{3, 4}));
+  const auto raster = test::read_all(*turned).at(0);
+  for (const std::size_t row : {8u, 40u})  // at the bottom left
+    EXPECT_EQ(test::code_at(turned->info().format, raster, (row * 32 + 8) * 3) > 128, row == 40);
 }
 
 // What a camera put into the 16 bits of grey video is not known.
@@ -218,16 +241,17 @@ TEST(VideoColour, TellsWhatWhiteIsTakenToBe) {
 }
 
 // Nearest codes, worked out in whole numbers.
-TEST(VideoColour, OfGreyInTheLimitedRangeIsScaledToTheFullOne) {
+TEST(VideoColour, OfGreyAndRgbInTheLimitedRangeIsScaledToTheFullOne) {
   NEEDS_FFMPEG();
   const Scratch scratch;
-  for (const auto& [pixels, bits, white] : {std::tuple("gray", 8, 255L), {"gray10le", 10, 65'535L}}) {
+  for (const auto& [pixels, bits, white, channels] : {std::tuple("gray", 8, 255L, 1u), {"gray10le", 10, 65'535L, 1u},
+                                                      {"gbrp", 8, 255L, 3u}, {"gbrp10le", 10, 65'535L, 3u}}) {
     std::string raw;
     for (int code = 0; code < 1 << bits; ++code) {
       raw += static_cast<char>(code & 255);
       if (bits > 8) raw += static_cast<char>(code >> 8);
     }
-    scratch.write("raw", raw);
+    scratch.write("raw", channels == 1 ? raw : raw + raw + raw);
     const std::string words = test::from_raw({32, (1u << bits) / 32, 1}, pixels) + "-c:v ffv1 ";
     test::make(scratch, words + "bare.mkv");
     test::make(scratch, words + "-color_range tv limited.mkv");
@@ -238,7 +262,7 @@ TEST(VideoColour, OfGreyInTheLimitedRangeIsScaledToTheFullOne) {
       std::vector<long> codes;
       const auto raster = test::read_all(*clip).at(0);
       for (std::size_t i = 0; i < std::size_t{1} << bits; ++i)
-        codes.push_back(test::code_at(clip->info().format, raster, i));
+        codes.push_back(test::code_at(clip->info().format, raster, i * channels));
       return codes;
     };
     const long unit = 1 << (bits - 8);
@@ -247,8 +271,13 @@ TEST(VideoColour, OfGreyInTheLimitedRangeIsScaledToTheFullOne) {
       full.push_back(code);
       scaled.push_back(std::clamp((2 * (code - 16 * unit) * white + 219 * unit) / (2 * 219 * unit), 0L, white));
     }
-    EXPECT_EQ(codes_of("limited.mkv", {}, "limited range, from the file"), scaled);
     EXPECT_EQ(codes_of("bare.mkv", CodeRange::limited, "limited range, as stated"), scaled);
+    if (channels == 3) {
+      test::expect_clip_refused(scratch / "limited.mkv", {}, "names the limited range, which some encoders write");
+      EXPECT_EQ(codes_of("limited.mkv", CodeRange::full, "full range, as stated"), codes_of("bare.mkv", {}, ""));
+      continue;
+    }
+    EXPECT_EQ(codes_of("limited.mkv", {}, "limited range, from the file"), scaled);
     EXPECT_EQ(codes_of("bare.mkv", {}, ""), full);
     EXPECT_EQ(codes_of("limited.mkv", CodeRange::full, "full range, as stated"), full);
     test::expect_clip_refused(scratch / "limited.mkv", {.white_code = 4095}, "scaled to the full one, whose white is ");
@@ -258,18 +287,22 @@ TEST(VideoColour, OfGreyInTheLimitedRangeIsScaledToTheFullOne) {
 TEST(VideoColour, ThatChangesInMidClipIsRefused) {
   NEEDS_FFMPEG();
   const Scratch scratch;
-  const auto clip_of = [&](const std::string& range, const std::string& matrix, const std::string& transfer) {
-    test::make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25:d=1 -c:v libx264 -bf 0 -pix_fmt yuv420p "
-                        "-bsf:v h264_metadata=colour_primaries=1:video_full_range_flag=" + range +
-                            ":matrix_coefficients=" + matrix + ":transfer_characteristics=" + transfer + " part.ts");
+  const auto clip_of = [&](const std::string& change, const std::string& pixels = "yuv420p") {
+    test::make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25:d=1 -c:v libx264 -bf 0 -pix_fmt " + pixels +
+                            " -bsf:v h264_metadata=sample_aspect_ratio=1:colour_primaries=1:video_full_range_flag=0:"
+                            "matrix_coefficients=1:transfer_characteristics=1" + change + " part.ts");
     return test::read_file(scratch / "part.ts");
   };
-  const std::string first = clip_of("0", "1", "1");
+  const std::string first = clip_of("");
   for (const auto& [second, said] :
-       {std::pair(clip_of("1", "1", "1"), "picture 25 is of the full range, the ones before it of the limited range"),
-        {clip_of("0", "6", "1"), "picture 25 is of matrix bt601, the ones before it of matrix bt709"},
-        {clip_of("0", "1", "16"), "picture 25 is of transfer pq, the ones before it of transfer srgb"},
-        {clip_of("0", "1", "6"), ""}}) {
+       {std::pair(clip_of(":video_full_range_flag=1"),
+                  "picture 25 is of the full range, the ones before it of the limited range"),
+        {clip_of(":matrix_coefficients=6"), "picture 25 is of matrix bt601, the ones before it of matrix bt709"},
+        {clip_of(":transfer_characteristics=16"), "picture 25 is of transfer pq, the ones before it of transfer srgb"},
+        {clip_of(":colour_primaries=9"), "picture 25 is of primaries bt2020, the ones before it of primaries bt709"},
+        {clip_of(":sample_aspect_ratio=2"), "picture 25 is of pixels 2:1, the ones before it of square pixels"},
+        {clip_of("", "yuv420p10le"), "picture 25 is of YUV of 10 bits, the ones before it of YUV of 8 bits"},
+        {clip_of(":transfer_characteristics=6"), ""}}) {
     ClipOptions options{.rate = Rational{25, 1}};
     const auto path = scratch.write("joined.ts", first + second);
     if (*said != 0) test::expect_clip_refused(path, options, said);
@@ -278,7 +311,41 @@ TEST(VideoColour, ThatChangesInMidClipIsRefused) {
     options.range = CodeRange::limited;
     options.matrix = YuvMatrix::bt709;
     options.transfer = Transfer::srgb();
-    EXPECT_EQ(test::read_all(*test::open_test_clip(path, options)).size(), 50u) << "as stated";
+    options.primaries = Primaries::bt709;
+    options.pixel_aspect = Rational{1, 1};
+    const bool is_of_pixels = std::string_view(said).ends_with("bits");
+    EXPECT_EQ(test::read_all(*test::open_test_clip(path, options)).size(), is_of_pixels ? 25u : 50u) << "as stated";
+  }
+}
+
+// What comes before a part is not decoded.
+TEST(VideoColour, ThatChangesBeforeAPartIsRefused) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  const std::string make = "-f lavfi -i testsrc2=s=64x48:r=25:d=1 -c:v mjpeg -aspect ";
+  test::make(scratch, make + "4:3 a.mjpeg");
+  test::make(scratch, make + "8:3 b.mjpeg");
+  scratch.write("joined.mjpeg", test::read_file(scratch / "a.mjpeg") + test::read_file(scratch / "b.mjpeg"));
+  ClipOptions options;
+  options.rate = Rational{25, 1};
+  options.from = ClipMoment{30, true};
+  test::expect_clip_refused(scratch / "joined.mjpeg", options,
+                            "picture 30 is of pixels 2:1, the ones before it of square pixels");
+}
+
+TEST(VideoColour, TellsOfTransparencyWhereThereIsSome) {
+  NEEDS_FFMPEG();
+  const Scratch scratch;
+  for (const auto& [words, is_told] :
+       {std::pair("testsrc2=s=32x32:r=25:d=0.2' opaque.gif", false),
+        {"color=red@0:s=32x32:r=25:d=0.2,format=rgba,split[a][b];[a]palettegen[p];[b][p]paletteuse' clear.gif", true},
+        {"testsrc2=s=32x32:r=25:d=0.2' -c:v libvpx-vp9 -pix_fmt yuva420p clear.webm", true}}) {
+    test::make(scratch, "-f lavfi -i '" + std::string(words));
+    const auto clip = test::open_test_clip(scratch / std::string(words).substr(std::string(words).rfind(' ') + 1));
+    test::read_all(*clip);
+    auto told = clip->remarks();
+    for (const Note& note : clip->info().notes) told.push_back(note.text);
+    EXPECT_EQ(std::ranges::count(told, "the file's transparency is left out"), is_told) << words;
   }
 }
 

@@ -46,6 +46,13 @@ TEST(MatrixOfYuv, OfAMatrixThatIsNotKnownIsRefused) {
   test::make(scratch,
              "-f lavfi -i testsrc2=s=64x48:d=0.08:r=25 -c:v ffv1 -pix_fmt gray -colorspace ictcp grey.mkv");
   EXPECT_EQ(test::read_all(*test::open_test_clip(scratch / "grey.mkv")).size(), 2u);
+  // The box of its pixels' shape becomes one of Dolby Vision.
+  test::make(scratch, "-f lavfi -i testsrc2=s=64x48:d=0.08:r=25 -c:v mpeg4 dolby.mp4");
+  std::string bytes = test::read_file(scratch / "dolby.mp4");
+  bytes.replace(bytes.find("pasp"), 12, "dvcC\1\0\x0A\x0D\0\0\0\0", 12);
+  test::expect_clip_refused(scratch.write("dolby.mp4", bytes), {},
+                            "IPT of Dolby Vision's profile 5: its colours would be wrong. Convert it, for example with "
+                            "ffmpeg -vf libplacebo");
 }
 
 // Luma that weighs channels as white light is made of the file's primaries.

@@ -439,6 +439,7 @@ TEST_F(OpeningTest, RecentFilesAreListedTheLastFirstAndOpened) {
   const QList<QAction*> actions = recent().actions();
   EXPECT_EQ(QFileInfo(actions[1]->text()).fileName(), "copy.nutik");
   EXPECT_FALSE(actions[1]->isEnabled()) << "it is gone";
+  EXPECT_TRUE(actions[2]->isEnabled()) << "a pattern, whose folder is there";
 }
 
 TEST_F(OpeningTest, FilesAreChosenInDialogsByKeyboard) {
@@ -464,10 +465,16 @@ TEST_F(OpeningTest, FilesAreChosenInDialogsByKeyboard) {
   const std::string by_window = test::read_file(scratch_ / "window.png");
   ASSERT_FALSE(by_window.empty()) << window_.notice().text().toStdString();
   EXPECT_TRUE(by_window == test::read_file(scratch_ / "mine.png")) << "byte for byte";
+  std::filesystem::last_write_time(scratch_ / "clip.tik", std::filesystem::file_time_type());
+  ASSERT_TRUE(window_.save_project(path("mine.nutik")));
+  window_.export_picture(path("changed.png"));
+  EXPECT_TRUE(window_.notice().text().contains("clip.tik is not what was read")) << "nor does saving change that";
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "changed.png"));
 }
 
 TEST_F(OpeningTest, ReadsAClipAsItIsTold) {
   ASSERT_NO_FATAL_FAILURE(open_project());
+  const DocumentState drawn = document().state();
   const auto actions = window_.findChildren<QAction*>();
   const auto action =
       std::ranges::find_if(actions, [](QAction* each) { return each->text().remove('&').contains("How the clip"); });
@@ -488,6 +495,8 @@ TEST_F(OpeningTest, ReadsAClipAsItIsTold) {
   const Stated told = {{"between", "auto"}, {"deflicker", ""}, {"fps", "100"}};
   ASSERT_EQ(document().facts()->stated, told) << window_.notice().text().toStdString();
   EXPECT_GT(document().facts()->timeline.sample_count(), 20U) << "samples were made";
+  EXPECT_TRUE(document().state() == drawn && window_.windowTitle().startsWith("mine.nutik"));
+  EXPECT_TRUE(window_.isWindowModified()) << "the project says otherwise";
   ASSERT_TRUE(window_.save_project(path("read.nutik")));
   EXPECT_EQ(load_project(path("read.nutik")).stated, told);
   const std::string text = test::read_file(scratch_ / "read.nutik");
@@ -506,15 +515,15 @@ TEST_F(OpeningTest, AsksHowFastAClipWasFilmedThatDoesNotSay) {
   answer_next<QDialog>([](QDialog& question) {
     const QString why = question.findChild<QLabel*>()->text();
     EXPECT_TRUE(why.contains("How many pictures a second")) << why.toStdString();
-    QTest::keyClicks(question.findChild<QLineEdit*>("fps"), "50");
+    QTest::keyClicks(question.findChild<QLineEdit*>("fps"), "50,5");
     QTest::keyClick(&question, Qt::Key_Return);
   });
   window_.open(path("frames/%02d.pgm"));
   ASSERT_TRUE(settles());
   EXPECT_TRUE(is_asked_);
   ASSERT_NE(document().facts(), nullptr) << window_.notice().text().toStdString();
-  EXPECT_EQ(document().duration_ns(), 20 * 20'000'000);
-  EXPECT_TRUE(window_.command_for("picture.png").contains("--fps 50"));
+  EXPECT_EQ(document().duration_ns(), 396'039'604);
+  EXPECT_TRUE(window_.command_for("picture.png").contains("--fps 50.5"));
 }
 
 }  // namespace

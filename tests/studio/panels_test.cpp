@@ -15,6 +15,7 @@
 #include <QSplitter>
 #include <QTextBrowser>
 #include <QToolButton>
+#include <QToolTip>
 #include <QTreeWidget>
 
 #include "studio/regions/region_edits.hpp"
@@ -334,6 +335,10 @@ TEST_F(PanelsTest, ExposureIsDividedAsChosenByKeyboard) {
   mode.setFocus();
   QTest::keyClick(&mode, Qt::Key_Up);
   EXPECT_EQ(document().mode(), ExposureMode::boxcar);
+  DocumentState state = document().state();
+  state.normalization = Normalization::parse("seconds:0.01");
+  document().apply(std::move(state), "Load");
+  EXPECT_EQ(box.currentText() + box.placeholderText(), "seconds:0.01") << "it has no line of its own";
 }
 
 // ---- screens ----
@@ -453,6 +458,10 @@ TEST_F(PanelsTest, NothingOfTheToolBarIsHidden) {
   }
   EXPECT_LE(window_.width(), 1000);
   EXPECT_LE(window_.height(), 620);
+  auto& start = child<QLineEdit>("start");
+  start.selectAll();
+  QTest::keyClicks(&start, "early\r");
+  EXPECT_TRUE(QToolTip::text().startsWith("Start: 'early' is no time")) << QToolTip::text().toStdString();
 }
 
 // The picture is the largest thing, and panels that are folded stay so.

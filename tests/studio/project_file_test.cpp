@@ -124,6 +124,7 @@ TEST_F(ProjectFile, ReplacesNothingBesideItThatIsOfOthers) {
   save("p.nutik", 4);
   EXPECT_EQ(load_project(path("p.nutik")).files.functions, path("p-3.fn")) << "its own are replaced";
   EXPECT_TRUE(is_kept());
+  EXPECT_EQ(free_files_beside(path("%02d.nutik"), path("%02d.pgm")).mask, path("%02d-2.pgm")) << "the capture's name";
   // Another one whose name is of the same beginning, and a copy, which names what the first has.
   save("p.x.nutik", 2);
   fs::copy_file(scratch_ / "p.nutik", scratch_ / "copy.nutik");

@@ -321,7 +321,7 @@ TEST_F(SeeingTest, AFilmIsExportedAsTheCommandMakesIt) {
   ASSERT_TRUE(settles());
   EXPECT_TRUE(is_asked_) << window_.notice().text().toStdString();
   window_.export_film(path("frames/%02d.pgm"), {});
-  EXPECT_TRUE(window_.notice().text().contains("input")) << window_.notice().text().toStdString();
+  EXPECT_TRUE(window_.notice().text().contains("clip's stills")) << window_.notice().text().toStdString();
   run_line("nutik-cl video -f 100 --speed 0.5 --out-fps 25 --precision fixed frames/%02d.pgm by-%05d.png");
   for (int frame = 0; frame < 10; ++frame) expect_same_still(frame);
   window_.export_film(path("film-%05d.png"), {{"no-recipe", ""}});

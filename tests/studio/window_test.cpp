@@ -58,6 +58,8 @@ class WindowTest : public StudioTest {
 TEST_F(WindowTest, CopiesTheLineOfWhateverIsExposed) {
   open_clip();
   expect_same_picture_by_command();  // an interval needs no files
+  QTest::keyClick(&window_, Qt::Key_C, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_TRUE(QGuiApplication::clipboard()->text().endsWith(path("frames.png"))) << "beside the folder of its stills";
   add_region(document());
   paint_region(document(), ellipse(96, 48, {40, 24}, 20, 12), document().selected_tag(), "Ellipse");
   set_feather(document(), 250);
@@ -227,10 +229,27 @@ TEST_F(WindowTest, SaysWhyAFileIsRefused) {
     EXPECT_TRUE(window_.notice().text().contains(words)) << window_.notice().text().toStdString();
   };
   refuses("broken.nutik", "{", "it is no project");
+  refuses("list.nutik", "[]", "it is no project: it holds no JSON object");
+  refuses("none.nutik", "{}", "it is no project: it has no 'nutik-studio'");
+  refuses("text.nutik", R"({"nutik-studio": "1"})", "'nutik-studio' is no number");
   refuses("newer.nutik", R"({"nutik-studio": 2})", "this program reads 1");
   refuses("empty.nutik", R"({"nutik-studio": 1})", "'capture' names no file");
   scratch_.write("bad.fn", "M0 [5:1], [3:1]\n");
   refuses("bad.nutik", R"({"nutik-studio": 1, "capture": "clip.tik", "functions": "bad.fn"})", "bad.fn:1:");
+}
+
+TEST(StatusLine, CancelsNothingButTheJobThatItShows) {
+  Jobs jobs;
+  const StatusLine line({&jobs});
+  jobs.start("First", [](const Job& job) -> Jobs::Finish {
+    for (;; std::this_thread::sleep_for(std::chrono::milliseconds(1))) job.progress(0, 2);
+  });
+  bool is_done = false;
+  jobs.start("Second", [&](const Job&) { return [&] { is_done = true; }; });
+  auto& cancel = *line.findChild<QToolButton*>("cancel");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !cancel.isHidden(); }));
+  cancel.click();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return is_done; }));
 }
 
 TEST_F(WindowTest, MayGoAtAnyTime) {
@@ -403,6 +422,7 @@ TEST_F(WindowTest, ShowsAProjectWhoseSaveWasEndedAsItWasToBe) {
 TEST_F(WindowTest, SaysOnceWhatHappenedToItsFilesOutside) {
   open_clip();
   add_region(document());
+  document().set_mode(ExposureMode::functions);
   ASSERT_TRUE(window_.save_project(path("saved.nutik")));
   const auto come_back = [&] {
     window_.notice().clear();
@@ -419,10 +439,40 @@ TEST_F(WindowTest, SaysOnceWhatHappenedToItsFilesOutside) {
   EXPECT_TRUE(said.contains("saved.pgm is gone")) << said.toStdString();
   EXPECT_TRUE(said.contains("saved.fn was changed by another program")) << said.toStdString();
   EXPECT_EQ(come_back(), "") << "once";
+  EXPECT_FALSE(window_.has_files()) << "a recipe would name what is not shown";
   save_mask(path("saved.pgm"), (*document().state().mask)->mask);
   QTest::keyClick(&window_, Qt::Key_F5);
   ASSERT_TRUE(settles());
   EXPECT_EQ(document().points(0), (std::vector<ControlPoint>{{0, 0.5}})) << "F5 takes the change";
+}
+
+TEST_F(WindowTest, WritesNothingOverOrAmongTheStillsOfItsClip) {
+  open_clip();
+  add_region(document());
+  window_.write_mask(path("frames/03.pgm"));
+  EXPECT_TRUE(window_.notice().text().contains("is also an input")) << window_.notice().text().toStdString();
+  SourceRequest source;
+  source.path = document().facts()->path.toStdString();
+  source.clip.rate = Rational{100, 1};
+  EXPECT_THROW(writing_plate({}, std::make_shared<Session>(source), path("frames/03.pgm"), {}), UsageError);
+  window_.document().undo_stack().setClean();
+
+  window_.open(path("frames/"), "100");
+  ASSERT_TRUE(settles());
+  window_.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window_));
+  QTest::keyClick(&window_, Qt::Key_C, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_TRUE(QGuiApplication::clipboard()->text().endsWith(path("frames ") + path("frames.png")))
+      << QGuiApplication::clipboard()->text().toStdString();
+  window_.export_picture(path("frames/out.tif"));
+  EXPECT_TRUE(window_.notice().text().contains("taken for one of the clip's stills"));
+  add_region(document());
+  EXPECT_FALSE(window_.save_project(path("frames/saved.nutik"))) << "its mask is a picture, too";
+  ASSERT_TRUE(settles());
+  window_.write_functions(path("frames/written.fn"));
+  window_.export_picture(path("picture.png"));
+  ASSERT_TRUE(settles());
+  EXPECT_TRUE(window_.notice().text().contains("no pixel")) << window_.notice().text().toStdString();
 }
 
 TEST_F(WindowTest, ChoosesToolsByKeyboard) {
@@ -439,7 +489,7 @@ TEST_F(WindowTest, ChoosesToolsByKeyboard) {
 TEST_F(WindowTest, OpensWhatIsDropped) {
   run_line("nutik-cl encode -f 100 frames/%02d.pgm clip.tik");
   QMimeData files;
-  files.setUrls({QUrl::fromLocalFile(path("clip.tik"))});
+  files.setUrls({QUrl::fromLocalFile(path("clip.tik")), QUrl::fromLocalFile(path("other.tik"))});
   QDragEnterEvent enter({10, 10}, Qt::CopyAction, &files, Qt::LeftButton, {});
   QApplication::sendEvent(&window_, &enter);
   EXPECT_TRUE(enter.isAccepted());
@@ -448,6 +498,7 @@ TEST_F(WindowTest, OpensWhatIsDropped) {
   ASSERT_TRUE(settles());
   ASSERT_NE(document().facts(), nullptr) << window_.notice().text().toStdString();
   EXPECT_EQ(document().facts()->path, path("clip.tik"));
+  EXPECT_TRUE(window_.notice().text().endsWith("clip.tik is opened, not " + path("other.tik") + "."));
   EXPECT_EQ(document().overview().changed_share.size(), static_cast<std::size_t>(test::MovingSquare::kCount));
   EXPECT_FALSE(document().overview().thumbnails.empty());
 }
@@ -515,6 +566,17 @@ TEST_F(WindowTest, WorkGoesOnBetweenTheMarks) {
   EXPECT_EQ(document().mark_out(), kOut);
   open_clip();
   EXPECT_EQ(document().marks(), Marks());
+}
+
+TEST_F(WindowTest, ShowsNamesAsTheyAre) {
+  open_clip();
+  click_button("add_region");
+  auto& item = *child<QTreeWidget>("regions").currentItem();
+  const std::uint8_t tag = document().selected_tag();
+  item.setText(0, "<b>50%2");
+  EXPECT_EQ(document().state().looks.at(tag).name, "<b>50%2");
+  EXPECT_TRUE(item.toolTip(0).startsWith(QString("<qt>&lt;b&gt;50%2, M%1 in").arg(tag)));
+  EXPECT_TRUE(child<QWidget>("curves").accessibleDescription().startsWith(QString("<b>50%2 (M%1), ").arg(tag)));
 }
 
 }  // namespace

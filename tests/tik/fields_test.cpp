@@ -117,12 +117,13 @@ TEST(TikFields, SayHowPicturesWereMovedOntoEachOther) {
 
 TEST(TikFields, SayWhichPicturesOfAClipAreHeld) {
   Header header;
-  header.part = PartOfClip{2, 20'000'000, 6, "a b.mov"};
+  header.part = PartOfClip{2, 20'000'000, 6, "a b.mov", "xxh3-64:1"};
   const auto parse = [](const std::string& bytes) {
     return parse_header(std::as_bytes(std::span(bytes)), "x.tik").header.part;
   };
   EXPECT_EQ(parse(file_with(header.fields())), header.part);
   EXPECT_EQ(parse(file_with({})), std::nullopt);
+  EXPECT_EQ(parse(file_with({{"clip", false, "xxh3-64:1"}})), std::nullopt);
   // So large that no sum with a capture's own is too large.
   EXPECT_EQ(parse(file_with({{"part", false, "4611686018427387903 4611686018427387903 0 "}})),
             (PartOfClip{(std::uint64_t{1} << 62) - 1, (std::int64_t{1} << 62) - 1, 0, ""}));

@@ -18,10 +18,10 @@
 #include <vector>
 
 #include "capture/format.hpp"
+#include "device_bandwidth.hpp"
 #include "harness.hpp"
 #include "memory_bandwidth.hpp"
 #include "opencl/device.hpp"
-#include "opencl/device_bandwidth.hpp"
 #include "opencl/opencl_renderer.hpp"
 #include "render/reference_renderer.hpp"
 #include "synthetic_capture.hpp"

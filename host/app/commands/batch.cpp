@@ -243,10 +243,13 @@ class Batch {
 
   std::string recipe_text(const Options& line, const std::string& precision, const std::string& error_bound = {},
                           const std::optional<Recipe::Input>& bounds_map = {}) {
-    if (line.no_recipe) return {};
-    const std::string& name = line.operands.front();
-    if (!capture_checksum_ || capture_checksum_->first != name) capture_checksum_ = {name, capture_checksum(name)};
-    return PictureRecipe(recipe_sources(line, capture_checksum_->second)).text(precision, {}, error_bound, bounds_map);
+    auto sources = recipe_sources(line);
+    if (!sources) return {};
+    const std::string& name = sources->capture;
+    if (!capture_checksum_ || capture_checksum_->first != name)
+      capture_checksum_ = {name, capture_checksum(name, sources->made)};
+    sources->capture_checksum = capture_checksum_->second;
+    return PictureRecipe(std::move(sources)).text(precision, {}, error_bound, bounds_map);
   }
 
   // Any line may ask for floating point.

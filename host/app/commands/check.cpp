@@ -258,6 +258,7 @@ void read_capture(InputCheck& check, const std::string& name, const Options& opt
 }
 
 InputCheck checked_inputs(const Options& options) {
+  refuse_without_mask(options);
   InputCheck check;
   check.normalization = options.normalization;
   check.gain = brightening(options);

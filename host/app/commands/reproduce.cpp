@@ -197,7 +197,8 @@ int run_reproduce(const Options& options) {
   for (const auto& [name, value] : recipe->options) {
     command += " " + shell_word("--" + name);
     if (name == "delay" && recipe->delay_map) {
-      const fs::path map = files.find(*recipe->delay_map, "map of delays", input_checksum);
+      const auto of_map = [](const std::string& file) { return input_checksum(file); };
+      const fs::path map = files.find(*recipe->delay_map, "map of delays", of_map);
       command += " " + operand(map.string() + ":" + value);
     } else if (!value.empty()) {
       command += " " + shell_word(value);
@@ -206,7 +207,8 @@ int run_reproduce(const Options& options) {
   command += recipe->renderer == "opencl" ? " --precision " + shell_word(recipe->precision)
                                           : " --renderer " + shell_word(recipe->renderer);
   if (recipe->bounds_map) command += " --bounds " + operand(picture.parent_path() / recipe->bounds_map->name);
-  command += " " + operand(files.find(recipe->capture, "capture", capture_checksum));
+  const auto checksum = [&](const std::string& capture) { return capture_checksum(capture, *recipe); };
+  command += " " + operand(files.find(recipe->capture, "capture", checksum));
   command += " -o " + operand(picture);
   print_line(command);
   return files.is_complete() ? ExitStatus::ok : ExitStatus::input;

@@ -76,7 +76,7 @@ class SheetJob {
   int run(Session& session, SheetRequest request, const std::string& counted_as, std::string_view key,
           Json exposures, const Each& each = {}) {
     request.plan.transfer = options_.source.clip.transfer;
-    PictureRecipe recipe(recipe_sources(options_, {}, of_));
+    PictureRecipe recipe(recipe_sources(options_, of_));
     const CaptureFormat& capture = session.format();
     const std::size_t count = request.exposures.size();
     const sheet::SheetLayout layout =

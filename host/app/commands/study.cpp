@@ -10,6 +10,7 @@
 #include "app/requests/requests.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "exposure/function_check.hpp"
 #include "exposure/function_diagnostics.hpp"
 #include "exposure/function_text.hpp"
@@ -46,8 +47,7 @@ constexpr std::string_view kBeforeName = "# ";
 constexpr std::string_view kPicture = "# the picture ";
 
 std::string content_of(const std::filesystem::path& file) {
-  const MappedFile mapped(file);
-  return {reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size()};
+  return std::string(as_text(MappedFile(file).bytes()));
 }
 
 std::string sum_of(std::string_view content) { return format("{:016x}", checksum(content)); }

@@ -32,12 +32,13 @@ ExposureRequest timeless_request(const Options& options,
     throw UsageError(
         "--feather blends functions along the edges of a mask; add -m mask.pgm and -k functions.fn");
   }
-  if (options.mask_way && !options.mask_to)
-    throw UsageError("--mask-share says how far it is to a second mask: add --mask-to");
+  refuse_without_mask(options);
   ExposureRequest request = weighed_exposure(options);
   if (!options.functions) {
     if (options.mask || options.mask_to)
       throw UsageError("a mask goes with gain functions (-k), not with a plain interval");
+    if (options.shutter_error && !options.has("shutter"))
+      throw UsageError("--shutter-error says how near gains come to a smooth shape: add --shutter hann, for one");
     request.gains = PlainInterval{{}, stated_shutter(options)};
     return request;
   }
@@ -87,6 +88,15 @@ Mask unfeathered_mask(const Options& options, const std::string& name, std::uint
 }
 
 }  // namespace
+
+void refuse_without_mask(const Options& options) {
+  if (options.mask_way && !options.mask_to)
+    throw UsageError("--mask-share says how far it is to a second mask: add --mask-to");
+  if (options.mask_blend && !options.mask_to && !options.has("mask-key"))
+    throw UsageError("--mask-blend says how the mask turns into a second one: add --mask-to");
+  if (options.unmapped_is_zero && !options.mask)
+    throw UsageError("--unmapped says what values of a mask show that have no function: add -m mask.pgm");
+}
 
 std::string exposure_mask_name(const Options& options) {
   const std::string from = input_title(*options.mask), to = input_title(options.mask_to.value_or(*options.mask));

@@ -37,10 +37,9 @@ bool is_recipe_option(std::string_view long_name, std::string_view value, Recipe
   });
 }
 
-std::optional<RecipeSources> recipe_sources(const Options& options,
-                                            std::optional<std::string> capture_checksum, RecipeOf of) {
+std::optional<RecipeSources> recipe_sources(const Options& options, RecipeOf of) {
   if (options.no_recipe) return std::nullopt;
-  RecipeSources sources{{}, options.operands.front(), std::move(capture_checksum)};
+  RecipeSources sources{{}, options.operands.front(), {}};
   Recipe& recipe = sources.made;
   recipe.version = NUTIK_VERSION;
   recipe.of = of;

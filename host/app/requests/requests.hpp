@@ -44,6 +44,8 @@ namespace nutik::app {
 // That the camera of a capture moved and nobody aligned it, as a note.
 [[nodiscard]] std::vector<std::string> camera_notes(const std::optional<MovedCamera>& moved);
 
+// Throws UsageError where an option says something of a mask that is not there.
+void refuse_without_mask(const Options& options);
 [[nodiscard]] ExposureRequest exposure_request(const Options& options);
 // With functions that -k only names.
 [[nodiscard]] ExposureRequest exposure_request(const Options& options, const Shared<FunctionSet>& functions);
@@ -73,11 +75,8 @@ void read_inputs(MaskRequest& request, const Options& options);
 // As mask_request() reads it.
 [[nodiscard]] std::string change_words(const RegionChange& change);
 
-// What the recipes of a command's pictures have in common; none with --no-recipe. A capture that is exposed many times
-// may be known by its checksum already.
-[[nodiscard]] std::optional<RecipeSources> recipe_sources(const Options& options,
-                                                          std::optional<std::string> capture_checksum = {},
-                                                          RecipeOf of = RecipeOf::expose);
+// What the recipes of a command's pictures have in common; none with --no-recipe.
+[[nodiscard]] std::optional<RecipeSources> recipe_sources(const Options& options, RecipeOf of = RecipeOf::expose);
 // What the recipe of a sweep's picture states in place of the sweep's options.
 [[nodiscard]] OwnRecipe own_recipe(const OwnExposure& exposure);
 // Whether such a recipe may state this option with this value: it makes the picture, and stands in no other place of

@@ -165,6 +165,10 @@ void check_seam(const Piece& before, const Piece& piece) {
         format("{} is a part of a clip {} with {} pictures, and {} of one with {}; join parts of one clip",
                before.name, a.clip, a.pictures, piece.name, b.pictures));
   }
+  if (a.checksum != b.checksum && !a.checksum.empty() && !b.checksum.empty()) {
+    throw InputError(format("{} and {} are parts of two clips named {}, whose content differs; join parts of one clip",
+                            before.name, piece.name, b.clip));
+  }
   const std::vector settings{Setting::from, Setting::to};
   if (before.end() < b.first) {
     throw InputError(format("{} of {} are missing between {} and {}; encode them, and join all parts",

@@ -11,8 +11,9 @@
 
 namespace nutik {
 
-std::string capture_checksum(const std::string& path) {
-  if (!is_tik(path)) return input_checksum(path);
+std::string capture_checksum(const std::string& path, const Recipe& recipe) {
+  const bool is_raw = std::ranges::any_of(recipe.options, [](const auto& option) { return option.first == "raw"; });
+  if (!is_tik(path)) return input_checksum(path, is_raw);
   return format("xxh3-64-tik:{:016x}", tik::Reader(path).content_checksum());
 }
 
@@ -29,7 +30,7 @@ PictureRecipe::PictureRecipe(std::optional<RecipeSources> sources) {
   reading_ = std::async(std::launch::async, [known = std::move(*sources)] {
     Recipe recipe = known.made;
     recipe.capture = {input_name(known.capture),
-                      known.capture_checksum ? *known.capture_checksum : capture_checksum(known.capture)};
+                      known.capture_checksum ? *known.capture_checksum : capture_checksum(known.capture, recipe)};
     return recipe;
   });
 }

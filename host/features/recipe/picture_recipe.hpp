@@ -46,7 +46,8 @@ class PictureRecipe {
   std::optional<Recipe> recipe_;  // once it was read
 };
 
-// What the content of a capture is known by again: of a .tik its blocks' and footer's checksums.
-[[nodiscard]] std::string capture_checksum(const std::string& path);
+// What the content of a capture is known by again, read as the recipe's options say: of a .tik its blocks' and
+// footer's checksums.
+[[nodiscard]] std::string capture_checksum(const std::string& path, const Recipe& recipe);
 
 }  // namespace nutik

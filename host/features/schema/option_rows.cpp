@@ -132,7 +132,7 @@ constexpr Option kRows[] = {
      "bt601 bt709 bt2020 ycgco"}),
     known(Setting::range, {0, "range", "NAME", decoding, kDecodesClips,
      take_choice<InClip<&ClipOptions::range>, CodeRange::limited, CodeRange::full>,
-     "which codes of YUV or grey are black and white: limited or full (default: the file's; else limited, grey full)",
+     "which codes are black and white: limited or full (default: the file's; else limited, grey and RGB full)",
      "limited full"}),
     known(Setting::chroma_place, {0, "chroma-at", "PLACE", decoding, kDecodesClips,
      take_choice<InClip<&ClipOptions::chroma_at>, ChromaPlace::left, ChromaPlace::center, ChromaPlace::topleft,

@@ -9,7 +9,6 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/cameras/photron_header.hpp"
-#include "media/clip_formats.hpp"
 #include "media/formats/readers.hpp"
 #include "media/settled_fact.hpp"
 #include "system/is_absent.hpp"
@@ -88,24 +87,19 @@ Layout layout_of(const PhotronHeader& header) {
 // The header that tells of a recording. Throws where none does, or two may.
 PhotronHeader header_of(const fs::path& path) {
   if (is_photron_header(path)) return read_photron_header(path);
-  fs::path text = path, xml = path;
-  text.replace_extension(".cih");
-  xml.replace_extension(".cihx");
-  const bool has_text = !is_absent(text), has_xml = !is_absent(xml);
-  if (has_text && has_xml) {
+  const std::vector<fs::path> headers = headers_beside(path);
+  if (headers.size() == 1) return read_photron_header(headers.front());
+  const std::string name = path.stem().string();
+  if (!headers.empty()) {
     throw InputError(
-        format("{}: two headers lie beside it, {} and {}; name the one that is right in its place",
-               path.string(), text.filename().string(), xml.filename().string()));
+        format("{}: two headers lie beside it, {}.cih and {}.cihx; name the one that is right in its place",
+               path.string(), name, name));
   }
-  if (!has_text && !has_xml) {
-    throw InputError(
-        format(
-            "{}: the camera's header is missing, which says how large the pictures are: {} or {} beside it; "
-            "without it the pictures have to be described",
-            path.string(), text.filename().string(), xml.filename().string()),
-        {Setting::raw_layout});
-  }
-  return read_photron_header(has_text ? text : xml);
+  throw InputError(
+      format("{}: the camera's header is missing, which says how large the pictures are: {}.cih or {}.cihx beside it; "
+             "without it the pictures have to be described",
+             path.string(), name, name),
+      {Setting::raw_layout});
 }
 
 fs::path pictures_of(const fs::path& path) {
@@ -170,10 +164,10 @@ class PhotronClip final : public Clip {
     if (layout_.is_packed()) {
       unpack(picture, layout_.bits,
              {reinterpret_cast<std::uint16_t*>(raster.data()), layout_.shape.value_count()});
-    } else if (layout_.shift > 0) {
-      move_down(picture, raster);
+    } else if (layout_.shift == 0 && layout_.bits == 8 * layout_.code_bytes()) {
+      std::memcpy(raster.data(), picture.data(), picture.size());
     } else {
-      copy(picture, raster);
+      move_down(picture, raster);
     }
     file_.release(picture);
     ++next_;
@@ -240,14 +234,6 @@ class PhotronClip final : public Clip {
            std::to_integer<std::uint32_t>(bytes[2 * index + 1]) << 8;
   }
 
-  void copy(std::span<const std::byte> picture, std::span<std::byte> raster) const {
-    if (layout_.bits == 8 || layout_.depth > 8) {
-      std::memcpy(raster.data(), picture.data(), picture.size());
-      return;
-    }
-    for (std::size_t i = 0; i < raster.size(); ++i) store(word(picture, i), i, raster);
-  }
-
   void move_down(std::span<const std::byte> picture, std::span<std::byte> raster) const {
     for (std::size_t i = 0; i < layout_.shape.value_count(); ++i) {
       const std::uint32_t value =
@@ -286,20 +272,19 @@ class PhotronClip final : public Clip {
 
 }  // namespace
 
-std::optional<Files> photron_files(const fs::path& path) {
+std::optional<std::vector<fs::path>> photron_files(const fs::path& path) {
   if (!readers::kPhotron.is_named(path) || is_absent(path)) return std::nullopt;
   std::vector<fs::path> files{pictures_of(path)};
   if (is_photron_header(path)) files.push_back(path);
   std::error_code error;
-  for (const char* extension : {".cih", ".cihx"}) {
-    fs::path header = path;
-    header.replace_extension(extension);
+  for (const fs::path& header : headers_beside(path)) {
     if (files.size() == 1 && fs::is_regular_file(header, error)) files.push_back(header);
   }
   return files;
 }
 
-std::unique_ptr<Clip> open_photron_clip(const fs::path& path, const Files&, const ClipOptions& options) {
+std::unique_ptr<Clip> open_photron_clip(const fs::path& path, const std::vector<fs::path>&,
+                                        const ClipOptions& options) {
   return std::make_unique<PhotronClip>(path, options);
 }
 

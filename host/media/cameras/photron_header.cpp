@@ -8,6 +8,7 @@
 #include "capture/text.hpp"
 #include "media/formats/extension.hpp"
 #include "system/input_bytes.hpp"
+#include "system/is_absent.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik {
@@ -114,11 +115,8 @@ std::vector<fs::path> headers_of(const fs::path& pictures) {
     }
     return headers;
   }
-  for (const char* extension : {".cih", ".cihx"}) {
-    fs::path header = pictures;
-    header.replace_extension(extension);
-    if (fs::is_regular_file(header, error)) headers.push_back(header);
-  }
+  headers = headers_beside(pictures);
+  std::erase_if(headers, [&](const fs::path& header) { return !fs::is_regular_file(header, error); });
   return headers;
 }
 
@@ -143,11 +141,21 @@ bool is_photron_header(const fs::path& path) {
   return extension == ".cih" || extension == ".cihx";
 }
 
+std::vector<fs::path> headers_beside(const fs::path& pictures) {
+  std::vector<fs::path> headers;
+  for (const char* extension : {".cih", ".cihx"}) {
+    fs::path header = pictures;
+    header.replace_extension(extension);
+    if (!is_absent(header)) headers.push_back(std::move(header));
+  }
+  return headers;
+}
+
 PhotronHeader read_photron_header(const fs::path& file) {
   const MappedFile mapped(file);
   const auto bytes = mapped.bytes();
   check_text_bytes(file.string(), bytes.size());
-  PhotronHeader header = parse_photron_header({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  PhotronHeader header = parse_photron_header(as_text(bytes));
   header.file = file;
   return header;
 }

@@ -37,7 +37,7 @@ std::uint32_t PropheseeHeader::pixels(const std::string& keyword) const {
 }
 
 PropheseeHeader read_prophesee_header(std::span<const std::byte> file) {
-  const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+  const std::string_view text = as_text(file);
   PropheseeHeader header;
   while (text.substr(header.bytes, 2) == "% ") {
     const auto length = text.substr(header.bytes, kLongestLine).find('\n');

@@ -9,6 +9,7 @@
 #include "capture/capture_mark.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "media/formats/extension.hpp"
 #include "system/input_bytes.hpp"
 #include "system/mapped_file.hpp"
@@ -178,8 +179,22 @@ bool holds_several_pictures(const std::filesystem::path& file) {
   const bool is_png = kPng.begins(start);
   if (!is_png && !kJpeg.begins(start)) return false;
   const MappedFile mapped(file);
-  const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
+  const std::string_view bytes = as_text(mapped.bytes());
   return is_png ? is_png_of_several(bytes) : is_jpeg_of_several(bytes);
+}
+
+std::filesystem::path sony_file_of(const std::filesystem::path& clip) {
+  const std::string extension = extension_of(clip);
+  if (extension != ".mxf" && extension != ".mp4") return {};  // an export of another kind has other codes
+  return clip.parent_path() / (clip.stem().string() + "M01.XML");
+}
+
+void check_stated_size(const std::string& name, std::uint64_t width, std::uint64_t height, std::uint64_t file_bytes) {
+  constexpr std::uint64_t kMaxPixelsAByte = 1032 * 8, kSmallPixels = 16 << 20;
+  if (width * height <= std::max(kSmallPixels, file_bytes * kMaxPixelsAByte)) return;
+  throw InputError(
+      format("{} cannot be read: it states {} x {} pixels, which its {} bytes do not hold; it is damaged", name, width,
+             height, file_bytes));
 }
 
 }  // namespace nutik

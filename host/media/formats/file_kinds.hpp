@@ -32,4 +32,11 @@ void refuse_text(const std::filesystem::path& file);
 // Whether PNGs or JPEGs stand in it one behind the other, or an animated PNG: a video, whatever its name ends with.
 [[nodiscard]] bool holds_several_pictures(const std::filesystem::path& file);
 
+// Where Sony's cameras write what they know of a clip: C0001M01.XML beside C0001.MP4. Empty for clips of other kinds.
+[[nodiscard]] std::filesystem::path sony_file_of(const std::filesystem::path& clip);
+
+// Before a decoder takes memory for what a file states. Deflate makes 1032 bytes of one at most, which may be 8 pixels
+// each; a JPEG's block of 64 pixels takes more than that, and a DNG's zeros are packed no closer. Throws InputError.
+void check_stated_size(const std::string& name, std::uint64_t width, std::uint64_t height, std::uint64_t file_bytes);
+
 }  // namespace nutik

@@ -51,8 +51,9 @@ std::optional<std::int64_t> date_ns(const std::string& text) {
   }
   const std::chrono::year_month_day day{std::chrono::year(static_cast<int>(part[0])),
                                         std::chrono::month(part[1]), std::chrono::day(part[2])};
-  // Nanoseconds since 1970 reach from 1678 to 2262.
+  // Nanoseconds since 1970 reach from 1678 to 2262; second 60 is a leap second.
   if (!day.ok() || part[0] < 1700 || part[0] > 2200) return std::nullopt;
+  if (part[3] > 23 || part[4] > 59 || part[5] > 60) return std::nullopt;
   const std::int64_t days = std::chrono::sys_days(day).time_since_epoch().count();
   return (((days * 24 + part[3]) * 60 + part[4]) * 60 + part[5]) * kSecondNs;
 }
@@ -72,7 +73,7 @@ std::int64_t fraction_ns(const std::string& digits) {
 std::int64_t zone_ns(const std::string& text) {
   if (text.size() != 6 || (text[0] != '+' && text[0] != '-') || text[3] != ':') return 0;
   const auto hours = parsed<unsigned>(text.substr(1, 2)), minutes = parsed<unsigned>(text.substr(4, 2));
-  if (!hours || !minutes) return 0;
+  if (!hours || !minutes || *hours > 23 || *minutes > 59) return 0;
   return (text[0] == '-' ? -1 : 1) * (std::int64_t{*hours} * 60 + *minutes) * 60 * kSecondNs;
 }
 

@@ -24,6 +24,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "media/stills/picture_text.hpp"
 #include "media/stills/stills.hpp"
 #include "system/mapped_file.hpp"
@@ -183,10 +184,6 @@ void check_attributes(std::string_view bytes) {
   } while (several_parts && in_header());
 }
 
-}  // namespace
-
-namespace {
-
 // With the channels of a buffer.
 void write_file(OutputFile& file, const Imf::Header& header, const Imf::FrameBuffer& buffer) {
   FileStream stream(file);
@@ -199,6 +196,33 @@ void write_file(OutputFile& file, const Imf::Header& header, const Imf::FrameBuf
     throw OutputError(format("the OpenEXR file cannot be written: {}", error.what()));
   }
   stream.check();
+}
+
+// Whether it is a channel of write_exr_layers(), which gives each layer an attribute of its name.
+bool is_layer(const Imf::Header& header, std::string_view channel) {
+  if (!channel.ends_with(".Y")) return false;
+  channel.remove_suffix(2);
+  return header.findTypedAttribute<Imf::StringAttribute>(std::string(channel)) != nullptr;
+}
+
+// The channels of a picture of light, in a raster's order. Throws where they are none.
+std::vector<std::string> channels_of(const Imf::Header& header) {
+  const Imf::ChannelList& channels = header.channels();
+  std::string all;
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+    if (is_layer(header, channel.name())) continue;
+    all += (all.empty() ? "" : ", ") + std::string(channel.name());
+  }
+  if (all == "B, G, R") return {"R", "G", "B"};
+  if (!all.empty() && all.find(',') == std::string::npos) return {all};
+  throw InputError(format("its channels are {}; R, G and B, or one of grey, are read, transparency is not", all));
+}
+
+std::optional<Primaries> named_primaries(const Imf::Header& header) {
+  if (!Imf::hasChromaticities(header)) return std::nullopt;
+  const Imf::Chromaticities& named = Imf::chromaticities(header);
+  const auto at = [](const Imath::V2f& point) { return std::array{double{point.x}, double{point.y}}; };
+  return primaries_at({at(named.red), at(named.green), at(named.blue), at(named.white)});
 }
 
 }  // namespace
@@ -236,37 +260,6 @@ void write_exr_layers(OutputFile& file, std::span<const PictureLayer> layers) {
   write_file(file, header, buffer);
 }
 
-namespace {
-
-// Whether it is a channel of write_exr_layers(), which gives each layer an attribute of its name.
-bool is_layer(const Imf::Header& header, std::string_view channel) {
-  if (!channel.ends_with(".Y")) return false;
-  channel.remove_suffix(2);
-  return header.findTypedAttribute<Imf::StringAttribute>(std::string(channel)) != nullptr;
-}
-
-// The channels of a picture of light, in a raster's order. Throws where they are none.
-std::vector<std::string> channels_of(const Imf::Header& header) {
-  const Imf::ChannelList& channels = header.channels();
-  std::string all;
-  for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
-    if (is_layer(header, channel.name())) continue;
-    all += (all.empty() ? "" : ", ") + std::string(channel.name());
-  }
-  if (all == "B, G, R") return {"R", "G", "B"};
-  if (!all.empty() && all.find(',') == std::string::npos) return {all};
-  throw InputError(format("its channels are {}; R, G and B, or one of grey, are read, transparency is not", all));
-}
-
-std::optional<Primaries> named_primaries(const Imf::Header& header) {
-  if (!Imf::hasChromaticities(header)) return std::nullopt;
-  const Imf::Chromaticities& named = Imf::chromaticities(header);
-  const auto at = [](const Imath::V2f& point) { return std::array{double{point.x}, double{point.y}}; };
-  return primaries_at({at(named.red), at(named.green), at(named.blue), at(named.white)});
-}
-
-}  // namespace
-
 std::optional<Primaries> primaries_at(const std::array<std::array<double, 2>, 4>& points) {
   constexpr double kAgree = 5e-4;
   for (int each = 0; each <= static_cast<int>(Primaries::ap1); ++each) {
@@ -286,7 +279,7 @@ ExrPicture read_exr(const std::filesystem::path& file) {
   constexpr std::uint64_t kSmall = 64 << 20, kMaxExpansion = 2560;
   try {
     const MappedFile mapped(file);
-    check_attributes({reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size()});
+    check_attributes(as_text(mapped.bytes()));
     Imf::InputFile input(file.c_str(), 0);
     const Imf::Header& header = input.header();
     const Imath::Box2i window = header.dataWindow();
@@ -329,7 +322,7 @@ ExrPicture read_exr(const std::filesystem::path& file) {
 std::optional<std::string> read_exr_text(const std::filesystem::path& file, const char* keyword) {
   try {
     const MappedFile mapped(file);
-    check_attributes({reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size()});
+    check_attributes(as_text(mapped.bytes()));
     const Imf::InputFile input(file.c_str(), 0);
     const auto* text = input.header().findTypedAttribute<Imf::StringAttribute>(keyword);
     if (text == nullptr) return std::nullopt;

@@ -16,6 +16,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/formats/colour_profile.hpp"
+#include "media/formats/file_kinds.hpp"
 
 namespace nutik {
 namespace {
@@ -147,11 +148,6 @@ void write_jpeg(OutputFile& file, const Picture& picture, const std::string& tex
   jpeg_finish_compress(&jpeg);
 }
 
-bool is_jpeg(std::span<const std::byte> file) {
-  return file.size() >= 3 && file[0] == std::byte{0xFF} && file[1] == std::byte{0xD8} &&
-         file[2] == std::byte{0xFF};
-}
-
 std::optional<std::string> read_jpeg_comments(std::span<const std::byte> file, const std::string& name) {
   std::string title = format("{} cannot be read", name);
   Decompressor jpeg(title);
@@ -166,23 +162,37 @@ std::optional<std::string> read_jpeg_comments(std::span<const std::byte> file, c
   return text;
 }
 
-Picture read_jpeg(std::span<const std::byte> file, const std::string& name) {
+JpegPicture read_jpeg(std::span<const std::byte> file, const std::string& name) {
   std::string title = format("{} cannot be read: it is damaged or no picture", name);
   Decompressor jpeg(title);
-  // libjpeg goes on behind damage, with whatever comes.
+  // libjpeg goes on behind damage, with whatever comes: in front of a picture, also behind bytes of no segment.
   jpeg.err->emit_message = [](j_common_ptr of, int) {
     constexpr std::array kDamage{JWRN_ARITH_BAD_CODE, JWRN_HIT_MARKER, JWRN_HUFF_BAD_CODE, JWRN_JPEG_EOF, JWRN_MUST_RESYNC};
+    if (of->err->msg_code == JWRN_EXTRANEOUS_DATA) ++of->err->num_warnings;
     if (std::ranges::count(kDamage, of->err->msg_code) > 0) of->err->error_exit(of);
   };
   jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(file.data()), file.size());
+  jpeg_save_markers(&jpeg, JPEG_APP0 + 2, 0xFFFF);
   jpeg_read_header(&jpeg, TRUE);
+  if (jpeg.err->num_warnings > 0) throw InputError(title);
+  check_stated_size(name, jpeg.image_width, jpeg.image_height, file.size());
   if (jpeg.num_components != 1 && jpeg.num_components != 3) {
     throw InputError(format("{} cannot be read: its colours are {}; grey and RGB are read", name,
                             jpeg.num_components == 4 ? "CMYK" : "of no known kind"));
   }
+  JpegPicture read;
+  if (jpeg.saw_JFIF_marker) read.density = {jpeg.X_density, jpeg.Y_density};
+  JOCTET* profile = nullptr;
+  unsigned profile_bytes = 0;
+  if (jpeg_read_icc_profile(&jpeg, &profile, &profile_bytes)) {
+    const std::unique_ptr<JOCTET, decltype(&std::free)> owned(profile, &std::free);
+    const auto bytes = std::as_bytes(std::span(profile, profile_bytes));
+    read.profile.assign(bytes.begin(), bytes.end());
+  }
   jpeg.out_color_space = jpeg.num_components == 1 ? JCS_GRAYSCALE : JCS_RGB;
   jpeg_start_decompress(&jpeg);
-  Picture picture({jpeg.output_width, jpeg.output_height, static_cast<std::uint32_t>(jpeg.num_components)},
+  Picture& picture = read.picture;
+  picture = Picture({jpeg.output_width, jpeg.output_height, static_cast<std::uint32_t>(jpeg.num_components)},
                   ValueType::code8, 255);
   const std::size_t row_bytes = std::size_t{picture.shape.width} * picture.shape.channels;
   while (jpeg.output_scanline < jpeg.output_height) {
@@ -190,21 +200,7 @@ Picture read_jpeg(std::span<const std::byte> file, const std::string& name) {
     jpeg_read_scanlines(&jpeg, &row, 1);
   }
   jpeg_finish_decompress(&jpeg);
-  return picture;
-}
-
-std::vector<std::byte> read_jpeg_profile(std::span<const std::byte> file, const std::string& name) {
-  std::string title = format("{} cannot be read", name);
-  Decompressor jpeg(title);
-  jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(file.data()), file.size());
-  jpeg_save_markers(&jpeg, JPEG_APP0 + 2, 0xFFFF);
-  jpeg_read_header(&jpeg, TRUE);
-  JOCTET* bytes = nullptr;
-  unsigned size = 0;
-  if (!jpeg_read_icc_profile(&jpeg, &bytes, &size)) return {};
-  const std::unique_ptr<JOCTET, decltype(&std::free)> owned(bytes, &std::free);
-  const auto* first = reinterpret_cast<const std::byte*>(bytes);
-  return {first, first + size};
+  return read;
 }
 
 }  // namespace nutik

@@ -9,6 +9,7 @@
 #include "capture/capture_mark.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "system/interruption.hpp"
 
 namespace nutik {
@@ -19,7 +20,7 @@ constexpr std::uint64_t kLargestNetpbmSide = 1u << 20;
 class NetpbmReader {
  public:
   NetpbmReader(std::span<const std::byte> file, const std::string& name)
-      : text_(reinterpret_cast<const char*>(file.data()), file.size()), name_(name) {}
+      : text_(as_text(file)), name_(name) {}
 
   // Passes over a picture: how many bytes it has.
   std::size_t pass() {

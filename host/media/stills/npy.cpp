@@ -58,10 +58,30 @@ std::vector<std::uint64_t> axes_of(std::string_view text) {
   return axes;
 }
 
+// Up to the values; `axes` stand before those of a picture.
+std::string front_text(const Picture& picture, const std::string& axes) {
+  const Shape& shape = picture.shape;
+  std::string front =
+      format("{{'descr': '{}f{}', 'fortran_order': False, 'shape': ({}{}, {}{}), }}", kOrder, value_bytes(picture.type),
+             axes, shape.height, shape.width, shape.channels == 3 ? ", 3" : "");
+  const std::size_t length_end = kLengthAt + 2;
+  const std::size_t begin = (length_end + front.size()) / kAlignment * kAlignment + kAlignment;
+  front.resize(begin - length_end - 1, ' ');
+  front += '\n';
+  std::string text(kMagic);
+  for (const std::size_t byte : {std::size_t{1}, std::size_t{0}, front.size() % 256, front.size() / 256})
+    text.push_back(static_cast<char>(byte));
+  return text + front;
+}
+
+void append_values(std::string& text, const Picture& picture) {
+  text.append(reinterpret_cast<const char*>(picture.bytes.data()), picture.bytes.size());
+}
+
 }  // namespace
 
 NpyFront read_npy_front(std::span<const std::byte> file, const std::string& name) {
-  const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+  const std::string_view text = as_text(file);
   if (!text.starts_with(kMagic) || text.size() < kLengthAt + 4) fail(name, "it is no array of NumPy's, or was cut off");
   // The length of the front has two bytes in version 1, and four since; the low one first.
   const std::size_t length_bytes = text[kMagic.size()] == 1 ? 2 : 4;
@@ -106,30 +126,6 @@ Picture read_npy(std::span<const std::byte> file, const std::string& name, std::
   std::ranges::copy(bytes, picture.bytes.begin());
   return picture;
 }
-
-namespace {
-
-// Up to the values; `axes` stand before those of a picture.
-std::string front_text(const Picture& picture, const std::string& axes) {
-  const Shape& shape = picture.shape;
-  std::string front =
-      format("{{'descr': '{}f{}', 'fortran_order': False, 'shape': ({}{}, {}{}), }}", kOrder, value_bytes(picture.type),
-             axes, shape.height, shape.width, shape.channels == 3 ? ", 3" : "");
-  const std::size_t length_end = kLengthAt + 2;
-  const std::size_t begin = (length_end + front.size()) / kAlignment * kAlignment + kAlignment;
-  front.resize(begin - length_end - 1, ' ');
-  front += '\n';
-  std::string text(kMagic);
-  for (const std::size_t byte : {std::size_t{1}, std::size_t{0}, front.size() % 256, front.size() / 256})
-    text.push_back(static_cast<char>(byte));
-  return text + front;
-}
-
-void append_values(std::string& text, const Picture& picture) {
-  text.append(reinterpret_cast<const char*>(picture.bytes.data()), picture.bytes.size());
-}
-
-}  // namespace
 
 std::string npy_text(const Picture& picture) {
   std::string text = front_text(picture, "");

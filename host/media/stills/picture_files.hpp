@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "capture/picture.hpp"
@@ -13,9 +14,9 @@
 
 namespace nutik {
 
-// PNG through libpng.
+struct FileWishes;  // of whoever writes (media/writers/picture_writer.hpp)
 
-[[nodiscard]] bool is_png(std::span<const std::byte> file);
+// PNG through libpng.
 
 // Reads a picture of 8 bits, grey or colour, code for code; alpha is left out where it is opaque everywhere. Throws
 // InputError naming `name`, the depth or colour type found and the one wanted, where it is anything else.
@@ -23,6 +24,9 @@ namespace nutik {
 [[nodiscard]] Picture read_8_bit_png(
     std::span<const std::byte> file, const std::string& name,
     const std::function<void(std::uint32_t, std::uint32_t)>& check_size = {});
+
+// Throws InputError where a pixel's colour is not in the palette, which decoders show as black.
+void check_png_palette(std::span<const std::byte> file, const std::string& name);
 
 // How a PNG's picture lies, as EXIF numbers it: 1, upright, where its chunk eXIf does not say.
 [[nodiscard]] unsigned png_orientation(std::span<const std::byte> file);
@@ -36,9 +40,9 @@ namespace nutik {
                                                       const std::string& name);
 
 // Writes codes: 8 or 16 bits, grey or RGB; what they mean in the chunks cICP, sRGB or gAMA and cHRM, and in iCCP what
-// cICP has no number for; pixels that are
-// not square in pHYs. `text` is kept as picture_text.hpp says; none where it is empty.
-void write_png(OutputFile& file, const Picture& picture, const std::string& text);
+// cICP has no number for; pixels that are not square in pHYs. `text` is kept as picture_text.hpp says; none where it is
+// empty.
+void write_png(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&);
 
 // JPEG, through libjpeg.
 
@@ -46,25 +50,24 @@ void write_png(OutputFile& file, const Picture& picture, const std::string& text
 // in the density of the JFIF header, `text` in comments.
 void write_jpeg(OutputFile& file, const Picture& picture, const std::string& text, int quality);
 
-[[nodiscard]] bool is_jpeg(std::span<const std::byte> file);
-
-// Codes as they lie, grey or RGB. Throws InputError naming `name` where it is neither, or damaged.
-[[nodiscard]] Picture read_jpeg(std::span<const std::byte> file, const std::string& name);
+struct JpegPicture {
+  Picture picture;                                   // codes as they lie, grey or RGB
+  std::vector<std::byte> profile;                    // ICC; empty where there is none, or not all of it
+  std::optional<std::pair<double, double>> density;  // pixels on a length, across and down
+};
+// Throws InputError naming `name` where it is neither grey nor RGB, or damaged.
+[[nodiscard]] JpegPicture read_jpeg(std::span<const std::byte> file, const std::string& name);
 
 // The comments before the picture, one behind the other; nothing where there is none. Throws InputError.
 [[nodiscard]] std::optional<std::string> read_jpeg_comments(std::span<const std::byte> file,
                                                             const std::string& name);
-
-// The ICC profile; empty where there is none, or not all of it. Throws InputError.
-[[nodiscard]] std::vector<std::byte> read_jpeg_profile(std::span<const std::byte> file,
-                                                       const std::string& name);
 
 // TIFF through libtiff.
 
 // Writes codes (8 or 16 bits) or light (32- or 64-bit floating point), uncompressed, so that every program
 // reads it bit for bit; what values mean as an ICC profile, pixels that are not square as resolution. `text` becomes
 // the ImageDescription; none where it is empty. Throws OutputError.
-void write_tiff(OutputFile& file, const Picture& picture, const std::string& text);
+void write_tiff(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&);
 // Each layer is a page, described by its text.
 void write_tiff(OutputFile& file, std::span<const PictureLayer> layers);
 

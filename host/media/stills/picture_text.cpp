@@ -2,8 +2,10 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/stills/picture_files.hpp"
+#include "capture/text.hpp"
+#include "media/formats/readers.hpp"
 #include "media/module.hpp"
+#include "media/stills/picture_files.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik {
@@ -27,13 +29,13 @@ std::optional<std::string> netpbm_comment(std::string_view file) {
 
 std::optional<std::string> read_picture_text(const std::filesystem::path& path) {
   const MappedFile file(path);
-  const std::string_view bytes(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
+  const std::string_view bytes = as_text(file.bytes());
   std::optional<std::string> text;
-  if (is_png(file.bytes())) {
+  if (readers::kPng.begins(bytes)) {
     text = read_png_text(file.bytes(), kPictureTextKeyword, path.string());
-  } else if (is_jpeg(file.bytes())) {
+  } else if (readers::kJpeg.begins(bytes)) {
     text = read_jpeg_comments(file.bytes(), path.string());
-  } else if (bytes.starts_with("\x76\x2f\x31\x01")) {
+  } else if (readers::kExr.begins(bytes)) {
     text = still_module().read_exr_text(path, kPictureTextKeyword);
   } else if (bytes.starts_with("II") || bytes.starts_with("MM")) {
     text = read_tiff_description(path);

@@ -13,6 +13,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "media/formats/coding_points.hpp"
 #include "media/formats/colour_profile.hpp"
 #include "media/stills/picture_text.hpp"
@@ -192,10 +193,6 @@ void read_info(const ReadStructure& read, ByteReader& reader) {
 
 }  // namespace
 
-bool is_png(std::span<const std::byte> file) {
-  return file.size() >= 8 && png_sig_cmp(reinterpret_cast<png_const_bytep>(file.data()), 0, 8) == 0;
-}
-
 Picture read_8_bit_png(std::span<const std::byte> file, const std::string& name,
                        const std::function<void(std::uint32_t, std::uint32_t)>& check_size) {
   std::string error_name = name;
@@ -239,9 +236,35 @@ Picture read_8_bit_png(std::span<const std::byte> file, const std::string& name,
   return picture;
 }
 
+void check_png_palette(std::span<const std::byte> file, const std::string& name) {
+  std::string error_name = name;
+  ReadStructure read(error_name);
+  ByteReader reader{file};
+  read_info(read, reader);
+  png_colorp colours = nullptr;
+  int count = 0;
+  png_get_PLTE(read.png, read.info, &colours, &count);
+  const bool is_indexed = png_get_color_type(read.png, read.info) == PNG_COLOR_TYPE_PALETTE;
+  if (!is_indexed || count == 1 << png_get_bit_depth(read.png, read.info)) return;
+  png_set_packing(read.png);  // a byte for each pixel
+  int passes = png_set_interlace_handling(read.png);
+  png_read_update_info(read.png, read.info);
+  std::vector<png_byte> row(png_get_rowbytes(read.png, read.info));
+  for (; passes > 0; --passes) {
+    for (png_uint_32 y = png_get_image_height(read.png, read.info); y > 0; --y) {
+      check_interruption();
+      png_read_row(read.png, row.data(), nullptr);
+      const int largest = *std::ranges::max_element(row);
+      if (largest < count) continue;
+      throw InputError(format("{} cannot be read: it is damaged: a pixel has colour {}, and its palette {}, from 0 on",
+                              name, largest, count));
+    }
+  }
+}
+
 // Chunks: u32 length, four letters, so many bytes, a checksum. EXIF is a TIFF: its first directory is looked at.
 unsigned png_orientation(std::span<const std::byte> file) {
-  const std::string_view bytes(reinterpret_cast<const char*>(file.data()), file.size());
+  const std::string_view bytes = as_text(file);
   constexpr std::size_t kSignature = 8, kFrame = 12, kData = 8, kEntry = 12;
   std::string_view exif;
   for (std::size_t at = kSignature; at + kFrame <= bytes.size();) {
@@ -295,7 +318,7 @@ std::vector<std::byte> read_png_profile(std::span<const std::byte> file, const s
   return {bytes, bytes + size};
 }
 
-void write_png(OutputFile& file, const Picture& picture, const std::string& text) {
+void write_png(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
   const Shape& shape = picture.shape;
   const std::size_t bytes = value_bytes(picture.type);
   WriteStructure write;

@@ -4,6 +4,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "media/formats/coding_points.hpp"
 #include "media/formats/file_kinds.hpp"
 #include "media/stills/picture_files.hpp"
@@ -48,7 +49,7 @@ PngTags read_png_tags(const std::filesystem::path& file) {
   constexpr std::size_t kSignature = 8, kFrame = 12, kData = 8, kBits = 24;
   constexpr double kParts = 100'000;
   const MappedFile mapped(file);
-  const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
+  const std::string_view bytes = as_text(mapped.bytes());
   PngTags tags;
   if (!bytes.starts_with("\x89PNG")) return tags;
   tags.orientation = png_orientation(mapped.bytes());

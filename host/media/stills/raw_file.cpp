@@ -15,6 +15,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "media/formats/file_kinds.hpp"
 #include "system/mapped_file.hpp"
 
@@ -30,10 +31,8 @@ void check(int code, const std::filesystem::path& file) {
   throw InputError(format("{} cannot be read: LibRaw says: {}", file.string(), libraw_strerror(code)));
 }
 
-// LibRaw reads a thousand kinds of files, whatever their names; only DNG is meant here. What it states is compared with
-// the file before there is room for it: zeros are packed to a thousandth at most, of 8 pixels a byte.
+// LibRaw reads a thousand kinds of files, whatever their names; only DNG is meant here.
 void open_dng(LibRaw& raw, const std::filesystem::path& file) {
-  constexpr std::uint64_t kMaxPixelsAByte = 1032 * 8, kSmallPixels = 16 << 20;
   const std::string start = first_bytes(file).substr(0, 4);
   const bool is_tiff = start == std::string("II*\0", 4) || start == std::string("MM\0*", 4);
   if (is_tiff) check(raw.open_file(file.c_str()), file);
@@ -42,16 +41,8 @@ void open_dng(LibRaw& raw, const std::filesystem::path& file) {
   }
   const auto& sizes = raw.imgdata.sizes;
   const std::uint64_t bytes = std::filesystem::file_size(file);
-  const std::uint64_t pixels = std::max(std::uint64_t{sizes.raw_width} * sizes.raw_height,
-                                        std::uint64_t{sizes.width} * sizes.height);
-  if (pixels <= std::max(kSmallPixels, bytes * kMaxPixelsAByte)) return;
-  throw InputError(
-      format("{} cannot be read: it states {} x {} pixels, which its {} bytes do not hold; it is damaged",
-             file.string(), sizes.raw_width, sizes.raw_height, bytes));
-}
-
-std::string_view text_of(const MappedFile& file) {
-  return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
+  check_stated_size(file.string(), sizes.raw_width, sizes.raw_height, bytes);
+  check_stated_size(file.string(), sizes.width, sizes.height, bytes);
 }
 
 // What a JPEG that begins there announces before its first scan; nothing where none begins.
@@ -94,17 +85,18 @@ bool lacks_a_jpeg(LibRaw& raw, const std::filesystem::path& file) {
   const auto& sizes = raw.imgdata.sizes;
   if (unpacker.tiff_compress != kJpeg || sizes.raw_width == 0 || sizes.raw_height == 0) return false;
   const MappedFile mapped(file);
+  const std::string_view bytes = as_text(mapped.bytes());
   const auto begin = static_cast<std::uint64_t>(unpacker.data_offset);
   if (unpacker.tile_length >= std::numeric_limits<int>::max()) {
-    return !is_of_size(jpeg_front(text_of(mapped), begin).samples, sizes.raw_width, sizes.raw_height);
+    return !is_of_size(jpeg_front(bytes, begin).samples, sizes.raw_width, sizes.raw_height);
   }
   if (unpacker.tile_width == 0 || unpacker.tile_length == 0) return true;
   const std::uint64_t across = (sizes.raw_width - 1) / unpacker.tile_width + 1;
   const std::uint64_t tiles = across * ((sizes.raw_height - 1) / unpacker.tile_length + 1);
   for (std::uint64_t tile = 0; tile < tiles; ++tile) {
     const bool big_end_first = static_cast<unsigned short>(unpacker.order) == kBigEnd;
-    const std::uint64_t at = tile_at(text_of(mapped), begin, tile, big_end_first);
-    if (!is_of_size(jpeg_front(text_of(mapped), at).samples, unpacker.tile_width, unpacker.tile_length)) return true;
+    const std::uint64_t at = tile_at(bytes, begin, tile, big_end_first);
+    if (!is_of_size(jpeg_front(bytes, at).samples, unpacker.tile_width, unpacker.tile_length)) return true;
   }
   return false;
 }
@@ -118,9 +110,9 @@ bool is_lossy(LibRaw& raw, const std::filesystem::path& file) {
   const MappedFile mapped(file);
   auto at = static_cast<std::uint64_t>(unpacker.data_offset);
   if (unpacker.tile_length < std::numeric_limits<int>::max()) {
-    at = tile_at(text_of(mapped), at, 0, static_cast<unsigned short>(unpacker.order) == kBigEnd);
+    at = tile_at(as_text(mapped.bytes()), at, 0, static_cast<unsigned short>(unpacker.order) == kBigEnd);
   }
-  return jpeg_front(text_of(mapped), at).is_lossy;
+  return jpeg_front(as_text(mapped.bytes()), at).is_lossy;
 }
 
 // A number of four bytes; 0 where the file ends before.

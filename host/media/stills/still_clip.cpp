@@ -10,6 +10,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/light_codes.hpp"
+#include "capture/text.hpp"
 #include "media/formats/colour_profile.hpp"
 #include "media/formats/file_kinds.hpp"
 #include "media/stills/picture_files.hpp"
@@ -125,37 +126,6 @@ Still read_netpbm_still(const Page& page) {
   return still_of(std::move(picture), maximum);
 }
 
-std::uint32_t number_at(std::string_view bytes, std::size_t at, std::size_t count) {
-  return static_cast<std::uint32_t>(big_endian(bytes, at, count));
-}
-
-// Width and height that a PNG or JPEG states; nothing where there are none to be found.
-std::optional<Shape> stated_size(std::string_view bytes) {
-  constexpr std::size_t kIhdrEnd = 26;
-  if (bytes.size() >= kIhdrEnd && bytes.substr(1, 3) == "PNG") {
-    return Shape{number_at(bytes, 16, 4), number_at(bytes, 20, 4), 1};
-  }
-  // The segments of a JPEG up to its frame header: FF, marker, length, data.
-  for (std::size_t at = 2; bytes.starts_with("\xFF\xD8") && at + 9 <= bytes.size() && bytes[at] == '\xFF';) {
-    const std::uint32_t marker = number_at(bytes, at + 1, 1);
-    const bool is_frame =
-        marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
-    if (is_frame) return Shape{number_at(bytes, at + 7, 2), number_at(bytes, at + 5, 2), 1};
-    at += marker == 0xFF ? 1 : 2 + number_at(bytes, at + 2, 2);
-  }
-  return std::nullopt;
-}
-
-// What the header of a JPEG that is JFIF states, which is its first segment: FF E0, length, JFIF and a zero, two bytes
-// of version, the unit, and a density across and down.
-std::optional<Rational> jpeg_pixel_aspect(std::string_view bytes) {
-  constexpr std::string_view kApp0 = "\xFF\xD8\xFF\xE0";
-  constexpr std::size_t kName = 6, kAcross = 14, kDown = 16, kEnd = 18;
-  if (!bytes.starts_with(kApp0) || bytes.size() < kEnd || bytes.substr(kName, 4) != "JFIF")
-    return std::nullopt;
-  return aspect_of(number_at(bytes, kAcross, 2), number_at(bytes, kDown, 2));
-}
-
 void follow_profile(Still& still, std::span<const std::byte> profile) {
   const ProfiledColours colours = read_colour_profile(profile);
   still.transfer = colours.transfer;
@@ -185,48 +155,29 @@ void turn_upright(Still& still, unsigned orientation) {
   std::memcpy(still.codes.data(), picture.data, still.codes.size());
 }
 
-// What a PNG or JPEG says of its codes and pixels.
+// What a PNG says of its codes and pixels.
 void add_tags(const std::filesystem::path& file, const PngTags& tags, Still& still) {
   still.transfer = tags.transfer;
   still.primaries = tags.primaries;
   if (!tags.transfer) still.unread_transfer = tags.unread_transfer;
   if (!tags.primaries) still.unread_primaries = tags.unread_primaries;
   if (tags.density) still.pixel_aspect = aspect_of(tags.density->first, tags.density->second);
-  const MappedFile mapped(file);
-  const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
-  if (tags.has_profile) follow_profile(still, read_png_profile(mapped.bytes(), file.string()));
-  if (!bytes.starts_with("\xFF\xD8")) return;
-  still.pixel_aspect = jpeg_pixel_aspect(bytes);
-  const std::vector<std::byte> profile = read_jpeg_profile(mapped.bytes(), file.string());
-  if (!profile.empty()) follow_profile(still, profile);
+  if (tags.has_profile) follow_profile(still, read_png_profile(MappedFile(file).bytes(), file.string()));
 }
 
-// Before OpenCV looks for a decoder, of which some end the program on what they do not expect (DICM), and before it
-// allocates what a file says: Deflate makes 1032 bytes of one at most, which may be 8 pixels each, and a JPEG's block of
-// 64 pixels takes more than that.
-void check_front(const std::filesystem::path& file) {
-  constexpr std::uint64_t kMaxPixelsAByte = 1032 * 8, kSmallPixels = 16 << 20;
-  const MappedFile mapped(file);
-  const std::string_view bytes(reinterpret_cast<const char*>(mapped.bytes().data()), mapped.bytes().size());
-  if (!readers::kPng.begins(bytes) && !readers::kJpeg.begins(bytes)) {
-    throw InputError(
-        format("{} cannot be read: it is damaged or no picture: neither a PNG nor a JPEG begins like that",
-               file.string()));
-  }
-  const auto size = stated_size(bytes);
-  // Its decoder looks for the next segment behind what is none, and may find another size there.
-  if (!size && bytes.starts_with("\xFF\xD8")) {
-    throw InputError(format("{} cannot be read: it is damaged or no picture", file.string()));
-  }
-  if (!size || size->pixel_count() <= std::max(kSmallPixels, mapped.bytes().size() * kMaxPixelsAByte))
-    return;
+// Before OpenCV looks for a decoder, of which some end the program on what they do not expect (DICM).
+void check_front(std::string_view bytes, const std::string& name) {
+  if (readers::kPng.begins(bytes) || readers::kJpeg.begins(bytes)) return;
   throw InputError(
-      format("{} cannot be read: it states {} x {} pixels, which its {} bytes do not hold; it is damaged",
-             file.string(), size->width, size->height, mapped.bytes().size()));
+      format("{} cannot be read: it is damaged or no picture: neither a PNG nor a JPEG begins like that", name));
 }
 
 cv::Mat decoded_by_opencv(const std::filesystem::path& file) {
-  check_front(file);
+  constexpr std::size_t kWidth = 16, kHeight = 20;
+  const MappedFile mapped(file);
+  const std::string_view bytes = as_text(mapped.bytes());
+  check_front(bytes, file.string());
+  check_stated_size(file.string(), big_endian(bytes, kWidth, 4), big_endian(bytes, kHeight, 4), bytes.size());
   try {
     return cv::imread(file.string(), cv::IMREAD_UNCHANGED);  // as it lies
   } catch (const cv::Exception& error) {  // larger than it takes, or than there is memory for
@@ -235,10 +186,13 @@ cv::Mat decoded_by_opencv(const std::filesystem::path& file) {
 }
 
 Still read_jpeg_still(const std::filesystem::path& file) {
-  check_front(file);
+  const MappedFile mapped(file);
+  check_front(as_text(mapped.bytes()), file.string());
   if (holds_several_pictures(file)) throw InputError(format("{} holds several pictures: name it alone, as a video is", file.string()));
-  Still still = still_of(read_jpeg(MappedFile(file).bytes(), file.string()), {});
-  add_tags(file, {}, still);
+  JpegPicture read = read_jpeg(mapped.bytes(), file.string());
+  Still still = still_of(std::move(read.picture), {});
+  if (read.density) still.pixel_aspect = aspect_of(read.density->first, read.density->second);
+  if (!read.profile.empty()) follow_profile(still, read.profile);
   turn_upright(still, exif_orientation(file));
   return still;
 }
@@ -253,6 +207,7 @@ Still read_with_opencv(const std::filesystem::path& file) {
   if (picture.empty()) {
     throw InputError(format("{} cannot be read: it is damaged or no picture", name));
   }
+  if (readers::kPng.begins(first_bytes(file))) check_png_palette(MappedFile(file).bytes(), name);
   if (picture.depth() != CV_8U && picture.depth() != CV_16U) {
     throw InputError(
         format("{} holds neither 8- nor 16-bit values; save it as a PNG or TIFF with one of these", name));

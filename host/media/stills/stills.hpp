@@ -41,8 +41,6 @@ struct PngTags {
 
 void write_exr(OutputFile& file, const Picture& picture, const std::string& text, bool as_half);
 void write_exr_layers(OutputFile& file, std::span<const PictureLayer> layers);
-// Light in light32, and what its file says of it. Throws InputError where it has other channels than R, G and B or one,
-// or other pixels than its picture.
 // Those with these chromaticities, of red, green, blue and white, to what files hold of them.
 [[nodiscard]] std::optional<Primaries> primaries_at(const std::array<std::array<double, 2>, 4>& points);
 inline constexpr const char* kOtherPrimaries = "other chromaticities";
@@ -53,6 +51,8 @@ struct ExrPicture {
   bool names_others = false;
   double pixel_aspect = 1;
 };
+// Light in light32, and what its file says of it. Throws InputError where it has other channels than R, G and B or one,
+// or other pixels than its picture.
 [[nodiscard]] ExrPicture read_exr(const std::filesystem::path& file);
 [[nodiscard]] std::optional<std::string> read_exr_text(const std::filesystem::path& file,
                                                        const char* keyword);

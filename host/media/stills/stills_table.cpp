@@ -72,6 +72,41 @@ std::optional<std::int64_t> nanoseconds(const std::filesystem::path& table, std:
   return value;
 }
 
+using Times = std::vector<std::int64_t>;
+
+// One column for all files: from the table where its first row has it, else from EXIF data. Empty where no
+// file has it anywhere.
+Times column(const std::filesystem::path& table, std::span<const ListedStill> stills,
+             std::span<const StillTimes> exif, std::optional<std::int64_t> StillTimes::*time,
+             std::string_view name) {
+  const bool in_table = (stills.front().times.*time).has_value();
+  Times values;
+  for (std::size_t k = 0; k < stills.size(); ++k) {
+    const auto& stated = stills[k].times.*time;
+    if (stated.has_value() != in_table) {
+      fail(
+          table, stills[k].line,
+          format("{} has {} {} and {} {}; state it for all files, or for none and it is read from their EXIF "
+                 "data",
+                 stills[k].file.string(), stated ? format("the {}", name) : format("no {}", name),
+                 stated ? format("{}", *stated) : std::string("here"), stills.front().file.string(),
+                 in_table ? format("has {}", *(stills.front().times.*time)) : "has none"));
+    }
+    const auto& value = in_table ? stated : exif[k].*time;
+    if (value) values.push_back(*value);
+    if (values.empty() || value) continue;
+    fail(table, stills[k].line,
+         format("{} has no {}, neither here nor in EXIF data (of JPEG and DNG); {} has {}", stills[k].file.string(), name,
+                stills.front().file.string(), values[0]));
+  }
+  if (!values.empty() && values.size() != stills.size()) {
+    fail(table, stills.front().line,
+         format("{} has no {}, neither here nor in EXIF data (of JPEG and DNG); others have", stills.front().file.string(),
+                name));
+  }
+  return values;
+}
+
 }  // namespace
 
 bool is_stills_table(const std::filesystem::path& path) {
@@ -121,45 +156,6 @@ std::vector<ListedStill> read_stills_table(const std::filesystem::path& path) {
   if (stills.empty()) throw InputError(format("{} lists no picture", path.string()));
   return stills;
 }
-
-namespace {
-
-using Times = std::vector<std::int64_t>;
-
-// One column for all files: from the table where its first row has it, else from EXIF data. Empty where no
-// file has it anywhere.
-Times column(const std::filesystem::path& table, std::span<const ListedStill> stills,
-             std::span<const StillTimes> exif, std::optional<std::int64_t> StillTimes::*time,
-             std::string_view name) {
-  const bool in_table = (stills.front().times.*time).has_value();
-  Times values;
-  for (std::size_t k = 0; k < stills.size(); ++k) {
-    const auto& stated = stills[k].times.*time;
-    if (stated.has_value() != in_table) {
-      fail(
-          table, stills[k].line,
-          format("{} has {} {} and {} {}; state it for all files, or for none and it is read from their EXIF "
-                 "data",
-                 stills[k].file.string(), stated ? format("the {}", name) : format("no {}", name),
-                 stated ? format("{}", *stated) : std::string("here"), stills.front().file.string(),
-                 in_table ? format("has {}", *(stills.front().times.*time)) : "has none"));
-    }
-    const auto& value = in_table ? stated : exif[k].*time;
-    if (value) values.push_back(*value);
-    if (values.empty() || value) continue;
-    fail(table, stills[k].line,
-         format("{} has no {}, neither here nor in EXIF data (of JPEG and DNG); {} has {}", stills[k].file.string(), name,
-                stills.front().file.string(), values[0]));
-  }
-  if (!values.empty() && values.size() != stills.size()) {
-    fail(table, stills.front().line,
-         format("{} has no {}, neither here nor in EXIF data (of JPEG and DNG); others have", stills.front().file.string(),
-                name));
-  }
-  return values;
-}
-
-}  // namespace
 
 ClipTiming timing_of(const std::filesystem::path& table, std::span<const ListedStill> stills,
                      std::span<const StillTimes> exif) {

@@ -20,20 +20,6 @@ struct CloseTiff {
   void operator()(TIFF* tiff) const { TIFFClose(tiff); }
 };
 
-}  // namespace
-
-std::optional<std::string> read_tiff_description(const std::filesystem::path& path) {
-  TIFFSetErrorHandler(nullptr);
-  TIFFSetWarningHandler(nullptr);
-  const std::unique_ptr<TIFF, CloseTiff> tiff(TIFFOpen(path.c_str(), "rm"));
-  if (!tiff) throw InputError(format("{} cannot be read: it is no TIFF, or was cut off", path.string()));
-  const char* text = nullptr;
-  if (TIFFGetField(tiff.get(), TIFFTAG_IMAGEDESCRIPTION, &text) == 0 || text == nullptr) return std::nullopt;
-  return text;
-}
-
-namespace {
-
 // A page; false where it cannot be written.
 bool write_page(TIFF* tiff, const OutputFile& file, const Picture& picture, const std::string& text) {
   const Shape& shape = picture.shape;
@@ -89,7 +75,17 @@ void write_pages(const OutputFile& file, std::uint64_t bytes, std::size_t pages,
 
 }  // namespace
 
-void write_tiff(OutputFile& file, const Picture& picture, const std::string& text) {
+std::optional<std::string> read_tiff_description(const std::filesystem::path& path) {
+  TIFFSetErrorHandler(nullptr);
+  TIFFSetWarningHandler(nullptr);
+  const std::unique_ptr<TIFF, CloseTiff> tiff(TIFFOpen(path.c_str(), "rm"));
+  if (!tiff) throw InputError(format("{} cannot be read: it is no TIFF, or was cut off", path.string()));
+  const char* text = nullptr;
+  if (TIFFGetField(tiff.get(), TIFFTAG_IMAGEDESCRIPTION, &text) == 0 || text == nullptr) return std::nullopt;
+  return text;
+}
+
+void write_tiff(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
   write_pages(file, picture.bytes.size(), 1,
               [&](TIFF* tiff, std::size_t) { return write_page(tiff, file, picture, text); });
 }

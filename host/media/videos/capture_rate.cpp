@@ -9,7 +9,7 @@
 
 #include "capture/error.hpp"
 #include "capture/median.hpp"
-#include "media/formats/extension.hpp"
+#include "capture/text.hpp"
 #include "media/formats/file_kinds.hpp"
 #include "media/videos/mxf_unit.hpp"
 #include "system/mapped_file.hpp"
@@ -19,10 +19,6 @@ namespace {
 
 // Rates that lie this close are the same, as cameras keep time.
 constexpr double kSameRate = 0.02;
-
-std::string_view bytes_of(const MappedFile& file) {
-  return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
-}
 
 constexpr std::string_view kAnyCodec = "????";
 
@@ -89,26 +85,24 @@ SamsungRecording samsung_recording(std::string_view file) {
   return {};
 }
 
-// The text of Sony's NonRealTimeMeta; empty where there is none. Where another file has it, `from` becomes its name.
-std::string sony_story(const std::filesystem::path& path, std::string& from) {
+// The text of Sony's NonRealTimeMeta; empty where there is none. Where another file has it, `other` becomes that.
+std::string sony_story(const std::filesystem::path& path, std::filesystem::path& other) {
   constexpr std::string_view kName = "<NonRealTimeMeta";
   constexpr std::uintmax_t kMaxBytes = 1u << 20;
   const MappedFile mapped(path);
   for (const auto& boxes : {std::vector<std::string_view>{"meta"}, {"moov", "meta"}}) {
-    const std::string_view text = box_at(bytes_of(mapped), boxes);
+    const std::string_view text = box_at(as_text(mapped.bytes()), boxes);
     if (const auto at = text.find(kName); at != text.npos) return std::string(text.substr(at));
   }
-  const std::string extension = extension_of(path);
-  if (extension != ".mxf" && extension != ".mp4") return {};  // an export of another kind has other codes
-  const std::filesystem::path beside = path.parent_path() / (path.stem().string() + "M01.XML");
+  const std::filesystem::path beside = sony_file_of(path);
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(beside, error);
   if (error || bytes == 0 || bytes > kMaxBytes) return {};
   try {
     const MappedFile story(beside);
-    std::string text(bytes_of(story));
+    std::string text(as_text(story.bytes()));
     if (text.find(kName) == text.npos) return {};
-    from = beside.filename().string();
+    other = beside;
     return text;
   } catch (const InputError&) {
     return {};  // the clip can be read without it
@@ -145,10 +139,11 @@ std::optional<Rational> sony_rate(const std::string& story) {
 
 // What Sony's camera says: its XML, else the file's own metadata.
 CameraUnit camera_unit(const std::filesystem::path& path) {
-  std::string from = CameraUnit().from;
-  const std::string story = sony_story(path, from);
-  if (story.empty()) return mxf_unit(bytes_of(MappedFile(path)));
-  return {item_of(story, "CaptureGammaEquation"), item_of(story, "CaptureColorPrimaries"), sony_rate(story), from};
+  std::filesystem::path beside;
+  const std::string story = sony_story(path, beside);
+  if (story.empty()) return mxf_unit(as_text(MappedFile(path).bytes()));
+  return {item_of(story, "CaptureGammaEquation"), item_of(story, "CaptureColorPrimaries"), sony_rate(story),
+          beside.empty() ? CameraUnit().from : beside.filename().string()};
 }
 
 bool is_mp4(std::string_view file) { return file.size() >= 8 && file.substr(4, 4) == "ftyp"; }
@@ -195,6 +190,12 @@ double steady_rate(const std::vector<std::int64_t>& starts_ns) {
 
 }  // namespace
 
+std::filesystem::path story_beside(const std::filesystem::path& path) {
+  std::filesystem::path beside;
+  static_cast<void>(sony_story(path, beside));
+  return beside;
+}
+
 std::optional<NamedCurve> named_curve(const AVFormatContext& format, const std::filesystem::path& path,
                                       std::vector<Note>& notes) {
   const auto said = [&](const char* key) {
@@ -214,7 +215,7 @@ std::optional<NamedCurve> named_curve(const AVFormatContext& format, const std::
   // As Apple's VideoToolbox names them, kCVImageBufferLogTransferFunction_AppleLog and _AppleLog2.
   const MappedFile mapped(path);
   const std::string_view in_track =
-      box_at(bytes_of(mapped), {"moov", "trak", "mdia", "minf", "stbl", "stsd", kAnyCodec, "logs"});
+      box_at(as_text(mapped.bytes()), {"moov", "trak", "mdia", "minf", "stbl", "stsd", kAnyCodec, "logs"});
   const auto is_apples = [&](std::string_view name) {
     return in_track == name || said("com.apple.proapps.customgamma") == name;
   };
@@ -247,8 +248,8 @@ std::optional<CaptureRate> capture_rate(const AVFormatContext& format, const std
   }
   if (const CameraUnit unit = camera_unit(path); unit.rate) return CaptureRate{*unit.rate, "Sony's captureFps", unit.from};
   const MappedFile mapped(path);
-  if (!is_mp4(bytes_of(mapped))) return std::nullopt;
-  const SamsungRecording samsung = samsung_recording(bytes_of(mapped));
+  if (!is_mp4(as_text(mapped.bytes()))) return std::nullopt;
+  const SamsungRecording samsung = samsung_recording(as_text(mapped.bytes()));
   if (samsung.rate) return CaptureRate{*samsung.rate, "Samsung's smta"};
   if (samsung.is_slow) {
     notes.emplace_back(
@@ -262,7 +263,7 @@ std::optional<CaptureRate> capture_rate(const AVFormatContext& format, const std
 
 bool has_edits(const std::filesystem::path& path) {
   const MappedFile mapped(path);
-  std::string_view boxes = box_at(bytes_of(mapped), {"moov"});
+  std::string_view boxes = box_at(as_text(mapped.bytes()), {"moov"});
   while (!boxes.empty()) {
     const std::string_view track = box_at(boxes, {"trak"});
     if (track.empty()) return false;
@@ -290,7 +291,7 @@ bool has_slow_parts(const std::filesystem::path& path) {
   constexpr std::string_view kEnd = "SEFT", kName = "SlowMotion_Data";
   constexpr std::size_t kTail = 8, kMaxBytes = 1u << 20;
   const MappedFile mapped(path);
-  const std::string_view file = bytes_of(mapped);
+  const std::string_view file = as_text(mapped.bytes());
   return is_mp4(file) && file.ends_with(kEnd) &&
          file.substr(file.size() - std::min(file.size(), kMaxBytes + kTail)).find(kName) != file.npos;
 }

@@ -30,6 +30,9 @@ struct NamedCurve {
 [[nodiscard]] std::optional<NamedCurve> named_curve(const AVFormatContext& format, const std::filesystem::path& path,
                                                     std::vector<Note>& notes);
 
+// The file beside the clip that has Sony's XML; none where the clip has it itself, or there is none.
+[[nodiscard]] std::filesystem::path story_beside(const std::filesystem::path& path);
+
 // What Android's cameras write (com.android.capture.fps), Samsung's (moov/udta/smta), or Sony's (captureFps; see
 // above). Says in `notes` where that is no rate.
 [[nodiscard]] std::optional<CaptureRate> capture_rate(const AVFormatContext& format,

@@ -18,6 +18,7 @@
 #include <string_view>
 
 #include "capture/rational.hpp"
+#include "capture/text.hpp"
 #include "media/formats/readers.hpp"
 #include "system/mapped_file.hpp"
 
@@ -48,7 +49,7 @@ std::int64_t nanoseconds(std::uint64_t fixed_point) {
 std::optional<CineHeader> read_cine_header(const std::filesystem::path& path) {
   const MappedFile mapped(path);
   const auto file = mapped.bytes();
-  const std::string_view start(reinterpret_cast<const char*>(file.data()), file.size());
+  const std::string_view start = as_text(file);
   if (file.size() < kFileHeaderBytes || !readers::kPhantom.begins(start)) return std::nullopt;
   const std::uint64_t count = number<std::uint32_t>(file, 20);
   const std::uint64_t setup = number<std::uint32_t>(file, 28);

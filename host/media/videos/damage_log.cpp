@@ -62,16 +62,10 @@ DamageLog::~DamageLog() {
   listeners().known.erase(this);
 }
 
-void DamageLog::listen_to(AVCodecContext& decoder) {
+void DamageLog::listen_to(void*& opaque) {
   const std::scoped_lock lock(listeners().mutex);
   listeners().known.insert(this);
-  decoder.opaque = this;
-}
-
-void DamageLog::listen_to(AVFormatContext& file) {
-  const std::scoped_lock lock(listeners().mutex);
-  listeners().known.insert(this);
-  file.opaque = this;
+  opaque = this;
 }
 
 void DamageLog::note(const std::string& text) {
@@ -85,16 +79,6 @@ void DamageLog::note(const std::string& text) {
 std::optional<std::string> DamageLog::said() const {
   const std::scoped_lock lock(mutex_);
   return first_;
-}
-
-void DamageLog::expect_leading() {
-  const std::scoped_lock lock(mutex_);
-  is_leading_ = true;
-}
-
-void DamageLog::begin() {
-  const std::scoped_lock lock(mutex_);
-  has_begun_ = true;
 }
 
 void DamageLog::forget() {

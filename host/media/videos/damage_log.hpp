@@ -2,12 +2,10 @@
 // out a picture that seems whole; containers' readers go on behind it, and pictures are gone.
 #pragma once
 
+#include <atomic>
 #include <mutex>
 #include <optional>
 #include <string>
-
-struct AVCodecContext;
-struct AVFormatContext;
 
 namespace nutik::videos {
 
@@ -22,9 +20,8 @@ class DamageLog {
   DamageLog(const DamageLog&) = delete;
   DamageLog& operator=(const DamageLog&) = delete;
 
-  // The decoder must not be open yet: its threads have copies of it.
-  void listen_to(AVCodecContext& decoder);
-  void listen_to(AVFormatContext& file);
+  // `opaque` of a decoder, which must not be open yet (its threads have copies of it), or of a file.
+  void listen_to(void*& opaque);
 
   void note(const std::string& text);
   // The first that was said since the start or since forget().
@@ -32,13 +29,13 @@ class DamageLog {
   void forget();
   // Before the first picture that is shown, H.264 tells of pictures that lie before a cut: that those to be dropped are
   // missing, and that leading pictures, which nobody sees, refer to them. Neither damages a picture that is shown.
-  void expect_leading();
-  void begin();
+  void expect_leading() { is_leading_ = true; }
+  void begin() { has_begun_ = true; }
 
  private:
   mutable std::mutex mutex_;
   std::optional<std::string> first_;
-  bool has_begun_ = false, is_leading_ = false;
+  std::atomic<bool> has_begun_ = false, is_leading_ = false;
 };
 
 }  // namespace nutik::videos

@@ -8,6 +8,7 @@ extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
 #include <libavutil/display.h>
+#include <libavutil/dovi_meta.h>
 #include <libavutil/imgutils.h>
 #include <libavutil/opt.h>
 #include <libavutil/pixdesc.h>
@@ -153,11 +154,24 @@ inline std::optional<std::int64_t> most_pixels(const AVCodecParameters& told) {
   return (2 * std::int64_t{told.width} + 256) * (std::int64_t{told.height} + 320);
 }
 
-// An opened file and the index of its picture stream.
+// What is named of pictures' colours, by the numbers of H.273.
+struct ColourNumbers {
+  unsigned range = AVCOL_RANGE_UNSPECIFIED, matrix = AVCOL_SPC_UNSPECIFIED, curve = AVCOL_TRC_UNSPECIFIED,
+           primaries = AVCOL_PRI_UNSPECIFIED;
+};
+// In ProRes a matrix of 0, which is RGB's elsewhere, is unknown (SMPTE RDD 36).
+inline ColourNumbers colours_of(const AVCodecParameters& codec) {
+  unsigned matrix = number_of(codec.color_space);
+  if (codec.codec_id == AV_CODEC_ID_PRORES && matrix == AVCOL_SPC_RGB) matrix = AVCOL_SPC_UNSPECIFIED;
+  return {number_of(codec.color_range), matrix, number_of(codec.color_trc), number_of(codec.color_primaries)};
+}
+
+// An opened file and the index of its picture stream, whose parameters name the colours that its pictures do.
 struct OpenedVideo {
   std::unique_ptr<DamageLog> log = std::make_unique<DamageLog>();  // of its reader; outlives it
   FormatPointer format = nullptr;
   int stream = 0;
+  ColourNumbers container = {};  // what that names
 };
 
 // The name's own file, whatever the name looks like: FFmpeg takes what stands before a colon for a protocol.

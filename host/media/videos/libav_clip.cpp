@@ -6,6 +6,7 @@
 #include "media/clip.hpp"
 #include "media/formats/coding_points.hpp"
 #include "media/settled_fact.hpp"
+#include "media/videos/capture_rate.hpp"
 #include "media/videos/deinterlacer.hpp"
 #include "media/videos/eight_bit_yuv.hpp"
 #include "media/videos/libav.hpp"
@@ -22,13 +23,19 @@ namespace {
 // What a video's codes are taken for: as stated, else as the file says, else as most such files are.
 bool is_colour_yuv(const Probe& probe) { return is_yuv(probe.pixel_format) && !probe.pixels.is_grey; }
 
-// Where no matrix is named it is the usual one; where no range is named it is the limited one, of grey the full one.
-// Throws InputError naming the file where the matrix that it names is none that is known here.
+// Where no matrix is named it is the usual one; where no range is named it is the limited one, of grey and RGB the full
+// one. Throws InputError naming the file where the matrix or range that it names cannot be taken.
 YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options, const std::string& name) {
   if (!is_colour_yuv(probe)) {
     ClipOptions rest = options;
-    if (probe.pixels.is_grey) rest.range.reset();
+    rest.range.reset();
     refuse_yuv_options(rest);
+    if (!probe.pixels.is_grey && !options.range && probe.range == CodeRange::limited) {
+      throw InputError(format("{} holds RGB and names the limited range, which some encoders write beside codes of the "
+                              "full one, too: state the range, limited or full",
+                              name),
+                       {Setting::range});
+    }
   }
   if (options.chroma_at && !interpolates_chroma(probe.pixel_format, probe.pixels)) {
     throw UsageError(format("each pixel of {} has {}: leave the place of chroma out", name,
@@ -40,12 +47,12 @@ YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options, const std::
   if (!probe.unread_matrix.empty() && !options.matrix) {
     throw InputError(
         format("{} names a matrix by which no RGB is made here, {}: its colours would be wrong. Convert "
-               "it, for example with ffmpeg -vf zscale=matrix=709, or state the matrix that it really has",
-               name, probe.unread_matrix),
+               "it, for example with ffmpeg -vf {}, or state the matrix that it really has",
+               name, probe.unread_matrix, probe.matrix_filter),
         {Setting::matrix});
   }
   return {options.matrix.value_or(probe.matrix.value_or(usual_matrix(probe.shape.height))),
-          options.range.value_or(probe.range.value_or(probe.pixels.is_grey ? CodeRange::full : CodeRange::limited)),
+          options.range.value_or(probe.range.value_or(is_colour_yuv(probe) ? CodeRange::limited : CodeRange::full)),
           options.chroma_at};
 }
 
@@ -55,7 +62,7 @@ void describe(ClipInfo& info, const Probe& probe, const ClipOptions& options) {
   const PixelKind& pixels = probe.pixels;
   CaptureFormat& capture = info.format;
   std::vector<Fact>& facts = info.facts;
-  if (pixels.is_grey && pixels.bits > 8 && !pixels.is_limited_grey) {
+  if (pixels.is_grey && pixels.bits > 8 && !pixels.is_limited) {
     const bool fills_its_bits = pixels.bits == 16;
     settle_white(info, options.white_code,
                  fills_its_bits ? std::nullopt : std::optional(pixels.white_code()));
@@ -79,8 +86,8 @@ void describe(ClipInfo& info, const Probe& probe, const ClipOptions& options) {
     info.roundings.add(pixels.is_everyday() ? kMostOff : 0.5, 1.0,
                        shares_chroma(probe.pixel_format) ? "chroma" : "");
   }
-  if (pixels.is_limited_grey) info.roundings.add(0.5, 1.0, "");
-  if (is_colour_yuv(probe) || pixels.is_limited_grey || (pixels.is_grey && options.range)) {
+  if (pixels.is_limited) info.roundings.add(0.5, 1.0, "");
+  if (is_colour_yuv(probe) || pixels.is_limited || options.range) {
     const CodeRange range = settle(facts, options.range, probe.range, CodeRange::limited, Setting::range,
                                    [](CodeRange each) { return format("{} range", to_text(each)); });
     if (range == CodeRange::limited) capture.transfer = capture.transfer.scaled_from_video();
@@ -137,6 +144,18 @@ int decoder_threads(const OpenedVideo& opened, const ClipOptions& options) {
   return static_cast<int>(std::clamp<std::uint64_t>(pictures - std::min(pictures, kept), 1, cores));
 }
 
+// Whether a picture of a GIF has a pixel that is transparent.
+bool is_transparent(const AVFrame& frame) {
+  if (frame.format != AV_PIX_FMT_RGB32) return false;
+  for (int y = 0; y < frame.height; ++y) {
+    const std::uint8_t* const row = frame.data[0] + std::ptrdiff_t{y} * frame.linesize[0];
+    for (int x = 0; x < frame.width; ++x) {
+      if (row[4 * x + 3] != 255) return true;
+    }
+  }
+  return false;
+}
+
 class LibavClip final : public Clip {
  public:
   LibavClip(OpenedVideo opened, int threads, const std::filesystem::path& path, const Probe& probe,
@@ -164,23 +183,32 @@ class LibavClip final : public Clip {
                           decoded_bytes(parameters);
     describe(info_, probe, options);
     const YuvCoding coding = yuv_coding(probe, options, name_);
-    if (is_colour_yuv(probe) && !options.matrix) matrix_ = coding.matrix;
-    if ((is_colour_yuv(probe) || pixels.is_grey) && !options.range) range_ = coding.range;
-    if (!options.transfer) transfer_ = capture.transfer;
     is_everyday_ = pixels.is_everyday();
+    const ColourNumbers coded = colours_of(parameters);
+    if (is_colour_yuv(probe) && !options.matrix)
+      matrix_ = named_matrix(coded.matrix, coded.primaries).value_or(coding.matrix);
+    if (!options.range) range_ = named_range(coded.range, probe.pixel_format).value_or(coding.range);
+    if (!options.transfer) transfer_ = named_transfer(coded.curve).value_or(capture.transfer);
+    if (!pixels.is_grey && !options.primaries)
+      primaries_ = primaries_of_coding_point(coded.primaries).value_or(capture.primaries);
+    if (!options.pixel_aspect) aspect_ = named_aspect(parameters.sample_aspect_ratio).value_or(Rational{1, 1});
     settle_fields(options.interlaced);
   }
 
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
 
   [[nodiscard]] std::vector<std::string> remarks() const override {
-    auto doubt = is_told_ || frames_read_ == 0 ? std::nullopt : doubt_about_fields(has_interlaced_);
-    return doubt ? std::vector{std::move(*doubt)} : std::vector<std::string>();
+    auto doubt = fields_ || frames_read_ == 0 ? std::nullopt : doubt_about_fields(has_interlaced_);
+    std::vector<std::string> all;
+    if (doubt) all.push_back(std::move(*doubt));
+    if (has_transparent_) all.emplace_back(kNoTransparency);
+    return all;
   }
 
   bool read(std::span<std::byte> raster) override {
     if (!next_picture()) return false;
     check_whole();
+    if (decoder_.stream().codecpar->codec_id == AV_CODEC_ID_GIF) has_transparent_ |= is_transparent(*frame_);
     if (is_phantom_packed(*decoder_.stream().codecpar)) expand_phantom_codes(*frame_);
     converter_.convert(*frame_, raster, name_);
     ++frames_read_;
@@ -191,6 +219,7 @@ class LibavClip final : public Clip {
     const bool takes_frames = interlaced_ == Interlaced::refused || interlaced_ == Interlaced::ignored;
     if (takes_frames && !is_decoding_ && !refers_to_others(*decoder_.stream().codecpar)) {
       if (!decoder_.skip()) return false;
+      is_first_ = false;
     } else {
       if (!next_picture()) return false;
       check_whole();
@@ -200,6 +229,25 @@ class LibavClip final : public Clip {
   }
 
  private:
+  // None for what everyday cameras name whatever theirs is.
+  [[nodiscard]] std::optional<Transfer> named_transfer(unsigned curve) const {
+    const auto transfer = transfer_of_coding_point(curve);
+    return is_everyday_ && transfer == Transfer::bt709() ? std::nullopt : transfer;
+  }
+
+  [[nodiscard]] static std::optional<Rational> named_aspect(AVRational aspect) {
+    return aspect.num > 0 && aspect.den > 0 ? std::optional(Rational::of(aspect.num, aspect.den)) : std::nullopt;
+  }
+
+  // What rasters are made of.
+  [[nodiscard]] std::string pixels_text(int format) const {
+    AVCodecParameters parameters = *decoder_.stream().codecpar;
+    parameters.format = format;
+    const PixelKind kind = pixel_kind(parameters, name_);
+    const bool is_of_yuv = is_yuv(static_cast<AVPixelFormat>(format));
+    return nutik::format("{} of {} bits", kind.is_grey ? "grey" : is_of_yuv ? "YUV" : "RGB", kind.bits);
+  }
+
   // Throws where the picture names another coding than the first one, where that was not stated.
   void check_colour() {
     const auto check = [&](const auto& named, auto& taken, const auto& text) {
@@ -209,16 +257,21 @@ class LibavClip final : public Clip {
       throw InputError(format("{}: picture {} is of {}, the ones before it of {}", name_, frames_read_, text(*named),
                               text(*taken)));
     };
-    const unsigned curve = number_of(frame_->color_trc);
     const auto pixels = static_cast<AVPixelFormat>(frame_->format);
-    auto transfer = transfer_of_coding_point(curve);
-    if (is_everyday_ && transfer == Transfer::bt709()) transfer.reset();
     check(named_range(number_of(frame_->color_range), pixels), range_,
           [](CodeRange each) { return format("the {} range", to_text(each)); });
     check(named_matrix(number_of(frame_->colorspace), number_of(frame_->color_primaries)), matrix_,
           [](YuvMatrix each) { return format("matrix {}", to_text(each)); });
-    check(transfer, transfer_, [](const Transfer& each) { return "transfer " + each.text(); });
+    check(named_transfer(number_of(frame_->color_trc)), transfer_,
+          [](const Transfer& each) { return "transfer " + each.text(); });
+    check(primaries_of_coding_point(number_of(frame_->color_primaries)), primaries_,
+          [](Primaries each) { return format("primaries {}", to_text(each)); });
+    check(named_aspect(frame_->sample_aspect_ratio), aspect_, pixel_aspect_text);
     is_first_ = false;
+    const int taken_format = decoder_.stream().codecpar->format;
+    if (frame_->format == taken_format) return;
+    std::optional taken(pixels_text(taken_format));
+    check(std::optional(pixels_text(frame_->format)), taken, [](const std::string& each) { return each; });
   }
 
   // Throws where the picture is of another size or coding, or damaged.
@@ -247,12 +300,9 @@ class LibavClip final : public Clip {
     interlaced_ = wish;
     if (wish == Interlaced::refused && fields_) refuse_fields(name_, *fields_);
     const bool is_progressive = decoder_.stream().codecpar->field_order == AV_FIELD_PROGRESSIVE;
-    is_told_ = fields_.has_value() || is_progressive;
-    if (is_told_) {
-      if (auto doubt = doubt_about_fields(fields_.has_value()))
-        info_.notes.emplace_back(std::move(*doubt), std::vector{Setting::deinterlace});
-    }
-    if (wish == Interlaced::refused && !is_told_)
+    if (auto doubt = fields_ ? doubt_about_fields(true) : std::nullopt)
+      info_.notes.emplace_back(std::move(*doubt), std::vector{Setting::deinterlace});
+    if (wish == Interlaced::refused && !fields_ && !is_progressive)
       info_.facts.push_back({"progressive frames", Origin::assumed, Setting::deinterlace});
     if (wish == Interlaced::ignored) {
       info_.facts.push_back({fields_ ? "interlaced frames as they are" : "frames as they are", Origin::stated,
@@ -294,7 +344,7 @@ class LibavClip final : public Clip {
   }
 
   void set_white(std::uint32_t white, const PixelKind& pixels) {
-    if ((!pixels.is_grey || pixels.is_limited_grey) && white != pixels.white_code()) {
+    if ((!pixels.is_grey || pixels.is_limited) && white != pixels.white_code()) {
       throw UsageError(
           format("{}, whose white is {} whatever its depth was, not {}; leave the white code out",
                  pixels.is_grey ? "grey video of the limited range is scaled to the full one"
@@ -350,11 +400,13 @@ class LibavClip final : public Clip {
   std::optional<CodeRange> range_;
   std::optional<YuvMatrix> matrix_;
   std::optional<Transfer> transfer_;
+  std::optional<Primaries> primaries_;
+  std::optional<Rational> aspect_;
   bool is_everyday_ = false, is_first_ = true;
   Interlaced interlaced_ = Interlaced::refused;
   std::optional<FieldOrder> fields_;  // as the container says of all frames
-  bool is_told_ = false;              // by the container, whether they are interlaced
   bool has_interlaced_ = false;       // a frame that says so itself
+  bool has_transparent_ = false;      // a GIF's picture
   std::optional<Deinterlacer> deinterlacer_;
   bool has_ended_ = false;  // the decoder
 };
@@ -362,8 +414,8 @@ class LibavClip final : public Clip {
 std::unique_ptr<Clip> open_video_clip(const std::filesystem::path& path, const ClipOptions& options) {
   listen_to_ffmpeg();
   Probe probed = probe(path, options.raw);
-  probed.pixels.is_limited_grey =
-      probed.pixels.is_grey && options.range.value_or(probed.range.value_or(CodeRange::full)) == CodeRange::limited;
+  probed.pixels.is_limited =
+      !is_colour_yuv(probed) && options.range.value_or(probed.range.value_or(CodeRange::full)) == CodeRange::limited;
   OpenedVideo opened = open_video(path, options.raw);
   const int threads = decoder_threads(opened, options);
   return std::make_unique<LibavClip>(std::move(opened), threads, path, probed, options);
@@ -374,6 +426,7 @@ std::unique_ptr<Clip> open_video_clip(const std::filesystem::path& path, const C
 
 // What nutik-videos.so gives the program (media/module.hpp).
 extern "C" __attribute__((visibility("default"))) const nutik::VideoModule nutik_video_module{
-    nutik::use_shared_state, nutik::videos::open_video_clip, nutik::videos::open_libav_writer};
+    nutik::use_shared_state, nutik::videos::open_video_clip, nutik::videos::story_beside,
+    nutik::videos::open_libav_writer};
 
 extern "C" __attribute__((visibility("default"))) const char nutik_module_version[] = NUTIK_VERSION;

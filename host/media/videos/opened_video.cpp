@@ -85,7 +85,7 @@ OpenedVideo open_video(const std::filesystem::path& path, const std::optional<Ra
   OpenedVideo opened;
   opened.format.reset(allocated(avformat_alloc_context()));
   AVFormatContext* context = opened.format.get();
-  opened.log->listen_to(*context);
+  opened.log->listen_to(context->opaque);
   context->io_open = open_nothing;
   context->flags |= AVFMT_FLAG_CUSTOM_IO;
   int code = avio_open(&context->pb, url_of(path).c_str(), AVIO_FLAG_READ);
@@ -113,12 +113,16 @@ OpenedVideo open_video(const std::filesystem::path& path, const std::optional<Ra
                  "programs that repair such files make it anew from another recording of the same camera",
                  title));
     }
+    const std::string why = opened.log->said().value_or(error_text(code));
+    if (raw) throw InputError(format("{} cannot be read as it is described: {}", title, why), {Setting::raw_layout});
     throw InputError(
-        format("{} is no video that can be read: {}; a video without a header has to be described", title,
-               error_text(code)),
-        {Setting::raw_layout});
+        format("{} is no video that can be read: its header, of {} ({}), is damaged or names what FFmpeg does not read "
+               "({}); if it plays elsewhere, save it there as another kind of film",
+               title, kind.name, kind.long_name, why));
   }
   opened.format.reset(context);
+  std::vector<ColourNumbers> named;  // before decoders name others
+  for (unsigned i = 0; i < context->nb_streams; ++i) named.push_back(colours_of(*context->streams[i]->codecpar));
   code = find_stream_info(*context, title);
   for (unsigned i = 0; i < context->nb_streams; ++i) {
     AVStream& each = *context->streams[i];
@@ -128,6 +132,7 @@ OpenedVideo open_video(const std::filesystem::path& path, const std::optional<Ra
   if (code >= 0) code = av_find_best_stream(context, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
   if (code < 0) throw InputError(format("{} has no video stream", title));
   opened.stream = code;
+  if (static_cast<std::size_t>(code) < named.size()) opened.container = named[static_cast<std::size_t>(code)];
   set_rates_of_header(*context->streams[code]);
   return opened;
 }

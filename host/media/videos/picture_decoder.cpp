@@ -21,7 +21,7 @@ PictureDecoder::PictureDecoder(OpenedVideo opened, std::string name, Wanted want
   codec_->err_recognition = AV_EF_CRCCHECK;
   if (wanted == Wanted::times) codec_->skip_loop_filter = codec_->skip_idct = AVDISCARD_ALL;
   codec_->pkt_timebase = stream().time_base;
-  damage_->listen_to(*codec_);
+  damage_->listen_to(codec_->opaque);
   const int code = avcodec_parameters_to_context(codec_.get(), &parameters);
   codec_->max_pixels = most_pixels(parameters).value_or(codec_->max_pixels);
   // Some files give the depth of what the table makes of them.

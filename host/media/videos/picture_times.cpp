@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "capture/text.hpp"
 #include "media/videos/containers.hpp"
 
 namespace nutik::videos {
@@ -57,11 +58,10 @@ bool y4m_states_rate(std::string_view file) {
 
 // Whether an AVI states a rate: as scale and rate of its stream, else as microseconds a picture.
 bool avi_states_rate(std::string_view file) {
-  const auto is_zero = [&](std::size_t at) {
-    return at > file.size() || file.substr(at, 4) == std::string_view("\0\0\0\0", 4);
-  };
+  const auto four_at = [&](std::size_t at) { return file.substr(std::min(at, file.size()), 4); };
+  const auto is_zero = [&](std::size_t at) { return std::string_view("\0\0\0\0", 4).starts_with(four_at(at)); };
   std::size_t stream = file.find("strh");
-  while (stream != file.npos && file.substr(stream + 8, 4) != "vids") stream = file.find("strh", stream + 1);
+  while (stream != file.npos && four_at(stream + 8) != "vids") stream = file.find("strh", stream + 1);
   if (stream == file.npos || (!is_zero(stream + 28) && !is_zero(stream + 32))) return true;
   const std::size_t header = file.find("avih");
   return header != file.npos && !is_zero(header + 8);
@@ -145,8 +145,7 @@ std::optional<std::string> doubt_about_rate(const AVFormatContext& file, const A
                                             std::span<const std::byte> bytes) {
   constexpr std::size_t kHeaderBytes = 1u << 16;
   const std::string_view kind = file.iformat->name;
-  const std::string_view start(reinterpret_cast<const char*>(bytes.data()),
-                               std::min(bytes.size(), kHeaderBytes));
+  const std::string_view start = as_text(bytes).substr(0, kHeaderBytes);
   const AVRational rate = stream.r_frame_rate;
   const bool is_made_up =
       std::ranges::find(kUntimed, kind) != std::end(kUntimed) || av_cmp_q(rate, kUnstatedRate) == 0 ||

@@ -12,31 +12,20 @@
 namespace nutik::videos {
 namespace {
 
+// FFmpeg's format of these components with so many bits, else with 16.
+AVPixelFormat with_bits(const std::string& components, std::uint32_t bits) {
+  const AVPixelFormat found = av_get_pix_fmt((components + std::to_string(std::min(bits, 16u))).c_str());
+  return found == AV_PIX_FMT_NONE ? av_get_pix_fmt((components + "16").c_str()) : found;
+}
+
 AVPixelFormat raster_format(const PixelKind& kind) {
   if (!kind.is_grey) return kind.bits <= 8 ? AV_PIX_FMT_RGB24 : AV_PIX_FMT_RGB48;
-  switch (kind.bits + kind.padding_bits) {
-    case 8: return AV_PIX_FMT_GRAY8;
-    case 9: return AV_PIX_FMT_GRAY9;
-    case 10: return AV_PIX_FMT_GRAY10;
-    case 12: return AV_PIX_FMT_GRAY12;
-    case 14: return AV_PIX_FMT_GRAY14;
-    default: return AV_PIX_FMT_GRAY16;
-  }
+  return with_bits("gray", kind.bits + kind.padding_bits);
 }
 
 bool has_j_name(AVPixelFormat format) {
   const char* name = av_get_pix_fmt_name(format);
   return name != nullptr && std::string_view(name).starts_with("yuvj");
-}
-
-AVPixelFormat planar_format(std::uint32_t bits) {
-  switch (bits) {
-    case 9: return AV_PIX_FMT_YUV444P9;
-    case 10: return AV_PIX_FMT_YUV444P10;
-    case 12: return AV_PIX_FMT_YUV444P12;
-    case 14: return AV_PIX_FMT_YUV444P14;
-    default: return AV_PIX_FMT_YUV444P16;
-  }
 }
 
 // Turns planes of Y, U and V of `bits` bits into RGB over 16 bits, each code the nearest there is.
@@ -104,10 +93,70 @@ void copy_upright(const std::uint8_t* from, std::ptrdiff_t stride, std::size_t w
   }
 }
 
+std::optional<ChromaPlace> chroma_place(unsigned location) {
+  // Ours have FFmpeg's order.
+  static_assert(AVCHROMA_LOC_CENTER - AVCHROMA_LOC_LEFT == static_cast<int>(ChromaPlace::center));
+  static_assert(AVCHROMA_LOC_BOTTOM - AVCHROMA_LOC_LEFT == static_cast<int>(ChromaPlace::bottom));
+  if (location < AVCHROMA_LOC_LEFT || location > AVCHROMA_LOC_BOTTOM) return std::nullopt;
+  return static_cast<ChromaPlace>(location - AVCHROMA_LOC_LEFT);
+}
+
+// The format that has the same components, each in a plane of its own.
+AVPixelFormat planar_kin(AVPixelFormat format) {
+  const AVPixFmtDescriptor& packed = *av_pix_fmt_desc_get(format);
+  constexpr std::uint64_t kCompared = AV_PIX_FMT_FLAG_PLANAR | AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_BE;
+  const std::uint64_t wanted = AV_PIX_FMT_FLAG_PLANAR | (packed.flags & AV_PIX_FMT_FLAG_RGB);
+  const AVPixFmtDescriptor* each = nullptr;
+  while ((each = av_pix_fmt_desc_next(each)) != nullptr) {
+    if (each->nb_components == 3 && (each->flags & kCompared) == wanted && each->comp[0].shift == 0 &&
+        each->comp[0].depth == packed.comp[0].depth && each->comp[1].step == (packed.comp[0].depth + 7) / 8 &&
+        each->log2_chroma_w == packed.log2_chroma_w && each->log2_chroma_h == packed.log2_chroma_h) {
+      return av_pix_fmt_desc_get_id(each);
+    }
+  }
+  return AV_PIX_FMT_NONE;
+}
+
+// Whether libswscale does not read such pixels, or has a white of its own for them. FFmpeg does not tell where the luma
+// of uyyvyy411 lies.
+bool is_unpacked_here(AVPixelFormat format) {
+  const bool is_read = format != AV_PIX_FMT_X2RGB10LE && format != AV_PIX_FMT_X2BGR10LE && sws_isSupportedInput(format);
+  return !is_read && format != AV_PIX_FMT_UYYVYY411 && planar_kin(format) != AV_PIX_FMT_NONE;
+}
+
+// Null where such pixels cannot be converted.
+SwsContext* new_scaler(const AVFrame& frame, AVPixelFormat wanted, ChromaPlace at) {
+  std::unique_ptr<SwsContext, decltype(&sws_freeContext)> scaler(sws_alloc_context(), &sws_freeContext);
+  if (!scaler) return nullptr;
+  const auto from = static_cast<AVPixelFormat>(frame.format);
+  const auto set = [&](const char* option, std::int64_t value) {
+    av_opt_set_int(scaler.get(), option, value, 0);
+  };
+  for (const char* end : {"src", "dst"}) {
+    set((end + std::string("w")).c_str(), frame.width);
+    set((end + std::string("h")).c_str(), frame.height);
+  }
+  set("src_format", from);
+  set("dst_format", wanted);
+  set("sws_flags", SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT);
+  // Where samples of chroma lie between those of luma, in 256ths of their distance.
+  constexpr int kBetween = 128;
+  const AVPixFmtDescriptor& pixels = *av_pix_fmt_desc_get(from);
+  const bool is_centred = at == ChromaPlace::center || at == ChromaPlace::top || at == ChromaPlace::bottom;
+  const bool is_top = at == ChromaPlace::topleft || at == ChromaPlace::top;
+  const bool is_bottom = at == ChromaPlace::bottomleft || at == ChromaPlace::bottom;
+  const bool is_interpolated = is_yuv(from) && av_pix_fmt_desc_get(wanted)->log2_chroma_w == 0;
+  if (is_interpolated && pixels.log2_chroma_w == 1) set("src_h_chr_pos", is_centred ? kBetween : 0);
+  if (is_interpolated && pixels.log2_chroma_h == 1) {
+    set("src_v_chr_pos", is_top ? 0 : is_bottom ? 2 * kBetween : kBetween);
+  }
+  return sws_init_context(scaler.get(), nullptr, nullptr) < 0 ? nullptr : scaler.release();
+}
+
 }  // namespace
 
 std::uint32_t PixelKind::white_code() const {
-  if (is_grey && !is_limited_grey) return (1u << bits) - 1;
+  if (is_grey && !is_limited) return (1u << bits) - 1;
   return bits <= 8 ? 255 : 65'535;
 }
 
@@ -216,29 +265,9 @@ std::optional<YuvMatrix> named_matrix(unsigned space, unsigned primaries) {
 }
 
 std::optional<CodeRange> named_range(unsigned range, AVPixelFormat format) {
-  if (range == AVCOL_RANGE_JPEG || has_j_name(format)) return CodeRange::full;
-  return range == AVCOL_RANGE_MPEG ? std::optional(CodeRange::limited) : std::nullopt;
+  if (range == AVCOL_RANGE_MPEG) return CodeRange::limited;
+  return range == AVCOL_RANGE_JPEG || has_j_name(format) ? std::optional(CodeRange::full) : std::nullopt;
 }
-
-namespace {
-
-constexpr std::pair<unsigned, ChromaPlace> kChromaPlaces[] = {
-    {AVCHROMA_LOC_LEFT, ChromaPlace::left},
-    {AVCHROMA_LOC_CENTER, ChromaPlace::center},
-    {AVCHROMA_LOC_TOPLEFT, ChromaPlace::topleft},
-    {AVCHROMA_LOC_TOP, ChromaPlace::top},
-    {AVCHROMA_LOC_BOTTOMLEFT, ChromaPlace::bottomleft},
-    {AVCHROMA_LOC_BOTTOM, ChromaPlace::bottom},
-};
-
-std::optional<ChromaPlace> chroma_place(unsigned location) {
-  for (const auto& [theirs, ours] : kChromaPlaces) {
-    if (theirs == location) return ours;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
 
 std::optional<ChromaPlace> named_chroma_place(const AVCodecParameters& codec) {
   return chroma_place(number_of(codec.chroma_location));
@@ -286,70 +315,20 @@ Upright upright_of(std::span<const std::uint8_t> display_matrix) {
   return upright;
 }
 
-namespace {
-
-// The format that has the same components, each in a plane of its own.
-AVPixelFormat planar_kin(AVPixelFormat format) {
-  const AVPixFmtDescriptor& packed = *av_pix_fmt_desc_get(format);
-  constexpr std::uint64_t kCompared = AV_PIX_FMT_FLAG_PLANAR | AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_BE;
-  const std::uint64_t wanted = AV_PIX_FMT_FLAG_PLANAR | (packed.flags & AV_PIX_FMT_FLAG_RGB);
-  const AVPixFmtDescriptor* each = nullptr;
-  while ((each = av_pix_fmt_desc_next(each)) != nullptr) {
-    if (each->nb_components == 3 && (each->flags & kCompared) == wanted && each->comp[0].shift == 0 &&
-        each->comp[0].depth == packed.comp[0].depth && each->comp[1].step == (packed.comp[0].depth + 7) / 8 &&
-        each->log2_chroma_w == packed.log2_chroma_w && each->log2_chroma_h == packed.log2_chroma_h) {
-      return av_pix_fmt_desc_get_id(each);
-    }
-  }
-  return AV_PIX_FMT_NONE;
-}
-
-// Whether libswscale does not read such pixels, or has a white of its own for them. FFmpeg does not tell where the luma
-// of uyyvyy411 lies.
-bool is_unpacked_here(AVPixelFormat format) {
-  const bool is_read = format != AV_PIX_FMT_X2RGB10LE && format != AV_PIX_FMT_X2BGR10LE && sws_isSupportedInput(format);
-  return !is_read && format != AV_PIX_FMT_UYYVYY411 && planar_kin(format) != AV_PIX_FMT_NONE;
-}
-
-// Null where such pixels cannot be converted.
-SwsContext* new_scaler(const AVFrame& frame, AVPixelFormat wanted, ChromaPlace at) {
-  std::unique_ptr<SwsContext, decltype(&sws_freeContext)> scaler(sws_alloc_context(), &sws_freeContext);
-  if (!scaler) return nullptr;
-  const auto from = static_cast<AVPixelFormat>(frame.format);
-  const auto set = [&](const char* option, std::int64_t value) {
-    av_opt_set_int(scaler.get(), option, value, 0);
-  };
-  for (const char* end : {"src", "dst"}) {
-    set((end + std::string("w")).c_str(), frame.width);
-    set((end + std::string("h")).c_str(), frame.height);
-  }
-  set("src_format", from);
-  set("dst_format", wanted);
-  set("sws_flags", SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT);
-  // Where samples of chroma lie between those of luma, in 256ths of their distance.
-  constexpr int kBetween = 128;
-  const AVPixFmtDescriptor& pixels = *av_pix_fmt_desc_get(from);
-  const bool is_centred = at == ChromaPlace::center || at == ChromaPlace::top || at == ChromaPlace::bottom;
-  const bool is_top = at == ChromaPlace::topleft || at == ChromaPlace::top;
-  const bool is_bottom = at == ChromaPlace::bottomleft || at == ChromaPlace::bottom;
-  const bool is_interpolated = is_yuv(from) && av_pix_fmt_desc_get(wanted)->log2_chroma_w == 0;
-  if (is_interpolated && pixels.log2_chroma_w == 1) set("src_h_chr_pos", is_centred ? kBetween : 0);
-  if (is_interpolated && pixels.log2_chroma_h == 1) {
-    set("src_v_chr_pos", is_top ? 0 : is_bottom ? 2 * kBetween : kBetween);
-  }
-  return sws_init_context(scaler.get(), nullptr, nullptr) < 0 ? nullptr : scaler.release();
-}
-
-}  // namespace
-
 PixelConverter::PixelConverter(PixelKind kind, Upright upright, YuvCoding coding)
-    : kind_(kind), upright_(upright), coding_(coding) {
-  if (kind.padding_bits == 0 && !kind.is_limited_grey) return;
+    : kind_(kind),
+      upright_(upright),
+      coding_(coding),
+      raster_format_(raster_format(kind)),
+      planar_format_(with_bits("yuv444p", kind.bits)) {
+  if (kind.padding_bits == 0 && !kind.is_limited) return;
   const double white = kind.white_code(), unit = std::ldexp(1.0, static_cast<int>(std::max(kind.bits, 8u)) - 8);
   code_of_.resize(kind.bits > 8 ? 65'536 : 256);
+  // RGB of 9 to 15 bits was spread over 16.
+  const double steps = kind.is_grey ? 1 : (256 * unit - 1) / static_cast<double>(code_of_.size() - 1);
   for (std::uint32_t i = 0; i < code_of_.size(); ++i) {
-    double code = i >> kind.padding_bits;
-    if (kind.is_limited_grey) code = std::clamp((code - 16 * unit) / (219 * unit), 0.0, 1.0) * white + 0.5;
+    double code = std::round((i >> kind.padding_bits) * steps);
+    if (kind.is_limited) code = std::clamp((code - 16 * unit) / (219 * unit), 0.0, 1.0) * white + 0.5;
     code_of_[i] = static_cast<std::uint16_t>(code);
   }
 }
@@ -409,7 +388,7 @@ const AVFrame& PixelConverter::byte_planes(const AVFrame& frame, const std::stri
 
 const AVFrame& PixelConverter::converted(const AVFrame& frame, const std::string& name) {
   if (kind_.is_grey || !is_yuv(static_cast<AVPixelFormat>(frame.format))) {
-    return scaled(frame, raster_format(kind_), name);
+    return scaled(frame, raster_format_, name);
   }
   if (kind_.is_everyday()) {
     if (!rgb_) rgb_ = new_frame(AV_PIX_FMT_RGB24, frame.width, frame.height);
@@ -417,7 +396,7 @@ const AVFrame& PixelConverter::converted(const AVFrame& frame, const std::string
     return *rgb_;
   }
   // libswscale only gives every pixel its U and V.
-  const AVFrame& planes = scaled(frame, planar_format(kind_.bits), name);
+  const AVFrame& planes = scaled(frame, planar_format_, name);
   if (!rgb_) rgb_ = new_frame(AV_PIX_FMT_RGB48, frame.width, frame.height);
   yuv_to_rgb(planes, kind_.bits, coding_, *rgb_);
   return *rgb_;
@@ -428,16 +407,16 @@ void PixelConverter::convert(const AVFrame& given, std::span<std::byte> raster, 
   const AVFrame& frame = is_unpacked ? unpacked(given) : given;
   const std::size_t pixel_bytes = (kind_.is_grey ? 1u : 3u) * (kind_.bits > 8 ? 2u : 1u);
   const std::size_t row_bytes = static_cast<std::size_t>(frame.width) * pixel_bytes;
-  const AVPixelFormat wanted = raster_format(kind_);
   const bool stays = upright_.quarter_turns == 0 && !upright_.is_mirrored;
   auto* row = reinterpret_cast<std::uint8_t*>(raster.data());
   if (kind_.is_everyday() && is_yuv(static_cast<AVPixelFormat>(frame.format)) && stays) {
     eight_bit_rgb(byte_planes(frame, name), coding_, row, static_cast<std::ptrdiff_t>(row_bytes));
     return;
   }
-  if (wanted == AV_PIX_FMT_RGB24 && frame.format != wanted && stays && is_aligned(raster, row_bytes)) {
+  if (raster_format_ == AV_PIX_FMT_RGB24 && frame.format != raster_format_ && stays && code_of_.empty() &&
+      is_aligned(raster, row_bytes)) {
     const int stride = static_cast<int>(row_bytes);
-    scale(frame, wanted, name, &row, &stride);
+    scale(frame, raster_format_, name, &row, &stride);
     return;
   }
   const AVFrame& picture = converted(frame, name);

@@ -1,6 +1,6 @@
 // How FFmpeg's pictures become rasters of codes.
 //
-//   grey      as stored: 8, 9, 10, 12, 14 or 16 bits, code for code; of the limited range as luma of YUV
+//   grey      as stored: 8, 9, 10, 12, 14 or 16 bits, code for code; of the limited range as luma of YUV, as is RGB
 //   colour    8 bits as 8-bit RGB, deeper as RGB over the full 16-bit range, YUV by a matrix and a range
 // Transparency is left out.
 #pragma once
@@ -21,7 +21,7 @@ struct PixelKind {
   std::uint32_t bits = 8;  // of a component, of which 1 to 8 are read as 8
   // Empty low bits that the decoder puts below the codes of the file, to fill 16 bits.
   std::uint32_t padding_bits = 0;
-  bool is_limited_grey = false;  // whose codes are scaled to the full range
+  bool is_limited = false;  // grey or RGB whose codes are scaled to the full range
 
   // 8-bit colour, as players show it.
   [[nodiscard]] bool is_everyday() const { return !is_grey && bits <= 8; }
@@ -95,7 +95,9 @@ class PixelConverter {
   PixelKind kind_;
   Upright upright_;
   YuvCoding coding_;
-  std::vector<std::uint16_t> code_of_;  // what becomes of each code of grey; empty: it stays
+  AVPixelFormat raster_format_;
+  AVPixelFormat planar_format_;         // of YUV, before it is RGB
+  std::vector<std::uint16_t> code_of_;  // what becomes of each code of grey or RGB; empty: it stays
   ScalerPointer scaler_;
   AVPixelFormat scales_from_ = AV_PIX_FMT_NONE, scales_to_ = AV_PIX_FMT_NONE;
   ChromaPlace chroma_at_ = kDefaultChromaPlace;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -33,12 +34,58 @@ std::string transfer_name(unsigned number) {
   return name == nullptr ? std::to_string(number) : name;
 }
 
-// Null where FFmpeg knows none.
-const char* matrix_name(unsigned number) {
-  return number < AVCOL_SPC_NB ? av_color_space_name(static_cast<AVColorSpace>(number)) : nullptr;
+// By its number where FFmpeg knows none.
+std::string matrix_name(unsigned number) {
+  const char* const name = number < AVCOL_SPC_NB ? av_color_space_name(static_cast<AVColorSpace>(number)) : nullptr;
+  return name != nullptr ? name : format("number {} of H.273", number);
 }
-const char* primaries_name(unsigned number) {
-  return number < AVCOL_PRI_NB ? av_color_primaries_name(static_cast<AVColorPrimaries>(number)) : nullptr;
+std::string primaries_name(unsigned number) {
+  const char* const name =
+      number < AVCOL_PRI_NB ? av_color_primaries_name(static_cast<AVColorPrimaries>(number)) : nullptr;
+  return name != nullptr ? name : format("number {} of H.273", number);
+}
+
+// Those that count: a container's go before those that its pictures name (ISO/IEC 14496-12, 12.1.5), with a note where
+// these are others. But programs write the limited range into MP4s of RGB whose pictures name the full one.
+ColourNumbers named_colours(const OpenedVideo& opened, const ColourNumbers& coded, std::vector<Note>& notes) {
+  using Numbers = const ColourNumbers&;
+  const auto pixels = static_cast<AVPixelFormat>(opened.format->streams[opened.stream]->codecpar->format);
+  ColourNumbers taken = coded;
+  std::string theirs, others;
+  std::vector<Setting> settings;
+  const auto settle = [&](unsigned ColourNumbers::* number, unsigned none, Setting setting, const auto& text) {
+    if (opened.container.*number == none) return;
+    taken.*number = opened.container.*number;
+    const std::string here = text(opened.container), there = text(coded);
+    if (coded.*number == none || here == there) return;
+    theirs += (theirs.empty() ? "" : ", ") + here;
+    others += (others.empty() ? "" : ", ") + there;
+    settings.push_back(setting);
+  };
+  if (is_yuv(pixels) || coded.range != AVCOL_RANGE_JPEG) {
+    settle(&ColourNumbers::range, AVCOL_RANGE_UNSPECIFIED, Setting::range,
+           [](Numbers each) { return std::string(each.range == AVCOL_RANGE_JPEG ? "full range" : "limited range"); });
+  }
+  settle(&ColourNumbers::matrix, AVCOL_SPC_UNSPECIFIED, Setting::matrix, [](Numbers each) {
+    const auto known = named_matrix(each.matrix, each.primaries);
+    return format("matrix {}", known ? to_text(*known) : matrix_name(each.matrix));
+  });
+  settle(&ColourNumbers::curve, AVCOL_TRC_UNSPECIFIED, Setting::transfer, [](Numbers each) {
+    const auto known = transfer_of_coding_point(each.curve);
+    return "transfer " + (known ? known->text() : transfer_name(each.curve));
+  });
+  settle(&ColourNumbers::primaries, AVCOL_PRI_UNSPECIFIED, Setting::primaries, [](Numbers each) {
+    const auto known = primaries_of_coding_point(each.primaries);
+    return "primaries " + (known ? std::string(to_text(*known)) : primaries_name(each.primaries));
+  });
+  if (!settings.empty()) {
+    notes.emplace_back(
+        format("the container names {}, and by its pictures it would be {}: the container's count; state others if "
+               "these are wrong",
+               theirs, others),
+        std::move(settings));
+  }
+  return taken;
 }
 
 std::optional<Rational> pixel_aspect(AVFormatContext* format, AVStream& stream, const Upright& upright) {
@@ -186,6 +233,14 @@ std::optional<std::string> matroska_cut_note(std::span<const std::byte> bytes) {
   return {};
 }
 
+// With its buffer, which it may have replaced.
+struct FreeReader {
+  void operator()(AVIOContext* reader) const {
+    av_freep(&reader->buffer);
+    avio_context_free(&reader);
+  }
+};
+
 // Whether a NUT file without an index, whose last picture ends with the file, has all of that picture: what reads more than
 // there is would take a byte that is added to it.
 bool has_all_of_last(const AVInputFormat& kind, std::span<const std::byte> bytes) {
@@ -203,18 +258,18 @@ bool has_all_of_last(const AVInputFormat& kind, std::span<const std::byte> bytes
     return static_cast<int>(std::max<std::size_t>(count, 1));
   };
   constexpr int kBufferBytes = 1 << 16;
-  auto* buffer = static_cast<unsigned char*>(allocated(av_malloc(kBufferBytes)));
+  std::unique_ptr<void, decltype(&av_free)> buffer(allocated(av_malloc(kBufferBytes)), av_free);
+  const std::unique_ptr<AVIOContext, FreeReader> reader(allocated(avio_alloc_context(
+      static_cast<unsigned char*>(buffer.get()), kBufferBytes, 0, &longer, read, nullptr, nullptr)));
+  static_cast<void>(buffer.release());
+  const PacketPointer packet(allocated(av_packet_alloc()));
   AVFormatContext* context = allocated(avformat_alloc_context());
-  context->pb = allocated(avio_alloc_context(buffer, kBufferBytes, 0, &longer, read, nullptr, nullptr));
-  AVIOContext* bytes_of = context->pb;
+  context->pb = reader.get();
   std::int64_t end = 0;
   if (avformat_open_input(&context, "", &kind, nullptr) == 0) {
-    const PacketPointer packet(allocated(av_packet_alloc()));
     for (; av_read_frame(context, packet.get()) >= 0; av_packet_unref(packet.get())) end = packet->pos + packet->size;
     avformat_close_input(&context);
   }
-  av_freep(&bytes_of->buffer);
-  avio_context_free(&bytes_of);
   return end == static_cast<std::int64_t>(bytes.size());
 }
 
@@ -302,6 +357,22 @@ std::vector<std::int64_t> picture_times(const std::filesystem::path& path, const
   return times;
 }
 
+// How pictures come to stand upright that say it themselves: of H.264 or HEVC, from a stream's first packet.
+Upright upright_of_first(const AVPacket& packet, const AVCodecParameters& codec) {
+  if (codec.codec_id != AV_CODEC_ID_H264 && codec.codec_id != AV_CODEC_ID_HEVC) return {};
+  const CodecPointer decoder(allocated(avcodec_alloc_context3(avcodec_find_decoder(codec.codec_id))));
+  const FramePointer picture(allocated(av_frame_alloc()));
+  avcodec_parameters_to_context(decoder.get(), &codec);
+  decoder->skip_loop_filter = decoder->skip_idct = AVDISCARD_ALL;
+  decoder->max_pixels = most_pixels(codec).value_or(decoder->max_pixels);
+  if (avcodec_open2(decoder.get(), nullptr, nullptr) < 0) return {};
+  avcodec_send_packet(decoder.get(), &packet);
+  avcodec_send_packet(decoder.get(), nullptr);
+  if (avcodec_receive_frame(decoder.get(), picture.get()) < 0) return {};
+  const AVFrameSideData* const data = av_frame_get_side_data(picture.get(), AV_FRAME_DATA_DISPLAYMATRIX);
+  return data == nullptr ? Upright{} : upright_of(std::span(data->data, data->size));
+}
+
 }  // namespace
 
 Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& raw) {
@@ -326,13 +397,14 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
                input_title(path.string())));
   }
   result.pixel_format = static_cast<AVPixelFormat>(codec.format);
-  result.upright = upright_of(side_data(stream, AV_PKT_DATA_DISPLAYMATRIX));
-  const unsigned curve = number_of(codec.color_trc), matrix = number_of(codec.color_space),
-                 primaries = number_of(codec.color_primaries);
+  const auto display_matrix = side_data(stream, AV_PKT_DATA_DISPLAYMATRIX);
+  result.upright = upright_of(display_matrix);
+  const ColourNumbers coded = colours_of(codec);
+  const auto& [range, matrix, curve, primaries] = named_colours(opened, coded, result.notes);
   result.transfer = is_phantom_packed(codec) ? Transfer::linear() : transfer_of_coding_point(curve);
   result.transfer_name = transfer_name(curve);
   result.matrix = named_matrix(matrix, primaries);
-  result.range = named_range(number_of(codec.color_range), result.pixel_format);
+  result.range = named_range(range, result.pixel_format);
   result.chroma_at = named_chroma_place(codec);
   result.primaries = primaries_of_coding_point(primaries);
   if (const auto named = raw ? std::nullopt : named_curve(*opened.format, path, result.notes)) {
@@ -357,35 +429,34 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
                "makes a clip of another",
                films, opened.stream));
   }
-  result.pixel_aspect = pixel_aspect(opened.format.get(), stream, result.upright);
-  if (!result.upright.left_out.empty()) {
-    result.notes.emplace_back(
-        format("the file's display matrix {}, and only quarter turns are made: they are turned by {} degrees",
-               result.upright.left_out, 90 * result.upright.quarter_turns));
-  }
-  const auto note_unknown = [&](bool is_known, const char* what, const char* name, Setting setting) {
-    if (is_known || name == nullptr || *name == 0) return;
+  const auto note_unknown = [&](bool is_known, const char* what, const std::string& name, Setting setting) {
+    if (is_known || name.empty()) return;
     result.notes.emplace_back(
         format("the file's {}, {}, is not known here and another is taken; state which", what, name),
         std::vector{setting});
   };
-  note_unknown(result.transfer.has_value(), "transfer function", result.transfer_name.c_str(),
-               Setting::transfer);
+  note_unknown(result.transfer.has_value(), "transfer function", result.transfer_name, Setting::transfer);
   if (matrix != AVCOL_SPC_UNSPECIFIED && matrix != AVCOL_SPC_RESERVED && is_yuv(result.pixel_format) &&
       !result.pixels.is_grey && !result.matrix) {
-    const char* const name = matrix_name(matrix);
-    result.unread_matrix = name != nullptr ? name : format("number {} of H.273", matrix);
+    result.unread_matrix = matrix_name(matrix);
+  }
+  AVDOVIDecoderConfigurationRecord vision;
+  if (const auto dolby = side_data(stream, AV_PKT_DATA_DOVI_CONF); dolby.size() >= sizeof vision) {
+    std::memcpy(&vision, dolby.data(), sizeof vision);
+    if (vision.dv_profile == 5 || (vision.dv_profile == 10 && vision.dv_bl_signal_compatibility_id == 0)) {
+      result.unread_matrix = format("IPT of Dolby Vision's profile {}", vision.dv_profile);
+      result.matrix_filter = "libplacebo=colorspace=bt709:color_primaries=bt709:color_trc=bt709:format=yuv420p10";
+    }
   }
   if (primaries != AVCOL_PRI_UNSPECIFIED && primaries != AVCOL_PRI_RESERVED &&
       primaries != AVCOL_PRI_RESERVED0 && !(result.transfer && result.transfer->usual_primaries())) {
-    const char* const name = primaries_name(primaries);
-    note_unknown(result.primaries.has_value(), "set of primaries",
-                 name != nullptr ? name : format("number {} of H.273", primaries).c_str(),
-                 Setting::primaries);
+    note_unknown(result.primaries.has_value(), "set of primaries", primaries_name(primaries), Setting::primaries);
   }
-  if ((av_pix_fmt_desc_get(static_cast<AVPixelFormat>(codec.format))->flags & AV_PIX_FMT_FLAG_ALPHA) != 0) {
-    result.notes.emplace_back("the file's transparency is left out");
-  }
+  // Every GIF is decoded with transparency, whether its pictures have any, and no VP9.
+  const bool has_alpha = (av_pix_fmt_desc_get(result.pixel_format)->flags & AV_PIX_FMT_FLAG_ALPHA) != 0;
+  const AVDictionaryEntry* const mode = av_dict_get(stream.metadata, "alpha_mode", nullptr, 0);
+  if ((has_alpha && codec.codec_id != AV_CODEC_ID_GIF) || (mode != nullptr && mode->value == std::string_view("1")))
+    result.notes.emplace_back(kNoTransparency);
   if (raw) {
     result.sample_count = count_raw_pictures(path, *raw);
     return result;
@@ -409,6 +480,7 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
       is_last_whole = is_whole(*opened.format, *packet, file_bytes);
     }
     if (counts) {
+      if (packets.empty() && display_matrix.empty()) result.upright = upright_of_first(*packet, codec);
       packets.push_back({packet->pts, packet->dts, packet->duration, (packet->flags & AV_PKT_FLAG_KEY) != 0});
       last_byte = packet->pos + packet->size;
       const std::int64_t time = packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts;
@@ -417,6 +489,12 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
       }
     }
     av_packet_unref(packet.get());
+  }
+  result.pixel_aspect = pixel_aspect(opened.format.get(), stream, result.upright);
+  if (!result.upright.left_out.empty()) {
+    result.notes.emplace_back(
+        format("the file's display matrix {}, and only quarter turns are made: they are turned by {} degrees",
+               result.upright.left_out, 90 * result.upright.quarter_turns));
   }
   if (code != AVERROR_EOF) {
     result.notes.push_back(warning_of(

@@ -16,6 +16,8 @@
 
 namespace nutik::videos {
 
+inline constexpr const char* kNoTransparency = "the file's transparency is left out";
+
 struct Probe {
   int stream = 0;  // index of the picture stream
   Shape shape;     // of the decoded pictures, before they are turned
@@ -24,6 +26,7 @@ struct Probe {
   Upright upright;
   std::optional<YuvMatrix> matrix;  // as the file names them
   std::string unread_matrix;        // that it names, and by which nothing here makes RGB
+  std::string matrix_filter = "zscale=matrix=709";  // of FFmpeg, that makes another of it
   std::optional<CodeRange> range;
   std::optional<ChromaPlace> chroma_at;
   std::optional<Primaries> primaries;

@@ -30,17 +30,11 @@ struct FileKind {
   void (*write_layers)(OutputFile& file, std::span<const PictureLayer> layers) = nullptr;  // null: it holds one picture
 };
 
-void write_png_file(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
-  write_png(file, picture, text);
-}
 void write_netpbm(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
   file.write(netpbm_text(picture, text));
 }
 void write_npy(OutputFile& file, const Picture& picture, const std::string&, const FileWishes&) {
   file.write(npy_text(picture));
-}
-void write_tiff_file(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
-  write_tiff(file, picture, text);
 }
 void write_jpeg_file(OutputFile& file, const Picture& picture, const std::string& text,
                      const FileWishes& wishes) {
@@ -51,20 +45,17 @@ void write_exr_file(OutputFile& file, const Picture& picture, const std::string&
   still_module().write_exr(file, picture, text, wishes.as_half);
 }
 
-void write_tiff_layers(OutputFile& file, std::span<const PictureLayer> layers) {
-  write_tiff(file, layers);
-}
 void write_npy_layers(OutputFile& file, std::span<const PictureLayer> layers) { file.write(npy_text(layers)); }
 void write_exr_layers(OutputFile& file, std::span<const PictureLayer> layers) {
   still_module().write_exr_layers(file, layers);
 }
 
 constexpr std::array<FileKind, 11> kFileKinds{{
-    {.extension = ".png", .code_bits = 16, .is_for_eyes = true, .write = write_png_file},
-    {.extension = ".tif", .code_bits = 16, .holds_light = true, .holds_double = true, .write = write_tiff_file,
-     .write_layers = write_tiff_layers},
+    {.extension = ".png", .code_bits = 16, .is_for_eyes = true, .write = write_png},
+    {.extension = ".tif", .code_bits = 16, .holds_light = true, .holds_double = true, .write = write_tiff,
+     .write_layers = write_tiff},
     {.extension = ".tiff", .is_preferred = false, .code_bits = 16, .holds_light = true, .holds_double = true,
-     .write = write_tiff_file, .write_layers = write_tiff_layers},
+     .write = write_tiff, .write_layers = write_tiff},
     {.extension = ".jpg", .code_bits = 8, .is_lossy = true, .is_for_eyes = true, .write = write_jpeg_file},
     {.extension = ".jpeg", .is_preferred = false, .code_bits = 8, .is_lossy = true, .is_for_eyes = true,
      .write = write_jpeg_file},

@@ -16,6 +16,7 @@
 #include "capture/format.hpp"
 #include "imev/block_builder.hpp"
 #include "imev/expected_values.hpp"
+#include "media/input_checksum.hpp"
 #include "media/read_ahead.hpp"
 #include "media/stills/still_sequence.hpp"
 #include "session/output_check.hpp"
@@ -51,6 +52,9 @@ class Encoding {
     header.is_scaled = source_.request.clip.scale.has_value();
     header.roundings = source_.clip->info().roundings;
     header.part = source_.clip->info().part;
+    // A capture without a name is joined to none.
+    if (header.part && request.lasting != OutputFile::Lasting::no)
+      header.part->checksum = input_checksum(source_.request.path, source_.request.clip.raw.has_value());
     if (source_.camera) header.alignment = kept_alignment(**source_.camera, source_.request.align->unseen);
     if (source_.made) header.made = **source_.made;
     writer_.emplace(request.output, header, request.codec, to_held_codes(source_.capture, first_.front()),

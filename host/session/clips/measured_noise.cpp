@@ -5,6 +5,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/noise_file.hpp"
+#include "capture/text.hpp"
 #include "session/clips/clip_source.hpp"
 #include "system/input_bytes.hpp"
 #include "system/mapped_file.hpp"
@@ -29,7 +30,7 @@ CameraNoise read_noise_file(const std::filesystem::path& path) {
   const MappedFile file(path);
   const auto bytes = file.bytes();
   check_text_bytes(path.string(), bytes.size());
-  return parse_noise({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
+  return parse_noise(as_text(bytes), path.string());
 }
 
 std::optional<std::string> transfer_note(const StatedNoise& stated, const Transfer& of_clip) {

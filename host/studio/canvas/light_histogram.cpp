@@ -71,9 +71,8 @@ void LightHistogram::show_light(std::shared_ptr<const MeasuredLight> light) {
     for (const auto& [tag, pixels] : light_->saturated) {
       const auto look = looks.find(tag);
       lines += tr("%1: %2 px beyond white, %3 px below 0")
-                   .arg(look == looks.end() ? QString("M%1").arg(tag) : look->second.name)
-                   .arg(pixels.above)
-                   .arg(pixels.below);
+                   .arg(look == looks.end() ? QString("M%1").arg(tag) : look->second.name,
+                        QString::number(pixels.above), QString::number(pixels.below));
     }
   }
   setToolTip(lines.join('\n'));

@@ -71,7 +71,7 @@ QString CurveEditor::function_name() const {
   const std::uint8_t tag = document_.selected_tag();
   const auto look = document_.state().looks.find(tag);
   const QString name = look == document_.state().looks.end() ? QString() : look->second.name;
-  return name.isEmpty() ? QString("M%1").arg(tag) : tr("%1 (M%2)").arg(name).arg(tag);
+  return name.isEmpty() ? QString("M%1").arg(tag) : tr("%1 (M%2)").arg(name, QString::number(tag));
 }
 
 void CurveEditor::follow_document() {
@@ -123,7 +123,7 @@ void CurveEditor::refresh_findings() {
 }
 
 void CurveEditor::describe() {
-  QString text = tr("%1, %2 control points").arg(function_name()).arg(points_.size());
+  QString text = tr("%1, %2 control points").arg(function_name(), QString::number(points_.size()));
   if (current_) text += tr("; point %1: %2").arg(*current_ + 1).arg(point_text(points_[*current_]));
   if (document_.selected_points().size() > 1)
     text += tr("; %1 selected").arg(document_.selected_points().size());

@@ -40,6 +40,14 @@ void Jobs::cancel() {
   if (!dropped.empty()) Q_EMIT ended();
 }
 
+void Jobs::cancel_current() {
+  const std::scoped_lock lock(mutex_);
+  if (std::cmp_greater(open_.size(), waiting_.size()))
+    current_.request_stop();
+  else if (!waiting_.empty())
+    waiting_.front().stop.request_stop();
+}
+
 void Jobs::run(const std::stop_token& stop) {
   for (;;) {
     Waiting next;
@@ -48,18 +56,14 @@ void Jobs::run(const std::stop_token& stop) {
       if (!changed_.wait(lock, stop, [&] { return !waiting_.empty(); })) return;
       next = std::move(waiting_.front());
       waiting_.pop_front();
-      current_ = std::stop_source();
+      current_ = next.stop;
     }
     run(next);
   }
 }
 
 void Jobs::run(Waiting& waiting) {
-  std::stop_token stop;
-  {
-    const std::scoped_lock lock(mutex_);
-    stop = current_.get_token();
-  }
+  const std::stop_token stop = waiting.stop.get_token();
   const auto report = [&](std::uint64_t done, std::uint64_t total) {
     QMetaObject::invokeMethod(
         this, [this, what = waiting.what, done, total] { Q_EMIT progressed(what, done, total); },
@@ -84,10 +88,11 @@ void Jobs::run(Waiting& waiting) {
   }
   QMetaObject::invokeMethod(
       this,
-      [this, finish, error, what = waiting.what, round = waiting.round] {
+      [this, finish, error, stop, what = waiting.what, round = waiting.round] {
         open_.removeOne(what);
-        if (round == round_ && finish) finish();
-        if (round == round_ && !error.isEmpty()) Q_EMIT failed(what, error);
+        const bool is_wanted = round == round_ && !stop.stop_requested();
+        if (is_wanted && finish) finish();
+        if (is_wanted && !error.isEmpty()) Q_EMIT failed(what, error);
         Q_EMIT ended();
       },
       Qt::QueuedConnection);

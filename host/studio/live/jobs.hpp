@@ -46,6 +46,7 @@ class Jobs : public QObject {
   }
   // The one that runs and those that wait. What the one that runs would have returned is dropped.
   void cancel();
+  void cancel_current();  // or the one that begins next; others go on
   [[nodiscard]] bool is_busy() const { return !open_.isEmpty(); }
   [[nodiscard]] const QStringList& open() const { return open_; }  // what was started and has not ended
 
@@ -59,6 +60,7 @@ class Jobs : public QObject {
     QString what;
     Work work;
     std::uint64_t round;
+    std::stop_source stop = {};
   };
 
   void run(const std::stop_token& stop);

@@ -235,9 +235,8 @@ void RegionList::fill(QTreeWidgetItem& item, std::uint8_t tag) const {
   item.setText(kName, look->second.name);
   item.setIcon(kName, swatch(look->second.colour));
   item.setCheckState(kName, look->second.is_visible ? Qt::Checked : Qt::Unchecked);
-  item.setToolTip(kName, tr("%1, M%2 in mask and function file. Checked: its outline and its curve are shown")
-                             .arg(look->second.name)
-                             .arg(tag));
+  item.setToolTip(kName, "<qt>" + tr("%1, M%2 in mask and function file. Checked: its outline and its curve are shown")
+                             .arg(look->second.name.toHtmlEscaped(), QString::number(tag)));
   const auto still = still_gain(document_.state(), tag, document_.duration_ns());
   item.setText(kStill, still ? QStringLiteral("%1×").arg(*still, 0, 'f', 2) : QStringLiteral("–"));
   item.setText(kEv, still && *still > 0 ? stops_text(std::log2(*still)) : QStringLiteral("–"));

@@ -4,6 +4,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
+#include <QToolTip>
 
 #include "studio/time/time_axis.hpp"
 #include "studio/time/time_strip.hpp"
@@ -105,6 +106,8 @@ void TimeFields::refuse(QLineEdit& field, const QString& mistake) {
   said_->setWordWrap(true);  // it is read whole
   said_->setText(tr("%1: %2").arg(field.accessibleName(), mistake));
   said_->setToolTip(said_->text());
+  if (said_->width() < said_->fontMetrics().averageCharWidth() * 24)  // a small window has no room for it
+    QToolTip::showText(field.mapToGlobal(QPoint(0, field.height())), said_->text(), &field);
   field.setAccessibleDescription(mistake);
 }
 

@@ -1452,6 +1452,18 @@ Trotzdem verwenden? Funktionen und Marken behalten ihre Zeiten.</translation>
         <source>Another clip</source>
         <translation>Ein anderer Clip</translation>
     </message>
+    <message>
+        <source>%1 is not what was read any more: File, Open again (F5) reads what recipes would name.</source>
+        <translation>%1 ist nicht mehr, was gelesen wurde: „Datei, Erneut öffnen“ (F5) liest, was Rezepte nennen würden.</translation>
+    </message>
+    <message>
+        <source>The project says how its clip is read: -f %1 is not heeded.</source>
+        <translation>Das Projekt sagt, wie sein Clip gelesen wird: -f %1 wird nicht beachtet.</translation>
+    </message>
+    <message>
+        <source>A window shows one clip: %1 is opened, not %2.</source>
+        <translation>Ein Fenster zeigt einen Clip: %1 wird geöffnet, nicht %2.</translation>
+    </message>
 </context>
 <context>
     <name>nutik::studio::Notice</name>

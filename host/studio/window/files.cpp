@@ -69,11 +69,17 @@ QString MainWindow::named_file(const QString& title, const QString& ending, cons
 bool MainWindow::save_project(const QString& path) {
   if (document_.facts() == nullptr) return false;
   const CommandFiles files =
-      path == project_ && !files_.functions.isEmpty() ? files_ : free_files_beside(path);
+      path == project_ && !files_.functions.isEmpty() ? files_ : free_files_beside(path, document_.facts()->path);
+  if (document_.state().mask && !QFileInfo::exists(files.mask) &&
+      !try_to([&] { clip_files(document_.facts()->path, files.mask); }))
+    return false;
   const bool is_saved = try_to([&] { nutik::studio::save_project(path, document_, files); });
   if (is_saved || path == project_) {  // what a save that failed has written is ours as well
+    FileTimes capture{*known_.find(document_.facts()->path)};
     known_ = times_of({path, files.functions, files.mask});
-    note_capture();
+    known_.merge(capture);
+    told_changes_.clear();
+    note_written(path);
   }
   if (!is_saved) return false;
   project_ = path;
@@ -102,8 +108,13 @@ bool MainWindow::save(const QString& why) {
 }
 
 void MainWindow::note_capture() {
-  known_.merge(times_of({document_.facts()->path}));
+  known_[document_.facts()->path] = QFileInfo(document_.facts()->path).lastModified();
   told_changes_.clear();
+}
+
+// A clip's folder is another one with what the window writes into it.
+void MainWindow::note_written(const QString& path) {
+  if (document_.facts() && QFileInfo(QFileInfo(path).path()) == QFileInfo(document_.facts()->path)) note_capture();
 }
 
 QStringList MainWindow::changed_outside() const {
@@ -207,8 +218,9 @@ void MainWindow::write(const QString& what, Jobs::Work work) {
   being_written_.keep(writing_.open());
 }
 
-Told MainWindow::told_written() {
-  return [this](const QString& line) {
+Told MainWindow::told_written(const QString& path) {
+  return [this, path](const QString& line) {
+    note_written(path);
     notice_->say(Notice::Kind::note, line);
     QSettings kept;
     if (!isVisible()) kept.setValue(kWrittenKey, kept.value(kWrittenKey).toStringList() + QStringList(line));
@@ -226,12 +238,21 @@ QStringList MainWindow::written_meanwhile() {
 
 bool MainWindow::has_files() const {
   return document_.mode() == ExposureMode::boxcar ||
-         (!project_.isEmpty() && document_.undo_stack().isClean());
+         (!project_.isEmpty() && document_.undo_stack().isClean() && changed_outside().isEmpty());
+}
+
+bool MainWindow::has_capture() {
+  const QString& path = document_.facts()->path;
+  if (known_[path] == QFileInfo(path).lastModified()) return true;
+  notice_->say(Notice::Kind::error,
+               tr("%1 is not what was read any more: File, Open again (F5) reads what recipes would name.").arg(path));
+  return false;
 }
 
 // A command names files: they have to hold what is shown.
 bool MainWindow::ensure_files() {
-  return document_.facts() != nullptr && (has_files() || save(tr("Save the project first: recipes name its files")));
+  return document_.facts() != nullptr && has_capture() &&
+         (has_files() || save(tr("Save the project first: recipes name its files")));
 }
 
 QString MainWindow::command_for(const QString& picture) const {
@@ -285,6 +306,7 @@ void MainWindow::write_functions(const QString& path) {
     check_output(path.toStdString(), OutputKind::functions,
                  std::vector{document_.facts()->path.toStdString()});
     save_functions(path, document_.functions());
+    note_written(path);
     notice_->say(Notice::Kind::note, tr("Written: %1").arg(path));
   });
 }
@@ -294,7 +316,7 @@ void MainWindow::write_mask(const QString& path) {
   try_to([&] {
     if (!document_.state().mask)
       throw InputError("there is no mask yet: all of the picture is the background, M0. Add a region first");
-    check_mask_output(path.toStdString(), std::vector{document_.facts()->path.toStdString()});
+    check_mask_output(path.toStdString(), clip_files(document_.facts()->path, path));
     save_mask(path, (*document_.state().mask)->mask);
     const Feather feather = feather_of(document_.state());
     const QString soft = feather == Feather()
@@ -323,7 +345,7 @@ void MainWindow::save_whole_part(const QString& path, const Origin& origin) {
     return tik::recover(damaged, whole.toStdString());
   };
   jobs_.start(tr("Saving what is whole"), save, [this, whole, origin](const tik::Recovery& saved) {
-    notice_->say(Notice::Kind::note, tr("%1: %2 samples were saved").arg(whole).arg(saved.sample_count));
+    notice_->say(Notice::Kind::note, tr("%1: %2 samples were saved").arg(whole, QString::number(saved.sample_count)));
     Origin elsewhere = origin;
     elsewhere.is_elsewhere = true;
     elsewhere.duration_ns = 0;
@@ -331,9 +353,10 @@ void MainWindow::save_whole_part(const QString& path, const Origin& origin) {
   });
 }
 
-// Beside the project, else beside the capture.
+// Beside the project, else beside the capture: its file, or the folder of its stills.
 QString MainWindow::suggested(const QString& ending) const {
-  const QFileInfo from(project_.isEmpty() ? document_.facts()->path : project_);
+  QFileInfo from(project_.isEmpty() ? document_.facts()->path : project_);
+  if (is_pattern(from.filePath())) from.setFile(from.path());
   return from.dir().filePath(from.completeBaseName() + ending);
 }
 
@@ -345,7 +368,7 @@ void MainWindow::fill_recent(QMenu& menu) {
   menu.clear();
   for (const RecentFile& file : recent_files()) {
     QAction* action = menu.addAction(file.path);
-    action->setEnabled(QFileInfo::exists(file.path));
+    action->setEnabled(QFileInfo::exists(file.path) || is_pattern(file.path));
     connect(action, &QAction::triggered, this, [this, path = file.path] {
       if (may_leave()) open(path);
     });

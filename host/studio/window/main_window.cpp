@@ -229,17 +229,29 @@ void MainWindow::connect_parts() {
 
 void MainWindow::open(const QString& path, const QString& rate, const StartingPoint* then) {
   notice_->clear();
-  if (path.endsWith(QLatin1String(kProjectExtension), Qt::CaseInsensitive))
-    return open_project(QFileInfo(path).absoluteFilePath(), {}, then);
+  const QString file = QDir::cleanPath(QFileInfo(path).absoluteFilePath());  // `frames/` is a name like `frames`
+  if (file.endsWith(QLatin1String(kProjectExtension), Qt::CaseInsensitive)) {
+    open_project(file, {}, then);
+    if (!rate.isEmpty() && notice_->text().isEmpty())
+      told()(tr("The project says how its clip is read: -f %1 is not heeded.").arg(rate));
+    return;
+  }
   Stated stated;
   if (!rate.isEmpty()) stated.emplace("fps", rate.toStdString());
   Origin origin;
   origin.then = then;
-  open_capture_file(QFileInfo(path).absoluteFilePath(), stated, std::move(origin));
+  open_capture_file(file, stated, std::move(origin));
+}
+
+void MainWindow::open_first(const QStringList& paths, const QString& rate) {
+  if (paths.isEmpty()) return;
+  open(paths.front(), rate);
+  if (paths.size() > 1 && notice_->text().isEmpty())
+    told()(tr("A window shows one clip: %1 is opened, not %2.").arg(paths.front(), paths.mid(1).join(", ")));
 }
 
 void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptProject> kept,
-                              const StartingPoint* then) {
+                              const StartingPoint* then, bool asks) {
   try_to([&] {
     Project project = load_project(path);
     Origin origin{.kind = Origin::Kind::recovered,
@@ -255,7 +267,10 @@ void MainWindow::open_project(const QString& path, std::shared_ptr<const KeptPro
       origin.is_unwritten = project.is_unwritten;
       origin.known = times_of({path, project.files.functions, project.files.mask});
     }
-    open_capture_file(project.capture, project.stated, std::move(origin));
+    if (!asks) return open_capture_file(project.capture, project.stated, std::move(origin));
+    origin.is_elsewhere = true;
+    origin.duration_ns = 0;
+    ask_how_to_read(project.capture, project.stated, tr("The clip is opened again."), origin);
   });
 }
 
@@ -304,8 +319,7 @@ void MainWindow::tell_way_out(const QString& path, const Stated& stated, const O
   }
   QString label;
   std::function<void()> way;
-  const bool is_series = file.fileName().contains('%') && file.dir().exists();
-  if (is_other || (!file.exists() && !is_series)) {
+  if (is_other || (!file.exists() && !is_pattern(path))) {
     label = tr("Locate…");
     way = [this, stated, origin] {
       ask_for_file(tr("Where is it?"), tr("All files (*)"), [&](const QString& found) {
@@ -540,10 +554,12 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
-  const QList<QUrl> urls = event->mimeData()->urls();
-  if (urls.isEmpty() || !urls.front().isLocalFile()) return;
+  QStringList paths;
+  for (const QUrl& url : event->mimeData()->urls())
+    if (url.isLocalFile()) paths += url.toLocalFile();
+  if (paths.isEmpty()) return;
   event->acceptProposedAction();
-  if (may_leave()) open(urls.front().toLocalFile());
+  if (may_leave()) open_first(paths);
 }
 
 }  // namespace nutik::studio

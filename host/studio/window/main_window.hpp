@@ -55,7 +55,7 @@ struct Origin {
   std::optional<std::pair<DocumentState, Marks>> left = {};  // what the document was when it was left for this
   std::shared_ptr<const KeptProject> kept = {};  // of Kind::recovered
   bool is_unwritten = false;                     // of Kind::project: its last save was ended in the middle
-  bool is_elsewhere = false;                     // the capture, than where the project says
+  bool is_elsewhere = false;                     // the capture, or read otherwise, than the project says
   const StartingPoint* then = nullptr;           // is started once it is open
 };
 
@@ -68,6 +68,7 @@ class MainWindow : public QMainWindow {
 
   // A capture, a clip or a project, in the background; `rate`, pictures a second, is stated of a clip.
   void open(const QString& path, const QString& rate = {}, const StartingPoint* then = nullptr);
+  void open_first(const QStringList& paths, const QString& rate = {});  // says which it leaves out
   // False: it failed, and why is said above the picture.
   bool save_project(const QString& path);
   // For an open capture. The reason why a file is refused is said above the picture.
@@ -117,7 +118,7 @@ class MainWindow : public QMainWindow {
   void restore_window();
   void keep_window();
   void open_project(const QString& path, std::shared_ptr<const KeptProject> kept = {},
-                    const StartingPoint* then = nullptr);
+                    const StartingPoint* then = nullptr, bool asks = false);  // how the clip is read
   void open_capture_file(const QString& path, const Stated& stated, Origin origin);
   void tell_way_out(const QString& path, const Stated& stated, const Origin& origin,
                     const std::exception_ptr& error);
@@ -154,7 +155,7 @@ class MainWindow : public QMainWindow {
   // starting.cpp
   void choose_file(const StartingPoint* then = nullptr);
   void choose_export();
-  [[nodiscard]] bool names_files();  // has_files(); else it is said
+  [[nodiscard]] bool names_files();  // has_files(), and the capture; else it is said
   void write(const QString& what, Jobs::Work work);
   void choose_film();
   void choose_study();
@@ -184,7 +185,9 @@ class MainWindow : public QMainWindow {
   bool may_leave_writing();  // asks what becomes of what is being written
   [[nodiscard]] static QStringList written_meanwhile();
   bool ensure_files();
+  [[nodiscard]] bool has_capture();  // as it was read; else it is said
   void note_capture();
+  void note_written(const QString& path);
   [[nodiscard]] QStringList changed_outside() const;
   void tell_changes();
   void copy_command();
@@ -200,7 +203,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] Told told() {
     return [this](const QString& line) { notice_->say(Notice::Kind::note, line); };
   }
-  [[nodiscard]] Told told_written();
+  [[nodiscard]] Told told_written(const QString& path);
 
   Document document_;
   // What a person waits for and may cancel; what is there in no time; pictures on their way to files, which opening

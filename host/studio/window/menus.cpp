@@ -191,8 +191,9 @@ void MainWindow::build_file_menu() {
     open_capture_file(document_.facts()->path, document_.facts()->stated, {});
   });
   offer(menu, tr("How &the clip is read…"), {}, [this] {
-    const CaptureFacts& facts = *document_.facts();
-    if (may_leave()) ask_how_to_read(facts.path, facts.stated, tr("The clip is opened again."), {});
+    if (!may_leave()) return;
+    if (!project_.isEmpty()) return open_project(project_, {}, nullptr, true);
+    ask_how_to_read(document_.facts()->path, document_.facts()->stated, tr("The clip is opened again."), {});
   });
   menu.addSeparator();
   offer(menu, tr("&Save project"), QKeySequence::Save, [this] { save(); });
@@ -451,6 +452,8 @@ void MainWindow::follow_exposure() {
   const DocumentState& state = document_.state();
   const QSignalBlocker quiet(brightness_);
   mode_->setCurrentIndex(state.mode == ExposureMode::boxcar ? 0 : 1);
+  normalization_->setPlaceholderText(QString::fromStdString(state.normalization.text()));  // where it is none of these
+  normalization_->setCurrentIndex(-1);
   for (int index = 0; index < static_cast<int>(std::size(kNormalizations)); ++index)
     if (state.normalization.text() == kNormalizations[index]) normalization_->setCurrentIndex(index);
   brightness_->setValue(state.brightness_ev);

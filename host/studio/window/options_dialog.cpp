@@ -57,7 +57,10 @@ Field field_of(const Option& option, const QString& stated, const std::map<std::
   const auto typed = [&](QLineEdit* line) {
     line->setText(stated);
     line->setPlaceholderText(default_of(option));
-    return [line] { return line->text().trimmed().isEmpty() ? QString() : line->text().trimmed(); };
+    return [line] {
+      static const QRegularExpression kDecimalComma("(?<=\\d),(?=\\d)");
+      return line->text().trimmed().isEmpty() ? QString() : line->text().trimmed().replace(kDecimalComma, ".");
+    };
   };
   if (choices.empty()) {
     auto* line = new QLineEdit(parent);

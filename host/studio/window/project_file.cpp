@@ -6,6 +6,7 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <QRegularExpression>
 #include <QUuid>
 #include <QtEndian>
 #include <algorithm>
@@ -266,13 +267,19 @@ RecipeSources recipe_sources(const Document& document, const CommandFiles& files
   return sources;
 }
 
-CommandFiles free_files_beside(const QString& project) {
+bool is_pattern(const QString& path) {
+  const QFileInfo file(path);
+  return !file.exists() && file.dir().exists() && file.fileName().contains(QRegularExpression("[%*?[]"));
+}
+
+CommandFiles free_files_beside(const QString& project, const QString& capture) {
   const QFileInfo info(project);
   const QString stem = info.dir().filePath(info.completeBaseName());
   for (int tried = 1;; ++tried) {
-    const QString name = tried == 1 ? stem : QString("%1-%2").arg(stem).arg(tried);
+    const QString name = tried == 1 ? stem : QString("%1-%2").arg(stem, QString::number(tried));
     CommandFiles files{name + ".pgm", name + ".fn"};
-    if (foreign_files(project, files).isEmpty()) return files;
+    const bool is_captures = files.mask == capture || files.functions == capture;
+    if (!is_captures && foreign_files(project, files).isEmpty()) return files;
   }
 }
 
@@ -337,11 +344,14 @@ Project load_project(const QString& path) {
   const QJsonDocument json = QJsonDocument::fromJson(file.readAll(), &mistake);
   if (!json.isObject())
     refuse(path,
-           format("it is no project: {} at byte {}", mistake.errorString().toStdString(), mistake.offset));
+           mistake.error == QJsonParseError::NoError
+               ? "it is no project: it holds no JSON object"
+               : format("it is no project: {} at byte {}", mistake.errorString().toStdString(), mistake.offset));
   const QJsonObject object = json.object();
-  if (object[kVersionKey].toInt() != kVersion)
-    refuse(path, format("it says '{}': {}, and this program reads {}", kVersionKey,
-                        object[kVersionKey].toInt(), kVersion));
+  if (!object.contains(kVersionKey)) refuse(path, format("it is no project: it has no '{}'", kVersionKey));
+  const double version = value_in(object, kVersionKey, 0.0, path).toDouble();
+  if (version != kVersion)
+    refuse(path, format("it says '{}': {}, and this program reads {}", kVersionKey, version, kVersion));
   const QDir folder = QFileInfo(path).absoluteDir();
   const auto resolved = [&](const char* name) {
     const QString text = object[name].toString();
@@ -360,7 +370,7 @@ Project load_project(const QString& path) {
     const std::string text = object[key].toString().toStdString();
     project.stated.emplace(name, is_number ? format("{}", object[key].toDouble()) : text);
   }
-  const CommandFiles free_files = free_files_beside(path);
+  const CommandFiles free_files = free_files_beside(path, project.capture);
   project.files = free_files;
   project.files.functions = resolved("functions");
   DocumentState& state = project.state;

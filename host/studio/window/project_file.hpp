@@ -43,8 +43,11 @@ struct Project {
 
 inline constexpr const char* kProjectExtension = ".nutik";
 
-// Where a project that has none yet gets its mask and functions: beside it, under names that are free or its own.
-[[nodiscard]] CommandFiles free_files_beside(const QString& project);
+// Whether a path has no file of its own and stands for those of a folder: `frames/%04d.png`, `frames/*.png`.
+[[nodiscard]] bool is_pattern(const QString& path);
+// Where a project that has none yet gets its mask and functions: beside it, under names that are free or its own, and
+// not its capture's.
+[[nodiscard]] CommandFiles free_files_beside(const QString& project, const QString& capture = {});
 // Those of them that are there and were not written for this project, under the name it has: they do not carry its mark,
 // which is made of a random number in the project and of that name.
 [[nodiscard]] QStringList foreign_files(const QString& project, const CommandFiles& files);

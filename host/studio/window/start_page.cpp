@@ -139,7 +139,7 @@ StartPage::StartPage(QWidget* parent) : QWidget(parent), recent_(new QListWidget
 void StartPage::showEvent(QShowEvent*) {
   recent_->clear();
   for (const RecentFile& file : recent_files()) {
-    if (!QFileInfo::exists(file.path)) continue;
+    if (!QFileInfo::exists(file.path) && !is_pattern(file.path)) continue;
     QPixmap pixmap = QPixmap::fromImage(file.picture);
     if (pixmap.isNull()) {
       pixmap = QPixmap(kPicture);

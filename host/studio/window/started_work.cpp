@@ -1,8 +1,11 @@
 #include "studio/window/started_work.hpp"
 
+#include <QDir>
+#include <QFileInfo>
 #include <span>
 
 #include "capture/error.hpp"
+#include "capture/format.hpp"
 #include "exposure/function_text.hpp"
 #include "features/film/film_making.hpp"
 #include "features/masks/mask_making.hpp"
@@ -27,11 +30,8 @@ QString text_of(std::span<const std::string> lines) {
   return texts.join('\n');
 }
 
-// Each of a clip's stills is one.
-std::vector<std::string> inputs_of(const Document& document, const CommandFiles& files) {
-  std::vector<std::string> inputs{document.facts()->path.toStdString()};
-  for (const auto& still : list_stills(inputs.front()).value_or(std::vector<std::filesystem::path>{}))
-    inputs.push_back(still.string());
+std::vector<std::string> inputs_of(const Document& document, const CommandFiles& files, const QString& picture) {
+  std::vector<std::string> inputs = clip_files(document.facts()->path, picture);
   if (document.mode() == ExposureMode::boxcar) return inputs;
   for (const QString& file : {files.functions, document.state().mask ? files.mask : QString()})
     if (!file.isEmpty()) inputs.push_back(file.toStdString());  // of a project that is not saved yet: none
@@ -90,6 +90,19 @@ DocumentState state_of(const DocumentState& before, const Study& study, Mask mas
 }
 
 }  // namespace
+
+std::vector<std::string> clip_files(const QString& clip, const QString& picture) {
+  const QFileInfo from(clip), to(picture);
+  const bool is_folder = from.isDir();
+  const bool is_there = QFileInfo(to.path()) == QFileInfo(is_folder ? clip : from.path());
+  if (is_there && (is_folder || (is_pattern(clip) && QDir::match(from.fileName(), to.fileName()))))
+    throw UsageError(format("{} would be taken for one of the clip's stills; choose another folder",
+                            picture.toStdString()));
+  std::vector<std::string> files{clip.toStdString()};
+  for (const auto& still : list_stills(files.front()).value_or(std::vector<std::filesystem::path>{}))
+    files.push_back(still.string());
+  return files;
+}
 
 std::span<const StartingPoint> starting_points() {
   static constexpr StartingPoint kAll[] = {
@@ -151,7 +164,7 @@ Jobs::Work writing_plate(const Marks& marks, std::shared_ptr<Session> session, c
                          Told told) {
   const std::filesystem::path path = picture.toStdString();
   const std::string name = session->source().path.string();
-  check_output(path, OutputKind::picture, std::vector{name});
+  check_output(path, OutputKind::picture, clip_files(QString::fromStdString(name), picture));
   return [session = std::move(session), path, name, told = std::move(told), marks](const Job& job) -> Jobs::Finish {
     const MadePlate plate = make_plate(stretch_between(marks, session, job).session->capture(), name, {},
                                        output_format({}, path, session->format()),
@@ -168,7 +181,7 @@ Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session,
   const std::filesystem::path path = picture.toStdString();
   const Options options = options_in(CommandId::expose, written);
   check_quality(options.picture, path);
-  check_output(path, OutputKind::picture, inputs_of(document, files));
+  check_output(path, OutputKind::picture, inputs_of(document, files, picture));
   return [state = document.state(), sources = recipe_sources(document, files, written), options,
           session = std::move(session), path, told = std::move(told),
           precision = document.facts()->precision](const Job& job) -> Jobs::Finish {
@@ -222,7 +235,7 @@ Jobs::Work filming(const Document& document, std::shared_ptr<Session> session, s
   const FramesRequest request = film_request(document.state(), options);
   const VideoOutput output(film.toStdString(), request.rate, options.video_codec, options.picture);
   const Frames frames = frames_of(request, session->timeline());
-  output.check(frames.numbers, inputs_of(document, files), Replacing::all);
+  output.check(frames.numbers, inputs_of(document, files, output.writes_stills() ? film : QString()), Replacing::all);
   std::optional<RecipeSources> sources;
   if (holds_recipes(film, written))
     sources = recipe_sources(document, files, written, CommandId::video);
@@ -260,7 +273,9 @@ Jobs::Work filming(const Document& document, std::shared_ptr<Session> session, s
     const QString line = made.interruption
                              ? Document::tr("%1: %2 of %3 frames were written")
                              : Document::tr("%1: %n frame(s)", nullptr, static_cast<int>(made.frames));
-    QStringList lines{made.interruption ? line.arg(film).arg(made.frames).arg(frames.numbers.size()) : line.arg(film)};
+    const auto count = [](std::size_t frames) { return QString::number(frames); };
+    QStringList lines{made.interruption ? line.arg(film, count(made.frames), count(frames.numbers.size()))
+                                        : line.arg(film)};
     lines += notes;
     for (const std::string& note : made.notes) lines += sentence(note);
     return [told, lines, end, interruption = made.interruption] {

@@ -38,6 +38,10 @@ struct StartingPoint {
 [[nodiscard]] Jobs::Work writing_plate(const Marks& marks, std::shared_ptr<Session> session,
                                        const QString& picture, Told told);
 
+// A clip's files, each of its stills among them: no picture replaces one. Throws UsageError where the picture, in the
+// folder of the stills, would be taken for one.
+std::vector<std::string> clip_files(const QString& clip, const QString& picture);
+
 // The picture of a document, with the bytes and the recipe that nutik-cl gives it. `files` hold its mask and functions.
 [[nodiscard]] Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session,
                                    const CommandFiles& files, const QString& picture, const Stated& written,

@@ -179,7 +179,7 @@ void MainWindow::export_film(const QString& path, const Stated& options) {
   try_to([&] {
     if (holds_recipes(path, options) && !names_files()) return;
     write(tr("Filming %1").arg(QFileInfo(path).fileName()),
-          filming(document_, session_, devices_, files_, path, options, told_written(),
+          filming(document_, session_, devices_, files_, path, options, told_written(path),
                   [this](int signal) { autosave_.end(signal); }));
   });
 }
@@ -189,7 +189,7 @@ void MainWindow::export_film(const QString& path, const Stated& options) {
 bool MainWindow::names_files() {
   if (!has_files())
     notice_->say(Notice::Kind::error, tr("Save the project first: recipes name its files"));
-  return has_files();
+  return has_files() && has_capture();
 }
 
 void MainWindow::choose_export() {
@@ -213,7 +213,7 @@ void MainWindow::export_picture(const QString& path, const Stated& written) {
   if (!session_ || !names_files()) return;
   try_to([&] {
     write(tr("Writing %1").arg(QFileInfo(path).fileName()),
-          exporting(document_, session_, files_, path, written, told_written()));
+          exporting(document_, session_, files_, path, written, told_written(path)));
     written_ = written;
     exported_ = path;
   });

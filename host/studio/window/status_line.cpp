@@ -114,7 +114,7 @@ StatusLine::StatusLine(const std::vector<Jobs*>& jobs, QWidget* parent)
       if (shown_ == each && !each->is_busy()) show_work(false);
     });
   }
-  connect(cancel_, &QToolButton::clicked, this, [this] { shown_->cancel(); });
+  connect(cancel_, &QToolButton::clicked, this, [this] { shown_->cancel_current(); });
 }
 
 void StatusLine::tell(const ShownPicture& picture) {

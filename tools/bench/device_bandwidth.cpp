@@ -1,4 +1,4 @@
-#include "opencl/device_bandwidth.hpp"
+#include "device_bandwidth.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -7,16 +7,16 @@
 #include "opencl/opencl_api.hpp"
 #include "system/page_buffer.hpp"
 
-namespace nutik {
+namespace nutik::bench {
 namespace {
 
-constexpr int kRuns = 5;
+constexpr int kCopies = 5;
 
 // Bytes a second of the fastest of several runs, by the host's clock.
 template <typename Copy>
 double best_rate(std::uint64_t bytes, Copy copy) {
   double best = 0.0;
-  for (int run = 0; run < kRuns; ++run) {
+  for (int run = 0; run < kCopies; ++run) {
     const auto start = std::chrono::steady_clock::now();
     copy();
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
@@ -63,7 +63,7 @@ double device_copy_bandwidth(std::size_t device, std::uint64_t bytes) {
     const cl::Buffer to(context, CL_MEM_READ_WRITE, bytes);
     queue.enqueueFillBuffer(from, cl_uint{0x5A17C3E9}, 0, bytes / 4 * 4);
     double best = 0.0;
-    for (int run = 0; run < kRuns; ++run) {
+    for (int run = 0; run < kCopies; ++run) {
       cl::Event event;
       queue.enqueueCopyBuffer(from, to, 0, 0, bytes, nullptr, &event);
       event.wait();
@@ -77,4 +77,4 @@ double device_copy_bandwidth(std::size_t device, std::uint64_t bytes) {
   }
 }
 
-}  // namespace nutik
+}  // namespace nutik::bench

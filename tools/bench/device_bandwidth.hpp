@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace nutik {
+namespace nutik::bench {
 
 // Bytes a second read and written by the device's own copy of a buffer of about `bytes`: the best of
 // several. Throws DeviceError.
@@ -17,4 +17,4 @@ struct TransferRates {
 };
 [[nodiscard]] TransferRates transfer_rates(std::size_t device, std::uint64_t bytes);
 
-}  // namespace nutik
+}  // namespace nutik::bench
