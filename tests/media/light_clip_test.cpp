@@ -63,8 +63,7 @@ void expect_comes_back(const std::string& extension, ValueType type) {
       for (std::size_t i = 0; i < light.size(); ++i)
         ASSERT_LE(std::abs(codes[i] - double{light[i]} / kWhite * 65'535), 0.5) << "value " << i << " of picture " << k;
     }
-    ClipOptions curved = of_white(kWhite);
-    curved.transfer = Transfer::srgb();
+    const ClipOptions curved{.transfer = Transfer::srgb(), .white_light = kWhite};
     const auto raster = read_all(*open_test_clip(scratch.folder(), curved)).front();
     const auto light = written[0].values<Value>();
     for (std::size_t i = 0; i < light.size(); ++i)

@@ -2,6 +2,8 @@
 #include <QDir>
 #include <QFile>
 #include <QMimeData>
+#include <QToolButton>
+#include <QTreeWidget>
 #include <csignal>
 
 #include "studio/regions/region_edits.hpp"

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <utility>
 
-#include "capture/digits.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/rational.hpp"
 #include "session/requests/function_input.hpp"
 #include "session/text/number_text.hpp"
 #include "system/input_bytes.hpp"
@@ -141,7 +141,7 @@ constexpr std::pair<std::string_view, RegionChange::Kind> kChanges[] = {
     {"largest", RegionChange::Kind::largest}, {"invert", RegionChange::Kind::invert},
     {"within", RegionChange::Kind::within},   {"grow", RegionChange::Kind::grow},
     {"shrink", RegionChange::Kind::shrink},   {"smooth", RegionChange::Kind::smooth},
-    {"fill", RegionChange::Kind::fill}};
+    {"fill-holes", RegionChange::Kind::fill_holes}};
 
 // The change of a step that changes a region; none for another step.
 std::optional<RegionChange> change_of(const Said& said) {

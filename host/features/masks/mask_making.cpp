@@ -46,7 +46,7 @@ Region changed_by(const RegionChange& change, const Region& region) {
   const select::Rectangle& limits = change.rectangle;
   switch (change.kind) {
     case RegionChange::Kind::largest: return largest_part(region);
-    case RegionChange::Kind::fill: return with_holes_filled(region);
+    case RegionChange::Kind::fill_holes: return with_holes_filled(region);
     case RegionChange::Kind::invert: return inverted(region);
     case RegionChange::Kind::grow: return grown(region, change.radius);
     case RegionChange::Kind::shrink: return shrunk(region, change.radius);

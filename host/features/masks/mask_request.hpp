@@ -70,7 +70,7 @@ using Selection =
 
 // A change to the region before it.
 struct RegionChange {
-  enum class Kind { largest, fill, invert, within, grow, shrink, smooth };
+  enum class Kind { largest, fill_holes, invert, within, grow, shrink, smooth };
 
   Kind kind = Kind::invert;
   double radius = 0.0;          // to grow, shrink and smooth by, in pixels

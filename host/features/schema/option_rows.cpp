@@ -299,7 +299,7 @@ constexpr Option kRows[] = {
          "white)"),
     step("within", "X,Y,W,H", "only its part in a rectangle"),
     step("largest", "", "only its largest connected part"),
-    step("fill", "", "with the holes that it encloses"),
+    step("fill-holes", "", "with the holes that it encloses"),
     step("grow", "PIXELS", "with what is no further away"),
     step("shrink", "PIXELS", "without what is no further from its border"),
     step("smooth", "PIXELS", "without specks and holes: those narrower than twice this"),

@@ -233,7 +233,7 @@ class StudyPlanner {
                       {RegionChange::Kind::largest, 0.0, {}},
                       {RegionChange::Kind::smooth, kSmoothRadius, {}},
                       {RegionChange::Kind::grow, kCloseRadius + border, {}},
-                      {RegionChange::Kind::fill, 0.0, {}},
+                      {RegionChange::Kind::fill_holes, 0.0, {}},
                       {RegionChange::Kind::shrink, kCloseRadius + within, {}}};
       if (!study.grounds[i].empty()) {
         for (std::size_t level = 0; level < kAround.size(); ++level) {
