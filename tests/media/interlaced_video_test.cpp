@@ -153,6 +153,11 @@ TEST_F(InterlacedVideo, OfFieldsRunsTwiceAsFast) {
     EXPECT_EQ(timeline_of("", clip->info(), options, clip->info().sample_count).rate(), (Rational{rate, 1}));
     EXPECT_NE(clip->info().facts.back().text.find("top field first"), std::string::npos);
   }
+  test::make(scratch_, "-f lavfi -i testsrc2=s=64x48:r=50:d=0.4 -vf interlace=scan=bff:lowpass=off -c:v libx264 "
+                       "-flags +ilme+ildct other.mp4");
+  const auto other = open_test_clip(scratch_ / "other.mp4", {.interlaced = Interlaced::fields});
+  read_all(*other);
+  EXPECT_EQ(other->remarks().at(0).find("the container says top field first, and 10 frames say the other"), 0u);
   // Where a file only says so, nothing is lost: nothing moves, and every picture is every other.
   test::make(scratch_,
              "-f lavfi -i color=c=0x808080:size=64x48:rate=25 -frames:v 3 -vf format=gray,setfield=tff "

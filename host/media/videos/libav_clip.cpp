@@ -201,6 +201,11 @@ class LibavClip final : public Clip {
     auto doubt = fields_ || frames_read_ == 0 ? std::nullopt : doubt_about_fields(has_interlaced_);
     std::vector<std::string> all;
     if (doubt) all.push_back(std::move(*doubt));
+    if (other_order_ > 0) {
+      all.push_back(format("the container says {}, and {} frames say the other, which counts: where what moves jumps to "
+                           "and fro, they are wrong",
+                           to_text(*fields_), other_order_));
+    }
     if (has_transparent_) all.emplace_back(kNoTransparency);
     return all;
   }
@@ -314,7 +319,8 @@ class LibavClip final : public Clip {
     if (wish == Interlaced::fields) info_ = of_fields(std::move(info_));
     info_.facts.push_back(
         {format("a picture from each {}, {}", wish == Interlaced::fields ? "field" : "frame",
-                fields_ ? to_text(*fields_) : "in the order that each frame tells"),
+                fields_ ? format("{} unless a frame tells another order", to_text(*fields_))
+                        : "in the order that each frame tells"),
          Origin::stated, Setting::deinterlace});
   }
 
@@ -359,6 +365,7 @@ class LibavClip final : public Clip {
     is_decoding_ = true;
     if (!decoder_.next(*frame_)) return false;
     has_interlaced_ |= is_interlaced(*frame_);
+    other_order_ += fields_ && is_interlaced(*frame_) && order_of(*frame_) != *fields_ ? 1 : 0;
     return true;
   }
 
@@ -406,6 +413,7 @@ class LibavClip final : public Clip {
   Interlaced interlaced_ = Interlaced::refused;
   std::optional<FieldOrder> fields_;  // as the container says of all frames
   bool has_interlaced_ = false;       // a frame that says so itself
+  std::uint64_t other_order_ = 0;     // frames that say another one themselves
   bool has_transparent_ = false;      // a GIF's picture
   std::optional<Deinterlacer> deinterlacer_;
   bool has_ended_ = false;  // the decoder
