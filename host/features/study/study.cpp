@@ -532,7 +532,9 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
   MadePlate plate = make_rough_plate(capture, capture_name, memory, progress);
   Study study;
   study.moving_share = uncertain_share(plate.uncertain, regions);
-  const double most = unrest == Unrest::shown ? kMaxUnrest : kMaxMoving;
+  // An empty scene shows no subject whose way would tell that the camera moved.
+  const bool is_clean = request.style == StudyStyle::clean;
+  const double most = unrest == Unrest::shown ? kMaxUnrest : is_clean ? kMaxMoving / 2 : kMaxMoving;
   if (study.moving_share > most) {
     throw EverythingMoves(
         nutik::format("{}: {:.0f} % of the pixels rest for less than half of the time: everything moves, as it does "
@@ -540,7 +542,7 @@ Study plan_study(CaptureSource& capture, const std::string& capture_name, const 
                       "in it",
                       capture_name, 100 * study.moving_share));
   }
-  if (request.style == StudyStyle::clean) return study;
+  if (is_clean) return study;
   const std::uint32_t by_codes = request.by_codes.value_or(
       static_cast<std::uint32_t>(std::ceil(2 * CodeBand::kMinShare * format.white_code)));
   std::vector<SubjectTrack> tracks = track_subjects(capture, plate.picture, by_codes, regions, progress);
