@@ -132,8 +132,8 @@ def check(nutik, number):
     stated, exposed, end_ns = random_times(random, len(codes))
     if random.random() < 0.15:
         given = codes / white if random.random() < 0.5 else (codes / white).astype(np.float32)
-        codes = (np.asarray(given, np.float64) * 65535 + 0.5).astype(np.uint16)
-        shown = light.light_of(given, transfer)  # of which the capture holds the nearest codes
+        shown = np.asarray(given, np.float64)  # light, of which the capture holds the nearest codes
+        codes = light.codes_of(shown, transfer, 65535).astype(np.uint16)
         source, white, stated_white = given if random.random() < 0.5 else iter(list(given)), 65535, 1.0
     else:
         source, stated_white = laid_out(random, codes), white

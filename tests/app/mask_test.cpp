@@ -93,7 +93,7 @@ TEST_F(MaskCommand, ComparesPicturesAndTimes) {
   EXPECT_EQ(tags("--threshold 0f 150..255 clip.tik"), boxes({{4, 20, 8, 8, 255}}));
   EXPECT_EQ(tags("--threshold frames/19.pgm 60%"), boxes({{28, 20, 8, 8, 255}}));
   EXPECT_EQ(tags("--threshold frames/19.pgm 0..150"), boxes({{0, 0, 96, 48, 255}, {28, 20, 8, 8, 0}}));
-  EXPECT_EQ(tags("--threshold frames/19.pgm 0..150 --fill-holes"), boxes({{0, 0, 96, 48, 255}}));
+  EXPECT_EQ(tags("--threshold frames/19.pgm 0..150 --smooth holes"), boxes({{0, 0, 96, 48, 255}}));
 }
 
 // Light of 0 to 1 in as many steps as codes of 16 bits have; tags as they stand.

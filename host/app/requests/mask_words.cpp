@@ -140,14 +140,16 @@ double radius_of(const Said& said) {
 constexpr std::pair<std::string_view, RegionChange::Kind> kChanges[] = {
     {"largest", RegionChange::Kind::largest}, {"invert", RegionChange::Kind::invert},
     {"within", RegionChange::Kind::within},   {"grow", RegionChange::Kind::grow},
-    {"shrink", RegionChange::Kind::shrink},   {"smooth", RegionChange::Kind::smooth},
-    {"fill-holes", RegionChange::Kind::fill_holes}};
+    {"shrink", RegionChange::Kind::shrink},   {"smooth", RegionChange::Kind::smooth}};
+constexpr std::string_view kHoles = "holes";  // of --smooth
 
 // The change of a step that changes a region; none for another step.
 std::optional<RegionChange> change_of(const Said& said) {
   for (const auto& [name, kind] : kChanges) {
     if (said.option != name) continue;
     if (kind == RegionChange::Kind::within) return RegionChange{kind, 0.0, rectangle_of(said)};
+    if (kind == RegionChange::Kind::smooth && said.words.front() == kHoles)
+      return RegionChange{RegionChange::Kind::fill_holes, 0.0, {}};
     return RegionChange{kind, said.words.empty() ? 0.0 : radius_of(said), {}};
   }
   return std::nullopt;
@@ -156,6 +158,7 @@ std::optional<RegionChange> change_of(const Said& said) {
 }  // namespace
 
 std::string change_words(const RegionChange& change) {
+  if (change.kind == RegionChange::Kind::fill_holes) return format("--smooth {}", kHoles);
   const auto* known = std::ranges::find(kChanges, change.kind, [](const auto& each) { return each.second; });
   const auto& [corner, width, height] = change.rectangle;
   if (change.kind == RegionChange::Kind::within)

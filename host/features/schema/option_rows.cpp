@@ -299,10 +299,9 @@ constexpr Option kRows[] = {
          "white)"),
     step("within", "X,Y,W,H", "only its part in a rectangle"),
     step("largest", "", "only its largest connected part"),
-    step("fill-holes", "", "with the holes that it encloses"),
     step("grow", "PIXELS", "with what is no further away"),
     step("shrink", "PIXELS", "without what is no further from its border"),
-    step("smooth", "PIXELS", "without specks and holes: those narrower than twice this"),
+    step("smooth", "PIXELS|holes", "without specks and holes: those narrower than twice this; or without any hole"),
     step("invert", "", "everything else"),
 
     heading("The mask"),
