@@ -60,8 +60,8 @@ double hlg_fraction(double light) {
   return kHlgA * std::log(12.0 * light - kHlgB) + kHlgC;
 }
 
-// The formulas of the standard in what is missing to 1, with c1 = 1 + c3 - c2: as it prints them, nearly equal numbers are
-// subtracted, and what rounding left is raised to 6.3 or 79.
+// The standard's formulas, written in what is missing to 1, where c1 = 1 + c3 - c2. As the standard prints them, they
+// subtract numbers that are nearly equal, and raise what rounding left to the power of 6.3 or 79.
 double pq_light(double fraction) {
   const double missing = -std::expm1(std::log(std::max(fraction, 0.0)) / kPqM2);
   const double over = std::max(1.0 - kPqC1 - missing, 0.0), under = kPqC2 - kPqC3 + kPqC3 * missing;

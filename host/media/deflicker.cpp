@@ -170,8 +170,8 @@ class DeflickeredClip final : public Clip {
     }
     if (untold_ > 0) {
       remarks.push_back(
-          format("{} of {} pictures follow no one curve from those before them, for they show too little of these or are "
-                 "lit unequally, or need one steeper than {:.0f}: they were corrected as the one before each",
+          format("{} of {} pictures follow no one curve from those before them, for they show too little of these or "
+                 "are lit unequally, or need one steeper than {:.0f}: they were corrected as the one before each",
                  untold_.load(), pictures_.load(), kSteepest));
     }
     return remarks;

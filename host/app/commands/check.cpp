@@ -177,7 +177,8 @@ std::string figures_text(const InputCheck& check) {
     const Interval& live = summary.live;
     add_row(format("M{}", figures.tag), count(figures.pixels),
             {live.empty() ? "never" : time(live.begin_ns) + " … " + time(live.end_ns),
-             time(summary.support_ns), integral_text(figures.integral_ns), format("{:.6g}", summary.still_gain()), stops_text(summary)},
+             time(summary.support_ns), integral_text(figures.integral_ns),
+             format("{:.6g}", summary.still_gain()), stops_text(summary)},
             count(figures.samples));
   }
   return table_text(rows, std::string("l") + (has_pixels ? "r" : "") + "lrrrr" + (has_samples ? "r" : ""));

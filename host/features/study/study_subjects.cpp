@@ -61,7 +61,8 @@ SubjectVerdict verdict_of(const SubjectTrack& track, std::uint32_t by_codes, std
                    by_codes)};
   }
   if (track.looked_at.size() == 2) {
-    return {Shows::nothing, "two pictures cannot tell what moves from the scene at rest: take a longer part of the clip"};
+    return {Shows::nothing,
+            "two pictures cannot tell what moves from the scene at rest: take a longer part of the clip"};
   }
   const double length = track.length();
   if (kMinExtent * side > track.extent && !shows_one(style)) {

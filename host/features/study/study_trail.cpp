@@ -184,7 +184,8 @@ class StudyFunctions {
     if (!is_apart || request_.style == StudyStyle::frozen) return pieces;
     // Where something is for a share of the trail's light, more than all of it would be taken away; and with more than
     // this the empty scene would have more noise than a picture.
-    const double most = std::min(1 / most_covered_share(pieces), 1 + std::sqrt(static_cast<double>(study.empty.size())));
+    const auto empty_samples = static_cast<double>(study.empty.size());
+    const double most = std::min(1 / most_covered_share(pieces), 1 + std::sqrt(empty_samples));
     const double wanted = std::min(kTrailOpacity / covered, most);
     study.trail_strength = std::floor(10 * std::clamp(wanted, 1.0, kMaxStrength)) / 10;
     const double taken =
@@ -207,7 +208,8 @@ class StudyFunctions {
       if (piece == trail.end()) continue;
       const double gain = piece->at(time_ns);
       all += gain;
-      for (std::size_t cell = 0; cell < of_cells.size(); ++cell) of_cells[cell] += (*any.differing)[look][cell] ? gain : 0;
+      for (std::size_t cell = 0; cell < of_cells.size(); ++cell)
+        of_cells[cell] += (*any.differing)[look][cell] ? gain : 0;
     }
     return all > 0 ? std::ranges::max(of_cells) / all : 1;
   }

@@ -202,8 +202,8 @@ class LibavClip final : public Clip {
     std::vector<std::string> all;
     if (doubt) all.push_back(std::move(*doubt));
     if (other_order_ > 0) {
-      all.push_back(format("the container says {}, and {} frames say the other, which counts: where what moves jumps to "
-                           "and fro, they are wrong",
+      all.push_back(format("the container says {}, and {} frames say the other, which counts: where what moves jumps "
+                           "to and fro, they are wrong",
                            to_text(*fields_), other_order_));
     }
     if (has_transparent_) all.emplace_back(kNoTransparency);
