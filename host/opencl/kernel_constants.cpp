@@ -50,7 +50,7 @@ std::string develop_options(const Work& work, const CaptureFormat& capture, cons
       std::min(work.shape.lanes, kTileSide), raster_bytes, blends ? 1 : 0);
 }
 
-const DeviceLight& KernelConstants::light(const RenderPlan& plan, Precision precision, const LightMeans& means,
+const DeviceLight& KernelConstants::light(const RenderPlan& plan, Precision precision, const LightLookup& means,
                                           DeviceMemory& memory) {
   const CaptureFormat& capture = plan.capture;
   LightKey key{capture.transfer, capture.code_bytes, capture.white_code, precision};

@@ -90,7 +90,7 @@ class KernelConstants {
 
   // `means` as for light_source(). What is returned counts in `memory`; it stays until the next of its kind
   // is asked for.
-  const DeviceLight& light(const RenderPlan& plan, Precision precision, const LightMeans& means,
+  const DeviceLight& light(const RenderPlan& plan, Precision precision, const LightLookup& means,
                            DeviceMemory& memory);
   // Null where the codes lie too close together (code_search() in kernel_tables.cpp).
   const DeviceCodes* codes(const CodeKey& key, DeviceMemory& memory);

@@ -123,7 +123,7 @@ std::optional<std::vector<double>> light_pieces(const Transfer& transfer, std::u
   return pieces;
 }
 
-LightSource light_source(const CaptureFormat& capture, Precision precision, const LightMeans& means) {
+LightSource light_source(const CaptureFormat& capture, Precision precision, const LightLookup& means) {
   if (capture.transfer.is_linear()) return {"NUTIK_LIGHT_LINEAR", {}};
   const bool is_near = means.has_near_table && capture.code_bytes == 1;
   const bool looks_up_bytes = means.looks_up_bytes && precision == Precision::single_ && capture.code_bytes == 1;

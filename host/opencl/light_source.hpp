@@ -32,7 +32,7 @@ struct LightSource {
   std::vector<double> bytewise = {};  // light of 256 codes, of which rows look up byte by byte; empty: they do not
 };
 
-struct LightMeans {
+struct LightLookup {
   bool permutes_pieces = false;   // the kernel works on as many lanes as there are pieces, and the device's vectors
                                   // hold them
   bool has_near_table = false;    // tables of 256 codes lie beside a group of work-items
@@ -40,6 +40,6 @@ struct LightMeans {
                                   // up 64 bytes at once
 };
 
-[[nodiscard]] LightSource light_source(const CaptureFormat& capture, Precision precision, const LightMeans& means);
+[[nodiscard]] LightSource light_source(const CaptureFormat& capture, Precision precision, const LightLookup& means);
 
 }  // namespace nutik

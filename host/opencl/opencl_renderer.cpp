@@ -11,7 +11,7 @@
 #include "opencl/arithmetic_choice.hpp"
 #include "opencl/block_feed.hpp"
 #include "opencl/cache_folder.hpp"
-#include "opencl/combining.hpp"
+#include "opencl/sample_combiner.hpp"
 #include "opencl/developer.hpp"
 #include "opencl/device_memory.hpp"
 #include "opencl/device_tables.hpp"
@@ -243,7 +243,7 @@ class OpenClRenderer::Implementation {
     if (request.plan.combine == Combine::median || request.plan.blocks.empty()) return by_processor();
     const std::scoped_lock turn(turn_);
     try {
-      const Combining combining(request.plan, sample_gains(request.plan, request.source.timeline()));
+      const SampleCombiner combining(request.plan, sample_gains(request.plan, request.source.timeline()));
       if (combining.scales() && !info_.has_double && !combining.has_normal_products()) return by_processor();
       const Verdict verdict = verdict_on(combining, request.plan);
       if (!verdict.is_right && !request.control.takes_wrong) {
@@ -263,18 +263,18 @@ class OpenClRenderer::Implementation {
     }
   }
 
-  [[nodiscard]] Work work_for(const Combining& combining) const {
+  [[nodiscard]] Work work_for(const SampleCombiner& combining) const {
     if (!combining.scales()) return work_for(Precision::single_);
     return work_for(info_.has_double ? Precision::double_ : Precision::fixed);
   }
 
   [[nodiscard]] std::string options_of_combining(const Work& work, const RenderPlan& plan,
-                                                 const Combining& combining) const {
+                                                 const SampleCombiner& combining) const {
     return expose_options(work, plan.capture, "NUTIK_LIGHT_LINEAR", false) + combining.options() +
            fault_of(work.precision);
   }
 
-  Verdict verdict_on(const Combining& combining, const RenderPlan& plan) {
+  Verdict verdict_on(const SampleCombiner& combining, const RenderPlan& plan) {
     if (!options_.tests_itself) return {};
     const Work work = work_for(combining);
     return verdict_on({work.precision, options_of_combining(work, plan, combining), "combine", false}, [&] {
@@ -282,13 +282,13 @@ class OpenClRenderer::Implementation {
                                                                const OutputFormat& format) {
         const Rectangle whole = Rectangle::whole(scene.capture.shape);
         Rendered rendered;
-        combine(Combining(scene, sample_gains(scene, source.timeline())), {scene, source, format, whole, {}}, rendered);
+        combine(SampleCombiner(scene, sample_gains(scene, source.timeline())), {scene, source, format, whole, {}}, rendered);
         return std::move(rendered.picture);
       });
     });
   }
 
-  void combine(const Combining& combining, const Request& request, Rendered& rendered) {
+  void combine(const SampleCombiner& combining, const Request& request, Rendered& rendered) {
     const RenderPlan& plan = request.plan;
     const Work work = work_for(combining);
     DeviceMemory memory(context_, info_);

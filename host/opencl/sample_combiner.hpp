@@ -25,10 +25,10 @@ struct CombinedPicture {
   Saturation& saturation;
 };
 
-class Combining {
+class SampleCombiner {
  public:
   // All that is given must live as long.
-  Combining(const RenderPlan& plan, std::vector<SampleGains> gains);
+  SampleCombiner(const RenderPlan& plan, std::vector<SampleGains> gains);
 
   // False: codes are compared as they come, for each function has one gain for all samples.
   [[nodiscard]] bool scales() const { return scales_; }

@@ -1,4 +1,4 @@
-#include "opencl/combining.hpp"
+#include "opencl/sample_combiner.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -54,7 +54,7 @@ void for_each_pixel(const Band& band, const Shape& shape, const Rectangle& recta
 
 }  // namespace
 
-Combining::Combining(const RenderPlan& plan, std::vector<SampleGains> gains)
+SampleCombiner::SampleCombiner(const RenderPlan& plan, std::vector<SampleGains> gains)
     : plan_(plan),
       gains_(std::move(gains)),
       scales_(!std::ranges::all_of(gains_, is_one_gain)),
@@ -64,7 +64,7 @@ Combining::Combining(const RenderPlan& plan, std::vector<SampleGains> gains)
     levels_ = std::max(levels_, static_cast<std::uint32_t>(std::bit_width(block.extent.sample_count)));
 }
 
-bool Combining::has_normal_products() const {
+bool SampleCombiner::has_normal_products() const {
   constexpr double kLeast = std::numeric_limits<double>::min();
   const auto least_light = std::ranges::upper_bound(light_, 0.0);
   return least_light == light_.end() || std::ranges::all_of(gains_, [&](const SampleGains& each) {
@@ -73,16 +73,16 @@ bool Combining::has_normal_products() const {
          });
 }
 
-std::string Combining::options() const {
+std::string SampleCombiner::options() const {
   return format(" -DNUTIK_DARKENS={:d} -DNUTIK_SCALES={:d}", plan_.combine == Combine::darken, scales_);
 }
 
-std::vector<TableSlice> Combining::slices(DeviceInfo device, std::uint64_t max_bytes) const {
+std::vector<TableSlice> SampleCombiner::slices(DeviceInfo device, std::uint64_t max_bytes) const {
   device.largest_allocation_bytes /= levels_;
   return cut_tables(plan_, Precision::fixed, device, std::min(max_bytes, kMaxTableBytes) / levels_);
 }
 
-SliceTables Combining::tables(const TableSlice& slice, DeviceMemory& memory) const {
+SliceTables SampleCombiner::tables(const TableSlice& slice, DeviceMemory& memory) const {
   const std::size_t functions = gains_.size();
   const std::size_t level_size = scales_ ? rows(slice) * functions : 1;
   std::vector<BlockPart> parts;
@@ -116,7 +116,7 @@ SliceTables Combining::tables(const TableSlice& slice, DeviceMemory& memory) con
 
 // The light of a part of the picture.
 template <typename Result, typename LightOf>
-Picture Combining::light_of(const ExposedBand& combined, std::span<const Result> results, const Rectangle& part,
+Picture SampleCombiner::light_of(const ExposedBand& combined, std::span<const Result> results, const Rectangle& part,
                             LightOf light_of_result) const {
   const FunctionMap& map = *combined.map.host;
   const std::uint32_t channels = plan_.capture.shape.channels;
@@ -144,7 +144,7 @@ Picture Combining::light_of(const ExposedBand& combined, std::span<const Result>
 
 // Codes of 8 bits become codes by a table.
 template <typename Code>
-void Combining::develop_codes(const ExposedBand& combined, std::span<const std::uint8_t> results,
+void SampleCombiner::develop_codes(const ExposedBand& combined, std::span<const std::uint8_t> results,
                               const CombinedPicture& to) const {
   const CodeMaking making = CodeMaking::of(plan_.capture, to.output);
   const CodeScale scale(making.transfer, to.output);
@@ -177,7 +177,7 @@ void Combining::develop_codes(const ExposedBand& combined, std::span<const std::
 }
 
 template <typename Result, typename LightOf>
-void Combining::develop_results(const ExposedBand& combined, cl::CommandQueue& queue, const CombinedPicture& to,
+void SampleCombiner::develop_results(const ExposedBand& combined, cl::CommandQueue& queue, const CombinedPicture& to,
                                 LightOf light_of_result) const {
   const Band& band = combined.band;
   std::vector<Result> results(band.sum_tiles * plan_.capture.shape.channels * kTilePixels);
@@ -200,12 +200,12 @@ void Combining::develop_results(const ExposedBand& combined, cl::CommandQueue& q
   }
 }
 
-double Combining::light_of_code(std::uint32_t code, std::size_t function) const {
+double SampleCombiner::light_of_code(std::uint32_t code, std::size_t function) const {
   const std::vector<double>& gains = gains_[function].gains;
   return gains.empty() ? 0.0 : gains.front() * light_[code];
 }
 
-void Combining::develop(const ExposedBand& combined, cl::CommandQueue& queue, const CombinedPicture& to) const {
+void SampleCombiner::develop(const ExposedBand& combined, cl::CommandQueue& queue, const CombinedPicture& to) const {
   const auto of_code = [this](std::uint32_t code, std::size_t function) { return light_of_code(code, function); };
   if (scales_) {
     develop_results<double>(combined, queue, to,
