@@ -1,5 +1,5 @@
-// What libraries throw. A message says what is wrong, where, what the limit is and what to do about it;
-// the program's main() alone prints it and turns its class into an exit status.
+// What libraries throw. A message says what is wrong, where, what the limit is and what to do about it. app/run.cpp
+// prints what ends a command, and makes an exit status of its class.
 #pragma once
 
 #include <stdexcept>
@@ -17,7 +17,9 @@ enum class Setting {
   block_samples,
   chroma_place,
   columns,
+  contrast,  // of an event
   count_redrawn,
+  crf,
   crop,
   deflicker,
   deinterlace,
@@ -25,6 +27,7 @@ enum class Setting {
   end_at_damage,  // a clip is taken up to where it is damaged
   frame_rate,
   from,  // the part of a clip
+  keep_pixels,
   matrix,
   normalization,
   out_transfer,
@@ -32,23 +35,20 @@ enum class Setting {
   precision,
   primaries,
   quality,
-  crf,
-  sound,
-  keep_pixels,
   range,
   raw_layout,
   renderer,
   scale,
   shutter_angle,
+  sound,
+  start_picture,
+  tick,
   to,
   transfer,
   unmapped,
   video_codec,
   white_code,
-  width,
-  contrast,  // of an event
-  start_picture,
-  tick
+  width
 };
 
 // What ends a message that says more than the names of settings: `; take a part of the clip (`from`, `to`)`. Options

@@ -1,3 +1,4 @@
+// The median of values.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 namespace nutik {
 
-// The middle one of some values, of an even number the upper of both. There is one at least.
+// Of an even number the upper of the two in the middle. There is one value at least.
 template <typename Value>
 [[nodiscard]] Value median(std::vector<Value> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

@@ -40,7 +40,7 @@ class PayloadParts {
   std::uint64_t bytes_;
 };
 
-// Finds room for a payload of so many bytes: at least as much, from a multiple of 64 bytes on, to be left alone while
+// Gives memory for a payload of so many bytes or more, which begins at a multiple of 64 bytes and is not written to while
 // the lease lives. An empty span: there is none, and the block is not wanted now.
 using RoomForPayload = std::function<std::span<std::byte>(std::uint64_t bytes)>;
 
@@ -49,13 +49,12 @@ using WantsTiles = std::function<bool(std::uint64_t first, std::uint64_t last)>;
 
 // What whoever acquires a block has to say about it.
 struct LeaseTerms {
-  // Asked once by a source that has to unpack the payload, before it does any slow work. A source that has the payload
-  // in memory anyway does not ask. Without it a payload is unpacked into memory of the source's own.
+  // A source that has to unpack the payload calls this once, before any slow work; one that has the payload in memory
+  // does not. Without it a payload is unpacked into memory of the source's own.
   RoomForPayload room = {};
 
-  // Asked by a source that unpacks tiles in groups, after `room`, for each group once, in their order. Bodies of a
-  // group that is not wanted are left as they were in the room; the directory is always whole. Without it all are
-  // wanted.
+  // A source that unpacks tiles in groups calls this after `room`, once for each group, in their order. Where a group
+  // is not wanted, the memory of its bodies stays as it was; the directory is always whole. Without it all are wanted.
   WantsTiles wants = {};
 };
 

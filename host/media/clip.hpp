@@ -104,7 +104,6 @@ struct ClipScale {
 // taken as they are, where a file only says that they were interlaced.
 enum class Interlaced { refused, frames, fields, ignored };
 
-// What can be stated of recordings whose pixels keep their own time (media/events/event_clip.hpp).
 // By how much the natural logarithm of light changes with an event: up, and down.
 struct Contrast {
   double up = 0, down = 0;
@@ -114,6 +113,7 @@ struct Contrast {
 // Light before the first event: everywhere the same, or a picture's.
 using StartLight = std::variant<double, std::filesystem::path>;
 
+// What can be stated of recordings whose pixels keep their own time (media/events/event_clip.hpp).
 struct EventOptions {
   std::optional<Contrast> contrast = std::nullopt;
   std::optional<StartLight> start = std::nullopt;

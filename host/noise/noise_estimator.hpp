@@ -20,8 +20,6 @@
 
 namespace nutik {
 
-// Finds the read and shot noise that points which were measured come from.
-
 // A point, and how sure it is: the share of its standard deviation that it may be off by.
 struct MeasuredPoint {
   NoisePoint point;
@@ -37,8 +35,8 @@ struct SensorFit {
   double worst = 0;
 };
 
-// Weighted least squares of variance in light over light, neither noise below 0, with little say for points
-// far off the line. At least one point.
+// The read and shot noise that measured points come from: weighted least squares of variance in light over light,
+// neither noise below 0, with little say for points far off the line. At least one point.
 [[nodiscard]] SensorFit fit_sensor(std::span<const MeasuredPoint> points, std::uint32_t white_code,
                                    const Transfer& transfer);
 

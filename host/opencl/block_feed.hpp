@@ -28,12 +28,6 @@
 
 namespace nutik {
 
-// Blocks of one capture that stay where kernels read them, from one exposure to the next.
-//
-//   always:  they take no more than a limit. Where another block needs room, what the exposure that runs does not need
-//            goes first, and of that what was not needed for longest; what it does need stays, and the block goes
-//            without
-
 // Memory that blocks are read into, one behind the other.
 struct Slab {
   PageBuffer host;    // where the device reads the host's memory
@@ -51,6 +45,11 @@ struct BlockPlace {
   std::vector<bool> tiles;  // whose bodies are there; empty: all
 };
 
+// Blocks of one capture that stay where kernels read them, from one exposure to the next.
+//
+//   always:  they take no more than a limit. Where another block needs room, what the exposure that runs does not need
+//            goes first, and of that what was not needed for longest; what it does need stays, and the block goes
+//            without
 class ResidentBlocks {
  public:
   [[nodiscard]] const BlockPlace* find(std::uint64_t block) const;

@@ -22,12 +22,6 @@
 
 namespace nutik {
 
-// `auto`: the fastest arithmetic that is right enough for the picture asked for.
-//
-//   in:      a plan, the format of the picture, what the device can do
-//   out:     an arithmetic, its bound, and those that were faster but not sure enough
-//   always:  known before a sample is read, and the same on every device that has the same arithmetics
-
 // The largest error that a picture is given, in steps of its format (PictureError::steps).
 inline constexpr double kMaxSteps = 0.5;
 
@@ -39,8 +33,9 @@ struct PrecisionChoice {
   [[nodiscard]] bool is_right_enough() const { return bound.worst.steps <= kMaxSteps; }
 };
 
-// The first of `available` (fastest first, not empty) whose bound keeps the format within kMaxSteps; where none
-// does, the one with the least bound.
+// `auto`: the first of `available` (fastest first, not empty) whose bound keeps the format within kMaxSteps; where none
+// does, the one with the least bound. Known before a sample is read, and the same on every device that has the same
+// arithmetics.
 [[nodiscard]] PrecisionChoice choose_precision(const RenderPlan& plan, const OutputFormat& output,
                                                std::span<const Precision> available);
 

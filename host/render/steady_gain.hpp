@@ -17,17 +17,16 @@
 
 namespace nutik {
 
-// When a capture's samples were exposed, and which blocks hold them: all that tables of gain functions depend on
-// beside the functions.
-//
-//   always:  immutable and shared by the tables that were made for it
-
 // From a block's first sample to its last one.
 struct BlockReach {
   std::int64_t begin_ns;
   std::int64_t end_ns;
 };
 
+// When a capture's samples were exposed, and which blocks hold them: all that tables of gain functions depend on
+// beside the functions.
+//
+//   always:  immutable and shared by the tables that were made for it
 struct CaptureLayout {
   // Samples of a run of blocks at least, so that neither a table's runs nor the bookkeeping of them take much.
   static constexpr std::uint64_t kRunSamples = 1u << 14;

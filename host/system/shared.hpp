@@ -1,3 +1,4 @@
+// A value that all copies share.
 #pragma once
 
 #include <memory>

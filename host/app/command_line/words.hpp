@@ -16,7 +16,7 @@ namespace nutik::app {
 // Throws UsageError where a value is most likely a mistyped one of the option's choices; `what` says what it is.
 void check_choice(std::string_view what, const std::string& value, const Option& option);
 
-// What was found.
+// An option that was found, and its words.
 struct Given {
   const Option* option;
   std::string name;  // as it was written: `-f`

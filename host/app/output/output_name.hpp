@@ -75,9 +75,7 @@ class BoundsMaps {
 // one of them, where it has any.
 [[nodiscard]] std::vector<std::string> input_files(const Options& options);
 
-// What --skip-existing needs, and says.
-
-// Throws UsageError where a picture of that name would carry no recipe to be known by.
+// For --skip-existing: throws UsageError where a picture of that name would carry no recipe to be known by.
 void require_recipes(const Options& options, const std::filesystem::path& picture);
 
 // The arithmetic that was asked for; none for `auto`.

@@ -1,3 +1,4 @@
+// PNG, JPEG and TIFF, through their libraries: what pictures and masks are read from and written to.
 #pragma once
 
 #include <cstddef>

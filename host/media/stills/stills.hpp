@@ -1,4 +1,4 @@
-// Stills: how they are decoded here. What the functions do stands with media/module.hpp's entries.
+// Private to the module nutik-stills.so: how stills are decoded. media/module.hpp says what its entries do.
 #pragma once
 
 #include <filesystem>
@@ -35,13 +35,12 @@ struct PngTags {
 
 [[nodiscard]] StillTimes read_exif_times(const std::filesystem::path& file);
 
-// How a picture lies, by EXIF data without the name in front of it, or by those in a JPEG: 1 … 8, and 1 where they do not
-// say.
+// The orientation that a JPEG's EXIF data state, 1 … 8; 1 where they state none.
 [[nodiscard]] unsigned exif_orientation(const std::filesystem::path& jpeg);
 
 void write_exr(OutputFile& file, const Picture& picture, const std::string& text, bool as_half);
 void write_exr_layers(OutputFile& file, std::span<const PictureLayer> layers);
-// Those with these chromaticities, of red, green, blue and white, to what files hold of them.
+// The primaries whose red, green, blue and white have these chromaticities, as nearly as files state them.
 [[nodiscard]] std::optional<Primaries> primaries_at(const std::array<std::array<double, 2>, 4>& points);
 inline constexpr const char* kOtherPrimaries = "other chromaticities";
 

@@ -47,8 +47,6 @@ enum class BoxcarPart { whole, begin, end, gain };
 [[nodiscard]] Points with_boxcar_moved(const Points& points, const GainBoxcar& boxcar, BoxcarPart part,
                                        std::int64_t by_ns);
 
-// Where a time and a gain lie in the curve editor, in pixels.
-
 // Which gains the curve editor shows.
 //
 //   always:  low < high. The axis follows the gains by itself, with room above and below, until somebody zooms; it
@@ -78,6 +76,7 @@ class GainAxis {
   bool is_automatic_ = true;
 };
 
+// Where a time and a gain lie in the curve editor, in pixels.
 class PlotFrame {
  public:
   // `box`: the area between the axes, in a widget of this width.
