@@ -36,11 +36,11 @@ BlockLease BlockLease::spread(const BlockExtent& extent, std::span<const std::by
   return lease;
 }
 
-BlockLease BlockLease::within(const BlockExtent& extent, std::span<const std::byte> region,
+BlockLease BlockLease::within(const BlockExtent& extent, std::span<const std::byte> mapping,
                               std::uint64_t offset, std::uint64_t bytes) {
-  BlockLease lease(extent, region.subspan(offset, bytes));
-  lease.region_ = region;
-  lease.region_offset_ = offset;
+  BlockLease lease(extent, mapping.subspan(offset, bytes));
+  lease.mapping_ = mapping;
+  lease.mapping_offset_ = offset;
   return lease;
 }
 

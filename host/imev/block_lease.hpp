@@ -42,7 +42,7 @@ class PayloadParts {
 
 // Gives memory for a payload of so many bytes or more, which begins at a multiple of 64 bytes and is not written to while
 // the lease lives. An empty span: there is none, and the block is not wanted now.
-using RoomForPayload = std::function<std::span<std::byte>(std::uint64_t bytes)>;
+using AllocatePayload = std::function<std::span<std::byte>(std::uint64_t bytes)>;
 
 // Tells whether any of the tiles [first, last) of a block is wanted.
 using WantsTiles = std::function<bool(std::uint64_t first, std::uint64_t last)>;
@@ -51,7 +51,7 @@ using WantsTiles = std::function<bool(std::uint64_t first, std::uint64_t last)>;
 struct LeaseTerms {
   // A source that has to unpack the payload calls this once, before any slow work; one that has the payload in memory
   // does not. Without it a payload is unpacked into memory of the source's own.
-  RoomForPayload room = {};
+  AllocatePayload room = {};
 
   // A source that unpacks tiles in groups calls this after `room`, once for each group, in their order. Where a group
   // is not wanted, the memory of its bodies stays as it was; the directory is always whole. Without it all are wanted.
@@ -73,7 +73,7 @@ class BlockLease {
                            std::shared_ptr<const void> keeper);
 
   // A payload within memory that starts on a page border and lasts as long as the source.
-  static BlockLease within(const BlockExtent& extent, std::span<const std::byte> region, std::uint64_t offset,
+  static BlockLease within(const BlockExtent& extent, std::span<const std::byte> mapping, std::uint64_t offset,
                            std::uint64_t bytes);
 
   BlockLease(BlockLease&&) = default;
@@ -87,8 +87,8 @@ class BlockLease {
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
   // The lasting memory that the payload is part of, and where it begins there; empty where there is none.
-  [[nodiscard]] std::span<const std::byte> region() const { return region_; }
-  [[nodiscard]] std::uint64_t region_offset() const { return region_offset_; }
+  [[nodiscard]] std::span<const std::byte> mapping() const { return mapping_; }
+  [[nodiscard]] std::uint64_t mapping_offset() const { return mapping_offset_; }
 
   // Writes the payload as files hold it, bytes() of them, to the front of `into`.
   void copy_to(const CaptureFormat& capture, std::span<std::byte> into) const;
@@ -97,8 +97,8 @@ class BlockLease {
   BlockExtent extent_;
   std::span<const std::byte> payload_;
   std::uint64_t bytes_ = 0;
-  std::span<const std::byte> region_;
-  std::uint64_t region_offset_ = 0;
+  std::span<const std::byte> mapping_;
+  std::uint64_t mapping_offset_ = 0;
   std::shared_ptr<const void> keeper_;
 };
 

@@ -83,7 +83,7 @@ void BlockFeed::start(const RenderPlan& plan, std::span<const TableSlice> slices
   skipped_ = std::move(skipped);
   next_ = 0;
   if (!skipped_.empty() && skipped_.front()) advance();
-  in_place_bytes_ = 0;
+  mapped_bytes_ = 0;
   checked_ahead_ = 0;
   is_read_by_kernel_ = false;
   for (Slab& slab : passing_) slab.used = 0;
@@ -93,8 +93,8 @@ void BlockFeed::start(const RenderPlan& plan, std::span<const TableSlice> slices
 BlockFeed::Chunk BlockFeed::next() {
   Chunk chunk = reading_.valid() ? reading_.get() : next_chunk();
   bytes_ = passing_[0].used + passing_[1].used + resident_.bytes();
-  // What is resident or lies in place takes no time.
-  if (limits_.reads_ahead && next_ < plan_->blocks.size() && in_place_bytes_ == 0 &&
+  // What is resident or in a mapped file takes no time.
+  if (limits_.reads_ahead && next_ < plan_->blocks.size() && mapped_bytes_ == 0 &&
       resident_place(plan_->blocks[next_]) == nullptr) {
     reading_ = std::async(std::launch::async, [this] { return next_chunk(); });
   }
@@ -147,15 +147,15 @@ BlockFeed::Chunk BlockFeed::resident_chunk() {
   return chunk;
 }
 
-BlockFeed::Chunk BlockFeed::in_place_chunk(BlockLease lease) {
+BlockFeed::Chunk BlockFeed::mapped_chunk(BlockLease lease) {
   Chunk chunk;
-  const std::span<const std::byte> region = lease.region();
-  const std::uint64_t begin = lease.region_offset() / kPageBytes * kPageBytes;
+  const std::span<const std::byte> mapping = lease.mapping();
+  const std::uint64_t begin = lease.mapping_offset() / kPageBytes * kPageBytes;
   std::uint64_t bytes = 0;
-  // As far as blocks lie behind the first one in its region.
-  while (lease.region().data() == region.data() && lease.region_offset() >= begin) {
+  // As far as blocks lie behind the first one in its mapping.
+  while (lease.mapping().data() == mapping.data() && lease.mapping_offset() >= begin) {
     const PlannedBlock& planned = plan_->blocks[next_];
-    const std::uint64_t offset = lease.region_offset() - begin;
+    const std::uint64_t offset = lease.mapping_offset() - begin;
     const std::uint64_t end = align_up(offset + lease.bytes(), kBlockAlignment);
     check_size(planned, end - (chunk.entries.empty() ? 0 : bytes));
     if (!chunk.entries.empty() && end > info_.largest_allocation_bytes) break;
@@ -170,15 +170,15 @@ BlockFeed::Chunk BlockFeed::in_place_chunk(BlockLease lease) {
                              {[](std::uint64_t) -> std::span<std::byte> { return {}; }});
   }
   pending_ = std::move(lease);
-  in_place_bytes_ = std::min(bytes, region.size() - begin);
-  chunk.host_bytes = in_place_bytes_;
+  mapped_bytes_ = std::min(bytes, mapping.size() - begin);
+  chunk.host_bytes = mapped_bytes_;
   chunk.stays = true;
-  chunk.payload = cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, in_place_bytes_,
-                             const_cast<std::byte*>(region.data()) + begin);
+  chunk.payload = cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, mapped_bytes_,
+                             const_cast<std::byte*>(mapping.data()) + begin);
   return chunk;
 }
 
-// The next blocks that lie in place, one a core: a checksum keeps no more than one busy.
+// The next blocks in a mapped file, one a core: a checksum keeps no more than one busy.
 void BlockFeed::check_ahead() {
   if (next_ < checked_ahead_) return;
   std::vector<std::uint64_t> unchecked;
@@ -198,7 +198,7 @@ void BlockFeed::check_ahead() {
 }
 
 // A block where its source has it.
-BlockFeed::Chunk BlockFeed::lent_chunk(BlockLease lease) {
+BlockFeed::Chunk BlockFeed::uncopied_chunk(BlockLease lease) {
   Chunk chunk;
   chunk.entries.push_back(entry(0));
   chunk.payload_bytes = lease.bytes();
@@ -221,10 +221,10 @@ BlockFeed::Chunk BlockFeed::filled_chunk() {
     if (lease.is_empty()) break;
     if (!was_unpacked(filling, lease)) {
       const bool is_first = chunk.entries.empty();
-      if (is_first && lies_in_place(lease)) return in_place_chunk(std::move(lease));
-      if (is_first && is_read_where_it_lies(lease)) return lent_chunk(std::move(lease));
+      if (is_first && is_in_mapped_file(lease)) return mapped_chunk(std::move(lease));
+      if (is_first && is_used_uncopied(lease)) return uncopied_chunk(std::move(lease));
       check_size(planned, lease.bytes());
-      if (lies_in_place(lease) || is_read_where_it_lies(lease) || !has_room(filling, lease.bytes())) {
+      if (is_in_mapped_file(lease) || is_used_uncopied(lease) || !has_room(filling, lease.bytes())) {
         pending_ = std::move(lease);
         break;
       }
@@ -281,11 +281,11 @@ bool BlockFeed::was_unpacked(const Filling& filling, const BlockLease& lease) {
 }
 
 // Whether the device reads a block, with those behind it, as part of the lasting memory they lie in.
-bool BlockFeed::lies_in_place(const BlockLease& lease) const {
-  return info_.shares_host_memory && !lease.region().empty();
+bool BlockFeed::is_in_mapped_file(const BlockLease& lease) const {
+  return info_.shares_host_memory && !lease.mapping().empty();
 }
 
-bool BlockFeed::is_read_where_it_lies(const BlockLease& lease) const {
+bool BlockFeed::is_used_uncopied(const BlockLease& lease) const {
   return info_.shares_host_memory && !is_resident() && lease.bytes() >= kMinLent &&
          lease.payload().size() <= std::min(info_.largest_allocation_bytes, kMaxSpread * lease.bytes());
 }

@@ -140,8 +140,8 @@ class BlockFeed {
   // Where a block lies since an exposure before, with all that this one needs of it; null where it does not.
   [[nodiscard]] const BlockPlace* resident_place(const PlannedBlock& planned) const;
   [[nodiscard]] WantsTiles wants(const PlannedBlock& planned);
-  [[nodiscard]] bool lies_in_place(const BlockLease& lease) const;
-  [[nodiscard]] bool is_read_where_it_lies(const BlockLease& lease) const;
+  [[nodiscard]] bool is_in_mapped_file(const BlockLease& lease) const;
+  [[nodiscard]] bool is_used_uncopied(const BlockLease& lease) const;
   void check_size(const PlannedBlock& planned, std::uint64_t bytes) const;
   BlockEntry entry(std::uint64_t offset) const;
   [[nodiscard]] const TableSlice& slice() const { return slices_[slice_]; }
@@ -150,9 +150,9 @@ class BlockFeed {
 
   Chunk next_chunk();
   Chunk resident_chunk();
-  Chunk in_place_chunk(BlockLease lease);
+  Chunk mapped_chunk(BlockLease lease);
   void check_ahead();
-  Chunk lent_chunk(BlockLease lease);
+  Chunk uncopied_chunk(BlockLease lease);
   Chunk filled_chunk();
   BlockLease lease_next(Filling& filling);
   [[nodiscard]] std::byte* unpacking_place(const Filling& filling);
@@ -176,8 +176,8 @@ class BlockFeed {
   std::size_t next_ = 0;   // planned block that is not skipped
   std::vector<bool> skipped_;
   BlockLease pending_;  // of that block, where it did not fit the chunk before
-  std::uint64_t in_place_bytes_ = 0;
-  std::size_t checked_ahead_ = 0;  // planned blocks, of those that lie in place
+  std::uint64_t mapped_bytes_ = 0;
+  std::size_t checked_ahead_ = 0;  // planned blocks, of those in a mapped file
   std::uint64_t bytes_ = 0;
 
   std::array<Slab, 2> passing_;  // used in turns

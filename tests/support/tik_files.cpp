@@ -64,11 +64,11 @@ void expect_same_capture(const RandomCase& random, tik::Reader& reader) {
     const BlockLease lease = reader.acquire(b);
     EXPECT_EQ(lease.extent(), capture.block_extent(b));
     if (reader.index()[b].codec == static_cast<std::uint32_t>(tik::CodecId::none)) {
-      const auto mapped = lease.region().subspan(lease.region_offset(), payload.size());
+      const auto mapped = lease.mapping().subspan(lease.mapping_offset(), payload.size());
       ASSERT_TRUE(std::equal(payload.begin(), payload.end(), mapped.begin()));
-      EXPECT_EQ(lease.region_offset() % kBlockAlignment, 0u);
+      EXPECT_EQ(lease.mapping_offset() % kBlockAlignment, 0u);
     } else {
-      EXPECT_TRUE(lease.region().empty());
+      EXPECT_TRUE(lease.mapping().empty());
     }
   }
 }

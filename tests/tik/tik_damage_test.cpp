@@ -59,7 +59,7 @@ TEST(TikDamage, ADamagedBlockCostsThatBlockOnly) {
   const Scratch scratch;
   const auto path = write_tik(random, {CodecId::none, 0}, scratch);
   std::string bytes = test::read_file(path);
-  const std::uint64_t offset = Reader(path).acquire(1).region_offset();
+  const std::uint64_t offset = Reader(path).acquire(1).mapping_offset();
   bytes[offset + 200] = static_cast<char>(bytes[offset + 200] ^ 1);
   scratch.write("damaged.tik", bytes);
   Reader reader(scratch / "damaged.tik");
