@@ -1,9 +1,10 @@
-// Small pieces of text: numbers, blanks, letters, lists.
+// Small pieces of text: numbers, blanks, letters, lists; and bytes as such.
 #pragma once
 
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -16,6 +17,14 @@ namespace nutik {
 
 [[nodiscard]] inline std::string_view as_text(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+// A number of so many bytes, the most significant first; 0 where they are not all there.
+[[nodiscard]] inline std::uint64_t big_endian(std::string_view bytes, std::size_t at, std::size_t count) {
+  if (at > bytes.size() || bytes.size() - at < count) return 0;
+  std::uint64_t number = 0;
+  for (const char byte : bytes.substr(at, count)) number = number << 8 | static_cast<unsigned char>(byte);
+  return number;
 }
 
 // A number at the start of a text, which is cut off. False: there is none.

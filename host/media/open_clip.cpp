@@ -3,11 +3,13 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "media/cameras/photron_clip.hpp"
 #include "media/cameras/photron_header.hpp"
+#include "media/cameras/sony_file.hpp"
 #include "media/clip_part.hpp"
 #include "media/events/event_clip.hpp"
 #include "media/formats/file_kinds.hpp"
-#include "media/formats/readers.hpp"
+#include "media/formats/input_kinds.hpp"
 #include "media/module.hpp"
 #include "media/stills/still_sequence.hpp"
 #include "media/stills/stills_table.hpp"
@@ -19,9 +21,9 @@ namespace {
 
 using Files = std::vector<std::filesystem::path>;
 
-// Which files are of a format, and how they are opened. What is believed of each stands in media/formats/readers.hpp.
+// Which files are of a format, and how they are opened.
 struct ClipFormat {
-  const readers::Reader* reader;  // one that tells of it
+  const inputs::InputKind* kind;  // of events the first of their kinds
   // What a name stands for if it is of this format. Throws InputError if that is damaged or not all there.
   std::optional<Files> (*files)(const std::filesystem::path& path);
   std::unique_ptr<Clip> (*open)(const std::filesystem::path& path, const Files& files, const ClipOptions& options);
@@ -168,13 +170,13 @@ std::unique_ptr<Clip> open_video(const std::filesystem::path& path, const Files&
 
 // The first that takes a name has it; what nothing takes is perhaps a video.
 constexpr ClipFormat kFormats[] = {
-    {&readers::kPhotron, photron_files, open_photron_clip},
-    {&readers::kProphesee, files_of_events, open_events},
-    {&readers::kTable, files_of_table, open_table},
-    {&readers::kSequence, list_stills, open_stills, describe_stills},
+    {&inputs::kPhotron, photron_files, open_photron_clip},
+    {&inputs::kProphesee, files_of_events, open_events},
+    {&inputs::kTable, files_of_table, open_table},
+    {&inputs::kSequence, list_stills, open_stills, describe_stills},
 };
-constexpr ClipFormat kVideos{&readers::kVideo, nullptr, open_video},
-    kDescribed{&readers::kRawVideo, nullptr, open_video, add_photron_header};
+constexpr ClipFormat kVideos{&inputs::kVideo, nullptr, open_video},
+    kDescribed{&inputs::kRawVideo, nullptr, open_video, add_photron_header};
 
 struct FormatOf {
   const ClipFormat& format;
@@ -194,10 +196,10 @@ FormatOf format_of(const std::filesystem::path& path, bool is_raw) {
 std::vector<std::filesystem::path> files_of_clip(const std::filesystem::path& path, bool is_raw) {
   auto [format, files] = format_of(path, is_raw);
   std::error_code error;
-  const bool is_folder = *format.reader == readers::kSequence && std::filesystem::is_directory(path, error);
+  const bool is_folder = *format.kind == inputs::kSequence && std::filesystem::is_directory(path, error);
   if (is_raw || is_folder) {
     if (const auto header = photron_header_of(path)) files.push_back(header->file);
-  } else if (*format.reader == readers::kVideo && !is_absent(sony_file_of(path))) {
+  } else if (*format.kind == inputs::kVideo && !is_absent(sony_file_of(path))) {
     const std::filesystem::path story = video_module().story_beside(path);
     if (!story.empty()) files.push_back(story);
   }
@@ -206,9 +208,9 @@ std::vector<std::filesystem::path> files_of_clip(const std::filesystem::path& pa
 
 std::unique_ptr<Clip> open_clip(const std::filesystem::path& name, const ClipOptions& options) {
   const std::filesystem::path& path = is_standard_input(name.string()) ? standard_input_file() : name;
-  if (!options.raw) refuse_unread_kind(path);
+  if (!options.raw) refuse_unsupported_kind(path);
   const auto [format, files] = format_of(path, options.raw.has_value());
-  if (*format.reader != readers::kProphesee) refuse_event_options(path, options.events);
+  if (format.open != open_events) refuse_event_options(path, options.events);
   std::unique_ptr<Clip> clip = format.open(path, files, options);
   ClipInfo info = clip->info();
   if (format.describe != nullptr) format.describe(info, path, files);

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "fuzz/target.hpp"
-#include "media/cameras/photron_header.hpp"
+#include "media/cameras/photron_clip.hpp"
 
 namespace nutik::fuzz {
 namespace {

@@ -142,7 +142,7 @@ TEST_F(StillSequence, LeavesOtherFilesToOthers) {
   EXPECT_EQ(listed("absent.mp4"), "no stills");
   EXPECT_EQ(listed("still.png"), "still.png");
   expect_refused("empty",
-                 {"empty: the folder holds no picture (.png, .tif, .pgm, .ppm, .jpg, .dng, .exr, .pfm, .npy)"});
+                 {"empty: the folder holds no picture (PNG, JPEG, TIFF, DNG, Netpbm, OpenEXR, PFM, NumPy)"});
 }
 
 TEST_F(StillSequence, NamesWhatIsMadeFromIt) {

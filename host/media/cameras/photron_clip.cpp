@@ -1,5 +1,4 @@
-// Photron's recordings: a .mraw of pictures one behind the other, and beside it the header that says what they are
-// (photron_header.hpp).
+#include "media/cameras/photron_clip.hpp"
 
 #include <cstring>
 #include <string>
@@ -9,7 +8,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/cameras/photron_header.hpp"
-#include "media/formats/readers.hpp"
+#include "media/formats/input_kinds.hpp"
 #include "media/settled_fact.hpp"
 #include "system/is_absent.hpp"
 #include "system/mapped_file.hpp"
@@ -273,7 +272,7 @@ class PhotronClip final : public Clip {
 }  // namespace
 
 std::optional<std::vector<fs::path>> photron_files(const fs::path& path) {
-  if (!readers::kPhotron.is_named(path) || is_absent(path)) return std::nullopt;
+  if (!inputs::kPhotron.is_named(path) || is_absent(path)) return std::nullopt;
   std::vector<fs::path> files{pictures_of(path)};
   if (is_photron_header(path)) files.push_back(path);
   std::error_code error;

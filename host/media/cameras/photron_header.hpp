@@ -1,18 +1,15 @@
 // What Photron's cameras write beside their pictures (.cih: text, .cihx: XML): how fast they filmed, how long each
-// picture was exposed, and how the pictures of a .mraw are stored; and their recordings, a .mraw with such a header
-// (photron_clip.cpp).
+// picture was exposed, and how the pictures of a .mraw are stored.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "capture/rational.hpp"
-#include "media/clip.hpp"
 
 namespace nutik {
 
@@ -53,16 +50,5 @@ struct PhotronHeader {
 // The header of a file of pictures, which has its name, or the only one in a folder of them. None where there is
 // none, or it tells no rate.
 [[nodiscard]] std::optional<PhotronHeader> photron_header_of(const std::filesystem::path& pictures);
-
-// The files of a recording that is named by its .mraw or its header: the pictures, then the header, which is the one
-// that was named, else what lies beside.
-[[nodiscard]] std::optional<std::vector<std::filesystem::path>> photron_files(const std::filesystem::path& path);
-// Codes are as stored: values of 8 and 16 bits, the latter with their low byte first, and packed ones of 9 to 15 bits,
-// the highest bit first; where a header says that only some bits of a value count, those. Colour is red, green, blue.
-// Throws InputError where the header is missing, lacks what is needed, or its pictures are not as many bytes as the file
-// has.
-[[nodiscard]] std::unique_ptr<Clip> open_photron_clip(const std::filesystem::path& path,
-                                                      const std::vector<std::filesystem::path>& files,
-                                                      const ClipOptions& options);
 
 }  // namespace nutik

@@ -9,7 +9,8 @@
 #include "capture/format.hpp"
 #include "media/events/event_light.hpp"
 #include "media/events/prophesee_events.hpp"
-#include "media/formats/readers.hpp"
+#include "media/formats/file_kinds.hpp"
+#include "media/formats/input_kinds.hpp"
 #include "system/input_bytes.hpp"
 #include "system/mapped_file.hpp"
 
@@ -57,9 +58,8 @@ class EventClip final : public Clip {
 }  // namespace
 
 bool is_event_recording(const std::filesystem::path& path) {
-  const std::string start = first_bytes(is_standard_input(path.string()) ? standard_input_file() : path);
-  if (readers::kPhotron.is_named(path)) return false;
-  return readers::kProphesee.begins(start) || readers::kAdder.begins(start);
+  const std::string start = telling_bytes(is_standard_input(path.string()) ? standard_input_file() : path);
+  return inputs::kProphesee.begins(start) || inputs::kAdder.begins(start);
 }
 
 std::unique_ptr<Clip> open_event_clip(const std::filesystem::path& path, const ClipOptions& options) {
@@ -71,7 +71,7 @@ std::unique_ptr<Clip> open_event_clip(const std::filesystem::path& path, const C
   const MappedFile file(path);
   ClipInfo info;
   info.timing.rate_from = "the times of its events";
-  if (readers::kAdder.begins(first_bytes(path))) {
+  if (inputs::kAdder.begins(first_bytes(path))) {
     EventLight light = read_adder_file(file.bytes(), name, options, info);
     return std::make_unique<EventClip>(std::move(info), std::move(light));
   }

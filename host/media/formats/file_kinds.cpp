@@ -18,8 +18,8 @@ namespace nutik {
 namespace {
 
 using namespace std::string_view_literals;
-using readers::kJpeg;
-using readers::kPng;
+using inputs::kJpeg;
+using inputs::kPng;
 
 constexpr std::string_view kToPng = "make PNGs of such files: magick mogrify -format png FILES";
 constexpr std::string_view kToDng = "make DNGs of them, with Adobe's DNG Converter or dnglab";
@@ -30,10 +30,10 @@ constexpr std::string_view kToEvents = "if it holds events, convert it to EVT 3.
 constexpr std::string_view kUnpack = "unpack it first";
 
 // What stands at a file's start, where `?` is any byte, or what its name ends with.
-struct Kind {
+struct RefusedKind {
   std::string_view start, extension, what, way_out;
 };
-constexpr Kind kKinds[] = {
+constexpr RefusedKind kRefusedKinds[] = {
     {"BM????\0\0\0\0"sv, {}, "a BMP picture", kToPng},
     {"RIFF????WEBP", {}, "a WebP picture", kToPng},
     {"\0\0\0\x0CjP  "sv, {}, "a JPEG 2000 picture", kToPng},
@@ -118,20 +118,17 @@ bool is_jpeg_of_several(std::string_view bytes) {
 
 }  // namespace
 
-std::uint64_t big_endian(std::string_view bytes, std::size_t at, std::size_t count) {
-  if (at > bytes.size() || bytes.size() - at < count) return 0;
-  std::uint64_t number = 0;
-  for (const char byte : bytes.substr(at, count)) number = number << 8 | static_cast<unsigned char>(byte);
-  return number;
+std::string telling_bytes(const std::filesystem::path& file) {
+  return inputs::kPhotron.is_named(file) ? std::string() : first_bytes(file);
 }
 
-std::optional<std::string> unread_kind_text(const std::filesystem::path& file) {
-  const std::string start = first_bytes(file), title = input_title(file.string());
-  if (begins_as_capture(start)) {
+std::optional<std::string> unsupported_kind_text(const std::filesystem::path& file) {
+  const std::string title = input_title(file.string());
+  if (begins_as_capture(first_bytes(file))) {
     return format("{} is a capture (.tik) already, not a picture or a clip; pictures are exposed from it alone", title);
   }
-  if (readers::kPhotron.is_named(file)) return std::nullopt;
-  for (const Kind& kind : kKinds) {
+  const std::string start = telling_bytes(file);
+  for (const RefusedKind& kind : kRefusedKinds) {
     const bool is_it = kind.extension.empty() ? begins_with(start, kind.start)
                                               : !start.empty() && extension_of(file) == kind.extension;
     if (is_it) return format("{} is {}, which is not read; {}", title, kind.what, kind.way_out);
@@ -139,8 +136,8 @@ std::optional<std::string> unread_kind_text(const std::filesystem::path& file) {
   return std::nullopt;
 }
 
-void refuse_unread_kind(const std::filesystem::path& file) {
-  if (const auto text = unread_kind_text(file)) throw InputError(*text);
+void refuse_unsupported_kind(const std::filesystem::path& file) {
+  if (const auto text = unsupported_kind_text(file)) throw InputError(*text);
 }
 
 void refuse_text(const std::filesystem::path& file) {
@@ -162,16 +159,25 @@ void refuse_text(const std::filesystem::path& file) {
                           title));
 }
 
-const readers::Reader* still_kind(const std::filesystem::path& file) {
-  if (readers::kPhotron.is_named(file)) return nullptr;
-  const std::string start = first_bytes(file);
+const inputs::InputKind* still_kind(const std::filesystem::path& file) {
+  const std::string start = telling_bytes(file);
   // A DNG is a TIFF, and only its name or its tags say which.
-  if (readers::kTiff.begins(start)) return readers::kDng.is_named(file) ? &readers::kDng : &readers::kTiff;
-  for (const readers::Reader* reader : readers::kStills) {
-    if (reader->begins(start)) return reader;
+  if (inputs::kTiff.begins(start)) return inputs::kDng.is_named(file) ? &inputs::kDng : &inputs::kTiff;
+  for (const inputs::InputKind* kind : inputs::kStills) {
+    if (kind->begins(start)) return kind;
   }
-  const auto* named = std::ranges::find_if(readers::kStills, [&](const auto* reader) { return reader->is_named(file); });
-  return named == std::end(readers::kStills) ? nullptr : *named;
+  return kind_named_by(file);
+}
+
+const inputs::InputKind* kind_named_by(const std::filesystem::path& file) {
+  const auto* named = std::ranges::find_if(inputs::kStills, [&](const auto* kind) { return kind->is_named(file); });
+  return named == std::end(inputs::kStills) ? nullptr : *named;
+}
+
+std::string still_kinds_text() {
+  std::string text;
+  for (const inputs::InputKind* kind : inputs::kStills) text += (text.empty() ? "" : ", ") + std::string(kind->name);
+  return text;
 }
 
 bool holds_several_pictures(const std::filesystem::path& file) {
@@ -181,20 +187,6 @@ bool holds_several_pictures(const std::filesystem::path& file) {
   const MappedFile mapped(file);
   const std::string_view bytes = as_text(mapped.bytes());
   return is_png ? is_png_of_several(bytes) : is_jpeg_of_several(bytes);
-}
-
-std::filesystem::path sony_file_of(const std::filesystem::path& clip) {
-  const std::string extension = extension_of(clip);
-  if (extension != ".mxf" && extension != ".mp4") return {};  // an export of another kind has other codes
-  return clip.parent_path() / (clip.stem().string() + "M01.XML");
-}
-
-void check_stated_size(const std::string& name, std::uint64_t width, std::uint64_t height, std::uint64_t file_bytes) {
-  constexpr std::uint64_t kMaxPixelsAByte = 1032 * 8, kSmallPixels = 16 << 20;
-  if (width * height <= std::max(kSmallPixels, file_bytes * kMaxPixelsAByte)) return;
-  throw InputError(
-      format("{} cannot be read: it states {} x {} pixels, which its {} bytes do not hold; it is damaged", name, width,
-             height, file_bytes));
 }
 
 }  // namespace nutik

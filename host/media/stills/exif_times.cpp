@@ -84,7 +84,7 @@ unsigned exif_orientation(const std::filesystem::path& jpeg) {
 }
 
 StillTimes read_exif_times(const std::filesystem::path& file) {
-  if (const auto* kind = still_kind(file); kind != nullptr && *kind == readers::kDng) {
+  if (const auto* kind = still_kind(file); kind != nullptr && *kind == inputs::kDng) {
     const RawTags tags = read_raw_tags(file);
     StillTimes times{date_ns(tags.date), tags.exposure_ns};
     if (times.start_ns) *times.start_ns += fraction_ns(tags.fraction) - zone_ns(tags.zone);

@@ -16,7 +16,6 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/formats/colour_profile.hpp"
-#include "media/formats/file_kinds.hpp"
 
 namespace nutik {
 namespace {
@@ -105,6 +104,13 @@ void set_density(jpeg_compress_struct& jpeg, const Rational& aspect) {
 }
 
 }  // namespace
+
+void check_stated_size(const std::string& name, std::uint64_t width, std::uint64_t height, std::uint64_t file_bytes) {
+  constexpr std::uint64_t kMaxPixelsAByte = 1032 * 8, kSmallPixels = 16 << 20;
+  if (width * height <= std::max(kSmallPixels, file_bytes * kMaxPixelsAByte)) return;
+  throw InputError(format("{} cannot be read: it states {} x {} pixels, which its {} bytes do not hold; it is damaged", name,
+                          width, height, file_bytes));
+}
 
 void write_jpeg(OutputFile& file, const Picture& picture, const std::string& text, int quality) {
   const Shape& shape = picture.shape;

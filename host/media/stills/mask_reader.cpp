@@ -5,7 +5,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/text.hpp"
-#include "media/formats/readers.hpp"
+#include "media/formats/input_kinds.hpp"
 #include "media/stills/netpbm.hpp"
 #include "media/stills/picture_files.hpp"
 #include "system/mapped_file.hpp"
@@ -63,7 +63,7 @@ Picture read_mask(const std::filesystem::path& path) {
 
 Picture read_mask(std::span<const std::byte> bytes, const std::string& name,
                   const CheckMaskSize& check_size) {
-  if (readers::kPng.begins(as_text(bytes))) {
+  if (inputs::kPng.begins(as_text(bytes))) {
     const unsigned orientation = png_orientation(bytes);
     const auto check_upright = [&](std::uint32_t width, std::uint32_t height) {
       if (check_size) orientation >= 5 ? check_size(height, width) : check_size(width, height);

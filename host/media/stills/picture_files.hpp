@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -16,6 +17,10 @@
 namespace nutik {
 
 struct FileWishes;  // of whoever writes (media/writers/picture_writer.hpp)
+
+// Before a decoder takes memory for what a file states. Deflate makes 1032 bytes of one at most, which may be 8 pixels
+// each; a JPEG's block of 64 pixels takes more than that, and a DNG's zeros are packed no closer. Throws InputError.
+void check_stated_size(const std::string& name, std::uint64_t width, std::uint64_t height, std::uint64_t file_bytes);
 
 // PNG through libpng.
 

@@ -3,7 +3,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/text.hpp"
-#include "media/formats/readers.hpp"
+#include "media/formats/input_kinds.hpp"
 #include "media/module.hpp"
 #include "media/stills/picture_files.hpp"
 #include "system/mapped_file.hpp"
@@ -31,11 +31,11 @@ std::optional<std::string> read_picture_text(const std::filesystem::path& path) 
   const MappedFile file(path);
   const std::string_view bytes = as_text(file.bytes());
   std::optional<std::string> text;
-  if (readers::kPng.begins(bytes)) {
+  if (inputs::kPng.begins(bytes)) {
     text = read_png_text(file.bytes(), kPictureTextKeyword, path.string());
-  } else if (readers::kJpeg.begins(bytes)) {
+  } else if (inputs::kJpeg.begins(bytes)) {
     text = read_jpeg_comments(file.bytes(), path.string());
-  } else if (readers::kExr.begins(bytes)) {
+  } else if (inputs::kExr.begins(bytes)) {
     text = still_module().read_exr_text(path, kPictureTextKeyword);
   } else if (bytes.starts_with("II") || bytes.starts_with("MM")) {
     text = read_tiff_description(path);

@@ -6,7 +6,6 @@
 #include "capture/format.hpp"
 #include "capture/text.hpp"
 #include "media/formats/coding_points.hpp"
-#include "media/formats/file_kinds.hpp"
 #include "media/stills/picture_files.hpp"
 #include "system/mapped_file.hpp"
 

@@ -16,7 +16,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/text.hpp"
-#include "media/formats/file_kinds.hpp"
+#include "media/stills/picture_files.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::stills {

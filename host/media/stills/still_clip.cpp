@@ -16,7 +16,7 @@
 #include "media/stills/picture_files.hpp"
 #include "media/stills/netpbm.hpp"
 #include "media/stills/npy.hpp"
-#include "media/formats/readers.hpp"
+#include "media/formats/input_kinds.hpp"
 #include "media/module.hpp"
 #include "media/settled_fact.hpp"
 #include "media/stills/raw_file.hpp"
@@ -30,7 +30,7 @@ namespace {
 // One picture of a file.
 struct Page {
   std::filesystem::path file;
-  const readers::Reader* kind = nullptr;
+  const inputs::InputKind* kind = nullptr;
   std::uint64_t number = 1;
   std::uint64_t count = 1;  // of the file's pages
   std::size_t begin = 0;    // of a Netpbm file's, in bytes
@@ -167,7 +167,7 @@ void add_tags(const std::filesystem::path& file, const PngTags& tags, Still& sti
 
 // Before OpenCV looks for a decoder, of which some end the program on what they do not expect (DICM).
 void check_front(std::string_view bytes, const std::string& name) {
-  if (readers::kPng.begins(bytes) || readers::kJpeg.begins(bytes)) return;
+  if (inputs::kPng.begins(bytes) || inputs::kJpeg.begins(bytes)) return;
   throw InputError(
       format("{} cannot be read: it is damaged or no picture: neither a PNG nor a JPEG begins like that", name));
 }
@@ -207,7 +207,7 @@ Still read_with_opencv(const std::filesystem::path& file) {
   if (picture.empty()) {
     throw InputError(format("{} cannot be read: it is damaged or no picture", name));
   }
-  if (readers::kPng.begins(first_bytes(file))) check_png_palette(MappedFile(file).bytes(), name);
+  if (inputs::kPng.begins(first_bytes(file))) check_png_palette(MappedFile(file).bytes(), name);
   if (picture.depth() != CV_8U && picture.depth() != CV_16U) {
     throw InputError(
         format("{} holds neither 8- nor 16-bit values; save it as a PNG or TIFF with one of these", name));
@@ -236,23 +236,23 @@ class StillClip final : public Clip {
             const ClipOptions& options) {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     for (const std::filesystem::path& file : files) {
-      refuse_unread_kind(file);
-      const readers::Reader* kind = still_kind(file);
-      if (kind == nullptr) kind = &readers::kPng;  // which says that it is none
+      refuse_unsupported_kind(file);
+      const inputs::InputKind* kind = still_kind(file);
+      if (kind == nullptr) kind = &inputs::kPng;  // which says that it is none
       std::uint64_t count = 1;
       std::vector<std::size_t> starts{0};  // of the pictures of a Netpbm file
-      if (*kind == readers::kTiff) {
+      if (*kind == inputs::kTiff) {
         const TiffReader tiff(file);
         if (tiff.is_dng()) {  // whose pages show one picture
-          kind = &readers::kDng;
+          kind = &inputs::kDng;
         } else {
           count = tiff.page_count();
           if (pages_.empty()) story_ = tiff.story();
         }
-      } else if (*kind == readers::kNetpbm) {
+      } else if (*kind == inputs::kNetpbm) {
         starts = netpbm_starts(MappedFile(file).bytes(), file.string());
         count = starts.size();
-      } else if (*kind == readers::kNumpy) {
+      } else if (*kind == inputs::kNumpy) {
         count = read_npy_front(MappedFile(file).bytes(), file.string()).pictures;
       }
       if (count > 1 && timing.is_known()) {
@@ -280,7 +280,7 @@ class StillClip final : public Clip {
     } else {
       capture.white_code = settle_white(info_, options.white_code, first_.maximum);
     }
-    const bool is_developed = *pages_.front().kind == readers::kDng;
+    const bool is_developed = *pages_.front().kind == inputs::kDng;
     describe_stored_codes(info_, options,
                           {default_transfer(first_), first_.transfer, first_.primaries, first_.colours_from,
                            first_.unread_transfer, first_.unread_primaries, first_.pixel_aspect});
@@ -373,15 +373,15 @@ class StillClip final : public Clip {
   }
 
   Still read_page(const Page& page) {
-    if (*page.kind == readers::kDng) {
+    if (*page.kind == inputs::kDng) {
       Still still = still_of(raws_.develop(page.file), 65'535);
       still.transfer = Transfer::linear();
       still.primaries = Primaries::bt709;
       return still;
     }
-    if (*page.kind == readers::kNetpbm) return read_netpbm_still(page);
+    if (*page.kind == inputs::kNetpbm) return read_netpbm_still(page);
     const std::optional<double>& white = stated_.white_light;
-    if (*page.kind == readers::kExr) {
+    if (*page.kind == inputs::kExr) {
       const ExrPicture read = read_exr(page.file);
       Still still = still_of_light(read.light, white, curve_, page.name());
       still.primaries = read.primaries;
@@ -389,15 +389,16 @@ class StillClip final : public Clip {
       still.pixel_aspect = aspect_of(1, read.pixel_aspect);
       return still;
     }
-    if (*page.kind == readers::kPfm || *page.kind == readers::kNumpy) {
+    if (*page.kind == inputs::kPfm || *page.kind == inputs::kNumpy) {
       const MappedFile mapped(page.file);
-      Picture picture = *page.kind == readers::kPfm ? read_pfm(mapped.bytes(), page.name())
+      Picture picture = *page.kind == inputs::kPfm ? read_pfm(mapped.bytes(), page.name())
                                                     : read_npy(mapped.bytes(), page.name(), page.number - 1);
       if (!holds_codes(picture.type)) return still_of_light(picture, white, curve_, page.name());
       return still_of(std::move(picture), std::nullopt);
     }
-    if (*page.kind == readers::kJpeg) return read_jpeg_still(page.file);
-    if (*page.kind != readers::kTiff) return read_with_opencv(page.file);
+    if (*page.kind == inputs::kJpeg) return read_jpeg_still(page.file);
+    if (*page.kind == inputs::kPng) return read_with_opencv(page.file);
+    if (*page.kind != inputs::kTiff) throw std::logic_error(format("nothing here reads a {}", page.kind->name));
     if (page.number == 1) tiff_.emplace(page.file);
     std::optional<TiffPage> read = tiff_->next();
     if (!read) throw InputError(format("{} cannot be read: the file was cut off", page.name()));

@@ -13,7 +13,7 @@
 #include "capture/format.hpp"
 #include "media/formats/file_kinds.hpp"
 #include "media/formats/numbered_name.hpp"
-#include "media/formats/readers.hpp"
+#include "media/formats/input_kinds.hpp"
 #include "media/stills/stills_table.hpp"
 #include "system/input_bytes.hpp"
 #include "system/is_absent.hpp"
@@ -24,14 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-// The kind of picture that a name promises; empty where it promises none.
-std::string_view still_kind_of(const fs::path& path) {
-  for (const readers::Reader* reader : readers::kStills) {
-    if (reader->is_named(path)) return reader->name;
-  }
-  return {};
-}
 
 // Whether a comes before b as a person counts: runs of digits compare as numbers.
 bool counts_before(const std::string& a, const std::string& b) {
@@ -134,7 +126,7 @@ std::vector<fs::path> main_sequence(const fs::path& folder, const std::vector<fs
 
 std::vector<fs::path> all_pictures_in(const fs::path& folder) {
   std::vector<fs::path> files = files_in(folder);
-  std::erase_if(files, [](const fs::path& file) { return still_kind_of(file).empty(); });
+  std::erase_if(files, [](const fs::path& file) { return kind_named_by(file) == nullptr; });
   return files;
 }
 
@@ -142,18 +134,16 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
   const std::vector<fs::path> files = all_pictures_in(folder);
   if (files.empty()) {
     for (const fs::path& file : files_in(folder)) {
-      if (const auto kind = unread_kind_text(file)) throw InputError(*kind);
+      if (const auto kind = unsupported_kind_text(file)) throw InputError(*kind);
     }
-    throw InputError(
-        format("{}: the folder holds no picture (.png, .tif, .pgm, .ppm, .jpg, .dng, .exr, .pfm, .npy)",
-               folder.string()));
+    throw InputError(format("{}: the folder holds no picture ({})", folder.string(), still_kinds_text()));
   }
   // Two kinds are two sequences, or a sequence and something else: neither may be guessed at.
   for (const fs::path& file : files) {
-    if (still_kind_of(file) == still_kind_of(files.front())) continue;
+    if (kind_named_by(file) == kind_named_by(files.front())) continue;
     throw InputError(format("{}: the folder holds {} files ({}) and {} files ({}); name one kind: '{}'",
-                            folder.string(), still_kind_of(files.front()), files.front().filename().string(),
-                            still_kind_of(file), file.filename().string(),
+                            folder.string(), kind_named_by(files.front())->name, files.front().filename().string(),
+                            kind_named_by(file)->name, file.filename().string(),
                             (folder / ("*" + files.front().extension().string())).string()));
   }
   return main_sequence(folder, files);

@@ -8,7 +8,7 @@
 #include "capture/format.hpp"
 #include "capture/rational.hpp"
 #include "capture/text.hpp"
-#include "media/formats/readers.hpp"
+#include "media/formats/input_kinds.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik {
@@ -111,7 +111,7 @@ Times column(const std::filesystem::path& table, std::span<const ListedStill> st
 
 bool is_stills_table(const std::filesystem::path& path) {
   std::error_code error;
-  return readers::kTable.is_named(path) && std::filesystem::is_regular_file(path, error);
+  return inputs::kTable.is_named(path) && std::filesystem::is_regular_file(path, error);
 }
 
 std::vector<ListedStill> read_stills_table(const std::filesystem::path& path) {

@@ -10,7 +10,7 @@
 #include "capture/error.hpp"
 #include "capture/median.hpp"
 #include "capture/text.hpp"
-#include "media/formats/file_kinds.hpp"
+#include "media/cameras/sony_file.hpp"
 #include "media/videos/mxf_unit.hpp"
 #include "system/mapped_file.hpp"
 

@@ -19,7 +19,7 @@
 
 #include "capture/rational.hpp"
 #include "capture/text.hpp"
-#include "media/formats/readers.hpp"
+#include "media/formats/input_kinds.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::videos {
@@ -50,7 +50,7 @@ std::optional<CineHeader> read_cine_header(const std::filesystem::path& path) {
   const MappedFile mapped(path);
   const auto file = mapped.bytes();
   const std::string_view start = as_text(file);
-  if (file.size() < kFileHeaderBytes || !readers::kPhantom.begins(start)) return std::nullopt;
+  if (file.size() < kFileHeaderBytes || !inputs::kPhantom.begins(start)) return std::nullopt;
   const std::uint64_t count = number<std::uint32_t>(file, 20);
   const std::uint64_t setup = number<std::uint32_t>(file, 28);
   const std::uint64_t tags_end = std::min<std::uint64_t>(number<std::uint32_t>(file, 32), file.size());

@@ -26,9 +26,9 @@ inline constexpr std::string_view kStreams[] = {"av1",        "avs2", "avs3",   
 inline constexpr std::string_view kPipes[] = {"jpeg_pipe", "pbm_pipe", "pgm_pipe", "png_pipe", "ppm_pipe"};
 // None of these says it, and FFmpeg makes up a rate.
 inline constexpr std::string_view kUntimed[] = {"h261", "h263", "mpjpeg"};
-inline constexpr std::string_view kPlaylists[] = {"concat", "dash", "hls", "imf", "sdp", "vobsub"};
-inline constexpr std::string_view kTexts[] = {"adf", "bin", "idf", "tty", "xbin"};
-inline constexpr std::string_view kStills[] = {"dpx_pipe",    "ico",      "j2k_pipe",  "jpegls_pipe",
+inline constexpr std::string_view kRefusedPlaylists[] = {"concat", "dash", "hls", "imf", "sdp", "vobsub"};
+inline constexpr std::string_view kRefusedTexts[] = {"adf", "bin", "idf", "tty", "xbin"};
+inline constexpr std::string_view kRefusedStills[] = {"dpx_pipe",    "ico",      "j2k_pipe",  "jpegls_pipe",
                                                "jpegxl_pipe", "psd_pipe", "tiff_pipe", "webp_pipe"};
 inline constexpr std::string_view kFits[] = {"fits"}, kMlv[] = {"mlv"}, kSer[] = {"ser"};
 
@@ -38,10 +38,10 @@ inline constexpr Containers kContainers[] = {
     {kStreams},
     {kPipes},
     {kUntimed},
-    {kPlaylists,
+    {kRefusedPlaylists,
      "names other files, and none is opened that you did not name. ffmpeg -i LIST -c copy film.mkv makes one file of them"},
-    {kTexts, "is text, which could be shown letter by letter but is no film"},
-    {kStills, "is a still picture of a kind that is not read. ffmpeg -i PICTURE PICTURE.png, or .tif, makes one that is"},
+    {kRefusedTexts, "is text, which could be shown letter by letter but is no film"},
+    {kRefusedStills, "is a still picture of a kind that is not read. ffmpeg -i PICTURE PICTURE.png, or .tif, makes one that is"},
     {kFits,
      "would be stretched, each picture between its own darkest and brightest pixel. Save 16-bit TIFFs, with Siril for one, "
      "whose codes stay, and state their rate"},

@@ -1,8 +1,8 @@
 #include "media/videos/mxf_unit.hpp"
+#include "capture/text.hpp"
 
 #include <algorithm>
 
-#include "media/formats/file_kinds.hpp"
 
 namespace nutik::videos {
 namespace {

@@ -16,7 +16,7 @@
 namespace nutik {
 namespace {
 
-struct FileKind {
+struct WrittenFormat {
   const char* extension;
   bool is_preferred = true;             // of several extensions
   std::uint32_t code_bits = 0;      // that it holds at most; 0: no codes
@@ -50,7 +50,7 @@ void write_exr_layers(OutputFile& file, std::span<const PictureLayer> layers) {
   still_module().write_exr_layers(file, layers);
 }
 
-constexpr std::array<FileKind, 11> kFileKinds{{
+constexpr std::array<WrittenFormat, 11> kWrittenFormats{{
     {.extension = ".png", .code_bits = 16, .is_for_eyes = true, .write = write_png},
     {.extension = ".tif", .code_bits = 16, .holds_light = true, .holds_double = true, .write = write_tiff,
      .write_layers = write_tiff},
@@ -71,15 +71,15 @@ constexpr std::array<FileKind, 11> kFileKinds{{
 
 constexpr std::string_view kStandardOutput = "-", kBehindKind = ":-";
 
-const FileKind* find_kind(const std::filesystem::path& path) {
+const WrittenFormat* find_format(const std::filesystem::path& path) {
   const std::string extension = picture_extension(path);
-  const auto found = std::find_if(kFileKinds.begin(), kFileKinds.end(),
-                                  [&](const FileKind& kind) { return extension == kind.extension; });
-  return found == kFileKinds.end() ? nullptr : &*found;
+  const auto found = std::find_if(kWrittenFormats.begin(), kWrittenFormats.end(),
+                                  [&](const WrittenFormat& kind) { return extension == kind.extension; });
+  return found == kWrittenFormats.end() ? nullptr : &*found;
 }
 
-const FileKind& file_kind_of(const std::filesystem::path& path) {
-  if (const FileKind* kind = find_kind(path)) return *kind;
+const WrittenFormat& written_format_of(const std::filesystem::path& path) {
+  if (const WrittenFormat* kind = find_format(path)) return *kind;
   throw UsageError(format("{}: pictures are written as {}, not as '{}'", path.string(), picture_extensions(),
                           path.extension().string()));
 }
@@ -88,7 +88,7 @@ const FileKind& file_kind_of(const std::filesystem::path& path) {
 template <typename Wanted>
 std::string extensions_of(Wanted wanted) {
   std::vector<std::string> names;
-  for (const FileKind& kind : kFileKinds) {
+  for (const WrittenFormat& kind : kWrittenFormats) {
     if (kind.is_preferred && wanted(kind)) names.emplace_back(kind.extension);
   }
   std::string text;
@@ -102,7 +102,7 @@ std::string extensions_of(Wanted wanted) {
 
 ValueType value_type_for(const std::filesystem::path& path, std::optional<Depth> wish, ValueType usual,
                          std::uint32_t channels) {
-  const FileKind& kind = file_kind_of(path);
+  const WrittenFormat& kind = written_format_of(path);
   if (kind.only_channels != 0 && kind.only_channels != channels) {
     throw UsageError(format("{} holds {} pictures only and this one {}; write a .png or .tif", path.string(),
                             channels == 1 ? "colour" : "grey", channels == 1 ? "is grey" : "has colour"));
@@ -110,15 +110,15 @@ ValueType value_type_for(const std::filesystem::path& path, std::optional<Depth>
   const bool light = wish ? *wish != Depth::bits8 && *wish != Depth::bits16 : kind.code_bits == 0;
   if (light && !kind.holds_light) {
     throw UsageError(format("{} cannot hold floating point; write a {}", path.string(),
-                            extensions_of([](const FileKind& other) { return other.holds_light; })));
+                            extensions_of([](const WrittenFormat& other) { return other.holds_light; })));
   }
   if (wish == Depth::half && !kind.holds_half) {
     throw UsageError(format("{} holds floating point of 32 bits, not of 16; write a {}", path.string(),
-                            extensions_of([](const FileKind& other) { return other.holds_half; })));
+                            extensions_of([](const WrittenFormat& other) { return other.holds_half; })));
   }
   if (wish == Depth::doubled && !kind.holds_double) {
     throw UsageError(format("{} holds no floating point of 64 bits; write a {}", path.string(),
-                            extensions_of([](const FileKind& other) { return other.holds_double; })));
+                            extensions_of([](const WrittenFormat& other) { return other.holds_double; })));
   }
   if (!light && kind.code_bits == 0) {
     throw UsageError(format("{} holds floating point only; write a .png, .tif or .ppm", path.string()));
@@ -126,7 +126,7 @@ ValueType value_type_for(const std::filesystem::path& path, std::optional<Depth>
   if (light) return wish == Depth::doubled ? ValueType::light64 : ValueType::light32;
   if (wish == Depth::bits16 && kind.code_bits < 16) {
     throw UsageError(format("{} holds 8 bits only; write a {}", path.string(),
-                            extensions_of([](const FileKind& other) { return other.code_bits == 16; })));
+                            extensions_of([](const WrittenFormat& other) { return other.code_bits == 16; })));
   }
   if (!wish) return kind.code_bits == 8 ? ValueType::code8 : usual;
   return *wish == Depth::bits8 ? ValueType::code8 : ValueType::code16;
@@ -134,7 +134,7 @@ ValueType value_type_for(const std::filesystem::path& path, std::optional<Depth>
 
 bool names_standard_output(const std::filesystem::path& path) {
   const std::string name = path.string();
-  return name == kStandardOutput || (name.ends_with(kBehindKind) && find_kind(path) != nullptr);
+  return name == kStandardOutput || (name.ends_with(kBehindKind) && find_format(path) != nullptr);
 }
 
 std::string picture_extension(const std::filesystem::path& path) {
@@ -145,21 +145,21 @@ std::string picture_extension(const std::filesystem::path& path) {
   return extension_of(path);
 }
 
-bool is_picture_name(const std::filesystem::path& path) { return find_kind(path) != nullptr; }
+bool is_picture_name(const std::filesystem::path& path) { return find_format(path) != nullptr; }
 
 bool is_lossy_name(const std::filesystem::path& path) {
-  const FileKind* kind = find_kind(path);
+  const WrittenFormat* kind = find_format(path);
   return kind != nullptr && kind->is_lossy;
 }
 
 std::string picture_extensions() {
-  return extensions_of([](const FileKind&) { return true; });
+  return extensions_of([](const WrittenFormat&) { return true; });
 }
 
 Shape written_shape(const std::filesystem::path& path, const Shape& shape, const Rational& aspect,
                     const FileWishes& wishes) {
   const Shape square = in_square_pixels(shape, aspect);
-  const bool is_squared = wishes.square_pixels && file_kind_of(path).is_for_eyes &&
+  const bool is_squared = wishes.square_pixels && written_format_of(path).is_for_eyes &&
                           std::max(square.width, square.height) <= kLargestSquaredSide;
   return is_squared ? square : shape;
 }
@@ -172,7 +172,7 @@ void write_picture(const std::filesystem::path& path, const Picture& picture, co
                    const FileWishes& wishes) {
   const Shape shape = written_shape(path, picture.shape, picture.pixel_aspect, wishes);
   if (shape != picture.shape) return write_picture(path, in_square_pixels(picture, shape), text, wishes);
-  const FileKind& kind = file_kind_of(path);
+  const WrittenFormat& kind = written_format_of(path);
   const bool fits = holds_codes(picture.type) ? value_bytes(picture.type) * 8 <= kind.code_bits
                     : picture.type == ValueType::light64 ? kind.holds_double
                                                          : kind.holds_light;
@@ -193,7 +193,7 @@ void write_picture(const std::filesystem::path& path, const Picture& picture, co
 }
 
 void write_layers(const std::filesystem::path& path, std::span<const PictureLayer> layers) {
-  const FileKind& kind = file_kind_of(path);
+  const WrittenFormat& kind = written_format_of(path);
   if (kind.write_layers == nullptr) return write_picture(path, layers.front().values);
   OutputFile file(path);
   file.check_by(check_interruption);

@@ -14,7 +14,7 @@
 #include "media/clip.hpp"
 #include "media/formats/file_kinds.hpp"
 #include "media/formats/numbered_name.hpp"
-#include "media/formats/readers.hpp"
+#include "media/formats/input_kinds.hpp"
 #include "media/input_checksum.hpp"
 #include "media/stills/mask_reader.hpp"
 #include "media/stills/still_sequence.hpp"
@@ -42,8 +42,8 @@ FunctionInput read_functions(std::string_view text, const std::string& title) {
 FunctionInput read_function_input(const std::string& name) {
   const InputBytes input(name);
   const std::string_view text = input.text();
-  const auto begins = [&](const readers::Reader* kind) { return kind->begins(text); };
-  if (const auto kind = std::ranges::find_if(readers::kStills, begins); kind != std::end(readers::kStills)) {
+  const auto begins = [&](const inputs::InputKind* kind) { return kind->begins(text); };
+  if (const auto kind = std::ranges::find_if(inputs::kStills, begins); kind != std::end(inputs::kStills)) {
     throw InputError(format("{} is a picture, a {}, and gain functions are text; were mask and functions swapped?",
                             input_title(name), (*kind)->name));
   }
@@ -91,8 +91,8 @@ Picture read_tags(const std::string& name) {
 Mask read_mask_input(const std::string& name, const std::optional<std::string>& capture) {
   const InputBytes input(name, kMaxPipedMask);
   const auto shape = capture ? known_shape(*capture) : std::nullopt;
-  constexpr const readers::Reader* kAlsoRead[] = {&readers::kTiff, &readers::kExr, &readers::kPfm, &readers::kNumpy};
-  const readers::Reader* const kind = is_standard_input(name) ? nullptr : still_kind(name);
+  constexpr const inputs::InputKind* kAlsoRead[] = {&inputs::kTiff, &inputs::kExr, &inputs::kPfm, &inputs::kNumpy};
+  const inputs::InputKind* const kind = is_standard_input(name) ? nullptr : still_kind(name);
   if (std::ranges::count(kAlsoRead, kind) > 0) return Mask::from_picture(read_tags(name));
   return Mask::from_picture(
       read_mask(input.bytes(), input_title(name), [&](std::uint32_t width, std::uint32_t height) {
@@ -157,9 +157,9 @@ Picture read_picture(const std::string& name) {
   }
   const auto stills = list_stills(name);
   if (!stills || stills->size() != 1) {
-    throw UsageError(format("{} is {}; a picture is needed (PNG, TIFF, PGM, PPM, JPEG, OpenEXR, PFM, NPY)", name,
-                                 stills ? format("a sequence of {}", stills->size()) : "no picture"),
-                          Advice{", or a time of the capture: 0.3s, 12f"});
+    throw UsageError(format("{} is {}; a picture is needed ({})", name,
+                            stills ? format("a sequence of {}", stills->size()) : "no picture", still_kinds_text()),
+                     Advice{", or a time of the capture: 0.3s, 12f"});
   }
   Picture picture = read_still(name, 1.0, "what is needed").first;
   const std::uint32_t largest = largest_code(picture.bytes, static_cast<std::uint32_t>(value_bytes(picture.type)));

@@ -50,7 +50,7 @@ struct AlignRequest {
 };
 
 struct SourceRequest {
-  std::filesystem::path path = {};  // a .tik, a video, a sequence of stills or a table of them
+  std::filesystem::path path = {};  // a .tik, or whatever open_clip() opens
   ClipOptions clip = {};
   // Degrees; none: as listed in the files, else Timeline::kFullShutter.
   std::optional<Rational> shutter_angle = std::nullopt;
