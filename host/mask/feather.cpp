@@ -163,11 +163,11 @@ std::int32_t parse_reach(std::string_view text, const std::string& all) {
                "6px, 2.5px; of one mask value M255=6px, of several 2px,M255=6px",
                quoted(all)));
   }
-  const std::uint64_t most = Feather::kMax;
+  const std::uint64_t most = Feather::kMaxCentipixels;
   const std::uint64_t hundredths = 100 * std::min(*whole, most) + (decimals.size() == 1 ? 10 * *part : *part);
   if (hundredths > most) {
     throw UsageError(
-        format("the feather {} reaches too far; at most {} pixels", quoted(all), Feather::kMax / 100));
+        format("the feather {} reaches too far; at most {} pixels", quoted(all), Feather::kMaxCentipixels / 100));
   }
   return static_cast<std::int32_t>(hundredths);
 }
@@ -186,7 +186,7 @@ Feather Feather::parse(const std::string& text) {
       if (has_all)
         throw UsageError(format("the feather {} says twice how far all edges reach", quoted(text)));
       has_all = true;
-      feather.everywhere = parse_reach(part, text);
+      feather.everywhere_centipixels = parse_reach(part, text);
       continue;
     }
     std::string_view tag = std::string_view(part).substr(0, equals);

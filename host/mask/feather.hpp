@@ -17,9 +17,9 @@ namespace nutik {
 
 // How far an edge reaches to either side, in hundredths of a pixel.
 struct Feather {
-  static constexpr std::int32_t kMax = 500 * 100;
+  static constexpr std::int32_t kMaxCentipixels = 500 * 100;
 
-  std::int32_t everywhere = 0;
+  std::int32_t everywhere_centipixels = 0;
   std::map<std::uint8_t, std::int32_t> of_tag;  // where it is another
 
   // `6px`, `2.5px`; `M255=6px` of one tag; several with commas between: `2px,M255=6px`. Throws UsageError.
@@ -27,7 +27,7 @@ struct Feather {
 
   [[nodiscard]] std::int32_t of(std::uint8_t tag) const {
     const auto found = of_tag.find(tag);
-    return found == of_tag.end() ? everywhere : found->second;
+    return found == of_tag.end() ? everywhere_centipixels : found->second;
   }
   friend bool operator==(const Feather&, const Feather&) = default;
 };

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "exposure/boundary_table.hpp"
+#include "exposure/weight_integrator.hpp"
 #include "render/function_course.hpp"
 
 namespace nutik {
@@ -152,7 +152,7 @@ std::shared_ptr<const TableRun> GainTable::run(std::size_t run) const {
 std::shared_ptr<const TableRun> GainTable::make_run(std::size_t run, CompensatedSum before) const {
   auto made = std::make_shared<TableRun>();
   made->first_block = layout_->run_starts[run];
-  WeightSweep sweep(function_, summary_, layout_->timeline.duration_ns());
+  WeightIntegrator integrator(function_, summary_, layout_->timeline.duration_ns());
   for (std::uint64_t block = made->first_block; block < layout_->run_starts[run + 1]; ++block) {
     const BlockExtent& extent = layout_->blocks[block];
     const SampleSpan span = span_in(extent);
@@ -163,7 +163,7 @@ std::shared_ptr<const TableRun> GainTable::make_run(std::size_t run, Compensated
         layout_->timeline.times({extent.first_sample + span.first, extent.first_sample + span.last});
     made->numbers.resize(offset + 2 * times.size() + 1);
     const auto weights = std::span(made->numbers).subspan(offset, times.size());
-    sweep.pack(times, weights, std::span(made->numbers).subspan(offset + times.size()));
+    integrator.pack(times, weights, std::span(made->numbers).subspan(offset + times.size()));
     for (const double weight : weights) {
       if (weight != 0.0) before.add(weight);
     }

@@ -1,4 +1,4 @@
-// The packed table of one gain function over a capture (exposure/boundary_table.hpp), made when it is first needed and
+// The packed table of one gain function over a capture (exposure/weight_integrator.hpp), made when it is first needed and
 // only for the blocks that the function touches.
 //
 //   in:      a function and the layout of a capture

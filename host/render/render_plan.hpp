@@ -67,7 +67,7 @@ struct PlannedBlock {
   BlockExtent extent;
   std::uint64_t table_row;  // of its first sample, in tables of the planned blocks
 
-  // Rows of the tables: one for each sample and one more (exposure/boundary_table.hpp).
+  // Rows of the tables: one for each sample and one more (exposure/weight_integrator.hpp).
   [[nodiscard]] std::uint64_t row_count() const { return std::uint64_t{extent.sample_count} + 1; }
 };
 

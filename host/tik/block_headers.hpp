@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "capture/timeline.hpp"
-#include "tik/format.hpp"
+#include "tik/file_layout.hpp"
 #include "tik/header.hpp"
 
 namespace nutik::tik {

@@ -25,7 +25,7 @@
 #include "imev/block.hpp"
 #include "imev/block_lease.hpp"
 #include "system/interruption.hpp"
-#include "tik/format.hpp"
+#include "tik/file_layout.hpp"
 
 namespace nutik::tik {
 
@@ -39,6 +39,9 @@ struct Codec {
   [[nodiscard]] bool is_slow() const { return id == CodecId::zstd && level >= 10; }
   friend bool operator==(const Codec&, const Codec&) = default;
 };
+
+// What captures are packed with where nothing is stated.
+inline constexpr Codec kUsualCodec{CodecId::rice, 0};
 
 // Makes `parts` the stored form of a payload, one behind the other, in the memory that they have; `geometry` is its
 // block's. No more threads than these work on it. `progress` is called on any of them, one at a time: before each group

@@ -16,7 +16,7 @@
 #include "imev/block.hpp"
 #include "imev/expected_values.hpp"
 #include "tik/codec.hpp"
-#include "tik/format.hpp"
+#include "tik/file_layout.hpp"
 
 namespace nutik::tik {
 namespace {

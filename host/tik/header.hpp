@@ -37,7 +37,7 @@
 #include "capture/picture.hpp"
 #include "capture/timeline.hpp"
 #include "tik/fields.hpp"
-#include "tik/format.hpp"
+#include "tik/file_layout.hpp"
 
 namespace nutik::tik {
 

@@ -14,7 +14,7 @@
 #include "capture/error.hpp"
 #include "imev/capture_source.hpp"
 #include "system/mapped_file.hpp"
-#include "tik/format.hpp"
+#include "tik/file_layout.hpp"
 #include "tik/header.hpp"
 
 namespace nutik::tik {

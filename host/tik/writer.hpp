@@ -11,7 +11,7 @@
 #include "system/checksum.hpp"
 #include "system/output_file.hpp"
 #include "tik/codec.hpp"
-#include "tik/format.hpp"
+#include "tik/file_layout.hpp"
 #include "tik/header.hpp"
 
 namespace nutik::tik {

@@ -85,7 +85,7 @@ py::object opened_file(const std::string& path, std::shared_ptr<Devices> devices
 // To a file, or to a temporary capture.
 py::tuple encoded(const Opening& terms, const std::optional<std::string>& output,
                   const std::optional<std::string>& codec, const py::object& progress) {
-  const tik::Codec packed = tik::Codec::parse(codec.value_or("rice"));
+  const tik::Codec packed = codec ? tik::Codec::parse(*codec) : tik::kUsualCodec;
   if (codec && !output) throw UsageError("codec= is said of a file that is kept: name it, output='clip.tik'");
   if (output && !is_tik(*output)) throw UsageError(format("{} is no name for a capture, which ends in .tik", *output));
   if (!output) return opened(terms, progress);

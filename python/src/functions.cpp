@@ -11,7 +11,7 @@
 #include "mask/layers.hpp"
 #include "parts.hpp"
 #include "session/output_check.hpp"
-#include "session/requests/function_input.hpp"
+#include "session/requests/named_inputs.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::python {

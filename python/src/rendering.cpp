@@ -314,7 +314,7 @@ void bind_rendering(py::module_& module) {
                        const std::optional<std::array<std::uint32_t, 4>>& region) {
              Options options = stated_options(CommandId::expose, settings);
              if (delays_ns) options.delay = delay_of(*delays_ns);
-             ExposureRequest request = weighed_exposure(options);
+             ExposureRequest request = exposure_without_gains(options);
              request.start = options.start.value_or(StatedTime());
              request.gains = PlainInterval{options.exposure.value_or(StatedTime()), stated_shutter(options)};
              if (functions) request.gains = Shared(*functions);

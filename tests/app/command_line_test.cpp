@@ -4,7 +4,7 @@
 #include <set>
 #include <opencv2/videoio.hpp>
 
-#include "app/requests/requests.hpp"
+#include "app/words/stated_requests.hpp"
 #include "support/app_test.hpp"
 
 namespace nutik {

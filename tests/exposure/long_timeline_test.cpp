@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "exposure/boundary_table.hpp"
+#include "exposure/weight_integrator.hpp"
 #include "support/bounds.hpp"
 #include "support/exact.hpp"
 #include "support/random_case.hpp"
@@ -67,11 +67,11 @@ TEST_P(ADay, HasTheTablesThatExactArithmeticSays) {
     firsts.push_back(static_cast<std::uint64_t>(random.whole(0, static_cast<std::int64_t>(count - kBlock))));
   }
 
-  WeightSweep sweep(function, summary, timeline_.duration_ns());
+  WeightIntegrator integrator(function, summary, timeline_.duration_ns());
   std::vector<double> weights(kBlock), boundaries(kBlock + 1);
   double worst = 0.0;
   for (const std::uint64_t first : firsts) {
-    sweep.pack(timeline_.times({first, first + kBlock}), weights, boundaries);
+    integrator.pack(timeline_.times({first, first + kBlock}), weights, boundaries);
     Exact boundary = 0, boundary_scale = 0;
     for (std::uint64_t i = 0; i < kBlock; ++i) {
       const Exact weight = test::exact_weight_ns(gain, timeline_, first + i) / unit;

@@ -4,7 +4,7 @@
 #include "capture/error.hpp"
 #include "exposure/function_text.hpp"
 #include "features/film/film_request.hpp"
-#include "session/requests/function_input.hpp"
+#include "session/requests/named_inputs.hpp"
 #include "support/messages.hpp"
 
 namespace nutik {

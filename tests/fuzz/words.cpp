@@ -1,7 +1,7 @@
 // What people write on a command line: times, shutter shapes, rates.
 #include "exposure/shutter_shape.hpp"
 #include "fuzz/target.hpp"
-#include "session/requests/moments.hpp"
+#include "session/requests/stated_moments.hpp"
 
 namespace nutik::fuzz {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "app/output/report.hpp"
-#include "app/requests/requests.hpp"
 #include "app/run.hpp"
+#include "app/words/stated_requests.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/picture.hpp"
@@ -23,7 +23,7 @@
 #include "imev/expected_values.hpp"
 #include "mask/feather.hpp"
 #include "session/clips/clip_source.hpp"
-#include "session/requests/function_input.hpp"
+#include "session/requests/named_inputs.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/text_table.hpp"
 #include "system/input_bytes.hpp"

@@ -3,8 +3,8 @@
 #include <span>
 
 #include "app/output/console.hpp"
-#include "app/requests/requests.hpp"
 #include "app/run.hpp"
+#include "app/words/stated_requests.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/noise_file.hpp"
@@ -20,7 +20,7 @@
 #include "media/stills/still_sequence.hpp"
 #include "media/writers/recipe.hpp"
 #include "session/requests/delay_request.hpp"
-#include "session/requests/function_input.hpp"
+#include "session/requests/named_inputs.hpp"
 #include "session/text/shell_text.hpp"
 #include "system/mapped_file.hpp"
 #include "system/output_file.hpp"

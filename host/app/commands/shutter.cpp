@@ -2,7 +2,7 @@
 
 #include "app/command_line/words.hpp"
 #include "app/output/console.hpp"
-#include "app/requests/requests.hpp"
+#include "app/words/stated_requests.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "exposure/function_diagnostics.hpp"
@@ -12,7 +12,7 @@
 #include "features/schema/option.hpp"
 #include "features/schema/options.hpp"
 #include "session/clips/clip_source.hpp"
-#include "session/requests/moments.hpp"
+#include "session/requests/stated_moments.hpp"
 #include "session/text/number_text.hpp"
 
 namespace nutik::app {

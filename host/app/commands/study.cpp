@@ -7,7 +7,7 @@
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
-#include "app/requests/requests.hpp"
+#include "app/words/stated_requests.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/text.hpp"
@@ -216,7 +216,7 @@ Options options_by_hand(const Options& options, const StudyFiles& files, StudySt
   };
   state("mask", not_an_option(files.mask.string()));
   state("functions", not_an_option(files.functions.string()));
-  if (style != StudyStyle::slit && !options.feather) state("feather", format("{}px", kStudyFeather / 100));
+  if (style != StudyStyle::slit && !options.feather) state("feather", format("{}px", kStudyFeatherCentipixels / 100));
   state("normalize", "integral");
   return by_hand;
 }

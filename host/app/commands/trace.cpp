@@ -9,7 +9,7 @@
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
 #include "app/output/report.hpp"
-#include "app/requests/requests.hpp"
+#include "app/words/stated_requests.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/schema/options.hpp"

@@ -15,7 +15,7 @@
 #include "media/writers/recipe.hpp"
 #include "session/output_check.hpp"
 #include "session/requests/delay_request.hpp"
-#include "session/requests/function_input.hpp"
+#include "session/requests/named_inputs.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"
 #include "system/input_bytes.hpp"

@@ -10,7 +10,7 @@
 #include "capture/format.hpp"
 #include "imev/activity.hpp"
 #include "imev/each_block.hpp"
-#include "session/requests/function_input.hpp"
+#include "session/requests/named_inputs.hpp"
 #include "session/text/number_text.hpp"
 #include "system/input_bytes.hpp"
 

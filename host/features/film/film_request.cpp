@@ -7,7 +7,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/text.hpp"
-#include "exposure/between.hpp"
+#include "exposure/key_frame_values.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/text_table.hpp"
 

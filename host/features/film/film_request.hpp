@@ -15,7 +15,7 @@
 #include "features/series/series_request.hpp"
 #include "session/memory_budget.hpp"
 #include "session/requests/exposure_request.hpp"
-#include "session/requests/moments.hpp"
+#include "session/requests/stated_moments.hpp"
 
 namespace nutik {
 

@@ -4,7 +4,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "exposure/between.hpp"
+#include "exposure/key_frame_values.hpp"
 #include "session/text/number_text.hpp"
 
 namespace nutik {

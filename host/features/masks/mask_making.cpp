@@ -13,7 +13,7 @@
 #include "mask/layers.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "scene/clean_plate.hpp"
-#include "session/requests/function_input.hpp"
+#include "session/requests/named_inputs.hpp"
 #include "session/requests/output_request.hpp"
 
 namespace nutik {

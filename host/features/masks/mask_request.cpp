@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "session/requests/function_input.hpp"
+#include "session/requests/named_inputs.hpp"
 
 namespace nutik {
 namespace {

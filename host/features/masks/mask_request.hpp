@@ -11,7 +11,7 @@
 
 #include "capture/picture.hpp"
 #include "mask/region.hpp"
-#include "session/requests/moments.hpp"
+#include "session/requests/stated_moments.hpp"
 #include "system/shared.hpp"
 
 namespace nutik {

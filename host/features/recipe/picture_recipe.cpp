@@ -6,7 +6,7 @@
 #include "media/input_checksum.hpp"
 #include "media/stills/picture_text.hpp"
 #include "session/clips/clip_source.hpp"
-#include "session/requests/moments.hpp"
+#include "session/requests/stated_moments.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik {

@@ -10,14 +10,14 @@ using Id = CommandId;
 using enum Scope;
 
 constexpr CommandSet kAll = ~CommandSet{0};
-// Those that read a clip, and so take what describes it.
-constexpr CommandSet kReadsClips =
+// Those that open a clip, or a capture in its place, and so take what describes it.
+constexpr CommandSet kOpensClips =
     set_of(Id::encode, Id::expose, Id::batch, Id::check, Id::trace, Id::mask, Id::contact, Id::activity,
            Id::sweep, Id::video, Id::validate, Id::background, Id::study, Id::solve);
-// Those that decode a clip, and so take what its codes are.
-constexpr CommandSet kDecodesClips = kReadsClips | bit(Id::noise);
-// Those of them that turn it into a capture, or expose it.
-constexpr CommandSet kEncodesClips = kReadsClips & ~bit(Id::check);
+// Those and the one that measures a clip's noise, and so take what its codes are.
+constexpr CommandSet kOpensClipsOrNoise = kOpensClips | bit(Id::noise);
+// Those that make a capture of it, in a file or in memory: what is kept of a clip is theirs to state.
+constexpr CommandSet kBuildsCaptures = kOpensClips & ~bit(Id::check);
 // Those that take gain functions.
 constexpr CommandSet kTakesFunctions =
     set_of(Id::expose, Id::check, Id::trace, Id::sweep, Id::video, Id::validate, Id::solve);
@@ -37,7 +37,7 @@ constexpr CommandSet kExposesFreely = set_of(Id::expose, Id::contact, Id::sweep,
 constexpr CommandSet kMakesMany = set_of(Id::expose, Id::batch, Id::video);
 // Those that write files.
 constexpr CommandSet kWrites =
-    (kReadsClips & ~set_of(Id::check, Id::validate)) |
+    (kOpensClips & ~set_of(Id::check, Id::validate)) |
     set_of(Id::recover, Id::noise, Id::retime, Id::join, Id::info, Id::thumbnail);
 // Those that lay pictures out on a sheet.
 constexpr CommandSet kMakesSheets = set_of(Id::contact, Id::sweep);
@@ -58,103 +58,104 @@ constexpr Option known(Setting setting, std::string_view python, Option row) {
 }
 
 // A row that had another name in earlier versions.
-constexpr Option once(std::string_view old_name, Option row) {
+constexpr Option formerly(std::string_view old_name, Option row) {
   row.old_name = old_name;
   return row;
 }
 
-// A step of a mask, or of another command's: as often as is liked, in the order of the command line.
-constexpr Option step(std::string_view name, std::string_view value, std::string_view help, Id of = Id::mask) {
-  return {0, name, value, subject, bit(of), {}, help};
+// A row that may be given again and again, and is kept in the order of the command line: the steps of a mask, and others.
+constexpr Option repeated(std::string_view name, std::string_view value, std::string_view help, Id of = Id::mask,
+                          Scope scope = subject) {
+  return {0, name, value, scope, bit(of), {}, help};
 }
 
 constexpr Option kRows[] = {
     heading(kSourceClip),
-    known(Setting::frame_rate, "rate", {'f', "fps", "RATE", timing, kReadsClips | set_of(Id::shutter, Id::retime),
+    known(Setting::frame_rate, "rate", {'f', "fps", "RATE", timing, kOpensClips | set_of(Id::shutter, Id::retime),
      take<InClip<&ClipOptions::rate>>,
      "pictures a second that the clip was filmed with: 120, 29.97, 30000/1001 (default: what the file says)"}),
-    known(Setting::shutter_angle, {'a', "shutter-angle", "DEGREES", timing, kReadsClips | set_of(Id::shutter,
+    known(Setting::shutter_angle, {'a', "shutter-angle", "DEGREES", timing, kOpensClips | set_of(Id::shutter,
      Id::retime),
      take<InSource<&SourceRequest::shutter_angle>>,
      "how long the shutter was open: 360 is all the time to the next picture (default: what the file says, else "
      "360)"}),
-    known(Setting::from, "begin", {0, "from", "TIME", decoding, kDecodesClips & ~bit(Id::video),
+    known(Setting::from, "begin", {0, "from", "TIME", decoding, kOpensClipsOrNoise & ~bit(Id::video),
      take_by<InClip<&ClipOptions::from>, parse_clip_moment>,
      "take pictures that start here or later: 1.5s, 32f; the first of them is at time 0 (default: all)"}),
-    known(Setting::to, "end", {0, "to", "TIME", decoding, kDecodesClips & ~bit(Id::video),
+    known(Setting::to, "end", {0, "to", "TIME", decoding, kOpensClipsOrNoise & ~bit(Id::video),
      take_by<InClip<&ClipOptions::to>, parse_clip_moment>,
      "take pictures that start earlier: 2s, 48f (default: all)"}),
-    known(Setting::crop, {0, "crop", "WxH+X+Y", decoding, kDecodesClips,
+    known(Setting::crop, {0, "crop", "WxH+X+Y", decoding, kOpensClipsOrNoise,
      take_by<InClip<&ClipOptions::crop>, parse_crop>,
      "take a rectangle of the clip's pictures: its size, and the place of its top left pixel"}),
-    known(Setting::scale, {0, "scale", "SCALE", decoding, kDecodesClips,
+    known(Setting::scale, {0, "scale", "SCALE", decoding, kOpensClipsOrNoise,
      take_by<InClip<&ClipOptions::scale>, parse_scale>,
      "make pictures smaller: each pixel is the mean of the light it covers, 1/2, 1/3, …, or 640x360"}),
-    known(Setting::deinterlace, {0, "deinterlace", "HOW", decoding, kDecodesClips,
+    known(Setting::deinterlace, {0, "deinterlace", "HOW", decoding, kOpensClipsOrNoise,
      take_choice<InClip<&ClipOptions::interlaced>, Interlaced::frames, Interlaced::fields, Interlaced::ignored>,
      "what becomes of interlaced video: frames (a picture from each frame), fields (one from each field, twice as"
      " many), or no (it only says that it is) (default: it is refused)",
      "frames fields no"}),
-    known(Setting::deflicker, {0, "deflicker", "", decoding, kReadsClips, take<InSource<&SourceRequest::deflickered>>,
+    known(Setting::deflicker, {0, "deflicker", "", decoding, kOpensClips, take<InSource<&SourceRequest::deflickered>>,
      "expose all pictures as the first one: undo a camera's automatic exposure and white balance"}),
-    known(Setting::between, {0, "between", "HOW", encoding, kEncodesClips,
+    known(Setting::between, {0, "between", "HOW", encoding, kBuildsCaptures,
      take_by<InSource<&SourceRequest::between>, parse_between>,
      "make samples between pictures, along the motion: auto (as many as no step is longer than about a pixel, "
      "none where nothing moves), or how many, 1 … 63; auto:10f..20f, between these pictures alone; the clip is read "
      "twice (default: off; a study makes them where its trail has gaps, a video where its frames mix pictures)",
      "auto auto: off"}),
-    once("as-far-as-it-goes", known(Setting::end_at_damage, {0, "ignore-errors", "", decoding, kDecodesClips,
+    formerly("as-far-as-it-goes", known(Setting::end_at_damage, {0, "ignore-errors", "", decoding, kOpensClipsOrNoise,
      take<InClip<&ClipOptions::ends_at_damage>>,
      "take a damaged clip up to what cannot be read; a warning says where it ends"})),
-    {0, "tolerance", "CODES", encoding, kEncodesClips, take_whole<InSource<&SourceRequest::tolerance>, 0, 65'535>,
+    {0, "tolerance", "CODES", encoding, kBuildsCaptures, take_whole<InSource<&SourceRequest::tolerance>, 0, 65'535>,
      "differences up to this many codes are no change; 0 keeps every one (default: 0)"},
-    {0, "noise", "FILE|auto", encoding, kReadsClips, take<In<&Options::noise>>,
+    {0, "noise", "FILE|auto", encoding, kOpensClips, take<In<&Options::noise>>,
      "the camera's noise: as nutik-cl noise measures it, or auto, measured on the clip itself. What is within it "
      "is no change, and samples are held as the light they are expected to have",
      "auto"},
 
     heading(kClipCodes),
-    known(Setting::white_code, {0, "white", "CODE", decoding, kDecodesClips, take_white,
+    known(Setting::white_code, {0, "white", "CODE", decoding, kOpensClipsOrNoise, take_white,
      "the code that stands for white: 255, 4095 for 12 bits, …; of floating-point pictures the light of white, which "
      "must be stated: 1.0 (default: what the file says)"}),
     // Its scope is exposure: a capture has a transfer function too, and may be exposed with another.
-    known(Setting::transfer, {0, "transfer", "NAME", exposure, kDecodesClips | bit(Id::retime),
+    known(Setting::transfer, {0, "transfer", "NAME", exposure, kOpensClipsOrNoise | bit(Id::retime),
      take<InClip<&ClipOptions::transfer>>,
      "how codes stand for light: srgb, bt709, linear, gamma:G, hlg, pq or a camera's curve: slog2, slog3, vlog, clog2, "
      "clog3, logc3 (EI 800), logc4, flog, flog2, nlog, dlog, applelog, acescct (default: srgb; linear for stills "
      "and grey video of more than 8 bits and for 16-bit colour; what a file names, but for bt709 in 8-bit "
      "video; a .tik's own)",
      "srgb bt709 linear gamma: hlg pq slog2 slog3 vlog clog2 clog3 logc3 logc4 flog flog2 nlog dlog applelog acescct"}),
-    known(Setting::matrix, {0, "matrix", "NAME", decoding, kDecodesClips,
+    known(Setting::matrix, {0, "matrix", "NAME", decoding, kOpensClipsOrNoise,
      take_choice<InClip<&ClipOptions::matrix>, YuvMatrix::bt601, YuvMatrix::bt709, YuvMatrix::bt2020, YuvMatrix::ycgco>,
      "how a video's YUV becomes RGB: bt601, bt709, bt2020 or ycgco (default: what the file says; else bt709 from "
      "720 lines on, bt601 below)",
      "bt601 bt709 bt2020 ycgco"}),
-    known(Setting::range, {0, "range", "NAME", decoding, kDecodesClips,
+    known(Setting::range, {0, "range", "NAME", decoding, kOpensClipsOrNoise,
      take_choice<InClip<&ClipOptions::range>, CodeRange::limited, CodeRange::full>,
      "which codes are black and white: limited or full (default: the file's; else limited, grey and RGB full)",
      "limited full"}),
-    known(Setting::chroma_place, {0, "chroma-at", "PLACE", decoding, kDecodesClips,
+    known(Setting::chroma_place, {0, "chroma-at", "PLACE", decoding, kOpensClipsOrNoise,
      take_choice<InClip<&ClipOptions::chroma_at>, ChromaPlace::left, ChromaPlace::center, ChromaPlace::topleft,
      ChromaPlace::top, ChromaPlace::bottomleft, ChromaPlace::bottom>,
      "where chroma lies that pixels share: in deep video, left, center, topleft, top, bottomleft or bottom "
      "(default: what the file says, else left)",
      "left center topleft top bottomleft bottom"}),
-    known(Setting::primaries, {0, "primaries", "NAME", decoding, kDecodesClips | bit(Id::retime),
+    known(Setting::primaries, {0, "primaries", "NAME", decoding, kOpensClipsOrNoise | bit(Id::retime),
      take_by<InClip<&ClipOptions::primaries>, parse_primaries>,
      "the colours of red, green and blue: bt709, bt2020, p3, or a camera's: sgamut3, sgamut3-cine, vgamut, cinema-gamut, "
      "arri-wg3, arri-wg4, dgamut, apple-wide-gamut, ap1 (default: the curve's, of cameras' curves; what the file says; "
      "else bt2020 if the matrix is, and bt709)",
      "bt709 bt2020 p3 sgamut3 sgamut3-cine vgamut cinema-gamut arri-wg3 arri-wg4 dgamut apple-wide-gamut ap1"}),
-    known(Setting::pixel_aspect, {0, "pixel-aspect", "W:H", decoding, kDecodesClips | bit(Id::retime),
+    known(Setting::pixel_aspect, {0, "pixel-aspect", "W:H", decoding, kOpensClipsOrNoise | bit(Id::retime),
      take_by<InClip<&ClipOptions::pixel_aspect>, parse_pixel_aspect>,
      "how much wider than high a pixel is: 32:27 (default: what the file says, else 1:1)"}),
-    known(Setting::raw_layout, {0, "raw", "WxH:FORMAT", decoding, kDecodesClips | bit(Id::shutter),
+    known(Setting::raw_layout, {0, "raw", "WxH:FORMAT", decoding, kOpensClipsOrNoise | bit(Id::shutter),
      take_by<InClip<&ClipOptions::raw>, parse_raw_video>,
      "a video without a header: its size and FFmpeg's name of its pixels, 480x270:yuv420p10le"}),
 
     heading(kEventRecording),
-    known(Setting::contrast, {0, "contrast", "STEP", decoding, kDecodesClips,
+    known(Setting::contrast, {0, "contrast", "STEP", decoding, kOpensClipsOrNoise,
      take_by<InEvents<&EventOptions::contrast>, parse_contrast>,
      "how much light changes with an event: the step of its natural logarithm, 0.2, or up and down apart, 0.3:0.17 "
      "(default: 0.2)"}),
@@ -162,17 +163,17 @@ constexpr Option kRows[] = {
      take_by<InEvents<&EventOptions::start>, parse_start_light>,
      "light before the first event: a picture's of the same pixels, or the same everywhere, 1 being white (default: "
      "0.18)"}),
-    known(Setting::tick, {0, "tick", "TIME", decoding, kDecodesClips,
+    known(Setting::tick, {0, "tick", "TIME", decoding, kOpensClipsOrNoise,
      take_by<InEvents<&EventOptions::tick_ns>, parse_tick>,
      "round events down to a tick: 100us, for fewer samples (default: the file's own times)"}),
 
     heading(kMovingCamera),
-    {0, "align", "MOTION", encoding, kEncodesClips,
+    {0, "align", "MOTION", encoding, kBuildsCaptures,
      take_choice<In<&Options::align>, CameraMotion::translation, CameraMotion::rigid, CameraMotion::homography>,
      "keep the camera still: move each picture onto the first one by translation, rigid (turning, too) or "
      "homography (whatever a camera on the spot does); the clip is read twice",
      "translation rigid homography"},
-    {0, "unseen", "HOW", encoding, kEncodesClips, take_choice<In<&Options::unseen>, Unseen::cropped, Unseen::held>,
+    {0, "unseen", "HOW", encoding, kBuildsCaptures, take_choice<In<&Options::unseen>, Unseen::cropped, Unseen::held>,
      "places that some pictures did not see: crop cuts them away, hold shows what was seen there before "
      "(default: crop)",
      "crop hold"},
@@ -252,11 +253,12 @@ constexpr Option kRows[] = {
     {0, "curve", "FILE.csv", series, bit(Id::video), take<In<&Options::curve>>,
      "which time each time of the video shows: in place of --from, --to and --speed, a line for each point, "
      "1.5s,0.4s; also backwards and standing still"},
-    {0, "key", "TIME FILE.fn", series, bit(Id::video), {},
-     "the functions at a time of the video: 2s, or 48f for frame 48; in place of -k, several times; they change "
-     "from key to key"},
-    {0, "mask-key", "TIME FILE.pgm", series, bit(Id::video), {},
-     "the mask at a time of the video: in place of -m, several times"},
+    repeated("key", "TIME FILE.fn",
+             "the functions at a time of the video: 2s, or 48f for frame 48; in place of -k, several times; they change "
+             "from key to key",
+             Id::video, series),
+    repeated("mask-key", "TIME FILE.pgm", "the mask at a time of the video: in place of -m, several times", Id::video,
+             series),
     known(Setting::video_codec, {0, "video-codec", "NAME", output, bit(Id::video), take<In<&Options::video_codec>>,
      "the codec: ffv1 (lossless; .mkv, .avi), h264, h265 (.mp4, .mov, .mkv), av1 (.mp4, .mkv, .webm), vp9 (.webm,"
      " .mkv), mjpeg (.avi, .mov, .mkv); of 10 bits h264-10, h265-10, av1-10; for editors prores, prores-proxy, "
@@ -274,35 +276,35 @@ constexpr Option kRows[] = {
      "clip stretch no"}),
 
     heading("Regions, in this order: later ones lie over earlier ones"),
-    step("tag", "N", "the tag of the regions after it, 0 … 255 (default: 255)"),
-    step("fill", "", "the whole picture"),
-    step("rectangle", "X,Y,W,H", "from its top left corner, in pixels"),
-    step("ellipse", "X,Y,RX,RY", "round a centre, with half its width and height"),
-    step("polygon", "X,Y,X,Y,...", "three corners or more: even-odd if it crosses itself"),
-    step("grid", "COLUMNSxROWS",
+    repeated("tag", "N", "the tag of the regions after it, 0 … 255 (default: 255)"),
+    repeated("fill", "", "the whole picture"),
+    repeated("rectangle", "X,Y,W,H", "from its top left corner, in pixels"),
+    repeated("ellipse", "X,Y,RX,RY", "round a centre, with half its width and height"),
+    repeated("polygon", "X,Y,X,Y,...", "three corners or more: even-odd if it crosses itself"),
+    repeated("grid", "COLUMNSxROWS",
          "the whole picture, cut into cells: tagged N, N + 1, … row by row, from 0 without --tag"),
-    step("threshold", "PICTURE LOW..HIGH",
+    repeated("threshold", "PICTURE LOW..HIGH",
          "pixels with a brightness in a range: 100..255 in codes, 100 for that and brighter, "
          "40%..100% of white. PICTURE is a file, or a time of the capture (0.3s, 12f)"),
-    step("difference", "PICTURE PICTURE", "pixels in which two pictures differ: files, or times of the capture"),
-    step("subject", "TIME", "pixels that differ from the background (nutik-cl background) at a time: 0.3s, 37f"),
-    step("body", "TIME", "the same without soft shadows on the background"),
-    step("moving", "", "pixels that change: within the capture, by more than its noise"),
-    step("still", "", "pixels that do not change"),
-    step("changed-between", "TIME TIME",
+    repeated("difference", "PICTURE PICTURE", "pixels in which two pictures differ: files, or times of the capture"),
+    repeated("subject", "TIME", "pixels that differ from the background (nutik-cl background) at a time: 0.3s, 37f"),
+    repeated("body", "TIME", "the same without soft shadows on the background"),
+    repeated("moving", "", "pixels that change: within the capture, by more than its noise"),
+    repeated("still", "", "pixels that do not change"),
+    repeated("changed-between", "TIME TIME",
          "pixels that change from one time to another: 0.3s 0.5s, or 37f 52f"),
 
     heading("Changes to the region before them"),
-    step("by", "CODES",
+    repeated("by", "CODES",
          "the largest difference that is no change: in codes, for --moving, --still, --changed-between, "
          "--difference and --subject (default: twice the 25th percentile of all pixels' ranges, at least 1/16 of "
          "white)"),
-    step("within", "X,Y,W,H", "only its part in a rectangle"),
-    step("largest", "", "only its largest connected part"),
-    step("grow", "PIXELS", "with what is no further away"),
-    step("shrink", "PIXELS", "without what is no further from its border"),
-    step("smooth", "PIXELS|holes", "without specks and holes: those narrower than twice this; or without any hole"),
-    step("invert", "", "everything else"),
+    repeated("within", "X,Y,W,H", "only its part in a rectangle"),
+    repeated("largest", "", "only its largest connected part"),
+    repeated("grow", "PIXELS", "with what is no further away"),
+    repeated("shrink", "PIXELS", "without what is no further from its border"),
+    repeated("smooth", "PIXELS|holes", "without specks and holes: those narrower than twice this; or without any hole"),
+    repeated("invert", "", "everything else"),
 
     heading("The mask"),
     {0, "base", "MASK.pgm", subject, bit(Id::mask), take<In<&Options::base>>,
@@ -358,7 +360,7 @@ constexpr Option kRows[] = {
     {0, "moments", "N|TIMES", subject, bit(Id::study), take_by<InStudy<&StudyRequest::moments>, parse_moments>,
      "how many moments, or which: up to 50, 7, or 0.36s,0.75s,1.27s (default: 5; of rear-curtain and frozen 1); "
      "of slit how many strips, up to 256 (default: 256)"},
-    step("region", "X,Y,W,H",
+    repeated("region", "X,Y,W,H",
          "look for a subject in this rectangle only; several times for as many subjects, each in its own",
          Id::study),
     {0, "spacing", "time|distance", subject, bit(Id::study),
@@ -380,12 +382,12 @@ constexpr Option kRows[] = {
      "where slit begins: left, right (columns), top or bottom (rows) (default: left)", "left right top bottom"},
 
     heading("What is solved for"),
-    step("wish", "WISH",
+    repeated("wish", "WISH",
          "what the picture should have: once for each wish, 'M0 = background', 'R1 gone', 'M64 like 0.8s', "
          "'500,120,80,60 <= 0.5'. A region (all, M64, R1, X,Y,WIDTH,HEIGHT, M64 within X,Y,WIDTH,HEIGHT), then "
          "gone, or =, <=, >=, like and light: a number, background, a time, a region, also 1.5 * background",
          Id::solve),
-    step("free", "NAME=FROM..TO",
+    repeated("free", "NAME=FROM..TO",
          "bounds of a gain or a time: rest=-100..0 (default: none), or when a time may be, when=0.6s..0.8s, in "
          "steps when=60f..80f/1f (default: any)",
          Id::solve),
@@ -415,7 +417,7 @@ constexpr Option kRows[] = {
      "auto single compensated double fixed"}),
     {0, "strict", "", computing, kExposes, take<In<&Options::strict>>,
      "refuse what may err by more than half a code, or half a float's step: an error with exit status 7"},
-    {0, "memory", "SIZE", computing, kDecodesClips | kExposes, take_by<In<&Options::memory>, parse_memory>,
+    {0, "memory", "SIZE", computing, kOpensClipsOrNoise | kExposes, take_by<In<&Options::memory>, parse_memory>,
      "the most that may be held: 500MB, 2GB, 1GiB; libraries and drivers come on top (default: half of the "
      "machine's)"},
 
@@ -485,10 +487,10 @@ constexpr Option kRows[] = {
      "memory; every step of a trace"},
 
     heading(kSeldomNeeded),
-    {0, "sigmas", "K", encoding, kReadsClips, take_by<InSource<&SourceRequest::sigmas>, parse_sigmas>,
+    {0, "sigmas", "K", encoding, kOpensClips, take_by<InSource<&SourceRequest::sigmas>, parse_sigmas>,
      "how many deviations of the noise are no change: standard deviations from the held light, with --noise "
      "(default: 3)"},
-    {0, "align-to", "TIME", encoding, kEncodesClips, take<In<&Options::align_to>>,
+    {0, "align-to", "TIME", encoding, kBuildsCaptures, take<In<&Options::align_to>>,
      "the picture onto which the others are moved: its time, 0.5s, 60f (default: the first)"},
     {0, "align-along", "FILE.csv", encoding, bit(Id::encode), take<In<&Options::align_along>>,
      "move pictures along a path: one that --align-report wrote, be it changed by hand"},
@@ -514,12 +516,12 @@ constexpr Option kRows[] = {
     {0, "shutter-error", "E", exposure, kShapesExposures | bit(Id::shutter),
      take_by<In<&Options::shutter_error>, parse_shutter_error>,
      "how far a smooth shape may be from its gains: as a share of the largest (default: 0.001)"},
-    {0, "tiles", "KIND", encoding, kEncodesClips,
+    {0, "tiles", "KIND", encoding, kBuildsCaptures,
      take_choice<InSource<&SourceRequest::tiles>, TilePolicy::automatic, TilePolicy::dense, TilePolicy::rows,
      TilePolicy::records>,
      "auto, or all tiles as dense, rows or records, for experiments (default: auto)",
      "auto dense rows records"},
-    known(Setting::block_samples, {0, "block-samples", "N", encoding, kEncodesClips,
+    known(Setting::block_samples, {0, "block-samples", "N", encoding, kBuildsCaptures,
      take_whole<InSource<&SourceRequest::block_samples>, 1, kLargestBlockSamples>,
      "samples in a block (default: 64, fewer where much of a large picture changes)"}),
 };

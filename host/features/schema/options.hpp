@@ -53,7 +53,7 @@ struct Options {
   Time align_to;
   std::optional<Unseen> unseen;
   Text align_along, align_report, camera_path, camera_plot, coverage;
-  tik::Codec codec{tik::CodecId::rice, 0};
+  tik::Codec codec = tik::kUsualCodec;
 
   // The exposure, and what is followed or counted: a pixel, or a tag of the mask.
   Text mask, functions, mask_to;

@@ -113,7 +113,7 @@ ComputingRequest computing_request(const Options& options) {
   return request;
 }
 
-ExposureRequest weighed_exposure(const Options& options) {
+ExposureRequest exposure_without_gains(const Options& options) {
   ExposureRequest request;
   request.unmapped_is_zero = options.unmapped_is_zero;
   request.live_all = options.live_all;

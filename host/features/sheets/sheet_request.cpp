@@ -9,7 +9,7 @@
 #include "capture/format.hpp"
 #include "exposure/function_text.hpp"
 #include "exposure/gain_function.hpp"
-#include "session/requests/moments.hpp"
+#include "session/requests/stated_moments.hpp"
 #include "session/text/number_text.hpp"
 #include "sheet/contact_sheet.hpp"
 

@@ -14,7 +14,7 @@
 #include "media/writers/recipe.hpp"
 #include "render/render_plan.hpp"
 #include "session/requests/exposure_request.hpp"
-#include "session/requests/moments.hpp"
+#include "session/requests/stated_moments.hpp"
 
 namespace nutik {
 

@@ -11,7 +11,7 @@
 #include "features/solve/wish.hpp"
 #include "imev/each_block.hpp"
 #include "render/code_scale.hpp"
-#include "session/requests/function_input.hpp"
+#include "session/requests/named_inputs.hpp"
 #include "session/text/number_text.hpp"
 #include "solve/time_search.hpp"
 #include "system/input_bytes.hpp"

@@ -18,7 +18,7 @@
 
 #include "capture/timeline.hpp"
 #include "exposure/function_template.hpp"
-#include "session/requests/moments.hpp"
+#include "session/requests/stated_moments.hpp"
 #include "solve/bounded_least_squares.hpp"
 #include "solve/gain_search.hpp"
 #include "solve/time_search.hpp"

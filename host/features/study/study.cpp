@@ -44,13 +44,13 @@ constexpr double kSmoothRadius = 1, kCloseRadius = 7;
 constexpr double kAroundPixels = 6;
 
 Feather feather_of(const StudyRequest& request) {
-  return request.feather.value_or(Feather{request.style == StudyStyle::slit ? 0 : kStudyFeather, {}});
+  return request.feather.value_or(Feather{request.style == StudyStyle::slit ? 0 : kStudyFeatherCentipixels, {}});
 }
 
 // How far regions reach beyond the subject, so that they are blended outside of it: in whole pixels, and as far as it is
 // blended usually, for its own border is soft.
 std::uint32_t border_pixels(const StudyRequest& request) {
-  return static_cast<std::uint32_t>((std::max(feather_of(request).everywhere, kStudyFeather) + 99) / 100);
+  return static_cast<std::uint32_t>((std::max(feather_of(request).everywhere_centipixels, kStudyFeatherCentipixels) + 99) / 100);
 }
 
 std::vector<std::uint64_t> stated_moments(const std::vector<StatedTime>& times, const Timeline& timeline) {
@@ -228,7 +228,7 @@ class StudyPlanner {
       step.by_codes = request_.by_codes;
       study.grounds[i] = ground_of(study, i);
       // Where a trail ends at the subject itself, ground of its moment between the two would be a halo.
-      const std::uint32_t within = has_trail(request_) && study.grounds[i].empty() ? kStudyFeather / 100 : 0;
+      const std::uint32_t within = has_trail(request_) && study.grounds[i].empty() ? kStudyFeatherCentipixels / 100 : 0;
       step.changes = {{RegionChange::Kind::within, 0.0, box_at(study.subjects[i], study.moments[i])},
                       {RegionChange::Kind::largest, 0.0, {}},
                       {RegionChange::Kind::smooth, kSmoothRadius, {}},
@@ -508,10 +508,10 @@ void check_study(const StudyRequest& request) {
         "the feather of a study is one width for all of its moments, 6px; exposed by hand, each may have its "
         "own");
   }
-  if (request.feather->everywhere > kMaxStudyFeather) {
+  if (request.feather->everywhere_centipixels > kMaxStudyFeatherCentipixels) {
     throw UsageError(format(
         "the feather of a study reaches {} pixels at most, for its moments lie four times as far apart",
-        kMaxStudyFeather / 100));
+        kMaxStudyFeatherCentipixels / 100));
   }
 }
 

@@ -23,7 +23,7 @@
 #include "scene/subject.hpp"
 #include "session/memory_budget.hpp"
 #include "session/requests/exposure_request.hpp"
-#include "session/requests/moments.hpp"
+#include "session/requests/stated_moments.hpp"
 #include "system/interruption.hpp"
 
 namespace nutik {
@@ -50,7 +50,7 @@ struct StudyRequest {
   std::vector<Rectangle> regions;
   // Only larger differences from the plate are the subject; none: than 1/16 of white, or than the noise.
   std::optional<std::uint32_t> by_codes;
-  std::optional<Feather> feather;  // none: kStudyFeather, and none of a slit's strips
+  std::optional<Feather> feather;  // none: kStudyFeatherCentipixels, and none of a slit's strips
   // Where the trail would show the subject again and again, samples are made between the pictures of its way.
   bool joins_trail = false;
 };
@@ -120,7 +120,7 @@ void check_study(const StudyRequest& request);
                                const ReportedProgress& progress = {}, Unrest unrest = Unrest::refused);
 
 // How far the subject's border is blended with what lies around it, in hundredths of a pixel: usually, and at most.
-inline constexpr std::int32_t kStudyFeather = 200, kMaxStudyFeather = 3200;
+inline constexpr std::int32_t kStudyFeatherCentipixels = 200, kMaxStudyFeatherCentipixels = 3200;
 
 // Whether anything of the subject's way is seen.
 [[nodiscard]] bool has_trail(const StudyRequest& request);

@@ -16,7 +16,7 @@ namespace nutik {
 
 struct EncodeRequest {
   std::filesystem::path output;  // .tik; gets its name when it is complete
-  tik::Codec codec{tik::CodecId::rice, 0};
+  tik::Codec codec = tik::kUsualCodec;
   OutputFile::Lasting lasting = OutputFile::Lasting::recoverable;
 };
 

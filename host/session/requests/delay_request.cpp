@@ -5,7 +5,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "session/requests/function_input.hpp"
+#include "session/requests/named_inputs.hpp"
 
 namespace nutik {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "capture/picture.hpp"
 #include "exposure/delay_map.hpp"
-#include "session/requests/moments.hpp"
+#include "session/requests/stated_moments.hpp"
 #include "system/shared.hpp"
 
 namespace nutik {

@@ -20,7 +20,7 @@
 #include "render/mask_map.hpp"
 #include "render/render_plan.hpp"
 #include "session/requests/delay_request.hpp"
-#include "session/requests/moments.hpp"
+#include "session/requests/stated_moments.hpp"
 #include "system/shared.hpp"
 
 namespace nutik {

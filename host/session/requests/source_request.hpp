@@ -15,7 +15,7 @@
 #include "capture/timeline.hpp"
 #include "imev/tile_cost.hpp"
 #include "media/clip.hpp"
-#include "session/requests/moments.hpp"
+#include "session/requests/stated_moments.hpp"
 #include "system/shared.hpp"
 #include "tik/header.hpp"
 

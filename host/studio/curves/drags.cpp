@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "capture/format.hpp"
-#include "session/requests/moments.hpp"
+#include "session/requests/stated_moments.hpp"
 #include "studio/document/document.hpp"
 #include "studio/time/times.hpp"
 

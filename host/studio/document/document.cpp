@@ -236,7 +236,7 @@ void Document::keep_selection_within() {
 Feather feather_of(const DocumentState& state) {
   Feather feather = state.feather;
   std::erase_if(feather.of_tag, [&](const auto& entry) {
-    return !state.mask || !(*state.mask)->uses(entry.first) || entry.second == feather.everywhere;
+    return !state.mask || !(*state.mask)->uses(entry.first) || entry.second == feather.everywhere_centipixels;
   });
   return feather;
 }
@@ -255,7 +255,7 @@ QColor first_colour(std::uint8_t tag) {
 
 std::string feather_text(const Feather& feather) {
   std::string text;
-  if (feather.everywhere != 0 || feather.of_tag.empty()) text = format("{}px", feather.everywhere / 100.0);
+  if (feather.everywhere_centipixels != 0 || feather.of_tag.empty()) text = format("{}px", feather.everywhere_centipixels / 100.0);
   for (const auto& [tag, reach] : feather.of_tag)
     text += format("{}M{}={}px", text.empty() ? "" : ",", tag, reach / 100.0);
   return text;

@@ -120,7 +120,7 @@ void smooth_region(Document& document, std::uint8_t tag, double radius) {
 
 void set_feather(Document& document, int feather) {
   DocumentState state = document.state();
-  state.feather.everywhere = feather;
+  state.feather.everywhere_centipixels = feather;
   document.apply(std::move(state), Document::tr("Feather"));
 }
 

@@ -205,7 +205,7 @@ void RegionList::follow() {
   const bool is_clipped = std::ranges::any_of(clipped_, [](std::uint64_t pixels) { return pixels > 0; });
   list_->setColumnHidden(kClipped, !is_clipped);
   list_->setColumnHidden(kEv, is_clipped);  // names need room, and Still says the same
-  feather_->setValue(document_.state().feather.everywhere / 100.0);
+  feather_->setValue(document_.state().feather.everywhere_centipixels / 100.0);
   follow_selection();
 }
 

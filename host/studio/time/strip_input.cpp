@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "session/requests/moments.hpp"
-#include "studio/time/times.hpp"
+#include "session/requests/stated_moments.hpp"
 #include "studio/time/time_strip.hpp"
+#include "studio/time/times.hpp"
 
 namespace nutik::studio {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "plot/canvas.hpp"
 #include "plot/graph.hpp"
-#include "session/requests/moments.hpp"
+#include "session/requests/stated_moments.hpp"
 #include "sheet/drawings.hpp"
 #include "studio/time/times.hpp"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "session/requests/moments.hpp"
+#include "session/requests/stated_moments.hpp"
 
 namespace nutik::studio {
 

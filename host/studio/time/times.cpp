@@ -11,7 +11,7 @@
 #include "exposure/gain_function.hpp"
 #include "exposure/normalization.hpp"
 #include "exposure/shutter_shape.hpp"
-#include "session/requests/moments.hpp"
+#include "session/requests/stated_moments.hpp"
 #include "studio/time/time_axis.hpp"
 
 namespace nutik::studio {

@@ -18,7 +18,7 @@ struct Typed {
 
 // `400.000001 ms`, `1.5 s`: no digit is lost, and read_typed_time() reads it back.
 [[nodiscard]] QString exact_time_text(std::int64_t time_ns);
-// As times are stated everywhere (session/requests/moments.hpp), blanks between number and unit allowed; `37f` is
+// As times are stated everywhere (session/requests/stated_moments.hpp), blanks between number and unit allowed; `37f` is
 // the start of picture 37.
 [[nodiscard]] Typed<std::int64_t> read_typed_time(const QString& text, const Timeline& timeline);
 // The same of a length, which is at least 1 ns; `3f` are three mean periods.

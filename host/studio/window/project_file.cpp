@@ -21,7 +21,7 @@
 #include "media/formats/numbered_name.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "media/writers/recipe.hpp"
-#include "session/requests/function_input.hpp"
+#include "session/requests/named_inputs.hpp"
 #include "session/text/shell_text.hpp"
 #include "studio/regions/covering.hpp"
 #include "studio/regions/region_edits.hpp"

@@ -85,7 +85,7 @@ DocumentState state_of(const DocumentState& before, const Study& study, Mask mas
   state.normalization = Normalization::parse("integral");
   state.order.clear();
   state.covered.clear();
-  state.feather = {is_slit ? 0 : kStudyFeather, {}};
+  state.feather = {is_slit ? 0 : kStudyFeatherCentipixels, {}};
   return state;
 }
 

@@ -1,4 +1,4 @@
-#include "app/requests/requests.hpp"
+#include "app/words/stated_requests.hpp"
 
 #include <malloc.h>
 

@@ -1,4 +1,4 @@
-#include "exposure/boundary_table.hpp"
+#include "exposure/weight_integrator.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 using test::Exact;
 
-TEST(WeightSweep, PacksWhatExactArithmeticSays) {
+TEST(WeightIntegrator, PacksWhatExactArithmeticSays) {
   double worst = 0.0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     test::Random random(seed);
@@ -26,10 +26,10 @@ TEST(WeightSweep, PacksWhatExactArithmeticSays) {
     const auto magnitudes = test::magnitude_of(gain);
     const Exact unit = Exact(std::scalbn(1.0, summary.exponent)) * summary.support_ns;
 
-    WeightSweep sweep(function, summary, timeline.duration_ns());
+    WeightIntegrator integrator(function, summary, timeline.duration_ns());
     const std::vector<SampleTimes> times = timeline.times({0, count});
     std::vector<double> weights(count), boundaries(count + 1);
-    sweep.pack(times, weights, boundaries);
+    integrator.pack(times, weights, boundaries);
 
     Exact boundary = 0, magnitude = 0;
     for (std::uint64_t k = 0; k < count; ++k) {
@@ -50,7 +50,7 @@ TEST(WeightSweep, PacksWhatExactArithmeticSays) {
 }
 
 // Blocks may be packed in any order, and weights do not depend on where a block starts.
-TEST(WeightSweep, DoesNotDependOnTheOrderOfBlocks) {
+TEST(WeightIntegrator, DoesNotDependOnTheOrderOfBlocks) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     test::Random random(seed);
     const std::uint64_t count = 60;
@@ -58,11 +58,11 @@ TEST(WeightSweep, DoesNotDependOnTheOrderOfBlocks) {
     const GainFunction function = test::random_function(random, timeline);
     const GainSummary summary = summarize(function, timeline.duration_ns());
     std::vector<double> whole(count), boundaries(count + 1), part(20), part_boundaries(21);
-    WeightSweep(function, summary, timeline.duration_ns())
+    WeightIntegrator(function, summary, timeline.duration_ns())
         .pack(timeline.times({0, count}), whole, boundaries);
-    WeightSweep sweep(function, summary, timeline.duration_ns());
+    WeightIntegrator integrator(function, summary, timeline.duration_ns());
     for (const std::uint64_t first : {40ull, 0ull, 20ull}) {
-      sweep.pack(timeline.times({first, first + 20}), part, part_boundaries);
+      integrator.pack(timeline.times({first, first + 20}), part, part_boundaries);
       for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(part[i], whole[first + i]) << "seed " << seed;
       EXPECT_EQ(part_boundaries[0], 0.0);
     }

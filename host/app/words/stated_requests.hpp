@@ -1,4 +1,4 @@
-// The session and its requests, as the command line states them.
+// The session and its requests, as the words of a command line state them.
 //
 //   always:  contradicting options are refused as UsageError before anything large is read. Function files and masks
 //            are read here: InputError with all mistakes of a text; warnings are printed

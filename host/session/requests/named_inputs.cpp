@@ -1,4 +1,4 @@
-#include "session/requests/function_input.hpp"
+#include "session/requests/named_inputs.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -13,8 +13,8 @@
 #include "mask/layers.hpp"
 #include "media/clip.hpp"
 #include "media/formats/file_kinds.hpp"
-#include "media/formats/numbered_name.hpp"
 #include "media/formats/input_kinds.hpp"
+#include "media/formats/numbered_name.hpp"
 #include "media/input_checksum.hpp"
 #include "media/stills/mask_reader.hpp"
 #include "media/stills/still_sequence.hpp"

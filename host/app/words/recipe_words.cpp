@@ -1,4 +1,4 @@
-#include "app/requests/requests.hpp"
+#include "app/words/stated_requests.hpp"
 
 #include <algorithm>
 
@@ -6,7 +6,7 @@
 #include "features/schema/option.hpp"
 #include "media/input_checksum.hpp"
 #include "media/writers/recipe.hpp"
-#include "session/requests/function_input.hpp"
+#include "session/requests/named_inputs.hpp"
 #include "session/text/shell_text.hpp"
 #include "system/input_bytes.hpp"
 

@@ -1,4 +1,4 @@
-#include "exposure/boundary_table.hpp"
+#include "exposure/weight_integrator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@ double integrate_product(double length, double f0, double f1, double g0, double 
 
 }  // namespace
 
-WeightSweep::WeightSweep(const GainFunction& function, const GainSummary& summary, std::int64_t duration_ns)
+WeightIntegrator::WeightIntegrator(const GainFunction& function, const GainSummary& summary, std::int64_t duration_ns)
     : pieces_(function.pieces(duration_ns)), duration_ns_(duration_ns), support_ns_(summary.support_ns) {
   for (GainPiece& piece : pieces_) {
     piece.begin_gain = std::scalbn(piece.begin_gain, -summary.exponent);
@@ -38,7 +38,7 @@ WeightSweep::WeightSweep(const GainFunction& function, const GainSummary& summar
   }
 }
 
-double WeightSweep::integrate_hat(const SampleTimes& sample) {
+double WeightIntegrator::integrate_hat(const SampleTimes& sample) {
   // The last sample's light holds until the end of the capture; every other one's ramps away.
   const double after = sample.after_ns == duration_ns_ ? 1.0 : 0.0;
   const HatPart parts[3] = {{sample.before_ns, sample.start_ns, 0.0, 1.0},
@@ -62,7 +62,7 @@ double WeightSweep::integrate_hat(const SampleTimes& sample) {
   return sum.value();
 }
 
-void WeightSweep::pack(std::span<const SampleTimes> samples, std::span<double> weights,
+void WeightIntegrator::pack(std::span<const SampleTimes> samples, std::span<double> weights,
                        std::span<double> boundaries) {
   const auto support = static_cast<double>(support_ns_);
   CompensatedSum boundary;

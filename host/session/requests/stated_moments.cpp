@@ -1,4 +1,4 @@
-#include "session/requests/moments.hpp"
+#include "session/requests/stated_moments.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -20,9 +20,9 @@
 
 namespace nutik {
 
-class WeightSweep {
+class WeightIntegrator {
  public:
-  WeightSweep(const GainFunction& function, const GainSummary& summary, std::int64_t duration_ns);
+  WeightIntegrator(const GainFunction& function, const GainSummary& summary, std::int64_t duration_ns);
 
   // Fills weights[i] for the samples with these times, and boundaries with one element more. Blocks may
   // be asked for in any order; in increasing order the whole sweep takes time linear in samples and

@@ -1,4 +1,4 @@
-#include "exposure/between.hpp"
+#include "exposure/key_frame_values.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Functions and masks as requests hold them, from what a person names: a file, or `-` for standard input.
+// Reads the functions, masks and pictures that a person names, a file or `-` for standard input, as requests hold them.
 #pragma once
 
 #include <cstdint>

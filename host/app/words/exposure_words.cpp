@@ -1,4 +1,4 @@
-#include "app/requests/requests.hpp"
+#include "app/words/stated_requests.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "exposure/mask.hpp"
 #include "mask/feather.hpp"
 #include "render/render_plan.hpp"
-#include "session/requests/function_input.hpp"
+#include "session/requests/named_inputs.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"
 #include "system/input_bytes.hpp"
@@ -33,7 +33,7 @@ ExposureRequest timeless_request(const Options& options,
         "--feather blends functions along the edges of a mask; add -m mask.pgm and -k functions.fn");
   }
   refuse_without_mask(options);
-  ExposureRequest request = weighed_exposure(options);
+  ExposureRequest request = exposure_without_gains(options);
   if (!options.functions) {
     if (options.mask || options.mask_to)
       throw UsageError("a mask goes with gain functions (-k), not with a plain interval");

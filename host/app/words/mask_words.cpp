@@ -1,4 +1,4 @@
-#include "app/requests/requests.hpp"
+#include "app/words/stated_requests.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -9,7 +9,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/rational.hpp"
-#include "session/requests/function_input.hpp"
+#include "session/requests/named_inputs.hpp"
 #include "session/text/number_text.hpp"
 #include "system/input_bytes.hpp"
 #include "system/is_absent.hpp"

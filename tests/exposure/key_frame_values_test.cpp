@@ -1,5 +1,5 @@
 // Gain functions between two key frames, in numbers worked out by hand.
-#include "exposure/between.hpp"
+#include "exposure/key_frame_values.hpp"
 
 #include <gtest/gtest.h>
 
