@@ -1,15 +1,15 @@
 // Combines pixels: the lightest or the darkest of their samples, each times its gain.
 //
-//   in:    chunk, entries, tiles and functions as expose.cl has them; the samples of a block that each function exposes.
-//          Where it scales them, gains [level][row][function]: level i has the extreme of 2^i samples, so that two of
-//          them make up any run. A sample that is not exposed has the gain that changes nothing; each block has one row
-//          more than samples, of those gains
+//   in:    chunk, entries, tiles and functions as expose.cl has them; the samples of a block that each function
+//          exposes. Where it scales them, gains [level][row][function]: level i has the extreme of 2^i samples, so that
+//          two of them make up any run. A sample that is not exposed has the gain that changes nothing; each block has
+//          one row more than samples, of those gains
 //   out:   results [tile][channel][64]: the extreme so far
 //   items: see items.clh
 //
 // If all samples have one gain (NUTIK_SCALES is 0), nothing is rounded: codes are compared as they come, and the host
-// turns the one that is left into light. Else products are compared, each rounded once as IEEE 754 says, also on devices
-// without double: the bits of doubles from 0 on are in the order of their values.
+// turns the one that is left into light. Else products are compared, each rounded once as IEEE 754 says, also on
+// devices without double: the bits of doubles from 0 on are in the order of their values.
 #include "items.clh"
 #include "tiles.clh"
 

@@ -208,8 +208,8 @@ kernel void develop_codes(global const Sum* restrict sums, global const LightSca
   }
 }
 
-// Adds to counts[0] the pixels of a part of the picture that have a channel below limits[0], to counts[1] those with one
-// from limits[1] on: lights, on the scale on which they are blended, that have no code.
+// Adds to counts[0] the pixels of a part of the picture that have a channel below limits[0], to counts[1] those with
+// one from limits[1] on: lights, on the scale on which they are blended, that have no code.
 kernel void count_saturated(global const Sum* restrict sums, global const LightScale* restrict blend_scales,
                             global const function_index* restrict function_of_lane, const uint width, const uint height,
                             const ulong tile_count, const uint left, const uint top, const uint right,

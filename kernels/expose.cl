@@ -13,10 +13,10 @@
 //       they have several:                expose_several(): sum of the block, times each pixel's gain
 //       both add it to the picture's sums
 //
-//   in:    a chunk of blocks, the packed tables; of a band of the picture its tiles, each with its number in the picture,
-//          and each pixel's function. A tile whose pixels several functions share is there once for each of them. By
-//          function, whether it is exposed: of others the sums are there. Sums of blocks, halves and bundles that were
-//          made before: [kept][tile][channel][plane][64]
+//   in:    a chunk of blocks, the packed tables; of a band of the picture its tiles, each with its number in the
+//          picture, and each pixel's function. A tile whose pixels several functions share is there once for each of
+//          them. By function, whether it is exposed: of others the sums are there. Sums of blocks, halves and bundles
+//          that were made before: [kept][tile][channel][plane][64]
 //   out:   sums [tile][channel][plane][64]: Σ_k v_k w_k so far, in scaled gain; added to what is there,
 //          or stored where launch.is_first is set. Those of bundles so far, likewise
 //   items: see items.clh

@@ -39,14 +39,14 @@ constexpr LogCurve kCurves[] = {
      0.092864},
     {"flog2", Primaries::bt2020, true, 5.555556, 0.064829, 0.245281, 0.384316, 0.100686685370811, 8.799461,
      0.092864},
-    // Nikon, "N-Log Specification Document 1.0.0" (2018). Its pieces overlap up to code 452 by a seventh of a code; they
-    // are joined where they meet, so that light increases with codes.
+    // Nikon, "N-Log Specification Document 1.0.0" (2018). Its pieces overlap up to code 452 by a seventh of a code;
+    // they are joined where they meet, so that light increases with codes.
     {"nlog", Primaries::bt2020, true, 1, 0, 150 * std::numbers::ln10 / kCodes, 619 / kCodes,
      446.54444744390275 / kCodes, 650 / kCodes, -0.0075, LogCurve::Toe::cube_root},
     // DJI, "White Paper on D-Log and D-Gamut of DJI Cinema Color System" (2017), of signals without codes.
     {"dlog", Primaries::dgamut, false, 0.9892, 0.0108, 0.256663, 0.584555, 0.14, 6.025, 0.0929},
-    // Apple, "Apple Log Profile White Paper" (2023): 47.28711236 (light + 0.05641088)² up to light 0.01. Apple Log 2 is the
-    // same curve with Apple Wide Gamut.
+    // Apple, "Apple Log Profile White Paper" (2023): 47.28711236 (light + 0.05641088)² up to light 0.01. Apple Log 2 is
+    // the same curve with Apple Wide Gamut.
     {"applelog", Primaries::bt2020, false, 1, 0.00964052, 0.08550479 / kLog10Of2, 0.69336945,
      47.28711236 * 0.06641088 * 0.06641088, 47.28711236, -0.05641088, LogCurve::Toe::square_root},
     // Academy, S-2016-001 "ACEScct", which counts in powers of 2.

@@ -21,8 +21,8 @@ enum class Primaries {
 // x and y of red, green, blue and white (CIE 1931).
 [[nodiscard]] const std::array<std::array<double, 2>, 4>& chromaticities(Primaries primaries);
 
-// Light in some primaries to the same light in others, AP1's with its white adapted by Bradford's matrix: a row for each
-// of red, green and blue.
+// Light in some primaries to the same light in others, AP1's with its white adapted by Bradford's matrix: a row for
+// each of red, green and blue.
 using ColourMatrix = std::array<std::array<double, 3>, 3>;
 [[nodiscard]] const ColourMatrix& to_bt709(Primaries primaries);
 

@@ -27,11 +27,13 @@ class Transfer {
   static Transfer hlg() { return Transfer(Kind::hlg, 1.0); }
   static Transfer pq() { return Transfer(Kind::pq, 1.0); }
 
-  // A camera's curve by its name (capture/log_curve.hpp). Light is a share of what its largest code stands for. Codes up
-  // to black have next to no light (at most 2^-30), each more than the one below, so that all codes can be told apart.
+  // A camera's curve by its name (capture/log_curve.hpp). Light is a share of what its largest code stands for. Codes
+  // up to black have next to no light (at most 2^-30), each more than the one below, so that all codes can be told
+  // apart.
   static Transfer log(std::string_view name);
 
-  // What codes stand for that were taken for `held` and are said to be `stated`: of the same curve they keep their scale.
+  // What codes stand for that were taken for `held` and are said to be `stated`: of the same curve they keep their
+  // scale.
   static Transfer restated(const Transfer& held, const Transfer& stated) {
     return held == stated.scaled_from_video() ? held : stated;
   }
@@ -45,7 +47,8 @@ class Transfer {
   [[nodiscard]] bool is_linear() const { return kind_ == Kind::linear; }
   // That a camera's curve is stored with; none for other functions.
   [[nodiscard]] std::optional<Primaries> usual_primaries() const;
-  // The function of codes that were scaled from video of limited range: a curve that counts whole codes becomes `…:video`.
+  // The function of codes that were scaled from video of limited range: a curve that counts whole codes becomes
+  // `…:video`.
   [[nodiscard]] Transfer scaled_from_video() const;
 
   // Light of a code fraction, and back. Inverse of each other to a few ulp; increasing.

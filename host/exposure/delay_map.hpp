@@ -38,8 +38,8 @@ struct DelayMap {
   static DelayMap by_rows(const Shape& shape, const DelayRange& range);
   static DelayMap by_columns(const Shape& shape, const DelayRange& range);
   static DelayMap by_radius(const Shape& shape, const DelayRange& range);
-  // From black to white of a grey picture. Codes are taken as they stand; light in floating point is rounded to 65535ths.
-  // Throws InputError that calls the picture `name`.
+  // From black to white of a grey picture. Codes are taken as they stand; light in floating point is rounded to
+  // 65535ths. Throws InputError that calls the picture `name`.
   static DelayMap by_picture(const Picture& picture, const DelayRange& range, const std::string& name);
 
   [[nodiscard]] std::int64_t delay_ns(std::uint64_t pixel) const { return delays_ns[delay_of_pixel[pixel]]; }

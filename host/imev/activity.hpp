@@ -64,8 +64,8 @@ class Activity {
                                       tiles * kTilePixels * capture.shape.channels * sizeof(std::uint16_t)}};
   }
 
-  // Besides, of so many samples: their counts, of all pixels and of those with each tag, with room that they grow by; and
-  // those that each thread has of a block, of so many samples at most.
+  // Besides, of so many samples: their counts, of all pixels and of those with each tag, with room that they grow by;
+  // and those that each thread has of a block, of so many samples at most.
   [[nodiscard]] static MemoryNeeds needs_of_samples(std::uint64_t samples, std::size_t tags, std::uint64_t block) {
     const std::uint64_t threads = core_count();
     return {{"changes of samples", (2 * samples + threads * block) * (3 + tags) * sizeof(std::uint64_t)}};

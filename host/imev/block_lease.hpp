@@ -40,8 +40,8 @@ class PayloadParts {
   std::uint64_t bytes_;
 };
 
-// Gives memory for a payload of so many bytes or more, which begins at a multiple of 64 bytes and is not written to while
-// the lease lives. An empty span: there is none, and the block is not wanted now.
+// Gives memory for a payload of so many bytes or more, which begins at a multiple of 64 bytes and is not written to
+// while the lease lives. An empty span: there is none, and the block is not wanted now.
 using AllocatePayload = std::function<std::span<std::byte>(std::uint64_t bytes)>;
 
 // Tells whether any of the tiles [first, last) of a block is wanted.

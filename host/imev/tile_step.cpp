@@ -73,8 +73,8 @@ inline __attribute__((always_inline)) void gather_tile<std::uint8_t, 3>(const st
   }
 }
 
-// Values for some lanes of a tile, in vectors that every machine has: of longer ones GCC 12 takes comparisons apart code
-// by code, 17 ms a frame of 1080p with AVX2 instead of 1.3.
+// Values for some lanes of a tile, in vectors that every machine has: of longer ones GCC 12 takes comparisons apart
+// code by code, 17 ms a frame of 1080p with AVX2 instead of 1.3.
 using Lanes8 = std::uint8_t __attribute__((vector_size(16)));
 using Lanes16 = std::uint16_t __attribute__((vector_size(16)));
 using HalfLanes8 = std::uint8_t __attribute__((vector_size(8)));

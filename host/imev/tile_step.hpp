@@ -13,8 +13,8 @@
 
 namespace nutik {
 
-// With a tolerance of T codes, what is held moves by whole steps of 2 T + 1 to the one that is nearest to the new code, but
-// not beyond 0 and white: no further from it than T, and codecs keep a number of steps.
+// With a tolerance of T codes, what is held moves by whole steps of 2 T + 1 to the one that is nearest to the new code,
+// but not beyond 0 and white: no further from it than T, and codecs keep a number of steps.
 struct CodeSteps {
   // Up to here a number of two bytes times a step has four.
   static constexpr std::int32_t kLargest = (1 << 15) - 1;
@@ -51,8 +51,8 @@ struct CodeSteps {
 // the pixel is in.
 void write_change(const CaptureFormat& capture, const PixelChange& change, std::byte* row);
 
-// The lanes, as bits, in which any channel is further from what is held than the capture's tolerance. They are given what
-// is held from now on, the others what is held.
+// The lanes, as bits, in which any channel is further from what is held than the capture's tolerance. They are given
+// what is held from now on, the others what is held.
 [[nodiscard]] std::uint64_t differing_lanes(const CaptureFormat& capture, const std::byte* held,
                                             std::byte* row);
 

@@ -172,7 +172,8 @@ class Clip {
   // After it has ended, what was done to its pictures that only they told.
   [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
 
-  // Whether samples can also be read as the pixels that change: where there are many, and most pixels stay as they were.
+  // Whether samples can also be read as the pixels that change: where there are many, and most pixels stay as they
+  // were.
   [[nodiscard]] virtual bool tells_changes() const { return false; }
 
   // Reads the next sample, after the first: pixels that it may hold other codes of than the one before it, until the
@@ -183,8 +184,8 @@ class Clip {
   [[nodiscard]] virtual bool makes_codes() const { return false; }
 };
 
-// Opens a video (`-` is one from standard input), a sequence of stills (media/stills/still_sequence.hpp), a table of stills
-// (media/stills/stills_table.hpp), a Photron camera's pictures (media/cameras/photron_clip.hpp), or a recording
+// Opens a video (`-` is one from standard input), a sequence of stills (media/stills/still_sequence.hpp), a table of
+// stills (media/stills/stills_table.hpp), a Photron camera's pictures (media/cameras/photron_clip.hpp), or a recording
 // without pictures (media/events/event_clip.hpp). Their times do not count where a rate is stated. Throws InputError
 // where there is none, or none that can be read.
 [[nodiscard]] std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOptions& options);

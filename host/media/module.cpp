@@ -54,8 +54,8 @@ const void* load_module(const char* name, const char* symbol, const char* withou
       tried += format("\n  {}: no such file", file.string());
       continue;
     }
-    // Never closed: OpenCV's and FFmpeg's threads may outlive any place where that would be safe. Lazily: what libraries
-    // below a module call is looked up when they call it; what a module itself calls, now (-z now).
+    // Never closed: OpenCV's and FFmpeg's threads may outlive any place where that would be safe. Lazily: what
+    // libraries below a module call is looked up when they call it; what a module itself calls, now (-z now).
     void* library = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
     if (library == nullptr) {
       tried += format("\n  {}", dlerror());  // which names the file

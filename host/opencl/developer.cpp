@@ -51,8 +51,8 @@ void Developer::develop(const ExposedBand& exposed) {
 }
 
 // Codes, and how many pixels saturate. The kernels know neither negative codes nor primaries, and do not count what is
-// blended: where these are asked for, codes lie too close together to be searched, or mixed pixels can saturate, the sums
-// are read and turned into light here.
+// blended: where these are asked for, codes lie too close together to be searched, or mixed pixels can saturate, the
+// sums are read and turned into light here.
 void Developer::counted_codes(const ExposedBand& exposed) {
   const CodeMaking making = CodeMaking::of(plan_.capture, output_);
   const CodeScale scale(making.transfer, output_);

@@ -87,8 +87,9 @@ std::string error_name(cl_int code) {
   }
 }
 
-// The platforms of a PoCL that lies beside the program, where it was unpacked from an archive: no loader knows of it. It
-// is asked as a loader asks, and calls find their way through its objects. Never closed: its devices outlive any caller.
+// The platforms of a PoCL that lies beside the program, where it was unpacked from an archive: no loader knows of it.
+// It is asked as a loader asks, and calls find their way through its objects. Never closed: its devices outlive any
+// caller.
 std::vector<cl::Platform> own_platforms() {
   for (const std::filesystem::path& folder : own_folders()) {
     const std::filesystem::path file = folder / "pocl" / "lib" / "opencl" / "libpocl.so";

@@ -48,8 +48,8 @@ void prepare_for_pocl();
 // means the first. Throws DeviceError listing the devices where none or several match.
 [[nodiscard]] std::size_t choose_device(std::span<const DeviceInfo> devices, std::string_view wanted);
 
-// The same of one or several: `0,2`, `radeon,nvidia`, or `all`. In the order in which they are named. Throws DeviceError
-// besides where one is named twice.
+// The same of one or several: `0,2`, `radeon,nvidia`, or `all`. In the order in which they are named. Throws
+// DeviceError besides where one is named twice.
 [[nodiscard]] std::vector<std::size_t> choose_devices(std::span<const DeviceInfo> devices, std::string_view wanted);
 // Whether what a person says may mean several.
 [[nodiscard]] bool may_mean_several(std::string_view wanted);

@@ -25,8 +25,8 @@
 
 namespace nutik {
 
-// Where the numbers of one function go: boundaries a row after another, `stride` bytes apart; weights in groups of rows,
-// whose own lie side by side (kernels/row_groups.clh).
+// Where the numbers of one function go: boundaries a row after another, `stride` bytes apart; weights in groups of
+// rows, whose own lie side by side (kernels/row_groups.clh).
 struct TableColumn {
   std::byte* weights;
   std::byte* boundaries;

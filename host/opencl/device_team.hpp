@@ -2,11 +2,11 @@
 // pictures of its own, whichever is free, if they are asked for at the same time (RenderControl::by_one_device).
 //
 //   always:  a picture in `fixed` is that of any of the devices alone, to the last bit; in other arithmetics a band is
-//            what its device makes of it. All bands have one arithmetic: `auto` chooses among those that all devices have
-//            and compute rightly. A capture that is read forward goes to the first device alone, a picture with one row
-//            of tiles to one: Rendered::renderer says who made it; all, if devices make pictures of their own
-//   memory:  bands of a picture share what it may take; of pictures that devices make alone each takes an equal part. Where
-//            that is too little for one, it is made in bands
+//            what its device makes of it. All bands have one arithmetic: `auto` chooses among those that all devices
+//            have and compute rightly. A capture that is read forward goes to the first device alone, a picture with
+//            one row of tiles to one: Rendered::renderer says who made it; all, if devices make pictures of their own
+//   memory:  bands of a picture share what it may take; of pictures that devices make alone each takes an equal part.
+//            Where that is too little for one, it is made in bands
 //   threads: any number may ask one. Bands of one picture, and pictures of one device, take turns
 #pragma once
 

@@ -43,7 +43,8 @@ struct BlockKernel {
       launch;
 };
 
-// What is exposed: of a plan the pixels of some functions (of others the bands have the sums), and what need not be read.
+// What is exposed: of a plan the pixels of some functions (of others the bands have the sums), and what need not be
+// read.
 struct ExposedPlan {
   const RenderPlan& plan;
   const SumsInUse& kept;

@@ -9,8 +9,8 @@ namespace nutik {
 namespace {
 
 // A sum is of the whole picture. Where most of it is exposed with a steady gain there, making it takes as long as
-// reading rows; it is worth it at once, but for the first exposure, which may be the last. Where less is, it is worth it
-// when it is wanted again.
+// reading rows; it is worth it at once, but for the first exposure, which may be the last. Where less is, it is worth
+// it when it is wanted again.
 constexpr double kMax = 0.75;
 constexpr double kMin = 0.25;
 

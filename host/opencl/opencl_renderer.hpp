@@ -72,8 +72,8 @@ class OpenClRenderer final : public Renderer {
   // What the device has, the fastest first.
   [[nodiscard]] std::span<const Precision> precisions() const;
 
-  // What the device gets wrong of such pictures in an arithmetic, for a person to read; empty: nothing. Kernels are built
-  // and tested for it, once. Throws DeviceError where it does not have the arithmetic, or fails.
+  // What the device gets wrong of such pictures in an arithmetic, for a person to read; empty: nothing. Kernels are
+  // built and tested for it, once. Throws DeviceError where it does not have the arithmetic, or fails.
   [[nodiscard]] std::string fault_in(Precision precision, const RenderPlan& plan, const OutputFormat& output);
 
   void keep_resident(const CaptureSource* source) override;

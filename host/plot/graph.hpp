@@ -1,4 +1,5 @@
-// A graph on a canvas: a box with two axes, marked at round numbers, in which lines and areas are drawn by their numbers.
+// A graph on a canvas: a box with two axes, marked at round numbers, in which lines and areas are drawn by their
+// numbers.
 #pragma once
 
 #include <cstdint>

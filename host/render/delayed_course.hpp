@@ -1,5 +1,5 @@
-// What the delays of a time map make of one function: where its pixels are exposed with it, and what of that lies outside
-// of the capture.
+// What the delays of a time map make of one function: where its pixels are exposed with it, and what of that lies
+// outside of the capture.
 #pragma once
 
 #include <cstdint>

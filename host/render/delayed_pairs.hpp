@@ -15,7 +15,8 @@ namespace nutik {
 
 class DelayedPairs {
  public:
-  // Throws InputError where mask and delays have different sizes, or more pairs of both occur than there can be regions.
+  // Throws InputError where mask and delays have different sizes, or more pairs of both occur than there can be
+  // regions.
   DelayedPairs(const Mask& mask, const DelayMap& delays);
 
   [[nodiscard]] std::size_t count() const { return count_; }

@@ -79,8 +79,8 @@ class PixelErrors {
 // apart below S; for light64 2e-12, so that half a step is what the arithmetic in double promises.
 [[nodiscard]] double format_step(const OutputFormat& output, double scale);
 
-// What light in other primaries errs by: a channel has shares of the errors of all three, and rounds entries, products and
-// sums.
+// What light in other primaries errs by: a channel has shares of the errors of all three, and rounds entries, products
+// and sums.
 [[nodiscard]] double converted_error(const ColourMatrix& matrix, double light, double scale);
 
 // The most by which code = white · fraction_of(light) changes where light L of [0, 1] changes by constant + slope · L.

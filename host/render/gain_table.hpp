@@ -1,10 +1,11 @@
-// The packed table of one gain function over a capture (exposure/weight_integrator.hpp), made when it is first needed and
-// only for the blocks that the function touches.
+// The packed table of one gain function over a capture (exposure/weight_integrator.hpp), made when it is first needed
+// and only for the blocks that the function touches.
 //
 //   in:      a function and the layout of a capture
-//   out:     per block weights and boundaries of the samples that the function needs; what they come to over the capture
-//   always:  a function of what it was made from: equal functions over equal captures have equal tables. Numbers are kept
-//            run by run (CaptureLayout) as long as TableMemory has room, and made again after that
+//   out:     per block weights and boundaries of the samples that the function needs; what they come to over the
+//            capture
+//   always:  a function of what it was made from: equal functions over equal captures have equal tables. Numbers are
+//            kept run by run (CaptureLayout) as long as TableMemory has room, and made again after that
 //   threads: safe from any number
 #pragma once
 

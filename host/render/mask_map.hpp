@@ -1,4 +1,5 @@
-// Which functions a mask uses, for which pixels, and where they are mixed: all that an exposure needs to know of a mask.
+// Which functions a mask uses, for which pixels, and where they are mixed: all that an exposure needs to know of a
+// mask.
 //
 // A region is the pixels of one mask value; with a time map (exposure/delay_map.hpp) those that have the same delay
 // besides, for they share a function and its tables.
@@ -47,7 +48,8 @@ struct MaskMap {
   std::vector<std::uint16_t> delayed_region_of_pixel;
 
   [[nodiscard]] static std::shared_ptr<const MaskMap> of(const Mask& mask);
-  // Throws InputError where mask and delays have different sizes, or more pairs of both occur than there can be regions.
+  // Throws InputError where mask and delays have different sizes, or more pairs of both occur than there can be
+  // regions.
   [[nodiscard]] static std::shared_ptr<const MaskMap> of(const Mask& mask,
                                                          std::shared_ptr<const DelayMap> delays);
   [[nodiscard]] bool is_of(const Mask& mask, const DelayMap* delays) const;

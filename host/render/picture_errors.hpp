@@ -2,7 +2,8 @@
 //
 //   in:      a plan, the bound of an arithmetic, the light of the reference (light64), a picture of the arithmetic
 //   out:     errors in light and in codes; values that are stored otherwise than the reference's
-//   always:  a value that is no number is infinitely wrong, also where the bound is infinite; each value is held to the bound of its own pixel
+//   always:  a value that is no number is infinitely wrong, also where the bound is infinite; each value is held to the
+//            bound of its own pixel
 #pragma once
 
 #include <cstdint>

@@ -29,8 +29,8 @@ namespace nutik {
 
 using FunctionSet = std::map<std::uint8_t, GainFunction>;  // by mask value
 
-// What becomes of a pixel's light while its function is not 0: its integral, or of its samples, each times its largest gain,
-// the lightest, the darkest or the middle one (render/combining_renderer.hpp).
+// What becomes of a pixel's light while its function is not 0: its integral, or of its samples, each times its largest
+// gain, the lightest, the darkest or the middle one (render/combining_renderer.hpp).
 enum class Combine { integral, lighten, darken, median };
 
 struct PlanOptions {

@@ -133,8 +133,8 @@ inline void throw_if_cancelled(const RenderControl& control) {
   if (control.stop.stop_requested()) throw Cancelled();
 }
 
-// What a render did and took, for a person, in two lines: blocks, times and memory; the arithmetic, its bound, and those
-// of arithmetics that were not taken. Empty of the reference, which measures nothing.
+// What a render did and took, for a person, in two lines: blocks, times and memory; the arithmetic, its bound, and
+// those of arithmetics that were not taken. Empty of the reference, which measures nothing.
 [[nodiscard]] std::string rendering_report(const Rendered& rendered, const OutputFormat& output);
 
 }  // namespace nutik

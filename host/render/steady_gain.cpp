@@ -11,8 +11,8 @@ namespace {
 // A smaller one could leave the range of single precision with the light · ns that it is multiplied to.
 constexpr double kMinSteadyGain = 0x1p-100;
 
-// Blocks that a stretch covers wholly before those that its ends cut are corrected: what is read of these besides, where
-// no sums are kept, is little beside all that is read.
+// Blocks that a stretch covers wholly before those that its ends cut are corrected: what is read of these besides,
+// where no sums are kept, is little beside all that is read.
 constexpr std::uint64_t kMinCorrectedBlocks = kGroupBlocks;
 
 bool is_long(const BlockExtent& block) { return block.sample_count >= kMinSteadySamples; }
@@ -159,8 +159,9 @@ SteadyStretches::SteadyStretches(const GainFunction& function, const GainSummary
   close();
 }
 
-// What leaves fewest samples to be read beside a kept sum. A half is a sum more, which has to be made: it must save more
-// than an eighth of the block, beside the whole's corrections and beside the samples that the function needs of it.
+// What leaves fewest samples to be read beside a kept sum. A half is a sum more, which has to be made: it must save
+// more than an eighth of the block, beside the whole's corrections and beside the samples that the function needs of
+// it.
 std::optional<SteadyStretches::Cut> SteadyStretches::better_cut(const BlockExtent& block, const Cut& whole,
                                                                 const Cut& half, std::uint32_t live_samples) {
   const std::uint32_t of_half = size_of(half.corrected), of_whole = size_of(whole.corrected);

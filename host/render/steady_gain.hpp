@@ -66,8 +66,8 @@ inline constexpr std::uint64_t kGroupBlocks = 16;
 enum class Halves : std::uint8_t { both, first, second };
 [[nodiscard]] SampleSpan samples_of(Halves halves, const BlockExtent& block);
 
-// Neighbouring blocks whose light · ns is added up: one, half of one, or a bundle. A bundle is of one group, and has its
-// first block or its last one.
+// Neighbouring blocks whose light · ns is added up: one, half of one, or a bundle. A bundle is of one group, and has
+// its first block or its last one.
 struct SummedBlocks {
   std::uint64_t first = 0;
   std::uint64_t count = 1;
@@ -80,8 +80,8 @@ struct SummedBlocks {
   friend auto operator<=>(const SummedBlocks&, const SummedBlocks&) = default;
 };
 
-// What the light · ns of a block, or of half of it, is multiplied by: the function's gain over the reach of its samples,
-// the same for all of them but the corrected ones, and not 0.
+// What the light · ns of a block, or of half of it, is multiplied by: the function's gain over the reach of its
+// samples, the same for all of them but the corrected ones, and not 0.
 struct SteadyGain {
   double per_ns = 0.0;  // scaled gain / D; 0: the block is not steady
   SummedBlocks bundle;  // that the block is one of, or half of

@@ -165,8 +165,8 @@ void walk_block(ValueWalk& walk, const GainWalk& gain, std::size_t piece, const 
   }
 }
 
-// Along the function of a plan, over the capture's domain. A delayed one is moved there; its D is how long it differs from
-// 0 over its whole course, between its control points and in the capture.
+// Along the function of a plan, over the capture's domain. A delayed one is moved there; its D is how long it differs
+// from 0 over its whole course, between its control points and in the capture.
 [[nodiscard]] inline GainWalk walk_along(const PlannedFunction& planned, std::int64_t duration_ns) {
   if (!planned.is_delayed) return GainWalk(planned.function.pieces(duration_ns));
   const std::span<const ControlPoint> points = planned.function.points();

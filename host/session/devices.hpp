@@ -63,8 +63,8 @@ class Devices {
 
   [[nodiscard]] const ComputingRequest& request() const { return request_; }
 
-  // Wait until the renderer has started. Throw DeviceError where none has the stated name or it cannot do what is asked;
-  // opencl() throws UsageError if the reference or several were asked for.
+  // Wait until the renderer has started. Throw DeviceError where none has the stated name or it cannot do what is
+  // asked; opencl() throws UsageError if the reference or several were asked for.
   [[nodiscard]] Renderer& renderer();
   [[nodiscard]] std::shared_ptr<OpenClRenderer> opencl();  // stays when another device takes over
   // How many devices pictures are shared out among (opencl/device_team.hpp). Waits only where the request may mean

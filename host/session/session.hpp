@@ -142,8 +142,8 @@ class Session {
   // How many finished pictures of a type may wait to be written.
   [[nodiscard]] std::uint32_t waiting_pictures(ValueType type) const;
 
-  // How many of so many pictures of a type are best asked for at the same time, each with RenderControl::by_one_device. 1:
-  // one after another, and without that.
+  // How many of so many pictures of a type are best asked for at the same time, each with RenderControl::by_one_device.
+  // 1: one after another, and without that.
   [[nodiscard]] std::size_t pictures_at_once(ValueType type, std::size_t count) const;
 
   // The capture itself, to read its blocks. Of a session that was read whole.

@@ -16,7 +16,8 @@ using Is = UncertaintyTerm::Is;
 // At most so much of white lies between the two pieces of a function that has a toe: sRGB's standard rounds their ends.
 constexpr double kPiecesMiss = 3e-8;
 
-// The most that light changes where a code of [0, 1] changes by `fraction`: no function is steeper than at one of its ends.
+// The most that light changes where a code of [0, 1] changes by `fraction`: no function is steeper than at one of its
+// ends.
 double light_within(const Transfer& transfer, double fraction) {
   if (!(fraction < 1.0)) return 1.0;
   return std::max(transfer.light_of(fraction) - transfer.light_of(0.0), 1.0 - transfer.light_of(1.0 - fraction));

@@ -2,8 +2,8 @@
 //
 //   in:      an exposure: its bound, its format, what its capture is known to be
 //   out:     a list, from which text, JSON and Python's dictionaries are written
-//   always:  of the pixel that may be off furthest. Bounds hold for every pixel and may be added up; what is no bound is told
-//            beside them
+//   always:  of the pixel that may be off furthest. Bounds hold for every pixel and may be added up; what is no bound
+//            is told beside them
 #pragma once
 
 #include <cstdint>

@@ -19,9 +19,9 @@ namespace nutik {
 // What messages call it: `standard input`, or the file's name.
 [[nodiscard]] std::string input_title(const std::string& name);
 
-// A file that holds what standard input gives, for whoever reads it more than once: /dev/stdin. What is no file there is
-// read to its end when this is first called, into one without a name in TMPDIR, else /tmp. Throws InputError where it
-// is a terminal, empty, or cannot be read, OutputError where there is no space. Any thread may ask.
+// A file that holds what standard input gives, for whoever reads it more than once: /dev/stdin. What is no file there
+// is read to its end when this is first called, into one without a name in TMPDIR, else /tmp. Throws InputError where
+// it is a terminal, empty, or cannot be read, OutputError where there is no space. Any thread may ask.
 [[nodiscard]] const std::filesystem::path& standard_input_file();
 
 // The most that is read of what a person writes: ten million control points have less.

@@ -2,8 +2,9 @@
 // flag, long loops look at it and throw, and what is thrown passes destructors that remove temporary files.
 //
 //   in:      a program's wishes to be interruptible and to leave nothing where it meets a limit, once, at its start
-//   always:  without these wishes nothing here has any effect; a second signal ends the program at once. So does the first
-//            where nobody looks for a while, inside a library for example; temporary files are removed all the same
+//   always:  without these wishes nothing here has any effect; a second signal ends the program at once. So does the
+//            first where nobody looks for a while, inside a library for example; temporary files are removed all the
+//            same
 #pragma once
 
 #include <cstdint>
@@ -26,9 +27,10 @@ struct Interrupted : Error {
 // (nohup, a shell's background job) stays ignored.
 void catch_interruptions();
 
-// From now on a file that grows past the limit of the shell (ulimit -f) is an error of who writes it, as on a full disk,
-// instead of the end of the process by SIGXFSZ. Where nobody reads our output any more (SIGPIPE), or the time is up
-// (SIGXCPU), the process ends by that signal as before, and leaves no temporary file. SIGPIPE that is ignored stays so.
+// From now on a file that grows past the limit of the shell (ulimit -f) is an error of who writes it, as on a full
+// disk, instead of the end of the process by SIGXFSZ. Where nobody reads our output any more (SIGPIPE), or the time is
+// up (SIGXCPU), the process ends by that signal as before, and leaves no temporary file. SIGPIPE that is ignored stays
+// so.
 void catch_limits();
 
 // Throws Interrupted where a signal was noted. Costs one read of memory, so every loop may call it.

@@ -3,8 +3,9 @@
 // What is mapped may be lost while it is looked at: a file that somebody makes shorter, a disk that fails. The system
 // then ends the process (SIGBUS) unless an application has asked for something else, with watch_mapped_files().
 //
-//   always:  what was made of a file that was lost or written to meanwhile is not used: check() and check_mapped_files()
-//            throw. What has nothing to do with that file goes on, and so does the file once it is opened again
+//   always:  what was made of a file that was lost or written to meanwhile is not used: check() and
+//            check_mapped_files() throw. What has nothing to do with that file goes on, and so does the file once it is
+//            opened again
 #pragma once
 
 #include <cstddef>
@@ -59,8 +60,8 @@ void do_one_work();
 // What a work that begins now has nothing to do with. None in a process that does one.
 [[nodiscard]] MappedLosses losses_so_far();
 
-// Throws InputError naming a file that was lost since. Nothing gets its name (system/output_file.hpp) without this having
-// been called.
+// Throws InputError naming a file that was lost since. Nothing gets its name (system/output_file.hpp) without this
+// having been called.
 void check_mapped_files(MappedLosses before = {});
 
 // The first 16 bytes of a regular file, or all it has; of anything else (a pipe would never end), none.

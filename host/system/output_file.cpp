@@ -111,7 +111,8 @@ std::string_view beginning(std::string_view name, std::size_t bytes) {
   return name.substr(0, bytes);
 }
 
-// Beside `path`, and as no other file is called: 64 random bits. Where the name has no room for more, its end gives way.
+// Beside `path`, and as no other file is called: 64 random bits. Where the name has no room for more, its end gives
+// way.
 std::filesystem::path temporary_beside(const std::filesystem::path& path) {
   std::uint64_t random = 0;
   if (getentropy(&random, sizeof random) != 0) refuse(path, errno);

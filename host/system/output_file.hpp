@@ -38,17 +38,17 @@ void remove_temporary_files();
 class OutputFile {
  public:
   // Whether a file gets a name, or is one without (system/temporary_folder.hpp), to which `path` leads and which is
-  // written where it lies. `recoverable`, of captures and videos: it has a temporary name while it is written, under which
-  // a process that is killed leaves it.
+  // written where it lies. `recoverable`, of captures and videos: it has a temporary name while it is written, under
+  // which a process that is killed leaves it.
   enum class Lasting { yes, recoverable, no };
   using Expected = std::optional<struct stat>;  // none: nothing
 
   // Creates the temporary file. It has no name until it is whole (O_TMPFILE) unless it is to be recoverable or the file
   // system has no such files; then, or for the moment of commit(), it is `.<name>.nutik-<16 random digits>.part`, with
   // only the beginning of a name that has no room for this. No file that is there is opened, so none can be lost,
-  // whatever it is called. A link's target is written, whether there is one or not, unless the link is another user's in
-  // a folder that all may write to. Throws OutputError where the folder is absent or not writable, or where it cannot be
-  // told what stands under `path`.
+  // whatever it is called. A link's target is written, whether there is one or not, unless the link is another user's
+  // in a folder that all may write to. Throws OutputError where the folder is absent or not writable, or where it
+  // cannot be told what stands under `path`.
   explicit OutputFile(std::filesystem::path path, Lasting lasting = Lasting::yes);
   // Removes the temporary file unless commit() was called.
   ~OutputFile();
@@ -106,9 +106,9 @@ class OutputFile {
 // A file of this text.
 void write_text(const std::filesystem::path& path, std::string_view text);
 
-// The same under a name without folders that somebody else chose, in a folder that is made if need be. Throws OutputError
-// where something of that name is there, also a link, and where the folder is a link or not this user's: files that came
-// from others may lead elsewhere.
+// The same under a name without folders that somebody else chose, in a folder that is made if need be. Throws
+// OutputError where something of that name is there, also a link, and where the folder is a link or not this user's:
+// files that came from others may lead elsewhere.
 void write_new_text(const std::filesystem::path& folder, const std::string& name, std::string_view text);
 
 }  // namespace nutik

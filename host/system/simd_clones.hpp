@@ -1,5 +1,5 @@
-// Marks functions that are compiled for several instruction sets, of which one is chosen when the program starts. Sanitizers
-// are not ready when that choice is made.
+// Marks functions that are compiled for several instruction sets, of which one is chosen when the program starts.
+// Sanitizers are not ready when that choice is made.
 #pragma once
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \

@@ -7,9 +7,9 @@
 //   {u32 tile count, u32 packed bytes} for each group
 //   u32 packed bytes of the tile counts, u32 0
 //   the packed tile counts: TileEntry.count of every tile
-//   the packed groups: consecutive tiles each. With `lz4` and `zstd` the packed sizes of head and parts (u32 each), then
-//   those that are not empty, in the plain form of tik/prediction.hpp, each packed on its own; with `rice` the packed
-//   bytes of the head (u32), the head, packed with zstd, and the body of tik/rice.hpp
+//   the packed groups: consecutive tiles each. With `lz4` and `zstd` the packed sizes of head and parts (u32 each),
+//   then those that are not empty, in the plain form of tik/prediction.hpp, each packed on its own; with `rice` the
+//   packed bytes of the head (u32), the head, packed with zstd, and the body of tik/rice.hpp
 //
 // Offsets in the tile directory are not stored: bodies lie one behind the other. Groups are packed and
 // unpacked side by side on all cores.

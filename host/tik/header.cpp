@@ -27,8 +27,8 @@ constexpr std::string_view kPurpose =
 constexpr std::string_view kNoise = "noise";
 constexpr std::size_t kLongestHeader = 65'536;
 
-// Tags of fields. `rice` stands where blocks may be packed with that codec, which the first programs of version 1 do not
-// know: with a tolerance whatever codec was asked for.
+// Tags of fields. `rice` stands where blocks may be packed with that codec, which the first programs of version 1 do
+// not know: with a tolerance whatever codec was asked for.
 constexpr std::string_view kPixelAspect = "aspc", kPrimaries = "prim", kFacts = "fact", kAligned = "algn",
                            kMeans = "mean", kRounded = "rond", kRice = "rice", kSteps = "step", kPart = "part",
                            kClip = "clip", kMade = "made";

@@ -23,8 +23,8 @@ namespace {
 // The three streams of a group that tik/rice.hpp packs, written and read plane by plane.
 constexpr std::uint32_t kLevelBits = 4;
 constexpr std::uint32_t kMaxLevels = 15;
-// At most these bytes of planes and of levels does a plane of codes take: 15 low bits; 15 levels of 64 bits each, and 8 for
-// its lines.
+// At most these bytes of planes and of levels does a plane of codes take: 15 low bits; 15 levels of 64 bits each, and 8
+// for its lines.
 constexpr std::size_t kMaxPlaneBytes = 15 * 8;
 constexpr std::size_t kMaxLevelBytes = 15 * 8 + 8;
 

@@ -1,4 +1,5 @@
-// The kernel of rice.hpp. rice.cpp includes it once for each set of instructions, each time in a namespace of its own, with
+// The kernel of rice.hpp. rice.cpp includes it once for each set of instructions, each time in a namespace of its own,
+// with
 //
 //   kVectorBytes    of a vector: 16 or 32
 //   NUTIK_AVX2      1 where AVX2 and BMI2 are at hand, else 0
@@ -7,8 +8,8 @@
 
 // ── Bits of 64 lanes ──
 
-// A vector of bytes; a plane of bytes has kBytesParts of them. Small structures of vectors are passed by reference: they
-// stay in registers once all of this is inlined.
+// A vector of bytes; a plane of bytes has kBytesParts of them. Small structures of vectors are passed by reference:
+// they stay in registers once all of this is inlined.
 using Bytes = std::uint8_t __attribute__((vector_size(kVectorBytes)));
 using SignedBytes = std::int8_t __attribute__((vector_size(kVectorBytes)));
 using Words = std::uint64_t __attribute__((vector_size(kVectorBytes)));
@@ -16,8 +17,8 @@ inline constexpr std::size_t kBytesParts = kTilePixels / kVectorBytes;
 struct ByteLanes {
   Bytes part[kBytesParts];
 };
-// Structures are loaded, stored and assigned vector by vector: compilers copy them in smaller pieces, for which the next
-// load of a vector has to wait.
+// Structures are loaded, stored and assigned vector by vector: compilers copy them in smaller pieces, for which the
+// next load of a vector has to wait.
 template <typename Vectors>
 NUTIK_INLINE void assign(Vectors& to, const Vectors& from) {
   for (std::size_t p = 0; p < sizeof to / kVectorBytes; ++p) to.part[p] = from.part[p];
@@ -188,8 +189,8 @@ NUTIK_INLINE std::uint32_t sum_of(const CodeLanes<Code>& lanes) {
   return sum;
 }
 
-// By how many steps each lane moved, as the nearest to a code that is cut off at 0 and white needs; false where any moved
-// otherwise.
+// By how many steps each lane moved, as the nearest to a code that is cut off at 0 and white needs; false where any
+// moved otherwise.
 template <typename Code>
 NUTIK_INLINE bool count_steps(const CodeLanes<Code>& now, const CodeLanes<Code>& before, const CodeSteps& steps,
                               CodeLanes<Code>& counts) {
@@ -215,8 +216,8 @@ NUTIK_INLINE void add_steps(const CodeLanes<Code>& before, const CodeSteps& step
   take(codes, counts);
 }
 
-// Those that lead nearest to the pixel above, in the first line to the left one; none for the first pixel. `codes` are known
-// before they are asked for.
+// Those that lead nearest to the pixel above, in the first line to the left one; none for the first pixel. `codes` are
+// known before they are asked for.
 template <typename Code, typename Use>
 NUTIK_INLINE void each_count_above(const Code* codes, const Code* held, const CodeSteps& steps, Use use) {
   use(0, 0);
@@ -301,9 +302,9 @@ NUTIK_INLINE void add_up(const CodeLanes<Code>& differences, Code corner, CodeLa
 
 // ── Rice codes of a plane ──
 
-// How many low bits 64 values have of their own, so that less than 16 levels are left. One more costs 64 bits and halves
-// the levels: it saves some where they add up to more than about 80, for half of the halves are cut off. What is left of a
-// sum after k of them is about (sum + 48) / 2^k - 48.
+// How many low bits 64 values have of their own, so that less than 16 levels are left. One more costs 64 bits and
+// halves the levels: it saves some where they add up to more than about 80, for half of the halves are cut off. What is
+// left of a sum after k of them is about (sum + 48) / 2^k - 48.
 template <typename Code>
 NUTIK_INLINE std::uint32_t choose_low(const CodeLanes<Code>& values, std::uint32_t sum) {
   const auto width = static_cast<std::uint32_t>(std::bit_width(bits_in(values)));
@@ -485,8 +486,8 @@ class Kernel {
     CodeLanes<Code> values;
   };
 
-  // Tries for counts of steps what is above, whole and half of the way there, and half of the way back to the row before
-  // the last: where noise is all that changes, the mean of two is nearer than one.
+  // Tries for counts of steps what is above, whole and half of the way there, and half of the way back to the row
+  // before the last: where noise is all that changes, the mean of two is nearer than one.
   static void predict_steps(const CodeLanes<Code>& now, const CodeLanes<Code>& before, const CodeLanes<Code>& change,
                             const std::byte* row_before_that, std::uint32_t i, const RiceWriter& to, Predicted& best) {
     Code codes[kTilePixels], held[kTilePixels], counts[kTilePixels], tried[3][kTilePixels];

@@ -13,7 +13,8 @@ namespace {
 constexpr std::uint32_t kMedianCost = 11;
 constexpr std::uint32_t kBeforeCost = 10;
 
-// Differences are taken around the middle of the range, so that small ones of either sign are neighbours for the median.
+// Differences are taken around the middle of the range, so that small ones of either sign are neighbours for the
+// median.
 template <typename Code>
 constexpr Code kHalf = static_cast<Code>(1u << (8 * sizeof(Code) - 1));
 
@@ -36,9 +37,9 @@ constexpr std::array<Value, kTilePixels> first_pixels(bool of_rows) {
   return mask;
 }
 
-// What is left of a plane beside what the median says of it: the first pixel is predicted by `corner_guess`, others of the
-// first row by their left and others of the first column by their upper neighbour. All of it is known here, so that pixels
-// need not wait for each other.
+// What is left of a plane beside what the median says of it: the first pixel is predicted by `corner_guess`, others of
+// the first row by their left and others of the first column by their upper neighbour. All of it is known here, so that
+// pixels need not wait for each other.
 template <typename Code>
 inline __attribute__((always_inline)) void subtract_medians(const Plane<Code>& plane, Code corner_guess,
                                                             Residuals& residuals) {
@@ -116,8 +117,8 @@ inline __attribute__((always_inline)) Mode choose(const Plane<Code>& now, const 
   return best;
 }
 
-// What subtract_medians took from. A pixel waits for its left, its upper and its upper left neighbour, so that the pixels
-// of a diagonal, x + y = k, are known together: their value for row y is in lane y.
+// What subtract_medians took from. A pixel waits for its left, its upper and its upper left neighbour, so that the
+// pixels of a diagonal, x + y = k, are known together: their value for row y is in lane y.
 template <typename Code>
 inline __attribute__((always_inline)) void add_medians(const Residuals& residuals, Code corner_guess,
                                                        Plane<Code>& plane) {

@@ -1,5 +1,5 @@
-// Where the rows of a tile's body lie, as codecs go through them: in tiles of rows each row, in tiles of records the start
-// and then each slot's codes, with their index in front.
+// Where the rows of a tile's body lie, as codecs go through them: in tiles of rows each row, in tiles of records the
+// start and then each slot's codes, with their index in front.
 #pragma once
 
 #include <cstddef>

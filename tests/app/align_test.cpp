@@ -1,4 +1,5 @@
-// Clips whose camera moved, as a user aligns them. The scene is drawn where the camera looks, each value from a formula.
+// Clips whose camera moved, as a user aligns them. The scene is drawn where the camera looks, each value from a
+// formula.
 #include <gtest/gtest.h>
 
 #include <cmath>

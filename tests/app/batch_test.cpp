@@ -37,8 +37,8 @@ TEST_F(Batch, GivesThePicturesOfSingleCommands) {
   EXPECT_EQ(file("trail.tif"), file("single.tif"));
 }
 
-// Boxcars over many blocks, whose sums are kept from one picture to the next: the first, the last and each by itself have
-// the same bytes.
+// Boxcars over many blocks, whose sums are kept from one picture to the next: the first, the last and each by itself
+// have the same bytes.
 TEST_F(Batch, GivesThePicturesOfSingleCommandsWhereSumsAreKept) {
   for (int k = 0; k < 200; ++k) {
     std::string still = "P5\n9 7\n255\n";

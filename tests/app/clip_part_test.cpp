@@ -36,8 +36,8 @@ TEST_F(PartOfAClip, IsExposedAsThatPartOfTheWhole) {
   EXPECT_EQ(cv::norm(whole, part, cv::NORM_INF), 0.0);
 }
 
-// Light adds up whichever comes first. A mean is off by half a code of 65535 at most, in every picture and so in what is
-// exposed; beside it stand the roundings of a float.
+// Light adds up whichever comes first. A mean is off by half a code of 65535 at most, in every picture and so in what
+// is exposed; beside it stand the roundings of a float.
 TEST_F(PartOfAClip, IsAsBrightScaledBeforeAsAfter) {
   const test::Words exposure("--start 0s --exposure 60ms");
   expose(exposure, "whole.pfm");

@@ -125,8 +125,8 @@ TEST_F(Colour, AboveWhiteIsNotCutOffInSilence) {
   }
 }
 
-// A grey card of 18 % that was filmed as its maker's table has it is 18 % of white: within half a code of 10 bits. Makers
-// count whole codes, or codes between video's black and white.
+// A grey card of 18 % that was filmed as its maker's table has it is 18 % of white: within half a code of 10 bits.
+// Makers count whole codes, or codes between video's black and white.
 TEST_F(Colour, OfCamerasCurvesIsReflectance) {
   NEEDS_FFMPEG();
   for (const LogCurve& curve : log_curves()) {

@@ -179,7 +179,8 @@ TEST_F(FilmKinds, MayBeAFrameLong) {
 }
 
 // An edge between colours moved by half a pixel, and again in each film of a film. Chroma of 10 bits lies left of the
-// pair that shares it, as in DNxHR, that of 8 bits between both, as it is read again; a clip of 8 bits gets its own back.
+// pair that shares it, as in DNxHR, that of 8 bits between both, as it is read again; a clip of 8 bits gets its own
+// back.
 TEST_F(FilmKinds, KeepChromaInItsPlace) {
   NEEDS_FFMPEG();
   const auto edge = [&](const std::string& name) {  // in samples of chroma, the first 32 of a row
@@ -356,8 +357,8 @@ TEST_F(FilmSoundTest, LiesOnItsFrame) {
   }
 }
 
-// What is taken of a clip's pictures moves no sound: fields, a stream that was cut in its middle, one that ends at damage,
-// samples between, and a sound that begins behind the pictures.
+// What is taken of a clip's pictures moves no sound: fields, a stream that was cut in its middle, one that ends at
+// damage, samples between, and a sound that begins behind the pictures.
 TEST_F(FilmSoundTest, LiesOnItsFrameWhateverIsTakenOfTheClip) {
   NEEDS_FFMPEG();
   const auto lies_at = [&](double at, const std::string& words, const std::string& film, double rate) {

@@ -145,8 +145,8 @@ TEST_F(Film, FramesAreExposuresForOtherCommands) {
                      {"--mask-share nan --start 0s --exposure 1f c.tik p.png", "--mask-share 'nan'"}});
 }
 
-// At either end of the way it is one of both masks that is exposed, and of that alone it may be said that a value is not
-// in it.
+// At either end of the way it is one of both masks that is exposed, and of that alone it may be said that a value is
+// not in it.
 TEST_F(Film, CheckNamesTheMaskThatIsExposed) {
   write_two_masks_and_functions();
   write_mask("none.pgm", 0);

@@ -56,8 +56,8 @@ class StudyStyles : public test::StudyTest {
   }
 };
 
-// Moments are pictures that were filmed, and the trail is exposed from what was made between them: as it is asked for, or by
-// itself where copies of a thing lie apart.
+// Moments are pictures that were filmed, and the trail is exposed from what was made between them: as it is asked for,
+// or by itself where copies of a thing lie apart.
 TEST_F(StudyStyles, JoinTheTrailBetweenPictures) {
   constexpr int kStep = 14;
   const auto left_of = [](int picture) { return 4 + kStep * picture; };

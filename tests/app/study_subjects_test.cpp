@@ -149,8 +149,8 @@ TEST_F(StudySubjects, LeaveNoOtherUnmentioned) {
               {"another thing goes its way and is not shown, within ", ". Name a region to show what moves in it"});
 }
 
-// A bright square in a soft shadow that is wider than it. Beside the square lies its trail, dimmed as the ground is; the
-// trail alone is seen there at other moments.
+// A bright square in a soft shadow that is wider than it. Beside the square lies its trail, dimmed as the ground is;
+// the trail alone is seen there at other moments.
 TEST_F(StudySubjects, CastTheirShadowsOnTheirTrails) {
   constexpr int kWidth = 320, kHeight = 96, kSide = 20, kTop = 34;
   const auto left = [](int k) { return 10 + 7 * k; };
@@ -193,8 +193,8 @@ TEST_F(StudySubjects, CastTheirShadowsOnTheirTrails) {
   }
 }
 
-// A small thing shakes where the square ends, so that no time shows that ground bare. What lies beside the square is the
-// trail's.
+// A small thing shakes where the square ends, so that no time shows that ground bare. What lies beside the square is
+// the trail's.
 TEST_F(StudySubjects, EndTheirTrailsWithoutHalo) {
   draw("halo", 20, [](cv::Mat& frame, int k) {
     if (k < 14) frame(cv::Rect(82 + 8 * (k % 3), 34, 7, 7)) = 250;

@@ -114,8 +114,8 @@ TEST_F(Study, TakesMomentsThatFollowEachOther) {
   }
 }
 
-// A square that comes after six empty pictures; and one on its way that is gone for six of so many that only every third
-// is looked at: it is one way still.
+// A square that comes after six empty pictures; and one on its way that is gone for six of so many that only every
+// third is looked at: it is one way still.
 TEST_F(Study, TakesTheEmptySceneAwayWhereItLiesApart) {
   for (const auto& [count, empty_from] : {std::pair(18, 0), std::pair(780, 390)}) {
     const std::string folder = "g" + std::to_string(count);
@@ -233,8 +233,8 @@ TEST_F(Study, ShowsOneMomentOfWhatGoesLessThanItsOwnSize) {
   make("study -f 100 stirs --style frozen -o stirs.png");
 }
 
-// A ball of 126 pixels that falls by 18 before and after the middle of the clip: it is in the plate, and its edges alone
-// differ from that.
+// A ball of 126 pixels that falls by 18 before and after the middle of the clip: it is in the plate, and its edges
+// alone differ from that.
 TEST_F(Study, SaysOfAThingThatNeverLeavesItsPlaceThatItCannotBeShownTwice) {
   const std::filesystem::path clip = std::filesystem::path(NUTIK_TEST_MEDIA) / "ball_12bit.cihx";
   if (!std::filesystem::exists(clip)) GTEST_SKIP() << clip << " is not there";

@@ -67,8 +67,8 @@ TEST(Transfer, ErrsByFewRoundings) {
     EXPECT_NEAR(Transfer::parse(of.first).light_of(of.second / 65535.0), light, 14 * 0x1p-53 * light) << of.first;
 }
 
-// What bounds of codes take for granted (render/error_bound.hpp): that nowhere do codes change more with light than at one
-// end.
+// What bounds of codes take for granted (render/error_bound.hpp): that nowhere do codes change more with light than at
+// one end.
 TEST(Transfer, ChangesMostAtAnEnd) {
   for (const Transfer& transfer : kAllTransfers) {
     for (double change = 1e-15; change < 0.9; change *= 1.5) {
@@ -81,8 +81,8 @@ TEST(Transfer, ChangesMostAtAnEnd) {
   }
 }
 
-// So does a function that bends one way only. Of cameras' curves some bend more than once: the lights of Apple's toe follow
-// a square root, and two pieces of Nikon's meet at an angle.
+// So does a function that bends one way only. Of cameras' curves some bend more than once: the lights of Apple's toe
+// follow a square root, and two pieces of Nikon's meet at an angle.
 TEST(Transfer, BendsOneWay) {
   for (const Transfer& transfer : kAllTransfers) {
     if (transfer.kind() == Transfer::Kind::log) continue;

@@ -102,8 +102,9 @@ constinit Next<int(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*)> 
        next_posix_memalign, next_pthread_create);
 }
 
-// PoCL ends the process where there is no room for what it has begun to run, and where LLVM finds none for a program PoCL
-// keeps a lock of its own, for which the release of any program waits forever; of its buffers, see fail_device.cpp.
+// PoCL ends the process where there is no room for what it has begun to run, and where LLVM finds none for a program
+// PoCL keeps a lock of its own, for which the release of any program waits forever; of its buffers, see
+// fail_device.cpp.
 bool is_for_pocl() {
   void* callers[256];  // LLVM recurses
   const int count = backtrace(callers, std::size(callers));

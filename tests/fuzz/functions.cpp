@@ -1,5 +1,5 @@
-// Function files; what is read from one is read again, identically, from what is written of it. The same text as one with
-// names in place of numbers: with numbers it is a function file.
+// Function files; what is read from one is read again, identically, from what is written of it. The same text as one
+// with names in place of numbers: with numbers it is a function file.
 #include <algorithm>
 
 #include "exposure/function_file.hpp"

@@ -1,5 +1,5 @@
-// Lists: the first byte chooses between lines of a batch, which are command lines, and names of a sequence of stills, of
-// which the first line is what a person names, and each other one a file that is there.
+// Lists: the first byte chooses between lines of a batch, which are command lines, and names of a sequence of stills,
+// of which the first line is what a person names, and each other one a file that is there.
 #include <algorithm>
 #include <filesystem>
 #include <string>

@@ -19,8 +19,8 @@ using test::Random;
 using test::RandomCase;
 using test::Rasters;
 
-// The codes held at every sample, straight from the definition of a change record: whole steps of 2 T + 1 codes, of which
-// the nearest leads as near to the new code as the tolerance T.
+// The codes held at every sample, straight from the definition of a change record: whole steps of 2 T + 1 codes, of
+// which the nearest leads as near to the new code as the tolerance T.
 Rasters held_by_definition(const CaptureFormat& capture, const Rasters& rasters) {
   Rasters held;
   for (const auto& raster : rasters) {

@@ -1,5 +1,5 @@
-// ADΔER files: light is what was written, from the times on at which it begins, in every version, mode of time and kind of
-// source; what is wrong with a file is told, or refused.
+// ADΔER files: light is what was written, from the times on at which it begins, in every version, mode of time and kind
+// of source; what is wrong with a file is told, or refused.
 #include <gtest/gtest.h>
 
 #include <cmath>

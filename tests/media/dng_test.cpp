@@ -176,8 +176,8 @@ struct Dng {
   }
 };
 
-// Balancing cuts to whole codes, which the matrix, whose rows' magnitudes sum to less than 2, makes less than 2, and cuts
-// again; beside it stand the six digits of the tags and single precision: codes are within 4 of 65535.
+// Balancing cuts to whole codes, which the matrix, whose rows' magnitudes sum to less than 2, makes less than 2, and
+// cuts again; beside it stand the six digits of the tags and single precision: codes are within 4 of 65535.
 void expect_light(const std::vector<std::byte>& raster, const Dng& dng, const Vector& light) {
   const auto* codes = reinterpret_cast<const std::uint16_t*>(raster.data());
   const std::size_t middle = (std::size_t{dng.height} / 2 * dng.width + dng.width / 2) * 3;

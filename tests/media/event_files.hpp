@@ -1,4 +1,5 @@
-// Files of event cameras, written from lists of events by the formats' descriptions. Shares nothing with what reads them.
+// Files of event cameras, written from lists of events by the formats' descriptions. Shares nothing with what reads
+// them.
 #pragma once
 
 #include <algorithm>

@@ -195,8 +195,8 @@ TEST(StillClip, OfJpegEndsWhereItsPictureDoes) {
                  {"its colours are CMYK"});
 }
 
-// Where pixel x, y of what is shown stands in what lies as EXIF numbers it: from 5 on rows are columns, and then sides are
-// mirrored.
+// Where pixel x, y of what is shown stands in what lies as EXIF numbers it: from 5 on rows are columns, and then sides
+// are mirrored.
 std::size_t lying_at(unsigned orientation, const Shape& lying, std::uint32_t x, std::uint32_t y) {
   const bool is_turned = orientation >= 5;
   std::uint32_t row = is_turned ? x : y, column = is_turned ? y : x;

@@ -182,8 +182,8 @@ TEST(NoiseEstimator, TellsTremblingFromNoise) {
   }
 }
 
-// The covariance of n independent pairs strays by the variance / sqrt(n): here by less than 0.2 %, and shares of a scene
-// with a moving ball by a little more.
+// The covariance of n independent pairs strays by the variance / sqrt(n): here by less than 0.2 %, and shares of a
+// scene with a moving ball by a little more.
 TEST(NoiseEstimator, SharesNothingInNoise) {
   for (const std::uint32_t channels : {1u, 3u}) {
     const NoisyCamera camera = camera_of(channels, 255, Transfer::srgb());

@@ -8,8 +8,8 @@
 namespace nutik {
 namespace {
 
-// Stripes that stand still but for three pixels: one that goes up and down by 2 codes, and with it its neighbours to the
-// right and below, where there are any.
+// Stripes that stand still but for three pixels: one that goes up and down by 2 codes, and with it its neighbours to
+// the right and below, where there are any.
 TEST(StillWindow, SaysOfEveryPixelWhatItStrays) {
   const CaptureFormat format{.shape = {21, 13, 1}};
   for (const std::uint32_t lively : {0u, 20u, 13u * 21 - 1, 100u}) {

@@ -1,5 +1,5 @@
-// The lightest and darkest sample on a device: the reference's to the last bit, however captures are stored and the work
-// is cut. What the reference is held to: render/combining_test.cpp.
+// The lightest and darkest sample on a device: the reference's to the last bit, however captures are stored and the
+// work is cut. What the reference is held to: render/combining_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cmath>

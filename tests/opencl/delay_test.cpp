@@ -41,8 +41,8 @@ TEST(Delays, StayWithinTheirBoundsOnRandomCases) {
   check.print();
 }
 
-// Pixels of one function in a tile whose others are shared with one of a far larger gain: fixed made their codes of light in
-// 12 bits.
+// Pixels of one function in a tile whose others are shared with one of a far larger gain: fixed made their codes of
+// light in 12 bits.
 TEST(Delays, LeaveAPixelOfOneFunctionAsExactAsItIsAlone) {
   test::PrecisionCheck check;
   check_random_case(check, 2447);

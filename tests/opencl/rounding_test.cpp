@@ -135,8 +135,8 @@ TEST(Roundings, OfPairsReachTheBound) {
                     Precision::compensated, +1, "low parts rounded up");
 }
 
-// One sample: its weight is rounded, and its product with light. 257 · (1 + 126.49 · 2^-23) is 257 and 126.98 of its last
-// places, 126.49 once the weight is rounded.
+// One sample: its weight is rounded, and its product with light. 257 · (1 + 126.49 · 2^-23) is 257 and 126.98 of its
+// last places, 126.49 once the weight is rounded.
 TEST(Roundings, OfWeightAndProductReachTheBoundOfSingle) {
   Sequence sequence;
   sequence.white_code = 257;

@@ -244,8 +244,8 @@ TEST(SoftMasks, KeepToTheirBoundWhereCodesAreClose) {
   }
 }
 
-// What kernels work through: of a hard mask each tile once and nothing else, of a soft one the mixed tiles once for each
-// of their functions, as tiles that have that function alone.
+// What kernels work through: of a hard mask each tile once and nothing else, of a soft one the mixed tiles once for
+// each of their functions, as tiles that have that function alone.
 TEST(SoftMasks, TakeAUniformTileForEachFunctionAndHardMasksNoMoreThanTheirTiles) {
   const SoftScene scene;
   const Rectangle all = Rectangle::whole(scene.format.shape);

@@ -1,4 +1,5 @@
-// Many pictures in one pass: against the reference, within the bound of double, whatever the blocks, tiles and rectangle.
+// Many pictures in one pass: against the reference, within the bound of double, whatever the blocks, tiles and
+// rectangle.
 #include "render/one_pass.hpp"
 
 #include <gtest/gtest.h>

@@ -64,8 +64,8 @@ struct Asked {
   RenderControl control;
 };
 
-// Boxcars of any length, and of a mask's regions boxcars, steps and ramps, in several arithmetics, all of the picture or
-// some of it.
+// Boxcars of any length, and of a mask's regions boxcars, steps and ramps, in several arithmetics, all of the picture
+// or some of it.
 Asked random_request(test::Random& random, const test::RandomCase& of) {
   const std::int64_t end_ns = of.timeline.duration_ns();
   Asked asked;

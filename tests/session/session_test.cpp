@@ -98,8 +98,8 @@ TEST(Session, KnowsNoiseByItsModel) {
   EXPECT_TRUE(CaptureErrors::of(capture, {0.5}).noise.is_zero());
 }
 
-// The curve bends down, lies below nothing that a sample may be off by, and of powers is that itself: means of samples are
-// off by as many codes as each of them.
+// The curve bends down, lies below nothing that a sample may be off by, and of powers is that itself: means of samples
+// are off by as many codes as each of them.
 TEST_F(SessionOfClip, WhatIsHeldOfTheDarkIsHeldCloser) {
   CaptureFormat capture{.shape = {1, 1, 1}};
   for (const char* name : {"srgb", "bt709", "gamma:2.2", "gamma:0.5", "linear", "hlg", "pq", "slog3"}) {

@@ -19,8 +19,8 @@
 namespace nutik {
 namespace {
 
-// How far a picture's codes are from the light that was filmed, in what its map allows: the largest share. That holds, and
-// the bound of all of it.
+// How far a picture's codes are from the light that was filmed, in what its map allows: the largest share. That holds,
+// and the bound of all of it.
 double share_of_map(const ExposedPicture& picture, Picture filmed, const CaptureFormat& capture,
                     const std::string& what) {
   const CodeMaking making = CodeMaking::of(capture, picture.output);
@@ -254,8 +254,8 @@ class Scaled : public Held {
   }
 };
 
-// A mean of sRGB's codes that are half a code off is that off, and 1.4 times as much behind the straight toe. By the codes
-// of black it was 15.
+// A mean of sRGB's codes that are half a code off is that off, and 1.4 times as much behind the straight toe. By the
+// codes of black it was 15.
 TEST_F(Scaled, LightThatWasRoundedIsBoundByItsOwn) {
   Session filmed = session(0);
   source_.clip.scale = ClipScale{2, 0, 0};

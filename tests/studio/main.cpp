@@ -1,5 +1,5 @@
-// Tests of the studio: GoogleTest, with QTest driving widgets by mouse and keyboard. Without a screen, and with settings
-// and unsaved work of their own, since several run at a time.
+// Tests of the studio: GoogleTest, with QTest driving widgets by mouse and keyboard. Without a screen, and with
+// settings and unsaved work of their own, since several run at a time.
 #include <gtest/gtest.h>
 
 #include <QApplication>

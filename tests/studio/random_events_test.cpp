@@ -1,5 +1,5 @@
-// A hand that does whatever it likes: nothing breaks, undo brings everything back, and the picture that stands in the end
-// is the document's.
+// A hand that does whatever it likes: nothing breaks, undo brings everything back, and the picture that stands in the
+// end is the document's.
 #include <QComboBox>
 #include <QDoubleSpinBox>
 

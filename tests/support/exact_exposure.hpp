@@ -1,5 +1,5 @@
-// What a picture is, in exact rational arithmetic: Σ_k v_k ∫ g φ_k / D for the values asked for, and of mixed pixels the
-// shares of that.
+// What a picture is, in exact rational arithmetic: Σ_k v_k ∫ g φ_k / D for the values asked for, and of mixed pixels
+// the shares of that.
 //
 //   in:      a plan (its functions and which pixel has which; none of its tables), the timeline, and the
 //            codes that each sample holds; plan and timeline must live longer

@@ -12,7 +12,8 @@ namespace nutik::test {
 
 class StudyTest : public MovingSquareTest {
  protected:
-  // Whether a study without moments is what a plain exposure of all of the clip is, but for how its light was corrected.
+  // Whether a study without moments is what a plain exposure of all of the clip is, but for how its light was
+  // corrected.
   void expect_mean_of_all(const std::string& clip, int pictures, const std::string& study) const {
     EXPECT_EQ(cv::countNonZero(picture(study + ".pgm")), 0) << study;
     make("expose " + clip + " --deflicker --start 0f --exposure " + std::to_string(pictures) + "f --overwrite -o all.png");

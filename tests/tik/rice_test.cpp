@@ -122,7 +122,8 @@ TEST(Rice, ARoomIsUsedAgain) {
   }
 }
 
-// Codes that move by whole steps of a tolerance cost what as many single codes cost; those that do not come back as well.
+// Codes that move by whole steps of a tolerance cost what as many single codes cost; those that do not come back as
+// well.
 TEST(Rice, CountsStepsOfATolerance) {
   for (const std::uint32_t code_bytes : {1u, 2u}) {
     for (const std::uint32_t channels : {1u, 3u}) {

@@ -28,8 +28,8 @@ inline constexpr std::string_view kFunctionFile = "M0 [0:1], [10ms:1], [10000001
 [[nodiscard]] bool is_help_topic(std::string_view name);  // all, source, computing, output
 
 void print_help();
-// In 40 lines of 80 columns what sets the command apart; with a topic (all, source, computing, output) all that is said of
-// those options. Throws UsageError for another topic.
+// In 40 lines of 80 columns what sets the command apart; with a topic (all, source, computing, output) all that is said
+// of those options. Throws UsageError for another topic.
 void print_command_help(const Command& command, std::string_view topic);
 void print_version();
 

@@ -42,9 +42,9 @@ SourceRequest source_request(const Options& options, const std::string& name) {
 
 MemoryBudget memory_budget(const Options& options) {
 #ifdef __GLIBC__
-  // Freed memory goes back to the system soon, which is slower than keeping it for the next time, for all of the process.
-  // Blocks from this size on are mapped, each for itself, and unmapped when they are freed. Otherwise the limit grows
-  // to 32 MiB with what is freed, and pictures leave holes in heaps.
+  // Freed memory goes back to the system soon, which is slower than keeping it for the next time, for all of the
+  // process. Blocks from this size on are mapped, each for itself, and unmapped when they are freed. Otherwise the
+  // limit grows to 32 MiB with what is freed, and pictures leave holes in heaps.
   constexpr int kMappedFrom = 1 << 20;
   if (options.memory) {
     mallopt(M_MMAP_THRESHOLD, kMappedFrom);

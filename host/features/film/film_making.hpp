@@ -74,8 +74,8 @@ struct MadeVideo {
 [[nodiscard]] std::optional<BetweenRequest> joining_samples(const FramesRequest& request, const Frames& frames,
                                                             const Session& session);
 
-// What the recipe of a frame's still states for itself: when it was exposed, and with keys what its functions (as a text
-// with that name) and its mask were.
+// What the recipe of a frame's still states for itself: when it was exposed, and with keys what its functions (as a
+// text with that name) and its mask were.
 [[nodiscard]] OwnRecipe frame_recipe(const FramesRequest& request, const Frames& frames, std::uint64_t frame,
                                      const std::string& functions_name);
 

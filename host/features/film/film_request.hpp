@@ -65,7 +65,8 @@ class CapturedCurve {
   std::int64_t duration_ns_, min_ns_;
 };
 
-// What of the clip's sound goes with the film: as it is, if the film runs as fast as the file; as slow or fast as the film.
+// What of the clip's sound goes with the film: as it is, if the film runs as fast as the file; as slow or fast as the
+// film.
 enum class FilmSoundWish { as_it_is, stretched, none };
 
 struct FramesRequest {

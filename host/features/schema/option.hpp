@@ -96,7 +96,8 @@ struct Option {
   [[nodiscard]] const std::string* stated(const Options& options) const;
   // Whether a flag is set, or a value stated; by the row of another command, too, that sets the same field.
   [[nodiscard]] bool is_in(const Options& options) const;
-  // States it, by the name that messages have for it. Throws UsageError where it is stated already, and what take() does.
+  // States it, by the name that messages have for it. Throws UsageError where it is stated already, and what take()
+  // does.
   void state(Options& options, std::string_view what, std::vector<std::string> words) const;
   // The same in place of what was stated.
   void restate(Options& options, std::vector<std::string> words) const;

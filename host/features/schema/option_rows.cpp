@@ -63,7 +63,8 @@ constexpr Option formerly(std::string_view old_name, Option row) {
   return row;
 }
 
-// A row that may be given again and again, and is kept in the order of the command line: the steps of a mask, and others.
+// A row that may be given again and again, and is kept in the order of the command line: the steps of a mask, and
+// others.
 constexpr Option repeated(std::string_view name, std::string_view value, std::string_view help, Id of = Id::mask,
                           Scope scope = subject) {
   return {0, name, value, scope, bit(of), {}, help};

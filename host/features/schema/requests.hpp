@@ -18,8 +18,8 @@ namespace nutik {
 
 [[nodiscard]] ComputingRequest computing_request(const Options& options);
 
-// An exposure as far as one command line states it without reading functions or a mask: how it is weighed, normalized and
-// brightened. Functions or interval, start and mask are added by whoever asks. Reads the picture of a delay.
+// An exposure as far as one command line states it without reading functions or a mask: how it is weighed, normalized
+// and brightened. Functions or interval, start and mask are added by whoever asks. Reads the picture of a delay.
 [[nodiscard]] ExposureRequest exposure_without_gains(const Options& options);
 [[nodiscard]] Shutter stated_shutter(const Options& options);
 // What `gain` and `ev` multiply light with.

@@ -1,6 +1,6 @@
-// How a word becomes the value that a row of the schema keeps. A row names the field, `take<InClip<&ClipOptions::rate>>`;
-// what its words mean follows from the field's type, or is stated: take_choice with the values of the choices,
-// take_whole with its bounds, take_by with a parser.
+// How a word becomes the value that a row of the schema keeps. A row names the field,
+// `take<InClip<&ClipOptions::rate>>`; what its words mean follows from the field's type, or is stated: take_choice with
+// the values of the choices, take_whole with its bounds, take_by with a parser.
 #pragma once
 
 #include <array>

@@ -88,8 +88,8 @@ class PictureQueue {
 //
 //   in:      for each, work that makes it with a RenderControl
 //   out:     what work returned, the oldest first
-//   always:  no more than `length` are in line. With 1 a picture is made when it is taken, by whoever takes it. What one
-//            throws first stops the others, and is thrown by the next take()
+//   always:  no more than `length` are in line. With 1 a picture is made when it is taken, by whoever takes it. What
+//            one throws first stops the others, and is thrown by the next take()
 template <typename Made>
 class PictureLine {
  public:

@@ -41,8 +41,8 @@ class FrameRanges {
   std::string text_;
 };
 
-// Those of `ranges`, or all of the first `count` without ranges. Throws UsageError naming `what`, of which the `whole` has
-// so many, where that is none.
+// Those of `ranges`, or all of the first `count` without ranges. Throws UsageError naming `what`, of which the `whole`
+// has so many, where that is none.
 [[nodiscard]] std::vector<std::uint64_t> chosen_numbers(const std::optional<FrameRanges>& ranges,
                                                         std::uint64_t count, std::string_view what,
                                                         std::string_view whole);

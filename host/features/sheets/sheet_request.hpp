@@ -25,7 +25,8 @@ struct ContactRequest {
 };
 
 // Sample by sample where pictures are counted or nothing is stated, else at exact multiples of a time. An exposure
-// may go on behind the capture's end. Throws UsageError where they are more than a sheet has room for, or the start lies outside.
+// may go on behind the capture's end. Throws UsageError where they are more than a sheet has room for, or the start
+// lies outside.
 [[nodiscard]] std::vector<Exposure> exposures_of(const ContactRequest& request, const Timeline& timeline);
 
 // `0.4 s   12f` for each exposure: times in one unit, with the decimals that tell neighbours apart, and the picture

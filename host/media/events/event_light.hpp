@@ -4,8 +4,9 @@
 //
 //     light(t) = start · exp(up · n_up(t) − down · n_down(t))
 //
-// The logarithm is kept as it is; only the code that stands for light ends at white, so light that was above white comes
-// back as it went. A code is that whose light is next: 16 bits, linear unless another transfer function is stated.
+// The logarithm is kept as it is; only the code that stands for light ends at white, so light that was above white
+// comes back as it went. A code is that whose light is next: 16 bits, linear unless another transfer function is
+// stated.
 #pragma once
 
 #include <algorithm>
@@ -92,8 +93,8 @@ struct EventLight {
   std::int64_t end_ns = 0;
 };
 
-// A header of a few bytes may name a picture of gigabytes. Throws InputError if it has far more values than the file has
-// events.
+// A header of a few bytes may name a picture of gigabytes. Throws InputError if it has far more values than the file
+// has events.
 void check_picture_size(const Shape& shape, std::uint64_t events, const std::string& name);
 
 // How many samples changes make, in the order of their times.

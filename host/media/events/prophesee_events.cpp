@@ -83,8 +83,8 @@ using KnownCount = std::optional<std::uint64_t>;  // of events
 
 class Decoder {
  public:
-  // `size` is that of a word. What does not fill one at the end is left over. Events are kept where it is known how many
-  // there are; else they are counted.
+  // `size` is that of a word. What does not fill one at the end is left over. Events are kept where it is known how
+  // many there are; else they are counted.
   Decoder(Bytes words, std::size_t size, KnownCount known)
       : words_(words), size_(size), is_keeping_(known.has_value()) {
     events.reserve(known.value_or(0));

@@ -13,8 +13,8 @@ namespace nutik {
 [[nodiscard]] std::optional<std::uint8_t> coding_point(const Transfer& transfer);
 [[nodiscard]] std::uint8_t coding_point(Primaries primaries);
 
-// What is known here by a number, or is the same to an eye: NTSC's and PAL's primaries differ from BT.709's by less than
-// it notices. None for others, and for what is not said.
+// What is known here by a number, or is the same to an eye: NTSC's and PAL's primaries differ from BT.709's by less
+// than it notices. None for others, and for what is not said.
 [[nodiscard]] std::optional<Transfer> transfer_of_coding_point(unsigned number);
 [[nodiscard]] std::optional<Primaries> primaries_of_coding_point(unsigned number);
 

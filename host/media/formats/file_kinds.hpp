@@ -9,11 +9,12 @@
 
 namespace nutik {
 
-// The first bytes of a file, by which its kind is told. None of Photron's, which have no header in front: their pixels may
-// look like any other kind.
+// The first bytes of a file, by which its kind is told. None of Photron's, which have no header in front: their pixels
+// may look like any other kind.
 [[nodiscard]] std::string telling_bytes(const std::filesystem::path& file);
 
-// What a file is and what can be done about it, as a sentence that begins with its name. Empty where it may be supported.
+// What a file is and what can be done about it, as a sentence that begins with its name. Empty where it may be
+// supported.
 [[nodiscard]] std::optional<std::string> unsupported_kind_text(const std::filesystem::path& file);
 
 // Throws InputError with that.

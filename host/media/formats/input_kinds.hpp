@@ -1,5 +1,5 @@
-// What each kind of input is recognized by, and where its times and codes come from. docs/reference/input.md has the same
-// table, which a test compares. What is refused by name stands in file_kinds.cpp, and of FFmpeg's containers in
+// What each kind of input is recognized by, and where its times and codes come from. docs/reference/input.md has the
+// same table, which a test compares. What is refused by name stands in file_kinds.cpp, and of FFmpeg's containers in
 // videos/containers.hpp.
 #pragma once
 

@@ -139,7 +139,8 @@ void check_rows(std::uint64_t width, std::uint64_t channels) {
     throw InputError(format("its rows have {} pixels of {} channels, more than are read", width, channels));
 }
 
-// Each attribute of each header must lie within the file: OpenEXR makes room for what it is said to have, and then reads.
+// Each attribute of each header must lie within the file: OpenEXR makes room for what it is said to have, and then
+// reads.
 void check_attributes(std::string_view bytes) {
   constexpr std::size_t kMagicAndVersion = 8, kSizeBytes = 4, kFlags = 5;
   constexpr char kSeveralParts = 0x10;  // a header each, until an empty one

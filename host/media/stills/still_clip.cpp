@@ -73,8 +73,8 @@ Still still_of(Picture&& picture, std::optional<std::uint32_t> maximum) {
           std::move(picture.bytes)};
 }
 
-// Light as the nearest of equal steps up to white, or of a stated curve's. Throws InputError where a capture cannot hold
-// a value.
+// Light as the nearest of equal steps up to white, or of a stated curve's. Throws InputError where a capture cannot
+// hold a value.
 template <typename Value>
 Picture codes_of_light(const Picture& light, std::optional<double> white, const std::optional<LightCodes>& curve,
                        const std::string& name) {

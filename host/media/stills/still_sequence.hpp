@@ -16,7 +16,8 @@ namespace nutik {
 //   `frames/*.png`      every file that matches (*, ? and [a-z], as shells have them), in that order
 //   `frame%04d.png`     numbered files as printf writes them, from the lowest number on
 //   a picture           that file (a TIFF may hold several pictures)
-//   stills.csv          the files that the table lists, for whoever asks which are read; open_clip() opens it as a table
+//   stills.csv          the files that the table lists, for whoever asks which are read; open_clip() opens it as a
+//                       table
 // Empty optional: `path` is none of these (a video, presumably). Throws InputError where it is one but no
 // file is there, or numbers of a numbered sequence are missing.
 [[nodiscard]] std::optional<std::vector<std::filesystem::path>> list_stills(

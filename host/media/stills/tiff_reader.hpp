@@ -30,8 +30,8 @@ struct TiffPage {
   unsigned orientation = 1;        // as it lies, by TIFF's numbers, which are EXIF's
 };
 
-// What the description of a TIFF says of its pages beside what their directories do: ImageJ, tifffile and OME write there
-// how many pictures there are, of how many channels and slices, and how fast they were taken.
+// What the description of a TIFF says of its pages beside what their directories do: ImageJ, tifffile and OME write
+// there how many pictures there are, of how many channels and slices, and how fast they were taken.
 struct TiffStory {
   std::uint64_t pictures = 0;    // 0: it does not say
   std::string mixed;             // of what there is more than one beside moments, for people: `2 channels, 2 slices`

@@ -71,8 +71,8 @@ TiffStory story_of_imagej(std::string_view text) {
   story.who = "ImageJ";
   story.pictures = count_of(value("\nimages="));
   story.mixed = mixed_text(count_of(value("\nchannels=")), count_of(value("\nslices=")), count_of(value("\nframes=")));
-  // The interval is one of time, and goes before the speed at which the stack is shown, unless that is the same, rounded
-  // less.
+  // The interval is one of time, and goes before the speed at which the stack is shown, unless that is the same,
+  // rounded less.
   const auto shown = number_of(value("\nfps=")), interval = number_of(value("\nfinterval="));
   story.rate = rate_of(interval, value("\ntunit="));
   constexpr double kRounding = 1e-3;

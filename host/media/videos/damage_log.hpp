@@ -9,7 +9,8 @@
 
 namespace nutik::videos {
 
-// From now on what decoders and containers log goes to their DamageLog, and nothing of it to standard error. Once is enough.
+// From now on what decoders and containers log goes to their DamageLog, and nothing of it to standard error. Once is
+// enough.
 void listen_to_ffmpeg();
 
 // Listens to one decoder or one opened file, and outlives it. Their threads write, whoever reads pictures asks.

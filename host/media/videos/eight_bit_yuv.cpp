@@ -146,8 +146,8 @@ inline __attribute__((always_inline)) void interleave(const std::uint8_t* red, c
   std::memcpy(rgb + 32, &last, 16);
 }
 
-// A row's pixels, some at a time: their codes stay close by until they are written, and memory is not left waiting while
-// a whole row is computed (15 % of the time).
+// A row's pixels, some at a time: their codes stay close by until they are written, and memory is not left waiting
+// while a whole row is computed (15 % of the time).
 NUTIK_SIMD_CLONES void add_luma(const std::uint8_t* __restrict luma, std::size_t width, std::uint16_t weight,
                                 const std::int16_t* __restrict red_part,
                                 const std::int16_t* __restrict green_part,

@@ -146,9 +146,9 @@ template <typename Enumeration>
   return number;
 }
 
-// Memory is counted for pictures of the size that the container tells; a decoder that finds a larger one in its own data
-// makes room for that. The limit is rough, since decoders round up to blocks and hold other buffers to it, too: those of
-// MPEG-4 have 280 rows, whatever the picture has. Nothing where the container tells of no size.
+// Memory is counted for pictures of the size that the container tells; a decoder that finds a larger one in its own
+// data makes room for that. The limit is rough, since decoders round up to blocks and hold other buffers to it, too:
+// those of MPEG-4 have 280 rows, whatever the picture has. Nothing where the container tells of no size.
 inline std::optional<std::int64_t> most_pixels(const AVCodecParameters& told) {
   if (told.width <= 0 || told.height <= 0) return {};
   return (2 * std::int64_t{told.width} + 256) * (std::int64_t{told.height} + 320);

@@ -56,8 +56,8 @@ YuvCoding yuv_coding(const Probe& probe, const ClipOptions& options, const std::
           options.chroma_at};
 }
 
-// Transfer function, primaries and pixel aspect of the capture, whose white code is known; facts on all of these, and on
-// matrix, range and chroma of YUV.
+// Transfer function, primaries and pixel aspect of the capture, whose white code is known; facts on all of these, and
+// on matrix, range and chroma of YUV.
 void describe(ClipInfo& info, const Probe& probe, const ClipOptions& options) {
   const PixelKind& pixels = probe.pixels;
   CaptureFormat& capture = info.format;

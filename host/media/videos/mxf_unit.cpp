@@ -53,8 +53,8 @@ std::string sonys_name(std::string_view label) {
   }
 }
 
-// The camera unit's set in ancillary data (SMPTE RDD 18 in ST 436): u16 packets, each of a header of 6 bytes, u32 bytes,
-// u32 1, then 0x43 0x05, u8 length, u8 number of the message and a part of the items.
+// The camera unit's set in ancillary data (SMPTE RDD 18 in ST 436): u16 packets, each of a header of 6 bytes, u32
+// bytes, u32 1, then 0x43 0x05, u8 length, u8 number of the message and a part of the items.
 std::string unit_items(std::string_view ancillary) {
   constexpr std::size_t kHeader = 14;
   std::string items;

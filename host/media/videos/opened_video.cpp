@@ -11,8 +11,8 @@
 namespace nutik::videos {
 namespace {
 
-// What a file of this size is believed to hold: 7680 x 4320 in any case. Larger pictures need 4 kB and more, which those
-// of any camera have. FFmpeg takes no setting above an int.
+// What a file of this size is believed to hold: 7680 x 4320 in any case. Larger pictures need 4 kB and more, which
+// those of any camera have. FFmpeg takes no setting above an int.
 std::int64_t most_pixels_in(const AVFormatContext& context) {
   constexpr std::int64_t kPixelsAByte = 8256, kSmall = std::int64_t{1} << 25, kMost = INT32_MAX;
   const std::int64_t bytes = avio_size(context.pb);

@@ -34,8 +34,8 @@ class PictureDecoder {
   // False at the end. Throws InputError where the file is damaged so that a wanted picture is none.
   bool next(AVFrame& picture);
 
-  // Passes over a picture that no other refers to, before the first next(): its packet is not decoded. False at the end.
-  // Throws InputError where pictures before it are missing.
+  // Passes over a picture that no other refers to, before the first next(): its packet is not decoded. False at the
+  // end. Throws InputError where pictures before it are missing.
   bool skip();
 
   // What its decoder has said of damage so far: of the picture that came last, or of one soon after it.

@@ -55,7 +55,8 @@ struct KnownRate {
 [[nodiscard]] ClipTiming timing_of(const AVFormatContext& file, const AVStream& stream,
                                    const std::vector<std::int64_t>& times, const std::string& name);
 
-// Why no rate of a stream is taken, although FFmpeg tells one: empty where that is its own. None where the file states it.
+// Why no rate of a stream is taken, although FFmpeg tells one: empty where that is its own. None where the file states
+// it.
 [[nodiscard]] std::optional<std::string> doubt_about_rate(const AVFormatContext& file, const AVStream& stream,
                                                           std::span<const std::byte> bytes);
 

@@ -201,9 +201,9 @@ std::optional<std::string> missing_part_note(const AVFormatContext& file, const 
       *announced, found);
 }
 
-// What a Matroska file lacks by what it says of its elements: each has a name and a length, of as many bytes as the zero
-// bits in front of them tell, and so many bytes. One that was streamed does not tell the length of its segment, nor of a
-// cluster: what is in them follows as if it were beside them.
+// What a Matroska file lacks by what it says of its elements: each has a name and a length, of as many bytes as the
+// zero bits in front of them tell, and so many bytes. One that was streamed does not tell the length of its segment,
+// nor of a cluster: what is in them follows as if it were beside them.
 std::optional<std::string> matroska_cut_note(std::span<const std::byte> bytes) {
   constexpr std::uint64_t kSegment = 0x18538067, kCluster = 0x1F43B675;
   std::uint64_t at = 0;
@@ -241,8 +241,8 @@ struct FreeReader {
   }
 };
 
-// Whether a NUT file without an index, whose last picture ends with the file, has all of that picture: what reads more than
-// there is would take a byte that is added to it.
+// Whether a NUT file without an index, whose last picture ends with the file, has all of that picture: what reads more
+// than there is would take a byte that is added to it.
 bool has_all_of_last(const AVInputFormat& kind, std::span<const std::byte> bytes) {
   struct Longer {
     std::span<const std::byte> bytes;

@@ -57,8 +57,9 @@ class LibavSoundWriter final : public SoundWriter {
     sound_.start_s -= early_s(*clip_.format, *from_, *clip_.format->streams[clip_.stream]);
     const AVCodecParameters& codec = *from_->codecpar;
     const AVCodecID id = codec.codec_id;
-    // An .avi does not say when sound begins: silence in front of it has to be encoded. FFmpeg 5 moves Opus by its delay
-    // each time that a stream is copied. Packets without losses may be longer than frames, but for those of discs.
+    // An .avi does not say when sound begins: silence in front of it has to be encoded. FFmpeg 5 moves Opus by its
+    // delay each time that a stream is copied. Packets without losses may be longer than frames, but for those of
+    // discs.
     const bool moves = std::string_view(film.oformat->name) == "avi" || id == AV_CODEC_ID_OPUS;
     const bool is_long = is_lossless() && id != AV_CODEC_ID_TRUEHD && id != AV_CODEC_ID_DTS;
     is_copied_ = sound_.speed == 1.0 && !sound_.is_cut && !is_pcm() && !is_long && !moves && holds(id);
@@ -174,8 +175,8 @@ class LibavSoundWriter final : public SoundWriter {
     return true;
   }
 
-  // Cuts the part out, fills gaps with silence, plays slower or faster, converts. A filter that keeps pitch (atempo) would
-  // move sounds by more than a frame.
+  // Cuts the part out, fills gaps with silence, plays slower or faster, converts. A filter that keeps pitch (atempo)
+  // would move sounds by more than a frame.
   void open_graph() {
     graph_.reset(allocated(module<FilterModule>().graph_alloc()));
     graph_->nb_threads = 1;

@@ -18,15 +18,15 @@ constexpr std::uint64_t kMaxReadAhead = 64 << 20;
 constexpr std::uint64_t kPackingBytes = 8 << 20;
 
 // The memory of blocks while a clip is encoded, in units of the size at which a block closes. The block being built and
-// the one being packed may each reach twice that size (imev/tile_log.hpp); the packed one is no larger than its content.
-// With a camera's noise there are also the samples as they came, and three times what is held of them.
+// the one being packed may each reach twice that size (imev/tile_log.hpp); the packed one is no larger than its
+// content. With a camera's noise there are also the samples as they came, and three times what is held of them.
 std::uint64_t block_units(const CaptureFormat& capture) {
   if (!capture.noise.camera) return 5;
   return 1 + 3 * held_format(capture).sample_bytes() / capture.sample_bytes();
 }
 
-// If little changes from sample to sample, a block has room for four rasters: its first sample, changes as large as two,
-// and the sample that is one too many (default_block_limits()). With less, each sample would be written whole.
+// If little changes from sample to sample, a block has room for four rasters: its first sample, changes as large as
+// two, and the sample that is one too many (default_block_limits()). With less, each sample would be written whole.
 constexpr std::uint64_t kMinRastersOfChanges = 4;
 
 // Blocks of one sample, in each of the places where there is one.

@@ -57,8 +57,8 @@ struct ClipSource {
 };
 
 // Throws InputError where the clip cannot be read, UsageError where the request does not fit it;
-// MemoryTooLittle where its own noise cannot be measured in the memory; what find_camera_path() throws. `progress` counts
-// pictures while that reads the clip; the source's own request knows the path then.
+// MemoryTooLittle where its own noise cannot be measured in the memory; what find_camera_path() throws. `progress`
+// counts pictures while that reads the clip; the source's own request knows the path then.
 //
 // `open` is of a clip that its owner makes: it does so from the start, as often as the clip is read. The request's path
 // is its name in messages then; what of the request only files have, the part of the clip for example, is the owner's

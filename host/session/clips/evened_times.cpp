@@ -13,8 +13,8 @@ namespace nutik {
 
 namespace {
 
-// Players show a part of a clip slower: steps of two lengths, the longer a whole number of times the shorter, many of them
-// one after another where dropped pictures leave single ones.
+// Players show a part of a clip slower: steps of two lengths, the longer a whole number of times the shorter, many of
+// them one after another where dropped pictures leave single ones.
 std::optional<Note> ramp_note(const std::vector<std::int64_t>& steps) {
   const std::int64_t least = *std::ranges::min_element(steps), most = *std::ranges::max_element(steps);
   if (least <= 0) return std::nullopt;

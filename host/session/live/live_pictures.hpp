@@ -3,10 +3,10 @@
 //
 //   in:      requests: a preview, which is what can be seen, and the full picture that follows it
 //   out:     previews and full pictures, in the order in which they were asked for
-//   always:  one preview is in flight and one waits: a newer request takes the place of the one that waits and stops none
-//            in flight, so that pictures come as long as requests do. A full picture is exposed strip by strip while no
-//            preview waits, and is given up between two strips when there is a newer request. Nothing is delivered that
-//            is older than what was delivered before
+//   always:  one preview is in flight and one waits: a newer request takes the place of the one that waits and stops
+//            none in flight, so that pictures come as long as requests do. A full picture is exposed strip by strip
+//            while no preview waits, and is given up between two strips when there is a newer request. Nothing is
+//            delivered that is older than what was delivered before
 //   threads: any number may ask. Answers come from a thread of this object's own, one at a time
 #pragma once
 

@@ -74,8 +74,8 @@ struct ExposureRequest {
 // Throws UsageError if a plain interval lies outside the capture or is too short for its shutter, InputError if a
 // function cannot be normalized.
 [[nodiscard]] FunctionSet functions_of(const ExposureRequest& request, const Timeline& timeline);
-// The same with an interval in nanoseconds in place of the stated one. Functions have their time 0 at its start; its end
-// says nothing to them.
+// The same with an interval in nanoseconds in place of the stated one. Functions have their time 0 at its start; its
+// end says nothing to them.
 [[nodiscard]] FunctionSet functions_of(const ExposureRequest& request, const Exposure& interval,
                                        const Timeline& timeline);
 

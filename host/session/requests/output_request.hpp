@@ -48,8 +48,8 @@ void check_quality(const OutputRequest& request, const std::filesystem::path& ou
 [[nodiscard]] OutputFormat output_format(const OutputRequest& request, const std::filesystem::path& output,
                                          ValueType type, const CaptureFormat& capture);
 
-// `, codes srgb with white 65535 (the capture's: linear with white 4095)`, `, codes srgb in bt709 (the capture's: srgb in
-// p3)`; nothing where a picture's codes are the capture's, or it holds light.
+// `, codes srgb with white 65535 (the capture's: linear with white 4095)`, `, codes srgb in bt709 (the capture's: srgb
+// in p3)`; nothing where a picture's codes are the capture's, or it holds light.
 [[nodiscard]] std::string codes_text(const CaptureFormat& capture, const OutputFormat& output);
 
 }  // namespace nutik

@@ -81,8 +81,8 @@ struct SourceRequest {
 // The size of a .tik's pictures, from its first bytes; none of a clip, a damaged file or standard input.
 [[nodiscard]] std::optional<Shape> known_shape(const std::filesystem::path& path);
 
-// Throws UsageError where codes of a capture `name` are means of light by its own transfer function and another is stated,
-// by which the same light has another mean: they were scaled, aligned or held within a camera's noise.
+// Throws UsageError where codes of a capture `name` are means of light by its own transfer function and another is
+// stated, by which the same light has another mean: they were scaled, aligned or held within a camera's noise.
 void check_stated_transfer(const tik::Header& header, const std::string& name,
                            const std::optional<Transfer>& stated);
 

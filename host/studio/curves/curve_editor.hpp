@@ -1,9 +1,11 @@
 // The gain functions over time: the selected region's to be drawn, the others' faintly behind.
 //
-//   mouse      drag a point, several selected ones, a side of the box round them, a boxcar's bar, its ends or its level;
-//              click the curve for a new point, right-click a point to take it away; drag over empty ground to select
+//   mouse      drag a point, several selected ones, a side of the box round them, a boxcar's bar, its ends or its
+//              level; click the curve for a new point, right-click a point to take it away; drag over empty ground to
+//              select
 //   modifiers  Shift: a tenth as fast. Ctrl: no snapping, and a step's point without the other one
-//   wheel      zooms the time to the pointer; Shift: pans; Ctrl: zooms the gain; double click on the axis: automatic again
+//   wheel      zooms the time to the pointer; Shift: pans; Ctrl: zooms the gain; double click on the axis: automatic
+//              again
 //   keyboard   Tab, Home, End: from point to point. Arrows: by a sample or 0.1 of gain, Shift ten times that, Ctrl 1 ns
 //              or 0.01. Delete, Insert, Return to type, Ctrl+A, Escape, + and - to zoom, F to show all
 //

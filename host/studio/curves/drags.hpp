@@ -51,8 +51,8 @@ class Snapper {
   std::vector<GainSnap> gains_;
 };
 
-// How far the hand has come, and how far from a target it is drawn to it. Elsewhere a drag ends at round numbers, so that
-// function files hold no digits that nobody chose.
+// How far the hand has come, and how far from a target it is drawn to it. Elsewhere a drag ends at round numbers, so
+// that function files hold no digits that nobody chose.
 struct HandShift {
   double time_ns = 0.0;
   double gain = 0.0;  // upwards

@@ -4,8 +4,8 @@
 //   always:  what goes in has increasing times, and so has what comes out: a point never passes another one. Where an
 //            edit asks for more it goes as far as there is room
 //
-// A jump is written as two points 1 ns apart, a step (docs/reference/functions.md). A step stays one: whoever moves one of its
-// points in time moves the other one, too, unless it asks for the point alone.
+// A jump is written as two points 1 ns apart, a step (docs/reference/functions.md). A step stays one: whoever moves one
+// of its points in time moves the other one, too, unless it asks for the point alone.
 #pragma once
 
 #include <cstddef>

@@ -38,8 +38,8 @@ namespace nutik::studio {
 
 // What the window knows of the capture that is open. Values: read once by the engine's threads, then only looked at.
 
-// What a person stated of a clip, beside what its files say: options of encoding by their names, with their values; those
-// of flags are empty.
+// What a person stated of a clip, beside what its files say: options of encoding by their names, with their values;
+// those of flags are empty.
 using Stated = std::map<std::string, std::string>;
 
 // An opened capture's shape, codes and times. timeline.rate() is its sample rate.

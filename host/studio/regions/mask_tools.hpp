@@ -28,7 +28,8 @@ struct ToolSettings {
                                                     const ToolSettings& settings,
                                                     std::function<const QImage&()> image);
 
-// The pixels that hang together with one, over their sides, and differ from it by at most so many codes in each channel.
+// The pixels that hang together with one, over their sides, and differ from it by at most so many codes in each
+// channel.
 [[nodiscard]] Region similar_pixels(const QImage& image, QPoint from, int codes);
 
 }  // namespace nutik::studio

@@ -1,8 +1,9 @@
-// The capture along time: what changes when, small pictures, and the interval that is exposed while it is scrubbed over it.
+// The capture along time: what changes when, small pictures, and the interval that is exposed while it is scrubbed over
+// it.
 //
 //   ruler      ticks; the in and out marks, which are dragged, and taken away by a right click
-//   track      thumbnails and activity; the boxcar: pressed inside it is moved, at its ends it is made longer or shorter,
-//              elsewhere it comes to the pointer
+//   track      thumbnails and activity; the boxcar: pressed inside it is moved, at its ends it is made longer or
+//              shorter, elsewhere it comes to the pointer
 //   modifiers  Shift: a tenth as fast. Ctrl: not drawn to samples
 //   wheel      zooms to the pointer; Shift: pans; the middle button pans, too
 //   keyboard   Left and Right: by a sample, Shift: ten, Ctrl: 1 ns. Up and Down: longer and shorter by a sample.

@@ -18,8 +18,8 @@ struct Typed {
 
 // `400.000001 ms`, `1.5 s`: no digit is lost, and read_typed_time() reads it back.
 [[nodiscard]] QString exact_time_text(std::int64_t time_ns);
-// As times are stated everywhere (session/requests/stated_moments.hpp), blanks between number and unit allowed; `37f` is
-// the start of picture 37.
+// As times are stated everywhere (session/requests/stated_moments.hpp), blanks between number and unit allowed; `37f`
+// is the start of picture 37.
 [[nodiscard]] Typed<std::int64_t> read_typed_time(const QString& text, const Timeline& timeline);
 // The same of a length, which is at least 1 ns; `3f` are three mean periods.
 [[nodiscard]] Typed<std::int64_t> read_typed_length(const QString& text, const Timeline& timeline);
@@ -31,8 +31,8 @@ struct Typed {
 // The begin or end of an exposure that is nearest to a time, or the capture's end.
 [[nodiscard]] std::int64_t nearest_sample_edge(std::int64_t time_ns, const Timeline& timeline);
 
-// The time that lies as far behind the start of a sample as `time_ns` behind the start of its own, `steps` samples later
-// or earlier; beyond the capture samples go on at its mean rate.
+// The time that lies as far behind the start of a sample as `time_ns` behind the start of its own, `steps` samples
+// later or earlier; beyond the capture samples go on at its mean rate.
 [[nodiscard]] std::int64_t samples_later(std::int64_t time_ns, std::int64_t steps, const Timeline& timeline);
 
 }  // namespace nutik::studio

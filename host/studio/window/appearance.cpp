@@ -39,7 +39,8 @@ QPalette palette_of(int window, int base, int button, int text, int dim) {
   return palette;
 }
 
-// Fusion, whose boxes to check cannot be told from a dark ground, and whose shadows double texts that are disabled there.
+// Fusion, whose boxes to check cannot be told from a dark ground, and whose shadows double texts that are disabled
+// there.
 class Style : public QProxyStyle {
  public:
   Style() : QProxyStyle(QStringLiteral("Fusion")) {}

@@ -1,8 +1,8 @@
 // Keeps what is not saved, so that a crash loses little.
 //
-//   always:  a change is kept within kDelay, beside nothing of the user's, in a file of this window and this capture. Only
-//            the window that has it locked removes it, once that was saved or given up. What a window leaves that did not
-//            end well is found at every start, until it is taken over by another or removed
+//   always:  a change is kept within kDelay, beside nothing of the user's, in a file of this window and this capture.
+//            Only the window that has it locked removes it, once that was saved or given up. What a window leaves that
+//            did not end well is found at every start, until it is taken over by another or removed
 #pragma once
 
 #include <QDateTime>

@@ -22,8 +22,8 @@ struct CommandFiles {
   QString mask, functions;
 };
 
-// The command line that makes a document's picture, one line for a POSIX shell, and the recipe that the picture carries:
-// both come from one list of options, and nutik-cl writes the same bytes.
+// The command line that makes a document's picture, one line for a POSIX shell, and the recipe that the picture
+// carries: both come from one list of options, and nutik-cl writes the same bytes.
 // `written`: options of how the picture is written.
 [[nodiscard]] QString command_line(const Document& document, const CommandFiles& files,
                                    const QString& picture, const Stated& written = {});
@@ -48,8 +48,8 @@ inline constexpr const char* kProjectExtension = ".nutik";
 // Where a project that has none yet gets its mask and functions: beside it, under names that are free or its own, and
 // not its capture's.
 [[nodiscard]] CommandFiles free_files_beside(const QString& project, const QString& capture = {});
-// Those of them that are there and were not written for this project, under the name it has: they do not carry its mark,
-// which is made of a random number in the project and of that name.
+// Those of them that are there and were not written for this project, under the name it has: they do not carry its
+// mark, which is made of a random number in the project and of that name.
 [[nodiscard]] QStringList foreign_files(const QString& project, const CommandFiles& files);
 // Replaces what `files` names.
 void save_project(const QString& path, const Document& document, const CommandFiles& files);
