@@ -119,8 +119,8 @@ inline __attribute__((always_inline)) std::uint64_t compare(const Code* now_code
 
 // The same with a tolerance: what is held moves by steps.
 template <typename Code, std::uint32_t Channels>
-inline __attribute__((always_inline)) std::uint64_t compare_in_steps(const Code* now_codes, Code* held_codes, Code limit,
-                                                                     const CodeSteps steps) {
+inline __attribute__((always_inline)) std::uint64_t compare_in_steps(const Code* now_codes, Code* held_codes,
+                                                                     Code limit, const CodeSteps steps) {
   Code reached[Channels * kTilePixels];
   std::memcpy(reached, held_codes, sizeof reached);
   const std::uint64_t changed = compare<Code, Channels>(now_codes, reached, limit);

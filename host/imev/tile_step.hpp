@@ -23,8 +23,9 @@ struct CodeSteps {
   std::int32_t white = 0;
 
   [[nodiscard]] static CodeSteps of(const CaptureFormat& capture) {
-    return {static_cast<std::int32_t>(std::min<std::uint64_t>(2 * std::uint64_t{capture.noise.tolerance} + 1, 1u << 17)),
-            static_cast<std::int32_t>(capture.white_code)};
+    return {
+        static_cast<std::int32_t>(std::min<std::uint64_t>(2 * std::uint64_t{capture.noise.tolerance} + 1, 1u << 17)),
+        static_cast<std::int32_t>(capture.white_code)};
   }
   [[nodiscard]] std::int32_t moved(std::int32_t held, std::int32_t count) const {
     return std::clamp(held + count * codes, 0, white);

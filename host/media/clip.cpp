@@ -121,9 +121,10 @@ Rational parse_pixel_aspect(std::string_view text) {
 // Pictures that a decoder leaves out shift all behind them to earlier times.
 std::optional<std::string> lost_pictures_text(const std::string& name, std::uint64_t announced, std::uint64_t decoded) {
   if (announced == 0 || announced == decoded) return std::nullopt;
-  return format("{} announces {} pictures and {} could be decoded: if some within are damaged, those after them have the "
-                "times of others",
-                name, announced, decoded);
+  return format(
+      "{} announces {} pictures and {} could be decoded: if some within are damaged, those after them have the "
+      "times of others",
+      name, announced, decoded);
 }
 
 Timeline timeline_of(const std::string& name, const ClipInfo& info, const ClipOptions& options,

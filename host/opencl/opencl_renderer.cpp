@@ -282,7 +282,8 @@ class OpenClRenderer::Implementation {
                                                                const OutputFormat& format) {
         const Rectangle whole = Rectangle::whole(scene.capture.shape);
         Rendered rendered;
-        combine(SampleCombiner(scene, sample_gains(scene, source.timeline())), {scene, source, format, whole, {}}, rendered);
+        combine(SampleCombiner(scene, sample_gains(scene, source.timeline())), {scene, source, format, whole, {}},
+                rendered);
         return std::move(rendered.picture);
       });
     });

@@ -225,7 +225,8 @@ SampleGains::SampleGains(const PlannedFunction& planned, const Timeline& timelin
       double& largest = gains.emplace_back(0.0);
       for (std::size_t p = piece; p < pieces.size() && pieces[p].begin_ns < end_ns; ++p) {
         if (pieces[p].end_ns <= start_ns) continue;
-        for (const std::int64_t time_ns : {std::max(start_ns, pieces[p].begin_ns), std::min(end_ns, pieces[p].end_ns)}) {
+        for (const std::int64_t time_ns :
+             {std::max(start_ns, pieces[p].begin_ns), std::min(end_ns, pieces[p].end_ns)}) {
           const double gain = pieces[p].at(time_ns);
           if (gain < 0.0) throw UsageError("light that is combined takes no gains below 0: they subtract it");
           largest = std::max(largest, gain);

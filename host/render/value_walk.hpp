@@ -177,7 +177,8 @@ void walk_block(ValueWalk& walk, const GainWalk& gain, std::size_t piece, const 
   std::int64_t held_outside_ns = 0;
   if (points.front().gain != 0.0) held_outside_ns += std::max<std::int64_t>(0, points.front().time_ns - duration_ns);
   if (points.back().gain != 0.0) held_outside_ns += std::max<std::int64_t>(0, -points.back().time_ns);
-  return GainWalk(planned.function.shifted(planned.delay_ns).pieces(duration_ns), course.support_ns() - held_outside_ns);
+  return GainWalk(planned.function.shifted(planned.delay_ns).pieces(duration_ns),
+                  course.support_ns() - held_outside_ns);
 }
 
 // What a walk to the end comes to: the light of the exposure, ∫ light × gain / D.

@@ -422,7 +422,8 @@ void Session::render_many(std::span<const ExposureRequest> requests, const Outpu
       rendered.renderer = "the processor";
       rendered.warnings = planned.warnings;
       if (suits_one_pass(planned) &&
-          (rendered.choice = PrecisionChoice{error_bound(planned, Precision::double_, output), {}})->is_right_enough()) {
+          (rendered.choice = PrecisionChoice{error_bound(planned, Precision::double_, output), {}})
+              ->is_right_enough()) {
         if (!plans.empty() && plans.front().capture != planned.capture) expose_waiting();
         plans.push_back(std::move(planned));
         waiting.push_back(std::move(rendered));

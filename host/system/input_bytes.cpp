@@ -115,7 +115,8 @@ std::string text_up_to(const std::string& name, std::size_t max_bytes) {
     check_interruption();
     text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
     if (text.find('\0', text.size() - static_cast<std::size_t>(stream.gcount())) != text.npos)
-      throw InputError(format("{} is no list: it is no text. batch takes the list first, then the clip or capture", title));
+      throw InputError(
+          format("{} is no list: it is no text. batch takes the list first, then the clip or capture", title));
     if (text.size() <= max_bytes) continue;
     throw InputError(format("{} is longer than {} MiB; make several of it", title, max_bytes >> 20));
   }

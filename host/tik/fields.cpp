@@ -79,9 +79,10 @@ ReadFields read_fields(std::span<const std::byte> bytes, const std::string& name
   if (bytes.size() < sizeof(ListHeader) + sizeof(std::uint64_t)) throw damaged();
   const auto header = value_at<ListHeader>(bytes, 0);
   if (std::memcmp(header.magic, kMagic, sizeof header.magic) != 0)
-    throw InputError(format("{}: there is no list of fields where it should begin; it is damaged, or what wrote it left "
-                            "the list out",
-                            name));
+    throw InputError(
+        format("{}: there is no list of fields where it should begin; it is damaged, or what wrote it left "
+               "the list out",
+               name));
   if (header.bytes > bytes.size() || header.bytes < sizeof(ListHeader) + sizeof(std::uint64_t)) throw damaged();
   const auto list = bytes.first(header.bytes - sizeof(std::uint64_t));
   if (value_at<std::uint64_t>(bytes, list.size()) != checksum(list)) throw damaged();

@@ -34,7 +34,7 @@ enum class RiceMode : std::uint8_t {
 inline constexpr unsigned kModeBits = 3;    // of a plane's second mark: RiceMode
 inline constexpr unsigned kLeans = 4;       // green was subtracted from red or blue first
 inline constexpr unsigned kTellsLines = 8;  // the lines in which any level is above 0 stand first
-inline constexpr unsigned kInSteps = 16;    // codes moved by steps of the tolerance (imev/tile_step.hpp), which are counted
+inline constexpr unsigned kInSteps = 16;    // codes moved by steps of the tolerance, which are counted (tile_step.hpp)
 
 struct RiceMark {
   std::uint8_t shape;  // 16 × low bits + levels

@@ -330,7 +330,8 @@ NUTIK_INLINE void levels_of(const CodeLanes<Code>& values, std::uint32_t low, By
 
 // Writes a plane's values; returns its shape, and whether its lines are told.
 template <typename Code>
-NUTIK_INLINE std::pair<std::uint8_t, bool> write_plane(const CodeLanes<Code>& values, std::uint32_t low, RiceWriter& to) {
+NUTIK_INLINE std::pair<std::uint8_t, bool> write_plane(const CodeLanes<Code>& values, std::uint32_t low,
+                                                       RiceWriter& to) {
   ByteLanes bytes;
   levels_of(values, 0, bytes);
   for (std::uint32_t bit = 0; bit < low; ++bit) {
@@ -514,7 +515,8 @@ class Kernel {
   }
 
   // Half of the steps from a row to the one before it.
-  static void half_back(const CodeLanes<Code>& before, const std::byte* before_that, const CodeSteps& steps, Code* counts) {
+  static void half_back(const CodeLanes<Code>& before, const std::byte* before_that, const CodeSteps& steps,
+                        Code* counts) {
     CodeLanes<Code> earlier, back;
     load(before_that, 0, earlier);
     static_cast<void>(count_steps(earlier, before, steps, back));
@@ -679,7 +681,8 @@ class Kernel {
   }
 
   template <typename Index>
-  static void encode_index_of(const BlockGeometry& geometry, const std::byte* body, std::uint32_t slot, RiceWriter& to) {
+  static void encode_index_of(const BlockGeometry& geometry, const std::byte* body, std::uint32_t slot,
+                              RiceWriter& to) {
     CodeLanes<Index> now, before{};
     load(body + slot_offset(geometry, slot), 0, now);
     if (slot > 0) load(body + slot_offset(geometry, slot - 1), 0, before);

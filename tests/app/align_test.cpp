@@ -119,7 +119,8 @@ TEST_F(Aligning, WritesThePathThatMakesTheSameAgain) {
   EXPECT_EQ(file("seen/path.csv"), file("path.csv"));
   EXPECT_EQ(file("seen/plot.png"), file("plot.png"));
   EXPECT_FALSE(file("seen/coverage.png").empty());
-  EXPECT_EQ(make(encoding("--align-along path.csv frames c.tik")).err.find("half of what has texture"), std::string::npos)
+  EXPECT_EQ(make(encoding("--align-along path.csv frames c.tik")).err.find("half of what has texture"),
+            std::string::npos)
       << "it may be another clip's";
   EXPECT_EQ(file("a.tik"), file("b.tik"));
   for (const std::string name : {"a", "c"}) make("--start 0s --exposure 100ms " + name + ".tik " + name + ".pfm");

@@ -62,7 +62,8 @@ TEST_F(BetweenPictures, JoinWhatFramesOfAVideoWouldShowTwice) {
   make(film + "--between auto:0f..3f");
   EXPECT_TRUE(file("0.png") == picture);
   EXPECT_EQ(make(film + "--between off").err.find(note), std::string::npos);
-  EXPECT_EQ(make("video -f 20 --out-angle 360 --out-fps 20 --overwrite frames %d.png").err.find(note), std::string::npos);
+  EXPECT_EQ(make("video -f 20 --out-angle 360 --out-fps 20 --overwrite frames %d.png").err.find(note),
+            std::string::npos);
   // A capture has what it was encoded with.
   make("encode -f 20 --transfer srgb frames filmed.tik");
   EXPECT_EQ(make("video --out-fps 10 --out-angle 360 --overwrite filmed.tik %d.png").err.find(note), std::string::npos);

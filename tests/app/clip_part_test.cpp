@@ -68,9 +68,10 @@ TEST_F(PartOfAClip, IsToldAndCheckedAndStatedInRecipes) {
   expose("--start 0f --exposure 1f --from 1f --crop 8x8+0+0 --ignore-errors", "p.png");
   const auto again = run("reproduce p.png");
   expect_says(again.out, {"--ignore-errors", "--crop 8x8+0+0", "--from 1f"});
-  expect_refused(2, {{"expose --from 1f --exposure 1f part.tik", "--from describes a clip"},
-                     {"encode -f 100 --from 6f frames x.tik", "which has 6 pictures (0f … 5f, the last from 0.05 s on) (--from)"},
-                     {"encode -f 100 --from 1/3f frames x.tik", "is not a whole number of pictures"}});
+  expect_refused(
+      2, {{"expose --from 1f --exposure 1f part.tik", "--from describes a clip"},
+          {"encode -f 100 --from 6f frames x.tik", "which has 6 pictures (0f … 5f, the last from 0.05 s on) (--from)"},
+          {"encode -f 100 --from 1/3f frames x.tik", "is not a whole number of pictures"}});
 }
 
 // In a video's source --from and --to are where it starts and ends in the capture: frames, not what is read.

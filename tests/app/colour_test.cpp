@@ -271,7 +271,8 @@ TEST_F(AnamorphicPixels, AreSquareForEyesAndKeptForMeasuring) {
   for (const char* exact : {"x.tif", "x.ppm", "x.exr", "x.pfm"}) succeed(exposure + exact);
   for (const char* name : {"kept.png", "deep.png", "own.png", "x.tif", "x.ppm"})
     EXPECT_EQ(size_of(name), cv::Size(64, 48)) << name;
-  const cv::Mat kept = cv::imread((scratch_ / "kept.png").string()), eyes = cv::imread((scratch_ / "eyes.png").string());
+  const cv::Mat kept = cv::imread((scratch_ / "kept.png").string()),
+                eyes = cv::imread((scratch_ / "eyes.png").string());
   EXPECT_EQ(cv::norm(kept, cv::imread((scratch_ / "x.ppm").string()), cv::NORM_INF), 0);
   cv::Mat wide;
   cv::resize(kept, wide, eyes.size(), 0, 0, cv::INTER_LANCZOS4);

@@ -170,14 +170,14 @@ TEST_F(CommandLine, SaysWhatIsWrongWithInput) {
 }
 
 TEST_F(CommandLine, ReplacesOnlyItsOwnKind) {
-  expect_refused(2,
-                 {{"clip.tik clip.avi", "clip.tik is a capture already"},
-                  {"x.tik clip.avi",
-                   "there is no file x.tik, and clip.avi is one; the input comes first: nutik-cl encode clip.avi x.tik"},
-                  {"clip.avi x.mp4", "x.mp4 is no name for a capture, which ends in .tik; nutik-cl video makes films"},
-                  {"clip.avi x.png", "which ends in .tik; for a picture say of when: nutik-cl expose --start 0.4s"},
-                  {"-k one.fn clip.tik -o clip.tik", "is also an input"},
-                  {"-k one.fn clip.tik -o ./one.fn", "is also an input"}});
+  expect_refused(
+      2, {{"clip.tik clip.avi", "clip.tik is a capture already"},
+          {"x.tik clip.avi",
+           "there is no file x.tik, and clip.avi is one; the input comes first: nutik-cl encode clip.avi x.tik"},
+          {"clip.avi x.mp4", "x.mp4 is no name for a capture, which ends in .tik; nutik-cl video makes films"},
+          {"clip.avi x.png", "which ends in .tik; for a picture say of when: nutik-cl expose --start 0.4s"},
+          {"-k one.fn clip.tik -o clip.tik", "is also an input"},
+          {"-k one.fn clip.tik -o ./one.fn", "is also an input"}});
   scratch_.write("notes.png", "my notes");
   expect_refused("-k one.fn clip.tik -o notes.png", 2, "notes.png exists and is no picture");
   EXPECT_EQ(test::read_file(scratch_ / "notes.png"), "my notes");
@@ -217,7 +217,8 @@ TEST_F(CommandLine, HasHelpForEverything) {
   std::vector<std::string> commands{"devices", "completion", "man"};
   std::istringstream lines(overview);
   for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("  ") && !line.starts_with("  nutik-cl")) commands.push_back(line.substr(2, line.find(' ', 2) - 2));
+    if (line.starts_with("  ") && !line.starts_with("  nutik-cl"))
+      commands.push_back(line.substr(2, line.find(' ', 2) - 2));
   }
   EXPECT_EQ(commands.size(), 25u) << overview;
   const auto expect_fits = [](const std::string& page) {

@@ -144,7 +144,8 @@ TEST_F(DelayCommand, SaysWhatIsWrong) {
           {exposing("rows:0s..x", {"clip.tik", "o.pgm"}), "--delay 'x' is no time"},
           {exposing("rows:3f", {"clip.tik", "o.pgm"}), "counts pictures, which are no length of time"}});
   expect_refused(exposing("gone.tif:1s", {"clip.tik", "o.pgm"}), 3, "gone.tif cannot be read: no such file");
-  expect_refused(exposing("clip.tik:1s", {"clip.tik", "o.pgm"}), 3, "clip.tik is a capture (.tik) already, not a picture");
+  expect_refused(exposing("clip.tik:1s", {"clip.tik", "o.pgm"}), 3,
+                 "clip.tik is a capture (.tik) already, not a picture");
   expect_refused(exposing("frames:1s", {"clip.tik", "o.pgm"}), 2, "frames is a sequence of 8");
   cv::imwrite((scratch_ / "small.png").string(), cv::Mat(3, 6, CV_8UC1, cv::Scalar::all(0)));
   expect_refused(exposing("small.png:1s", {"clip.tik", "o.pgm"}), 3,

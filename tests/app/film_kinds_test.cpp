@@ -197,7 +197,8 @@ TEST_F(FilmKinds, KeepChromaInItsPlace) {
                               std::string(pixels == "yuv420p" ? "1'" : "4'");
     test::make(scratch_, "-f lavfi -i color=gray:s=256x128:r=25:d=0.2 -vf \"format=" + pixels + "," + edged +
                              "\" -c:v ffv1 -color_range tv -y clip.mkv");
-    for (const auto& [codec, kind] : {std::pair{"prores", ".mov"}, {"dnxhr-hq", ".mov"}, {"h264", ".mkv"}, {"h265-10", ".mkv"}}) {
+    for (const auto& [codec, kind] :
+         {std::pair{"prores", ".mov"}, {"dnxhr-hq", ".mov"}, {"h264", ".mkv"}, {"h265-10", ".mkv"}}) {
       const std::string film = std::string("film") + kind;
       make("video --overwrite --out-fps 25 --out-angle 360 --video-codec " + std::string(codec) + " clip.mkv " + film);
       const bool is_centred = pixels != "yuv420p" && codec == std::string_view("h264");

@@ -26,8 +26,9 @@ class InputKinds : public test::AppTest {
 
 TEST_F(InputKinds, ACaptureIsOneThroughAPipe) {
   const std::string wanted = " expose -q --start 1f --exposure 1f --out-transfer source ";
-  for (const std::string& command : {program_ + wanted + "clip.tik file.pgm", program_ + wanted + "- file.pgm < clip.tik",
-                                     "cat clip.tik | " + program_ + wanted + "- file.pgm"}) {
+  for (const std::string& command :
+       {program_ + wanted + "clip.tik file.pgm", program_ + wanted + "- file.pgm < clip.tik",
+        "cat clip.tik | " + program_ + wanted + "- file.pgm"}) {
     shell("rm -f file.pgm; " + command);
     EXPECT_TRUE(test::read_file(scratch_ / "file.pgm").ends_with(std::string(12, 60))) << command;
   }
@@ -56,8 +57,8 @@ TEST_F(InputKinds, WhatIsNotReadIsNamed) {
     scratch_.write(name, content);
     const std::string named = name + " is " + std::string(part);
     expect_refused({"encode", "-f", "10", name, "x.tik"}, 3, named);
-    expect_shell_refused("cp " + name + " one." + name.substr(name.find('.') + 1) + "; mkdir -p f; mv " + name + " f; " +
-                             program_ + " encode -f 10 'f/*' x.tik; status=$?; rm -r f; exit $status",
+    expect_shell_refused("cp " + name + " one." + name.substr(name.find('.') + 1) + "; mkdir -p f; mv " + name +
+                             " f; " + program_ + " encode -f 10 'f/*' x.tik; status=$?; rm -r f; exit $status",
                          part);
   };
   expect_named("a.bmp", bytes("BM\1\2\3\4"), "a BMP picture, which is not read; make PNGs");

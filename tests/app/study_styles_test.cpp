@@ -76,7 +76,8 @@ TEST_F(StudyStyles, JoinTheTrailBetweenPictures) {
     make(asked + " --between off -o filmed.png");
     const std::string told = make(asked + between + " --json -o made.png").out;
     expect_says(told, format(R"("sample": {})", last));
-    EXPECT_EQ(told.find(format("the subject goes {} pixels", kStep)) != told.npos, between == std::string_view()) << told;
+    EXPECT_EQ(told.find(format("the subject goes {} pixels", kStep)) != told.npos, between == std::string_view())
+        << told;
     EXPECT_EQ(told.find("join its trail, but for ") != told.npos, between == std::string_view()) << told;
     // How much the trail changes from column to column, away from the moments.
     const auto ripple = [&](const char* name) {

@@ -76,11 +76,12 @@ TEST_F(Study, TakesTheMomentsThatAreNamed) {
   const auto json = answer("study clip.tik --moments 2f,0.08s");
   EXPECT_EQ(json["moments"][0]["sample"], 2);
   EXPECT_EQ(json["moments"][1]["sample"], 8);
-  expect_refused(2, {{"study clip.tik --moments 8f,2f", "state moments in the order of time"},
-                     {"study clip.tik --style frozen --moments 3", "--style frozen shows a single moment; leave --moments out"},
-                     {"study clip.tik --moments 51", "--moments says 51; a study has 1 to 50"},
-                     {"study clip.tik --moments 0", "--moments says 0; a study has 1 to 50"},
-                     {"study clip.tik --moments 8f,last", "--moments 'last' is no time"}});
+  expect_refused(
+      2, {{"study clip.tik --moments 8f,2f", "state moments in the order of time"},
+          {"study clip.tik --style frozen --moments 3", "--style frozen shows a single moment; leave --moments out"},
+          {"study clip.tik --moments 51", "--moments says 51; a study has 1 to 50"},
+          {"study clip.tik --moments 0", "--moments says 0; a study has 1 to 50"},
+          {"study clip.tik --moments 8f,last", "--moments 'last' is no time"}});
 }
 
 // A square crosses the picture, is gone, and another thing stands there for a while.
@@ -240,7 +241,8 @@ TEST_F(Study, SaysOfAThingThatNeverLeavesItsPlaceThatItCannotBeShownTwice) {
   if (!std::filesystem::exists(clip)) GTEST_SKIP() << clip << " is not there";
   const auto result = make({"study", clip.c_str(), "-o", "falls.png"});
   const std::regex cause(
-      "Its box is [0-9]{2} pixels long and goes [0-9]{2}: a thing that goes less than its own size shows its edges only");
+      "Its box is [0-9]{2} pixels long and goes [0-9]{2}: a thing that goes less than its own size shows its edges "
+      "only");
   EXPECT_TRUE(std::regex_search(result.err, cause)) << result.err;
   expect_says(result.err, "Take a clip in which it goes further");
   expect_says(result.err, "So the picture exposes all of the time");
@@ -294,7 +296,8 @@ TEST_F(Study, ShowsNoThinScrapsOfWhatMoves) {
     }
     const auto result = make("study -f 100 thin --moments 2 -o thin.png");
     const std::regex refusal(
-        "nothing moves as one whole thing. What goes furthest fills [0-9]+ % of its box, and is [0-9]+ % of what differs"
+        "nothing moves as one whole thing. What goes furthest fills [0-9]+ % of its box, and is [0-9]+ % of what "
+        "differs"
         ".* A thing that shakes, grows or shines shows its edges only");
     EXPECT_EQ(std::regex_search(result.err, refusal), has_lights) << result.err;
     if (has_lights) expect_mean_of_all("-f 100 thin", 24, "thin");

@@ -190,7 +190,8 @@ TEST_F(SeveralDevices, TakeOverFromOneThatFails) {
       for_each_fault(words, call, [&](const ProgramResult& result) {
         EXPECT_EQ(result.status, 0) << result.err;
         // To people, and to scripts.
-        for (const auto& [text, is_said] : {std::pair(result.err, "warning: "), {result.out, "\"warnings\": [\n    \""}}) {
+        for (const auto& [text, is_said] :
+             {std::pair(result.err, "warning: "), {result.out, "\"warnings\": [\n    \""}}) {
           const auto said = text.find(is_said);
           ASSERT_NE(said, std::string::npos) << text;
           EXPECT_TRUE(text.find("device 0: " + name_, said) != std::string::npos ||

@@ -71,7 +71,8 @@ TEST(FunctionBetween, NeverPutsTwoPointsAtOneTime) {
     const GainFunction between =
         function_between(GainFunction(first), GainFunction(second), {random.whole(0, whole), whole});
     for (std::size_t i = 1; i < between.points().size(); ++i)
-      ASSERT_LT(between.points()[i - 1].time_ns, between.points()[i].time_ns) << "seed " << kSeed << ", round " << round;
+      ASSERT_LT(between.points()[i - 1].time_ns, between.points()[i].time_ns)
+          << "seed " << kSeed << ", round " << round;
   }
 }
 

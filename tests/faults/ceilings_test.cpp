@@ -107,8 +107,9 @@ TEST_F(Ceilings, OfTexts) {
     expect_refused(words, 3, name + " is longer than 256 MiB; no text that a person writes is");
   };
   expect_long({"--renderer", "reference", "-k", "long.fn", "c.tik", "p.png"}, "long.fn");
-  expect_long({"--renderer", "reference", "--noise", "long.noise", "--start", "0s", "--exposure", "1s", "c.tik", "p.png"},
-              "long.noise");
+  expect_long(
+      {"--renderer", "reference", "--noise", "long.noise", "--start", "0s", "--exposure", "1s", "c.tik", "p.png"},
+      "long.noise");
   expect_long({"encode", "long.csv", "d.tik"}, "long.csv");
   expect_long({"encode", "long.cih", "d.tik"}, "long.cih");
   expect_long({"encode", "-f", "10", "--align-along", "long.path", "long.csv", "d.tik"}, "long.path");
@@ -118,8 +119,8 @@ TEST_F(Ceilings, OfTexts) {
 TEST_F(Ceilings, OfJoining) {
   scratch_.write("black.raw", "");
   std::filesystem::resize_file(scratch_ / "black.raw", 512 * 512 * 800);
-  ASSERT_EQ(run({"encode", "-q", "-f", "100", "--codec", "none", "--tiles", "dense", "--raw", "512x512:gray", "black.raw",
-                 "c.tik"})
+  ASSERT_EQ(run({"encode", "-q", "-f", "100", "--codec", "none", "--tiles", "dense", "--raw", "512x512:gray",
+                 "black.raw", "c.tik"})
                 .status,
             0);
   EXPECT_LT(peak_mb_of({"join", "-q", "c.tik", "c.tik", "-o", "j.tik"}), 150);

@@ -33,9 +33,9 @@ struct KernelCache : test::ProgramTest {
   }
 
   [[nodiscard]] std::string right_picture() const {
-    const auto result = test::run_program(
-        {"--start", "0s", "--exposure", "1s", "--no-recipe", "--overwrite", "--renderer", "reference", "c.tik", "right.png"},
-        scratch_.folder());
+    const auto result = test::run_program({"--start", "0s", "--exposure", "1s", "--no-recipe", "--overwrite",
+                                           "--renderer", "reference", "c.tik", "right.png"},
+                                          scratch_.folder());
     EXPECT_EQ(result.status, 0) << result.err;
     return test::read_file(scratch_ / "right.png");
   }
@@ -100,10 +100,11 @@ TEST_F(KernelCache, OnAFullDiskIsNotPocls) {
   fs::create_directories(scratch_ / "disk");
   fs::create_directories(scratch_ / "temporary");
   const auto expose_on_full_disk = [&](const std::string& settings) {
-    return test::run_shell(format("unshare -rm sh -c 'mount -t tmpfs -o size=1M none disk || exit 77; {} \"{}\" --start "
-                                  "0s --exposure 1s --no-recipe --overwrite c.tik p.png'",
-                                  settings, NUTIK_TEST_PROGRAM),
-                           scratch_.folder());
+    return test::run_shell(
+        format("unshare -rm sh -c 'mount -t tmpfs -o size=1M none disk || exit 77; {} \"{}\" --start "
+               "0s --exposure 1s --no-recipe --overwrite c.tik p.png'",
+               settings, NUTIK_TEST_PROGRAM),
+        scratch_.folder());
   };
   const auto made = expose_on_full_disk("XDG_CACHE_HOME=$PWD/disk TMPDIR=$PWD/temporary");
   if (made.err.find("unshare") != std::string::npos || made.status == 77) GTEST_SKIP() << made.err;

@@ -21,8 +21,8 @@ struct LostFiles : test::ProgramTest, testing::WithParamInterface<const char*> {
       for (int i = 0; i < 64 * 64 * 64; ++i)
         noise.put(static_cast<char>((state = state * 1664525 + 1013904223) >> 24));
     }
-    const auto made = run(
-        {"--raw", "64x64:gray", "-f", "64", "--codec", "none", "--block-samples", "8", "--overwrite", "clip.raw", "c.tik"});
+    const auto made = run({"--raw", "64x64:gray", "-f", "64", "--codec", "none", "--block-samples", "8", "--overwrite",
+                           "clip.raw", "c.tik"});
     ASSERT_EQ(made.status, 0) << made.err;
   }
   [[nodiscard]] std::vector<std::string> long_video() const {

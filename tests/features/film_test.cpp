@@ -83,14 +83,16 @@ TEST(FilmCurve, NamesTheLineOfAMistake) {
             "ramp.csv:4: the film's time 1 s is not after 1 s; points are in order of the film's time");
   EXPECT_EQ(message("0.5s,0s\n1s,0.5s"), "ramp.csv:1: the first point is at 500 ms of the film; a curve begins at 0s");
   EXPECT_EQ(message("0s,0s\n1,0.5s"),
-            "ramp.csv:2: the film's time '1' is no time; write a number and a unit: 0.4s, 10ms, 250us, 1/100s, 0:01.5, or 37f "
+            "ramp.csv:2: the film's time '1' is no time; write a number and a unit: 0.4s, 10ms, 250us, 1/100s, 0:01.5, "
+            "or 37f "
             "for pictures of the clip");
   EXPECT_EQ(message("0s,0s\n1s 0.5s"),
             "ramp.csv:2: '1s 0.5s' is no point; write a time of the film and one of the capture: 1.5s,0.4s");
   EXPECT_EQ(message("-1s,0s"), "ramp.csv:1: the film's time -1s lies before the film, which begins at 0s");
-  EXPECT_EQ(message("0s,0s # alone"),
-            "ramp.csv is too short, with 1 of the points that a curve has: two or more, a line each: 0s,0.2s and 2s,0.7s "
-            "show half a second of the capture in two of the film");
+  EXPECT_EQ(
+      message("0s,0s # alone"),
+      "ramp.csv is too short, with 1 of the points that a curve has: two or more, a line each: 0s,0.2s and 2s,0.7s "
+      "show half a second of the capture in two of the film");
   EXPECT_EQ(message(std::string("0s\0,0s\n1s,1s", 12)),
             "ramp.csv holds a zero byte: this is no text file, or one in UTF-16; save it as UTF-8");
   EXPECT_EQ(message("\xEF\xBB\xBF" "0s,0s\n1s"),
@@ -175,7 +177,8 @@ TEST(FrameRanges, ChooseFramesOfTheWholeFilm) {
   functions.emplace(std::uint8_t{0}, GainFunction({{0, 1}, {5 * kMs, 1}, {5 * kMs + 1, 0}}));
   FramesRequest by_functions = request;
   by_functions.exposure.gains = Shared(std::move(functions));
-  EXPECT_EQ(frames_of(by_functions, kFilmTimeline).span(), (Exposure{800 * kMs, 905 * kMs + 1})) << "whatever the angle";
+  EXPECT_EQ(frames_of(by_functions, kFilmTimeline).span(), (Exposure{800 * kMs, 905 * kMs + 1}))
+      << "whatever the angle";
   request.numbers = FrameRanges::parse("10-20", "--frames");
   EXPECT_EQ(test::message_of<UsageError>([&] { static_cast<void>(frames_of(request, kFilmTimeline)); }),
             "none of the frames 10-20 is there: the film has 10, numbered from 0 to 9");

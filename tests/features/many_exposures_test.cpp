@@ -41,9 +41,9 @@ TEST(SharedWarnings, AreOneWhateverTheirFiguresAre) {
   for (const char* said : {"M0: still gain -0.5", "M0: still gain -1.25e-05", "M1: still gain -3", "M1: gain 3",
                            "3 of 9 values", "4 of 9 values", "clip_1.tif: odd", "clip_2.tif: odd"})
     warnings.add("a", std::vector<std::string>{said});
-  EXPECT_EQ(warnings.lines(), (std::vector<std::string>{"a and 1 more: 3 of 9 values", "a and 1 more: M0: still gain -0.5",
-                                                        "a: M1: gain 3", "a: M1: still gain -3",
-                                                        "a: clip_1.tif: odd", "a: clip_2.tif: odd"}));
+  EXPECT_EQ(warnings.lines(), (std::vector<std::string>{
+                                  "a and 1 more: 3 of 9 values", "a and 1 more: M0: still gain -0.5", "a: M1: gain 3",
+                                  "a: M1: still gain -3", "a: clip_1.tif: odd", "a: clip_2.tif: odd"}));
 }
 
 // Pictures that nobody will write are exposed no further.

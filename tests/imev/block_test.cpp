@@ -134,12 +134,14 @@ TEST(Block, MovesByWholeSteps) {
   const auto held = [&](const Codes& codes) {
     Rasters rasters;
     for (const int code : codes) rasters.push_back({static_cast<std::byte>(code)});
-    const MemoryCapture encoded(capture, Timeline::constant({100, 1}, Timeline::kFullShutter, codes.size()), rasters, 3);
+    const MemoryCapture encoded(capture, Timeline::constant({100, 1}, Timeline::kFullShutter, codes.size()), rasters,
+                                3);
     Codes all;
     for (std::uint64_t k = 0; k < codes.size(); ++k) all.push_back(static_cast<int>(sample_of(encoded, k)[0]));
     return all;
   };
-  EXPECT_EQ(held({100, 104, 105, 101, 99, 0, 6, 255, 250, 248}), (Codes{100, 100, 109, 100, 100, 1, 10, 253, 253, 244}));
+  EXPECT_EQ(held({100, 104, 105, 101, 99, 0, 6, 255, 250, 248}),
+            (Codes{100, 100, 109, 100, 100, 1, 10, 253, 253, 244}));
   EXPECT_EQ(held({250, 255, 250}), (Codes{250, 255, 246})) << "white";
   EXPECT_EQ(held({250, 7, 0, 9}), (Codes{250, 7, 0, 9})) << "black";
 }

@@ -35,7 +35,8 @@ std::vector<PixelChange> changes_between(Random& random, const CaptureFormat& ca
   // In any order, but for those of one pixel.
   for (std::size_t i = changes.size(); i-- > 1;) {
     const auto j = static_cast<std::size_t>(random.whole(0, static_cast<std::int64_t>(i)));
-    if (changes[i].pixel != changes[j].pixel && std::ranges::count(changes, changes[i].pixel, &PixelChange::pixel) == 1 &&
+    if (changes[i].pixel != changes[j].pixel &&
+        std::ranges::count(changes, changes[i].pixel, &PixelChange::pixel) == 1 &&
         std::ranges::count(changes, changes[j].pixel, &PixelChange::pixel) == 1) {
       std::swap(changes[i], changes[j]);
     }

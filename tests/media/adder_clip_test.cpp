@@ -59,7 +59,8 @@ std::vector<Stretch> random_value(test::Random& random, const File& file, std::u
     const std::uint64_t length = static_cast<std::uint64_t>(random.whole(1, 9000));
     const auto kind = random.whole(0, 9);
     unsigned d = static_cast<unsigned>(random.whole(0, 8));
-    double value = std::min(1.0, std::ldexp(1.0, static_cast<int>(d)) / static_cast<double>(length) * file.interval / 255);
+    double value =
+        std::min(1.0, std::ldexp(1.0, static_cast<int>(d)) / static_cast<double>(length) * file.interval / 255);
     if (kind == 0) {
       d = random.chance(0.5) ? 128 : 254;
       value = 0;
@@ -70,7 +71,8 @@ std::vector<Stretch> random_value(test::Random& random, const File& file, std::u
     }
     write(d, file.version >= 2 && file.absolute ? now + length : length);
     std::uint64_t until = now + length;
-    if (file.version >= 1 && file.source <= 5 && until % file.interval != 0) until += file.interval - until % file.interval;
+    if (file.version >= 1 && file.source <= 5 && until % file.interval != 0)
+      until += file.interval - until % file.interval;
     light.push_back({now, until, value});
     before = value;
     now = until;
@@ -117,7 +119,9 @@ TEST(AdderClip, HoldsTheLightThatWasWritten) {
     ASSERT_EQ(rasters.size(), info.timing.exposures.size());
     std::uint64_t end = 0;
     for (const auto& light : values) end = std::max(end, light.back().until);
-    const auto ns = [&](std::uint64_t tick) { return std::llround(static_cast<double>(tick) * 1e9 / file.ticks_a_second); };
+    const auto ns = [&](std::uint64_t tick) {
+      return std::llround(static_cast<double>(tick) * 1e9 / file.ticks_a_second);
+    };
     EXPECT_EQ(info.timing.exposures.back().end_ns, ns(end));
     for (std::size_t k = 0; k < rasters.size(); ++k) {
       const auto tick = static_cast<std::uint64_t>(
@@ -190,8 +194,9 @@ TEST(AdderClip, RefusesTimesThatNobodyFilmed) {
   std::string content = file.header();
   for (const unsigned d : {20u, 255u, 255u, 200u}) content += file.event(0, 0, 0, d, 0xFFFFFFFF);
   const auto path = scratch.write("long.adder", content);
-  EXPECT_NE(message_of<InputError>([&] { open_test_clip(path); }).find("long.adder: its events last longer than 146 years"),
-            std::string::npos);
+  EXPECT_NE(
+      message_of<InputError>([&] { open_test_clip(path); }).find("long.adder: its events last longer than 146 years"),
+      std::string::npos);
 }
 
 TEST(AdderClip, CountsMemoryBeforeItIsTaken) {
@@ -226,7 +231,8 @@ TEST(AdderClip, RefusesWhatItCannotRead) {
   expect(file.header().substr(0, 30), "ends within its header");
   expect("adder", "ends within its header");
   file.version = 4;
-  expect(file.header() + file.event(0, 0, 0, 1, 1), "versions 0 to 3 with 1 channel (9 bytes) or 3 (11 bytes) are read");
+  expect(file.header() + file.event(0, 0, 0, 1, 1),
+         "versions 0 to 3 with 1 channel (9 bytes) or 3 (11 bytes) are read");
   file = {};
   file.channels = 2;
   expect(file.header(), "of 2 channels");

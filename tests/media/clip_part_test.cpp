@@ -275,7 +275,10 @@ TEST(ClipPart, IsRefusedWhereTheClipHasNone) {
            o.scale = ClipScale{0, 18, 9};
          }),
          "18 x 9 pixels cannot be made of 17 x 9");
-  expect(refusal([](ClipOptions& o) { o.from = ClipMoment{4, true}; }), "which has 4 pictures (0f … 3f, the last from 0.03 s on)");
+  expect(refusal([](ClipOptions& o) {
+           o.from = ClipMoment{4, true};
+         }),
+         "which has 4 pictures (0f … 3f, the last from 0.03 s on)");
   expect(refusal([](ClipOptions& o) { o.from = ClipMoment{30'000'001, false}; }), "no picture begins that late");
   expect(refusal([](ClipOptions& o) { o.to = ClipMoment{5, true}; }), "picture 5 is not in");
   expect(refusal([](ClipOptions& o) {

@@ -184,10 +184,12 @@ TEST(ColourProfile, OfOneStillIsThatOfAll) {
   EXPECT_EQ(error->settings(), std::vector{Setting::transfer});
   EXPECT_EQ(test::read_all(*open_test_clip(scratch.folder(), {.transfer = Transfer::srgb()})).size(), 2u);
   // What is not known is not what is usual.
-  const Curve other(cmsBuildParametricToneCurve(nullptr, 4, std::array{1.8, 0.9, 0.1, 0.08, 0.05}.data()), &cmsFreeToneCurve);
+  const Curve other(cmsBuildParametricToneCurve(nullptr, 4, std::array{1.8, 0.9, 0.1, 0.08, 0.05}.data()),
+                    &cmsFreeToneCurve);
   write_jpeg_with(scratch / "2.jpg", rgb_profile("other", other.get(), kSrgb));
-  test::expect_error<InputError>([&] { test::read_all(*open_test_clip(scratch.folder())); },
-                                 {"2.jpg has transfer the ICC profile 'other' and primaries bt709, the first still, ", "srgb and bt709"});
+  test::expect_error<InputError>(
+      [&] { test::read_all(*open_test_clip(scratch.folder())); },
+      {"2.jpg has transfer the ICC profile 'other' and primaries bt709, the first still, ", "srgb and bt709"});
 }
 
 }  // namespace

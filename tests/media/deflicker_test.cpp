@@ -242,7 +242,8 @@ TEST(Deflicker, CorrectsASmallLitPartAndSaysWhatIsTooSmall) {
     EXPECT_TRUE(remarks[0].starts_with(is_small ? "1 of 2 pictures follow no one curve" : "the exposure of 1 of 2"))
         << remarks[0];
     for (std::size_t i = 0; i < shape.value_count(); ++i)
-      ASSERT_NEAR(code_at(rasters[1], 255, i), code_at(pictures[is_small ? 1 : 0].bytes, 255, i), is_small ? 0 : 2) << i;
+      ASSERT_NEAR(code_at(rasters[1], 255, i), code_at(pictures[is_small ? 1 : 0].bytes, 255, i), is_small ? 0 : 2)
+          << i;
   }
 }
 

@@ -71,7 +71,8 @@ void expect_events(Clip& clip, const Events& events, double up = 0.2, double dow
     }
     ++k;
   }
-  EXPECT_EQ(info.timing.exposures.back().end_ns, static_cast<std::int64_t>(events.back().us - events.front().us + 1) * 1000);
+  EXPECT_EQ(info.timing.exposures.back().end_ns,
+            static_cast<std::int64_t>(events.back().us - events.front().us + 1) * 1000);
 }
 
 std::string raw(const std::string& format, const std::string& words) {
@@ -240,7 +241,8 @@ TEST(EventClip, RefusesWhatItCannotRead) {
   expect("4.raw", test::raw_header("EVT4", 8, 8) + words, "is in the format EVT4; EVT 2.0, 2.1 and 3.0 are read");
   std::string turns;  // of the clock, each of three steps
   for (int turn = 0; turn < 270'000; ++turn) {
-    for (const std::uint64_t time : {0x0000000u, 0x6000000u, 0xC000000u}) turns += test::little_endian(8u << 28 | time, 4);
+    for (const std::uint64_t time : {0x0000000u, 0x6000000u, 0xC000000u})
+      turns += test::little_endian(8u << 28 | time, 4);
   }
   expect("turns.raw", test::raw_header("EVT2", 8, 8) + turns, "turns.raw's clock begins again so often that");
   expect("trigger.dat", "% Version 2\n\x0e\x08", "holds events of the type 14, of 8 bytes");

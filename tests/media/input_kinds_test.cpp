@@ -49,8 +49,8 @@ std::string recognized(const inputs::InputKind& kind) {
 }
 
 TEST(InputKindTable, IsThatOfThePageCellByCell) {
-  const Rows page =
-      rows_of_page("| kind | recognized by | rate and times | shutter | codes, black and white | orientation | alpha | order |");
+  const Rows page = rows_of_page(
+      "| kind | recognized by | rate and times | shutter | codes, black and white | orientation | alpha | order |");
   std::vector<std::string> names, said;
   for (const inputs::InputKind* kind : inputs::kAll) names.emplace_back(kind->name);
   for (const auto& row : page) said.push_back(row.front());

@@ -177,7 +177,8 @@ TEST(LightClip, PfmComesInEitherOrderOfBytes) {
   EXPECT_EQ(std::memcmp(rasters.at(0).data(), expected, sizeof expected), 0);
   for (const char* broken : {"Pf\n2 2\n0\n", "Pf\n2 2\n", "Pf\n2 2\n-1\nabc", "Pf\n0 2\n-1\n", "Pf\n1 1\n-1\nabcde"}) {
     scratch.write("b.pfm", broken);
-    test::expect_error<InputError>([&] { open_test_clip(scratch / "b.pfm", {.white_light = 1.0}); }, {"b.pfm cannot be read"});
+    test::expect_error<InputError>([&] { open_test_clip(scratch / "b.pfm", {.white_light = 1.0}); },
+                                   {"b.pfm cannot be read"});
   }
 }
 

@@ -84,7 +84,9 @@ TEST(Mask, IsOpaqueWhereNoPixelHasTheClearCode) {
   scratch.write("mask.png", test::with_chunk(png, "tRNS", std::string("\0\x08", 2)));
   EXPECT_EQ(tags_of(read_mask(scratch / "mask.png")), (std::vector<int>{7, 7, 7}));
   scratch.write("mask.png", test::with_chunk(png, "tRNS", std::string("\0\x07", 2)));
-  EXPECT_NE(test::message_of<InputError>([&] { static_cast<void>(read_mask(scratch / "mask.png")); }).find("its pixel 0,0 has alpha 0 of 255"),
+  EXPECT_NE(test::message_of<InputError>([&] {
+              static_cast<void>(read_mask(scratch / "mask.png"));
+            }).find("its pixel 0,0 has alpha 0 of 255"),
             std::string::npos);
 }
 

@@ -190,9 +190,11 @@ TEST(StillClip, OfJpegEndsWhereItsPictureDoes) {
   EXPECT_EQ(read_all(*open_test_clip(scratch / "film.jpg", {})), read_all(*open_test_clip(scratch / "a.jpg", {})));
   for (const std::string& damaged : {head + whole.substr(head.size() + 500), head + "\xFF\xD9"})
     expect_refused(scratch.write("b.jpg", damaged), {"b.jpg cannot be read: it is damaged"});
-  expect_refused(scratch.write("c.jpg", std::string("\xFF\xD8\xFF\xC0\0\x14\x08\0\x10\0\x10\x04\1\x11\0\2\x11\0\3\x11\0\4\x11\0"
-                                                    "\xFF\xDA\0\x0E\x04\1\0\2\0\3\0\4\0\0\x3F\0", 40)),
-                 {"its colours are CMYK"});
+  expect_refused(
+      scratch.write("c.jpg", std::string("\xFF\xD8\xFF\xC0\0\x14\x08\0\x10\0\x10\x04\1\x11\0\2\x11\0\3\x11\0\4\x11\0"
+                                         "\xFF\xDA\0\x0E\x04\1\0\2\0\3\0\4\0\0\x3F\0",
+                                         40)),
+      {"its colours are CMYK"});
 }
 
 // Where pixel x, y of what is shown stands in what lies as EXIF numbers it: from 5 on rows are columns, and then sides
@@ -226,9 +228,9 @@ TEST(StillClip, StandsUprightHoweverItLies) {
     const std::string segment = "\xff\xe1\0"s + static_cast<char>(exif.size() + 2) + exif;
     TiffOptions options{8};
     options.orientation = orientation <= 8 ? orientation : 0;  // with others libtiff takes it for damaged
-    for (const auto& [name, bytes] :
-         {std::pair("a.jpg", jpeg.substr(0, 2) + segment + jpeg.substr(2)), {"a.png", test::with_chunk(png, "eXIf", tags)},
-          {"a.tif", tiff_file({still}, options)}}) {
+    for (const auto& [name, bytes] : {std::pair("a.jpg", jpeg.substr(0, 2) + segment + jpeg.substr(2)),
+                                      {"a.png", test::with_chunk(png, "eXIf", tags)},
+                                      {"a.tif", tiff_file({still}, options)}}) {
       for (const std::string file : {name, "a.mp4", "a.pgm"}) {
         SCOPED_TRACE(std::string(name) + " as " + file + ", orientation " + std::to_string(orientation));
         const auto clip = open_test_clip(scratch.write(file, bytes), {});
@@ -237,8 +239,9 @@ TEST(StillClip, StandsUprightHoweverItLies) {
         ASSERT_EQ(shape, (is_turned ? Shape{lying.height, lying.width, 1} : lying));
         Picture shown(shape, ValueType::code8, 255);
         for (std::uint64_t i = 0; i < shape.pixel_count(); ++i) {
-          const std::size_t at = lying_at(orientation <= 8 ? static_cast<unsigned>(orientation) : 1, lying,
-                                          static_cast<std::uint32_t>(i % shape.width), static_cast<std::uint32_t>(i / shape.width));
+          const std::size_t at =
+              lying_at(orientation <= 8 ? static_cast<unsigned>(orientation) : 1, lying,
+                       static_cast<std::uint32_t>(i % shape.width), static_cast<std::uint32_t>(i / shape.width));
           shown.bytes[i] = std::string(name) == "a.jpg" ? static_cast<std::byte>(lossy.data[at]) : still.bytes[at];
         }
         EXPECT_EQ(difference(read_all(*clip).at(0), shown), "");
@@ -455,12 +458,14 @@ TEST(StillClip, NotesAHoleInAFolderOfNumberedStills) {
 // A module is a library of its own, and a signal the program's.
 TEST(StillClip, NotesWhatAPatternMatchesBesides) {
   const Scratch scratch;
-  for (const char* name : {"f1.pgm", "f2.pgm", "f3.pgm"}) write_with_opencv(scratch / name, test::random_stills(kGreyShape, 255, 1, 3)[0]);
+  for (const char* name : {"f1.pgm", "f2.pgm", "f3.pgm"})
+    write_with_opencv(scratch / name, test::random_stills(kGreyShape, 255, 1, 3)[0]);
   EXPECT_TRUE(open_test_clip(scratch / "*.pgm", {})->info().notes.empty());
   write_with_opencv(scratch / "f-0s-3s.pgm", test::random_stills(kGreyShape, 255, 1, 3)[0]);
   const auto notes = open_test_clip(scratch / "*.pgm", {})->info().notes;
   ASSERT_EQ(notes.size(), 1U);
-  EXPECT_NE(notes[0].text.find("1 of 4 pictures have names of another kind than the others: f-0s-3s.pgm"), std::string::npos);
+  EXPECT_NE(notes[0].text.find("1 of 4 pictures have names of another kind than the others: f-0s-3s.pgm"),
+            std::string::npos);
 }
 
 TEST(StillClip, EndsAtASignal) {

@@ -162,7 +162,8 @@ TEST(TiffPalette, OfPicturesBehindOneAnotherIsRefused) {
 
 TEST(TiffColours, OfOtherKindsAreNamed) {
   const test::Scratch scratch;
-  for (const auto& [kind, channels, name] : {std::tuple{PHOTOMETRIC_SEPARATED, 4, "CMYK"}, {PHOTOMETRIC_CIELAB, 3, "L*a*b*"}}) {
+  for (const auto& [kind, channels, name] :
+       {std::tuple{PHOTOMETRIC_SEPARATED, 4, "CMYK"}, {PHOTOMETRIC_CIELAB, 3, "L*a*b*"}}) {
     {
       const TiffFile file = begun(scratch / "a.tif", {8, static_cast<std::uint16_t>(channels), false, false});
       TIFFSetField(file.get(), TIFFTAG_PHOTOMETRIC, kind);

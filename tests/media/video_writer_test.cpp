@@ -39,17 +39,18 @@ std::size_t file_count(const Scratch& scratch) {
 // The one that readers take for so many lines, those too that ignore what a file names; a JPEG always has BT.601's. By
 // another the red of these frames would be 13 codes off.
 TEST(VideoWriter, NamesAndUsesTheMatrixThatIsUsualForItsLines) {
-  for (const auto& [name, codec, lines, said] : {std::tuple("v.mov", "prores", 720u, "matrix bt709, from the file"),
-                                                 {"v.mkv", "prores", 720u, "matrix bt709, from the file"},
-                                                 {"v.mp4", "h264", 720u, "matrix bt709, from the file"},
-                                                 {"v.mp4", "h264", 719u, "matrix bt709, from the file"},  // written as 720
-                                                 {"v.mp4", "h264", 718u, "matrix bt601, from the file"},
-                                                 {"v.mp4", "h265", 720u, "matrix bt709, from the file"},
-                                                 {"v.webm", "vp9", 720u, "matrix bt709, from the file"},
-                                                 {"v.webm", "vp9", 480u, "matrix bt601, from the file"},
-                                                 {"v.mov", "prores", 480u, "matrix bt601, from the file"},
-                                                 {"v.mov", "mjpeg", 720u, "matrix bt601, from the file"},
-                                                 {"v.avi", "mjpeg", 720u, "matrix bt601, from the file"}}) {
+  for (const auto& [name, codec, lines, said] :
+       {std::tuple("v.mov", "prores", 720u, "matrix bt709, from the file"),
+        {"v.mkv", "prores", 720u, "matrix bt709, from the file"},
+        {"v.mp4", "h264", 720u, "matrix bt709, from the file"},
+        {"v.mp4", "h264", 719u, "matrix bt709, from the file"},  // written as 720
+        {"v.mp4", "h264", 718u, "matrix bt601, from the file"},
+        {"v.mp4", "h265", 720u, "matrix bt709, from the file"},
+        {"v.webm", "vp9", 720u, "matrix bt709, from the file"},
+        {"v.webm", "vp9", 480u, "matrix bt601, from the file"},
+        {"v.mov", "prores", 480u, "matrix bt601, from the file"},
+        {"v.mov", "mjpeg", 720u, "matrix bt601, from the file"},
+        {"v.avi", "mjpeg", 720u, "matrix bt601, from the file"}}) {
     SCOPED_TRACE(format("{}, {}, {} lines", name, codec, lines));
     const Scratch scratch;
     const bool is_deep = !video_codec_for(name, codec).holds_8_bits;
@@ -258,10 +259,11 @@ TEST(VideoWriter, RefusesWhatAContainerOrCodecCannotHold) {
     return test::message_of<Error>([&] { static_cast<void>(video_codec_for(path, name)); });
   };
   EXPECT_EQ(codec("v.mp4", "ffv1"), "v.mp4: a .mp4 file holds h264, h264-10, h265, h265-10, av1, av1-10, not ffv1");
-  EXPECT_EQ(codec("v.mkv", "h263"),
-            "video codec 'h263' is not known; choose one of: ffv1, h264, h264-10, h265, h265-10, av1, av1-10, vp9, "
-            "prores, prores-proxy, prores-lt, prores-422, prores-4444, dnxhr-lb, dnxhr-sq, dnxhr-hq, dnxhr-hqx, dnxhr-444, "
-            "mjpeg, gif, webp");
+  EXPECT_EQ(
+      codec("v.mkv", "h263"),
+      "video codec 'h263' is not known; choose one of: ffv1, h264, h264-10, h265, h265-10, av1, av1-10, vp9, "
+      "prores, prores-proxy, prores-lt, prores-422, prores-4444, dnxhr-lb, dnxhr-sq, dnxhr-hq, dnxhr-hqx, dnxhr-444, "
+      "mjpeg, gif, webp");
   EXPECT_NE(codec("v.ogg", "ffv1").find("videos are written as .mp4"), std::string::npos);
   EXPECT_EQ(video_codec_for("a/V.MKV", std::nullopt).name, "ffv1");
   const auto type = [](const char* path, std::optional<Depth> wish) {

@@ -37,7 +37,8 @@ void check_random_case(test::PrecisionCheck& check, std::uint64_t seed) {
 TEST(Delays, StayWithinTheirBoundsOnRandomCases) {
   test::PrecisionCheck check;
   const test::Seeds seeds = test::seeds(0, 60);
-  for (std::uint64_t seed = seeds.first; seed < seeds.last && !HasFatalFailure(); ++seed) check_random_case(check, seed);
+  for (std::uint64_t seed = seeds.first; seed < seeds.last && !HasFatalFailure(); ++seed)
+    check_random_case(check, seed);
   check.print();
 }
 

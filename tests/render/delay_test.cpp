@@ -193,7 +193,8 @@ TEST(DelayedPlan, NumbersPairsByMaskValueThenDelay) {
     ASSERT_EQ(map->regions.size(), expected.size());
     std::size_t number = 0;
     for (const auto& [pair, pixels] : expected) {
-      EXPECT_EQ(pairs.number_of(static_cast<std::uint8_t>(pair.first), static_cast<std::uint16_t>(pair.second)), number);
+      EXPECT_EQ(pairs.number_of(static_cast<std::uint8_t>(pair.first), static_cast<std::uint16_t>(pair.second)),
+                number);
       const MaskRegion& region = map->regions[number++];
       EXPECT_EQ(region.tag, pair.first);
       EXPECT_EQ(region.delay_ns, 3 * pair.second - 100);

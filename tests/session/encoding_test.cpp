@@ -35,9 +35,10 @@ TEST(Encoding, NamesTheRateOfAFilmThatPlaysSlowerInAPart) {
   std::vector<std::int64_t> ramp(48, kShort), dropped(48, kShort);
   std::fill_n(ramp.begin() + 12, 24, kLong);
   for (const std::size_t k : {7u, 19u, 31u}) dropped[k] = 2 * kShort;
-  EXPECT_EQ(said(ramp).find("24 of the clip's 48 steps from one picture to the next last 4.167 ms and 24 last 33.33 ms, "
-                            "8 times as long"),
-            0u)
+  EXPECT_EQ(
+      said(ramp).find("24 of the clip's 48 steps from one picture to the next last 4.167 ms and 24 last 33.33 ms, "
+                      "8 times as long"),
+      0u)
       << said(ramp);
   EXPECT_NE(said(ramp).find("state the rate, 240"), std::string::npos) << said(ramp);
   EXPECT_NE(said(dropped).find("longer than the usual"), std::string::npos) << said(dropped);

@@ -116,7 +116,8 @@ TEST_F(SelectionsTest, AreWrittenAsMasksAndFunctionsOfTheirOwn) {
   paint_region(document(), rectangle(96, 48, {10, 10}, 20, 20), document().selected_tag(), "Rectangle");
   set_feather(document(), 250);
   window_.write_mask(path("alone.png"));
-  EXPECT_TRUE(window_.notice().text().contains("their feather, 2.5px, is not in the file")) << window_.notice().text().toStdString();
+  EXPECT_TRUE(window_.notice().text().contains("their feather, 2.5px, is not in the file"))
+      << window_.notice().text().toStdString();
   EXPECT_EQ(load_mask(path("alone.png"))->mask, (*document().state().mask)->mask);
   window_.write_functions(path("alone.fn"));
   EXPECT_EQ(load_functions(path("alone.fn")), document().functions());

@@ -16,7 +16,8 @@ class StudyTest : public MovingSquareTest {
   // corrected.
   void expect_mean_of_all(const std::string& clip, int pictures, const std::string& study) const {
     EXPECT_EQ(cv::countNonZero(picture(study + ".pgm")), 0) << study;
-    make("expose " + clip + " --deflicker --start 0f --exposure " + std::to_string(pictures) + "f --overwrite -o all.png");
+    make("expose " + clip + " --deflicker --start 0f --exposure " + std::to_string(pictures) +
+         "f --overwrite -o all.png");
     EXPECT_LE(cv::norm(picture("all.png"), picture(study + ".png"), cv::NORM_INF), 1) << study;
   }
   // Whether the commands in study.txt make picture and mask, if there is one, byte for byte.

@@ -13,7 +13,8 @@ namespace {
 
 using test::RandomCase;
 
-const Codec kCodecs[] = {{CodecId::none, 0}, {CodecId::lz4, 0}, {CodecId::zstd, 0}, {CodecId::rice, 0}, {CodecId::zstd, 9}};
+const Codec kCodecs[] = {
+    {CodecId::none, 0}, {CodecId::lz4, 0}, {CodecId::zstd, 0}, {CodecId::rice, 0}, {CodecId::zstd, 9}};
 
 // Packed into the memory of what was packed before.
 std::vector<std::byte> packed(const Codec& codec, const BlockGeometry& geometry, std::span<const std::byte> payload) {

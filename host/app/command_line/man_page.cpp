@@ -141,10 +141,11 @@ std::string man_page() {
       {"XDG_CACHE_HOME", "where built kernels are kept, in a folder nutik-cl (default: ~/.cache)"},
       {"TMPDIR", "where a clip that is read more than once is kept meanwhile"}};
   for (const auto& [name, meaning] : kVariables) text += item(bold(name), meaning);
-  text += section("BUGS") + escaped("Report a fault with what nutik-cl devices --json prints, the whole command line and the "
-                                    "whole message; with -v it says more.") +
-          "\n" + section("SEE ALSO") +
-          ".BR nutik\\-studio (1),\n.BR ffmpeg (1),\n.BR clinfo (1)\n";
+  text += section("BUGS") +
+          escaped(
+              "Report a fault with what nutik-cl devices --json prints, the whole command line and the "
+              "whole message; with -v it says more.") +
+          "\n" + section("SEE ALSO") + ".BR nutik\\-studio (1),\n.BR ffmpeg (1),\n.BR clinfo (1)\n";
   return text;
 }
 

@@ -57,9 +57,10 @@ void check_value(const Option& option, const std::string& name, const std::strin
     const bool are_all = choices.size() > 1 && !option.takes_file() &&
                          std::ranges::none_of(choices, [](const std::string& each) { return each.ends_with(':'); });
     const std::string needed = are_all ? alternatives(choices) : format("{} {}", name, option.value);
-    throw UsageError(format("{0} needs a value, {1}, and {2} behind it is an option; write {0}={2} where it is meant as "
-                            "the value",
-                            name, needed, value));
+    throw UsageError(
+        format("{0} needs a value, {1}, and {2} behind it is an option; write {0}={2} where it is meant as "
+               "the value",
+               name, needed, value));
   }
   if (option.reads_standard_input() && fs::path(value).extension() == ".tik") {
     throw UsageError(

@@ -83,8 +83,8 @@ int run_encode(const Options& options) {
   check_output(output, OutputKind::tik, input_files(options), replacing(options));
   const CameraFiles camera_files(options, output, input_files(options));
 
-  const EncodedCapture encoded =
-      encode(source, {output, options.codec}, memory_budget(options), progress_bar("encoding", options.quiet, progress_lines(options)));
+  const EncodedCapture encoded = encode(source, {output, options.codec}, memory_budget(options),
+                                        progress_bar("encoding", options.quiet, progress_lines(options)));
   print_warnings(encoded.warnings);
   const Shape& shape = encoded.capture.shape;
   const Timeline& timeline = encoded.timeline;

@@ -88,7 +88,8 @@ int run_info(const Options& options) {
 
   const CaptureFigures figures = figures_of(reader);
   for (const InputError& damage : figures.damage) print_warning(message_text(damage, Dialect::command_line));
-  const int status = figures.damage.empty() ? ExitStatus::ok : ExitStatus::input;  // as any command that meets damaged input
+  const int status =
+      figures.damage.empty() ? ExitStatus::ok : ExitStatus::input;  // as any command that meets damaged input
   const auto& [still, rows, dense, records] = figures.tiles;
   const std::uint64_t raw_bytes = figures.raw_bytes;
   const auto share = [](std::uint64_t part, std::uint64_t whole) {

@@ -56,7 +56,8 @@ int run_series(const Options& options) {
   {
     WarningsAtEnd warnings;
     make_series(session, request, pictures, output, file_wishes(wishes),
-                progress_bar("exposing", options.quiet, progress_lines(options)), [&](std::uint64_t k, ExposedPicture& exposed) {
+                progress_bar("exposing", options.quiet, progress_lines(options)),
+                [&](std::uint64_t k, ExposedPicture& exposed) {
                   tally.add(exposed);
                   warnings.add(pictures[k].path.string(), exposure_warnings(exposed));
                   const auto map = maps.write(pictures[k].number, exposed);

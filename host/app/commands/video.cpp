@@ -34,9 +34,10 @@ static std::string join_pictures(Options& options, Session& session, const Sessi
   try {
     session = open_session(joined, terms, "making samples between pictures");
     options = std::move(joined);
-    return say(format("a quarter of the frames or more would show what moves two or three times: samples are "
-                      "looked for between pictures {} … {}, which takes most of the time; --between off leaves them out",
-                      between->first, between->last));
+    return say(
+        format("a quarter of the frames or more would show what moves two or three times: samples are "
+               "looked for between pictures {} … {}, which takes most of the time; --between off leaves them out",
+               between->first, between->last));
   } catch (const Error& error) {
     // Parts of one film are alike.
     if (!is_refusal(error) || request.numbers || options.skip_existing) throw;
@@ -90,18 +91,19 @@ int run_video(const Options& stated) {
   Json told = Json::array();
   const MadeVideo made = [&] {
     WarningsAtEnd warnings;
-    return make_video(session, request, frames, output, progress_bar("exposing", options.quiet, progress_lines(options)),
-                      [&](std::uint64_t frame, const Exposure&, const ExposedPicture& exposed) {
-                        tally.add(exposed);
-                        told.push_back({{"frame", frame}});
-                        told.back().update(uncertainty_json(exposed.uncertainty, exposed.output));
-                        const auto map = maps.write(frame, exposed);
-                        codes = codes_text(exposed.figures.capture, exposed.output);
-                        warnings.add(format("frame {}", frame), exposure_warnings(exposed));
-                        return output.writes_stills()
-                                   ? recipe.text(tally.precision(), own_recipe_of(frame), tally.error_bound(), map)
-                                   : std::string();
-                      }, options.sound);
+    return make_video(
+        session, request, frames, output, progress_bar("exposing", options.quiet, progress_lines(options)),
+        [&](std::uint64_t frame, const Exposure&, const ExposedPicture& exposed) {
+          tally.add(exposed);
+          told.push_back({{"frame", frame}});
+          told.back().update(uncertainty_json(exposed.uncertainty, exposed.output));
+          const auto map = maps.write(frame, exposed);
+          codes = codes_text(exposed.figures.capture, exposed.output);
+          warnings.add(format("frame {}", frame), exposure_warnings(exposed));
+          return output.writes_stills() ? recipe.text(tally.precision(), own_recipe_of(frame), tally.error_bound(), map)
+                                        : std::string();
+        },
+        options.sound);
   }();
   const std::string name = output.path().string();
   if (made.interruption) {

@@ -247,8 +247,9 @@ std::vector<std::string> exposure_warnings(const ExposedPicture& exposed) {
   std::vector<std::string> warnings = exposed.warnings;
   const std::uint64_t pixels = exposed.picture.shape.pixel_count();
   if (holds_codes(exposed.output.type) && exposed.saturation.above == pixels) {
-    warnings.push_back("every pixel comes out white: all light is above 1; --normalize integral, --gain or --ev makes it "
-                       "less, an .exr or a .tif with --depth float keeps it");
+    warnings.push_back(
+        "every pixel comes out white: all light is above 1; --normalize integral, --gain or --ev makes it "
+        "less, an .exr or a .tif with --depth float keeps it");
   }
   if (!holds_codes(exposed.output.type) || exposed.output.negative != NegativeLight::saturate)
     return warnings;

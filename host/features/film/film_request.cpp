@@ -144,8 +144,8 @@ FilmCurve FilmCurve::parse(std::string_view text, const std::string& title, cons
   }
   if (curve.points.size() < 2) {
     throw InputError(
-        format("{} is too short, with {} of the points that a curve has: two or more, a line each: 0s,0.2s and 2s,0.7s show half a second "
-               "of the capture in two of the film",
+        format("{} is too short, with {} of the points that a curve has: two or more, a line each: 0s,0.2s and 2s,0.7s "
+               "show half a second of the capture in two of the film",
                title, curve.points.size()));
   }
   return curve;

@@ -83,7 +83,8 @@ MaskSize size_of(const MaskRequest& request, const CaptureSource* capture, const
       sizes.push_back({file->name, {file->picture->shape.width, file->picture->shape.height}});
     }
   }
-  if (sizes.empty()) throw UsageError("how large is the mask? Name the capture it is for", Advice{", or say `size 640x360`"});
+  if (sizes.empty())
+    throw UsageError("how large is the mask? Name the capture it is for", Advice{", or say `size 640x360`"});
   const NamedSize& first = sizes.front();
   for (const NamedSize& other : sizes) {
     if (other.size == first.size) continue;

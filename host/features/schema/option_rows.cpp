@@ -144,9 +144,9 @@ constexpr Option kRows[] = {
      "left center topleft top bottomleft bottom"}),
     known(Setting::primaries, {0, "primaries", "NAME", decoding, kOpensClipsOrNoise | bit(Id::retime),
      take_by<InClip<&ClipOptions::primaries>, parse_primaries>,
-     "the colours of red, green and blue: bt709, bt2020, p3, or a camera's: sgamut3, sgamut3-cine, vgamut, cinema-gamut, "
-     "arri-wg3, arri-wg4, dgamut, apple-wide-gamut, ap1 (default: the curve's, of cameras' curves; what the file says; "
-     "else bt2020 if the matrix is, and bt709)",
+     "the colours of red, green and blue: bt709, bt2020, p3, or a camera's: sgamut3, sgamut3-cine, vgamut, "
+     "cinema-gamut, arri-wg3, arri-wg4, dgamut, apple-wide-gamut, ap1 (default: the curve's, of cameras' curves; "
+     "what the file says; else bt2020 if the matrix is, and bt709)",
      "bt709 bt2020 p3 sgamut3 sgamut3-cine vgamut cinema-gamut arri-wg3 arri-wg4 dgamut apple-wide-gamut ap1"}),
     known(Setting::pixel_aspect, {0, "pixel-aspect", "W:H", decoding, kOpensClipsOrNoise | bit(Id::retime),
      take_by<InClip<&ClipOptions::pixel_aspect>, parse_pixel_aspect>,
@@ -179,8 +179,8 @@ constexpr Option kRows[] = {
      "(default: crop)",
      "crop hold"},
     {0, "align-report", "FOLDER", output, bit(Id::encode), take<In<&Options::align_report>>,
-     "also write how the camera moved into a folder: path.csv, a line for each picture, plot.png, and coverage.png, how "
-     "many pictures saw each place"},
+     "also write how the camera moved into a folder: path.csv, a line for each picture, plot.png, and coverage.png, "
+     "how many pictures saw each place"},
 
     heading("The exposure"),
     {'k', "functions", "FILE.fn", exposure, kTakesFunctions, take<In<&Options::functions>>,
@@ -222,8 +222,9 @@ constexpr Option kRows[] = {
      "brightness), by that of its magnitude (absolute), or by seconds:S (default: support)",
      "support integral absolute seconds:"}),
     {0, "combine", "HOW", exposure, set_of(Id::expose, Id::video, Id::validate), take<In<&Options::combining>>,
-     "what becomes of a pixel's light: its integral, its mean, or of its samples, each times its largest gain, the lightest "
-     "(lighten: star trails, fireworks), the darkest or the middle one (darken, median: what moves is gone) (default: integral)",
+     "what becomes of a pixel's light: its integral, its mean, or of its samples, each times its largest gain, the "
+     "lightest (lighten: star trails, fireworks), the darkest or the middle one (darken, median: what moves is gone) "
+     "(default: integral)",
      "integral mean lighten darken median"},
     {0, "gain", "G", exposure, kTakesFunctions | bit(Id::shutter), take_by<In<&Options::gain>, parse_signed>,
      "make the light G times as much (default: 1)"},
@@ -255,8 +256,8 @@ constexpr Option kRows[] = {
      "which time each time of the video shows: in place of --from, --to and --speed, a line for each point, "
      "1.5s,0.4s; also backwards and standing still"},
     repeated("key", "TIME FILE.fn",
-             "the functions at a time of the video: 2s, or 48f for frame 48; in place of -k, several times; they change "
-             "from key to key",
+             "the functions at a time of the video: 2s, or 48f for frame 48; in place of -k, several times; they "
+             "change from key to key",
              Id::video, series),
     repeated("mask-key", "TIME FILE.pgm", "the mask at a time of the video: in place of -m, several times", Id::video,
              series),
@@ -265,8 +266,8 @@ constexpr Option kRows[] = {
      " .mkv), mjpeg (.avi, .mov, .mkv); of 10 bits h264-10, h265-10, av1-10; for editors prores, prores-proxy, "
      "-lt, -422, -4444 (.mov, .mkv), dnxhr-lb, -sq, -hq, -hqx, -444 (.mov, .mxf); gif, webp (default: h264, in "
      ".mkv and .avi ffv1, in .webm vp9, in .mxf dnxhr-hqx)",
-     "ffv1 h264 h265 h264-10 h265-10 av1 av1-10 vp9 prores prores-proxy prores-lt prores-422 prores-4444 dnxhr-lb dnxhr-sq "
-     "dnxhr-hq dnxhr-hqx dnxhr-444 mjpeg gif webp"}),
+     "ffv1 h264 h265 h264-10 h265-10 av1 av1-10 vp9 prores prores-proxy prores-lt prores-422 prores-4444 dnxhr-lb "
+     "dnxhr-sq dnxhr-hq dnxhr-hqx dnxhr-444 mjpeg gif webp"}),
     known(Setting::crf, {0, "crf", "N", output, bit(Id::video), take_whole<InPicture<&OutputRequest::crf>, 0, 100>,
      "quality on the codec's own scale: h264 1 … 51, h265 0 … 51 (default: 17), av1, vp9 0 … 63, mjpeg 2 … 31, the "
      "less the better; webp 0 … 100"}),
@@ -464,8 +465,8 @@ constexpr Option kRows[] = {
      "srgb source linear bt709 gamma:"}),
     {0, "codec", "NAME", encoding, bit(Id::encode), take<In<&Options::codec>>,
      "how blocks are packed: none (large, quickest to expose), rice (quick to pack and unpack), lz4, zstd (small)"
-     " or zstd:1 … zstd:19 (smaller, slower); with a tolerance rice also packs blocks that it makes smaller than lz4 and "
-     "zstd (default: rice)",
+     " or zstd:1 … zstd:19 (smaller, slower); with a tolerance rice also packs blocks that it makes smaller than lz4 "
+     "and zstd (default: rice)",
      "none rice lz4 zstd zstd:"},
     {0, "activity", "MAP.png", output, bit(Id::info), take<In<&Options::activity>>,
      "also write how often each pixel changes: a grey picture, black never, white most often, between them sRGB"},

@@ -26,9 +26,9 @@ void check_count(int128 count, const StatedTime& every, std::int64_t span_ns) {
   while (min_ns / unit_ns >= 1000) unit_ns *= 10;
   min_ns = (min_ns + unit_ns - 1) / unit_ns * unit_ns;
   const std::string least = StatedTime::of_nanoseconds(min_ns).text();
-  throw UsageError(Advice{
-      format("`every {}` makes {} pictures and a sheet holds {}; take `every {}` or more, or begin later with `start`", every.text(),
-             static_cast<std::uint64_t>(std::min<int128>(count, INT64_MAX)), sheet::kMaxPictures, least)});
+  throw UsageError(Advice{format(
+      "`every {}` makes {} pictures and a sheet holds {}; take `every {}` or more, or begin later with `start`",
+      every.text(), static_cast<std::uint64_t>(std::min<int128>(count, INT64_MAX)), sheet::kMaxPictures, least)});
 }
 
 std::vector<ExactTime> starts_of(const ContactRequest& request, const Timeline& timeline) {

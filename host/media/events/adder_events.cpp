@@ -214,7 +214,8 @@ std::uint32_t white_of(const AdderHeader& header, const ClipOptions& options, Cl
   const std::uint32_t white =
       settle(info.facts, options.white_code, named, 255u, Setting::white_code,
              [](std::uint32_t code) { return format("white {} units in a reference interval", code); });
-  if (info.facts.back().origin == Origin::file) info.facts.back().source = format("the file's source {}", header.source);
+  if (info.facts.back().origin == Origin::file)
+    info.facts.back().source = format("the file's source {}", header.source);
   return white;
 }
 

@@ -86,8 +86,8 @@ constexpr RefusedKind kRefusedKinds[] = {
 };
 
 bool begins_with(std::string_view bytes, std::string_view start) {
-  return bytes.size() >= start.size() &&
-         std::equal(start.begin(), start.end(), bytes.begin(), [](char want, char got) { return want == '?' || want == got; });
+  return bytes.size() >= start.size() && std::equal(start.begin(), start.end(), bytes.begin(),
+                                                    [](char want, char got) { return want == '?' || want == got; });
 }
 
 // Chunks: their length, four letters, so many bytes, a checksum. acTL stands before the first picture of an animation.
@@ -150,7 +150,8 @@ void refuse_text(const std::filesystem::path& file) {
   // These begin with letters, and their pictures may look like some.
   constexpr std::array kVideos{"YUV4MPEG2"sv, "SIMPLE  ="sv, "LUCAM-RECORDER"sv, "#EXTM3U"sv, "ffconcat"sv};
   const auto is_text = [](char c) { return (c >= ' ' && c <= '~') || c == '\n' || c == '\r' || c == '\t'; };
-  const bool is_video = begins_as_netpbm(start) || std::ranges::any_of(kVideos, [&](auto video) { return start.starts_with(video); });
+  const bool is_video =
+      begins_as_netpbm(start) || std::ranges::any_of(kVideos, [&](auto video) { return start.starts_with(video); });
   if (start.empty() || is_video || !std::ranges::all_of(start, is_text)) return;
   const std::string title = input_title(file.string());
   if (extension_of(file) == ".fn") throw InputError(format("{} is a function file, and no clip", title));

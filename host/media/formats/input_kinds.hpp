@@ -46,8 +46,8 @@ struct InputKind {
 using std::literals::operator""sv;
 
 inline constexpr InputKind kVideo{
-    "video", {}, {}, "what FFmpeg takes it for", "its pictures' times; filming rates of Android, Samsung and Sony", "none",
-    "colour: RGB of 8 bits, or over 16, by matrix and range; grey: as stored, white by its bits; or by range",
+    "video", {}, {}, "what FFmpeg takes it for", "its pictures' times; filming rates of Android, Samsung and Sony",
+    "none", "colour: RGB of 8 bits, or over 16, by matrix and range; grey: as stored, white by its bits; or by range",
     "display matrix, by quarter turns", "left out, with a note", "as shown"};
 inline constexpr InputKind kRawVideo{
     "raw video", {}, {}, "your description", "Photron's header beside it", "that header", "as of a video", "none",
@@ -63,8 +63,10 @@ inline constexpr InputKind kTiff{
     "as stored, white by its bits; of 16 `MaxSampleValue` if all ones, else 65535 with a note; floats as of OpenEXR",
     "`Orientation`", "refused", "its pages"};
 inline constexpr InputKind kDng{
-    "DNG", {}, " .dng ", "a TIFF's `DNGVersion`", "the first one's `FrameRate`; EXIF, in a table", "`ExposureTime`, if alike; EXIF, in a table",
-    "developed by the first one's black, white and colours: RGB over 16 bits, linear", "`Orientation`", "none", "one picture"};
+    "DNG", {}, " .dng ", "a TIFF's `DNGVersion`", "the first one's `FrameRate`; EXIF, in a table",
+    "`ExposureTime`, if alike; EXIF, in a table",
+    "developed by the first one's black, white and colours: RGB over 16 bits, linear", "`Orientation`", "none",
+    "one picture"};
 inline constexpr InputKind kNetpbm{
     "Netpbm", {"P2", "P3", "P5", "P6", "P7"}, " .pgm .ppm .pnm .pam ", {}, "none", "none",
     "as stored, white is its maximum", "none", "none", "one behind the other", " \t\r\n"};
@@ -75,10 +77,12 @@ inline constexpr InputKind kPfm{
     "PFM", {"PF", "Pf"}, " .pfm ", {}, "none", "none", "as of OpenEXR", "none", "none", "one picture", " \t\r\n"};
 inline constexpr InputKind kNumpy{
     "NumPy", {"\x93NUMPY"}, " .npy ", {}, "none", "none",
-    "integers as stored, white 255 or 65535; floats as of OpenEXR", "none", "none", "its first axis, if it has three, or four with colour"};
+    "integers as stored, white 255 or 65535; floats as of OpenEXR", "none", "none",
+    "its first axis, if it has three, or four with colour"};
 inline constexpr InputKind kSequence{
-    "several stills", {}, {}, "a folder, `'frames/*.png'`, `frame%04d.tif`", "the first one's, else a folder's only Photron header",
-    "as the times", "alike in all", "each one's", "as of one", "as a person counts, 2 before 10"};
+    "several stills", {}, {}, "a folder, `'frames/*.png'`, `frame%04d.tif`",
+    "the first one's, else a folder's only Photron header", "as the times", "alike in all", "each one's",
+    "as of one", "as a person counts, 2 before 10"};
 inline constexpr InputKind kTable{
     "table of stills", {}, " .csv ", {}, "its column, else EXIF", "its column, else EXIF", "alike in all", "each one's",
     "as of one", "its rows"};
@@ -87,15 +91,16 @@ inline constexpr InputKind kPhotron{
     "Photron", {}, " .mraw .cih .cihx ", {}, "the header", "the header",
     "as stored, linear, white by the header's bits", "none", "none", "as stored"};
 inline constexpr InputKind kPhantom{
-    "Phantom", {"CI"}, {}, {}, "the camera's times, else its nominal rate", "its exposures, if alike, else its shutter time",
+    "Phantom", {"CI"}, {}, {}, "the camera's times, else its nominal rate",
+    "its exposures, if alike, else its shutter time",
     "as of a video; packed 10 bits by the format's table, linear, white 4095; black stays, with a note",
     "`bFlipV`", "none", "as stored"};
 inline constexpr InputKind kProphesee{
-    "Prophesee", {"% "}, {}, {}, "each event's", "until the next moment", "light from steps: 16 bits, linear", "none", "none",
-    "by time"};
+    "Prophesee", {"% "}, {}, {}, "each event's", "until the next moment", "light from steps: 16 bits, linear", "none",
+    "none", "by time"};
 inline constexpr InputKind kAdder{
-    "ADΔER", {"adder"}, {}, {}, "each event's", "until the next moment", "light as told: 16 bits, linear, white by its source",
-    "none", "none", "by time"};
+    "ADΔER", {"adder"}, {}, {}, "each event's", "until the next moment",
+    "light as told: 16 bits, linear, white by its source", "none", "none", "by time"};
 inline constexpr InputKind kCapture{
     "capture (no clip)", {}, {}, "first bytes", "its own", "its own", "its own", "upright", "none", "by time"};
 

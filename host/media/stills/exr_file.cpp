@@ -298,7 +298,8 @@ ExrPicture read_exr(const std::filesystem::path& file) {
       throw InputError(format("it states {} x {} pixels, which its {} bytes do not hold; it is damaged", width, height,
                               mapped.bytes().size()));
     }
-    ExrPicture read{Picture(shape, ValueType::light32, 0), named_primaries(header), false, double{header.pixelAspectRatio()}};
+    ExrPicture read{Picture(shape, ValueType::light32, 0), named_primaries(header), false,
+                    double{header.pixelAspectRatio()}};
     read.names_others = Imf::hasChromaticities(header) && !read.primaries;
     constexpr std::size_t kValue = sizeof(float);
     const std::size_t pixel = kValue * names.size(), row = pixel * shape.width;

@@ -108,8 +108,8 @@ void set_density(jpeg_compress_struct& jpeg, const Rational& aspect) {
 void check_stated_size(const std::string& name, std::uint64_t width, std::uint64_t height, std::uint64_t file_bytes) {
   constexpr std::uint64_t kMaxPixelsAByte = 1032 * 8, kSmallPixels = 16 << 20;
   if (width * height <= std::max(kSmallPixels, file_bytes * kMaxPixelsAByte)) return;
-  throw InputError(format("{} cannot be read: it states {} x {} pixels, which its {} bytes do not hold; it is damaged", name,
-                          width, height, file_bytes));
+  throw InputError(format("{} cannot be read: it states {} x {} pixels, which its {} bytes do not hold; it is damaged",
+                          name, width, height, file_bytes));
 }
 
 void write_jpeg(OutputFile& file, const Picture& picture, const std::string& text, int quality) {
@@ -173,7 +173,8 @@ JpegPicture read_jpeg(std::span<const std::byte> file, const std::string& name) 
   Decompressor jpeg(title);
   // libjpeg goes on behind damage, with whatever comes: in front of a picture, also behind bytes of no segment.
   jpeg.err->emit_message = [](j_common_ptr of, int) {
-    constexpr std::array kDamage{JWRN_ARITH_BAD_CODE, JWRN_HIT_MARKER, JWRN_HUFF_BAD_CODE, JWRN_JPEG_EOF, JWRN_MUST_RESYNC};
+    constexpr std::array kDamage{JWRN_ARITH_BAD_CODE, JWRN_HIT_MARKER, JWRN_HUFF_BAD_CODE, JWRN_JPEG_EOF,
+                                 JWRN_MUST_RESYNC};
     if (of->err->msg_code == JWRN_EXTRANEOUS_DATA) ++of->err->num_warnings;
     if (std::ranges::count(kDamage, of->err->msg_code) > 0) of->err->error_exit(of);
   };

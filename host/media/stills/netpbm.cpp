@@ -209,7 +209,8 @@ std::vector<std::size_t> netpbm_starts(std::span<const std::byte> file, const st
       at += NetpbmReader(file.subspan(at), name).pass();
       while (at < file.size() && file[at] == std::byte{'\n'}) ++at;
       if (at >= file.size()) return starts;  // the last one may be cut short
-      const std::string_view rest(reinterpret_cast<const char*>(file.data()) + at, std::min<std::size_t>(file.size() - at, 3));
+      const std::string_view rest(reinterpret_cast<const char*>(file.data()) + at,
+                                  std::min<std::size_t>(file.size() - at, 3));
       if (!begins_as_netpbm(rest)) return starts;
       starts.push_back(at);
     }

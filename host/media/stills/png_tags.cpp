@@ -64,7 +64,8 @@ PngTags read_png_tags(const std::filesystem::path& file) {
       tags.transfer = Transfer::srgb();
       tags.primaries = Primaries::bt709;
     } else if (name == "gAMA" && length == 4 && tags.unread_transfer.empty()) {
-      tags.unread_transfer = format("gamma {:.4g}", kParts / static_cast<double>(std::max<std::uint64_t>(big_endian(data, 0, 4), 1)));
+      tags.unread_transfer =
+          format("gamma {:.4g}", kParts / static_cast<double>(std::max<std::uint64_t>(big_endian(data, 0, 4), 1)));
     } else if (name == "cHRM" && length == 32 && !tags.primaries && !has_coding_points) {
       // White, red, green and blue.
       const auto at = [&](std::size_t each) {

@@ -22,8 +22,8 @@
 namespace nutik::stills {
 namespace {
 
-constexpr int kExposureTime = 33434, kDateTimeOriginal = 36867, kOffsetTimeOriginal = 36881, kSubSecTimeOriginal = 37521,
-              kFrameRate = 51044;
+constexpr int kExposureTime = 33434, kDateTimeOriginal = 36867, kOffsetTimeOriginal = 36881,
+              kSubSecTimeOriginal = 37521, kFrameRate = 51044;
 constexpr int kRational = 5, kSignedRational = 10;
 
 void check(int code, const std::filesystem::path& file) {
@@ -61,7 +61,8 @@ JpegFront jpeg_front(std::string_view bytes, std::uint64_t at) {
     has_scan = marker == kScan;
     has_tables |= marker == kTables;
     if (marker >= kFirstFrame && marker <= kLastLossy) return {0, true};
-    if (marker == kFrame) front.samples = big_endian(bytes, at + 5, 2) * big_endian(bytes, at + 7, 2) * big_endian(bytes, at + 9, 1);
+    if (marker == kFrame)
+      front.samples = big_endian(bytes, at + 5, 2) * big_endian(bytes, at + 7, 2) * big_endian(bytes, at + 9, 1);
   }
   if (!has_scan || !has_tables) front.samples = 0;
   return front;
@@ -217,15 +218,17 @@ Picture RawDeveloper::develop(const std::filesystem::path& file) {
   open_dng(*raw, file);
   const int unpacked = raw->unpack();
   if (raw->is_floating_point() != 0) {
-    throw InputError(format("{} holds floating-point values, and DNGs of whole numbers are read; save it as a DNG of 16 bits, "
-                            "or develop it to a TIFF",
-                            file.string()));
+    throw InputError(
+        format("{} holds floating-point values, and DNGs of whole numbers are read; save it as a DNG of 16 bits, "
+               "or develop it to a TIFF",
+               file.string()));
   }
   const bool is_failed = damage.is_found || unpacked != LIBRAW_SUCCESS || lacks_a_jpeg(*raw, file);
   if (is_failed && is_lossy(*raw, file)) {
-    throw InputError(format("{} is a DNG that was packed with loss (JPEG of 8 or 12 bits), which is not read; convert it without "
-                            "loss, with Adobe's DNG Converter for one, or develop it to a TIFF",
-                            file.string()));
+    throw InputError(
+        format("{} is a DNG that was packed with loss (JPEG of 8 or 12 bits), which is not read; convert it without "
+               "loss, with Adobe's DNG Converter for one, or develop it to a TIFF",
+               file.string()));
   }
   if (damage.is_found || lacks_a_jpeg(*raw, file))
     throw InputError(format("{} cannot be read: it is damaged or was cut off", file.string()));

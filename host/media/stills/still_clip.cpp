@@ -188,7 +188,8 @@ cv::Mat decoded_by_opencv(const std::filesystem::path& file) {
 Still read_jpeg_still(const std::filesystem::path& file) {
   const MappedFile mapped(file);
   check_front(as_text(mapped.bytes()), file.string());
-  if (holds_several_pictures(file)) throw InputError(format("{} holds several pictures: name it alone, as a video is", file.string()));
+  if (holds_several_pictures(file))
+    throw InputError(format("{} holds several pictures: name it alone, as a video is", file.string()));
   JpegPicture read = read_jpeg(mapped.bytes(), file.string());
   Still still = still_of(std::move(read.picture), {});
   if (read.density) still.pixel_aspect = aspect_of(read.density->first, read.density->second);
@@ -346,8 +347,8 @@ class StillClip final : public Clip {
       info_.timing.rate_from = format("{}'s description in the file", story_.who);
     }
     if (files > 1 || story_.pictures <= pages_.size()) return;
-    info_.notes.emplace_back(format("{}'s description says that there are {} pictures, and the file holds {}", story_.who,
-                                    story_.pictures, pages_.size()));
+    info_.notes.emplace_back(format("{}'s description says that there are {} pictures, and the file holds {}",
+                                    story_.who, story_.pictures, pages_.size()));
   }
 
   // The rate that the first picture states, and the exposure, where it was the same for all.
@@ -426,7 +427,9 @@ class StillClip final : public Clip {
                                  (primaries != stated_by(first_) || still.unread_primaries != unread_primaries_);
     if (!other_transfer && !other_primaries) return;
     // What is named and not known here, by its name.
-    const auto named = [](const std::string& unread, std::string known) { return unread.empty() ? std::move(known) : unread; };
+    const auto named = [](const std::string& unread, std::string known) {
+      return unread.empty() ? std::move(known) : unread;
+    };
     throw InputError(
         format("{} has transfer {} and primaries {}, the first still, {}, {} and {}. All must be "
                "alike; state what all are to be taken for",

@@ -115,11 +115,12 @@ std::vector<fs::path> main_sequence(const fs::path& folder, const std::vector<fs
       const CountedName counted = counted_name(file).value_or(CountedName{"", "", file.extension().string()});
       return "'" + (folder / (counted.before + "*" + counted.after)).string() + "'";
     };
-    throw InputError(format("{}: the folder holds two sequences, of {} ({} pictures) and of {} ({}): name one: {} or {}; '{}' "
-                            "takes all",
-                            folder.string(), main->front().filename().string(), main->size(),
-                            group.front().filename().string(), group.size(), pattern(main->front()), pattern(group.front()),
-                            (folder / ("*" + files.front().extension().string())).string()));
+    throw InputError(
+        format("{}: the folder holds two sequences, of {} ({} pictures) and of {} ({}): name one: {} or {}; '{}' "
+               "takes all",
+               folder.string(), main->front().filename().string(), main->size(), group.front().filename().string(),
+               group.size(), pattern(main->front()), pattern(group.front()),
+               (folder / ("*" + files.front().extension().string())).string()));
   }
   return main != nullptr && 2 * main->size() > files.size() ? *main : files;
 }

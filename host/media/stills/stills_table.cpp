@@ -96,13 +96,13 @@ Times column(const std::filesystem::path& table, std::span<const ListedStill> st
     if (value) values.push_back(*value);
     if (values.empty() || value) continue;
     fail(table, stills[k].line,
-         format("{} has no {}, neither here nor in EXIF data (of JPEG and DNG); {} has {}", stills[k].file.string(), name,
-                stills.front().file.string(), values[0]));
+         format("{} has no {}, neither here nor in EXIF data (of JPEG and DNG); {} has {}", stills[k].file.string(),
+                name, stills.front().file.string(), values[0]));
   }
   if (!values.empty() && values.size() != stills.size()) {
     fail(table, stills.front().line,
-         format("{} has no {}, neither here nor in EXIF data (of JPEG and DNG); others have", stills.front().file.string(),
-                name));
+         format("{} has no {}, neither here nor in EXIF data (of JPEG and DNG); others have",
+                stills.front().file.string(), name));
   }
   return values;
 }

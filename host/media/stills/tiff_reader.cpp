@@ -108,7 +108,9 @@ class PageReader {
                                                              : "unsigned"));
     }
     if (is_grey() && shape_.channels == 3) {
-      fail("its 3 samples a pixel are channels of grey, not colour (photometric interpretation MinIsBlack); save one of them, or all as RGB");
+      fail(
+          "its 3 samples a pixel are channels of grey, not colour (photometric interpretation MinIsBlack); save one of "
+          "them, or all as RGB");
     }
     if (is_light_ && (photometric_ == PHOTOMETRIC_MINISWHITE || !is_plain())) {
       fail(format("its floating-point values are no light (photometric interpretation {})", photometric_));
@@ -211,7 +213,8 @@ class PageReader {
     std::vector<std::uint8_t> row(row_bytes);
     for (std::uint32_t y = 0; y < shape_.height; ++y) {
       check_interruption();
-      const bool is_there = bytes_behind_ > 0 ? read_behind(row, y) : TIFFReadScanline(file_, row.data(), y, plane) >= 0;
+      const bool is_there =
+          bytes_behind_ > 0 ? read_behind(row, y) : TIFFReadScanline(file_, row.data(), y, plane) >= 0;
       if (!is_there) {
         fail(format("it is damaged or was cut off at row {} of {}", y, shape_.height));
       }
@@ -226,7 +229,9 @@ class PageReader {
     const auto stream = TIFFClientdata(file_);
     const std::uint64_t at = offsets[0] + bytes_behind_ + y * std::uint64_t{row.size()};
     if (TIFFGetSeekProc(file_)(stream, at, SEEK_SET) != at) return false;
-    if (TIFFGetReadProc(file_)(stream, row.data(), static_cast<tmsize_t>(row.size())) != static_cast<tmsize_t>(row.size())) return false;
+    if (TIFFGetReadProc(file_)(stream, row.data(), static_cast<tmsize_t>(row.size())) !=
+        static_cast<tmsize_t>(row.size()))
+      return false;
     if (TIFFIsByteSwapped(file_)) {
       const auto values = static_cast<tmsize_t>(row.size() / (bits_ / 8u));
       if (bits_ == 16) TIFFSwabArrayOfShort(reinterpret_cast<std::uint16_t*>(row.data()), values);
@@ -404,7 +409,8 @@ void TiffReader::follow_story() {
                name_, story_.mixed, story_.who));
   }
   if (page_count_ > 1 || story_.pictures <= 1) return;
-  const std::uint64_t page_bytes = bytes_in_one_piece(handle), file_bytes = TIFFGetSizeProc(handle)(TIFFClientdata(handle));
+  const std::uint64_t page_bytes = bytes_in_one_piece(handle),
+                      file_bytes = TIFFGetSizeProc(handle)(TIFFClientdata(handle));
   const std::uint64_t* offsets = nullptr;
   const bool has_offsets = TIFFGetField(handle, TIFFTAG_STRIPOFFSETS, &offsets) == 1 && offsets != nullptr;
   if (!has_offsets || page_bytes == 0 || offsets[0] >= file_bytes) return;
@@ -418,8 +424,8 @@ void TiffReader::follow_story() {
                name_, story_.pictures, story_.who));
   }
   if (held < story_.pictures) {
-    throw InputError(format("{} was cut off: its description by {} says that it holds {} pictures, and {} are there", name_,
-                            story_.who, story_.pictures, held));
+    throw InputError(format("{} was cut off: its description by {} says that it holds {} pictures, and {} are there",
+                            name_, story_.who, story_.pictures, held));
   }
   page_count_ = story_.pictures;
 }

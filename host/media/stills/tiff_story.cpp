@@ -109,7 +109,8 @@ TiffStory story_of_tifffile(std::string_view text, const Shape& page) {
   sides.resize(sides.size() - of_page);
   std::erase(sides, std::uint64_t{1});
   if (sides.size() > 1) {
-    for (const std::uint64_t side : sides) story.mixed += format("{}{}", story.mixed.empty() ? "pictures in " : " x ", side);
+    for (const std::uint64_t side : sides)
+      story.mixed += format("{}{}", story.mixed.empty() ? "pictures in " : " x ", side);
   } else {
     story.pictures = sides.empty() ? 1 : sides.front();
   }

@@ -207,10 +207,11 @@ std::optional<NamedCurve> named_curve(const AVFormatContext& format, const std::
     // The curve is another one at each exposure index.
     const std::string_view index = said("com.arri.camera.ExposureIndexAsa");
     if (index == "800") return NamedCurve{Transfer::log("logc3"), std::nullopt};
-    notes.emplace_back(nutik::format("the file's curve is LOG-C at exposure index {:.20}, and only that of 800 is known "
-                                     "here: the curve that the container names is taken",
-                                     index.empty() ? "unknown" : index),
-                       std::vector{Setting::transfer});
+    notes.emplace_back(
+        nutik::format("the file's curve is LOG-C at exposure index {:.20}, and only that of 800 is known "
+                      "here: the curve that the container names is taken",
+                      index.empty() ? "unknown" : index),
+        std::vector{Setting::transfer});
   }
   // As Apple's VideoToolbox names them, kCVImageBufferLogTransferFunction_AppleLog and _AppleLog2.
   const MappedFile mapped(path);
@@ -246,7 +247,8 @@ std::optional<CaptureRate> capture_rate(const AVFormatContext& format, const std
                                      kAndroid, entry->value),
                        std::vector{Setting::frame_rate});
   }
-  if (const CameraUnit unit = camera_unit(path); unit.rate) return CaptureRate{*unit.rate, "Sony's captureFps", unit.from};
+  if (const CameraUnit unit = camera_unit(path); unit.rate)
+    return CaptureRate{*unit.rate, "Sony's captureFps", unit.from};
   const MappedFile mapped(path);
   if (!is_mp4(as_text(mapped.bytes()))) return std::nullopt;
   const SamsungRecording samsung = samsung_recording(as_text(mapped.bytes()));

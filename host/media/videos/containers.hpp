@@ -39,17 +39,20 @@ inline constexpr Containers kContainers[] = {
     {kPipes},
     {kUntimed},
     {kRefusedPlaylists,
-     "names other files, and none is opened that you did not name. ffmpeg -i LIST -c copy film.mkv makes one file of them"},
+     "names other files, and none is opened that you did not name. ffmpeg -i LIST -c copy film.mkv makes one file of "
+     "them"},
     {kRefusedTexts, "is text, which could be shown letter by letter but is no film"},
-    {kRefusedStills, "is a still picture of a kind that is not read. ffmpeg -i PICTURE PICTURE.png, or .tif, makes one that is"},
+    {kRefusedStills,
+     "is a still picture of a kind that is not read. ffmpeg -i PICTURE PICTURE.png, or .tif, makes one that is"},
     {kFits,
-     "would be stretched, each picture between its own darkest and brightest pixel. Save 16-bit TIFFs, with Siril for one, "
-     "whose codes stay, and state their rate"},
+     "would be stretched, each picture between its own darkest and brightest pixel. Save 16-bit TIFFs, with Siril for "
+     "one, whose codes stay, and state their rate"},
     {kMlv,
-     "is the mosaic of a sensor, whose black, white and colours would be lost. MLV App makes DNGs of it, which are developed"},
+     "is the mosaic of a sensor, whose black, white and colours would be lost. MLV App makes DNGs of it, which are "
+     "developed"},
     {kSer,
-     "would be read with bytes, depth and times as few of its writers mean them. Save 16-bit TIFFs, with Siril for one, and "
-     "state their rate"}};
+     "would be read with bytes, depth and times as few of its writers mean them. Save 16-bit TIFFs, with Siril for "
+     "one, and state their rate"}};
 
 // Null where nothing is said of it.
 [[nodiscard]] inline const Containers* containers_with(std::string_view name) {

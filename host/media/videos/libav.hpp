@@ -181,7 +181,7 @@ inline std::string url_of(const std::filesystem::path& path) { return "file:" + 
 [[nodiscard]] OpenedVideo open_video(const std::filesystem::path& path, const std::optional<RawVideo>& raw);
 
 // Writes into containers.
-[[nodiscard]] std::unique_ptr<VideoWriter> open_libav_writer(const std::filesystem::path& path, const VideoFormat& format,
-                                                             const VideoCodec& codec);
+[[nodiscard]] std::unique_ptr<VideoWriter> open_libav_writer(const std::filesystem::path& path,
+                                                             const VideoFormat& format, const VideoCodec& codec);
 
 }  // namespace nutik::videos

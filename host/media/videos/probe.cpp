@@ -416,8 +416,8 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
     result.near_primaries = primaries_name(primaries);
   if (!raw && has_edits(path)) {
     result.notes.emplace_back(
-        "the file's edit list plays parts of it again, in another order, or at another speed: its pictures are taken once "
-        "each, in the order and at the times in which they were filmed");
+        "the file's edit list plays parts of it again, in another order, or at another speed: its pictures are taken "
+        "once each, in the order and at the times in which they were filmed");
   }
   unsigned films = 0;
   for (unsigned i = 0; i < opened.format->nb_streams; ++i) {

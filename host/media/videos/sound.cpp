@@ -186,7 +186,8 @@ class LibavSoundWriter final : public SoundWriter {
                                  decoder_->sample_rate, decoder_->sample_rate,
                                  av_get_sample_fmt_name(decoder_->sample_fmt), layout);
     // By default it fills only gaps of 0.1 s and more.
-    filters += format("aresample=async=1:min_comp=0.0001:min_hard_comp=0.01:first_pts=0,atrim=end={:.9f}", sound_.seconds * sound_.speed);
+    filters += format("aresample=async=1:min_comp=0.0001:min_hard_comp=0.01:first_pts=0,atrim=end={:.9f}",
+                      sound_.seconds * sound_.speed);
     if (sound_.speed != 1.0) {
       // Rates are whole numbers, and a rounded one would drift: a ratio of two that are as large as aresample takes. It
       // is given so much at once as makes a few thousand samples.

@@ -45,7 +45,8 @@ void check_stated(const MemoryBudget& budget, const ClipToRead& clip, std::uint6
   throw UsageError(
       format("blocks of {} samples take {} each, and several are held: more than the {} of memory allowed",
              *clip.block_samples, bytes_text(*clip.block_samples * sample_bytes), bytes_text(budget.bytes)),
-      Advice{format(" (`memory`); use fewer samples a block (`block-samples {}`)", std::max<std::uint64_t>(1, closing_bytes / sample_bytes))});
+      Advice{format(" (`memory`); use fewer samples a block (`block-samples {}`)",
+                    std::max<std::uint64_t>(1, closing_bytes / sample_bytes))});
 }
 
 std::uint32_t announced(const ClipToRead& clip, std::uint32_t samples) {

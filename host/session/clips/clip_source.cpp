@@ -148,8 +148,9 @@ void fill(ClipSource& source, const OpenClip& open, const MemoryBudget& memory, 
           const std::stop_token& stop) {
   BetweenRequest& request = *source.request.between;
   if (source.clip->tells_changes()) {
-    throw UsageError(format("{} holds events, each with its own time: there is nothing to make between them", source.name()),
-                     {Setting::between});
+    throw UsageError(
+        format("{} holds events, each with its own time: there is nothing to make between them", source.name()),
+        {Setting::between});
   }
   CaptureFormat pictures = source.capture;
   pictures.noise = {};
@@ -173,10 +174,11 @@ CaptureFormat clip_format(const Clip& clip, const ClipOptions& options) {
   if (options.white_light && !options.white_code && !clip.info().holds_light) {
     std::string light = format("{:.6g}", *options.white_light);
     if (light.find_first_of(".e") == light.npos) light += ".0";
-    throw UsageError(format("white '{}' is no code of the clip, a whole number of 1 … 65535; only floating-point pictures "
-                            "have a light of white",
-                            light),
-                     {Setting::white_code});
+    throw UsageError(
+        format("white '{}' is no code of the clip, a whole number of 1 … 65535; only floating-point pictures "
+               "have a light of white",
+               light),
+        {Setting::white_code});
   }
   if (options.white_code && !clip.makes_codes()) {
     if (capture.code_bytes == 1 && *options.white_code > 255) {
@@ -290,7 +292,8 @@ ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& me
       source.notes.push_back(std::move(*note));
   }
   // Each look for something reads the clip.
-  const bool is_twofold = progress && request.align && !request.align->path && request.between && !request.between->made;
+  const bool is_twofold =
+      progress && request.align && !request.align->path && request.between && !request.between->made;
   const auto half = [&](bool is_second) -> ReportedProgress {
     if (!is_twofold) return progress;
     return [&progress, is_second](std::uint64_t done, std::uint64_t total) {

@@ -19,7 +19,9 @@ std::optional<Note> ramp_note(const std::vector<std::int64_t>& steps) {
   const std::int64_t least = *std::ranges::min_element(steps), most = *std::ranges::max_element(steps);
   if (least <= 0) return std::nullopt;
   const std::int64_t times = (most + least / 2) / least;
-  const auto is_near = [](std::int64_t step, std::int64_t length) { return std::abs(step - length) <= length / 20 + 1; };
+  const auto is_near = [](std::int64_t step, std::int64_t length) {
+    return std::abs(step - length) <= length / 20 + 1;
+  };
   std::ptrdiff_t slow = 0, changes = 0;
   double seconds = 0;  // that the quick ones last
   for (std::size_t k = 0; k < steps.size(); ++k) {

@@ -58,8 +58,10 @@ OutputFormat output_format(const OutputRequest& request, const std::filesystem::
   check_quality(request, output);
   OutputFormat chosen = format_of(request, type, capture);
   if (request.negative && !holds_codes(type)) {
-    throw UsageError(Advice{format("`negative` says what codes make of light below 0, and {} holds floating point, which "
-                                   "keeps it; leave it out", output.string())});
+    throw UsageError(
+        Advice{format("`negative` says what codes make of light below 0, and {} holds floating point, which "
+                      "keeps it; leave it out",
+                      output.string())});
   }
   chosen.negative = request.negative.value_or(NegativeLight::saturate);
   chosen.is_half = request.depth == Depth::half;

@@ -255,7 +255,8 @@ QColor first_colour(std::uint8_t tag) {
 
 std::string feather_text(const Feather& feather) {
   std::string text;
-  if (feather.everywhere_centipixels != 0 || feather.of_tag.empty()) text = format("{}px", feather.everywhere_centipixels / 100.0);
+  if (feather.everywhere_centipixels != 0 || feather.of_tag.empty())
+    text = format("{}px", feather.everywhere_centipixels / 100.0);
   for (const auto& [tag, reach] : feather.of_tag)
     text += format("{}M{}={}px", text.empty() ? "" : ",", tag, reach / 100.0);
   return text;
