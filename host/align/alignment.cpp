@@ -19,8 +19,8 @@
 namespace nutik {
 namespace {
 
-// Up to so many pictures are searched for at once, if memory allows it. All of a group start from where the last picture
-// of the group before was found, so that the path depends on neither memory nor threads.
+// Up to so many pictures are searched for at once, if memory allows it. All of a group start from where the last
+// picture of the group before was found, so that the path depends on neither memory nor threads.
 constexpr std::uint64_t kPicturesAtOnce = 4;
 
 // The raster of the picture that the others are moved onto.
@@ -47,7 +47,8 @@ CannotAlign not_alike(const ClipToAlign& clip, CameraMotion motion, std::uint64_
              clip.name, picture, clip.reference, 100 * found.agreeing, to_text(motion)),
       motion == CameraMotion::homography
           ? kOtherReference
-          : Advice{"; try `align homography`, another picture to align to (`align-to`), or a part of the clip (`from`, `to`)"});
+          : Advice{"; try `align homography`, another picture to align to (`align-to`), or a part of the clip "
+                   "(`from`, `to`)"});
   error.picture = picture;
   return error;
 }
@@ -183,7 +184,8 @@ std::string alignment_text(const CameraPath& path, const Rectangle& area, Unseen
                    area.y);
   const auto residual = path.residual_pixels();
   return format(
-      "aligned to picture {} ({}), from which others are {}; {}{}", path.reference, to_text(path.motion), path.summary(),
+      "aligned to picture {} ({}), from which others are {}; {}{}", path.reference, to_text(path.motion),
+      path.summary(),
       residual ? format("half of what has texture is now within {:.2f} pixels of its place; ", *residual) : "", shown);
 }
 

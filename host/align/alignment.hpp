@@ -39,8 +39,8 @@ struct ClipToAlign {
 
 [[noreturn]] void refuse_above_white(const std::string& name, std::uint64_t picture, const CodeAboveWhite& error);
 
-// Reads all of the clip; `progress` counts its pictures. Throws CannotAlign, MemoryTooLittle, Cancelled, InputError where
-// the clip ends before the reference.
+// Reads all of the clip; `progress` counts its pictures. Throws CannotAlign, MemoryTooLittle, Cancelled, InputError
+// where the clip ends before the reference.
 [[nodiscard]] CameraPath find_camera_path(const ClipToAlign& clip, CameraMotion motion,
                                           std::uint64_t memory_bytes, const ReportedProgress& progress,
                                           const std::stop_token& stop);
@@ -73,8 +73,8 @@ struct MovedCamera {
 // What a look takes, beside blocks of the capture.
 [[nodiscard]] MemoryNeeds camera_check_needs(const CaptureFormat& capture);
 
-// Looks at a few samples. Nothing of a capture whose pictures were aligned, nor where it stands still, nor where most of
-// the picture follows no motion of a camera. Throws InputError where the capture is damaged.
+// Looks at a few samples. Nothing of a capture whose pictures were aligned, nor where it stands still, nor where most
+// of the picture follows no motion of a camera. Throws InputError where the capture is damaged.
 [[nodiscard]] std::optional<MovedCamera> moved_camera(tik::Reader& capture);
 
 }  // namespace nutik

@@ -181,8 +181,8 @@ void PairMotion::find(const GreyPictures& pictures, std::uint32_t max_threads) {
   mark(backwards_);
 }
 
-// A way that keeps its speed and direction leads as far on as it led here. Where most of the picture changed from the one
-// beyond, as across a cut, motion from there is believed as far as it explains that.
+// A way that keeps its speed and direction leads as far on as it led here. Where most of the picture changed from the
+// one beyond, as across a cut, motion from there is believed as far as it explains that.
 void PairMotion::find_bends(const GreyPictures& pictures, std::uint32_t max_threads) {
   forwards_.bend.clear();
   backwards_.bend.clear();

@@ -309,7 +309,8 @@ Plate make_plate(CaptureSource& capture, const CodeBand& band, std::uint64_t mem
   for (std::uint32_t row = 0; row < rows; row += at_once) maker.make(row, std::min(row + at_once, rows));
   if (maker.uncertain().pixel_count() > 0) {
     maker.look_at_places();
-    for (std::uint32_t row = 0; row < rows && maker.makes_again(); row += at_once) maker.make(row, std::min(row + at_once, rows));
+    for (std::uint32_t row = 0; row < rows && maker.makes_again(); row += at_once)
+      maker.make(row, std::min(row + at_once, rows));
   }
   return std::move(maker).finished();
 }

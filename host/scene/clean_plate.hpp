@@ -32,8 +32,8 @@ struct Plate {
 
 // Looks at every sample, or at so many evenly in time, on all cores; `progress` counts tiles, twice as many as
 // there are, and is called by any of them, one after another. Packed blocks are
-// unpacked strip by strip, so that they and the plate stay within `memory_bytes`. Throws MemoryTooLittle, InputError where the
-// capture is damaged.
+// unpacked strip by strip, so that they and the plate stay within `memory_bytes`. Throws MemoryTooLittle, InputError
+// where the capture is damaged.
 [[nodiscard]] Plate make_plate(CaptureSource& capture, const CodeBand& band, std::uint64_t memory_bytes,
                                std::uint64_t max_samples = ~std::uint64_t{0}, const ReportedProgress& progress = {});
 

@@ -49,8 +49,8 @@ class CodeBand {
 
 class PlaceTimes {
  public:
-  // What is seen at a look holds until the next. `keep_going` is called often, by several threads; what it throws ends the
-  // work. Throws InputError where the capture is damaged.
+  // What is seen at a look holds until the next. `keep_going` is called often, by several threads; what it throws ends
+  // the work. Throws InputError where the capture is damaged.
   PlaceTimes(CaptureSource& capture, const Region& uncertain, const CodeBand& band,
              const std::function<void()>& keep_going);
 
@@ -92,7 +92,8 @@ class PlaceTimes {
     std::int64_t since_look_ns;  // from its look's start
     std::uint32_t look;          // the last that is no later
   };
-  std::vector<Begin> samples_;  // when each begins: told for each change of each pixel, which divisions would take long for
+  // When each begins: told for each change of each pixel, which divisions would take long for.
+  std::vector<Begin> samples_;
   std::uint32_t side_, columns_, rows_;  // of cells, in pixels; how many
   std::vector<std::size_t> clock_of_cell_;
   std::vector<Clock> clocks_;

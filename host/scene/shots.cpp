@@ -113,7 +113,8 @@ double changed(const Means& a, const Means& b, std::uint32_t channels) {
   return static_cast<double>(count * channels) / static_cast<double>(a.size());
 }
 
-// How much two pictures are alike up to brightness and contrast, as a camera or a lamp changes them: 1 of the same scene.
+// How much two pictures are alike up to brightness and contrast, as a camera or a lamp changes them: 1 of the same
+// scene.
 double correlation(const Means& a, const Means& b) {
   const auto count = static_cast<double>(a.size());
   double sum_a = 0, sum_b = 0, aa = 0, bb = 0, ab = 0;

@@ -2,8 +2,8 @@
 //
 //   in:      a capture and its plate, as codes of the capture
 //   out:     where the subject is at the samples at which it was found
-//   units:   pixels from the top left corner. Pictures are looked at in cells of several pixels, so that large ones take
-//            no longer
+//   units:   pixels from the top left corner. Pictures are looked at in cells of several pixels, so that large ones
+//            take no longer
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,8 @@ struct SubjectTrack {
   std::uint32_t cell_columns = 0;        // in a row
   std::vector<SubjectPlace> places;      // in time order; none of samples at which it was not found
   std::vector<std::uint64_t> looked_at;  // samples, increasing: all, or so many evenly over the capture
-  // The longest stretch of them at which nothing at all differs from the plate, in all of the picture: what is taken away
-  // with it is taken from there, too.
+  // The longest stretch of them at which nothing at all differs from the plate, in all of the picture: what is taken
+  // away with it is taken from there, too.
   SampleRange empty;
   // At each of looked_at: the cells that differ, of all things.
   std::shared_ptr<std::vector<std::vector<bool>>> differing;

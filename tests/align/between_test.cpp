@@ -222,7 +222,8 @@ TEST(Between, LetsNothingFlyFromOneThingToAnother) {
   for (std::size_t k = 0; k < samples.size(); ++k) {
     for (std::uint32_t x = 140; x < 180; ++x) {
       const std::size_t pixel = 72 * kWidth + x;
-      EXPECT_NEAR(std::to_integer<int>(samples[k][pixel]), std::to_integer<int>(pictures[0][pixel]), 8) << k << " " << x;
+      EXPECT_NEAR(std::to_integer<int>(samples[k][pixel]), std::to_integer<int>(pictures[0][pixel]), 8)
+          << k << " " << x;
     }
   }
 }

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Which way includes go in host/: a room includes itself and the rooms that its CMakeLists.txt uses, and the folders of a
-room include each other one way. Only the command line and the schema name an option with its dashes.
+room include each other one way. Only the command line and the schema name an option with its dashes. Lines of all C++
+and OpenCL sources lie within ColumnLimit of .clang-format.
 
     check_includes.py --host FOLDER
 """
@@ -52,6 +53,14 @@ def main():
             TopologicalSorter({folder: others - {folder, ""} for folder, others in within.items() if folder}).prepare()
         except CycleError as error:
             mistakes.append(f"{room}: folders include each other in a circle: {' <- '.join(error.args[1])}")
+    root = host.resolve().parent
+    limit = int(re.search(r"^ColumnLimit: (\d+)$", (root / ".clang-format").read_text(), re.MULTILINE)[1])
+    sources = [path for place in ("host", "kernels", "tests") for path in (root / place).rglob("*")
+               if path.suffix in (".cpp", ".hpp", ".inl", ".cl", ".clh")]
+    for path in sorted(sources):
+        lines = path.read_text(encoding="utf-8").split("\n")
+        mistakes += [f"{path.relative_to(root)}:{number} has {len(line)} columns, more than {limit}"
+                     for number, line in enumerate(lines, 1) if len(line) > limit]
     for mistake in mistakes:
         print(mistake)
     print(f"{len(files)} files, {len(mistakes)} mistakes")

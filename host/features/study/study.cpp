@@ -34,8 +34,8 @@ constexpr double kMinBare = 0.25;
 // The share of a single moment's border, where that stands for what makes no study, at which there is an edge or light
 // changed.
 constexpr double kMinOwnEdges = 0.4;
-// And of a thing that moves as one whole. Measured: 0.2 of dark legs that blur before dark ground, at most 0.05 of light
-// on a wall.
+// And of a thing that moves as one whole. Measured: 0.2 of dark legs that blur before dark ground, at most 0.05 of
+// light on a wall.
 constexpr double kMinEdgesOfWhole = 0.1;
 constexpr std::uint64_t kMinTelling = 144;  // pixels: the border of fewer is too short to tell its edges
 // In pixels: without specks and without holes.
@@ -47,10 +47,11 @@ Feather feather_of(const StudyRequest& request) {
   return request.feather.value_or(Feather{request.style == StudyStyle::slit ? 0 : kStudyFeatherCentipixels, {}});
 }
 
-// How far regions reach beyond the subject, so that they are blended outside of it: in whole pixels, and as far as it is
-// blended usually, for its own border is soft.
+// How far regions reach beyond the subject, so that they are blended outside of it: in whole pixels, and as far as it
+// is blended usually, for its own border is soft.
 std::uint32_t border_pixels(const StudyRequest& request) {
-  return static_cast<std::uint32_t>((std::max(feather_of(request).everywhere_centipixels, kStudyFeatherCentipixels) + 99) / 100);
+  return static_cast<std::uint32_t>(
+      (std::max(feather_of(request).everywhere_centipixels, kStudyFeatherCentipixels) + 99) / 100);
 }
 
 std::vector<std::uint64_t> stated_moments(const std::vector<StatedTime>& times, const Timeline& timeline) {
@@ -324,8 +325,8 @@ class StudyPlanner {
     return samples;
   }
 
-  // Moments that the plate shows, too: the ground that the subject left would become a hole. And moments that later ones
-  // cover.
+  // Moments that the plate shows, too: the ground that the subject left would become a hole. And moments that later
+  // ones cover.
   [[nodiscard]] std::vector<std::size_t> bad_moments(const Study& study) {
     std::vector<std::size_t> bad;
     const auto left = study.regions.mask.pixels_per_tag();

@@ -67,8 +67,8 @@ struct NoSubject : InputError {
   using InputError::InputError;
 };
 
-// What becomes of a scene of which most moves: it is refused, for the camera may have moved, or shown, for nothing helps
-// against that.
+// What becomes of a scene of which most moves: it is refused, for the camera may have moved, or shown, for nothing
+// helps against that.
 enum class Unrest { refused, shown };
 
 struct Study {

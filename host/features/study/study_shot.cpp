@@ -105,8 +105,8 @@ class ShotPlanner {
     std::optional<MovedCamera> moved = moved_camera(session.capture());
     const bool is_still = !moved || moved->pixels <= kMaxCameraPixels;
     if (!is_still && !session.is_clip()) {
-      throw EverythingMoves(format("{}: {}. A study needs pictures that lie on each other: encode the clip again", name_,
-                                   moved->text()));
+      throw EverythingMoves(
+          format("{}: {}. A study needs pictures that lie on each other: encode the clip again", name_, moved->text()));
     }
     std::optional<Study> study;
     if (is_still || !may_align) {
@@ -135,10 +135,10 @@ class ShotPlanner {
       throw;
     }
     if (aligned && aligned->study.moving_share < study->moving_share) return std::move(*aligned);
-    notes.emplace_back(
-        format("no motion of the camera explains the pictures, of which {:.0f} % differ from the scene at rest on average: "
-               "they are shown as they were filmed, and what rests in them may be soft",
-               100 * study->moving_share));
+    notes.emplace_back(format(
+        "no motion of the camera explains the pictures, of which {:.0f} % differ from the scene at rest on average: "
+        "they are shown as they were filmed, and what rests in them may be soft",
+        100 * study->moving_share));
     return {std::move(session), std::move(*study), std::move(moved), std::move(notes)};
   }
 
@@ -180,8 +180,8 @@ class ShotPlanner {
   }
 
   // Moves the pictures onto the first one; onto the one in the middle if the first shows too little of what the others
-  // show. If a picture cannot be moved, those before it or behind it are taken, whichever are more. Nothing if most cannot
-  // be moved: `reason` says why.
+  // show. If a picture cannot be moved, those before it or behind it are taken, whichever are more. Nothing if most
+  // cannot be moved: `reason` says why.
   [[nodiscard]] std::optional<PlannedStudy> plan_aligned(const SourceRequest& source, std::uint64_t samples,
                                                          std::string& reason) const {
     constexpr int kMaxTries = 6;

@@ -41,8 +41,8 @@ struct PlannedStudy {
 // How pictures are moved where nobody stated that.
 inline constexpr CameraMotion kStudyMotion = CameraMotion::homography;
 
-// Subject and moments are looked for in the pictures that were filmed. Where the study has a trail, samples that are made
-// between them are part of the capture that is exposed: as the source asks, or along the subject's way.
+// Subject and moments are looked for in the pictures that were filmed. Where the study has a trail, samples that are
+// made between them are part of the capture that is exposed: as the source asks, or along the subject's way.
 //
 // Throws InputError where no shot makes a picture that holds, and what Session and plan_study() of a capture throw.
 [[nodiscard]] PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request,

@@ -44,9 +44,10 @@ std::string within_text(const SubjectTrack& other, const SubjectTrack& shown, st
   const Rectangle a = box_of(other.places), b = box_of(shown.places);
   const bool are_apart = a.x + a.width <= b.x || b.x + b.width <= a.x || a.y + a.height <= b.y || b.y + b.height <= a.y;
   return format("within {},{},{},{}. {}", a.x, a.y, a.width, a.height,
-                are_apart ? remedy
-                          : "Their ways overlap, so no region holds one alone: take a part of the time in which they lie "
-                            "apart");
+                are_apart
+                    ? remedy
+                    : "Their ways overlap, so no region holds one alone: take a part of the time in which they lie "
+                      "apart");
 }
 
 // What of a track makes a study. Moments that are stated are shown wherever the subject goes.
@@ -73,16 +74,17 @@ SubjectVerdict verdict_of(const SubjectTrack& track, std::uint32_t by_codes, std
                    track.extent < track.cell_side ? ". It comes and goes in its place" : "")};
   }
   if (track.is_scraps() && (track.fill < kMinFillOfMany || track.extent < length || track.flickers)) {
-    return {track.share < kMinShareOfOne || track.extent < length ? Shows::nothing : Shows::one,
-            format("nothing moves as one whole thing. What goes furthest fills {:.0f} % of its box, and is {:.0f} % of "
-                   "what differs from the scene at rest; one of the two must be half or more. {} shows its edges "
-                   "only, and cannot be shown twice. Take a clip in which it goes further, name a region with a single "
-                   "subject, or the moments to show",
-                   100 * track.fill, 100 * track.share,
-                   track.extent < length
-                       ? format("Its box is {:.0f} pixels long and goes {:.0f}: a thing that goes less than its own size",
-                                length, track.extent)
-                       : "A thing that shakes, grows or shines")};
+    return {
+        track.share < kMinShareOfOne || track.extent < length ? Shows::nothing : Shows::one,
+        format("nothing moves as one whole thing. What goes furthest fills {:.0f} % of its box, and is {:.0f} % of "
+               "what differs from the scene at rest; one of the two must be half or more. {} shows its edges "
+               "only, and cannot be shown twice. Take a clip in which it goes further, name a region with a single "
+               "subject, or the moments to show",
+               100 * track.fill, 100 * track.share,
+               track.extent < length
+                   ? format("Its box is {:.0f} pixels long and goes {:.0f}: a thing that goes less than its own size",
+                            length, track.extent)
+                   : "A thing that shakes, grows or shines")};
   }
   if (track.flickers) {
     return {Shows::one,

@@ -214,8 +214,8 @@ class StudyFunctions {
     return all > 0 ? std::ranges::max(of_cells) / all : 1;
   }
 
-  // Parts of the way in which a single subject goes on; all of it for several, or for a scene that is exposed for all of
-  // the time.
+  // Parts of the way in which a single subject goes on; all of it for several, or for a scene that is exposed for all
+  // of the time.
   [[nodiscard]] std::vector<Interval> without_rests(const Interval& way) const {
     std::vector<Interval> parts{way};
     if (request_.style == StudyStyle::frozen || tracks_.size() > 1) return parts;
