@@ -1,7 +1,7 @@
 #include "media/writers/picture_writer.hpp"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -50,7 +50,7 @@ void write_exr_layers(OutputFile& file, std::span<const PictureLayer> layers) {
   still_module().write_exr_layers(file, layers);
 }
 
-constexpr std::array<WrittenFormat, 11> kWrittenFormats{{
+constexpr WrittenFormat kWrittenFormats[] = {
     {.extension = ".png", .code_bits = 16, .is_for_eyes = true, .write = write_png},
     {.extension = ".tif", .code_bits = 16, .holds_light = true, .holds_double = true, .write = write_tiff,
      .write_layers = write_tiff},
@@ -67,15 +67,15 @@ constexpr std::array<WrittenFormat, 11> kWrittenFormats{{
     {.extension = ".pfm", .holds_light = true, .write = write_netpbm},
     {.extension = ".npy", .holds_light = true, .holds_double = true, .write = write_npy,
      .write_layers = write_npy_layers},
-}};
+};
 
 constexpr std::string_view kStandardOutput = "-", kBehindKind = ":-";
 
 const WrittenFormat* find_format(const std::filesystem::path& path) {
   const std::string extension = picture_extension(path);
-  const auto found = std::find_if(kWrittenFormats.begin(), kWrittenFormats.end(),
-                                  [&](const WrittenFormat& kind) { return extension == kind.extension; });
-  return found == kWrittenFormats.end() ? nullptr : &*found;
+  const auto* found = std::ranges::find_if(
+      kWrittenFormats, [&](const WrittenFormat& kind) { return extension == kind.extension; });
+  return found == std::end(kWrittenFormats) ? nullptr : found;
 }
 
 const WrittenFormat& written_format_of(const std::filesystem::path& path) {
