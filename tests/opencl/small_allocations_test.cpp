@@ -128,7 +128,7 @@ TEST_P(SmallAllocations, GiveTheSamePictures) {
     MemoryCapture capture = scene.encode(block_samples, policy);
     const test::Scratch scratch;
     tik::Reader file = mapped(scene, capture, scratch);
-    ASSERT_FALSE(file.acquire(0).region().empty());
+    ASSERT_FALSE(file.acquire(0).mapping().empty());
     const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
     OpenClRenderer plain(options());
     const Pictures expected = render(plain, plan, capture);
