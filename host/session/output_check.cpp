@@ -9,6 +9,7 @@
 #include "capture/format.hpp"
 #include "capture/text.hpp"
 #include "exposure/function_file.hpp"
+#include "media/stills/picture_text.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "media/writers/recipe.hpp"
 #include "media/writers/video_writer.hpp"
@@ -177,8 +178,11 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
         format("{} exists and is no {}; it is not replaced. Choose another name", name, name_of(kind)));
   }
   if (replacing == Replacing::all || !std::filesystem::is_regular_file(output, error)) return;
-  if (std::filesystem::file_size(output, error) == 0 || carries_recipe(output)) return;
-  throw UsageError(format("{} is there already and is not replaced", name),
+  if (std::filesystem::file_size(output, error) == 0) return;
+  const bool has_recipe = carries_recipe(output);
+  if (has_recipe && is_as_sealed(output)) return;
+  throw UsageError(format("{} is there already and is not replaced{}", name,
+                          has_recipe ? ": its recipe does not know it as it is now, so it was changed since" : ""),
                    Advice{"; choose another name, or replace it with `overwrite`"});
 }
 

@@ -15,8 +15,8 @@ namespace nutik {
 
 enum class OutputKind { tik, picture, mask, table, video, noise, functions };
 
-// What an output may take the place of: nothing but an empty file and a picture that carries its recipe, and so can be
-// made again, or all of its kind.
+// What an output may take the place of: nothing but an empty file and a picture that is as it was written with its
+// recipe, and so can be made again, or all of its kind.
 enum class Replacing { made_by_recipe, all };
 
 // Throws UsageError where `output` names one of the inputs, has a name of another kind, would replace a file of

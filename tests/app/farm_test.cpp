@@ -100,6 +100,13 @@ TEST_F(Farm, RefusesToSkipWhatCarriesNoRecipe) {
   scratch_.write("a.png", "a letter");
   expect_says(make("-k trail.fn --skip-existing scene.tik a.png", 2).err, "a.png");
   EXPECT_EQ(file("a.png"), "a letter");
+  // One that was changed or cut off since it was made is neither, too, whatever its recipe says.
+  make("-k trail.fn scene.tik b.pgm");
+  const std::string changed = file("b.pgm").substr(0, file("b.pgm").size() - 1);
+  scratch_.write("b.pgm", changed);
+  for (const char* words : {"-k trail.fn --skip-existing scene.tik b.pgm", "-k trail.fn scene.tik b.pgm"})
+    expect_says(make(words, 2).err, "b.pgm is there already and is not replaced: its recipe does not know it as it is");
+  EXPECT_EQ(file("b.pgm"), changed);
 }
 
 TEST_F(Farm, PrintsLinesOfProgressWhereThereIsNoTerminal) {

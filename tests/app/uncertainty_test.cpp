@@ -236,7 +236,7 @@ TEST_F(UncertaintyOf, AMapIsReplacedOnlyIfItIsWhatTheRecipeKnows) {
   ASSERT_NE(at, std::string::npos);
   scratch_.write("a.pgm", picture.replace(at, picture.find('}', at) + 1 - at, R"("map.npy")"));
   expect_says(make("reproduce a.pgm").out, " --bounds map.npy clip.tik");
-  expect_refused(one, 2, "map.npy is there already and is not replaced");
+  expect_refused(one, 2, "a.pgm is there already and is not replaced: its recipe does not know it");
   make(one + " --overwrite");
   make(one);
 }

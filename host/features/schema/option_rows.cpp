@@ -480,7 +480,7 @@ constexpr Option kRows[] = {
     {0, "skip-existing", "", output, kMakesMany, take<In<&Options::skip_existing>>,
      "leave out pictures that are there already: with the recipe that they would get"},
     {0, "overwrite", "", output, kWrites, take<In<&Options::overwrite>>,
-     "replace files that are there already; without it only pictures that carry a recipe are replaced"},
+     "replace files that are there already; without it only unchanged pictures with a recipe are replaced"},
     {0, "in-place", "", output, bit(Id::retime), take<In<&Options::in_place>>, "change the capture itself"},
     {'q', "quiet", "", output, kAll, take<In<&Options::quiet>>, "no progress bar and no summary"},
     {'v', "verbose", "", output, (kExposes & ~set_of(Id::mask, Id::solve)) | bit(Id::trace),

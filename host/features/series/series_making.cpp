@@ -52,11 +52,13 @@ bool is_made(const std::filesystem::path& picture, const std::optional<std::stri
                          std::filesystem::is_regular_file(map, error) &&
                          led_to(map) == led_to(picture.parent_path() / map.filename());
     if (!map.empty() && !has_map) return false;
+    if (!is_as_sealed(picture)) return false;
+    recipe.file = Recipe().file;
     recipe.error_bound.clear();  // follows from the rest, as the map does
     recipe.bounds_map.reset();
     return recipe_of(recipe.precision) == recipe.text();
   } catch (const InputError&) {
-    return false;  // cut off, or no picture at all: whether it may be replaced is for check_output() to say
+    return false;  // no picture at all: whether it may be replaced is for check_output() to say
   }
 }
 

@@ -120,13 +120,10 @@ void write_coding_points(png_structp png, const Picture& picture) {
 
 constexpr std::uint64_t kMaxExpansion = 1032;  // of Deflate
 
-// From here on a text is compressed.
-constexpr std::size_t kLongText = 1024;
-
 void set_text(png_structp png, png_infop info, const std::string& text) {
   std::string keyword = kPictureTextKeyword, value = text;  // libpng takes what it might write to
   png_text entry{};
-  entry.compression = text.size() < kLongText ? PNG_TEXT_COMPRESSION_NONE : PNG_TEXT_COMPRESSION_zTXt;
+  entry.compression = PNG_TEXT_COMPRESSION_NONE;
   entry.key = keyword.data();
   entry.text = value.data();
   entry.text_length = value.size();

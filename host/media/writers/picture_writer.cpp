@@ -10,6 +10,7 @@
 #include "media/module.hpp"
 #include "media/stills/netpbm.hpp"
 #include "media/stills/npy.hpp"
+#include "media/stills/picture_text.hpp"
 #include "system/output_file.hpp"
 #include "system/temporary_folder.hpp"
 
@@ -183,12 +184,14 @@ void write_picture(const std::filesystem::path& path, const Picture& picture, co
     OutputFile file(nameless.path(), OutputFile::Lasting::no);
     file.check_by(wishes.check);
     kind.write(file, picture, text, wishes);
+    seal_picture(file);
     file.send_to_standard_output();
     return;
   }
   OutputFile file(path);
   file.check_by(wishes.check);
   kind.write(file, picture, text, wishes);
+  seal_picture(file);
   file.commit();
 }
 

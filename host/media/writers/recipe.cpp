@@ -122,6 +122,7 @@ std::string_view to_text(RecipeOf of) {
 std::string Recipe::text() const {
   Json json;
   json["nutik-cl"] = version;
+  if (!file.empty()) json["file"] = file;
   if (of != RecipeOf::expose) json["command"] = to_text(of);
   json["capture"] = input_json(capture);
   if (functions) json["functions"] = text_json(*functions);
@@ -145,6 +146,7 @@ Recipe Recipe::parse(std::string_view text, const std::string& name) {
     const Json json = Json::parse(text);
     Recipe recipe;
     recipe.version = json.at("nutik-cl");
+    recipe.file = json.value("file", "");
     recipe.of = recipe_of(json, name);
     recipe.capture = input_of(json.at("capture"), name);
     if (json.contains("functions")) recipe.functions = text_of(json.at("functions"), name);

@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "media/stills/picture_text.hpp"
+
 namespace nutik {
 
 // What a recipe makes, by the name of the command.
@@ -34,6 +36,9 @@ struct Recipe {
   };
 
   std::string version;  // of the program
+  // What the picture's file is known by: seal_picture() puts it in (stills/picture_text.hpp). Empty in pictures of
+  // earlier programs.
+  std::string file = std::string(kUnsealed);
   RecipeOf of = RecipeOf::expose;
   Input capture;
   std::optional<Text> functions;
