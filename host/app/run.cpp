@@ -1,6 +1,8 @@
 #include "app/run.hpp"
 
+#include <fcntl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <exception>
 #include <new>
@@ -44,6 +46,14 @@ bool has_stack() {
   return getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= kLeastStack;
 }
 
+// The next file that is opened gets the number of a closed standard stream, and then what is printed, too. What takes
+// its place fails as a closed one does.
+void hold_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) < 0) static_cast<void>(open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+  }
+}
+
 }  // namespace
 
 int run(std::span<const char* const> words) {
@@ -85,6 +95,7 @@ int run(std::span<const char* const> words) {
 }
 
 int run_process(std::span<const char* const> words) {
+  hold_standard_streams();
   if (!has_stack()) {
     print_error("the stack may have less than 256 kB; raise its limit: ulimit -s 8192");
     return ExitStatus::memory;

@@ -242,10 +242,10 @@ void Exposer::launch(const cl::Buffer& payload, std::span<const BlockEntry> entr
       throw_if_cancelled(control);
       const ExposeLaunch launched{exposed.band.sum_tiles, static_cast<cl_uint>(part.size()),
                                   static_cast<cl_uint>(plan_.function_count()), is_first ? 1u : 0u};
-      keep_watching_mapped_files();  // what was launched before may have been compiled at that moment
+      take_back_signals();  // what was launched before may have been compiled at that moment
       const cl::Event event = kernel_.launch(payload, entries_of_part, tables, exposed, launched);
       event.wait();
-      keep_watching_mapped_files();
+      take_back_signals();
       const std::optional<double> took_ms = milliseconds(event);
       statistics_.expose_ms += took_ms.value_or(0.0);
       statistics_.is_timed &= took_ms.has_value();

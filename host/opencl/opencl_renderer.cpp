@@ -309,7 +309,8 @@ class OpenClRenderer::Implementation {
         [&](const cl::Buffer& chunk, const cl::Buffer& entries, const SliceTables& tables, const ExposedBand& band,
             const ExposeLaunch& launch) {
           return kernel(items(kernel, queue_, work.shape, launch.tile_count), chunk, entries, tables.parts,
-                        tables.gains, light, band.map.tiles, band.map.of_tile, band.map.of_lane, band.sums, rows, launch);
+                        tables.gains, light, band.map.tiles, band.map.of_tile, band.map.of_lane, band.sums, rows,
+                        launch);
         }};
     const std::vector<std::uint8_t> every = every_function(plan);
     rendered.picture = Picture({request.rectangle.width, request.rectangle.height, plan.capture.shape.channels},

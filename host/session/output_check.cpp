@@ -169,7 +169,7 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
   }
   if (replacing != Replacing::all) expect_as_it_is(output);
   std::error_code error;
-  if (is_absent(output)) return;
+  if (is_absent(output)) return check_folder_of(output);
   if (std::filesystem::is_directory(output, error)) {
     throw UsageError(format("{} is a folder; name a file in it", name));
   }
@@ -177,7 +177,9 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
     throw UsageError(
         format("{} exists and is no {}; it is not replaced. Choose another name", name, name_of(kind)));
   }
-  if (replacing == Replacing::all || !std::filesystem::is_regular_file(output, error)) return;
+  if (!std::filesystem::is_regular_file(output, error)) return;
+  check_folder_of(output);
+  if (replacing == Replacing::all) return;
   if (std::filesystem::file_size(output, error) == 0) return;
   const bool has_recipe = carries_recipe(output);
   if (has_recipe && is_as_sealed(output)) return;

@@ -22,7 +22,7 @@ enum class Replacing { made_by_recipe, all };
 // Throws UsageError where `output` names one of the inputs, has a name of another kind, would replace a file of
 // another kind (a mask replaces no exposure, which carries a recipe, nor a picture in colour) or one that it
 // may not, or is standard output and that a terminal. Unless it may replace all of its kind, what is there once it has
-// been made has to be what is there now (system/output_file.hpp).
+// been made has to be what is there now (system/output_file.hpp). Throws OutputError where its folder takes no file.
 void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs,
                   Replacing replacing = Replacing::all);
 // The same of a mask, whose file keeps every tag.

@@ -1,5 +1,6 @@
 #include "system/interruption.hpp"
 
+#include <sys/resource.h>
 #include <sys/time.h>
 #include <unistd.h>
 
@@ -88,6 +89,14 @@ void catch_interruptions() {
 }
 
 void catch_limits() {
+  shared_state().heeds_limits = true;
+  // Where both limits of time are the same (ulimit -t), the system ends the process by the hard one, without a word.
+  rlimit time{};
+  if (getrlimit(RLIMIT_CPU, &time) == 0 && time.rlim_cur == time.rlim_max && time.rlim_max != RLIM_INFINITY &&
+      time.rlim_max > 1) {
+    --time.rlim_cur;
+    setrlimit(RLIMIT_CPU, &time);
+  }
   std::signal(SIGXFSZ, SIG_IGN);
   for (const int signal : {SIGPIPE, SIGXCPU}) {
     struct sigaction before {};

@@ -13,10 +13,12 @@
 #include <cstring>
 #include <fstream>
 #include <mutex>
+#include <new>
 #include <utility>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "system/interruption.hpp"
 #include "system/reused_entries.hpp"
 #include "system/shared_state.hpp"
 
@@ -155,6 +157,7 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
   const int reason = errno;
   if (mapped == MAP_FAILED) {
     close(descriptor);
+    if (reason == ENOMEM) throw std::bad_alloc();
     fail(std::strerror(reason));
   }
   bytes_ = {static_cast<const std::byte*>(mapped), size};
@@ -188,10 +191,11 @@ void watch_mapped_files() {
   static_cast<void>(page_bytes());  // a handler may not be the first to ask
   SharedState& state = shared_state();
   if (!state.is_watching.exchange(true)) sigaction(SIGBUS, nullptr, &state.bus_action_before);
-  keep_watching_mapped_files();
+  take_back_signals();
 }
 
-void keep_watching_mapped_files() {
+void take_back_signals() {
+  if (shared_state().heeds_limits) catch_limits();
   if (!shared_state().is_watching) return;
   struct sigaction now {};
   if (sigaction(SIGBUS, nullptr, &now) == 0 && now.sa_sigaction == replace_lost_pages) return;

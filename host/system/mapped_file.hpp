@@ -46,9 +46,10 @@ class MappedFile {
 // included. A program that does this asks check() or check_mapped_files() before it says that all went well. A SIGBUS
 // of anything else goes where it went before.
 void watch_mapped_files();
-// Puts the handler back, if an application watches: a library may have taken its place, as LLVM does when a driver
-// compiles. LLVM's handler steps aside at the first SIGBUS; a second thread's, a moment later, would end the process.
-void keep_watching_mapped_files();
+// Puts this handler and those of catch_limits() back, if an application asked for them: a library may have taken their
+// places, as LLVM does when a driver compiles. LLVM's handlers pass over a first SIGXCPU, and step aside at the first
+// SIGBUS: a second thread's, a moment later, would end the process.
+void take_back_signals();
 
 // How many files were lost, made shorter or written to while they were mapped.
 struct MappedLosses {

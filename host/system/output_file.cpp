@@ -1,6 +1,7 @@
 #include "system/output_file.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -174,6 +175,11 @@ void expect_anything() {
   shared_state().expected_outputs.clear();
 }
 
+void check_folder_of(const std::filesystem::path& output) {
+  const std::filesystem::path folder = followed(output).parent_path();
+  if (access(folder.empty() ? "." : folder.c_str(), W_OK | X_OK) != 0) refuse(output, errno);
+}
+
 bool has_kept_output() { return shared_state().has_kept_output; }
 
 OutputFile::OutputFile(std::filesystem::path path, Lasting lasting)
@@ -333,6 +339,9 @@ void OutputFile::send_to_standard_output() {
     const ssize_t sent = ::write(STDOUT_FILENO, rest.data(), rest.size());
     if (sent >= 0) {
       rest = rest.subspan(static_cast<std::size_t>(sent));
+    } else if (errno == EAGAIN) {
+      pollfd until_it_takes_more{STDOUT_FILENO, POLLOUT, 0};
+      poll(&until_it_takes_more, 1, -1);
     } else if (errno != EINTR) {
       throw OutputError(format("standard output cannot be written: {}", std::strerror(errno)));
     }

@@ -27,6 +27,9 @@ struct KnownTemporary;
 // What a name leads to, by links or none, and where nothing is there yet, too: two names of one file have the same.
 [[nodiscard]] std::filesystem::path led_to(std::filesystem::path name);
 
+// Throws OutputError where the folder of this output is absent or takes no new files, so that nobody works in vain.
+void check_folder_of(const std::filesystem::path& output);
+
 // The next output of this name replaces what is there now, and nothing that is put there or written to by then.
 void expect_as_it_is(const std::filesystem::path& output);
 // Outputs of any name replace whatever is there, as long as nothing else is said: for who begins another work.

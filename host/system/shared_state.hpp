@@ -22,6 +22,7 @@ struct SharedState {
   // A signal handler writes and every thread reads them, which needs atomics without locks.
   std::atomic<int> noted_signal{0};
   std::atomic<int> takes_its_time{0};  // works that must not be cut short
+  std::atomic<bool> heeds_limits{false};  // catch_limits() was called
 
   // Lists that never get shorter, whose entries are used again. Who is no signal handler adds to them under a lock.
   std::atomic<WatchedMapping*> mappings{nullptr};

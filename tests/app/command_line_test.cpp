@@ -186,6 +186,11 @@ TEST_F(CommandLine, ReplacesOnlyItsOwnKind) {
   std::filesystem::create_directory(scratch_ / "folder.tik");
   expect_refused("clip.avi folder.tik", 2, "is a folder");
   expect_refused("-k one.fn clip.tik -o absent/x.png", 5, "cannot be created: there is no folder absent");
+  // Before a clip is read, which would fail here.
+  scratch_.write("notes.mp4", "no film");
+  for (const std::string words : {"video --out-fps 5 notes.mp4 absent/x.mp4", "study notes.mp4 absent/x.png",
+                                  "background notes.mp4 absent/x.png", "notes.mp4 absent/x.tik"})
+    expect_refused(words, 5, "cannot be created: there is no folder absent");
   // What carries a recipe of the same kind is replaced, the rest only if asked.
   make("-k one.fn clip.tik a.png");
   make("-k one.fn clip.tik a.png");

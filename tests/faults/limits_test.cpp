@@ -84,6 +84,32 @@ TEST_F(Limits, OfTimeLeaveNoTemporaryFile) {
   ASSERT_TRUE(running.reaches([&] { return test::has_begun_writing(scratch_.folder()); }));
   EXPECT_EQ(running.end_with(SIGXCPU), -SIGXCPU);
   EXPECT_TRUE(test::files_with(scratch_.folder(), "out.").empty());
+  // Also where a driver's compiler has put handlers in their places, and both limits of the shell are one.
+  const auto late = run_below("ulimit -t 2;", format("video --out-fps 1000 --speed 0.001 {} out.mkv", kClip));
+  EXPECT_EQ(late.status, 128 + SIGXCPU) << late.err;
+  EXPECT_TRUE(test::files_with(scratch_.folder(), "out.").empty());
+}
+
+// What is opened next would get the stream's number, and what is printed.
+TEST_F(Limits, OfStandardStreamsKeepWordsOutOfFiles) {
+  std::string list;
+  for (int i = 0; i < 20; ++i) list += format("--start {0}f --exposure 1f {0}.pgm\n--nonsense {0}\n", i);
+  scratch_.write("list.txt", list);
+  ASSERT_EQ(run_below("", format("encode {} c.tik", kClip)).status, 0);
+  EXPECT_EQ(run_below("", "batch -q list.txt c.tik").status, 1);
+  std::vector<std::string> pictures;
+  for (int i = 0; i < 20; ++i) pictures.push_back(test::read_file(scratch_ / format("{}.pgm", i)));
+  EXPECT_EQ(run_below("", "batch -q --overwrite list.txt c.tik <&- >&- 2>&-").status, 1);
+  for (std::size_t i = 0; i < pictures.size(); ++i)
+    EXPECT_EQ(test::read_file(scratch_ / format("{}.pgm", i)), pictures[i]);
+  EXPECT_EQ(run_below("", "info c.tik >&-").status, 5);
+}
+
+TEST_F(Limits, OfMemoryAreNoDamage) {
+  scratch_.write("large.tik", "");
+  fs::resize_file(scratch_ / "large.tik", std::uintmax_t{1} << 36);
+  const auto result = run_below("ulimit -v 20000000;", "info large.tik");
+  EXPECT_EQ(result.status, 6) << result.err;
 }
 
 }  // namespace

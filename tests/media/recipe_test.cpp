@@ -127,7 +127,7 @@ TEST_P(InPictures, LeavesTheValuesAlone) {
   }
 }
 
-// Whatever changes in a file changes what it is known by; only a chunk's checksum is not covered, which PNG readers try.
+// Whatever changes in a file changes what it is known by, but for the checksum of a PNG's chunk, which readers try.
 TEST_P(InPictures, KnowTheirFiles) {
   const Scratch scratch;
   const std::string extension = GetParam();

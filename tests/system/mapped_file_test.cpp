@@ -63,7 +63,7 @@ TEST_F(LostFile, IsStillZerosAfterALibraryTookTheSignal) {
   const auto run = [&] {
     watch_mapped_files();
     std::signal(SIGBUS, [](int) { std::_Exit(7); });
-    keep_watching_mapped_files();
+    take_back_signals();
     const MappedFile file(path_);
     fs::resize_file(path_, 0);
     if (sum_of(file.bytes()) != 0) std::exit(1);

@@ -29,6 +29,8 @@ class CameraFiles {
         coverage_(options.coverage) {
     if (folder_) {
       const std::filesystem::path folder = *folder_;
+      std::error_code error;
+      std::filesystem::create_directory(folder, error);  // what is written there says where it is not
       if (!table_) table_ = (folder / "path.csv").string();
       if (!plot_) plot_ = (folder / "plot.png").string();
       if (!coverage_) coverage_ = (folder / "coverage.png").string();
@@ -44,8 +46,6 @@ class CameraFiles {
   // Writes what was asked for, and adds the path to an answer.
   void write(const CameraPath& path, const Timeline& timeline, const std::string& heading, Answer& answer) const {
     const std::string named[] = {table_.value_or(""), plot_.value_or(""), coverage_.value_or("")};
-    std::error_code error;
-    if (folder_) std::filesystem::create_directory(*folder_, error);  // what is written there says where it is not
     if (table_) write_text(*table_, camera_path_text(path));
     if (plot_) write_picture(*plot_, camera_chart(heading, path, timeline));
     if (coverage_) write_picture(*coverage_, coverage_of(path));
