@@ -9,9 +9,9 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/light_means.hpp"
 #include "capture/seconds_text.hpp"
 #include "capture/text.hpp"
-#include "media/light_means.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik {
@@ -116,7 +116,7 @@ class ClipPart final : public Clip {
     if (is_whole) return true;
     if (means_) {
       try {
-        means_->take(raster_, raster);
+        means_->take(raster_, whole_.code_bytes, *codes_, raster);
       } catch (const CodeAboveWhite& error) {
         throw InputError(format("{}: picture {} has the code {}, and white is {}", name_, next_ - 1,
                                 error.code, whole_.white_code),
@@ -254,7 +254,8 @@ class ClipPart final : public Clip {
         {format("{} x {} as means of light", scaled.width, scaled.height), Origin::stated, Setting::scale});
     info_.format.shape = scaled;
     info_.roundings.add();
-    means_.emplace(whole_, crop_, scaled);
+    means_.emplace(whole_.shape, crop_, scaled);
+    codes_.emplace(whole_.transfer, whole_.white_code);
   }
 
   // Close to that of two fractions that are too long for the header of a capture.
@@ -277,6 +278,7 @@ class ClipPart final : public Clip {
   std::uint64_t first_ = 0, end_ = kMaxSamples, next_ = 0;  // of the clip's pictures
   std::vector<std::byte> raster_;                            // one of them, unless it is taken as it is
   std::optional<LightMeans> means_;
+  std::optional<LightCodes> codes_;  // of which it makes means
   std::vector<PixelChange> changes_;  // within the rectangle
 };
 

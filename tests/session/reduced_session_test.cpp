@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "capture/light_means.hpp"
 #include "imev/each_block.hpp"
 #include "imev/sample_cursor.hpp"
-#include "media/light_means.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 #include "support/tik_files.hpp"
@@ -37,7 +37,8 @@ TEST_P(ReducedSession, HasTheSamplesAndTimesOfTheWholeOne) {
     ASSERT_EQ(is.end_ns(sample), should.end_ns(sample)) << "sample " << sample;
   }
 
-  LightMeans means(random.capture, {0, 0, 2 * shape.width, 2 * shape.height}, shape);
+  LightMeans means(random.capture.shape, {0, 0, 2 * shape.width, 2 * shape.height}, shape);
+  const LightCodes codes(random.capture.transfer, random.capture.white_code);
   std::vector<std::byte> wanted(reduced->format().sample_bytes()), read(wanted.size());
   for_each_block(reduced->capture(), [&](const BlockView& block) {
     SampleCursor cursor(shape, block);
@@ -45,7 +46,7 @@ TEST_P(ReducedSession, HasTheSamplesAndTimesOfTheWholeOne) {
     for (std::uint64_t sample = samples.first; sample < samples.last; ++sample) {
       cursor.go_to(static_cast<std::uint32_t>(sample - samples.first));
       cursor.read(read);
-      means.take(random.rasters[sample], wanted);
+      means.take(random.rasters[sample], random.capture.code_bytes, codes, wanted);
       ASSERT_EQ(read, wanted) << random.text() << ", sample " << sample;
     }
   });

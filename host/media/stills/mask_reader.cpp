@@ -5,6 +5,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/text.hpp"
+#include "capture/turned.hpp"
 #include "media/formats/input_kinds.hpp"
 #include "media/stills/netpbm.hpp"
 #include "media/stills/picture_files.hpp"
@@ -34,26 +35,6 @@ Picture grey_of(Picture&& picture, const std::string& name) {
   return grey;
 }
 
-// From how a grey picture lies, as EXIF numbers it; from 5 on, rows are what it shows as columns.
-Picture upright(Picture&& picture, unsigned orientation) {
-  if (orientation <= 1) return std::move(picture);
-  const bool is_turned = orientation >= 5;
-  Shape shape = picture.shape;
-  if (is_turned) std::swap(shape.width, shape.height);
-  Picture turned(shape, picture.type, picture.white_code);
-  const unsigned flips = orientation % 4;  // 2 or 3: left for right; 3 or 0: upside down
-  for (std::uint32_t y = 0; y < shape.height; ++y) {
-    for (std::uint32_t x = 0; x < shape.width; ++x) {
-      const std::uint32_t from_x = flips >= 2 ? shape.width - 1 - x : x;
-      const std::uint32_t from_y = flips == 3 || flips == 0 ? shape.height - 1 - y : y;
-      const std::size_t from = is_turned ? std::size_t{from_x} * shape.height + from_y
-                                         : std::size_t{from_y} * shape.width + from_x;
-      turned.bytes[std::size_t{y} * shape.width + x] = picture.bytes[from];
-    }
-  }
-  return turned;
-}
-
 }  // namespace
 
 Picture read_mask(const std::filesystem::path& path) {
@@ -68,7 +49,9 @@ Picture read_mask(std::span<const std::byte> bytes, const std::string& name,
     const auto check_upright = [&](std::uint32_t width, std::uint32_t height) {
       if (check_size) orientation >= 5 ? check_size(height, width) : check_size(width, height);
     };
-    return upright(grey_of(read_8_bit_png(bytes, name, check_upright), name), orientation);
+    Picture grey = grey_of(read_8_bit_png(bytes, name, check_upright), name);
+    turn_upright(grey.bytes, grey.shape, 1, orientation);
+    return grey;
   }
   if (bytes.size() < 2 || bytes[0] != std::byte{'P'}) {
     const bool is_functions = bytes.size() > 1 && bytes[0] == std::byte{'M'} && bytes[1] >= std::byte{'0'} &&

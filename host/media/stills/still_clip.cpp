@@ -1,6 +1,5 @@
 // Sequences of stills: PNG and JPEG through OpenCV; Netpbm and TIFF through our own readers, which
 // keep the maximum, and read the pages of a TIFF in one go. Light of floating-point pictures becomes codes of 16 bits.
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <opencv2/core/utils/logger.hpp>
@@ -11,6 +10,7 @@
 #include "capture/format.hpp"
 #include "capture/light_codes.hpp"
 #include "capture/text.hpp"
+#include "capture/turned.hpp"
 #include "media/formats/colour_profile.hpp"
 #include "media/formats/file_kinds.hpp"
 #include "media/stills/picture_files.hpp"
@@ -137,22 +137,9 @@ void follow_profile(Still& still, std::span<const std::byte> profile) {
 
 // From how a picture lies, as EXIF and TIFF number it.
 void turn_upright(Still& still, unsigned orientation) {
-  if (orientation <= 1) return;
-  const int type = CV_MAKETYPE(still.code_bytes == 1 ? CV_8U : CV_16U, static_cast<int>(still.shape.channels));
-  cv::Mat picture(static_cast<int>(still.shape.height), static_cast<int>(still.shape.width), type, still.codes.data());
-  picture = picture.clone();
-  // From 5 on, rows are what a picture shows as columns.
-  if (orientation >= 5) {
-    cv::transpose(picture, picture);
-    std::swap(still.shape.width, still.shape.height);
-    if (still.pixel_aspect)
-      still.pixel_aspect = Rational::of(still.pixel_aspect->denominator, still.pixel_aspect->numerator);
-  }
-  constexpr int kUpsideDown = 0, kMirrored = 1, kBoth = -1;
-  constexpr std::array<std::optional<int>, 9> kFlips{
-      {{}, {}, kMirrored, kBoth, kUpsideDown, {}, kMirrored, kBoth, kUpsideDown}};
-  if (const auto flip = kFlips[orientation]) cv::flip(picture, picture, *flip);
-  std::memcpy(still.codes.data(), picture.data, still.codes.size());
+  turn_upright(still.codes, still.shape, still.code_bytes * still.shape.channels, orientation);
+  if (orientation >= 5 && still.pixel_aspect)
+    still.pixel_aspect = Rational::of(still.pixel_aspect->denominator, still.pixel_aspect->numerator);
 }
 
 // What a PNG says of its codes and pixels.

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <utility>
 
+#include "capture/turned.hpp"
 #include "media/videos/eight_bit_yuv.hpp"
 #include "media/videos/phantom_packing.hpp"
 
@@ -64,33 +65,6 @@ void yuv_to_rgb(const AVFrame& planes, std::uint32_t bits, const YuvCoding& codi
 bool is_aligned(std::span<const std::byte> raster, std::size_t row_bytes) {
   constexpr std::size_t kVectorBytes = 64;
   return reinterpret_cast<std::uintptr_t>(raster.data()) % kVectorBytes == 0 && row_bytes % kVectorBytes == 0;
-}
-
-// Copies a row-major picture of `height` rows while it is mirrored and turned.
-void copy_upright(const std::uint8_t* from, std::ptrdiff_t stride, std::size_t width, std::size_t height,
-                  std::size_t pixel_bytes, const Upright& upright, std::span<std::byte> raster) {
-  const int turns = upright.quarter_turns;
-  const auto pixel = [&](std::size_t x, std::size_t y) {
-    if (upright.is_mirrored) x = width - 1 - x;
-    return from + static_cast<std::ptrdiff_t>(y) * stride + static_cast<std::ptrdiff_t>(x * pixel_bytes);
-  };
-  if (turns == 0 && !upright.is_mirrored) {
-    for (std::size_t y = 0; y < height; ++y) {
-      std::memcpy(raster.data() + y * width * pixel_bytes, pixel(0, y), width * pixel_bytes);
-    }
-    return;
-  }
-  std::byte* to = raster.data();
-  const std::size_t columns = turns % 2 == 0 ? width : height, rows = turns % 2 == 0 ? height : width;
-  for (std::size_t y = 0; y < rows; ++y) {
-    for (std::size_t x = 0; x < columns; ++x, to += pixel_bytes) {
-      const std::uint8_t* source = turns == 0   ? pixel(x, y)
-                                   : turns == 1 ? pixel(y, height - 1 - x)
-                                   : turns == 2 ? pixel(width - 1 - x, height - 1 - y)
-                                                : pixel(width - 1 - y, x);
-      std::memcpy(to, source, pixel_bytes);
-    }
-  }
 }
 
 std::optional<ChromaPlace> chroma_place(unsigned location) {
@@ -407,7 +381,7 @@ void PixelConverter::convert(const AVFrame& given, std::span<std::byte> raster, 
   const AVFrame& frame = is_unpacked ? unpacked(given) : given;
   const std::size_t pixel_bytes = (kind_.is_grey ? 1u : 3u) * (kind_.bits > 8 ? 2u : 1u);
   const std::size_t row_bytes = static_cast<std::size_t>(frame.width) * pixel_bytes;
-  const bool stays = upright_.quarter_turns == 0 && !upright_.is_mirrored;
+  const bool stays = upright_.orientation() == 1;
   auto* row = reinterpret_cast<std::uint8_t*>(raster.data());
   if (kind_.is_everyday() && is_yuv(static_cast<AVPixelFormat>(frame.format)) && stays) {
     eight_bit_rgb(byte_planes(frame, name), coding_, row, static_cast<std::ptrdiff_t>(row_bytes));
@@ -420,8 +394,9 @@ void PixelConverter::convert(const AVFrame& given, std::span<std::byte> raster, 
     return;
   }
   const AVFrame& picture = converted(frame, name);
-  copy_upright(picture.data[0], picture.linesize[0], static_cast<std::size_t>(picture.width),
-               static_cast<std::size_t>(picture.height), pixel_bytes, upright_, raster);
+  copy_turned(reinterpret_cast<const std::byte*>(picture.data[0]), picture.linesize[0],
+              {static_cast<std::uint32_t>(picture.width), static_cast<std::uint32_t>(picture.height), 0}, pixel_bytes,
+              upright_.orientation(), raster.data());
   if (code_of_.empty()) return;
   if (kind_.bits <= 8) {
     for (std::byte& code : raster) code = static_cast<std::byte>(code_of_[std::to_integer<std::size_t>(code)]);

@@ -37,6 +37,9 @@ struct Upright {
   bool is_mirrored = false;
   int quarter_turns = 0;      // 0 … 3
   std::string left_out = {};  // what else the stream's matrix does, for people
+
+  // How its pictures lie, as EXIF numbers it.
+  [[nodiscard]] unsigned orientation() const { return (is_mirrored ? "\2\7\4\5" : "\1\6\3\10")[quarter_turns]; }
 };
 // What a display matrix says, which is nine numbers of 32 bits as a stream carries them; empty where it has none.
 [[nodiscard]] Upright upright_of(std::span<const std::uint8_t> display_matrix);
