@@ -7,7 +7,6 @@
 
 #include "features/activity/activity.hpp"
 #include "features/film/film_making.hpp"
-#include "features/series/picture_queue.hpp"
 #include "features/series/series_making.hpp"
 #include "media/formats/numbered_name.hpp"
 #include "media/writers/picture_writer.hpp"
@@ -44,30 +43,6 @@ TEST(SharedWarnings, AreOneWhateverTheirFiguresAre) {
   EXPECT_EQ(warnings.lines(), (std::vector<std::string>{
                                   "a and 1 more: 3 of 9 values", "a and 1 more: M0: still gain -0.5", "a: M1: gain 3",
                                   "a: M1: still gain -3", "a: clip_1.tif: odd", "a: clip_2.tif: odd"}));
-}
-
-// Pictures that nobody will write are exposed no further.
-TEST(PictureQueue, ThrowsWhatEndedItsThread) {
-  const test::Scratch scratch;
-  PictureQueue queue([](std::size_t, const Error&) { throw InputError("the capture changed"); });
-  const auto push = [&] {
-    queue.push(0, scratch / "no/such/folder/p.png", Picture({8, 8, 1}, ValueType::code8, 255), {}, {});
-  };
-  EXPECT_EQ(test::message_of<InputError>([&] {
-              for (int picture = 0; picture < 100; ++picture) push();
-            }),
-            "the capture changed");
-}
-
-TEST(PictureQueue, KeepsWhatIsMade) {
-  const test::Scratch scratch;
-  FileWishes wishes;
-  wishes.check = [] { throw Cancelled(); };  // as at a signal
-  PictureQueue queue([](std::size_t, const Error& error) { throw error; });
-  for (const char* name : {"a.png", "b.tif"})
-    queue.push(0, scratch / name, Picture({8, 8, 1}, ValueType::code8, 255), {}, wishes);
-  queue.finish();
-  EXPECT_TRUE(std::filesystem::exists(scratch / "a.png") && std::filesystem::exists(scratch / "b.tif"));
 }
 
 TEST(VideoOutput, RefusesACodecForStillsAndHoldsTheSetting) {

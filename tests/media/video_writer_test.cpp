@@ -241,19 +241,6 @@ TEST(VideoWriter, LeavesNothingOfAVideoThatIsNotFinished) {
   EXPECT_EQ(file_count(scratch), 0u);
 }
 
-TEST(VideoWriter, NumbersStillsAsTheirFrames) {
-  const Scratch scratch;
-  const auto pictures = test::random_stills({8, 8, 1}, 65'535, 3, 2);
-  const auto writer = open_still_writer(scratch / "f-%03d.pgm");
-  for (std::size_t k = 0; k < 3; ++k) writer->write(pictures[k], 7 + k);
-  writer->finish();
-  const auto rasters = test::read_all(*test::open_test_clip(scratch / "f-%03d.pgm"));
-  ASSERT_EQ(rasters.size(), 3u);
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(test::difference(rasters[k], pictures[k]), "");
-  EXPECT_TRUE(std::filesystem::exists(scratch / "f-007.pgm"));
-  EXPECT_FALSE(std::filesystem::exists(scratch / "f-000.pgm"));
-}
-
 TEST(VideoWriter, RefusesWhatAContainerOrCodecCannotHold) {
   const auto codec = [](const char* path, const char* name) {
     return test::message_of<Error>([&] { static_cast<void>(video_codec_for(path, name)); });

@@ -1,6 +1,6 @@
 // Whether exposing a video's frames goes on beside encoding them: each alone, and both.
 //
-//   bench_video CAPTURE.tik VIDEO [RUNS]      e.g. film.mkv (FFV1), film.mp4 (H.264), still-%05d.png
+//   bench_video CAPTURE.tik VIDEO [RUNS]      e.g. film.mkv (FFV1), film.mp4 (H.264)
 //
 // 24 frames a second of the capture, 180 degrees, at a tenth of its speed, at most 300 of them. Exposing alone throws
 // its frames away, encoding alone takes them from memory. Prints the medians of the seconds and the slower one's
@@ -14,8 +14,8 @@
 
 #include "capture/frame_times.hpp"
 #include "harness.hpp"
-#include "media/frame_queue.hpp"
-#include "media/writers/picture_writer.hpp"
+#include "features/series/picture_queue.hpp"
+#include "media/writers/video_writer.hpp"
 #include "opencl/device.hpp"
 #include "opencl/opencl_renderer.hpp"
 #include "tik/reader.hpp"
@@ -50,8 +50,7 @@ int run(const std::filesystem::path& capture, const std::filesystem::path& video
     functions.emplace(0, GainFunction::boxcar(times.start_ns(k), times.end_ns(k)));
     return renderer.render(make_plan(reader, functions, mask, {}), reader, format).picture;
   };
-  const auto open = [&]() -> std::unique_ptr<VideoWriter> {
-    if (is_picture_name(video)) return open_still_writer(video);
+  const auto open = [&] {
     return open_video_writer(video, {shape, format.type, format.white_code, reader.format().transfer, kRate},
                              video_codec_for(video, {}));
   };
@@ -70,9 +69,15 @@ int run(const std::filesystem::path& capture, const std::filesystem::path& video
       writer->finish();
     });
     const double together = seconds_of([&] {
-      FrameQueue queue(open);
-      for (std::uint64_t k = 0; k < count; ++k) queue.push(expose(k));
+      std::unique_ptr<VideoWriter> writer;
+      constexpr std::size_t kWaiting = 4;
+      PictureQueue queue([&](Channel<PictureJob>& jobs) {
+        writer = open();
+        while (const auto job = jobs.pop()) writer->write(job->picture);
+      }, kWaiting);
+      for (std::uint64_t k = 0; k < count; ++k) queue.push({.picture = expose(k)});
       queue.finish();
+      writer->finish();
     });
     if (run < 0) continue;
     exposing.push_back(alone);

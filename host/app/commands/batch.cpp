@@ -107,7 +107,17 @@ class Batch {
         reads_list_from_input_(is_standard_input(list_name)),
         devices_(make_devices(options)),
         exposures_(exposures),
-        pictures_([this](std::size_t line, const Error& error) { report(line, error); }) {
+        pictures_([this](Channel<PictureJob>& jobs) {
+          while (const auto job = jobs.pop()) {
+            try {
+              job->write();
+            } catch (const OutputError& error) {
+              report(job->number, error);
+            } catch (const UsageError& error) {
+              report(job->number, error);
+            }
+          }
+        }) {
     devices_->start();
   }
 
@@ -237,8 +247,9 @@ class Batch {
     const FileWishes wishes = file_wishes(line.picture);
     tally_.wrote(exposed.figures.capture,
                  written_shape(output, exposed.picture.shape, exposed.picture.pixel_aspect, wishes));
-    pictures_.push(number, output, std::move(exposed.picture),
-                   recipe_text(line, tally_.precision(), tally_.error_bound(), map), wishes);
+    if (!pictures_.push({number, output, std::move(exposed.picture),
+                         recipe_text(line, tally_.precision(), tally_.error_bound(), map), wishes}))
+      pictures_.finish();  // throws
   }
 
   std::string recipe_text(const Options& line, const std::string& precision, const std::string& error_bound = {},

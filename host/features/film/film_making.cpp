@@ -9,8 +9,8 @@
 #include "features/series/picture_queue.hpp"
 #include "media/events/event_clip.hpp"
 #include "media/formats/numbered_name.hpp"
-#include "media/frame_queue.hpp"
 #include "media/input_checksum.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "system/input_bytes.hpp"
 #include "system/is_absent.hpp"
 
@@ -119,12 +119,19 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
   if (session.is_clip() && curve == session.format().transfer && (curve == Transfer::pq() || curve == Transfer::hlg()))
     video.graded = file_of(session);
   const TimeToEnd is_kept;  // the frames so far, whatever a frame takes
-  FrameQueue queue([&] { return output.open(capture, frame_format, video); },
-                   session.waiting_pictures(frame_format.type),
-                   output.writes_stills() ? capture.shape : output.shape(capture));
-  const std::size_t count = frames.numbers.size();
-  PictureLine<ExposedPicture> line(session.pictures_at_once(frame_format.type, count));
-  std::size_t asked = 0;
+  std::unique_ptr<VideoWriter> writer;  // none of stills
+  const Shape written = output.shape(capture);
+  const auto write = [&](Channel<PictureJob>& jobs) {
+    // An encoder takes a while to load.
+    if (!output.writes_stills()) writer = output.open(capture, frame_format, video);
+    while (const auto job = jobs.pop()) {
+      if (!writer) job->write();
+      else if (job->picture.shape == written) writer->write(job->picture);
+      else writer->write(in_square_pixels(job->picture, written));
+    }
+  };
+  PictureQueue queue(write, session.waiting_pictures(frame_format.type));
+  PictureLine<ExposedPicture> line(session.pictures_at_once(frame_format.type, frames.numbers.size()));
   const auto expose = [&](std::uint64_t frame, RenderControl control) {
     control.precision = precision;
     control.is_chosen = precision.has_value();
@@ -134,19 +141,17 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
                           control);
   };
   try {
-    for (; made.frames < count; ++made.frames) {
-      check_interruption();
-      if (progress) progress(made.frames, count);
-      for (; asked < count && !line.is_full(); ++asked) {
-        line.add([&expose, frame = frames.numbers[asked]](const RenderControl& control) {
-          return expose(frame, control);
-        });
-      }
-      const std::uint64_t frame = frames.numbers[made.frames];
-      ExposedPicture exposed = line.take();
+    const auto work_of = [&](std::size_t k) {
+      return [&expose, frame = frames.numbers[k]](const RenderControl& control) { return expose(frame, control); };
+    };
+    line.make(frames.numbers.size(), progress, work_of, [&](std::size_t k, ExposedPicture exposed) {
+      const std::uint64_t frame = frames.numbers[k];
       std::string text = add ? add(frame, frames.exposure(frame), exposed) : std::string();
-      if (!queue.push(std::move(exposed.picture), std::move(text), frame)) break;
-    }
+      const auto path = output.writes_stills() ? output.still(frame) : output.path();
+      if (!queue.push({frame, path, std::move(exposed.picture), std::move(text), output.wishes()})) return false;
+      ++made.frames;
+      return true;
+    });
   } catch (const Interrupted& caught) {
     // A part of a video does not replace a whole one.
     if (made.frames == 0 || (!output.writes_stills() && !is_absent(output.path()))) throw;
@@ -154,8 +159,11 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
     clear_interruption();  // what was exposed is still to be written
   }
   queue.finish();
-  made.notes = queue.notes();
-  if (queue.has_sound()) made.sound = video.sound;
+  if (writer) {
+    writer->finish();
+    made.notes = writer->notes();
+    if (writer->has_sound()) made.sound = video.sound;
+  }
   // Where the writer left it out, its own note says so.
   if (!video.sound || made.sound) std::ranges::move(sound_notes, std::back_inserter(made.notes));
   return made;
@@ -237,7 +245,6 @@ Shape VideoOutput::shape(const CaptureFormat& capture) const {
 
 std::unique_ptr<VideoWriter> VideoOutput::open(const CaptureFormat& capture, const OutputFormat& format,
                                                VideoFormat video) const {
-  if (codec_ == nullptr) return open_still_writer(path_, file_wishes(request_));
   const CodeMaking making = CodeMaking::of(capture, format);
   video.shape = shape(capture);
   video.type = format.type;

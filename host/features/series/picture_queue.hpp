@@ -1,5 +1,4 @@
-// Pictures made and written side by side: PictureLine exposes several at once, PictureQueue writes them on a thread of
-// its own.
+// Pictures made and written side by side: PictureLine exposes several at once, a PictureQueue's thread writes them.
 #pragma once
 
 #include <cstddef>
@@ -20,26 +19,34 @@
 #include "render/renderer.hpp"
 #include "session/memory_budget.hpp"
 #include "system/channel.hpp"
+#include "system/interruption.hpp"
 
 namespace nutik {
 
+// A picture, and the file that it goes into. The number is of whoever pushes it.
+struct PictureJob {
+  std::uint64_t number = 0;
+  std::filesystem::path path = {};
+  Picture picture;
+  std::string text = {};
+  FileWishes wishes = {};
+
+  // Though a signal has come: what is made is kept. Throws OutputError, UsageError.
+  void write() const {
+    FileWishes whole = wishes;
+    whole.check = {};
+    write_picture(path, picture, text, whole);
+  }
+};
+
 class PictureQueue {
  public:
-  // `failed` is called on that thread, one call at a time, for a picture that could not be written, with
-  // what was given to push() and why.
-  using Failed = std::function<void(std::size_t number, const Error& error)>;
-  explicit PictureQueue(Failed failed)
-      : writing_(std::async(std::launch::async, [this, failed = std::move(failed)] {
+  // `write` is called on that thread, and takes the pictures in the order in which they were pushed until no more come.
+  // So many may wait: with one beside it that is written, more only hold memory where all take as long.
+  explicit PictureQueue(std::function<void(Channel<PictureJob>& jobs)> write, std::size_t max_waiting = kWaiting)
+      : jobs_(max_waiting), writing_(std::async(std::launch::async, [this, write = std::move(write)] {
           const ClosedAtEnd closed(jobs_);  // nobody waits for a writer that is gone
-          while (const auto job = jobs_.pop()) {
-            try {
-              write_picture(job->path, job->picture, job->text, job->wishes);
-            } catch (const OutputError& error) {
-              failed(job->number, error);
-            } catch (const UsageError& error) {
-              failed(job->number, error);
-            }
-          }
+          write(jobs_);
         })) {}
   // Waits until everything is written.
   ~PictureQueue() { jobs_.close(); }
@@ -54,14 +61,8 @@ class PictureQueue {
     };
   }
 
-  // Waits while kWaiting pictures wait. Throws what ended the writing thread. `number` comes back in `failed`; `text`
-  // goes into the picture.
-  void push(std::size_t number, std::filesystem::path path, Picture picture, std::string text,
-            const FileWishes& wishes) {
-    Job job{number, std::move(path), std::move(picture), std::move(text), wishes};
-    job.wishes.check = {};  // a picture that is made is kept
-    if (!jobs_.push(std::move(job))) finish();
-  }
+  // Waits while as many wait as may. Returns false where writing has failed; finish() then throws why.
+  bool push(PictureJob job) { return jobs_.push(std::move(job)); }
   // Waits until everything is written. Nothing can be pushed any more.
   void finish() {
     jobs_.close();
@@ -69,18 +70,9 @@ class PictureQueue {
   }
 
  private:
-  struct Job {
-    std::size_t number;
-    std::filesystem::path path;
-    Picture picture;
-    std::string text;
-    FileWishes wishes;
-  };
-
-  // One being written, one waiting: more would only hold memory.
   static constexpr std::size_t kWaiting = 1;
 
-  Channel<Job> jobs_{kWaiting};
+  Channel<PictureJob> jobs_;
   std::future<void> writing_;
 };
 
@@ -133,6 +125,18 @@ class PictureLine {
       const std::scoped_lock lock(failing_);
       if (failure_) std::rethrow_exception(failure_);  // what came first
       throw;
+    }
+  }
+
+  // Makes so many, of which the k-th is work_of(k)'s, and hands them on until hand_on(k, made) returns false.
+  template <typename WorkOf, typename HandOn>
+  void make(std::size_t count, const ReportedProgress& progress, const WorkOf& work_of, const HandOn& hand_on) {
+    std::size_t asked = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      check_interruption();
+      if (progress) progress(k, count);
+      for (; asked < count && !is_full(); ++asked) add(work_of(asked));
+      if (!hand_on(k, take())) return;
     }
   }
 

@@ -121,7 +121,7 @@ class LibavVideoWriter final : public VideoWriter {
     check_taken(begun, format("a {} file", path.extension().string()));
   }
 
-  void write(const Picture& picture, const std::string&, std::uint64_t) override {
+  void write(const Picture& picture) override {
     // An encoder may still hold the frame before.
     check(av_frame_make_writable(picture_.get()));
     copy(picture);

@@ -80,26 +80,6 @@ bool is_held(const VideoCodec& codec, std::string_view extension) {
   return codec.containers.find(format(" {} ", extension)) != std::string_view::npos;
 }
 
-class StillWriter final : public VideoWriter {
- public:
-  StillWriter(const std::filesystem::path& path, const FileWishes& wishes)
-      : folder_(path.parent_path()),
-        name_(NumberedName::parse(path.filename().string()).value()),
-        wishes_(wishes) {
-    wishes_.check = {};  // the frames so far are kept
-  }
-
-  void write(const Picture& picture, const std::string& text, std::uint64_t number) override {
-    write_picture(folder_ / name_.with(number), picture, text, wishes_);
-  }
-  void finish() override {}
-
- private:
-  std::filesystem::path folder_;
-  NumberedName name_;
-  FileWishes wishes_;
-};
-
 }  // namespace
 
 double largest_rate_for(const std::filesystem::path& path) {
@@ -163,10 +143,6 @@ int codec_setting(const VideoCodec& codec, const std::optional<std::uint32_t>& c
 std::unique_ptr<VideoWriter> open_video_writer(const std::filesystem::path& path, const VideoFormat& format,
                                                const VideoCodec& codec) {
   return video_module().open_writer(path, format, codec);
-}
-
-std::unique_ptr<VideoWriter> open_still_writer(const std::filesystem::path& path, const FileWishes& wishes) {
-  return std::make_unique<StillWriter>(path, wishes);
 }
 
 ValueType video_value_type(const VideoCodec& codec, std::optional<Depth> wish, ValueType usual) {

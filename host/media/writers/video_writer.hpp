@@ -1,4 +1,4 @@
-// Where the frames of a video go, one after another: into a container, or into numbered stills.
+// Where the frames of a video go, one after another: into a container.
 #pragma once
 
 #include <cstdint>
@@ -85,10 +85,8 @@ class VideoWriter {
   // Without finish(), the file that was being written is removed.
   virtual ~VideoWriter() = default;
 
-  // The next frame, of the format that the writer was opened with. Where frames are files of their own they keep
-  // `text` as write_picture() does, and have `number` in their names. Throws OutputError.
-  virtual void write(const Picture& picture, const std::string& text, std::uint64_t number) = 0;
-  void write(const Picture& picture, std::uint64_t number = 0) { write(picture, {}, number); }
+  // The next frame, of the format that the writer was opened with. Throws OutputError.
+  virtual void write(const Picture& picture) = 0;
 
   // Ends the video after the frames so far, and gives the file its name. Throws OutputError.
   virtual void finish() = 0;
@@ -104,10 +102,6 @@ class VideoWriter {
 [[nodiscard]] std::unique_ptr<VideoWriter> open_video_writer(const std::filesystem::path& path,
                                                              const VideoFormat& format,
                                                              const VideoCodec& codec);
-
-// A still for each frame, `frame-%05d.png`: each appears when it is whole, and stays.
-[[nodiscard]] std::unique_ptr<VideoWriter> open_still_writer(const std::filesystem::path& path,
-                                                             const FileWishes& wishes = {});
 
 // The value type of frames for a container, as value_type_for() finds it for a picture. `usual` is the
 // capture's own, which gives way to 8 bits where the codec holds no more. Throws UsageError.
