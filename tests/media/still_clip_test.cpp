@@ -391,7 +391,7 @@ TEST(StillClip, RefusesWhatIsDamagedOrOfAnotherKind) {
     scratch.write(path(1).filename().string(), "no picture at all");
     expect_refused(scratch / (std::string("f%d") + extension), {path(1).string() + " cannot be read"});
   }
-  // OpenCV would take it for DICOM, whose decoder ends the program.
+  // Its name alone says so.
   expect_refused(scratch.write("medical.png", std::string(128, '\0') + "DICM and more"),
                  {"medical.png cannot be read", "neither a PNG nor a JPEG begins like that"});
   // Decoders show black where a palette ends before a pixel's colour.

@@ -49,7 +49,7 @@ Picture read_mask(std::span<const std::byte> bytes, const std::string& name,
     const auto check_upright = [&](std::uint32_t width, std::uint32_t height) {
       if (check_size) orientation >= 5 ? check_size(height, width) : check_size(width, height);
     };
-    Picture grey = grey_of(read_8_bit_png(bytes, name, check_upright), name);
+    Picture grey = grey_of(read_png(bytes, name, PngUse::mask, check_upright).picture, name);
     turn_upright(grey.bytes, grey.shape, 1, orientation);
     return grey;
   }

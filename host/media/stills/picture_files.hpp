@@ -24,15 +24,17 @@ void check_stated_size(const std::string& name, std::uint64_t width, std::uint64
 
 // PNG through libpng.
 
-// Reads a picture of 8 bits, grey or colour, code for code; alpha is left out where it is opaque everywhere. Throws
-// InputError naming `name`, the depth or colour type found and the one wanted, where it is anything else.
-// `check_size` is told width and height first; it may be empty, and may throw.
-[[nodiscard]] Picture read_8_bit_png(
-    std::span<const std::byte> file, const std::string& name,
-    const std::function<void(std::uint32_t, std::uint32_t)>& check_size = {});
+enum class PngUse { mask, still };
 
-// Throws InputError where a pixel's colour is not in the palette, which decoders show as black.
-void check_png_palette(std::span<const std::byte> file, const std::string& name);
+struct PngPicture {
+  Picture picture;                 // codes as they lie, grey or RGB, of 8 or 16 bits
+  std::vector<std::byte> profile;  // ICC; empty where there is none that can be read
+};
+// A mask has 8 bits, code for code, no palette, and alpha where that is opaque everywhere; a still has no alpha. Throws
+// InputError naming `name` where it is anything else, or damaged. `check_size` is told width and height first; it may
+// be empty, and may throw.
+[[nodiscard]] PngPicture read_png(std::span<const std::byte> file, const std::string& name, PngUse use,
+                                  const std::function<void(std::uint32_t, std::uint32_t)>& check_size = {});
 
 // How a PNG's picture lies, as EXIF numbers it: 1, upright, where its chunk eXIf does not say.
 [[nodiscard]] unsigned png_orientation(std::span<const std::byte> file);
@@ -40,10 +42,6 @@ void check_png_palette(std::span<const std::byte> file, const std::string& name)
 // The text under a keyword (Latin-1); nothing where there is none. Throws InputError where the file is damaged.
 [[nodiscard]] std::optional<std::string> read_png_text(std::span<const std::byte> file, const char* keyword,
                                                        const std::string& name);
-
-// The ICC profile; empty where there is none that can be read. Throws InputError where the file is damaged.
-[[nodiscard]] std::vector<std::byte> read_png_profile(std::span<const std::byte> file,
-                                                      const std::string& name);
 
 // Writes codes: 8 or 16 bits, grey or RGB; what they mean in the chunks cICP, sRGB or gAMA and cHRM, and in iCCP what
 // cICP has no number for; pixels that are not square in pHYs. `text` is kept as picture_text.hpp says; none where it is

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <memory>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "capture/error.hpp"
@@ -146,6 +147,25 @@ void leave_out_alpha(std::span<const std::byte> with_alpha, Picture& picture, co
   }
 }
 
+// What the palette has for each number. Decoders show one that it has not as black.
+Picture in_colours(const ReadStructure& read, const Picture& numbers, const std::string& name) {
+  png_colorp palette = nullptr;
+  int count = 0;
+  png_get_PLTE(read.png, read.info, &palette, &count);
+  const int largest = std::to_integer<int>(*std::ranges::max_element(numbers.bytes));
+  if (largest >= count) {
+    throw InputError(format("{} cannot be read: it is damaged: a pixel has colour {}, and its palette {}, from 0 on",
+                            name, largest, count));
+  }
+  Picture picture({numbers.shape.width, numbers.shape.height, 3}, ValueType::code8, 255);
+  png_byte* to = picture.values<png_byte>().data();
+  for (const std::byte number : numbers.bytes) {
+    const png_color& colour = palette[std::to_integer<int>(number)];
+    for (const png_byte code : {colour.red, colour.green, colour.blue}) *to++ = code;
+  }
+  return picture;
+}
+
 // Each row behind the number of its filter: differences from the value of the pixel before. Numbers of 16 bits have the
 // high byte first.
 void filter_rows(const Picture& picture, std::size_t row, png_byte* to) {
@@ -190,73 +210,57 @@ void read_info(const ReadStructure& read, ByteReader& reader) {
 
 }  // namespace
 
-Picture read_8_bit_png(std::span<const std::byte> file, const std::string& name,
-                       const std::function<void(std::uint32_t, std::uint32_t)>& check_size) {
+PngPicture read_png(std::span<const std::byte> file, const std::string& name, PngUse use,
+                    const std::function<void(std::uint32_t, std::uint32_t)>& check_size) {
+  constexpr std::uint64_t kMostPixels = 1 << 30;
   std::string error_name = name;
   ReadStructure read(error_name);
   ByteReader reader{file};
   read_info(read, reader);
-  const int colour = png_get_color_type(read.png, read.info);
-  const int bits = png_get_bit_depth(read.png, read.info);
-  if (colour == PNG_COLOR_TYPE_PALETTE || bits != 8) {
+  const int colour = png_get_color_type(read.png, read.info), bits = png_get_bit_depth(read.png, read.info);
+  const bool is_indexed = colour == PNG_COLOR_TYPE_PALETTE, is_colour = (colour & PNG_COLOR_MASK_COLOR) != 0;
+  if (use == PngUse::mask && (is_indexed || bits != 8)) {
     throw InputError(
         format("{} is a PNG of {} bits, {}; it must be 8 bits, grey", name, bits, colour_name(colour)));
   }
   const bool has_alpha =
       (colour & PNG_COLOR_MASK_ALPHA) != 0 || png_get_valid(read.png, read.info, PNG_INFO_tRNS) != 0;
-  const Shape shape{png_get_image_width(read.png, read.info), png_get_image_height(read.png, read.info),
-                    (colour & PNG_COLOR_MASK_COLOR) != 0 ? 3u : 1u};
-  if (check_size) check_size(shape.width, shape.height);
-  if (shape.pixel_count() > file.size() * kMaxExpansion) {
-    throw InputError(
-        format("{} cannot be read: it states {} x {} pixels, which its {} bytes do not hold; it is damaged",
-               name, shape.width, shape.height, file.size()));
+  if (use == PngUse::still && has_alpha) {
+    throw InputError(format("{} has {} channels; grey (1) and colour (3) are read, transparency is not", name,
+                            is_colour ? 4 : 2));
   }
-  png_set_tRNS_to_alpha(read.png);  // of which one code is transparent
+  const Shape shape{png_get_image_width(read.png, read.info), png_get_image_height(read.png, read.info),
+                    is_colour && !is_indexed ? 3u : 1u};
+  if (check_size) check_size(shape.width, shape.height);
+  check_stated_size(name, shape.width, shape.height, file.size());
+  if (shape.pixel_count() > kMostPixels)
+    throw InputError(format("{} cannot be read: it has {} x {} pixels, more than {}", name, shape.width,
+                            shape.height, kMostPixels));
+  if (has_alpha) png_set_tRNS_to_alpha(read.png);  // of which one code is transparent
+  is_indexed ? png_set_packing(read.png) : png_set_expand_gray_1_2_4_to_8(read.png);
+  if (bits == 16) png_set_swap(read.png);  // PNG has the high byte first
   const int passes = png_set_interlace_handling(read.png);
   png_read_update_info(read.png, read.info);
-  Picture picture(shape, ValueType::code8, 255);
-  const std::size_t pixel_bytes = shape.channels + (has_alpha ? 1 : 0);
-  std::vector<std::byte> with_alpha(has_alpha ? shape.pixel_count() * pixel_bytes : 0);
+  Picture picture(shape, bits == 16 ? ValueType::code16 : ValueType::code8, bits == 16 ? 65'535 : 255);
+  const std::size_t row_bytes = png_get_rowbytes(read.png, read.info);
+  std::vector<std::byte> with_alpha(has_alpha ? shape.height * row_bytes : 0);
   auto* const first = reinterpret_cast<png_bytep>((has_alpha ? with_alpha : picture.bytes).data());
-  std::vector<png_bytep> rows(shape.height);
-  for (std::uint32_t y = 0; y < shape.height; ++y)
-    rows[y] = first + std::size_t{y} * shape.width * pixel_bytes;
   for (int pass = 0; pass < passes; ++pass) {
-    for (const png_bytep row : rows) {
+    for (std::uint32_t y = 0; y < shape.height; ++y) {
       check_interruption();
-      png_read_row(read.png, row, nullptr);
+      png_read_row(read.png, first + y * row_bytes, nullptr);
     }
   }
   png_read_end(read.png, nullptr);
   if (has_alpha) leave_out_alpha(with_alpha, picture, name);
-  return picture;
-}
-
-void check_png_palette(std::span<const std::byte> file, const std::string& name) {
-  std::string error_name = name;
-  ReadStructure read(error_name);
-  ByteReader reader{file};
-  read_info(read, reader);
-  png_colorp colours = nullptr;
-  int count = 0;
-  png_get_PLTE(read.png, read.info, &colours, &count);
-  const bool is_indexed = png_get_color_type(read.png, read.info) == PNG_COLOR_TYPE_PALETTE;
-  if (!is_indexed || count == 1 << png_get_bit_depth(read.png, read.info)) return;
-  png_set_packing(read.png);  // a byte for each pixel
-  int passes = png_set_interlace_handling(read.png);
-  png_read_update_info(read.png, read.info);
-  std::vector<png_byte> row(png_get_rowbytes(read.png, read.info));
-  for (; passes > 0; --passes) {
-    for (png_uint_32 y = png_get_image_height(read.png, read.info); y > 0; --y) {
-      check_interruption();
-      png_read_row(read.png, row.data(), nullptr);
-      const int largest = *std::ranges::max_element(row);
-      if (largest < count) continue;
-      throw InputError(format("{} cannot be read: it is damaged: a pixel has colour {}, and its palette {}, from 0 on",
-                              name, largest, count));
-    }
-  }
+  if (is_indexed) picture = in_colours(read, picture, name);
+  png_charp title = nullptr;
+  png_bytep profile = nullptr;
+  png_uint_32 size = 0;
+  int compression = 0;
+  png_get_iCCP(read.png, read.info, &title, &compression, &profile, &size);
+  const auto* const bytes = reinterpret_cast<const std::byte*>(profile);
+  return {std::move(picture), {bytes, bytes + size}};
 }
 
 // Chunks: u32 length, four letters, so many bytes, a checksum. EXIF is a TIFF: its first directory is looked at.
@@ -299,20 +303,6 @@ std::optional<std::string> read_png_text(std::span<const std::byte> file, const 
     if (std::strcmp(texts[i].key, keyword) == 0) return std::string(texts[i].text, texts[i].text_length);
   }
   return std::nullopt;
-}
-
-std::vector<std::byte> read_png_profile(std::span<const std::byte> file, const std::string& name) {
-  std::string error_name = name;
-  ReadStructure read(error_name);
-  ByteReader reader{file};
-  read_info(read, reader);
-  png_charp title = nullptr;
-  png_bytep profile = nullptr;
-  png_uint_32 size = 0;
-  int compression = 0;
-  if (png_get_iCCP(read.png, read.info, &title, &compression, &profile, &size) == 0) return {};
-  const auto* bytes = reinterpret_cast<const std::byte*>(profile);
-  return {bytes, bytes + size};
 }
 
 void write_png(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {

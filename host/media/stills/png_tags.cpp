@@ -6,8 +6,6 @@
 #include "capture/format.hpp"
 #include "capture/text.hpp"
 #include "media/formats/coding_points.hpp"
-#include "media/stills/picture_files.hpp"
-#include "system/mapped_file.hpp"
 
 namespace nutik::stills {
 namespace {
@@ -44,22 +42,18 @@ bool follow_coding_points(PngTags& tags, std::string_view points, std::uint64_t 
 }  // namespace
 
 // Chunks: u32 length, four letters, so many bytes, a checksum.
-PngTags read_png_tags(const std::filesystem::path& file) {
+PngTags read_png_tags(std::span<const std::byte> png, const std::string& file) {
   constexpr std::size_t kSignature = 8, kFrame = 12, kData = 8, kBits = 24;
   constexpr double kParts = 100'000;
-  const MappedFile mapped(file);
-  const std::string_view bytes = as_text(mapped.bytes());
+  const std::string_view bytes = as_text(png);
   PngTags tags;
-  if (!bytes.starts_with("\x89PNG")) return tags;
-  tags.orientation = png_orientation(mapped.bytes());
   bool has_coding_points = false;
   for (std::size_t at = kSignature; at + kFrame <= bytes.size();) {
     const auto length = static_cast<std::uint32_t>(big_endian(bytes, at, 4));
     const std::string_view name = bytes.substr(at + 4, 4), data = bytes.substr(at + kData, length);
     if (data.size() < length) break;
-    if (name == "tRNS") tags.has_clear_code = true;
     if (name == "cICP" && length == 4) {
-      has_coding_points = follow_coding_points(tags, data, big_endian(bytes, kBits, 1), file.string());
+      has_coding_points = follow_coding_points(tags, data, big_endian(bytes, kBits, 1), file);
     } else if (name == "sRGB" && !has_coding_points) {
       tags.transfer = Transfer::srgb();
       tags.primaries = Primaries::bt709;

@@ -1,9 +1,6 @@
-// Sequences of stills: PNG and JPEG through OpenCV; Netpbm and TIFF through our own readers, which
-// keep the maximum, and read the pages of a TIFF in one go. Light of floating-point pictures becomes codes of 16 bits.
+// Sequences of stills. Pages of a TIFF are read in one go; light of floating-point pictures becomes codes of 16 bits.
 #include <cmath>
 #include <cstring>
-#include <opencv2/core/utils/logger.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "capture/error.hpp"
@@ -142,34 +139,10 @@ void turn_upright(Still& still, unsigned orientation) {
     still.pixel_aspect = Rational::of(still.pixel_aspect->denominator, still.pixel_aspect->numerator);
 }
 
-// What a PNG says of its codes and pixels.
-void add_tags(const std::filesystem::path& file, const PngTags& tags, Still& still) {
-  still.transfer = tags.transfer;
-  still.primaries = tags.primaries;
-  if (!tags.transfer) still.unread_transfer = tags.unread_transfer;
-  if (!tags.primaries) still.unread_primaries = tags.unread_primaries;
-  if (tags.density) still.pixel_aspect = aspect_of(tags.density->first, tags.density->second);
-  if (tags.has_profile) follow_profile(still, read_png_profile(MappedFile(file).bytes(), file.string()));
-}
-
-// Before OpenCV looks for a decoder, of which some end the program on what they do not expect (DICM).
 void check_front(std::string_view bytes, const std::string& name) {
   if (inputs::kPng.begins(bytes) || inputs::kJpeg.begins(bytes)) return;
   throw InputError(
       format("{} cannot be read: it is damaged or no picture: neither a PNG nor a JPEG begins like that", name));
-}
-
-cv::Mat decoded_by_opencv(const std::filesystem::path& file) {
-  constexpr std::size_t kWidth = 16, kHeight = 20;
-  const MappedFile mapped(file);
-  const std::string_view bytes = as_text(mapped.bytes());
-  check_front(bytes, file.string());
-  check_stated_size(file.string(), big_endian(bytes, kWidth, 4), big_endian(bytes, kHeight, 4), bytes.size());
-  try {
-    return cv::imread(file.string(), cv::IMREAD_UNCHANGED);  // as it lies
-  } catch (const cv::Exception& error) {  // larger than it takes, or than there is memory for
-    throw InputError(format("{} cannot be read: OpenCV says: {}", file.string(), error.err));
-  }
 }
 
 Still read_jpeg_still(const std::filesystem::path& file) {
@@ -185,36 +158,23 @@ Still read_jpeg_still(const std::filesystem::path& file) {
   return still;
 }
 
-Still read_with_opencv(const std::filesystem::path& file) {
-  cv::Mat picture = decoded_by_opencv(file);
+Still read_png_still(const std::filesystem::path& file) {
+  const MappedFile mapped(file);
   const std::string name = file.string();
-  const PngTags tags = read_png_tags(file);
+  check_front(as_text(mapped.bytes()), name);
+  const PngTags tags = read_png_tags(mapped.bytes(), name);
   if (holds_several_pictures(file)) {
     throw InputError(format("{} holds several pictures, as an animated PNG does: name it alone, as a video is", name));
   }
-  if (picture.empty()) {
-    throw InputError(format("{} cannot be read: it is damaged or no picture", name));
-  }
-  if (inputs::kPng.begins(first_bytes(file))) check_png_palette(MappedFile(file).bytes(), name);
-  if (picture.depth() != CV_8U && picture.depth() != CV_16U) {
-    throw InputError(
-        format("{} holds neither 8- nor 16-bit values; save it as a PNG or TIFF with one of these", name));
-  }
-  const bool is_clear_grey = picture.channels() == 1 && tags.has_clear_code;  // OpenCV adds alpha to colour alone
-  if (is_clear_grey || (picture.channels() != 1 && picture.channels() != 3)) {
-    throw InputError(format("{} has {} channels; grey (1) and colour (3) are read, transparency is not", name,
-                            picture.channels() + is_clear_grey));
-  }
-  if (picture.channels() == 3) cv::cvtColor(picture, picture, cv::COLOR_BGR2RGB);
-  if (!picture.isContinuous()) picture = picture.clone();
-  Still still;
-  still.shape = {static_cast<std::uint32_t>(picture.cols), static_cast<std::uint32_t>(picture.rows),
-                 static_cast<std::uint32_t>(picture.channels())};
-  still.code_bytes = picture.depth() == CV_8U ? 1 : 2;
-  const auto* bytes = reinterpret_cast<const std::byte*>(picture.data);
-  still.codes.assign(bytes, bytes + picture.total() * picture.elemSize());
-  add_tags(file, tags, still);
-  turn_upright(still, tags.orientation);
+  PngPicture read = read_png(mapped.bytes(), name, PngUse::still);
+  Still still = still_of(std::move(read.picture), {});
+  still.transfer = tags.transfer;
+  still.primaries = tags.primaries;
+  if (!tags.transfer) still.unread_transfer = tags.unread_transfer;
+  if (!tags.primaries) still.unread_primaries = tags.unread_primaries;
+  if (tags.density) still.pixel_aspect = aspect_of(tags.density->first, tags.density->second);
+  if (tags.has_profile) follow_profile(still, read.profile);
+  turn_upright(still, png_orientation(mapped.bytes()));
   return still;
 }
 
@@ -222,7 +182,6 @@ class StillClip final : public Clip {
  public:
   StillClip(std::span<const std::filesystem::path> files, const ClipTiming& timing,
             const ClipOptions& options) {
-    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     for (const std::filesystem::path& file : files) {
       refuse_unsupported_kind(file);
       const inputs::InputKind* kind = still_kind(file);
@@ -385,7 +344,7 @@ class StillClip final : public Clip {
       return still_of(std::move(picture), std::nullopt);
     }
     if (*page.kind == inputs::kJpeg) return read_jpeg_still(page.file);
-    if (*page.kind == inputs::kPng) return read_with_opencv(page.file);
+    if (*page.kind == inputs::kPng) return read_png_still(page.file);
     if (*page.kind != inputs::kTiff) throw std::logic_error(format("nothing here reads a {}", page.kind->name));
     if (page.number == 1) tiff_.emplace(page.file);
     std::optional<TiffPage> read = tiff_->next();

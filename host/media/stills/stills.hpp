@@ -23,15 +23,13 @@ struct PngTags {
   std::optional<Transfer> transfer;                  // of cICP, else of sRGB
   std::optional<Primaries> primaries;                // likewise, else of cHRM
   bool has_profile = false;                          // iCCP, which goes before sRGB and not before cICP
-  unsigned orientation = 1;                          // of eXIf, as EXIF numbers them
-  bool has_clear_code = false;                       // tRNS
   std::string unread_transfer;                       // of cICP, else gAMA alone, which nobody asks programs for
   std::string unread_primaries;                      // of cICP, else cHRM
   std::optional<std::pair<double, double>> density;  // pixels on a length, across and down
 };
 
-// Nothing of what is no PNG. Throws InputError where its codes are of limited range, or no RGB.
-[[nodiscard]] PngTags read_png_tags(const std::filesystem::path& file);
+// Throws InputError naming `name` where its codes are of limited range, or no RGB.
+[[nodiscard]] PngTags read_png_tags(std::span<const std::byte> png, const std::string& name);
 
 [[nodiscard]] StillTimes read_exif_times(const std::filesystem::path& file);
 
