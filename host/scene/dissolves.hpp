@@ -4,8 +4,8 @@
 //   out:     the pictures that show something of both
 //   always:  both ends differ in most cells and in their fine structure, and most cells of either are neither black nor
 //            white. What lies between is their sum, with less and less of the first and more and more of the second.
-//            Hence no flash, no lamp, no exposure that drifts, no pan or zoom, nothing that moves. A dissolve between
-//            pictures that move much is not told from those
+//            Hence no flash, no lamp, no exposure that drifts, no pan or zoom, nothing that moves. Of a dissolve a
+//            tenth of the cells may move; one between pictures that move more is not told from those
 #pragma once
 
 #include <cstddef>

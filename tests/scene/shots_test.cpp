@@ -71,6 +71,15 @@ std::vector<SampleRange> shots_with(const Mixture& mixture) {
 
 int mixed(double a, double b, double share) { return static_cast<int>(std::lround(a + (b - a) * share)); }
 
+// Up to a dissolve of samples 9 to 19, and behind it.
+void expect_two(const std::vector<SampleRange>& found) {
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].first, 0u);
+  EXPECT_TRUE(found[0].last >= 6 && found[0].last <= 9) << found[0].last << ": sample 9 is mixed";
+  EXPECT_TRUE(found[1].first >= 20 && found[1].first <= 23) << found[1].first << ": sample 19 is mixed";
+  EXPECT_EQ(found[1].last, kSamples);
+}
+
 TEST(Shots, LieBesideADissolveOrAFade) {
   const auto still = [](int x, int y, double way) { return mixed(scene(1, x, y), scene(2, x, y), way); };
   const auto slow = [&](int x, int y, double way) { return still(x, y, way * way * (3 - 2 * way)); };
@@ -80,14 +89,21 @@ TEST(Shots, LieBesideADissolveOrAFade) {
     };
   };
   for (const Mixture& mixture : {Mixture(still), Mixture(slow), Mixture(faded(0)), Mixture(faded(255))}) {
-    const std::vector<SampleRange> found = shots_with(mixture);
-    ASSERT_EQ(found.size(), 2u);
-    EXPECT_EQ(found[0].first, 0u);
-    EXPECT_TRUE(found[0].last >= 6 && found[0].last <= 9) << found[0].last << ": sample 9 is mixed";
-    EXPECT_TRUE(found[1].first >= 20 && found[1].first <= 23) << found[1].first << ": sample 19 is mixed";
-    EXPECT_EQ(found[1].last, kSamples);
+    expect_two(shots_with(mixture));
   }
   EXPECT_EQ(starts_of(std::vector<SampleRange>{{0, 9}, {20, 30}}, 5), "5, 25 (behind a dissolve or fade from 14 on)");
+}
+
+// In both scenes something black goes its way that is a seventh of the picture.
+TEST(Shots, LieBesideADissolveOfScenesInWhichSomethingMoves) {
+  const auto with_black = [](int number, int x, int y, std::uint64_t k) {
+    const int left = 10 + static_cast<int>(k);
+    return x >= left && x < left + 20 && y >= 10 && y < 44 ? 0 : scene(number, x, y);
+  };
+  expect_two(shots([&](int x, int y, std::uint64_t k) {
+    const double way = std::clamp((static_cast<double>(k) - 8) / 12, 0.0, 1.0);
+    return mixed(with_black(1, x, y, k), with_black(2, 95 - x, y, k), way);
+  }));
 }
 
 TEST(Shots, AreNotDividedByWhatChangesSlowlyAndIsNoDissolve) {
