@@ -219,6 +219,29 @@ TEST(Registrar, FollowsFineTextureBehindWhatLeftItsPlace) {
   }
 }
 
+// The thing, two fifths of the picture, moves right as the room moves left.
+TEST(Registrar, FollowsTheRoomOfAPanAndNotWhatMovesAgainstIt) {
+  const Texture room(23), thing(73);
+  const auto seen = [&](int shift) {
+    std::vector<std::byte> raster;
+    for (int y = 0; y < static_cast<int>(kSceneHeight); ++y) {
+      for (int x = 0; x < static_cast<int>(kSceneWidth); ++x) {
+        const int across = x - 60 - shift;
+        const bool is_thing = across >= 0 && across < 120 && y >= 20;
+        const double light = is_thing ? 128 + 60 * thing.at({double(across), double(y)})
+                                      : 128 + 40 * room.at({double(x + shift), double(y)});
+        raster.push_back(static_cast<std::byte>(std::clamp(std::round(light), 0.0, 255.0)));
+      }
+    }
+    return raster;
+  };
+  for (const CameraMotion motion : {CameraMotion::rigid, CameraMotion::homography}) {
+    const Registered found = registrar_of(format_of({}), motion, seen(0))->find(seen(4), Warp());
+    EXPECT_NEAR(found.warp.at(160, 120).x, 156, 0.05) << to_text(motion) << ": " << found.agreeing;
+    EXPECT_NEAR(found.warp.at(160, 120).y, 120, 0.05) << to_text(motion);
+  }
+}
+
 TEST(Registrar, GivesTheSameTwice) {
   const Look look;
   Scene scene(look);

@@ -223,20 +223,30 @@ class RobustRegistrar final : public Registrar {
   }
 
   [[nodiscard]] Registered found_in(const GreyPyramid& pyramid, const Warp& guess, Reach reach) {
-    Registered best = fit(pyramid, guess, levels_.size());
-    const auto try_from = [&](const Warp& start, std::size_t levels = kFineLevels) {
-      const Registered other = fit(pyramid, start, levels);
-      if (other.agreeing > best.agreeing) best = other;
-    };
-    if (!is_sure(best)) try_from(guess);
-    // Fine texture is seen on no coarser level, where what moves may be all there is.
-    if (!is_sure(best)) try_from(guess, 1);
+    Registered best = best_of(pyramid, guess, reach, frame_);
     if (reach == Reach::near) return unless_it_rests(pyramid.levels.front(), guess, best);
-    if (is_sure(best)) return best;
+    if (best.agreeing >= kClearlyMost || frame_.count() == coarse_.count()) return best;
+    // Eight numbers may follow what moves from where three are led to what rests.
+    const Registered simpler = best_of(pyramid, guess, reach, coarse_);
+    if (simpler.agreeing <= best.agreeing) return best;
+    return more_agreeing(simpler, fit(pyramid, simpler.warp, 1, frame_));
+  }
+
+  [[nodiscard]] Registered best_of(const GreyPyramid& pyramid, const Warp& guess, Reach reach, const Frame& fine) {
+    Registered best = fit(pyramid, guess, levels_.size(), fine);
+    // Fine texture is seen on no coarser level, where what moves may be all there is.
+    for (const std::size_t levels : {kFineLevels, std::size_t{1}}) {
+      if (!is_sure(best)) best = more_agreeing(best, fit(pyramid, guess, levels, fine));
+    }
+    if (is_sure(best) || reach == Reach::near) return best;
     const std::scoped_lock lock(features_mutex_);
     if (!features_) features_.emplace(reference_, pyramid.feature_scale());
-    if (const auto start = features_->find(pyramid.of_features())) try_from(*start);
-    return best;
+    const auto start = features_->find(pyramid.of_features());
+    return start ? more_agreeing(best, fit(pyramid, *start, kFineLevels, fine)) : best;
+  }
+
+  static const Registered& more_agreeing(const Registered& first, const Registered& second) {
+    return second.agreeing > first.agreeing ? second : first;
   }
 
   // Away from the finest levels there is too little to tell a homography from.
@@ -263,7 +273,8 @@ class RobustRegistrar final : public Registrar {
     }
   }
 
-  [[nodiscard]] Registered fit(const GreyPyramid& pyramid, const Warp& guess, std::size_t levels) const {
+  [[nodiscard]] Registered fit(const GreyPyramid& pyramid, const Warp& guess, std::size_t levels,
+                               const Frame& fine) const {
     Fit fit{guess, 1, 0};
     bool is_first = true;
     for (std::size_t i = std::min(levels, levels_.size()); i-- > 0;) {
@@ -271,7 +282,7 @@ class RobustRegistrar final : public Registrar {
           i == 0 || (i == 1 && levels_[i].size.height >= 100 && levels_[i].size.width >= 100);
       Fit settled = fit;
       const double enough = i == 0 ? kSettledPixels : kRoughlySettled * levels_[i].scale();
-      if (settle(levels_[i], pyramid.levels[i], is_fine ? frame_ : coarse_, is_first ? kFirstSteps : 1,
+      if (settle(levels_[i], pyramid.levels[i], is_fine ? fine : coarse_, is_first ? kFirstSteps : 1,
                  enough, settled)) {
         fit = settled;
         is_first = false;
