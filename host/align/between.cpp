@@ -6,7 +6,7 @@
 #include <deque>
 #include <vector>
 
-#include "align/pair_motion.hpp"
+#include "align/in_between.hpp"
 #include "capture/format.hpp"
 #include "capture/text.hpp"
 #include "media/read_ahead.hpp"

@@ -1,5 +1,5 @@
 // Clips of few pictures a second as if there were more: between two pictures as many are made as the motion there
-// needs, along it (align/pair_motion.hpp).
+// needs, along it (align/in_between.hpp).
 //
 //   in:      a clip, which is read twice: once for how much moves, once for its pictures
 //   out:     a clip of its own pictures, bit for bit, and those made between them; which are which
