@@ -13,8 +13,6 @@ namespace nutik {
 namespace {
 
 constexpr std::uint32_t kMarginBlocks = 8;     // round what changed: a patch is followed with its surroundings
-constexpr float kNoise = 4.0F * 4.0F;          // of 255, squared: what differs less has not changed
-constexpr float kDoubt = 2 * kNoise;           // added to both: what changes by little more than noise moves no light
 constexpr float kBelieved = 0.5F, kFoundBack = 0.35F;  // a pixel away from where it came from, on average
 constexpr float kHardlyBelieved = 0.02F;
 constexpr double kSmooth = 1.42;  // pixels: steps that are this long or half of it look like none

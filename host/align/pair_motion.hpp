@@ -20,6 +20,10 @@ namespace nutik {
 
 class PairMotion {
  public:
+  static constexpr std::uint32_t kBlock = 8;      // pixels a side
+  static constexpr float kNoise = 4.0F * 4.0F;    // of 255, squared: what differs less has not changed
+  static constexpr float kDoubt = 2 * kNoise;     // added to both: little more than noise moves no light
+
   PairMotion(std::uint32_t width, std::uint32_t height);
 
   // Uses as many threads.
@@ -41,8 +45,6 @@ class PairMotion {
 
  private:
   friend class InBetween;
-
-  static constexpr std::uint32_t kBlock = 8;  // pixels a side
 
   // How a block of pixels comes from the first picture to the second: in so many steps, a power of 2, of which each
   // moves nothing by much more than a pixel. One step: it holds until the middle.

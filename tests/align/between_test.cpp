@@ -245,6 +245,22 @@ TEST(Between, KeepsWhatIsStillAsItIs) {
   }
 }
 
+// A wall without texture beside a dark thing looks as if it moved along, and would hide the post.
+TEST(Between, DragsNoStillGroundAlong) {
+  const Scene passing = [](double x, double y, double time) {
+    const bool is_passing = std::hypot(x - (60 + 14 * time), (y - 110) / 2) < 30;
+    return is_passing ? 0.05 : std::abs(x - 146) < 2.5 ? 0.35 : y > 150 ? ground_at(x, y) : 0.8;
+  };
+  std::vector<std::vector<std::byte>> pictures;
+  for (int k = 0; k < 9; ++k) pictures.push_back(drawn(passing, k));
+  const ClipToAlign clip = clip_of(pictures);
+  const MadeSamples made = planned(clip, 7);
+  const auto samples = filled(clip, made);
+  ASSERT_EQ(samples.size(), 65U);
+  // 0.36 where the wall moves along.
+  EXPECT_LT(share_of_error(passing, 8, made, samples), 0.3);
+}
+
 TEST(Between, MakesNothingWhereNothingMovesNorAcrossACut) {
   std::vector<std::vector<std::byte>> still, cut, flash, dissolve;
   const Scene other = [](double x, double y, double) { return ground_at(0.7 * y + 300, 1.3 * x - 80); };
