@@ -7,7 +7,7 @@
 
 namespace nutik {
 
-// Of an even number the upper of the two in the middle. There is one value at least.
+// The upper of the two in the middle where there is an even number. There is one value at least.
 template <typename Value>
 [[nodiscard]] Value median(std::vector<Value> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

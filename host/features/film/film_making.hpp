@@ -42,7 +42,7 @@ class VideoOutput {
   // The size of its frames: in square pixels where people look at them.
   [[nodiscard]] Shape shape(const CaptureFormat& capture) const;
   [[nodiscard]] FileWishes wishes() const { return file_wishes(request_); }
-  // Of a video in one file. `video` has what comes of the clip: its sound, chroma and screen.
+  // The writer of a video in one file. `video` has what comes of the clip: its sound, chroma and screen.
   [[nodiscard]] std::unique_ptr<VideoWriter> open(const CaptureFormat& capture, const OutputFormat& format,
                                                   VideoFormat video) const;
 
