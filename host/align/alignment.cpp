@@ -218,6 +218,12 @@ constexpr double kMinPixels = 1.0;
 }  // namespace
 
 std::string MovedCamera::text() const {
+  if (is_untold()) {
+    return format(
+        "whether the camera moved could not be told: {} of {} pictures could not be compared with the first, as in low "
+        "light, in blur, or where what moves fills the picture",
+        unsure, looks);
+  }
   const std::string moved = format("{:.1f} pixels and {:.2f} degrees", pixels, degrees);
   return format("the camera moved by {}, and still things are not still",
                 unsure == 0 ? format("up to {}, most at sample {}", moved, sample)
@@ -238,7 +244,7 @@ std::optional<MovedCamera> moved_camera(tik::Reader& capture) {
   std::vector<std::byte> raster(format.sample_bytes());
   std::unique_ptr<Registrar> registrar;
   std::optional<MovedCamera> moved;
-  double most = kMinPixels;
+  double most = kMinPixels, seemingly = 0;
   const std::uint64_t looks = std::min(count, kLooks);
   std::uint64_t unsure = 0;
   for (std::uint64_t look = 0; look < looks; ++look) {
@@ -258,13 +264,17 @@ std::optional<MovedCamera> moved_camera(tik::Reader& capture) {
     const Registered found = registrar->find(raster, Warp(), Reach::near);
     const Place way = furthest_way(found.warp, format.shape);
     const double corner = std::hypot(way.x, way.y);
-    if (!is_sure(found)) ++unsure;
+    if (!is_sure(found)) {
+      ++unsure;
+      seemingly = std::max(seemingly, corner);
+    }
     if (!is_sure(found) || corner < most) continue;
     most = corner;
     const double degrees =
         found.warp.degrees_at((format.shape.width - 1) / 2.0, (format.shape.height - 1) / 2.0);
     moved = {.pixels = corner, .degrees = std::abs(degrees), .sample = sample, .looks = looks};
   }
+  if (!moved && 2 * unsure >= looks && registrar->sees_much()) moved = {.looks = looks, .seemingly_pixels = seemingly};
   if (moved) moved->unsure = unsure;
   return moved;
 }

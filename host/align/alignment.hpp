@@ -60,12 +60,14 @@ struct ClipToAlign {
 [[nodiscard]] tik::Alignment kept_alignment(const CameraPath& path, Unseen unseen);
 [[nodiscard]] std::string alignment_text(const tik::Alignment& aligned);
 
-// How the camera of a capture moved that was taken for a resting one.
+// How the camera of a capture moved that was taken for a resting one, or that this could not be told.
 struct MovedCamera {
-  double pixels = 0;  // of the place that moved furthest
+  double pixels = 0;  // of the place that moved furthest; 0: untold
   double degrees = 0;
   std::uint64_t sample = 0;  // at which, from the first sample
   std::uint64_t looks = 0, unsure = 0;  // samples, and those that may have moved further: they could not be compared
+  double seemingly_pixels = 0;          // where that is untold
+  [[nodiscard]] bool is_untold() const { return pixels == 0; }
   // `the camera moved: …`
   [[nodiscard]] std::string text() const;
 };
@@ -73,8 +75,9 @@ struct MovedCamera {
 // What a look takes, beside blocks of the capture.
 [[nodiscard]] MemoryNeeds camera_check_needs(const CaptureFormat& capture);
 
-// Looks at a few samples. Nothing of a capture whose pictures were aligned, nor where it stands still, nor where most
-// of the picture follows no motion of a camera. Throws InputError where the capture is damaged.
+// Looks at a few samples. Nothing of a capture whose pictures were aligned, nor where it stands still, nor where little
+// has texture; untold where half of them or more follow no motion of a camera. Throws InputError where the capture is
+// damaged.
 [[nodiscard]] std::optional<MovedCamera> moved_camera(tik::Reader& capture);
 
 }  // namespace nutik

@@ -68,9 +68,13 @@ class Registrar {
   virtual ~Registrar() = default;
 
   // Registers a raster of the same format, expected to lie about where `guess` says. Returns the best that was found,
-  // good or not: ask is_sure(). Several threads may ask at once.
+  // good or not: ask is_sure(). Nearby that is another place only where much of the picture lies there. Several threads
+  // may ask at once.
   [[nodiscard]] virtual Registered find(std::span<const std::byte> raster, const Warp& guess,
                                         Reach reach = Reach::anywhere) = 0;
+
+  // Whether a quarter of the reference or more has texture: it is no thing before a bare wall.
+  [[nodiscard]] virtual bool sees_much() const = 0;
 };
 
 // Registers other pictures to `reference`, a raster of that format. Throws TooLittleTexture, InputError where

@@ -216,6 +216,10 @@ TEST_F(Aligning, IsMissedWhereTheCameraMoved) {
   make(encoding("lost lost.tik"));
   expect_says(run("check lost.tik").out, "degrees or more (at sample ");
   expect_says(run("check lost.tik").out, "2 of 9 pictures could not be compared");
+  write("unlike", [](int picture) { return Shift{1000.0 * picture, 700.0 * picture}; });
+  make(encoding("unlike unlike.tik"));
+  expect_says(run("check unlike.tik").out, "whether the camera moved could not be told: 8 of 9 pictures");
+  expect_says(run("check unlike").err, "whether the camera moved was not looked at");
   write("far", [](int picture) { return Shift{2 * hand(picture).x, 2 * hand(picture).y}; });
   // A clip is read again; a capture cannot be.
   EXPECT_FALSE(says({"study", "-f", "100", "far", "-o", "s2.png"}));

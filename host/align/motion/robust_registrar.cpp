@@ -212,7 +212,21 @@ class RobustRegistrar final : public Registrar {
     return found;
   }
 
+  [[nodiscard]] bool sees_much() const override {
+    std::array<std::size_t, std::tuple_size_v<Parts>> counts{};
+    for (const Point& point : levels_.front().points) ++counts[part_of(levels_.front(), point)];
+    const auto textured = std::ranges::count_if(counts, [](std::size_t count) { return count >= kMinOfPart; });
+    return 4 * static_cast<std::size_t>(textured) >= counts.size();
+  }
+
  private:
+  [[nodiscard]] static std::size_t part_of(const Level& level, const Point& point) {
+    const auto part = [](auto at, int size) {
+      return static_cast<std::size_t>(at) * kPartsToASide / static_cast<std::size_t>(size);
+    };
+    return part(point.y, level.size.height) * kPartsToASide + part(point.x, level.size.width);
+  }
+
   // As many come to be as searches run at the same time.
   [[nodiscard]] std::unique_ptr<GreyPyramid> spare_pyramid() {
     const std::scoped_lock lock(pyramids_mutex_);
@@ -302,8 +316,8 @@ class RobustRegistrar final : public Registrar {
     if (seen.empty()) return best;
     const Registered rests = judged(level, grey, {guess, 1, brighter_by(seen)});
     if (rests.residual_pixels <= kClearlyBetter * best.residual_pixels) return rests;
-    const bool is_clear = best.agreeing >= kClearlyMost && is_spread(level, grey, guess, best.warp);
-    return is_clear ? best : Registered{guess, 0, rests.residual_pixels};
+    if (!is_sure(best) || !is_spread(level, grey, guess, best.warp)) return {guess, 0, rests.residual_pixels};
+    return best.agreeing >= kClearlyMost ? best : Registered{best.warp, 0, rests.residual_pixels};
   }
 
   // Whether a quarter of the picture's parts or more follow a warp, and clearly not what is expected: noise over a dark
@@ -327,12 +341,7 @@ class RobustRegistrar final : public Registrar {
     if (seen.empty()) return parts;
     const Fit fit{warp, 1, brighter_by(seen)};
     for (const Sampled& sample : seen) {
-      const auto column = static_cast<std::size_t>(sample.point->x) * kPartsToASide /
-                          static_cast<std::size_t>(level.size.width);
-      const auto row = static_cast<std::size_t>(sample.point->y) * kPartsToASide /
-                       static_cast<std::size_t>(level.size.height);
-      parts[row * kPartsToASide + column].push_back(std::abs(residual(sample, fit)) /
-                                                    gradient_of(*sample.point));
+      parts[part_of(level, *sample.point)].push_back(std::abs(residual(sample, fit)) / gradient_of(*sample.point));
     }
     return parts;
   }

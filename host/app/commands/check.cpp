@@ -339,6 +339,9 @@ int run_check(const Options& options) {
   const InputCheck check = checked_inputs(options);
   Answer answer{check_json(check)};
   if (check.capture) answer.tell_source(check.capture->facts, check.capture->notes);
+  if (check.capture && !is_tik(check.capture->name)) {
+    answer.notes.emplace_back("whether the camera moved was not looked at: check the .tik that encode makes of it");
+  }
   if (!options.json) print_check(check, options.quiet);
   tell(options, {}, answer, true);
   return count_of(check.findings, Severity::error) > 0 ? ExitStatus::input : ExitStatus::ok;

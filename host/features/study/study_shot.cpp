@@ -97,9 +97,9 @@ class ShotPlanner {
     return planned;
   }
 
-  // Plans a single shot. Where the camera moved, a clip is read once more; also where everything seems to move, for a
-  // subject that fills much of the first picture hides that. Where no motion of the camera explains the pictures, they
-  // are shown as they were filmed, or as they were moved, whichever rests more.
+  // Plans a single shot. Where the camera moved or seems to, a clip is read once more; also where everything seems to
+  // move, for a subject that fills much of the first picture hides that. Where no motion of the camera explains the
+  // pictures, they are shown as they were filmed, or as they were moved, whichever rests more.
   [[nodiscard]] PlannedStudy plan(const SourceRequest& source, Session session) const {
     const bool may_align = session.is_clip() && !source.align;
     std::optional<MovedCamera> moved = moved_camera(session.capture());
@@ -121,6 +121,15 @@ class ShotPlanner {
       if (std::optional<Note> note = unexplained(session.capture())) {
         study->falls_short = true;
         notes.push_back(std::move(*note));
+      }
+      if (may_align && moved && moved->seemingly_pixels > kMaxCameraPixels) {
+        std::string why;
+        std::optional<PlannedStudy> aligned = plan_aligned(source, session.timeline().sample_count(), why);
+        const bool is_whole = aligned && !aligned->part;
+        const bool has_moved =
+            aligned && aligned->session.capture().header().alignment->moved_pixels > kMaxCameraPixels;
+        if (has_moved && aligned->study.moving_share < study->moving_share) return std::move(*aligned);
+        if (is_whole && !has_moved) moved.reset();  // every picture was found where the first one is
       }
       return {std::move(session), std::move(*study), std::move(moved), std::move(notes)};
     }
