@@ -215,7 +215,7 @@ InBetween::Tried InBetween::tried(std::uint32_t x, std::uint32_t y, const FlowVe
           believed_of((differs + doubt) / remains / 2) * believed_of(dragged / (is_new + doubt))};
 }
 
-// Of both directions' mean and each alone, the way that leaves least.
+// Takes the way that leaves least: that of both directions' mean, or of one alone.
 void InBetween::choose_ways(std::uint32_t column, std::uint32_t row, float share) {
   const Rectangle& box = motion_.box_;
   for (std::uint32_t k = 0; k < kPlaces * kPlaces; ++k) {
