@@ -143,7 +143,8 @@ class Batch {
       if (names_standard_output(output)) {
         throw UsageError("standard output takes one picture, and a batch makes many; name a file");
       }
-      check_output(output, OutputKind::picture, input_files(line), replacing(line));
+      const auto check = [&] { check_output(output, OutputKind::picture, input_files(line), replacing(line)); };
+      if (!is_writable(listed.line, check)) return;
       if (const auto reader = line_of_input_.find(led_to(output)); reader != line_of_input_.end()) {
         throw UsageError(format("{} is an input of line {}; choose another name", output.string(), reader->second));
       }
@@ -163,7 +164,8 @@ class Batch {
           return;
         }
       }
-      maps.check(0, input_files(line), output, replacing(line));
+      const auto check_map = [&] { maps.check(0, input_files(line), output, replacing(line)); };
+      if (!is_writable(listed.line, check_map)) return;
       Session& session = session_of(line.operands.front());
       waiting_.push_back({listed.line, line, output, maps});
       line_->add([&session, request, format = output_format(line.picture, output, session.format())](
@@ -230,11 +232,7 @@ class Batch {
   void write(const Waiting& waiting, ExposedPicture exposed) {
     const auto& [number, line, output, maps] = waiting;
     std::optional<Recipe::Input> map;
-    try {
-      map = maps.write(0, exposed);
-    } catch (const OutputError& error) {
-      return report(number, error);
-    }
+    if (!is_writable(number, [&] { map = waiting.maps.write(0, exposed); })) return;
     tally_.add(exposed);
     Json told{{"line", number}, {"picture", output.string()}};
     if (maps.are_asked()) told["bounds_map"] = maps.of(0).string();
@@ -283,6 +281,16 @@ class Batch {
     return *session_;
   }
 
+  // Reports a line's file that cannot be written, which stops no other.
+  bool is_writable(std::size_t line, const std::function<void()>& work) {
+    try {
+      work();
+      return true;
+    } catch (const OutputError& error) {
+      report(line, error);
+      return false;
+    }
+  }
   void reported(std::size_t line, const std::function<void()>& work) {
     unless_wrong(work, [&](const Error& error) { report(line, error); });
   }
