@@ -14,9 +14,8 @@ namespace {
 
 constexpr float kSmall = 1e-6F;
 constexpr std::uint32_t kGrid = 4;  // pixels from place to place where ways are chosen
-constexpr std::uint32_t kRound = 5,
-                        kEvery = 3;  // pixels round such a place that are compared, and between them
-constexpr float kSameWay = 0.5F;     // pixels: ways that differ by less are one
+constexpr std::uint32_t kRound = 5, kEvery = 3;  // pixels round such a place that are compared, and between them
+constexpr float kSameWay = 0.5F;  // pixels: ways that differ by less are one
 constexpr std::uint32_t kPlaces = PairMotion::kBlock / kGrid;  // on a block's side
 
 }  // namespace
