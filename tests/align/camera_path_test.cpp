@@ -9,7 +9,7 @@
 #include "capture/error.hpp"
 #include "support/messages.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 Warp shifted(double x, double y) { return {{1, 0, x, 0, 1, y, 0, 0, 1}}; }
@@ -50,7 +50,7 @@ TEST(CameraPath, IsReadAsItWasWritten) {
 }
 
 std::string complaint(const std::string& text) {
-  return test::message_of<InputError>([&] { return parse_camera_path(text, "path.csv"); });
+  return message_of<InputError>([&] { return parse_camera_path(text, "path.csv"); });
 }
 
 TEST(CameraPath, SaysWhatIsWrongInAFile) {
@@ -161,4 +161,4 @@ TEST(SeenArea, ACameraThatRestsSawItsWholePicture) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -13,7 +13,7 @@
 #include "support/clips.hpp"
 #include "system/parallel.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 constexpr double kMaxPixels = 0.05, kMaxDegrees = 0.01;  // root of the mean square
@@ -58,7 +58,7 @@ CaptureFormat format_of(const Look& look) {
 
 std::unique_ptr<Registrar> registrar_of(const CaptureFormat& format, CameraMotion motion,
                                         std::span<const std::byte> reference) {
-  test::use_modules();
+  use_modules();
   return open_registrar(format, motion, reference);
 }
 
@@ -364,4 +364,4 @@ TEST(Registrar, CountsTheMemoryOfThinPictures) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -7,17 +7,14 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
 #include "support/app_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using nlohmann::json;
 
 constexpr int kWidth = 160, kHeight = 120, kPictures = 12;
 
@@ -51,7 +48,7 @@ cv::Mat drawn(const Shift& shift, int picture, bool has_subject) {
   return drawn;
 }
 
-class Aligning : public test::AppTest {
+class Aligning : public AppTest {
  protected:
   void SetUp() override { write("frames", hand); }
 
@@ -72,7 +69,7 @@ class Aligning : public test::AppTest {
   }
 };
 
-test::Words encoding(const test::Words& words) { return "encode -f 100" + words; }
+Words encoding(const Words& words) { return "encode -f 100" + words; }
 
 TEST_F(Aligning, HoldsStillThingsStillAndCropsToWhatEveryPictureSaw) {
   const json encoded = answer(encoding("--align translation frames a.tik"));
@@ -155,7 +152,7 @@ TEST_F(Aligning, TellsWhatWasDoneToPicturesBefore) {
   }
   for (const char* unseen : {"crop", "hold"}) {
     const auto words = encoding({"--deflicker", "--align", "rigid", "--unseen", unseen, "dimmed", "a.tik"});
-    expect_says(make(test::over(words)).err, "the exposure of 2 of 12 pictures was corrected");
+    expect_says(make(over(words)).err, "the exposure of 2 of 12 pictures was corrected");
   }
 }
 
@@ -187,8 +184,8 @@ TEST_F(Aligning, IsMissedWhereTheCameraMoved) {
   write("still", [](int) { return Shift(); });
   make(encoding("still still.tik"));
   const std::string told = "the camera moved by up to ";
-  const auto says = [&](const test::Words& words) {
-    const auto result = make(words.front() == "check" ? words : test::Words(test::over(words)));
+  const auto says = [&](const Words& words) {
+    const auto result = make(words.front() == "check" ? words : Words(over(words)));
     return (result.out + result.err).find(told) != std::string::npos;
   };
   EXPECT_EQ(answer("check plain.tik")["findings"][0]["kind"], "camera_moved");
@@ -248,7 +245,7 @@ TEST_F(Aligning, RefusesAModuleOfAnotherVersion) {
   const std::string told = run("--version").out;
   const std::size_t begin = told.find_first_of("0123456789");
   const std::string version = told.substr(begin, told.find_last_of("0123456789") + 1 - begin);
-  std::string module = test::read_file(std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path() / "nutik-motion.so");
+  std::string module = read_file(std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path() / "nutik-motion.so");
   std::string other = version;
   for (char& each : other) each = each == '.' ? '.' : '9';
   const std::string ended = version + '\0';
@@ -258,7 +255,7 @@ TEST_F(Aligning, RefusesAModuleOfAnotherVersion) {
   ASSERT_GE(changed, 1u);
   scratch_.write("nutik-motion.so", module);
   std::filesystem::copy_file(NUTIK_TEST_PROGRAM, scratch_ / "alone");
-  const auto checked = test::run_shell("env -u NUTIK_MODULES ./alone check plain.tik", scratch_.folder());
+  const auto checked = run_shell("env -u NUTIK_MODULES ./alone check plain.tik", scratch_.folder());
   expect_says(checked.out, "nutik-motion.so: of version " + other + ", and this program is of " + version);
 }
 
@@ -323,4 +320,4 @@ TEST_F(Aligning, SaysWhatMemoryItTakes) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -3,13 +3,10 @@
 
 #include "support/app_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::ProgramResult;
-using test::read_file;
-
-class Batch : public test::AppTest {
+class Batch : public AppTest {
  protected:
   void SetUp() override {
     make_scene();
@@ -196,4 +193,4 @@ TEST_F(Batch, RefusesListsThatListNothing) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

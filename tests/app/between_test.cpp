@@ -6,10 +6,10 @@
 #include "capture/format.hpp"
 #include "support/app_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-class BetweenPictures : public test::AppTest {
+class BetweenPictures : public AppTest {
  protected:
   static constexpr int kWidth = 128, kHeight = 80, kPictures = 4;
 
@@ -39,7 +39,7 @@ TEST_F(BetweenPictures, AreMarkedWhereverTheyAreTold) {
   EXPECT_EQ(info["samples"], 25);
   EXPECT_EQ(info["made_samples"]["after"], (std::vector<int>{7, 7, 7, 0}));
   expect_says(run("info all.tik").out, "21 samples made along the motion between 4 filmed");
-  const test::Words trace("trace --pixel 50,40 --start 0s --exposure 200ms all.tik");
+  const Words trace("trace --pixel 50,40 --start 0s --exposure 200ms all.tik");
   expect_says(run(trace).out, " made");
   make(trace + "steps.csv");
   expect_says(file("steps.csv"), ",is_made\n");
@@ -51,7 +51,7 @@ TEST_F(BetweenPictures, AreMarkedWhereverTheyAreTold) {
 }
 
 TEST_F(BetweenPictures, JoinWhatFramesOfAVideoWouldShowTwice) {
-  const test::Words film("video -f 20 --transfer srgb --out-angle 360 --overwrite frames %d.png --out-fps 10");
+  const Words film("video -f 20 --transfer srgb --out-angle 360 --overwrite frames %d.png --out-fps 10");
   const std::string note = "samples are looked for between pictures 0 … 3, which takes most of the time; --between off";
   const auto joined = make(film);
   expect_says(joined.err, note);
@@ -92,7 +92,7 @@ TEST_F(BetweenPictures, AreSaidToBeMissingAloneWhereTheDiskIsFull) {
 }
 
 TEST_F(BetweenPictures, AreMadeOnlyWhereAnIntervalInSecondsLies) {
-  const test::Words source("-f 20 --transfer srgb --start 60ms --exposure 30ms --no-recipe frames");
+  const Words source("-f 20 --transfer srgb --start 60ms --exposure 30ms --no-recipe frames");
   make(source + "--between 3 part.pfm");
   make(source + "--between 3:0f..3f all.pfm");
   EXPECT_TRUE(file("part.pfm") == file("all.pfm"));
@@ -102,7 +102,7 @@ TEST_F(BetweenPictures, AreMadeOnlyWhereAnIntervalInSecondsLies) {
 }
 
 TEST_F(BetweenPictures, AreMadeAgainByARecipe) {
-  const test::Words source("-f 20 --transfer srgb --between 3 --renderer reference frames");
+  const Words source("-f 20 --transfer srgb --between 3 --renderer reference frames");
   make("expose --start 10ms --exposure 150ms" + source + "-o p.png");
   expect_says(expect_made_again("p.png"), "--between 3");
   make("video --out-fps 10" + source + "-o f-%d.png");
@@ -129,4 +129,4 @@ TEST_F(BetweenPictures, AreRefusedWhereTheyCannotBe) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

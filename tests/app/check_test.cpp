@@ -3,23 +3,19 @@
 
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "support/app_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using nlohmann::json;
-using test::ProgramResult;
 
 constexpr int kClipWidth = 120;
 constexpr int kClipHeight = 80;
 
 // A capture of 30 pictures of 120 × 80 pixels at 10 a second, 3 s, and a mask of three regions.
-class Check : public test::AppTest {
+class Check : public AppTest {
  protected:
   void SetUp() override {
     write_frames(30, [](int k) { return cv::Mat(kClipHeight, kClipWidth, CV_8UC1, cv::Scalar::all(8 * k)); });
@@ -34,24 +30,24 @@ class Check : public test::AppTest {
                    "M255 [999999999:0], [1000000000:0.5], [1200000000:0.5], [1200000001:0]\n");
   }
 
-  [[nodiscard]] double still_gain(const test::Words& inputs) const {
+  [[nodiscard]] double still_gain(const Words& inputs) const {
     return answer("check" + inputs).at("functions").at(0).at("still_gain");
   }
   void save_mask() const { cv::imwrite((scratch_ / "mask.pgm").string(), mask_); }
-  json findings(const test::Words& inputs, int status) const {
+  json findings(const Words& inputs, int status) const {
     const ProgramResult result = make("check --json" + inputs, status);
     EXPECT_EQ(result.err, "");
     return json::parse(result.out).at("findings");
   }
   // The kinds of what was found, in order.
-  std::vector<std::string> kinds(const test::Words& inputs, int status) const {
+  std::vector<std::string> kinds(const Words& inputs, int status) const {
     std::vector<std::string> kinds;
     for (const json& finding : findings(inputs, status)) kinds.push_back(finding.at("kind"));
     return kinds;
   }
 
   using Kinds = std::vector<std::string>;
-  const test::Words all_ = "-m mask.pgm -k good.fn clip.tik";
+  const Words all_ = "-m mask.pgm -k good.fn clip.tik";
   cv::Mat mask_;
 };
 
@@ -121,7 +117,7 @@ TEST_F(Check, SaysEverythingThatIsWrongAtOnce) {
       "M0 [5:1], [5:0]\nM1{[0:0], [1:1], [100000000:1], [1000000002:-25], [1010000001:0]}\nM300 [0:1]\n");
   cv::imwrite((scratch_ / "small.pgm").string(),
               cv::Mat(kClipWidth / 2, kClipHeight / 2, CV_8UC1, cv::Scalar::all(7)));
-  std::string capture = test::read_file(scratch_ / "clip.tik");
+  std::string capture = read_file(scratch_ / "clip.tik");
   // In the first picture.
   capture[capture.size() / 2] ^= 0x55;
   scratch_.write("damaged.tik", capture);
@@ -135,7 +131,7 @@ TEST_F(Check, SaysEverythingThatIsWrongAtOnce) {
 }
 
 TEST_F(Check, ADamagedBlockIsNamedAndTheRestIsChecked) {
-  std::string capture = test::read_file(scratch_ / "clip.tik");
+  std::string capture = read_file(scratch_ / "clip.tik");
   // The one block lies somewhere behind the first picture; other damage there is named otherwise.
   bool is_found = false;
   for (std::size_t offset = kClipWidth * kClipHeight; offset < capture.size() && !is_found; offset += 16) {
@@ -191,7 +187,7 @@ TEST_F(Check, MaskValuesWithoutAFunction) {
   EXPECT_EQ(kinds(all_, 3), (Kinds{"unused_function", "unmapped_mask_values"}));
   EXPECT_EQ(kinds(all_ + "--unmapped zero", 0), Kinds{"unused_function"});
   // A function with a mistake is there all the same.
-  scratch_.write("broken.fn", test::read_file(scratch_ / "good.fn") + "M9 [0:x]\n");
+  scratch_.write("broken.fn", read_file(scratch_ / "good.fn") + "M9 [0:x]\n");
   EXPECT_EQ(kinds("-m mask.pgm -k broken.fn clip.tik", 3), (Kinds{"function_file", "unused_function"}));
 }
 
@@ -250,7 +246,7 @@ TEST_F(Check, MasksThatWereSmoothedOrKeptAsJpeg) {
 
 TEST_F(Check, TheFiguresOfThePaper) {
   const auto figure = [&](const std::string& name) {
-    scratch_.write(name + ".fn", test::read_file(std::filesystem::path(NUTIK_TEST_CORPUS) / (name + ".fn")));
+    scratch_.write(name + ".fn", read_file(std::filesystem::path(NUTIK_TEST_CORPUS) / (name + ".fn")));
     return kinds({"-k", name + ".fn", "clip.tik"}, 0);
   };
   EXPECT_EQ(figure("figure04"), Kinds{});
@@ -278,4 +274,4 @@ TEST_F(Check, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -1,29 +1,27 @@
 // Clips of which a part is taken, that come through a pipe, or end too early, from the command line to the picture.
 #include <gtest/gtest.h>
 
-
 #include "support/app_test.hpp"
 #include "support/ffmpeg.hpp"
 #include "support/stills.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-class PartOfAClip : public test::AppTest {
+class PartOfAClip : public AppTest {
  protected:
   static constexpr Shape kShape{40, 24, 3};
   static constexpr int kStills = 6;
 
   void SetUp() override {
     std::filesystem::create_directory(scratch_ / "frames");
-    const auto stills = test::random_stills(kShape, 65'535, kStills, 3);
+    const auto stills = random_stills(kShape, 65'535, kStills, 3);
     for (int k = 0; k < kStills; ++k) {
-      scratch_.write("frames/" + std::to_string(k) + ".ppm",
-                     test::netpbm_file(stills[static_cast<std::size_t>(k)], false));
+      scratch_.write("frames/" + std::to_string(k) + ".ppm", netpbm_file(stills[static_cast<std::size_t>(k)], false));
     }
   }
 
-  void expose(const test::Words& words, const std::string& picture) const {
+  void expose(const Words& words, const std::string& picture) const {
     make("expose --renderer reference -f 100 frames -o " + picture + words);
   }
 };
@@ -39,7 +37,7 @@ TEST_F(PartOfAClip, IsExposedAsThatPartOfTheWhole) {
 // Light adds up whichever comes first. A mean is off by half a code of 65535 at most, in every picture and so in what
 // is exposed; beside it stand the roundings of a float.
 TEST_F(PartOfAClip, IsAsBrightScaledBeforeAsAfter) {
-  const test::Words exposure("--start 0s --exposure 60ms");
+  const Words exposure("--start 0s --exposure 60ms");
   expose(exposure, "whole.pfm");
   expose(exposure + "--scale 1/4", "scaled.pfm");
   const cv::Mat whole = picture("whole.pfm"), part = picture("scaled.pfm");
@@ -61,8 +59,7 @@ TEST_F(PartOfAClip, IsToldAndCheckedAndStatedInRecipes) {
               "20 x 12 as means of light (--scale)");
   const auto info = run("info part.tik");
   expect_says(info.out, "pictures 2 … 5 of 6");
-  const test::Words validate(
-      "validate --source frames --start 0s --exposure 10ms --runs 1 --scale 1/2 part.tik");
+  const Words validate("validate --source frames --start 0s --exposure 10ms --runs 1 --scale 1/2 part.tik");
   make(validate + "--from 2f");
   EXPECT_NE(run(validate + "--from 1f").status, 0);
   expose("--start 0f --exposure 1f --from 1f --crop 8x8+0+0 --ignore-errors", "p.png");
@@ -90,17 +87,17 @@ TEST_F(PartOfAClip, ComesThroughAPipe) {
   shell(program + " expose a.y4m --start 80ms --exposure 120ms" + tail + "named.png");
   shell("ffmpeg -v error -i a.y4m -f yuv4mpegpipe - | TMPDIR=tmp " + program +
         " expose - --start 80ms --exposure 120ms" + tail + "piped.png");
-  const std::string wanted = test::read_file(scratch_ / "named.png");
-  EXPECT_TRUE(test::read_file(scratch_ / "piped.png") == wanted);
+  const std::string wanted = read_file(scratch_ / "named.png");
+  EXPECT_TRUE(read_file(scratch_ / "piped.png") == wanted);
   EXPECT_TRUE(std::filesystem::is_empty(scratch_ / "tmp"));
   // A file is read where it lies; and what is read twice, as a series is.
   shell(program + " expose - --start 80ms --exposure 120ms" + tail + "- < a.y4m > sent.png");
-  EXPECT_TRUE(test::read_file(scratch_ / "sent.png") == wanted);
+  EXPECT_TRUE(read_file(scratch_ / "sent.png") == wanted);
   shell("cat a.y4m | " + program + " expose - --every 2f --exposure 2f" + tail + "s%d.png");
   expect_says(shell("cat a.y4m | " + program + " encode - && " + program + " info standard-input.tik").out,
               "12 samples");
   shell("cat a.y4m | " + program + " - short.tik");
-  EXPECT_TRUE(test::read_file(scratch_ / "short.tik") == test::read_file(scratch_ / "standard-input.tik"));
+  EXPECT_TRUE(read_file(scratch_ / "short.tik") == read_file(scratch_ / "standard-input.tik"));
 
   scratch_.write("f.fn", "M0 [0:1], [10000000:0]\n");
   expect_says(shell("cat f.fn | " + program + " expose -k - - -o x.png", 2).err,
@@ -121,18 +118,18 @@ TEST_F(PartOfAClip, EndsAtItsDamageWhereThatIsAsked) {
   NEEDS_FFMPEG();
   test::make(scratch_,
              "-f lavfi -i testsrc2=size=64x48:rate=25 -frames:v 30 -c:v ffv1 -level 3 -slicecrc 1 a.mkv");
-  std::string bytes = test::read_file(scratch_ / "a.mkv");
+  std::string bytes = read_file(scratch_ / "a.mkv");
   bytes[bytes.size() * 2 / 3] = static_cast<char>(bytes[bytes.size() * 2 / 3] ^ 8);
   scratch_.write("a.mkv", bytes);
   expect_refused("encode a.mkv a.tik", 3, "pictures before it can be taken (--ignore-errors)");
   const auto encoded = make("encode --ignore-errors a.mkv a.tik");
   expect_says(encoded.err, {"warning: a.mkv is taken as far as it goes, ", " of 30 pictures: "});
   // Straight from the clip it is the same picture, with the same warning; one before the damage has none.
-  const test::Words all("--start 0s --exposure 5s --renderer reference --no-recipe");
+  const Words all("--start 0s --exposure 5s --renderer reference --no-recipe");
   expect_says(make("expose --ignore-errors a.mkv -o clip.png" + all).err, "is taken as far as it goes");
   make("expose a.tik -o capture.png" + all);
-  EXPECT_TRUE(test::read_file(scratch_ / "clip.png") == test::read_file(scratch_ / "capture.png"));
+  EXPECT_TRUE(read_file(scratch_ / "clip.png") == read_file(scratch_ / "capture.png"));
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
@@ -14,14 +13,12 @@
 #include "support/ffmpeg.hpp"
 #include "support/stills.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using Json = nlohmann::json;
-
-class Colour : public test::AppTest {
+class Colour : public AppTest {
  protected:
-  void succeed(const test::Words& words) const { make(test::over(words)); }
+  void succeed(const Words& words) const { make(over(words)); }
 
   // A still scene of a linear 12-bit camera: even fields of 64 x 64 pixels, from light 0.01 to 1.
   void write_scene() const {
@@ -30,7 +27,7 @@ class Colour : public test::AppTest {
     const auto codes = picture.values<std::uint16_t>();
     for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = kCodes[i % 256 / 64];
     for (const char* name : {"scene/a.pgm", "scene/b.pgm", "scene/c.pgm", "scene/d.pgm"}) {
-      scratch_.write(name, test::netpbm_file(picture, true));
+      scratch_.write(name, netpbm_file(picture, true));
     }
   }
   static constexpr std::uint16_t kCodes[] = {41, 410, 1638, 4095};
@@ -92,8 +89,8 @@ TEST_F(Colour, OfACaptureFollowsAStatedTransfer) {
 // HLG's and PQ's codes go on behind white. What codes to be seen cut off is counted and said, with what keeps it.
 TEST_F(Colour, AboveWhiteIsNotCutOffInSilence) {
   write_scene();
-  const test::Words exposing("--start 0s --exposure 1f -f 30 scene");
-  const auto told = [&](const std::string& transfer, const test::Words& more) {
+  const Words exposing("--start 0s --exposure 1f -f 30 scene");
+  const auto told = [&](const std::string& transfer, const Words& more) {
     const auto result = make(exposing + "--transfer" + transfer + more);
     return result.out + result.err;
   };
@@ -117,7 +114,7 @@ TEST_F(Colour, AboveWhiteIsNotCutOffInSilence) {
   scratch_.write("list", "--start 0s --exposure 1f a.png\n--start 1f --exposure 1f b.png\n");
   expect_says(run("background -f 30 --transfer hlg scene plate.png").err,
               "4096 pixels hold more light than white and come out white; an .exr");
-  for (const test::Words words :
+  for (const Words words :
        {"batch -f 30 --transfer hlg list scene", "contact -f 30 --transfer hlg --every 1f scene sheet.png",
         "video -f 30 --transfer hlg --out-fps 30 scene x.mkv"}) {
     const auto result = make(words);
@@ -133,7 +130,7 @@ TEST_F(Colour, OfCamerasCurvesIsReflectance) {
     const std::string name(curve.name);
     const double signal = curve.signal_of(0.18);
     const int code = static_cast<int>(std::lround(curve.is_of_whole_codes ? 1023 * signal : 64 + 876 * signal));
-    scratch_.write("raw", test::planes_of(std::vector<std::array<int, 3>>(32 * 32, {code, 512, 512})));
+    scratch_.write("raw", planes_of(std::vector<std::array<int, 3>>(32 * 32, {code, 512, 512})));
     test::make(scratch_, "-f rawvideo -s 32x32 -pix_fmt yuv444p10le -r 25 -i raw -c:v ffv1 -color_range tv grey.mkv");
     succeed("--start 0s --exposure 1f --transfer " + name + " --out-transfer linear --depth 16 grey.mkv grey.png");
     const cv::Mat grey = picture("grey.png");
@@ -160,8 +157,8 @@ TEST_F(Colour, OfMeansOfLightStaysWhatItIs) {
       "nutik noise 0\nwhite 1023\ntransfer linear\nchannel grey\nread 0.002\nshot 0.0001\n"
       "curve sensor\n";
   scratch_.write("camera.noise", camera);
-  const test::Words exposing("--start 0s --exposure 3f");
-  for (const auto& [options, reason] : std::vector<std::pair<test::Words, std::string>>{
+  const Words exposing("--start 0s --exposure 3f");
+  for (const auto& [options, reason] : std::vector<std::pair<Words, std::string>>{
            {"--noise camera.noise", "what a camera's noise explains was held as its mean"},
            {"--scale 1/2", "pictures were scaled"}}) {
     succeed("encode -q clip.mkv means.tik" + options);
@@ -179,7 +176,7 @@ TEST_F(Colour, OfMeansOfLightStaysWhatItIs) {
     succeed("--transfer srgb clip.mkv x.png" + exposing + options);
   }
   // Codes that no transfer function went into are the same by any: capture and clip make one picture.
-  for (const test::Words options : {"--crop 32x32+8+8", "--deflicker", "--tolerance 2"}) {
+  for (const Words options : {"--crop 32x32+8+8", "--deflicker", "--tolerance 2"}) {
     succeed("encode -q clip.mkv codes.tik" + options);
     succeed("--transfer srgb --no-recipe codes.tik held.png" + exposing);
     succeed("--transfer srgb --no-recipe clip.mkv read.png" + exposing + options);
@@ -208,7 +205,7 @@ TEST_F(Colour, StandsInTheFile) {
              "-colorspace bt2020nc -color_primaries bt2020 -color_trc arib-std-b67 clip.mkv");
   const auto coded = [&](const char* out) {
     succeed({"--start", "0s", "--exposure", "1f", "--out-transfer", out, "--keep-pixels", "clip.mkv", "x.png"});
-    return chunks_of(test::read_file(scratch_ / "x.png"));
+    return chunks_of(read_file(scratch_ / "x.png"));
   };
   auto srgb = coded("srgb");
   EXPECT_EQ(srgb["cICP"], std::string("\x01\x0D\x00\x01", 4));
@@ -227,13 +224,13 @@ TEST_F(Colour, StandsInTheFile) {
   EXPECT_EQ(gamma["gAMA"], std::string("\x00\x00\xD9\x04", 4));  // 1 / 1.8
 
   succeed("-q clip.mkv clip.tik");
-  const Json info = answer("info clip.tik");
+  const json info = answer("info clip.tik");
   EXPECT_EQ(info["pixel_aspect"], "32:27");
   EXPECT_EQ(info["primaries"], "bt2020");
   EXPECT_EQ(info["transfer"], "hlg");
   EXPECT_EQ(info["version"], 1);
   succeed("video --out-fps 25 --keep-pixels clip.tik video.mp4");
-  const Json stream = Json::parse(shell("ffprobe -v error -of json -show_streams video.mp4").out)["streams"][0];
+  const json stream = json::parse(shell("ffprobe -v error -of json -show_streams video.mp4").out)["streams"][0];
   EXPECT_EQ(stream["sample_aspect_ratio"], "32:27");
   EXPECT_EQ(stream["color_transfer"], "iec61966-2-1");
   EXPECT_EQ(stream["color_primaries"], "bt709");
@@ -249,7 +246,7 @@ class AnamorphicPixels : public Colour {
   // A moving picture of 64 x 48 pixels, each twice as wide as high.
   void SetUp() override {
     std::string raw;
-    for (const Picture& still : test::random_stills({64, 48, 3}, 255, 6, 3))
+    for (const Picture& still : random_stills({64, 48, 3}, 255, 6, 3))
       raw.append(reinterpret_cast<const char*>(still.bytes.data()), still.bytes.size());
     scratch_.write("clip.raw", raw);
     succeed("--raw 64x48:rgb24 -f 25 --pixel-aspect 2:1 -q clip.raw clip.tik");
@@ -259,7 +256,7 @@ class AnamorphicPixels : public Colour {
 
 TEST_F(AnamorphicPixels, AreSquareForEyesAndKeptForMeasuring) {
   const std::string exposure = "--start 0s --exposure 2f clip.tik ";
-  const Json json = answer(exposure + "eyes.png");
+  const json json = answer(exposure + "eyes.png");
   EXPECT_EQ(json["width"], 128);
   EXPECT_EQ(json["notes"][0], "pixels of 2:1 were made square: 64 x 48 became 128 x 48 (--keep-pixels)");
   succeed(exposure + "eyes.jpg");
@@ -291,7 +288,7 @@ TEST_F(AnamorphicPixels, AreSquareInPlatesStudiesAndFilms) {
   EXPECT_EQ(size_of("k.png"), cv::Size(64, 48));
   const auto shape_of = [&](const std::string& words, const std::string& film) {
     succeed("video --out-fps 25 " + words + " clip.tik " + film);
-    const Json stream = Json::parse(shell("ffprobe -v error -of json -show_streams " + film).out)["streams"][0];
+    const json stream = json::parse(shell("ffprobe -v error -of json -show_streams " + film).out)["streams"][0];
     return format("{} x {}, {}", stream["width"].get<int>(), stream["height"].get<int>(),
                   stream.value("sample_aspect_ratio", "1:1"));
   };
@@ -313,7 +310,7 @@ TEST_F(Colour, ThatIsCutOffAtWhiteIsNotedWithWhatShowsIt) {
   std::istringstream advice(told.err.substr(at + start.size()));
   std::vector<std::string> words(3);
   for (std::string& word : words) advice >> word;
-  expect_says(run(test::Words(words) + "--start 0f --exposure 1f clip.mkv shown.png").out, "no pixel saturated");
+  expect_says(run(Words(words) + "--start 0f --exposure 1f clip.mkv shown.png").out, "no pixel saturated");
 }
 
 TEST_F(Colour, OfACaptureIsCorrectedWithoutItsClip) {
@@ -326,7 +323,7 @@ TEST_F(Colour, OfACaptureIsCorrectedWithoutItsClip) {
   for (const char* name : {"clip", "anew"}) {
     succeed({"--start", "3f", "--exposure", "20ms", std::string(name) + ".tik", std::string(name) + ".pfm"});
   }
-  EXPECT_EQ(test::read_file(scratch_ / "clip.pfm"), test::read_file(scratch_ / "anew.pfm"));
+  EXPECT_EQ(read_file(scratch_ / "clip.pfm"), read_file(scratch_ / "anew.pfm"));
   expect_refused(
       2, {{"retime clip.tik --in-place", "what is to be corrected?"},
           {"retime clip.tik -f 9", "say where to write: nutik-cl retime … clip.tik NEW.tik"},
@@ -339,4 +336,4 @@ TEST_F(Colour, OfACaptureIsCorrectedWithoutItsClip) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

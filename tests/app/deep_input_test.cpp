@@ -8,18 +8,13 @@
 #include "support/app_test.hpp"
 #include "support/stills.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::difference;
-using test::netpbm_file;
-using test::ProgramResult;
-using test::tiff_file;
-
-class DeepInput : public test::AppTest {
+class DeepInput : public AppTest {
  protected:
-  void succeed(const test::Words& words) const { make(test::over(words)); }
-  void expect_refused(const test::Words& words, int status, const std::vector<std::string>& parts) const {
+  void succeed(const Words& words) const { make(over(words)); }
+  void expect_refused(const Words& words, int status, const std::vector<std::string>& parts) const {
     const ProgramResult result = make(words, status);
     for (const std::string& part : parts) expect_says(result.err, part);
   }
@@ -57,7 +52,7 @@ TEST_F(DeepInput, OneSampleIsTheSourceCodeForCode) {
   for (const std::uint32_t channels : {1u, 3u}) {
     for (const std::uint32_t white : {100u, 255u, 1023u, 4095u, 65'535u}) {
       SCOPED_TRACE(std::to_string(channels) + " channels, white " + std::to_string(white));
-      const auto stills = test::random_stills({33, 17, channels}, white, 5, white);
+      const auto stills = random_stills({33, 17, channels}, white, 5, white);
       const std::string folder = "c" + std::to_string(channels) + "w" + std::to_string(white);
       write_netpbm(folder, stills);
       std::vector<std::string> transfers{"linear", "srgb"};
@@ -65,7 +60,7 @@ TEST_F(DeepInput, OneSampleIsTheSourceCodeForCode) {
       for (const std::string& transfer : transfers) {
         succeed({"encode", "-q", "-f", "100", "-a", "180", "--transfer", transfer, folder, "x.tik"});
         for (const char* renderer : {"opencl", "reference"}) {
-          const test::Words words = "--start 3f --exposure 1f x.tik x.png --renderer" + test::Words(renderer);
+          const Words words = "--start 3f --exposure 1f x.tik x.png --renderer" + Words(renderer);
           succeed(words + "--out-transfer source");
           expect_codes(scratch_ / "x.png", stills[3]);
           if (transfer != "srgb" || (white != 255 && white != 65'535)) continue;
@@ -83,41 +78,41 @@ TEST_F(DeepInput, OneSampleIsTheSourceCodeForCode) {
 TEST_F(DeepInput, EveryCodecAndNoneGiveTheSamePicture) {
   scratch_.write("f.fn", "M0 [0:0], [20000000:1.5], [50000000:-0.75], [79000000:0]\n");
   for (const auto& [channels, white] : {std::pair{1u, 4095u}, {3u, 65'535u}, {3u, 255u}}) {
-    write_netpbm("frames", test::random_stills({70, 41, channels}, white, 9, white));
+    write_netpbm("frames", random_stills({70, 41, channels}, white, 9, white));
     std::string first;
     for (const std::string codec : {"none", "rice", "lz4", "zstd", "zstd:19"}) {
       succeed({"encode", "-q", "-f", "100", "-a", "200", "--codec", codec, "frames", "x.tik"});
       succeed("-k f.fn x.tik x.pfm");
-      const std::string picture = test::read_file(scratch_ / "x.pfm");
+      const std::string picture = read_file(scratch_ / "x.pfm");
       EXPECT_GT(picture.size(), 70u * 41 * channels * 4);
       if (first.empty()) first = picture;
       EXPECT_EQ(picture == first, true) << codec << ", white " << white;
     }
     // Straight from the stills, with no capture between.
     succeed("-f 100 -a 200 -k f.fn frames x.pfm");
-    EXPECT_EQ(test::read_file(scratch_ / "x.pfm") == first, true) << "from the stills";
+    EXPECT_EQ(read_file(scratch_ / "x.pfm") == first, true) << "from the stills";
     std::filesystem::remove_all(scratch_ / "frames");
   }
 }
 
 TEST_F(DeepInput, EveryNameOfASequenceGivesTheSameCapture) {
-  const auto stills = test::random_stills({17, 9, 1}, 4095, 4, 1);
+  const auto stills = random_stills({17, 9, 1}, 4095, 4, 1);
   write_netpbm("frames", stills);
   scratch_.write("stack.tif", tiff_file(stills, {12}));
   std::string first;
   for (const std::string source : {"frames", "frames/", "frames/*.pgm", "frames/f%03d.pgm", "stack.tif"}) {
     succeed({"encode", "-q", "-f", "30000", source, "x.tik"});
-    const std::string capture = test::read_file(scratch_ / "x.tik");
+    const std::string capture = read_file(scratch_ / "x.tik");
     if (first.empty()) first = capture;
     EXPECT_EQ(capture == first, true) << source;
   }
 }
 
 TEST_F(DeepInput, SaysWhatItTookForWhite) {
-  write_netpbm("twelve", test::random_stills({17, 9, 1}, 4095, 2, 1));
+  write_netpbm("twelve", random_stills({17, 9, 1}, 4095, 2, 1));
   expect_said(run("encode -f 10 twelve"), "twelve.tik: 17 x 9 grey, 2 samples");
   expect_said(run("info twelve.tik"), "17 x 9 grey, 16 bits, white code 4095, transfer linear");
-  scratch_.write("stack.tif", tiff_file(test::random_stills({17, 9, 1}, 4095, 2, 1), {}));
+  scratch_.write("stack.tif", tiff_file(random_stills({17, 9, 1}, 4095, 2, 1), {}));
   expect_said(run("-f 10 stack.tif x.tik"),
               "white is taken to be 65535; state another, 4095 for 12 bits (--white)");
   expect_said(run("-f 10 --start 0f --exposure 1f stack.tif x.png"), "white is taken to be 65535");
@@ -128,7 +123,7 @@ TEST_F(DeepInput, SaysWhatItTookForWhite) {
 }
 
 TEST_F(DeepInput, RefusesWithTheFileBothValuesAndTheWayOut) {
-  const auto stills = test::random_stills({17, 9, 1}, 4095, 3, 1);
+  const auto stills = random_stills({17, 9, 1}, 4095, 3, 1);
   write_netpbm("frames", stills);
   expect_refused("frames x.tik", 3, {"frames does not say how fast it was taken; state the rate (--fps)"});
   expect_refused("-f 10 absent/*.png x.tik", 3, {"absent/*.png: no file matches"});
@@ -136,7 +131,7 @@ TEST_F(DeepInput, RefusesWithTheFileBothValuesAndTheWayOut) {
   std::filesystem::remove(scratch_ / "frames/f001.pgm");
   expect_refused("-f 10 frames/f%03d.pgm x.tik", 3,
                  {"f001.pgm is missing between f000.pgm and f002.pgm", "'frames/f*.pgm'"});
-  scratch_.write("frames/f003.pgm", netpbm_file(test::random_stills({16, 9, 1}, 4095, 1, 1)[0], false));
+  scratch_.write("frames/f003.pgm", netpbm_file(random_stills({16, 9, 1}, 4095, 1, 1)[0], false));
   expect_refused("-f 10 frames x.tik", 3,
                  {"frames/f003.pgm is 16 x 9 grey", "frames/f000.pgm, is 17 x 9 grey"});
   scratch_.write("frames/f003.pgm", "P5 17 9 4095\nshort");
@@ -150,17 +145,17 @@ TEST_F(DeepInput, RefusesWithTheFileBothValuesAndTheWayOut) {
 
 // A picture that is exposed from a sequence into its own folder must not replace one of its stills.
 TEST_F(DeepInput, NeverReplacesAStillOfItsSource) {
-  write_netpbm("frames", test::random_stills({17, 9, 1}, 255, 3, 1));
-  const std::string before = test::read_file(scratch_ / "frames/f001.pgm");
+  write_netpbm("frames", random_stills({17, 9, 1}, 255, 3, 1));
+  const std::string before = read_file(scratch_ / "frames/f001.pgm");
   for (const std::string source : {"frames", "frames/*", "frames/f%03d.pgm"}) {
     expect_refused({"-f", "10", "--start", "0s", "--exposure", "100ms", source, "frames/f001.pgm"}, 2,
                    {"the output frames/f001.pgm is also an input"});
   }
-  EXPECT_EQ(test::read_file(scratch_ / "frames/f001.pgm"), before);
+  EXPECT_EQ(read_file(scratch_ / "frames/f001.pgm"), before);
 }
 
 TEST_F(DeepInput, NamesOutputsAfterTheSequence) {
-  write_netpbm("frames", test::random_stills({17, 9, 1}, 255, 3, 1));
+  write_netpbm("frames", random_stills({17, 9, 1}, 255, 3, 1));
   for (const std::string source : {"frames/", "frames/*.pgm"}) {
     expect_said(run({"encode", "-f", "10", "--overwrite", source}), "frames.tik: ");
     std::filesystem::remove(scratch_ / "frames.tik");
@@ -172,7 +167,7 @@ TEST_F(DeepInput, NamesOutputsAfterTheSequence) {
 TEST_F(DeepInput, ReadsTheRecordedFiles) {
   const std::filesystem::path media = NUTIK_TEST_MEDIA;
   if (!std::filesystem::exists(media / "stuck.tif")) GTEST_SKIP() << "no clips in " << media;
-  const auto info = [&](const test::Words& words, const std::string& said) {
+  const auto info = [&](const Words& words, const std::string& said) {
     succeed("encode -q" + words + "x.tik");
     expect_said(run("info x.tik"), said);
   };
@@ -188,4 +183,4 @@ TEST_F(DeepInput, ReadsTheRecordedFiles) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -1,18 +1,15 @@
 // Time maps as a user meets them: --delay, and every command that knows it.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "support/app_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using nlohmann::json;
-
 // Eight pictures at 100 a second of linear light, picture k of code 10 k, 6 x 4 pixels.
-class DelayCommand : public test::AppTest {
+class DelayCommand : public AppTest {
  protected:
   void SetUp() override {
     write_frames(8, [](int k) { return cv::Mat(4, 6, CV_8UC1, cv::Scalar::all(10 * k)); });
@@ -26,7 +23,7 @@ class DelayCommand : public test::AppTest {
   }
 
   // One picture's time from 0 s on, with these delays, and what stands behind.
-  static test::Words exposing(const std::string& delay, const test::Words& behind) {
+  static Words exposing(const std::string& delay, const Words& behind) {
     return "--start 0s --exposure 10ms --out-transfer source --delay " + delay + behind;
   }
   [[nodiscard]] std::vector<int> column(const std::string& name) const {
@@ -77,7 +74,7 @@ TEST_F(DelayCommand, GoesWithMasksSoftOnesToo) {
   scratch_.write(
       "f.fn",
       "M0 [0:1], [9999999:1], [10000000:0]\nM9 [9999999:0], [10000000:1], [19999999:1], [20000000:0]\n");
-  const test::Words words("-k f.fn -m mask.pgm --delay rows:30ms --out-transfer source");
+  const Words words("-k f.fn -m mask.pgm --delay rows:30ms --out-transfer source");
   make(words + "clip.tik out.pgm");
   EXPECT_EQ(row("out.pgm"), (std::vector<int>{10, 10, 10, 20, 20, 20}));
   make(words + "--feather 2px clip.tik soft.pgm");
@@ -164,4 +161,4 @@ TEST_F(DelayCommand, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -2,22 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "support/program.hpp"
 #include "support/scratch.hpp"
 #include "support/still_clip.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using nlohmann::json;
-using test::ProgramResult;
 
 class Drivers : public testing::Test {
  protected:
   void SetUp() override {
-    test::write_still_clip(scratch_.folder(), 24, 20);
+    write_still_clip(scratch_.folder(), 24, 20);
     ASSERT_EQ(run({"-q", "encode", "-f", "100", "--tolerance", "4", "frames", "clip.tik"}).status, 0);
   }
 
@@ -25,7 +21,7 @@ class Drivers : public testing::Test {
   ProgramResult run(const std::vector<std::string>& words) const {
     std::vector<std::string> settings{"XDG_CACHE_HOME=" + (scratch_ / "cache").string()};
     if (on_mesa_) settings.insert(settings.end(), {"RUSTICL_ENABLE=llvmpipe", "NUTIK_DEVICE=rusticl"});
-    return test::run_program(words, scratch_.folder(), settings);
+    return run_program(words, scratch_.folder(), settings);
   }
   ProgramResult expose(std::vector<std::string> words) const {
     words.insert(words.begin(), {"expose", "--start", "0s", "--exposure", "100ms"});
@@ -36,14 +32,14 @@ class Drivers : public testing::Test {
   void turn_verdicts(const std::string& from, const std::string& to) const {
     for (const auto& file : std::filesystem::directory_iterator(scratch_ / "cache" / "nutik-cl")) {
       if (file.path().extension() != ".txt") continue;
-      std::string text = test::read_file(file.path());
+      std::string text = read_file(file.path());
       if (const std::size_t at = text.find(from); at != std::string::npos) {
         std::ofstream(file.path(), std::ios::binary) << text.replace(at, from.size(), to);
       }
     }
   }
 
-  test::Scratch scratch_;
+  Scratch scratch_;
   bool on_mesa_ = false;
 };
 
@@ -108,7 +104,7 @@ class SecondDriver : public Drivers {
 TEST_F(SecondDriver, IsListedBehindTheFirst) {
   const std::string devices = run({"devices"}).out;
   expect_part(devices, "llvmpipe");
-  const ProgramResult unset = test::run_program({"devices"}, scratch_.folder(), {"RUSTICL_ENABLE="});
+  const ProgramResult unset = run_program({"devices"}, scratch_.folder(), {"RUSTICL_ENABLE="});
   EXPECT_EQ(unset.out.find("rusticl"), std::string::npos) << unset.out;
   if (unset.status == 0) {
     EXPECT_LT(devices.find(unset.out.substr(0, unset.out.find('\n'))), devices.find("llvmpipe"));
@@ -123,8 +119,8 @@ TEST_F(SecondDriver, ComputesRightlyOrNotAtAll) {
     return;
   }
   ASSERT_EQ(expose({"--renderer", "reference", "clip.tik", "reference.pfm"}).status, 0);
-  const std::vector<float> mesa = test::read_pfm(scratch_ / "mesa.pfm");
-  const std::vector<float> reference = test::read_pfm(scratch_ / "reference.pfm");
+  const std::vector<float> mesa = read_pfm(scratch_ / "mesa.pfm");
+  const std::vector<float> reference = read_pfm(scratch_ / "reference.pfm");
   ASSERT_EQ(mesa.size(), reference.size());
   for (std::size_t i = 0; i < mesa.size(); ++i) ASSERT_NEAR(mesa[i], reference[i], 1e-6f) << i;
 }
@@ -155,4 +151,4 @@ TEST_F(SecondDriver, IsValidatedWithTimesOfKernelsIfItHasThem) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -8,15 +8,13 @@
 #include "support/ffmpeg.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Scratch;
 
 // A lossless clip: `count` noisy pictures with a moving square.
 void write_clip(const std::filesystem::path& path, int width, int height, int count) {
   std::string raw;
-  test::Random random(7);
+  Random random(7);
   for (int k = 0; k < count; ++k) {
     cv::Mat picture(height, width, CV_8UC3);
     for (int i = 0; i < width * height * 3; ++i) {
@@ -30,7 +28,7 @@ void write_clip(const std::filesystem::path& path, int width, int height, int co
   const Scratch scratch;
   scratch.write("raw", raw);
   const Shape shape{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), 3};
-  test::make(scratch, test::from_raw(shape, "bgr24") + "-c:v ffv1 -pix_fmt bgr0 " + path.string());
+  test::make(scratch, from_raw(shape, "bgr24") + "-c:v ffv1 -pix_fmt bgr0 " + path.string());
 }
 
 std::vector<cv::Mat> read_clip(const std::filesystem::path& path) {
@@ -44,9 +42,9 @@ struct Size {
   int width, height, count;
 };
 
-class Exposing : public test::AppTest, public testing::WithParamInterface<Size> {
+class Exposing : public AppTest, public testing::WithParamInterface<Size> {
  protected:
-  test::ProgramResult run(const test::Words& words) const { return make(test::over(words)); }
+  ProgramResult run(const Words& words) const { return make(over(words)); }
 };
 
 TEST_P(Exposing, OneSampleGivesItsCodesBack) {
@@ -73,9 +71,9 @@ TEST_P(Exposing, AClipGivesThePictureOfItsCapture) {
     run({"-a", "180", "--tolerance", tolerance, "clip.mkv", "clip.tik"});
     run("-k f.fn clip.tik a.png --no-recipe");
     run({"-a", "180", "--tolerance", tolerance, "-k", "f.fn", "clip.mkv", "b.png", "--no-recipe"});
-    EXPECT_EQ(test::read_file(scratch_ / "a.png"), test::read_file(scratch_ / "b.png")) << tolerance;
+    EXPECT_EQ(read_file(scratch_ / "a.png"), read_file(scratch_ / "b.png")) << tolerance;
     run("-k f.fn clip.tik c.png --renderer reference --no-recipe");
-    EXPECT_EQ(test::read_file(scratch_ / "a.png"), test::read_file(scratch_ / "c.png")) << tolerance;
+    EXPECT_EQ(read_file(scratch_ / "a.png"), read_file(scratch_ / "c.png")) << tolerance;
   }
 }
 
@@ -115,4 +113,4 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Exposing,
                          });
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

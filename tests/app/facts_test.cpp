@@ -3,20 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
 #include "support/app_test.hpp"
 #include "support/ffmpeg.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-class Facts : public test::AppTest {
+class Facts : public AppTest {
  protected:
   // The first pictures of a clip: what the summary says, then what the capture keeps of it.
   struct Told {
@@ -24,8 +23,8 @@ class Facts : public test::AppTest {
     std::map<std::string, std::string> facts;  // by what they are of, each with who said it
   };
 
-  Told told(const fs::path& clip, const test::Words& options) const {
-    const auto encoded = make(test::Words{"encode", "--overwrite", "--to", "3f", clip.string(), "part.tik"} + options);
+  Told told(const fs::path& clip, const Words& options) const {
+    const auto encoded = make(Words{"encode", "--overwrite", "--to", "3f", clip.string(), "part.tik"} + options);
     const auto info = make("info part.tik");
     Told result{encoded.out + encoded.err, {}};
     std::istringstream lines(info.out);
@@ -155,8 +154,7 @@ TEST_F(Facts, OfEveryRecordingHaveTheirOrigin) {
 // What the containers name is read, and what they do not is said to be assumed.
 TEST_F(Facts, OfVideosAreWhatFfprobeFinds) {
   if (!fs::exists(kMedia / "README.md")) GTEST_SKIP() << "no clips in " << kMedia;
-  if (test::run_shell("ffprobe -version", scratch_.folder()).status != 0)
-    GTEST_SKIP() << "ffprobe is missing";
+  if (run_shell("ffprobe -version", scratch_.folder()).status != 0) GTEST_SKIP() << "ffprobe is missing";
   const std::map<std::string, std::string> fields{{"matrix", "color_space"},
                                                   {"range", "color_range"},
                                                   {"primaries", "color_primaries"},
@@ -164,9 +162,8 @@ TEST_F(Facts, OfVideosAreWhatFfprobeFinds) {
   for (const Recording& recording : recordings()) {
     if (!recording.name.ends_with(".mp4") && !recording.name.ends_with(".mov")) continue;
     const Told told = this->told(kMedia / recording.name, {});
-    const auto probed = test::run_shell(
-        "ffprobe -v error -select_streams v:0 -show_streams " + (kMedia / recording.name).string(),
-        scratch_.folder());
+    const auto probed = run_shell(
+        "ffprobe -v error -select_streams v:0 -show_streams " + (kMedia / recording.name).string(), scratch_.folder());
     for (const auto& [subject, field] : fields) {
       const auto at = probed.out.find("\n" + field + "=");
       ASSERT_NE(at, std::string::npos) << field;
@@ -207,7 +204,7 @@ TEST_F(Facts, OfAClipAreToldToScriptsByEveryCommandThatReadsIt) {
       {"solve", "-k", "named.fn", "--wish", "all = 0.5s", "clip.mkv", "-o", "solved.fn"}};
   for (const auto& command : commands) {
     SCOPED_TRACE(testing::PrintToString(command));
-    const auto told = make(test::Words(command) + "--json");
+    const auto told = make(Words(command) + "--json");
     const Json json = Json::parse(told.out);
     const Json& source = command.front() == "batch" ? json["clips"][0] : json;
     std::map<std::string, std::string> options;
@@ -230,7 +227,7 @@ TEST_F(Facts, OfACaptureAreToldToScriptsWithWhatCorrectsThem) {
              "-f lavfi -i testsrc=s=64x48:r=30:d=0.5 -vf \"select='not(eq(n,5))'\" -fps_mode vfr "
              "-pix_fmt yuv420p -c:v ffv1 clip.mkv");
   make("encode clip.mkv clip.tik");
-  const auto options_of = [&](const test::Words& words) {
+  const auto options_of = [&](const Words& words) {
     std::map<std::string, std::string> options;
     const Json json = answer(words);
     for (const Json& fact : json["facts"]) options[fact["fact"]] = fact.value("option", "none");
@@ -260,4 +257,4 @@ TEST_F(Facts, OfAClipAreToldByACheck) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

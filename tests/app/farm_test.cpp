@@ -4,12 +4,10 @@
 
 #include "support/app_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::ProgramResult;
-
-class Farm : public test::AppTest {
+class Farm : public AppTest {
  protected:
   void SetUp() override {
     make_scene();
@@ -25,8 +23,8 @@ class Farm : public test::AppTest {
 };
 
 TEST_F(Farm, MakesTheFramesOfAVideoThatAreNotThere) {
-  const test::Words film("video --out-fps 100 scene.tik f-%d.png --skip-existing");
-  const auto with = [&](const test::Words& more) { return make(film + more).out; };
+  const Words film("video --out-fps 100 scene.tik f-%d.png --skip-existing");
+  const auto with = [&](const Words& more) { return make(film + more).out; };
   expect_says(with({"--frames", "1-100x2"}), "f-%d.png: 9 x 7 grey, 3 frames (");
   EXPECT_FALSE(exists("f-0.png"));
   EXPECT_TRUE(exists("f-5.png"));
@@ -47,7 +45,7 @@ TEST_F(Farm, MakesTheFramesOfAVideoThatAreNotThere) {
 }
 
 TEST_F(Farm, MakesThePicturesOfASeriesThatAreNotThere) {
-  const test::Words series("--exposure 10ms --every 1f scene.tik s-%02d.png");
+  const Words series("--exposure 10ms --every 1f scene.tik s-%02d.png");
   static_cast<void>(make(series));
   std::vector<std::string> whole;
   for (int k = 0; k < 6; ++k) whole.push_back(file("s-0" + std::to_string(k) + ".png"));
@@ -82,7 +80,7 @@ TEST_F(Farm, MakesTheLinesOfABatchThatAreNotThere) {
 }
 
 TEST_F(Farm, KnowsASinglePictureToo) {
-  const test::Words words("-k trail.fn --skip-existing scene.tik p.tif");
+  const Words words("-k trail.fn --skip-existing scene.tik p.tif");
   EXPECT_TRUE(make(words).out.starts_with("p.tif: 9 x 7"));
   EXPECT_EQ(make(words).out, "p.tif: 1 picture, there already\n");
   make("-f 50 --overwrite still%d.pgm scene.tik");
@@ -133,4 +131,4 @@ TEST_F(Farm, TellsByItsStatusWhetherToTryAgain) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -9,10 +9,10 @@
 #include "support/app_test.hpp"
 #include "support/ffmpeg.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-class FilmKinds : public test::AppTest {
+class FilmKinds : public AppTest {
  protected:
   // `codec_name=h264` and the like, a line each.
   [[nodiscard]] std::string probed(const std::string& name, const std::string& stream = "v") const {
@@ -170,9 +170,9 @@ TEST_F(FilmKinds, MayBeAFrameLong) {
   for (int i = 0; i < 6 * 256 * 256; ++i) red.append("\xff\xff\0\0\0\0", 6);
   scratch_.write("red.raw", red);
   for (int time = 0; time < 4; ++time) {
-    const auto made = test::run_program({"video", "--overwrite", "--raw", "256x256:rgb48le", "-f", "25", "--out-fps",
-                                         "25", "--video-codec", "h265", "--frames", "0", "red.raw", "film.mp4"},
-                                        scratch_.folder());
+    const auto made = run_program({"video", "--overwrite", "--raw", "256x256:rgb48le", "-f", "25", "--out-fps", "25",
+                                   "--video-codec", "h265", "--frames", "0", "red.raw", "film.mp4"},
+                                  scratch_.folder());
     ASSERT_EQ(made.status, 0) << made.err;
     expect_says(probed("film.mp4"), "nb_read_frames=1\n");
   }
@@ -351,9 +351,7 @@ TEST_F(FilmSoundTest, LiesOnItsFrame) {
     EXPECT_EQ(frame, 25);
     EXPECT_NEAR(sound, frame, 1.0);
     const std::string length =
-        test::run_shell("ffprobe -v error -show_entries format=duration -of csv=p=0 " + film,
-                        scratch_.folder())
-            .out;
+        run_shell("ffprobe -v error -show_entries format=duration -of csv=p=0 " + film, scratch_.folder()).out;
     EXPECT_NEAR(std::stod(length), 2.5, 0.1);
   }
 }
@@ -440,7 +438,7 @@ TEST_F(FilmSoundTest, KeepsDepthLanguageAndTitle) {
   make_clap("clip.mkv", "flac -sample_fmt s32 -metadata:s:a language=deu -metadata:s:a title=Stage");
   const auto told = [&](const std::string& film) {
     make("video --out-fps 25 --out-angle 360 clip.mkv " + film);
-    return test::run_shell("ffprobe -v error -select_streams a -show_streams " + film, scratch_.folder()).out;
+    return run_shell("ffprobe -v error -select_streams a -show_streams " + film, scratch_.folder()).out;
   };
   expect_says(told("film.mkv"), {"bits_per_raw_sample=24\n", "TAG:language=deu\n", "TAG:title=Stage\n"});
   expect_says(told("film.avi"), "codec_name=pcm_s24le\n");
@@ -452,7 +450,7 @@ TEST_F(FilmSoundTest, IsMixedDownOrLeftOutForAReason) {
   make_clap("clip.mp4", "aac");
   const std::string program = "'" NUTIK_TEST_PROGRAM "' video --json --overwrite --out-fps 25 - film.mp4";
   for (int time = 0; time < 2; ++time) {  // the second finds a film of that name
-    const auto piped = test::run_shell("(cat clip.mp4 | " + program + ")", scratch_.folder());
+    const auto piped = run_shell("(cat clip.mp4 | " + program + ")", scratch_.folder());
     ASSERT_EQ(piped.status, 0) << piped.err;
     EXPECT_EQ(nlohmann::json::parse(piped.out)["sound"]["codec"], "aac");
   }
@@ -470,7 +468,7 @@ TEST_F(FilmSoundTest, IsMixedDownOrLeftOutForAReason) {
   std::filesystem::copy(NUTIK_TEST_PROGRAM, scratch_ / "alone");
   std::filesystem::copy(folder / "nutik-videos.so", scratch_ / "nutik-videos.so");
   const auto alone =
-      test::run_shell("env -u NUTIK_MODULES ./alone video --out-fps 25 clip.mp4 alone.webm", scratch_.folder());
+      run_shell("env -u NUTIK_MODULES ./alone video --out-fps 25 clip.mp4 alone.webm", scratch_.folder());
   EXPECT_EQ(alone.status, 0);
   expect_says(alone.err + alone.out, "nutik-filters.so was not found");
 }
@@ -541,4 +539,4 @@ TEST_F(FilmSoundTest, IsLeftOutAloudOrStretched) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

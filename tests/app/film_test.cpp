@@ -5,13 +5,13 @@
 #include "support/app_test.hpp"
 #include "support/clips.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 constexpr int kFilmWidth = 8, kFilmHeight = 8, kFilmSamples = 10;
 
 // Ten pictures, a tenth of a second each; picture k has the linear code 10 (k + 1) everywhere.
-class Film : public test::AppTest {
+class Film : public AppTest {
  protected:
   void SetUp() override {
     write_frames(kFilmSamples,
@@ -20,18 +20,18 @@ class Film : public test::AppTest {
   }
 
   // The codes of the first row of every frame, as the capture has them.
-  std::vector<std::vector<int>> rows(const test::Words& options) const {
+  std::vector<std::vector<int>> rows(const Words& options) const {
     std::filesystem::remove_all(scratch_ / "out");
     std::filesystem::create_directory(scratch_ / "out");
     make("video" + options + "--out-fps 10 --out-transfer source -q c.tik out/%02d.pgm");
     std::vector<std::vector<int>> rows;
-    for (const auto& raster : test::read_all(*test::open_test_clip(scratch_ / "out/%02d.pgm"))) {
+    for (const auto& raster : read_all(*open_test_clip(scratch_ / "out/%02d.pgm"))) {
       rows.emplace_back();
       for (int x = 0; x < kFilmWidth; ++x) rows.back().push_back(static_cast<int>(raster[static_cast<std::size_t>(x)]));
     }
     return rows;
   }
-  std::vector<int> codes(const test::Words& options) const {
+  std::vector<int> codes(const Words& options) const {
     std::vector<int> codes;
     for (const auto& row : rows(options)) {
       EXPECT_EQ(row, std::vector<int>(kFilmWidth, row[0]));
@@ -75,7 +75,7 @@ TEST_F(Film, FollowsACurveOfSpeed) {
   scratch_.write("slow.csv", "0f,2f\n4f,4f\n");
   EXPECT_EQ(codes("--curve slow.csv"), (std::vector<int>{30, 30, 40, 40}));
   scratch_.write("out.csv", "0s,0.8s\n0.4s,1.2s\n");
-  const test::ProgramResult outside = make("video --curve out.csv --out-fps 10 c.tik o-%d.png");
+  const ProgramResult outside = make("video --curve out.csv --out-fps 10 c.tik o-%d.png");
   expect_says(outside.err,
               "warning: out.csv leaves the capture, which lasts 1 s, in frames 2-3; there the film "
               "shows what is left within it, or stands still");
@@ -129,13 +129,12 @@ TEST_F(Film, FadesOneMaskIntoTheOther) {
 // What a frame's recipe says, validate, check and trace take too.
 TEST_F(Film, FramesAreExposuresForOtherCommands) {
   write_two_masks_and_functions();
-  const test::Words between("-m a.pgm --mask-to b.pgm --mask-share 0.25 -k f.fn");
+  const Words between("-m a.pgm --mask-to b.pgm --mask-share 0.25 -k f.fn");
   expect_says(make("validate --runs 1 --start 0.1s c.tik" + between).out, "fixed");
   expect_says(make("trace --pixel 2,0 c.tik" + between).out, "M255");
   make("check c.tik" + between);
   write_mask("none.pgm", 0);
-  const test::ProgramResult missing =
-      make("check -m a.pgm --mask-to none.pgm --mask-share 1/2 -k f.fn c.tik", 3);
+  const ProgramResult missing = make("check -m a.pgm --mask-to none.pgm --mask-share 1/2 -k f.fn c.tik", 3);
   expect_says((missing.out + missing.err), "mask value 255 is in a.pgm and not in none.pgm");
   expect_refused(2, {{"--mask-share 0.5 --start 0s --exposure 1f c.tik p.png", "add --mask-to"},
                      {"--mask-blend alpha --start 0s --exposure 1f c.tik p.png", "a second one: add --mask-to"},
@@ -172,10 +171,10 @@ TEST_F(Film, MadeInPartsHasTheFramesOfTheWhole) {
   scratch_.write("a.fn", boxcar("M0", 0, 1) + boxcar("M255", 1, 1));
   scratch_.write("b.fn", boxcar("M0", 0, 2) + boxcar("M255", 0, 1));
   scratch_.write("ramp.csv", "0s,0s\n0.5s,0.7s\n0.8s,0.1s\n");
-  const test::Words film(
+  const Words film(
       "video --key 0s a.fn --key 0.6s b.fn --mask-key 0s a.pgm --mask-key 7f b.pgm --curve ramp.csv "
       "--out-fps 10 -q c.tik");
-  const auto make_frames = [&](const std::string& folder, const test::Words& frames) {
+  const auto make_frames = [&](const std::string& folder, const Words& frames) {
     std::filesystem::create_directory(scratch_ / folder);
     make(film + (folder + "/%02d.png") + frames);
   };
@@ -190,9 +189,9 @@ TEST_F(Film, MadeInPartsHasTheFramesOfTheWhole) {
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "parts/09.png"));
   // A container has the frames alone.
   make(film + "part.mkv --frames 2-4");
-  const auto part = test::read_all(*test::open_test_clip(scratch_ / "part.mkv"));
+  const auto part = read_all(*open_test_clip(scratch_ / "part.mkv"));
   ASSERT_EQ(part.size(), 3u);
-  const auto whole = test::read_all(*test::open_test_clip(scratch_ / "whole/%02d.png"));
+  const auto whole = read_all(*open_test_clip(scratch_ / "whole/%02d.png"));
   for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(part[k], whole[2 + k]) << k;
 }
 
@@ -207,7 +206,7 @@ TEST_F(Film, SaysWhatMakesNoSense) {
   scratch_.write("ramp.csv", "0s,0s\n1s,1s\n");
   scratch_.write("back.csv", "0s,0s\n1s,1s\n0.5s,0s\n");
   struct Case {
-    test::Words words;
+    Words words;
     int status;
     const char* part;
   };
@@ -246,7 +245,7 @@ TEST_F(Film, SaysWhatMakesNoSense) {
     expect_refused("video c.tik v-%d.png" + tested.words, tested.status, tested.part);
     EXPECT_FALSE(exists("v-0.png"));
   }
-  const auto expose = [&](const test::Words& words) { return make(words + "c.tik e.png", 2).err; };
+  const auto expose = [&](const Words& words) { return make(words + "c.tik e.png", 2).err; };
   expect_says(expose({"-m", "a.pgm", "--mask-to", "b.pgm", "-k", "f.fn"}), "Add --mask-share 1/2");
   expect_says(expose({"-m", "a.pgm", "--mask-to", "b.pgm", "--mask-share", "1.5", "-k", "f.fn"}),
               "--mask-share 1.5 is no share of 0 to 1");
@@ -260,4 +259,4 @@ TEST_F(Film, SaysWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -6,12 +6,10 @@
 
 #include "support/app_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::ProgramResult;
-
-class Habits : public test::AppTest {
+class Habits : public AppTest {
  protected:
   void SetUp() override {
     write_frames(3, [](int k) { return cv::Mat_<std::uint8_t>({1, 2}, {static_cast<std::uint8_t>(40 * k), 200}); });
@@ -21,8 +19,8 @@ class Habits : public test::AppTest {
     make("-f 25 frames clip.tik");
   }
 
-  ProgramResult run(const test::Words& words, const std::vector<std::string>& environment = {}) const {
-    return test::run_program(words, scratch_.folder(), environment);
+  ProgramResult run(const Words& words, const std::vector<std::string>& environment = {}) const {
+    return run_program(words, scratch_.folder(), environment);
   }
   ProgramResult piped(const std::string& file, const std::string& words, int status = 0) const {
     return shell("cat " + file + " | '" NUTIK_TEST_PROGRAM "' " + words, status);
@@ -38,7 +36,7 @@ TEST_F(Habits, SaysThatStandardOutputIsFull) {
 }
 
 TEST_F(Habits, ReadsFunctionsAndMasksFromStandardInput) {
-  const test::Words plain("--no-recipe -m mask.pgm -k two.fn clip.tik a.png");
+  const Words plain("--no-recipe -m mask.pgm -k two.fn clip.tik a.png");
   make(plain);
   piped("two.fn", "--no-recipe -m mask.pgm -k - clip.tik b.png");
   EXPECT_EQ(file("a.png"), file("b.png"));
@@ -85,14 +83,14 @@ TEST_F(Habits, NoticesAMissingUnitAndACommaForAPoint) {
   expect_refused(3, {{"batch clip.tik", "batch takes the list first, then the clip or capture"}});
   make("--start 0s --exposure 1f --ev 1/2 --no-recipe clip.tik fraction.pfm");
   make("--start 0s --exposure 1f --ev 0.5 --no-recipe clip.tik half.pfm");
-  EXPECT_EQ(test::read_file(scratch_ / "fraction.pfm"), test::read_file(scratch_ / "half.pfm"));
+  EXPECT_EQ(read_file(scratch_ / "fraction.pfm"), read_file(scratch_ / "half.pfm"));
 }
 
 TEST_F(Habits, TakesTimesWithUnitsInFunctionFiles) {
   scratch_.write("units.fn", "M0 [0s:1], [40ms:1], [40000001:0]\n");
   make("-k units.fn --no-recipe clip.tik units.pfm");
   make("-k one.fn --no-recipe clip.tik one.pfm");
-  EXPECT_EQ(test::read_file(scratch_ / "units.pfm"), test::read_file(scratch_ / "one.pfm"));
+  EXPECT_EQ(read_file(scratch_ / "units.pfm"), read_file(scratch_ / "one.pfm"));
 }
 
 TEST_F(Habits, SuggestsWhatWasMeant) {
@@ -174,7 +172,7 @@ TEST_F(Habits, ExplainsThePlan) {
 
 TEST_F(Habits, ColoursOnlyTerminals) {
   EXPECT_EQ(run("frobnicate", {"TERM=xterm"}).err.find('\x1b'), std::string::npos);
-  if (!test::has_pseudo_terminals()) GTEST_SKIP() << "there is no pseudo terminal here, or no `script`";
+  if (!has_pseudo_terminals()) GTEST_SKIP() << "there is no pseudo terminal here, or no `script`";
   const auto on_terminal = [&](const std::string& setting) {
     return shell("env TERM=xterm " + setting + " script -qec '" NUTIK_TEST_PROGRAM " frobnicate' /dev/null", 2);
   };
@@ -200,4 +198,4 @@ TEST_F(Habits, FitsHelpIntoTheTerminal) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -11,14 +11,10 @@
 #include "support/running_program.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::bytes_so_far;
-using test::files_with;
-using test::has_begun_writing;
-using test::Scratch;
-using Running = test::RunningProgram;
+using Running = RunningProgram;
 namespace fs = std::filesystem;
 
 class Interruption : public testing::Test {
@@ -37,8 +33,7 @@ class Interruption : public testing::Test {
   void make_capture() const {
     std::ofstream(scratch_ / "short.raw").close();
     fs::resize_file(scratch_ / "short.raw", 64 * 64 * 16);
-    const auto made =
-        test::run_program({"--raw", "64x64:gray", "-f", "8", "short.raw", "c.tik"}, scratch_.folder());
+    const auto made = run_program({"--raw", "64x64:gray", "-f", "8", "short.raw", "c.tik"}, scratch_.folder());
     ASSERT_EQ(made.status, 0) << made.err;
   }
   static std::vector<std::string> long_video(const std::string& output) {
@@ -52,15 +47,14 @@ class Interruption : public testing::Test {
 TEST_F(Interruption, EndsAVideoAfterTheFramesSoFar) {
   make_capture();
   Running running(long_video("v.mkv"), scratch_.folder());
-  ASSERT_TRUE(running.reaches([&] { return has_begun_writing(scratch_.folder()); }))
-      << test::read_file(scratch_ / "log");
+  ASSERT_TRUE(running.reaches([&] { return has_begun_writing(scratch_.folder()); })) << read_file(scratch_ / "log");
   EXPECT_FALSE(fs::exists(scratch_ / "v.mkv"));
   EXPECT_EQ(running.end_with(SIGINT), 128 + SIGINT);
   EXPECT_TRUE(files_with(scratch_.folder(), ".part").empty());
-  const auto clip = test::open_test_clip(scratch_ / "v.mkv");
-  const std::size_t frames = test::read_all(*clip).size();
+  const auto clip = open_test_clip(scratch_ / "v.mkv");
+  const std::size_t frames = read_all(*clip).size();
   EXPECT_GT(frames, 0u);
-  const std::string log = test::read_file(scratch_ / "log");
+  const std::string log = read_file(scratch_ / "log");
   EXPECT_NE(log.find("v.mkv: " + std::to_string(frames) + " of 100000 frames were written"),
             std::string::npos)
       << log;
@@ -76,7 +70,7 @@ TEST_F(Interruption, EndsALongSearchForTimes) {
                   scratch_.folder());
   std::this_thread::sleep_for(std::chrono::milliseconds(700));
   const auto begin = std::chrono::steady_clock::now();
-  EXPECT_EQ(running.end_with(SIGTERM), 128 + SIGTERM) << test::read_file(scratch_ / "log");
+  EXPECT_EQ(running.end_with(SIGTERM), 128 + SIGTERM) << read_file(scratch_ / "log");
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
   EXPECT_FALSE(fs::exists(scratch_ / "moved-solved.fn"));
 }
@@ -84,8 +78,7 @@ TEST_F(Interruption, EndsALongSearchForTimes) {
 TEST_F(Interruption, LeavesOnlyTheTemporaryFileOfAVideoThatIsKilled) {
   make_capture();
   Running running(long_video("v.mkv"), scratch_.folder());
-  ASSERT_TRUE(running.reaches([&] { return has_begun_writing(scratch_.folder()); }))
-      << test::read_file(scratch_ / "log");
+  ASSERT_TRUE(running.reaches([&] { return has_begun_writing(scratch_.folder()); })) << read_file(scratch_ / "log");
   EXPECT_EQ(running.end_with(SIGKILL), -SIGKILL);
   EXPECT_FALSE(fs::exists(scratch_ / "v.mkv"));
   EXPECT_EQ(files_with(scratch_.folder(), ".v.mkv.nutik-").size(), 1u);
@@ -94,8 +87,7 @@ TEST_F(Interruption, LeavesOnlyTheTemporaryFileOfAVideoThatIsKilled) {
 TEST_F(Interruption, KeepsTheStillsThatAreWhole) {
   make_capture();
   Running running(long_video("f-%d.pgm"), scratch_.folder());
-  ASSERT_TRUE(running.reaches([&] { return fs::exists(scratch_ / "f-2.pgm"); }))
-      << test::read_file(scratch_ / "log");
+  ASSERT_TRUE(running.reaches([&] { return fs::exists(scratch_ / "f-2.pgm"); })) << read_file(scratch_ / "log");
   EXPECT_EQ(running.end_with(SIGTERM), 128 + SIGTERM);
   EXPECT_TRUE(files_with(scratch_.folder(), ".part").empty());
   for (const fs::path& still : files_with(scratch_.folder(), "f-")) {
@@ -107,8 +99,7 @@ TEST_F(Interruption, RemovesACaptureThatIsNotWhole) {
   make_long_clip();
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     Running running(long_clip({"encode", "-o", "c.tik"}), scratch_.folder());
-    ASSERT_TRUE(running.reaches([&] { return has_begun_writing(scratch_.folder()); }))
-        << test::read_file(scratch_ / "log");
+    ASSERT_TRUE(running.reaches([&] { return has_begun_writing(scratch_.folder()); })) << read_file(scratch_ / "log");
     EXPECT_EQ(running.end_with(signal), 128 + signal);
     EXPECT_TRUE(files_with(scratch_.folder(), "c.tik").empty());
   }
@@ -118,15 +109,14 @@ TEST_F(Interruption, RemovesAJoinedCaptureThatIsNotWhole) {
   // As if it were files that follow each other: none says where in a clip it lies.
   std::ofstream(scratch_ / "short.raw").close();
   fs::resize_file(scratch_ / "short.raw", 256 * 256 * 8);
-  const auto made = test::run_program(
-      {"--raw", "256x256:gray", "-f", "1000", "--codec", "none", "short.raw", "c.tik"}, scratch_.folder());
+  const auto made =
+      run_program({"--raw", "256x256:gray", "-f", "1000", "--codec", "none", "short.raw", "c.tik"}, scratch_.folder());
   ASSERT_EQ(made.status, 0) << made.err;
   std::vector<std::string> words{"join"};
   words.insert(words.end(), 30'000, "c.tik");
   words.insert(words.end(), {"-o", "j.tik"});
   Running running(words, scratch_.folder());
-  ASSERT_TRUE(running.reaches([&] { return has_begun_writing(scratch_.folder()); }))
-      << test::read_file(scratch_ / "log");
+  ASSERT_TRUE(running.reaches([&] { return has_begun_writing(scratch_.folder()); })) << read_file(scratch_ / "log");
   EXPECT_EQ(running.end_with(SIGTERM), 128 + SIGTERM);
   EXPECT_TRUE(files_with(scratch_.folder(), "j.tik").empty());
 }
@@ -136,7 +126,7 @@ TEST_F(Interruption, EndsAnExposureOfAClip) {
   Running running(
       long_clip({"expose", "--start", "0s", "--exposure", "800s", "-o", "p.png", "--renderer", "reference"}),
       scratch_.folder());
-  ASSERT_TRUE(running.reaches([&] { return running.catches(SIGTERM); })) << test::read_file(scratch_ / "log");
+  ASSERT_TRUE(running.reaches([&] { return running.catches(SIGTERM); })) << read_file(scratch_ / "log");
   EXPECT_EQ(running.end_with(SIGTERM), 128 + SIGTERM);
   EXPECT_TRUE(files_with(scratch_.folder(), "p.png").empty());
 }
@@ -145,16 +135,14 @@ TEST_F(Interruption, EndsAnExposureOfAClip) {
 TEST_F(Interruption, LeavesAnIgnoredSignalIgnored) {
   make_capture();
   Running running(long_video("v.mkv"), scratch_.folder(), SIGHUP);
-  ASSERT_TRUE(running.reaches([&] { return has_begun_writing(scratch_.folder()); }))
-      << test::read_file(scratch_ / "log");
+  ASSERT_TRUE(running.reaches([&] { return has_begun_writing(scratch_.folder()); })) << read_file(scratch_ / "log");
   const std::uintmax_t before = bytes_so_far(scratch_.folder());
   ASSERT_TRUE(running.takes(SIGHUP));
-  EXPECT_TRUE(running.reaches([&] { return bytes_so_far(scratch_.folder()) > before; }))
-      << test::read_file(scratch_ / "log");
+  EXPECT_TRUE(running.reaches([&] { return bytes_so_far(scratch_.folder()) > before; })) << read_file(scratch_ / "log");
   ASSERT_FALSE(fs::exists(scratch_ / "v.mkv"));
   EXPECT_EQ(running.end_with(SIGINT), 128 + SIGINT);
   EXPECT_TRUE(fs::exists(scratch_ / "v.mkv"));
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

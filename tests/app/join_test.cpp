@@ -6,21 +6,20 @@
 #include "support/app_test.hpp"
 #include "support/still_clip.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-class Join : public test::AppTest {
+class Join : public AppTest {
  protected:
   static constexpr int kStills = 101;
 
-  void SetUp() override { test::write_still_clip(scratch_.folder(), 12, kStills); }
+  void SetUp() override { write_still_clip(scratch_.folder(), 12, kStills); }
 
-  void done(const test::Words& words) const { make(test::over(words)); }
-  void encode(const std::string& from, const std::string& to, const std::string& output,
-              const test::Words& more = {}) const {
-    done(test::Words{"encode", "-q", "-f", "100", "--from", from, "--to", to, "frames", "-o", output} + more);
+  void done(const Words& words) const { make(over(words)); }
+  void encode(const std::string& from, const std::string& to, const std::string& output, const Words& more = {}) const {
+    done(Words{"encode", "-q", "-f", "100", "--from", from, "--to", to, "frames", "-o", output} + more);
   }
-  [[nodiscard]] std::string exposed(const std::string& capture, const test::Words& words) const {
+  [[nodiscard]] std::string exposed(const std::string& capture, const Words& words) const {
     done("expose --no-recipe -q -o p.pfm " + capture + words);
     return file("p.pfm");
   }
@@ -36,15 +35,15 @@ TEST_F(Join, ExposesWhatTheCaptureInOneGoDoes) {
   EXPECT_TRUE(joined.out.starts_with("joined.tik: 12 x 12 grey, 101 samples of 3 captures, 1.01 s, "))
       << joined.out;
   EXPECT_EQ(joined.err, "");
-  for (const test::Words words : {"--start 0s --exposure 1s", "--start 0.62s --exposure 50ms",
-                                  "--start 642ms --exposure 3ms", "--start 0.3s --exposure 0.6s --shutter hann"}) {
-    const test::Words fixed = words + "--precision fixed";
+  for (const Words words : {"--start 0s --exposure 1s", "--start 0.62s --exposure 50ms", "--start 642ms --exposure 3ms",
+                            "--start 0.3s --exposure 0.6s --shutter hann"}) {
+    const Words fixed = words + "--precision fixed";
     EXPECT_TRUE(exposed("joined.tik", fixed) == exposed("whole.tik", fixed)) << words[1];
   }
   // Seams between blocks leave the same blocks, and so the same bytes in any arithmetic.
   encode("64f", "101f", "bc.tik", {"-a", "180"});
   done("join -q a.tik bc.tik -o blocks.tik");
-  const test::Words all("--start 0s --exposure 1s");
+  const Words all("--start 0s --exposure 1s");
   EXPECT_TRUE(exposed("blocks.tik", all) == exposed("whole.tik", all));
 }
 
@@ -97,4 +96,4 @@ TEST_F(Join, IsRefused) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -6,22 +6,22 @@
 #include "support/app_test.hpp"
 #include "support/still_clip.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 // 25 blocks, of which a long exposure holds a group of 16 and more.
-class KeptSumsInFiles : public test::AppTest {
+class KeptSumsInFiles : public AppTest {
  protected:
   void SetUp() override {
-    test::write_still_clip(scratch_.folder(), 24, 400);
+    write_still_clip(scratch_.folder(), 24, 400);
     make("-q -f 1000 --block-samples 16 frames clip.tik");
   }
-  void takes_sums_over(const test::Words& words) const { expect_says(make(words).out, " sums of others kept"); }
+  void takes_sums_over(const Words& words) const { expect_says(make(words).out, " sums of others kept"); }
 };
 
 TEST_F(KeptSumsInFiles, OfAFilmAreThoseOfItsParts) {
   const auto film = [](const std::string& folder) {
-    return test::Words("video -v --out-fps 100 --out-angle 10000 --depth 16 clip.tik " + folder + "/f-%02d.png");
+    return Words("video -v --out-fps 100 --out-angle 10000 --depth 16 clip.tik " + folder + "/f-%02d.png");
   };
   for (const char* folder : {"whole", "parts"}) std::filesystem::create_directory(scratch_ / folder);
   takes_sums_over(film("whole"));
@@ -50,7 +50,7 @@ TEST_F(KeptSumsInFiles, OfSeriesSweepsAndBatchesAreThoseOfOnePicture) {
   for (const char* picture : {"s-8.tif", "b-1.tif"}) expect_made_again(picture);
 
   // A sweep states times in other words: without them, too.
-  const auto sweep = [&](const std::string& name, const test::Words& more) {
+  const auto sweep = [&](const std::string& name, const Words& more) {
     make("sweep --exposure 0.31s --shift 0ms..56ms/7ms clip.tik " + name + ".png --each " + name + "-%d.tif" + more);
   };
   sweep("w", {});
@@ -61,4 +61,4 @@ TEST_F(KeptSumsInFiles, OfSeriesSweepsAndBatchesAreThoseOfOnePicture) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

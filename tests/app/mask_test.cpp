@@ -10,16 +10,13 @@
 #include "support/moving_square_test.hpp"
 #include "support/stills.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::MovingSquare;
-using test::ProgramResult;
-
-class MaskCommand : public test::MovingSquareTest {
+class MaskCommand : public MovingSquareTest {
  protected:
   // The tags that `nutik-cl mask` with these words gives, for a mask of the capture's size.
-  std::vector<std::uint8_t> tags(const test::Words& words) const {
+  std::vector<std::uint8_t> tags(const Words& words) const {
     const ProgramResult result = make("mask -q --overwrite" + words + "-o made.pgm");
     if (result.status != 0) return {};
     const Picture mask = read_mask(scratch_ / "made.pgm");
@@ -47,10 +44,10 @@ class MaskCommand : public test::MovingSquareTest {
 
 // A TIFF whose values pass the maximum that it states: neither a crash nor a mask.
 TEST_F(MaskCommand, RefusesAPictureWithCodesAboveItsOwnWhite) {
-  const auto stills = test::random_stills({MovingSquare::kWidth, MovingSquare::kHeight, 1}, 65'535, 1, 1);
-  test::TiffOptions options;
+  const auto stills = random_stills({MovingSquare::kWidth, MovingSquare::kHeight, 1}, 65'535, 1, 1);
+  TiffOptions options;
   options.max_sample_value = 1023;
-  scratch_.write("above.tif", test::tiff_file(stills, options));
+  scratch_.write("above.tif", tiff_file(stills, options));
   expect_refused("mask --threshold above.tif 0..500 -o m.pgm --preview p.png", 3,
                  "above the 1023 that it states");
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "m.pgm"));
@@ -169,7 +166,7 @@ TEST_F(MaskCommand, WritesEveryTagExactly) {
   scratch_.write("all.pgm", plain);
   make("mask --base all.pgm -o a.pgm");
   make("mask --base a.pgm -o b.png");
-  const std::string raw = test::read_file(scratch_ / "a.pgm");
+  const std::string raw = read_file(scratch_ / "a.pgm");
   EXPECT_TRUE(raw.starts_with("P5\n96 48\n255\n"));
   EXPECT_EQ(read_mask(scratch_ / "a.pgm").bytes, read_mask(scratch_ / "all.pgm").bytes);
   EXPECT_EQ(read_mask(scratch_ / "b.png").bytes, read_mask(scratch_ / "all.pgm").bytes);
@@ -188,18 +185,18 @@ TEST_F(MaskCommand, ExposesWithWhatItMade) {
 TEST_F(MaskCommand, ReportsAndShows) {
   const ProgramResult text = make("mask --tag 128 --moving clip.tik --preview seen.png");
   expect_says(text.out, {"clip-mask.pgm: 96 x 48, 2 tags", "256 pixels   5.56 %, by more than 15 codes"});
-  EXPECT_TRUE(test::read_file(scratch_ / "seen.png").starts_with("\x89PNG"));
+  EXPECT_TRUE(read_file(scratch_ / "seen.png").starts_with("\x89PNG"));
   EXPECT_EQ(run("mask -q --overwrite --moving clip.tik").out, "clip-mask.pgm\n");
   const auto json = answer("mask --moving --grow 0 clip.tik m.png");
   EXPECT_EQ(json["mask"], "m.png");
   EXPECT_EQ(json["steps"][0]["more_than_codes"], 15);
   EXPECT_EQ(json["tags"],
             nlohmann::json::parse(R"([{"tag":0,"pixel_count":4352},{"tag":255,"pixel_count":256}])"));
-  for (const test::Words when : {"--start 3f", "--start 30ms --exposure 10ms"}) {
+  for (const Words when : {"--start 3f", "--start 30ms --exposure 10ms"}) {
     make("mask --overwrite --moving clip.tik m.png --preview " + when[1] + ".png" + when);
   }
   // Picture 3 was exposed from 30 to 40 ms.
-  EXPECT_EQ(test::read_file(scratch_ / "3f.png"), test::read_file(scratch_ / "30ms.png"));
+  EXPECT_EQ(read_file(scratch_ / "3f.png"), read_file(scratch_ / "30ms.png"));
   expect_says(run("mask --fill clip.tik one.png").out, "one.png: 96 x 48, 1 tag\n");
 }
 
@@ -219,10 +216,10 @@ TEST_F(MaskCommand, WarnsOfAPreviewBeyondTheCapture) {
 TEST_F(MaskCommand, ReplacesMasksAndNoExposures) {
   for (const std::string name : {"same.png", "same.pgm"}) {
     make({"--start", "0s", "--exposure", "50ms", "clip.tik", name});
-    const std::string exposure = test::read_file(scratch_ / name);
+    const std::string exposure = read_file(scratch_ / name);
     expect_refused({"mask", "--moving", "clip.tik", name}, 2,
                    name + " exists and is no mask; it is not replaced");
-    EXPECT_EQ(test::read_file(scratch_ / name), exposure);
+    EXPECT_EQ(read_file(scratch_ / name), exposure);
   }
   make("contact clip.tik colour.png");
   expect_refused("mask --moving clip.tik colour.png", 2, "colour.png exists and is no mask");
@@ -235,9 +232,7 @@ TEST_F(MaskCommand, ReplacesMasksAndNoExposures) {
 
 // A tag that was asked for and that no pixel has in the end.
 TEST_F(MaskCommand, WarnsOfTagsThatLaterStepsCover) {
-  const auto warned = [&](const test::Words& words) {
-    return run("mask --overwrite" + words + "clip.tik covered.pgm").err;
-  };
+  const auto warned = [&](const Words& words) { return run("mask --overwrite" + words + "clip.tik covered.pgm").err; };
   EXPECT_EQ(warned({"--tag", "64", "--rectangle", "10,10,5,5", "--tag", "128", "--rectangle", "8,8,9,9"}),
             "warning: --rectangle: later steps cover all of M64, which no pixel has in the end\n");
   EXPECT_EQ(warned({"--tag", "64", "--rectangle", "10,10,5,5", "--tag", "128", "--rectangle", "10,10,5,4"}),
@@ -291,7 +286,7 @@ TEST_F(MaskCommand, RefusesWhatMakesNoSense) {
   expect_refused("mask --threshold small.pgm 1..2 clip.tik", 3, "the picture is 2 x 1, the mask 96 x 48");
   expect_refused(2, {{"mask --base small.pgm --moving clip.tik", "the sizes must agree"},
                      {"mask --threshold small.pgm 1..2 -o small.pgm", "is also an input"}});
-  EXPECT_EQ(test::read_file(scratch_ / "small.pgm"), "P2 2 1 255 0 1");
+  EXPECT_EQ(read_file(scratch_ / "small.pgm"), "P2 2 1 255 0 1");
   expect_refused("expose --moving clip.tik", 2, "--moving does not go with expose; it is an option of: mask");
 }
 
@@ -312,4 +307,4 @@ TEST_F(MaskCommand, CutsThePictureIntoAGrid) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

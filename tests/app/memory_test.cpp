@@ -15,10 +15,8 @@
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Scratch;
 
 struct Measured {
   int status = -1;
@@ -57,14 +55,14 @@ Measured run(const Scratch& scratch, std::vector<std::string> words) {
     std::this_thread::sleep_for(std::chrono::microseconds(500));
   }
   result.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  result.err = test::read_file(err);
+  result.err = read_file(err);
   return result;
 }
 
 // Noise, so that nothing can be left out.
 void write_raw_video(const Scratch& scratch, const std::string& name, std::size_t pixels,
                      std::size_t pictures) {
-  test::Random random(5);
+  Random random(5);
   std::string noise(pixels * 8, '\0');
   for (char& byte : noise) byte = static_cast<char>(random.whole(0, 255));
   std::string video;
@@ -75,7 +73,7 @@ void write_raw_video(const Scratch& scratch, const std::string& name, std::size_
 // A still scene of all greys, with noise of a few codes.
 void write_still_video(const Scratch& scratch, const std::string& name, std::size_t pixels,
                        std::size_t pictures) {
-  test::Random random(6);
+  Random random(6);
   // One after the other, again and again, and none twice within the 16 that noise is measured on at a time.
   std::vector<std::string> noisy(17, std::string(pixels, '\0'));
   for (std::string& picture : noisy) {
@@ -240,7 +238,7 @@ TEST(Memory, SaysWhatIsTooLittle) {
   const auto run = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words{"-f", "240", "--raw", "640x360:gray", "--overwrite", "clip.gray", "clip.tik"};
     words.insert(words.end(), more.begin(), more.end());
-    return test::run_program(words, scratch.folder());
+    return run_program(words, scratch.folder());
   };
   const auto small = run({"--memory", "1MB"});
   EXPECT_EQ(small.status, 2);
@@ -266,4 +264,4 @@ TEST(Memory, SaysWhatIsTooLittle) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -12,12 +12,10 @@
 #include "support/ffmpeg.hpp"
 #include "support/moving_square_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::ProgramResult;
-
-class Moment : public test::MovingSquareTest {
+class Moment : public MovingSquareTest {
  protected:
   // Pixels that differ between two neighbouring pictures by more than `ignored` codes.
   [[nodiscard]] int changed_pixels(std::size_t sample, int ignored) const {
@@ -321,10 +319,8 @@ TEST_F(Moment, SweepWarnsOfPicturesThatComeOutBlack) {
 }
 
 TEST_F(Moment, SweepRefusesWhatMakesNoSense) {
-  const test::Words exposure("sweep --start 0s --exposure 1f clip.tik");
-  const auto refused = [&](const test::Words& more, std::string_view part) {
-    expect_refused(exposure + more, 2, part);
-  };
+  const Words exposure("sweep --start 0s --exposure 1f clip.tik");
+  const auto refused = [&](const Words& more, std::string_view part) { expect_refused(exposure + more, 2, part); };
   refused({}, "what is varied? Add --shift 0..1s/0.1s");
   refused({"--shift", "1s"}, "--shift '1s' is no range; write FROM..TO/STEP: 0..1s/0.1s");
   refused({"--shift", "0..1/0.1s"}, "'1' is no time");
@@ -362,4 +358,4 @@ TEST_F(Moment, ThumbnailShowsTheFirstSample) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -8,10 +8,8 @@
 
 #include "support/app_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::ProgramResult;
 
 // sRGB as IEC 61966-2-1 writes it.
 double light_of(int code) {
@@ -23,7 +21,7 @@ double fraction_of(double light) {
 }
 
 // Two pictures of 8 pixels; the function takes the second from the first.
-class Negative : public test::AppTest, public testing::WithParamInterface<const char*> {
+class Negative : public AppTest, public testing::WithParamInterface<const char*> {
  protected:
   void SetUp() override {
     write_frames(2, [](int k) { return cv::Mat(2, 4, CV_8UC1, const_cast<std::uint8_t*>(kCodes[k])); });
@@ -31,7 +29,7 @@ class Negative : public test::AppTest, public testing::WithParamInterface<const 
     make("-f 25 frames clip.tik");
   }
 
-  ProgramResult expose(const std::string& output, const test::Words& more, int status = 0) const {
+  ProgramResult expose(const std::string& output, const Words& more, int status = 0) const {
     return make(more + "--gain 4 -k difference.fn clip.tik -o" + output + "--renderer" + GetParam(), status);
   }
   [[nodiscard]] std::vector<int> codes(const std::string& name) const {
@@ -93,7 +91,7 @@ TEST_P(Negative, IsRefusedWhereLightIsKept) {
 }
 
 TEST_P(Negative, SumsOverSeriesVideosBatchesAndSheets) {
-  const auto expect = [&](const test::Words& words, const char* part) {
+  const auto expect = [&](const Words& words, const char* part) {
     expect_says(make(words + "--renderer" + GetParam()).out, part);
   };
   expect(
@@ -119,4 +117,4 @@ INSTANTIATE_TEST_SUITE_P(Renderers, Negative, testing::Values("opencl", "referen
                          [](const auto& tested) { return std::string(tested.param); });
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -10,35 +10,34 @@
 #include "support/stills.hpp"
 #include "tik/reader.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-class Noise : public test::AppTest {
+class Noise : public AppTest {
  protected:
   // Writes stills of a wedge, brighter or darker, into a folder.
   void film(const std::string& folder, double brightest, std::uint64_t seed, std::uint64_t count = 40,
-            std::uint32_t white = 255, const test::Light& light = {}) {
-    test::NoisyCamera camera;
+            std::uint32_t white = 255, const Light& light = {}) {
+    NoisyCamera camera;
     camera.format.shape = {120, 64, 3};
     camera.format.white_code = white;
     camera.format.code_bytes = white > 255 ? 2 : 1;
-    const test::Rasters rasters =
-        test::film(camera, count, seed, light ? light : test::still_wedge(camera, 0.02, brightest));
+    const Rasters rasters = test::film(camera, count, seed, light ? light : still_wedge(camera, 0.02, brightest));
     std::filesystem::create_directory(scratch_ / folder);
     for (std::size_t k = 0; k < rasters.size(); ++k) {
       Picture still(camera.format.shape, white > 255 ? ValueType::code16 : ValueType::code8, white);
       still.bytes = rasters[k];
-      scratch_.write(folder + "/" + std::to_string(1000 + k) + ".ppm", test::netpbm_file(still, false));
+      scratch_.write(folder + "/" + std::to_string(1000 + k) + ".ppm", netpbm_file(still, false));
     }
   }
 
-  test::ProgramResult run(const test::Words& words) const {
+  ProgramResult run(const Words& words) const {
     const bool writes = words.front() != "info";
-    return make(writes ? test::Words(test::over(words)) : words);
+    return make(writes ? Words(over(words)) : words);
   }
 
   [[nodiscard]] CameraNoise noise_in(const std::string& name) const {
-    return parse_noise(test::read_file(scratch_ / name), name);
+    return parse_noise(read_file(scratch_ / name), name);
   }
 };
 
@@ -47,23 +46,23 @@ TEST_F(Noise, IsMeasuredOnSeveralExposures) {
   film("bright", 0.8, 2);
   expect_says(run("noise dark bright -o camera.noise").out, "camera.noise: measured on 80 samples");
   const CameraNoise noise = noise_in("camera.noise");
-  const test::NoisyCamera camera;
+  const NoisyCamera camera;
   for (const ChannelNoise& channel : noise.channels) {
     EXPECT_NEAR(channel.read, camera.read, 0.06 * camera.read);
     EXPECT_NEAR(channel.shot, camera.shot, 0.06 * camera.shot);
   }
-  expect_says(test::read_file(scratch_ / "camera.noise"), "# measured on bright\n");
+  expect_says(read_file(scratch_ / "camera.noise"), "# measured on bright\n");
 }
 
 TEST_F(Noise, GivesTheSamePictureFromAClipAndFromItsCapture) {
   film("clip", 0.8, 3);
   run("noise clip -o camera.noise");
   for (const char* noise : {"camera.noise", "auto"}) {
-    const test::Words source = "-f 100 --sigmas 2.5 --block-samples 16 --noise" + test::Words(noise);
+    const Words source = "-f 100 --sigmas 2.5 --block-samples 16 --noise" + Words(noise);
     run("encode clip -o clip.tik" + source);
     // Within a block, across two, and of the last one, which is not full.
     for (const char* start : {"3f", "14f", "38f"}) {
-      const test::Words exposure{"--exposure", "2f", "--start", start};
+      const Words exposure{"--exposure", "2f", "--start", start};
       run(exposure + "clip.tik -o a.pfm");
       run(exposure + "clip -o b.pfm" + source);
       EXPECT_EQ(file("a.pfm"), file("b.pfm")) << noise << start;
@@ -100,7 +99,7 @@ TEST_F(Noise, SaysThatItsTransferIsAnother) {
   expect_says(said("camera.noise", "linear"),
               "note: camera.noise says transfer srgb and the clip's is linear: "
               "read and shot noise are in light, and come to other codes");
-  std::string edited = test::read_file(scratch_ / "camera.noise");
+  std::string edited = read_file(scratch_ / "camera.noise");
   edited.replace(edited.find("transfer srgb"), 13, "transfer bt709");
   scratch_.write("edited.noise", edited);
   expect_says(said("edited.noise", "srgb"), "edited.noise says transfer bt709 and the clip's is srgb");
@@ -192,7 +191,7 @@ TEST_F(Noise, SaysWhatCannotBe) {
           {"noise clip deep -o a.noise",
            "deep is of another kind than clip: 120 x 64 pixels, 3 channels, 16 bits, white code 4095"}});
   expect_refused("noise clip -o clip.tik", 2, "clip.tik is no name for a text");
-  const test::Words encode("encode -f 100 clip -o b.tik");
+  const Words encode("encode -f 100 clip -o b.tik");
   expect_refused(2, {{encode + "--noise camera.noise --tolerance 2", "leave one out"},
                      {encode + "--sigmas 2", "--sigmas counts standard deviations of a camera's noise"},
                      {encode + "--noise auto --sigmas 0", "--sigmas '0' is no number of 0.1 … 100"}});
@@ -207,4 +206,4 @@ TEST_F(Noise, SaysWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -5,10 +5,10 @@
 
 #include "support/app_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-class Outputs : public test::AppTest {
+class Outputs : public AppTest {
  protected:
   void SetUp() override {
     std::filesystem::create_directory(scratch_ / "frames");
@@ -20,21 +20,21 @@ class Outputs : public test::AppTest {
 };
 
 TEST_F(Outputs, ReplaceNoStillOfTheClip) {
-  const std::string still = test::read_file(scratch_ / "frames/1.png");
+  const std::string still = read_file(scratch_ / "frames/1.png");
   for (const std::string words :
        {"expose --exposure 1f -o frames/1.png", "contact -o frames/1.png", "mask --moving -o frames/1.png",
         "sweep --start 0s --exposure 1f --shift 0f..2f/1f -o frames/1.png",
         "trace --pixel 1,1 --start 0s --exposure 1f -o frames/1.png", "activity -o frames/1.png",
         "activity --map frames/1.png -o chart.png"}) {
     expect_refused(words + " -f 100 frames", 2, "the output frames/1.png is also an input");
-    EXPECT_TRUE(test::read_file(scratch_ / "frames/1.png") == still) << words;
+    EXPECT_TRUE(read_file(scratch_ / "frames/1.png") == still) << words;
   }
 }
 
 // A command replaces nothing that was there before but a picture with a recipe, unless it is asked to.
 TEST_F(Outputs, ReplaceWhatIsThereOnlyIfAsked) {
   make("-f 100 --block-samples 2 frames clip.tik");
-  const std::string capture = test::read_file(scratch_ / "clip.tik");
+  const std::string capture = read_file(scratch_ / "clip.tik");
   scratch_.write("cut.tik", capture.substr(0, capture.size() - 10));
   for (const std::string part : {"0", "2"}) {
     const std::string end = part == "0" ? "2f" : "4f";
@@ -69,8 +69,8 @@ TEST_F(Outputs, ReplaceWhatIsThereOnlyIfAsked) {
       {{"solve", "-k", "named.fn", "--wish", "all = 0.1", "clip.tik", "o.fn"}, "o.fn"}};
   for (const auto& [words, file, has_recipe] : cases) {
     SCOPED_TRACE(words.front() + " " + file);
-    const auto first = make(test::over(words));
-    const std::string made = test::read_file(scratch_ / file);
+    const auto first = make(over(words));
+    const std::string made = read_file(scratch_ / file);
     std::filesystem::last_write_time(scratch_ / file, std::filesystem::file_time_type());
     const auto time = [&] { return std::filesystem::last_write_time(scratch_ / file); };
     const auto second = make(words, has_recipe ? 0 : 2);
@@ -79,9 +79,9 @@ TEST_F(Outputs, ReplaceWhatIsThereOnlyIfAsked) {
       EXPECT_EQ(second.err, "nutik-cl: " + file + " is there already and is not replaced; choose another name, or "
                                                   "replace it with --overwrite\n");
     }
-    make(test::over(words));
+    make(over(words));
     EXPECT_NE(time(), std::filesystem::file_time_type());
-    EXPECT_EQ(test::read_file(scratch_ / file).size(), made.size());
+    EXPECT_EQ(read_file(scratch_ / file).size(), made.size());
     // An empty file, as mktemp makes, holds nothing.
     scratch_.write(file, "");
     make(words, std::string("s-0.pfm v-0.png").find(file) == std::string::npos ? 0 : 2);
@@ -101,9 +101,9 @@ TEST_F(Outputs, GoToStandardOutput) {
     expect_says(shell(program + expose + " -o " + name + " | cat > piped").err,
                 name + ": 160 x 120 grey, 2 of 4 samples");
     expect_says(shell(program + expose + " -o " + file).out, file + ": 160 x 120 grey, 2 of 4 samples");
-    const std::string wanted = test::read_file(scratch_ / file);
+    const std::string wanted = read_file(scratch_ / file);
     EXPECT_GT(wanted.size(), 100u);
-    EXPECT_TRUE(test::read_file(scratch_ / "piped") == wanted);
+    EXPECT_TRUE(read_file(scratch_ / "piped") == wanted);
   }
   // The mask of a pipe, and the sheet.
   const auto mask = shell(program + " mask -f 100 frames --fill -o pgm:- | head -c 2");
@@ -113,13 +113,13 @@ TEST_F(Outputs, GoToStandardOutput) {
 }
 
 TEST_F(Outputs, ATerminalTakesNoPicture) {
-  if (!test::has_pseudo_terminals()) GTEST_SKIP() << "there is no pseudo terminal here, or no `script`";
+  if (!has_pseudo_terminals()) GTEST_SKIP() << "there is no pseudo terminal here, or no `script`";
   const std::string expose = NUTIK_TEST_PROGRAM " expose -f 100 --exposure 1f frames -o -";
   expect_says(shell("script -qec '" + expose + "' /dev/null", 2).out, "which is a terminal");
 }
 
 TEST_F(Outputs, ThatStandardOutputCannotTakeAreRefused) {
-  const auto refused = [&](const test::Words& words, const std::string& part) {
+  const auto refused = [&](const Words& words, const std::string& part) {
     expect_refused(words + "-f 100 frames", 2, part);
   };
   refused({"expose", "--exposure", "1f", "--json", "-o", "-"}, "--json answers on standard output");
@@ -140,14 +140,14 @@ TEST_F(Outputs, ThatStandardOutputCannotTakeAreRefused) {
 TEST_F(Outputs, AreNotLedAstrayInATemporaryFolder) {
   std::filesystem::create_directory(scratch_ / "tmp");
   scratch_.write("victim", "precious");
-  const auto result = test::run_shell("ln -s ../victim tmp/nutik-$$.tik; TMPDIR=tmp exec " NUTIK_TEST_PROGRAM
-                                      " contact --renderer reference -f 100 frames sheet.png",
-                                      scratch_.folder());
+  const auto result = run_shell("ln -s ../victim tmp/nutik-$$.tik; TMPDIR=tmp exec " NUTIK_TEST_PROGRAM
+                                " contact --renderer reference -f 100 frames sheet.png",
+                                scratch_.folder());
   EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_EQ(test::read_file(scratch_ / "victim"), "precious");
+  EXPECT_EQ(read_file(scratch_ / "victim"), "precious");
   const std::filesystem::directory_iterator files(scratch_ / "tmp");
   EXPECT_EQ(std::distance(files, std::filesystem::directory_iterator()), 1);  // the link
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -7,10 +7,10 @@
 
 #include "support/moving_square_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-class Plates : public test::MovingSquareTest {};
+class Plates : public MovingSquareTest {};
 
 TEST_F(Plates, HoldWhatEachPixelHoldsMostOften) {
   const auto json = answer("background clip.tik --by 0 --uncertain unsure.pgm");
@@ -40,8 +40,8 @@ TEST_F(Plates, AreTheSameOfAClipAPackedCaptureAndWithLittleMemory) {
   make("background -f 100 frames -o b.pfm");
   make("encode -f 100 --codec none frames -o plain.tik");
   make("background plain.tik -o c.pfm");
-  EXPECT_EQ(test::read_file(scratch_ / "a.pfm"), test::read_file(scratch_ / "b.pfm"));
-  EXPECT_EQ(test::read_file(scratch_ / "a.pfm"), test::read_file(scratch_ / "c.pfm"));
+  EXPECT_EQ(read_file(scratch_ / "a.pfm"), read_file(scratch_ / "b.pfm"));
+  EXPECT_EQ(read_file(scratch_ / "a.pfm"), read_file(scratch_ / "c.pfm"));
   expect_refused(2, {{"background --by 255 clip.tik -o d.pfm",
                       "no codes of clip.tik differ by more than 255, for white is 255"},
                      {"background --memory 1kB clip.tik -o d.pfm", "uncertain places"}});
@@ -55,4 +55,4 @@ TEST_F(Plates, SayWhatTheyCannotBeMadeOf) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

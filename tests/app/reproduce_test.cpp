@@ -4,13 +4,13 @@
 #include "support/app_test.hpp"
 #include "support/still_clip.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-class Reproduce : public test::AppTest {
+class Reproduce : public AppTest {
  protected:
   void SetUp() override {
-    test::write_still_clip(scratch_.folder(), 24, 40);
+    write_still_clip(scratch_.folder(), 24, 40);
     make("-f 40 frames clip.tik");
     scratch_.write("it's f.fn",
                    "M0 [0:1], [50000000:0] # caf\xe9\nM9 [10000000:0], [60000000:2], [90000000:0]\n");
@@ -40,7 +40,7 @@ TEST_F(Reproduce, MakesTheSameBytes) {
            "frames"},
           {"-f", "40", "--exposure", "33ms", "frames/*.pgm"}}) {
       const std::string picture = "picture " + std::to_string(number++) + extension;
-      make(words + test::Words{"-o", picture});
+      make(words + Words{"-o", picture});
       expect_made_again(picture);
     }
   }
@@ -81,7 +81,7 @@ TEST_F(Reproduce, MakesOnePictureOfASeries) {
 
 // As plain intervals where they are such, else from functions that the pictures carry.
 TEST_F(Reproduce, MakesOnePictureOfASweep) {
-  const auto sweep = [&](const test::Words& words) { return make("sweep" + words + "clip.tik sheet.png").err; };
+  const auto sweep = [&](const Words& words) { return make("sweep" + words + "clip.tik sheet.png").err; };
   EXPECT_EQ(sweep({"--start", "1f", "--exposure", "3f", "--shift", "-1f..5f/3f", "--scale-gain",
                    "0.3..1/0.35", "--ev", "0.5", "--normalize", "integral", "--each", "box-%d.png"}),
             "");
@@ -328,4 +328,4 @@ TEST_F(Reproduce, KeepsFoldersToItself) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -4,16 +4,16 @@
 #include "support/app_test.hpp"
 #include "support/still_clip.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-class Series : public test::AppTest {
+class Series : public AppTest {
  protected:
   void SetUp() override {
-    test::write_still_clip(scratch_.folder(), 24, 40);
+    write_still_clip(scratch_.folder(), 24, 40);
     run("-f 40 -a 180 frames clip.tik");
   }
-  test::ProgramResult run(const test::Words& words) const { return make(test::over(words)); }
+  ProgramResult run(const Words& words) const { return make(test::over(words)); }
   // How many of name-0, name-1, … there are.
   [[nodiscard]] int written(const std::string& name) const {
     int count = 0;
@@ -25,12 +25,12 @@ class Series : public test::AppTest {
 TEST_F(Series, IsTheSinglePictures) {
   for (const std::string renderer : {"opencl", "reference"}) {
     for (const std::string input : {"clip.tik", "frames"}) {
-      const test::Words common = "--exposure 60ms --shutter hann --renderer " + renderer + " " + input +
-                                 (input == "frames" ? " -f 40 -a 180" : "");
+      const Words common = "--exposure 60ms --shutter hann --renderer " + renderer + " " + input +
+                           (input == "frames" ? " -f 40 -a 180" : "");
       run("--start 0.01s --every 1/3s --count 3 -o s-%d.pfm" + common);
       const char* starts[] = {"10ms", "343333333ns", "676666667ns"};
       for (int k = 0; k < 3; ++k) {
-        run(test::Words{"-o", "single.pfm", "--start", starts[k]} + common);
+        run(Words{"-o", "single.pfm", "--start", starts[k]} + common);
         EXPECT_EQ(file("single.pfm"), file("s-" + std::to_string(k) + ".pfm"))
             << renderer << ", " << input << ", " << k;
       }
@@ -53,7 +53,7 @@ TEST_F(Series, MovesFunctionsAndKeepsTheMask) {
   EXPECT_EQ(file("single.pfm"), file("k-2.pfm"));
   // A function that is held at 1 before its first point is held there, too, when it has moved.
   run("-k moved.fn -m mask.pgm clip.tik moved.pfm");
-  const auto moved = test::read_pfm(scratch_ / "moved.pfm"), second = test::read_pfm(scratch_ / "k-2.pfm");
+  const auto moved = read_pfm(scratch_ / "moved.pfm"), second = read_pfm(scratch_ / "k-2.pfm");
   int alike = 0, pixels = 0;
   for (int i = 0; i < 24 * 24; ++i) {
     if (i % 5 != 0) continue;  // M9
@@ -105,7 +105,7 @@ TEST_F(Series, HasAsManyAsFit) {
 // Who reads a folder's numbers on would take them for this series.
 TEST_F(Series, TellsOfOlderPicturesBehindItsLast) {
   EXPECT_EQ(run("--every 4f --count 6 --exposure 1f clip.tik s-%d.pfm").err, "");
-  const auto shorter = [&](const test::Words& words) { return run(words + "clip.tik s-%d.pfm").err; };
+  const auto shorter = [&](const Words& words) { return run(words + "clip.tik s-%d.pfm").err; };
   const std::string older = "s-3.pfm … s-5.pfm were there before and are no part of this series";
   expect_says(shorter({"--every", "8f", "--count", "3", "--exposure", "1f"}), older);
   expect_says(shorter({"video", "--out-fps", "20", "--to", "0.15s"}), older);
@@ -126,7 +126,7 @@ TEST_F(Series, TellsItsWarningsAlsoWhereItEndsInAnError) {
   capture[capture.size() * 8 / 10] ^= 0x55;  // in one of the later blocks
   scratch_.write("blocks.tik", capture);
   scratch_.write("held.fn", "M0 [0:1], [20000000:1], [20000001:0]\n");
-  const test::ProgramResult result = make({"-k", "held.fn", "--every", "4f", "blocks.tik", "-o", "d-%d.pfm"}, 3);
+  const ProgramResult result = make({"-k", "held.fn", "--every", "4f", "blocks.tik", "-o", "d-%d.pfm"}, 3);
   EXPECT_GT(written("d"), 1);
   expect_says(result.err, "warning: d-1.pfm");
   EXPECT_LT(result.err.find("warning: d-1.pfm"), result.err.find("is damaged")) << result.err;
@@ -148,7 +148,7 @@ TEST_F(Series, NamesTheFirstOfTwoDamagedBlocks) {
 }
 
 TEST_F(Series, SaysWhatIsWrongBeforeItWrites) {
-  const test::Words plain("--exposure 25ms clip.tik");
+  const Words plain("--exposure 25ms clip.tik");
   expect_refused(
       2, {{plain + "--every 1s -o out.pfm", "needs a number in its pictures' name, as in out-%03d.pfm"},
           {plain + "--every 0s -o o%d.pfm", "every '0s' is not longer than nothing"},
@@ -169,4 +169,4 @@ TEST_F(Series, SaysWhatIsWrongBeforeItWrites) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -5,14 +5,14 @@
 #include "support/clips.hpp"
 #include "support/still_clip.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-class ShutterCommand : public test::AppTest {
+class ShutterCommand : public AppTest {
  protected:
-  std::string out(const test::Words& words) const {
+  std::string out(const Words& words) const {
     const bool writes = words.front() != "shutter";
-    return make(writes ? test::Words(test::over(words)) : words).out;
+    return make(writes ? Words(over(words)) : words).out;
   }
 };
 
@@ -37,7 +37,7 @@ TEST_F(ShutterCommand, CountsThePicturesOfACapture) {
   }
   scratch_.write("stills.csv", table);
   out("stills.csv clip.tik");
-  const test::Words box("shutter box --start 3f --exposure 1f");
+  const Words box("shutter box --start 3f --exposure 1f");
   const std::string want =
       "# box from 3f for 1f\nM0 [289999999:0], [290000000:1], [300000000:1], [300000001:0]\n";
   EXPECT_EQ(out(box + "clip.tik"), want);
@@ -48,9 +48,8 @@ TEST_F(ShutterCommand, CountsThePicturesOfACapture) {
   scratch_.write("f.fn", want);
   out("-k f.fn clip.tik a.pgm");
   out("--start 3f --exposure 1f clip.tik b.pgm");
-  EXPECT_EQ(test::read_all(*test::open_test_clip(scratch_ / "a.pgm")),
-            test::read_all(*test::open_test_clip(scratch_ / "b.pgm")));
-  const test::Words counted = "shutter box clip.tik" + test::Words(out("activity --moment quietest clip.tik"));
+  EXPECT_EQ(read_all(*open_test_clip(scratch_ / "a.pgm")), read_all(*open_test_clip(scratch_ / "b.pgm")));
+  const Words counted = "shutter box clip.tik" + Words(out("activity --moment quietest clip.tik"));
   EXPECT_EQ(out(counted).substr(0, 11), "# box from ");
   expect_refused(
       2,
@@ -73,7 +72,7 @@ TEST_F(ShutterCommand, SaysWhatIsWrong) {
 
 // The shape as an option, and its text as a function file: the same light but for the steps of 1 ns.
 TEST_F(ShutterCommand, GivesTheExposureThatTheOptionGives) {
-  test::write_still_clip(scratch_.folder(), 24, 40);
+  write_still_clip(scratch_.folder(), 24, 40);
   out("-f 40 frames clip.tik");
   for (const std::string shape : {"box", "hann", "gaussian", "strobe:3", "spline:0=0,0.2=1,1=-0.5"}) {
     scratch_.write("f.fn", out({"shutter", shape, "--start", "0.1s", "--exposure", "0.4s"}));
@@ -81,7 +80,7 @@ TEST_F(ShutterCommand, GivesTheExposureThatTheOptionGives) {
       out({"--start", "0.1s", "--exposure", "0.4s", "--shutter", shape, "--normalize", by, "clip.tik",
            "a.pfm"});
       out({"-k", "f.fn", "--normalize", by, "clip.tik", "b.pfm"});
-      const std::vector<float> a = test::read_pfm(scratch_ / "a.pfm"), b = test::read_pfm(scratch_ / "b.pfm");
+      const std::vector<float> a = read_pfm(scratch_ / "a.pfm"), b = read_pfm(scratch_ / "b.pfm");
       ASSERT_EQ(a.size(), b.size());
       // Each jump adds or takes half a nanosecond of 0.4 s.
       for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], 1e-6) << shape << ", " << by;
@@ -94,10 +93,10 @@ TEST_F(ShutterCommand, NormalizesAsItSays) {
   write_frames(10, [](int) { return cv::Mat_<std::uint8_t>({1, 2}, {51, 102}); });
   out("-f 10 --transfer linear frames clip.tik");
   struct Case {
-    test::Words words;
+    Words words;
     float light;  // of code 51, 0.2 in light
   };
-  const test::Words triangle("--start 0.2s --exposure 0.4s --shutter triangle");
+  const Words triangle("--start 0.2s --exposure 0.4s --shutter triangle");
   for (const Case& wanted :
        {Case{{}, 0.1f}, Case{{"--normalize", "support"}, 0.1f}, Case{{"--normalize", "integral"}, 0.2f},
         Case{{"--normalize", "absolute"}, 0.2f}, Case{{"--normalize", "seconds:1"}, 0.04f},
@@ -105,7 +104,7 @@ TEST_F(ShutterCommand, NormalizesAsItSays) {
         Case{{"--normalize", "integral", "--ev", "-1", "--gain", "-3"}, -0.3f}}) {
     for (const std::string renderer : {"opencl", "reference"}) {
       out(triangle + wanted.words + "clip.tik a.pfm --renderer" + renderer);
-      const std::vector<float> light = test::read_pfm(scratch_ / "a.pfm");
+      const std::vector<float> light = read_pfm(scratch_ / "a.pfm");
       ASSERT_EQ(light.size(), 2u);
       EXPECT_FLOAT_EQ(light[0], wanted.light) << renderer;
       EXPECT_FLOAT_EQ(light[1], 2 * wanted.light);
@@ -117,13 +116,13 @@ TEST_F(ShutterCommand, NormalizesAsItSays) {
                  "M1 [0:-3], [100000000:-3], [100000001:0]\n");
   scratch_.write("mask.pgm", "P2 2 1 255\n1 1\n");
   out("-k f.fn -m mask.pgm --normalize integral clip.tik a.pfm");
-  EXPECT_FLOAT_EQ(test::read_pfm(scratch_ / "a.pfm")[0], 0.2f);
+  EXPECT_FLOAT_EQ(read_pfm(scratch_ / "a.pfm")[0], 0.2f);
   out("-k f.fn -m mask.pgm --normalize absolute clip.tik a.pfm");
-  EXPECT_FLOAT_EQ(test::read_pfm(scratch_ / "a.pfm")[0], -0.2f);
+  EXPECT_FLOAT_EQ(read_pfm(scratch_ / "a.pfm")[0], -0.2f);
   scratch_.write("mask.pgm", "P2 2 1 255\n0 1\n");
   expect_refused({"-k", "f.fn", "-m", "mask.pgm", "--normalize", "integral", "clip.tik", "b.pfm"}, 3,
                  "M0: the positive and negative parts of its gains cancel");
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -1,18 +1,15 @@
 // Soft masks as a user meets them: --feather, layers, and every command that knows them.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "support/app_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using nlohmann::json;
-
 // Two pictures of linear light, codes 51 and 204. M0 exposes the first, M9 the second; M9 is the right half.
-class SoftMaskCommand : public test::AppTest {
+class SoftMaskCommand : public AppTest {
  protected:
   void SetUp() override {
     write_frames(2, [](int k) { return cv::Mat(1, 6, CV_8UC1, cv::Scalar::all(k == 0 ? 51 : 204)); });
@@ -25,8 +22,7 @@ class SoftMaskCommand : public test::AppTest {
   }
 
   // An exposure's words: feathered by 2 pixels, unless others are wanted, and what stands behind them.
-  static test::Words exposing(const test::Words& behind, const std::string& mask = "mask.pgm",
-                              const std::string& feather = "2px") {
+  static Words exposing(const Words& behind, const std::string& mask = "mask.pgm", const std::string& feather = "2px") {
     return "-k f.fn --out-transfer source -m " + mask + (feather.empty() ? "" : " --feather " + feather) + behind;
   }
   [[nodiscard]] std::vector<int> codes(const std::string& name) const {
@@ -110,14 +106,14 @@ TEST_F(SoftMaskCommand, TracesAPixelThroughAllItsFunctions) {
   EXPECT_EQ(traced["functions"][1]["mask_value"], 9);
   EXPECT_NEAR(traced["functions"][1]["share"], 1.0 / 3, 1e-12);
   make("trace --pixel 2,0 -k f.fn -m mask.pgm --feather 2px clip.tik trace.csv");
-  EXPECT_TRUE(test::read_file(scratch_ / "trace.csv").starts_with("mask_value,share,begin_ns,"));
+  EXPECT_TRUE(read_file(scratch_ / "trace.csv").starts_with("mask_value,share,begin_ns,"));
   make("trace --pixel 2,0 -k f.fn -m mask.pgm --feather 2px clip.tik one.png");
   make("trace --pixel 0,0 -k f.fn -m mask.pgm --feather 2px clip.tik other.png");
   EXPECT_EQ(picture("one.png").rows, 2 * picture("other.png").rows);
 }
 
 TEST_F(SoftMaskCommand, IsKnownToOtherCommands) {
-  const test::Words soft("-k f.fn -m mask.pgm --feather 2px");
+  const Words soft("-k f.fn -m mask.pgm --feather 2px");
   make("check" + soft + "clip.tik");
   make("validate --runs 1" + soft + "clip.tik");
   make("sweep --scale-gain 1..2/1 --each each-%d.pgm --out-transfer source" + soft + "clip.tik sheet.png");
@@ -146,4 +142,4 @@ TEST_F(SoftMaskCommand, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -2,15 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "support/app_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using nlohmann::json;
 
 constexpr int kSceneWidth = 96, kSceneHeight = 48;
 // The paper's Figure 14, M0, with a name in place of its -25.
@@ -20,7 +17,7 @@ constexpr const char* kFigure14 =
 
 // 1.2 s at 100 pictures a second: a ball (a square) that goes from left to right for 0.75 s and then rests at
 // kRest, where nothing was before: 0.25 s of the second that the trail is exposed for.
-class Solve : public test::AppTest {
+class Solve : public AppTest {
  protected:
   static constexpr int kRest = 70, kTop = 20, kSide = 10;
   static constexpr const char* kAtRest = "72,22,6,6";
@@ -40,7 +37,7 @@ class Solve : public test::AppTest {
     scratch_.write("figure14.fn", kFigure14);
   }
 
-  [[nodiscard]] json solved(const test::Words& words) const {
+  [[nodiscard]] json solved(const Words& words) const {
     const auto result = make("solve --json --overwrite" + words);
     return result.status == 0 ? json::parse(result.out) : json();
   }
@@ -70,7 +67,7 @@ TEST_F(Solve, FindsThePapersGainForTheBallAtRest) {
   const double still_gain = mean("picture.pfm", beside) / mean("empty.pfm", beside);
   EXPECT_NEAR(still_gain, 0.742574, 1e-5) << "the paper's";
   EXPECT_NEAR(mean("picture.pfm", rest), still_gain * mean("empty.pfm", rest), 1e-6);
-  EXPECT_EQ(test::read_file(scratch_ / "solved.fn").substr(0, 34), std::string(kFigure14).substr(0, 34))
+  EXPECT_EQ(read_file(scratch_ / "solved.fn").substr(0, 34), std::string(kFigure14).substr(0, 34))
       << "the rest of the file is as it was";
 }
 
@@ -79,7 +76,7 @@ TEST_F(Solve, ReachesConstructedWishes) {
   scratch_.write("known.fn", "M0{[0:0.3], [300000000:1.7], [800000000:-0.6], [1200000000:0.25]}");
   scratch_.write("named.fn", "M0{[0:a], [300000000:b], [800000000:c], [1200000000:d]}");
   make("-k known.fn clip.tik known.pfm");
-  test::Words words("-k named.fn clip.tik -o solved.fn");
+  Words words("-k named.fn clip.tik -o solved.fn");
   std::vector<double> wanted;
   for (const int x : {0, 12, 30, 50, 71}) {
     wanted.push_back(mean("known.pfm", {x, kTop, 8, 8}));
@@ -130,8 +127,8 @@ TEST_F(Solve, ComparesWithAnIntervalUpToTheCapturesEnd) {
 TEST_F(Solve, LooksForTimes) {
   // When 10 ms show the ball within its place at rest, and not elsewhere.
   scratch_.write("moved.fn", "M0{[when-1:0], [when:1], [when+10000000:1], [when+10000001:0]}");
-  const test::Words words{"-k", "moved.fn", "--wish", "70,20,10,10 like 0.9s", "--wish", "10,20,10,10 like 0s..0.02s",
-                          "clip.tik", "-o", "s.fn"};
+  const Words words{"-k",       "moved.fn", "--wish", "70,20,10,10 like 0.9s", "--wish", "10,20,10,10 like 0s..0.02s",
+                    "clip.tik", "-o",       "s.fn"};
   const json steps = solved(words + "--free when=0f..110f/1f");
   EXPECT_EQ(steps["tried_exposures"], 111);
   EXPECT_GE(steps["times_ns"]["when"], 750'000'000);
@@ -176,7 +173,7 @@ TEST_F(Solve, SaysWhatMakesNoSense) {
   scratch_.write("plain.fn", "M0 [0:1], [1000000000:1], [1000000001:0]");
   scratch_.write("bad.fn", "M0 [0:a.b], [5:0]");
   scratch_.write("moved.fn", "M0{[when:1], [when+10000000:1], [when+10000001:0]}");
-  const auto refused = [&](const test::Words& words, int status, std::string_view part) {
+  const auto refused = [&](const Words& words, int status, std::string_view part) {
     expect_refused("solve" + words + "clip.tik", status, part);
   };
   refused({"--wish", "all = 1"}, 2, "solve needs gain functions");
@@ -215,4 +212,4 @@ TEST_F(Solve, SaysWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

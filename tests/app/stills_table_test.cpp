@@ -5,17 +5,17 @@
 #include "support/app_test.hpp"
 #include "support/stills.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-class StillsTableProgram : public test::AppTest {};
+class StillsTableProgram : public AppTest {};
 
 TEST_F(StillsTableProgram, KeepsTheListedExposures) {
   // One dark and one bright picture; 10 ms each, and a gap of 30 ms between them.
   const auto flat = [](std::uint8_t code) {
     Picture picture({8, 8, 1}, ValueType::code8, 255);
     for (auto& value : picture.values<std::uint8_t>()) value = code;
-    return test::netpbm_file(picture, false);
+    return netpbm_file(picture, false);
   };
   scratch_.write("dark.pgm", flat(50));
   scratch_.write("bright.pgm", flat(150));
@@ -24,9 +24,9 @@ TEST_F(StillsTableProgram, KeepsTheListedExposures) {
   expect_says(make("--transfer linear stills.csv c.tik").out,
               "shutter 90 degrees (from the mean of the listed exposures)");
   expect_says(make("info c.tik").out, "(irregular), shutter 90 degrees");
-  const auto code_of = [&](const test::Words& words) {
+  const auto code_of = [&](const Words& words) {
     make(words + "-q --out-transfer source p.pgm");
-    return static_cast<int>(test::read_all(*test::open_test_clip(scratch_ / "p.pgm")).front().front());
+    return static_cast<int>(read_all(*open_test_clip(scratch_ / "p.pgm")).front().front());
   };
   EXPECT_EQ(code_of({"--start", "0f", "--exposure", "1f", "c.tik"}), 50);
   EXPECT_EQ(code_of({"--start", "1f", "--exposure", "1f", "c.tik"}), 150);
@@ -35,7 +35,7 @@ TEST_F(StillsTableProgram, KeepsTheListedExposures) {
   EXPECT_EQ(code_of({"--transfer", "linear", "--start", "30ms", "--exposure", "10ms", "stills.csv"}), 133);
   // Frames of a video, too: 10 ms of every 10 ms, five in all.
   make("video --out-fps 100 --out-angle 360 c.tik v-%d.pgm -q --out-transfer source");
-  const auto frames = test::read_all(*test::open_test_clip(scratch_ / "v-%d.pgm"));
+  const auto frames = read_all(*open_test_clip(scratch_ / "v-%d.pgm"));
   ASSERT_EQ(frames.size(), 5u);
   const int expected[] = {50, 67, 100, 133, 150};  // 50 + 100 · (1/6, 3/6, 5/6), rounded
   for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(static_cast<int>(frames[k].front()), expected[k]) << k;
@@ -46,4 +46,4 @@ TEST_F(StillsTableProgram, KeepsTheListedExposures) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -6,12 +6,12 @@
 #include "capture/format.hpp"
 #include "support/moving_square_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-class StudyFiles : public test::MovingSquareTest {
+class StudyFiles : public MovingSquareTest {
  protected:
-  test::ProgramResult study(const char* output, const char* style = "trail", int status = 0) const {
+  ProgramResult study(const char* output, const char* style = "trail", int status = 0) const {
     return make({"study", "clip.tik", "--style", style, "-o", output}, status);
   }
 };
@@ -67,10 +67,10 @@ TEST_F(StudyFiles, AreReplacedByTheNextStudyWhereverOneEnds) {
   const std::string library =
       (std::filesystem::path(NUTIK_TEST_PROGRAM).parent_path() / "tests" / "libfail_calls.so").string();
   const auto faulty = [&](const char* call, int at, const char* error, const char* style) {
-    return test::run_shell(format("LD_PRELOAD='{}' NUTIK_FAIL_FOLDER='{}' NUTIK_FAIL_CALL={} NUTIK_FAIL_AT={} "
-                                  "NUTIK_FAIL_ERROR={} NUTIK_FAIL_AFTER=on '{}' study clip.tik --style {} -o s.png",
-                                  library, scratch_.folder().string(), call, at, error, NUTIK_TEST_PROGRAM, style),
-                           scratch_.folder())
+    return run_shell(format("LD_PRELOAD='{}' NUTIK_FAIL_FOLDER='{}' NUTIK_FAIL_CALL={} NUTIK_FAIL_AT={} "
+                            "NUTIK_FAIL_ERROR={} NUTIK_FAIL_AFTER=on '{}' study clip.tik --style {} -o s.png",
+                            library, scratch_.folder().string(), call, at, error, NUTIK_TEST_PROGRAM, style),
+                     scratch_.folder())
         .status;
   };
   const std::vector<std::string> names{"s.fn", "s.pgm", "s.txt", "s.png"};
@@ -127,4 +127,4 @@ TEST_F(StudyFiles, AreNoneBesideStandardOutput) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -9,15 +9,13 @@
 #include "support/drawn_clip.hpp"
 #include "support/study_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::DrawnClip;
-using test::ground_of;
-using StudyChoices = test::StudyTest;
+using StudyChoices = StudyTest;
 
 // A square that goes its way over a texture after six empty pictures: 7 pixels to the right from one to the next.
-class StudyStyles : public test::StudyTest {
+class StudyStyles : public StudyTest {
  protected:
   static constexpr int kTop = 40, kSide = 12, kEmpty = 6, kMoving = 20;
 
@@ -33,7 +31,7 @@ class StudyStyles : public test::StudyTest {
   static int left(int picture) { return 4 + 7 * (picture - kEmpty); }
 
   // By how much the study differs from the scene without the square.
-  [[nodiscard]] cv::Mat difference(const test::Words& words) const {
+  [[nodiscard]] cv::Mat difference(const Words& words) const {
     make("study -f 100 way -o styled.png" + words);
     cv::Mat difference;
     cv::subtract(picture("styled.png"), ground_of(7), difference, {}, CV_16S);
@@ -182,7 +180,7 @@ TEST_F(StudyStyles, AreBlendedAsFarAsIsStated) {
         std::pair("--feather M1=6px", "the feather of a study is one width"),
         std::pair("--style clean --feather 6px", "--feather says nothing to --style clean"),
         std::pair("--style slit --by 6", "--by says nothing to --style slit")}) {
-    expect_refused("study -f 100 way -o no.png" + test::Words(words), 2, why);
+    expect_refused("study -f 100 way -o no.png" + Words(words), 2, why);
   }
 }
 
@@ -195,7 +193,7 @@ TEST_F(StudyChoices, FindsWhatDiffersByAsMuchAsIsStated) {
     frame(square) += 10;
     clip.add(frame);
   }
-  const test::Words study("study -f 100 faint -o study.png");
+  const Words study("study -f 100 faint -o study.png");
   const auto unseen = make(study);
   expect_mean_of_all("-f 100 faint", 20, "study");
   expect_says(unseen.err, "nothing moves: no part of it differs from the rest of the time by more than 16 codes");
@@ -210,4 +208,4 @@ TEST_F(StudyChoices, FindsWhatDiffersByAsMuchAsIsStated) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -10,13 +10,10 @@
 #include "support/app_test.hpp"
 #include "support/drawn_clip.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::DrawnClip;
-using test::ground_of;
-
-class StudySubjects : public test::AppTest {
+class StudySubjects : public AppTest {
  protected:
   void draw(const char* clip, int count, const std::function<void(cv::Mat&, int)>& add) const {
     DrawnClip drawn(scratch_ / clip);
@@ -26,10 +23,10 @@ class StudySubjects : public test::AppTest {
       drawn.add(frame);
     }
   }
-  test::ProgramResult study(const char* clip, const test::Words& words, int status = 0) const {
-    return make(test::Words{"study", "-f", "100", clip, "-o", "study.png"} + words, status);
+  ProgramResult study(const char* clip, const Words& words, int status = 0) const {
+    return make(Words{"study", "-f", "100", clip, "-o", "study.png"} + words, status);
   }
-  [[nodiscard]] nlohmann::json moments_of(const char* clip, const test::Words& words) const {
+  [[nodiscard]] nlohmann::json moments_of(const char* clip, const Words& words) const {
     return nlohmann::json::parse(study(clip, words + "--json").out)["moments"];
   }
   void expect_moments_before(int sample, const char* clip) const {
@@ -47,7 +44,7 @@ class StudySubjects : public test::AppTest {
   static cv::Rect upper(int k) { return {4 + 7 * k, 20, 12, 12}; }
   static cv::Rect lower(int k) { return {140 - 7 * k, 64, 12, 12}; }
 
-  static test::Words in_both(const test::Words& words) { return words + "--region 0,0,160,48 --region 0,48,160,48"; }
+  static Words in_both(const Words& words) { return words + "--region 0,0,160,48 --region 0,48,160,48"; }
 };
 
 // A thing that rests for half of the time is in the plate, and what it leaves behind is no ground to be taken away:
@@ -325,4 +322,4 @@ TEST_F(StudySubjects, AreNotWhatIsFollowedOnWhenTheyHaveLeft) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

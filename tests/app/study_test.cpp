@@ -10,14 +10,10 @@
 #include "support/drawn_clip.hpp"
 #include "support/study_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::DrawnClip;
-using test::ground_of;
-using test::MovingSquare;
-
-using Study = test::StudyTest;
+using Study = StudyTest;
 
 TEST_F(Study, ShowsTheSubjectAsItWasAtEachMoment) {
   // Without the end, where it rests for so long that the plate shows it.
@@ -195,7 +191,7 @@ TEST_F(Study, ShowsOneShotOfAClipWithCuts) {
   expect_says(make("study -f 100 shots -o shots.png").err,
               "the clip has 3 shots, which begin at pictures 0, 12, 24: of the longest that makes a study, "
               "pictures 24 … 43 were taken");
-  expect_says(test::read_file(scratch_ / "shots.txt"), "--from 24f --to 44f");
+  expect_says(read_file(scratch_ / "shots.txt"), "--from 24f --to 44f");
   clip.add(cv::Mat(96, 160, CV_8UC1, cv::Scalar::all(252)));  // as some cameras end a recording
   expect_says(make("study -f 100 shots -o shots.png").err,
               "the clip has 4 shots, which begin at pictures 0, 12, 24, 44 (a single one): of the "
@@ -363,7 +359,7 @@ TEST_F(Study, FollowsASubjectInEachRegion) {
 TEST_F(Study, ShowsEachStripOfASlitAtItsOwnMoment) {
   for (const std::string from : {"", "left", "right", "top", "bottom"}) {
     const auto json = answer("study clip.tik --style slit --moments 4 -o slit.png" +
-                             test::Words(from.empty() ? "" : "--slit-from " + from));
+                             Words(from.empty() ? "" : "--slit-from " + from));
     ASSERT_EQ(json["moments"].size(), 4u);
     std::vector<std::size_t> samples;
     for (const auto& moment : json["moments"]) samples.push_back(moment["sample"].get<std::size_t>());
@@ -403,4 +399,4 @@ TEST_F(Study, ShowsAllOfTheTimeWhereNothingMoves) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -4,10 +4,10 @@
 #include "support/app_test.hpp"
 #include "support/ffmpeg.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-class Times : public test::AppTest {
+class Times : public AppTest {
  protected:
   // Two seconds at 30 pictures a second without those of these numbers.
   void make_uneven(const std::string& left_out, const std::string& words) const {
@@ -16,7 +16,7 @@ class Times : public test::AppTest {
   }
 
   // What is said on standard error of a clip that is encoded.
-  [[nodiscard]] std::string said(const test::Words& words) const {
+  [[nodiscard]] std::string said(const Words& words) const {
     return make("encode --overwrite" + words + "-o clip.tik").err;
   }
 };
@@ -81,4 +81,4 @@ TEST_F(Times, OfATableThatAStatedRateMakesEvenAreSaid) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -2,20 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "support/app_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using nlohmann::json;
-using test::ProgramResult;
-
 // Four pictures of 10 ms each. The left half has light 0.2, 0.4, 0.4, 0.8, the right one 0.6 at all times.
-class TraceCommand : public test::AppTest {
+class TraceCommand : public AppTest {
  protected:
   void SetUp() override {
     write_frames(4, [](int k) {
@@ -45,7 +41,7 @@ TEST_F(TraceCommand, ByHand) {
 
 TEST_F(TraceCommand, ATableOfTheIntegrals) {
   make("trace --pixel 3,2 --start 5ms --exposure 20ms clip.tik trace.csv");
-  std::istringstream table(test::read_file(scratch_ / "trace.csv"));
+  std::istringstream table(read_file(scratch_ / "trace.csv"));
   std::string line;
   std::getline(table, line);
   EXPECT_EQ(
@@ -105,7 +101,7 @@ TEST_F(TraceCommand, LongRunsAreFoldedUnlessAllIsWanted) {
                 cv::Mat(2, 2, CV_8UC1, cv::Scalar::all(5 * k)));
   }
   make("-f 100 long long.tik");
-  const test::Words words("trace --pixel 0,0 --start 0s --exposure 400ms long.tik");
+  const Words words("trace --pixel 0,0 --start 0s --exposure 400ms long.tik");
   const std::string folded = make(words).out;
   expect_says(folded, "(36 steps)");  // of 40, without two at each end
   expect_says(folded, "(10 steps)");  // where the gain is 0
@@ -145,4 +141,4 @@ TEST_F(TraceCommand, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

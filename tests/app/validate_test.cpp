@@ -5,39 +5,34 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "support/app_test.hpp"
 #include "support/still_clip.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using nlohmann::json;
-using test::ProgramResult;
+const Words kInterval("--start 0s --exposure 100ms");
 
-const test::Words kInterval("--start 0s --exposure 100ms");
-
-class Validate : public test::AppTest {
+class Validate : public AppTest {
  protected:
   void SetUp() override {
-    test::write_still_clip(scratch_.folder(), 24, 20);
+    write_still_clip(scratch_.folder(), 24, 20);
     make("-q encode -f 100 --tolerance 4 frames clip.tik");
   }
 
   // In a process of its own.
-  ProgramResult run(const test::Words& words, int status = 0, const std::vector<std::string>& settings = {}) const {
-    ProgramResult result = test::run_program(words, scratch_.folder(), settings);
+  ProgramResult run(const Words& words, int status = 0, const std::vector<std::string>& settings = {}) const {
+    ProgramResult result = run_program(words, scratch_.folder(), settings);
     EXPECT_EQ(result.status, status) << result.out << result.err;
     return result;
   }
   // validate of the interval, with more words.
-  ProgramResult validate(const test::Words& words, int status = 0,
-                         const std::vector<std::string>& settings = {}) const {
+  ProgramResult validate(const Words& words, int status = 0, const std::vector<std::string>& settings = {}) const {
     return run("validate" + words + kInterval, status, settings);
   }
-  json json_of(const test::Words& words) const { return json::parse(validate(words + "--json").out); }
-  void expect_refused(const test::Words& words, int status, std::string_view part) const {
+  json json_of(const Words& words) const { return json::parse(validate(words + "--json").out); }
+  void expect_refused(const Words& words, int status, std::string_view part) const {
     expect_says(validate(words, status).err, part);
   }
 };
@@ -106,7 +101,7 @@ TEST_F(Validate, ComparesWithTheSource) {
 
 // The capture knows which pictures it has, and which rectangle of them.
 TEST_F(Validate, ComparesAPartWithItsPartOfTheSource) {
-  const test::Words validate("validate --runs 1 --start 0s --exposure 20ms part.tik --source frames");
+  const Words validate("validate --runs 1 --start 0s --exposure 20ms part.tik --source frames");
   const auto encode = [&](const std::string& how) { run("encode --overwrite -f 100 " + how + " frames part.tik"); };
   for (const std::string part : {"--from 3f", "--from 3f --to 9f", "--crop 9x7+3+5 --to 4f"}) {
     encode(part);
@@ -131,7 +126,7 @@ TEST_F(Validate, SaysWhereTheSourceIsFurthestOff) {
   for (const auto& entry : std::filesystem::directory_iterator(scratch_ / "frames"))
     pictures.push_back(entry.path());
   std::ranges::sort(pictures);
-  std::string bytes = test::read_file(pictures[7]);
+  std::string bytes = read_file(pictures[7]);
   char& pixel = bytes[bytes.size() - 24 * 24 + 3 * 24 + 5];
   pixel = static_cast<char>(static_cast<unsigned char>(pixel) ^ 64);
   std::ofstream(pictures[7], std::ios::binary) << bytes;
@@ -141,10 +136,10 @@ TEST_F(Validate, SaysWhereTheSourceIsFurthestOff) {
 
 TEST_F(Validate, AnotherSourceIsNoSource) {
   std::filesystem::create_directory(scratch_ / "other");
-  test::write_still_clip(scratch_ / "other", 24, 12);
+  write_still_clip(scratch_ / "other", 24, 12);
   expect_refused({"clip.tik", "--source", "other/frames"}, 3, "it has 12 pictures, the capture 20");
   std::filesystem::create_directory(scratch_ / "large");
-  test::write_still_clip(scratch_ / "large", 25, 20);
+  write_still_clip(scratch_ / "large", 25, 20);
   expect_refused({"clip.tik", "--source", "large/frames"}, 3,
                  "it has 25 x 25 grey, 8 bits, white code 255, the capture 24 x 24 grey");
   std::ofstream(scratch_ / "frames/005.pgm", std::ios::binary) << "P5 24 24 255\n"
@@ -194,15 +189,14 @@ TEST_F(Validate, ExitsWithOneWhereADeviceComputesWrongly) {
   validate("clip.tik");
   const std::filesystem::path cache = scratch_ / "cache", other = scratch_ / "other-cache";
   const std::string of_pocl = "POCL_CACHE_DIR=" + (default_cache() / "pocl" / "kcache").string();
-  const auto expose = [&](const std::filesystem::path& folder, const test::Words& more) {
+  const auto expose = [&](const std::filesystem::path& folder, const Words& more) {
     run("expose --precision single clip.tik picture.png" + kInterval + more, 0,
         {"XDG_CACHE_HOME=" + folder.string(), of_pocl});
   };
   expose(cache, {});
   expose(other, "--transfer linear");
   const std::filesystem::path kept = kept_kernel(cache);
-  const std::string wrong =
-      split(test::read_file(kept)).key + split(test::read_file(kept_kernel(other))).binary;
+  const std::string wrong = split(read_file(kept)).key + split(read_file(kept_kernel(other))).binary;
   std::ofstream(kept, std::ios::binary) << wrong;
   std::filesystem::copy(default_cache() / "nutik-cl", cache / "nutik-cl",
                         std::filesystem::copy_options::skip_existing);
@@ -212,4 +206,4 @@ TEST_F(Validate, ExitsWithOneWhereADeviceComputesWrongly) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

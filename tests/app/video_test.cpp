@@ -7,35 +7,34 @@
 #include "support/clips.hpp"
 #include "support/stills.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 constexpr Shape kShape{19, 11, 3};
 constexpr int kCount = 70;  // more than a block
 
 // A folder of stills, and a capture of them.
-class Video : public test::AppTest {
+class Video : public AppTest {
  protected:
   void make_capture(const std::string& rate, const std::string& angle) {
-    stills_ = test::random_stills(kShape, 255, kCount, 11);
+    stills_ = random_stills(kShape, 255, kCount, 11);
     std::filesystem::create_directory(scratch_ / "frames");
     for (int k = 0; k < kCount; ++k) {
-      scratch_.write("frames/" + std::to_string(k) + ".ppm",
-                     test::netpbm_file(stills_[static_cast<std::size_t>(k)], false));
+      scratch_.write("frames/" + std::to_string(k) + ".ppm", netpbm_file(stills_[static_cast<std::size_t>(k)], false));
     }
     source_ = {"-f", rate, "-a", angle};
     run({"-f", rate, "-a", angle, "frames", "c.tik", "-q"});
   }
 
-  test::ProgramResult run(const test::Words& words) const { return make(test::over(words)); }
+  ProgramResult run(const Words& words) const { return make(over(words)); }
 
   // The frames of `video OPTIONS INPUT`, as stills.
-  std::vector<std::vector<std::byte>> frames(const test::Words& options, bool from_clip = false) {
+  std::vector<std::vector<std::byte>> frames(const Words& options, bool from_clip = false) {
     std::filesystem::remove_all(scratch_ / "out");
     std::filesystem::create_directory(scratch_ / "out");
     run("video -q" + options + (from_clip ? source_ + "frames" : "c.tik") + "out/%05d.ppm");
-    const auto clip = test::open_test_clip(scratch_ / "out/%05d.ppm");
-    return test::read_all(*clip);
+    const auto clip = open_test_clip(scratch_ / "out/%05d.ppm");
+    return read_all(*clip);
   }
 
   // A frame that exposes samples for these shares of its time is their mean in light, encoded again. Both
@@ -56,7 +55,7 @@ class Video : public test::AppTest {
     }
   }
   std::vector<Picture> stills_;
-  test::Words source_ = {};
+  Words source_ = {};
 };
 
 TEST_F(Video, OfTheSourcesRateAndAngleIsTheSource) {
@@ -70,13 +69,13 @@ TEST_F(Video, OfTheSourcesRateAndAngleIsTheSource) {
       const auto got = frames({"--out-fps", rate, "--out-angle", angle, "--renderer", renderer}, from_clip);
       ASSERT_EQ(got.size(), stills_.size());
       for (std::size_t k = 0; k < got.size(); ++k) {
-        ASSERT_EQ(test::difference(got[k], stills_[k]), "") << renderer << ", frame " << k;
+        ASSERT_EQ(difference(got[k], stills_[k]), "") << renderer << ", frame " << k;
       }
     }
     // From a picture on, up to another.
     const auto part = frames({"--out-fps", rate, "--out-angle", angle, "--from", "13f", "--to", "20f"});
     ASSERT_EQ(part.size(), 7u);
-    for (std::size_t k = 0; k < part.size(); ++k) ASSERT_EQ(test::difference(part[k], stills_[13 + k]), "");
+    for (std::size_t k = 0; k < part.size(); ++k) ASSERT_EQ(difference(part[k], stills_[13 + k]), "");
     // An end behind the capture's own changes nothing, and is told.
     expect_says(run("video --to 9s c.tik v.mkv").err, "warning: the video's end 9s lies after the capture's end at ");
     EXPECT_EQ(run({"video", "--to", std::to_string(kCount) + "f", "c.tik", "v.mkv"}).err, "");
@@ -99,11 +98,11 @@ TEST_F(Video, TakesAnyRateAngleAndSpeed) {
   // Faster than the source: each sample four times.
   const auto fast = frames("--out-fps 400 --out-angle 360");
   ASSERT_EQ(fast.size(), 4u * kCount);
-  for (std::size_t k = 0; k < fast.size(); ++k) ASSERT_EQ(test::difference(fast[k], stills_[k / 4]), "") << k;
+  for (std::size_t k = 0; k < fast.size(); ++k) ASSERT_EQ(difference(fast[k], stills_[k / 4]), "") << k;
   // Slow motion and time-lapse: a tenth of a second takes a second, or two samples a frame at 25 a second.
   const auto slow = frames("--out-fps 10 --out-angle 90 --speed 0.1");
   ASSERT_EQ(slow.size(), static_cast<std::size_t>(kCount));
-  for (std::size_t k = 0; k < slow.size(); ++k) ASSERT_EQ(test::difference(slow[k], stills_[k]), "") << k;
+  for (std::size_t k = 0; k < slow.size(); ++k) ASSERT_EQ(difference(slow[k], stills_[k]), "") << k;
   const auto lapse = frames("--out-fps 25 --out-angle 360 --speed 1/2");
   ASSERT_EQ(lapse.size(), kCount / 2u);
   expect_mean(lapse[3], {{6, 0.5}, {7, 0.5}});
@@ -123,7 +122,7 @@ TEST_F(Video, ExposesEachFrameWithFunctionsFromItsStartOn) {
   make_capture("100", "360");
   Picture mask({kShape.width, kShape.height, 1}, ValueType::code8, 255);
   for (std::size_t i = 0; i < mask.bytes.size(); ++i) mask.bytes[i] = std::byte(i % 3 == 0 ? 7 : 0);
-  scratch_.write("m.pgm", test::netpbm_file(mask, false));
+  scratch_.write("m.pgm", netpbm_file(mask, false));
   const auto functions = [](std::int64_t at) {
     const auto point = [&](std::int64_t time, const char* gain) {
       return "[" + std::to_string(at + time) + ":" + gain + "]";
@@ -143,19 +142,19 @@ TEST_F(Video, ExposesEachFrameWithFunctionsFromItsStartOn) {
   for (const int k : {0, 1, 13, 26}) {
     scratch_.write("k.fn", anchored(5'000'000 + k * 25'000'000ll));
     run("-m m.pgm -k k.fn c.tik one.ppm -q");
-    const auto one = test::read_all(*test::open_test_clip(scratch_ / "one.ppm"));
+    const auto one = read_all(*open_test_clip(scratch_ / "one.ppm"));
     EXPECT_EQ(got[static_cast<std::size_t>(k)], one.front()) << k;
   }
 }
 
 TEST_F(Video, ShapesAndBrightensEachFrame) {
   make_capture("100", "360");
-  const test::Words bright("--shutter hann --normalize integral --ev -1");
+  const Words bright("--shutter hann --normalize integral --ev -1");
   const auto got = frames("--out-fps 20 --out-angle 270 --from 12ms" + bright);
   ASSERT_EQ(got.size(), 14u);  // the last ends at 12 + 13 · 50 + 37.5 ms, of 700
   for (const int k : {0, 7, 13}) {
     run("expose --exposure 37.5ms c.tik one.ppm -q --start " + std::to_string(12 + k * 50) + "ms" + bright);
-    const auto one = test::read_all(*test::open_test_clip(scratch_ / "one.ppm"));
+    const auto one = read_all(*open_test_clip(scratch_ / "one.ppm"));
     EXPECT_EQ(got[static_cast<std::size_t>(k)], one.front()) << k;
   }
 }
@@ -166,14 +165,14 @@ TEST_F(Video, GoesIntoContainers) {
               "v.mkv: 19 x 11 colour, 4 frames (30000/1001 frames a second, 180 degrees, speed 0.5), "
               "from 0 ns to 58.39 ms of the capture, ffv1");
   const auto stills = frames("--out-fps 30000/1001 --speed 0.5");
-  const auto clip = test::open_test_clip(scratch_ / "v.mkv");
+  const auto clip = open_test_clip(scratch_ / "v.mkv");
   EXPECT_EQ(clip->info().timing.rate, (Rational{30000, 1001}));
-  EXPECT_EQ(test::read_all(*clip), stills);
+  EXPECT_EQ(read_all(*clip), stills);
   // Without a name, and with a codec for pairs of pixels.
-  const test::ProgramResult named = run("video c.tik");
+  const ProgramResult named = run("video c.tik");
   expect_says(named.out, "c-24fps.mp4: ");
   expect_says(named.err, "19 x 11 became 20 x 12");
-  EXPECT_EQ(test::open_test_clip(scratch_ / "c-24fps.mp4")->info().format.shape, (Shape{20, 12, 3}));
+  EXPECT_EQ(open_test_clip(scratch_ / "c-24fps.mp4")->info().format.shape, (Shape{20, 12, 3}));
   run("video --depth float c.tik light-%d.pfm -q");
   EXPECT_TRUE(std::filesystem::exists(scratch_ / "light-0.pfm"));
 }
@@ -184,7 +183,7 @@ TEST_F(Video, SaysWhatMakesNoSense) {
   scratch_.write("long.fn", "M0 [0:1], [900000000:1], [900000001:0]\n");
   scratch_.write("v.mov", "no video");
   struct Case {
-    test::Words words;
+    Words words;
     int status;
     const char* part;
   };
@@ -214,10 +213,10 @@ TEST_F(Video, SaysWhatMakesNoSense) {
   for (const Case& tested : cases) {
     expect_refused("video c.tik" + tested.words, tested.status, tested.part);
   }
-  EXPECT_EQ(test::read_file(scratch_ / "v.mov"), "no video");
+  EXPECT_EQ(read_file(scratch_ / "v.mov"), "no video");
   // A still that is an input is not replaced.
   expect_refused({"video", "-f", "100", "frames", "frames/%d.ppm"}, 2, "the output frames/0.ppm is also an input");
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -8,12 +8,11 @@
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 using boost::multiprecision::cpp_int;
 using boost::multiprecision::cpp_rational;
-using test::rounded_half_up;
 
 constexpr ExactTime kFromTheStart{};
 constexpr Rational kLifeSpeed{1, 1};
@@ -67,7 +66,7 @@ TEST(ExactTimes, AddUpInLowestTerms) {
 }
 
 TEST(FrameTimes, AreExactForAnyRateSpeedAngleAndStart) {
-  test::Random random(20);
+  Random random(20);
   for (int i = 0; i < 3000; ++i) {
     const auto whole = [&](std::int64_t low, std::int64_t high) { return random.whole(low, high); };
     const Rational rate = Rational::of(whole(1, 30'000), whole(1, 1001));
@@ -107,7 +106,7 @@ TEST(ExactTime, IsRoundedOnceWhenItIsAdded) {
   // A third and a fraction that each round down, and up together.
   EXPECT_EQ(rounded_sum({10, 3}, {10, 3}), 7);
   EXPECT_EQ(rounded_sum({-1, 2}, {0, 1}), 0);
-  test::Random random(9);
+  Random random(9);
   for (int i = 0; i < 3000; ++i) {
     const auto time = [&] {
       return ExactTime{random.whole(-4'000'000'000'000'000'000, 4'000'000'000'000'000'000),
@@ -123,7 +122,7 @@ TEST(ExactTime, IsRoundedOnceWhenItIsAdded) {
 
 TEST(FrameTimes, RefuseWhatMakesNoSense) {
   const auto expect_refused = [](Rational rate, Rational speed, Rational angle, const std::string& part) {
-    test::expect_error<UsageError>([&] { return FrameTimes(kFromTheStart, rate, speed, angle); }, {part});
+    expect_error<UsageError>([&] { return FrameTimes(kFromTheStart, rate, speed, angle); }, {part});
   };
   expect_refused({0, 1}, {1, 1}, {180, 1}, "frame rate 0 is not positive");
   expect_refused({24, 1}, {-1, 4}, {180, 1}, "speed -0.25 is not positive");
@@ -135,4 +134,4 @@ TEST(FrameTimes, RefuseWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -7,7 +7,7 @@
 #include "capture/error.hpp"
 #include "support/messages.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 constexpr const char* kGrey =
@@ -22,7 +22,7 @@ constexpr const char* kGrey =
     "point 20.5 2 50\n";
 
 std::string mistakes_in(std::string_view text) {
-  return test::message_of<InputError>([&] { return parse_noise(text, "camera.noise"); });
+  return message_of<InputError>([&] { return parse_noise(text, "camera.noise"); });
 }
 
 // kGrey with `line` in place of its line `number`, from 1.
@@ -148,4 +148,4 @@ TEST(CameraNoise, LightAndCodeStandardDeviationsAreInverse) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

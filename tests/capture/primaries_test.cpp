@@ -5,7 +5,7 @@
 #include "capture/error.hpp"
 #include "support/chromaticity.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 constexpr Primaries kAll[] = {Primaries::bt709,        Primaries::bt2020,       Primaries::p3,       Primaries::sgamut3,
@@ -17,8 +17,8 @@ constexpr Primaries kAll[] = {Primaries::bt709,        Primaries::bt2020,       
 TEST(Primaries, MatricesKeepColours) {
   for (const Primaries primaries : kAll) {
     const ColourMatrix& matrix = to_bt709(primaries);
-    const test::Matrix from = test::to_xyz(chromaticities(primaries));
-    const test::Matrix to = test::to_xyz(chromaticities(Primaries::bt709));
+    const Matrix from = to_xyz(chromaticities(primaries));
+    const Matrix to = to_xyz(chromaticities(Primaries::bt709));
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) {
         const double converted = to[i][0] * matrix[0][j] + to[i][1] * matrix[1][j] + to[i][2] * matrix[2][j];
@@ -55,4 +55,4 @@ TEST(Primaries, ReadTheirOwnText) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

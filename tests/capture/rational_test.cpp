@@ -5,7 +5,7 @@
 #include "capture/error.hpp"
 #include "support/messages.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 TEST(Rational, ReadsWhatPeopleWriteExactly) {
@@ -22,16 +22,16 @@ TEST(Rational, ReadsWhatPeopleWriteExactly) {
 TEST(Rational, RefusesEverythingElseByName) {
   for (const char* text : {"", "fast", "1e", "e3", "1e1.5", "1e99", "1e-16", "999e13", "1e3/7", "1/7e3",
                            "1/0", "1.5/2", "1/2/3", "--1", "1.2.3", ".", "-", "12345678901234567890"}) {
-    test::expect_error<UsageError>([&] { return Rational::parse(text, "frame rate"); },
-                                   {"frame rate '" + std::string(text) + "'"});
+    expect_error<UsageError>([&] { return Rational::parse(text, "frame rate"); },
+                             {"frame rate '" + std::string(text) + "'"});
   }
 }
 
 TEST(Rational, SaysThatThereAreTooManyDigits) {
   for (const char* text : {"1e-300", "-0.1234567890123456", "12345678901234567890"})
-    test::expect_error<UsageError>([&] { return Rational::parse(text, "gain"); }, {"needs more than 15 digits"});
+    expect_error<UsageError>([&] { return Rational::parse(text, "gain"); }, {"needs more than 15 digits"});
   for (const char* text : {"1/0", "1.2.3", "1e", ".", "1e1.5"})
-    test::expect_error<UsageError>([&] { return Rational::parse(text, "gain"); }, {"is not a number"});
+    expect_error<UsageError>([&] { return Rational::parse(text, "gain"); }, {"is not a number"});
 }
 
 TEST(Rational, WritesTheShortestExactForm) {
@@ -52,4 +52,4 @@ TEST(Rational, RoundsHalvesUpward) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

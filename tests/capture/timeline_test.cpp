@@ -9,12 +9,11 @@
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 using boost::multiprecision::cpp_int;
 using boost::multiprecision::cpp_rational;
-using test::rounded_half_up;
 
 TEST(Timeline, AConstantRateRoundsEachTimeFromItsOwnExactValue) {
   for (const Rational rate : {Rational{30, 1}, Rational{30000, 1001}, Rational{2997, 100}, Rational{960, 1},
@@ -70,34 +69,28 @@ TEST(Timeline, SaysWhatIsWrongWithTimes) {
   const auto contains = [](const std::string& text, const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
   };
-  contains(test::message_of<Error>([] {
+  contains(message_of<Error>([] {
              Timeline::irregular({0, 10, 10}, {360, 1});
            }),
            "sample 2 starts at 10 ns, not after sample 1 at 10 ns");
-  contains(test::message_of<Error>([] {
+  contains(message_of<Error>([] {
              Timeline::explicit_exposures({{0, 10}, {5, 20}});
            }),
            "sample 1 starts at 5 ns, before sample 0 ends at 10 ns");
-  contains(test::message_of<Error>([] { Timeline::explicit_exposures({{0, 0}}); }), "sample 0 ends at 0 ns");
-  contains(test::message_of<Error>([] { Timeline::irregular({7}, {360, 1}); }), "state the rate");
-  contains(test::message_of<Error>([] {
-             Timeline::constant({0, 1}, {360, 1}, 1);
-           }),
-           "frame rate 0 is not positive");
-  contains(test::message_of<Error>([] { Timeline::constant({30, 1}, {0, 1}, 1); }), "0 < angle <= 360");
-  contains(test::message_of<Error>([] { Timeline::constant({30, 1}, {3601, 10}, 1); }), "360.1 is outside");
-  contains(test::message_of<Error>([] {
-             Timeline::constant({1'000'000'000, 1}, {1, 1}, 1);
-           }),
-           "less than 1 ns");
-  contains(test::message_of<Error>([] { Timeline::constant({1, 1}, {360, 1}, 1ull << 62); }), "146 years");
+  contains(message_of<Error>([] { Timeline::explicit_exposures({{0, 0}}); }), "sample 0 ends at 0 ns");
+  contains(message_of<Error>([] { Timeline::irregular({7}, {360, 1}); }), "state the rate");
+  contains(message_of<Error>([] { Timeline::constant({0, 1}, {360, 1}, 1); }), "frame rate 0 is not positive");
+  contains(message_of<Error>([] { Timeline::constant({30, 1}, {0, 1}, 1); }), "0 < angle <= 360");
+  contains(message_of<Error>([] { Timeline::constant({30, 1}, {3601, 10}, 1); }), "360.1 is outside");
+  contains(message_of<Error>([] { Timeline::constant({1'000'000'000, 1}, {1, 1}, 1); }), "less than 1 ns");
+  contains(message_of<Error>([] { Timeline::constant({1, 1}, {360, 1}, 1ull << 62); }), "146 years");
 }
 
 // The samples found by bisection are those that a look at every sample finds.
 TEST(Timeline, FindsTheSamplesThatReachAnInterval) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    test::Random random(seed);
-    const Timeline timeline = test::random_timeline(random, static_cast<std::uint64_t>(random.whole(1, 40)));
+    Random random(seed);
+    const Timeline timeline = random_timeline(random, static_cast<std::uint64_t>(random.whole(1, 40)));
     const std::int64_t duration = timeline.duration_ns();
     const std::int64_t begin = random.whole(-duration / 3, duration + duration / 3);
     const std::int64_t end = begin + random.whole(0, duration);
@@ -150,9 +143,7 @@ TEST(Timeline, RefusesTimesThatNoCaptureLasts) {
   constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max(),
                          kMin = std::numeric_limits<std::int64_t>::min();
   constexpr std::int64_t kLongest = std::int64_t{1} << 62;
-  const auto refusal = [](auto make) {
-    return test::message_of<InputError>([&] { static_cast<void>(make()); });
-  };
+  const auto refusal = [](auto make) { return message_of<InputError>([&] { static_cast<void>(make()); }); };
   const std::string too_long = "longer than";
   for (const auto& starts : std::vector<std::vector<std::int64_t>>{{kMin, kMax},
                                                                    {kMin, 0, kMax},
@@ -183,4 +174,4 @@ TEST(Timeline, RefusesTimesThatNoCaptureLasts) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

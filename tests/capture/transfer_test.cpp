@@ -9,7 +9,7 @@
 #include "capture/error.hpp"
 #include "support/messages.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 const std::vector<Transfer> kAllTransfers = [] {
@@ -132,9 +132,9 @@ TEST(Transfer, ReadsItsOwnText) {
 TEST(Transfer, RefusesOthersByName) {
   for (const char* text : {"", "sRGB", "gamma", "gamma:", "gamma:2.2x", "gamma:0", "gamma:11", "gamma:nan"}) {
     SCOPED_TRACE(text);
-    test::expect_error<UsageError>([&] { return Transfer::parse(text); }, {"gamma:"});
+    expect_error<UsageError>([&] { return Transfer::parse(text); }, {"gamma:"});
   }
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

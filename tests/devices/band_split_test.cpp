@@ -10,7 +10,7 @@
 #include "imev/tile.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 std::vector<std::uint32_t> heights(const std::vector<Rectangle>& bands) {
@@ -35,7 +35,7 @@ TEST(BandSplit, GivesDevicesNothingWhereThereAreFewerRowsOfTiles) {
 
 // For any rectangle and any speeds.
 TEST(BandSplit, HasEachRowOnceAndCutsWhereTilesEnd) {
-  test::Random random(7);
+  Random random(7);
   for (int k = 0; k < 2000; ++k) {
     std::vector<double> speeds(static_cast<std::size_t>(random.whole(1, 6)));
     for (double& speed : speeds) speed = random.real(0.01, 100.0);
@@ -97,7 +97,7 @@ TEST(BandSplit, FollowsADeviceThatBecomesSlower) {
 // Devices of any speeds, on pictures whose lower part costs more, are all done at about the same time after some
 // pictures; and from then on nothing moves.
 TEST(BandSplit, FindsTheBalance) {
-  test::Random random(11);
+  Random random(11);
   for (int k = 0; k < 200; ++k) {
     std::vector<double> speeds(static_cast<std::size_t>(random.whole(2, 4)));
     for (double& speed : speeds) speed = random.real(1.0, 8.0);
@@ -131,4 +131,4 @@ TEST(BandSplit, DoesNotForgetASlowDevice) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

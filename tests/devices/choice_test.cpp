@@ -5,7 +5,7 @@
 #include "opencl/device.hpp"
 #include "support/messages.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 using Indices = std::vector<std::size_t>;
@@ -42,7 +42,7 @@ TEST(ChosenDevices, MayHaveACommaInTheirName) {
 TEST(ChosenDevices, AreThereEachOnce) {
   const auto devices = four_devices();
   const auto refusal = [&](const char* wanted) {
-    return test::message_of<DeviceError>([&] { static_cast<void>(choose_devices(devices, wanted)); });
+    return message_of<DeviceError>([&] { static_cast<void>(choose_devices(devices, wanted)); });
   };
   EXPECT_EQ(refusal("2,radeon"), "'2,radeon' names device 2 twice (Radeon Pro); name each once");
   for (const char* wanted : {"0,", ",0", "0,,1", ","}) {
@@ -64,4 +64,4 @@ TEST(ChosenDevices, ALookAtTheTextTellsWhetherTheyMayBeSeveral) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -11,11 +11,10 @@
 #include "support/program.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 using nlohmann::json;
-using test::ProgramResult;
 using Words = std::vector<std::string>;
 
 class SeveralDevices : public testing::Test {
@@ -55,7 +54,7 @@ class SeveralDevices : public testing::Test {
 
   [[nodiscard]] ProgramResult run(Words words, Words settings = {}) const {
     settings.insert(settings.end(), {"POCL_DEVICES=pthread pthread"});
-    return test::run_program(words, scratch_.folder(), settings);
+    return run_program(words, scratch_.folder(), settings);
   }
   // The bytes of the files that a command writes on these devices.
   [[nodiscard]] std::vector<std::string> files_of(Words words, const std::string& device,
@@ -65,7 +64,7 @@ class SeveralDevices : public testing::Test {
     const ProgramResult result = run(words);
     EXPECT_EQ(result.status, 0) << result.err;
     std::vector<std::string> bytes;
-    for (const std::string& file : files) bytes.push_back(test::read_file(scratch_ / file));
+    for (const std::string& file : files) bytes.push_back(read_file(scratch_ / file));
     return bytes;
   }
   void expect_refused(const Words& words, int status, std::string_view part) const {
@@ -79,7 +78,7 @@ class SeveralDevices : public testing::Test {
                       const std::function<void(const ProgramResult&)>& look) const;
   void expect_end_where_one_is_lost(const Words& words) const;
 
-  test::Scratch scratch_;
+  Scratch scratch_;
   std::string name_;  // of each: drivers of several ages name one processor in several ways
 };
 
@@ -185,7 +184,7 @@ TEST_F(SeveralDevices, TakeOverFromOneThatFails) {
         Words{"video", "--json", "--precision", "fixed", "--out-fps", "50", "plain.tik", "new.avi"}}) {
     SCOPED_TRACE(words.front());
     ASSERT_EQ(run(words).status, 0);
-    const std::string whole = test::read_file(scratch_ / words.back());
+    const std::string whole = read_file(scratch_ / words.back());
     for (const char* call : {"start", "enqueue", "allocate", "wait"}) {
       for_each_fault(words, call, [&](const ProgramResult& result) {
         EXPECT_EQ(result.status, 0) << result.err;
@@ -198,7 +197,7 @@ TEST_F(SeveralDevices, TakeOverFromOneThatFails) {
                       text.find("device 0, " + name_, said) != std::string::npos)
               << text;
         }
-        EXPECT_EQ(test::read_file(scratch_ / words.back()), whole);
+        EXPECT_EQ(read_file(scratch_ / words.back()), whole);
       });
     }
   }
@@ -229,7 +228,7 @@ void SeveralDevices::for_each_fault(const Words& words, const std::string& call,
   std::filesystem::remove(report);
   std::filesystem::remove(scratch_ / output);
   ASSERT_EQ(run(words, fault).status, 0);
-  const int calls = std::stoi(test::read_file(report));
+  const int calls = std::stoi(read_file(report));
   ASSERT_GT(calls, 0);
   for (const int at : std::set{1, (calls + 1) / 2, calls}) {
     SCOPED_TRACE(call + " " + std::to_string(at) + " of " + std::to_string(calls));
@@ -256,34 +255,34 @@ void SeveralDevices::expect_end_where_one_is_lost(const Words& words) const {
 
 // As it comes in an archive: no driver is installed, and PoCL lies beside the program.
 TEST(OwnDriver, IsTakenWhereTheSystemHasNoneForTheProcessor) {
-  std::string line = test::read_file("/etc/OpenCL/vendors/pocl.icd");
+  std::string line = read_file("/etc/OpenCL/vendors/pocl.icd");
   void* const loaded = dlopen(line.erase(line.find_last_not_of(" \n") + 1).c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (line.empty() || loaded == nullptr) GTEST_SKIP() << "PoCL is not installed";
   link_map* map = nullptr;
   ASSERT_EQ(dlinfo(loaded, RTLD_DI_LINKMAP, static_cast<void*>(&map)), 0);
   const auto driver = std::filesystem::canonical(map->l_name);
-  const test::Scratch scratch;
+  const Scratch scratch;
   std::filesystem::copy_file(NUTIK_TEST_PROGRAM, scratch / "nutik-cl");
   const std::string list = "env OCL_ICD_VENDORS=" + scratch.folder().string() + " ./nutik-cl devices --json";
-  EXPECT_NE(test::run_shell(list, scratch.folder()).err.find("no OpenCL device was found"), std::string::npos);
+  EXPECT_NE(run_shell(list, scratch.folder()).err.find("no OpenCL device was found"), std::string::npos);
 
   const std::filesystem::path folder = scratch / "pocl/lib/opencl";
   std::filesystem::create_directories(folder);
   std::filesystem::create_directory_symlink("/usr/share", scratch / "pocl/share");
   std::filesystem::create_directory_symlink(driver.parent_path() / "pocl", folder / "pocl");
   std::filesystem::create_symlink(driver, folder / "libpocl.so");
-  const test::ProgramResult devices = test::run_shell(list, scratch.folder());
+  const ProgramResult devices = run_shell(list, scratch.folder());
   ASSERT_EQ(devices.status, 0) << devices.err;
   EXPECT_EQ(json::parse(devices.out)["devices"][0]["kind"], "CPU");
 
   // Called by its name alone, where another file has that name.
   std::filesystem::create_directories(scratch / "elsewhere/nutik-cl");
   const std::string here = scratch.folder().string();
-  const test::ProgramResult called = test::run_shell(
+  const ProgramResult called = run_shell(
       "env OCL_ICD_VENDORS=" + here + " PATH=" + here + ":$PATH nutik-cl devices --json", scratch / "elsewhere");
   ASSERT_EQ(called.status, 0) << called.err;
   EXPECT_EQ(json::parse(called.out)["devices"][0]["kind"], "CPU");
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -20,12 +20,8 @@
 #include "support/soft_mask.hpp"
 #include "support/watched_capture.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::kLight;
-using test::RandomCase;
-using test::WatchedCapture;
 
 constexpr std::array<std::size_t, 2> kTwice{0, 0};
 constexpr std::array<std::size_t, 3> kThrice{0, 0, 0};
@@ -35,8 +31,8 @@ constexpr OutputFormat kCodes{ValueType::code8, 255};
 struct Scene {
   explicit Scene(std::uint64_t seed = 3) {
     format.shape = {21, 77, 3};
-    test::Random random(seed);
-    rasters = test::random_rasters(random, format, 40);
+    Random random(seed);
+    rasters = random_rasters(random, format, 40);
     for (std::size_t pixel = 0; pixel < mask.tags.size(); ++pixel) {
       mask.tags[pixel] = static_cast<std::uint8_t>(pixel % 5 == 0 ? 2 : pixel / 400);
     }
@@ -45,7 +41,7 @@ struct Scene {
 
   CaptureFormat format;
   Timeline timeline = Timeline::constant({100, 1}, {270, 1}, 40);
-  test::Rasters rasters;
+  Rasters rasters;
   Mask mask = Mask::uniform(21, 77, 0);
   FunctionSet functions{{0, GainFunction::boxcar(12'345'678, 333'333'333)},
                         {1, GainFunction({{0, -0.25}, {200'000'000, 1.5}, {390'000'000, 0.0}})},
@@ -70,7 +66,7 @@ void expect_same(Renderer& alone, Renderer& team, const RenderPlan& plan, Captur
 }
 
 TEST(DeviceTeam, MakesThePictureOfOneDevice) {
-  const OpenClOptions options = test::renderer_options(std::nullopt);
+  const OpenClOptions options = renderer_options(std::nullopt);
   OpenClRenderer alone(options);
   DeviceTeam two(kTwice, options), three(kThrice, options);
   const Scene scene;
@@ -97,18 +93,18 @@ TEST(DeviceTeam, MakesThePictureOfOneDevice) {
 
 // Masks of several values and soft ones, delays, blocks of all kinds: `fixed` has no rounding to hide behind.
 TEST(DeviceTeam, MakesAnyPictureInFixed) {
-  const OpenClOptions options = test::renderer_options(Precision::fixed);
+  const OpenClOptions options = renderer_options(Precision::fixed);
   OpenClRenderer alone(options);
   DeviceTeam team(kTwice, options);
   int several = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     RandomCase random(seed, {seed % 2 == 0 ? 3u : 1u, 1, 255, Transfer::srgb()});
     if (random.capture.shape.height <= kTileSide) continue;
-    test::Random draw(seed);
-    if (draw.chance(0.4)) test::soften(random.mask, random.functions, seed);
+    Random draw(seed);
+    if (draw.chance(0.4)) soften(random.mask, random.functions, seed);
     PlanOptions how;
     if (draw.chance(0.4)) {
-      how.delays = test::random_delays(draw, random.capture.shape, random.timeline.duration_ns());
+      how.delays = random_delays(draw, random.capture.shape, random.timeline.duration_ns());
     }
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, how);
@@ -123,12 +119,12 @@ TEST(DeviceTeam, MakesAnyPictureInFixed) {
 TEST(DeviceTeam, KeepsSumsOfLight) {
   const CaptureFormat format{.shape = {24, 40, 1}};
   constexpr std::uint64_t kSamples = 50 * 32;
-  test::Random random(4);
+  Random random(4);
   MemoryCapture capture(format, Timeline::constant({1000, 1}, {180, 1}, kSamples),
-                        test::random_rasters(random, format, kSamples), 32);
-  const OpenClRenderer any(test::renderer_options(std::nullopt));
+                        random_rasters(random, format, kSamples), 32);
+  const OpenClRenderer any(renderer_options(std::nullopt));
   for (const Precision precision : any.precisions()) {
-    OpenClOptions options = test::renderer_options(precision);
+    OpenClOptions options = renderer_options(precision);
     options.allocation_bytes = 0;  // that all sums have room
     OpenClRenderer alone(options);
     DeviceTeam team(kTwice, options);
@@ -148,7 +144,7 @@ TEST(DeviceTeam, KeepsSumsOfLight) {
 
 // Blocks that stay on the devices belong to each one's band.
 TEST(DeviceTeam, KeepsTheResidentCapture) {
-  const OpenClOptions options = test::renderer_options(Precision::fixed);
+  const OpenClOptions options = renderer_options(Precision::fixed);
   OpenClRenderer alone(options);
   DeviceTeam team(kTwice, options);
   Scene scene;
@@ -166,7 +162,7 @@ TEST(DeviceTeam, KeepsTheResidentCapture) {
 }
 
 TEST(DeviceTeam, SaysWhoMadeThePicture) {
-  const OpenClOptions options = test::renderer_options(Precision::fixed);
+  const OpenClOptions options = renderer_options(Precision::fixed);
   DeviceTeam team(kTwice, options);
   const std::string name = OpenClRenderer(options).name();
   EXPECT_EQ(team.name(), "2 x " + name);
@@ -178,7 +174,7 @@ TEST(DeviceTeam, SaysWhoMadeThePicture) {
 }
 
 OpenClOptions block_by_block() {
-  OpenClOptions options = test::renderer_options(Precision::fixed);
+  OpenClOptions options = renderer_options(Precision::fixed);
   options.chunk_bytes = 1;
   return options;
 }
@@ -210,13 +206,13 @@ TEST(DeviceTeam, EndsWhereOneDeviceFails) {
     WatchedCapture damaged(capture, [&](std::uint64_t) {
       if (calls++ == at) throw InputError("a damaged block");
     });
-    EXPECT_EQ(test::message_of<InputError>([&] { static_cast<void>(team.render(plan, damaged, kCodes)); }),
+    EXPECT_EQ(message_of<InputError>([&] { static_cast<void>(team.render(plan, damaged, kCodes)); }),
               "a damaged block");
     calls = 0;
     WatchedCapture lost(capture, [&](std::uint64_t) {
       if (calls++ == at) throw DeviceError("it is lost", {Setting::renderer});
     });
-    EXPECT_EQ(test::message_of<DeviceError>([&] { static_cast<void>(team.render(plan, lost, kCodes)); }),
+    EXPECT_EQ(message_of<DeviceError>([&] { static_cast<void>(team.render(plan, lost, kCodes)); }),
               "device 0: it is lost");
   }
   EXPECT_EQ(team.render(plan, capture, kCodes).picture, alone.render(plan, capture, kCodes).picture);
@@ -265,7 +261,7 @@ TEST(DeviceTeam, MakesPicturesSideBySide) {
 
 // More pictures than devices, with what a device is lost at: its number is told, and it is free for the next one.
 TEST(DeviceTeam, MakesPicturesOfOneDeviceEach) {
-  const OpenClOptions options = test::renderer_options(Precision::fixed);
+  const OpenClOptions options = renderer_options(Precision::fixed);
   OpenClRenderer alone(options);
   DeviceTeam team(kThrice, options);
   const Scene scene;
@@ -282,7 +278,7 @@ TEST(DeviceTeam, MakesPicturesOfOneDeviceEach) {
     EXPECT_EQ(team.render(plan, capture, kCodes).picture, picture);  // in bands
     WatchedCapture lost(capture, [&](std::uint64_t) { throw DeviceError("it is lost"); });
     RenderControl own{.by_one_device = true};
-    EXPECT_EQ(test::message_of<DeviceError>([&] { static_cast<void>(team.render(plan, lost, kCodes, own)); }),
+    EXPECT_EQ(message_of<DeviceError>([&] { static_cast<void>(team.render(plan, lost, kCodes, own)); }),
               "device 0: it is lost");
     std::stop_source stop;
     stop.request_stop();
@@ -293,7 +289,7 @@ TEST(DeviceTeam, MakesPicturesOfOneDeviceEach) {
 
 // Pictures of one device each that overlap without end: one in bands has its turn among them.
 TEST(DeviceTeam, KeepsBandsWaitingNoLongerThanPicturesTake) {
-  DeviceTeam team(kTwice, test::renderer_options(Precision::fixed));
+  DeviceTeam team(kTwice, renderer_options(Precision::fixed));
   const Scene scene;
   MemoryCapture capture = scene.capture();
   const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
@@ -316,7 +312,7 @@ TEST(DeviceTeam, KeepsBandsWaitingNoLongerThanPicturesTake) {
 
 // Half of the memory is too little for a picture of one device: both make it in bands, in which it has room.
 TEST(DeviceTeam, MakesBandsWhereMemoryIsLittle) {
-  const OpenClOptions options = test::renderer_options(Precision::fixed);
+  const OpenClOptions options = renderer_options(Precision::fixed);
   OpenClRenderer alone(options);
   DeviceTeam team(kTwice, options);
   const Scene scene;
@@ -333,7 +329,7 @@ TEST(DeviceTeam, MakesBandsWhereMemoryIsLittle) {
 }
 
 TEST(DeviceTeam, NamesTheLeastMemoryThatItWorksWith) {
-  const OpenClOptions options = test::renderer_options(Precision::fixed);
+  const OpenClOptions options = renderer_options(Precision::fixed);
   OpenClRenderer alone(options);
   const Scene scene;
   MemoryCapture capture = scene.capture();
@@ -363,7 +359,7 @@ TEST(DeviceTeam, NamesTheLeastMemoryThatItWorksWith) {
 
 // An arithmetic that a device computes wrongly is no part of the choice; who asks for it is refused, but for measuring.
 TEST(DeviceTeam, ChoosesAmongWhatAllComputeRightly) {
-  OpenClOptions options = test::renderer_options(std::nullopt);
+  OpenClOptions options = renderer_options(std::nullopt);
   options.tests_itself = true;
   options.faults[Precision::single_] = "-DNUTIK_LIGHT=NUTIK_LIGHT_LINEAR";
   DeviceTeam team(kTwice, options);
@@ -374,8 +370,8 @@ TEST(DeviceTeam, ChoosesAmongWhatAllComputeRightly) {
   EXPECT_NE(rendered.precision, Precision::single_);
   EXPECT_TRUE(rendered.passed_self_test);
   RenderControl asked{.precision = Precision::single_};
-  const std::string message = test::message_of<DeviceError>(
-      [&] { static_cast<void>(team.render(plan, capture, kCodes, asked)); });
+  const std::string message =
+      message_of<DeviceError>([&] { static_cast<void>(team.render(plan, capture, kCodes, asked)); });
   EXPECT_NE(message.find("computes `single` wrongly"), std::string::npos) << message;
   asked.takes_wrong = true;
   const Rendered wrong = team.render(plan, capture, kCodes, asked);
@@ -384,4 +380,4 @@ TEST(DeviceTeam, ChoosesAmongWhatAllComputeRightly) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

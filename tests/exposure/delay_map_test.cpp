@@ -13,13 +13,13 @@
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 // The message of the error, if it holds `part`; else what it is instead.
 template <typename Error, typename Act>
 testing::AssertionResult refuses(Act act, const std::string& part) {
-  const std::string message = test::message_of<Error>(act);
+  const std::string message = message_of<Error>(act);
   if (message.find(part) != std::string::npos) return testing::AssertionSuccess();
   return testing::AssertionFailure() << "'" << message << "' does not say '" << part << "'";
 }
@@ -145,15 +145,15 @@ TEST(WholeCourse, CountsHeldEndsInTheCaptureAlone) {
 }
 
 TEST(WholeCourse, IsExactOnRandomFunctions) {
-  test::Random random(3);
+  Random random(3);
   for (int i = 0; i < 200; ++i) {
-    const Timeline timeline = test::random_timeline(random, 20);
+    const Timeline timeline = random_timeline(random, 20);
     const GainFunction function =
-        test::random_function(random, timeline).shifted(random.whole(-1, 1) * 3 * timeline.duration_ns());
+        random_function(random, timeline).shifted(random.whole(-1, 1) * 3 * timeline.duration_ns());
     EXPECT_EQ(summarize_course(function, timeline.duration_ns()).support_ns,
-              test::exact_course_support_ns(function, timeline.duration_ns()));
+              exact_course_support_ns(function, timeline.duration_ns()));
   }
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

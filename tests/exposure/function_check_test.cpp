@@ -6,7 +6,7 @@
 #include "exposure/function_file.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 using Kind = FunctionFinding::Kind;
@@ -98,7 +98,7 @@ TEST(FunctionCheck, TheFiguresAreSilent) {
   for (const char* name : {"figure04", "figure07", "figure14-restored", "figure16"}) {
     const std::string path = std::string(NUTIK_TEST_CORPUS) + "/" + name + ".fn";
     for (const CheckedDomain domain : {CheckedDomain{3 * kSecond, true}, CheckedDomain{3 * kSecond, false}}) {
-      for (const auto& [tag, read] : parse_functions(test::read_file(path)).functions) {
+      for (const auto& [tag, read] : parse_functions(read_file(path)).functions) {
         for (const FunctionFinding& finding :
              check_function(read.function, summarize(read.function, domain.duration_ns), domain)) {
           ADD_FAILURE() << name << " M" << int{tag} << ": " << finding.message;
@@ -133,4 +133,4 @@ TEST(FunctionCheck, PlacesOfTimesAreThoseInTheText) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -8,7 +8,7 @@
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 GainFunction read_back(const std::string& text, std::uint8_t tag) {
@@ -42,8 +42,8 @@ TEST(FunctionText, IsReadBackIdentically) {
     }
   }
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    test::Random random(seed);
-    const GainFunction function = test::random_function(random, test::random_timeline(random, 20));
+    Random random(seed);
+    const GainFunction function = random_function(random, random_timeline(random, 20));
     try {
       EXPECT_EQ(read_back(function_text(3, function), 3), with_steps(function)) << "seed " << seed;
     } catch (const UsageError&) {  // no room for a step
@@ -62,10 +62,9 @@ TEST(FunctionText, StepsChangeNextToNothing) {
 
 TEST(FunctionText, SaysWhereThereIsNoRoomForAStep) {
   const GainFunction flashes({{4, 0}, {4, 1}, {5, 1}, {5, 0}, {6, 0}, {6, 1}, {7, 1}, {7, 0}});
-  EXPECT_EQ(
-      test::message_of<UsageError>([&] { static_cast<void>(function_text(0, flashes)); }),
-      "the gain jumps twice round 7 ns: in a function file a jump takes 1 ns, and there is no room for that");
+  EXPECT_EQ(message_of<UsageError>([&] { static_cast<void>(function_text(0, flashes)); }),
+            "the gain jumps twice round 7 ns: in a function file a jump takes 1 ns, and there is no room for that");
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

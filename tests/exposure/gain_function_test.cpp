@@ -10,10 +10,8 @@
 #include "support/exact.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Exact;
 
 constexpr std::int64_t kThreeSeconds = 3'000'000'000;
 
@@ -61,16 +59,16 @@ TEST(GainSummary, KnowsThePapersFigures) {
 TEST(GainSummary, AgreesWithExactArithmetic) {
   double worst = 0.0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    test::Random random(seed);
-    const Timeline timeline = test::random_timeline(random, static_cast<std::uint64_t>(random.whole(1, 40)));
-    const GainFunction function = test::random_function(random, timeline);
+    Random random(seed);
+    const Timeline timeline = random_timeline(random, static_cast<std::uint64_t>(random.whole(1, 40)));
+    const GainFunction function = random_function(random, timeline);
     const GainSummary summary = summarize(function, timeline.duration_ns());
-    const test::ExactSummary exact = test::exact_summary(test::exact_gain(function, timeline.duration_ns()));
+    const ExactSummary exact = exact_summary(exact_gain(function, timeline.duration_ns()));
     ASSERT_EQ(summary.support_ns, exact.support_ns) << "seed " << seed;
     if (exact.support_ns == 0) continue;
     const Exact scale = exact.absolute_integral_ns;
     const Exact error = Exact(std::scalbn(summary.integral_ns, summary.exponent)) - exact.integral_ns;
-    worst = std::max(worst, std::fabs((error / scale).convert_to<double>()) / test::kRoundoff64);
+    worst = std::max(worst, std::fabs((error / scale).convert_to<double>()) / kRoundoff64);
   }
   // A piece's integral costs three roundings, its two gains half a place each, the sum two more.
   EXPECT_LE(worst, 6.0);
@@ -110,7 +108,7 @@ TEST(GainFunction, CutsPiecesExactly) {
   const auto pieces = function.pieces(1'000'003);
   ASSERT_EQ(pieces.size(), 1u);
   EXPECT_EQ(pieces[0].begin_gain, 0.0);
-  const auto exact = test::exact_gain(function, 1'000'003);
+  const auto exact = exact_gain(function, 1'000'003);
   EXPECT_EQ(pieces[0].end_gain, exact.front().end.convert_to<double>());
 }
 
@@ -170,4 +168,4 @@ TEST(GainFunction, RefusesToStretchOutOfTheRangeOfTimes) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

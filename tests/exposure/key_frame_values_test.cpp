@@ -7,7 +7,7 @@
 
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 using Points = std::vector<ControlPoint>;
@@ -58,7 +58,7 @@ TEST(FunctionBetween, TakesJumpsForSteps) {
 // However close the points of both keys are, those between them come in order.
 TEST(FunctionBetween, NeverPutsTwoPointsAtOneTime) {
   constexpr std::uint64_t kSeed = 21;
-  test::Random random(kSeed);
+  Random random(kSeed);
   for (int round = 0; round < 2000; ++round) {
     Points first, second;
     std::int64_t a = -5, b = 1000;
@@ -77,4 +77,4 @@ TEST(FunctionBetween, NeverPutsTwoPointsAtOneTime) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

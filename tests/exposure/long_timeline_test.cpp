@@ -10,10 +10,8 @@
 #include "support/random_case.hpp"
 #include "support/seeds.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Exact;
 
 constexpr std::int64_t kDayNs = 86'400'000'000'000;
 
@@ -50,9 +48,9 @@ TEST_P(ADay, HasTheTablesThatExactArithmeticSays) {
   constexpr std::uint64_t kEntries = 10'000, kBlock = 64;
   const GainFunction function = all_day(timeline_);
   const GainSummary summary = summarize(function, timeline_.duration_ns());
-  const auto gain = test::exact_gain(function, timeline_.duration_ns());
-  const auto magnitudes = test::magnitude_of(gain);
-  ASSERT_EQ(summary.support_ns, test::exact_summary(gain).support_ns);
+  const auto gain = exact_gain(function, timeline_.duration_ns());
+  const auto magnitudes = magnitude_of(gain);
+  ASSERT_EQ(summary.support_ns, exact_summary(gain).support_ns);
   const Exact unit = Exact(std::scalbn(1.0, summary.exponent)) * summary.support_ns;
 
   const std::uint64_t count = timeline_.sample_count();
@@ -62,7 +60,7 @@ TEST_P(ADay, HasTheTablesThatExactArithmeticSays) {
     const std::uint64_t k = timeline_.samples_reaching(time_ns, time_ns + 1).first;
     firsts.push_back(std::clamp<std::uint64_t>(k, kBlock / 2, count - kBlock / 2) - kBlock / 2);
   }
-  test::Random random(24);
+  Random random(24);
   while (firsts.size() * kBlock < kEntries) {
     firsts.push_back(static_cast<std::uint64_t>(random.whole(0, static_cast<std::int64_t>(count - kBlock))));
   }
@@ -74,17 +72,15 @@ TEST_P(ADay, HasTheTablesThatExactArithmeticSays) {
     integrator.pack(timeline_.times({first, first + kBlock}), weights, boundaries);
     Exact boundary = 0, boundary_scale = 0;
     for (std::uint64_t i = 0; i < kBlock; ++i) {
-      const Exact weight = test::exact_weight_ns(gain, timeline_, first + i) / unit;
-      const Exact scale = test::exact_weight_ns(magnitudes, timeline_, first + i) / unit;
-      const double units = test::error_in(scale, weights[i], weight) / test::kRoundoff64;
-      ASSERT_LE(units, test::kWeightRoundings)
-          << "weight of sample " << first + i << "; rerun: " << test::rerun();
+      const Exact weight = exact_weight_ns(gain, timeline_, first + i) / unit;
+      const Exact scale = exact_weight_ns(magnitudes, timeline_, first + i) / unit;
+      const double units = error_in(scale, weights[i], weight) / kRoundoff64;
+      ASSERT_LE(units, kWeightRoundings) << "weight of sample " << first + i << "; rerun: " << rerun();
       worst = std::max(worst, units);
       boundary += weight;
       boundary_scale += scale;
-      ASSERT_LE(test::error_in(boundary_scale, boundaries[i + 1], boundary) / test::kRoundoff64,
-                test::kWeightRoundings + 1)
-          << "boundary behind sample " << first + i << "; rerun: " << test::rerun();
+      ASSERT_LE(error_in(boundary_scale, boundaries[i + 1], boundary) / kRoundoff64, kWeightRoundings + 1)
+          << "boundary behind sample " << first + i << "; rerun: " << rerun();
     }
   }
   std::printf("%zu weights of %llu: worst error %.2f u of its own ∫ĝφ\n", firsts.size() * kBlock,
@@ -93,7 +89,7 @@ TEST_P(ADay, HasTheTablesThatExactArithmeticSays) {
 
 // Times of a day's last samples do not drift: each is the exact one, rounded.
 TEST_P(ADay, RoundsEveryTimeFromItsOwnExactValue) {
-  test::Random random(25);
+  Random random(25);
   const Exact rate = Exact(GetParam().rate.numerator) / GetParam().rate.denominator;
   const Exact open = Exact(GetParam().shutter_angle.numerator) / GetParam().shutter_angle.denominator / 360;
   const auto rounds_to = [](std::int64_t time_ns, const Exact& exact) {
@@ -116,4 +112,4 @@ INSTANTIATE_TEST_SUITE_P(, ADay,
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

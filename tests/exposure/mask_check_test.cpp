@@ -7,7 +7,7 @@
 
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 constexpr std::array<bool, kMaskValues> kNoneMapped{};
@@ -85,7 +85,7 @@ TEST(MaskCheck, SmoothedEdgesAreFound) {
 
 TEST(MaskCheck, WhatJpegLeavesIsFoundUnlessItIsMapped) {
   Mask mask = Mask::uniform(160, 120, 40);
-  test::Random random(5);
+  Random random(5);
   // Rings of small errors round an edge.
   fill(mask, 60, 40, 40, 40, 200);
   for (std::uint32_t x = 60; x < 100; x += 2) {
@@ -157,4 +157,4 @@ TEST(MaskCheck, ValuesWithoutAFunction) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -13,7 +13,7 @@
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 struct Place {
@@ -62,7 +62,7 @@ std::optional<std::map<int, std::vector<Point>>> read(const std::string& text) {
 bool is_step(const Point& a, const Point& b) { return a.gain != b.gain && b.time - a.time <= 1000; }
 
 std::string figure(const std::string& name) {
-  return test::read_file(std::filesystem::path(NUTIK_TEST_CORPUS) / (name + ".fn"));
+  return read_file(std::filesystem::path(NUTIK_TEST_CORPUS) / (name + ".fn"));
 }
 
 constexpr const char* kFigures[] = {"figure04", "figure07", "figure14-restored", "figure16"};
@@ -137,7 +137,7 @@ TEST(MistypedTime, EveryLostDigitOfTheFiguresIsNamed) {
 }
 
 TEST(MistypedTime, AnyLostDigitOfAStepIsNamed) {
-  test::Random random(11);
+  Random random(11);
   int named = 0;
   for (int i = 0; i < 20'000; ++i) {
     const std::int64_t begin = random.whole(-1'000'000'000, 1'000'000'000);
@@ -162,7 +162,7 @@ TEST(MistypedTime, AnyLostDigitOfAStepIsNamed) {
 }
 
 TEST(MistypedTime, RampsBetweenWholeMillisecondsAreSilent) {
-  test::Random random(12);
+  Random random(12);
   for (int i = 0; i < 20'000; ++i) {
     const std::int64_t begin = random.whole(0, random.chance(0.5) ? 20 : 20'000);
     const std::int64_t end = begin + random.whole(1, random.chance(0.5) ? 20 : 20'000);
@@ -190,4 +190,4 @@ TEST(MistypedTime, LooksOnlyAtRamps) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

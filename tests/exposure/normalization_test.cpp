@@ -10,10 +10,8 @@
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Exact;
 
 constexpr std::int64_t kSecondNs = 1'000'000'000;
 
@@ -38,7 +36,7 @@ TEST(Normalization, IsWrittenAsItIsRead) {
 
 TEST(Normalization, RefusesWhatItIsNot) {
   const auto message = [](const char* text) {
-    return test::message_of<UsageError>([&] { static_cast<void>(Normalization::parse(text)); });
+    return message_of<UsageError>([&] { static_cast<void>(Normalization::parse(text)); });
   };
   EXPECT_EQ(message("mean"),
             "normalization 'mean' is not known; choose support, integral, absolute or seconds:S, as in "
@@ -61,20 +59,19 @@ TEST(Normalization, DividesByWhatItSays) {
   double worst = 0.0;
   int compared = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    test::Random random(seed);
-    const Timeline timeline = test::random_timeline(random, static_cast<std::uint64_t>(random.whole(1, 40)));
+    Random random(seed);
+    const Timeline timeline = random_timeline(random, static_cast<std::uint64_t>(random.whole(1, 40)));
     const std::int64_t duration_ns = timeline.duration_ns();
-    const GainFunction function = test::random_function(random, timeline);
-    const auto exact = test::exact_gain(function, duration_ns);
-    const test::ExactSummary summary = test::exact_summary(exact);
+    const GainFunction function = random_function(random, timeline);
+    const auto exact = exact_gain(function, duration_ns);
+    const ExactSummary summary = exact_summary(exact);
     if (summary.support_ns == 0) continue;
-    const std::vector<test::ExactStretch> light{{0, duration_ns, Exact(1, 5), Exact(1)}};
-    const Exact exposed = test::integrate_product(exact, light);
+    const std::vector<ExactStretch> light{{0, duration_ns, Exact(1, 5), Exact(1)}};
+    const Exact exposed = integrate_product(exact, light);
     const double gain = random.pick<double>({1.0, 3.7, -0.25});
     const Exact seconds(std::int64_t{3} * kSecondNs, 7);
     const Exact cancels = Exact(abs(summary.integral_ns)) / summary.absolute_integral_ns;
-    const Exact magnitude =
-        test::exact_summary(test::exact_gain(magnitudes(function), duration_ns)).integral_ns;
+    const Exact magnitude = exact_summary(exact_gain(magnitudes(function), duration_ns)).integral_ns;
     struct Wanted {
       const char* how;
       Exact divisor;
@@ -84,12 +81,12 @@ TEST(Normalization, DividesByWhatItSays) {
           Wanted{"seconds:3/7", seconds}, Wanted{"support", summary.support_ns}}) {
       if (wanted.divisor == summary.integral_ns && cancels.convert_to<double>() < 1e-3) continue;
       const GainFunction scaled = normalized(wanted.how, function, duration_ns, gain);
-      const auto scaled_gain = test::exact_gain(scaled, duration_ns);
-      ASSERT_EQ(test::exact_summary(scaled_gain).support_ns, summary.support_ns) << "seed " << seed;
-      const Exact got = test::integrate_product(scaled_gain, light) / summary.support_ns;
+      const auto scaled_gain = exact_gain(scaled, duration_ns);
+      ASSERT_EQ(exact_summary(scaled_gain).support_ns, summary.support_ns) << "seed " << seed;
+      const Exact got = integrate_product(scaled_gain, light) / summary.support_ns;
       const Exact want = Exact(gain) * exposed / wanted.divisor;
       const Exact scale = Exact(abs(Exact(gain) * magnitude / wanted.divisor));
-      double units = (Exact(abs(got - want)) / scale).convert_to<double>() / test::kRoundoff64;
+      double units = (Exact(abs(got - want)) / scale).convert_to<double>() / kRoundoff64;
       // An integral errs by 6 u of ∫|g| (see gain_function_test.cpp): of itself by so much more as it cancels.
       if (wanted.divisor == summary.integral_ns) units *= cancels.convert_to<double>();
       worst = std::max(worst, units);
@@ -119,7 +116,7 @@ TEST(Normalization, RefusesAnIntegralThatCancels) {
   const GainFunction difference(
       {{0, -1.0}, {10'000'000, -1.0}, {10'000'001, 1.0}, {20'000'000, 1.0}, {20'000'001, 0.0}});
   const std::string message =
-      test::message_of<InputError>([&] { static_cast<void>(normalized("integral", difference, kSecondNs)); });
+      message_of<InputError>([&] { static_cast<void>(normalized("integral", difference, kSecondNs)); });
   EXPECT_EQ(
       message,
       "M0: the positive and negative parts of its gains cancel (the still gain is -2.5e-08), so there is no "
@@ -136,16 +133,15 @@ TEST(Normalization, LeavesAFunctionThatIsZeroInTheCapture) {
 
 TEST(Normalization, SaysWhereAGainLeavesTheRangeOfNumbers) {
   const GainFunction large({{0, 1e300}, {10, 1e300}, {10, 0.0}});
-  EXPECT_EQ(
-      test::message_of<InputError>([&] { static_cast<void>(normalized("support", large, 1000, 1e20)); }),
-      "M0: a gain of 1e+300 times 1e+20 is no finite number");
+  EXPECT_EQ(message_of<InputError>([&] { static_cast<void>(normalized("support", large, 1000, 1e20)); }),
+            "M0: a gain of 1e+300 times 1e+20 is no finite number");
   // A gain that became 0 would not count in D any more.
   const GainFunction small({{0, 1.0}, {10, 1.0}, {10, 1e-310}, {20, 1e-310}, {20, 0.0}});
-  EXPECT_NE(test::message_of<InputError>([&] {
+  EXPECT_NE(message_of<InputError>([&] {
               static_cast<void>(normalized("support", small, 1000, 1e-20));
             }).find("too small for a number"),
             std::string::npos);
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -10,7 +10,7 @@
 #include "capture/format.hpp"
 #include "support/messages.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 // The gain of a function at any time; at a jump that of the later side.
@@ -215,7 +215,7 @@ TEST(ShutterShape, FollowsEachLengthOnce) {
 
 TEST(ShutterShape, SaysWhatIsWrong) {
   const auto message = [](const char* text) {
-    return test::message_of<UsageError>([&] { static_cast<void>(ShutterShape::parse(text)); });
+    return message_of<UsageError>([&] { static_cast<void>(ShutterShape::parse(text)); });
   };
   EXPECT_EQ(
       message("boxes"),
@@ -240,7 +240,7 @@ TEST(ShutterShape, SaysWhatIsWrong) {
   EXPECT_EQ(message("spline:0=0,1=0"), "the spline is zero everywhere");
 
   const auto too_short = [](const char* text, std::int64_t length_ns, double error) {
-    return test::message_of<UsageError>([&] {
+    return message_of<UsageError>([&] {
       static_cast<void>(ShutterShape::parse(text).function({0, length_ns}, error));
     });
   };
@@ -256,4 +256,4 @@ TEST(ShutterShape, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -8,22 +8,20 @@
 #include "support/exact.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Exact;
 
 TEST(WeightIntegrator, PacksWhatExactArithmeticSays) {
   double worst = 0.0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    test::Random random(seed);
+    Random random(seed);
     const auto count = static_cast<std::uint64_t>(random.whole(1, 30));
-    const Timeline timeline = test::random_timeline(random, count);
-    const GainFunction function = test::random_function(random, timeline);
+    const Timeline timeline = random_timeline(random, count);
+    const GainFunction function = random_function(random, timeline);
     const GainSummary summary = summarize(function, timeline.duration_ns());
     if (summary.support_ns == 0) continue;
-    const auto gain = test::exact_gain(function, timeline.duration_ns());
-    const auto magnitudes = test::magnitude_of(gain);
+    const auto gain = exact_gain(function, timeline.duration_ns());
+    const auto magnitudes = magnitude_of(gain);
     const Exact unit = Exact(std::scalbn(1.0, summary.exponent)) * summary.support_ns;
 
     WeightIntegrator integrator(function, summary, timeline.duration_ns());
@@ -33,15 +31,14 @@ TEST(WeightIntegrator, PacksWhatExactArithmeticSays) {
 
     Exact boundary = 0, magnitude = 0;
     for (std::uint64_t k = 0; k < count; ++k) {
-      const Exact exact = test::exact_weight_ns(gain, timeline, k);
-      const Exact scale = test::exact_weight_ns(magnitudes, timeline, k);
-      const double error = test::error_in(scale / unit, weights[k], exact / unit) / test::kRoundoff64;
-      EXPECT_LE(error, test::kWeightRoundings) << "seed " << seed << ", sample " << k;
+      const Exact exact = exact_weight_ns(gain, timeline, k);
+      const Exact scale = exact_weight_ns(magnitudes, timeline, k);
+      const double error = error_in(scale / unit, weights[k], exact / unit) / kRoundoff64;
+      EXPECT_LE(error, kWeightRoundings) << "seed " << seed << ", sample " << k;
       worst = std::max(worst, error);
       boundary += exact;
       magnitude += scale;
-      EXPECT_LE(test::error_in(magnitude / unit, boundaries[k + 1], boundary / unit) / test::kRoundoff64,
-                test::kWeightRoundings + 1)
+      EXPECT_LE(error_in(magnitude / unit, boundaries[k + 1], boundary / unit) / kRoundoff64, kWeightRoundings + 1)
           << "seed " << seed << ", boundary " << k + 1;
     }
     EXPECT_EQ(boundaries[0], 0.0);
@@ -52,10 +49,10 @@ TEST(WeightIntegrator, PacksWhatExactArithmeticSays) {
 // Blocks may be packed in any order, and weights do not depend on where a block starts.
 TEST(WeightIntegrator, DoesNotDependOnTheOrderOfBlocks) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    test::Random random(seed);
+    Random random(seed);
     const std::uint64_t count = 60;
-    const Timeline timeline = test::random_timeline(random, count);
-    const GainFunction function = test::random_function(random, timeline);
+    const Timeline timeline = random_timeline(random, count);
+    const GainFunction function = random_function(random, timeline);
     const GainSummary summary = summarize(function, timeline.duration_ns());
     std::vector<double> whole(count), boundaries(count + 1), part(20), part_boundaries(21);
     WeightIntegrator(function, summary, timeline.duration_ns())
@@ -70,4 +67,4 @@ TEST(WeightIntegrator, DoesNotDependOnTheOrderOfBlocks) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

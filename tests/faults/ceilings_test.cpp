@@ -11,10 +11,10 @@
 #include "support/made_up_tik.hpp"
 #include "support/program_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-struct Ceilings : test::ProgramTest {
+struct Ceilings : ProgramTest {
   // All programs that were run, in MB; the largest counts.
   static long peak_mb() {
     struct rusage usage {};
@@ -39,35 +39,35 @@ struct Ceilings : test::ProgramTest {
 
 TEST_F(Ceilings, OfTiffs) {
   for (const int compression : {1, 5, 8, 32773}) {
-    scratch_.write("t.tif", test::tiny_tiff(65'536, 65'536, static_cast<std::uint16_t>(compression)));
+    scratch_.write("t.tif", tiny_tiff(65'536, 65'536, static_cast<std::uint16_t>(compression)));
     expect_cheaply_refused({"encode", "-f", "10", "t.tif", "c.tik"},
                            "t.tif cannot be read: it states 65536 x 65536 pixels, which its ");
   }
 }
 
 TEST_F(Ceilings, OfPngs) {
-  scratch_.write("p.png", test::black_png(30'000, 30'000, 10));
+  scratch_.write("p.png", black_png(30'000, 30'000, 10));
   expect_cheaply_refused({"encode", "-f", "10", "p.png", "c.tik"},
                          "p.png cannot be read: it states 30000 x 30000 pixels");
   expect_cheaply_refused({"mask", "--threshold", "p.png", "1..255", "-o", "m.pgm"},
                          "p.png cannot be read: it states 30000 x 30000 pixels");
-  scratch_.write("q.png", test::black_png(100'000, 100'000, 2'000));
-  scratch_.write("big.png", test::read_file(scratch_ / "q.png") + std::string(2 << 20, ' '));
+  scratch_.write("q.png", black_png(100'000, 100'000, 2'000));
+  scratch_.write("big.png", read_file(scratch_ / "q.png") + std::string(2 << 20, ' '));
   expect_cheaply_refused({"encode", "-f", "10", "big.png", "c.tik"}, "big.png cannot be read: it has 100000 x ");
 }
 
 // A whole PNG of 16000 x 16000 black pixels has 250 kB.
 TEST_F(Ceilings, OfMasksAreTheCapturesSize) {
-  test::write_made_up_tik(scratch_ / "c.tik", test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
+  write_made_up_tik(scratch_ / "c.tik", MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
   scratch_.write("f.fn", "M0 [0:1], [1000:0]\n");
-  scratch_.write("m.png", test::black_png(16'000, 16'000, 16'000));
+  scratch_.write("m.png", black_png(16'000, 16'000, 16'000));
   expect_cheaply_refused({"expose", "--renderer", "reference", "-k", "f.fn", "-m", "m.png", "c.tik", "p.png"},
                          "the mask is 16000 x 16000 pixels, the capture 8 x 8");
 }
 
 TEST_F(Ceilings, OfCaptures) {
-  test::write_made_up_tik(scratch_ / "c.tik", test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::zstd, 0});
-  const std::string file = test::read_file(scratch_ / "c.tik");
+  write_made_up_tik(scratch_ / "c.tik", MadeUpTile::rows({0, 3, 9}), {tik::CodecId::zstd, 0});
+  const std::string file = read_file(scratch_ / "c.tik");
   for (const char* size : {"65536 65536", "4294967295 4294967295", "4294967295 1", "900 1"}) {
     std::string damaged = file;
     damaged.replace(damaged.find("\n8 8\n") + 1, 3, size);
@@ -82,7 +82,7 @@ TEST_F(Ceilings, OfCaptures) {
 
 // What is no list may have no end, and no line either.
 TEST_F(Ceilings, OfLists) {
-  test::write_made_up_tik(scratch_ / "c.tik", test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
+  write_made_up_tik(scratch_ / "c.tik", MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
   expect_cheaply_refused({"batch", "/dev/zero", "c.tik"}, "/dev/zero is no list: it is no text");
   scratch_.write("long.txt", std::string((std::size_t{16} << 20) + 1, '#'));
   expect_cheaply_refused({"batch", "long.txt", "c.tik"}, "long.txt is longer than 16 MiB; make several of it");
@@ -91,10 +91,10 @@ TEST_F(Ceilings, OfLists) {
 
 // What comes through a pipe may have no end, and a file may be long without taking any room.
 TEST_F(Ceilings, OfTexts) {
-  test::write_made_up_tik(scratch_ / "c.tik", test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
+  write_made_up_tik(scratch_ / "c.tik", MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
   const auto piped =
-      test::run_shell(format("(yes '# and so on' | '{}' --renderer reference -k - c.tik p.png)", NUTIK_TEST_PROGRAM),
-                      scratch_.folder());
+      run_shell(format("(yes '# and so on' | '{}' --renderer reference -k - c.tik p.png)", NUTIK_TEST_PROGRAM),
+                scratch_.folder());
   EXPECT_EQ(piped.status, 3);
   EXPECT_NE(piped.err.find("standard input is longer than 256 MiB; no text that a person writes is"), std::string::npos)
       << piped.err;
@@ -127,4 +127,4 @@ TEST_F(Ceilings, OfJoining) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -11,21 +11,21 @@
 #include "support/program_test.hpp"
 #include "support/running_program.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct KernelCache : test::ProgramTest {
+struct KernelCache : ProgramTest {
   void SetUp() override {
-    test::write_made_up_tik(scratch_ / "c.tik", test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
+    write_made_up_tik(scratch_ / "c.tik", MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
     fs::create_directories(cache_);
   }
-  [[nodiscard]] test::ProgramResult expose(const std::string& picture = "p.png",
-                                           std::vector<std::string> settings = {}) const {
+  [[nodiscard]] ProgramResult expose(const std::string& picture = "p.png",
+                                     std::vector<std::string> settings = {}) const {
     settings.push_back("XDG_CACHE_HOME=" + (scratch_ / "home").string());
-    return test::run_program({"--start", "0s", "--exposure", "1s", "--no-recipe", "--overwrite", "c.tik", picture},
-                             scratch_.folder(), settings);
+    return run_program({"--start", "0s", "--exposure", "1s", "--no-recipe", "--overwrite", "c.tik", picture},
+                       scratch_.folder(), settings);
   }
   [[nodiscard]] std::vector<fs::path> kept() const {
     const fs::directory_iterator files(cache_);
@@ -33,26 +33,26 @@ struct KernelCache : test::ProgramTest {
   }
 
   [[nodiscard]] std::string right_picture() const {
-    const auto result = test::run_program({"--start", "0s", "--exposure", "1s", "--no-recipe", "--overwrite",
-                                           "--renderer", "reference", "c.tik", "right.png"},
-                                          scratch_.folder());
+    const auto result = run_program({"--start", "0s", "--exposure", "1s", "--no-recipe", "--overwrite", "--renderer",
+                                     "reference", "c.tik", "right.png"},
+                                    scratch_.folder());
     EXPECT_EQ(result.status, 0) << result.err;
-    return test::read_file(scratch_ / "right.png");
+    return read_file(scratch_ / "right.png");
   }
 
   // So many programs at a time make the picture that is right, and say `note`.
   void expect_right(int programs, std::string_view note = {}) const {
     const std::string right = right_picture();
-    std::vector<std::future<test::ProgramResult>> running;
+    std::vector<std::future<ProgramResult>> running;
     for (int i = 0; i < programs; ++i) {
       running.push_back(
           std::async(std::launch::async, [this, i] { return expose("p" + std::to_string(i) + ".png"); }));
     }
     for (int i = 0; i < programs; ++i) {
-      const test::ProgramResult result = running[i].get();
+      const ProgramResult result = running[i].get();
       EXPECT_EQ(result.status, 0) << result.err;
       EXPECT_NE(result.err.find(note), std::string::npos) << result.err;
-      EXPECT_EQ(test::read_file(scratch_ / ("p" + std::to_string(i) + ".png")), right) << i;
+      EXPECT_EQ(read_file(scratch_ / ("p" + std::to_string(i) + ".png")), right) << i;
     }
   }
 
@@ -65,8 +65,8 @@ TEST_F(KernelCache, ThatIsNowhereIsNotPromised) {
                     kept = "; they are kept for the next time";
   for (const char* const stated : {"", "relative", "/dev/null"}) {
     const auto result =
-        test::run_program({"--start", "0s", "--exposure", "1s", "--no-recipe", "--overwrite", "c.tik", "p.png"},
-                          scratch_.folder(), {"HOME=", format("XDG_CACHE_HOME={}", stated)});
+        run_program({"--start", "0s", "--exposure", "1s", "--no-recipe", "--overwrite", "c.tik", "p.png"},
+                    scratch_.folder(), {"HOME=", format("XDG_CACHE_HOME={}", stated)});
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_NE(result.err.find(building), std::string::npos) << result.err;
     EXPECT_EQ(result.err.find(kept), std::string::npos) << result.err;
@@ -78,7 +78,7 @@ TEST_F(KernelCache, ThatIsNowhereIsNotPromised) {
 }
 
 TEST_F(KernelCache, ThatIsStatedEmptyIsNoneThatIsStated) {
-  EXPECT_EQ(test::run_shell(format("POCL_CACHE_DIR= '{}' devices", NUTIK_TEST_PROGRAM), scratch_.folder()).status, 0);
+  EXPECT_EQ(run_shell(format("POCL_CACHE_DIR= '{}' devices", NUTIK_TEST_PROGRAM), scratch_.folder()).status, 0);
 }
 
 TEST_F(KernelCache, ThatOthersMayWriteToIsNotUsed) {
@@ -89,10 +89,7 @@ TEST_F(KernelCache, ThatOthersMayWriteToIsNotUsed) {
             std::string::npos)
       << result.err;
   EXPECT_TRUE(fs::is_empty(cache_));
-  EXPECT_EQ(
-      test::run_program({"devices"}, scratch_.folder(), {"XDG_CACHE_HOME=" + (scratch_ / "home").string()})
-          .status,
-      0);
+  EXPECT_EQ(run_program({"devices"}, scratch_.folder(), {"XDG_CACHE_HOME=" + (scratch_ / "home").string()}).status, 0);
 }
 
 // PoCL's compiler would end the process with "LLVM ERROR". In a namespace of its own, in which disks can be mounted.
@@ -100,16 +97,15 @@ TEST_F(KernelCache, OnAFullDiskIsNotPocls) {
   fs::create_directories(scratch_ / "disk");
   fs::create_directories(scratch_ / "temporary");
   const auto expose_on_full_disk = [&](const std::string& settings) {
-    return test::run_shell(
-        format("unshare -rm sh -c 'mount -t tmpfs -o size=1M none disk || exit 77; {} \"{}\" --start "
-               "0s --exposure 1s --no-recipe --overwrite c.tik p.png'",
-               settings, NUTIK_TEST_PROGRAM),
-        scratch_.folder());
+    return run_shell(format("unshare -rm sh -c 'mount -t tmpfs -o size=1M none disk || exit 77; {} \"{}\" --start "
+                            "0s --exposure 1s --no-recipe --overwrite c.tik p.png'",
+                            settings, NUTIK_TEST_PROGRAM),
+                     scratch_.folder());
   };
   const auto made = expose_on_full_disk("XDG_CACHE_HOME=$PWD/disk TMPDIR=$PWD/temporary");
   if (made.err.find("unshare") != std::string::npos || made.status == 77) GTEST_SKIP() << made.err;
   EXPECT_EQ(made.status, 0) << made.err;
-  EXPECT_EQ(test::read_file(scratch_ / "p.png"), right_picture());
+  EXPECT_EQ(read_file(scratch_ / "p.png"), right_picture());
   for (const char* settings : {"XDG_CACHE_HOME=$PWD/disk TMPDIR=$PWD/disk", "POCL_CACHE_DIR=$PWD/disk"}) {
     const auto result = expose_on_full_disk(settings);
     EXPECT_EQ(result.status, 4) << result.err;
@@ -117,7 +113,7 @@ TEST_F(KernelCache, OnAFullDiskIsNotPocls) {
         << result.err;
     EXPECT_NE(result.err.find("set POCL_CACHE_DIR to a folder of yours alone with room"), std::string::npos);
   }
-  EXPECT_TRUE(test::files_with(scratch_.folder(), ".part").empty());
+  EXPECT_TRUE(files_with(scratch_.folder(), ".part").empty());
 }
 
 TEST_F(KernelCache, WithFoldersForFilesFailsNoExposure) {
@@ -130,8 +126,7 @@ TEST_F(KernelCache, WithFoldersForFilesFailsNoExposure) {
   }
   const auto result = expose();
   EXPECT_EQ(result.status, 0) << result.err;
-  const auto devices =
-      test::run_program({"devices"}, scratch_.folder(), {"XDG_CACHE_HOME=" + (scratch_ / "home").string()});
+  const auto devices = run_program({"devices"}, scratch_.folder(), {"XDG_CACHE_HOME=" + (scratch_ / "home").string()});
   EXPECT_EQ(devices.status, 0) << devices.err;
 }
 
@@ -150,7 +145,7 @@ TEST_F(KernelCache, ThatIsDamagedServesTenPrograms) {
   ASSERT_EQ(expose().status, 0);
   int kind = 0;
   for (const fs::path& file : kept()) {
-    std::string bytes = test::read_file(file);
+    std::string bytes = read_file(file);
     switch (kind++ % 3) {
       case 0: bytes[bytes.size() - bytes.size() / 4] ^= 0x10; break;
       case 1: bytes.resize(bytes.size() - 5); break;
@@ -173,8 +168,8 @@ TEST_F(KernelCache, OfOthersIsNotLoaded) {
                 .status,
             0);
   ASSERT_EQ(expose("p.png", {untested}).status, 0);
-  ASSERT_EQ(test::read_file(scratch_ / "p.png"), test::read_file(scratch_ / "wrong.png"));
-  ASSERT_NE(test::read_file(scratch_ / "p.png"), right_picture());
+  ASSERT_EQ(read_file(scratch_ / "p.png"), read_file(scratch_ / "wrong.png"));
+  ASSERT_NE(read_file(scratch_ / "p.png"), right_picture());
 
   fs::permissions(cache_, fs::perms::group_write, fs::perm_options::add);
   expect_right(10, "other users may write to " + cache_.string());
@@ -187,4 +182,4 @@ TEST_F(KernelCache, OfOthersIsNotLoaded) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

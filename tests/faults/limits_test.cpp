@@ -9,12 +9,12 @@
 #include "support/program_test.hpp"
 #include "support/running_program.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Limits : public test::ProgramTest {
+class Limits : public ProgramTest {
  protected:
   // Noise, which no codec makes small.
   void SetUp() override {
@@ -24,13 +24,12 @@ class Limits : public test::ProgramTest {
     fs::create_directory(scratch_ / "temporary");
   }
   // The program's words behind those of a shell.
-  [[nodiscard]] test::ProgramResult run_below(const std::string& shell, const std::string& words) const {
-    return test::run_shell(
-        format("(export TMPDIR=\"$PWD/temporary\"; {} '{}' {})", shell, NUTIK_TEST_PROGRAM, words),
-        scratch_.folder());
+  [[nodiscard]] ProgramResult run_below(const std::string& shell, const std::string& words) const {
+    return run_shell(format("(export TMPDIR=\"$PWD/temporary\"; {} '{}' {})", shell, NUTIK_TEST_PROGRAM, words),
+                     scratch_.folder());
   }
   void expect_nothing_left() const {
-    EXPECT_TRUE(test::files_with(scratch_.folder(), ".part").empty());
+    EXPECT_TRUE(files_with(scratch_.folder(), ".part").empty());
     EXPECT_TRUE(fs::is_empty(scratch_ / "temporary"));
   }
   static constexpr const char* kClip = "--raw 64x64:gray -f 64 clip.raw";
@@ -45,7 +44,7 @@ TEST_F(Limits, OfAFilesSizeAreErrorsOfItsWriting) {
     EXPECT_EQ(result.status, 5) << result.err;
     EXPECT_NE(result.err.find("File too large"), std::string::npos) << result.err;
     EXPECT_EQ(result.err.find("/proc/"), std::string::npos) << result.err;
-    EXPECT_TRUE(test::files_with(scratch_.folder(), "out.").empty());
+    EXPECT_TRUE(files_with(scratch_.folder(), "out.").empty());
     expect_nothing_left();
   }
 }
@@ -66,28 +65,28 @@ TEST_F(Limits, OfAStackAreTold) {
 TEST_F(Limits, OfAReadersPatienceLeaveNoTemporaryFile) {
   const auto made = run_below("", format("encode {} c.tik", kClip));
   ASSERT_EQ(made.status, 0) << made.err;
-  const auto result = test::run_shell(format("{{ {{ '{}' video --progress --out-fps 1000 --speed 0.01 c.tik "
-                                             "out.mkv; echo $? > status; }} 2>&1 | "
-                                             "head -1; }}",
-                                             NUTIK_TEST_PROGRAM),
-                                      scratch_.folder());
+  const auto result = run_shell(format("{{ {{ '{}' video --progress --out-fps 1000 --speed 0.01 c.tik "
+                                       "out.mkv; echo $? > status; }} 2>&1 | "
+                                       "head -1; }}",
+                                       NUTIK_TEST_PROGRAM),
+                                scratch_.folder());
   EXPECT_NE(result.out, "");
-  EXPECT_EQ(test::read_file(scratch_ / "status"), std::to_string(128 + SIGPIPE) + "\n");
-  EXPECT_TRUE(test::files_with(scratch_.folder(), "out.").empty());
+  EXPECT_EQ(read_file(scratch_ / "status"), std::to_string(128 + SIGPIPE) + "\n");
+  EXPECT_TRUE(files_with(scratch_.folder(), "out.").empty());
 }
 
 // `ulimit -t` ends the process, which leaves nothing else.
 TEST_F(Limits, OfTimeLeaveNoTemporaryFile) {
-  test::RunningProgram running({"video", "--renderer", "reference", "--out-fps", "1000", "--speed", "0.01",
-                                "--raw", "64x64:gray", "-f", "64", "clip.raw", "out.mkv"},
-                               scratch_.folder());
-  ASSERT_TRUE(running.reaches([&] { return test::has_begun_writing(scratch_.folder()); }));
+  RunningProgram running({"video", "--renderer", "reference", "--out-fps", "1000", "--speed", "0.01", "--raw",
+                          "64x64:gray", "-f", "64", "clip.raw", "out.mkv"},
+                         scratch_.folder());
+  ASSERT_TRUE(running.reaches([&] { return has_begun_writing(scratch_.folder()); }));
   EXPECT_EQ(running.end_with(SIGXCPU), -SIGXCPU);
-  EXPECT_TRUE(test::files_with(scratch_.folder(), "out.").empty());
+  EXPECT_TRUE(files_with(scratch_.folder(), "out.").empty());
   // Also where a driver's compiler has put handlers in their places, and both limits of the shell are one.
   const auto late = run_below("ulimit -t 2;", format("video --out-fps 1000 --speed 0.001 {} out.mkv", kClip));
   EXPECT_EQ(late.status, 128 + SIGXCPU) << late.err;
-  EXPECT_TRUE(test::files_with(scratch_.folder(), "out.").empty());
+  EXPECT_TRUE(files_with(scratch_.folder(), "out.").empty());
 }
 
 // What is opened next would get the stream's number, and what is printed.
@@ -98,10 +97,9 @@ TEST_F(Limits, OfStandardStreamsKeepWordsOutOfFiles) {
   ASSERT_EQ(run_below("", format("encode {} c.tik", kClip)).status, 0);
   EXPECT_EQ(run_below("", "batch -q list.txt c.tik").status, 1);
   std::vector<std::string> pictures;
-  for (int i = 0; i < 20; ++i) pictures.push_back(test::read_file(scratch_ / format("{}.pgm", i)));
+  for (int i = 0; i < 20; ++i) pictures.push_back(read_file(scratch_ / format("{}.pgm", i)));
   EXPECT_EQ(run_below("", "batch -q --overwrite list.txt c.tik <&- >&- 2>&-").status, 1);
-  for (std::size_t i = 0; i < pictures.size(); ++i)
-    EXPECT_EQ(test::read_file(scratch_ / format("{}.pgm", i)), pictures[i]);
+  for (std::size_t i = 0; i < pictures.size(); ++i) EXPECT_EQ(read_file(scratch_ / format("{}.pgm", i)), pictures[i]);
   EXPECT_EQ(run_below("", "info c.tik >&-").status, 5);
 }
 
@@ -113,4 +111,4 @@ TEST_F(Limits, OfMemoryAreNoDamage) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

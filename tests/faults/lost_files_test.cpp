@@ -6,13 +6,12 @@
 #include "support/program_test.hpp"
 #include "support/running_program.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 namespace fs = std::filesystem;
-using test::RunningProgram;
 
-struct LostFiles : test::ProgramTest, testing::WithParamInterface<const char*> {
+struct LostFiles : ProgramTest, testing::WithParamInterface<const char*> {
   // Writes one block after the other, each of several pages and none packed: they are read where the system maps them.
   void SetUp() override {
     {
@@ -30,10 +29,10 @@ struct LostFiles : test::ProgramTest, testing::WithParamInterface<const char*> {
   }
   void expect_refused(RunningProgram& running) const {
     EXPECT_EQ(running.end(), 3);
-    const std::string log = test::read_file(scratch_ / "log");
+    const std::string log = read_file(scratch_ / "log");
     EXPECT_NE(log.find("c.tik changed or could not be read any more while it was read"), std::string::npos)
         << log;
-    EXPECT_TRUE(test::files_with(scratch_.folder(), "v.mkv").empty());
+    EXPECT_TRUE(files_with(scratch_.folder(), "v.mkv").empty());
   }
 };
 
@@ -41,7 +40,7 @@ TEST_P(LostFiles, AreToldByNameWhenTheyAreCutOff) {
   for (const double share : {0.9, 0.5, 0.0}) {
     SetUp();
     RunningProgram running(long_video(), scratch_.folder());
-    ASSERT_TRUE(running.reaches([&] { return test::has_begun_writing(scratch_.folder()); }));
+    ASSERT_TRUE(running.reaches([&] { return has_begun_writing(scratch_.folder()); }));
     fs::resize_file(scratch_ / "c.tik", static_cast<std::uintmax_t>(
                                             share * static_cast<double>(fs::file_size(scratch_ / "c.tik"))));
     expect_refused(running);
@@ -55,7 +54,7 @@ TEST_P(LostFiles, AreToldByNameWhenTheyAreWrittenTo) {
   for (const int offset : offsets) {
     SetUp();
     RunningProgram running(long_video(), scratch_.folder());
-    ASSERT_TRUE(running.reaches([&] { return test::has_begun_writing(scratch_.folder()); }));
+    ASSERT_TRUE(running.reaches([&] { return has_begun_writing(scratch_.folder()); }));
     std::fstream(scratch_ / "c.tik", std::ios::in | std::ios::out | std::ios::binary)
         .seekp(offset)
         .write("other", 5);
@@ -67,14 +66,14 @@ TEST_P(LostFiles, MayBeReplaced) {
   RunningProgram running(
       {"video", "--renderer", GetParam(), "--out-fps", "1000", "--speed", "2", "c.tik", "v.mkv"},
       scratch_.folder());
-  ASSERT_TRUE(running.reaches([&] { return test::has_begun_writing(scratch_.folder()); }));
+  ASSERT_TRUE(running.reaches([&] { return has_begun_writing(scratch_.folder()); }));
   scratch_.write("new.tik", "another");
   fs::rename(scratch_ / "new.tik", scratch_ / "c.tik");
-  EXPECT_EQ(running.end(), 0) << test::read_file(scratch_ / "log");
+  EXPECT_EQ(running.end(), 0) << read_file(scratch_ / "log");
 }
 
 INSTANTIATE_TEST_SUITE_P(, LostFiles, testing::Values("reference", "opencl"),
                          [](const auto& renderer) { return std::string(renderer.param); });
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

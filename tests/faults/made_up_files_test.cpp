@@ -4,12 +4,10 @@
 #include "support/made_up_tik.hpp"
 #include "support/program_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::MadeUpTile;
-
-struct MadeUpFiles : test::ProgramTest {};
+struct MadeUpFiles : ProgramTest {};
 
 // A kernel takes such numbers for the block's end, the reference for damage. Neither is asked.
 TEST_F(MadeUpFiles, AreRefusedAlikeByEveryRendererAndByCheck) {
@@ -36,7 +34,7 @@ TEST_F(MadeUpFiles, AreRefusedAlikeByEveryRendererAndByCheck) {
   for (const Case& made_up : cases) {
     for (const char* codec : {"none", "rice", "lz4", "zstd"}) {
       SCOPED_TRACE(made_up.complaint + ", " + codec);
-      test::write_made_up_tik(scratch_ / "c.tik", made_up.tile, tik::Codec::parse(codec));
+      write_made_up_tik(scratch_ / "c.tik", made_up.tile, tik::Codec::parse(codec));
       for (const char* renderer : {"reference", "opencl"}) {
         SCOPED_TRACE(renderer);
         const auto result =
@@ -56,7 +54,7 @@ TEST_F(MadeUpFiles, AreRefusedAlikeByEveryRendererAndByCheck) {
 TEST_F(MadeUpFiles, WithARateThatCannotBeAreNamed) {
   for (const char* rate : {"0", "-3", "1234567890123", "1/999999999999", "1/900000000"}) {
     SCOPED_TRACE(rate);
-    test::write_made_up_tik(scratch_ / "c.tik", MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0}, rate);
+    write_made_up_tik(scratch_ / "c.tik", MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0}, rate);
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
              {"info", "c.tik"},
              {"expose", "--start", "0s", "--exposure", "1f", "c.tik", "p.png"},
@@ -67,4 +65,4 @@ TEST_F(MadeUpFiles, WithARateThatCannotBeAreNamed) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -4,13 +4,13 @@
 #include "support/made_up_tik.hpp"
 #include "support/program_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-struct OwnOutputs : test::ProgramTest {};
+struct OwnOutputs : ProgramTest {};
 
 TEST_F(OwnOutputs, OfASweepAreNotTheSheet) {
-  test::write_made_up_tik(scratch_ / "c.tik", test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
+  write_made_up_tik(scratch_ / "c.tik", MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
   for (const char* sheet : {"q-01.png", "./q-01.png"}) {
     expect_refused({"sweep", "--renderer", "reference", "--start", "0s", "--exposure", "1f", "--shift",
                     "0f..2f/1f", "--each", "q-%02d.png", "c.tik", sheet},
@@ -20,4 +20,4 @@ TEST_F(OwnOutputs, OfASweepAreNotTheSheet) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -11,22 +11,22 @@
 #include "support/program_test.hpp"
 #include "support/running_program.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-struct Signals : test::ProgramTest {
+struct Signals : ProgramTest {
   // Far above what it takes, and far below what the work would.
   void expect_quick_end(const std::vector<std::string>& words) const {
     SCOPED_TRACE(words.front());
-    test::RunningProgram running(words, scratch_.folder());
+    RunningProgram running(words, scratch_.folder());
     ASSERT_TRUE(running.reaches([&] { return running.catches(SIGTERM); }));
     std::this_thread::sleep_for(std::chrono::milliseconds(400));
     const auto start = std::chrono::steady_clock::now();
-    EXPECT_EQ(running.end_with(SIGTERM), 128 + SIGTERM) << test::read_file(scratch_ / "log");
+    EXPECT_EQ(running.end_with(SIGTERM), 128 + SIGTERM) << read_file(scratch_ / "log");
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     EXPECT_LT(took.count(), 1.5);
-    EXPECT_NE(test::read_file(scratch_ / "log").find("terminated"), std::string::npos);
-    EXPECT_TRUE(test::files_with(scratch_.folder(), ".part").empty());
+    EXPECT_NE(read_file(scratch_ / "log").find("terminated"), std::string::npos);
+    EXPECT_TRUE(files_with(scratch_.folder(), ".part").empty());
   }
 };
 
@@ -37,12 +37,12 @@ TEST_F(Signals, EndTheMakingOfAMask) {
 
 // Inside a library that asks nobody.
 TEST_F(Signals, EndTheDecodingOfAPicture) {
-  scratch_.write("p.png", test::black_png(30'000, 30'000, 30'000));
+  scratch_.write("p.png", black_png(30'000, 30'000, 30'000));
   expect_quick_end({"encode", "-f", "10", "p.png", "c.tik"});
 }
 
 TEST_F(Signals, EndTheReadingOfFunctions) {
-  test::write_made_up_tik(scratch_ / "c.tik", test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
+  write_made_up_tik(scratch_ / "c.tik", MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
   std::ofstream functions(scratch_ / "f.fn");
   functions << "M0 {";
   for (int i = 0; i < 10'000'000; ++i) functions << (i == 0 ? "" : ",") << "[" << 100 * i << ":1]\n";
@@ -53,7 +53,7 @@ TEST_F(Signals, EndTheReadingOfFunctions) {
 
 // Not a signal's matter: it takes no time at all.
 TEST_F(Signals, AreNotNeededForALongLine) {
-  test::write_made_up_tik(scratch_ / "c.tik", test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
+  write_made_up_tik(scratch_ / "c.tik", MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
   scratch_.write("list.txt", "--" + std::string(8'000'000, 'x') + "\n");
   const auto start = std::chrono::steady_clock::now();
   const auto result = run({"batch", "--renderer", "reference", "list.txt", "c.tik"});
@@ -66,4 +66,4 @@ TEST_F(Signals, AreNotNeededForALongLine) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -4,10 +4,8 @@
 #include "capture/format.hpp"
 #include "support/program_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::ProgramResult;
 
 constexpr std::int64_t kHourNs = 3'600'000'000'000;
 constexpr int kPictures = 12;
@@ -20,7 +18,7 @@ struct Lapse {
   const char* duration;  // of all pictures
 };
 
-class TimeLapses : public test::ProgramTest, public testing::WithParamInterface<Lapse> {
+class TimeLapses : public ProgramTest, public testing::WithParamInterface<Lapse> {
  protected:
   // Stills, and a table of them in which each is exposed for a third of the time, at irregular times.
   void SetUp() override {
@@ -45,19 +43,19 @@ class TimeLapses : public test::ProgramTest, public testing::WithParamInterface<
                    "--each", "each-%d.png", "--overwrite", "c.tik", "sweep.png"})
                   .status,
               0);
-    const std::string before = test::read_file(scratch_ / "each-1.png");
+    const std::string before = read_file(scratch_ / "each-1.png");
     const ProgramResult again = run({"reproduce", "each-1.png"});
     ASSERT_EQ(again.status, 0) << again.err;
     scratch_.write("again.sh", again.out);
     std::filesystem::remove(scratch_ / "each-1.png");
-    const ProgramResult made = test::run_shell("sh again.sh", scratch_.folder());
+    const ProgramResult made = run_shell("sh again.sh", scratch_.folder());
     EXPECT_EQ(made.status, 0) << again.out << made.err;
-    EXPECT_TRUE(test::read_file(scratch_ / "each-1.png") == before) << again.out;
+    EXPECT_TRUE(read_file(scratch_ / "each-1.png") == before) << again.out;
   }
 
   void expect_said_plainly(const std::vector<std::string>& words) const {
     const bool writes = words.front() != "check" && words.front() != "reproduce";
-    const ProgramResult result = run(writes ? test::over(words) : words);
+    const ProgramResult result = run(writes ? over(words) : words);
     EXPECT_EQ(result.status, 0) << words.front() << ": " << result.err;
     for (const char* odd : {"e+", " 0 samples", " 0 pictures", "every 0", "nan", "inf"}) {
       EXPECT_EQ((result.out + result.err).find(odd), std::string::npos)
@@ -115,7 +113,7 @@ TEST_P(TimeLapses, GoThroughEveryCommand) {
       }
     }
     expect_again();
-    const std::string file = test::read_file(scratch_ / "c.tik");
+    const std::string file = read_file(scratch_ / "c.tik");
     scratch_.write("cut.tik", std::string_view(file).substr(0, file.size() - 50));
     std::filesystem::remove(scratch_ / "mended.tik");
     expect_said_plainly({"recover", "cut.tik", "-o", "mended.tik"});
@@ -149,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Lapse{"Yearly", 365 * 24 * kHourNs, "1/31536000", "a sample every 8760 h", "4380 days"}),
     [](const auto& lapse) { return std::string(lapse.param.name); });
 
-using Times = test::ProgramTest;
+using Times = ProgramTest;
 
 TEST_F(Times, BelowANanosecondAreRefused) {
   scratch_.write("f0.pgm", "P5\n1 1\n255\nA");
@@ -174,4 +172,4 @@ TEST_F(Times, LongerThanACaptureLastsAreRefused) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -6,15 +6,15 @@
 #include "support/made_up_tik.hpp"
 #include "support/program_test.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 // Moves the cursor up and clears the line: what was printed before is gone. Then a C1 control, and an override of the
 // direction that text is written in.
 constexpr const char* kEvil = "\x1b[1A\x1b[2K\xc2\x9b\xe2\x80\xae\x7f\x07";
 
-struct VisibleText : test::ProgramTest {
-  static void expect_visible(const test::ProgramResult& result, const std::string& what) {
+struct VisibleText : ProgramTest {
+  static void expect_visible(const ProgramResult& result, const std::string& what) {
     const std::string text = result.out + result.err;
     for (const char* part : {"\x1b", "\xc2\x9b", "\xe2\x80\xae", "\x07", "\r"}) {
       EXPECT_EQ(text.find(part), std::string::npos) << what << " prints a control character";
@@ -24,7 +24,7 @@ struct VisibleText : test::ProgramTest {
 };
 
 TEST_F(VisibleText, IsAllThatIsPrintedOfNames) {
-  test::write_made_up_tik(scratch_ / name_, test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
+  write_made_up_tik(scratch_ / name_, MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
   const std::vector<std::vector<std::string>> commands{
       {"info", name_},
       {"info", "--json", name_},
@@ -46,7 +46,7 @@ TEST_F(VisibleText, IsAllThatIsPrintedOfNames) {
 // Behind a line break a name could pass for a line of the program's own.
 TEST_F(VisibleText, NamesOfSeveralLinesAreRefused) {
   const std::string name = "c.tik: cannot be read\nwarning: run this";
-  test::write_made_up_tik(scratch_ / name, test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
+  write_made_up_tik(scratch_ / name, MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
   for (const std::vector<std::string>& words : {std::vector<std::string>{"info", name},
                                                 {name, "o.tik"},
                                                 {"info", "--json", name},
@@ -59,7 +59,7 @@ TEST_F(VisibleText, NamesOfSeveralLinesAreRefused) {
 }
 
 TEST_F(VisibleText, OfAFunctionFileIsAllThatIsPrinted) {
-  test::write_made_up_tik(scratch_ / "c.tik", test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
+  write_made_up_tik(scratch_ / "c.tik", MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
   scratch_.write("f.fn", std::string("M0 { [0:1] ") + kEvil + " }\n");
   const auto result = run({"check", "-k", "f.fn", "c.tik"});
   EXPECT_EQ(result.status, 3);
@@ -69,7 +69,7 @@ TEST_F(VisibleText, OfAFunctionFileIsAllThatIsPrinted) {
 
 // The command that `again` prints says what it does, and every shell takes it as it is meant.
 TEST_F(VisibleText, OfACommandIsWhatTheCommandDoes) {
-  test::write_made_up_tik(scratch_ / name_, test::MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
+  write_made_up_tik(scratch_ / name_, MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
   ASSERT_EQ(
       run({"expose", "--renderer", "reference", "--start", "0s", "--exposure", "1s", name_, "p.png"}).status,
       0);
@@ -78,16 +78,16 @@ TEST_F(VisibleText, OfACommandIsWhatTheCommandDoes) {
   EXPECT_NE(again.out.find("\"$(printf 'c\\033[1A\\033[2K\\302\\233\\342\\200\\256\\177\\007.tik')\""),
             std::string::npos)
       << again.out;
-  const std::string before = test::read_file(scratch_ / "p.png");
+  const std::string before = read_file(scratch_ / "p.png");
   scratch_.write("again.sh", again.out);
   for (const std::string shell : {"sh", "dash", "bash", "zsh"}) {
-    if (test::run_shell("command -v " + shell, scratch_.folder()).status != 0) continue;
+    if (run_shell("command -v " + shell, scratch_.folder()).status != 0) continue;
     std::filesystem::remove(scratch_ / "p.png");
-    const auto result = test::run_shell(shell + " again.sh", scratch_.folder());
+    const auto result = run_shell(shell + " again.sh", scratch_.folder());
     EXPECT_EQ(result.status, 0) << shell << result.err;
-    EXPECT_TRUE(test::read_file(scratch_ / "p.png") == before) << shell;
+    EXPECT_TRUE(read_file(scratch_ / "p.png") == before) << shell;
   }
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -7,7 +7,7 @@
 #include "session/requests/named_inputs.hpp"
 #include "support/messages.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 const Timeline kFilmTimeline = Timeline::constant({100, 1}, {360, 1}, 100);  // one second, 10 ms each
@@ -75,7 +75,7 @@ TEST(FilmCurve, ThatLeavesTheCaptureStandsStillThereAndIsTold) {
 
 TEST(FilmCurve, NamesTheLineOfAMistake) {
   const auto message = [](std::string_view text) {
-    return test::message_of<InputError>([&] { static_cast<void>(curve_of(text)); });
+    return message_of<InputError>([&] { static_cast<void>(curve_of(text)); });
   };
   EXPECT_EQ(message("0s,0s\n1s,0.5s\n0.5s,1s"),
             "ramp.csv:3: the film's time 500 ms is not after 1 s; points are in order of the film's time");
@@ -98,7 +98,7 @@ TEST(FilmCurve, NamesTheLineOfAMistake) {
   EXPECT_EQ(message("\xEF\xBB\xBF" "0s,0s\n1s"),
             "ramp.csv:2: '1s' is no point; write a time of the film and one of the capture: 1.5s,0.4s");
   const auto refusal = [](std::string_view text) {
-    return test::message_of<UsageError>([&] { static_cast<void>(frames_on(text)); });
+    return message_of<UsageError>([&] { static_cast<void>(frames_on(text)); });
   };
   EXPECT_NE(refusal("0s,0f\n1s,200f").find("ramp.csv: picture 200 is outside the capture"), std::string::npos);
   EXPECT_NE(refusal("0s,0s\n10ms,1s").find("ramp.csv lasts 10 ms, which are 0 frames"), std::string::npos);
@@ -133,7 +133,7 @@ TEST(KeyFrames, MoveControlPointsWithTheFilm) {
 
 TEST(KeyFrames, RefuseWhatIsNoAnimation) {
   FramesRequest request = keyed_film();
-  const auto message = [&] { return test::message_of<Error>([&] { request.keys.check(); }); };
+  const auto message = [&] { return message_of<Error>([&] { request.keys.check(); }); };
   EXPECT_EQ(message(), "");
   request.keys.functions[1].film_ns = 100 * kMs;
   EXPECT_EQ(message(), "the key b.fn at 100 ms is not after a.fn at 100 ms; keys are in order of time");
@@ -180,7 +180,7 @@ TEST(FrameRanges, ChooseFramesOfTheWholeFilm) {
   EXPECT_EQ(frames_of(by_functions, kFilmTimeline).span(), (Exposure{800 * kMs, 905 * kMs + 1}))
       << "whatever the angle";
   request.numbers = FrameRanges::parse("10-20", "--frames");
-  EXPECT_EQ(test::message_of<UsageError>([&] { static_cast<void>(frames_of(request, kFilmTimeline)); }),
+  EXPECT_EQ(message_of<UsageError>([&] { static_cast<void>(frames_of(request, kFilmTimeline)); }),
             "none of the frames 10-20 is there: the film has 10, numbered from 0 to 9");
 }
 
@@ -209,4 +209,4 @@ TEST(Frames, OfFunctionsOverAllOfTheCaptureAreOne) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -14,16 +14,15 @@
 #include "tik/reader.hpp"
 #include "tik/writer.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::message_of;
 using Path = std::filesystem::path;
 
 // What a capture holds at every sample.
-test::Rasters samples_of(const Path& path) {
+Rasters samples_of(const Path& path) {
   tik::Reader reader(path);
-  test::Rasters samples;
+  Rasters samples;
   for (std::uint64_t block = 0; block < reader.block_count(); ++block) {
     const BlockLease lease = reader.acquire(block);
     const BlockView view(reader.format(), lease.extent(), lease.payload());
@@ -42,8 +41,8 @@ class Joining : public testing::Test {
   static constexpr std::uint32_t kSide = 20, kStills = 26, kBlock = 4;
 
   void SetUp() override {
-    test::use_modules();
-    test::write_still_clip(scratch_.folder(), kSide, kStills);
+    use_modules();
+    write_still_clip(scratch_.folder(), kSide, kStills);
     whole_.path = scratch_ / "frames";
     whole_.clip.rate = Rational{100, 1};
     whole_.block_samples = kBlock;
@@ -111,7 +110,7 @@ class Joining : public testing::Test {
     return scratch_ / "saying.tik";
   }
 
-  test::Scratch scratch_;
+  Scratch scratch_;
   SourceRequest whole_;
   tik::Codec codec_{tik::CodecId::rice, 0};
 };
@@ -162,7 +161,7 @@ TEST_F(Joining, OfWholeBlocksIsTheCaptureInOneGo) {
 // Blocks begin where parts do; what they hold is the same.
 TEST_F(Joining, OfAnyPartsHoldsTheSameSamples) {
   const Path one = encoded("whole.tik", whole_);
-  const test::Rasters wanted = samples_of(one);
+  const Rasters wanted = samples_of(one);
   for (const std::vector<std::uint64_t>& cuts :
        {std::vector<std::uint64_t>{1}, {25}, {1, 2, 3, 5}, {7, 13, 14}, {6, 11, 21}}) {
     const Joined joined = join_at(cuts, whole_);
@@ -173,12 +172,12 @@ TEST_F(Joining, OfAnyPartsHoldsTheSameSamples) {
 
 // A part starts from its own codes, so it holds others than the clip in one go; of none is further from the clip's.
 TEST_F(Joining, OfATolerantEncodingStaysWithinTheTolerance) {
-  const test::Rasters clip = samples_of(encoded("exact.tik", whole_));
+  const Rasters clip = samples_of(encoded("exact.tik", whole_));
   SourceRequest tolerant = whole_;
   tolerant.tolerance = 9;
-  const test::Rasters in_one_go = samples_of(encoded("whole.tik", tolerant));
+  const Rasters in_one_go = samples_of(encoded("whole.tik", tolerant));
   static_cast<void>(join_at({8, 13}, tolerant));
-  const test::Rasters joined = samples_of(scratch_ / "joined.tik");
+  const Rasters joined = samples_of(scratch_ / "joined.tik");
   ASSERT_EQ(joined.size(), clip.size());
   int largest = 0;
   for (std::size_t k = 0; k < clip.size(); ++k) {
@@ -206,8 +205,7 @@ TEST_F(Joining, OfNoisyPicturesIsTheCaptureInOneGoWhereBlocksAreWhole) {
   expect_same_capture(scratch_ / "joined.tik", one);
   // Means are those of a block's samples: others where a part ends within one, but no further from the clip's.
   static_cast<void>(join_at({11}, noisy));
-  const test::Rasters clip = samples_of(encoded("exact.tik", whole_)),
-                      joined = samples_of(scratch_ / "joined.tik");
+  const Rasters clip = samples_of(encoded("exact.tik", whole_)), joined = samples_of(scratch_ / "joined.tik");
   ASSERT_EQ(joined.size(), clip.size());
   const tik::Reader reader(scratch_ / "joined.tik");
   const double scale = reader.format().white_code / 255.0;
@@ -245,7 +243,7 @@ TEST_F(Joining, KeepsIrregularTimes) {
 
 TEST_F(Joining, OfAHundredParts) {
   std::filesystem::create_directory(scratch_ / "many");
-  test::write_still_clip(scratch_ / "many", kSide, 100);
+  write_still_clip(scratch_ / "many", kSide, 100);
   SourceRequest many = whole_;
   many.path = scratch_ / "many/frames";
   many.block_samples = 1;
@@ -423,7 +421,7 @@ TEST_F(Joining, RefusesWhatWasMeasuredOnEachPart) {
 
 TEST_F(Joining, LeavesNothingWhereAPartIsDamaged) {
   const Path a = part(0, 8), b = part(8, 12);
-  std::string bytes = test::read_file(b);
+  std::string bytes = read_file(b);
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   scratch_.write("part8-12.tik", bytes);
   EXPECT_NE(refusal({a, b}).find("part8-12.tik: "), std::string::npos);
@@ -441,4 +439,4 @@ TEST_F(Joining, JoinsBlocksOfAllCodecs) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

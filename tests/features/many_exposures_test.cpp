@@ -18,7 +18,7 @@
 #include "support/still_clip.hpp"
 #include "system/output_file.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 TEST(SharedWarnings, AreSaidOnceWhoeverAddsThem) {
@@ -47,7 +47,7 @@ TEST(SharedWarnings, AreOneWhateverTheirFiguresAre) {
 
 TEST(VideoOutput, RefusesACodecForStillsAndHoldsTheSetting) {
   EXPECT_EQ(VideoOutput("v-%02d.png", {24, 1}, {}, {}).kind(), "stills");
-  const auto error = test::error_of<UsageError>([] { VideoOutput("v-%02d.png", {24, 1}, "ffv1", {}); });
+  const auto error = error_of<UsageError>([] { VideoOutput("v-%02d.png", {24, 1}, "ffv1", {}); });
   ASSERT_TRUE(error) << "stills have no video codec";
   EXPECT_EQ(error->settings(), std::vector{Setting::video_codec});
 }
@@ -55,23 +55,23 @@ TEST(VideoOutput, RefusesACodecForStillsAndHoldsTheSetting) {
 // 12 stills of 16 x 16 pixels, 100 a second.
 class ManyExposures : public ::testing::Test {
  protected:
-  static Session session_of(const test::Scratch& scratch) {
-    test::use_modules();
-    test::write_still_clip(scratch.folder(), 16, 12);
+  static Session session_of(const Scratch& scratch) {
+    use_modules();
+    write_still_clip(scratch.folder(), 16, 12);
     ComputingRequest computing;
     computing.renderer = RendererKind::reference;
     return Session({.path = scratch / "frames", .clip = {.rate = Rational{100, 1}}}, computing);
   }
 
-  test::Scratch scratch_;
+  Scratch scratch_;
   Session session_ = session_of(scratch_);
 };
 
 // The file that holds this picture, byte by byte.
-std::string file_of(const test::Scratch& scratch, const Picture& picture) {
+std::string file_of(const Scratch& scratch, const Picture& picture) {
   const auto path = scratch / "alone.png";
   write_picture(path, picture);
-  return test::read_file(path);
+  return read_file(path);
 }
 
 ExposureRequest thirty_milliseconds() {
@@ -98,7 +98,7 @@ TEST_F(ManyExposures, OfASeriesAreThoseOfTheSession) {
     request.start = pictures[k].start;
     const Picture alone = session_.render(request, output_format({}, session_.format())).picture;
     EXPECT_EQ(exposed[k].bytes, alone.bytes) << k;
-    EXPECT_EQ(test::read_file(pictures[k].path), file_of(scratch_, alone)) << k;
+    EXPECT_EQ(read_file(pictures[k].path), file_of(scratch_, alone)) << k;
   }
 }
 
@@ -136,9 +136,7 @@ TEST_F(ManyExposures, OfAVideoAreThoseOfTheSession) {
     const ExposedPicture alone =
         session_.render(functions_of(request.exposure, times[k], session_.timeline()),
                         Mask::uniform(16, 16, 0), {}, output.frame_format(session_.format()));
-    EXPECT_EQ(test::read_file(scratch_ / ("v-0" + std::to_string(k) + ".png")),
-              file_of(scratch_, alone.picture))
-        << k;
+    EXPECT_EQ(read_file(scratch_ / ("v-0" + std::to_string(k) + ".png")), file_of(scratch_, alone.picture)) << k;
   }
 }
 
@@ -158,10 +156,9 @@ TEST_F(ManyExposures, ActivityCountsThePixelsOfAMask) {
   request.mask = (scratch_ / "mask.pgm").string();
   EXPECT_EQ(measure_activity(session_.capture(), request).activity.pixel_count(), 1u);
   request.tag = 8;
-  EXPECT_EQ(
-      test::message_of<InputError>([&] { static_cast<void>(measure_activity(session_.capture(), request)); }),
-      std::get<std::string>(request.mask) + " has no pixel with tag 8");
+  EXPECT_EQ(message_of<InputError>([&] { static_cast<void>(measure_activity(session_.capture(), request)); }),
+            std::get<std::string>(request.mask) + " has no pixel with tag 8");
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

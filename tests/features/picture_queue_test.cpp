@@ -9,7 +9,7 @@
 #include "capture/error.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -78,7 +78,7 @@ TEST(PictureQueue, WithoutFinishWritesWhatWasPushed) {
 }
 
 TEST(PictureJob, IsKeptThoughASignalHasCome) {
-  const test::Scratch scratch;
+  const Scratch scratch;
   for (const char* name : {"a.png", "b.tif"}) {
     PictureJob made = job(0);
     made.path = scratch / name;
@@ -89,4 +89,4 @@ TEST(PictureJob, IsKeptThoughASignalHasCome) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

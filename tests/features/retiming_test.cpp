@@ -14,10 +14,8 @@
 #include "tik/reader.hpp"
 #include "tik/writer.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Scratch;
 
 // Blocks as they lie in both files.
 void expect_same_blocks(tik::Reader& before, tik::Reader& after) {
@@ -27,7 +25,7 @@ void expect_same_blocks(tik::Reader& before, tik::Reader& after) {
     EXPECT_EQ(a.header.first_sample, b.header.first_sample);
     EXPECT_EQ(a.header.record_count, b.header.record_count);
     EXPECT_TRUE(std::ranges::equal(a.payload, b.payload));
-    EXPECT_EQ(test::payload_of(before, block), test::payload_of(after, block));
+    EXPECT_EQ(payload_of(before, block), payload_of(after, block));
   }
   EXPECT_TRUE(std::ranges::equal(before.first_sample(), after.first_sample()));
 }
@@ -35,10 +33,9 @@ void expect_same_blocks(tik::Reader& before, tik::Reader& after) {
 TEST(Retiming, ChangesWhatWasStatedAndNothingElse) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     SCOPED_TRACE(seed);
-    const test::RandomCase random(seed);
+    const RandomCase random(seed);
     const Scratch scratch;
-    const auto path =
-        test::write_tik(random, {seed % 2 == 0 ? tik::CodecId::none : tik::CodecId::zstd, 0}, scratch);
+    const auto path = write_tik(random, {seed % 2 == 0 ? tik::CodecId::none : tik::CodecId::zstd, 0}, scratch);
     RetimeRequest request{path,          scratch / "after.tik", {}, {}, Transfer::linear(),
                           Primaries::p3, Rational{4, 3}};
     if (seed % 3 == 0) request.rate = Rational{30'000, 1001};
@@ -64,10 +61,10 @@ TEST(Retiming, ChangesWhatWasStatedAndNothingElse) {
 }
 
 TEST(Retiming, GivesIrregularStartsAnotherAngle) {
-  test::RandomCase random(1);
-  for (std::uint64_t seed = 2; random.timeline.is_constant(); ++seed) random = test::RandomCase(seed);
+  RandomCase random(1);
+  for (std::uint64_t seed = 2; random.timeline.is_constant(); ++seed) random = RandomCase(seed);
   const Scratch scratch;
-  const auto path = test::write_tik(random, {tik::CodecId::lz4, 0}, scratch);
+  const auto path = write_tik(random, {tik::CodecId::lz4, 0}, scratch);
   static_cast<void>(retime({path, path, {}, Rational{90, 1}, {}, {}, {}}));  // in place
   const tik::Reader after(path);
   const Timeline& before = random.timeline;
@@ -82,14 +79,14 @@ TEST(Retiming, GivesIrregularStartsAnotherAngle) {
 }
 
 TEST(Retiming, SaysWhichStepsItMakesEven) {
-  test::RandomCase random(1);
-  for (std::uint64_t seed = 2; random.timeline.sample_count() < 5; ++seed) random = test::RandomCase(seed);
+  RandomCase random(1);
+  for (std::uint64_t seed = 2; random.timeline.sample_count() < 5; ++seed) random = RandomCase(seed);
   std::vector<std::int64_t> starts;
   for (std::uint64_t k = 0; k < random.timeline.sample_count(); ++k)
     starts.push_back(static_cast<std::int64_t>(k + (k > 1) + 2 * (k > 3)) * 10'000'000);
   random.timeline = Timeline::irregular(starts, {360, 1});
   const Scratch scratch;
-  const auto path = test::write_tik(random, {tik::CodecId::lz4, 0}, scratch);
+  const auto path = write_tik(random, {tik::CodecId::lz4, 0}, scratch);
   EXPECT_TRUE(retime({path, scratch / "angle.tik", {}, Rational{90, 1}, {}, {}, {}}).notes.empty());
   const Retimed even = retime({path, path, Rational{100, 1}, {}, {}, {}, {}});
   ASSERT_EQ(even.notes.size(), 1u);
@@ -150,9 +147,9 @@ std::filesystem::path telling(const Scratch& scratch, const tik::Reader& plain,
 
 // In its place; what one fact says beside another stays with it.
 TEST(Retiming, ReplacesTheFactThatItCorrects) {
-  const test::RandomCase random(3);
+  const RandomCase random(3);
   const Scratch scratch;
-  const tik::Reader plain(test::write_tik(random, {tik::CodecId::lz4, 0}, scratch));
+  const tik::Reader plain(write_tik(random, {tik::CodecId::lz4, 0}, scratch));
   const auto told =
       telling(scratch, plain,
               {"240 pictures a second, from the file", "shutter 360 degrees, assumed",
@@ -171,10 +168,10 @@ TEST(Retiming, ReplacesTheFactThatItCorrects) {
 
 // As encoding the clip again with that rate would have it.
 TEST(Retiming, KeepsTheTimeThatACameraWroteDown) {
-  test::RandomCase random(1);
-  for (std::uint64_t seed = 2; !random.timeline.is_constant(); ++seed) random = test::RandomCase(seed);
+  RandomCase random(1);
+  for (std::uint64_t seed = 2; !random.timeline.is_constant(); ++seed) random = RandomCase(seed);
   const Scratch scratch;
-  const tik::Reader plain(test::write_tik(random, {tik::CodecId::lz4, 0}, scratch));
+  const tik::Reader plain(write_tik(random, {tik::CodecId::lz4, 0}, scratch));
   const Timeline& before = plain.timeline();
   const std::int64_t exposed_ns = before.end_ns(0) - before.start_ns(0);
   const std::string from = ", from a.cih: " + std::to_string(exposed_ns) + " ns";
@@ -194,24 +191,24 @@ TEST(Retiming, KeepsTheTimeThatACameraWroteDown) {
   }
   const auto told = telling(scratch, plain, {"shutter " + before.shutter_angle().text() + " degrees" + from});
   const Rational fast = Rational::of(1'000'000'000, exposed_ns / 2);
-  EXPECT_NE(test::message_of<InputError>([&] {
+  EXPECT_NE(message_of<InputError>([&] {
               static_cast<void>(retime({told, told, fast, {}, {}, {}, {}}));
             }).find("the shutter is said to have been open for"),
             std::string::npos);
 }
 
 TEST(Retiming, RefusesWhatItCannotDo) {
-  const test::RandomCase random(3);
+  const RandomCase random(3);
   const Scratch scratch;
-  const auto path = test::write_tik(random, {tik::CodecId::lz4, 0}, scratch);
+  const auto path = write_tik(random, {tik::CodecId::lz4, 0}, scratch);
   const auto message = [&](const RetimeRequest& request) {
-    return test::message_of<Error>([&] { static_cast<void>(retime(request)); });
+    return message_of<Error>([&] { static_cast<void>(retime(request)); });
   };
   EXPECT_NE(message({path, scratch / "a.tik", {}, {}, {}, {}, {}}).find("what is to be corrected?"),
             std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(scratch / "a.tik"));
-  const test::RandomCase noisy = test::noisy_case(4);
-  const auto held = test::write_tik(noisy, {tik::CodecId::lz4, 0}, scratch);
+  const RandomCase noisy = noisy_case(4);
+  const auto held = write_tik(noisy, {tik::CodecId::lz4, 0}, scratch);
   const Transfer other = noisy.capture.transfer == Transfer::linear() ? Transfer::srgb() : Transfer::linear();
   EXPECT_NE(message({held, scratch / "a.tik", {}, {}, other, {}, {}}).find("encode the clip again"),
             std::string::npos);
@@ -223,7 +220,7 @@ TEST(Retiming, KeepsTheTransferOfAlignedPictures) {
   tik::Header header;
   header.capture.transfer = Transfer::linear();
   const auto message = [&](const std::optional<Transfer>& stated) {
-    return test::message_of<Error>([&] { check_stated_transfer(header, "x.tik", stated); });
+    return message_of<Error>([&] { check_stated_transfer(header, "x.tik", stated); });
   };
   EXPECT_EQ(message(Transfer::srgb()), "");
   header.alignment = tik::Alignment{"rigid", 0, false, 3, 0, 0.1};
@@ -236,4 +233,4 @@ TEST(Retiming, KeepsTheTransferOfAlignedPictures) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

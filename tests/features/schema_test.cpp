@@ -8,7 +8,7 @@
 #include "features/schema/option.hpp"
 #include "support/messages.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 constexpr int kCommands = static_cast<int>(CommandId::man) + 1;
@@ -64,7 +64,7 @@ TEST(Schema, TakesEveryChoiceAndNoOther) {
   const Option& depth = *option_of(CommandId::expose, "depth");
   depth.state(options, "--depth", {"double"});
   EXPECT_EQ(options.picture.depth, Depth::doubled);
-  EXPECT_EQ(test::message_of<UsageError>([&] { depth.restate(options, {"12"}); }),
+  EXPECT_EQ(message_of<UsageError>([&] { depth.restate(options, {"12"}); }),
             "--depth '12' is not known; choose 8, 16, half, float or double");
 }
 
@@ -88,4 +88,4 @@ TEST(Schema, TakesAnOptionOnce) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

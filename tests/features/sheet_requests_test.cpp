@@ -3,7 +3,7 @@
 #include "features/sheets/sheet_request.hpp"
 #include "support/messages.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 const Timeline kSheetTimeline = Timeline::constant({100, 1}, {180, 1}, 10);  // 10 ms each, open for 5
@@ -69,11 +69,12 @@ TEST(ContactRequest, OfTimesBesideEachOtherLeavesNoGaps) {
 }
 
 TEST(ContactRequest, SaysWhichStepFitsASheet) {
-  const auto error = test::error_of<UsageError>(
-      [&] { return exposures_of({stated("0s"), stated("1us"), {}}, kSheetTimeline); });
+  const auto error = error_of<UsageError>([&] {
+    return exposures_of({stated("0s"), stated("1us"), {}}, kSheetTimeline);
+  });
   ASSERT_TRUE(error) << "a sheet has no room for 100 000 pictures";
   EXPECT_NE(error->advice().find("take `every 250us` or more"), std::string::npos) << error->advice();
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

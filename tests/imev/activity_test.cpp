@@ -6,10 +6,8 @@
 #include "imev/capture_source.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::RandomCase;
 
 Activity activity_of(const MemoryCapture& capture, ActivityOptions options = {}) {
   Activity activity(capture.format(), std::move(options));
@@ -30,8 +28,8 @@ TEST(Activity, CountsChangesWhereverBlocksBegin) {
         for (std::size_t k = 1; k < random.rasters.size(); ++k) {
           bool differs = false;
           for (std::uint64_t value = pixel * channels; value < (pixel + 1) * channels; ++value) {
-            differs |= test::code_at(random.capture, random.rasters[k], value) !=
-                       test::code_at(random.capture, random.rasters[k - 1], value);
+            differs |= code_at(random.capture, random.rasters[k], value) !=
+                       code_at(random.capture, random.rasters[k - 1], value);
           }
           changes += differs ? 1 : 0;
         }
@@ -50,8 +48,8 @@ std::uint64_t changed_pixels(const RandomCase& random, std::size_t sample, std::
   for (std::uint64_t pixel = 0; pixel < random.capture.shape.pixel_count(); ++pixel) {
     bool differs = false;
     for (std::uint64_t value = pixel * channels; value < (pixel + 1) * channels; ++value) {
-      const auto now = static_cast<int>(test::code_at(random.capture, random.rasters[sample], value));
-      const auto before = static_cast<int>(test::code_at(random.capture, random.rasters[sample - 1], value));
+      const auto now = static_cast<int>(code_at(random.capture, random.rasters[sample], value));
+      const auto before = static_cast<int>(code_at(random.capture, random.rasters[sample - 1], value));
       differs |= std::abs(now - before) > static_cast<int>(ignored);
     }
     count += differs && (counted.empty() || counted[pixel] != 0) ? 1 : 0;
@@ -63,7 +61,7 @@ TEST(Activity, CountsThePixelsThatChangeAtASample) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     RandomCase random(seed);
     random.capture.noise.tolerance = 0;
-    test::Random draw(seed);
+    Random draw(seed);
     ActivityOptions options;
     options.ignored_codes = draw.chance(0.5) ? 0 : random.capture.white_code / 4;
     if (draw.chance(0.5)) {
@@ -171,4 +169,4 @@ TEST(ActivityMoments, AreNoneWhereThereIsNothingToTellApart) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

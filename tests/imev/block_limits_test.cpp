@@ -8,14 +8,12 @@
 #include "imev/capture_source.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::RandomCase;
-
 // The samples of each block of these, given to the builder so many at a time, as far as it has room.
-std::vector<std::uint32_t> block_lengths(const CaptureFormat& format, const BlockLimits& limits,
-                                         const test::Rasters& rasters, std::size_t at_once) {
+std::vector<std::uint32_t> block_lengths(const CaptureFormat& format, const BlockLimits& limits, const Rasters& rasters,
+                                         std::size_t at_once) {
   BlockBuilder builder(format, limits, TilePolicy::automatic);
   std::vector<std::uint32_t> lengths;
   PageBuffer payload;
@@ -35,8 +33,8 @@ std::vector<std::uint32_t> block_lengths(const CaptureFormat& format, const Bloc
 
 // Grey, 4 tiles of 64 bytes a row; with sample k the first `changing(k)` of them change.
 template <typename Changing>
-test::Rasters four_tiles(std::size_t samples, Changing changing) {
-  test::Rasters rasters(samples, std::vector<std::byte>(256));
+Rasters four_tiles(std::size_t samples, Changing changing) {
+  Rasters rasters(samples, std::vector<std::byte>(256));
   for (std::size_t k = 1; k < samples; ++k) {
     rasters[k] = rasters[k - 1];
     for (std::size_t tile = 0; tile < changing(k); ++tile) {
@@ -55,7 +53,7 @@ TEST(BlockLimits, CloseABlockWithTheSampleThatReachesThem) {
   const auto one_tile = four_tiles(22, [](std::size_t) { return 1u; });
   const auto flash = four_tiles(150, [](std::size_t k) { return k == 30 ? 4u : 0u; });
   for (const std::size_t at_once : {1u, 2u, 3u, 4u, 100u}) {
-    const auto lengths = [&](std::uint64_t changed_bytes, const test::Rasters& rasters) {
+    const auto lengths = [&](std::uint64_t changed_bytes, const Rasters& rasters) {
       return block_lengths(four_tiles_format(), {64, changed_bytes}, rasters, at_once);
     };
     EXPECT_EQ(lengths(1, still), (Lengths{64, 64, 22})) << at_once;
@@ -74,7 +72,7 @@ TEST(BlockLimits, ChangeNothingOfWhatIsHeld) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     RandomCase random(seed);
     random.capture.noise = {};
-    test::Random draw(seed);
+    Random draw(seed);
     const std::uint64_t raw = random.capture.sample_bytes();
     BlockLimits limits(static_cast<std::uint32_t>(draw.whole(1, 300)),
                        static_cast<std::uint64_t>(draw.whole(1, static_cast<std::int64_t>(6 * raw))));
@@ -102,7 +100,7 @@ TEST(BlockLimits, KeepToTheirMemory) {
   const TileGrid grid(format.shape);
   double most = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    test::Random random(seed);
+    Random random(seed);
     const auto memory = static_cast<std::uint64_t>(random.whole(1, static_cast<std::int64_t>(30 * sample)));
     BlockLimits limits = default_block_limits(format, memory);
     limits.memory_bytes = memory;
@@ -156,7 +154,7 @@ TEST(BlockLimits, KeepALargeSceneInOneBlock) {
   BlockBuilder builder(format, default_block_limits(format), TilePolicy::automatic);
   std::vector<std::byte> raster(format.sample_bytes());
   const TileGrid grid(format.shape);
-  test::Random random(1);
+  Random random(1);
   for (std::uint32_t k = 0; k < 64; ++k) {
     for (std::uint64_t i = 0; k > 0 && i < grid.tile_count() / 50; ++i) {
       const auto tile =
@@ -183,8 +181,8 @@ TEST(BlockLimits, KeepALargeSceneInOneBlock) {
 TEST(BlockLimits, BlocksAreTheSameOnAnyNumberOfThreads) {
   CaptureFormat format;
   format.shape = {1023, 515, 3};  // several parts for threads, and tiles that reach beyond the picture
-  test::Random random(1);
-  test::Rasters rasters(21, std::vector<std::byte>(format.sample_bytes()));
+  Random random(1);
+  Rasters rasters(21, std::vector<std::byte>(format.sample_bytes()));
   for (std::size_t k = 1; k < rasters.size(); ++k) {
     rasters[k] = rasters[k - 1];
     for (std::size_t change = 0; change < 200 * k; ++change) {
@@ -208,4 +206,4 @@ TEST(BlockLimits, BlocksAreTheSameOnAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

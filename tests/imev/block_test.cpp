@@ -11,13 +11,8 @@
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::code_at;
-using test::Random;
-using test::RandomCase;
-using test::Rasters;
 
 // The codes held at every sample, straight from the definition of a change record: whole steps of 2 T + 1 codes, of
 // which the nearest leads as near to the new code as the tolerance T.
@@ -40,8 +35,8 @@ Rasters held_by_definition(const CaptureFormat& capture, const Rasters& rasters)
         const std::int64_t tolerance = capture.noise.tolerance, step = 2 * tolerance + 1;
         const std::int64_t count = (std::abs(after - before) + tolerance) / step;
         const std::int64_t reached = before + (after < before ? -count : count) * step;
-        test::set_code(capture, now, value,
-                       static_cast<std::uint32_t>(std::clamp<std::int64_t>(reached, 0, capture.white_code)));
+        set_code(capture, now, value,
+                 static_cast<std::uint32_t>(std::clamp<std::int64_t>(reached, 0, capture.white_code)));
       }
     }
     held.push_back(std::move(now));
@@ -212,14 +207,14 @@ TEST(Block, AStartIsNoRecord) {
 TEST(BlockBuilder, RefusesCodesAboveWhite) {
   BlockBuilder builder({.shape = {1, 1, 1}, .code_bytes = 2, .white_code = 4095}, 4, TilePolicy::automatic);
   const std::vector<std::byte> raster{std::byte{0x00}, std::byte{0x10}};  // 4096
-  EXPECT_EQ(test::message_of<InputError>([&] { builder.add(raster); }),
+  EXPECT_EQ(message_of<InputError>([&] { builder.add(raster); }),
             "sample 0 has a code of 4096, above the white code 4095; state the right one");
 }
 
 TEST(BlockBuilder, RefusesBlocksThatMayComeToMoreThanAnOffsetReaches) {
   CaptureFormat capture{.shape = {3840, 2160, 3}, .code_bytes = 2, .white_code = 65'535};
   const auto message = [&](std::uint32_t samples, TilePolicy policy) {
-    return test::message_of<UsageError>([&] { BlockBuilder(capture, samples, policy); });
+    return message_of<UsageError>([&] { BlockBuilder(capture, samples, policy); });
   };
   // 129600 tiles: 2120998 bytes each, less 72 for entry and padding. 5494 rows of 384 bytes and room for their
   // index take 2120704, one more 2121088.
@@ -260,7 +255,7 @@ TEST(BlockView, TellsWhatATileCannotHave) {
   const auto message = [&](std::uint32_t count) {
     std::vector<std::byte> damaged(view.payload().begin(), view.payload().end());
     std::memcpy(damaged.data() + offsetof(TileEntry, count), &count, sizeof count);
-    return test::message_of<InputError>([&] { BlockView(capture.format(), view.extent(), damaged); });
+    return message_of<InputError>([&] { BlockView(capture.format(), view.extent(), damaged); });
   };
   const std::string block = "the block of samples 0 to 7 is damaged: tile 0 ";
   EXPECT_EQ(message(1), "");
@@ -287,7 +282,7 @@ TEST(BlockView, RefusesCodesAboveWhite) {
     const auto message = [&](std::uint32_t white) {
       kind.white_code = white;
       const BlockView other(kind, view.extent(), view.payload());
-      const std::string text = test::message_of<InputError>([&] { other.check_samples(0, tiles); });
+      const std::string text = message_of<InputError>([&] { other.check_samples(0, tiles); });
       EXPECT_EQ(text.empty(), other.checked_until(0, view.payload().size()) == tiles) << text;
       return text;
     };
@@ -330,8 +325,8 @@ class CraftedBlock {
     const BlockView view(capture_, extent_, payload_);
     std::vector<ChangeRecord> history;
     std::vector<std::byte> raster(64);
-    const std::string of_history = test::message_of<InputError>([&] { view.read_history(0, 63, history); });
-    const std::string of_sample = test::message_of<InputError>([&] { view.read_sample(1, raster); });
+    const std::string of_history = message_of<InputError>([&] { view.read_history(0, 63, history); });
+    const std::string of_sample = message_of<InputError>([&] { view.read_sample(1, raster); });
     EXPECT_EQ(of_history.empty(), of_sample.empty()) << of_history << " | " << of_sample;
     return of_history;
   }
@@ -386,4 +381,4 @@ TEST(BlockView, RefusesSampleNumbersThatARecordsTileCannotHave) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -15,15 +15,8 @@
 #include "support/payloads.hpp"
 #include "support/raster_stream.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::code_at;
-using test::film;
-using test::Light;
-using test::NoisyCamera;
-using test::Random;
-using test::Rasters;
 
 // Grey noise of a constant standard deviation in codes.
 CaptureFormat flat_noise(Shape shape, std::uint32_t white, double sd) {
@@ -74,7 +67,7 @@ std::vector<double> held_codes(const CaptureFormat& source, const std::vector<st
   Rasters rasters;
   for (const std::uint32_t code : codes) {
     rasters.emplace_back(source.sample_bytes());
-    test::set_code(source, rasters.back(), 0, code);
+    set_code(source, rasters.back(), 0, code);
   }
   const MemoryCapture capture = encode(source, rasters, static_cast<std::uint32_t>(codes.size()));
   std::vector<double> held;
@@ -102,7 +95,7 @@ TEST(HeldFormat, HasRoomForMeans) {
 TEST(ExpectedValues, EverySampleIsWithinTheBandOfWhatIsHeld) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     Random random(seed);
-    CaptureFormat source = test::random_format(random);
+    CaptureFormat source = random_format(random);
     source.noise.tolerance = 0;
     source.noise.sigmas = random.real(0.5, 6);
     CameraNoise camera{source.white_code, source.transfer, {}};
@@ -116,8 +109,7 @@ TEST(ExpectedValues, EverySampleIsWithinTheBandOfWhatIsHeld) {
       camera.channels.push_back(channel);
     }
     source.noise.camera = camera;
-    const Rasters rasters =
-        test::random_rasters(random, source, static_cast<std::uint64_t>(random.whole(1, 90)));
+    const Rasters rasters = random_rasters(random, source, static_cast<std::uint64_t>(random.whole(1, 90)));
     const MemoryCapture capture = encode(source, rasters, static_cast<std::uint32_t>(random.whole(1, 70)));
     const Rasters held = held_by(capture);
     const std::uint32_t scale = held_scale(source);
@@ -193,7 +185,7 @@ TEST(ExpectedValues, ARampIsFollowedByStepsWithinTheNoise) {
 
 TEST(ExpectedValues, RefusesTheNoiseOfOtherCodes) {
   const auto message = [](const CaptureFormat& source) {
-    return test::message_of<UsageError>([&] { BlockBuilder(source, 4, TilePolicy::automatic); });
+    return message_of<UsageError>([&] { BlockBuilder(source, 4, TilePolicy::automatic); });
   };
   CaptureFormat source = flat_noise({8, 8, 1}, 255, 2);
   EXPECT_EQ(message(source), "");
@@ -216,18 +208,18 @@ TEST(ExpectedValues, AStreamHoldsWhatAFileHolds) {
     Random random(seed);
     const CaptureFormat source = flat_noise({11, 9, 3}, 255, 3);
     const auto samples = static_cast<std::uint64_t>(random.whole(2, 60));
-    const Rasters rasters = test::random_rasters(random, source, samples);
+    const Rasters rasters = random_rasters(random, source, samples);
     const auto block_samples = static_cast<std::uint32_t>(random.whole(1, 20));
     const MemoryCapture file = encode(source, rasters, block_samples);
     const auto first = static_cast<std::uint64_t>(random.whole(0, static_cast<std::int64_t>(samples) - 1));
     const auto last = static_cast<std::uint64_t>(
         random.whole(static_cast<std::int64_t>(first) + 1, static_cast<std::int64_t>(samples)));
     StreamingCapture stream(source, file.timeline(), {first, last}, block_samples, TilePolicy::automatic,
-                            test::RasterStream(rasters));
+                            RasterStream(rasters));
     EXPECT_EQ(stream.format(), file.format());
     for (std::uint64_t block = first / block_samples; block < stream.block_count(); ++block) {
       ASSERT_EQ(stream.block_extent(block), file.block_extent(block)) << seed;
-      const auto payload = test::payload_of(stream, block);
+      const auto payload = payload_of(stream, block);
       const auto expected = file.view(block).payload();
       ASSERT_TRUE(std::ranges::equal(payload, expected)) << "seed " << seed << ", block " << block;
     }
@@ -288,7 +280,7 @@ CameraNoise estimated_noise(const CaptureFormat& format, const Rasters& rasters)
 TEST(ExpectedValues, AStillSceneComesOutLessNoisyThanAnyFrame) {
   for (const Camera& each : cameras()) {
     const NoisyCamera camera = each.filming({96, 64, 3});
-    const Light light = test::still_wedge(camera, 0.02, 0.8);
+    const Light light = still_wedge(camera, 0.02, 0.8);
     const Rasters rasters = film(camera, 256, 11, light);
     CaptureFormat source = camera.format;
     source.noise.camera = estimated_noise(source, rasters);
@@ -321,7 +313,7 @@ TEST(ExpectedValues, AStillSceneComesOutLessNoisyThanAnyFrame) {
 TEST(ExpectedValues, AMovingObjectIsNeitherSmearedNorDropped) {
   for (const Camera& each : cameras()) {
     const NoisyCamera camera = each.filming({160, 48, 3});
-    const Light still = test::still_wedge(camera, 0.02, 0.3);
+    const Light still = still_wedge(camera, 0.02, 0.3);
     const auto is_object = [&](std::uint64_t value, std::uint64_t sample) {
       const std::uint64_t x = value / camera.format.shape.channels % camera.format.shape.width;
       return x >= 2 * sample && x < 2 * sample + 12;
@@ -363,4 +355,4 @@ TEST(ExpectedValues, AMovingObjectIsNeitherSmearedNorDropped) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

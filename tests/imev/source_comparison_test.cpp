@@ -7,11 +7,10 @@
 #include "imev/capture_source.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-SourceComparison compare(const MemoryCapture& capture, const CaptureFormat& source,
-                         const test::Rasters& rasters) {
+SourceComparison compare(const MemoryCapture& capture, const CaptureFormat& source, const Rasters& rasters) {
   SourceComparison comparison(source);
   for (std::uint64_t block = 0; block < capture.block_count(); ++block) {
     const BlockExtent extent = capture.block_extent(block);
@@ -40,7 +39,7 @@ std::uint64_t records_of(const MemoryCapture& capture) {
 
 TEST(SourceComparison, FindsNothingBeyondWhatACapturePromises) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    test::RandomCase random(seed);
+    RandomCase random(seed);
     const SourceComparison with_tolerance = compare(random.encode(), random.capture, random.rasters);
     EXPECT_LE(with_tolerance.worst().error, random.capture.noise.tolerance) << random.text();
     EXPECT_EQ(with_tolerance.values_beyond(), 0u) << random.text();
@@ -65,7 +64,7 @@ TEST(SourceComparison, CountsErrorsInCodes) {
   const auto raster = [](int a, int b) {
     return std::vector<std::byte>{static_cast<std::byte>(a), static_cast<std::byte>(b)};
   };
-  const test::Rasters held{raster(100, 50), raster(100, 50)};
+  const Rasters held{raster(100, 50), raster(100, 50)};
   const MemoryCapture capture(format, Timeline::constant({10, 1}, Timeline::kFullShutter, 2), held, 2);
   format.noise.tolerance = 4;
   const SourceComparison comparison = compare(capture, format, {raster(100, 53), raster(96, 55)});
@@ -77,4 +76,4 @@ TEST(SourceComparison, CountsErrorsInCodes) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

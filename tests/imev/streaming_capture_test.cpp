@@ -8,28 +8,26 @@
 #include "support/random_case.hpp"
 #include "support/raster_stream.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::RandomCase;
 
 TEST(StreamingCapture, GivesTheBlocksOfTheWholeCaptureAndReadsNoFurther) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const RandomCase random(seed);
     const std::uint64_t count = random.rasters.size();
-    test::Random draw(seed + 1000);
+    Random draw(seed + 1000);
     SampleRange needed;
     needed.first = static_cast<std::uint64_t>(draw.whole(0, static_cast<std::int64_t>(count) - 1));
     needed.last = static_cast<std::uint64_t>(
         draw.whole(static_cast<std::int64_t>(needed.first) + 1, static_cast<std::int64_t>(count)));
     const MemoryCapture whole = random.encode();
-    test::RasterStream stream(random.rasters, count);
+    RasterStream stream(random.rasters, count);
     StreamingCapture streaming(random.capture, random.timeline, needed, random.block_samples, random.policy,
                                std::ref(stream));
     for (std::uint64_t block = 0; block < streaming.block_count(); ++block) {
       const BlockExtent extent = streaming.block_extent(block);
       if (extent.range().last <= needed.first) continue;
-      const auto payload = test::payload_of(streaming, block);
+      const auto payload = payload_of(streaming, block);
       const BlockView view(random.capture, extent, payload);
       std::vector<std::byte> a(random.capture.sample_bytes()), b(a.size());
       for (std::uint32_t k = 0; k < extent.sample_count; ++k) {
@@ -47,10 +45,10 @@ TEST(StreamingCapture, LeavesAlonePayloadsThatAreLent) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const RandomCase random(seed);
     const MemoryCapture whole = random.encode();
-    StreamingCapture streaming(random.capture, random.timeline, {0, random.rasters.size()},
-                               random.block_samples, random.policy, test::RasterStream(random.rasters));
+    StreamingCapture streaming(random.capture, random.timeline, {0, random.rasters.size()}, random.block_samples,
+                               random.policy, RasterStream(random.rasters));
     EXPECT_TRUE(streaming.is_forward_only());
-    test::Random draw(seed);
+    Random draw(seed);
     std::vector<BlockLease> leases;
     for (std::uint64_t block = 0; block < streaming.block_count(); ++block) {
       leases.push_back(streaming.acquire(block));
@@ -58,7 +56,7 @@ TEST(StreamingCapture, LeavesAlonePayloadsThatAreLent) {
       for (const BlockLease& lease : leases) {
         const BlockView expected = whole.view(lease.extent().first_sample / random.block_samples);
         EXPECT_EQ(lease.bytes(), expected.payload().size());
-        ASSERT_TRUE(std::ranges::equal(test::payload_of(random.capture, lease), expected.payload()))
+        ASSERT_TRUE(std::ranges::equal(payload_of(random.capture, lease), expected.payload()))
             << random.text() << ", " << block;
       }
       // Some are given back, in any order, and their memory is used again.
@@ -72,7 +70,7 @@ TEST(StreamingCapture, BuildsWhereBlocksWereGivenBack) {
   const CaptureFormat format{.shape = {64, 48, 3}};
   const std::vector<std::vector<std::byte>> rasters(20, std::vector<std::byte>(format.sample_bytes()));
   StreamingCapture streaming(format, Timeline::constant({30, 1}, Timeline::kFullShutter, 20), {0, 20}, 4,
-                             TilePolicy::automatic, test::RasterStream(rasters));
+                             TilePolicy::automatic, RasterStream(rasters));
   const std::byte* first = streaming.acquire(0).payload().data();
   for (std::uint64_t block = 1; block < 5; ++block) {
     EXPECT_EQ(streaming.acquire(block).payload().data(), first);
@@ -82,7 +80,7 @@ TEST(StreamingCapture, BuildsWhereBlocksWereGivenBack) {
 TEST(StreamingCapture, IsAskedForBlocksInOrder) {
   const std::vector<std::vector<std::byte>> rasters(9, std::vector<std::byte>(3));
   StreamingCapture streaming({.shape = {1, 1, 3}}, Timeline::constant({30, 1}, Timeline::kFullShutter, 9), {0, 9}, 3,
-                             TilePolicy::automatic, test::RasterStream(rasters));
+                             TilePolicy::automatic, RasterStream(rasters));
   EXPECT_EQ(streaming.acquire(1).extent(), (BlockExtent{3, 3}));
   for (const std::uint64_t block : {0u, 1u}) {
     EXPECT_THROW(static_cast<void>(streaming.acquire(block)), std::logic_error);
@@ -95,7 +93,7 @@ TEST(StreamingCapture, TellsTheRealNumberOfSamples) {
   const std::uint64_t count = random.rasters.size();
   ASSERT_GT(count, 2u);
   for (const std::uint64_t announced : {count - 1, count + 5}) {
-    test::RasterStream stream(random.rasters, count);
+    RasterStream stream(random.rasters, count);
     const Timeline timeline = Timeline::constant({30, 1}, Timeline::kFullShutter, announced);
     StreamingCapture streaming(random.capture, timeline, {0, announced}, 7, TilePolicy::automatic,
                                std::ref(stream));
@@ -114,4 +112,4 @@ TEST(StreamingCapture, TellsTheRealNumberOfSamples) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -9,11 +9,8 @@
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Random;
-using test::Rasters;
 
 // What differs between two samples, with some pixels that do not, and some that are told twice.
 std::vector<PixelChange> changes_between(Random& random, const CaptureFormat& capture,
@@ -25,8 +22,8 @@ std::vector<PixelChange> changes_between(Random& random, const CaptureFormat& ca
     bool differs = false;
     for (std::uint32_t c = 0; c < capture.shape.channels; ++c) {
       const std::uint64_t value = std::uint64_t{pixel} * capture.shape.channels + c;
-      change.codes[c] = static_cast<std::uint16_t>(test::code_at(capture, after, value));
-      differs |= test::code_at(capture, before, value) != change.codes[c];
+      change.codes[c] = static_cast<std::uint16_t>(code_at(capture, after, value));
+      differs |= code_at(capture, before, value) != change.codes[c];
     }
     if (!differs && !random.chance(0.02)) continue;
     if (random.chance(0.1)) changes.push_back({pixel, {}});
@@ -69,10 +66,9 @@ std::vector<Closed> blocks(BlockBuilder& builder, const Rasters& rasters, Add ad
 TEST(ToldChanges, MakeTheBlocksOfWholeSamples) {
   for (std::uint64_t seed = 0; seed < 80; ++seed) {
     Random random(seed);
-    CaptureFormat capture = test::random_format(random);
+    CaptureFormat capture = random_format(random);
     if (random.chance(0.3)) capture.noise.tolerance = static_cast<std::uint32_t>(random.whole(1, 20));
-    const Rasters rasters =
-        test::random_rasters(random, capture, static_cast<std::uint64_t>(random.whole(1, 40)));
+    const Rasters rasters = random_rasters(random, capture, static_cast<std::uint64_t>(random.whole(1, 40)));
     const TilePolicy policy = random.chance(0.3) ? TilePolicy::records : TilePolicy::automatic;
     const BlockLimits limits(static_cast<std::uint32_t>(random.whole(1, 30)));
     BlockBuilder whole(capture, limits, policy), told(capture, limits, policy);
@@ -121,7 +117,9 @@ TEST(ToldChanges, AboveWhiteAreRefusedAsCodesOfPicturesAre) {
   BlockBuilder builder({.shape = {9, 9, 1}, .white_code = 200}, 4, TilePolicy::automatic);
   builder.add(std::vector<std::byte>(81));
   const PixelChange change{3, {201}};
-  EXPECT_EQ(test::message_of<InputError>([&] { builder.add_changes({&change, 1}); }),
+  EXPECT_EQ(message_of<InputError>([&] {
+              builder.add_changes({&change, 1});
+            }),
             "sample 1 has a code of 201, above the white code 200; state the right one");
 }
 
@@ -130,4 +128,4 @@ TEST(ToldChanges, AreNotTakenWhereAllTilesAreDenseOrNoiseIsKnown) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -5,16 +5,14 @@
 #include "imev/capture_source.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::RandomCase;
 
 TEST(CodeSpan, IsThatOfTheSamplesAskedFor) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     RandomCase random(seed);
     random.capture.noise.tolerance = 0;
-    test::Random draw(seed + 1000);
+    Random draw(seed + 1000);
     const auto last_sample = static_cast<std::int64_t>(random.rasters.size()) - 1;
     const std::int64_t first = draw.whole(0, last_sample);
     const SampleRange range{static_cast<std::uint64_t>(first),
@@ -29,7 +27,7 @@ TEST(CodeSpan, IsThatOfTheSamplesAskedFor) {
       for (std::uint64_t value = pixel * channels; value < (pixel + 1) * channels; ++value) {
         std::uint32_t least = ~0u, most = 0;
         for (std::uint64_t k = range.first; k < range.last; ++k) {
-          const std::uint32_t code = test::code_at(random.capture, random.rasters[k], value);
+          const std::uint32_t code = code_at(random.capture, random.rasters[k], value);
           least = std::min(least, code);
           most = std::max(most, code);
         }
@@ -80,4 +78,4 @@ TEST(CodeSpan, BrightnessOfAGreyInColourIsItsCode) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

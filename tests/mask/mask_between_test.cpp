@@ -6,7 +6,7 @@
 #include "capture/error.hpp"
 #include "support/messages.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 // The first pixels of a row have the value 255.
@@ -77,7 +77,7 @@ TEST(MaskBetween, ByAlphaMixesWhatIsMixed) {
 
 TEST(MaskBetween, RefusesMasksThatDoNotBlend) {
   const auto message = [](const Mask& a, const Mask& b, MaskBlend blend) {
-    return test::message_of<InputError>([&] { static_cast<void>(between(a, b, blend, 1)); });
+    return message_of<InputError>([&] { static_cast<void>(between(a, b, blend, 1)); });
   };
   EXPECT_EQ(message(first_pixels(4), first_pixels(4, 12), MaskBlend::alpha),
             "a.pgm has 10 x 1 pixels and b.pgm has 12 x 1; masks of key frames have one size");
@@ -90,4 +90,4 @@ TEST(MaskBetween, RefusesMasksThatDoNotBlend) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -7,7 +7,7 @@
 #include "mask/distance.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 // `#` inside, `.` outside, a line for each row.
@@ -32,7 +32,7 @@ std::string text(const Region& region) {
 
 #define EXPECT_REGION(region, ...) EXPECT_EQ(text(region), text(drawn(__VA_ARGS__)))
 
-Region random_region(test::Random& random) {
+Region random_region(Random& random) {
   Region region = Region::none(static_cast<std::uint32_t>(random.whole(1, 24)),
                                static_cast<std::uint32_t>(random.whole(1, 24)));
   const double share = random.pick<double>({0.0, 0.01, 0.2, 0.5, 0.8, 1.0});
@@ -68,7 +68,7 @@ TEST(Shape, PolygonIsEvenOddAndCountsCornersOnce) {
 
 TEST(Shape, PolygonOfARectangleIsTheRectangle) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    test::Random random(seed);
+    Random random(seed);
     const double x = random.real(-3, 20), y = random.real(-3, 20), w = random.real(0, 20),
                  h = random.real(0, 20);
     const std::vector<Point> corners{{x, y}, {x + w, y}, {x + w, y + h}, {x, y + h}};
@@ -96,7 +96,7 @@ TEST(Region, IsPaintedOverWhatWasThere) {
 
 TEST(Distance, IsThatToTheNearestPixelInside) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    test::Random random(seed);
+    Random random(seed);
     const Region region = random_region(random);
     const std::vector<std::uint64_t> distances = squared_distances(region);
     for (std::size_t pixel = 0; pixel < distances.size(); ++pixel) {
@@ -138,4 +138,4 @@ TEST(Distance, SmoothingTakesSpecksAndFillsHoles) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

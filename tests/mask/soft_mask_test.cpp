@@ -10,7 +10,7 @@
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 using Shares = std::vector<Share>;
@@ -38,7 +38,7 @@ TEST(Feather, IsReadFromText) {
 
 TEST(Feather, RefusesWhatIsNone) {
   const auto message = [](const std::string& text) {
-    return test::message_of<UsageError>([&] { static_cast<void>(Feather::parse(text)); });
+    return message_of<UsageError>([&] { static_cast<void>(Feather::parse(text)); });
   };
   for (const char* text : {"", "6", "px", "6 px", "-1px", ".5px", "1.px", "1.2.3px", "1.255px", "6px,",
                            "99999999999999999999px"}) {
@@ -50,7 +50,7 @@ TEST(Feather, RefusesWhatIsNone) {
     EXPECT_EQ(message(tag + "=1px"), "the feather '" + tag + "=1px' names no mask value: M0=6px … M255=6px");
   }
   EXPECT_EQ(message("M9=1px,9=2px"), "the feather 'M9=1px,9=2px' names M9 twice");
-  EXPECT_EQ(test::message_of<UsageError>([] {
+  EXPECT_EQ(message_of<UsageError>([] {
               static_cast<void>(feathered(row_of({0, 9}), Feather::parse("M4=1px")));
             }),
             "no pixel of the mask has the value 4, which has a feather");
@@ -82,7 +82,7 @@ TEST(Feather, AsksWhetherToGoOn) {
 
 // Against the formula, pixel by pixel.
 TEST(Feather, IsTheMaskUnderItsKernel) {
-  test::Random random(8);
+  Random random(8);
   Mask mask = Mask::uniform(41, 23, 0);
   for (int patch = 0; patch < 12; ++patch) {
     const auto left = random.whole(0, 40), top = random.whole(0, 22), size = random.whole(1, 12);
@@ -160,14 +160,13 @@ TEST(Layers, ComeToNoMoreThanAllOfAPixel) {
   // 128 + 128 is one code more than white: what rounding two halves makes.
   EXPECT_EQ(shares_at(mask_of_layers(std::array{layer(0, {128}), layer(1, {128})}, 0), 0),
             (Shares{{0, 32'768}, {1, 32'767}}));
-  EXPECT_EQ(
-      test::message_of<InputError>([] {
-        static_cast<void>(mask_of_layers(std::array{layer(0, {255, 128, 255}), layer(7, {0, 129, 51})}, 0));
-      }),
-      "the layers of the mask come to more than all of 2 pixels: to 1.008 at 1,0 (layer-0.png 0.502, "
-      "layer-7.png "
-      "0.5059); darken them where they overlap, so that they come to 1 at most");
-  EXPECT_EQ(test::message_of<InputError>([] {
+  EXPECT_EQ(message_of<InputError>([] {
+              static_cast<void>(mask_of_layers(std::array{layer(0, {255, 128, 255}), layer(7, {0, 129, 51})}, 0));
+            }),
+            "the layers of the mask come to more than all of 2 pixels: to 1.008 at 1,0 (layer-0.png 0.502, "
+            "layer-7.png "
+            "0.5059); darken them where they overlap, so that they come to 1 at most");
+  EXPECT_EQ(message_of<InputError>([] {
               static_cast<void>(mask_of_layers(std::array{layer(0, {255, 128}), layer(7, {0})}, 0));
             }),
             "layer-7.png has 1 x 1 pixels and layer-0.png has 2 x 1; layers of a mask have one size");
@@ -185,4 +184,4 @@ TEST(Layers, OfAMaskMakeItAgain) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

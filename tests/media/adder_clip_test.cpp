@@ -15,14 +15,8 @@
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::big_endian;
-using test::message_of;
-using test::notes_of;
-using test::open_test_clip;
-using test::Scratch;
 
 struct File {
   unsigned version = 3, width = 5, height = 3, ticks_a_second = 120'000, interval = 5000, channels = 1, source = 6;
@@ -51,7 +45,7 @@ struct Stretch {
 };
 
 // Events of one value, and the light that they stand for.
-std::vector<Stretch> random_value(test::Random& random, const File& file, std::uint64_t last,
+std::vector<Stretch> random_value(Random& random, const File& file, std::uint64_t last,
                                   const std::function<void(unsigned, std::uint64_t)>& write) {
   std::vector<Stretch> light;
   double before = 0;
@@ -92,7 +86,7 @@ double light_at(const std::vector<Stretch>& light, std::uint64_t tick) {
 TEST(AdderClip, HoldsTheLightThatWasWritten) {
   const Scratch scratch;
   for (std::uint64_t seed = 0; seed < 24; ++seed) {
-    test::Random random(seed);
+    Random random(seed);
     File file;
     file.version = static_cast<unsigned>(random.whole(0, 3));
     file.channels = random.chance(0.4) ? 3 : 1;
@@ -115,7 +109,7 @@ TEST(AdderClip, HoldsTheLightThatWasWritten) {
     const auto clip = open_test_clip(scratch.write("a.adder", content + file.end()));
     const ClipInfo& info = clip->info();
     ASSERT_EQ(info.format.shape, (Shape{file.width, file.height, file.channels}));
-    const auto rasters = test::read_all(*clip);
+    const auto rasters = read_all(*clip);
     ASSERT_EQ(rasters.size(), info.timing.exposures.size());
     std::uint64_t end = 0;
     for (const auto& light : values) end = std::max(end, light.back().until);
@@ -158,7 +152,7 @@ TEST(AdderClip, TakesWhiteFromItsSourceOrAsItIsStated) {
     EXPECT_TRUE(clip->read(raster));
     std::uint16_t found = 0;
     std::memcpy(&found, raster.data(), 2);
-    return std::pair(static_cast<long>(found), test::facts_of(*clip).at(Setting::white_code).line());
+    return std::pair(static_cast<long>(found), facts_of(*clip).at(Setting::white_code).line());
   };
   using Found = std::pair<long, std::string>;
   const long of_255 = std::lround(64.0 / 255 * 65535);
@@ -240,9 +234,12 @@ TEST(AdderClip, RefusesWhatItCannotRead) {
   file.interval = 0;
   expect(file.header(), "neither can be 0");
   const auto path = scratch.write("b.adder", File().header() + File().event(0, 0, 0, 1, 1));
-  test::expect_error<UsageError>([&] { open_test_clip(path, {.events = {.contrast = Contrast{0.2, 0.2}}}); },
-                                 {"tells light itself"});
+  expect_error<UsageError>(
+      [&] {
+        open_test_clip(path, {.events = {.contrast = Contrast{0.2, 0.2}}});
+      },
+      {"tells light itself"});
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -12,10 +12,8 @@
 #include "support/scratch.hpp"
 #include "support/stills.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Scratch;
 
 std::string phone_clip(const char* played, const std::string& words) {
   return "-f lavfi -i testsrc2=s=32x32:d=1:r=" + std::string(played) +
@@ -28,18 +26,18 @@ TEST(CaptureRate, IsAndroidsWhereTheFilePlaysSlower) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   test::make(scratch, phone_clip("30", android("240.000000")));
-  const auto clip = test::open_test_clip(scratch / "clip.mp4");
+  const auto clip = open_test_clip(scratch / "clip.mp4");
   EXPECT_EQ(clip->info().timing.rate, (Rational{240, 1}));
-  EXPECT_NE(test::notes_of(*clip).find("com.android.capture.fps says that 240"), std::string::npos);
+  EXPECT_NE(notes_of(*clip).find("com.android.capture.fps says that 240"), std::string::npos);
   const ClipOptions options{.rate = Rational{960, 1}};
-  const auto stated = test::open_test_clip(scratch / "clip.mp4", options);
+  const auto stated = open_test_clip(scratch / "clip.mp4", options);
   EXPECT_EQ(timeline_of("", stated->info(), options, 30).rate(), (Rational{960, 1}));
   test::make(scratch, phone_clip("30", android("3")));  // time-lapse
-  EXPECT_EQ(test::open_test_clip(scratch / "clip.mp4")->info().timing.rate, (Rational{3, 1}));
+  EXPECT_EQ(open_test_clip(scratch / "clip.mp4")->info().timing.rate, (Rational{3, 1}));
 }
 
 std::string box(const std::string& type, const std::string& data) {
-  return test::big_endian(data.size() + 8, 4) + type + data;
+  return big_endian(data.size() + 8, 4) + type + data;
 }
 
 std::string sony_story(const char* rate, const char* curve, const char* gamut) {
@@ -57,58 +55,57 @@ TEST(CaptureRate, AndCurveAreSonysWhereItsXmlSaysThem) {
   test::make(scratch, phone_clip("24000/1001", ""));
   const std::string without = input_checksum(scratch / "clip.mp4");
   scratch.write("clipM01.XML", sony_story("119.88p", "s-log3-cine", "s-gamut3-cine"));
-  const auto beside = test::open_test_clip(scratch / "clip.mp4");
+  const auto beside = open_test_clip(scratch / "clip.mp4");
   EXPECT_EQ(beside->info().timing.rate, (Rational{120'000, 1001}));
   EXPECT_EQ(beside->info().format.transfer.text(), "slog3:video");
   EXPECT_EQ(beside->info().format.primaries, Primaries::sgamut3_cine);
-  EXPECT_NE(test::notes_of(*beside).find("Sony's captureFps says that 120000/1001"), std::string::npos)
-      << test::notes_of(*beside);
+  EXPECT_NE(notes_of(*beside).find("Sony's captureFps says that 120000/1001"), std::string::npos) << notes_of(*beside);
   EXPECT_EQ(beside->info().timing.rate_from, "clipM01.XML");
   EXPECT_NE(input_checksum(scratch / "clip.mp4"), without);
   EXPECT_EQ(beside->info().facts.front().line(), "transfer slog3, from clipM01.XML");
   scratch.write("otherM01.XML", "<other/>");
   const std::string story = sony_story("240p", "s-log2", "s-gamut");
-  const std::string plain = test::read_file(scratch / "clip.mp4");
+  const std::string plain = read_file(scratch / "clip.mp4");
   const std::string version(4, '\0');
   scratch.write("within.mp4", plain + box("meta", version + box("xml ", version + story)));
-  const auto within = test::open_test_clip(scratch / "within.mp4");
+  const auto within = open_test_clip(scratch / "within.mp4");
   EXPECT_EQ(within->info().format.transfer.text(), "slog2:video");
   EXPECT_EQ(within->info().format.primaries, Primaries::sgamut3);
   const std::string own = input_checksum(scratch / "within.mp4");
   scratch.write("withinM01.XML", story);
   EXPECT_EQ(input_checksum(scratch / "within.mp4"), own);
   scratch.write("other.mp4", plain + box("meta", version + box("xml ", version + sony_story("x", "rec709", ""))));
-  const auto other = test::open_test_clip(scratch / "other.mp4");
+  const auto other = open_test_clip(scratch / "other.mp4");
   EXPECT_EQ(other->info().format.transfer, Transfer::srgb());
   EXPECT_EQ(other->info().timing.rate, (Rational{24'000, 1001}));
 }
 
 std::string item(const std::string& key, const std::string& value) {
-  return "\x06\x0E\x2B\x34" + key + "\x83" + test::big_endian(value.size(), 3) + value;
+  return "\x06\x0E\x2B\x34" + key + "\x83" + big_endian(value.size(), 3) + value;
 }
 
 const std::string kBt709Curve = "\x06\x0E\x2B\x34\x04\x01\x01\x01\x04\x01\x01\x01\x01\x02" + std::string(2, '\0');
 
 std::string sonys_label(std::uint32_t which) {
-  return "\x06\x0E\x2B\x34\x04\x01\x01\x06\x0E\x06\x04\x01" + test::big_endian(which, 4);
+  return "\x06\x0E\x2B\x34\x04\x01\x01\x06\x0E\x06\x04\x01" + big_endian(which, 4);
 }
 
 // Ancillary data: a packet of another kind, then the camera unit's set in two.
 std::string camera_packets(std::uint32_t curve, std::uint32_t gamut, std::uint32_t rate) {
   const auto tagged = [](std::uint32_t tag, const std::string& value) {
-    return test::big_endian(tag, 2) + test::big_endian(value.size(), 2) + value;
+    return big_endian(tag, 2) + big_endian(value.size(), 2) + value;
   };
   const std::string unit =
       item("\x02\x53\x01\x01\x0C\x02\x01\x01\x02\x01" + std::string(2, '\0'),
            tagged(0x8114, "S-Log") + tagged(0x3210, sonys_label(curve)) + tagged(0x3219, sonys_label(gamut)) +
-               tagged(0x8106, test::big_endian(rate, 4) + test::big_endian(1001, 4)));
+               tagged(0x8106, big_endian(rate, 4) + big_endian(1001, 4)));
   const auto packet = [](const std::string& kind, const std::string& data) {
-    std::string bytes = kind + test::big_endian(data.size(), 1) + data;
+    std::string bytes = kind + big_endian(data.size(), 1) + data;
     bytes.resize((bytes.size() + 3) / 4 * 4);
-    return test::big_endian(10, 2) + "\x01\x04" + test::big_endian(bytes.size(), 2) +
-           test::big_endian(bytes.size(), 4) + test::big_endian(1, 4) + bytes;
+    return big_endian(10, 2) + "\x01\x04" + big_endian(bytes.size(), 2) + big_endian(bytes.size(), 4) +
+           big_endian(1, 4) + bytes;
   };
-  return item("\x01\x02\x01\x01\x0D\x01\x03\x01\x17\x01\x02\x01", test::big_endian(3, 2) + packet("\x61\x01", "other") +
+  return item("\x01\x02\x01\x01\x0D\x01\x03\x01\x17\x01\x02\x01", big_endian(3, 2) + packet("\x61\x01", "other") +
                                                                       packet("\x43\x05", "\x01" + unit.substr(0, 30)) +
                                                                       packet("\x43\x05", "\x02" + unit.substr(30)));
 }
@@ -119,10 +116,10 @@ TEST(CaptureRate, AndCurveAreSonysWhereMxfSaysThem) {
   test::make(scratch,
              "-f lavfi -i testsrc2=s=64x64:d=1:r=24000/1001 -f lavfi -i sine=d=1:r=48000 -c:v mpeg2video "
              "-color_trc bt709 clip.mxf");
-  const std::string plain = test::read_file(scratch / "clip.mxf");
+  const std::string plain = read_file(scratch / "clip.mxf");
   const auto clip_of = [&](const std::string& bytes) {
     scratch.write("clip.mxf", bytes);
-    const auto clip = test::open_test_clip(scratch / "clip.mxf");
+    const auto clip = open_test_clip(scratch / "clip.mxf");
     const auto& info = clip->info();
     return info.format.transfer.text() + " " + std::string(to_text(info.format.primaries)) + " " +
            info.timing.rate.value().text();
@@ -160,7 +157,7 @@ TEST(CaptureRate, AndCurvesOfApplesAndArrisAreReadFromTheirKeys) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   const auto curve_of = [&](const std::string& name) {
-    const auto& format = test::open_test_clip(scratch / name)->info().format;
+    const auto& format = open_test_clip(scratch / name)->info().format;
     return format.transfer.text() + " " + std::string(to_text(format.primaries));
   };
   const auto keyed = [&](const std::string& words) {
@@ -168,7 +165,7 @@ TEST(CaptureRate, AndCurvesOfApplesAndArrisAreReadFromTheirKeys) {
     return curve_of("clip.mp4");
   };
   EXPECT_EQ(keyed(""), "srgb bt709");
-  const std::string plain = test::read_file(scratch / "clip.mp4");
+  const std::string plain = read_file(scratch / "clip.mp4");
   EXPECT_EQ(keyed("-metadata com.apple.proapps.customgamma=com.apple.rec2020.apple-log"), "applelog bt2020");
   EXPECT_EQ(keyed("-metadata com.apple.proapps.customgamma=com.apple.apple-wide-gamut.apple-log"),
             "applelog apple-wide-gamut");
@@ -177,8 +174,8 @@ TEST(CaptureRate, AndCurvesOfApplesAndArrisAreReadFromTheirKeys) {
             "logc3 arri-wg3");
   EXPECT_EQ(keyed("-metadata com.arri.camera.ColorGammaSxS=LOG-C -metadata com.arri.camera.ExposureIndexAsa=400"),
             "srgb bt709");
-  const auto other = test::open_test_clip(scratch / "clip.mp4");
-  EXPECT_NE(test::notes_of(*other).find("LOG-C at exposure index 400"), std::string::npos) << test::notes_of(*other);
+  const auto other = open_test_clip(scratch / "clip.mp4");
+  EXPECT_NE(notes_of(*other).find("LOG-C at exposure index 400"), std::string::npos) << notes_of(*other);
   scratch.write("in-track.mp4", described(plain, box("logs", "com.apple.rec2020.apple-log")));
   EXPECT_EQ(curve_of("in-track.mp4"), "applelog bt2020");
   scratch.write("beside.mp4", plain + box("logs", "com.apple.rec2020.apple-log"));
@@ -189,9 +186,9 @@ TEST(CaptureRate, ChangesNothingWhereTheFileRunsAtIt) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   test::make(scratch, phone_clip("240", android("240")));
-  const auto clip = test::open_test_clip(scratch / "clip.mp4");
+  const auto clip = open_test_clip(scratch / "clip.mp4");
   EXPECT_EQ(clip->info().timing.rate, (Rational{240, 1}));
-  EXPECT_EQ(test::notes_of(*clip), "");
+  EXPECT_EQ(notes_of(*clip), "");
   EXPECT_NE(clip->info().timing.rate_from.find("com.android.capture.fps"), std::string::npos);
 }
 
@@ -199,10 +196,10 @@ TEST(CaptureRate, IsOnlyNamedWhereItFitsNoTimes) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   test::make(scratch, phone_clip("25", android("33")));
-  const auto clip = test::open_test_clip(scratch / "clip.mp4");
+  const auto clip = open_test_clip(scratch / "clip.mp4");
   EXPECT_EQ(clip->info().timing.rate, (Rational{25, 1}));
   ASSERT_EQ(clip->info().notes.size(), 1u);
-  EXPECT_NE(test::notes_of(*clip).find("its own times are taken"), std::string::npos);
+  EXPECT_NE(notes_of(*clip).find("its own times are taken"), std::string::npos);
   EXPECT_EQ(clip->info().notes[0].settings, std::vector{Setting::frame_rate});
 }
 
@@ -211,12 +208,12 @@ TEST(CaptureRate, ThatIsNoneIsSaid) {
   const Scratch scratch;
   for (const char* value : {"fast", "0", "-240", "nan", "1/0"}) {
     test::make(scratch, phone_clip("25", android(value)));
-    const auto clip = test::open_test_clip(scratch / "clip.mp4");
+    const auto clip = open_test_clip(scratch / "clip.mp4");
     EXPECT_EQ(clip->info().timing.rate, (Rational{25, 1})) << value;
     ASSERT_EQ(clip->info().notes.size(), 1u) << value;
-    EXPECT_NE(test::notes_of(*clip).find("com.android.capture.fps is '" + std::string(value) + "', which is no rate"),
+    EXPECT_NE(notes_of(*clip).find("com.android.capture.fps is '" + std::string(value) + "', which is no rate"),
               std::string::npos)
-        << test::notes_of(*clip);
+        << notes_of(*clip);
     EXPECT_EQ(clip->info().notes[0].settings, std::vector{Setting::frame_rate});
   }
 }
@@ -250,8 +247,8 @@ TEST(CaptureRate, KeepsTheUnevennessOfTimes) {
          {std::tuple("clip.mp4", "clip.mp4", 2.0), std::tuple("clip.mkv", "clip.mkv", 0.5e6 / 8 + 2)}) {
       SCOPED_TRACE(std::string(dropped.left_out) + " " + file);
       make_phone_clip_without(scratch, dropped.left_out, words);
-      const auto clip = test::open_test_clip(scratch / file);
-      EXPECT_NE(test::notes_of(*clip).find("which the file plays as 30"), std::string::npos) << test::notes_of(*clip);
+      const auto clip = open_test_clip(scratch / file);
+      EXPECT_NE(notes_of(*clip).find("which the file plays as 30"), std::string::npos) << notes_of(*clip);
       const Timeline timeline = timeline_of("", clip->info(), {}, clip->info().sample_count);
       ASSERT_FALSE(timeline.is_constant());
       std::uint64_t sample = 0;
@@ -274,13 +271,13 @@ TEST(CaptureRate, IsNotMistakenForSingleTimes) {
                             "'\" -fps_mode vfr -enc_time_base 1:60000 -movflags use_metadata_tags "
                             "-metadata com.android.capture.fps=240 -video_track_timescale 60000 "
                             "-c:v mpeg4 -y clip.mp4");
-    return test::open_test_clip(scratch / "clip.mp4");
+    return open_test_clip(scratch / "clip.mp4");
   };
   const auto late = clip_of("2000*N+1000*gte(N,30)");
-  EXPECT_NE(test::notes_of(*late).find("which the file plays as 30"), std::string::npos) << test::notes_of(*late);
+  EXPECT_NE(notes_of(*late).find("which the file plays as 30"), std::string::npos) << notes_of(*late);
   EXPECT_NEAR(static_cast<double>(late->info().timing.starts_ns[29]), 29e9 / 240, 2);
   const auto trembling = clip_of("250*N+14*mod(N*N,7)");
-  EXPECT_EQ(test::notes_of(*trembling).find("com.android"), std::string::npos) << test::notes_of(*trembling);
+  EXPECT_EQ(notes_of(*trembling).find("com.android"), std::string::npos) << notes_of(*trembling);
   EXPECT_EQ(trembling->info().timing.rate_from, "the file, as com.android.capture.fps says");
 }
 
@@ -293,12 +290,12 @@ TEST(CaptureRate, IsOnlyNamedWhereTimesFollowNoRate) {
       "-f lavfi -i testsrc2=s=32x32:d=1:r=30 -vf \"settb=1/1000,setpts='33*N+14*mod(N*N,7)'\" -fps_mode vfr "
       "-enc_time_base 1:1000 -movflags use_metadata_tags -metadata com.android.capture.fps=240 "
       "-video_track_timescale 1000 -c:v mpeg4 clip.mp4");
-  const auto clip = test::open_test_clip(scratch / "clip.mp4");
+  const auto clip = open_test_clip(scratch / "clip.mp4");
   ASSERT_FALSE(clip->info().timing.rate);
   EXPECT_EQ(clip->info().timing.starts_ns[1], 47'000'000);
-  EXPECT_NE(test::notes_of(*clip).find("at uneven times, of no rate that can be told: its own times are taken"),
+  EXPECT_NE(notes_of(*clip).find("at uneven times, of no rate that can be told: its own times are taken"),
             std::string::npos)
-      << test::notes_of(*clip);
+      << notes_of(*clip);
 }
 
 // Adds boxes at the end of the last box, moov.
@@ -324,7 +321,7 @@ TEST(CaptureRate, IsSamsungsByItsRecordingMode) {
        {std::pair{12, Rational{240, 1}}, {13, {120, 1}}, {21, {481, 2}}, {0, {30, 1}}}) {
     test::make(scratch, phone_clip("30", ""));
     add_to_moov(scratch / "clip.mp4", samsung_boxes(static_cast<char>(mode), fixed_point));
-    const auto clip = test::open_test_clip(scratch / "clip.mp4");
+    const auto clip = open_test_clip(scratch / "clip.mp4");
     EXPECT_EQ(clip->info().timing.rate, rate) << mode;
     EXPECT_EQ(clip->info().notes.empty(), mode == 0);
   }
@@ -337,11 +334,10 @@ TEST(CaptureRate, IsNotKnownOfAllOfSamsungsSlowModes) {
   for (const int mode : {7, 9, 22, 23, 21}) {
     test::make(scratch, phone_clip("30", ""));
     add_to_moov(scratch / "clip.mp4", samsung_boxes(static_cast<char>(mode), std::string(4, '\0')));
-    const auto clip = test::open_test_clip(scratch / "clip.mp4");
+    const auto clip = open_test_clip(scratch / "clip.mp4");
     EXPECT_EQ(clip->info().timing.rate, (Rational{30, 1})) << mode;
     ASSERT_EQ(clip->info().notes.size(), 1u) << mode;
-    EXPECT_NE(test::notes_of(*clip).find("calls the recording slow motion"), std::string::npos)
-        << test::notes_of(*clip);
+    EXPECT_NE(notes_of(*clip).find("calls the recording slow motion"), std::string::npos) << notes_of(*clip);
     EXPECT_EQ(clip->info().notes[0].settings, std::vector{Setting::frame_rate});
   }
 }
@@ -353,22 +349,22 @@ TEST(CaptureRate, IsNotKnownOfSamsungsSlowParts) {
   std::ofstream(scratch / "clip.mp4", std::ios::binary | std::ios::app)
       << std::string("\x00\x00\x90\x08", 4) << "SlowMotion_Data120*1*1" << std::string("\x20\x00\x00\x00", 4)
       << "SEFT";
-  const auto clip = test::open_test_clip(scratch / "clip.mp4");
+  const auto clip = open_test_clip(scratch / "clip.mp4");
   EXPECT_EQ(clip->info().timing.rate, (Rational{30, 1}));
-  EXPECT_NE(test::notes_of(*clip).find("slow motion"), std::string::npos) << test::notes_of(*clip);
+  EXPECT_NE(notes_of(*clip).find("slow motion"), std::string::npos) << notes_of(*clip);
 }
 
 TEST(CaptureRate, OfACineComesWithItsShutter) {
   const std::filesystem::path media = NUTIK_TEST_MEDIA;
   if (!std::filesystem::exists(media / "cine_781.cine")) GTEST_SKIP() << "no clips in " << media;
-  const auto clip = test::open_test_clip(media / "cine_781.cine");
+  const auto clip = open_test_clip(media / "cine_781.cine");
   EXPECT_EQ(clip->info().timing.exposed_ns, 9696);
   const Timeline timeline = timeline_of("", clip->info(), {}, 15);
   for (std::uint64_t k = 0; k < 15; ++k) {
     EXPECT_NEAR(static_cast<double>(timeline.end_ns(k) - timeline.start_ns(k)), 9696, 1) << k;
   }
   // The other has no list of exposures, but the setup's shutter of 70 µs.
-  const auto other = test::open_test_clip(media / "data_small_cine.cine");
+  const auto other = open_test_clip(media / "data_small_cine.cine");
   EXPECT_EQ(other->info().timing.exposed_ns, 70'000);
 }
 
@@ -394,7 +390,7 @@ TEST(CaptureRate, OfPhotronsComesWithAShutterThatStaysOpen) {
   const auto angle_of = [&](const std::string& lines) {
     scratch.write("raw.cih", lines);
     const ClipOptions raw{.raw = RawVideo{4, 4, "gray16le"}};
-    const auto clip = test::open_test_clip(scratch / "raw.mraw", raw);
+    const auto clip = open_test_clip(scratch / "raw.mraw", raw);
     EXPECT_TRUE(clip->info().timing.exposed_ns) << lines;
     return timeline_of("", clip->info(), raw, 3).shutter_angle().value();
   };
@@ -413,22 +409,21 @@ TEST(CaptureRate, OfPicturesIsThatOfTheHeaderBesideThem) {
   const Scratch scratch;
   const std::string header = "Record Rate(fps) : 1000\nShutter Speed(s) : 1/4000\n";
   std::filesystem::create_directories(scratch / "stills");
-  const std::vector<Picture> stills = test::random_stills({4, 4, 1}, 4095, 2, 1);
-  scratch.write("stills/a.pgm", test::netpbm_file(stills[0], true));
-  scratch.write("stills/b.pgm", test::netpbm_file(stills[1], true));
+  const std::vector<Picture> stills = random_stills({4, 4, 1}, 4095, 2, 1);
+  scratch.write("stills/a.pgm", netpbm_file(stills[0], true));
+  scratch.write("stills/b.pgm", netpbm_file(stills[1], true));
   scratch.write("stills/camera.cih", header);
   scratch.write("raw.mraw", std::string(4 * 4 * 2 * 3, '\1'));
   scratch.write("raw.cihx", "<recordRate>500</recordRate>");
   const ClipOptions raw{.raw = RawVideo{4, 4, "gray16le"}};
-  const auto folder = test::open_test_clip(scratch / "stills"),
-             file = test::open_test_clip(scratch / "raw.mraw", raw);
+  const auto folder = open_test_clip(scratch / "stills"), file = open_test_clip(scratch / "raw.mraw", raw);
   EXPECT_EQ(folder->info().timing.rate_from, "camera.cih");
   const Timeline timeline = timeline_of("", folder->info(), {}, 2);
   EXPECT_EQ(timeline.rate(), (Rational{1000, 1}));
   EXPECT_EQ(timeline.shutter_angle(), (Rational{90, 1}));
   EXPECT_EQ(timeline_of("", file->info(), raw, 3).rate(), (Rational{500, 1}));
   scratch.write("stills/other.cih", header);  // which of the two?
-  EXPECT_FALSE(test::open_test_clip(scratch / "stills")->info().timing.is_known());
+  EXPECT_FALSE(open_test_clip(scratch / "stills")->info().timing.is_known());
 }
 
 // The shared recording, whose header the camera wrote.
@@ -442,4 +437,4 @@ TEST(CaptureRate, OfARecordedHeaderIsTheCameras) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -10,14 +10,8 @@
 #include "support/scratch.hpp"
 #include "support/stills.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::message_of;
-using test::netpbm_file;
-using test::open_test_clip;
-using test::read_all;
-using test::Scratch;
 
 // A folder of stills that state their white code.
 void write_stills(const Scratch& scratch, const std::vector<Picture>& stills) {
@@ -27,7 +21,7 @@ void write_stills(const Scratch& scratch, const std::vector<Picture>& stills) {
   }
 }
 
-std::uint32_t code_at(std::span<const std::byte> raster, bool is_wide, std::size_t index) {
+std::uint32_t code_of(std::span<const std::byte> raster, bool is_wide, std::size_t index) {
   if (!is_wide) return std::to_integer<std::uint32_t>(raster[index]);
   return reinterpret_cast<const std::uint16_t*>(raster.data())[index];
 }
@@ -36,7 +30,7 @@ TEST(ClipPart, CutsARectangleOut) {
   for (const Shape& shape : {Shape{17, 9, 1}, Shape{17, 9, 3}}) {
     for (const std::uint32_t white : {255u, 4095u}) {
       const Scratch scratch;
-      const auto stills = test::random_stills(shape, white, 2, white);
+      const auto stills = random_stills(shape, white, 2, white);
       write_stills(scratch, stills);
       for (const Rectangle& crop : {Rectangle{0, 0, 17, 9}, Rectangle{3, 2, 5, 7}, Rectangle{16, 8, 1, 1}}) {
         const auto clip = open_test_clip(scratch.folder(), {.rate = Rational{100, 1}, .crop = crop});
@@ -48,8 +42,8 @@ TEST(ClipPart, CutsARectangleOut) {
           for (std::uint32_t y = 0; y < crop.height; ++y) {
             for (std::uint32_t i = 0; i < crop.width * shape.channels; ++i) {
               const std::size_t from = ((crop.y + y) * shape.width + crop.x) * shape.channels + i;
-              ASSERT_EQ(code_at(rasters[k], white > 255, y * crop.width * shape.channels + i),
-                        code_at(stills[k].bytes, white > 255, from));
+              ASSERT_EQ(code_of(rasters[k], white > 255, y * crop.width * shape.channels + i),
+                        code_of(stills[k].bytes, white > 255, from));
             }
           }
         }
@@ -83,7 +77,7 @@ long double mean_light(const Picture& still, const Transfer& transfer, const Rec
           ((area.y + v) * still.shape.width + area.x + u) * still.shape.channels + channel;
       const bool is_wide = still.type == ValueType::code16;
       if (share > 0) {
-        sum += share * light_of(transfer, static_cast<long double>(code_at(still.bytes, is_wide, index)) /
+        sum += share * light_of(transfer, static_cast<long double>(code_of(still.bytes, is_wide, index)) /
                                               still.white_code);
       }
     }
@@ -108,7 +102,7 @@ TEST(ClipPart, ScalesToMeansOfLight) {
     for (const std::uint32_t white : {255u, 1023u, 65'535u}) {
       for (const Transfer& transfer : {Transfer::srgb(), Transfer::linear(), Transfer::gamma(2.2)}) {
         const Scratch scratch;
-        const auto stills = test::random_stills({17, 9, channels}, white, 1, white + channels);
+        const auto stills = random_stills({17, 9, channels}, white, 1, white + channels);
         write_stills(scratch, stills);
         for (const Case& tested : cases) {
           SCOPED_TRACE(std::string(tested.scale) + ", white " + std::to_string(white) + ", " +
@@ -126,7 +120,7 @@ TEST(ClipPart, ScalesToMeansOfLight) {
             const std::uint32_t pixel = i / channels;
             const long double light = mean_light(stills[0], transfer, tested.area, scaled,
                                                  pixel % scaled.width, pixel / scaled.width, i % channels);
-            const long double code = code_at(raster, white > 255, i);
+            const long double code = code_of(raster, white > 255, i);
             // It rounds to this code, but for what double precision cannot tell at a border.
             const long double lower = code == 0 ? -1 : light_of(transfer, (code - 0.5L) / white),
                               upper = code == white ? 2 : light_of(transfer, (code + 0.5L) / white);
@@ -157,7 +151,7 @@ TEST(ClipPart, KeepsTheCodesOfEvenAreas) {
       const ClipOptions options{.rate = Rational{100, 1}, .transfer = transfer, .scale = parse_scale("16x4")};
       const auto raster = read_all(*open_test_clip(scratch.folder(), options)).at(0);
       for (std::size_t block = 0; block < 64; ++block) {
-        EXPECT_EQ(code_at(raster, white > 255, block), block * white / 63) << transfer.text();
+        EXPECT_EQ(code_of(raster, white > 255, block), block * white / 63) << transfer.text();
       }
     }
   }
@@ -167,7 +161,7 @@ TEST(ClipPart, KeepsTheCodesOfEvenAreas) {
 // 66666667, 100000000, 133333333, 166666667 ns.
 TEST(ClipPart, TakesThePicturesBetweenTwoMoments) {
   const Scratch scratch;
-  const auto stills = test::random_stills({4, 3, 1}, 255, 6, 1);
+  const auto stills = random_stills({4, 3, 1}, 255, 6, 1);
   write_stills(scratch, stills);
   struct Case {
     std::optional<ClipMoment> from, to;
@@ -188,14 +182,14 @@ TEST(ClipPart, TakesThePicturesBetweenTwoMoments) {
     const auto rasters = read_all(*clip);
     ASSERT_EQ(rasters.size(), tested.end - tested.first);
     for (std::size_t k = 0; k < rasters.size(); ++k) {
-      EXPECT_EQ(test::difference(rasters[k], stills[tested.first + k]), "");
+      EXPECT_EQ(difference(rasters[k], stills[tested.first + k]), "");
     }
   }
 }
 
 TEST(ClipPart, KeepsWhenItsPicturesWereExposed) {
   const Scratch scratch;
-  write_stills(scratch, test::random_stills({4, 3, 1}, 255, 4, 1));
+  write_stills(scratch, random_stills({4, 3, 1}, 255, 4, 1));
   const auto table = scratch.write("t.csv", "f0.pgm,0,5\nf1.pgm,10,7\nf2.pgm,30,20\nf3.pgm,70,1\n");
   const ClipOptions options{.from = ClipMoment{5, false}, .to = ClipMoment{70, false}};
   const auto clip = open_test_clip(table, options);
@@ -213,7 +207,7 @@ TEST(ClipPart, KeepsWhenItsPicturesWereExposed) {
 // A part's last picture holds until the clip's next one; the clip's last as long as the one before it.
 TEST(ClipPart, HoldsItsPicturesAsLongAsTheClip) {
   const Scratch scratch;
-  write_stills(scratch, test::random_stills({4, 3, 1}, 255, 4, 1));
+  write_stills(scratch, random_stills({4, 3, 1}, 255, 4, 1));
   const auto table = scratch.write("t.csv", "f0.pgm,0,\nf1.pgm,10,\nf2.pgm,30,\nf3.pgm,70,\n");
   const std::int64_t starts[] = {0, 10, 30, 70, 110};
   for (std::uint64_t first = 0; first < 4; ++first) {
@@ -257,7 +251,7 @@ TEST(ClipPart, OfAVideoHasTheSamePictures) {
 
 TEST(ClipPart, IsRefusedWhereTheClipHasNone) {
   const Scratch scratch;
-  write_stills(scratch, test::random_stills({17, 9, 1}, 255, 4, 1));
+  write_stills(scratch, random_stills({17, 9, 1}, 255, 4, 1));
   const auto refusal = [&](auto change, Rational rate = {100, 1}) {
     ClipOptions options{.rate = rate};
     change(options);
@@ -329,4 +323,4 @@ TEST(ClipPart, IsStatedInWords) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

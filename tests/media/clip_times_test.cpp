@@ -8,23 +8,14 @@
 #include "support/ffmpeg.hpp"
 #include "support/stills.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::bytes_of;
-using test::difference;
-using test::expect_clip_refused;
-using test::from_raw;
-using test::make;
-using test::open_test_clip;
-using test::read_all;
-using test::Scratch;
 
 // Times in ms, that fit no rate.
 const std::vector<std::int64_t> kStarts{0, 40, 80, 120, 240, 250, 490};
 
 void make_irregular(const Scratch& scratch, const std::string& output, const std::string& codec) {
-  const auto pictures = test::random_stills({32, 16, 1}, 255, static_cast<int>(kStarts.size()), 2);
+  const auto pictures = random_stills({32, 16, 1}, 255, static_cast<int>(kStarts.size()), 2);
   scratch.write("raw", bytes_of(pictures));
   std::string times;
   for (std::size_t k = 0; k < kStarts.size(); ++k) {
@@ -65,7 +56,7 @@ TEST(ClipTimes, RefusesTimesThatDoNotIncrease) {
   const Scratch scratch;
   make_irregular(scratch, "clip.mkv", "-c:v ffv1 -pix_fmt gray");
   // A block's header: track 1, then the time after the cluster's in 16 bits.
-  std::string bytes = test::read_file(scratch / "clip.mkv");
+  std::string bytes = read_file(scratch / "clip.mkv");
   const auto at = bytes.find(std::string("\x81\x00\xFA", 3));  // 250 ms
   ASSERT_NE(at, std::string::npos);
   bytes[at + 2] = '\xF0';  // 240 ms, as the picture before
@@ -83,7 +74,7 @@ TEST(ClipTimes, ThatRunBackAreThoseOfTwoClips) {
   const Scratch scratch;
   for (const std::string clip : {"clip.ts", "clip.mpg"}) {
     test::make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25:d=1 -c:v mpeg2video -bf 2 " + clip);
-    const std::string bytes = test::read_file(scratch / clip);
+    const std::string bytes = read_file(scratch / clip);
     const auto twice = scratch.write("twice-" + clip, bytes + bytes);
     expect_clip_refused(twice, {}, "does not say how fast it was taken: its times run back at picture 25, as if");
     const ClipOptions stated{.rate = Rational{25, 1}};
@@ -100,7 +91,7 @@ struct ProbedTimes {
 };
 
 ProbedTimes probed(const Scratch& scratch, const std::string& clip) {
-  const auto said = test::run_shell(
+  const auto said = run_shell(
       "ffprobe -v error -select_streams v -show_frames -show_entries "
       "stream=time_base:frame=best_effort_timestamp "
       "-of default=nw=1 " +
@@ -206,7 +197,7 @@ TEST(ClipTimes, OfAStreamCutInItsMiddleAreThoseOfTheDecodedPictures) {
   for (const TimedClip& clip : clips) {
     const Scratch scratch;
     make_timed(scratch, clip, kSlots);
-    const std::string whole = test::read_file(scratch / clip.name);
+    const std::string whole = read_file(scratch / clip.name);
     for (const double share : {0.2, 0.35, 0.5}) {
       SCOPED_TRACE(clip.name + " from " + std::to_string(share));
       const std::string name = "cut-" + clip.name;
@@ -277,7 +268,7 @@ TEST(ClipTimes, NoRateIsInventedFromThreePictures) {
 TEST(ClipTimes, GivesTheCodesThatCineFilesHold) {
   const std::filesystem::path media = NUTIK_TEST_MEDIA;
   if (!std::filesystem::exists(media / "cine_781.cine")) GTEST_SKIP() << "no clips in " << media;
-  const std::string file = test::read_file(media / "cine_781.cine");
+  const std::string file = read_file(media / "cine_781.cine");
   const auto u32 = [&](std::size_t at) {
     std::uint32_t value = 0;
     std::memcpy(&value, file.data() + at, 4);
@@ -314,4 +305,4 @@ TEST(ClipTimes, GivesTheCodesThatCineFilesHold) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -16,12 +16,8 @@
 #include "support/scratch.hpp"
 #include "support/stills.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::facts_of;
-using test::open_test_clip;
-using test::Scratch;
 
 // Whatever this program writes, it reads as what it is.
 TEST(ColourProfile, OfWhatIsWrittenHereIsBelieved) {
@@ -36,8 +32,7 @@ TEST(ColourProfile, OfWhatIsWrittenHereIsBelieved) {
         if (is_deep && is_lossy_name(name)) continue;
         for (const Primaries primaries : {Primaries::bt709, Primaries::bt2020, Primaries::p3}) {
           for (const Transfer& transfer : transfers) {
-            Picture picture =
-                test::random_stills({16, 16, channels}, is_deep ? 65'535 : 255, 1, channels).front();
+            Picture picture = random_stills({16, 16, channels}, is_deep ? 65'535 : 255, 1, channels).front();
             picture.transfer = transfer;
             picture.primaries = primaries;
             write_picture(scratch / name, picture);
@@ -73,7 +68,7 @@ double srgb_light(double code) {
   return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
 }
 
-std::string bytes_of(cmsHPROFILE profile, const char* name) {
+std::string profile_bytes(cmsHPROFILE profile, const char* name) {
   cmsMLU* text = cmsMLUalloc(nullptr, 1);
   cmsMLUsetASCII(text, "en", "US", name);
   cmsWriteTag(profile, cmsSigProfileDescriptionTag, text);
@@ -89,7 +84,7 @@ std::string bytes_of(cmsHPROFILE profile, const char* name) {
 std::string rgb_profile(const char* name, cmsToneCurve* curve, const cmsCIExyYTRIPLE& primaries) {
   const cmsCIExyY white{0.3127, 0.3290, 1};
   cmsToneCurve* curves[]{curve, curve, curve};
-  return bytes_of(cmsCreateRGBProfile(&white, &primaries, curves), name);
+  return profile_bytes(cmsCreateRGBProfile(&white, &primaries, curves), name);
 }
 
 constexpr cmsCIExyYTRIPLE kSrgb{{0.64, 0.33, 1}, {0.30, 0.60, 1}, {0.15, 0.06, 1}};
@@ -99,7 +94,7 @@ constexpr cmsCIExyYTRIPLE kAdobe{{0.64, 0.33, 1}, {0.21, 0.71, 1}, {0.15, 0.06, 
 void write_jpeg_with(const std::filesystem::path& path, const std::string& profile,
                      std::size_t part_bytes = 60'000) {
   ASSERT_TRUE(cv::imwrite(path.string(), cv::Mat(16, 16, CV_8UC3, cv::Scalar(40, 80, 160))));
-  std::string jpeg = test::read_file(path);
+  std::string jpeg = read_file(path);
   const std::size_t parts = (profile.size() + part_bytes - 1) / part_bytes;
   std::string segments;
   for (std::size_t i = 0; i < parts; ++i) {
@@ -117,7 +112,7 @@ TEST(ColourProfile, OfSrgbByOtherProgramsIsBelieved) {
   const Scratch scratch;
   const Curve table = table_of(1024, srgb_light);
   const std::map<std::string, std::string> profiles{
-      {"GIMP built-in sRGB", bytes_of(cmsCreate_sRGBProfile(), "GIMP built-in sRGB")},
+      {"GIMP built-in sRGB", profile_bytes(cmsCreate_sRGBProfile(), "GIMP built-in sRGB")},
       {"sRGB IEC61966-2.1", rgb_profile("sRGB IEC61966-2.1", table.get(), kSrgb)}};
   for (const auto& [name, profile] : profiles) {
     for (const std::size_t part_bytes : {60'000, 500}) {
@@ -162,7 +157,7 @@ TEST(ColourProfile, OfACurveThatIsNotKnownIsNamed) {
 
 TEST(ColourProfile, ThatIsDamagedIsNamed) {
   const Scratch scratch;
-  std::string profile = bytes_of(cmsCreate_sRGBProfile(), "sRGB");
+  std::string profile = profile_bytes(cmsCreate_sRGBProfile(), "sRGB");
   profile.resize(200);
   write_jpeg_with(scratch / "still.jpg", profile);
   const auto clip = open_test_clip(scratch / "still.jpg");
@@ -175,22 +170,22 @@ TEST(ColourProfile, ThatIsDamagedIsNamed) {
 TEST(ColourProfile, OfOneStillIsThatOfAll) {
   const Scratch scratch;
   const Curve linear(cmsBuildGamma(nullptr, 1), &cmsFreeToneCurve);
-  write_jpeg_with(scratch / "1.jpg", bytes_of(cmsCreate_sRGBProfile(), "sRGB"));
+  write_jpeg_with(scratch / "1.jpg", profile_bytes(cmsCreate_sRGBProfile(), "sRGB"));
   write_jpeg_with(scratch / "2.jpg", rgb_profile("linear", linear.get(), kSrgb));
   const auto clip = open_test_clip(scratch.folder());
-  const auto error = test::error_of<InputError>([&] { test::read_all(*clip); });
+  const auto error = error_of<InputError>([&] { read_all(*clip); });
   ASSERT_TRUE(error) << "both were read";
   EXPECT_NE(std::string(error->what()).find("2.jpg has transfer linear"), std::string::npos) << error->what();
   EXPECT_EQ(error->settings(), std::vector{Setting::transfer});
-  EXPECT_EQ(test::read_all(*open_test_clip(scratch.folder(), {.transfer = Transfer::srgb()})).size(), 2u);
+  EXPECT_EQ(read_all(*open_test_clip(scratch.folder(), {.transfer = Transfer::srgb()})).size(), 2u);
   // What is not known is not what is usual.
   const Curve other(cmsBuildParametricToneCurve(nullptr, 4, std::array{1.8, 0.9, 0.1, 0.08, 0.05}.data()),
                     &cmsFreeToneCurve);
   write_jpeg_with(scratch / "2.jpg", rgb_profile("other", other.get(), kSrgb));
-  test::expect_error<InputError>(
-      [&] { test::read_all(*open_test_clip(scratch.folder())); },
+  expect_error<InputError>(
+      [&] { read_all(*open_test_clip(scratch.folder())); },
       {"2.jpg has transfer the ICC profile 'other' and primaries bt709, the first still, ", "srgb and bt709"});
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -16,10 +16,8 @@
 #include "support/scratch.hpp"
 #include "support/stills.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Scratch;
 
 // Where the luma and chroma of pixel (x, y) lie in a picture of `shape`, in bytes.
 struct YuvPlaces {
@@ -67,7 +65,7 @@ constexpr YuvKind kYuvKinds[] = {{"yuv420p", 2, 2, planar<2, 2>},
 // Every code of YUV, of every kind of pixels, against the matrix in real numbers. A pixel's chroma is that of the
 // sample which it shares.
 TEST(ColourVideo, HasTheNearestCodesThatThereAre) {
-  test::Random random(4);
+  Random random(4);
   double worst = 0;
   for (const YuvKind& kind : kYuvKinds) {
     for (const Shape shape : {Shape{4, 4, 3}, Shape{20, 12, 3}, Shape{100, 8, 3}, Shape{128, 36, 3}}) {
@@ -85,7 +83,7 @@ TEST(ColourVideo, HasTheNearestCodesThatThereAre) {
                                     .raw = RawVideo{shape.width, shape.height, kind.name},
                                     .matrix = matrix,
                                     .range = range};
-          const auto codes = test::read_all(*test::open_test_clip(scratch / "raw", options)).at(0);
+          const auto codes = read_all(*open_test_clip(scratch / "raw", options)).at(0);
           const bool is_full = range == CodeRange::full;
           const auto byte = [&](std::size_t at) { return double(static_cast<unsigned char>(raw[at])); };
           for (std::size_t y = 0; y < shape.height; ++y) {
@@ -116,7 +114,7 @@ TEST(ColourVideo, HasTheNearestCodesThatThereAre) {
 // Every picture of a clip, in its order. OpenCV cuts off luma, and what both chromas add to green, by up to 3 codes.
 void expect_near_opencv(const std::filesystem::path& path, int apart) {
   SCOPED_TRACE(path.filename());
-  const auto rasters = test::read_all(*test::open_test_clip(path));
+  const auto rasters = read_all(*open_test_clip(path));
   cv::VideoCapture capture(path.string(), cv::CAP_FFMPEG);
   ASSERT_TRUE(capture.isOpened());
   cv::Mat bgr, rgb;
@@ -136,8 +134,8 @@ TEST(ColourVideo, OfRgbHasTheCodesOfOpenCv) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   for (const Shape& shape : {Shape{16, 8, 3}, Shape{17, 9, 3}, Shape{101, 7, 3}, Shape{640, 34, 3}}) {
-    scratch.write("raw", test::bytes_of(test::random_stills(shape, 255, 5, 7)));
-    test::make(scratch, test::from_raw(shape, "rgb24") + "-c:v ffv1 -pix_fmt bgr0 clip.mkv");
+    scratch.write("raw", bytes_of(random_stills(shape, 255, 5, 7)));
+    test::make(scratch, from_raw(shape, "rgb24") + "-c:v ffv1 -pix_fmt bgr0 clip.mkv");
     expect_near_opencv(scratch / "clip.mkv", 0);
   }
 }
@@ -156,7 +154,7 @@ TEST(ColourVideo, IsShownWithTheCurveOfSrgb) {
   const Scratch scratch;
   test::make(scratch,
              "-f lavfi -i color=red:s=16x16:d=0.2 -c:v ffv1 -pix_fmt yuv420p -color_trc bt709 clip.mkv");
-  const auto clip = test::open_test_clip(scratch / "clip.mkv");
+  const auto clip = open_test_clip(scratch / "clip.mkv");
   EXPECT_EQ(clip->info().format.transfer, Transfer::srgb());
   EXPECT_EQ(clip->info().roundings, (CodeRoundings{0.525, {"chroma"}})) << "of its RGB";
 }
@@ -176,9 +174,9 @@ TEST(ColourVideo, FollowsTheMatrixThatTheFileNames) {
     scratch.write("raw", raw);
     for (const char* matrix : {"bt709", "bt601"}) {
       const std::string tag = matrix == std::string("bt709") ? "bt709" : "smpte170m";
-      test::make(scratch, test::from_raw(shape, "rgb24") + "-vf scale=out_color_matrix=" + matrix +
+      test::make(scratch, from_raw(shape, "rgb24") + "-vf scale=out_color_matrix=" + matrix +
                               ",format=yuv420p -c:v ffv1 -colorspace " + tag + " clip.mkv");
-      const auto codes = test::read_all(*test::open_test_clip(scratch / "clip.mkv")).at(0);
+      const auto codes = read_all(*open_test_clip(scratch / "clip.mkv")).at(0);
       for (std::size_t i = 0; i < codes.size(); ++i) {
         ASSERT_LE(std::abs(std::to_integer<int>(codes[i]) - colour[i % 3]), kRounding) << matrix << ", " << i;
       }
@@ -187,4 +185,4 @@ TEST(ColourVideo, FollowsTheMatrixThatTheFileNames) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -12,20 +12,15 @@
 #include "support/stills.hpp"
 #include "system/mapped_file.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::make;
-using test::open_test_clip;
-using test::read_all;
-using test::Scratch;
 
 // A limit that follows from a file's size has a limit itself: FFmpeg's settings are ints.
 TEST(Containers, WithoutASizeAreReadHoweverLargeTheyAre) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   constexpr Shape kShape{352, 288, 1};
-  scratch.write("raw", test::bytes_of(test::random_stills(kShape, 255, 12, 1)));
+  scratch.write("raw", bytes_of(random_stills(kShape, 255, 12, 1)));
   for (const auto& [name, codec] : std::vector<std::pair<std::string, std::string>>{
            {"a.ts", "-c:v mpeg2video -q:v 1"},
            {"a.mts", "-c:v libx264 -preset ultrafast -qp 4 -f mpegts"},
@@ -41,7 +36,7 @@ TEST(Containers, WithoutASizeAreReadHoweverLargeTheyAre) {
            {"a.drc", "-c:v vc2"},
            {"a.dv", "-s 720x576 -pix_fmt yuv420p"}}) {
     SCOPED_TRACE(name);
-    make(scratch, test::from_raw(kShape, "gray") + "-pix_fmt yuv420p " + codec + " " + name);
+    make(scratch, from_raw(kShape, "gray") + "-pix_fmt yuv420p " + codec + " " + name);
     ASSERT_GT(std::filesystem::file_size(scratch / name), 261'000u);
     EXPECT_EQ(read_all(*open_test_clip(scratch / name, {.interlaced = Interlaced::ignored})).size(), 12u);
   }
@@ -49,7 +44,7 @@ TEST(Containers, WithoutASizeAreReadHoweverLargeTheyAre) {
 
 // What stands in backquotes in that row of SECURITY.md.
 std::set<std::string> listed(const std::string& row) {
-  std::istringstream page(test::read_file(NUTIK_SECURITY_PAGE));
+  std::istringstream page(read_file(NUTIK_SECURITY_PAGE));
   std::set<std::string> names;
   for (std::string line; std::getline(page, line);) {
     if (!line.starts_with("| " + row)) continue;
@@ -81,7 +76,7 @@ TEST(Containers, ThatNameOtherFilesAreRefused) {
   EXPECT_EQ(read_all(*open_test_clip(scratch / "a.ts")).size(), 25u);
   const auto said_of = [&](const std::string& name, const std::string& text) {
     const auto path = scratch.write(name, text);
-    return test::message_of<InputError>([&] { read_all(*open_test_clip(path)); });
+    return message_of<InputError>([&] { read_all(*open_test_clip(path)); });
   };
   const std::string hls = "#EXTM3U\n#EXT-X-TARGETDURATION:1\n#EXTINF:1,\na.ts\n";
   for (const auto& [name, kind, text] : std::vector<std::tuple<std::string, std::string, std::string>>{
@@ -137,7 +132,7 @@ TEST(Containers, OfWhichTooLittleIsKnownAreRefusedByName) {
             " is no video that can be read: it is taken for wav (WAV / WAVE (Waveform Audio)), which is not read"},
            {"a.ser", " is no video that can be read: it is taken for ser ("},
            {"a.ser", "which would be read with bytes, depth and times as few of its writers mean them"}}) {
-    test::expect_clip_refused(scratch / name, {}, (said.starts_with(' ') ? name : "") + said);
+    expect_clip_refused(scratch / name, {}, (said.starts_with(' ') ? name : "") + said);
   }
 }
 
@@ -150,7 +145,7 @@ TEST(Containers, HaveTheNameThatWasStatedWhateverItLooksLike) {
   std::filesystem::rename(scratch / "whole.mkv", scratch / "file:part.mkv");
   std::filesystem::copy_file(scratch / "part.mkv", scratch / "12:30:01.mkv");
   const auto in = [&](const std::vector<std::string>& words) {
-    const auto ran = test::run_program(words, scratch.folder());
+    const auto ran = run_program(words, scratch.folder());
     EXPECT_EQ(ran.status, 0) << ran.err;
     return ran.out;
   };
@@ -168,7 +163,7 @@ TEST(Containers, WhoseRateNobodyStatesNeedOne) {
   const std::string untold = " does not say how fast it was taken; state the rate";
   const auto expect_untold = [&](const std::string& name, const std::string& said) {
     SCOPED_TRACE(name);
-    test::expect_clip_refused(scratch / name, {}, name + said);
+    expect_clip_refused(scratch / name, {}, name + said);
     const ClipOptions stated{.rate = Rational{240, 1}};
     const auto clip = open_test_clip(scratch / name, stated);
     EXPECT_GT(read_all(*clip).size(), 0u);
@@ -183,14 +178,14 @@ TEST(Containers, WhoseRateNobodyStatesNeedOne) {
   make(scratch, film + "-c:v mjpeg -pix_fmt yuvj420p a.mjpeg");
   make(scratch, film + "-c:v mjpeg -pix_fmt yuvj420p -f mpjpeg a.mpjpeg");
   make(scratch, film + "-c:v mjpeg -pix_fmt yuvj420p told.avi");
-  std::string avi = test::read_file(scratch / "told.avi");
+  std::string avi = read_file(scratch / "told.avi");
   const std::string junk("JUNK\xEC\xFF\0\0", 8);  // fills the 64 KiB that are searched for a rate
   scratch.write("junk.avi", avi.substr(0, 12) + junk + std::string(65'512, '.') + "strh" + avi.substr(12));
   avi.replace(avi.find("avih") + 8, 4, 4, '\0');
   avi.replace(avi.find("strh") + 28, 8, 8, '\0');
   scratch.write("a.avi", avi);
   make(scratch, film + "told.gif");
-  std::string gif = test::read_file(scratch / "told.gif");
+  std::string gif = read_file(scratch / "told.gif");
   const std::string control = "\x21\xF9\x04";
   for (auto at = gif.find(control); at != gif.npos; at = gif.find(control, at + 1))
     gif.replace(at + 4, 2, 2, '\0');
@@ -229,7 +224,7 @@ TEST(Containers, WithAnEditListGivePicturesOnceInTheirOrder) {
   const Scratch scratch;
   make(scratch,
        "-f lavfi -i testsrc2=s=64x48:r=100 -frames:v 20 -c:v libx264 -bf 0 -pix_fmt yuv420p whole.mp4");
-  const std::string whole = test::read_file(scratch / "whole.mp4");
+  const std::string whole = read_file(scratch / "whole.mp4");
   const auto plain = open_test_clip(scratch / "whole.mp4");
   EXPECT_TRUE(plain->info().notes.empty());
   const auto pictures = read_all(*plain);
@@ -250,13 +245,13 @@ TEST(Containers, NameWhatIsMissingOrNotKnown) {
   const Scratch scratch;
   const std::string film = "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 5 -pix_fmt ";
   make(scratch, film + "yuv420p -c:v libx264 a.mp4");
-  const std::string whole = test::read_file(scratch / "a.mp4");
-  test::expect_clip_refused(scratch.write("b.mp4", whole.substr(0, whole.find("moov") - 4)), {},
-                            "its index (moov) is missing");
+  const std::string whole = read_file(scratch / "a.mp4");
+  expect_clip_refused(scratch.write("b.mp4", whole.substr(0, whole.find("moov") - 4)), {},
+                      "its index (moov) is missing");
   make(scratch, film + "gray -c:v rawvideo a.avi");
-  std::string avi = test::read_file(scratch / "a.avi");
+  std::string avi = read_file(scratch / "a.avi");
   for (auto at = avi.find("Y800"); at != avi.npos; at = avi.find("Y800", at)) avi.replace(at, 4, "BA81");
-  test::expect_clip_refused(scratch.write("b.avi", avi), {}, "which the file calls 'BA81'");
+  expect_clip_refused(scratch.write("b.avi", avi), {}, "which the file calls 'BA81'");
   make(scratch, "-i a.mp4 -i a.mp4 -map 0 -map 1 -c copy two.mkv");
   const auto notes = open_test_clip(scratch / "two.mkv")->info().notes;
   ASSERT_EQ(notes.size(), 1u);
@@ -270,7 +265,7 @@ TEST(Containers, OfASongWithACoverHoldNoFilm) {
   make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 1 cover.jpg");
   const std::string song = "-f lavfi -i sine=d=1 -i cover.jpg ", cover = "-disposition:v:0 attached_pic ";
   make(scratch, song + "-map 0 -map 1 -c:a aac -c:v copy " + cover + "song.m4a");
-  test::expect_clip_refused(scratch / "song.m4a", {}, "song.m4a has no video stream");
+  expect_clip_refused(scratch / "song.m4a", {}, "song.m4a has no video stream");
   make(scratch, song + "-f lavfi -i testsrc2=s=32x32:r=25:d=0.04 -map 0 -map 1 -map 2 -c:a aac -c:v:0 copy "
                        "-c:v:1 mpeg4 " + cover + "film.mp4");
   const auto clip = open_test_clip(scratch / "film.mp4");
@@ -305,7 +300,7 @@ TEST(Containers, ThatWereCutOffWarn) {
     SCOPED_TRACE(name);
     make(scratch, film + codec + " " + name);
     EXPECT_TRUE(std::ranges::none_of(open_test_clip(scratch / name)->info().notes, &Note::is_warning));
-    const std::string whole = test::read_file(scratch / name);
+    const std::string whole = read_file(scratch / name);
     const auto cut = open_test_clip(scratch.write("cut-" + name, whole.substr(0, whole.size() * 2 / 3)));
     EXPECT_TRUE(std::ranges::any_of(cut->info().notes, &Note::is_warning));
   }
@@ -319,7 +314,7 @@ TEST(Containers, WithoutAnIndexAreReadToTheirEnd) {
   const auto pictures = read_all(*open_test_clip(scratch / "a.nut"));
   EXPECT_EQ(pictures.size(), 20u);
   EXPECT_TRUE(open_test_clip(scratch / "a.nut")->info().notes.empty());
-  const std::string whole = test::read_file(scratch / "a.nut");
+  const std::string whole = read_file(scratch / "a.nut");
   for (const std::size_t missing : {1u, 2u, 10u, 100u}) {
     const auto cut = open_test_clip(scratch.write("cut.nut", whole.substr(0, whole.size() - missing)));
     ASSERT_EQ(cut->info().notes.size(), 1u) << missing;
@@ -333,7 +328,7 @@ TEST(Containers, ThatWereStreamedAndCutOffWarn) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 20 -c:v libx264 -live 1 a.mkv");
-  const std::string whole = test::read_file(scratch / "a.mkv");
+  const std::string whole = read_file(scratch / "a.mkv");
   EXPECT_TRUE(open_test_clip(scratch / "a.mkv")->info().notes.empty());
   constexpr std::size_t kBytes = 300;
   std::size_t silent = 0, pictures = 20;
@@ -361,4 +356,4 @@ TEST(Containers, ThatAreMadeShorterWhileTheyAreReadAreNoticed) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

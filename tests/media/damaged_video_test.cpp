@@ -7,12 +7,8 @@
 #include "support/random_case.hpp"
 #include "support/stills.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::open_test_clip;
-using test::read_all;
-using test::Scratch;
 
 constexpr Shape kVideoShape{64, 48, 1};
 constexpr int kPictures = 30;
@@ -20,13 +16,13 @@ constexpr int kPictures = 30;
 class DamagedVideo : public testing::Test {
  protected:
   void make_clip(const std::string& codec, const std::string& name) const {
-    const auto pictures = test::random_stills(kVideoShape, 255, kPictures, 1);
-    scratch_.write("raw", test::bytes_of(pictures));
-    test::make(scratch_, test::from_raw(kVideoShape, "gray") + codec + " " + name);
+    const auto pictures = random_stills(kVideoShape, 255, kPictures, 1);
+    scratch_.write("raw", bytes_of(pictures));
+    test::make(scratch_, from_raw(kVideoShape, "gray") + codec + " " + name);
   }
   // A copy of whole.mkv in whose middle the bytes of three pictures are lost.
   std::filesystem::path write_hole() const {
-    std::string damaged = test::read_file(scratch_ / "whole.mkv");
+    std::string damaged = read_file(scratch_ / "whole.mkv");
     const std::size_t lost = 3 * (damaged.size() / kPictures);
     damaged.replace(damaged.size() / 2, lost, lost, '\x0f');
     return scratch_.write("damaged.mkv", damaged);
@@ -37,10 +33,10 @@ class DamagedVideo : public testing::Test {
 TEST_F(DamagedVideo, OfFfv1IsNeverExposedSilently) {
   NEEDS_FFMPEG();
   make_clip("-c:v ffv1 -level 3 -slices 4 -slicecrc 1", "whole.mkv");
-  const std::string whole = test::read_file(scratch_ / "whole.mkv");
+  const std::string whole = read_file(scratch_ / "whole.mkv");
   const auto pictures = read_all(*open_test_clip(scratch_ / "whole.mkv"));
   ASSERT_EQ(pictures.size(), std::size_t{kPictures});
-  test::Random random(7);
+  Random random(7);
   int refused = 0;
   for (int flip = 0; flip < 40; ++flip) {
     std::string damaged = whole;
@@ -66,7 +62,7 @@ TEST_F(DamagedVideo, WithAHoleIsRefused) {
   make_clip("-c:v ffv1 -level 3", "whole.mkv");
   const auto pictures = read_all(*open_test_clip(scratch_ / "whole.mkv"));
   const auto path = write_hole();
-  const std::string said = test::message_of<InputError>([&] { read_all(*open_test_clip(path)); });
+  const std::string said = message_of<InputError>([&] { read_all(*open_test_clip(path)); });
   EXPECT_NE(said.find("pictures before it can be taken"), std::string::npos) << said;
   const auto clip = open_test_clip(path, {.ends_at_damage = true});
   const auto read = read_all(*clip);
@@ -83,7 +79,7 @@ TEST_F(DamagedVideo, WithAHoleBeforeAPartIsRefused) {
   const auto pictures = read_all(*open_test_clip(scratch_ / "whole.mkv"));
   const auto path = write_hole();
   const ClipOptions options{.from = ClipMoment{22, true}};
-  const std::string said = test::message_of<InputError>([&] { read_all(*open_test_clip(path, options)); });
+  const std::string said = message_of<InputError>([&] { read_all(*open_test_clip(path, options)); });
   EXPECT_NE(said.find("pictures are missing behind the first "), std::string::npos) << said;
   EXPECT_TRUE(read_all(*open_test_clip(scratch_ / "whole.mkv", options)) ==
               std::vector(pictures.begin() + 22, pictures.end()));
@@ -93,7 +89,7 @@ TEST_F(DamagedVideo, WithAHoleBeforeAPartIsRefused) {
 TEST_F(DamagedVideo, WithoutItsStartSaysSo) {
   NEEDS_FFMPEG();
   make_clip("-c:v ffv1 -level 3 -g 1 -cluster_time_limit 200", "whole.mkv");
-  std::string damaged = test::read_file(scratch_ / "whole.mkv");
+  std::string damaged = read_file(scratch_ / "whole.mkv");
   const auto pictures = read_all(*open_test_clip(scratch_ / "whole.mkv"));
   const std::string cluster = "\x1F\x43\xB6\x75";
   const auto first = damaged.find(cluster), later = damaged.find(cluster, damaged.size() / 3);
@@ -145,7 +141,7 @@ TEST_F(DamagedVideo, IsNoneThatWasCutWithoutEncodingIt) {
 TEST_F(DamagedVideo, OfMorePixelsThanItsBytesHoldIsRefused) {
   const auto said_of = [&](const char* size) {
     const auto path = scratch_.write("a.y4m", std::string("YUV4MPEG2 ") + size + " F25:1 C420jpeg\nFRAME\n1234");
-    return test::message_of<InputError>([&] { read_all(*open_test_clip(path)); });
+    return message_of<InputError>([&] { read_all(*open_test_clip(path)); });
   };
   const std::string said = said_of("W12000 H12000");
   EXPECT_NE(said.find("12000 x 12000 pixels are more than its "), std::string::npos) << said;
@@ -156,12 +152,12 @@ TEST_F(DamagedVideo, OfMorePixelsThanItsBytesHoldIsRefused) {
 TEST_F(DamagedVideo, IsTakenAsFarAsItGoesWhereThatIsAsked) {
   NEEDS_FFMPEG();
   make_clip("-c:v ffv1 -level 3 -slices 4 -slicecrc 1", "whole.mkv");
-  const std::string whole = test::read_file(scratch_ / "whole.mkv");
+  const std::string whole = read_file(scratch_ / "whole.mkv");
   const auto pictures = read_all(*open_test_clip(scratch_ / "whole.mkv"));
   std::string damaged = whole;
   damaged[whole.size() * 2 / 3] = static_cast<char>(damaged[whole.size() * 2 / 3] ^ 8);
   const auto path = scratch_.write("damaged.mkv", damaged);
-  const auto error = test::error_of<InputError>([&] { read_all(*open_test_clip(path)); });
+  const auto error = error_of<InputError>([&] { read_all(*open_test_clip(path)); });
   ASSERT_TRUE(error) << "it was read";
   EXPECT_EQ(error->settings(), std::vector{Setting::end_at_damage}) << error->what();
   const ClipOptions options{.ends_at_damage = true};
@@ -188,14 +184,13 @@ TEST_F(DamagedVideo, IsTakenAsFarAsItGoesWhereThatIsAsked) {
 
 // Whatever is wrong with a picture, the way out is named: those before it. Of the first there is none.
 TEST_F(DamagedVideo, NamesThePicturesThatCanBeTaken) {
-  const auto stills = test::random_stills({8, 8, 1}, 255, 4, 1);
+  const auto stills = random_stills({8, 8, 1}, 255, 4, 1);
   for (int k = 0; k < 4; ++k) {
-    scratch_.write(
-        "s" + std::to_string(k) + ".pgm",
-        k == 2 ? "P5\n8 8\n255\nshort" : test::netpbm_file(stills[static_cast<std::size_t>(k)], true));
+    scratch_.write("s" + std::to_string(k) + ".pgm",
+                   k == 2 ? "P5\n8 8\n255\nshort" : netpbm_file(stills[static_cast<std::size_t>(k)], true));
   }
   const auto refusal = [&](const std::string& pattern) {
-    const auto error = test::error_of<InputError>([&] { read_all(*open_test_clip(scratch_ / pattern)); });
+    const auto error = error_of<InputError>([&] { read_all(*open_test_clip(scratch_ / pattern)); });
     return error.value_or(InputError("it was read"));
   };
   const InputError of_third = refusal("s*.pgm"), of_first = refusal("s[23].pgm");
@@ -224,7 +219,7 @@ TEST_F(DamagedVideo, ThatWasCutOffSaysSo) {
     SCOPED_TRACE(name);
     make_clip(codec, name);
     EXPECT_TRUE(open_test_clip(scratch_ / name)->info().notes.empty());
-    const std::string whole = test::read_file(scratch_ / name);
+    const std::string whole = read_file(scratch_ / name);
     for (const double share : {0.3, 0.5, 0.7}) {
       const auto path = scratch_.write(
           "cut-" + name,
@@ -240,9 +235,9 @@ TEST_F(DamagedVideo, ThatWasCutOffSaysSo) {
 
 TEST_F(DamagedVideo, WithSoundThatLastsLongerIsWhole) {
   NEEDS_FFMPEG();
-  scratch_.write("raw", test::bytes_of(test::random_stills(kVideoShape, 255, kPictures, 1)));
+  scratch_.write("raw", bytes_of(random_stills(kVideoShape, 255, kPictures, 1)));
   for (const char* name : {"s.mkv", "s.mp4", "s.avi"}) {
-    test::make(scratch_, test::from_raw(kVideoShape, "gray") +
+    test::make(scratch_, from_raw(kVideoShape, "gray") +
                              "-f lavfi -i sine=duration=5 -c:v mjpeg -pix_fmt yuvj420p -c:a aac " + name);
     const auto clip = open_test_clip(scratch_ / name);
     EXPECT_TRUE(clip->info().notes.empty()) << name << ": " << clip->info().notes.front().text;
@@ -251,4 +246,4 @@ TEST_F(DamagedVideo, WithSoundThatLastsLongerIsWhole) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -15,10 +15,8 @@
 #include "support/scratch.hpp"
 #include "support/stills.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Scratch;
 
 constexpr Shape kShape{160, 96, 3};
 constexpr std::uint32_t kSamples = 8;
@@ -67,15 +65,15 @@ std::vector<std::vector<std::byte>> read_deflickered(const std::vector<Picture>&
                                                      std::vector<std::string>& remarks) {
   const Scratch scratch;
   for (std::size_t k = 0; k < pictures.size(); ++k) {
-    scratch.write("f" + std::to_string(k) + ".ppm", test::netpbm_file(pictures[k], false));
+    scratch.write("f" + std::to_string(k) + ".ppm", netpbm_file(pictures[k], false));
   }
-  const auto clip = deflicker(test::open_test_clip(scratch.folder(), {.rate = Rational{100, 1}}));
-  auto rasters = test::read_all(*clip);
+  const auto clip = deflicker(open_test_clip(scratch.folder(), {.rate = Rational{100, 1}}));
+  auto rasters = read_all(*clip);
   remarks = clip->remarks();
   return rasters;
 }
 
-double code_at(const std::vector<std::byte>& raster, std::uint32_t white, std::size_t index) {
+double code_in(const std::vector<std::byte>& raster, std::uint32_t white, std::size_t index) {
   return white > 255 ? static_cast<double>(reinterpret_cast<const std::uint16_t*>(raster.data())[index])
                      : static_cast<double>(std::to_integer<std::uint8_t>(raster[index]));
 }
@@ -95,11 +93,11 @@ TEST(Deflicker, GivesTheSceneTheCodesOfTheFirstPicture) {
       for (std::size_t i = 0; i < kShape.value_count(); ++i) {
         const auto x = static_cast<std::uint32_t>(i / 3 % kShape.width);
         const auto y = static_cast<std::uint32_t>(i / 3 / kShape.width);
-        const double saturated = code_at(pictures[k].bytes, white, i);
+        const double saturated = code_in(pictures[k].bytes, white, i);
         if (is_subject(x, y, k) || saturated == white) continue;
         squares +=
-            std::pow((code_at(rasters[k], white, i) - code_at(wanted.bytes, white, i)) * 255 / white, 2);
-        before += std::pow((saturated - code_at(wanted.bytes, white, i)) * 255 / white, 2);
+            std::pow((code_in(rasters[k], white, i) - code_in(wanted.bytes, white, i)) * 255 / white, 2);
+        before += std::pow((saturated - code_in(wanted.bytes, white, i)) * 255 / white, 2);
         ++count;
       }
       EXPECT_LE(std::sqrt(squares / static_cast<double>(count)), 1.0)
@@ -150,7 +148,7 @@ TEST(Deflicker, CorrectsNoiseNeitherWhereThingsMoveNorWhereNothingDoes) {
           const bool is_alike = 90 * (1 - gains[k]) < 0.75;
           double off = 0;  // of the corner, which is background all along
           for (std::size_t i = 0; i < 320 * 30; ++i)
-            off += code_at(rasters[k], 255, i) - code_at(pictures[k].bytes, 255, i) / gains[k];
+            off += code_in(rasters[k], 255, i) - code_in(pictures[k].bytes, 255, i) / gains[k];
           const std::string which = format("picture {}, deviation {}, radius {}", k, deviation, radius);
           if (dimmed == 0) {
             EXPECT_EQ(rasters[k], pictures[k].bytes) << which;
@@ -186,8 +184,8 @@ TEST(Deflicker, IsMisledByChanceNoMoreOftenThanItSays) {
 }
 
 TEST(Deflicker, SaysOfWhichPicturesTheExposureCannotBeTold) {
-  std::vector<Picture> pictures = {picture_at(0, 0, 255), picture_at(1, 1, 255),
-                                   test::random_stills(kShape, 255, 1, 7)[0], picture_at(3, 1, 255)};
+  std::vector<Picture> pictures = {picture_at(0, 0, 255), picture_at(1, 1, 255), random_stills(kShape, 255, 1, 7)[0],
+                                   picture_at(3, 1, 255)};
   std::vector<std::string> remarks;
   const auto rasters = read_deflickered(pictures, remarks);
   ASSERT_EQ(remarks.size(), 2u);
@@ -217,7 +215,7 @@ TEST(Deflicker, TellsByThePictureBeforeWhatTheFirstDoesNotShow) {
   for (std::uint32_t y = 0; y < shape.height; ++y) {
     for (std::uint32_t x = 160; x < shape.width; ++x) {
       const std::size_t i = std::size_t{y} * shape.width + x;
-      ASSERT_NEAR(code_at(rasters[2], 255, i), code_at(pictures[0].bytes, 255, i), 3) << x << ", " << y;
+      ASSERT_NEAR(code_in(rasters[2], 255, i), code_in(pictures[0].bytes, 255, i), 3) << x << ", " << y;
     }
   }
 }
@@ -242,7 +240,7 @@ TEST(Deflicker, CorrectsASmallLitPartAndSaysWhatIsTooSmall) {
     EXPECT_TRUE(remarks[0].starts_with(is_small ? "1 of 2 pictures follow no one curve" : "the exposure of 1 of 2"))
         << remarks[0];
     for (std::size_t i = 0; i < shape.value_count(); ++i)
-      ASSERT_NEAR(code_at(rasters[1], 255, i), code_at(pictures[is_small ? 1 : 0].bytes, 255, i), is_small ? 0 : 2)
+      ASSERT_NEAR(code_in(rasters[1], 255, i), code_in(pictures[is_small ? 1 : 0].bytes, 255, i), is_small ? 0 : 2)
           << i;
   }
 }
@@ -301,4 +299,4 @@ TEST(CodeShift, IsTheOneThatMostPairsAgreeOn) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

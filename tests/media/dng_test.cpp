@@ -12,12 +12,9 @@
 #include "support/messages.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::open_test_clip;
-using test::read_all;
-using test::Scratch;
 using Matrix = std::array<std::array<double, 3>, 3>;
 using Vector = std::array<double, 3>;
 
@@ -50,13 +47,13 @@ constexpr Matrix kXyzOfRgb{
 
 std::string shorts(std::initializer_list<int> values) {
   std::string data;
-  for (const int value : values) data += test::little_endian(static_cast<std::uint64_t>(value), 2);
+  for (const int value : values) data += little_endian(static_cast<std::uint64_t>(value), 2);
   return data;
 }
 
 std::string longs(std::initializer_list<std::int64_t> values) {
   std::string data;
-  for (const std::int64_t value : values) data += test::little_endian(static_cast<std::uint64_t>(value), 4);
+  for (const std::int64_t value : values) data += little_endian(static_cast<std::uint64_t>(value), 4);
   return data;
 }
 
@@ -312,7 +309,7 @@ std::string with_value(std::string file, int tag, int type, std::int64_t value) 
 
 void expect_refused(const std::string& file, const std::string& part) {
   const Scratch scratch;
-  test::expect_error<InputError>([&] { return read_all(*open_test_clip(scratch.write("a.dng", file))); }, {part});
+  expect_error<InputError>([&] { return read_all(*open_test_clip(scratch.write("a.dng", file))); }, {part});
 }
 
 TEST(Dng, ThatStatesMoreThanItsBytesHoldIsRefused) {
@@ -334,4 +331,4 @@ TEST(Dng, WhosePackedPictureDoesNotBeginIsRefused) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -11,14 +11,14 @@
 #include "media/formats/file_kinds.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
 // The cells of the rows below that head.
 Rows rows_of_page(const std::string& head) {
-  std::istringstream page(test::read_file(NUTIK_INPUT_PAGE));
+  std::istringstream page(read_file(NUTIK_INPUT_PAGE));
   Rows rows;
   bool is_within = false;
   for (std::string line; std::getline(page, line);) {
@@ -71,7 +71,7 @@ TEST(InputKindTable, IsThatOfThePageCellByCell) {
 
 // No two claim the same file, and none claims what is refused by name.
 TEST(InputKindTable, TellsFilesApart) {
-  const test::Scratch scratch;
+  const Scratch scratch;
   std::set<std::string> extensions;
   for (const inputs::InputKind* kind : inputs::kAll) {
     std::istringstream all{std::string(kind->extensions)};
@@ -97,4 +97,4 @@ TEST(InputKindTable, TellsFilesApart) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

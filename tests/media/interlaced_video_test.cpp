@@ -5,12 +5,8 @@
 #include "support/messages.hpp"
 #include "support/stills.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::open_test_clip;
-using test::read_all;
-using test::Scratch;
 
 constexpr Shape kFrameShape{64, 48, 1};
 constexpr int kFrames = 8;
@@ -32,7 +28,7 @@ class InterlacedVideo : public testing::Test {
   // What ffmpeg's command makes of it.
   [[nodiscard]] std::string by_ffmpeg(const std::string& name, const std::string& filter) const {
     test::make(scratch_, "-i " + name + " " + filter + " -f rawvideo -pix_fmt gray out.raw");
-    return test::read_file(scratch_ / "out.raw");
+    return read_file(scratch_ / "out.raw");
   }
   Scratch scratch_;
 };
@@ -57,7 +53,7 @@ TEST_F(InterlacedVideo, IsRefusedWithTheWayOut) {
   for (const auto& [first, codec, name, part] : clips) {
     SCOPED_TRACE(name);
     make_interlaced(scratch_, first, codec, name);
-    const auto error = test::error_of<InputError>([&] { read_all(*open_test_clip(scratch_ / name)); });
+    const auto error = error_of<InputError>([&] { read_all(*open_test_clip(scratch_ / name)); });
     ASSERT_TRUE(error) << "it was read";
     // Each way out in the word that states it.
     for (const std::string& word : std::vector<std::string>{part, "'frames'", "'fields'", "'no'"})
@@ -70,8 +66,8 @@ TEST_F(InterlacedVideo, IsTakenAsItIsWhereThatIsAsked) {
   NEEDS_FFMPEG();
   make_interlaced(scratch_, 't', "-c:v ffv1", "t.mkv");
   EXPECT_EQ(joined(read("t.mkv", Interlaced::ignored)), by_ffmpeg("t.mkv", ""));
-  const auto clip = test::open_test_clip(scratch_ / "t.mkv", {.interlaced = Interlaced::ignored});
-  EXPECT_EQ(test::facts_of(*clip).at(Setting::deinterlace).line(), "interlaced frames as they are, as stated");
+  const auto clip = open_test_clip(scratch_ / "t.mkv", {.interlaced = Interlaced::ignored});
+  EXPECT_EQ(facts_of(*clip).at(Setting::deinterlace).line(), "interlaced frames as they are, as stated");
 }
 
 TEST_F(InterlacedVideo, BecomesWhatFfmpegMakesOfIt) {
@@ -181,4 +177,4 @@ TEST_F(InterlacedVideo, OfSixteenBitsAndColourIsDeinterlaced) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -16,13 +16,8 @@
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::message_of;
-using test::open_test_clip;
-using test::read_all;
-using test::Scratch;
 
 constexpr Shape kGrey{17, 9, 1}, kColour{13, 21, 3};
 constexpr double kWhite = 2.5;
@@ -30,7 +25,7 @@ constexpr double kWhite = 2.5;
 template <typename Value>
 Picture random_light(const Shape& shape, ValueType type, std::uint64_t seed) {
   Picture picture(shape, type, 0);
-  test::Random random(seed);
+  Random random(seed);
   for (Value& value : picture.values<Value>()) value = static_cast<Value>(random.real(0, kWhite));
   picture.values<Value>()[0] = 0;
   picture.values<Value>()[1] = static_cast<Value>(kWhite);
@@ -42,7 +37,7 @@ void expect_comes_back(const std::string& extension, ValueType type) {
   for (const Shape& shape : {kGrey, kColour}) {
     SCOPED_TRACE(extension + (shape.channels == 1 ? ", grey" : ", colour"));
     const Scratch scratch;
-    test::use_modules();
+    use_modules();
     std::vector<Picture> written;
     for (std::uint64_t k = 0; k < 3; ++k) {
       written.push_back(random_light<Value>(shape, type, k + 1));
@@ -53,7 +48,7 @@ void expect_comes_back(const std::string& extension, ValueType type) {
     EXPECT_EQ(clip->info().format.white_code, 65'535u);
     EXPECT_EQ(clip->info().format.transfer, Transfer::linear());
     EXPECT_EQ(clip->info().roundings, CodeRoundings{0.5});
-    EXPECT_EQ(test::facts_of(*clip).at(Setting::white_code).line(),
+    EXPECT_EQ(facts_of(*clip).at(Setting::white_code).line(),
               "light 2.5 is white, to the nearest of 65535 steps, as stated");
     const auto rasters = read_all(*clip);
     ASSERT_EQ(rasters.size(), written.size());
@@ -80,17 +75,17 @@ TEST(LightClip, EveryKindThatIsWrittenComesBack) {
 
 TEST(LightClip, OfPrimariesThatAreNotKnownIsNamed) {
   const Scratch scratch;
-  test::use_modules();
+  use_modules();
   Picture light = random_light<float>(kColour, ValueType::light32, 5);
   light.primaries = Primaries::bt2020;
   write_picture(scratch / "a.exr", light);
-  std::string exr = test::read_file(scratch / "a.exr");
+  std::string exr = read_file(scratch / "a.exr");
   const std::size_t at = exr.rfind("chromaticities") + 15 + 4;
   const float red = 0.7347F;  // ACES
   std::memcpy(exr.data() + at, &red, sizeof red);
   scratch.write("b.exr", exr);
   const auto line = [&](const char* name) {
-    return test::facts_of(*open_test_clip(scratch / name, {.white_light = kWhite})).at(Setting::primaries).line();
+    return facts_of(*open_test_clip(scratch / name, {.white_light = kWhite})).at(Setting::primaries).line();
   };
   EXPECT_EQ(line("a.exr"), "primaries bt2020, from the file");
   EXPECT_EQ(line("b.exr"), "primaries bt709, assumed; the file names other chromaticities");
@@ -102,7 +97,7 @@ TEST(LightClip, DoublesAreWrittenToTheLastBit) {
   write_picture(scratch / "a.npy", light);
   write_picture(scratch / "a.tif", light);
   EXPECT_EQ(TiffReader(scratch / "a.tif").next()->picture.bytes, light.bytes);
-  const std::string bytes = test::read_file(scratch / "a.npy");
+  const std::string bytes = read_file(scratch / "a.npy");
   EXPECT_EQ(bytes.substr(0, 10), std::string("\x93NUMPY\1\0\x76\0", 10)) << "128 bytes in front, 118 of them text";
   EXPECT_NE(bytes.find("{'descr': '<f8', 'fortran_order': False, 'shape': (21, 13, 3), }"), bytes.npos);
   EXPECT_EQ(bytes.size(), 128 + light.bytes.size());
@@ -133,7 +128,7 @@ TEST(LightClip, OtherArraysAreRefusedByWhatTheyAre) {
   const Scratch scratch;
   const auto refused = [&](const std::string& words, const std::string& part) {
     scratch.write("a.npy", npy(words, std::string(64, '\0')));
-    test::expect_error<InputError>([&] { open_test_clip(scratch / "a.npy", {.white_light = 1.0}); }, {part});
+    expect_error<InputError>([&] { open_test_clip(scratch / "a.npy", {.white_light = 1.0}); }, {part});
   };
   refused("{'descr': '>f4', 'fortran_order': False, 'shape': (2, 2)}", "its values are '>f4'; uint8, uint16, float32");
   refused("{'descr': '<i4', 'fortran_order': False, 'shape': (2, 2)}", "its values are '<i4'");
@@ -152,7 +147,7 @@ TEST(LightClip, ValuesThatNoCaptureHoldsAreRefusedByTheirPixel) {
     Picture light(kGrey, ValueType::light64, 0);
     light.values<double>()[17 * 3 + 5] = value;
     write_picture(scratch / "a.npy", light);
-    test::expect_error<InputError>([&] { open_test_clip(scratch / "a.npy", {.white_light = white}); }, {part});
+    expect_error<InputError>([&] { open_test_clip(scratch / "a.npy", {.white_light = white}); }, {part});
   };
   refused(0.75, std::nullopt, "how much of it is white; the largest value is 0.75: state the light of white");
   refused(1.5, 1.0, "pixel 5,3 has light 1.5, and a capture holds what lies between 0 and white, 1; state a larger");
@@ -177,14 +172,14 @@ TEST(LightClip, PfmComesInEitherOrderOfBytes) {
   EXPECT_EQ(std::memcmp(rasters.at(0).data(), expected, sizeof expected), 0);
   for (const char* broken : {"Pf\n2 2\n0\n", "Pf\n2 2\n", "Pf\n2 2\n-1\nabc", "Pf\n0 2\n-1\n", "Pf\n1 1\n-1\nabcde"}) {
     scratch.write("b.pfm", broken);
-    test::expect_error<InputError>([&] { open_test_clip(scratch / "b.pfm", {.white_light = 1.0}); },
-                                   {"b.pfm cannot be read"});
+    expect_error<InputError>([&] { open_test_clip(scratch / "b.pfm", {.white_light = 1.0}); },
+                             {"b.pfm cannot be read"});
   }
 }
 
 TEST(LightClip, PicturesOfCodesAndOfLightAreNoSequence) {
   const Scratch scratch;
-  test::use_modules();
+  use_modules();
   write_picture(scratch / "f0.tif", random_light<float>(kGrey, ValueType::light32, 1));
   write_picture(scratch / "f1.tif", Picture(kGrey, ValueType::code16, 65'535));
   const auto clip = open_test_clip(scratch.folder(), {.white_light = kWhite});
@@ -192,4 +187,4 @@ TEST(LightClip, PicturesOfCodesAndOfLightAreNoSequence) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -24,19 +24,16 @@
 #include "support/scratch.hpp"
 #include "system/mapped_file.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::message_of;
-using test::Scratch;
 
 constexpr Shape kShapes[] = {{1, 1, 1}, {17, 9, 1}, {1, 1, 3}, {64, 65, 3}};
 
 // Light below 0, above 1, tiny and huge, not a number and infinite.
 Picture random_light(const Shape& shape, double largest_power) {
-  test::use_modules();
+  use_modules();
   Picture picture(shape, ValueType::light32, 0);
-  test::Random random(shape.width + shape.channels);
+  Random random(shape.width + shape.channels);
   for (float& value : picture.values<float>()) {
     value =
         static_cast<float>(random.real(-3, 3) * std::pow(10.0, random.real(-largest_power, largest_power)));
@@ -135,10 +132,10 @@ TEST(OpenExr, SaysWhatItsValuesAre) {
 
 // OpenEXR would make room for it.
 TEST(Exr, WithAnAttributeLongerThanTheFileIsRefused) {
-  test::use_modules();
+  use_modules();
   const Scratch scratch;
   write_picture(scratch / "a.exr", Picture({8, 4, 3}, ValueType::light32, 1), "a text");
-  std::string bytes = test::read_file(scratch / "a.exr");
+  std::string bytes = read_file(scratch / "a.exr");
   const std::string attribute("screenWindowWidth\0float\0", 24);
   const std::size_t size = bytes.find(attribute) + attribute.size();
   ASSERT_LT(size, bytes.size());
@@ -198,15 +195,15 @@ TEST(OpenExr, IsAClipByWhatItSays) {
     FileWishes halves;
     halves.as_half = true;
     write_picture(scratch / "a.exr", picture, {}, halves);
-    const auto clip = test::open_test_clip(scratch / "a.exr", {.white_light = 1.0});
+    const auto clip = open_test_clip(scratch / "a.exr", {.white_light = 1.0});
     const CaptureFormat& format = clip->info().format;
     EXPECT_EQ(format.shape, shape);
     EXPECT_TRUE(format.transfer.is_linear());
     EXPECT_EQ(format.primaries, shape.channels == 3 ? Primaries::bt2020 : Primaries::bt709);
     EXPECT_NEAR(format.pixel_aspect.value(), 4.0 / 3, 1e-4);
-    const auto codes = test::read_all(*clip).at(0);
+    const auto codes = read_all(*clip).at(0);
     for (std::uint64_t i = 0; i < shape.value_count(); ++i)
-      EXPECT_NEAR(test::code_at(format, codes, i), 65'535.0 * picture.values<float>()[i], 65'535 * 0x1p-12 + 0.5) << i;
+      EXPECT_NEAR(code_at(format, codes, i), 65'535.0 * picture.values<float>()[i], 65'535 * 0x1p-12 + 0.5) << i;
   }
 }
 
@@ -227,7 +224,7 @@ TEST(OpenExr, OfOtherChannelsOrPixelsIsRefused) {
       file.setFrameBuffer(buffer);
       file.writePixels(data.max.y - data.min.y + 1);
     }
-    return message_of<InputError>([&] { test::open_test_clip(scratch / "a.exr"); });
+    return message_of<InputError>([&] { open_test_clip(scratch / "a.exr"); });
   };
   const auto says = [](const std::string& message, const char* part) {
     EXPECT_NE(message.find(part), message.npos) << message;
@@ -343,4 +340,4 @@ TEST(PictureWriter, SaysWhichFilesHoldWhatWasAskedFor) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

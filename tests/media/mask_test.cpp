@@ -9,10 +9,8 @@
 #include "support/messages.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Scratch;
 
 std::vector<int> tags_of(const Picture& mask) {
   const auto values = mask.values<std::uint8_t>();
@@ -80,10 +78,10 @@ TEST(Mask, ReadsGreyPicturesThatAreOpaque) {
 TEST(Mask, IsOpaqueWhereNoPixelHasTheClearCode) {
   const Scratch scratch;
   cv::imwrite((scratch / "mask.png").string(), cv::Mat(1, 3, CV_8UC1, cv::Scalar(7)));
-  const std::string png = test::read_file(scratch / "mask.png");
-  scratch.write("mask.png", test::with_chunk(png, "tRNS", std::string("\0\x08", 2)));
+  const std::string png = read_file(scratch / "mask.png");
+  scratch.write("mask.png", with_chunk(png, "tRNS", std::string("\0\x08", 2)));
   EXPECT_EQ(tags_of(read_mask(scratch / "mask.png")), (std::vector<int>{7, 7, 7}));
-  scratch.write("mask.png", test::with_chunk(png, "tRNS", std::string("\0\x07", 2)));
+  scratch.write("mask.png", with_chunk(png, "tRNS", std::string("\0\x07", 2)));
   EXPECT_NE(test::message_of<InputError>([&] {
               static_cast<void>(read_mask(scratch / "mask.png"));
             }).find("its pixel 0,0 has alpha 0 of 255"),
@@ -134,4 +132,4 @@ TEST(Mask, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -8,13 +8,8 @@
 
 #include "support/ffmpeg.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::expect_clip_refused;
-using test::open_test_clip;
-using test::read_all;
-using test::Scratch;
 
 constexpr std::uint32_t kPacked10 = 256, kPacked12 = 1024;
 
@@ -215,4 +210,4 @@ TEST_F(PhantomClip, CodesOf12PackedBitsAreRefused) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -13,13 +13,8 @@
 #include "support/scratch.hpp"
 #include "support/stills.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::message_of;
-using test::open_test_clip;
-using test::read_all;
-using test::Scratch;
 
 constexpr Shape kPhotronGrey{8, 5, 1}, kPhotronColour{4, 5, 3};
 
@@ -110,7 +105,7 @@ TEST(PhotronClip, GivesTheCodesOfEveryLayoutBack) {
       SCOPED_TRACE(std::string(tested.name) + (is_xml ? ", .cihx" : ", .cih"));
       const Header& header = tested.header;
       const Scratch scratch;
-      const auto stills = test::random_stills(header.shape, tested.white, 3, tested.white);
+      const auto stills = random_stills(header.shape, tested.white, 3, tested.white);
       const int bits = header.pixel_bits / static_cast<int>(header.shape.channels);
       const std::uint32_t shift =
           header.side == "Higher" ? static_cast<std::uint32_t>(bits - header.depth) : 0;
@@ -130,7 +125,7 @@ TEST(PhotronClip, GivesTheCodesOfEveryLayoutBack) {
         EXPECT_EQ(timeline.shutter_angle(), (Rational{180, 1}));
         const auto rasters = read_all(*clip);
         ASSERT_EQ(rasters.size(), 3u);
-        for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(test::difference(rasters[k], stills[k]), "") << k;
+        for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(difference(rasters[k], stills[k]), "") << k;
       }
     }
   }
@@ -140,11 +135,11 @@ TEST(PhotronClip, GivesTheCodesOfEveryLayoutBack) {
 TEST(PhotronClip, IsOneByItsNameWhateverItsPixelsAre) {
   for (const std::string start : {"% ", "P5\n", "\xFF\xD8\xFF", "\xFF\x0A", "BM", "adder", "\x1F\x8B"}) {
     const Scratch scratch;
-    auto stills = test::random_stills(kPhotronGrey, 255, 1, 7);
+    auto stills = random_stills(kPhotronGrey, 255, 1, 7);
     std::ranges::copy(std::as_bytes(std::span(start)), stills[0].bytes.begin());
     const auto pictures = scratch.write("ball.mraw", packed(stills, 8));
     scratch.write("ball.cih", Header{kPhotronGrey, "Mono", 8, 8, "Lower", "1"}.text());
-    EXPECT_EQ(test::difference(read_all(*open_test_clip(pictures)).at(0), stills[0]), "") << start;
+    EXPECT_EQ(difference(read_all(*open_test_clip(pictures)).at(0), stills[0]), "") << start;
   }
 }
 
@@ -188,7 +183,7 @@ TEST(PhotronClip, SaysWhatItsHeaderDoesNotFit) {
 
 TEST(PhotronClip, IsTakenAsFarAsItGoes) {
   const Scratch scratch;
-  const auto stills = test::random_stills(kPhotronGrey, 65'535, 3, 1);
+  const auto stills = random_stills(kPhotronGrey, 65'535, 3, 1);
   const std::string whole = words(stills, 0);
   scratch.write("ball.mraw", whole.substr(0, whole.size() - 1));
   scratch.write("ball.cih", Header{}.text());
@@ -196,7 +191,7 @@ TEST(PhotronClip, IsTakenAsFarAsItGoes) {
   const auto clip = open_test_clip(scratch / "ball.mraw", options);
   const auto rasters = read_all(*clip);
   ASSERT_EQ(rasters.size(), 2u);
-  EXPECT_EQ(test::difference(rasters[1], stills[1]), "");
+  EXPECT_EQ(difference(rasters[1], stills[1]), "");
   ASSERT_TRUE(clip->ended_early());
   EXPECT_NE(clip->ended_early()->find("is taken as far as it goes, 2 of 3 pictures: "), std::string::npos);
 
@@ -278,4 +273,4 @@ TEST(PhotronClip, ARecordingIsWhatItsPngsAre) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

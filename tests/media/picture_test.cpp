@@ -14,14 +14,12 @@
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Scratch;
 
 Picture random_picture(Shape shape, ValueType type, std::uint64_t seed) {
   Picture picture(shape, type, type == ValueType::code16 ? 65'535 : 255);
-  test::Random random(seed);
+  Random random(seed);
   for (std::uint64_t i = 0; i < shape.value_count(); ++i) {
     if (type == ValueType::code8)
       picture.values<std::uint8_t>()[i] = static_cast<std::uint8_t>(random.whole(0, 255));
@@ -96,7 +94,7 @@ TEST(PictureWriter, WritesLargePngsRowByRow) {
 
 // Each looks again and again whether it should end; one that ends leaves nothing.
 TEST(PictureWriter, EndsWhereItIsTold) {
-  test::use_modules();
+  use_modules();
   const Scratch scratch;
   for (const char* name : {"p.png", "p.tif", "p.jpg", "p.exr", "p.pfm", "p.npy"}) {
     const bool is_light = value_type_for(name, {}, ValueType::code8, 3) == ValueType::light32;
@@ -124,7 +122,7 @@ TEST(PictureWriter, ChoosesTheTypeByNameAndWish) {
   EXPECT_EQ(type("a.pfm", {}), ValueType::light32);
   EXPECT_EQ(type("a.tif", Depth::floating), ValueType::light32);
   const auto refused = [&](const char* name, std::optional<Depth> wish, const char* part) {
-    test::expect_error<UsageError>([&] { return type(name, wish); }, {part});
+    expect_error<UsageError>([&] { return type(name, wish); }, {part});
   };
   refused("a.png", Depth::floating, "cannot hold floating point; write a .tif, .exr, .pfm or .npy");
   refused("a.pfm", Depth::bits8, "holds floating point only");
@@ -143,7 +141,7 @@ TEST(PictureWriter, SaysWhyItCannotWrite) {
     const auto handler = std::signal(SIGXFSZ, SIG_IGN);
     const rlimit few{4096, before.rlim_max};
     setrlimit(RLIMIT_FSIZE, &few);
-    const std::string said = test::message_of<OutputError>([&] { write_picture(scratch / name, picture); });
+    const std::string said = message_of<OutputError>([&] { write_picture(scratch / name, picture); });
     setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, handler);
     EXPECT_EQ(said, (scratch / name).string() + " cannot be written: File too large");
@@ -160,4 +158,4 @@ TEST(PictureWriter, LeavesNothingBehindWhereItCannotWrite) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

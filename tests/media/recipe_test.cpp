@@ -15,10 +15,8 @@
 #include "support/scratch.hpp"
 #include "support/stills.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Scratch;
 
 Recipe example(std::string functions) {
   Recipe recipe;
@@ -87,7 +85,7 @@ TEST(Recipe, KeepsEveryByteOfAName) {
 
 TEST(Recipe, SaysWhatIsDamaged) {
   const auto message = [](const char* text) {
-    return test::message_of<InputError>([&] { static_cast<void>(Recipe::parse(text, "a.png")); });
+    return message_of<InputError>([&] { static_cast<void>(Recipe::parse(text, "a.png")); });
   };
   for (const char* text :
        {"{\"nutik-cl\":", "{}", "[]", "{\"nutik-cl\":3}", "{\"nutik-cl\":\"1\",\"capture\":\"x\"}"}) {
@@ -104,7 +102,7 @@ TEST_P(InPictures, LeavesTheValuesAlone) {
   const bool is_colour = extension != ".pgm";
   for (const std::uint32_t white : {255u, 65'535u}) {
     if (white > 255 && extension == ".jpg") continue;
-    const Picture picture = test::random_stills({17, 9, is_colour ? 3u : 1u}, white, 1, 5).front();
+    const Picture picture = random_stills({17, 9, is_colour ? 3u : 1u}, white, 1, 5).front();
     const auto plain = scratch / ("plain" + extension), with = scratch / ("with" + extension);
     write_picture(plain, picture);
     EXPECT_FALSE(read_recipe(plain));
@@ -131,11 +129,11 @@ TEST_P(InPictures, LeavesTheValuesAlone) {
 TEST_P(InPictures, KnowTheirFiles) {
   const Scratch scratch;
   const std::string extension = GetParam();
-  const Picture picture = test::random_stills({5, 4, extension == ".pgm" ? 1u : 3u}, 255, 1, 5).front();
+  const Picture picture = random_stills({5, 4, extension == ".pgm" ? 1u : 3u}, 255, 1, 5).front();
   for (const std::size_t length : {1, 3000}) {
     const auto path = scratch / ("a" + extension);
     write_picture(path, picture, example(std::string(length, '#')).text());
-    const std::string file = test::read_file(path);
+    const std::string file = read_file(path);
     EXPECT_TRUE(is_as_sealed(path));
     std::size_t passed = 0;
     for (std::size_t at = 0; at < file.size(); at += length < 10 ? 1 : 97) {
@@ -164,15 +162,15 @@ TEST(PictureText, IsOurOwnOnly) {
       read_picture_text(scratch.write("b.pgm", "P5\n# CREATOR: somebody\n# {\"nutik-cl\":1}\n1 1\n255\nx")),
       "{\"nutik-cl\":1}");
   EXPECT_FALSE(read_picture_text(scratch.write("c.pfm", "Pf\n1 1\n-1.0\n1234")));
-  EXPECT_NE(test::message_of<InputError>([&] {
+  EXPECT_NE(message_of<InputError>([&] {
               static_cast<void>(read_picture_text(scratch.write("a.txt", "notes of mine")));
             }).find("is no PNG, TIFF, JPEG, OpenEXR, PGM or PPM: it can carry no recipe"),
             std::string::npos);
-  EXPECT_NE(test::message_of<InputError>([&] {
+  EXPECT_NE(message_of<InputError>([&] {
               static_cast<void>(read_picture_text(scratch.write("cut.png", "\x89PNG\r\n\x1a\n")));
             }).find("it was cut off"),
             std::string::npos);
-  EXPECT_NE(test::message_of<InputError>([&] {
+  EXPECT_NE(message_of<InputError>([&] {
               static_cast<void>(read_picture_text(scratch.write("cut.tif", "II*")));
             }).find("it is no TIFF, or was cut off"),
             std::string::npos);
@@ -181,16 +179,16 @@ TEST(PictureText, IsOurOwnOnly) {
 // A thousandth of it is enough to write 64 MiB into a PNG.
 TEST(PictureText, HasALimit) {
   const Scratch scratch;
-  write_picture(scratch / "without.png", test::random_stills({2, 2, 1}, 255, 1, 5).front());
+  write_picture(scratch / "without.png", random_stills({2, 2, 1}, 255, 1, 5).front());
   const std::string text = std::string(kPictureTextStart) + std::string(kMaxPictureTextBytes, '#');
   uLongf size = compressBound(text.size());
   std::string packed(size, '\0');
   compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(text.data()), text.size());
   const std::string begin = std::string(kPictureTextKeyword) + std::string(2, '\0');
-  const auto path = scratch.write("a.png", test::with_chunk(test::read_file(scratch / "without.png"), "zTXt",
-                                                               begin + packed.substr(0, size)));
+  const auto path =
+      scratch.write("a.png", with_chunk(read_file(scratch / "without.png"), "zTXt", begin + packed.substr(0, size)));
   EXPECT_LT(std::filesystem::file_size(path), 1u << 20);
-  EXPECT_NE(test::message_of<InputError>([&] {
+  EXPECT_NE(message_of<InputError>([&] {
               static_cast<void>(read_picture_text(path));
             }).find("a.png: a text in it cannot be read (zTXt"),
             std::string::npos);
@@ -256,4 +254,4 @@ TEST(InputChecksum, NamesInputsWithoutTheirFolders) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -15,16 +15,8 @@
 #include "support/stills.hpp"
 #include "system/interruption.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::difference;
-using test::netpbm_file;
-using test::open_test_clip;
-using test::read_all;
-using test::Scratch;
-using test::tiff_file;
-using test::TiffOptions;
 
 constexpr Shape kGreyShape{17, 9, 1}, kColourShape{17, 9, 3};
 
@@ -39,7 +31,7 @@ void expect_still_codes(Clip& clip, const std::vector<Picture>& stills) {
 void expect_refused(const std::filesystem::path& path, const std::vector<std::string>& parts,
                     const ClipOptions& options = {}) {
   SCOPED_TRACE(path);
-  test::expect_error<InputError>([&] { return read_all(*open_test_clip(path, options)); }, parts);
+  expect_error<InputError>([&] { return read_all(*open_test_clip(path, options)); }, parts);
 }
 
 void write_with_opencv(const std::filesystem::path& path, const Picture& still) {
@@ -62,7 +54,7 @@ TEST(StillClip, GivesTheCodesOfPngAndTiffBack) {
       for (const std::uint32_t white : {255u, 65'535u}) {
         SCOPED_TRACE(std::string(extension) + ", white " + std::to_string(white));
         const Scratch scratch;
-        const auto stills = test::random_stills(shape, white, 3, white + shape.width);
+        const auto stills = random_stills(shape, white, 3, white + shape.width);
         for (std::size_t k = 0; k < 3; ++k) {
           write_with_opencv(scratch / ("f" + std::to_string(k) + extension), stills[k]);
         }
@@ -84,7 +76,7 @@ TEST(StillClip, TakesTheWhiteCodeOfNetpbm) {
       for (const bool plain : {false, true}) {
         SCOPED_TRACE("white " + std::to_string(white) + (plain ? ", plain" : ", raw"));
         const Scratch scratch;
-        const auto stills = test::random_stills(shape, white, 2, white);
+        const auto stills = random_stills(shape, white, 2, white);
         const std::string extension = shape.channels == 1 ? ".pgm" : ".ppm";
         for (std::size_t k = 0; k < 2; ++k) {
           scratch.write("f" + std::to_string(k) + extension, netpbm_file(stills[k], plain));
@@ -109,7 +101,7 @@ TEST(StillClip, ReadsPam) {
   };
   for (const std::uint32_t white : {1u, 100u, 255u, 4095u, 65'535u}) {
     for (const Shape& shape : {kGreyShape, kColourShape}) {
-      const auto stills = test::random_stills(shape, white, 2, white);
+      const auto stills = random_stills(shape, white, 2, white);
       const std::string type = shape.channels == 3 ? "RGB" : white == 1 ? "BLACKANDWHITE" : "GRAYSCALE";
       for (const char* name : {"a.pam", "a.dat"}) {
         const auto clip = open_test_clip(scratch.write(name, pam(stills[0], type) + pam(stills[1], type)), {});
@@ -154,7 +146,7 @@ TEST(StillClip, ReadsTiffStacksOfEveryLayout) {
   for (const Case& tested : cases) {
     SCOPED_TRACE(tested.name);
     const Scratch scratch;
-    const auto stills = test::random_stills(tested.shape, tested.white, 4, tested.white);
+    const auto stills = random_stills(tested.shape, tested.white, 4, tested.white);
     const auto path = scratch.write("stack.tif", tiff_file(stills, tested.options));
     const auto clip = open_test_clip(path, {});
     EXPECT_EQ(clip->info().format.white_code, tested.stated_white);
@@ -165,14 +157,14 @@ TEST(StillClip, ReadsTiffStacksOfEveryLayout) {
 // A reader that walks from the first page to the one wanted takes half a minute for this.
 TEST(StillClip, ReadsLongStacksInOneGo) {
   const Scratch scratch;
-  const auto stills = test::random_stills({4, 4, 1}, 65'535, 4000, 1);
+  const auto stills = random_stills({4, 4, 1}, 65'535, 4000, 1);
   expect_still_codes(*open_test_clip(scratch.write("long.tif", tiff_file(stills, {})), {}), stills);
 }
 
 TEST(StillClip, ReadsJpeg) {
   for (const Shape shape : {kGreyShape, kColourShape}) {
     const Scratch scratch;
-    const auto stills = test::random_stills(shape, 255, 1, 3);
+    const auto stills = random_stills(shape, 255, 1, 3);
     write_with_opencv(scratch / "f.jpg", stills[0]);
     const auto clip = open_test_clip(scratch / "f.jpg", {});
     EXPECT_EQ(clip->info().format.shape, shape);
@@ -184,8 +176,8 @@ TEST(StillClip, ReadsJpeg) {
 // Its decoder goes on behind damage; behind its end a phone may have a film.
 TEST(StillClip, OfJpegEndsWhereItsPictureDoes) {
   const Scratch scratch;
-  write_with_opencv(scratch / "a.jpg", test::random_stills({64, 48, 3}, 255, 1, 3)[0]);
-  const std::string whole = test::read_file(scratch / "a.jpg"), head = whole.substr(0, whole.size() / 2);
+  write_with_opencv(scratch / "a.jpg", random_stills({64, 48, 3}, 255, 1, 3)[0]);
+  const std::string whole = read_file(scratch / "a.jpg"), head = whole.substr(0, whole.size() / 2);
   scratch.write("film.jpg", whole + std::string("\0\0\0\x18" "ftypmp42\xFF\xDA", 14));
   EXPECT_EQ(read_all(*open_test_clip(scratch / "film.jpg", {})), read_all(*open_test_clip(scratch / "a.jpg", {})));
   for (const std::string& damaged : {head + whole.substr(head.size() + 500), head + "\xFF\xD9"})
@@ -215,10 +207,10 @@ TEST(StillClip, StandsUprightHoweverItLies) {
   using namespace std::string_literals;
   const Scratch scratch;
   const Shape lying{24, 16, 1};
-  const auto still = test::random_stills(lying, 255, 1, 3)[0];
+  const auto still = random_stills(lying, 255, 1, 3)[0];
   write_with_opencv(scratch / "flat.jpg", still);
   write_with_opencv(scratch / "flat.png", still);
-  const std::string jpeg = test::read_file(scratch / "flat.jpg"), png = test::read_file(scratch / "flat.png");
+  const std::string jpeg = read_file(scratch / "flat.jpg"), png = read_file(scratch / "flat.png");
   const auto lossy = cv::imread((scratch / "flat.jpg").string(), cv::IMREAD_UNCHANGED);
   for (int orientation = 0; orientation <= 9; ++orientation) {
     // One entry of a big-endian TIFF: Orientation, a short.
@@ -229,7 +221,7 @@ TEST(StillClip, StandsUprightHoweverItLies) {
     TiffOptions options{8};
     options.orientation = orientation <= 8 ? orientation : 0;  // with others libtiff takes it for damaged
     for (const auto& [name, bytes] : {std::pair("a.jpg", jpeg.substr(0, 2) + segment + jpeg.substr(2)),
-                                      {"a.png", test::with_chunk(png, "eXIf", tags)},
+                                      {"a.png", with_chunk(png, "eXIf", tags)},
                                       {"a.tif", tiff_file({still}, options)}}) {
       for (const std::string file : {name, "a.mp4", "a.pgm"}) {
         SCOPED_TRACE(std::string(name) + " as " + file + ", orientation " + std::to_string(orientation));
@@ -256,7 +248,7 @@ TEST(StillClip, StandsUprightHoweverItLies) {
 // A name promises nothing that the bytes contradict.
 TEST(StillClip, IsWhatItsBytesSay) {
   const Scratch scratch;
-  const auto still = test::random_stills(kGreyShape, 1000, 1, 5)[0];
+  const auto still = random_stills(kGreyShape, 1000, 1, 5)[0];
   for (const bool plain : {false, true}) {
     for (const char* name : {"a.pgm", "a.png", "a.jpg", "a.tif", "a.dng", "a.dat", "a.mp4", "a"}) {
       SCOPED_TRACE(name);
@@ -273,18 +265,18 @@ TEST(StillClip, WithACodeThatIsClearIsRefused) {
   for (const auto& [shape, white, clear, channels] :
        {std::tuple(kGreyShape, 255u, std::string(1, '\0') + '\7', "2"), {kGreyShape, 65'535u, std::string("\1\7"), "2"},
         {kColourShape, 255u, std::string("\0\7\0\7\0\7", 6), "4"}}) {
-    write_with_opencv(scratch / "a.png", test::random_stills(shape, white, 1, 5)[0]);
-    const std::string png = test::read_file(scratch / "a.png");
-    expect_refused(scratch.write("clear.png", test::with_chunk(png, "tRNS", clear)),
+    write_with_opencv(scratch / "a.png", random_stills(shape, white, 1, 5)[0]);
+    const std::string png = read_file(scratch / "a.png");
+    expect_refused(scratch.write("clear.png", with_chunk(png, "tRNS", clear)),
                    {"clear.png has " + std::string(channels) + " channels", "transparency is not"});
   }
 }
 
 TEST(StillClip, ThatACameraWroteWithOthersOfItsMomentIsOne) {
   const Scratch scratch;
-  const auto stills = test::random_stills(kColourShape, 255, 1, 3);
+  const auto stills = random_stills(kColourShape, 255, 1, 3);
   write_with_opencv(scratch / "one.jpg", stills[0]);
-  const std::string one = test::read_file(scratch / "one.jpg");
+  const std::string one = read_file(scratch / "one.jpg");
   const std::string more_follow("\xFF\xE2\0\x06MPF\0", 8);
   const auto samples_of = [&](const std::string& bytes) {
     return open_test_clip(scratch.write("a.jpg", bytes), {})->info().sample_count;
@@ -296,7 +288,7 @@ TEST(StillClip, ThatACameraWroteWithOthersOfItsMomentIsOne) {
 
 TEST(StillClip, AStatedWhiteCodeGoesBeforeTheFiles) {
   const Scratch scratch;
-  const auto stills = test::random_stills(kGreyShape, 4095, 1, 3);
+  const auto stills = random_stills(kGreyShape, 4095, 1, 3);
   write_with_opencv(scratch / "f.png", stills[0]);
   const auto clip = open_test_clip(scratch / "f.png", {.white_code = 4095});
   EXPECT_EQ(clip->info().format.white_code, 4095u);
@@ -306,7 +298,7 @@ TEST(StillClip, AStatedWhiteCodeGoesBeforeTheFiles) {
 // A stack's pages are chained: where a link leads nowhere the rest would be lost without a word.
 TEST(StillClip, RefusesAStackThatWasCutOff) {
   const Scratch scratch;
-  const std::string whole = tiff_file(test::random_stills(kGreyShape, 65'535, 4, 1), {});
+  const std::string whole = tiff_file(random_stills(kGreyShape, 65'535, 4, 1), {});
   for (const std::size_t eighths : {3u, 5u, 7u}) {
     expect_refused(scratch.write("cut.tif", whole.substr(0, whole.size() * eighths / 8)), {"cut.tif"});
   }
@@ -314,7 +306,7 @@ TEST(StillClip, RefusesAStackThatWasCutOff) {
 
 // The last bytes of a TIFF say that no page follows. Without them the picture may be whole, and the file is not.
 TEST(StillClip, RefusesATiffThatLacksItsLastBytes) {
-  const auto stills = test::random_stills(kGreyShape, 255, 3, 1);
+  const auto stills = random_stills(kGreyShape, 255, 3, 1);
   const auto file_of = [](const std::vector<Picture>& pages) { return tiff_file(pages, {8}); };
   for (std::size_t missing = 1; missing <= 8; ++missing) {
     SCOPED_TRACE(missing);
@@ -338,7 +330,7 @@ TEST(StillClip, SaysWhichStillDiffersAndHow) {
   const Scratch scratch;
   const auto write = [&](const std::string& name, Shape shape, std::uint32_t white) {
     std::filesystem::create_directories((scratch / name).parent_path());
-    const Picture still = test::random_stills(shape, white, 1, 5)[0];
+    const Picture still = random_stills(shape, white, 1, 5)[0];
     if (name.ends_with(".pgm")) {
       scratch.write(name, netpbm_file(still, false));
     } else {
@@ -363,14 +355,14 @@ TEST(StillClip, SaysWhichStillDiffersAndHow) {
                                      "state what is white"});
   EXPECT_EQ(read_all(*open_test_clip(scratch / "white", {.white_code = 4095})).size(), 2u);
 
-  auto pages = test::random_stills(kGreyShape, 65'535, 2, 1);
-  pages.push_back(test::random_stills({9, 17, 1}, 65'535, 1, 1)[0]);
+  auto pages = random_stills(kGreyShape, 65'535, 2, 1);
+  pages.push_back(random_stills({9, 17, 1}, 65'535, 1, 1)[0]);
   expect_refused(scratch.write("stack.tif", tiff_file(pages, {})), {"page 3 of ", "stack.tif is 9 x 17 grey"});
 }
 
 TEST(StillClip, RefusesWhatIsDamagedOrOfAnotherKind) {
   const Scratch scratch;
-  const auto stills = test::random_stills({40, 30, 1}, 65'535, 3, 8);
+  const auto stills = random_stills({40, 30, 1}, 65'535, 3, 8);
   for (const char* extension : {".png", ".tif", ".pgm", ".jpg"}) {
     const auto path = [&](int k) { return scratch / ("f" + std::to_string(k) + extension); };
     for (int k = 0; k < 3; ++k) {
@@ -378,12 +370,12 @@ TEST(StillClip, RefusesWhatIsDamagedOrOfAnotherKind) {
       if (std::string(extension) == ".pgm") {
         scratch.write(path(k).filename().string(), netpbm_file(still, false));
       } else if (std::string(extension) == ".jpg") {
-        write_with_opencv(path(k), test::random_stills({40, 30, 1}, 255, 1, 8)[0]);
+        write_with_opencv(path(k), random_stills({40, 30, 1}, 255, 1, 8)[0]);
       } else {
         write_with_opencv(path(k), still);
       }
     }
-    const std::string whole = test::read_file(path(1));
+    const std::string whole = read_file(path(1));
     scratch.write(path(1).filename().string(), std::string_view(whole).substr(0, whole.size() / 2));
     expect_refused(scratch / (std::string("f%d") + extension), {path(1).string() + " cannot be read"});
     // Also where it is the first.
@@ -395,12 +387,12 @@ TEST(StillClip, RefusesWhatIsDamagedOrOfAnotherKind) {
   expect_refused(scratch.write("medical.png", std::string(128, '\0') + "DICM and more"),
                  {"medical.png cannot be read", "neither a PNG nor a JPEG begins like that"});
   // Decoders show black where a palette ends before a pixel's colour.
-  write_with_opencv(scratch / "grey.png", test::random_stills(kGreyShape, 3, 1, 5)[0]);
-  const std::string grey = test::read_file(scratch / "grey.png");
-  const std::string header = test::png_chunk("IHDR", grey.substr(16, 9) + std::string("\3\0\0\0", 4));
+  write_with_opencv(scratch / "grey.png", random_stills(kGreyShape, 3, 1, 5)[0]);
+  const std::string grey = read_file(scratch / "grey.png");
+  const std::string header = png_chunk("IHDR", grey.substr(16, 9) + std::string("\3\0\0\0", 4));
   const auto indexed = [&](std::size_t colours) {
-    return scratch.write("indexed.png", test::with_chunk(grey.substr(0, 8) + header + grey.substr(33), "PLTE",
-                                                         std::string(3 * colours, '\1')));
+    return scratch.write("indexed.png", with_chunk(grey.substr(0, 8) + header + grey.substr(33), "PLTE",
+                                                   std::string(3 * colours, '\1')));
   };
   EXPECT_EQ(open_test_clip(indexed(4))->info().sample_count, 1u);
   expect_refused(indexed(3), {"indexed.png cannot be read: it is damaged: a pixel has colour 3, and its palette 3,"});
@@ -412,7 +404,7 @@ TEST(StillClip, RefusesWhatIsDamagedOrOfAnotherKind) {
     expect_refused(scratch.write("a.tif", tiff_file(stills, of_format)),
                    {"page 1 of ", "a.tif cannot be read: it has 16-bit " + std::string(word) + " values"});
   }
-  expect_refused(scratch.write("a.tif", tiff_file(test::random_stills(kColourShape, 15, 1, 1), {4})),
+  expect_refused(scratch.write("a.tif", tiff_file(random_stills(kColourShape, 15, 1, 1), {4})),
                  {"it is of a kind that is not read (RGB, 4 bits)"});
   expect_refused(scratch.write("a.tif", tiff_file(stills, {16, false, true, false, 4095})),
                  {"is above its MaxSampleValue, 4095"});
@@ -420,7 +412,7 @@ TEST(StillClip, RefusesWhatIsDamagedOrOfAnotherKind) {
 
 TEST(StillClip, AStackThatIsCutOffNamesThePage) {
   const Scratch scratch;
-  const auto stills = test::random_stills(kGreyShape, 65'535, 4, 8);
+  const auto stills = random_stills(kGreyShape, 65'535, 4, 8);
   std::string bytes = tiff_file(stills, {});
   // The third page's pixels lie where the file says that they do no more: behind its end.
   const std::string two = tiff_file({stills[0], stills[1]}, {});
@@ -441,7 +433,7 @@ TEST(StillClip, AStackThatIsCutOffNamesThePage) {
 TEST(StillClip, NotesAHoleInAFolderOfNumberedStills) {
   const Scratch scratch;
   std::filesystem::create_directory(scratch / "frames");
-  const auto stills = test::random_stills(kGreyShape, 255, 3, 11);
+  const auto stills = random_stills(kGreyShape, 255, 3, 11);
   const char* names[] = {"frames/f1.pgm", "frames/f2.pgm", "frames/f4.pgm"};
   for (std::size_t k = 0; k < 3; ++k) scratch.write(names[k], netpbm_file(stills[k], false));
   const auto folder = open_test_clip(scratch / "frames");
@@ -459,9 +451,9 @@ TEST(StillClip, NotesAHoleInAFolderOfNumberedStills) {
 TEST(StillClip, NotesWhatAPatternMatchesBesides) {
   const Scratch scratch;
   for (const char* name : {"f1.pgm", "f2.pgm", "f3.pgm"})
-    write_with_opencv(scratch / name, test::random_stills(kGreyShape, 255, 1, 3)[0]);
+    write_with_opencv(scratch / name, random_stills(kGreyShape, 255, 1, 3)[0]);
   EXPECT_TRUE(open_test_clip(scratch / "*.pgm", {})->info().notes.empty());
-  write_with_opencv(scratch / "f-0s-3s.pgm", test::random_stills(kGreyShape, 255, 1, 3)[0]);
+  write_with_opencv(scratch / "f-0s-3s.pgm", random_stills(kGreyShape, 255, 1, 3)[0]);
   const auto notes = open_test_clip(scratch / "*.pgm", {})->info().notes;
   ASSERT_EQ(notes.size(), 1U);
   EXPECT_NE(notes[0].text.find("1 of 4 pictures have names of another kind than the others: f-0s-3s.pgm"),
@@ -470,7 +462,7 @@ TEST(StillClip, NotesWhatAPatternMatchesBesides) {
 
 TEST(StillClip, EndsAtASignal) {
   const Scratch scratch;
-  const auto path = scratch.write("a.tif", tiff_file(test::random_stills(kGreyShape, 255, 1, 1), {8}));
+  const auto path = scratch.write("a.tif", tiff_file(random_stills(kGreyShape, 255, 1, 1), {8}));
   EXPECT_EQ(read_all(*open_test_clip(path)).size(), 1u);
   catch_interruptions();
   std::raise(SIGTERM);
@@ -485,7 +477,7 @@ TEST(StillClip, TakesThePixelAspectFromTheFile) {
   for (const std::string name : {"a.png", "a.tif", "a.jpg"}) {
     for (const auto& [aspect, text] :
          {std::pair(Rational{32, 27}, "pixels 32:27"), {Rational{10, 11}, "pixels 10:11"}}) {
-      Picture picture = test::random_stills(kGreyShape, 255, 1, 3).front();
+      Picture picture = random_stills(kGreyShape, 255, 1, 3).front();
       picture.pixel_aspect = aspect;
       write_picture(scratch / name, picture);
       const auto clip = open_test_clip(scratch / name);
@@ -494,7 +486,7 @@ TEST(StillClip, TakesThePixelAspectFromTheFile) {
       EXPECT_EQ(open_test_clip(scratch / name, {.pixel_aspect = Rational{2, 1}})->info().format.pixel_aspect,
                 (Rational{2, 1}));
     }
-    Picture square = test::random_stills(kGreyShape, 255, 1, 3).front();
+    Picture square = random_stills(kGreyShape, 255, 1, 3).front();
     write_picture(scratch / name, square);
     EXPECT_EQ(open_test_clip(scratch / name)->info().format.pixel_aspect, (Rational{1, 1}));
   }
@@ -502,7 +494,7 @@ TEST(StillClip, TakesThePixelAspectFromTheFile) {
 
 TEST(StillClip, OfPixelsOfOtherShapesIsRefused) {
   const Scratch scratch;
-  const auto pictures = test::random_stills(kGreyShape, 255, 2, 3);
+  const auto pictures = random_stills(kGreyShape, 255, 2, 3);
   for (const std::string name : {"a.png", "a.tif", "a.jpg"}) {
     const auto folder = scratch / ("of " + name);
     std::filesystem::create_directories(folder);
@@ -528,7 +520,7 @@ TEST(StillClip, OfPngStandsForWhatItsChunksName) {
     lines.erase(lines.begin());
     return std::pair(clip->info().format.transfer, lines);
   };
-  Picture picture = test::random_stills(kColourShape, 65'535, 1, 3).front();
+  Picture picture = random_stills(kColourShape, 65'535, 1, 3).front();
   EXPECT_EQ(facts_of(picture).second[0], "transfer linear, assumed");
   EXPECT_EQ(facts_of(picture).second[1], "primaries bt709, assumed");
   for (const Transfer& transfer : {Transfer::srgb(), Transfer::bt709(), Transfer::linear(), Transfer::hlg(),
@@ -545,17 +537,17 @@ TEST(StillClip, OfPngStandsForWhatItsChunksName) {
   // Programs that do not know cICP read a profile, or older chunks.
   picture.transfer = Transfer::srgb();
   facts_of(picture);
-  EXPECT_NE(test::read_file(scratch / "a.png").find("iCCP"), std::string::npos);
+  EXPECT_NE(read_file(scratch / "a.png").find("iCCP"), std::string::npos);
   picture.transfer = Transfer::linear();
   facts_of(picture);
-  std::string older = test::read_file(scratch / "a.png");
+  std::string older = read_file(scratch / "a.png");
   older.erase(older.find("cICP") - 4, 16);
   scratch.write("older.png", older);
   EXPECT_EQ(open_test_clip(scratch / "older.png")->info().facts[2].line(), "primaries p3, from the file");
   picture.transfer = Transfer::gamma(3);
   EXPECT_EQ(facts_of(picture).second[0], "transfer gamma:3, from the ICC profile 'p3, gamma:3'");
   EXPECT_EQ(facts_of(picture, {.transfer = Transfer::srgb()}).second[0], "transfer srgb, as stated");
-  std::string png = test::read_file(scratch / "a.png");
+  std::string png = read_file(scratch / "a.png");
   const auto profile = png.find("iCCP");
   ASSERT_NE(profile, std::string::npos);
   const auto byte = [&](std::size_t at) { return std::size_t{static_cast<unsigned char>(png[at])}; };
@@ -568,10 +560,10 @@ TEST(StillClip, OfPngStandsForWhatItsChunksName) {
 // Coding points that say nothing, or what is not known here, leave the word to other chunks.
 TEST(StillClip, OfPngFollowsCodingPointsThatAreKnown) {
   const Scratch scratch;
-  write_with_opencv(scratch / "a.png", test::random_stills(kColourShape, 255, 1, 3)[0]);
-  const std::string png = test::read_file(scratch / "a.png");
-  const std::string gamma = test::with_chunk(png, "gAMA", std::string("\0\0\xB1\x8F", 4));
-  const std::string srgb = test::with_chunk(png, "sRGB", std::string(1, '\0'));
+  write_with_opencv(scratch / "a.png", random_stills(kColourShape, 255, 1, 3)[0]);
+  const std::string png = read_file(scratch / "a.png");
+  const std::string gamma = with_chunk(png, "gAMA", std::string("\0\0\xB1\x8F", 4));
+  const std::string srgb = with_chunk(png, "sRGB", std::string(1, '\0'));
   const auto points = [](int primaries, int transfer, int matrix = 0, int range = 1) {
     return std::string{static_cast<char>(primaries), static_cast<char>(transfer), static_cast<char>(matrix),
                        static_cast<char>(range)};
@@ -582,20 +574,20 @@ TEST(StillClip, OfPngFollowsCodingPointsThatAreKnown) {
     EXPECT_EQ(facts.at(Setting::primaries).line(), "primaries " + primaries);
   };
   for (const auto& unknown : {points(2, 2), points(4, 17), points(2, 16)}) {
-    expect_facts(test::with_chunk(srgb, "cICP", unknown), "srgb, from the file", "bt709, from the file");
-    expect_facts(test::with_chunk(test::with_chunk(png, "cICP", unknown), "sRGB", std::string(1, '\0')),
-                 "srgb, from the file", "bt709, from the file");
+    expect_facts(with_chunk(srgb, "cICP", unknown), "srgb, from the file", "bt709, from the file");
+    expect_facts(with_chunk(with_chunk(png, "cICP", unknown), "sRGB", std::string(1, '\0')), "srgb, from the file",
+                 "bt709, from the file");
   }
-  expect_facts(test::with_chunk(srgb, "cICP", points(9, 16)), "pq, from the file", "bt2020, from the file");
-  expect_facts(test::with_chunk(png, "cICP", points(2, 16)), "pq, from the file", "bt709, assumed");
-  expect_facts(test::with_chunk(png, "cICP", points(2, 2)), "srgb, assumed", "bt709, assumed");
-  expect_facts(test::with_chunk(gamma, "cICP", points(4, 17)), "srgb, assumed; the file names number 17 of H.273",
+  expect_facts(with_chunk(srgb, "cICP", points(9, 16)), "pq, from the file", "bt2020, from the file");
+  expect_facts(with_chunk(png, "cICP", points(2, 16)), "pq, from the file", "bt709, assumed");
+  expect_facts(with_chunk(png, "cICP", points(2, 2)), "srgb, assumed", "bt709, assumed");
+  expect_facts(with_chunk(gamma, "cICP", points(4, 17)), "srgb, assumed; the file names number 17 of H.273",
                "bt709, assumed; the file names number 4 of H.273");
-  expect_refused(scratch.write("b.png", test::with_chunk(png, "cICP", points(1, 13, 0, 0))),
+  expect_refused(scratch.write("b.png", with_chunk(png, "cICP", points(1, 13, 0, 0))),
                  {"b.png cannot be read: its cICP says limited range", "-level 6.27451%,92.15686% -depth 16 OUT.png"});
-  expect_refused(scratch.write("b.png", test::with_chunk(png, "cICP", points(1, 13, 1))),
+  expect_refused(scratch.write("b.png", with_chunk(png, "cICP", points(1, 13, 1))),
                  {"b.png cannot be read: its cICP names matrix 1, of codes that are not RGB"});
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -8,7 +8,7 @@
 #include "support/messages.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 class StillSequence : public testing::Test {
@@ -30,10 +30,10 @@ class StillSequence : public testing::Test {
 
   void expect_refused(const std::string& path, const std::vector<std::string>& parts) const {
     SCOPED_TRACE(path);
-    test::expect_error<InputError>([&] { return listed(path); }, parts);
+    expect_error<InputError>([&] { return listed(path); }, parts);
   }
 
-  test::Scratch scratch_;
+  Scratch scratch_;
 };
 
 TEST_F(StillSequence, AFolderHoldsItsPicturesAsAPersonCounts) {
@@ -161,4 +161,4 @@ TEST_F(StillSequence, NamesWhatIsMadeFromIt) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -11,21 +11,18 @@
 #include "support/messages.hpp"
 #include "support/stills.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::open_test_clip;
-using test::Scratch;
 
 constexpr Shape kStillShape{16, 8, 1};
 
 // Three stills, a.pgm, b.pgm and `c, 2.pgm`, in a folder of their own.
 std::vector<Picture> write_stills(const Scratch& scratch) {
   std::filesystem::create_directory(scratch / "shots");
-  const auto stills = test::random_stills(kStillShape, 255, 3, 4);
-  scratch.write("shots/a.pgm", test::netpbm_file(stills[0], false));
-  scratch.write("shots/b.pgm", test::netpbm_file(stills[1], false));
-  scratch.write("shots/c, 2.pgm", test::netpbm_file(stills[2], false));
+  const auto stills = random_stills(kStillShape, 255, 3, 4);
+  scratch.write("shots/a.pgm", netpbm_file(stills[0], false));
+  scratch.write("shots/b.pgm", netpbm_file(stills[1], false));
+  scratch.write("shots/c, 2.pgm", netpbm_file(stills[2], false));
   return stills;
 }
 
@@ -47,9 +44,9 @@ TEST(StillsTable, GivesEachPictureItsRealExposure) {
   for (const char* table : tables) {
     const auto path = scratch.write("shots/stills.csv", table);
     const auto clip = open_test_clip(path);
-    const auto rasters = test::read_all(*clip);
+    const auto rasters = read_all(*clip);
     ASSERT_EQ(rasters.size(), 3u) << table;
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(test::difference(rasters[k], stills[k]), "") << table;
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(difference(rasters[k], stills[k]), "") << table;
     const Timeline timeline = timeline_of_table(path);
     const auto exposures = timeline.table();
     const std::vector<Exposure> expected{{0, 1000}, {4000, 6000}, {6000, 6003}};
@@ -76,9 +73,9 @@ TEST(StillsTable, WithoutExposuresTheShutterAngleCounts) {
 TEST(StillsTable, NamesFileAndBothValuesOfWhatIsWrong) {
   const Scratch scratch;
   write_stills(scratch);
-  scratch.write("shots/large.pgm", test::netpbm_file(test::random_stills({17, 8, 1}, 255, 1, 1)[0], false));
-  scratch.write("shots/deep.pgm", test::netpbm_file(test::random_stills(kStillShape, 4095, 1, 1)[0], false));
-  scratch.write("shots/pages.tif", test::tiff_file(test::random_stills(kStillShape, 65'535, 2, 1), {}));
+  scratch.write("shots/large.pgm", netpbm_file(random_stills({17, 8, 1}, 255, 1, 1)[0], false));
+  scratch.write("shots/deep.pgm", netpbm_file(random_stills(kStillShape, 4095, 1, 1)[0], false));
+  scratch.write("shots/pages.tif", tiff_file(random_stills(kStillShape, 65'535, 2, 1), {}));
   struct Case {
     const char* table;
     std::vector<const char*> parts;
@@ -114,14 +111,14 @@ TEST(StillsTable, NamesFileAndBothValuesOfWhatIsWrong) {
   };
   for (const Case& tested : cases) {
     const auto path = scratch.write("shots/stills.csv", tested.table);
-    for (const char* part : tested.parts) test::expect_clip_refused(path, {}, part);
+    for (const char* part : tested.parts) expect_clip_refused(path, {}, part);
   }
 }
 
 // What cannot be read, as a folder cannot, is no table that ends there.
 TEST(StillsTable, TellsAReadErrorFromTheEnd) {
   const Scratch scratch;
-  EXPECT_NE(test::message_of<InputError>([&] {
+  EXPECT_NE(message_of<InputError>([&] {
               static_cast<void>(read_stills_table(scratch.folder()));
             }).find("cannot be read to its end"),
             std::string::npos);
@@ -183,13 +180,13 @@ TEST(StillsTable, ReadsTimesFromExifDataWhereColumnsAreEmpty) {
   EXPECT_EQ(timeline_of_table(path).start_ns(1), 10'000'000'000);
   for (const char* time : {"24:00:00", "10:60:00", "10:00:61", "99:99:99"}) {
     write_jpeg(scratch / "a.jpg", 10, std::string("2026:03:29 ") + time, "", 1, 60);
-    test::expect_clip_refused(path, {}, "a.jpg has no start_ns, neither here nor in EXIF data");
+    expect_clip_refused(path, {}, "a.jpg has no start_ns, neither here nor in EXIF data");
   }
   // Two pictures of one second that does not tell its fraction.
   for (const char* name : {"a.jpg", "b.jpg"}) write_jpeg(scratch / name, 20, "2026:02:28 23:59:59", "", 1, 30);
   scratch.write("stills.csv", "a.jpg\nb.jpg\n");
-  test::expect_clip_refused(path, {}, "these are EXIF times, which often have whole seconds only");
+  expect_clip_refused(path, {}, "these are EXIF times, which often have whole seconds only");
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -13,7 +13,7 @@
 #include "support/messages.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 // No multiple of a tile's side.
@@ -24,7 +24,7 @@ struct CloseTiff {
 };
 using TiffFile = std::unique_ptr<TIFF, CloseTiff>;
 
-std::uint32_t code_at(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
+std::uint32_t drawn_code(std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
   return x * 5 + y * 3 + channel * 20;
 }
 
@@ -57,7 +57,7 @@ std::vector<std::uint8_t> packed(const TiffKind& kind, std::uint32_t left, std::
   for (std::uint32_t y = top; y < top + height; ++y) {
     for (std::uint32_t x = left; x < left + width; ++x) {
       for (std::uint32_t channel = 0; channel < (kind.separate ? 1 : kind.channels); ++channel) {
-        const auto code = static_cast<std::uint16_t>(code_at(x, y, kind.separate ? plane : channel));
+        const auto code = static_cast<std::uint16_t>(drawn_code(x, y, kind.separate ? plane : channel));
         bytes.push_back(static_cast<std::uint8_t>(code));
         if (kind.bits == 16) bytes.push_back(static_cast<std::uint8_t>(code >> 8));  // little endian, as here
       }
@@ -84,7 +84,7 @@ void write(const std::filesystem::path& path, const TiffKind& kind) {
 class TiffKinds : public testing::TestWithParam<TiffKind> {};
 
 TEST_P(TiffKinds, GiveTheCodesThatTheyHold) {
-  const test::Scratch scratch;
+  const Scratch scratch;
   write(scratch / "a.tif", GetParam());
   TiffReader reader(scratch / "a.tif");
   ASSERT_EQ(reader.page_count(), 1u);
@@ -97,18 +97,18 @@ TEST_P(TiffKinds, GiveTheCodesThatTheyHold) {
                                                     : page.picture.values<std::uint16_t>()[i];
     const auto pixel = static_cast<std::uint32_t>(i / shape.channels),
                channel = static_cast<std::uint32_t>(i % shape.channels);
-    const std::uint32_t expected = code_at(pixel % kPageWidth, pixel / kPageWidth, channel);
+    const std::uint32_t expected = drawn_code(pixel % kPageWidth, pixel / kPageWidth, channel);
     ASSERT_EQ(code, GetParam().bits == 8 ? expected & 255 : expected) << "value " << i;
   }
 }
 
 TEST_P(TiffKinds, AreRefusedWhereTheyAreDamaged) {
-  const test::Scratch scratch;
+  const Scratch scratch;
   write(scratch / "a.tif", GetParam());
-  std::string bytes = test::read_file(scratch / "a.tif");
+  std::string bytes = read_file(scratch / "a.tif");
   std::fill(bytes.begin() + 8, bytes.begin() + 40, '\xFF');  // of the first strip or tile
   TiffReader reader(scratch.write("b.tif", bytes));
-  test::expect_error<InputError>([&] { return reader.next(); }, {"b.tif cannot be read: it is damaged"});
+  expect_error<InputError>([&] { return reader.next(); }, {"b.tif cannot be read: it is damaged"});
 }
 
 INSTANTIATE_TEST_SUITE_P(All, TiffKinds,
@@ -136,14 +136,14 @@ void write_palette(const std::filesystem::path& path, const std::string& descrip
 
 // A palette's colours, as libtiff shows them: the upper half of 16 bits.
 TEST(TiffPalette, GivesItsColours) {
-  const test::Scratch scratch;
+  const Scratch scratch;
   write_palette(scratch / "a.tif", "");
   const Picture picture = TiffReader(scratch / "a.tif").next()->picture;
   ASSERT_EQ(picture.shape, (Shape{kPageWidth, kPageHeight, 3}));
   const auto codes = picture.values<std::uint8_t>();
   for (std::uint32_t y = 0; y < kPageHeight; ++y) {
     for (std::uint32_t x = 0; x < kPageWidth; ++x) {
-      const std::uint32_t entry = code_at(x, y, 0) & 255, at = (y * kPageWidth + x) * 3;
+      const std::uint32_t entry = drawn_code(x, y, 0) & 255, at = (y * kPageWidth + x) * 3;
       ASSERT_EQ(codes[at], entry);
       ASSERT_EQ(codes[at + 1], 255 - entry);
       ASSERT_EQ(codes[at + 2], 0x12);
@@ -153,15 +153,15 @@ TEST(TiffPalette, GivesItsColours) {
 
 // ImageJ writes one directory for all pictures of a stack: each would be the first.
 TEST(TiffPalette, OfPicturesBehindOneAnotherIsRefused) {
-  const test::Scratch scratch;
+  const Scratch scratch;
   write_palette(scratch / "a.tif", "ImageJ=1.53t\nimages=5\nslices=5\n");
-  scratch.write("a.tif", test::read_file(scratch / "a.tif") + std::string(4 * kPageWidth * kPageHeight, '\0'));
-  test::expect_error<InputError>([&] { return TiffReader(scratch / "a.tif"); },
-                                 {"a.tif holds 5 pictures behind one another, as its description by ImageJ says"});
+  scratch.write("a.tif", read_file(scratch / "a.tif") + std::string(4 * kPageWidth * kPageHeight, '\0'));
+  expect_error<InputError>([&] { return TiffReader(scratch / "a.tif"); },
+                           {"a.tif holds 5 pictures behind one another, as its description by ImageJ says"});
 }
 
 TEST(TiffColours, OfOtherKindsAreNamed) {
-  const test::Scratch scratch;
+  const Scratch scratch;
   for (const auto& [kind, channels, name] :
        {std::tuple{PHOTOMETRIC_SEPARATED, 4, "CMYK"}, {PHOTOMETRIC_CIELAB, 3, "L*a*b*"}}) {
     {
@@ -170,13 +170,13 @@ TEST(TiffColours, OfOtherKindsAreNamed) {
       std::vector<std::uint8_t> row(static_cast<std::size_t>(channels) * kPageWidth);
       for (std::uint32_t y = 0; y < kPageHeight; ++y) TIFFWriteScanline(file.get(), row.data(), y, 0);
     }
-    test::expect_error<InputError>([&] { return TiffReader(scratch / "a.tif").next(); },
-                                   {"its colours are " + std::string(name)});
+    expect_error<InputError>([&] { return TiffReader(scratch / "a.tif").next(); },
+                             {"its colours are " + std::string(name)});
   }
 }
 
 TEST(TiffPages, ThatAreCopiesOfOthersAreNoMoments) {
-  const test::Scratch scratch;
+  const Scratch scratch;
   {
     const TiffFile file = begun(scratch / "a.tif", {8, 1, false, false});
     for (const std::uint32_t kind : {0U, 0U + FILETYPE_REDUCEDIMAGE, 0U + FILETYPE_MASK, 0U}) {
@@ -212,4 +212,4 @@ TEST(TiffStory, OfImageJCountsTimeInItsUnit) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

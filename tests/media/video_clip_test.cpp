@@ -12,17 +12,8 @@
 #include "support/scratch.hpp"
 #include "support/stills.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::bytes_of;
-using test::difference;
-using test::expect_clip_refused;
-using test::from_raw;
-using test::make;
-using test::open_test_clip;
-using test::read_all;
-using test::Scratch;
 
 constexpr Shape kGrey{17, 9, 1}, kColour{17, 9, 3};
 
@@ -53,7 +44,7 @@ TEST(VideoClip, KeepsGreyCodeForCode) {
        {Depth{"gray", 255}, {"gray10le", 1023}, {"gray12le", 4095}, {"gray16le", 65'535}}) {
     SCOPED_TRACE(pixels);
     const Scratch scratch;
-    const auto pictures = test::random_stills(kGrey, white, 4, white);
+    const auto pictures = random_stills(kGrey, white, 4, white);
     scratch.write("raw", bytes_of(pictures));
     make(scratch, from_raw(kGrey, pixels) + "-c:v ffv1 -pix_fmt " + pixels + " clip.mkv");
     const auto clip = open_test_clip(scratch / "clip.mkv");
@@ -86,7 +77,7 @@ TEST(VideoClip, ReadsRawVideoOfEveryKind) {
   for (const Kind& kind : kinds) {
     SCOPED_TRACE(kind.pixels);
     const Scratch scratch;
-    const auto pictures = test::random_stills(kind.shape, kind.white, 3, kind.white);
+    const auto pictures = random_stills(kind.shape, kind.white, 3, kind.white);
     std::string bytes = bytes_of(pictures);
     if (kind.swapped) bytes = with_bytes_swapped(bytes);
     expect_codes(*open_test_clip(scratch.write("raw", bytes), raw_options(kind.shape, kind.pixels)),
@@ -121,7 +112,7 @@ TEST(VideoClip, SpreadsDeepRgbOverSixteenBits) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   // As planes: green, blue, red.
-  const Picture planes = test::random_stills({17, 27, 1}, 1023, 1, 4)[0];
+  const Picture planes = random_stills({17, 27, 1}, 1023, 1, 4)[0];
   scratch.write("raw", bytes_of({planes}));
   make(scratch, from_raw(kGrey, "gbrp10le") + "-c:v ffv1 -pix_fmt gbrp10le clip.mkv");
   const auto clip = open_test_clip(scratch / "clip.mkv");
@@ -154,7 +145,7 @@ TEST(VideoClip, TurnsYuvIntoRgbByTheMatrixTheFileNames) {
                                  {"bt2020nc", "tv", 0.2627, 0.0593, false}}) {
     SCOPED_TRACE(std::string(colours.space) + " " + colours.range);
     const Scratch scratch;
-    test::Random random(5);
+    Random random(5);
     std::vector<Picture> planes{Picture({17, 27, 1}, ValueType::code16, 1023)};
     const std::size_t count = kGrey.pixel_count();
     auto codes = planes[0].values<std::uint16_t>();
@@ -229,7 +220,7 @@ TEST(VideoClip, RefusesWhatItCannotKeep) {
 TEST(VideoClip, SaysThatATransferFunctionIsNotKnown) {
   NEEDS_FFMPEG();
   const Scratch scratch;
-  scratch.write("raw", bytes_of(test::random_stills({17, 27, 1}, 1023, 1, 4)));
+  scratch.write("raw", bytes_of(random_stills({17, 27, 1}, 1023, 1, 4)));
   for (const auto& [name, known] : {std::pair<std::string, bool>{"bt709", true}, {"smpte428", false}}) {
     make(scratch,
          from_raw(kGrey, "yuv444p10le") + "-c:v ffv1 -pix_fmt yuv444p10le -color_trc " + name + " clip.mkv");
@@ -245,11 +236,11 @@ TEST(VideoClip, SaysThatATransferFunctionIsNotKnown) {
 TEST(VideoClip, StandsUprightAsPlayersShowIt) {
   NEEDS_FFMPEG();
   const Scratch scratch;
-  scratch.write("raw", bytes_of(test::random_stills({16, 8, 1}, 4095, 2, 4)));
+  scratch.write("raw", bytes_of(random_stills({16, 8, 1}, 4095, 2, 4)));
   make(scratch, from_raw({16, 8, 1}, "gray12le") + "-c:v ffv1 -pix_fmt gray12le clip.mov");
   for (const int angle : {0, 90, 180, 270}) {
     const double across = angle == 90 ? 1 : angle == 270 ? -1 : 0, along = angle == 0 ? 1 : angle == 180 ? -1 : 0;
-    test::set_display_matrix(scratch / "clip.mov", {along, across, -across, along});
+    set_display_matrix(scratch / "clip.mov", {along, across, -across, along});
     make(scratch, "-i clip.mov -f rawvideo -pix_fmt gray12le shown");  // ffmpeg turns it, too
     const auto clip = open_test_clip(scratch / "clip.mov");
     const bool swapped = angle % 180 != 0;
@@ -257,7 +248,7 @@ TEST(VideoClip, StandsUprightAsPlayersShowIt) {
     std::string got;
     for (const auto& raster : read_all(*clip))
       got.append(reinterpret_cast<const char*>(raster.data()), raster.size());
-    EXPECT_EQ(got, test::read_file(scratch / "shown")) << angle;
+    EXPECT_EQ(got, read_file(scratch / "shown")) << angle;
   }
 }
 
@@ -267,7 +258,7 @@ TEST(VideoClip, SaysWhereItsPicturesAreTurnedByNoQuarter) {
   const Scratch scratch;
   make(scratch, "-f lavfi -i testsrc2=s=16x8:r=25 -frames:v 2 -c:v ffv1 flat.mov");
   const auto open_with = [&](const std::array<double, 4>& turn) {
-    test::set_display_matrix(scratch / "flat.mov", turn);
+    set_display_matrix(scratch / "flat.mov", turn);
     return open_test_clip(scratch / "flat.mov");
   };
   const auto turned = [](double degrees) {
@@ -298,13 +289,13 @@ TEST(VideoClip, RefusesPicturesThatTheDecoderMarksAsDamaged) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25:d=0.6 -c:v libx264 -pix_fmt yuv422p10le clip.mp4");
-  const std::string whole = test::read_file(scratch / "clip.mp4");
+  const std::string whole = read_file(scratch / "clip.mp4");
   int refused = 0;
   for (std::size_t percent = 20; percent < 80; percent += 4) {  // wherever a decoder can see it
     std::string bytes = whole;
     for (std::size_t i = 0; i < 40; ++i) bytes[bytes.size() * percent / 100 + i] ^= 0x5A;
     const auto path = scratch.write("damaged.mp4", bytes);
-    const std::string message = test::message_of<InputError>([&] { return read_all(*open_test_clip(path)); });
+    const std::string message = message_of<InputError>([&] { return read_all(*open_test_clip(path)); });
     if (message.empty()) continue;
     ++refused;
     EXPECT_NE(message.find("damaged.mp4"), std::string::npos) << message;
@@ -314,4 +305,4 @@ TEST(VideoClip, RefusesPicturesThatTheDecoderMarksAsDamaged) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -13,21 +13,8 @@
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Scratch;
-
-// The text of each fact, with who said it.
-std::map<Setting, std::pair<std::string, Origin>> facts_of(const Clip& clip) {
-  std::map<Setting, std::pair<std::string, Origin>> facts;
-  for (const Fact& fact : clip.info().facts) facts[fact.setting] = {fact.text, fact.origin};
-  return facts;
-}
-
-std::pair<std::string, Origin> assumed(const char* text) { return {text, Origin::assumed}; }
-std::pair<std::string, Origin> from_file(const char* text) { return {text, Origin::file}; }
-std::pair<std::string, Origin> stated(const char* text) { return {text, Origin::stated}; }
 
 std::string test_picture(const std::string& size) {
   return "-f lavfi -i testsrc2=s=" + size + ":d=0.08:r=25 -c:v ffv1 -pix_fmt yuv420p ";
@@ -38,26 +25,25 @@ TEST(VideoColour, OfFilesThatSayNothingDependsOnTheirLines) {
   const Scratch scratch;
   test::make(scratch, test_picture("64x720") + "high.mkv");
   test::make(scratch, test_picture("64x718") + "-color_range unknown low.mkv");
-  EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "high.mkv"))[Setting::matrix], assumed("matrix bt709"));
-  EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "low.mkv"))[Setting::matrix], assumed("matrix bt601"));
-  EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "low.mkv"))[Setting::range], assumed("limited range"));
-  EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "low.mkv"))[Setting::transfer],
-            assumed("transfer srgb"));
+  EXPECT_EQ(facts_of(*open_test_clip(scratch / "high.mkv")).at(Setting::matrix).line(), "matrix bt709, assumed");
+  EXPECT_EQ(facts_of(*open_test_clip(scratch / "low.mkv")).at(Setting::matrix).line(), "matrix bt601, assumed");
+  EXPECT_EQ(facts_of(*open_test_clip(scratch / "low.mkv")).at(Setting::range).line(), "limited range, assumed");
+  EXPECT_EQ(facts_of(*open_test_clip(scratch / "low.mkv")).at(Setting::transfer).line(), "transfer srgb, assumed");
   test::make(scratch, "-i low.mkv -c:v prores_ks -bsf:v prores_metadata=color_primaries=unknown:color_trc=unknown:"
                       "colorspace=unknown pro.mov");
-  EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "pro.mov"))[Setting::matrix], assumed("matrix bt601"));
+  EXPECT_EQ(facts_of(*open_test_clip(scratch / "pro.mov")).at(Setting::matrix).line(), "matrix bt601, assumed");
   // It matters: the codes are those of the matrix that was taken.
-  const auto usual = test::open_test_clip(scratch / "high.mkv"),
-             changed = test::open_test_clip(scratch / "high.mkv", {.matrix = YuvMatrix::bt601});
-  EXPECT_NE(test::read_all(*usual).at(0), test::read_all(*changed).at(0));
-  EXPECT_EQ(facts_of(*changed)[Setting::matrix], stated("matrix bt601"));
+  const auto usual = open_test_clip(scratch / "high.mkv"),
+             changed = open_test_clip(scratch / "high.mkv", {.matrix = YuvMatrix::bt601});
+  EXPECT_NE(read_all(*usual).at(0), read_all(*changed).at(0));
+  EXPECT_EQ(facts_of(*changed).at(Setting::matrix).line(), "matrix bt601, as stated");
 }
 
 TEST(VideoColour, ThatIsNotKnownIsNamed) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   test::make(scratch, test_picture("64x48") + "-color_primaries film clip.mkv");
-  const auto clip = test::open_test_clip(scratch / "clip.mkv");
+  const auto clip = open_test_clip(scratch / "clip.mkv");
   ASSERT_EQ(clip->info().notes.size(), 1u);
   EXPECT_EQ(clip->info().notes[0].text,
             "the file's set of primaries, film, is not known here and another is taken; state which");
@@ -77,16 +63,16 @@ TEST(VideoColour, IsWhatTheFileSaysAndBeforeThatWhatWasStated) {
     test::make(scratch, test_picture("64x48") + "-c:v " + std::string(encoder) +
                             " -vf setsar=32/27 -colorspace bt709 -color_range pc -color_primaries bt2020 "
                             "-color_trc arib-std-b67 clip.mkv");
-    const auto clip = test::open_test_clip(scratch / "clip.mkv");
+    const auto clip = open_test_clip(scratch / "clip.mkv");
     auto facts = facts_of(*clip);
-    EXPECT_EQ(facts[Setting::matrix], from_file("matrix bt709"));
-    EXPECT_EQ(facts[Setting::range], from_file("full range"));
-    EXPECT_EQ(facts[Setting::primaries], from_file("primaries bt2020"));
-    EXPECT_EQ(facts[Setting::transfer], from_file("transfer hlg"));
-    EXPECT_EQ(facts[Setting::pixel_aspect], from_file("pixels 32:27"));
+    EXPECT_EQ(facts.at(Setting::matrix).line(), "matrix bt709, from the file");
+    EXPECT_EQ(facts.at(Setting::range).line(), "full range, from the file");
+    EXPECT_EQ(facts.at(Setting::primaries).line(), "primaries bt2020, from the file");
+    EXPECT_EQ(facts.at(Setting::transfer).line(), "transfer hlg, from the file");
+    EXPECT_EQ(facts.at(Setting::pixel_aspect).line(), "pixels 32:27, from the file");
     EXPECT_EQ(clip->info().format.primaries, Primaries::bt2020);
     EXPECT_EQ(clip->info().format.pixel_aspect, (Rational{32, 27}));
-    EXPECT_EQ(test::read_all(*clip).size(), 2u);
+    EXPECT_EQ(read_all(*clip).size(), 2u);
     const auto& notes = clip->info().notes;
     EXPECT_TRUE(*note == 0 ? notes.empty() : notes.at(0).text.starts_with(note)) << encoder << notes.size();
   }
@@ -99,13 +85,13 @@ TEST(VideoColour, IsWhatTheFileSaysAndBeforeThatWhatWasStated) {
                             std::nullopt,
                             Primaries::p3,
                             parse_pixel_aspect("4:3")};
-  const auto other = test::open_test_clip(scratch / "clip.mkv", options);
+  const auto other = open_test_clip(scratch / "clip.mkv", options);
   auto facts = facts_of(*other);
-  EXPECT_EQ(facts[Setting::matrix], stated("matrix bt2020"));
-  EXPECT_EQ(facts[Setting::range], stated("limited range"));
-  EXPECT_EQ(facts[Setting::primaries], stated("primaries p3"));
-  EXPECT_EQ(facts[Setting::transfer], stated("transfer pq"));
-  EXPECT_EQ(facts[Setting::pixel_aspect], stated("pixels 4:3"));
+  EXPECT_EQ(facts.at(Setting::matrix).line(), "matrix bt2020, as stated");
+  EXPECT_EQ(facts.at(Setting::range).line(), "limited range, as stated");
+  EXPECT_EQ(facts.at(Setting::primaries).line(), "primaries p3, as stated");
+  EXPECT_EQ(facts.at(Setting::transfer).line(), "transfer pq, as stated");
+  EXPECT_EQ(facts.at(Setting::pixel_aspect).line(), "pixels 4:3, as stated");
   EXPECT_EQ(other->info().format.transfer, Transfer::pq());
 }
 
@@ -113,13 +99,11 @@ TEST(VideoColour, IsWhatTheFileSaysAndBeforeThatWhatWasStated) {
 TEST(VideoColour, OfEightBitsIsBelievedButForTheCurveOfCameras) {
   NEEDS_FFMPEG();
   const Scratch scratch;
-  const std::map<std::string, std::pair<std::string, Origin>> told{
-      {"iec61966-2-1", from_file("transfer srgb")},
-      {"linear", from_file("transfer linear")},
-      {"bt709", assumed("transfer srgb")}};
-  for (const auto& [named, taken] : told) {
-    test::make(scratch, test_picture("64x48") + "-color_trc " + named + " -y clip.mkv");
-    EXPECT_EQ(facts_of(*test::open_test_clip(scratch / "clip.mkv"))[Setting::transfer], taken) << named;
+  for (const auto& [named, taken] :
+       {std::pair("iec61966-2-1", "transfer srgb, from the file"), {"linear", "transfer linear, from the file"},
+        {"bt709", "transfer srgb, assumed; the file names bt709"}}) {
+    test::make(scratch, test_picture("64x48") + "-color_trc " + std::string(named) + " -y clip.mkv");
+    EXPECT_EQ(facts_of(*open_test_clip(scratch / "clip.mkv")).at(Setting::transfer).line(), taken) << named;
   }
 }
 
@@ -138,23 +122,23 @@ double pq_light(double e) {
 TEST(VideoColour, OfHighDynamicRangeIsTheLightOfTheStandard) {
   NEEDS_FFMPEG();
   const Scratch scratch;
-  test::Random random(5);
+  Random random(5);
   std::vector<std::array<int, 3>> yuv;
   for (int i = 0; i < 4096; ++i) {
     yuv.push_back({static_cast<int>(random.whole(64, 940)), static_cast<int>(random.whole(400, 624)),
                    static_cast<int>(random.whole(400, 624))});
   }
-  scratch.write("raw", test::planes_of(yuv));
+  scratch.write("raw", planes_of(yuv));
   for (const bool is_hlg : {true, false}) {
     test::make(scratch,
                "-f rawvideo -s 64x64 -pix_fmt yuv444p10le -r 25 -i raw -c:v ffv1 -color_primaries bt2020 "
                "-colorspace bt2020nc -color_range tv -color_trc " +
                    std::string(is_hlg ? "arib-std-b67" : "smpte2084") + " clip.mkv");
-    const auto clip = test::open_test_clip(scratch / "clip.mkv");
+    const auto clip = open_test_clip(scratch / "clip.mkv");
     const CaptureFormat& format = clip->info().format;
     ASSERT_EQ(format.transfer, is_hlg ? Transfer::hlg() : Transfer::pq());
     ASSERT_EQ(format.primaries, Primaries::bt2020);
-    const auto raster = test::read_all(*clip).at(0);
+    const auto raster = read_all(*clip).at(0);
     for (std::size_t i = 0; i < yuv.size(); ++i) {
       // BT.2020's non-constant luminance, limited range of 10 bits.
       const double y = (yuv[i][0] - 64) / 876.0, u = (yuv[i][1] - 512) / 896.0, v = (yuv[i][2] - 512) / 896.0;
@@ -165,8 +149,7 @@ TEST(VideoColour, OfHighDynamicRangeIsTheLightOfTheStandard) {
         const double signal = std::clamp(rgb[channel], 0.0, 1.0);
         const auto light_of = [&](double e) { return is_hlg ? hlg_light(e) : pq_light(e); };
         constexpr double kHalf = 0.5000001 / 65'535;  // and what doubles round
-        const double light =
-            format.transfer.light_of(test::code_at(format, raster, i * 3 + channel) / 65'535.0);
+        const double light = format.transfer.light_of(code_at(format, raster, i * 3 + channel) / 65'535.0);
         ASSERT_GE(light, light_of(std::max(signal - kHalf, 0.0)) * (1 - 1e-9)) << i << ", " << channel;
         ASSERT_LE(light, light_of(std::min(signal + kHalf, 1.0)) * (1 + 1e-9) + 1e-15)
             << i << ", " << channel;
@@ -192,13 +175,13 @@ TEST(VideoColour, StandsUprightInAllEightDirections) {
                                       {1, 0, 0, -1},
                                       {0, 1, 1, 0},
                                       {0, -1, -1, 0}}) {
-    test::set_display_matrix(scratch / "clip.mp4", {1.0 * d[0], 1.0 * d[1], 1.0 * d[2], 1.0 * d[3]});
-    const auto clip = test::open_test_clip(scratch / "clip.mp4");
+    set_display_matrix(scratch / "clip.mp4", {1.0 * d[0], 1.0 * d[1], 1.0 * d[2], 1.0 * d[3]});
+    const auto clip = open_test_clip(scratch / "clip.mp4");
     const bool lies = d[0] == 0;
     const CaptureFormat& format = clip->info().format;
     ASSERT_EQ(format.shape.width, lies ? 32u : 48u);
     EXPECT_EQ(format.pixel_aspect, lies ? (Rational{3, 4}) : (Rational{4, 3}));
-    const auto raster = test::read_all(*clip).at(0);
+    const auto raster = read_all(*clip).at(0);
     const int x = d[0] * 8 + d[2] * 8, y = d[1] * 8 + d[3] * 8;  // of the white square's middle
     const int column = x < 0 ? static_cast<int>(format.shape.width) + x : x;
     const int row = y < 0 ? static_cast<int>(format.shape.height) + y : y;
@@ -206,7 +189,7 @@ TEST(VideoColour, StandsUprightInAllEightDirections) {
       for (int cell_x = 8; cell_x < static_cast<int>(format.shape.width); cell_x += 16) {
         const auto at =
             static_cast<std::uint64_t>(cell_y) * format.shape.width + static_cast<std::uint64_t>(cell_x);
-        EXPECT_EQ(test::code_at(format, raster, at * 3) > 128, cell_x == column && cell_y == row)
+        EXPECT_EQ(code_at(format, raster, at * 3) > 128, cell_x == column && cell_y == row)
             << d[0] << d[1] << d[2] << d[3] << " at " << cell_x << "," << cell_y;
       }
     }
@@ -214,12 +197,12 @@ TEST(VideoColour, StandsUprightInAllEightDirections) {
   // H.264 says it itself, as well.
   test::make(scratch, "-i clip.mkv -c:v libx264 -pix_fmt yuv420p "
                       "-bsf:v h264_metadata=display_orientation=insert:rotate=90 turned.mkv");
-  const auto turned = test::open_test_clip(scratch / "turned.mkv");
+  const auto turned = open_test_clip(scratch / "turned.mkv");
   EXPECT_EQ(turned->info().format.shape, (Shape{32, 48, 3}));
   EXPECT_EQ(turned->info().format.pixel_aspect, (Rational{3, 4}));
-  const auto raster = test::read_all(*turned).at(0);
+  const auto raster = read_all(*turned).at(0);
   for (const std::size_t row : {8u, 40u})  // at the bottom left
-    EXPECT_EQ(test::code_at(turned->info().format, raster, (row * 32 + 8) * 3) > 128, row == 40);
+    EXPECT_EQ(code_at(turned->info().format, raster, (row * 32 + 8) * 3) > 128, row == 40);
 }
 
 // What a camera put into the 16 bits of grey video is not known.
@@ -230,13 +213,13 @@ TEST(VideoColour, TellsWhatWhiteIsTakenToBe) {
        {std::tuple("gray12le", "white 4095, from the file", 0u), {"gray16le", "white 65535, assumed", 1u}}) {
     test::make(scratch, "-f lavfi -i testsrc2=s=32x32:r=25:d=0.1 -c:v ffv1 -pix_fmt " + std::string(pixels) +
                             " clip.mkv");
-    const auto clip = test::open_test_clip(scratch / "clip.mkv");
-    EXPECT_EQ(test::facts_of(*clip).at(Setting::white_code).line(), line);
+    const auto clip = open_test_clip(scratch / "clip.mkv");
+    EXPECT_EQ(facts_of(*clip).at(Setting::white_code).line(), line);
     ASSERT_EQ(clip->info().notes.size(), notes) << pixels;
     for (const Note& note : clip->info().notes) EXPECT_EQ(note.settings, std::vector{Setting::white_code});
   }
-  const auto stated = test::open_test_clip(scratch / "clip.mkv", {.white_code = 4095});
-  EXPECT_EQ(test::facts_of(*stated).at(Setting::white_code).line(), "white 4095, as stated");
+  const auto stated = open_test_clip(scratch / "clip.mkv", {.white_code = 4095});
+  EXPECT_EQ(facts_of(*stated).at(Setting::white_code).line(), "white 4095, as stated");
   EXPECT_TRUE(stated->info().notes.empty());
 }
 
@@ -252,17 +235,17 @@ TEST(VideoColour, OfGreyAndRgbInTheLimitedRangeIsScaledToTheFullOne) {
       if (bits > 8) raw += static_cast<char>(code >> 8);
     }
     scratch.write("raw", channels == 1 ? raw : raw + raw + raw);
-    const std::string words = test::from_raw({32, (1u << bits) / 32, 1}, pixels) + "-c:v ffv1 ";
+    const std::string words = from_raw({32, (1u << bits) / 32, 1}, pixels) + "-c:v ffv1 ";
     test::make(scratch, words + "bare.mkv");
     test::make(scratch, words + "-color_range tv limited.mkv");
     const auto codes_of = [&](const char* name, std::optional<CodeRange> range, const std::string& fact) {
-      const auto clip = test::open_test_clip(scratch / name, {.range = range});
-      const auto facts = test::facts_of(*clip);
+      const auto clip = open_test_clip(scratch / name, {.range = range});
+      const auto facts = facts_of(*clip);
       EXPECT_EQ(facts.contains(Setting::range) ? facts.at(Setting::range).line() : "", fact) << name;
       std::vector<long> codes;
-      const auto raster = test::read_all(*clip).at(0);
+      const auto raster = read_all(*clip).at(0);
       for (std::size_t i = 0; i < std::size_t{1} << bits; ++i)
-        codes.push_back(test::code_at(clip->info().format, raster, i * channels));
+        codes.push_back(code_at(clip->info().format, raster, i * channels));
       return codes;
     };
     const long unit = 1 << (bits - 8);
@@ -273,14 +256,14 @@ TEST(VideoColour, OfGreyAndRgbInTheLimitedRangeIsScaledToTheFullOne) {
     }
     EXPECT_EQ(codes_of("bare.mkv", CodeRange::limited, "limited range, as stated"), scaled);
     if (channels == 3) {
-      test::expect_clip_refused(scratch / "limited.mkv", {}, "names the limited range, which some encoders write");
+      expect_clip_refused(scratch / "limited.mkv", {}, "names the limited range, which some encoders write");
       EXPECT_EQ(codes_of("limited.mkv", CodeRange::full, "full range, as stated"), codes_of("bare.mkv", {}, ""));
       continue;
     }
     EXPECT_EQ(codes_of("limited.mkv", {}, "limited range, from the file"), scaled);
     EXPECT_EQ(codes_of("bare.mkv", {}, ""), full);
     EXPECT_EQ(codes_of("limited.mkv", CodeRange::full, "full range, as stated"), full);
-    test::expect_clip_refused(scratch / "limited.mkv", {.white_code = 4095}, "scaled to the full one, whose white is ");
+    expect_clip_refused(scratch / "limited.mkv", {.white_code = 4095}, "scaled to the full one, whose white is ");
   }
 }
 
@@ -291,7 +274,7 @@ TEST(VideoColour, ThatChangesInMidClipIsRefused) {
     test::make(scratch, "-f lavfi -i testsrc2=s=64x48:r=25:d=1 -c:v libx264 -bf 0 -pix_fmt " + pixels +
                             " -bsf:v h264_metadata=sample_aspect_ratio=1:colour_primaries=1:video_full_range_flag=0:"
                             "matrix_coefficients=1:transfer_characteristics=1" + change + " part.ts");
-    return test::read_file(scratch / "part.ts");
+    return read_file(scratch / "part.ts");
   };
   const std::string first = clip_of("");
   for (const auto& [second, said] :
@@ -305,16 +288,16 @@ TEST(VideoColour, ThatChangesInMidClipIsRefused) {
         {clip_of(":transfer_characteristics=6"), ""}}) {
     ClipOptions options{.rate = Rational{25, 1}};
     const auto path = scratch.write("joined.ts", first + second);
-    if (*said != 0) test::expect_clip_refused(path, options, said);
+    if (*said != 0) expect_clip_refused(path, options, said);
     options.ends_at_damage = true;
-    EXPECT_EQ(test::read_all(*test::open_test_clip(path, options)).size(), *said == 0 ? 50u : 25u) << said;
+    EXPECT_EQ(read_all(*open_test_clip(path, options)).size(), *said == 0 ? 50u : 25u) << said;
     options.range = CodeRange::limited;
     options.matrix = YuvMatrix::bt709;
     options.transfer = Transfer::srgb();
     options.primaries = Primaries::bt709;
     options.pixel_aspect = Rational{1, 1};
     const bool is_of_pixels = std::string_view(said).ends_with("bits");
-    EXPECT_EQ(test::read_all(*test::open_test_clip(path, options)).size(), is_of_pixels ? 25u : 50u) << "as stated";
+    EXPECT_EQ(read_all(*open_test_clip(path, options)).size(), is_of_pixels ? 25u : 50u) << "as stated";
   }
 }
 
@@ -325,12 +308,12 @@ TEST(VideoColour, ThatChangesBeforeAPartIsRefused) {
   const std::string make = "-f lavfi -i testsrc2=s=64x48:r=25:d=1 -c:v mjpeg -aspect ";
   test::make(scratch, make + "4:3 a.mjpeg");
   test::make(scratch, make + "8:3 b.mjpeg");
-  scratch.write("joined.mjpeg", test::read_file(scratch / "a.mjpeg") + test::read_file(scratch / "b.mjpeg"));
+  scratch.write("joined.mjpeg", read_file(scratch / "a.mjpeg") + read_file(scratch / "b.mjpeg"));
   ClipOptions options;
   options.rate = Rational{25, 1};
   options.from = ClipMoment{30, true};
-  test::expect_clip_refused(scratch / "joined.mjpeg", options,
-                            "picture 30 is of pixels 2:1, the ones before it of square pixels");
+  expect_clip_refused(scratch / "joined.mjpeg", options,
+                      "picture 30 is of pixels 2:1, the ones before it of square pixels");
 }
 
 TEST(VideoColour, TellsOfTransparencyWhereThereIsSome) {
@@ -341,8 +324,8 @@ TEST(VideoColour, TellsOfTransparencyWhereThereIsSome) {
         {"color=red@0:s=32x32:r=25:d=0.2,format=rgba,split[a][b];[a]palettegen[p];[b][p]paletteuse' clear.gif", true},
         {"testsrc2=s=32x32:r=25:d=0.2' -c:v libvpx-vp9 -pix_fmt yuva420p clear.webm", true}}) {
     test::make(scratch, "-f lavfi -i '" + std::string(words));
-    const auto clip = test::open_test_clip(scratch / std::string(words).substr(std::string(words).rfind(' ') + 1));
-    test::read_all(*clip);
+    const auto clip = open_test_clip(scratch / std::string(words).substr(std::string(words).rfind(' ') + 1));
+    read_all(*clip);
     auto told = clip->remarks();
     for (const Note& note : clip->info().notes) told.push_back(note.text);
     EXPECT_EQ(std::ranges::count(told, "the file's transparency is left out"), is_told) << words;
@@ -353,13 +336,13 @@ TEST(VideoColour, OfDigitalCinemaIsRefusedWithItsWayOut) {
   NEEDS_FFMPEG();
   const Scratch scratch;
   test::make(scratch, "-f lavfi -i color=0x4080C0:s=32x32:r=25:d=0.1 -c:v rawvideo -pix_fmt xyz12le clip.nut");
-  test::expect_clip_refused(scratch / "clip.nut", {}, "holds X'Y'Z' of digital cinema");
+  expect_clip_refused(scratch / "clip.nut", {}, "holds X'Y'Z' of digital cinema");
   test::make(scratch, "-i clip.nut -pix_fmt gbrp16le -color_trc gamma22 -color_primaries bt709 -c:v ffv1 film.mkv");
-  const auto clip = test::open_test_clip(scratch / "film.mkv");
+  const auto clip = open_test_clip(scratch / "film.mkv");
   EXPECT_EQ(clip->info().format.transfer, Transfer::parse("gamma:2.2"));
-  const auto raster = test::read_all(*clip).at(0);
+  const auto raster = read_all(*clip).at(0);
   for (std::size_t i = 0; i < 3; ++i)  // by less than sRGB's curve is off from that
-    EXPECT_NEAR(test::code_at(clip->info().format, raster, i) / 257.0, 64.0 * static_cast<double>(i + 1), 4.0) << i;
+    EXPECT_NEAR(code_at(clip->info().format, raster, i) / 257.0, 64.0 * static_cast<double>(i + 1), 4.0) << i;
 }
 
 // Frames are whole where nothing says that they are interlaced; that something says so is no assumption.
@@ -368,7 +351,7 @@ TEST(VideoColour, TellsThatFramesAreAssumedToBeWhole) {
   const Scratch scratch;
   const auto facts = [&](const std::string& words) {
     test::make(scratch, "-f lavfi -i testsrc2=s=32x32:r=25:d=0.1 " + words);
-    return test::facts_of(*test::open_test_clip(scratch / words.substr(words.rfind(' ') + 1)));
+    return facts_of(*open_test_clip(scratch / words.substr(words.rfind(' ') + 1)));
   };
   EXPECT_EQ(facts("-c:v rawvideo -pix_fmt yuv420p clip.avi").at(Setting::deinterlace).line(),
             "progressive frames, assumed");
@@ -385,10 +368,9 @@ TEST(VideoColour, TellsWhichPrimariesCountAsOthers) {
     test::make(scratch,
                "-f lavfi -i testsrc2=s=32x32:r=25:d=0.1 -c:v ffv1 -pix_fmt yuv420p -color_primaries " +
                    std::string(named) + " clip.mkv");
-    EXPECT_EQ(test::facts_of(*test::open_test_clip(scratch / "clip.mkv")).at(Setting::primaries).line(),
-              line);
+    EXPECT_EQ(facts_of(*open_test_clip(scratch / "clip.mkv")).at(Setting::primaries).line(), line);
   }
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

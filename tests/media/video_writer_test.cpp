@@ -13,10 +13,8 @@
 #include "support/scratch.hpp"
 #include "support/stills.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Scratch;
 
 VideoFormat format_of(const Picture& picture, Rational rate) {
   return {picture.shape, picture.type, picture.white_code, Transfer::srgb(), rate};
@@ -24,7 +22,7 @@ VideoFormat format_of(const Picture& picture, Rational rate) {
 
 void write_video(const std::filesystem::path& path, const std::vector<Picture>& pictures, Rational rate,
                  const std::optional<std::string>& codec = std::nullopt) {
-  test::use_modules();
+  use_modules();
   const auto writer =
       open_video_writer(path, format_of(pictures.front(), rate), video_codec_for(path, codec));
   for (const Picture& picture : pictures) writer->write(picture);
@@ -61,11 +59,11 @@ TEST(VideoWriter, NamesAndUsesTheMatrixThatIsUsualForItsLines) {
       if (!is_deep) picture.values<std::uint8_t>()[i] = static_cast<std::uint8_t>(kRed[i % 3]);
     }
     write_video(scratch / name, {picture, picture}, {25, 1}, codec);
-    const auto clip = test::open_test_clip(scratch / name);
+    const auto clip = open_test_clip(scratch / name);
     const auto matrix = std::ranges::find(clip->info().facts, Setting::matrix, &Fact::setting);
     ASSERT_NE(matrix, clip->info().facts.end());
     EXPECT_EQ(matrix->line(), said);
-    const auto raster = test::read_all(*clip).front();
+    const auto raster = read_all(*clip).front();
     for (std::size_t i = 0; i < 3; ++i) {
       std::uint16_t deep = 0;
       if (is_deep) std::memcpy(&deep, &raster[2 * i], 2);
@@ -82,17 +80,17 @@ TEST(VideoWriter, Ffv1GivesEveryCodeBack) {
           SCOPED_TRACE(std::string(name) + ", " + std::to_string(channels) + " channels, white " +
                        std::to_string(white) + ", width " + std::to_string(width));
           const Scratch scratch;
-          const auto pictures = test::random_stills({width, height, channels}, white, 5, width + white);
+          const auto pictures = random_stills({width, height, channels}, white, 5, width + white);
           write_video(scratch / name, pictures, {30000, 1001});
           EXPECT_EQ(file_count(scratch), 1u);  // no temporary file stays
-          const auto clip = test::open_test_clip(scratch / name);
+          const auto clip = open_test_clip(scratch / name);
           EXPECT_EQ(clip->info().format.shape, pictures[0].shape);
           EXPECT_EQ(clip->info().format.white_code, white);
           EXPECT_EQ(clip->info().timing.rate, (Rational{30000, 1001}));
-          const auto rasters = test::read_all(*clip);
+          const auto rasters = read_all(*clip);
           ASSERT_EQ(rasters.size(), pictures.size());
           for (std::size_t k = 0; k < rasters.size(); ++k) {
-            EXPECT_EQ(test::difference(rasters[k], pictures[k]), "") << k;
+            EXPECT_EQ(difference(rasters[k], pictures[k]), "") << k;
           }
         }
       }
@@ -125,9 +123,9 @@ TEST(VideoWriter, EveryCodecKeepsTheColours) {
       pictures.push_back(std::move(picture));
     }
     write_video(scratch / name, pictures, {25, 1}, codec_name);
-    const auto clip = test::open_test_clip(scratch / name);
+    const auto clip = open_test_clip(scratch / name);
     EXPECT_EQ(clip->info().timing.rate, (Rational{25, 1}));
-    const auto rasters = test::read_all(*clip);
+    const auto rasters = read_all(*clip);
     ASSERT_EQ(rasters.size(), pictures.size());
     const bool reads_deep = clip->info().format.code_bytes == 2;
     int worst = 0;
@@ -145,7 +143,7 @@ TEST(VideoWriter, EveryCodecKeepsTheColours) {
 
 // A grey of ten bits is the nearest code of the limited range, not one of 255/256 of it.
 TEST(VideoWriter, DeepFilmsAreAsBrightAsTheirFrames) {
-  test::use_modules();
+  use_modules();
   for (const auto& [name, codec_name] :
        {std::pair("v.mov", "prores-4444"), {"v.mov", "dnxhr-444"}, {"v.mp4", "h264-10"}}) {
     for (const std::uint16_t grey : std::array<std::uint16_t, 3>{2'000, 32'768, 60'000}) {
@@ -154,7 +152,7 @@ TEST(VideoWriter, DeepFilmsAreAsBrightAsTheirFrames) {
         Picture picture({256, 128, channels}, ValueType::code16, 65'535);
         std::ranges::fill(picture.values<std::uint16_t>(), grey);
         write_video(scratch / name, {picture}, {25, 1}, codec_name);
-        const auto raster = test::read_all(*test::open_test_clip(scratch / name)).front();
+        const auto raster = read_all(*open_test_clip(scratch / name)).front();
         const int code = reinterpret_cast<const std::uint16_t*>(raster.data())[3 * (64 * 256 + 128)];
         EXPECT_NEAR(code, grey, 65'535.0 / 876 / 2 + 1) << codec_name << " " << channels;
       }
@@ -163,7 +161,7 @@ TEST(VideoWriter, DeepFilmsAreAsBrightAsTheirFrames) {
 }
 
 TEST(VideoWriter, SaysWhatAnEncoderDoesNotTake) {
-  test::use_modules();
+  use_modules();
   const Scratch scratch;
   const Picture small({64, 48, 3}, ValueType::code16, 65'535);
   EXPECT_THROW(static_cast<void>(video_codec_for("v.m4v", "h265")), UsageError);  // FFmpeg's muxer knows no tag for it
@@ -179,7 +177,7 @@ TEST(VideoWriter, SaysWhatAnEncoderDoesNotTake) {
 
 // All but WebM have a place for the shape of pixels.
 TEST(VideoWriter, KeepsPixelsThatAreNotSquareOrSaysWhatBecomesOfThem) {
-  test::use_modules();
+  use_modules();
   for (const auto& [name, width, aspect, kept] :
        {std::tuple("v.mp4", 64u, Rational{32, 27}, Rational{32, 27}),
         {"v.mov", 64u, {32, 27}, {32, 27}},
@@ -191,13 +189,13 @@ TEST(VideoWriter, KeepsPixelsThatAreNotSquareOrSaysWhatBecomesOfThem) {
         {"v.webm", 64u, {200, 199}, {1, 1}}}) {
     SCOPED_TRACE(name + std::string(" ") + std::to_string(width));
     const Scratch scratch;
-    const Picture picture = test::random_stills({width, 48, 3}, 255, 1, 5).front();
+    const Picture picture = random_stills({width, 48, 3}, 255, 1, 5).front();
     VideoFormat format = format_of(picture, {25, 1});
     format.pixel_aspect = aspect;
     const auto writer = open_video_writer(scratch / name, format, video_codec_for(scratch / name, {}));
     writer->write(picture);
     writer->finish();
-    EXPECT_EQ(test::open_test_clip(scratch / name)->info().format.pixel_aspect, kept);
+    EXPECT_EQ(open_test_clip(scratch / name)->info().format.pixel_aspect, kept);
     const auto notes = writer->notes();
     ASSERT_EQ(notes.size(), kept == aspect ? 0u : 1u);
     if (aspect == Rational{10, 11}) {
@@ -211,7 +209,7 @@ TEST(VideoWriter, KeepsPixelsThatAreNotSquareOrSaysWhatBecomesOfThem) {
 
 TEST(VideoWriter, RepeatsTheLastRowAndColumnOfOddSizes) {
   const Scratch scratch;
-  test::use_modules();
+  use_modules();
   Picture picture({65, 33, 3}, ValueType::code8, 255);
   for (auto& code : picture.values<std::uint8_t>()) code = 90;
   const auto writer = open_video_writer(scratch / "v.mp4", format_of(picture, {24, 1}),
@@ -220,17 +218,17 @@ TEST(VideoWriter, RepeatsTheLastRowAndColumnOfOddSizes) {
   EXPECT_NE(writer->notes()[0].find("65 x 33 became 66 x 34"), std::string::npos) << writer->notes()[0];
   for (int k = 0; k < 3; ++k) writer->write(picture);
   writer->finish();
-  const auto clip = test::open_test_clip(scratch / "v.mp4");
+  const auto clip = open_test_clip(scratch / "v.mp4");
   EXPECT_EQ(clip->info().format.shape, (Shape{66, 34, 3}));
-  for (const auto& raster : test::read_all(*clip)) {
+  for (const auto& raster : read_all(*clip)) {
     for (const std::byte code : raster) ASSERT_NEAR(static_cast<int>(code), 90, 2);
   }
 }
 
 TEST(VideoWriter, LeavesNothingOfAVideoThatIsNotFinished) {
   const Scratch scratch;
-  test::use_modules();
-  const auto pictures = test::random_stills({32, 32, 3}, 255, 2, 1);
+  use_modules();
+  const auto pictures = random_stills({32, 32, 3}, 255, 2, 1);
   {
     const auto writer = open_video_writer(scratch / "v.mkv", format_of(pictures[0], {24, 1}),
                                           video_codec_for("v.mkv", std::nullopt));
@@ -243,7 +241,7 @@ TEST(VideoWriter, LeavesNothingOfAVideoThatIsNotFinished) {
 
 TEST(VideoWriter, RefusesWhatAContainerOrCodecCannotHold) {
   const auto codec = [](const char* path, const char* name) {
-    return test::message_of<Error>([&] { static_cast<void>(video_codec_for(path, name)); });
+    return message_of<Error>([&] { static_cast<void>(video_codec_for(path, name)); });
   };
   EXPECT_EQ(codec("v.mp4", "ffv1"), "v.mp4: a .mp4 file holds h264, h264-10, h265, h265-10, av1, av1-10, not ffv1");
   EXPECT_EQ(
@@ -254,9 +252,8 @@ TEST(VideoWriter, RefusesWhatAContainerOrCodecCannotHold) {
   EXPECT_NE(codec("v.ogg", "ffv1").find("videos are written as .mp4"), std::string::npos);
   EXPECT_EQ(video_codec_for("a/V.MKV", std::nullopt).name, "ffv1");
   const auto type = [](const char* path, std::optional<Depth> wish) {
-    return test::message_of<Error>([&] {
-      static_cast<void>(video_value_type(video_codec_for(path, std::nullopt), wish, ValueType::code8));
-    });
+    return message_of<Error>(
+        [&] { static_cast<void>(video_value_type(video_codec_for(path, std::nullopt), wish, ValueType::code8)); });
   };
   EXPECT_NE(type("v.mp4", Depth::bits16).find("for 16 use ffv1"), std::string::npos);
   EXPECT_NE(type("v.mkv", Depth::floating).find("write numbered stills"), std::string::npos);
@@ -267,9 +264,9 @@ TEST(VideoWriter, RefusesWhatAContainerOrCodecCannotHold) {
 }
 
 TEST(VideoWriter, SaysWhatCannotBeWritten) {
-  test::use_modules();
-  const auto pictures = test::random_stills({32, 32, 3}, 255, 1, 1);
-  const std::string message = test::message_of<Error>([&] {
+  use_modules();
+  const auto pictures = random_stills({32, 32, 3}, 255, 1, 1);
+  const std::string message = message_of<Error>([&] {
     const auto writer = open_video_writer("/nowhere/v.mkv", format_of(pictures[0], {24, 1}),
                                           video_codec_for("v.mkv", std::nullopt));
   });
@@ -277,4 +274,4 @@ TEST(VideoWriter, SaysWhatCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -13,16 +13,14 @@
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Scratch;
 
 std::string coloured_picture(const std::string& size) {
   return "-f lavfi -i testsrc2=s=" + size + ":d=0.08:r=25 -c:v ffv1 -pix_fmt yuv420p ";
 }
 
-std::string matrix_of(const Clip& clip) { return test::facts_of(clip).at(Setting::matrix).line(); }
+std::string matrix_of(const Clip& clip) { return facts_of(clip).at(Setting::matrix).line(); }
 
 // Wrong colours do not come out with a note: a matrix that is none of those known here has to be stated.
 TEST(MatrixOfYuv, OfAMatrixThatIsNotKnownIsRefused) {
@@ -31,7 +29,7 @@ TEST(MatrixOfYuv, OfAMatrixThatIsNotKnownIsRefused) {
   for (const char* named :
        {"ictcp", "smpte2085", "chroma-derived-c", "bt2020c", "chroma-derived-nc -color_primaries film"}) {
     test::make(scratch, coloured_picture("64x48") + "-colorspace " + named + " clip.mkv");
-    const auto error = test::error_of<InputError>([&] { return test::open_test_clip(scratch / "clip.mkv"); });
+    const auto error = error_of<InputError>([&] { return open_test_clip(scratch / "clip.mkv"); });
     ASSERT_TRUE(error) << named << " was read";
     const std::string message = error->what(), words = named;
     EXPECT_NE(message.find("clip.mkv names a matrix by which no RGB is made here, " +
@@ -39,20 +37,20 @@ TEST(MatrixOfYuv, OfAMatrixThatIsNotKnownIsRefused) {
               std::string::npos)
         << message;
     EXPECT_EQ(error->settings(), std::vector{Setting::matrix});
-    EXPECT_EQ(matrix_of(*test::open_test_clip(scratch / "clip.mkv", {.matrix = YuvMatrix::bt709})),
+    EXPECT_EQ(matrix_of(*open_test_clip(scratch / "clip.mkv", {.matrix = YuvMatrix::bt709})),
               "matrix bt709, as stated");
   }
   // What has no YUV needs none.
   test::make(scratch,
              "-f lavfi -i testsrc2=s=64x48:d=0.08:r=25 -c:v ffv1 -pix_fmt gray -colorspace ictcp grey.mkv");
-  EXPECT_EQ(test::read_all(*test::open_test_clip(scratch / "grey.mkv")).size(), 2u);
+  EXPECT_EQ(read_all(*open_test_clip(scratch / "grey.mkv")).size(), 2u);
   // The box of its pixels' shape becomes one of Dolby Vision.
   test::make(scratch, "-f lavfi -i testsrc2=s=64x48:d=0.08:r=25 -c:v mpeg4 dolby.mp4");
-  std::string bytes = test::read_file(scratch / "dolby.mp4");
+  std::string bytes = read_file(scratch / "dolby.mp4");
   bytes.replace(bytes.find("pasp"), 12, "dvcC\1\0\x0A\x0D\0\0\0\0", 12);
-  test::expect_clip_refused(scratch.write("dolby.mp4", bytes), {},
-                            "IPT of Dolby Vision's profile 5: its colours would be wrong. Convert it, for example with "
-                            "ffmpeg -vf libplacebo");
+  expect_clip_refused(scratch.write("dolby.mp4", bytes), {},
+                      "IPT of Dolby Vision's profile 5: its colours would be wrong. Convert it, for example with "
+                      "ffmpeg -vf libplacebo");
 }
 
 // Luma that weighs channels as white light is made of the file's primaries.
@@ -63,25 +61,24 @@ TEST(MatrixOfYuv, OfAMatrixFromPrimariesFollowsThese) {
        {std::pair{"bt709", "matrix bt709"}, {"bt2020", "matrix bt2020"}, {"smpte432", "matrix p3"}}) {
     test::make(scratch, coloured_picture("64x48") + "-colorspace chroma-derived-nc -color_primaries " +
                             primaries + " clip.mkv");
-    EXPECT_EQ(matrix_of(*test::open_test_clip(scratch / "clip.mkv")),
-              std::string(matrix) + ", from the file");
+    EXPECT_EQ(matrix_of(*open_test_clip(scratch / "clip.mkv")), std::string(matrix) + ", from the file");
   }
   // P3's weights are those of no standard: luma is Y of XYZ.
-  const auto weights = test::to_xyz({{{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, {0.3127, 0.3290}}})[1];
+  const auto weights = to_xyz({{{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, {0.3127, 0.3290}}})[1];
   const std::vector<std::array<int, 3>> yuv{
       {500, 600, 470}, {300, 480, 560}, {700, 512, 512}, {640, 400, 620}};
-  scratch.write("raw", test::planes_of(yuv));
+  scratch.write("raw", planes_of(yuv));
   test::make(scratch,
              "-f rawvideo -s 4x1 -pix_fmt yuv444p10le -r 25 -i raw -c:v ffv1 -colorspace chroma-derived-nc "
              "-color_primaries smpte432 -color_range tv clip.mkv");
-  const auto clip = test::open_test_clip(scratch / "clip.mkv");
-  const auto raster = test::read_all(*clip).at(0);
+  const auto clip = open_test_clip(scratch / "clip.mkv");
+  const auto raster = read_all(*clip).at(0);
   for (std::size_t i = 0; i < yuv.size(); ++i) {
     const double y = (yuv[i][0] - 64) / 876.0, u = (yuv[i][1] - 512) / 896.0, v = (yuv[i][2] - 512) / 896.0;
     const double red = y + 2 * (1 - weights[0]) * v, blue = y + 2 * (1 - weights[2]) * u;
     const std::array rgb{red, (y - weights[0] * red - weights[2] * blue) / weights[1], blue};
     for (std::size_t channel = 0; channel < 3; ++channel) {
-      EXPECT_NEAR(test::code_at(clip->info().format, raster, i * 3 + channel), 65'535 * rgb[channel], 0.501)
+      EXPECT_NEAR(code_at(clip->info().format, raster, i * 3 + channel), 65'535 * rgb[channel], 0.501)
           << i << ", " << channel;
     }
   }
@@ -99,7 +96,7 @@ TEST(MatrixOfYuv, TakesChromaFromWhereItLies) {
                                             {"unspecified", 0.0, 0.5}}) {
     for (const bool is_across : {true, false}) {
       std::vector<std::array<int, 3>> luma(kSide * kSide, {500, 0, 0});
-      std::string raw = test::planes_of(luma).substr(0, std::size_t{2} * kSide * kSide);
+      std::string raw = planes_of(luma).substr(0, std::size_t{2} * kSide * kSide);
       for (const int rise : {kRise, 0}) {  // of U, and of V, which is grey
         for (int i = 0; i < kSide * kSide / 4; ++i) {
           const int code = rise == 0 ? 512 : kFirst + rise * (is_across ? i % (kSide / 2) : i / (kSide / 2));
@@ -111,14 +108,14 @@ TEST(MatrixOfYuv, TakesChromaFromWhereItLies) {
                  std::string("-f rawvideo -s 32x32 -pix_fmt yuv420p10le -r 25 -i raw -c:v ffv1 -colorspace "
                              "bt709 -color_range tv -chroma_sample_location ") +
                      named + " -y clip.mkv");
-      const auto clip = test::open_test_clip(scratch / "clip.mkv");
-      const auto raster = test::read_all(*clip).at(0);
+      const auto clip = open_test_clip(scratch / "clip.mkv");
+      const auto raster = read_all(*clip).at(0);
       for (int at = 6; at < kSide - 6; ++at) {  // away from the borders
         const std::size_t pixel = is_across ? std::size_t{16} * kSide + at : std::size_t(at) * kSide + 16;
         const double u = (kFirst + kRise * (at - (is_across ? across : down)) / 2 - 512) / 896.0;
         const double blue = (500 - 64) / 876.0 + 2 * (1 - 0.0722) * u;
         // The scaler rounds chroma to 16 bits, in which a code of 10 bits is 64; its filter's weights are of 14 bits.
-        EXPECT_NEAR(test::code_at(clip->info().format, raster, pixel * 3 + 2), 65'535 * blue, 16)
+        EXPECT_NEAR(code_at(clip->info().format, raster, pixel * 3 + 2), 65'535 * blue, 16)
             << named << (is_across ? ", column " : ", row ") << at;
       }
     }
@@ -134,9 +131,9 @@ TEST(MatrixOfYuv, TakesChromaFromWhereItIsStatedToLie) {
                             " -c:v ffv1 -chroma_sample_location " + named + " -y clip.mkv");
   };
   const auto raster_of = [&](const ClipOptions& options, const char* fact) {
-    const auto clip = test::open_test_clip(scratch / "clip.mkv", options);
-    EXPECT_EQ(test::facts_of(*clip).at(Setting::chroma_place).line(), fact);
-    return test::read_all(*clip).at(0);
+    const auto clip = open_test_clip(scratch / "clip.mkv", options);
+    EXPECT_EQ(facts_of(*clip).at(Setting::chroma_place).line(), fact);
+    return read_all(*clip).at(0);
   };
   const ClipOptions stated{.chroma_at = ChromaPlace::center};
   make_clip("yuv420p10", "center");
@@ -152,8 +149,8 @@ TEST(MatrixOfYuv, TakesChromaFromWhereItIsStatedToLie) {
         {"yuv444p10", "has chroma of its own: leave"},
         {"gray10", "its pictures are RGB or grey as they are: leave matrix"}}) {
     make_clip(pixels, "unspecified");
-    EXPECT_FALSE(test::facts_of(*test::open_test_clip(scratch / "clip.mkv")).contains(Setting::chroma_place));
-    test::expect_clip_refused(scratch / "clip.mkv", stated, reason);
+    EXPECT_FALSE(facts_of(*open_test_clip(scratch / "clip.mkv")).contains(Setting::chroma_place));
+    expect_clip_refused(scratch / "clip.mkv", stated, reason);
   }
 }
 
@@ -161,12 +158,12 @@ TEST(MatrixOfYuv, TakesChromaFromWhereItIsStatedToLie) {
 TEST(PackedVideo, HasTheCodesOfItsPlanes) {
   const Scratch scratch;
   const auto open = [&](const std::string& bytes, const char* pixels) {
-    return test::open_test_clip(scratch.write(pixels, bytes), {.raw = RawVideo{16, 16, pixels}});
+    return open_test_clip(scratch.write(pixels, bytes), {.raw = RawVideo{16, 16, pixels}});
   };
   const auto append = [](std::string& to, std::uint32_t value, int bytes) {
     for (int i = 0; i < bytes; ++i) to += static_cast<char>(value >> 8 * i & 255);
   };
-  test::Random random(8);
+  Random random(8);
   for (const auto& [packed, planar, bits] :
        {std::tuple("x2rgb10le", "gbrp10le", 10), {"x2bgr10le", "gbrp10le", 10}, {"nv16", "yuv422p", 8},
         {"nv20le", "yuv422p10le", 10}}) {
@@ -191,12 +188,12 @@ TEST(PackedVideo, HasTheCodesOfItsPlanes) {
       append(together, planes[1][i], bytes);
       append(together, planes[2][i], bytes);
     }
-    const auto raster = test::read_all(*open(together, packed)).at(0);
-    EXPECT_TRUE(raster == test::read_all(*open(in_planes, planar)).at(0)) << packed;
+    const auto raster = read_all(*open(together, packed)).at(0);
+    EXPECT_TRUE(raster == read_all(*open(in_planes, planar)).at(0)) << packed;
     EXPECT_TRUE(!is_rgb || raster[0] == std::byte{255}) << "white";
   }
-  test::expect_clip_refused(scratch.write("411", std::string(384, 'x')), {.raw = RawVideo{16, 16, "uyyvyy411"}},
-                            "those of yuv411p can");
+  expect_clip_refused(scratch.write("411", std::string(384, 'x')), {.raw = RawVideo{16, 16, "uyyvyy411"}},
+                      "those of yuv411p can");
 }
 
 // H.273, equations of MatrixCoefficients 8, from their words: of codes whose range is that of luma.
@@ -207,7 +204,7 @@ TEST(MatrixOfYuv, OfYCgCoIsThatOfTheStandard) {
     for (const bool is_full : {false, true}) {
       const int unit = 1 << (bits - 8), half = 128 * unit;
       const int black = is_full ? 0 : 16 * unit, white = is_full ? (1 << bits) - 1 : 235 * unit;
-      test::Random random(7);
+      Random random(7);
       std::vector<std::array<int, 3>> rgb, yuv;
       while (rgb.size() < 4096) {
         std::array<int, 3> codes{};
@@ -229,14 +226,14 @@ TEST(MatrixOfYuv, OfYCgCoIsThatOfTheStandard) {
                               std::string(bits == 8 ? "yuv444p" : "yuv444p10le") +
                               " -r 25 -i raw -c:v ffv1 -colorspace ycgco -color_range " +
                               (is_full ? "pc" : "tv") + " clip.mkv");
-      const auto clip = test::open_test_clip(scratch / "clip.mkv");
+      const auto clip = open_test_clip(scratch / "clip.mkv");
       EXPECT_EQ(matrix_of(*clip), "matrix ycgco, from the file");
       const CaptureFormat& format = clip->info().format;
-      const auto raster = test::read_all(*clip).at(0);
+      const auto raster = read_all(*clip).at(0);
       for (std::size_t i = 0; i < rgb.size(); ++i) {
         for (std::size_t channel = 0; channel < 3; ++channel) {
           const double exact = format.white_code * double(rgb[i][channel] - black) / (white - black);
-          ASSERT_NEAR(test::code_at(format, raster, i * 3 + channel), exact, bits == 8 ? 0.53 : 0.51)
+          ASSERT_NEAR(code_at(format, raster, i * 3 + channel), exact, bits == 8 ? 0.53 : 0.51)
               << bits << " bits, " << (is_full ? "full" : "limited") << ", pixel " << i << ", " << channel;
         }
       }
@@ -248,9 +245,8 @@ TEST(MatrixOfYuv, OfYCgCoIsThatOfTheStandard) {
 TEST(MatrixOfYuv, OfEveryMatrixAndRangeIsThatOfZscale) {
   NEEDS_FFMPEG();
   const Scratch scratch;
-  if (test::run_shell("ffmpeg -v error -f lavfi -i color=s=16x16:d=0.04 -vf zscale -f null -",
-                      scratch.folder())
-          .status != 0) {
+  if (run_shell("ffmpeg -v error -f lavfi -i color=s=16x16:d=0.04 -vf zscale -f null -", scratch.folder()).status !=
+      0) {
     GTEST_SKIP() << "this ffmpeg has no zscale";
   }
   constexpr std::size_t kSide = 320, kPatch = 16;
@@ -258,7 +254,7 @@ TEST(MatrixOfYuv, OfEveryMatrixAndRangeIsThatOfZscale) {
     const char *pixels, *rgb;
     int bits;
   };
-  test::Random random(6);
+  Random random(6);
   for (const Kind& kind : {Kind{"yuv420p", "gbrp", 8}, Kind{"yuv420p10le", "gbrp10le", 10}}) {
     const std::size_t bytes = kind.bits > 8 ? 2 : 1;
     for (const auto& [matrix, zscale] : {std::pair{YuvMatrix::bt601, "170m"},
@@ -293,8 +289,8 @@ TEST(MatrixOfYuv, OfEveryMatrixAndRangeIsThatOfZscale) {
         std::ifstream file(scratch / "wanted", std::ios::binary);
         const std::string wanted((std::istreambuf_iterator<char>(file)), {});
         ASSERT_EQ(wanted.size(), kSide * kSide * 3 * bytes);
-        const auto clip = test::open_test_clip(scratch / "clip.mkv", {.matrix = matrix, .range = range});
-        const auto raster = test::read_all(*clip).at(0);
+        const auto clip = open_test_clip(scratch / "clip.mkv", {.matrix = matrix, .range = range});
+        const auto raster = read_all(*clip).at(0);
         const double white = clip->info().format.white_code, most = (1 << kind.bits) - 1;
         for (std::size_t y = kPatch / 2; y < kSide; y += kPatch) {
           for (std::size_t x = kPatch / 2; x < kSide; x += kPatch) {
@@ -303,8 +299,7 @@ TEST(MatrixOfYuv, OfEveryMatrixAndRangeIsThatOfZscale) {
               const std::size_t at = (kPlaneOf[channel] * kSide * kSide + y * kSide + x) * bytes;
               const int expected = static_cast<unsigned char>(wanted[at]) +
                                    (bytes == 2 ? static_cast<unsigned char>(wanted[at + 1]) << 8 : 0);
-              const double code =
-                  test::code_at(clip->info().format, raster, (y * kSide + x) * 3 + channel) / white * most;
+              const double code = code_at(clip->info().format, raster, (y * kSide + x) * 3 + channel) / white * most;
               ASSERT_LE(std::fabs(code - expected), 2.0)
                   << kind.pixels << ", " << zscale << ", " << to_text(range) << ", channel " << channel;
             }
@@ -316,4 +311,4 @@ TEST(MatrixOfYuv, OfEveryMatrixAndRangeIsThatOfZscale) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -12,15 +12,8 @@
 #include "support/messages.hpp"
 #include "support/noisy_scene.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::film;
-using test::interpolate_mosaic;
-using test::Light;
-using test::NoisyCamera;
-using test::Rasters;
-using test::still_wedge;
 
 NoiseEstimator::ReadSample reader_of(const Rasters& rasters) {
   return [&rasters, next = std::size_t{0}](std::span<std::byte> raster) mutable {
@@ -162,11 +155,11 @@ TEST(NoiseEstimator, TellsWhatMovesFromNoise) {
 // nothing in common, and pixels stray by what lies beside them.
 TEST(NoiseEstimator, TellsTremblingFromNoise) {
   const NoisyCamera camera = camera_of(1, 255, Transfer::srgb());
-  test::Random random(8);
+  Random random(8);
   std::vector<double> texture(camera.format.shape.value_count() + 1);
   for (double& light : texture) light = random.real(0.1, 0.6);
   for (const double pixels : {0.0, 0.1, 0.3}) {
-    test::Normal hand(4);
+    Normal hand(4);
     std::vector<double> moved(32);
     for (double& each : moved) each = pixels * hand.next();
     const Light scene = [&](std::uint64_t value, std::uint64_t sample) {
@@ -226,7 +219,7 @@ TEST(NoiseEstimator, FollowsThePointsWhereNoSensorDoes) {
   camera.read = camera.shot = 0;
   const Light wedge = still_wedge(camera, 0.1, 0.9);
   const auto sd_at = [](double light) { return 0.003 + 0.002 * std::sin(12 * light); };
-  test::Normal normal(3);
+  Normal normal(3);
   const Rasters rasters = film(camera, 32, 3, [&](std::uint64_t value, std::uint64_t sample) {
     const double light = wedge(value, sample);
     return light + sd_at(light) * normal.next();
@@ -250,7 +243,7 @@ TEST(NoiseEstimator, RoundingIsTheLeastNoise) {
 TEST(NoiseEstimator, SaysWhyItCannot) {
   const NoisyCamera camera = camera_of(1, 255, Transfer::srgb());
   const auto message = [&](const Rasters& rasters) {
-    return test::message_of<InputError>([&] { return estimate(camera, rasters); });
+    return message_of<InputError>([&] { return estimate(camera, rasters); });
   };
   const Light wedge = still_wedge(camera, 0.1, 0.9);
   EXPECT_EQ(message(film(camera, 2, 1, wedge)),
@@ -261,4 +254,4 @@ TEST(NoiseEstimator, SaysWhyItCannot) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

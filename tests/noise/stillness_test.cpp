@@ -11,14 +11,8 @@
 #include "noise/noise_estimator.hpp"
 #include "support/noisy_scene.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::film;
-using test::interpolate_mosaic;
-using test::Light;
-using test::NoisyCamera;
-using test::Rasters;
 
 NoisyCamera still_camera(std::uint32_t channels, std::uint32_t white, Transfer transfer) {
   NoisyCamera camera;
@@ -212,4 +206,4 @@ TEST(Stillness, IsMissedInAnEighth) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

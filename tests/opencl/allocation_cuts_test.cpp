@@ -11,10 +11,8 @@
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::RandomCase;
 
 // Bands stand one under the other, are as few as can be, and everything that belongs to one fits.
 TEST(AllocationCuts, BandsTileAnyPicture) {
@@ -26,9 +24,9 @@ TEST(AllocationCuts, BandsTileAnyPicture) {
       for (std::uint32_t rows = 1; rows <= grid.rows() + 1; ++rows) {
         const std::uint64_t limit = (rows + 1) * row_bytes - 1;
         const std::vector<Band> bands =
-            cut_picture(shape, Rectangle::whole(shape), precision, test::device_allocating(limit));
+            cut_picture(shape, Rectangle::whole(shape), precision, device_allocating(limit));
         ASSERT_EQ(bands.size(), (grid.rows() + rows - 1) / rows) << limit;
-        const DeviceInfo large = test::device_allocating(1 << 30);
+        const DeviceInfo large = device_allocating(1 << 30);
         EXPECT_EQ(cut_picture(shape, Rectangle::whole(shape), precision, large, limit), bands);
         std::uint64_t tile = 0;
         std::uint32_t row = 0;
@@ -67,8 +65,7 @@ TEST(AllocationCuts, BandsOfARectangleHoldItsTiles) {
     wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
     for (const std::uint64_t limit : {6 * 64 * 4u, 3 * 6 * 64 * 4u, 1u << 20}) {
       std::vector<std::uint64_t> tiles;
-      for (const Band& band :
-           cut_picture(shape, rectangle, Precision::single_, test::device_allocating(limit))) {
+      for (const Band& band : cut_picture(shape, rectangle, Precision::single_, device_allocating(limit))) {
         EXPECT_EQ(band.tile_count, TileGrid(band.shape).tile_count());
         for (std::uint64_t tile = 0; tile < band.tile_count; ++tile) {
           tiles.push_back(band.tile_in_picture(tile));
@@ -97,7 +94,7 @@ TEST(AllocationCuts, SlicesHoldEveryBlockOnce) {
       for (const std::uint64_t limit : {smallest, 2 * smallest + 1, 5 * smallest, std::uint64_t{1} << 40}) {
         std::size_t block = 0;
         std::uint64_t row = 0;
-        for (const TableSlice& slice : cut_tables(plan, precision, test::device_allocating(limit))) {
+        for (const TableSlice& slice : cut_tables(plan, precision, device_allocating(limit))) {
           ASSERT_EQ(slice.first_block, block) << random.text();
           ASSERT_EQ(slice.first_row, row) << random.text();
           ASSERT_LT(slice.first_block, slice.last_block) << random.text();
@@ -117,4 +114,4 @@ TEST(AllocationCuts, SlicesHoldEveryBlockOnce) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

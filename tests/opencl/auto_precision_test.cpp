@@ -8,14 +8,14 @@
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 // 240 samples at 240 a second, sRGB of 8 bits: random codes, moving or still.
 MemoryCapture clip(bool is_still = false) {
   const CaptureFormat format{.shape = {24, 16, 3}};
-  test::Random random(11);
-  test::Rasters rasters = test::random_rasters(random, format, 240);
+  Random random(11);
+  Rasters rasters = random_rasters(random, format, 240);
   if (is_still) std::fill(rasters.begin(), rasters.end(), rasters.front());
   return {format, Timeline::constant({240, 1}, Timeline::kFullShutter, 240), rasters, 64};
 }
@@ -35,7 +35,7 @@ int worst_code_difference(const Picture& a, const Picture& b) {
 
 TEST(AutoPrecision, TakesSingleForOrdinaryExposuresOf8Bits) {
   MemoryCapture capture = clip();
-  OpenClRenderer renderer(test::renderer_options(std::nullopt));
+  OpenClRenderer renderer(renderer_options(std::nullopt));
   for (const GainFunction& function :
        {GainFunction::boxcar(0, 1'000'000'000), GainFunction::boxcar(100'000'000, 104'000'000),
         GainFunction({{0, 0.0}, {200'000'000, 1.0}, {300'000'000, -0.5}, {400'000'000, 0.0}})}) {
@@ -52,13 +52,13 @@ TEST(AutoPrecision, TakesSingleForOrdinaryExposuresOf8Bits) {
 // ∫g is a billionth of ∫|g|: hardly anything is left of a still scene, and that is the picture.
 TEST(AutoPrecision, TakesMoreWhereSingleIsWrong) {
   MemoryCapture capture = clip(true);
-  const double gain = test::has(Precision::double_) ? 1e9 : 1e7;  // pairs of floats have fewer digits
+  const double gain = has(Precision::double_) ? 1e9 : 1e7;  // pairs of floats have fewer digits
   const RenderPlan plan = make_plan(capture, nearly_nothing_of(gain), Mask::uniform(24, 16, 0), {});
   EXPECT_NEAR(plan.functions[0].summary.still_gain(), 1.0, 1e-6);
   const OutputFormat codes{ValueType::code8, 255};
   const Picture expected = ReferenceRenderer().render(plan, capture, codes).picture;
-  OpenClRenderer chosen(test::renderer_options(std::nullopt));
-  OpenClRenderer single(test::renderer_options(Precision::single_));
+  OpenClRenderer chosen(renderer_options(std::nullopt));
+  OpenClRenderer single(renderer_options(Precision::single_));
   EXPECT_GT(worst_code_difference(single.render(plan, capture, codes).picture, expected), 1);
   const Rendered rendered = chosen.render(plan, capture, codes);
   EXPECT_LE(worst_code_difference(rendered.picture, expected), 1);
@@ -76,7 +76,7 @@ TEST(AutoPrecision, DependsOnTheFormat) {
   const RenderPlan plan =
       make_plan(capture, {{0, GainFunction::boxcar(0, 1'000'000'000)}}, Mask::uniform(24, 16, 0), {});
   const auto chosen = [&](const OutputFormat& output) {
-    return choose_precision(plan, output, test::first_precisions()).precision();
+    return choose_precision(plan, output, first_precisions()).precision();
   };
   EXPECT_EQ(chosen({ValueType::code8, 255}), Precision::single_);
   EXPECT_EQ(chosen({ValueType::code16, 65'535}), Precision::single_);
@@ -88,7 +88,7 @@ TEST(AutoPrecision, TakesSingleFor16BitsWithoutNegativeGain) {
   MemoryCapture capture = clip();
   const auto chosen = [&](const std::vector<ControlPoint>& points) {
     const RenderPlan plan = make_plan(capture, {{0, GainFunction(points)}}, Mask::uniform(24, 16, 0), {});
-    return choose_precision(plan, {ValueType::code16, 65'535}, test::first_precisions()).precision();
+    return choose_precision(plan, {ValueType::code16, 65'535}, first_precisions()).precision();
   };
   EXPECT_EQ(chosen({{0, 0.0}, {200'000'000, 1.0}, {300'000'000, 0.5}, {700'000'000, 0.1}}), Precision::single_);
   EXPECT_NE(chosen({{0, 0.0}, {200'000'000, 1.0}, {300'000'000, -0.5}, {700'000'000, 0.1}}), Precision::single_);
@@ -97,7 +97,7 @@ TEST(AutoPrecision, TakesSingleFor16BitsWithoutNegativeGain) {
 TEST(AutoPrecision, SaysWhereNoArithmeticIsRightEnough) {
   MemoryCapture capture = clip();
   const RenderPlan plan = make_plan(capture, nearly_nothing_of(1e15), Mask::uniform(24, 16, 0), {});
-  OpenClRenderer renderer(test::renderer_options(std::nullopt));
+  OpenClRenderer renderer(renderer_options(std::nullopt));
   const Rendered rendered = renderer.render(plan, capture, {ValueType::code8, 255});
   EXPECT_FALSE(rendered.choice->is_right_enough());
   for (const ErrorBound& bound : rendered.choice->rejected) {
@@ -108,4 +108,4 @@ TEST(AutoPrecision, SaysWhereNoArithmeticIsRightEnough) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -15,14 +15,9 @@
 #include "support/rendering.hpp"
 #include "support/watched_capture.hpp"
 
-namespace nutik {
-namespace test {
+namespace nutik::test {
 extern std::function<void()> before_waiting;  // support/device_traits.cpp
-}
 namespace {
-
-using test::kLight;
-using test::RandomCase;
 
 // A capture that counts how often its blocks are read, and may have a damaged one.
 class CountingCapture final : public test::WatchedCapture {
@@ -39,10 +34,10 @@ class CountingCapture final : public test::WatchedCapture {
 // A capture of 90 samples in blocks of 4, and functions that need different parts of it.
 struct Scene {
   Scene() {
-    test::Random random(77);
+    Random random(77);
     format.shape = {21, 13, 3};
     timeline = Timeline::constant({100, 1}, Timeline::kFullShutter, 90);
-    capture.emplace(format, timeline, test::random_rasters(random, format, 90), 4);
+    capture.emplace(format, timeline, random_rasters(random, format, 90), 4);
   }
   // From sample `first` up to `last`.
   [[nodiscard]] RenderPlan plan(std::int64_t first, std::int64_t last) {
@@ -63,8 +58,8 @@ std::vector<std::byte> render(OpenClRenderer& renderer, const RenderPlan& plan, 
 TEST(BlockFeed, ReadsBlocksOfAResidentCaptureOnce) {
   Scene scene;
   CountingCapture counted(*scene.capture);
-  OpenClRenderer plain(test::renderer_options(test::precise()));
-  OpenClRenderer holding(test::renderer_options(test::precise()));
+  OpenClRenderer plain(renderer_options(precise()));
+  OpenClRenderer holding(renderer_options(precise()));
   holding.keep_resident(&counted);
   const auto expect_same = [&](std::int64_t first, std::int64_t last, std::uint64_t reads) {
     const RenderPlan plan = scene.plan(first, last);
@@ -89,14 +84,14 @@ TEST(BlockFeed, KeepsNoMoreThanItsMemory) {
   Scene scene;
   CountingCapture counted(*scene.capture);
   const RenderPlan plan = scene.plan(0, 90);
-  OpenClRenderer plain(test::renderer_options(test::precise()));
+  OpenClRenderer plain(renderer_options(precise()));
   const std::vector<std::byte> expected = render(plain, plan, *scene.capture);
   std::size_t block_bytes = 0;
   for (std::uint64_t block = 0; block < counted.block_count(); ++block) {
     block_bytes = std::max(block_bytes, scene.capture->view(block).payload().size());
   }
   for (const std::uint64_t resident_blocks : {0u, 1u, 5u, 22u}) {
-    OpenClOptions options = test::renderer_options(test::precise());
+    OpenClOptions options = renderer_options(precise());
     options.chunk_bytes = 1;  // a block each
     options.memory_bytes = std::max<std::uint64_t>(2 * resident_blocks * (block_bytes + 64), 1);
     OpenClRenderer renderer(options);
@@ -119,10 +114,10 @@ TEST(BlockFeed, KeepsWhatWasNeededLast) {
   for (std::uint64_t block = 0; block < counted.block_count(); ++block) {
     block_bytes = std::max(block_bytes, scene.capture->view(block).payload().size());
   }
-  OpenClOptions options = test::renderer_options(test::precise());
+  OpenClOptions options = renderer_options(precise());
   options.chunk_bytes = 1;  // a block each
   options.memory_bytes = 2 * 6 * (align_up(block_bytes, 4096));
-  OpenClRenderer renderer(options), plain(test::renderer_options(test::precise()));
+  OpenClRenderer renderer(options), plain(renderer_options(precise()));
   renderer.keep_resident(&counted);
   const auto reads = [&](std::int64_t first, std::int64_t last) {
     const RenderPlan plan = scene.plan(first, last);
@@ -142,11 +137,11 @@ TEST(BlockFeed, KeepsWhatWasNeededLast) {
 TEST(BlockFeed, ReadsInChunksOfAnySize) {
   Scene scene;
   const RenderPlan plan = scene.plan(3, 88);
-  OpenClRenderer plain(test::renderer_options(test::precise()));
+  OpenClRenderer plain(renderer_options(precise()));
   const std::vector<std::byte> expected = render(plain, plan, *scene.capture);
   std::uint64_t launches = plan.blocks.size() + 1;
   for (const std::uint64_t chunk_bytes : {1u, 8'000u, 30'000u, 1'000'000u}) {
-    OpenClOptions options = test::renderer_options(test::precise());
+    OpenClOptions options = renderer_options(precise());
     options.chunk_bytes = chunk_bytes;
     OpenClRenderer renderer(options);
     const Rendered rendered = renderer.render(plan, *scene.capture, kLight);
@@ -164,15 +159,15 @@ TEST(BlockFeed, GivesTheSameFixedPictureWhereverBlocksAreCut) {
   for (const std::uint64_t seed : {3u, 11u, 40u, 41u}) {
     RandomCase random(seed);
     random.capture.noise = {};
-    OpenClRenderer renderer(test::renderer_options(Precision::fixed));
+    OpenClRenderer renderer(renderer_options(Precision::fixed));
     const auto picture = [&](CaptureSource& capture) {
       return render(renderer, make_plan(capture, random.functions, random.mask, {}), capture);
     };
     MemoryCapture whole(random.capture, random.timeline, random.rasters, {64}, TilePolicy::automatic);
     MemoryCapture cut(random.capture, random.timeline, random.rasters,
                       {64, 2 * random.capture.sample_bytes()}, TilePolicy::automatic);
-    StreamingCapture stream(random.capture, random.timeline, {0, random.rasters.size()}, 3,
-                            TilePolicy::automatic, test::RasterStream(random.rasters));
+    StreamingCapture stream(random.capture, random.timeline, {0, random.rasters.size()}, 3, TilePolicy::automatic,
+                            RasterStream(random.rasters));
     EXPECT_GE(cut.block_count(), whole.block_count());
     const std::vector<std::byte> expected = picture(whole);
     EXPECT_EQ(picture(cut), expected) << random.text();
@@ -194,7 +189,7 @@ TEST(BlockFeed, ReadsAheadWhileAKernelRuns) {
     ++asked_for;
     changed.notify_all();
   });
-  OpenClOptions options = test::renderer_options(test::precise());
+  OpenClOptions options = renderer_options(precise());
   options.chunk_bytes = 1;  // a launch for each block
   OpenClRenderer renderer(options);
   const auto until_it_is_read = [&, exposer = std::this_thread::get_id()] {
@@ -215,9 +210,9 @@ TEST(BlockFeed, ReadsAheadWhileAKernelRuns) {
 TEST(BlockFeed, RecoversFromADamagedBlock) {
   Scene scene;
   CountingCapture counted(*scene.capture);
-  OpenClRenderer plain(test::renderer_options(test::precise()));
+  OpenClRenderer plain(renderer_options(precise()));
   for (const bool holds : {false, true}) {
-    OpenClOptions options = test::renderer_options(test::precise());
+    OpenClOptions options = renderer_options(precise());
     options.chunk_bytes = 1;
     OpenClRenderer renderer(options);
     for (const std::uint64_t damaged : {0u, 1u, 7u, 22u}) {
@@ -232,4 +227,4 @@ TEST(BlockFeed, RecoversFromADamagedBlock) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

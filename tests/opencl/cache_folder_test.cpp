@@ -16,7 +16,7 @@
 #include "capture/format.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 // Variables of the environment as a test wants them, until it ends.
@@ -75,7 +75,7 @@ TEST_F(DefaultCacheFolder, IsNeverBelowTheCurrentFolder) {
 
 // PoCL would take /tmp/pocl/kcache, where anybody may have put code of theirs.
 TEST_F(DefaultCacheFolder, IsForPoclOneOfThisUsersAlone) {
-  const test::Scratch scratch;
+  const Scratch scratch;
   const std::filesystem::path own = scratch / format("nutik-pocl-{}", geteuid()), home = scratch / "home";
   std::filesystem::create_directory(home);
   set("TMPDIR", scratch.folder().string());
@@ -105,7 +105,7 @@ TEST_F(DefaultCacheFolder, IsForPoclOneOfThisUsersAlone) {
 
 // What somebody else planted there is not used.
 TEST_F(DefaultCacheFolder, IsNotForPoclWhatOthersMayWriteTo) {
-  const test::Scratch scratch;
+  const Scratch scratch;
   const std::filesystem::path own = scratch / format("nutik-pocl-{}", geteuid());
   set("TMPDIR", scratch.folder().string());
   set("XDG_CACHE_HOME", std::nullopt);
@@ -135,7 +135,7 @@ TEST_F(DefaultCacheFolder, IsNotForPoclWhatOthersMayWriteTo) {
 }
 
 TEST(KernelCacheFile, ThatIsTooLargeToBeOursIsNotRead) {
-  const test::Scratch scratch;
+  const Scratch scratch;
   write_to_cache(scratch / "cache/kernel.bin", "a kernel");
   EXPECT_EQ(read_from_cache(scratch / "cache/kernel.bin"), "a kernel");
   std::filesystem::resize_file(scratch / "cache/kernel.bin", 3ull << 30);
@@ -143,4 +143,4 @@ TEST(KernelCacheFile, ThatIsTooLargeToBeOursIsNotRead) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

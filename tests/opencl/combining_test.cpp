@@ -14,10 +14,8 @@
 #include "support/seeds.hpp"
 #include "support/soft_mask.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::RandomCase;
 
 // Gains of a random function that are not below 0, or one gain while its live interval lasts.
 FunctionSet functions_of(const RandomCase& random, bool scales) {
@@ -41,7 +39,7 @@ void expect_the_references(OpenClRenderer& renderer, const RandomCase& random, M
   for (const bool scales : {false, true}) {
     for (const Combine how : {Combine::lighten, Combine::darken, Combine::median}) {
       const RenderPlan plan = make_plan(capture, functions_of(random, scales), random.mask, {.combine = how});
-      for (const OutputFormat& output : {test::kLight, OutputFormat{ValueType::code8, 255}}) {
+      for (const OutputFormat& output : {kLight, OutputFormat{ValueType::code8, 255}}) {
         const Rendered found = renderer.render(plan, capture, output, control);
         const Rendered expected = ReferenceRenderer().render(plan, capture, output, control);
         ASSERT_EQ(found.picture.shape, expected.picture.shape);
@@ -56,7 +54,7 @@ void expect_the_references(OpenClRenderer& renderer, const RandomCase& random, M
                                    ? found.picture.values<double>()[i] == expected.picture.values<double>()[i]
                                    : found.picture.bytes[i] == expected.picture.bytes[i];
           ASSERT_TRUE(is_same) << random.text() << ", value " << i << ", " << static_cast<int>(how) << ", scales "
-                               << scales << "; rerun: " << test::rerun(random.seed);
+                               << scales << "; rerun: " << rerun(random.seed);
         }
       }
     }
@@ -64,8 +62,8 @@ void expect_the_references(OpenClRenderer& renderer, const RandomCase& random, M
 }
 
 TEST(CombiningOnDevices, IsTheReferencesToTheLastBit) {
-  OpenClRenderer renderer(test::renderer_options({}));
-  const test::Seeds seeds = test::seeds(0, 40);
+  OpenClRenderer renderer(renderer_options({}));
+  const Seeds seeds = test::seeds(0, 40);
   for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
     const RandomCase random(seed);
     MemoryCapture capture = random.encode();
@@ -77,9 +75,9 @@ TEST(CombiningOnDevices, IsTheReferencesToTheLastBit) {
 TEST(CombiningOnDevices, DoesNotDependOnHowTheWorkIsCut) {
   const std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, std::uint64_t> cuts[] = {
       {1, 1, 1, 1, 0}, {4, 1, 4, 64, 1}, {16, 3, 4, 3, 0}, {8, 16, 8, 16, 4096}, {64, 16, 16, 1, 1}};
-  const test::CodeFormat formats[] = {{3, 1, 255, Transfer::srgb()}, {1, 2, 4095, Transfer::linear()}};
+  const CodeFormat formats[] = {{3, 1, 255, Transfer::srgb()}, {1, 2, 4095, Transfer::linear()}};
   for (const auto& [item_pixels, item_tiles, lanes, group_items, chunk_bytes] : cuts) {
-    OpenClOptions options = test::renderer_options({});
+    OpenClOptions options = renderer_options({});
     options.item_pixels = item_pixels;
     options.item_tiles = item_tiles;
     options.lanes = lanes;
@@ -96,7 +94,7 @@ TEST(CombiningOnDevices, DoesNotDependOnHowTheWorkIsCut) {
 
 // Also blocks whose samples are counted in 16 bits, and captures that stay on the device.
 TEST(CombiningOnDevices, DoesNotDependOnTilesOrBlocks) {
-  OpenClRenderer renderer(test::renderer_options({}));
+  OpenClRenderer renderer(renderer_options({}));
   for (const std::uint32_t block_samples : {1u, 2u, 64u, 1000u}) {
     for (const TilePolicy policy :
          {TilePolicy::automatic, TilePolicy::dense, TilePolicy::rows, TilePolicy::records}) {
@@ -112,13 +110,13 @@ TEST(CombiningOnDevices, DoesNotDependOnTilesOrBlocks) {
 }
 
 TEST(CombiningOnDevices, BlendsAndCutsAsTheReferenceDoes) {
-  OpenClOptions options = test::renderer_options({});
+  OpenClOptions options = renderer_options({});
   options.allocation_bytes = 150'000;
   OpenClRenderer renderer(options);
   for (std::uint64_t seed = 3000; seed < 3020; ++seed) {
     RandomCase random(seed, {3, 1, 255, Transfer::srgb()});
     MemoryCapture capture = random.encode();
-    test::soften(random.mask, random.functions, seed);
+    soften(random.mask, random.functions, seed);
     const Shape& shape = random.capture.shape;
     expect_the_references(renderer, random, capture,
                           {.rectangle = Rectangle{shape.width / 3, shape.height / 4, shape.width - shape.width / 3,
@@ -129,26 +127,26 @@ TEST(CombiningOnDevices, BlendsAndCutsAsTheReferenceDoes) {
 
 // A driver that takes the darkest for the lightest is not believed.
 TEST(CombiningOnDevices, IsTheProcessorsWhereADriverIsWrong) {
-  OpenClOptions options = test::renderer_options({});
+  OpenClOptions options = renderer_options({});
   options.tests_itself = true;
   options.cache_folder.clear();
-  for (const Precision precision : test::first_precisions()) options.faults[precision] = "-DNUTIK_DARKENS=1";
+  for (const Precision precision : first_precisions()) options.faults[precision] = "-DNUTIK_DARKENS=1";
   OpenClRenderer renderer(options);
   const RandomCase random(17);
   MemoryCapture capture = random.encode();
   for (const bool scales : {false, true}) {
     const RenderPlan plan =
         make_plan(capture, functions_of(random, scales), random.mask, {.combine = Combine::lighten});
-    const Rendered found = renderer.render(plan, capture, test::kLight);
+    const Rendered found = renderer.render(plan, capture, kLight);
     ASSERT_EQ(found.warnings.size(), 1u);
     EXPECT_NE(found.warnings.front().find("combines light wrongly (self-test: "), std::string::npos);
-    EXPECT_EQ(found.picture.bytes, ReferenceRenderer().render(plan, capture, test::kLight).picture.bytes);
+    EXPECT_EQ(found.picture.bytes, ReferenceRenderer().render(plan, capture, kLight).picture.bytes);
   }
 }
 
 // A device without faults passes the test of itself, and validation allows no difference.
 TEST(CombiningOnDevices, IsValidated) {
-  OpenClOptions options = test::renderer_options({});
+  OpenClOptions options = renderer_options({});
   options.tests_itself = true;
   OpenClRenderer renderer(options);
   const RandomCase random(17);
@@ -156,7 +154,7 @@ TEST(CombiningOnDevices, IsValidated) {
   for (const bool scales : {false, true}) {
     const RenderPlan plan =
         make_plan(capture, functions_of(random, scales), random.mask, {.combine = Combine::lighten});
-    EXPECT_TRUE(renderer.render(plan, capture, test::kLight).warnings.empty());
+    EXPECT_TRUE(renderer.render(plan, capture, kLight).warnings.empty());
     const Validation validation = validate(plan, capture, {ValueType::code8, 255}, renderer, 1, [](auto, auto) {});
     ASSERT_EQ(validation.variants.size(), 1u);
     EXPECT_EQ(validation.variants.front().light.worst, 0.0);
@@ -166,4 +164,4 @@ TEST(CombiningOnDevices, IsValidated) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

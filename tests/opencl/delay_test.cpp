@@ -9,34 +9,31 @@
 #include "support/seeds.hpp"
 #include "support/soft_mask.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::kLight;
-using test::RandomCase;
-
 // Every third mask is soft, every other function holds its ends beyond the capture.
-void check_random_case(test::PrecisionCheck& check, std::uint64_t seed) {
+void check_random_case(PrecisionCheck& check, std::uint64_t seed) {
   RandomCase random(seed);
-  test::Random draw(seed * 31 + 7);
-  if (seed % 2 == 0) test::hold_ends(draw, random.functions, random.timeline.duration_ns());
-  if (draw.chance(0.33)) test::soften(random.mask, random.functions, seed);
+  Random draw(seed * 31 + 7);
+  if (seed % 2 == 0) hold_ends(draw, random.functions, random.timeline.duration_ns());
+  if (draw.chance(0.33)) soften(random.mask, random.functions, seed);
   MemoryCapture capture = random.encode();
   PlanOptions options;
   options.live_all = draw.chance(0.1);
-  options.delays = test::random_delays(draw, random.capture.shape, random.timeline.duration_ns());
+  options.delays = random_delays(draw, random.capture.shape, random.timeline.duration_ns());
   const RenderPlan plan = make_plan(capture, random.functions, random.mask, options);
   check.check(
       plan,
       [&](Renderer& renderer, const OutputFormat& output) { return renderer.render(plan, capture, output).picture; },
-      format("Delays{}", seed), test::rerun(seed));
+      format("Delays{}", seed), rerun(seed));
   if (testing::Test::HasFailure()) FAIL() << random.text() << ", " << options.delays->delays_ns.size() << " delays";
 }
 
 // NUTIK_TEST_CASES=10000 is the full run (docs/explanation/accuracy.md).
 TEST(Delays, StayWithinTheirBoundsOnRandomCases) {
-  test::PrecisionCheck check;
-  const test::Seeds seeds = test::seeds(0, 60);
+  PrecisionCheck check;
+  const Seeds seeds = test::seeds(0, 60);
   for (std::uint64_t seed = seeds.first; seed < seeds.last && !HasFatalFailure(); ++seed)
     check_random_case(check, seed);
   check.print();
@@ -45,7 +42,7 @@ TEST(Delays, StayWithinTheirBoundsOnRandomCases) {
 // Pixels of one function in a tile whose others are shared with one of a far larger gain: fixed made their codes of
 // light in 12 bits.
 TEST(Delays, LeaveAPixelOfOneFunctionAsExactAsItIsAlone) {
-  test::PrecisionCheck check;
+  PrecisionCheck check;
   check_random_case(check, 2447);
 }
 
@@ -53,15 +50,15 @@ TEST(Delays, LeaveAPixelOfOneFunctionAsExactAsItIsAlone) {
 struct DelayScene {
   DelayScene() {
     format.shape = {40, 264, 3};
-    test::Random random(5);
-    rasters = test::random_rasters(random, format, 60);
+    Random random(5);
+    rasters = random_rasters(random, format, 60);
   }
   [[nodiscard]] MemoryCapture capture() const { return {format, timeline, rasters, 16}; }
   [[nodiscard]] Mask mask() const { return Mask::uniform(40, 264, 0); }
 
   CaptureFormat format;
   Timeline timeline = Timeline::constant({100, 1}, {270, 1}, 60);
-  test::Rasters rasters;
+  Rasters rasters;
 };
 
 GainFunction triangle(std::int64_t begin_ns, std::int64_t end_ns) {
@@ -75,14 +72,13 @@ TEST(Delays, OfOneLengthAreAMovedFunctionToTheLastBit) {
   for (const std::int64_t delay_ns : {-37'123'456, 0, 123'456'789}) {
     const GainFunction function = triangle(100'000'000, 190'000'001);
     const RenderPlan moved = make_plan(capture, {{0, function.shifted(delay_ns)}}, scene.mask(), {});
-    const RenderPlan delayed =
-        make_plan(capture, {{0, function}}, scene.mask(),
-                  test::delayed_by(DelayMap::by_rows(scene.format.shape, {delay_ns, delay_ns})));
+    const RenderPlan delayed = make_plan(capture, {{0, function}}, scene.mask(),
+                                         delayed_by(DelayMap::by_rows(scene.format.shape, {delay_ns, delay_ns})));
     ReferenceRenderer reference;
     EXPECT_EQ(reference.render(delayed, capture, kLight).picture.bytes,
               reference.render(moved, capture, kLight).picture.bytes);
-    for (const Precision precision : test::first_precisions()) {
-      OpenClRenderer renderer(test::renderer_options(precision));
+    for (const Precision precision : first_precisions()) {
+      OpenClRenderer renderer(renderer_options(precision));
       EXPECT_EQ(renderer.render(delayed, capture, kLight).picture.bytes,
                 renderer.render(moved, capture, kLight).picture.bytes)
           << to_text(precision) << ", " << delay_ns << " ns";
@@ -110,12 +106,11 @@ TEST(Delays, Of256StepsAreARecipeOf256Strips) {
     }
   }
   const RenderPlan recipe = make_plan(capture, functions, strips, {});
-  const RenderPlan map =
-      make_plan(capture, {{0, GainFunction::boxcar(0, 40'000'000)}}, Mask::uniform(40, 256, 0),
-                test::delayed_by(DelayMap::by_picture(steps, {0, start_ns(255)}, "steps")));
+  const RenderPlan map = make_plan(capture, {{0, GainFunction::boxcar(0, 40'000'000)}}, Mask::uniform(40, 256, 0),
+                                   delayed_by(DelayMap::by_picture(steps, {0, start_ns(255)}, "steps")));
   EXPECT_TRUE(map.warnings.empty());
-  for (const Precision precision : test::first_precisions()) {
-    OpenClRenderer renderer(test::renderer_options(precision));
+  for (const Precision precision : first_precisions()) {
+    OpenClRenderer renderer(renderer_options(precision));
     for (const OutputFormat& output : {kLight, OutputFormat{ValueType::code8, 255}}) {
       EXPECT_EQ(renderer.render(map, capture, output).picture.bytes,
                 renderer.render(recipe, capture, output).picture.bytes)
@@ -128,14 +123,14 @@ TEST(Delays, Of256StepsAreARecipeOf256Strips) {
 TEST(Delays, GiveTheSamePictureFromAResidentCapture) {
   const DelayScene scene;
   MemoryCapture capture = scene.capture();
-  OpenClRenderer resident(test::renderer_options(Precision::single_));
+  OpenClRenderer resident(renderer_options(Precision::single_));
   resident.keep_resident(&capture);
   for (const std::int64_t start_ns : {0, 10'000'000, 10'000'000, 250'000'000}) {
     const RenderPlan plan =
         make_plan(capture, {{0, GainFunction::boxcar(start_ns, start_ns + 200'000'000)}}, scene.mask(),
-                  test::delayed_by(DelayMap::by_rows(scene.format.shape, {0, 100'000'000})));
+                  delayed_by(DelayMap::by_rows(scene.format.shape, {0, 100'000'000})));
     ASSERT_EQ(plan.function_count(), 264u);
-    OpenClRenderer fresh(test::renderer_options(Precision::single_));
+    OpenClRenderer fresh(renderer_options(Precision::single_));
     EXPECT_EQ(resident.render(plan, capture, kLight).picture.bytes,
               fresh.render(plan, capture, kLight).picture.bytes);
   }
@@ -145,9 +140,9 @@ TEST(Delays, AreTestedByTheRenderersOwnTest) {
   const DelayScene scene;
   MemoryCapture capture = scene.capture();
   const RenderPlan plan = make_plan(capture, {{0, triangle(0, 90'000'000)}}, scene.mask(),
-                                    test::delayed_by(DelayMap::by_rows(scene.format.shape, {0, 100'000'000})));
-  for (const Precision precision : test::first_precisions()) {
-    OpenClOptions options = test::renderer_options(precision);
+                                    delayed_by(DelayMap::by_rows(scene.format.shape, {0, 100'000'000})));
+  for (const Precision precision : first_precisions()) {
+    OpenClOptions options = renderer_options(precision);
     options.tests_itself = true;
     options.cache_folder.clear();
     EXPECT_TRUE(OpenClRenderer(options).render(plan, capture, kLight).passed_self_test) << to_text(precision);
@@ -155,4 +150,4 @@ TEST(Delays, AreTestedByTheRenderersOwnTest) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

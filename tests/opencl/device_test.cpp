@@ -5,7 +5,7 @@
 #include "capture/error.hpp"
 #include "support/messages.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 std::vector<DeviceInfo> three_devices() {
@@ -33,8 +33,7 @@ TEST(Device, IsChosenByIndexOrPartOfAName) {
 TEST(Device, AnAbsentOneIsAnErrorThatListsThoseFound) {
   const auto devices = three_devices();
   for (const char* wanted : {"3", "arc", "a", "-1"}) {
-    test::expect_error<DeviceError>([&] { return choose_device(devices, wanted); },
-                                    {wanted, "\n  1  Radeon Pro (GPU, AMD)"});
+    expect_error<DeviceError>([&] { return choose_device(devices, wanted); }, {wanted, "\n  1  Radeon Pro (GPU, AMD)"});
   }
 }
 
@@ -49,4 +48,4 @@ TEST(Device, ThisMachineHasOneAndGpusComeFirst) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

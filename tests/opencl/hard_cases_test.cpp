@@ -14,12 +14,8 @@
 #include "support/rendering.hpp"
 #include "support/seeds.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Difference;
-using test::HardCase;
-using test::NamedHardCase;
 
 // A case with its blocks and tiles as they are, or laid out another way.
 struct Layout {
@@ -53,11 +49,10 @@ class HardCases : public testing::TestWithParam<NamedHardCase> {
 TEST_P(HardCases, StayWithinTheBoundOfEveryPrecision) {
   const Layout layout(hard_);
   const RenderPlan plan = layout.plan();
-  test::PrecisionCheck check;
+  PrecisionCheck check;
   check.check(
-      plan,
-      [&](Renderer& renderer, const OutputFormat& output) { return layout.render(renderer, plan, output); },
-      GetParam().name, test::rerun());
+      plan, [&](Renderer& renderer, const OutputFormat& output) { return layout.render(renderer, plan, output); },
+      GetParam().name, rerun());
   std::printf("%s\n", GetParam().reason);
   check.print();
 }
@@ -66,8 +61,8 @@ TEST_P(HardCases, StayWithinTheBoundOfEveryPrecision) {
 TEST_P(HardCases, AreRightInTheArithmeticThatIsChosen) {
   const Layout layout(hard_);
   const RenderPlan plan = layout.plan();
-  const OutputFormat output = test::codes_like(plan.capture);
-  OpenClRenderer renderer(test::renderer_options({}));
+  const OutputFormat output = codes_like(plan.capture);
+  OpenClRenderer renderer(renderer_options({}));
   const Rendered rendered = layout.rendered(renderer, plan, output);
   const Picture& codes = rendered.picture;
   const PrecisionChoice& choice = *rendered.choice;
@@ -84,7 +79,7 @@ TEST_P(HardCases, AreRightInTheArithmeticThatIsChosen) {
                                              : picture.values<std::uint16_t>()[i];
     };
     ASSERT_LE(std::abs(code(codes) - code(expected)), 1)
-        << to_text(choice.precision()) << ", value " << i << "; rerun: " << test::rerun();
+        << to_text(choice.precision()) << ", value " << i << "; rerun: " << rerun();
   }
 }
 
@@ -99,7 +94,7 @@ TEST_P(HardCases, DoNotDependOnTilesOrBlocks) {
   constexpr std::pair<std::uint32_t, TilePolicy> kLayouts[] = {
       {1, TilePolicy::automatic}, {2, TilePolicy::records},  {7, TilePolicy::rows},
       {64, TilePolicy::dense},    {64, TilePolicy::records}, {300, TilePolicy::automatic}};
-  test::PrecisionCheck renderers;
+  PrecisionCheck renderers;
   for (const Precision precision : renderers.precisions()) {
     OpenClRenderer& renderer = renderers.of(precision);
     const Picture first = usual.render(renderer, plan, as_light);
@@ -107,22 +102,21 @@ TEST_P(HardCases, DoNotDependOnTilesOrBlocks) {
       const Layout other(hard_, block_samples, policy);
       const RenderPlan other_plan = other.plan();
       const Picture light = other.render(renderer, other_plan, as_light);
-      const Difference share = test::share_of_bound(other_plan, precision, light, expected);
+      const Difference share = share_of_bound(other_plan, precision, light, expected);
       ASSERT_LE(share.worst, 1.0) << to_text(precision) << ", blocks of " << block_samples << ", tiles "
-                                  << to_text(policy) << ", value " << share.value
-                                  << "; rerun: " << test::rerun();
+                                  << to_text(policy) << ", value " << share.value << "; rerun: " << rerun();
       if (precision != Precision::fixed) continue;
       ASSERT_TRUE(light.bytes == first.bytes)
-          << "blocks of " << block_samples << ", tiles " << to_text(policy) << "; rerun: " << test::rerun();
+          << "blocks of " << block_samples << ", tiles " << to_text(policy) << "; rerun: " << rerun();
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, HardCases, testing::ValuesIn(test::hard_cases().begin(), test::hard_cases().end()),
+INSTANTIATE_TEST_SUITE_P(, HardCases, testing::ValuesIn(hard_cases().begin(), hard_cases().end()),
                          [](const auto& instance) { return instance.param.name; });
 
 HardCase hard_case(const std::string& name) {
-  const auto cases = test::hard_cases();
+  const auto cases = hard_cases();
   const auto named =
       std::ranges::find_if(cases, [&](const NamedHardCase& each) { return each.name == name; });
   if (named == cases.end()) throw std::logic_error("there is no hard case " + name);
@@ -135,15 +129,15 @@ TEST(LargerThanAnAllocation, IsCutIntoBands) {
   const HardCase hard = hard_case("LargerThanAnAllocation");
   const Layout layout(hard);
   const RenderPlan plan = layout.plan();
-  for (const Precision precision : test::first_precisions()) {
-    OpenClOptions options = test::renderer_options(precision);
+  for (const Precision precision : first_precisions()) {
+    OpenClOptions options = renderer_options(precision);
     options.allocation_bytes = 5000;
-    const std::uint64_t bands = cut_picture(plan.capture.shape, Rectangle::whole(plan.capture.shape),
-                                            precision, test::device_allocating(options.allocation_bytes))
+    const std::uint64_t bands = cut_picture(plan.capture.shape, Rectangle::whole(plan.capture.shape), precision,
+                                            device_allocating(options.allocation_bytes))
                                     .size();
     EXPECT_GE(bands, 2u) << to_text(precision);
-    OpenClRenderer small(options), plain(test::renderer_options(precision));
-    const OutputFormat codes = test::codes_like(plan.capture);
+    OpenClRenderer small(options), plain(renderer_options(precision));
+    const OutputFormat codes = codes_like(plan.capture);
     const Rendered cut = layout.rendered(small, plan, codes);
     EXPECT_EQ(cut.picture.bytes, layout.render(plain, plan, codes).bytes) << to_text(precision);
     EXPECT_EQ(cut.statistics.launches, bands) << to_text(precision);
@@ -163,4 +157,4 @@ TEST(TilesOfAllKinds, AreInTheCaseOfThatName) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -7,19 +7,19 @@
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 constexpr std::uint32_t kWidth = 64, kHeight = 64, kSamples = 50, kBlockSamples = 10;
 
 // 64 functions, each in its own tile, and pixels of all of them in the first one.
-class Incremental : public test::OfPrecision {
+class Incremental : public OfPrecision {
  protected:
   Incremental() {
-    test::Random random(1);
+    Random random(1);
     const CaptureFormat format{.shape = {kWidth, kHeight, 3}};
-    capture_.emplace(format, Timeline::constant({100, 1}, {180, 1}, kSamples),
-                     test::random_rasters(random, format, kSamples), kBlockSamples);
+    capture_.emplace(format, Timeline::constant({100, 1}, {180, 1}, kSamples), random_rasters(random, format, kSamples),
+                     kBlockSamples);
     mask_ = Mask::uniform(kWidth, kHeight, 0);
     for (std::uint32_t y = 0; y < kHeight; ++y) {
       for (std::uint32_t x = 0; x < kWidth; ++x) {
@@ -120,9 +120,9 @@ INSTANTIATE_TEST_SUITE_P(, Incremental, testing::ValuesIn(kPrecisions),
 // Slices that do not fit are written as often as they are read; in little memory the picture is the same.
 TEST(IncrementalInLittleMemory, RendersTheSame) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
-    const test::RandomCase random(seed, {3, 1, 255, Transfer::srgb()});
+    const RandomCase random(seed, {3, 1, 255, Transfer::srgb()});
     MemoryCapture capture = random.encode(4, TilePolicy::automatic);
-    OpenClOptions options = test::renderer_options(test::precise());
+    OpenClOptions options = renderer_options(precise());
     OpenClRenderer plain(options);
     options.memory_bytes = 40'000;
     OpenClRenderer small(options);
@@ -137,4 +137,4 @@ TEST(IncrementalInLittleMemory, RendersTheSame) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

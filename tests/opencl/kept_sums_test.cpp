@@ -12,13 +12,11 @@
 #include "support/rendering.hpp"
 #include "support/seeds.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::kLight;
-
 // A boxcar, or steps of several gains: from and to edges of blocks and samples, a nanosecond beside them, or anywhere.
-GainFunction random_steps(test::Random& random, const MemoryCapture& capture) {
+GainFunction random_steps(Random& random, const MemoryCapture& capture) {
   const Timeline& timeline = capture.timeline();
   const auto random_time = [&] {
     const auto block =
@@ -54,8 +52,8 @@ struct SteadyCase {
   Mask mask;
 
   explicit SteadyCase(std::uint64_t seed) {
-    test::Random random(seed);
-    CaptureFormat format = test::random_format(random);
+    Random random(seed);
+    CaptureFormat format = random_format(random);
     // Few kernels, and tiles enough for regions.
     format.shape = {static_cast<std::uint32_t>(random.whole(9, 40)), 17, 1};
     format.code_bytes = 1;
@@ -72,8 +70,7 @@ struct SteadyCase {
         static_cast<std::uint64_t>(is_long ? random.whole(720, 900) : random.whole(150, 900));
     const auto block_samples =
         static_cast<std::uint32_t>(is_long ? random.whole(32, 36) : random.whole(16, 24));
-    capture.emplace(format, test::random_timeline(random, samples),
-                    test::random_rasters(random, format, samples), block_samples,
+    capture.emplace(format, random_timeline(random, samples), random_rasters(random, format, samples), block_samples,
                     random.chance(0.3) ? TilePolicy::dense : TilePolicy::automatic);
     for (std::uint8_t tag = 0; tag < 3; ++tag) functions.emplace(tag, random_steps(random, *capture));
     if (is_long) {
@@ -100,7 +97,7 @@ bool has_halves(const RenderPlan& plan) {
   });
 }
 
-class KeptSumsOf : public test::OfPrecision {
+class KeptSumsOf : public OfPrecision {
  protected:
   // What it takes to render a boxcar that begins at one time after another, over blocks of so many samples of 1 ms.
   std::vector<RenderStatistics> statistics_of_moved_boxcar(std::uint64_t blocks, std::uint32_t block_samples,
@@ -108,10 +105,10 @@ class KeptSumsOf : public test::OfPrecision {
                                                            std::int64_t length_ms) {
     const CaptureFormat format{.shape = {24, 16, 1}};
     const std::uint64_t samples = blocks * block_samples;
-    test::Random random(3);
+    Random random(3);
     MemoryCapture capture(format, Timeline::constant({1000, 1}, {180, 1}, samples),
-                          test::random_rasters(random, format, samples), block_samples);
-    OpenClOptions options = test::renderer_options(GetParam());
+                          random_rasters(random, format, samples), block_samples);
+    OpenClOptions options = renderer_options(GetParam());
     options.allocation_bytes = 0;  // that all sums have room
     OpenClRenderer renderer(options);
     renderer.keep_resident(&capture);
@@ -134,7 +131,7 @@ class KeptSumsOf : public test::OfPrecision {
 
 // NUTIK_TEST_CASES=10000 is the full run.
 TEST_P(KeptSumsOf, RandomCasesAreWithinTheBoundAndTheSameBits) {
-  const test::Seeds seeds = test::seeds(0, 60);
+  const Seeds seeds = test::seeds(0, 60);
   std::uint64_t kept = 0, bundles = 0, corrected = 0, halves = 0, noisy = 0;
   double worst = 0.0;
   ReferenceRenderer reference;
@@ -148,19 +145,19 @@ TEST_P(KeptSumsOf, RandomCasesAreWithinTheBoundAndTheSameBits) {
     const Picture expected = reference.render(plan, *random.capture, kLight).picture;
     const Picture made = fresh_.render(plan, *random.capture, kLight).picture;
     const LightErrors errors = light_errors(plan, error_bound(plan, GetParam(), kLight), expected, made);
-    ASSERT_LE(errors.share_of_bound, 1.0) << test::rerun(seed);
+    ASSERT_LE(errors.share_of_bound, 1.0) << rerun(seed);
     worst = std::max(worst, errors.share_of_bound);
     renderer_.keep_resident(&*random.capture);
     for (int time = 0; time < 3; ++time) {
       // Another plan of the same functions: all are exposed again.
       const Rendered again = renderer_.render(random.plan(), *random.capture, kLight);
-      ASSERT_TRUE(again.picture.bytes == made.bytes) << test::rerun(seed);
+      ASSERT_TRUE(again.picture.bytes == made.bytes) << rerun(seed);
       kept += again.statistics.kept_sums;
       if (time == 0) {
         ASSERT_EQ(again.statistics.kept_sums, 0u);
       }
       if (time == 2) {
-        ASSERT_EQ(again.statistics.made_sums, 0u) << test::rerun(seed);
+        ASSERT_EQ(again.statistics.made_sums, 0u) << rerun(seed);
       }
     }
     // What another function wants of the same sums.
@@ -168,7 +165,7 @@ TEST_P(KeptSumsOf, RandomCasesAreWithinTheBoundAndTheSameBits) {
     const RenderPlan other = random.plan();
     ASSERT_EQ(renderer_.render(other, *random.capture, kLight).picture.bytes,
               fresh_.render(other, *random.capture, kLight).picture.bytes)
-        << test::rerun(seed);
+        << rerun(seed);
   }
   renderer_.keep_resident(nullptr);
   std::printf(
@@ -257,7 +254,7 @@ TEST_P(KeptSumsOf, AChangedFunctionAloneIsExposed) {
 // Nothing, times less than nothing, is 0 and not -0, wherever a pixel's sums begin.
 TEST_P(KeptSumsOf, BlackIsZeroWhateverIsExposedFirst) {
   const CaptureFormat format{.shape = {16, 8, 1}};
-  const test::Rasters black(48, std::vector<std::byte>(format.sample_bytes()));
+  const Rasters black(48, std::vector<std::byte>(format.sample_bytes()));
   MemoryCapture capture(format, Timeline::constant({1000, 1}, {360, 1}, 48), black, 16);
   Mask mask = Mask::uniform(16, 8, 0);
   for (std::size_t pixel = 0; pixel < mask.tags.size(); ++pixel) mask.tags[pixel] = pixel % 16 >= 8;
@@ -283,7 +280,7 @@ TEST_P(KeptSumsOf, AnyMemoryHasTheSamePictures) {
                                     Mask::uniform(random.mask.width, random.mask.height, 0), {});
   const std::vector<std::byte> expected = fresh_.render(plan, capture, kLight).picture.bytes;
   for (const std::uint64_t bytes : {std::uint64_t{1} << 17, std::uint64_t{1} << 18, std::uint64_t{1} << 30}) {
-    OpenClOptions options = test::renderer_options(GetParam());
+    OpenClOptions options = renderer_options(GetParam());
     options.memory_bytes = bytes;
     options.chunk_bytes = 4096;
     OpenClRenderer renderer(options);
@@ -298,4 +295,4 @@ INSTANTIATE_TEST_SUITE_P(, KeptSumsOf, testing::ValuesIn(kPrecisions),
                          [](const auto& test) { return to_text(test.param); });
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -22,14 +22,11 @@
 #include "support/random_case.hpp"
 #include "support/seeds.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::Difference;
-using test::KernelBuild;
-
 // What the first device cannot be asked for.
-constexpr test::Exclusion kAbsent[] = {
+constexpr Exclusion kAbsent[] = {
     {"the device has no double",
      [](const KernelBuild& build) {
        return build.precision == Precision::double_ && !list_devices().front().has_double;
@@ -75,8 +72,8 @@ class BuildScene {
                                .code_bytes = build.code_bytes,
                                .white_code = build.code_bytes == 1 ? 255u : 4095u,
                                .transfer = build.transfer()};
-    test::Random random(11);
-    test::Rasters rasters;
+    Random random(11);
+    Rasters rasters;
     std::vector<std::byte> raster(format.sample_bytes());
     for (std::uint64_t k = 0; k < kSamples; ++k) {
       for (std::uint64_t pixel = 0; pixel < format.shape.pixel_count(); ++pixel) {
@@ -84,7 +81,7 @@ class BuildScene {
         if (k > 0 && !changes[tile_of(pixel) % 4]) continue;
         for (std::uint32_t channel = 0; channel < build.channels; ++channel) {
           const auto code = static_cast<std::uint32_t>(random.whole(0, format.white_code));
-          test::set_code(format, raster, pixel * build.channels + channel, code);
+          set_code(format, raster, pixel * build.channels + channel, code);
         }
       }
       rasters.push_back(raster);
@@ -129,7 +126,7 @@ std::string wanted_builds() {
 
 // What this run builds of a precision.
 std::vector<KernelBuild> builds_of(Precision precision) {
-  std::vector<KernelBuild> builds = test::possible_builds();
+  std::vector<KernelBuild> builds = possible_builds();
   const std::string wanted = wanted_builds();
   if (wanted.empty()) builds = pairwise(builds);
   std::erase_if(builds, [&](const KernelBuild& build) {
@@ -149,19 +146,19 @@ TEST_P(KernelBuilds, StayWithinTheirBounds) {
   for (const KernelBuild& build : builds) {
     ++number;
     const auto* const reason =
-        std::ranges::find_if(kAbsent, [&](const test::Exclusion& each) { return each.applies(build); });
+        std::ranges::find_if(kAbsent, [&](const Exclusion& each) { return each.applies(build); });
     if (reason != std::end(kAbsent)) {
       ++absent[reason->reason];
       continue;
     }
-    SCOPED_TRACE(build.name() + "; rerun: NUTIK_TEST_BUILDS=" + build.name() + " " + test::rerun());
+    SCOPED_TRACE(build.name() + "; rerun: NUTIK_TEST_BUILDS=" + build.name() + " " + rerun());
     OpenClRenderer renderer(build.options());
     BuildScene& scene = scene_for(build);
     double most = 0.0;
     for (const OutputFormat& output : {build.output, OutputFormat{ValueType::light64, 0}}) {
       const ErrorBound bound = error_bound(scene.plan(), build.precision, output);
       const Picture picture = renderer.render(scene.plan(), scene.capture(), output).picture;
-      const Difference share = test::share_of_bound(scene.plan(), bound, output, picture, scene.light());
+      const Difference share = share_of_bound(scene.plan(), bound, output, picture, scene.light());
       EXPECT_LE(share.worst, 1.0) << "of the bound, at value " << share.value << ", light "
                                   << scene.light().values<double>()[share.value];
       most = std::max(most, share.worst);
@@ -186,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(, KernelBuilds, testing::ValuesIn(kPrecisions),
 
 // The few builds are enough, and what no build has is left out for a reason that is told.
 TEST(KernelBuildTable, MeetsAnyTwoValues) {
-  const std::vector<KernelBuild> possible = test::possible_builds();
+  const std::vector<KernelBuild> possible = possible_builds();
   const std::vector<KernelBuild> few = pairwise(possible);
   const auto pairs_of = [](const std::vector<KernelBuild>& builds) {
     std::set<std::pair<std::string, std::string>> pairs;
@@ -208,11 +205,11 @@ TEST(KernelBuildTable, MeetsAnyTwoValues) {
     })) << to_text(precision);
   }
 
-  const std::vector<KernelBuild> all = test::all_combinations();
+  const std::vector<KernelBuild> all = all_combinations();
   std::printf(
       "%zu builds for %zu pairs of values, out of %zu possible ones; of %zu combinations there are no\n",
       few.size(), met.size(), possible.size(), all.size());
-  for (const test::Exclusion& exclusion : test::kernel_build_exclusions()) {
+  for (const Exclusion& exclusion : kernel_build_exclusions()) {
     std::printf("  %6zu: %s\n", static_cast<std::size_t>(std::ranges::count_if(all, exclusion.applies)),
                 exclusion.reason);
   }
@@ -222,7 +219,7 @@ TEST(KernelBuildTable, MeetsAnyTwoValues) {
 }
 
 TEST(KernelBuildTable, IsTriedOnTilesOfAllKinds) {
-  BuildScene& scene = scene_for(test::possible_builds().front());
+  BuildScene& scene = scene_for(possible_builds().front());
   for (std::uint64_t b = 0; b < scene.capture().block_count(); ++b) {
     const BlockView block = scene.capture().view(b);
     std::set<TileKind> kinds;
@@ -232,4 +229,4 @@ TEST(KernelBuildTable, IsTriedOnTilesOfAllKinds) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

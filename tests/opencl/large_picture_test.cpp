@@ -9,7 +9,7 @@
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 // 64 samples of 8K in one block, 6.4 GB as rasters: 2 % of the tiles change at every sample, others every time. It
@@ -22,7 +22,7 @@ class LargeScene final : public CaptureSource {
   LargeScene() {
     format_.shape = {7680, 4320, 3};
     const BlockGeometry geometry(format_, kSamples);
-    test::Random random(3);
+    Random random(3);
     std::vector<TileEntry> entries;
     std::vector<std::vector<std::uint8_t>> changes(geometry.tile_count);  // samples, of each tile
     bytes_ = geometry.directory_bytes();
@@ -77,8 +77,8 @@ TEST(LargePicture, TakesLittleOfTheDevice) {
   const RenderPlan plan = make_plan(scene, {{0, GainFunction::boxcar(0, scene.timeline().duration_ns())}},
                                     Mask::uniform(shape.width, shape.height, 0), {});
   const double raw = static_cast<double>(LargeScene::kSamples * scene.format().sample_bytes());
-  for (const Precision precision : test::first_precisions()) {
-    OpenClRenderer renderer(test::renderer_options(precision));
+  for (const Precision precision : first_precisions()) {
+    OpenClRenderer renderer(renderer_options(precision));
     const RenderControl of_column{.rectangle = Rectangle{3001, 0, 40, shape.height}};
     const Rendered column = renderer.render(plan, scene, {ValueType::code8, 255}, of_column);
     EXPECT_EQ(column.statistics.launches, 1u);
@@ -94,10 +94,10 @@ TEST(LargePicture, TakesLittleOfTheDevice) {
       EXPECT_LE(share, 0.1) << to_text(precision);
       EXPECT_GT(rendered.statistics.launches, 1u);
       EXPECT_EQ(rendered.statistics.blocks, 1u);
-      EXPECT_TRUE(test::part_of(rendered.picture, *of_column.rectangle) == column.picture.bytes);
+      EXPECT_TRUE(part_of(rendered.picture, *of_column.rectangle) == column.picture.bytes);
     }
   }
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

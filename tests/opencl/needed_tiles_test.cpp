@@ -6,15 +6,11 @@
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::kLight;
-using test::PackedCapture;
-using test::RandomCase;
-
 // Functions that need some samples only, for some of the mask's values.
-FunctionSet short_functions(const FunctionSet& functions, const Timeline& timeline, test::Random& draw) {
+FunctionSet short_functions(const FunctionSet& functions, const Timeline& timeline, Random& draw) {
   FunctionSet chosen;
   for (const auto& [tag, function] : functions) {
     if (draw.chance(0.4)) continue;
@@ -26,13 +22,12 @@ FunctionSet short_functions(const FunctionSet& functions, const Timeline& timeli
 
 TEST(NeededTiles, LeaveThePictureAsItIs) {
   std::uint64_t left_out = 0, unpacked = 0;
-  const auto available = test::first_precisions();
-  OpenClRenderer plain(test::renderer_options({})), passing(test::renderer_options({})),
-      holding(test::renderer_options({}));
+  const auto available = first_precisions();
+  OpenClRenderer plain(renderer_options({})), passing(renderer_options({})), holding(renderer_options({}));
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const RandomCase random(seed);
     SCOPED_TRACE(random.text());
-    test::Random draw(seed);
+    Random draw(seed);
     MemoryCapture capture = random.encode();
     PackedCapture packed(capture, static_cast<std::uint64_t>(draw.whole(1, 5)));
     holding.keep_resident(&packed);
@@ -75,8 +70,8 @@ TEST(NeededTiles, LeaveThePictureAsItIs) {
 TEST(NeededTiles, AreThoseOfTheFunctionsThatAreNotZero) {
   const CaptureFormat format{.shape = {64, 64, 3}};
   const Timeline timeline = Timeline::constant({100, 1}, Timeline::kFullShutter, 20);
-  test::Random random(3);
-  MemoryCapture capture(format, timeline, test::random_rasters(random, format, 20), 5);
+  Random random(3);
+  MemoryCapture capture(format, timeline, random_rasters(random, format, 20), 5);
   PackedCapture packed(capture, 1);
   Mask mask = Mask::uniform(64, 64, 0);
   for (std::uint32_t y = 8; y < 16; ++y) {
@@ -86,7 +81,7 @@ TEST(NeededTiles, AreThoseOfTheFunctionsThatAreNotZero) {
   functions.emplace(std::uint8_t{7}, GainFunction::boxcar(0, 150'000'000));  // three blocks of four
   const RenderPlan plan = make_plan(capture, functions, mask, {.unmapped_is_zero = true});
   ASSERT_EQ(plan.blocks.size(), 3u);
-  OpenClRenderer renderer(test::renderer_options(Precision::fixed));
+  OpenClRenderer renderer(renderer_options(Precision::fixed));
   const Picture expected = renderer.render(plan, capture, kLight).picture;
   EXPECT_EQ(renderer.render(plan, packed, kLight).picture, expected);
   EXPECT_EQ(packed.groups_unpacked, 3u * 2);
@@ -94,4 +89,4 @@ TEST(NeededTiles, AreThoseOfTheFunctionsThatAreNotZero) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -11,7 +11,7 @@
 #include "support/rendering.hpp"
 #include "support/seeds.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 const Transfer kCaptures[] = {Transfer::srgb(),     Transfer::bt709(), Transfer::linear(),
@@ -23,14 +23,14 @@ TEST(OutTransfer, IsWithinTheBoundInEveryArithmetic) {
   ReferenceRenderer reference;
   std::map<Precision, double> worst;
   std::map<Precision, std::unique_ptr<OpenClRenderer>> renderers;
-  for (const Precision precision : test::first_precisions()) {
-    renderers[precision] = std::make_unique<OpenClRenderer>(test::renderer_options(precision));
+  for (const Precision precision : first_precisions()) {
+    renderers[precision] = std::make_unique<OpenClRenderer>(renderer_options(precision));
   }
   std::uint64_t seed = 100;
   for (const Transfer& transfer : kCaptures) {
     for (const Primaries primaries : {Primaries::bt709, Primaries::bt2020, Primaries::p3}) {
       const bool is_deep = ++seed % 2 == 0;
-      test::RandomCase random(seed, {3, is_deep ? 2u : 1u, is_deep ? 4095u : 255u, transfer});
+      RandomCase random(seed, {3, is_deep ? 2u : 1u, is_deep ? 4095u : 255u, transfer});
       random.capture.primaries = primaries;
       MemoryCapture capture = random.encode();
       const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
@@ -44,7 +44,7 @@ TEST(OutTransfer, IsWithinTheBoundInEveryArithmetic) {
                          (out ? out->text() : "its own") + " in " + to_text(precision));
             const ErrorBound bound = error_bound(plan, precision, output);
             const Rendered rendered = renderer->render(plan, capture, output);
-            const test::Difference share = test::share_of_bound(plan, bound, output, rendered.picture, light);
+            const Difference share = share_of_bound(plan, bound, output, rendered.picture, light);
             EXPECT_LE(share.worst, 1.0) << "of the bound, at value " << share.value;
             worst[precision] = std::max(worst[precision], share.worst);
             EXPECT_EQ(rendered.picture.transfer, out ? *out : transfer);
@@ -53,7 +53,7 @@ TEST(OutTransfer, IsWithinTheBoundInEveryArithmetic) {
           // The reference's own codes have no bound but that of their light.
           const Picture codes = reference.render(plan, capture, output).picture;
           ErrorBound bound = error_bound(plan, Precision::double_, output);
-          EXPECT_LE(test::share_of_bound(plan, bound, output, codes, light).worst, 1.0);
+          EXPECT_LE(share_of_bound(plan, bound, output, codes, light).worst, 1.0);
         }
       }
     }
@@ -74,13 +74,13 @@ TEST(OutTransfer, ShowsReferenceWhiteAsWhite) {
                                .primaries = Primaries::bt2020};
     std::vector<std::byte> raster(format.sample_bytes());
     for (std::uint64_t i = 0; i < 3; ++i) {
-      test::set_code(format, raster, i, static_cast<std::uint32_t>(code + 0.5));
+      set_code(format, raster, i, static_cast<std::uint32_t>(code + 0.5));
     }
-    const test::Rasters rasters{raster};
+    const Rasters rasters{raster};
     MemoryCapture capture(format, Timeline::constant({10, 1}, Timeline::kFullShutter, 1), rasters, 1);
     const RenderPlan plan =
         make_plan(capture, {{0, GainFunction::boxcar(0, 100'000'000)}}, Mask::uniform(1, 1, 0), {});
-    OpenClRenderer renderer(test::renderer_options(std::nullopt));
+    OpenClRenderer renderer(renderer_options(std::nullopt));
     const Rendered shown =
         renderer.render(plan, capture, {ValueType::code8, 255, NegativeLight::saturate, Transfer::srgb()});
     for (const std::uint8_t value : shown.picture.values<std::uint8_t>()) {
@@ -92,19 +92,19 @@ TEST(OutTransfer, ShowsReferenceWhiteAsWhite) {
 
 // Kernels tell codes apart by one comparison, which those of a steep function need more than; the host makes them.
 TEST(OutTransfer, MakesCodesThatLieCloseTogetherOnTheHost) {
-  const test::RandomCase random(7, {1, 2, 65'535, Transfer::gamma(9)});
+  const RandomCase random(7, {1, 2, 65'535, Transfer::gamma(9)});
   MemoryCapture capture = random.encode();
   const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
   const OutputFormat output{ValueType::code16, 65'535};
   ReferenceRenderer reference;
   const Picture light = reference.render(plan, capture, {ValueType::light64, 0}).picture;
-  for (const Precision precision : test::first_precisions()) {
-    OpenClRenderer renderer(test::renderer_options(precision));
+  for (const Precision precision : first_precisions()) {
+    OpenClRenderer renderer(renderer_options(precision));
     const Picture picture = renderer.render(plan, capture, output).picture;
     const ErrorBound bound = error_bound(plan, precision, output);
-    EXPECT_LE(test::share_of_bound(plan, bound, output, picture, light).worst, 1.0) << to_text(precision);
+    EXPECT_LE(share_of_bound(plan, bound, output, picture, light).worst, 1.0) << to_text(precision);
   }
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -13,17 +13,15 @@
 #include "support/seeds.hpp"
 #include "support/soft_mask.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::RandomCase;
 
 class Precisions : public testing::Test {
  protected:
   ~Precisions() override { check_.print(); }
 
-  static void check(test::PrecisionCheck& check, const RenderPlan& plan, CaptureSource& capture,
-                    const std::string& what, const std::string& rerun = test::rerun()) {
+  static void check(PrecisionCheck& check, const RenderPlan& plan, CaptureSource& capture, const std::string& what,
+                    const std::string& rerun = test::rerun()) {
     check.check(
         plan,
         [&](Renderer& renderer, const OutputFormat& output) {
@@ -32,7 +30,7 @@ class Precisions : public testing::Test {
         what, rerun);
   }
 
-  test::PrecisionCheck check_;
+  PrecisionCheck check_;
 };
 
 // NUTIK_TEST_CASES=10000 is the full run (docs/explanation/accuracy.md). NUTIK_TEST_LARGEST=n leaves out
@@ -40,7 +38,7 @@ class Precisions : public testing::Test {
 TEST_F(Precisions, StayWithinTheirBoundsOnRandomCases) {
   const char* limit = std::getenv("NUTIK_TEST_LARGEST");
   const std::uint64_t largest = limit == nullptr ? UINT64_MAX : std::stoull(limit);
-  const test::Seeds seeds = test::seeds(0, 300);
+  const Seeds seeds = test::seeds(0, 300);
   for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
     const RandomCase random(seed);
     if (random.capture.shape.value_count() * random.timeline.sample_count() > largest) continue;
@@ -54,8 +52,8 @@ TEST_F(Precisions, StayWithinTheirBoundsOnRandomCases) {
 // 128 samples at 100 a second in two blocks, random 8-bit codes or a still scene.
 MemoryCapture clip_of(const Transfer& transfer, bool is_still, TilePolicy policy = TilePolicy::automatic) {
   const CaptureFormat format{.shape = {19, 9, 1}, .transfer = transfer};
-  test::Random random(7);
-  test::Rasters rasters = test::random_rasters(random, format, 128);
+  Random random(7);
+  Rasters rasters = random_rasters(random, format, 128);
   if (is_still) std::fill(rasters.begin(), rasters.end(), rasters.front());
   return {format, Timeline::constant({100, 1}, Timeline::kFullShutter, 128), rasters, 64, policy};
 }
@@ -86,7 +84,7 @@ TEST_F(Precisions, StayWithinTheirBoundsWhereSumsCancel) {
 
 // Where a device does not fuse, products round twice and pairs are multiplied by halves.
 TEST_F(Precisions, OfFloatsStayWithinTheirBoundsWithoutFusedProducts) {
-  test::PrecisionCheck without_fma(false);
+  PrecisionCheck without_fma(false);
   MemoryCapture capture = clip_of(Transfer::srgb(), false, TilePolicy::records);
   for (const double gain : {1.0, 1e6}) {
     const RenderPlan plan = make_plan(capture, {{0, cancelling(gain, 0.3)}}, Mask::uniform(19, 9, 0), {});
@@ -114,13 +112,13 @@ TEST_F(Precisions, HoldGainsOfAnySize) {
 
 // A bound that is never nearly met would say nothing. Gains of one sign, up to 1000 samples.
 TEST_F(Precisions, BoundOfSingleIsUseful) {
-  test::Random random(77);
+  Random random(77);
   std::vector<double> shares;
   for (int i = 0; i < 60; ++i) {
     const CaptureFormat format{.shape = {16, 16, 1}, .transfer = i % 2 == 0 ? Transfer::srgb() : Transfer::linear()};
     const auto samples = static_cast<std::uint64_t>(std::exp(random.real(0.0, std::log(1001.0))));
-    const test::Rasters rasters = test::random_rasters(random, format, samples);
-    MemoryCapture capture(format, test::random_timeline(random, samples), rasters, 64);
+    const Rasters rasters = random_rasters(random, format, samples);
+    MemoryCapture capture(format, random_timeline(random, samples), rasters, 64);
     std::vector<ControlPoint> points;
     for (std::int64_t point = 0; point < 5; ++point) {
       points.push_back({capture.timeline().duration_ns() * point / 5, random.real(0.1, 2.0)});
@@ -130,10 +128,10 @@ TEST_F(Precisions, BoundOfSingleIsUseful) {
     const Picture light =
         check_.of(Precision::single_).render(plan, capture, {ValueType::light64, 0}).picture;
     const Picture expected = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}).picture;
-    shares.push_back(test::share_of_bound(plan, Precision::single_, light, expected).worst);
+    shares.push_back(share_of_bound(plan, Precision::single_, light, expected).worst);
     ASSERT_LE(shares.back(), 1.0) << samples << " samples, case " << i;
   }
-  EXPECT_GE(test::print_shares("single, gains of one sign", shares), 0.01);
+  EXPECT_GE(print_shares("single, gains of one sign", shares), 0.01);
 }
 
 // Functions without negative gain, exposed to codes of 16 bits: boxcars and lines, cut anywhere; up to 1000 samples,
@@ -145,7 +143,7 @@ struct BrightCase {
   OutputFormat output{ValueType::code16, 65'535};
 
   explicit BrightCase(std::uint64_t seed) {
-    test::Random random(seed);
+    Random random(seed);
     CaptureFormat format;
     format.shape = {16, 16, 1};
     format.transfer = random_transfer(random);
@@ -154,23 +152,23 @@ struct BrightCase {
       format.white_code = static_cast<std::uint32_t>(random.pick(std::vector<int>{1023, 4095, 50'000, 65'535}));
     }
     const auto samples = static_cast<std::uint64_t>(std::exp(random.real(0.0, std::log(1001.0))));
-    capture.emplace(format, test::random_timeline(random, samples), test::random_rasters(random, format, samples),
+    capture.emplace(format, random_timeline(random, samples), random_rasters(random, format, samples),
                     static_cast<std::uint32_t>(random.whole(8, 64)));
     functions.emplace(0, function(random));
     if (random.chance(0.25)) {
       functions.emplace(1, function(random));
-      test::soften(mask, functions, seed);
+      soften(mask, functions, seed);
     }
     if (random.chance(0.7)) output.transfer = Transfer::srgb();
   }
 
  private:
-  static Transfer random_transfer(test::Random& random) {
+  static Transfer random_transfer(Random& random) {
     if (random.chance(0.5)) return Transfer::srgb();
     return random.pick(std::vector<Transfer>{Transfer::linear(), Transfer::bt709(), Transfer::gamma(2.2),
                                              Transfer::gamma(0.6), Transfer::hlg(), Transfer::pq()});
   }
-  [[nodiscard]] GainFunction function(test::Random& random) const {
+  [[nodiscard]] GainFunction function(Random& random) const {
     const std::int64_t end_ns = capture->timeline().duration_ns();
     const std::int64_t from_ns = random.whole(0, end_ns - 1);
     const double gain = random.chance(0.5) ? 1.0 : std::exp(random.real(-3, 3));
@@ -211,34 +209,34 @@ double share_of_codes(const RenderPlan& plan, const ErrorBound& bound, const Pic
 
 // NUTIK_TEST_CASES=10000 is the full run (docs/explanation/accuracy.md).
 TEST_F(Precisions, SingleErrsByTheLightItselfWithoutNegativeGain) {
-  const test::Seeds seeds = test::seeds(0, 120);
+  const Seeds seeds = test::seeds(0, 120);
   std::vector<double> of_codes, of_codes_before, of_light, by_light;
   std::uint64_t chosen = 0, chosen_before = 0;
   for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
     BrightCase bright(seed);
     const RenderPlan plan = make_plan(*bright.capture, bright.functions, bright.mask, {});
     Renderer& single = check_.of(Precision::single_);
-    const Picture expected = ReferenceRenderer().render(plan, *bright.capture, test::kLight).picture;
-    const Picture light = single.render(plan, *bright.capture, test::kLight).picture;
+    const Picture expected = ReferenceRenderer().render(plan, *bright.capture, kLight).picture;
+    const Picture light = single.render(plan, *bright.capture, kLight).picture;
     const Picture codes = single.render(plan, *bright.capture, bright.output).picture;
     const ErrorBound bound = error_bound(plan, Precision::single_, bright.output);
-    const ErrorBound whole = error_bound(plan, Precision::single_, test::kLight);
-    of_light.push_back(test::share_of_bound(plan, whole, light, expected).worst);
-    by_light.push_back(test::share_of_bound(plan, bound, test::kLight, light, expected).worst);
+    const ErrorBound whole = error_bound(plan, Precision::single_, kLight);
+    of_light.push_back(share_of_bound(plan, whole, light, expected).worst);
+    by_light.push_back(share_of_bound(plan, bound, kLight, light, expected).worst);
     of_codes.push_back(share_of_codes(plan, bound, light, expected));
     of_codes_before.push_back(of_codes.back() * bound.worst.steps / whole_steps(plan, whole, bright.output));
     ASSERT_LE(of_light.back(), 1.0) << test::rerun(seed);
     ASSERT_LE(by_light.back(), 1.0) << test::rerun(seed);
     ASSERT_LE(of_codes.back(), 1.0) << test::rerun(seed);
-    ASSERT_LE(test::share_of_bound(plan, bound, bright.output, codes, expected).worst, 1.0) << test::rerun(seed);
+    ASSERT_LE(share_of_bound(plan, bound, bright.output, codes, expected).worst, 1.0) << test::rerun(seed);
     ASSERT_LE(bound.worst.steps, whole_steps(plan, whole, bright.output)) << test::rerun(seed);
     chosen += bound.worst.steps <= kMaxSteps;
     chosen_before += whole_steps(plan, whole, bright.output) <= kMaxSteps;
   }
-  test::print_shares("single, all light", of_light);
-  EXPECT_GE(test::print_shares("single, by the light itself", by_light), 2 * 0.056);
-  const double before = test::print_shares("single in codes, all light", of_codes_before);
-  EXPECT_GE(test::print_shares("single in codes, by the light", of_codes), 5 * before);
+  print_shares("single, all light", of_light);
+  EXPECT_GE(print_shares("single, by the light itself", by_light), 2 * 0.056);
+  const double before = print_shares("single in codes, all light", of_codes_before);
+  EXPECT_GE(print_shares("single in codes, by the light", of_codes), 5 * before);
   EXPECT_GT(chosen, 2 * chosen_before);
   std::printf("single is right enough in %llu cases, without the bound by light in %llu\n",
               static_cast<unsigned long long>(chosen), static_cast<unsigned long long>(chosen_before));
@@ -251,11 +249,11 @@ TEST(FixedPoint, GivesTheSameBytesHoweverTheWorkIsCut) {
     std::uint32_t item_pixels, item_tiles, lanes;
   };
   const CaptureFormat format{.shape = {43, 21, 3}};
-  test::Random random(5);
-  const Timeline timeline = test::random_timeline(random, 150);
-  const test::Rasters rasters = test::random_rasters(random, format, 150);
+  Random random(5);
+  const Timeline timeline = random_timeline(random, 150);
+  const Rasters rasters = random_rasters(random, format, 150);
   FunctionSet functions;
-  for (std::uint8_t tag = 0; tag < 3; ++tag) functions.emplace(tag, test::random_function(random, timeline));
+  for (std::uint8_t tag = 0; tag < 3; ++tag) functions.emplace(tag, random_function(random, timeline));
   Mask mask = Mask::uniform(43, 21, 0);
   for (std::size_t pixel = 0; pixel < mask.tags.size(); ++pixel) {
     mask.tags[pixel] = static_cast<std::uint8_t>(pixel % 43 < 20 ? 0 : random.whole(0, 2));
@@ -266,7 +264,7 @@ TEST(FixedPoint, GivesTheSameBytesHoweverTheWorkIsCut) {
     for (const auto& [group_items, chunk_bytes, last_first] : {std::tuple{1u, std::uint64_t{0}, false},
                                                                {7u, std::uint64_t{1}, false},
                                                                {64u, std::uint64_t{0}, true}}) {
-      OpenClOptions options = test::renderer_options(Precision::fixed);
+      OpenClOptions options = renderer_options(Precision::fixed);
       options.item_pixels = shape.item_pixels;
       options.item_tiles = shape.item_tiles;
       options.lanes = shape.lanes;
@@ -299,4 +297,4 @@ TEST(FixedPoint, GivesTheSameBytesHoweverTheWorkIsCut) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

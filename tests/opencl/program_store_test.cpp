@@ -10,7 +10,7 @@
 #include "support/messages.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 constexpr const char* kSource = "kernel void fill(global int* to) { to[get_global_id(0)] = NUMBER; }";
@@ -41,7 +41,7 @@ class ProgramStoreTest : public testing::Test {
 
   cl::Device device_ = all_devices().front();
   cl::Context context_{device_};
-  test::Scratch scratch_;
+  Scratch scratch_;
   int builds_ = 0;
 };
 
@@ -57,14 +57,14 @@ TEST_F(ProgramStoreTest, BuildsOnceAndThenLoads) {
 TEST_F(ProgramStoreTest, RebuildsADamagedEntry) {
   EXPECT_EQ(run("7"), 7);
   const auto file = cached().front();
-  const std::string whole = test::read_file(file);
+  const std::string whole = read_file(file);
   for (const std::string& damaged : {std::string(), whole.substr(0, whole.size() / 2),
                                      whole.substr(0, whole.size() - 1) + "x", "other " + whole}) {
     std::ofstream(file, std::ios::binary) << damaged;
     const int before = builds_;
     EXPECT_EQ(run("7"), 7);
     EXPECT_EQ(builds_, before + 1);
-    EXPECT_EQ(test::read_file(file).size(), whole.size()) << "the entry was not written again";
+    EXPECT_EQ(read_file(file).size(), whole.size()) << "the entry was not written again";
   }
 }
 
@@ -113,10 +113,9 @@ TEST_F(ProgramStoreTest, LoadsNothingThatOthersMayWrite) {
 
 TEST_F(ProgramStoreTest, AFailureCarriesProgramOptionsAndLog) {
   ProgramStore store(context_, device_, {}, {});
-  test::expect_error<DeviceError>(
-      [&] { return store.get("broken", "kernel void broken() { undeclared = 1; }", "-DX=1"); },
-      {"kernels/broken.cl", "-DX=1", "undeclared"});
+  expect_error<DeviceError>([&] { return store.get("broken", "kernel void broken() { undeclared = 1; }", "-DX=1"); },
+                            {"kernels/broken.cl", "-DX=1", "undeclared"});
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

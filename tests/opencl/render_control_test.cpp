@@ -15,12 +15,10 @@
 #include "support/watched_capture.hpp"
 #include "system/mapped_file.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::RandomCase;
-
-const test::CodeFormat kColour{3, 1, 255, Transfer::srgb()};
+const CodeFormat kColour{3, 1, 255, Transfer::srgb()};
 
 std::vector<Rectangle> rectangles_of(const Shape& shape) {
   const std::uint32_t right = shape.width - 1, bottom = shape.height - 1;
@@ -45,9 +43,8 @@ void expect_rectangles(Renderer& renderer, const RandomCase& random, RenderContr
       control.rectangle = rectangle;
       const Picture part = renderer.render(plan, capture, output, control).picture;
       ASSERT_EQ(part.shape, (Shape{rectangle.width, rectangle.height, plan.capture.shape.channels}));
-      EXPECT_EQ(part.bytes, test::part_of(whole, rectangle))
-          << rectangle.x << "," << rectangle.y << " " << rectangle.width << " x " << rectangle.height << ": "
-          << random.text();
+      EXPECT_EQ(part.bytes, part_of(whole, rectangle)) << rectangle.x << "," << rectangle.y << " " << rectangle.width
+                                                       << " x " << rectangle.height << ": " << random.text();
     }
   }
 }
@@ -61,7 +58,7 @@ TEST(RenderControl, LostFilesAreWatchedAfterADriverHasCompiled) {
     return now.sa_sigaction;
   };
   const auto of_program = handler();
-  OpenClRenderer renderer(test::renderer_options(std::nullopt));
+  OpenClRenderer renderer(renderer_options(std::nullopt));
   const RandomCase random(0, kColour);
   MemoryCapture capture = random.encode();
   const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
@@ -71,7 +68,7 @@ TEST(RenderControl, LostFilesAreWatchedAfterADriverHasCompiled) {
 }
 
 TEST(RenderControl, RectanglesArePartsOfThePicture) {
-  OpenClOptions options = test::renderer_options(std::nullopt);
+  OpenClOptions options = renderer_options(std::nullopt);
   OpenClRenderer usual(options);
   options.item_pixels = options.item_tiles = options.lanes = 1;
   options.group_items = 64;
@@ -100,7 +97,7 @@ TEST(RenderControl, RefusesRectanglesThatAreNoPart) {
     const auto render = [&] {
       static_cast<void>(reference.render(plan, capture, {ValueType::code8, 255}, {.rectangle = rectangle}));
     };
-    test::expect_error<UsageError>(render, {"is no part of a picture of"});
+    expect_error<UsageError>(render, {"is no part of a picture of"});
   }
 }
 
@@ -109,7 +106,7 @@ TEST(RenderControl, EndsWhenItIsCancelled) {
   MemoryCapture capture = random.encode(1, TilePolicy::automatic);
   const RenderPlan plan = make_plan(capture, random.functions, random.mask, {.live_all = true});
   const std::uint64_t last = capture.block_count() - 1;
-  OpenClOptions options = test::renderer_options(std::nullopt);
+  OpenClOptions options = renderer_options(std::nullopt);
   options.chunk_bytes = 1;
   OpenClRenderer opencl(options);
   ReferenceRenderer reference;
@@ -117,7 +114,7 @@ TEST(RenderControl, EndsWhenItIsCancelled) {
   for (Renderer* renderer : {static_cast<Renderer*>(&opencl), static_cast<Renderer*>(&reference)}) {
     for (const std::uint64_t block : {std::uint64_t{0}, last / 2}) {
       std::stop_source stop;
-      test::WatchedCapture cancelling(capture, [&](std::uint64_t asked) {
+      WatchedCapture cancelling(capture, [&](std::uint64_t asked) {
         if (asked == block) stop.request_stop();
       });
       EXPECT_THROW(static_cast<void>(renderer->render(plan, cancelling, output, {.stop = stop.get_token()})),
@@ -132,7 +129,7 @@ TEST(RenderControl, EndsWhenItIsCancelled) {
 TEST(RenderControl, ManyThreadsMayAskAtATime) {
   const RandomCase random(5, kColour);
   MemoryCapture capture = random.encode(7, TilePolicy::automatic);
-  OpenClRenderer renderer(test::renderer_options(std::nullopt));
+  OpenClRenderer renderer(renderer_options(std::nullopt));
   const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
   const OutputFormat output{ValueType::light64, 0};
   std::vector<Picture> expected;
@@ -156,7 +153,7 @@ TEST(RenderControl, ManyThreadsMayAskAtATime) {
           try {
             const Rendered rendered = renderer.render(plan, capture, output, control);
             wrong += rendered.precision != *control.precision ||
-                     rendered.picture.bytes != test::part_of(expected[p], *control.rectangle);
+                     rendered.picture.bytes != part_of(expected[p], *control.rectangle);
           } catch (const Cancelled&) {
             ++cancelled;
           }
@@ -170,4 +167,4 @@ TEST(RenderControl, ManyThreadsMayAskAtATime) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

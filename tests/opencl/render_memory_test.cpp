@@ -12,13 +12,13 @@
 #include "opencl/kernel_tables.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 // All tables where there is room for them; else a quarter of what is left, and those of the longest block at least.
 TEST(RenderMemory, HoldsTheTablesOfABlockAndMoreWhereThereIsRoom) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const test::RandomCase random(seed);
+    const RandomCase random(seed);
     SCOPED_TRACE(random.text());
     const MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
@@ -49,9 +49,9 @@ TEST(RenderMemory, HoldsTheTablesOfABlockAndMoreWhereThereIsRoom) {
 
 // However fast devices are, and whether they all have a band: a film that began does not end for want of memory.
 TEST(RenderMemory, DoesForAnyBandsOfAPicture) {
-  test::Random draw(7);
+  Random draw(7);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const test::RandomCase random(seed);
+    const RandomCase random(seed);
     SCOPED_TRACE(random.text());
     const MemoryCapture capture = random.encode();
     const std::uint32_t channels = capture.format().shape.channels;
@@ -92,4 +92,4 @@ TEST(RenderMemory, DoesForAnyBandsOfAPicture) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

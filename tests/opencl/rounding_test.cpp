@@ -17,10 +17,8 @@
 #include "support/rendering.hpp"
 #include "support/seeds.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::kLight;
 
 // Six times a power of two: a weight is then its gain over the number of samples, exactly, if the gain has 51 bits and
 // there are a power of two of samples.
@@ -56,9 +54,9 @@ struct Sequence {
                                .code_bytes = white_code > 255 ? 2u : 1u,
                                .white_code = white_code,
                                .transfer = Transfer::linear()};
-    test::Rasters rasters(codes.size(), std::vector<std::byte>(format.sample_bytes()));
+    Rasters rasters(codes.size(), std::vector<std::byte>(format.sample_bytes()));
     for (std::size_t k = 0; k < codes.size(); ++k) {
-      for (std::uint64_t pixel = 0; pixel < 8; ++pixel) test::set_code(format, rasters[k], pixel, codes[k]);
+      for (std::uint64_t pixel = 0; pixel < 8; ++pixel) set_code(format, rasters[k], pixel, codes[k]);
     }
     return {format, timeline_of(codes.size()), rasters, block_samples, TilePolicy::dense};
   }
@@ -71,13 +69,13 @@ struct Sequence {
 };
 
 OpenClRenderer renderer_of(Precision precision, bool fuses) {
-  OpenClOptions options = test::renderer_options(precision);
+  OpenClOptions options = renderer_options(precision);
   options.use_fma = fuses;
   return OpenClRenderer(options);
 }
 
 // The signed error of a sequence's light, in its bound.
-double share_of_bound(const Sequence& sequence, Precision precision, bool fuses,
+double share_of_sequence(const Sequence& sequence, Precision precision, bool fuses,
                       std::uint32_t block_samples) {
   MemoryCapture capture = sequence.capture(block_samples);
   const RenderPlan plan = make_plan(capture, {{0, steps(sequence.gains)}}, Mask::uniform(8, 1, 0), {});
@@ -93,7 +91,7 @@ void expect_near_bound(const Sequence& sequence, Precision precision, double sig
   for (const bool fuses : {true, false}) {
     if (fuses && precision == Precision::fixed) continue;
     for (const std::uint32_t block_samples : {1u, 4096u}) {
-      const double share = share_of_bound(sequence, precision, fuses, block_samples);
+      const double share = share_of_sequence(sequence, precision, fuses, block_samples);
       std::printf("%s, %s, blocks of at most %u, %s: %+.3f of the bound\n", to_text(precision).c_str(), what,
                   block_samples, fuses ? "fused" : "not fused", share);
       EXPECT_LE(std::fabs(share), 1.0) << what;
@@ -118,7 +116,7 @@ Sequence piled_on(double first, const std::vector<double>& pattern) {
 // Each term is just less than half of the sum's last place, and lost; or just more, and taken for all of it.
 TEST(Roundings, OfSumsInFloatsAndDoublesReachTheBound) {
   for (const auto& [precision, u] : {std::pair{Precision::single_, 0x1p-24}, {Precision::double_, 0x1p-53}}) {
-    if (!test::has(precision)) continue;
+    if (!has(precision)) continue;
     expect_near_bound(piled_on(1.0, {0.98 * u}), precision, -1, "terms that are lost");
     expect_near_bound(piled_on(1.0, {1.02 * u}), precision, +1, "terms that count double");
   }
@@ -161,8 +159,8 @@ TEST(Roundings, OfBoundariesReachTheBoundOfFixed) {
 // One sample shows every code, and the one counts whose light errs most: by a curve, by pieces or by a table.
 TEST(Roundings, OfLightReachTheBounds) {
   CaptureFormat format{.shape = {256, 256, 1}, .code_bytes = 2, .white_code = 65'535};
-  test::Rasters rasters(1, std::vector<std::byte>(format.sample_bytes()));
-  for (std::uint32_t code = 0; code < 65'536; ++code) test::set_code(format, rasters[0], code, code);
+  Rasters rasters(1, std::vector<std::byte>(format.sample_bytes()));
+  for (std::uint32_t code = 0; code < 65'536; ++code) set_code(format, rasters[0], code, code);
   // Held exactly by floats, so that only products round, and above 1, so that those of bright codes round most.
   const GainFunction function = steps({1.0625});
   for (const Precision precision : {Precision::single_, Precision::fixed}) {
@@ -174,11 +172,11 @@ TEST(Roundings, OfLightReachTheBounds) {
       const Picture expected = ReferenceRenderer().render(plan, capture, kLight).picture;
       for (const bool permutes : {true, false}) {
         if (permutes && (precision == Precision::fixed || !transfer.toe())) continue;
-        OpenClOptions options = test::renderer_options(precision);
+        OpenClOptions options = renderer_options(precision);
         if (permutes) options.item_pixels = 64, options.lanes = 16;
         options.permutes_pieces = permutes;
         const Picture light = OpenClRenderer(options).render(plan, capture, kLight).picture;
-        const double share = test::share_of_bound(plan, precision, light, expected).worst;
+        const double share = share_of_bound(plan, precision, light, expected).worst;
         std::printf("%s, light of %s%s: %.3f of the bound\n", to_text(precision).c_str(),
                     transfer.text().c_str(), permutes ? " in pieces" : "", share);
         EXPECT_LE(share, 1.0) << transfer.text();
@@ -207,7 +205,7 @@ TEST(Roundings, OfProductsAreThoseThatAreWritten) {
 }
 
 // Weights and light of so few digits that no sum of them has more than an arithmetic holds.
-class ExactSums : public test::OfPrecision {
+class ExactSums : public OfPrecision {
  protected:
   static constexpr std::size_t kSamples = 64;
   static constexpr std::uint32_t kWhite = 128;
@@ -228,8 +226,8 @@ class ExactSums : public test::OfPrecision {
 };
 
 TEST_P(ExactSums, ComeOutExactly) {
-  test::Random random(3);
-  const test::Rasters rasters = test::random_rasters(random, format(), kSamples);
+  Random random(3);
+  const Rasters rasters = random_rasters(random, format(), kSamples);
   // Whole numbers in units of the last digit, 128 · 64 of the largest of which fill all digits.
   const double largest = std::scalbn(1.0, digits() - 13) - 1;
   std::vector<double> weights, gains;
@@ -249,11 +247,10 @@ TEST_P(ExactSums, ComeOutExactly) {
         const Picture light = renderer.render(plan, capture, kLight).picture;
         for (std::uint64_t i = 0; i < kShape.value_count(); ++i) {
           double sum = 0.0;  // whole, and less than 2^53: exact
-          for (std::size_t k = 0; k < kSamples; ++k)
-            sum += weights[k] * test::code_at(format(), rasters[k], i);
+          for (std::size_t k = 0; k < kSamples; ++k) sum += weights[k] * code_at(format(), rasters[k], i);
           ASSERT_EQ(light.values<double>()[i], std::scalbn(sum, -30 - 6 - 7))
               << "value " << i << ", tiles " << to_text(policy) << ", blocks of " << block_samples
-              << (fuses ? "" : ", not fused") << "; rerun: " << test::rerun();
+              << (fuses ? "" : ", not fused") << "; rerun: " << rerun();
           ++values;
         }
       }
@@ -266,4 +263,4 @@ INSTANTIATE_TEST_SUITE_P(, ExactSums, testing::ValuesIn(kPrecisions),
                          [](const auto& instance) { return to_text(instance.param); });
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

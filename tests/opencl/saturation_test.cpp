@@ -7,10 +7,10 @@
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using SaturationOf = test::OfPrecision;
+using SaturationOf = OfPrecision;
 
 // The pixels of a rectangle that have a channel of which `is_out` holds.
 template <typename IsOut>
@@ -28,12 +28,12 @@ std::uint64_t count_pixels(const Picture& light, const Rectangle& rectangle, IsO
 }
 
 TEST_P(SaturationOf, PixelsIsThatOfTheirLight) {
-  OpenClRenderer renderer(test::renderer_options(GetParam()));
+  OpenClRenderer renderer(renderer_options(GetParam()));
   ReferenceRenderer reference;
   std::uint64_t below = 0, above = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     for (const Transfer& transfer : {Transfer::srgb(), Transfer::linear()}) {
-      test::RandomCase random(seed, {seed % 2 == 0 ? 1u : 3u, 1, 255, transfer});
+      RandomCase random(seed, {seed % 2 == 0 ? 1u : 3u, 1, 255, transfer});
       MemoryCapture capture = random.encode();
       const std::int64_t middle_ns = capture.timeline().duration_ns() / 2;
       for (auto& [tag, function] : random.functions) {
@@ -82,4 +82,4 @@ INSTANTIATE_TEST_SUITE_P(, SaturationOf, testing::ValuesIn(kPrecisions),
                          [](const auto& test) { return to_text(test.param); });
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -16,7 +16,7 @@
 #include "support/rendering.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 constexpr OutputFormat kCodes{ValueType::code8, 255};
@@ -31,9 +31,8 @@ class SelfTest : public testing::Test {
 
   static MemoryCapture capture() {
     const CaptureFormat format{.shape = {24, 16, 1}};
-    test::Random random(3);
-    return {format, Timeline::constant({100, 1}, Timeline::kFullShutter, 20),
-            test::random_rasters(random, format, 20), 64};
+    Random random(3);
+    return {format, Timeline::constant({100, 1}, Timeline::kFullShutter, 20), random_rasters(random, format, 20), 64};
   }
   static RenderPlan plan(const MemoryCapture& capture) {
     return make_plan(capture, {{0, GainFunction::boxcar(0, 200'000'000)}}, Mask::uniform(24, 16, 0), {});
@@ -61,20 +60,20 @@ class SelfTest : public testing::Test {
   // Has every kept verdict say the contrary.
   void turn_verdicts() const {
     for (const auto& file : cached(".txt")) {
-      std::string text = test::read_file(file);
+      std::string text = read_file(file);
       const std::size_t at = text.find(" right ");
       ASSERT_NE(at, std::string::npos) << text;
       std::ofstream(file, std::ios::binary) << text.replace(at, 7, " wrong ");
     }
   }
 
-  test::Scratch scratch_;
+  Scratch scratch_;
   MemoryCapture capture_;
   RenderPlan plan_;
 };
 
 TEST_F(SelfTest, IsPassedByEveryArithmetic) {
-  for (const Precision precision : test::first_precisions()) {
+  for (const Precision precision : first_precisions()) {
     OpenClOptions asking = options();
     asking.precision = precision;
     const Rendered rendered = render(asking);
@@ -82,7 +81,7 @@ TEST_F(SelfTest, IsPassedByEveryArithmetic) {
     EXPECT_TRUE(rendered.warnings.empty());
   }
   const auto verdicts = kept_verdicts(0, scratch_ / "cache");
-  EXPECT_EQ(verdicts.size(), test::first_precisions().size());
+  EXPECT_EQ(verdicts.size(), first_precisions().size());
   for (const auto& [precision, verdict] : verdicts) {
     EXPECT_TRUE(verdict.is_right) << to_text(precision);
     EXPECT_GT(verdict.codes, 1000u);
@@ -105,9 +104,9 @@ TEST_F(SelfTest, AutoTakesAnotherArithmetic) {
 TEST_F(SelfTest, AskingForAWrongOneIsRefusedUnlessItIsMeasured) {
   OpenClOptions asking = options({Precision::fixed});
   asking.precision = Precision::fixed;
-  test::expect_error<DeviceError>([&] { static_cast<void>(render(asking)); },
-                                  {"this driver computes `fixed` wrongly (self-test: light is wrong by ",
-                                   "use auto or another arithmetic, another device or the reference"});
+  expect_error<DeviceError>([&] { static_cast<void>(render(asking)); },
+                            {"this driver computes `fixed` wrongly (self-test: light is wrong by ",
+                             "use auto or another arithmetic, another device or the reference"});
   const Rendered measured = render(asking, kMeasuring);
   EXPECT_EQ(measured.precision, Precision::fixed);
   EXPECT_FALSE(measured.passed_self_test);
@@ -116,10 +115,10 @@ TEST_F(SelfTest, AskingForAWrongOneIsRefusedUnlessItIsMeasured) {
 }
 
 TEST_F(SelfTest, ADeviceThatIsAlwaysWrongIsAnError) {
-  const auto all = test::first_precisions();
+  const auto all = first_precisions();
   std::vector<std::string> parts{"every arithmetic wrongly"};
   for (const Precision precision : all) parts.push_back("\n  " + to_text(precision) + ": light is wrong by ");
-  test::expect_error<DeviceError>([&] { return render(options({all.begin(), all.end()})); }, parts);
+  expect_error<DeviceError>([&] { return render(options({all.begin(), all.end()})); }, parts);
 }
 
 TEST_F(SelfTest, VerdictsAreKeptAndRenewedWithTheBinaries) {
@@ -238,4 +237,4 @@ TEST_F(SelfTest, SeesLoopsThatEndEarly) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

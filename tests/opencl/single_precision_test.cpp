@@ -8,12 +8,8 @@
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::CodeFormat;
-using test::Difference;
-using test::RandomCase;
 
 // One sample that holds every code, exposed for as long as it lasts: its weight is 1.
 struct EveryCode {
@@ -32,9 +28,9 @@ struct EveryCode {
             .transfer = codes.transfer};
   }
   static MemoryCapture capture_of(const CaptureFormat& format) {
-    test::Rasters rasters(1, std::vector<std::byte>(format.sample_bytes()));
+    Rasters rasters(1, std::vector<std::byte>(format.sample_bytes()));
     for (std::uint32_t i = 0; i < format.shape.value_count(); ++i) {
-      test::set_code(format, rasters[0], i, std::min(i, format.white_code));
+      set_code(format, rasters[0], i, std::min(i, format.white_code));
     }
     return MemoryCapture(format, Timeline::constant({25, 1}, Timeline::kFullShutter, 1), rasters, 64);
   }
@@ -49,7 +45,7 @@ struct EveryCode {
 // Both ways: by pieces, where 16 lanes are the device's own, and by the curve.
 TEST(SinglePrecision, TurnsEveryCodeIntoItsLight) {
   for (const std::uint32_t lanes : {16u, 8u}) {
-    OpenClOptions options = test::renderer_options(Precision::single_);
+    OpenClOptions options = renderer_options(Precision::single_);
     options.item_pixels = 64;
     options.lanes = lanes;
     options.looks_up_bytes = false;
@@ -62,7 +58,7 @@ TEST(SinglePrecision, TurnsEveryCodeIntoItsLight) {
         double worst = 0.0;
         for (std::uint32_t code = 0; code <= white; ++code) {
           const double error = std::fabs(light.values<double>()[code] - exact[code]);
-          ASSERT_LE(error, test::kCurveLightOfCommonWhites)
+          ASSERT_LE(error, kCurveLightOfCommonWhites)
               << transfer.text() << ", " << bytes << " byte codes, code " << code << " of " << white;
           worst = std::max(worst, error);
         }
@@ -76,7 +72,7 @@ TEST(SinglePrecision, TurnsEveryCodeIntoItsLight) {
 // Rows of 8 bits have the same floats where processors look light up byte by byte; here without a rounding of the
 // weight, and in every place of a tile.
 TEST(SinglePrecision, LooksUpByteByByteWhatItWouldCompute) {
-  OpenClOptions options = test::renderer_options(Precision::single_);
+  OpenClOptions options = renderer_options(Precision::single_);
   OpenClRenderer bytewise(options);
   if (!bytewise.info().permutes_bytes) GTEST_SKIP() << "this device does not look up bytes";
   options.looks_up_bytes = false;
@@ -90,7 +86,7 @@ TEST(SinglePrecision, LooksUpByteByByteWhatItWouldCompute) {
 }
 
 TEST(SinglePrecision, GivesEveryCodeBack) {
-  OpenClRenderer renderer(test::renderer_options(Precision::single_));
+  OpenClRenderer renderer(renderer_options(Precision::single_));
   for (const CodeFormat& codes :
        {CodeFormat{1, 1, 255, Transfer::srgb()}, CodeFormat{1, 2, 65'535, Transfer::srgb()},
         CodeFormat{1, 2, 65'535, Transfer::bt709()}, CodeFormat{1, 2, 65'535, Transfer::linear()},
@@ -99,7 +95,7 @@ TEST(SinglePrecision, GivesEveryCodeBack) {
     const ValueType type = codes.code_bytes == 1 ? ValueType::code8 : ValueType::code16;
     const Picture picture = renderer.render(every.plan, every.capture, {type, codes.white_code}).picture;
     for (std::uint32_t code = 0; code <= codes.white_code; ++code) {
-      ASSERT_EQ(test::code_at(every.format, picture.bytes, code), code)
+      ASSERT_EQ(code_at(every.format, picture.bytes, code), code)
           << codes.transfer.text() << ", white " << codes.white_code;
     }
   }
@@ -113,7 +109,7 @@ TEST(SinglePrecision, StaysWithinItsBoundOfTheReference) {
                                 {1, 2, 4095, Transfer::linear()},
                                 {1, 1, 255, Transfer::gamma(2.2)},
                                 {3, 1, 255, Transfer::bt709()}};
-  OpenClRenderer renderer(test::renderer_options(Precision::single_));
+  OpenClRenderer renderer(renderer_options(Precision::single_));
   ReferenceRenderer reference;
   for (const std::uint32_t block_samples : {1u, 2u, 64u, 1000u}) {
     double worst = 0.0, tightest = 0.0;
@@ -128,8 +124,8 @@ TEST(SinglePrecision, StaysWithinItsBoundOfTheReference) {
           expected = reference.render(plan, capture, {ValueType::light64, 0}).picture;
         }
         const Picture light = renderer.render(plan, capture, {ValueType::light64, 0}).picture;
-        const Difference difference = test::difference_of(plan, light, expected);
-        const Difference share = test::share_of_bound(plan, Precision::single_, light, expected);
+        const Difference difference = difference_of(plan, light, expected);
+        const Difference share = share_of_bound(plan, Precision::single_, light, expected);
         ASSERT_LE(share.worst, 1.0) << random.text() << ", here in blocks of " << block_samples << ", tiles "
                                     << to_text(policy) << ", value " << difference.value << ": "
                                     << light.values<double>()[difference.value] << " and "
@@ -145,4 +141,4 @@ TEST(SinglePrecision, StaysWithinItsBoundOfTheReference) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -16,7 +16,7 @@
 #include "support/scratch.hpp"
 #include "support/tik_files.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 constexpr std::uint64_t kPageBytes = 4096;
@@ -28,13 +28,13 @@ struct Scene {
   static constexpr std::uint64_t kSamples = 72;
   static constexpr std::uint32_t kFunctions = 128;
 
-  explicit Scene(const test::CodeFormat& codes) {
+  explicit Scene(const CodeFormat& codes) {
     format.shape = {45, 123, codes.channels};
     format.code_bytes = codes.code_bytes;
     format.white_code = codes.white_code;
     format.transfer = codes.transfer;
-    test::Random random(99);
-    timeline = test::random_timeline(random, kSamples);
+    Random random(99);
+    timeline = random_timeline(random, kSamples);
     std::vector<std::byte> raster(format.sample_bytes());
     for (std::uint64_t k = 0; k < kSamples; ++k) {
       for (std::uint64_t pixel = 0; pixel < format.shape.pixel_count(); ++pixel) {
@@ -44,14 +44,14 @@ struct Scene {
         const double share = k == 0 ? 1.0 : tile % 31 == 3 ? 1.0 : tile % 17 == 4 ? 0.02 : 0.0;
         if (!random.chance(share)) continue;
         for (std::uint32_t channel = 0; channel < format.shape.channels; ++channel) {
-          test::set_code(format, raster, pixel * format.shape.channels + channel,
-                         static_cast<std::uint32_t>(random.whole(0, format.white_code)));
+          set_code(format, raster, pixel * format.shape.channels + channel,
+                   static_cast<std::uint32_t>(random.whole(0, format.white_code)));
         }
       }
       rasters.push_back(raster);
     }
     for (std::uint32_t tag = 0; tag < kFunctions; ++tag) {
-      functions.emplace(static_cast<std::uint8_t>(tag), test::random_function(random, timeline));
+      functions.emplace(static_cast<std::uint8_t>(tag), random_function(random, timeline));
     }
     mask = Mask::uniform(format.shape.width, format.shape.height, 0);
     for (std::size_t pixel = 0; pixel < mask.tags.size(); ++pixel) {
@@ -66,7 +66,7 @@ struct Scene {
 
   CaptureFormat format;
   Timeline timeline = Timeline::constant({1, 1}, Timeline::kFullShutter, 1);
-  test::Rasters rasters;
+  Rasters rasters;
   FunctionSet functions;
   Mask mask;
 };
@@ -96,7 +96,7 @@ struct Pictures {
   }
 };
 
-class SmallAllocations : public test::OfPrecision {
+class SmallAllocations : public OfPrecision {
  protected:
   [[nodiscard]] static OpenClOptions options(std::uint64_t allocation_bytes = 0) {
     OpenClOptions options = OfPrecision::options();
@@ -114,8 +114,8 @@ class SmallAllocations : public test::OfPrecision {
 };
 
 // A capture as a file, unpacked: blocks are read where they are mapped.
-tik::Reader mapped(const Scene& scene, const MemoryCapture& capture, const test::Scratch& scratch) {
-  return tik::Reader(test::write_tik(capture, scene.rasters.front(), tik::Codec::parse("none"), scratch));
+tik::Reader mapped(const Scene& scene, const MemoryCapture& capture, const Scratch& scratch) {
+  return tik::Reader(write_tik(capture, scene.rasters.front(), tik::Codec::parse("none"), scratch));
 }
 
 // Codes and light, to the last bit, under limits that force bands, slices and chunks; of captures that are held,
@@ -126,7 +126,7 @@ TEST_P(SmallAllocations, GiveTheSamePictures) {
        {std::pair{TilePolicy::automatic, 6u}, std::pair{TilePolicy::records, 5u},
         std::pair{TilePolicy::rows, 6u}, std::pair{TilePolicy::dense, 2u}}) {
     MemoryCapture capture = scene.encode(block_samples, policy);
-    const test::Scratch scratch;
+    const Scratch scratch;
     tik::Reader file = mapped(scene, capture, scratch);
     ASSERT_FALSE(file.acquire(0).mapping().empty());
     const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
@@ -137,10 +137,10 @@ TEST_P(SmallAllocations, GiveTheSamePictures) {
     const Pictures others = render(plain, other, capture);
     const std::uint64_t smallest = smallest_allocation(plan, capture, GetParam());
     for (const std::uint64_t limit : {smallest, smallest * 5 / 4, smallest * 3 / 2, smallest * 3}) {
-      const std::uint64_t bands = cut_picture(plan.capture.shape, Rectangle::whole(plan.capture.shape),
-                                              GetParam(), test::device_allocating(limit))
-                                      .size();
-      const std::uint64_t slices = cut_tables(plan, GetParam(), test::device_allocating(limit)).size();
+      const std::uint64_t bands =
+          cut_picture(plan.capture.shape, Rectangle::whole(plan.capture.shape), GetParam(), device_allocating(limit))
+              .size();
+      const std::uint64_t slices = cut_tables(plan, GetParam(), device_allocating(limit)).size();
       const std::string what = nutik::format("{}, blocks of {}, {} bytes at a time, {} bands, {} slices",
                                              to_text(policy), block_samples, limit, bands, slices);
       SCOPED_TRACE(what);
@@ -165,7 +165,7 @@ TEST_P(SmallAllocations, GiveTheSamePictures) {
       expect_same(file, "mapped");
       for (const bool codes : {false, true}) {
         StreamingCapture stream(scene.format, scene.timeline, {0, Scene::kSamples}, block_samples, policy,
-                                test::RasterStream(scene.rasters));
+                                RasterStream(scene.rasters));
         const OutputFormat output =
             codes ? OutputFormat{ValueType::code8, 255} : OutputFormat{ValueType::light64, 0};
         const Rendered rendered = renderer.render(plan, stream, output);
@@ -189,9 +189,9 @@ TEST_P(SmallAllocations, GiveTheSamePicturesHoweverItemsAreCut) {
   MemoryCapture capture = scene.encode(3, TilePolicy::automatic);
   const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
   const std::uint64_t limit = smallest_allocation(plan, capture, GetParam());
-  const std::uint64_t bands = cut_picture(plan.capture.shape, Rectangle::whole(plan.capture.shape),
-                                          GetParam(), test::device_allocating(limit))
-                                  .size();
+  const std::uint64_t bands =
+      cut_picture(plan.capture.shape, Rectangle::whole(plan.capture.shape), GetParam(), device_allocating(limit))
+          .size();
   ASSERT_GE(bands, 2u);
   struct Items {
     std::uint32_t pixels, tiles, lanes, group;
@@ -217,7 +217,7 @@ TEST(SmallAllocationsOfWholeNumbers, GiveTheSamePicturesFromTheLastBlock) {
   const Scene scene({3, 1, 255, Transfer::srgb()});
   MemoryCapture capture = scene.encode(2, TilePolicy::automatic);
   const RenderPlan plan = make_plan(capture, scene.functions, scene.mask, {});
-  OpenClOptions options = test::renderer_options(Precision::fixed);
+  OpenClOptions options = renderer_options(Precision::fixed);
   OpenClRenderer plain(options);
   options.last_block_first = true;
   options.allocation_bytes = 2 * smallest_allocation(plan, capture, Precision::fixed);
@@ -225,7 +225,7 @@ TEST(SmallAllocationsOfWholeNumbers, GiveTheSamePicturesFromTheLastBlock) {
   const OutputFormat light{ValueType::light64, 0};
   const Rendered rendered = renderer.render(plan, capture, light);
   EXPECT_TRUE(rendered.picture.bytes == plain.render(plan, capture, light).picture.bytes);
-  const DeviceInfo device = test::device_allocating(options.allocation_bytes);
+  const DeviceInfo device = device_allocating(options.allocation_bytes);
   const std::uint64_t bands =
       cut_picture(plan.capture.shape, Rectangle::whole(plan.capture.shape), Precision::fixed, device).size();
   EXPECT_GE(bands, 2u);
@@ -260,7 +260,7 @@ TEST_P(SmallAllocations, RefuseWhatCannotBeCut) {
   const Scene scene({3, 1, 255, Transfer::srgb()});
   const auto message = [&](std::uint64_t limit, const RenderPlan& plan, CaptureSource& source) {
     OpenClRenderer renderer(options(limit));
-    return test::message_of<DeviceError>([&] { static_cast<void>(render(renderer, plan, source)); });
+    return message_of<DeviceError>([&] { static_cast<void>(render(renderer, plan, source)); });
   };
   const auto expect_parts = [](const std::string& text, std::initializer_list<std::string> parts) {
     for (const std::string& part : parts)
@@ -269,7 +269,7 @@ TEST_P(SmallAllocations, RefuseWhatCannotBeCut) {
 
   CaptureFormat wide = scene.format;
   wide.shape = {600, 9, 3};
-  const test::Rasters still(Scene::kSamples, std::vector<std::byte>(wide.sample_bytes(), std::byte{70}));
+  const Rasters still(Scene::kSamples, std::vector<std::byte>(wide.sample_bytes(), std::byte{70}));
   MemoryCapture wide_capture(wide, scene.timeline, still, 32);
   const RenderPlan of_row = make_plan(wide_capture, scene.functions, Mask::uniform(600, 9, 0), {});
   const std::uint64_t row_bytes = sums_bytes(75, 3, GetParam());
@@ -310,4 +310,4 @@ INSTANTIATE_TEST_SUITE_P(, SmallAllocations, testing::ValuesIn(kPrecisions),
                          [](const auto& instance) { return to_text(instance.param); });
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -16,26 +16,21 @@
 #include "support/seeds.hpp"
 #include "support/soft_mask.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::kLight;
-using test::RandomCase;
-
 TEST(SoftMasks, StayWithinTheirBoundsOnRandomCases) {
-  test::PrecisionCheck check;
-  const test::Seeds seeds = test::seeds(0, 150);
+  PrecisionCheck check;
+  const Seeds seeds = test::seeds(0, 150);
   for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
     RandomCase random(seed);
-    test::soften(random.mask, random.functions, seed);
+    soften(random.mask, random.functions, seed);
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
     check.check(
         plan,
-        [&](Renderer& renderer, const OutputFormat& output) {
-          return renderer.render(plan, capture, output).picture;
-        },
-        format("Soft{}", seed), test::rerun(seed));
+        [&](Renderer& renderer, const OutputFormat& output) { return renderer.render(plan, capture, output).picture; },
+        format("Soft{}", seed), rerun(seed));
     if (HasFailure()) FAIL() << random.text();
   }
   check.print();
@@ -45,10 +40,10 @@ TEST(SoftMasks, StayWithinTheirBoundsOnRandomCases) {
 struct SoftScene {
   explicit SoftScene(std::uint64_t seed = 3) {
     format.shape = {99, 45, 3};
-    test::Random random(seed);
-    rasters = test::random_rasters(random, format, 40);
+    Random random(seed);
+    rasters = random_rasters(random, format, 40);
     for (const std::uint8_t tag : std::vector<std::uint8_t>{0, 9, 100, 255})
-      functions.emplace(tag, test::random_function(random, timeline));
+      functions.emplace(tag, random_function(random, timeline));
     hard = Mask::uniform(99, 45, 0);
     for (std::size_t pixel = 0; pixel < hard.tags.size(); ++pixel)
       hard.tags[pixel] = pixel % 99 < 50 ? 9 : 255;
@@ -57,7 +52,7 @@ struct SoftScene {
     for (std::uint64_t pixel = 0; pixel < hard.tags.size(); ++pixel) {
       const std::uint64_t x = pixel % 99;
       if (pixel != 3 && (x < 45 || x > 58 || random.chance(0.3))) continue;
-      soft.mixed.add(pixel, test::random_shares(random, {9, 255, 100}));
+      soft.mixed.add(pixel, random_shares(random, {9, 255, 100}));
     }
   }
   [[nodiscard]] MemoryCapture capture() const { return {format, timeline, rasters, 2}; }
@@ -68,7 +63,7 @@ struct SoftScene {
 
   CaptureFormat format;
   Timeline timeline = Timeline::constant({100, 1}, {180, 1}, 40);
-  test::Rasters rasters;
+  Rasters rasters;
   FunctionSet functions;
   Mask hard, soft;
 };
@@ -84,8 +79,8 @@ TEST(SoftMasks, LeaveOtherTilesAndWholeSharesAsTheyAre) {
   MemoryCapture capture = scene.capture();
   const RenderPlan hard = make_plan(capture, scene.functions, scene.hard, {});
   const RenderPlan soft = make_plan(capture, scene.functions, scene.soft, {});
-  for (const Precision precision : test::first_precisions()) {
-    OpenClRenderer renderer(test::renderer_options(precision));
+  for (const Precision precision : first_precisions()) {
+    OpenClRenderer renderer(renderer_options(precision));
     for (const OutputFormat& output : {kLight, OutputFormat{ValueType::code16, 65'535}}) {
       const Picture of_hard = renderer.render(hard, capture, output).picture;
       const Picture of_soft = renderer.render(soft, capture, output).picture;
@@ -110,9 +105,9 @@ TEST(SoftMasks, DoNotDependOnHowTheWorkIsCut) {
   const SoftScene scene;
   MemoryCapture capture = scene.capture();
   const RenderPlan plan = make_plan(capture, scene.functions, scene.soft, {});
-  for (const Precision precision : test::first_precisions()) {
-    OpenClRenderer whole(test::renderer_options(precision));
-    OpenClOptions cut = test::renderer_options(precision);
+  for (const Precision precision : first_precisions()) {
+    OpenClRenderer whole(renderer_options(precision));
+    OpenClOptions cut = renderer_options(precision);
     cut.allocation_bytes = 60'000;  // a few rows of tiles at a time
     cut.chunk_bytes = 1;
     OpenClRenderer small(cut);
@@ -123,7 +118,7 @@ TEST(SoftMasks, DoNotDependOnHowTheWorkIsCut) {
       EXPECT_EQ(in_bands.picture, expected) << to_text(precision);
       const Rectangle rectangle{37, 5, 20, 33};
       const Picture part = whole.render(plan, capture, output, {.rectangle = rectangle}).picture;
-      ASSERT_TRUE(part.bytes == test::part_of(expected, rectangle)) << to_text(precision);
+      ASSERT_TRUE(part.bytes == part_of(expected, rectangle)) << to_text(precision);
     }
   }
 }
@@ -140,9 +135,8 @@ struct Mixtures {
   }
   [[nodiscard]] MemoryCapture capture() const {
     std::vector<std::byte> raster(format().sample_bytes());
-    for (std::uint64_t pixel = 0; pixel < pixels.size(); ++pixel)
-      test::set_code(format(), raster, pixel, code);
-    return {format(), Timeline::constant({100, 1}, Timeline::kFullShutter, 1), test::Rasters{raster}, 1};
+    for (std::uint64_t pixel = 0; pixel < pixels.size(); ++pixel) set_code(format(), raster, pixel, code);
+    return {format(), Timeline::constant({100, 1}, Timeline::kFullShutter, 1), Rasters{raster}, 1};
   }
   [[nodiscard]] RenderPlan plan(const MemoryCapture& capture) const {
     FunctionSet functions;
@@ -163,14 +157,14 @@ struct Mixtures {
 // The definition in docs/explanation/accuracy.md, computed again in integers of 128 bits.
 TEST(SoftMasks, OfWholeNumbersAreRoundedAsDefined) {
   Mixtures mixtures{{0.75, -1.5, 3.3, 1e-3, 1000.25}, 2917, 4095, {}};
-  test::Random random(11);
+  Random random(11);
   for (int i = 0; i < 3000; ++i) {
     const std::vector<std::vector<std::uint8_t>> names{{0, 1}, {0, 2}, {0, 1, 2}, {3, 2, 1, 0}, {0, 4}};
-    mixtures.pixels.push_back(test::random_shares(random, random.pick(names)));
+    mixtures.pixels.push_back(random_shares(random, random.pick(names)));
   }
   MemoryCapture capture = mixtures.capture();
   const RenderPlan plan = mixtures.plan(capture);
-  OpenClRenderer renderer(test::renderer_options(Precision::fixed));
+  OpenClRenderer renderer(renderer_options(Precision::fixed));
   const Picture codes = renderer.render(plan, capture, {ValueType::code16, 65'535}).picture;
 
   using Whole = int128;
@@ -208,20 +202,19 @@ TEST(SoftMasks, KeepToTheirBoundWhereCodesAreClose) {
   const double just_above = 0.5 + 0x1p-25 * 0.99;  // what floats above a half round down
   Mixtures mixtures{
       {just_above, just_above + 0x1p-12, just_above + 0x1p-9, -just_above / 2}, 32'768, 32'768, {}};
-  test::Random random(5);
+  Random random(5);
   while (mixtures.pixels.size() < 60'000) {
-    std::vector<Share> shares =
-        test::random_shares(random, {0, 1, static_cast<std::uint8_t>(random.whole(2, 3))});
+    std::vector<Share> shares = random_shares(random, {0, 1, static_cast<std::uint8_t>(random.whole(2, 3))});
     if (std::ranges::all_of(shares, rounds_down)) mixtures.pixels.push_back(std::move(shares));
   }
   MemoryCapture capture = mixtures.capture();
   const RenderPlan plan = mixtures.plan(capture);
   const OutputFormat output{ValueType::code16, 65'535};
-  for (const Precision precision : test::first_precisions()) {
+  for (const Precision precision : first_precisions()) {
     const ErrorBound bound = error_bound(plan, precision, output);
     const PixelErrors errors(plan, bound);
     for (const bool fuses : {true, false}) {
-      OpenClOptions options = test::renderer_options(precision);
+      OpenClOptions options = renderer_options(precision);
       options.use_fma = fuses;
       const Picture codes = OpenClRenderer(options).render(plan, capture, output).picture;
       double most = 0.0;
@@ -252,9 +245,8 @@ TEST(SoftMasks, TakeAUniformTileForEachFunctionAndHardMasksNoMoreThanTheirTiles)
   const TileGrid grid(scene.format.shape);
   const auto mapped = [&](const Mask& mask) {
     const auto map = MaskMap::of(mask);
-    const std::vector<Band> bands =
-        cut_picture(scene.format.shape, all, Precision::single_, test::device_allocating(1 << 30), ~std::uint64_t{0},
-                    map->mixed_tiles);
+    const std::vector<Band> bands = cut_picture(scene.format.shape, all, Precision::single_, device_allocating(1 << 30),
+                                                ~std::uint64_t{0}, map->mixed_tiles);
     EXPECT_EQ(bands.size(), 1u);
     FunctionMap functions = map_functions(*map, bands[0]);
     EXPECT_EQ(functions.tiles.size(), bands[0].sum_tiles);
@@ -285,4 +277,4 @@ TEST(SoftMasks, TakeAUniformTileForEachFunctionAndHardMasksNoMoreThanTheirTiles)
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

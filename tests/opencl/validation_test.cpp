@@ -10,15 +10,15 @@
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 TEST(Validation, FiguresAreThoseOfASecondComputation) {
-  const test::RandomCase random(3, {3, 1, 255, Transfer::srgb()});
+  const RandomCase random(3, {3, 1, 255, Transfer::srgb()});
   MemoryCapture capture = random.encode();
   const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
   const OutputFormat output{ValueType::code8, 255};
-  OpenClRenderer renderer(test::renderer_options(std::nullopt));
+  OpenClRenderer renderer(renderer_options(std::nullopt));
   std::vector<std::uint64_t> steps;
   const Validation validation =
       validate(plan, capture, output, renderer, 2, [&](std::uint64_t done, std::uint64_t total) {
@@ -38,7 +38,7 @@ TEST(Validation, FiguresAreThoseOfASecondComputation) {
   for (const PlannedBlock& block : plan.blocks) payload_bytes += capture.view(block.block).payload().size();
   for (const ValidatedVariant& variant : validation.variants) {
     SCOPED_TRACE(to_text(variant.precision()));
-    OpenClRenderer own(test::renderer_options(variant.precision()));
+    OpenClRenderer own(renderer_options(variant.precision()));
     const Picture light = own.render(plan, capture, {ValueType::light64, 0}).picture;
     long double squares = 0;
     double worst = 0;
@@ -51,8 +51,7 @@ TEST(Validation, FiguresAreThoseOfASecondComputation) {
     EXPECT_NEAR(variant.light.rms,
                 static_cast<double>(std::sqrt(squares / static_cast<long double>(light.shape.value_count()))),
                 1e-9 * worst);
-    EXPECT_EQ(variant.light.share_of_bound,
-              test::share_of_bound(plan, variant.precision(), light, expected).worst);
+    EXPECT_EQ(variant.light.share_of_bound, share_of_bound(plan, variant.precision(), light, expected).worst);
     const Picture codes = own.render(plan, capture, output).picture;
     std::uint64_t differing = 0;
     for (std::size_t i = 0; i < codes.bytes.size(); ++i)
@@ -81,4 +80,4 @@ TEST(Validation, OneVariantBeyondItsBoundIsEnough) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

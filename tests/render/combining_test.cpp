@@ -12,7 +12,7 @@
 #include "support/random_case.hpp"
 #include "support/seeds.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 constexpr Combine kAll[] = {Combine::lighten, Combine::darken, Combine::median};
@@ -41,7 +41,7 @@ double largest_gain(const GainFunction& function, std::int64_t start_ns, std::in
 }
 
 // The reference: no blocks, no tiles, all samples of a value in a row.
-double combined(const RenderPlan& plan, const test::RandomCase& random, std::uint64_t value) {
+double combined(const RenderPlan& plan, const RandomCase& random, std::uint64_t value) {
   const std::uint64_t pixel = value / plan.capture.shape.channels;
   std::vector<Share> shares(plan.shares_of(pixel).begin(), plan.shares_of(pixel).end());
   if (shares.empty()) shares.push_back({plan.function_of(pixel), kWholeShare});
@@ -57,7 +57,7 @@ double combined(const RenderPlan& plan, const test::RandomCase& random, std::uin
                                     : k + 1 == random.timeline.sample_count() ? plan.duration_ns
                                                                               : random.timeline.start_ns(k + 1);
         const double gain = largest_gain(planned.function, random.timeline.start_ns(k), end_ns, plan.duration_ns);
-        const double code = test::code_at(plan.capture, random.rasters[k], value);
+        const double code = code_at(plan.capture, random.rasters[k], value);
         if (gain > 0.0) lights.push_back(gain * plan.capture.transfer.light_of(code / plan.capture.white_code));
       }
     }
@@ -77,7 +77,7 @@ double combined(const RenderPlan& plan, const test::RandomCase& random, std::uin
 Picture within_what_it_needs(const RenderPlan& plan, CaptureSource& capture, RenderControl control) {
   while (true) {
     try {
-      return CombiningRenderer().render(plan, capture, test::kLight, control).picture;
+      return CombiningRenderer().render(plan, capture, kLight, control).picture;
     } catch (const MemoryTooLittle& error) {
       if (error.min_bytes() <= control.memory_bytes) throw;
       control.memory_bytes = error.min_bytes();
@@ -87,9 +87,9 @@ Picture within_what_it_needs(const RenderPlan& plan, CaptureSource& capture, Ren
 
 // Random captures, masks and functions: to the last bit.
 TEST(Combining, IsTheReferencesToTheLastBit) {
-  const test::Seeds seeds = test::seeds(0, 40);
+  const Seeds seeds = test::seeds(0, 40);
   for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
-    test::RandomCase random(seed);
+    RandomCase random(seed);
     random.capture.noise.tolerance = 0;  // held codes are the source's
     MemoryCapture capture = random.encode();
     const FunctionSet functions = without_gains_below_zero(random.functions);
@@ -102,7 +102,7 @@ TEST(Combining, IsTheReferencesToTheLastBit) {
         const auto found = picture.values<double>();
         for (std::size_t i = 0; i < found.size(); ++i) {
           ASSERT_EQ(found[i], combined(plan, random, i))
-              << random.text() << ", value " << i << ", " << static_cast<int>(how) << "; rerun: " << test::rerun(seed);
+              << random.text() << ", value " << i << ", " << static_cast<int>(how) << "; rerun: " << rerun(seed);
         }
       }
     }
@@ -113,13 +113,13 @@ TEST(Combining, IsTheReferencesToTheLastBit) {
 class CombiningByHand : public testing::Test {
  protected:
   static double light(Combine how, const GainFunction& function) {
-    test::Rasters rasters;
+    Rasters rasters;
     for (const int code : {10, 90, 30, 200, 60, 20, 50, 70})
       rasters.push_back({static_cast<std::byte>(code)});
     MemoryCapture source({.shape = {1, 1, 1}, .transfer = Transfer::linear()},
                          Timeline::constant({100, 1}, {180, 1}, 8), rasters, 3);
     const RenderPlan plan = make_plan(source, {{0, function}}, Mask::uniform(1, 1, 0), {.combine = how});
-    return CombiningRenderer().render(plan, source, test::kLight).picture.values<double>()[0] * 255;
+    return CombiningRenderer().render(plan, source, kLight).picture.values<double>()[0] * 255;
   }
 };
 
@@ -160,4 +160,4 @@ TEST_F(CombiningByHand, RefusesGainsBelowZero) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -16,49 +16,46 @@
 #include "support/seeds.hpp"
 #include "support/soft_mask.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::kLight;
-using test::RandomCase;
 
 constexpr std::int64_t kMs = 1'000'000;
 
 // Every other case holds ends. NUTIK_TEST_CASES=10000 is the full run.
 TEST(DelayedReference, StaysWithinAFewUlpOfExactArithmetic) {
   std::vector<double> shares;  // of the bound, each case's largest
-  const test::Seeds seeds = test::seeds(0, 60);
+  const Seeds seeds = test::seeds(0, 60);
   for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
     RandomCase random(seed);
     random.capture.noise.tolerance = 0;  // held codes are the source's
-    test::Random draw(seed * 31 + 7);
-    if (seed % 2 == 0) test::hold_ends(draw, random.functions, random.timeline.duration_ns());
-    if (draw.chance(0.3)) test::soften(random.mask, random.functions, seed);
+    Random draw(seed * 31 + 7);
+    if (seed % 2 == 0) hold_ends(draw, random.functions, random.timeline.duration_ns());
+    if (draw.chance(0.3)) soften(random.mask, random.functions, seed);
     MemoryCapture capture = random.encode();
     PlanOptions options;
-    options.delays = test::random_delays(draw, random.capture.shape, random.timeline.duration_ns());
+    options.delays = random_delays(draw, random.capture.shape, random.timeline.duration_ns());
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, options);
     const Picture picture = ReferenceRenderer().render(plan, capture, kLight).picture;
-    constexpr double kRoundings = test::kReferenceRoundings + 3;
-    shares.push_back(test::worst_roundings(plan, random, picture, seed, kRoundings) / kRoundings);
+    constexpr double kRoundings = kReferenceRoundings + 3;
+    shares.push_back(worst_roundings(plan, random, picture, seed, kRoundings) / kRoundings);
     if (HasFailure()) return;
   }
-  test::print_shares("reference, delays", shares);
+  print_shares("reference, delays", shares);
 }
 
 // 8 samples at 100 a second, codes 10 k of 255 in each of 4 rows, linear.
 class DelayedRows : public testing::Test {
  protected:
   static CaptureFormat format() { return {.shape = {1, 4, 1}, .transfer = Transfer::linear()}; }
-  static test::Rasters rasters() {
-    test::Rasters rasters;
+  static Rasters rasters() {
+    Rasters rasters;
     for (int k = 0; k < 8; ++k) rasters.emplace_back(4, static_cast<std::byte>(10 * k));
     return rasters;
   }
 
   RenderPlan plan(const GainFunction& function, const DelayRange& range) {
     return make_plan(capture_, {{0, function}}, Mask::uniform(1, 4, 0),
-                     test::delayed_by(DelayMap::by_rows(format().shape, range)));
+                     delayed_by(DelayMap::by_rows(format().shape, range)));
   }
   std::vector<double> codes(const GainFunction& function, const DelayRange& range) {
     const Picture light = ReferenceRenderer().render(plan(function, range), capture_, kLight).picture;
@@ -109,8 +106,8 @@ TEST_F(DelayedRows, AreWarnedOfOnceWhereItHoldsOfSeveralFunctions) {
   const GainFunction held({{10 * kMs, 0.0}, {10 * kMs, 1.0}});
   Mask mask = Mask::uniform(1, 4, 0);
   mask.tags = {0, 1, 0, 1};
-  const RenderPlan both = make_plan(capture_, {{0, held}, {1, held}}, mask,
-                                    test::delayed_by(DelayMap::by_rows(format().shape, {0, 30 * kMs})));
+  const RenderPlan both =
+      make_plan(capture_, {{0, held}, {1, held}}, mask, delayed_by(DelayMap::by_rows(format().shape, {0, 30 * kMs})));
   ASSERT_EQ(both.warnings.size(), 1u);
   EXPECT_TRUE(both.warnings[0].starts_with("M0, M1: its last gain is not 0")) << both.warnings[0];
 }
@@ -125,16 +122,16 @@ TEST_F(DelayedRows, AreTracedTogetherWithTheirDelay) {
 }
 
 TEST_F(DelayedRows, NeedTheSamplesOfAllDelays) {
-  const PlanOptions options = test::delayed_by(DelayMap::by_rows(format().shape, {20 * kMs, 50 * kMs}));
+  const PlanOptions options = delayed_by(DelayMap::by_rows(format().shape, {20 * kMs, 50 * kMs}));
   const SampleRange needed = needed_samples(capture_.timeline(), {{0, GainFunction::boxcar(0, 10 * kMs)}},
                                             Mask::uniform(1, 4, 0), options);
   EXPECT_EQ(needed, (SampleRange{2, 6}));
 }
 
 TEST_F(DelayedRows, AreRefusedWhereTheirMapHasAnotherSize) {
-  EXPECT_NE(test::message_of<InputError>([&] {
+  EXPECT_NE(message_of<InputError>([&] {
               static_cast<void>(make_plan(capture_, {{0, GainFunction({{0, 1.0}})}}, Mask::uniform(1, 4, 0),
-                                          test::delayed_by(DelayMap::by_rows({2, 4, 1}, {0, 1}))));
+                                          delayed_by(DelayMap::by_rows({2, 4, 1}, {0, 1}))));
             }).find("the map of delays is 2 x 4 pixels and the pictures are 1 x 4"),
             std::string::npos);
 }
@@ -142,12 +139,12 @@ TEST_F(DelayedRows, AreRefusedWhereTheirMapHasAnotherSize) {
 TEST(DelayedPlan, TellsRegionsByMaskValueAndDelay) {
   const CaptureFormat format{.shape = {4, 2, 1}};
   MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, 1),
-                        test::Rasters(1, std::vector<std::byte>(8)), 64);
+                        Rasters(1, std::vector<std::byte>(8)), 64);
   Mask mask = Mask::uniform(4, 2, 3);
   mask.tags[7] = 9;
   mask.mixed.add(7, std::array<Share, 2>{{{3, 20'000}, {9, 45'535}}});
   const FunctionSet functions{{3, GainFunction({{0, 1.0}})}, {9, GainFunction({{0, 0.5}})}};
-  const PlanOptions options = test::delayed_by(DelayMap::by_columns(format.shape, {0, 3}));
+  const PlanOptions options = delayed_by(DelayMap::by_columns(format.shape, {0, 3}));
   PlanCache cache;
   const RenderPlan plan = cache.plan(capture, functions, mask, options);
   ASSERT_EQ(plan.function_count(), 5u) << "four delays of M3, and the one that M9 has";
@@ -159,19 +156,18 @@ TEST(DelayedPlan, TellsRegionsByMaskValueAndDelay) {
   EXPECT_EQ(plan.shares_of(7)[0], (Share{3, 20'000}));
   EXPECT_EQ(plan.shares_of(7)[1], (Share{4, 45'535}));
 
-  const PlanOptions equal = test::delayed_by(DelayMap::by_columns(format.shape, {0, 3}));
+  const PlanOptions equal = delayed_by(DelayMap::by_columns(format.shape, {0, 3}));
   EXPECT_EQ(cache.plan(capture, functions, mask, equal).map, plan.map) << "equal maps are one";
-  EXPECT_NE(cache.plan(capture, functions, mask, test::delayed_by(DelayMap::by_columns(format.shape, {0, 4}))).map,
-            plan.map);
+  EXPECT_NE(cache.plan(capture, functions, mask, delayed_by(DelayMap::by_columns(format.shape, {0, 4}))).map, plan.map);
   EXPECT_NE(cache.plan(capture, functions, mask, {}).map, plan.map);
 }
 
 // Against a map of pairs, with delays that fill words of 64 bits, fall short of one or begin another.
 TEST(DelayedPlan, NumbersPairsByMaskValueThenDelay) {
-  const test::Seeds seeds = test::seeds(0, 40);
+  const Seeds seeds = test::seeds(0, 40);
   for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
-    SCOPED_TRACE(test::rerun(seed));
-    test::Random random(seed);
+    SCOPED_TRACE(rerun(seed));
+    Random random(seed);
     const auto width = static_cast<std::uint32_t>(random.whole(1, 90));
     const auto height = static_cast<std::uint32_t>(random.whole(1, 9));
     Mask mask = Mask::uniform(width, height, 0);
@@ -204,4 +200,4 @@ TEST(DelayedPlan, NumbersPairsByMaskValueThenDelay) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

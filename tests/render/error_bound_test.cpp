@@ -10,11 +10,8 @@
 #include "support/packed_tables.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::kLight;
-using test::RandomCase;
 
 TEST(ErrorBound, ShrinksWithBetterArithmetic) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
@@ -66,7 +63,7 @@ TEST(ErrorBound, CodesOfErrorsInProportionToLightCostNoMoreInTheDark) {
 
 // Against many lights, each off to both sides by all that it may be.
 TEST(ErrorBound, CodesErrByNoMoreThanIsFoundForAnyLight) {
-  test::Random random(3);
+  Random random(3);
   for (const Transfer& transfer : kEveryTransfer) {
     for (int i = 0; i < 200; ++i) {
       const LightLine line{std::exp(random.real(-30, -3)), std::exp(random.real(-16, -3))};
@@ -92,7 +89,7 @@ TEST(ErrorBound, CodesErrByNoMoreThanIsFoundForAnyLight) {
 TEST(FixedScale, FillsTheSumsAndNeverOverflows) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     RandomCase random(seed);
-    test::Random sizes(seed);
+    Random sizes(seed);
     for (auto& [tag, function] : random.functions) {
       std::vector<ControlPoint> points(function.points().begin(), function.points().end());
       for (ControlPoint& point : points)
@@ -102,8 +99,8 @@ TEST(FixedScale, FillsTheSumsAndNeverOverflows) {
     const MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
     const FixedScale scale = fixed_scale(plan);
-    const auto tables = test::fixed_tables(plan, scale);
-    const auto exact_tables = test::packed_tables(plan);
+    const auto tables = fixed_tables(plan, scale);
+    const auto exact_tables = packed_tables(plan);
     for (std::size_t f = 0; f < plan.functions.size(); ++f) {
       long double magnitude = 0, exact = 0;
       for (std::size_t at = f; at < tables.weights.size(); at += plan.function_count()) {
@@ -125,13 +122,13 @@ TEST(FixedScale, TablesAreTheSameInAnyParts) {
     const MemoryCapture capture = random.encode(3, TilePolicy::automatic);
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
     const FixedScale scale = fixed_scale(plan);
-    const auto whole = test::fixed_tables(plan, scale);
+    const auto whole = fixed_tables(plan, scale);
     ASSERT_EQ(whole.weights.size(), plan.row_count() * plan.function_count());
-    test::PackedTables<std::int64_t> joined;
+    PackedTables<std::int64_t> joined;
     for (std::size_t last = 0, step = 0; last < plan.blocks.size(); ++step) {
       const std::size_t first = last;
       last = std::min(plan.blocks.size(), last + step % 3);
-      const auto part = test::fixed_tables(plan, scale, first, last);
+      const auto part = fixed_tables(plan, scale, first, last);
       joined.weights.insert(joined.weights.end(), part.weights.begin(), part.weights.end());
       joined.boundaries.insert(joined.boundaries.end(), part.boundaries.begin(), part.boundaries.end());
     }
@@ -148,7 +145,7 @@ TEST(FixedScale, TablesDoNotDependOnBlocks) {
     for (const std::uint32_t block_samples : {1u, 7u, 64u, 1000u}) {
       const MemoryCapture capture = random.encode(block_samples, TilePolicy::dense);
       const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
-      const auto tables = test::fixed_tables(plan, fixed_scale(plan));
+      const auto tables = fixed_tables(plan, fixed_scale(plan));
       std::vector<std::vector<std::int64_t>> weights(plan.function_count());
       for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
         const PlannedBlock& block = plan.blocks[b];
@@ -169,7 +166,7 @@ TEST(FixedScale, TablesDoNotDependOnBlocks) {
 }
 
 TEST(PrecisionChoice, TakesTheFirstThatIsRightEnoughElseTheBest) {
-  const test::Rasters rasters(100, std::vector<std::byte>(1, std::byte{90}));
+  const Rasters rasters(100, std::vector<std::byte>(1, std::byte{90}));
   const MemoryCapture capture({.shape = {1, 1, 1}}, Timeline::constant({100, 1}, Timeline::kFullShutter, 100), rasters,
                               64);
   const auto choose = [&](double gain, const OutputFormat& output, std::vector<Precision> available) {
@@ -196,7 +193,7 @@ TEST(PrecisionChoice, TakesTheFirstThatIsRightEnoughElseTheBest) {
 
 // Where every arithmetic may be wrong by all codes there are, light still tells them apart.
 TEST(PrecisionChoice, TakesTheLeastInLightWhereAllCodesMayBeWrong) {
-  const test::Rasters rasters(100, std::vector<std::byte>(1, std::byte{90}));
+  const Rasters rasters(100, std::vector<std::byte>(1, std::byte{90}));
   const MemoryCapture capture({.shape = {1, 1, 1}}, Timeline::constant({100, 1}, Timeline::kFullShutter, 100), rasters,
                               64);
   for (const double gain : {1e20, 1e100, 1e300}) {
@@ -227,4 +224,4 @@ TEST(PrecisionChoice, SaysWhatItMayErrBy) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -13,21 +13,21 @@
 #include "support/random_case.hpp"
 #include "support/seeds.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 TEST(OnePass, StaysWithinTheBoundOfDouble) {
-  const test::Seeds seeds = test::seeds(0, 60);
+  const Seeds seeds = test::seeds(0, 60);
   double worst = 0.0;
   for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
-    const test::RandomCase random(seed);
+    const RandomCase random(seed);
     MemoryCapture capture = random.encode();
     const Shape& shape = random.capture.shape;
     const Mask mask = Mask::uniform(shape.width, shape.height, 0);
     std::vector<RenderPlan> plans;
-    test::Random more(seed);
+    Random more(seed);
     for (int k = 0; k < 5; ++k)
-      plans.push_back(make_plan(capture, {{0, test::random_function(more, random.timeline)}}, mask, {}));
+      plans.push_back(make_plan(capture, {{0, random_function(more, random.timeline)}}, mask, {}));
     ASSERT_TRUE(suits_one_pass(plans.front()));
     Rectangle part = Rectangle::whole(shape);
     if (more.chance(0.5)) {
@@ -39,13 +39,12 @@ TEST(OnePass, StaysWithinTheBoundOfDouble) {
     const std::vector<Picture> made = expose_in_one_pass(plans, capture, part, {});
     ASSERT_EQ(made.size(), plans.size());
     for (std::size_t i = 0; i < plans.size(); ++i) {
-      const double bound = error_bound(plans[i], Precision::double_, test::kLight).worst.light;
-      const Picture wanted = ReferenceRenderer().render(plans[i], capture, test::kLight, {.rectangle = part}).picture;
+      const double bound = error_bound(plans[i], Precision::double_, kLight).worst.light;
+      const Picture wanted = ReferenceRenderer().render(plans[i], capture, kLight, {.rectangle = part}).picture;
       ASSERT_EQ(made[i].shape, wanted.shape);
       for (std::size_t v = 0; v < wanted.values<double>().size(); ++v) {
         const double error = std::fabs(made[i].values<double>()[v] - wanted.values<double>()[v]);
-        ASSERT_LE(error, bound) << random.text() << ", picture " << i << ", value " << v
-                                << "; rerun: " << test::rerun(seed);
+        ASSERT_LE(error, bound) << random.text() << ", picture " << i << ", value " << v << "; rerun: " << rerun(seed);
         if (bound > 0.0) worst = std::max(worst, error / bound);
       }
     }
@@ -55,7 +54,7 @@ TEST(OnePass, StaysWithinTheBoundOfDouble) {
 
 // Two functions in a picture, other pictures than integrals, and large ones are a device's.
 TEST(OnePass, LeavesTheRestToDevices) {
-  const test::RandomCase random(1);
+  const RandomCase random(1);
   MemoryCapture capture = random.encode();
   const Shape& shape = random.capture.shape;
   const FunctionSet functions{{0, GainFunction::boxcar(0, 1000)}, {1, GainFunction::boxcar(0, 2000)}};
@@ -66,7 +65,7 @@ TEST(OnePass, LeavesTheRestToDevices) {
 }
 
 TEST(OnePass, IsStopped) {
-  const test::RandomCase random(1);
+  const RandomCase random(1);
   MemoryCapture capture = random.encode();
   const Shape& shape = random.capture.shape;
   const RenderPlan plan = make_plan(capture, {{0, GainFunction::boxcar(0, random.timeline.duration_ns())}},
@@ -78,4 +77,4 @@ TEST(OnePass, IsStopped) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

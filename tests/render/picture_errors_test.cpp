@@ -8,7 +8,7 @@
 #include "render/reference_renderer.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 // A capture of 4 x 1 grey pixels with linear light, exposed as a whole.
@@ -17,7 +17,7 @@ class PictureErrors : public testing::Test {
   PictureErrors() {
     format_.shape = {4, 1, 1};
     format_.transfer = Transfer::linear();
-    const test::Rasters rasters(2, std::vector<std::byte>(4, std::byte{100}));
+    const Rasters rasters(2, std::vector<std::byte>(4, std::byte{100}));
     const MemoryCapture capture(format_, Timeline::constant({10, 1}, Timeline::kFullShutter, 2), rasters, 2);
     plan_ = make_plan(capture, {{0, GainFunction::boxcar(0, 200'000'000)}}, Mask::uniform(4, 1, 0), {});
   }
@@ -129,7 +129,7 @@ TEST_F(PictureErrors, NothingIsAllowedWithoutABound) {
 // The reference's own codes never differ from its light, whatever the transfer function.
 TEST_F(PictureErrors, TheReferenceAgreesWithItself) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
-    const test::RandomCase random(seed);
+    const RandomCase random(seed);
     SCOPED_TRACE(random.text());
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
@@ -145,4 +145,4 @@ TEST_F(PictureErrors, TheReferenceAgreesWithItself) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -12,15 +12,13 @@
 #include "support/packed_tables.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::RandomCase;
 
 // A capture of 5 blocks, and 64 functions that each have a row of the picture.
 struct Scene {
   Scene() {
-    const test::Rasters rasters(50, std::vector<std::byte>(16 * 64, std::byte{90}));
+    const Rasters rasters(50, std::vector<std::byte>(16 * 64, std::byte{90}));
     const CaptureFormat format{.shape = {16, 64, 1}};
     capture.emplace(format, Timeline::constant({100, 1}, Timeline::kFullShutter, 50), rasters, 10);
     mask = Mask::uniform(16, 64, 0);
@@ -40,12 +38,12 @@ struct Scene {
 };
 
 void expect_same_numbers(const RenderPlan& plan, const RenderPlan& expected) {
-  const auto found = test::packed_tables(plan), wanted = test::packed_tables(expected);
+  const auto found = packed_tables(plan), wanted = packed_tables(expected);
   EXPECT_EQ(found.weights, wanted.weights);
   EXPECT_EQ(found.boundaries, wanted.boundaries);
   const FixedScale scale = fixed_scale(plan);
   EXPECT_EQ(scale.exponents, fixed_scale(expected).exponents);
-  EXPECT_EQ(test::fixed_tables(plan, scale).weights, test::fixed_tables(expected, scale).weights);
+  EXPECT_EQ(fixed_tables(plan, scale).weights, fixed_tables(expected, scale).weights);
   for (const Precision precision : kPrecisions) {
     const ErrorBound a = error_bound(plan, precision, {ValueType::code8, 255});
     const ErrorBound b = error_bound(expected, precision, {ValueType::code8, 255});
@@ -127,7 +125,7 @@ TEST(PlanCache, KeepsToItsBudget) {
 // Runs of blocks end within a table: a long capture in little memory.
 TEST(PlanCache, MakesLongTablesRunByRun) {
   constexpr std::uint64_t kSamples = 5 * CaptureLayout::kRunSamples / 2;
-  const test::Rasters rasters(kSamples, std::vector<std::byte>(1, std::byte{9}));
+  const Rasters rasters(kSamples, std::vector<std::byte>(1, std::byte{9}));
   const MemoryCapture capture({.shape = {1, 1, 1}}, Timeline::constant({1000, 1}, {180, 1}, kSamples), rasters, 100);
   const FunctionSet functions{
       {0, GainFunction({{1'000'000'000, 0.0}, {9'000'000'000, 3.0}, {25'000'000'000, -1.0}})}};
@@ -156,7 +154,7 @@ TEST(PlanCache, KnowsAnotherCapture) {
 TEST(PlanCache, ManyThreadsMayAskAtATime) {
   Scene scene;
   PlanCache cache(20'000);
-  const auto expected = test::packed_tables(make_plan(*scene.capture, scene.functions, scene.mask, {}));
+  const auto expected = packed_tables(make_plan(*scene.capture, scene.functions, scene.mask, {}));
   std::atomic<int> wrong{0};
   {
     std::vector<std::jthread> threads;
@@ -169,7 +167,7 @@ TEST(PlanCache, ManyThreadsMayAskAtATime) {
           static_cast<void>(
               cache.plan(*scene.capture, functions, scene.mask, {}).functions[moved].table->course());
           const RenderPlan plan = cache.plan(*scene.capture, scene.functions, scene.mask, {});
-          wrong += test::packed_tables(plan).weights != expected.weights;
+          wrong += packed_tables(plan).weights != expected.weights;
         }
       });
     }
@@ -178,4 +176,4 @@ TEST(PlanCache, ManyThreadsMayAskAtATime) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

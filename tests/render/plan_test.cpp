@@ -6,12 +6,12 @@
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 // 4 × 2 pixels, 100 samples a second, blocks of 10 samples.
 MemoryCapture capture_of(std::uint32_t samples) {
-  const test::Rasters rasters(samples, std::vector<std::byte>(8, std::byte{50}));
+  const Rasters rasters(samples, std::vector<std::byte>(8, std::byte{50}));
   return {{.shape = {4, 2, 1}}, Timeline::constant({100, 1}, Timeline::kFullShutter, samples), rasters, 10};
 }
 
@@ -58,17 +58,17 @@ TEST(RenderPlan, CountsTheSamplesThatAFunctionMeans) {
 TEST(RenderPlan, RefusesAMaskThatDoesNotFit) {
   const MemoryCapture capture = capture_of(10);
   const FunctionSet functions = functions_of("M0 [0:1]");
-  EXPECT_EQ(test::message_of<InputError>(
-                [&] { static_cast<void>(make_plan(capture, functions, Mask::uniform(4, 3, 0), {})); }),
-            "the mask is 4 x 3 pixels, the capture 4 x 2; both must have the same size");
-  EXPECT_EQ(test::message_of<InputError>(
-                [&] { static_cast<void>(make_plan(capture, functions, Mask::uniform(2, 4, 0), {})); }),
-            "the mask is 2 x 4 pixels, the capture 4 x 2; turn it by 90 degrees");
+  EXPECT_EQ(
+      message_of<InputError>([&] { static_cast<void>(make_plan(capture, functions, Mask::uniform(4, 3, 0), {})); }),
+      "the mask is 4 x 3 pixels, the capture 4 x 2; both must have the same size");
+  EXPECT_EQ(
+      message_of<InputError>([&] { static_cast<void>(make_plan(capture, functions, Mask::uniform(2, 4, 0), {})); }),
+      "the mask is 2 x 4 pixels, the capture 4 x 2; turn it by 90 degrees");
   Mask mask = Mask::uniform(4, 2, 0);
   mask.tags[1] = 7;
   mask.tags[5] = 9;
   mask.tags[6] = 9;
-  EXPECT_EQ(test::message_of<InputError>([&] { static_cast<void>(make_plan(capture, functions, mask, {})); }),
+  EXPECT_EQ(message_of<InputError>([&] { static_cast<void>(make_plan(capture, functions, mask, {})); }),
             "mask values without a function: 7 (1 pixels), 9 (2 pixels); add a line M<value> for each, or "
             "expose them to black");
   EXPECT_EQ(make_plan(capture, functions, mask, {.unmapped_is_zero = true}).functions.size(), 3u);
@@ -105,4 +105,4 @@ TEST(RenderPlan, NormalizesByWhatLiesInTheCapture) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

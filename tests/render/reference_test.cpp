@@ -11,21 +11,19 @@
 #include "support/random_case.hpp"
 #include "support/seeds.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::RandomCase;
 
 TEST(Reference, StaysWithinAFewUlpOfExactArithmetic) {
   double worst = 0.0;
-  const test::Seeds seeds = test::seeds(0, 60);
+  const Seeds seeds = test::seeds(0, 60);
   for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
     RandomCase random(seed);
     random.capture.noise.tolerance = 0;  // held codes are the source's
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
     const Picture picture = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}).picture;
-    worst = std::max(worst, test::worst_roundings(plan, random, picture, seed, test::kReferenceRoundings));
+    worst = std::max(worst, worst_roundings(plan, random, picture, seed, kReferenceRoundings));
   }
   std::printf("worst error of the reference: %.2f u of ∫|g|/D\n", worst);
 }
@@ -34,7 +32,7 @@ TEST(Reference, StaysWithinAFewUlpOfExactArithmetic) {
 class ByHand : public testing::Test {
  protected:
   static double light(const GainFunction& function) {
-    test::Rasters rasters;
+    Rasters rasters;
     for (int k = 0; k < 8; ++k) rasters.push_back({static_cast<std::byte>(10 * k)});
     MemoryCapture source({.shape = {1, 1, 1}, .transfer = Transfer::linear()},
                          Timeline::constant({100, 1}, {180, 1}, 8), rasters, 3);
@@ -92,7 +90,7 @@ class CraftedCapture final : public CaptureSource {
 
  private:
   BlockLease lend(std::uint64_t block, const LeaseTerms& /*terms*/) override {
-    const auto payload = std::make_shared<std::vector<std::byte>>(test::payload_of(capture_, block));
+    const auto payload = std::make_shared<std::vector<std::byte>>(payload_of(capture_, block));
     (*payload)[at_] = value_;
     return {capture_.block_extent(block), *payload, payload};
   }
@@ -103,7 +101,7 @@ class CraftedCapture final : public CaptureSource {
 };
 
 TEST(Reference, RefusesSampleNumbersThatNoTileCanHave) {
-  test::Rasters rasters;
+  Rasters rasters;
   for (const int code : {0, 0, 5, 5, 9, 9}) rasters.emplace_back(64, static_cast<std::byte>(code));
   const Timeline timeline = Timeline::constant({100, 1}, {180, 1}, 6);
   // Behind the directory of 64 bytes: three rows at samples 0, 2, 4; or a start of 64 codes and a slot at
@@ -128,4 +126,4 @@ TEST(Reference, RefusesSampleNumbersThatNoTileCanHave) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -13,24 +13,22 @@
 #include "support/seeds.hpp"
 #include "support/soft_mask.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::RandomCase;
 
 TEST(SoftMask, TheReferenceStaysWithinItsBoundOfExactArithmetic) {
   // What blending adds: a product, their sum, the division.
-  constexpr double kRoundings = test::kReferenceRoundings + 3;
+  constexpr double kRoundings = kReferenceRoundings + 3;
   double worst = 0.0;
-  const test::Seeds seeds = test::seeds(0, 60);
+  const Seeds seeds = test::seeds(0, 60);
   for (std::uint64_t seed = seeds.first; seed < seeds.last; ++seed) {
     RandomCase random(seed);
     random.capture.noise.tolerance = 0;
-    test::soften(random.mask, random.functions, seed);
+    soften(random.mask, random.functions, seed);
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
     const Picture picture = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}).picture;
-    worst = std::max(worst, test::worst_roundings(plan, random, picture, seed, kRoundings));
+    worst = std::max(worst, worst_roundings(plan, random, picture, seed, kRoundings));
   }
   std::printf("worst error of the reference: %.2f u of Σ α ∫|g|/D\n", worst);
 }
@@ -39,7 +37,7 @@ TEST(SoftMask, TheReferenceStaysWithinItsBoundOfExactArithmetic) {
 TEST(SoftMask, LightIsMixedByShares) {
   const CaptureFormat format{{2, 1, 1}, 1, 5, Transfer::linear(), {}};
   MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, 1),
-                        test::Rasters{{std::byte{3}, std::byte{3}}}, 1);
+                        Rasters{{std::byte{3}, std::byte{3}}}, 1);
   Mask mask = Mask::uniform(2, 1, 1);
   mask.mixed.add(1, std::array<Share, 2>{{{1, 13'107 * 4}, {7, 13'107}}});  // four fifths and one
   const FunctionSet functions{{1, GainFunction({{0, 2.0}})}, {7, GainFunction({{0, -1.0}})}};
@@ -60,7 +58,7 @@ TEST(SoftMask, LightIsMixedByShares) {
 TEST(SoftMask, APlanHasTheFunctionsThatOnlySharesUse) {
   const CaptureFormat format{{20, 9, 1}, 1, 255, Transfer::linear(), {}};
   MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, 1),
-                        test::Rasters{std::vector<std::byte>(180)}, 1);
+                        Rasters{std::vector<std::byte>(180)}, 1);
   Mask mask = Mask::uniform(20, 9, 0);
   mask.mixed.add(9, std::array<Share, 2>{{{0, 60'000}, {200, 5'535}}});
   FunctionSet functions{{0, GainFunction({{0, 1.0}})}};
@@ -98,7 +96,7 @@ TEST(SoftMask, SharesAddUpOrAreRefused) {
 TEST(SoftMask, TheBoundOfAPlanIsNoLessThanThatOfAnyPixel) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     RandomCase random(seed);
-    test::soften(random.mask, random.functions, seed);
+    soften(random.mask, random.functions, seed);
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
     for (const Precision precision : kPrecisions) {
@@ -122,4 +120,4 @@ TEST(SoftMask, TheBoundOfAPlanIsNoLessThanThatOfAnyPixel) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

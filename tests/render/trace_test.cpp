@@ -13,22 +13,20 @@
 #include "support/random_case.hpp"
 #include "support/soft_mask.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::RandomCase;
 
 TEST(Trace, EqualsTheReferenceToTheLastBit) {
   std::uint64_t compared = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     RandomCase random(seed);
     SCOPED_TRACE(random.text());
-    if (seed % 2 == 1) test::soften(random.mask, random.functions, seed);
+    if (seed % 2 == 1) soften(random.mask, random.functions, seed);
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
     const Picture picture = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}).picture;
-    test::PackedCapture packed(capture, 2);
-    test::Random draw(seed);
+    PackedCapture packed(capture, 2);
+    Random draw(seed);
     for (int i = 0; i < 10; ++i) {
       const auto x = static_cast<std::uint32_t>(draw.whole(0, picture.shape.width - 1));
       const auto y = static_cast<std::uint32_t>(draw.whole(0, picture.shape.height - 1));
@@ -75,10 +73,10 @@ TEST(Trace, StepsFollowEachOtherAndAddUp) {
           length / 6 * (step.begin_gain * value.begin_light + 4 * middle + step.end_gain * value.end_light);
       const double scale =
           length * std::max(std::fabs(step.begin_gain), std::fabs(step.end_gain));  // light is at most 1
-      EXPECT_NEAR(value.integral_ns, simpson, 20 * test::kRoundoff64 * scale);
+      EXPECT_NEAR(value.integral_ns, simpson, 20 * kRoundoff64 * scale);
       sum += value.integral_ns;
       absolute += std::fabs(value.integral_ns);
-      EXPECT_NEAR(value.sum_ns, sum, static_cast<double>(i + 2) * test::kRoundoff64 * absolute);
+      EXPECT_NEAR(value.sum_ns, sum, static_cast<double>(i + 2) * kRoundoff64 * absolute);
     }
     if (planned.summary.support_ns == 0) continue;
     EXPECT_EQ(trace.light[0],
@@ -94,7 +92,7 @@ TEST(Trace, ARegionIsTheMeanOfItsPixels) {
     const RandomCase random(seed);
     SCOPED_TRACE(random.text());
     MemoryCapture capture = random.encode();
-    test::PackedCapture packed(capture, 1);
+    PackedCapture packed(capture, 1);
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
     const Picture picture = ReferenceRenderer().render(plan, capture, {ValueType::light64, 0}).picture;
     for (std::size_t f = 0; f < plan.functions.size(); ++f) {
@@ -112,8 +110,8 @@ TEST(Trace, ARegionIsTheMeanOfItsPixels) {
         const double mean = sum / static_cast<double>(planned.pixel_count);
         // Both walks err as the reference may; the plain sum above by a rounding a pixel; the mean light
         // by a few of its own.
-        const double bound = (2 * test::kReferenceRoundings + static_cast<double>(planned.pixel_count) + 4) *
-                             test::kRoundoff64 * scale;
+        const double bound =
+            (2 * kReferenceRoundings + static_cast<double>(planned.pixel_count) + 4) * kRoundoff64 * scale;
         EXPECT_NEAR(trace.light[channel], mean, bound) << "M" << int{planned.tag};
         if (scale > 0) worst = std::max(worst, std::fabs(trace.light[channel] - mean) / scale);
       }
@@ -128,7 +126,7 @@ TEST(Trace, ARegionIsTheMeanOfItsPixels) {
 TEST(Trace, OfARegionCountsPixelsByTheirShares) {
   const CaptureFormat format{{2, 1, 1}, 1, 5, Transfer::linear(), {}};
   MemoryCapture capture(format, Timeline::constant({100, 1}, Timeline::kFullShutter, 1),
-                        test::Rasters{{std::byte{5}, std::byte{1}}}, 1);
+                        Rasters{{std::byte{5}, std::byte{1}}}, 1);
   Mask mask = Mask::uniform(2, 1, 9);
   mask.tags[0] = 4;
   mask.mixed.add(0, std::array<Share, 2>{{{4, 3 * 13'107 + 6'554 + 3'277}, {9, 16'383}}});
@@ -164,4 +162,4 @@ TEST(Trace, NamesWhatThereIsNot) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

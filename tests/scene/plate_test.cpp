@@ -7,10 +7,8 @@
 #include "support/noisy_scene.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Rasters;
 
 constexpr std::uint32_t kWidth = 53, kHeight = 29;  // no whole tiles
 
@@ -55,9 +53,9 @@ double rms_codes(const CaptureFormat& capture, const Plate& plate) {
 class Plates : public testing::TestWithParam<CaptureFormat> {};
 
 TEST_P(Plates, ShowNoSubjectThatRestsForTwoFifthsOfTheTime) {
-  test::NoisyCamera camera;
+  NoisyCamera camera;
   camera.format = GetParam();
-  const Rasters rasters = test::film(camera, 100, 7, [&](std::uint64_t value, std::uint64_t sample) {
+  const Rasters rasters = film(camera, 100, 7, [&](std::uint64_t value, std::uint64_t sample) {
     return is_subject(camera.format, value, sample) ? subject_light(camera.format, value)
                                                     : empty_light(camera.format, value);
   });
@@ -174,4 +172,4 @@ TEST(Plate, SaysTheLeastMemoryThatWorks) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -11,11 +11,11 @@
 #include "session/output_check.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 std::vector<std::string> warnings_of(std::uint64_t pictures, std::uint64_t announced) {
-  const test::Scratch scratch;
+  const Scratch scratch;
   const EncodedCapture encoded =
       encode({.path = "clip"}, {scratch / "c.tik"}, MemoryBudget::of_machine(), {}, {},
              [&] { return std::make_unique<test::MadeClip>(pictures, announced); });
@@ -64,20 +64,20 @@ TEST(Encoding, SaysNothingOfAClipThatIsWholeOrAnnouncesNothing) {
 
 // Also where encoding itself checks the name once more, which may replace captures.
 TEST(Encoding, ReplacesNothingThatWasPutThereMeanwhile) {
-  const test::Scratch scratch;
+  const Scratch scratch;
   struct Meddling final : test::MadeClip {
-    explicit Meddling(const test::Scratch& scratch) : MadeClip(7, 7), scratch_(scratch) {}
+    explicit Meddling(const Scratch& scratch) : MadeClip(7, 7), scratch_(scratch) {}
     bool read(std::span<std::byte> raster) override {
       scratch_.write("c.tik", "precious");
       return MadeClip::read(raster);
     }
-    const test::Scratch& scratch_;
+    const Scratch& scratch_;
   };
   check_output(scratch / "c.tik", OutputKind::tik, {}, Replacing::made_by_recipe);
   const auto open = [&] { return std::make_unique<Meddling>(scratch); };
   EXPECT_THROW(encode({.path = "clip"}, {scratch / "c.tik"}, MemoryBudget::of_machine(), {}, {}, open), OutputError);
-  EXPECT_EQ(test::read_file(scratch / "c.tik"), "precious");
+  EXPECT_EQ(read_file(scratch / "c.tik"), "precious");
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -8,7 +8,7 @@
 #include "session/requests/named_inputs.hpp"
 #include "support/messages.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 const Timeline kTimeline = Timeline::constant({100, 1}, {360, 1}, 10);  // 10 ms each
@@ -113,8 +113,7 @@ TEST(SeriesRequest, OfTimesBesideEachOtherLeavesNoGaps) {
 }
 
 TEST(SeriesRequest, SaysHowManyWouldFit) {
-  const auto error =
-      test::error_of<UsageError>([] { return starts_of({time("2f"), 9}, plain("1f", "1f"), kTimeline); });
+  const auto error = error_of<UsageError>([] { return starts_of({time("2f"), 9}, plain("1f", "1f"), kTimeline); });
   ASSERT_TRUE(error) << "more exposures than the capture has room for";
   EXPECT_EQ(error->advice(), "; `count 5` at most");
   EXPECT_THROW(static_cast<void>(starts_of({time("2f"), {}}, plain("0s", "1s"), kTimeline)),
@@ -137,4 +136,4 @@ TEST(FramesRequest, CountsFramesThatEndWithinTheCapture) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

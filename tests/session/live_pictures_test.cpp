@@ -13,16 +13,14 @@
 #include "support/scratch.hpp"
 #include "support/tik_files.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::RandomCase;
 
 class LivePicturesTest : public ::testing::Test {
  protected:
-  static Session session_of(const RandomCase& random, const test::Scratch& scratch) {
+  static Session session_of(const RandomCase& random, const Scratch& scratch) {
     SourceRequest source;
-    source.path = test::write_tik(random, {tik::CodecId::zstd, 0}, scratch);
+    source.path = write_tik(random, {tik::CodecId::zstd, 0}, scratch);
     ComputingRequest computing;
     computing.cache_folder = std::filesystem::temp_directory_path() / "nutik-test-kernels";
     return Session(source, computing);
@@ -45,7 +43,7 @@ class LivePicturesTest : public ::testing::Test {
   }
 
   RandomCase random_{33, {3, 1, 255, Transfer::srgb()}};
-  test::Scratch scratch_;
+  Scratch scratch_;
   Session session_ = session_of(random_, scratch_);
 };
 
@@ -140,7 +138,7 @@ TEST_F(LivePicturesTest, DeliversWhatWentWrongAndGoesOn) {
   ASSERT_EQ(answers.size(), 5u);
   for (const std::size_t k : {0u, 2u}) {
     EXPECT_FALSE(answers[k].exposed) << k;
-    EXPECT_NE(test::message_of<UsageError>([&] { std::rethrow_exception(answers[k].error); }), "") << k;
+    EXPECT_NE(message_of<UsageError>([&] { std::rethrow_exception(answers[k].error); }), "") << k;
   }
   EXPECT_TRUE(answers[1].is_preview && answers[1].exposed);
   EXPECT_FALSE(answers[2].is_preview);
@@ -184,4 +182,4 @@ TEST_F(LivePicturesTest, ComeInOrderWhoeverAsks) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

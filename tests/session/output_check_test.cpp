@@ -8,7 +8,7 @@
 #include "support/scratch.hpp"
 #include "system/is_absent.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 class OutputCheck : public testing::Test {
@@ -25,7 +25,7 @@ class OutputCheck : public testing::Test {
     }
   }
 
-  test::Scratch scratch_;
+  Scratch scratch_;
 };
 
 TEST_F(OutputCheck, PicturesOfEveryKindAreReplaced) {
@@ -88,4 +88,4 @@ TEST_F(OutputCheck, NothingIsReplacedThatCannotBeLookedAt) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -4,7 +4,7 @@
 
 #include "support/messages.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 CaptureFormat twelve_bits() {
@@ -41,13 +41,12 @@ TEST(OutputRequest, KeepsTheSourcesCodesAndWhite) {
 TEST(OutputRequest, RefusesCodesOfFloatingPoint) {
   EXPECT_EQ(output_format(of_transfer("linear"), "picture.pfm", twelve_bits()).type, ValueType::light32);
   for (const char* text : {"srgb", "source"}) {
-    const std::string message = test::message_of<UsageError>(
+    const std::string message = message_of<UsageError>(
         [&] { static_cast<void>(output_format(of_transfer(text), "picture.pfm", twelve_bits())); });
     EXPECT_NE(message.find("which is linear"), std::string::npos) << message;
   }
   for (const char* text : {"pq", "hlg", "sRGB", ""}) {
-    const std::string message =
-        test::message_of<UsageError>([&] { static_cast<void>(parse_out_transfer(text)); });
+    const std::string message = message_of<UsageError>([&] { static_cast<void>(parse_out_transfer(text)); });
     EXPECT_NE(message.find("choose srgb"), std::string::npos) << message;
   }
 }
@@ -77,4 +76,4 @@ TEST(OutputRequest, AsksWhatBecomesOfLightBelowZeroOfCodesOnly) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -19,7 +19,7 @@
 #include "support/scratch.hpp"
 #include "support/tik_files.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -42,13 +42,13 @@ std::chrono::duration<double> test_time() {
 }
 
 // Blocks of 16 samples, enough of them for groups, bundles and corrected blocks.
-test::RandomCase long_case() {
-  test::RandomCase random(7, {1, 1, 255, Transfer::srgb()});
+RandomCase long_case() {
+  RandomCase random(7, {1, 1, 255, Transfer::srgb()});
   random.capture.shape = {40, 25, 1};
   random.capture.noise = {};
   random.timeline = Timeline::constant({1000, 1}, {180, 1}, kSamples);
-  test::Random draws(7);
-  random.rasters = test::random_rasters(draws, random.capture, kSamples);
+  Random draws(7);
+  random.rasters = random_rasters(draws, random.capture, kSamples);
   random.block_samples = 16;
   random.policy = TilePolicy::automatic;
   random.mask = Mask::uniform(40, 25, 0);
@@ -66,7 +66,7 @@ struct Asked {
 
 // Boxcars of any length, and of a mask's regions boxcars, steps and ramps, in several arithmetics, all of the picture
 // or some of it.
-Asked random_request(test::Random& random, const test::RandomCase& of) {
+Asked random_request(Random& random, const RandomCase& of) {
   const std::int64_t end_ns = of.timeline.duration_ns();
   Asked asked;
   if (random.chance(0.5)) {
@@ -95,14 +95,14 @@ Asked random_request(test::Random& random, const test::RandomCase& of) {
 }
 
 TEST(RandomRequests, OfFourThreadsGetWhatASessionOfTheirOwnGets) {
-  const test::RandomCase capture = long_case();
-  const test::Scratch scratch;
-  const SourceRequest source{.path = test::write_tik(capture, {tik::CodecId::zstd, 0}, scratch)};
+  const RandomCase capture = long_case();
+  const Scratch scratch;
+  const SourceRequest source{.path = write_tik(capture, {tik::CodecId::zstd, 0}, scratch)};
   ComputingRequest computing;
   computing.cache_folder = std::filesystem::temp_directory_path() / "nutik-test-kernels";
   const auto devices = std::make_shared<Devices>(computing);
 
-  test::Random draws(11);
+  Random draws(11);
   std::vector<Asked> requests;
   std::vector<Picture> expected;
   for (std::size_t k = 0; k < kRequests; ++k) {
@@ -122,7 +122,7 @@ TEST(RandomRequests, OfFourThreadsGetWhatASessionOfTheirOwnGets) {
       ++live_answers;
     });
     const auto ask = [&](std::size_t thread) {
-      test::Random random(100 + thread);
+      Random random(100 + thread);
       while (Clock::now() - start < duration) {
         const auto k = static_cast<std::size_t>(random.whole(0, kRequests - 1));
         const Asked& asked = requests[k];
@@ -180,4 +180,4 @@ TEST(RandomRequests, OfFourThreadsGetWhatASessionOfTheirOwnGets) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

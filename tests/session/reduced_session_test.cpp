@@ -10,20 +10,20 @@
 #include "support/scratch.hpp"
 #include "support/tik_files.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 class ReducedSession : public ::testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(ReducedSession, HasTheSamplesAndTimesOfTheWholeOne) {
-  test::RandomCase random(GetParam());
+  RandomCase random(GetParam());
   // What was kept is shown, not what was filmed.
   random.capture.noise = {};
   const Shape& whole = random.capture.shape;
   const Shape shape{whole.width / 2, whole.height / 2, whole.channels};
-  const test::Scratch scratch;
+  const Scratch scratch;
   SourceRequest source;
-  source.path = test::write_tik(random, {tik::CodecId::zstd, 0}, scratch);
+  source.path = write_tik(random, {tik::CodecId::zstd, 0}, scratch);
   Session session(source);
   const auto reduced = reduced_session(session, 2);
   EXPECT_EQ(reduced->format().shape, shape);
@@ -53,11 +53,11 @@ TEST_P(ReducedSession, HasTheSamplesAndTimesOfTheWholeOne) {
 }
 
 TEST_P(ReducedSession, OfSomePicturesHasThoseThatBeginBetweenTwoMoments) {
-  test::RandomCase random(GetParam());
+  RandomCase random(GetParam());
   random.capture.noise = {};
-  const test::Scratch scratch;
+  const Scratch scratch;
   SourceRequest source;
-  source.path = test::write_tik(random, {tik::CodecId::zstd, 0}, scratch);
+  source.path = write_tik(random, {tik::CodecId::zstd, 0}, scratch);
   Session session(source);
   const Timeline& whole = session.timeline();
   if (whole.sample_count() < 3) return;  // no picture lies between others
@@ -84,4 +84,4 @@ TEST_P(ReducedSession, OfSomePicturesHasThoseThatBeginBetweenTwoMoments) {
 INSTANTIATE_TEST_SUITE_P(Captures, ReducedSession, testing::Values(0, 1, 2, 3, 4, 6, 8, 9, 10, 11));
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -13,7 +13,7 @@
 #include "session/made_clip.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -36,7 +36,7 @@ class ScratchCaptures : public testing::Test {
 
   static ScratchCapture make() {
     return encode_to_scratch(
-        {.path = "clip"}, [] { return std::make_unique<test::MadeClip>(7, 7); }, MemoryBudget::of_machine(),
+        {.path = "clip"}, [] { return std::make_unique<MadeClip>(7, 7); }, MemoryBudget::of_machine(),
         [](const CaptureFormat&) { return MemoryNeeds(); });
   }
   // With a file, as programs of earlier versions left one that were killed; `age` ago.
@@ -47,7 +47,7 @@ class ScratchCaptures : public testing::Test {
     return scratch_ / name;
   }
 
-  test::Scratch scratch_;
+  Scratch scratch_;
 
  private:
   std::optional<std::string> before_;
@@ -61,7 +61,7 @@ TEST_F(ScratchCaptures, HaveNoName) {
 
 // So that a picture of a kept clip has the bits of one that is exposed while the clip is read.
 TEST_F(ScratchCaptures, HaveTheBlocksOfAStreamWhateverTheyHold) {
-  struct StillClip final : test::MadeClip {
+  struct StillClip final : MadeClip {
     using MadeClip::MadeClip;
     bool read(std::span<std::byte> raster) override {
       const bool has_read = MadeClip::read(raster);
@@ -84,7 +84,7 @@ TEST_F(ScratchCaptures, LeaveNothingWhereAProcessIsKilledWhileItReads) {
       if (samples > 0) kill(getpid(), SIGKILL);
     };
     const ScratchCapture made = encode_to_scratch(
-        {.path = "clip"}, [] { return std::make_unique<test::MadeClip>(70, 7); }, MemoryBudget::of_machine(),
+        {.path = "clip"}, [] { return std::make_unique<MadeClip>(70, 7); }, MemoryBudget::of_machine(),
         [](const CaptureFormat&) { return MemoryNeeds(); }, killed);
     _exit(0);
   }
@@ -101,11 +101,10 @@ TEST_F(ScratchCaptures, LeaveFoldersAloneThatHaveANameOfThisProgram) {
   scratch_.write("nutik-a_file", "precious");
   fs::create_directory_symlink(other, scratch_ / "nutik-a_link");
   make();
-  for (const fs::path& folder : {left, old, other})
-    EXPECT_EQ(test::read_file(folder / "capture.tik"), "half of one");
+  for (const fs::path& folder : {left, old, other}) EXPECT_EQ(read_file(folder / "capture.tik"), "half of one");
   EXPECT_TRUE(fs::is_symlink(scratch_ / "nutik-a_link"));
-  EXPECT_EQ(test::read_file(scratch_ / "nutik-a_file"), "precious");
+  EXPECT_EQ(read_file(scratch_ / "nutik-a_file"), "precious");
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

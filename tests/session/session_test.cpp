@@ -19,7 +19,7 @@
 #include "support/still_clip.hpp"
 #include "support/tik_files.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 constexpr OutputFormat kFloats{ValueType::light32, 0};
@@ -34,8 +34,8 @@ ComputingRequest reference() {
 class SessionOfClip : public ::testing::Test {
  protected:
   SessionOfClip() {
-    test::use_modules();
-    test::write_still_clip(scratch_.folder(), 16, 24);
+    use_modules();
+    write_still_clip(scratch_.folder(), 16, 24);
     source_.path = scratch_ / "frames";
     source_.clip.rate = Rational{100, 1};
     request_.gains = PlainInterval{StatedTime::of_pictures(5), Shutter()};
@@ -46,7 +46,7 @@ class SessionOfClip : public ::testing::Test {
     return {source_, std::make_shared<Devices>(reference()), {Reading::forward, {}, {}}};
   }
 
-  test::Scratch scratch_;
+  Scratch scratch_;
   SourceRequest source_;
   ExposureRequest request_;
 };
@@ -168,7 +168,7 @@ TEST_F(SessionOfClip, InWholeNumbersOrEqualBlocksIsTheSameReadForwardAndWhole) {
 TEST_F(SessionOfClip, WithAToleranceEveryCodecPacksAsWellAsRices) {
   source_.path = scratch_ / "noise";
   std::filesystem::create_directory(source_.path);
-  test::Random random(3);
+  Random random(3);
   for (int k = 0; k < 20; ++k) {
     std::string file = "P5 64 64 255\n";
     for (int pixel = 0; pixel < 64 * 64; ++pixel) file += static_cast<char>(random.whole(90, 110) + pixel % 64);
@@ -205,11 +205,11 @@ TEST_F(SessionOfClip, ReadsAClipThatItsOwnerMakes) {
             Session(source_, devices).render(request_, kFloats).picture);
 
   terms.reading = Reading::forward;
-  EXPECT_EQ(test::message_of<UsageError>([&] { Session(source, devices, terms); }),
+  EXPECT_EQ(message_of<UsageError>([&] { Session(source, devices, terms); }),
             "a clip that its owner makes is read whole");
   source.path.clear();
   terms.reading = Reading::whole;
-  EXPECT_EQ(test::message_of<UsageError>([&] { Session(source, devices, terms); }), "no clip is named");
+  EXPECT_EQ(message_of<UsageError>([&] { Session(source, devices, terms); }), "no clip is named");
 }
 
 TEST_F(SessionOfClip, ReadForwardIsSpentAfterOnePicture) {
@@ -246,14 +246,14 @@ TEST_F(SessionOfClip, RefusesWhatNoRequestMayBe) {
   Session session(source_, reference());
   ExposureRequest functions = request_;
   functions.gains = Shared(FunctionSet{{7, GainFunction({{0, 1.0}})}, {9, GainFunction({{0, 1.0}})}});
-  EXPECT_EQ(test::message_of<UsageError>([&] { static_cast<void>(session.render(functions, kFloats)); }),
+  EXPECT_EQ(message_of<UsageError>([&] { static_cast<void>(session.render(functions, kFloats)); }),
             "there are 2 gain functions; a mask says where each applies");
   functions.gains = Shared(FunctionSet{});
-  EXPECT_EQ(test::message_of<UsageError>([&] { static_cast<void>(session.render(functions, kFloats)); }),
+  EXPECT_EQ(message_of<UsageError>([&] { static_cast<void>(session.render(functions, kFloats)); }),
             "an exposure needs a gain function");
   ExposureRequest masked = request_;
   masked.mask = Shared(MaskWithRegions(Mask{16, 16, {0, 0, 0}}));
-  EXPECT_EQ(test::message_of<InputError>([&] { static_cast<void>(session.render(masked, kFloats)); }),
+  EXPECT_EQ(message_of<InputError>([&] { static_cast<void>(session.render(masked, kFloats)); }),
             "the mask is 16 x 16 pixels and has 3 tags; each pixel needs one");
   for (const auto& [type, white] : {std::pair(ValueType::code8, 256u), std::pair(ValueType::code8, 0u),
                                     std::pair(ValueType::code16, 65'536u)}) {
@@ -269,14 +269,14 @@ TEST_F(SessionOfClip, RefusesWhatNoRequestMayBe) {
   SourceRequest noisy = source_;
   noisy.noise = NoiseOfClip();
   noisy.sigmas = -1;
-  EXPECT_EQ(test::message_of<UsageError>([&] { static_cast<void>(Session(noisy, reference())); }),
+  EXPECT_EQ(message_of<UsageError>([&] { static_cast<void>(Session(noisy, reference())); }),
             "-1 standard deviations of noise are not within 0.1 … 100");
   const std::filesystem::path still = *std::filesystem::directory_iterator(scratch_ / "frames");
-  const std::string bytes = test::read_file(still);
+  const std::string bytes = read_file(still);
   EncodeRequest onto;
   onto.output = still;
   EXPECT_THROW(static_cast<void>(encode(source_, onto, MemoryBudget::of_machine())), UsageError);
-  EXPECT_EQ(test::read_file(still), bytes);
+  EXPECT_EQ(read_file(still), bytes);
 }
 
 TEST_F(SessionOfClip, IsNotOpenedWhenNobodyWantsItAnyMore) {
@@ -310,16 +310,15 @@ TEST_F(SessionOfClip, IsComparedWithItsClip) {
 }
 
 TEST(Session, RefusesADescriptionOfWhatWasDescribed) {
-  const test::Scratch scratch;
-  SourceRequest source{.path = test::write_tik(test::RandomCase(3), {tik::CodecId::none, 0}, scratch)};
+  const Scratch scratch;
+  SourceRequest source{.path = write_tik(RandomCase(3), {tik::CodecId::none, 0}, scratch)};
   EXPECT_FALSE(source.describes_clip());
   source.clip.transfer = Transfer::linear();
   EXPECT_FALSE(source.describes_clip()) << "an exposure may take codes for other light";
   source.tolerance = 1;
   EXPECT_TRUE(source.describes_clip());
-  EXPECT_EQ(
-      test::message_of<UsageError>([&] { Session(source, reference()); }),
-      "what is stated describes a clip that is encoded; " + source.path.string() + " was encoded already");
+  EXPECT_EQ(message_of<UsageError>([&] { Session(source, reference()); }),
+            "what is stated describes a clip that is encoded; " + source.path.string() + " was encoded already");
 }
 
 TEST(Session, SaysWhichDevicesThereAre) {
@@ -328,7 +327,7 @@ TEST(Session, SaysWhichDevicesThereAre) {
   Devices devices(computing);
   std::vector<std::string> parts{"no such device"};
   for (const DeviceInfo& device : list_devices()) parts.push_back(device.name);
-  test::expect_error<DeviceError>([&] { static_cast<void>(devices.renderer()); }, parts);
+  expect_error<DeviceError>([&] { static_cast<void>(devices.renderer()); }, parts);
 }
 
 TEST(Session, ValidatesWithOpenClOnly) {
@@ -337,4 +336,4 @@ TEST(Session, ValidatesWithOpenClOnly) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -15,10 +15,8 @@
 #include "support/scratch.hpp"
 #include "support/tik_files.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::RandomCase;
 
 constexpr std::size_t kSessionThreads = 4;
 constexpr std::size_t kSessionRequests = 36;
@@ -79,9 +77,9 @@ void expect_same(const ExposedPicture& one, const ExposedPicture& other, std::si
 
 void expect_threads_get_the_same(const RandomCase& random, const tik::Codec& codec,
                                  const ComputingRequest& computing) {
-  const test::Scratch scratch;
+  const Scratch scratch;
   SourceRequest source;
-  source.path = test::write_tik(random, codec, scratch);
+  source.path = write_tik(random, codec, scratch);
   const std::vector<AskedOfThread> requests = requests_of(random);
 
   std::vector<ExposedPicture> expected;
@@ -153,4 +151,4 @@ TEST(SessionThreads, GetWhatOneThreadGetsFromTheReference) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -5,7 +5,7 @@
 #include "capture/error.hpp"
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 StatedTime parsed_time(std::string_view text) { return StatedTime::parse(text, "start"); }
@@ -73,7 +73,7 @@ TEST(StatedTime, EndsAreRoundedOnceFromTheSumOfStartAndLength) {
   const Timeline timeline = Timeline::constant({300, 1}, {180, 1}, 300);  // a third of 10 ms each
   EXPECT_EQ(plain_interval(parsed_time("1f"), parsed_time("1/300s"), timeline), (Exposure{3'333'333, 6'666'667}));
   EXPECT_EQ(plain_interval(parsed_time("1/300s"), parsed_time("1f"), timeline), (Exposure{3'333'333, 6'666'667}));
-  test::Random random(3);
+  Random random(3);
   const Timeline hour = Timeline::constant({1, 1}, {360, 1}, 3600);
   for (int i = 0; i < 1000; ++i) {
     const std::int64_t a = random.whole(0, 100'000), b = random.whole(1, 100'000),
@@ -95,4 +95,4 @@ TEST(StatedTime, OfAnExactOneIsExactWhereDigitsHoldIt) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

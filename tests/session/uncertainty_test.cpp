@@ -16,7 +16,7 @@
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 // How far a picture's codes are from the light that was filmed, in what its map allows: the largest share. That holds,
@@ -53,7 +53,7 @@ float most_of(const ExposedPicture& picture, std::string_view layer) {
 class Held : public ::testing::Test {
  protected:
   explicit Held(const std::string& name) {
-    test::use_modules();
+    use_modules();
     source_.path = scratch_ / name;
     source_.clip.rate = Rational{100, 1};
     std::filesystem::create_directory(source_.path);
@@ -70,7 +70,7 @@ class Held : public ::testing::Test {
     return Session(source_, computing);
   }
 
-  test::Scratch scratch_;
+  Scratch scratch_;
   SourceRequest source_;
   int count_ = 0;
 };
@@ -245,7 +245,7 @@ TEST_F(Noisy, WhereLightIsNotKnownTheNoiseIsTheMost) {
 class Scaled : public Held {
  protected:
   Scaled() : Held("scaled") {
-    test::Random random(5);
+    Random random(5);
     for (int k = 0; k < 4; ++k) {
       std::string file = "P5 64 64 255\n";
       for (int pixel = 0; pixel < 64 * 64; ++pixel) file += static_cast<char>(random.whole(0, pixel / 16));
@@ -311,4 +311,4 @@ TEST(CodeRoundings, ComeBackFromTheirText) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -7,10 +7,8 @@
 
 #include "support/random_case.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Random;
 
 std::vector<double> residuals(const std::vector<LeastSquaresRow>& rows, const std::vector<double>& x) {
   std::vector<double> left;
@@ -79,4 +77,4 @@ TEST(BoundedLeastSquares, GiveTheOthersWhatABoundKeepsFromOne) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

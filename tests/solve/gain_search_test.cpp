@@ -12,12 +12,9 @@
 #include "support/random_case.hpp"
 #include "support/watched_capture.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::OnePixel;
-using test::Random;
-using test::RandomCase;
 using Kind = LightWish::Kind;
 
 Picture exposed(CaptureSource& capture, const FunctionSet& functions, const Mask& mask) {
@@ -110,7 +107,7 @@ TEST(RegionLight, TakesOneLookAtEachBlock) {
   const RandomCase random(7);
   MemoryCapture encoded = random.encode();
   std::vector<int> lent(encoded.block_count());
-  test::WatchedCapture capture(encoded, [&](std::uint64_t block) { ++lent[block]; });
+  WatchedCapture capture(encoded, [&](std::uint64_t block) { ++lent[block]; });
   static_cast<void>(measure_regions(capture, random.capture.transfer, random.mask, nullptr,
                                     regions_of_case(random), nullptr, all_of(capture)));
   for (const int times : lent) EXPECT_EQ(times, 1);
@@ -122,7 +119,7 @@ TEST(GainSearch, ReachesConstructedWishes) {
     const RandomCase random(seed);
     MemoryCapture encoded = random.encode();
     std::vector<int> lent(encoded.block_count());
-    test::WatchedCapture capture(encoded, [&](std::uint64_t block) { ++lent[block]; });
+    WatchedCapture capture(encoded, [&](std::uint64_t block) { ++lent[block]; });
     const std::vector<LightRegion> regions = regions_of_case(random);
     const Picture picture = exposed(capture, random.functions, random.mask);
     std::ranges::fill(lent, 0);
@@ -339,4 +336,4 @@ TEST(GainSearch, CountsNoTimeOfAGainThatCameToNothing) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

@@ -7,10 +7,9 @@
 #include "capture/error.hpp"
 #include "support/one_pixel.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::OnePixel;
 using Kind = LightWish::Kind;
 
 TEST(TimeSearch, FindsAConstructedMoment) {
@@ -109,4 +108,4 @@ TEST(TimeSearch, HasNoneWhereNoTimesAreInOrder) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

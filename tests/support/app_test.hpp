@@ -17,6 +17,8 @@
 
 namespace nutik::test {
 
+using nlohmann::json;
+
 // The words of a command line: "-k one.fn clip.tik" between blanks, or one by one.
 struct Words : std::vector<std::string> {
   Words(const char* text) : Words(std::string(text)) {}

@@ -14,10 +14,8 @@
 #include "system/page_buffer.hpp"
 #include "system/temporary_folder.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
-
-using test::Scratch;
 
 TEST(LinuxCalls, FilesWithoutANameAreOnlyLinuxs) {
   const Scratch scratch;
@@ -76,4 +74,4 @@ TEST(LinuxCalls, PagesKeepWhatTheyHoldWhereTheyGrow) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

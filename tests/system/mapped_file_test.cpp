@@ -14,11 +14,10 @@
 #include "support/scratch.hpp"
 #include "system/output_file.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
 namespace fs = std::filesystem;
-using test::Scratch;
 
 constexpr std::size_t kBytes = 1 << 20;
 
@@ -35,7 +34,7 @@ class LostFile : public testing::Test {
 
   // Ends with the message of check_mapped_files(), status 3.
   [[noreturn]] static void end_by_check() {
-    const std::string message = test::message_of<InputError>([] { check_mapped_files(); });
+    const std::string message = message_of<InputError>([] { check_mapped_files(); });
     std::fputs(message.c_str(), stderr);
     std::exit(message.empty() ? 0 : 3);
   }
@@ -117,7 +116,7 @@ TEST_F(LostFile, ConcernsOnlyWhatWasMadeOfIt) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     std::fstream(path_, std::ios::in | std::ios::out).write("other", 5);
     const auto throws = [](const auto& call) {
-      return test::message_of<InputError>(call).find("c.tik changed") != std::string::npos;
+      return message_of<InputError>(call).find("c.tik changed") != std::string::npos;
     };
     if (!throws([&] { begun.commit(); })) std::exit(1);
     for (int again = 0; again < 2; ++again) {
@@ -169,4 +168,4 @@ TEST_F(LostFile, OfAnotherLibraryIsThatLibrarys) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test

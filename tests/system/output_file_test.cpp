@@ -15,10 +15,9 @@
 #include "system/linux_calls.hpp"
 #include "system/temporary_folder.hpp"
 
-namespace nutik {
+namespace nutik::test {
 namespace {
 
-using test::Scratch;
 namespace fs = std::filesystem;
 
 // Names of earlier versions and of this one: such a file is somebody else's, or can still be recovered.
@@ -33,9 +32,9 @@ TEST(OutputFile, LeavesFilesAloneThatAreCalledAsTemporaryFilesAre) {
   OutputFile file(scratch / "a");
   file.write("new");
   file.commit();
-  EXPECT_EQ(test::read_file(scratch / "a"), "new");
-  EXPECT_EQ(test::read_file(scratch / "victim"), "precious");
-  for (const std::string& name : names) EXPECT_EQ(test::read_file(scratch / name), "half of one");
+  EXPECT_EQ(read_file(scratch / "a"), "new");
+  EXPECT_EQ(read_file(scratch / "victim"), "precious");
+  for (const std::string& name : names) EXPECT_EQ(read_file(scratch / name), "half of one");
   EXPECT_TRUE(fs::is_symlink(scratch / ".a.nutik-120.part"));
 }
 
@@ -55,19 +54,19 @@ TEST(OutputFile, LeavesAnothersTemporaryFileAlone) {
         second.write("second");
         second.commit();
       }
-      EXPECT_EQ(test::read_file(scratch / "a"), "second");
+      EXPECT_EQ(read_file(scratch / "a"), "second");
       std::string said;
       try {
         first.commit();
       } catch (const OutputError& error) {
         said = error.what();
       }
-      EXPECT_EQ(test::read_file(scratch / "a"), is_expected ? "second" : "first, still being written");
+      EXPECT_EQ(read_file(scratch / "a"), is_expected ? "second" : "first, still being written");
       EXPECT_EQ(std::distance(fs::directory_iterator(scratch.folder()), fs::directory_iterator()), is_expected ? 2 : 1);
       if (!is_expected) continue;
       const std::string path = first.temporary_path().string();
       EXPECT_NE(said.find("is not replaced; what was made is " + path), std::string::npos) << said;
-      EXPECT_EQ(test::read_file(path), "first, still being written");
+      EXPECT_EQ(read_file(path), "first, still being written");
     }
   }
 }
@@ -81,7 +80,7 @@ TEST(OutputFile, ReplacesWhatWasExpected) {
       OutputFile file(scratch / "a", lasting);
       file.write(text);
       file.commit();
-      EXPECT_EQ(test::read_file(scratch / "a"), text);
+      EXPECT_EQ(read_file(scratch / "a"), text);
       EXPECT_EQ(std::distance(fs::directory_iterator(scratch.folder()), fs::directory_iterator()), 1);
     }
   }
@@ -106,22 +105,22 @@ TEST(OutputFile, LeavesNothingOfAKilledProcess) {
   close(without_name);
   scratch.write("a", "old");
   write_and_be_killed(scratch / "a", OutputFile::Lasting::yes);
-  EXPECT_EQ(test::read_file(scratch / "a"), "old");
+  EXPECT_EQ(read_file(scratch / "a"), "old");
   EXPECT_EQ(std::distance(fs::directory_iterator(scratch.folder()), fs::directory_iterator()), 1);
 }
 
 TEST(OutputFile, LeavesAKilledProcesssFileToBeRecovered) {
   const Scratch scratch;
   write_and_be_killed(scratch / "a", OutputFile::Lasting::recoverable);
-  const auto left = test::files_with(scratch.folder(), ".a.nutik-");
+  const auto left = files_with(scratch.folder(), ".a.nutik-");
   ASSERT_EQ(left.size(), 1u);
   {
     OutputFile file(scratch / "a");
     file.write("new");
     file.commit();
   }
-  EXPECT_EQ(test::read_file(scratch / "a"), "new");
-  EXPECT_EQ(test::read_file(left.front()), "a long text");
+  EXPECT_EQ(read_file(scratch / "a"), "new");
+  EXPECT_EQ(read_file(left.front()), "a long text");
 }
 
 // While it is written nobody may read more of it than of what it replaces. A program that runs as its owner would be
@@ -171,7 +170,7 @@ TEST(OutputFile, FollowsNoLinkOfAnotherInASharedFolder) {
     OutputFile(link).write("what is not kept");
     ASSERT_EQ(chmod((scratch / "shared").c_str(), 01777), 0);
   }
-  EXPECT_EQ(test::read_file(scratch / "victim"), "precious");
+  EXPECT_EQ(read_file(scratch / "victim"), "precious");
   EXPECT_EQ(std::distance(fs::directory_iterator(scratch.folder()), fs::directory_iterator()), 2);
 }
 
@@ -183,7 +182,7 @@ TEST(OutputFile, WithoutANameIsWrittenWhereItLies) {
     file.replace(5, std::as_bytes(std::span(std::string_view("more"))));
     file.commit();
   }
-  EXPECT_EQ(test::read_file(nameless.path()), "some more");
+  EXPECT_EQ(read_file(nameless.path()), "some more");
   struct stat status {};
   ASSERT_EQ(fstat(nameless.descriptor(), &status), 0);
   EXPECT_EQ(status.st_nlink, 0u);
@@ -199,7 +198,7 @@ TEST(OutputFile, MayHaveTheLongestName) {
     file.write("new");
     std::string temporary = file.temporary_path().filename();
     file.commit();
-    EXPECT_EQ(test::read_file(scratch / name), "new");
+    EXPECT_EQ(read_file(scratch / name), "new");
     return temporary;
   };
   constexpr std::size_t kLongest = 255,
@@ -244,7 +243,7 @@ TEST(OutputFile, WritesWhereALinkLeadsEvenToNothing) {
     file.write("new");
     file.commit();
     EXPECT_TRUE(fs::is_symlink(scratch / (is_there ? "full" : "dangling")));
-    EXPECT_EQ(test::read_file(scratch / "there/b"), "new");
+    EXPECT_EQ(read_file(scratch / "there/b"), "new");
   }
   fs::create_symlink("two", scratch / "one");
   fs::create_symlink("one", scratch / "two");
@@ -252,4 +251,4 @@ TEST(OutputFile, WritesWhereALinkLeadsEvenToNothing) {
 }
 
 }  // namespace
-}  // namespace nutik
+}  // namespace nutik::test
