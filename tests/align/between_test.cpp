@@ -50,6 +50,12 @@ std::vector<std::byte> drawn(const Scene& scene, double time, double noise = 0, 
   return raster;
 }
 
+std::vector<std::vector<std::byte>> filmed(const Scene& scene, int count) {
+  std::vector<std::vector<std::byte>> pictures;
+  for (int k = 0; k < count; ++k) pictures.push_back(drawn(scene, k));
+  return pictures;
+}
+
 class DrawnClip final : public Clip {
  public:
   explicit DrawnClip(std::vector<std::vector<std::byte>> pictures) : pictures_(std::move(pictures)) {
@@ -114,8 +120,7 @@ double share_of_error(const Scene& scene, int count, const MadeSamples& made,
 }
 
 TEST(Between, ShowsWhatFliesWhereItIsAtThatTime) {
-  std::vector<std::vector<std::byte>> pictures;
-  for (int k = 0; k < 5; ++k) pictures.push_back(drawn(disc_at, k));
+  auto pictures = filmed(disc_at, 5);
   const ClipToAlign clip = clip_of(pictures);
   const MadeSamples made = planned(clip);
   // 14 to 15 pixels a picture: steps of 0.7 to 1.4.
@@ -128,8 +133,7 @@ TEST(Between, ShowsWhatFliesWhereItIsAtThatTime) {
 }
 
 TEST(Between, ArePlannedBetweenThePicturesThatAreNamed) {
-  std::vector<std::vector<std::byte>> pictures;
-  for (int k = 0; k < 5; ++k) pictures.push_back(drawn(disc_at, k));
+  auto pictures = filmed(disc_at, 5);
   const auto planned_by = [&](std::string_view text) {
     const auto request = parse_between(text);
     EXPECT_EQ(request->text(), text);
@@ -152,8 +156,7 @@ double ball_at(double x, double y, double time) {
 }
 
 TEST(Between, FollowsSmallThingsThatFlyFurtherThanTheyAreLarge) {
-  std::vector<std::vector<std::byte>> pictures;
-  for (int k = 0; k < 6; ++k) pictures.push_back(drawn(ball_at, k));
+  auto pictures = filmed(ball_at, 6);
   const ClipToAlign clip = clip_of(pictures);
   const MadeSamples made = planned(clip);
   // 59 to 79 pixels a picture: steps of 0.9 to 1.2.
@@ -215,8 +218,7 @@ TEST(Between, LetsNothingFlyFromOneThingToAnother) {
     }
     return ground_at(x, y);
   };
-  std::vector<std::vector<std::byte>> pictures;
-  for (int k = 0; k < 3; ++k) pictures.push_back(drawn(meet, k));
+  auto pictures = filmed(meet, 3);
   const ClipToAlign clip = clip_of(pictures);
   const auto samples = filled(clip, planned(clip, 1));
   for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -251,8 +253,7 @@ TEST(Between, DragsNoStillGroundAlong) {
     const bool is_passing = std::hypot(x - (60 + 14 * time), (y - 110) / 2) < 30;
     return is_passing ? 0.05 : std::abs(x - 146) < 2.5 ? 0.35 : y > 150 ? ground_at(x, y) : 0.8;
   };
-  std::vector<std::vector<std::byte>> pictures;
-  for (int k = 0; k < 9; ++k) pictures.push_back(drawn(passing, k));
+  auto pictures = filmed(passing, 9);
   const ClipToAlign clip = clip_of(pictures);
   const MadeSamples made = planned(clip, 7);
   const auto samples = filled(clip, made);
@@ -317,8 +318,7 @@ TEST(Between, MakesNothingOfWhatTrembles) {
 }
 
 TEST(Between, IsTheSameWhoeverComputesBeside) {
-  std::vector<std::vector<std::byte>> pictures;
-  for (int k = 0; k < 3; ++k) pictures.push_back(drawn(disc_at, k));
+  auto pictures = filmed(disc_at, 3);
   const ClipToAlign clip = clip_of(pictures);
   const MadeSamples made = planned(clip);
   const auto alone = filled(clip, made);
@@ -331,8 +331,7 @@ TEST(Between, IsTheSameWhoeverComputesBeside) {
 }
 
 TEST(Between, PassesOverWhatIsSkipped) {
-  std::vector<std::vector<std::byte>> pictures;
-  for (int k = 0; k < 3; ++k) pictures.push_back(drawn(disc_at, k));
+  auto pictures = filmed(disc_at, 3);
   const ClipToAlign clip = clip_of(pictures);
   const MadeSamples made = planned(clip, 3);
   const auto all = filled(clip, made);
@@ -344,8 +343,7 @@ TEST(Between, PassesOverWhatIsSkipped) {
 }
 
 TEST(Between, RefusesAClipThatIsNotTheOneItPlannedFor) {
-  std::vector<std::vector<std::byte>> pictures;
-  for (int k = 0; k < 3; ++k) pictures.push_back(drawn(disc_at, k));
+  auto pictures = filmed(disc_at, 3);
   const MadeSamples made = planned(clip_of(pictures), 1);
   for (const std::size_t count : {2U, 4U}) {
     pictures.resize(count, pictures.front());

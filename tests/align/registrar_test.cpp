@@ -193,21 +193,25 @@ TEST(Registrar, FindsAPictureThatLiesFarFromWhereItWasExpected) {
   EXPECT_NEAR(is.y, should.y, 0.1);
 }
 
+// Light of each place, a column and a row, as codes.
+template <typename LightAt>
+std::vector<std::byte> raster_of(LightAt light_at) {
+  std::vector<std::byte> raster;
+  for (int y = 0; y < static_cast<int>(kSceneHeight); ++y) {
+    for (int x = 0; x < static_cast<int>(kSceneWidth); ++x)
+      raster.push_back(static_cast<std::byte>(std::clamp(std::round(light_at(x, y)), 0.0, 255.0)));
+  }
+  return raster;
+}
+
 // Before texture that no coarser level shows a smooth thing moves from one side to the other.
 TEST(Registrar, FollowsFineTextureBehindWhatLeftItsPlace) {
   const Texture texture(16, 6);
   const auto seen = [&](double shift, int left) {
-    std::vector<std::byte> raster(kSceneWidth * kSceneHeight);
-    for (int y = 0; y < static_cast<int>(kSceneHeight); ++y) {
-      for (int x = 0; x < static_cast<int>(kSceneWidth); ++x) {
-        const bool is_thing = x >= left && x < left + 128 && y >= 60 && y < 180;
-        const double light = is_thing ? 180 + 20 * std::sin((x - left) / 7.0)
-                                      : 110 + 40 * texture.at({x - shift, static_cast<double>(y)});
-        raster[static_cast<std::size_t>(y) * kSceneWidth + static_cast<std::size_t>(x)] =
-            static_cast<std::byte>(std::clamp(std::round(light), 0.0, 255.0));
-      }
-    }
-    return raster;
+    return raster_of([&](int x, int y) {
+      const bool is_thing = x >= left && x < left + 128 && y >= 60 && y < 180;
+      return is_thing ? 180 + 20 * std::sin((x - left) / 7.0) : 110 + 40 * texture.at({x - shift, double(y)});
+    });
   };
   for (const CameraMotion motion :
        {CameraMotion::translation, CameraMotion::rigid, CameraMotion::homography}) {
@@ -223,17 +227,12 @@ TEST(Registrar, FollowsFineTextureBehindWhatLeftItsPlace) {
 TEST(Registrar, FollowsTheRoomOfAPanAndNotWhatMovesAgainstIt) {
   const Texture room(23), thing(73);
   const auto seen = [&](int shift) {
-    std::vector<std::byte> raster;
-    for (int y = 0; y < static_cast<int>(kSceneHeight); ++y) {
-      for (int x = 0; x < static_cast<int>(kSceneWidth); ++x) {
-        const int across = x - 60 - shift;
-        const bool is_thing = across >= 0 && across < 120 && y >= 20;
-        const double light = is_thing ? 128 + 60 * thing.at({double(across), double(y)})
-                                      : 128 + 40 * room.at({double(x + shift), double(y)});
-        raster.push_back(static_cast<std::byte>(std::clamp(std::round(light), 0.0, 255.0)));
-      }
-    }
-    return raster;
+    return raster_of([&](int x, int y) {
+      const int across = x - 60 - shift;
+      const bool is_thing = across >= 0 && across < 120 && y >= 20;
+      return is_thing ? 128 + 60 * thing.at({double(across), double(y)})
+                      : 128 + 40 * room.at({double(x + shift), double(y)});
+    });
   };
   for (const CameraMotion motion : {CameraMotion::rigid, CameraMotion::homography}) {
     const Registered found = registrar_of(format_of({}), motion, seen(0))->find(seen(4), Warp());
@@ -286,15 +285,10 @@ TEST(Registrar, LeavesNearByWhatRests) {
 TEST(Registrar, TakesNoThingBeforeABareWallForTheCamera) {
   const Texture texture(15);
   const auto wall = [&](int left) {
-    std::vector<std::byte> raster(kSceneWidth * kSceneHeight, std::byte{100});
-    for (int y = 90; y < 140; ++y) {
-      for (int x = left; x < left + 50; ++x) {
-        const double grey = texture.at({double(x - left), double(y)});
-        raster[static_cast<std::size_t>(y) * kSceneWidth + static_cast<std::size_t>(x)] =
-            static_cast<std::byte>(std::clamp(130 + 50 * grey, 0.0, 255.0));
-      }
-    }
-    return raster;
+    return raster_of([&](int x, int y) {
+      const bool is_thing = x >= left && x < left + 50 && y >= 90 && y < 140;
+      return is_thing ? std::floor(130 + 50 * texture.at({double(x - left), double(y)})) : 100;
+    });
   };
   const auto registrar = registrar_of(format_of({}), CameraMotion::rigid, wall(120));
   EXPECT_FALSE(is_sure(registrar->find(wall(125), Warp(), Reach::near)));
@@ -303,16 +297,10 @@ TEST(Registrar, TakesNoThingBeforeABareWallForTheCamera) {
 // A pole swings by up to three pixels, and of a fainter edge that rests parts lie within a pixel of where that leads.
 TEST(Registrar, TakesNoPoleThatSwingsBesideWhatRestsForTheCamera) {
   const auto wall = [](double turn) {
-    std::vector<std::byte> raster(kSceneWidth * kSceneHeight);
-    for (int y = 0; y < static_cast<int>(kSceneHeight); ++y) {
-      for (int x = 0; x < static_cast<int>(kSceneWidth); ++x) {
-        const double pole = std::clamp(8.5 - std::abs(x - 140 + turn * y), 0.0, 1.0);
-        const double light = std::lerp(x < 300 ? 20 : 60, y % 40 < 6 ? 60 : 200, pole);
-        raster[static_cast<std::size_t>(y) * kSceneWidth + static_cast<std::size_t>(x)] =
-            static_cast<std::byte>(std::round(light));
-      }
-    }
-    return raster;
+    return raster_of([&](int x, int y) {
+      const double pole = std::clamp(8.5 - std::abs(x - 140 + turn * y), 0.0, 1.0);
+      return std::lerp(x < 300 ? 20 : 60, y % 40 < 6 ? 60 : 200, pole);
+    });
   };
   const auto registrar = registrar_of(format_of({}), CameraMotion::rigid, wall(0));
   EXPECT_EQ(registrar->find(wall(0.012), Warp(), Reach::near).warp, Warp());

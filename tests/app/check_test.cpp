@@ -1,8 +1,6 @@
 // nutik-cl check as a user meets it: everything at once, places, figures, exit status.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -117,7 +115,7 @@ TEST_F(Check, SaysEverythingThatIsWrongAtOnce) {
       "M0 [5:1], [5:0]\nM1{[0:0], [1:1], [100000000:1], [1000000002:-25], [1010000001:0]}\nM300 [0:1]\n");
   cv::imwrite((scratch_ / "small.pgm").string(),
               cv::Mat(kClipWidth / 2, kClipHeight / 2, CV_8UC1, cv::Scalar::all(7)));
-  std::string capture = read_file(scratch_ / "clip.tik");
+  std::string capture = file("clip.tik");
   // In the first picture.
   capture[capture.size() / 2] ^= 0x55;
   scratch_.write("damaged.tik", capture);
@@ -131,7 +129,7 @@ TEST_F(Check, SaysEverythingThatIsWrongAtOnce) {
 }
 
 TEST_F(Check, ADamagedBlockIsNamedAndTheRestIsChecked) {
-  std::string capture = read_file(scratch_ / "clip.tik");
+  std::string capture = file("clip.tik");
   // The one block lies somewhere behind the first picture; other damage there is named otherwise.
   bool is_found = false;
   for (std::size_t offset = kClipWidth * kClipHeight; offset < capture.size() && !is_found; offset += 16) {
@@ -187,7 +185,7 @@ TEST_F(Check, MaskValuesWithoutAFunction) {
   EXPECT_EQ(kinds(all_, 3), (Kinds{"unused_function", "unmapped_mask_values"}));
   EXPECT_EQ(kinds(all_ + "--unmapped zero", 0), Kinds{"unused_function"});
   // A function with a mistake is there all the same.
-  scratch_.write("broken.fn", read_file(scratch_ / "good.fn") + "M9 [0:x]\n");
+  scratch_.write("broken.fn", file("good.fn") + "M9 [0:x]\n");
   EXPECT_EQ(kinds("-m mask.pgm -k broken.fn clip.tik", 3), (Kinds{"function_file", "unused_function"}));
 }
 

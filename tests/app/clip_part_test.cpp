@@ -87,17 +87,17 @@ TEST_F(PartOfAClip, ComesThroughAPipe) {
   shell(program + " expose a.y4m --start 80ms --exposure 120ms" + tail + "named.png");
   shell("ffmpeg -v error -i a.y4m -f yuv4mpegpipe - | TMPDIR=tmp " + program +
         " expose - --start 80ms --exposure 120ms" + tail + "piped.png");
-  const std::string wanted = read_file(scratch_ / "named.png");
-  EXPECT_TRUE(read_file(scratch_ / "piped.png") == wanted);
+  const std::string wanted = file("named.png");
+  EXPECT_TRUE(file("piped.png") == wanted);
   EXPECT_TRUE(std::filesystem::is_empty(scratch_ / "tmp"));
   // A file is read where it lies; and what is read twice, as a series is.
   shell(program + " expose - --start 80ms --exposure 120ms" + tail + "- < a.y4m > sent.png");
-  EXPECT_TRUE(read_file(scratch_ / "sent.png") == wanted);
+  EXPECT_TRUE(file("sent.png") == wanted);
   shell("cat a.y4m | " + program + " expose - --every 2f --exposure 2f" + tail + "s%d.png");
   expect_says(shell("cat a.y4m | " + program + " encode - && " + program + " info standard-input.tik").out,
               "12 samples");
   shell("cat a.y4m | " + program + " - short.tik");
-  EXPECT_TRUE(read_file(scratch_ / "short.tik") == read_file(scratch_ / "standard-input.tik"));
+  EXPECT_TRUE(file("short.tik") == file("standard-input.tik"));
 
   scratch_.write("f.fn", "M0 [0:1], [10000000:0]\n");
   expect_says(shell("cat f.fn | " + program + " expose -k - - -o x.png", 2).err,
@@ -118,7 +118,7 @@ TEST_F(PartOfAClip, EndsAtItsDamageWhereThatIsAsked) {
   NEEDS_FFMPEG();
   test::make(scratch_,
              "-f lavfi -i testsrc2=size=64x48:rate=25 -frames:v 30 -c:v ffv1 -level 3 -slicecrc 1 a.mkv");
-  std::string bytes = read_file(scratch_ / "a.mkv");
+  std::string bytes = file("a.mkv");
   bytes[bytes.size() * 2 / 3] = static_cast<char>(bytes[bytes.size() * 2 / 3] ^ 8);
   scratch_.write("a.mkv", bytes);
   expect_refused("encode a.mkv a.tik", 3, "pictures before it can be taken (--ignore-errors)");
@@ -128,7 +128,7 @@ TEST_F(PartOfAClip, EndsAtItsDamageWhereThatIsAsked) {
   const Words all("--start 0s --exposure 5s --renderer reference --no-recipe");
   expect_says(make("expose --ignore-errors a.mkv -o clip.png" + all).err, "is taken as far as it goes");
   make("expose a.tik -o capture.png" + all);
-  EXPECT_TRUE(read_file(scratch_ / "clip.png") == read_file(scratch_ / "capture.png"));
+  EXPECT_TRUE(file("clip.png") == file("capture.png"));
 }
 
 }  // namespace

@@ -167,7 +167,7 @@ TEST_F(Colour, OfMeansOfLightStaysWhatItIs) {
     expect_refused("contact --transfer srgb means.tik x.png", 2, said);
     expect_refused("trace --pixel 1,1 --transfer srgb means.tik --start 0s --exposure 3f", 2, said);
     expect_refused("retime --transfer srgb means.tik x.tik", 2, said);
-    EXPECT_FALSE(std::filesystem::exists(scratch_ / "x.tik"));
+    EXPECT_FALSE(exists("x.tik"));
     succeed("--transfer linear means.tik x.png" + exposing);
     // A corrected capture still knows.
     succeed("retime -f 50 means.tik fast.tik");
@@ -205,7 +205,7 @@ TEST_F(Colour, StandsInTheFile) {
              "-colorspace bt2020nc -color_primaries bt2020 -color_trc arib-std-b67 clip.mkv");
   const auto coded = [&](const char* out) {
     succeed({"--start", "0s", "--exposure", "1f", "--out-transfer", out, "--keep-pixels", "clip.mkv", "x.png"});
-    return chunks_of(read_file(scratch_ / "x.png"));
+    return chunks_of(file("x.png"));
   };
   auto srgb = coded("srgb");
   EXPECT_EQ(srgb["cICP"], std::string("\x01\x0D\x00\x01", 4));
@@ -323,7 +323,7 @@ TEST_F(Colour, OfACaptureIsCorrectedWithoutItsClip) {
   for (const char* name : {"clip", "anew"}) {
     succeed({"--start", "3f", "--exposure", "20ms", std::string(name) + ".tik", std::string(name) + ".pfm"});
   }
-  EXPECT_EQ(read_file(scratch_ / "clip.pfm"), read_file(scratch_ / "anew.pfm"));
+  EXPECT_EQ(file("clip.pfm"), file("anew.pfm"));
   expect_refused(
       2, {{"retime clip.tik --in-place", "what is to be corrected?"},
           {"retime clip.tik -f 9", "say where to write: nutik-cl retime … clip.tik NEW.tik"},

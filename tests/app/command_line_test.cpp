@@ -102,7 +102,7 @@ TEST_F(CommandLine, TellsValuesFromOptionsAndOperands) {
   make("--ev -1 -qk one.fn clip.tik a.png");
   make("-vqkone.fn --ev=-1 clip.tik b.png");
   make("-q -q --ev -1 -k one.fn -- clip.tik -c.png");
-  EXPECT_EQ(read_file(scratch_ / "a.png"), read_file(scratch_ / "b.png"));
+  EXPECT_EQ(file("a.png"), file("b.png"));
   EXPECT_TRUE(exists("-c.png"));
   make("mask --threshold=0f 40..90 clip.tik m.pgm");
   expect_refused(2, {{"--gain= -k one.fn clip.tik", "--gain  is no number"},
@@ -178,7 +178,7 @@ TEST_F(CommandLine, ReplacesOnlyItsOwnKind) {
           {"-k one.fn clip.tik -o ./one.fn", "is also an input"}});
   scratch_.write("notes.png", "my notes");
   expect_refused("-k one.fn clip.tik -o notes.png", 2, "notes.png exists and is no picture");
-  EXPECT_EQ(read_file(scratch_ / "notes.png"), "my notes");
+  EXPECT_EQ(file("notes.png"), "my notes");
   std::filesystem::copy_file(scratch_ / "clip.tik", scratch_ / "capture.ppm");
   expect_refused("-k one.fn clip.tik -o capture.ppm", 2, "exists and is no picture");
   std::filesystem::create_directory(scratch_ / "folder.tik");
@@ -272,13 +272,13 @@ TEST_F(CommandLine, TakesNamesOfEarlierVersions) {
 }
 
 TEST_F(CommandLine, RecoversACutOffCapture) {
-  const std::string bytes = read_file(scratch_ / "clip.tik");
+  const std::string bytes = file("clip.tik");
   scratch_.write("cut.tik", std::string_view(bytes).substr(0, bytes.size() - 10));
   expect_refused("cut.tik", 3, "nutik-cl recover cut.tik -o recovered.tik");
   expect_says(make("recover cut.tik -o whole.tik").out, "6 samples in 1 block were saved");
   make("-k one.fn whole.tik a.png --no-recipe");
   make("-k one.fn clip.tik b.png --no-recipe");
-  EXPECT_EQ(read_file(scratch_ / "a.png"), read_file(scratch_ / "b.png"));
+  EXPECT_EQ(file("a.png"), file("b.png"));
 }
 
 }  // namespace

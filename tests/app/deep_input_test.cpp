@@ -83,14 +83,14 @@ TEST_F(DeepInput, EveryCodecAndNoneGiveTheSamePicture) {
     for (const std::string codec : {"none", "rice", "lz4", "zstd", "zstd:19"}) {
       succeed({"encode", "-q", "-f", "100", "-a", "200", "--codec", codec, "frames", "x.tik"});
       succeed("-k f.fn x.tik x.pfm");
-      const std::string picture = read_file(scratch_ / "x.pfm");
+      const std::string picture = file("x.pfm");
       EXPECT_GT(picture.size(), 70u * 41 * channels * 4);
       if (first.empty()) first = picture;
       EXPECT_EQ(picture == first, true) << codec << ", white " << white;
     }
     // Straight from the stills, with no capture between.
     succeed("-f 100 -a 200 -k f.fn frames x.pfm");
-    EXPECT_EQ(read_file(scratch_ / "x.pfm") == first, true) << "from the stills";
+    EXPECT_EQ(file("x.pfm") == first, true) << "from the stills";
     std::filesystem::remove_all(scratch_ / "frames");
   }
 }
@@ -102,7 +102,7 @@ TEST_F(DeepInput, EveryNameOfASequenceGivesTheSameCapture) {
   std::string first;
   for (const std::string source : {"frames", "frames/", "frames/*.pgm", "frames/f%03d.pgm", "stack.tif"}) {
     succeed({"encode", "-q", "-f", "30000", source, "x.tik"});
-    const std::string capture = read_file(scratch_ / "x.tik");
+    const std::string capture = file("x.tik");
     if (first.empty()) first = capture;
     EXPECT_EQ(capture == first, true) << source;
   }
@@ -140,18 +140,18 @@ TEST_F(DeepInput, RefusesWithTheFileBothValuesAndTheWayOut) {
       {"frames/f003.pgm cannot be read: it was cut off: 17 x 9 pixels need 306 bytes, 5 are left"});
   expect_refused("-f 10 frames/f000.pgm frames/f002.pgm x.tik", 2,
                  {"'x.tik' is one file too many", "a pattern in quotes"});
-  EXPECT_FALSE(std::filesystem::exists(scratch_ / "x.tik"));
+  EXPECT_FALSE(exists("x.tik"));
 }
 
 // A picture that is exposed from a sequence into its own folder must not replace one of its stills.
 TEST_F(DeepInput, NeverReplacesAStillOfItsSource) {
   write_netpbm("frames", random_stills({17, 9, 1}, 255, 3, 1));
-  const std::string before = read_file(scratch_ / "frames/f001.pgm");
+  const std::string before = file("frames/f001.pgm");
   for (const std::string source : {"frames", "frames/*", "frames/f%03d.pgm"}) {
     expect_refused({"-f", "10", "--start", "0s", "--exposure", "100ms", source, "frames/f001.pgm"}, 2,
                    {"the output frames/f001.pgm is also an input"});
   }
-  EXPECT_EQ(read_file(scratch_ / "frames/f001.pgm"), before);
+  EXPECT_EQ(file("frames/f001.pgm"), before);
 }
 
 TEST_F(DeepInput, NamesOutputsAfterTheSequence) {

@@ -26,18 +26,9 @@ class DelayCommand : public AppTest {
   static Words exposing(const std::string& delay, const Words& behind) {
     return "--start 0s --exposure 10ms --out-transfer source --delay " + delay + behind;
   }
-  [[nodiscard]] std::vector<int> column(const std::string& name) const {
-    const cv::Mat read = picture(name);
-    std::vector<int> codes;
-    for (int y = 0; y < read.rows; ++y) codes.push_back(read.at<std::uint8_t>(y, 2));
-    return codes;
-  }
-  [[nodiscard]] std::vector<int> row(const std::string& name) const {
-    const cv::Mat read = picture(name);
-    std::vector<int> codes;
-    for (int x = 0; x < read.cols; ++x) codes.push_back(read.at<std::uint8_t>(1, x));
-    return codes;
-  }
+  static std::vector<int> codes(const cv::Mat& line) { return {line.begin<std::uint8_t>(), line.end<std::uint8_t>()}; }
+  [[nodiscard]] std::vector<int> column(const std::string& name) const { return codes(picture(name).col(2)); }
+  [[nodiscard]] std::vector<int> row(const std::string& name) const { return codes(picture(name).row(1)); }
 };
 
 TEST_F(DelayCommand, SweepsThroughTheCaptureInEveryArithmetic) {
@@ -157,7 +148,7 @@ TEST_F(DelayCommand, SaysWhatIsWrong) {
   expect_says(make("check -k one.fn --delay rows:1s").out, "without a capture it is not known which delays leave it");
   expect_refused("trace --tag 0 -k f.fn -m mask.pgm --delay rows:1ms clip.tik", 3, "f.fn");
   expect_refused(exposing("map.tif:1s", {"clip.tik", "map.tif"}), 2, "map.tif");
-  EXPECT_FALSE(std::filesystem::exists(scratch_ / "o.pgm"));
+  EXPECT_FALSE(exists("o.pgm"));
 }
 
 }  // namespace

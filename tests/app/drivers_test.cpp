@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include "support/messages.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"
 #include "support/still_clip.hpp"
@@ -43,21 +44,17 @@ class Drivers : public testing::Test {
   bool on_mesa_ = false;
 };
 
-void expect_part(const std::string& text, std::string_view part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "no '" << part << "' in: " << text;
-}
-
 TEST_F(Drivers, VerdictsAreShown) {
-  expect_part(run({"devices"}).out, "self-test: single not tested yet");
+  expect_says(run({"devices"}).out, "self-test: single not tested yet");
   ASSERT_EQ(expose({"clip.tik", "right.png"}).status, 0);
-  expect_part(run({"devices"}).out, "self-test: single right");
+  expect_says(run({"devices"}).out, "self-test: single right");
   const json right = json::parse(run({"devices", "--json"}).out)["devices"][0]["arithmetics"];
   EXPECT_EQ(right[0]["precision"], "single");
   EXPECT_EQ(right[0]["is_right"], true);
   EXPECT_EQ(right[1]["is_right"], nullptr);
 
   turn_verdicts("single right", "single wrong");
-  expect_part(run({"devices"}).out, "self-test: single WRONG (");
+  expect_says(run({"devices"}).out, "self-test: single WRONG (");
   EXPECT_EQ(json::parse(run({"devices", "--json"}).out)["devices"][0]["arithmetics"][0]["is_right"], false);
 }
 
@@ -70,21 +67,21 @@ TEST_F(Drivers, AWrongArithmeticIsAvoidedOrRefused) {
   EXPECT_EQ(automatic.err.find("wrongly"), std::string::npos) << automatic.err;
   const ProgramResult asked = expose({"--precision", "single", "clip.tik", "asked.png"});
   EXPECT_EQ(asked.status, 4) << asked.err;
-  expect_part(asked.err, "this driver computes `single` wrongly (self-test: ");
-  expect_part(asked.err, "use auto or another arithmetic, another device or the reference (--precision, --renderer)");
+  expect_says(asked.err, "this driver computes `single` wrongly (self-test: ");
+  expect_says(asked.err, "use auto or another arithmetic, another device or the reference (--precision, --renderer)");
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "asked.png"));
 }
 
 TEST_F(Drivers, ADeviceThatIsAlwaysWrongEndsWithTheWayOut) {
   for (const char* precision : {"single", "double", "fixed", "compensated"}) {
     const ProgramResult result = expose({"--precision", precision, "clip.tik", "right.png"});
-    if (result.status != 0) expect_part(result.err, "has no double precision");
+    if (result.status != 0) expect_says(result.err, "has no double precision");
   }
   turn_verdicts(" right ", " wrong ");
   const ProgramResult result = expose({"clip.tik", "wrong.png"});
   EXPECT_EQ(result.status, 4) << result.err;
   for (const char* part : {"computes every arithmetic wrongly", "use another device or the reference"}) {
-    expect_part(result.err, part);
+    expect_says(result.err, part);
   }
   EXPECT_FALSE(std::filesystem::exists(scratch_ / "wrong.png"));
 }
@@ -103,7 +100,7 @@ class SecondDriver : public Drivers {
 
 TEST_F(SecondDriver, IsListedBehindTheFirst) {
   const std::string devices = run({"devices"}).out;
-  expect_part(devices, "llvmpipe");
+  expect_says(devices, "llvmpipe");
   const ProgramResult unset = run_program({"devices"}, scratch_.folder(), {"RUSTICL_ENABLE="});
   EXPECT_EQ(unset.out.find("rusticl"), std::string::npos) << unset.out;
   if (unset.status == 0) {
@@ -115,7 +112,7 @@ TEST_F(SecondDriver, ComputesRightlyOrNotAtAll) {
   const ProgramResult picture = expose({"clip.tik", "mesa.pfm"});
   if (picture.status != 0) {
     EXPECT_EQ(picture.status, 4) << picture.err;
-    expect_part(picture.err, "computes every arithmetic wrongly");
+    expect_says(picture.err, "computes every arithmetic wrongly");
     return;
   }
   ASSERT_EQ(expose({"--renderer", "reference", "clip.tik", "reference.pfm"}).status, 0);

@@ -71,9 +71,9 @@ TEST_P(Exposing, AClipGivesThePictureOfItsCapture) {
     run({"-a", "180", "--tolerance", tolerance, "clip.mkv", "clip.tik"});
     run("-k f.fn clip.tik a.png --no-recipe");
     run({"-a", "180", "--tolerance", tolerance, "-k", "f.fn", "clip.mkv", "b.png", "--no-recipe"});
-    EXPECT_EQ(read_file(scratch_ / "a.png"), read_file(scratch_ / "b.png")) << tolerance;
+    EXPECT_EQ(file("a.png"), file("b.png")) << tolerance;
     run("-k f.fn clip.tik c.png --renderer reference --no-recipe");
-    EXPECT_EQ(read_file(scratch_ / "a.png"), read_file(scratch_ / "c.png")) << tolerance;
+    EXPECT_EQ(file("a.png"), file("c.png")) << tolerance;
   }
 }
 

@@ -185,8 +185,8 @@ TEST_F(Film, MadeInPartsHasTheFramesOfTheWhole) {
     ASSERT_FALSE(file("whole" + name).empty()) << k;
     EXPECT_TRUE(file("whole" + name) == file("parts" + name)) << k;
   }
-  EXPECT_FALSE(std::filesystem::exists(scratch_ / "whole/08.png"));
-  EXPECT_FALSE(std::filesystem::exists(scratch_ / "parts/09.png"));
+  EXPECT_FALSE(exists("whole/08.png"));
+  EXPECT_FALSE(exists("parts/09.png"));
   // A container has the frames alone.
   make(film + "part.mkv --frames 2-4");
   const auto part = read_all(*open_test_clip(scratch_ / "part.mkv"));

@@ -30,7 +30,7 @@ TEST_F(InputKinds, ACaptureIsOneThroughAPipe) {
        {program_ + wanted + "clip.tik file.pgm", program_ + wanted + "- file.pgm < clip.tik",
         "cat clip.tik | " + program_ + wanted + "- file.pgm"}) {
     shell("rm -f file.pgm; " + command);
-    EXPECT_TRUE(read_file(scratch_ / "file.pgm").ends_with(std::string(12, 60))) << command;
+    EXPECT_TRUE(file("file.pgm").ends_with(std::string(12, 60))) << command;
   }
   expect_says(shell("cat clip.tik | " + program_ + " info -").out, "3 in 1 block");
   expect_shell_refused("cat clip.tik | " + program_ + " encode -f 10 - x.tik", "standard input is a capture (.tik)");

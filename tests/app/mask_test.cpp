@@ -50,7 +50,7 @@ TEST_F(MaskCommand, RefusesAPictureWithCodesAboveItsOwnWhite) {
   scratch_.write("above.tif", tiff_file(stills, options));
   expect_refused("mask --threshold above.tif 0..500 -o m.pgm --preview p.png", 3,
                  "above the 1023 that it states");
-  EXPECT_FALSE(std::filesystem::exists(scratch_ / "m.pgm"));
+  EXPECT_FALSE(exists("m.pgm"));
 }
 
 // The square's way, and the rest.
@@ -166,7 +166,7 @@ TEST_F(MaskCommand, WritesEveryTagExactly) {
   scratch_.write("all.pgm", plain);
   make("mask --base all.pgm -o a.pgm");
   make("mask --base a.pgm -o b.png");
-  const std::string raw = read_file(scratch_ / "a.pgm");
+  const std::string raw = file("a.pgm");
   EXPECT_TRUE(raw.starts_with("P5\n96 48\n255\n"));
   EXPECT_EQ(read_mask(scratch_ / "a.pgm").bytes, read_mask(scratch_ / "all.pgm").bytes);
   EXPECT_EQ(read_mask(scratch_ / "b.png").bytes, read_mask(scratch_ / "all.pgm").bytes);
@@ -185,7 +185,7 @@ TEST_F(MaskCommand, ExposesWithWhatItMade) {
 TEST_F(MaskCommand, ReportsAndShows) {
   const ProgramResult text = make("mask --tag 128 --moving clip.tik --preview seen.png");
   expect_says(text.out, {"clip-mask.pgm: 96 x 48, 2 tags", "256 pixels   5.56 %, by more than 15 codes"});
-  EXPECT_TRUE(read_file(scratch_ / "seen.png").starts_with("\x89PNG"));
+  EXPECT_TRUE(file("seen.png").starts_with("\x89PNG"));
   EXPECT_EQ(run("mask -q --overwrite --moving clip.tik").out, "clip-mask.pgm\n");
   const auto json = answer("mask --moving --grow 0 clip.tik m.png");
   EXPECT_EQ(json["mask"], "m.png");
@@ -196,7 +196,7 @@ TEST_F(MaskCommand, ReportsAndShows) {
     make("mask --overwrite --moving clip.tik m.png --preview " + when[1] + ".png" + when);
   }
   // Picture 3 was exposed from 30 to 40 ms.
-  EXPECT_EQ(read_file(scratch_ / "3f.png"), read_file(scratch_ / "30ms.png"));
+  EXPECT_EQ(file("3f.png"), file("30ms.png"));
   expect_says(run("mask --fill clip.tik one.png").out, "one.png: 96 x 48, 1 tag\n");
 }
 
@@ -216,10 +216,10 @@ TEST_F(MaskCommand, WarnsOfAPreviewBeyondTheCapture) {
 TEST_F(MaskCommand, ReplacesMasksAndNoExposures) {
   for (const std::string name : {"same.png", "same.pgm"}) {
     make({"--start", "0s", "--exposure", "50ms", "clip.tik", name});
-    const std::string exposure = read_file(scratch_ / name);
+    const std::string exposure = file(name);
     expect_refused({"mask", "--moving", "clip.tik", name}, 2,
                    name + " exists and is no mask; it is not replaced");
-    EXPECT_EQ(read_file(scratch_ / name), exposure);
+    EXPECT_EQ(file(name), exposure);
   }
   make("contact clip.tik colour.png");
   expect_refused("mask --moving clip.tik colour.png", 2, "colour.png exists and is no mask");
@@ -286,7 +286,7 @@ TEST_F(MaskCommand, RefusesWhatMakesNoSense) {
   expect_refused("mask --threshold small.pgm 1..2 clip.tik", 3, "the picture is 2 x 1, the mask 96 x 48");
   expect_refused(2, {{"mask --base small.pgm --moving clip.tik", "the sizes must agree"},
                      {"mask --threshold small.pgm 1..2 -o small.pgm", "is also an input"}});
-  EXPECT_EQ(read_file(scratch_ / "small.pgm"), "P2 2 1 255 0 1");
+  EXPECT_EQ(file("small.pgm"), "P2 2 1 255 0 1");
   expect_refused("expose --moving clip.tik", 2, "--moving does not go with expose; it is an option of: mask");
 }
 

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "capture/format.hpp"
+#include "support/messages.hpp"
 #include "support/program.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
@@ -177,7 +178,7 @@ TEST_P(MemoryOfCommands, KeepsToIt) {
   ASSERT_EQ(baseline.status, 0) << baseline.err;
   const Measured refused = run(*scratch_, words_of(command, false, "1MB"));
   EXPECT_NE(refused.status, 0);
-  EXPECT_NE(refused.err.find("1 MB of memory is too little; at least "), std::string::npos) << refused.err;
+  expect_says(refused.err, "1 MB of memory is too little; at least ");
   const std::regex min_text("allow more: --memory ([0-9]+)MB");
   std::smatch found;
   ASSERT_TRUE(std::regex_search(refused.err, found, min_text)) << refused.err;
@@ -226,7 +227,7 @@ TEST(Memory, OfDelaysAndMaskValuesIsAskedForFirst) {
   const Measured few = run(scratch, exposing("rows:1ms")), many = run(scratch, exposing("delays.pgm:0s..30ms"));
   EXPECT_EQ(few.status, 0) << few.err;
   EXPECT_EQ(many.status, 2) << many.err;
-  EXPECT_NE(many.err.find("gain tables of a block 204 MB"), std::string::npos) << many.err;
+  expect_says(many.err, "gain tables of a block 204 MB");
   EXPECT_LE(many.peak_bytes, few.peak_bytes + 16'000'000);
   std::printf("%.1f MB with 65,536 delays, %.1f MB with 256\n", static_cast<double>(many.peak_bytes) * 1e-6,
               static_cast<double>(few.peak_bytes) * 1e-6);
@@ -242,15 +243,12 @@ TEST(Memory, SaysWhatIsTooLittle) {
   };
   const auto small = run({"--memory", "1MB"});
   EXPECT_EQ(small.status, 2);
-  EXPECT_NE(
-      small.err.find("1 MB of memory is too little; at least 10.23 MB is needed: packing them 8.39 MB, "),
-      std::string::npos)
-      << small.err;
-  EXPECT_NE(small.err.find("; allow more: --memory 11MB"), std::string::npos) << small.err;
+  expect_says(small.err, "1 MB of memory is too little; at least 10.23 MB is needed: packing them 8.39 MB, ");
+  expect_says(small.err, "; allow more: --memory 11MB");
   EXPECT_EQ(run({"--memory", "11MB"}).status, 0);
   const auto blocks = run({"--memory", "20MB", "--block-samples", "30"});
   EXPECT_EQ(blocks.status, 2);
-  EXPECT_NE(blocks.err.find("(--block-samples 7)"), std::string::npos) << blocks.err;
+  expect_says(blocks.err, "(--block-samples 7)");
   EXPECT_EQ(run({"--memory", "20MB", "--block-samples", "7"}).status, 0);
   for (const char* size : {"20000000", "20 mb", "20000K", "20mIb", "1g", "0.5GB", "2e9"}) {
     EXPECT_EQ(run({"--memory", size}).status, 0) << size;
@@ -258,8 +256,7 @@ TEST(Memory, SaysWhatIsTooLittle) {
   for (const char* size : {"much", "0", "-3MB", "inf", "2XB", "5i", "20EB", "1 0MB", "7kMB"}) {
     const auto senseless = run({"--memory", size});
     EXPECT_EQ(senseless.status, 2) << size;
-    EXPECT_NE(senseless.err.find(std::string("--memory '") + size + "' is no size"), std::string::npos)
-        << senseless.err;
+    expect_says(senseless.err, std::string("--memory '") + size + "' is no size");
   }
 }
 

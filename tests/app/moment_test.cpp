@@ -354,7 +354,7 @@ TEST_F(Moment, ThumbnailShowsTheFirstSample) {
   expect_refused("thumbnail frames/00.pgm t.png", 3, "is a Netpbm picture, not a .tik file");
   expect_refused(
       2, {{"thumbnail clip.tik clip.tik", "clip.tik"}, {"thumbnail --width 0 clip.tik t.png", "--width"}});
-  EXPECT_FALSE(std::filesystem::exists(scratch_ / "t.png"));
+  EXPECT_FALSE(exists("t.png"));
 }
 
 }  // namespace

@@ -18,10 +18,7 @@ class Noise : public AppTest {
   // Writes stills of a wedge, brighter or darker, into a folder.
   void film(const std::string& folder, double brightest, std::uint64_t seed, std::uint64_t count = 40,
             std::uint32_t white = 255, const Light& light = {}) {
-    NoisyCamera camera;
-    camera.format.shape = {120, 64, 3};
-    camera.format.white_code = white;
-    camera.format.code_bytes = white > 255 ? 2 : 1;
+    const NoisyCamera camera = camera_of({120, 64, 3}, white, Transfer::srgb());
     const Rasters rasters = test::film(camera, count, seed, light ? light : still_wedge(camera, 0.02, brightest));
     std::filesystem::create_directory(scratch_ / folder);
     for (std::size_t k = 0; k < rasters.size(); ++k) {
@@ -118,7 +115,7 @@ TEST_F(Noise, IsNotMeasuredOnWhatMoves) {
   });
   expect_refused("encode -f 100 --noise auto pour a.tik", 3,
                  "pour: no noise can be measured on it: pixels 4 apart vary together");
-  EXPECT_FALSE(std::filesystem::exists(scratch_ / "a.tik"));
+  EXPECT_FALSE(exists("a.tik"));
   expect_says(run("noise pour -o pour.noise").err, "note: pixels 4 apart vary together");
 }
 
@@ -135,7 +132,7 @@ TEST_F(Noise, IsNotMeasuredOnWhatMovesWithinIt) {
   };
   const auto refused = [this](const std::string& folder, const std::string& said) {
     expect_refused({"encode", "-f", "100", "--noise", "auto", folder, "a.tik"}, 3, said);
-    EXPECT_FALSE(std::filesystem::exists(scratch_ / "a.tik"));
+    EXPECT_FALSE(exists("a.tik"));
   };
   waves("panned", 0.1, 0, 0);
   refused(
@@ -201,8 +198,7 @@ TEST_F(Noise, SaysWhatCannotBe) {
   expect_refused(2, {{"encode -f 100 deep -o b.tik --noise camera.noise",
                       "the noise was measured with white code 255 and the clip's is 4095"},
                      {"--start 0f --exposure 1f --noise auto clip.tik", "--noise describes a clip"}});
-  for (const char* name : {"a.noise", "b.tik"})
-    EXPECT_FALSE(std::filesystem::exists(scratch_ / name)) << name;
+  for (const char* name : {"a.noise", "b.tik"}) EXPECT_FALSE(exists(name)) << name;
 }
 
 }  // namespace

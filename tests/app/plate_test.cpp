@@ -40,8 +40,8 @@ TEST_F(Plates, AreTheSameOfAClipAPackedCaptureAndWithLittleMemory) {
   make("background -f 100 frames -o b.pfm");
   make("encode -f 100 --codec none frames -o plain.tik");
   make("background plain.tik -o c.pfm");
-  EXPECT_EQ(read_file(scratch_ / "a.pfm"), read_file(scratch_ / "b.pfm"));
-  EXPECT_EQ(read_file(scratch_ / "a.pfm"), read_file(scratch_ / "c.pfm"));
+  EXPECT_EQ(file("a.pfm"), file("b.pfm"));
+  EXPECT_EQ(file("a.pfm"), file("c.pfm"));
   expect_refused(2, {{"background --by 255 clip.tik -o d.pfm",
                       "no codes of clip.tik differ by more than 255, for white is 255"},
                      {"background --memory 1kB clip.tik -o d.pfm", "uncertain places"}});

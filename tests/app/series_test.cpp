@@ -17,7 +17,7 @@ class Series : public AppTest {
   // How many of name-0, name-1, … there are.
   [[nodiscard]] int written(const std::string& name) const {
     int count = 0;
-    while (std::filesystem::exists(scratch_ / (name + "-" + std::to_string(count) + ".pfm"))) ++count;
+    while (exists(name + "-" + std::to_string(count) + ".pfm")) ++count;
     return count;
   }
 };
@@ -91,7 +91,7 @@ TEST_F(Series, HasAsManyAsFit) {
   EXPECT_EQ(written("b"), 39);
   const auto result = run("--exposure 100ms --every 300ms clip.tik");
   for (const char* name : {"clip-0s-100ms-0000.png", "clip-0s-100ms-0003.png"}) {
-    EXPECT_TRUE(std::filesystem::exists(scratch_ / name)) << name;
+    EXPECT_TRUE(exists(name)) << name;
   }
   expect_says(result.out, "clip-0s-100ms-0000.png … clip-0s-100ms-0003.png: 4 exposures every 300ms");
   // --count may go on behind the end: that is said, once.
@@ -163,7 +163,7 @@ TEST_F(Series, SaysWhatIsWrongBeforeItWrites) {
           {"--exposure 2s --every 1s clip.tik o%d.pfm", "not one exposure of the series ends within the capture"}});
   scratch_.write("o3.pfm", "notes of mine");
   expect_refused(plain + "--every 100ms -o o%d.pfm", 2, "o3.pfm exists and is no picture; it is not replaced");
-  EXPECT_FALSE(std::filesystem::exists(scratch_ / "o0.pfm"));
+  EXPECT_FALSE(exists("o0.pfm"));
   EXPECT_EQ(file("o3.pfm"), "notes of mine");
   expect_refused("-f 40 --exposure 25ms --every 100ms frames -o frames/%03d.pgm", 2, "is also an input");
 }

@@ -106,7 +106,7 @@ TEST_F(SoftMaskCommand, TracesAPixelThroughAllItsFunctions) {
   EXPECT_EQ(traced["functions"][1]["mask_value"], 9);
   EXPECT_NEAR(traced["functions"][1]["share"], 1.0 / 3, 1e-12);
   make("trace --pixel 2,0 -k f.fn -m mask.pgm --feather 2px clip.tik trace.csv");
-  EXPECT_TRUE(read_file(scratch_ / "trace.csv").starts_with("mask_value,share,begin_ns,"));
+  EXPECT_TRUE(file("trace.csv").starts_with("mask_value,share,begin_ns,"));
   make("trace --pixel 2,0 -k f.fn -m mask.pgm --feather 2px clip.tik one.png");
   make("trace --pixel 0,0 -k f.fn -m mask.pgm --feather 2px clip.tik other.png");
   EXPECT_EQ(picture("one.png").rows, 2 * picture("other.png").rows);

@@ -1,7 +1,6 @@
 // Gains and times that are found for wishes, as a user asks for them.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <opencv2/imgcodecs.hpp>
 
 #include "support/app_test.hpp"
@@ -67,7 +66,7 @@ TEST_F(Solve, FindsThePapersGainForTheBallAtRest) {
   const double still_gain = mean("picture.pfm", beside) / mean("empty.pfm", beside);
   EXPECT_NEAR(still_gain, 0.742574, 1e-5) << "the paper's";
   EXPECT_NEAR(mean("picture.pfm", rest), still_gain * mean("empty.pfm", rest), 1e-6);
-  EXPECT_EQ(read_file(scratch_ / "solved.fn").substr(0, 34), std::string(kFigure14).substr(0, 34))
+  EXPECT_EQ(file("solved.fn").substr(0, 34), std::string(kFigure14).substr(0, 34))
       << "the rest of the file is as it was";
 }
 
@@ -208,7 +207,7 @@ TEST_F(Solve, SaysWhatMakesNoSense) {
   refused({"-k", "figure14.fn", "--wish", "72,22,6,6 gone", "--memory", "10kB"}, 2, "uncertain places");
   // A region of one function: of 120 samples the light, and of a block of them how it changes.
   refused({"-k", "figure14.fn", "--wish", "72,22,6,6 gone at 0s", "--memory", "10kB"}, 2, "light of regions");
-  EXPECT_FALSE(std::filesystem::exists(scratch_ / "figure14-solved.fn"));
+  EXPECT_FALSE(exists("figure14-solved.fn"));
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST_F(StudyFiles, ReplaceNoneThatIsOfNoStudy) {
     const std::string before = file(name);
     expect_says(study(picture, "trail", 2).err, std::string(name) + " exists and is of no study; it is not replaced");
     EXPECT_EQ(file(name), before);
-    EXPECT_FALSE(std::filesystem::exists(scratch_ / picture));
+    EXPECT_FALSE(exists(picture));
   }
 }
 
@@ -84,7 +84,7 @@ TEST_F(StudyFiles, AreReplacedByTheNextStudyWhereverOneEnds) {
         if (!is_first) study("s.png", "trail");
         if (faulty(call, at, error, "strobe") == 0) break;
         ++ended;
-        if (std::filesystem::exists(scratch_ / "s.pgm")) {
+        if (exists("s.pgm")) {
           const std::string written = file("s.pgm");
           scratch_.write("s.pgm", written + "mine");
           study("s.png", "strobe", 2);
@@ -121,8 +121,7 @@ TEST_F(StudyFiles, AreNoneBesideStandardOutput) {
   for (const char* style : {"trail", "clean"}) {
     const auto result = study("-", style);
     EXPECT_TRUE(result.out.starts_with("\x89PNG")) << style;
-    for (const char* name : {"-.pgm", "-.fn", "-.txt"})
-      EXPECT_FALSE(std::filesystem::exists(scratch_ / name)) << name;
+    for (const char* name : {"-.pgm", "-.fn", "-.txt"}) EXPECT_FALSE(exists(name)) << name;
   }
 }
 

@@ -41,7 +41,7 @@ TEST_F(TraceCommand, ByHand) {
 
 TEST_F(TraceCommand, ATableOfTheIntegrals) {
   make("trace --pixel 3,2 --start 5ms --exposure 20ms clip.tik trace.csv");
-  std::istringstream table(read_file(scratch_ / "trace.csv"));
+  std::istringstream table(file("trace.csv"));
   std::string line;
   std::getline(table, line);
   EXPECT_EQ(

@@ -31,7 +31,7 @@ class UncertaintyOf : public AppTest {
 
   // [layers][pixels] of a file of NumPy's.
   std::vector<std::vector<float>> read_layers(const std::string& name, std::size_t count) {
-    const std::string bytes = read_file(scratch_ / name);
+    const std::string bytes = file(name);
     std::vector<std::vector<float>> layers(count, std::vector<float>(256));
     const std::size_t values = bytes.size() - count * 256 * sizeof(float);
     expect_says(bytes.substr(0, values), "(" + std::to_string(count) + ", 16, 16)");
@@ -42,7 +42,7 @@ class UncertaintyOf : public AppTest {
 
   // A grey picture's, from the top, of light or of codes.
   std::vector<float> values_of(const std::string& name) {
-    const std::string bytes = read_file(scratch_ / name);
+    const std::string bytes = file(name);
     std::vector<float> values(256);
     if (name.ends_with(".npy")) {
       std::memcpy(values.data(), bytes.data() + bytes.size() - 256 * sizeof(float), 256 * sizeof(float));
@@ -185,7 +185,7 @@ TEST_F(UncertaintyOf, PeopleAreToldInLines) {
 TEST_F(UncertaintyOf, ARecipeKeepsWhatTheArithmeticMayBeOffBy) {
   const std::string one = "--start 0s --exposure 0.1s clip.tik a.pgm";
   make(one);
-  expect_says(read_file(scratch_ / "a.pgm"), R"("precision":"single","error_bound":"light within )");
+  expect_says(file("a.pgm"), R"("precision":"single","error_bound":"light within )");
   expect_says(make("--skip-existing " + one).out, "there already");
   expect_says(make("reproduce a.pgm").out, " --precision single clip.tik");
 }
@@ -194,14 +194,14 @@ TEST_F(UncertaintyOf, ARecipeKeepsWhatTheArithmeticMayBeOffBy) {
 TEST_F(UncertaintyOf, ReproducingMakesTheMapToo) {
   const std::string one = "--start 0s --exposure 0.1s clip.tik ";
   make(one + "a.png --bounds maps.npy");
-  const std::string picture = read_file(scratch_ / "a.png"), map = read_file(scratch_ / "maps.npy");
+  const std::string picture = file("a.png"), map = file("maps.npy");
   const std::string command = make("reproduce a.png").out;
   expect_says(command, " --precision single --bounds maps.npy clip.tik -o a.png");
   std::filesystem::remove(scratch_ / "a.png");
   std::filesystem::remove(scratch_ / "maps.npy");
   make(command.substr(command.find(" expose ") + 1, command.size() - command.find(" expose ") - 2));
-  EXPECT_EQ(read_file(scratch_ / "a.png"), picture) << "to the last byte";
-  EXPECT_EQ(read_file(scratch_ / "maps.npy"), map);
+  EXPECT_EQ(file("a.png"), picture) << "to the last byte";
+  EXPECT_EQ(file("maps.npy"), map);
   expect_says(make("--skip-existing " + one + "a.png").out, "there already");
   make("--start 0s --exposure 4f --every 4f --count 2 clip.tik s%d.png --bounds smap%d.npy");
   expect_says(make("reproduce s1.png").out, " --bounds smap1.npy clip.tik");
@@ -211,7 +211,7 @@ TEST_F(UncertaintyOf, ReproducingMakesTheMapToo) {
   make("batch list clip.tik");
   expect_says(make("reproduce b.png").out, " --bounds bmap.npy clip.tik");
   make(one + "c.pgm --bounds cmap.npy");
-  std::string foreign = read_file(scratch_ / "c.pgm");
+  std::string foreign = file("c.pgm");
   foreign.replace(foreign.find("cmap.npy"), 8, "../x.npy");
   scratch_.write("c.pgm", foreign);
   expect_says(make("reproduce c.pgm", 3).err, "names have no folders");
@@ -222,13 +222,13 @@ TEST_F(UncertaintyOf, AMapIsReplacedOnlyIfItIsWhatTheRecipeKnows) {
   const std::string one = "--start 0s --exposure 0.1s clip.tik a.pgm --bounds map.npy";
   make(one);
   make(one + " --gain 2");
-  const std::string map = read_file(scratch_ / "map.npy");
+  const std::string map = file("map.npy");
   scratch_.write("map.npy", map + " of mine");
   for (const std::string words : {"", " --skip-existing --gain 3"})
     expect_refused(one + words, 2, "map.npy is there already and is not replaced");
-  EXPECT_EQ(read_file(scratch_ / "map.npy"), map + " of mine");
+  EXPECT_EQ(file("map.npy"), map + " of mine");
   scratch_.write("map.npy", map);
-  std::string picture = read_file(scratch_ / "a.pgm");
+  std::string picture = file("a.pgm");
   const auto at = picture.find(R"({"name":"map.npy")");
   ASSERT_NE(at, std::string::npos);
   scratch_.write("a.pgm", picture.replace(at, picture.find('}', at) + 1 - at, R"("map.npy")"));
@@ -249,11 +249,11 @@ TEST_F(UncertaintyOf, SkippingLeavesAPictureWithItsMap) {
   for (const auto& [command, name] : cases) {
     make(command);
     const std::string skipping = (command[0] == '-' ? "expose " : "") + command + " --skip-existing";
-    const std::string map = read_file(scratch_ / (name + "1.npy"));
+    const std::string map = file(name + "1.npy");
     expect_says(make(skipping).out, "there already");
     std::filesystem::remove(scratch_ / (name + "1.npy"));
     expect_says(make(skipping).out, "1 ");
-    EXPECT_EQ(read_file(scratch_ / (name + "1.npy")), map) << command;
+    EXPECT_EQ(file(name + "1.npy"), map) << command;
     if (name == "b") continue;
     // A map of that name in another folder is none of its pictures'.
     std::filesystem::create_directory(scratch_ / "other");
@@ -263,7 +263,7 @@ TEST_F(UncertaintyOf, SkippingLeavesAPictureWithItsMap) {
     expect_says(make(elsewhere, 2).err, "other/" + name + "0.npy is there already and is not replaced");
     // If a picture is made otherwise, so is its map; one that no picture there names is not replaced.
     make(skipping + " --gain 2");
-    EXPECT_NE(read_file(scratch_ / (name + "1.npy")), map) << command;
+    EXPECT_NE(file(name + "1.npy"), map) << command;
     std::filesystem::remove(scratch_ / (name + "1.png"));
     expect_says(make(skipping, 2).err, name + "1.npy is there already and is not replaced");
   }
@@ -341,7 +341,7 @@ TEST_F(UncertaintyOf, AMapHoldsAgainstTheLosslessCapture) {
 // OpenEXR has a channel for each term, and says what each is.
 TEST_F(UncertaintyOf, AnExrHasLayersThatAreReadAgainAsOnePicture) {
   make("-m mask.pgm -k f.fn --bounds map.exr clip.tik a.png");
-  const std::string bytes = read_file(scratch_ / "map.exr");
+  const std::string bytes = file("map.exr");
   expect_says(bytes, {"arithmetic.Y", "rounding.Y", "held_samples.Y", "times.Y",
                       "held_samples: a bound, in codes, of which 255 is white: no pixel is further off"});
   make("encode -f 1 --white 300 map.exr again.tik");
@@ -381,10 +381,9 @@ TEST_F(UncertaintyOf, SeriesBatchesAndVideosHaveAMapOfEachPicture) {
   make("batch list clip.tik");
   const json film = answer("video --json --out-fps 25 --out-angle 360 clip.tik film.mkv --bounds fmap%d.npy");
   EXPECT_EQ(film["bounds_maps"], "fmap%d.npy") << film;
-  const std::string one = read_file(scratch_ / "one.npy");
-  for (const std::string map : {"smap1.npy", "bmap1.npy", "fmap1.npy"})
-    EXPECT_EQ(read_file(scratch_ / map), one) << map;
-  EXPECT_FALSE(std::filesystem::exists(scratch_ / "fmap6.npy"));
+  const std::string one = file("one.npy");
+  for (const std::string map : {"smap1.npy", "bmap1.npy", "fmap1.npy"}) EXPECT_EQ(file(map), one) << map;
+  EXPECT_FALSE(exists("fmap6.npy"));
 }
 
 // The same bounds that are otherwise a warning.
@@ -409,11 +408,11 @@ TEST_F(UncertaintyOf, StrictlyTooLargeIsAnErrorWithAStatusOfItsOwn) {
   make("--strict --combine lighten --start 0s --exposure 0.1s clip.tik t.png");
   // None is right enough for these.
   expect_refused("--strict -m mask.pgm -k f.fn clip.tik c.png", 7, "no arithmetic of ");
-  EXPECT_FALSE(std::filesystem::exists(scratch_ / "c.png"));
+  EXPECT_FALSE(exists("c.png"));
   // A line fails alone.
   scratch_.write("list", "-m mask.pgm -k f.fn c.png\n--start 0s --exposure 1f d.png\n");
   expect_says(make("batch --strict list clip.tik", 7).err, "list:1: no arithmetic of ");
-  EXPECT_TRUE(std::filesystem::exists(scratch_ / "d.png"));
+  EXPECT_TRUE(exists("d.png"));
   expect_refused("video --strict --out-fps 25 -m mask.pgm -k f.fn clip.tik f%d.png", 7, "no arithmetic of ");
 }
 

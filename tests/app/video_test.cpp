@@ -174,7 +174,7 @@ TEST_F(Video, GoesIntoContainers) {
   expect_says(named.err, "19 x 11 became 20 x 12");
   EXPECT_EQ(open_test_clip(scratch_ / "c-24fps.mp4")->info().format.shape, (Shape{20, 12, 3}));
   run("video --depth float c.tik light-%d.pfm -q");
-  EXPECT_TRUE(std::filesystem::exists(scratch_ / "light-0.pfm"));
+  EXPECT_TRUE(exists("light-0.pfm"));
 }
 
 TEST_F(Video, SaysWhatMakesNoSense) {
@@ -213,7 +213,7 @@ TEST_F(Video, SaysWhatMakesNoSense) {
   for (const Case& tested : cases) {
     expect_refused("video c.tik" + tested.words, tested.status, tested.part);
   }
-  EXPECT_EQ(read_file(scratch_ / "v.mov"), "no video");
+  EXPECT_EQ(file("v.mov"), "no video");
   // A still that is an input is not replaced.
   expect_refused({"video", "-f", "100", "frames", "frames/%d.ppm"}, 2, "the output frames/0.ppm is also an input");
 }

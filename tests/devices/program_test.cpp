@@ -8,6 +8,7 @@
 #include <regex>
 #include <set>
 
+#include "support/messages.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"
 
@@ -70,7 +71,7 @@ class SeveralDevices : public testing::Test {
   void expect_refused(const Words& words, int status, std::string_view part) const {
     const ProgramResult result = run(words);
     EXPECT_EQ(result.status, status) << result.err;
-    EXPECT_NE(result.err.find(part), std::string::npos) << "no '" << part << "' in: " << result.err;
+    expect_says(result.err, part);
     EXPECT_FALSE(std::filesystem::exists(scratch_ / "new.png"));
   }
 
@@ -133,9 +134,7 @@ TEST_F(SeveralDevices, LeaveAClipForOnePictureToTheFirstAndSaySo) {
   const ProgramResult result = run(
       {"expose", "--device", "all", "-f", "100", "--start", "0s", "--exposure", "50ms", "frames", "a.png"});
   EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.err.find("note: a clip that is read for one picture is exposed by the first device alone"),
-            std::string::npos)
-      << result.err;
+  expect_says(result.err, "note: a clip that is read for one picture is exposed by the first device alone");
 }
 
 TEST_F(SeveralDevices, AreRefusedWithTheWayOut) {
@@ -247,7 +246,7 @@ void SeveralDevices::expect_end_where_one_is_lost(const Words& words) const {
       EXPECT_TRUE(result.err.find("nutik-cl: device 0: " + name_) != std::string::npos ||
                   result.err.find("nutik-cl: device 1: " + name_) != std::string::npos)
           << result.err;
-      EXPECT_NE(result.err.find("another device"), std::string::npos) << result.err;
+      expect_says(result.err, "another device");
       EXPECT_FALSE(std::filesystem::exists(scratch_ / words.back()));
     });
   }
@@ -264,7 +263,7 @@ TEST(OwnDriver, IsTakenWhereTheSystemHasNoneForTheProcessor) {
   const Scratch scratch;
   std::filesystem::copy_file(NUTIK_TEST_PROGRAM, scratch / "nutik-cl");
   const std::string list = "env OCL_ICD_VENDORS=" + scratch.folder().string() + " ./nutik-cl devices --json";
-  EXPECT_NE(run_shell(list, scratch.folder()).err.find("no OpenCL device was found"), std::string::npos);
+  expect_says(run_shell(list, scratch.folder()).err, "no OpenCL device was found");
 
   const std::filesystem::path folder = scratch / "pocl/lib/opencl";
   std::filesystem::create_directories(folder);

@@ -5,7 +5,6 @@
 #include <array>
 #include <atomic>
 #include <chrono>
-#include <functional>
 #include <future>
 #include <set>
 #include <span>
@@ -206,14 +205,12 @@ TEST(DeviceTeam, EndsWhereOneDeviceFails) {
     WatchedCapture damaged(capture, [&](std::uint64_t) {
       if (calls++ == at) throw InputError("a damaged block");
     });
-    EXPECT_EQ(message_of<InputError>([&] { static_cast<void>(team.render(plan, damaged, kCodes)); }),
-              "a damaged block");
+    EXPECT_EQ(message_of<InputError>([&] { return team.render(plan, damaged, kCodes); }), "a damaged block");
     calls = 0;
     WatchedCapture lost(capture, [&](std::uint64_t) {
       if (calls++ == at) throw DeviceError("it is lost", {Setting::renderer});
     });
-    EXPECT_EQ(message_of<DeviceError>([&] { static_cast<void>(team.render(plan, lost, kCodes)); }),
-              "device 0: it is lost");
+    EXPECT_EQ(message_of<DeviceError>([&] { return team.render(plan, lost, kCodes); }), "device 0: it is lost");
   }
   EXPECT_EQ(team.render(plan, capture, kCodes).picture, alone.render(plan, capture, kCodes).picture);
 }
@@ -278,8 +275,7 @@ TEST(DeviceTeam, MakesPicturesOfOneDeviceEach) {
     EXPECT_EQ(team.render(plan, capture, kCodes).picture, picture);  // in bands
     WatchedCapture lost(capture, [&](std::uint64_t) { throw DeviceError("it is lost"); });
     RenderControl own{.by_one_device = true};
-    EXPECT_EQ(message_of<DeviceError>([&] { static_cast<void>(team.render(plan, lost, kCodes, own)); }),
-              "device 0: it is lost");
+    EXPECT_EQ(message_of<DeviceError>([&] { return team.render(plan, lost, kCodes, own); }), "device 0: it is lost");
     std::stop_source stop;
     stop.request_stop();
     own.stop = stop.get_token();
@@ -370,9 +366,7 @@ TEST(DeviceTeam, ChoosesAmongWhatAllComputeRightly) {
   EXPECT_NE(rendered.precision, Precision::single_);
   EXPECT_TRUE(rendered.passed_self_test);
   RenderControl asked{.precision = Precision::single_};
-  const std::string message =
-      message_of<DeviceError>([&] { static_cast<void>(team.render(plan, capture, kCodes, asked)); });
-  EXPECT_NE(message.find("computes `single` wrongly"), std::string::npos) << message;
+  expect_error<DeviceError>([&] { return team.render(plan, capture, kCodes, asked); }, {"computes `single` wrongly"});
   asked.takes_wrong = true;
   const Rendered wrong = team.render(plan, capture, kCodes, asked);
   EXPECT_FALSE(wrong.passed_self_test);

@@ -96,20 +96,19 @@ TEST(DelayMap, AllCodesOf16BitsAreDelays) {
 TEST(DelayMap, WhatIsNoMapIsRefused) {
   EXPECT_TRUE(refuses<InputError>(
       [] {
-        static_cast<void>(DelayMap::by_picture(Picture({1, 1, 3}, ValueType::code8, 255), {0, 1}, "map.png"));
+        return DelayMap::by_picture(Picture({1, 1, 3}, ValueType::code8, 255), {0, 1}, "map.png");
       },
       "map.png is a colour picture"));
   for (const float light : {-0.5f, 1.5f, std::numeric_limits<float>::quiet_NaN()}) {
     EXPECT_TRUE(refuses<InputError>(
         [&] {
-          static_cast<void>(DelayMap::by_picture(picture_of<float>(ValueType::light32, 0, {0.0f, light}),
-                                                 {0, 1}, "map.exr"));
+          return DelayMap::by_picture(picture_of<float>(ValueType::light32, 0, {0.0f, light}), {0, 1}, "map.exr");
         },
         "map.exr: pixel 1,0 is "));
   }
   EXPECT_TRUE(refuses<UsageError>(
       [] {
-        static_cast<void>(DelayMap::by_rows({1, 65'537, 1}, {0, 1}));
+        return DelayMap::by_rows({1, 65'537, 1}, {0, 1});
       },
       "the picture has 65537 rows"));
 }

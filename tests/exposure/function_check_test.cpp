@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "exposure/function_file.hpp"
+#include "support/messages.hpp"
 #include "support/scratch.hpp"
 
 namespace nutik::test {
@@ -24,7 +25,7 @@ void expect_only(const std::vector<FunctionFinding>& findings, Kind kind, const 
                  std::optional<std::size_t> point) {
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].kind, kind) << to_text(findings[0].kind);
-  EXPECT_NE(findings[0].message.find(text), std::string::npos) << findings[0].message;
+  expect_says(findings[0].message, text);
   EXPECT_EQ(findings[0].point, point);
 }
 
@@ -84,7 +85,7 @@ TEST(FunctionCheck, MistypedTimes) {
       "[0:0], [1:1], [100000000:1], [1000000002:-25], [1010000000:-25], [1010000001:0]", {3 * kSecond, true});
   ASSERT_EQ(findings.size(), 2u);
   EXPECT_EQ(findings[0].kind, Kind::still_gain_not_positive);
-  EXPECT_NE(findings[0].message.find("-10.84"), std::string::npos);
+  expect_says(findings[0].message, "-10.84");
   EXPECT_EQ(findings[1].kind, Kind::mistyped_time);
   EXPECT_EQ(findings[1].point, 2u);
   EXPECT_EQ(

@@ -62,7 +62,7 @@ TEST(FunctionText, StepsChangeNextToNothing) {
 
 TEST(FunctionText, SaysWhereThereIsNoRoomForAStep) {
   const GainFunction flashes({{4, 0}, {4, 1}, {5, 1}, {5, 0}, {6, 0}, {6, 1}, {7, 1}, {7, 0}});
-  EXPECT_EQ(message_of<UsageError>([&] { static_cast<void>(function_text(0, flashes)); }),
+  EXPECT_EQ(message_of<UsageError>([&] { return function_text(0, flashes); }),
             "the gain jumps twice round 7 ns: in a function file a jump takes 1 ns, and there is no room for that");
 }
 

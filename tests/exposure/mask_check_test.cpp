@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "support/messages.hpp"
 #include "support/random_case.hpp"
 
 namespace nutik::test {
@@ -135,25 +136,23 @@ TEST(MaskCheck, Sizes) {
   EXPECT_EQ(mistake(1280, 720),
             "the mask is 1280 x 720 pixels, the capture 640 x 360; scale it to 640 x 360 without smoothing "
             "(nearest neighbour), which would make new values");
-  EXPECT_NE(mistake(213, 120).find("; scale it to 640 x 360"), std::string::npos);  // a third, rounded
+  expect_says(mistake(213, 120), "; scale it to 640 x 360");  // a third, rounded
   EXPECT_EQ(size_mistake(Mask::uniform(5, 5, 0), {4, 4, 1}).find("turn"), std::string::npos);
-  EXPECT_NE(mistake(180, 320).find("; turn it by 90 degrees and scale it to 640 x 360"), std::string::npos);
+  expect_says(mistake(180, 320), "; turn it by 90 degrees and scale it to 640 x 360");
   Mask soft = Mask::uniform(1280, 720, 0);
   soft.mixed.add(0, std::vector<Share>{{0, 30000}, {1, 35535}});
   EXPECT_EQ(size_mistake(soft, capture),
             "the mask is 1280 x 720 pixels, the capture 640 x 360; scale it to 640 x 360");
-  EXPECT_NE(mistake(640, 480).find("; both must have the same size"), std::string::npos);
+  expect_says(mistake(640, 480), "; both must have the same size");
 }
 
 TEST(MaskCheck, ValuesWithoutAFunction) {
   Mask mask = Mask::uniform(10, 10, 3);
   fill(mask, 0, 0, 4, 1, 7);
   EXPECT_EQ(unmapped_mistake(mask.pixels_per_tag(), mapped({3, 7})), "");
-  EXPECT_NE(unmapped_mistake(mask.pixels_per_tag(), mapped({3})).find("function: 7 (4 pixels);"),
-            std::string::npos);
+  expect_says(unmapped_mistake(mask.pixels_per_tag(), mapped({3})), "function: 7 (4 pixels);");
   for (std::size_t i = 0; i < 50; ++i) mask.tags[i] = static_cast<std::uint8_t>(100 + i);
-  EXPECT_NE(unmapped_mistake(mask.pixels_per_tag(), mapped({3})).find("119 (1 pixels) and 30 more;"),
-            std::string::npos);
+  expect_says(unmapped_mistake(mask.pixels_per_tag(), mapped({3})), "119 (1 pixels) and 30 more;");
 }
 
 }  // namespace

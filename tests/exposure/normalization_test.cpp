@@ -36,15 +36,15 @@ TEST(Normalization, IsWrittenAsItIsRead) {
 
 TEST(Normalization, RefusesWhatItIsNot) {
   const auto message = [](const char* text) {
-    return message_of<UsageError>([&] { static_cast<void>(Normalization::parse(text)); });
+    return message_of<UsageError>([&] { return Normalization::parse(text); });
   };
   EXPECT_EQ(message("mean"),
             "normalization 'mean' is not known; choose support, integral, absolute or seconds:S, as in "
             "seconds:0.5");
   EXPECT_EQ(message("seconds:0"), "normalization 'seconds:0': the seconds must be more than 0");
   EXPECT_EQ(message("seconds:-1"), "normalization 'seconds:-1': the seconds must be more than 0");
-  EXPECT_NE(message("seconds:").find("is not a number"), std::string::npos);
-  EXPECT_NE(message("Integral").find("is not known"), std::string::npos);
+  expect_says(message("seconds:"), "is not a number");
+  expect_says(message("Integral"), "is not known");
 }
 
 TEST(Normalization, LeavesThePapersAlone) {
@@ -115,8 +115,7 @@ TEST(Normalization, RefusesAnIntegralThatCancels) {
   // As people write it, with steps of 1 ns: what is left is half a nanosecond of 20 ms.
   const GainFunction difference(
       {{0, -1.0}, {10'000'000, -1.0}, {10'000'001, 1.0}, {20'000'000, 1.0}, {20'000'001, 0.0}});
-  const std::string message =
-      message_of<InputError>([&] { static_cast<void>(normalized("integral", difference, kSecondNs)); });
+  const std::string message = message_of<InputError>([&] { return normalized("integral", difference, kSecondNs); });
   EXPECT_EQ(
       message,
       "M0: the positive and negative parts of its gains cancel (the still gain is -2.5e-08), so there is no "
@@ -133,14 +132,11 @@ TEST(Normalization, LeavesAFunctionThatIsZeroInTheCapture) {
 
 TEST(Normalization, SaysWhereAGainLeavesTheRangeOfNumbers) {
   const GainFunction large({{0, 1e300}, {10, 1e300}, {10, 0.0}});
-  EXPECT_EQ(message_of<InputError>([&] { static_cast<void>(normalized("support", large, 1000, 1e20)); }),
+  EXPECT_EQ(message_of<InputError>([&] { return normalized("support", large, 1000, 1e20); }),
             "M0: a gain of 1e+300 times 1e+20 is no finite number");
   // A gain that became 0 would not count in D any more.
   const GainFunction small({{0, 1.0}, {10, 1.0}, {10, 1e-310}, {20, 1e-310}, {20, 0.0}});
-  EXPECT_NE(message_of<InputError>([&] {
-              static_cast<void>(normalized("support", small, 1000, 1e-20));
-            }).find("too small for a number"),
-            std::string::npos);
+  expect_error<InputError>([&] { return normalized("support", small, 1000, 1e-20); }, {"too small for a number"});
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ struct KernelCache : ProgramTest {
     for (int i = 0; i < programs; ++i) {
       const ProgramResult result = running[i].get();
       EXPECT_EQ(result.status, 0) << result.err;
-      EXPECT_NE(result.err.find(note), std::string::npos) << result.err;
+      expect_says(result.err, note);
       EXPECT_EQ(read_file(scratch_ / ("p" + std::to_string(i) + ".png")), right) << i;
     }
   }
@@ -68,13 +68,13 @@ TEST_F(KernelCache, ThatIsNowhereIsNotPromised) {
         run_program({"--start", "0s", "--exposure", "1s", "--no-recipe", "--overwrite", "c.tik", "p.png"},
                     scratch_.folder(), {"HOME=", format("XDG_CACHE_HOME={}", stated)});
     EXPECT_EQ(result.status, 0) << result.err;
-    EXPECT_NE(result.err.find(building), std::string::npos) << result.err;
+    expect_says(result.err, building);
     EXPECT_EQ(result.err.find(kept), std::string::npos) << result.err;
     EXPECT_FALSE(fs::exists(scratch_ / "relative/nutik-cl"));
   }
   const auto result = expose();
-  EXPECT_NE(result.err.find(building), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find(kept), std::string::npos) << result.err;
+  expect_says(result.err, building);
+  expect_says(result.err, kept);
 }
 
 TEST_F(KernelCache, ThatIsStatedEmptyIsNoneThatIsStated) {
@@ -85,9 +85,7 @@ TEST_F(KernelCache, ThatOthersMayWriteToIsNotUsed) {
   fs::permissions(cache_, fs::perms::all);
   const auto result = expose();
   EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.err.find("built kernels are not kept: other users may write to " + cache_.string()),
-            std::string::npos)
-      << result.err;
+  expect_says(result.err, "built kernels are not kept: other users may write to " + cache_.string());
   EXPECT_TRUE(fs::is_empty(cache_));
   EXPECT_EQ(run_program({"devices"}, scratch_.folder(), {"XDG_CACHE_HOME=" + (scratch_ / "home").string()}).status, 0);
 }
@@ -109,9 +107,8 @@ TEST_F(KernelCache, OnAFullDiskIsNotPocls) {
   for (const char* settings : {"XDG_CACHE_HOME=$PWD/disk TMPDIR=$PWD/disk", "POCL_CACHE_DIR=$PWD/disk"}) {
     const auto result = expose_on_full_disk(settings);
     EXPECT_EQ(result.status, 4) << result.err;
-    EXPECT_NE(result.err.find("there are not 8 MB of room for " + (scratch_ / "disk").string()), std::string::npos)
-        << result.err;
-    EXPECT_NE(result.err.find("set POCL_CACHE_DIR to a folder of yours alone with room"), std::string::npos);
+    expect_says(result.err, "there are not 8 MB of room for " + (scratch_ / "disk").string());
+    expect_says(result.err, "set POCL_CACHE_DIR to a folder of yours alone with room");
   }
   EXPECT_TRUE(files_with(scratch_.folder(), ".part").empty());
 }

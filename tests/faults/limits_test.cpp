@@ -42,7 +42,7 @@ TEST_F(Limits, OfAFilesSizeAreErrorsOfItsWriting) {
     SCOPED_TRACE(words);
     const auto result = run_below("ulimit -f 20;", words);
     EXPECT_EQ(result.status, 5) << result.err;
-    EXPECT_NE(result.err.find("File too large"), std::string::npos) << result.err;
+    expect_says(result.err, "File too large");
     EXPECT_EQ(result.err.find("/proc/"), std::string::npos) << result.err;
     EXPECT_TRUE(files_with(scratch_.folder(), "out.").empty());
     expect_nothing_left();
@@ -56,7 +56,7 @@ TEST_F(Limits, OfAStackAreTold) {
     SCOPED_TRACE(words);
     const auto result = run_below("ulimit -s 64;", words);
     EXPECT_EQ(result.status, 6) << result.err;
-    EXPECT_NE(result.err.find("raise its limit: ulimit -s"), std::string::npos) << result.err;
+    expect_says(result.err, "raise its limit: ulimit -s");
     EXPECT_EQ(run_below("ulimit -s 256;", words).status, 0);
   }
 }

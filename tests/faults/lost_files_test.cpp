@@ -30,8 +30,7 @@ struct LostFiles : ProgramTest, testing::WithParamInterface<const char*> {
   void expect_refused(RunningProgram& running) const {
     EXPECT_EQ(running.end(), 3);
     const std::string log = read_file(scratch_ / "log");
-    EXPECT_NE(log.find("c.tik changed or could not be read any more while it was read"), std::string::npos)
-        << log;
+    expect_says(log, "c.tik changed or could not be read any more while it was read");
     EXPECT_TRUE(files_with(scratch_.folder(), "v.mkv").empty());
   }
 };

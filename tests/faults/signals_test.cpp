@@ -5,7 +5,6 @@
 #include <fstream>
 #include <thread>
 
-#include "capture/format.hpp"
 #include "support/hostile.hpp"
 #include "support/made_up_tik.hpp"
 #include "support/program_test.hpp"
@@ -25,7 +24,7 @@ struct Signals : ProgramTest {
     EXPECT_EQ(running.end_with(SIGTERM), 128 + SIGTERM) << read_file(scratch_ / "log");
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     EXPECT_LT(took.count(), 1.5);
-    EXPECT_NE(read_file(scratch_ / "log").find("terminated"), std::string::npos);
+    expect_says(read_file(scratch_ / "log"), "terminated");
     EXPECT_TRUE(files_with(scratch_.folder(), ".part").empty());
   }
 };

@@ -72,9 +72,7 @@ class Joining : public testing::Test {
     return join(request);
   }
   std::string refusal(const std::vector<Path>& captures) const {
-    const std::string message = message_of<InputError>([&] {
-      static_cast<void>(join({captures, scratch_ / "refused.tik"}));
-    });
+    const std::string message = message_of<InputError>([&] { return join({captures, scratch_ / "refused.tik"}); });
     EXPECT_FALSE(std::filesystem::exists(scratch_ / "refused.tik"));
     return message;
   }
@@ -285,8 +283,7 @@ TEST_F(Joining, FollowsWhatRetimeCorrected) {
   const Joined joined =
       join({{scratch_ / "part0-8.tik", scratch_ / "part8-26.tik"}, scratch_ / "joined.tik"});
   EXPECT_EQ(joined.timeline, Timeline::constant({50, 1}, {90, 1}, kStills));
-  EXPECT_NE(tik::Reader(scratch_ / "part8-26.tik").header().facts[0].find("50 pictures a second, as stated"),
-            std::string::npos);
+  expect_says(tik::Reader(scratch_ / "part8-26.tik").header().facts[0], "50 pictures a second, as stated");
 }
 
 TEST_F(Joining, FollowsAnotherAngleOfIrregularTimes) {
@@ -307,38 +304,34 @@ TEST_F(Joining, TakesCapturesThatSayNothingAsTheyAreNamed) {
   const Joined joined = join({{a, b}, scratch_ / "joined.tik"});
   EXPECT_EQ(joined.timeline, Timeline::constant({100, 1}, {360, 1}, 2 * kStills));
   ASSERT_EQ(joined.notes.size(), 1u);
-  EXPECT_NE(joined.notes[0].text.find("they are taken to follow each other at once"), std::string::npos);
+  expect_says(joined.notes[0].text, "they are taken to follow each other at once");
   EXPECT_FALSE(tik::Reader(scratch_ / "joined.tik").header().part);
-  EXPECT_NE(refusal({a, part(0, 4)}).find("a.tik does not; encode that as a part, too"), std::string::npos);
+  expect_says(refusal({a, part(0, 4)}), "a.tik does not; encode that as a part, too");
   SourceRequest irregular = whole_;
   irregular.path = table(false);
   irregular.clip.rate.reset();
   const Path c = encoded("c.tik", irregular);
-  EXPECT_NE(refusal({c, c}).find("nothing says how long after its pictures"), std::string::npos);
+  expect_says(refusal({c, c}), "nothing says how long after its pictures");
 }
 
 TEST_F(Joining, RefusesWhatDoesNotFollow) {
   const Path a = part(0, 8), b = part(8, 12), c = part(11, 20), d = part(20, kStills);
-  EXPECT_EQ(message_of<UsageError>([&] {
-              static_cast<void>(join({{a}, scratch_ / "x.tik"}));
-            }),
-            "two captures or more are joined");
+  EXPECT_EQ(message_of<UsageError>([&] { return join({{a}, scratch_ / "x.tik"}); }), "two captures or more are joined");
   const std::string folder = scratch_.folder().string() + "/";
   EXPECT_EQ(refusal({a, d, b}), "pictures 12 … 19 of frames are missing between " + folder +
                                     "part8-12.tik and " + folder +
                                     "part20-26.tik; encode them, and join all parts");
-  EXPECT_NE(refusal({part(0, 7), b}).find("picture 7 of frames are missing"), std::string::npos);
+  expect_says(refusal({part(0, 7), b}), "picture 7 of frames are missing");
   EXPECT_EQ(refusal({a, b, c}),
             folder + "part8-12.tik and " + folder +
                 "part11-20.tik both hold picture 11 of frames; leave one out, or encode it without "
                 "them");
-  EXPECT_NE(refusal({a, a}).find("both hold pictures 0 … 7 of frames"), std::string::npos);
+  expect_says(refusal({a, a}), "both hold pictures 0 … 7 of frames");
   std::filesystem::create_directory(scratch_ / "other");
   std::filesystem::copy(scratch_ / "frames", scratch_ / "other/night");
   SourceRequest night = whole_;
   night.path = scratch_ / "other/night";
-  EXPECT_NE(refusal({a, part(8, 20, night)}).find("part0-8.tik is a part of frames, and "),
-            std::string::npos);
+  expect_says(refusal({a, part(8, 20, night)}), "part0-8.tik is a part of frames, and ");
   std::filesystem::rename(scratch_ / "other/night", scratch_ / "other/frames");
   night.path = scratch_ / "other/frames";
   const Path copied = part(8, 20, night);
@@ -346,14 +339,12 @@ TEST_F(Joining, RefusesWhatDoesNotFollow) {
   // A clip of the same name, but with other pictures, which captures of earlier programs do not tell.
   std::filesystem::copy(scratch_ / "frames/000.pgm", night.path / "025.pgm",
                         std::filesystem::copy_options::overwrite_existing);
-  EXPECT_NE(refusal({a, part(8, 20, night)}).find("parts of two clips named frames, whose content differs"),
-            std::string::npos);
+  expect_says(refusal({a, part(8, 20, night)}), "parts of two clips named frames, whose content differs");
   const Path silent = saying(copied, [](tik::Header& header) { header.part->checksum.clear(); });
   static_cast<void>(join({{a, silent}, scratch_ / "joined.tik"}));
   // Or with fewer.
   std::filesystem::remove(night.path / "025.pgm");
-  EXPECT_NE(refusal({a, part(8, 20, night)}).find("is a part of a clip frames with 26 pictures, and "),
-            std::string::npos);
+  expect_says(refusal({a, part(8, 20, night)}), "is a part of a clip frames with 26 pictures, and ");
 }
 
 TEST_F(Joining, RefusesTimesThatOverlap) {
@@ -362,9 +353,7 @@ TEST_F(Joining, RefusesTimesThatOverlap) {
   irregular.clip.rate.reset();
   const Path a = part(0, 8, irregular), b = part(8, 12, irregular);
   const Path early = saying(b, [](tik::Header& header) { header.part->start_ns -= 1; });
-  EXPECT_NE(refusal({a, early})
-                .find("whose last exposure ends later; encode both with the same rate and shutter angle"),
-            std::string::npos);
+  expect_says(refusal({a, early}), "whose last exposure ends later; encode both with the same rate and shutter angle");
   // Later than it is would be a gap in time, which irregular times may have.
   const Path late = saying(b, [](tik::Header& header) { header.part->start_ns += 5; });
   const Joined joined = join({{a, late}, scratch_ / "joined.tik"});
@@ -377,7 +366,7 @@ TEST_F(Joining, RefusesWhatWasEncodedOtherwise) {
     SourceRequest other = whole_;
     change(other);
     const std::string message = refusal({a, part(8, 12, other)});
-    EXPECT_NE(message.find(wanted), std::string::npos) << message;
+    expect_says(message, wanted);
   };
   expect("pictures of 20 x 20 grey, and ", [](SourceRequest& r) { r.clip.crop = Rectangle{0, 0, 10, 20}; });
   expect("codes of 8 bits with white 255, and ", [](SourceRequest& r) { r.clip.white_code = 254; });
@@ -394,9 +383,7 @@ TEST_F(Joining, RefusesWhatWasEncodedOtherwise) {
   SourceRequest left = whole_, right = whole_;
   cut(0)(left);
   cut(4)(right);
-  EXPECT_NE(
-      refusal({part(0, 8, left), part(8, 12, right)}).find("was taken for '8 x 8 from 0,0 of 20 x 20', and "),
-      std::string::npos);
+  expect_says(refusal({part(0, 8, left), part(8, 12, right)}), "was taken for '8 x 8 from 0,0 of 20 x 20', and ");
 }
 
 TEST_F(Joining, RefusesWhatWasMeasuredOnEachPart) {
@@ -406,17 +393,15 @@ TEST_F(Joining, RefusesWhatWasMeasuredOnEachPart) {
   one.noise = StatedNoise{"a.noise", noise};
   noise.channels[0].points[0].sd = 2;
   other.noise = StatedNoise{"b.noise", noise};
-  EXPECT_NE(refusal({part(0, 8, one), part(8, 12, other)}).find("measure it once, and encode all parts"),
-            std::string::npos);
+  expect_says(refusal({part(0, 8, one), part(8, 12, other)}), "measure it once, and encode all parts");
   SourceRequest even = whole_;
   even.deflickered = true;
-  EXPECT_NE(refusal({part(0, 8, even), part(8, 12, even)}).find("is exposed as its own first picture"),
-            std::string::npos);
+  expect_says(refusal({part(0, 8, even), part(8, 12, even)}), "is exposed as its own first picture");
   // Aligned captures say so in their header.
   const Path aligned = saying(part(8, 12), [](tik::Header& header) {
     header.alignment = tik::Alignment{"rigid", 0, false, 1, 0, 0.1};
   });
-  EXPECT_NE(refusal({part(0, 8), aligned}).find("was aligned onto a picture of its own"), std::string::npos);
+  expect_says(refusal({part(0, 8), aligned}), "was aligned onto a picture of its own");
 }
 
 TEST_F(Joining, LeavesNothingWhereAPartIsDamaged) {
@@ -424,7 +409,7 @@ TEST_F(Joining, LeavesNothingWhereAPartIsDamaged) {
   std::string bytes = read_file(b);
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   scratch_.write("part8-12.tik", bytes);
-  EXPECT_NE(refusal({a, b}).find("part8-12.tik: "), std::string::npos);
+  expect_says(refusal({a, b}), "part8-12.tik: ");
 }
 
 TEST_F(Joining, JoinsBlocksOfAllCodecs) {

@@ -2,7 +2,6 @@
 // pictures.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <thread>
 
 #include "features/activity/activity.hpp"
@@ -156,7 +155,7 @@ TEST_F(ManyExposures, ActivityCountsThePixelsOfAMask) {
   request.mask = (scratch_ / "mask.pgm").string();
   EXPECT_EQ(measure_activity(session_.capture(), request).activity.pixel_count(), 1u);
   request.tag = 8;
-  EXPECT_EQ(message_of<InputError>([&] { static_cast<void>(measure_activity(session_.capture(), request)); }),
+  EXPECT_EQ(message_of<InputError>([&] { return measure_activity(session_.capture(), request); }),
             std::get<std::string>(request.mask) + " has no pixel with tag 8");
 }
 

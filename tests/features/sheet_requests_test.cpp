@@ -73,7 +73,7 @@ TEST(ContactRequest, SaysWhichStepFitsASheet) {
     return exposures_of({stated("0s"), stated("1us"), {}}, kSheetTimeline);
   });
   ASSERT_TRUE(error) << "a sheet has no room for 100 000 pictures";
-  EXPECT_NE(error->advice().find("take `every 250us` or more"), std::string::npos) << error->advice();
+  expect_says(error->advice(), "take `every 250us` or more");
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -248,14 +247,7 @@ struct Camera {
   double read, shot;
 
   [[nodiscard]] NoisyCamera filming(Shape shape) const {
-    NoisyCamera camera;
-    camera.format.shape = {shape.width, shape.height, channels};
-    camera.format.code_bytes = white > 255 ? 2 : 1;
-    camera.format.white_code = white;
-    camera.format.transfer = transfer;
-    camera.read = read;
-    camera.shot = shot;
-    return camera;
+    return camera_of({shape.width, shape.height, channels}, white, transfer, read, shot);
   }
 };
 
@@ -268,12 +260,7 @@ std::vector<Camera> cameras() {
 
 CameraNoise estimated_noise(const CaptureFormat& format, const Rasters& rasters) {
   NoiseEstimator estimator(format);
-  std::size_t next = 0;
-  estimator.add_clip("clip", [&](std::span<std::byte> raster) {
-    if (next == rasters.size()) return false;
-    std::ranges::copy(rasters[next++], raster.begin());
-    return true;
-  });
+  estimator.add_clip("clip", reader_of(rasters));
   return estimator.estimate().noise;
 }
 

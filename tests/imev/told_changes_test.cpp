@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "capture/error.hpp"
 #include "imev/block_builder.hpp"

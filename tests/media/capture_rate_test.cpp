@@ -28,7 +28,7 @@ TEST(CaptureRate, IsAndroidsWhereTheFilePlaysSlower) {
   test::make(scratch, phone_clip("30", android("240.000000")));
   const auto clip = open_test_clip(scratch / "clip.mp4");
   EXPECT_EQ(clip->info().timing.rate, (Rational{240, 1}));
-  EXPECT_NE(notes_of(*clip).find("com.android.capture.fps says that 240"), std::string::npos);
+  expect_says(notes_of(*clip), "com.android.capture.fps says that 240");
   const ClipOptions options{.rate = Rational{960, 1}};
   const auto stated = open_test_clip(scratch / "clip.mp4", options);
   EXPECT_EQ(timeline_of("", stated->info(), options, 30).rate(), (Rational{960, 1}));
@@ -59,7 +59,7 @@ TEST(CaptureRate, AndCurveAreSonysWhereItsXmlSaysThem) {
   EXPECT_EQ(beside->info().timing.rate, (Rational{120'000, 1001}));
   EXPECT_EQ(beside->info().format.transfer.text(), "slog3:video");
   EXPECT_EQ(beside->info().format.primaries, Primaries::sgamut3_cine);
-  EXPECT_NE(notes_of(*beside).find("Sony's captureFps says that 120000/1001"), std::string::npos) << notes_of(*beside);
+  expect_says(notes_of(*beside), "Sony's captureFps says that 120000/1001");
   EXPECT_EQ(beside->info().timing.rate_from, "clipM01.XML");
   EXPECT_NE(input_checksum(scratch / "clip.mp4"), without);
   EXPECT_EQ(beside->info().facts.front().line(), "transfer slog3, from clipM01.XML");
@@ -175,7 +175,7 @@ TEST(CaptureRate, AndCurvesOfApplesAndArrisAreReadFromTheirKeys) {
   EXPECT_EQ(keyed("-metadata com.arri.camera.ColorGammaSxS=LOG-C -metadata com.arri.camera.ExposureIndexAsa=400"),
             "srgb bt709");
   const auto other = open_test_clip(scratch / "clip.mp4");
-  EXPECT_NE(notes_of(*other).find("LOG-C at exposure index 400"), std::string::npos) << notes_of(*other);
+  expect_says(notes_of(*other), "LOG-C at exposure index 400");
   scratch.write("in-track.mp4", described(plain, box("logs", "com.apple.rec2020.apple-log")));
   EXPECT_EQ(curve_of("in-track.mp4"), "applelog bt2020");
   scratch.write("beside.mp4", plain + box("logs", "com.apple.rec2020.apple-log"));
@@ -189,7 +189,7 @@ TEST(CaptureRate, ChangesNothingWhereTheFileRunsAtIt) {
   const auto clip = open_test_clip(scratch / "clip.mp4");
   EXPECT_EQ(clip->info().timing.rate, (Rational{240, 1}));
   EXPECT_EQ(notes_of(*clip), "");
-  EXPECT_NE(clip->info().timing.rate_from.find("com.android.capture.fps"), std::string::npos);
+  expect_says(clip->info().timing.rate_from, "com.android.capture.fps");
 }
 
 TEST(CaptureRate, IsOnlyNamedWhereItFitsNoTimes) {
@@ -199,7 +199,7 @@ TEST(CaptureRate, IsOnlyNamedWhereItFitsNoTimes) {
   const auto clip = open_test_clip(scratch / "clip.mp4");
   EXPECT_EQ(clip->info().timing.rate, (Rational{25, 1}));
   ASSERT_EQ(clip->info().notes.size(), 1u);
-  EXPECT_NE(notes_of(*clip).find("its own times are taken"), std::string::npos);
+  expect_says(notes_of(*clip), "its own times are taken");
   EXPECT_EQ(clip->info().notes[0].settings, std::vector{Setting::frame_rate});
 }
 
@@ -211,9 +211,7 @@ TEST(CaptureRate, ThatIsNoneIsSaid) {
     const auto clip = open_test_clip(scratch / "clip.mp4");
     EXPECT_EQ(clip->info().timing.rate, (Rational{25, 1})) << value;
     ASSERT_EQ(clip->info().notes.size(), 1u) << value;
-    EXPECT_NE(notes_of(*clip).find("com.android.capture.fps is '" + std::string(value) + "', which is no rate"),
-              std::string::npos)
-        << notes_of(*clip);
+    expect_says(notes_of(*clip), "com.android.capture.fps is '" + std::string(value) + "', which is no rate");
     EXPECT_EQ(clip->info().notes[0].settings, std::vector{Setting::frame_rate});
   }
 }
@@ -248,7 +246,7 @@ TEST(CaptureRate, KeepsTheUnevennessOfTimes) {
       SCOPED_TRACE(std::string(dropped.left_out) + " " + file);
       make_phone_clip_without(scratch, dropped.left_out, words);
       const auto clip = open_test_clip(scratch / file);
-      EXPECT_NE(notes_of(*clip).find("which the file plays as 30"), std::string::npos) << notes_of(*clip);
+      expect_says(notes_of(*clip), "which the file plays as 30");
       const Timeline timeline = timeline_of("", clip->info(), {}, clip->info().sample_count);
       ASSERT_FALSE(timeline.is_constant());
       std::uint64_t sample = 0;
@@ -274,7 +272,7 @@ TEST(CaptureRate, IsNotMistakenForSingleTimes) {
     return open_test_clip(scratch / "clip.mp4");
   };
   const auto late = clip_of("2000*N+1000*gte(N,30)");
-  EXPECT_NE(notes_of(*late).find("which the file plays as 30"), std::string::npos) << notes_of(*late);
+  expect_says(notes_of(*late), "which the file plays as 30");
   EXPECT_NEAR(static_cast<double>(late->info().timing.starts_ns[29]), 29e9 / 240, 2);
   const auto trembling = clip_of("250*N+14*mod(N*N,7)");
   EXPECT_EQ(notes_of(*trembling).find("com.android"), std::string::npos) << notes_of(*trembling);
@@ -293,9 +291,7 @@ TEST(CaptureRate, IsOnlyNamedWhereTimesFollowNoRate) {
   const auto clip = open_test_clip(scratch / "clip.mp4");
   ASSERT_FALSE(clip->info().timing.rate);
   EXPECT_EQ(clip->info().timing.starts_ns[1], 47'000'000);
-  EXPECT_NE(notes_of(*clip).find("at uneven times, of no rate that can be told: its own times are taken"),
-            std::string::npos)
-      << notes_of(*clip);
+  expect_says(notes_of(*clip), "at uneven times, of no rate that can be told: its own times are taken");
 }
 
 // Adds boxes at the end of the last box, moov.
@@ -337,7 +333,7 @@ TEST(CaptureRate, IsNotKnownOfAllOfSamsungsSlowModes) {
     const auto clip = open_test_clip(scratch / "clip.mp4");
     EXPECT_EQ(clip->info().timing.rate, (Rational{30, 1})) << mode;
     ASSERT_EQ(clip->info().notes.size(), 1u) << mode;
-    EXPECT_NE(notes_of(*clip).find("calls the recording slow motion"), std::string::npos) << notes_of(*clip);
+    expect_says(notes_of(*clip), "calls the recording slow motion");
     EXPECT_EQ(clip->info().notes[0].settings, std::vector{Setting::frame_rate});
   }
 }
@@ -351,7 +347,7 @@ TEST(CaptureRate, IsNotKnownOfSamsungsSlowParts) {
       << "SEFT";
   const auto clip = open_test_clip(scratch / "clip.mp4");
   EXPECT_EQ(clip->info().timing.rate, (Rational{30, 1}));
-  EXPECT_NE(notes_of(*clip).find("slow motion"), std::string::npos) << notes_of(*clip);
+  expect_says(notes_of(*clip), "slow motion");
 }
 
 TEST(CaptureRate, OfACineComesWithItsShutter) {

@@ -138,7 +138,7 @@ TEST(ColourProfile, OfPrimariesThatAreNotKnownIsNamed) {
   EXPECT_EQ(facts.at(Setting::primaries).line(),
             "primaries bt709, assumed; the file names the ICC profile 'Adobe RGB (1998)'");
   ASSERT_EQ(clip->info().notes.size(), 1u);
-  EXPECT_NE(clip->info().notes[0].text.find("'Adobe RGB (1998)'"), std::string::npos);
+  expect_says(clip->info().notes[0].text, "'Adobe RGB (1998)'");
   EXPECT_EQ(clip->info().notes[0].settings, std::vector{Setting::primaries});
   EXPECT_TRUE(open_test_clip(scratch / "still.jpg", {.primaries = Primaries::p3})->info().notes.empty());
 }
@@ -162,7 +162,7 @@ TEST(ColourProfile, ThatIsDamagedIsNamed) {
   write_jpeg_with(scratch / "still.jpg", profile);
   const auto clip = open_test_clip(scratch / "still.jpg");
   ASSERT_EQ(clip->info().notes.size(), 1u);
-  EXPECT_NE(clip->info().notes[0].text.find("a damaged ICC profile"), std::string::npos);
+  expect_says(clip->info().notes[0].text, "a damaged ICC profile");
   EXPECT_EQ(facts_of(*clip).at(Setting::transfer).origin, Origin::assumed);
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include "capture/error.hpp"
 #include "support/bytes.hpp"
@@ -211,7 +210,7 @@ TEST(Dng, OfASequenceIsDevelopedByTheFirst) {
   scratch.write("f2.dng", second.file());
   const auto clip = open_test_clip(scratch / "f%d.dng");
   ASSERT_EQ(clip->info().notes.size(), 1u);
-  EXPECT_NE(clip->info().notes[0].text.find("are those that f1.dng states"), std::string::npos);
+  expect_says(clip->info().notes[0].text, "are those that f1.dng states");
   const auto rasters = read_all(*clip);
   ASSERT_EQ(rasters.size(), 2u);
   EXPECT_TRUE(rasters[0] == rasters[1]);

@@ -151,9 +151,7 @@ TEST(EventClip, TakesLightAsItIsStated) {
   EXPECT_EQ(code_of_pixel(raster, kWidth * kHeight - 1), 1);
 
   options.events.start = parse_start_light(scratch.write("small.pgm", "P5 2 1 255\nab").string());
-  EXPECT_NE(message_of<InputError>([&] { open_test_clip(path, options); })
-                .find("has 2 x 1 pixels, and the recording 70 x 9"),
-            std::string::npos);
+  expect_error<InputError>([&] { open_test_clip(path, options); }, {"has 2 x 1 pixels, and the recording 70 x 9"});
 }
 
 TEST(EventClip, CountsChangesAtTheStartOfTheirTick) {
@@ -174,17 +172,14 @@ TEST(EventClip, KeepsLightAboveWhiteForTheWayBack) {
   EXPECT_EQ(code_of_pixel(rasters[14], 36), 65535);
   EXPECT_EQ(code_of_pixel(rasters[29], 36), std::lround(0.18 * 65535));
   ASSERT_EQ(clip->info().notes.size(), 1u);
-  EXPECT_NE(clip->info().notes[0].text.find("15 events up and 15 down, of 1 pixels, whose light ends at 1 times"),
-            std::string::npos)
-      << clip->info().notes[0].text;
-  EXPECT_NE(clip->info().notes[0].text.find("1 pixels become brighter than white"), std::string::npos);
+  expect_says(clip->info().notes[0].text, "15 events up and 15 down, of 1 pixels, whose light ends at 1 times");
+  expect_says(clip->info().notes[0].text, "1 pixels become brighter than white");
 }
 
 TEST(EventClip, TellsWhatIsWrongWithAFile) {
   const Scratch scratch;
   const auto expect_noted = [&](const char* name, const std::string& file, const std::string& part) {
-    const std::string notes = notes_of(*open_test_clip(scratch.write(name, file)));
-    EXPECT_NE(notes.find(part), std::string::npos) << notes;
+    expect_says(notes_of(*open_test_clip(scratch.write(name, file))), part);
   };
   const Events events = random_events(8, 500'000);
   const std::string words = evt2_words(events);
@@ -224,8 +219,7 @@ TEST(EventClip, RefusesWhatItCannotRead) {
   const auto expect = [&](const std::string& name, const std::string& content, const std::string& part) {
     const auto path = scratch.write(name, content);
     EXPECT_TRUE(is_event_recording(path));
-    const std::string message = message_of<InputError>([&] { open_test_clip(path); });
-    EXPECT_NE(message.find(part), std::string::npos) << "no '" << part << "' in: " << message;
+    expect_error<InputError>([&] { open_test_clip(path); }, {part});
   };
   expect("narrow.raw", raw_header("EVT2", 8, 8) + words, "correct the size in its header");
   expect("empty.raw", raw_header("EVT3", 8, 8), "holds no event (EVT 3.0, 0 bytes after its header)");
@@ -253,10 +247,9 @@ TEST(EventClip, CountsMemoryBeforeItIsTaken) {
   // One sample of 64 bytes, 12 pixels of 21.
   constexpr std::uint64_t kLeast = 12'000 * (16 + 12) + 64 + 12 * 21;
   const std::string message = message_of<MemoryTooLittle>([&] { open_in(kLeast - 1); });
-  EXPECT_NE(message.find("of memory is too little; at least 0.3363 MB is needed: events as they are read "
-                         "0.192 MB, what changes with each moment 0.144 MB"),
-            std::string::npos)
-      << message;
+  expect_says(message,
+              "of memory is too little; at least 0.3363 MB is needed: events as they are read "
+              "0.192 MB, what changes with each moment 0.144 MB");
   EXPECT_LE(open_in(kLeast)->info().decoder_bytes, kLeast);
 }
 
@@ -264,12 +257,10 @@ TEST(EventClip, RefusesWhatIsSaidOfPictures) {
   const Scratch scratch;
   const auto path = scratch.write("a.dat", dat_file(random_events(1, 0), kWidth, kHeight));
   ClipOptions options{.rate = Rational{100, 1}};
-  EXPECT_NE(message_of<UsageError>([&] { open_test_clip(path, options); }).find("times of its own at every pixel"),
-            std::string::npos);
+  expect_error<UsageError>([&] { open_test_clip(path, options); }, {"times of its own at every pixel"});
   options = {};
   options.white_code = 255;
-  EXPECT_NE(message_of<UsageError>([&] { open_test_clip(path, options); }).find("holds events and no codes"),
-            std::string::npos);
+  expect_error<UsageError>([&] { open_test_clip(path, options); }, {"holds events and no codes"});
   for (const char* text : {"", "0", "-0.2", "0.2:", "0.2:0", "11", "nan", "0.2,0.3"}) {
     EXPECT_THROW(static_cast<void>(parse_contrast(text)), UsageError) << text;
   }
@@ -278,8 +269,7 @@ TEST(EventClip, RefusesWhatIsSaidOfPictures) {
   options = {};
   options.events.contrast = Contrast{0.2, 0.2};
   const auto picture = scratch.write("a.pgm", "P5 2 1 255\nab");
-  EXPECT_NE(message_of<UsageError>([&] { open_test_clip(picture, options); }).find("holds pictures"),
-            std::string::npos);
+  expect_error<UsageError>([&] { open_test_clip(picture, options); }, {"holds pictures"});
 }
 
 }  // namespace

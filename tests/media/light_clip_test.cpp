@@ -99,11 +99,10 @@ TEST(LightClip, DoublesAreWrittenToTheLastBit) {
   EXPECT_EQ(TiffReader(scratch / "a.tif").next()->picture.bytes, light.bytes);
   const std::string bytes = read_file(scratch / "a.npy");
   EXPECT_EQ(bytes.substr(0, 10), std::string("\x93NUMPY\1\0\x76\0", 10)) << "128 bytes in front, 118 of them text";
-  EXPECT_NE(bytes.find("{'descr': '<f8', 'fortran_order': False, 'shape': (21, 13, 3), }"), bytes.npos);
+  expect_says(bytes, "{'descr': '<f8', 'fortran_order': False, 'shape': (21, 13, 3), }");
   EXPECT_EQ(bytes.size(), 128 + light.bytes.size());
   EXPECT_EQ(read_npy(std::as_bytes(std::span(bytes)), "a.npy", 0).bytes, light.bytes);
-  EXPECT_NE(message_of<UsageError>([&] { write_picture(scratch / "a.exr", light); }).find("cannot hold the values"),
-            std::string::npos);
+  expect_error<UsageError>([&] { write_picture(scratch / "a.exr", light); }, {"cannot hold the values"});
 }
 
 std::string npy(const std::string& words, const std::string& values) {
@@ -183,7 +182,7 @@ TEST(LightClip, PicturesOfCodesAndOfLightAreNoSequence) {
   write_picture(scratch / "f0.tif", random_light<float>(kGrey, ValueType::light32, 1));
   write_picture(scratch / "f1.tif", Picture(kGrey, ValueType::code16, 65'535));
   const auto clip = open_test_clip(scratch.folder(), {.white_light = kWhite});
-  EXPECT_NE(message_of<InputError>([&] { read_all(*clip); }).find("All must be alike"), std::string::npos);
+  expect_error<InputError>([&] { read_all(*clip); }, {"All must be alike"});
 }
 
 }  // namespace

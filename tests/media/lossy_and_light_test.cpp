@@ -92,11 +92,8 @@ TEST(OpenExr, HoldsLightInHalvesToTheirPrecision) {
   }
   Picture large = random_light({5, 3, 1}, 0);
   large.values<float>()[7] = 65'520;  // the first that rounds beyond the largest, 65504
-  const auto message =
-      message_of<OutputError>([&] { write_picture(scratch / "b.exr", large, {}, {.as_half = true}); });
-  EXPECT_NE(message.find("pixel 2,1 has light 65520, and 16-bit floating point ends at 65504"),
-            std::string::npos)
-      << message;
+  expect_error<OutputError>([&] { write_picture(scratch / "b.exr", large, {}, {.as_half = true}); },
+                            {"pixel 2,1 has light 65520, and 16-bit floating point ends at 65504"});
   EXPECT_FALSE(std::filesystem::exists(scratch / "b.exr"));
   large.values<float>()[7] = INFINITY;  // light beyond floats is no less beyond halves
   EXPECT_THROW(write_picture(scratch / "b.exr", large, {}, {.as_half = true}), OutputError);
@@ -141,10 +138,8 @@ TEST(Exr, WithAnAttributeLongerThanTheFileIsRefused) {
   ASSERT_LT(size, bytes.size());
   bytes.replace(size, 4, "\xff\xff\xff\x7f");
   scratch.write("long.exr", bytes);
-  EXPECT_NE(message_of<InputError>([&] {
-              (void)read_picture_text(scratch / "long.exr");
-            }).find("an attribute of 2147483647 bytes does not fit into its"),
-            std::string::npos);
+  expect_error<InputError>([&] { (void)read_picture_text(scratch / "long.exr"); },
+                           {"an attribute of 2147483647 bytes does not fit into its"});
   for (std::size_t count = 8; count < size; ++count) {
     scratch.write("cut.exr", bytes.substr(0, count));
     EXPECT_THROW((void)read_picture_text(scratch / "cut.exr"), InputError) << count;
@@ -152,10 +147,8 @@ TEST(Exr, WithAnAttributeLongerThanTheFileIsRefused) {
   // A file of several parts has a header for each; the second one's attribute is too long here.
   const std::string parts("v/1\x01\x02\x10\0\0a\0b\0\0\0\0\0\0c\0d\0\xff\xff\xff\x7f", 8 + 9 + 8);
   scratch.write("parts.exr", parts);
-  EXPECT_NE(message_of<InputError>([&] {
-              (void)read_picture_text(scratch / "parts.exr");
-            }).find("an attribute of 2147483647 bytes does not fit into its 25"),
-            std::string::npos);
+  expect_error<InputError>([&] { (void)read_picture_text(scratch / "parts.exr"); },
+                           {"an attribute of 2147483647 bytes does not fit into its 25"});
 }
 
 Picture smooth_picture(const Shape& shape) {
@@ -226,12 +219,9 @@ TEST(OpenExr, OfOtherChannelsOrPixelsIsRefused) {
     }
     return message_of<InputError>([&] { open_test_clip(scratch / "a.exr"); });
   };
-  const auto says = [](const std::string& message, const char* part) {
-    EXPECT_NE(message.find(part), message.npos) << message;
-  };
-  says(refusal({"A", "B", "G", "R"}, {{0, 0}, {3, 3}}), "its channels are A, B, G, R; R, G and B, or one");
-  says(refusal({"Y"}, {{0, 0}, {2, 3}}), "its pixels are not those of its picture");
-  says(refusal({"Y"}, {{0, 0}, {3, 3}}), "the largest value is 0.5");  // but for its white it is read
+  expect_says(refusal({"A", "B", "G", "R"}, {{0, 0}, {3, 3}}), "its channels are A, B, G, R; R, G and B, or one");
+  expect_says(refusal({"Y"}, {{0, 0}, {2, 3}}), "its pixels are not those of its picture");
+  expect_says(refusal({"Y"}, {{0, 0}, {3, 3}}), "the largest value is 0.5");  // but for its white it is read
 }
 
 // At quality 100 each of the 64 coefficients of a block is a whole number, off by a half at most: their orthonormal
@@ -320,7 +310,7 @@ TEST(PictureWriter, SaysWhichFilesHoldWhatWasAskedFor) {
   EXPECT_EQ(type("a.exr", {}), ValueType::light32);
   EXPECT_EQ(type("a.exr", Depth::half), ValueType::light32);
   const auto refusal = [&](const char* name, Depth wish) {
-    return message_of<UsageError>([&] { static_cast<void>(type(name, wish)); });
+    return message_of<UsageError>([&] { return type(name, wish); });
   };
   EXPECT_EQ(refusal("a.jpg", Depth::bits16), "a.jpg holds 8 bits only; write a .png, .tif, .ppm or .pgm");
   EXPECT_EQ(refusal("a.jpg", Depth::floating),
@@ -334,8 +324,7 @@ TEST(PictureWriter, SaysWhichFilesHoldWhatWasAskedFor) {
   EXPECT_THROW(write_picture(scratch / "a.exr", smooth_picture({4, 4, 1})), UsageError);
   EXPECT_THROW(write_picture(scratch / "a.png", random_light({4, 4, 1}, 0)), UsageError);
   const Picture wide(Shape{65'501, 1, 1}, ValueType::code8, 255);
-  EXPECT_NE(message_of<UsageError>([&] { write_picture(scratch / "wide.jpg", wide); }).find("65500 x 65500"),
-            std::string::npos);
+  expect_error<UsageError>([&] { write_picture(scratch / "wide.jpg", wide); }, {"65500 x 65500"});
   EXPECT_TRUE(std::filesystem::is_empty(scratch.folder()));
 }
 

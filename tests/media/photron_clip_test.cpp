@@ -18,11 +18,6 @@ namespace {
 
 constexpr Shape kPhotronGrey{8, 5, 1}, kPhotronColour{4, 5, 3};
 
-std::uint32_t code_of(const Picture& picture, std::size_t index) {
-  return picture.type == ValueType::code8 ? picture.values<std::uint8_t>()[index]
-                                          : picture.values<std::uint16_t>()[index];
-}
-
 // The values as digits, as the format's description has them, and those as bytes.
 std::string packed(const std::vector<Picture>& pictures, int bits) {
   std::string digits;
@@ -153,7 +148,7 @@ std::string refusal(const Header& header, std::size_t bytes = 8 * 5 * 2 * 3) {
 
 void expect_refusal(const std::string& part, const Header& header, std::size_t bytes = 8 * 5 * 2 * 3) {
   const std::string message = refusal(header, bytes);
-  EXPECT_NE(message.find(part), std::string::npos) << message;
+  expect_says(message, part);
 }
 
 TEST(PhotronClip, SaysWhatItsHeaderDoesNotFit) {
@@ -211,8 +206,7 @@ TEST(PhotronClip, OfAColourSensorIsRefusedWhereItIsAMosaic) {
   xml.replace(xml.find("</cih>"), 6,
               "<deviceInfo><deviceName>FASTCAM Nova S16 type 1100K-C-64GB</deviceName></deviceInfo></cih>");
   scratch.write("ball.cihx", xml);
-  const auto message = message_of<InputError>([&] { open_test_clip(scratch / "ball.mraw"); });
-  EXPECT_NE(message.find("mosaic of a colour sensor"), std::string::npos) << message;
+  expect_error<InputError>([&] { open_test_clip(scratch / "ball.mraw"); }, {"mosaic of a colour sensor"});
 }
 
 TEST(PhotronClip, NamesTheFilesThatAreMissing) {
@@ -221,14 +215,13 @@ TEST(PhotronClip, NamesTheFilesThatAreMissing) {
   const auto message = [&](const std::filesystem::path& path) {
     return message_of<InputError>([&] { open_test_clip(path); });
   };
-  EXPECT_NE(message(pictures).find("ball.cih or ball.cihx beside it"), std::string::npos)
-      << message(pictures);
+  expect_says(message(pictures), "ball.cih or ball.cihx beside it");
   const auto text = scratch.write("ball.cih", Header{}.text());
   scratch.write("ball.cihx", Header{}.xml());
-  EXPECT_NE(message(pictures).find("two headers lie beside it"), std::string::npos) << message(pictures);
+  expect_says(message(pictures), "two headers lie beside it");
   EXPECT_EQ(open_test_clip(text)->info().sample_count, 3u);
   std::filesystem::remove(pictures);
-  EXPECT_NE(message(text).find("its pictures, ball.mraw, do not lie beside it"), std::string::npos);
+  expect_says(message(text), "its pictures, ball.mraw, do not lie beside it");
 }
 
 TEST(PhotronClip, CountsSavedPicturesAndSaysSo) {
@@ -240,7 +233,7 @@ TEST(PhotronClip, CountsSavedPicturesAndSaysSo) {
   const auto clip = open_test_clip(scratch / "ball.mraw");
   EXPECT_EQ(clip->info().timing.rate, (Rational{1000, 1}));
   ASSERT_EQ(clip->info().notes.size(), 1u);
-  EXPECT_NE(clip->info().notes[0].text.find("one of 4 pictures was saved"), std::string::npos);
+  expect_says(clip->info().notes[0].text, "one of 4 pictures was saved");
 }
 
 // A recipe knows a recording by its pictures and by what says how they are read.

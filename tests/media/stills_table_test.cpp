@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "capture/error.hpp"
+#include "support/bytes.hpp"
 #include "support/ffmpeg.hpp"
 #include "support/messages.hpp"
 #include "support/stills.hpp"
@@ -118,10 +119,7 @@ TEST(StillsTable, NamesFileAndBothValuesOfWhatIsWrong) {
 // What cannot be read, as a folder cannot, is no table that ends there.
 TEST(StillsTable, TellsAReadErrorFromTheEnd) {
   const Scratch scratch;
-  EXPECT_NE(message_of<InputError>([&] {
-              static_cast<void>(read_stills_table(scratch.folder()));
-            }).find("cannot be read to its end"),
-            std::string::npos);
+  expect_error<InputError>([&] { return read_stills_table(scratch.folder()); }, {"cannot be read to its end"});
 }
 
 // A JPEG with EXIF data: an APP1 segment put behind the start of what OpenCV writes.
@@ -132,25 +130,21 @@ void write_jpeg(const std::filesystem::path& path, int grey, const std::string& 
   std::vector<unsigned char> jpeg;
   ASSERT_TRUE(cv::imencode(".jpg", picture, jpeg));
   std::string tiff("MM\0\x2A\0\0\0\x08", 8);
-  const auto number = [](std::uint32_t value, int bytes) {
-    std::string text;
-    for (int i = bytes - 1; i >= 0; --i) text += static_cast<char>(value >> (8 * i) & 255);
-    return text;
+  const auto entry = [](std::uint32_t tag, std::uint32_t type, std::uint32_t count, std::uint32_t value) {
+    return big_endian(tag, 2) + big_endian(type, 2) + big_endian(count, 4) + big_endian(value, 4);
   };
-  const auto entry = [&](std::uint32_t tag, std::uint32_t type, std::uint32_t count, std::uint32_t value) {
-    return number(tag, 2) + number(type, 2) + number(count, 4) + number(value, 4);
-  };
-  tiff += number(1, 2) + entry(0x8769, 4, 1, 26) + number(0, 4);  // the EXIF directory at 26
+  tiff += big_endian(1, 2) + entry(0x8769, 4, 1, 26) + big_endian(0, 4);  // the EXIF directory at 26
   constexpr std::uint32_t kValues = 26 + 2 + 4 * 12 + 4;
   const auto fraction_at = static_cast<std::uint32_t>(kValues + 8 + date.size() + 1);
   const auto zone_at = static_cast<std::uint32_t>(fraction_at + fraction.size() + 1);
-  tiff += number(4, 2) + entry(0x829A, 5, 1, kValues) +
+  tiff += big_endian(4, 2) + entry(0x829A, 5, 1, kValues) +
           entry(0x9003, 2, static_cast<std::uint32_t>(date.size() + 1), kValues + 8) +
           entry(0x9011, 2, static_cast<std::uint32_t>(zone.size() + 1), zone_at) +
-          entry(0x9291, 2, static_cast<std::uint32_t>(fraction.size() + 1), fraction_at) + number(0, 4);
-  tiff += number(exposure_numerator, 4) + number(exposure_denominator, 4) + date + '\0' + fraction + '\0' + zone + '\0';
+          entry(0x9291, 2, static_cast<std::uint32_t>(fraction.size() + 1), fraction_at) + big_endian(0, 4);
+  tiff += big_endian(exposure_numerator, 4) + big_endian(exposure_denominator, 4) + date + '\0' + fraction + '\0' +
+          zone + '\0';
   const std::string body = std::string("Exif\0\0", 6) + tiff;
-  const std::string segment = "\xFF\xE1" + number(static_cast<std::uint32_t>(body.size() + 2), 2) + body;
+  const std::string segment = "\xFF\xE1" + big_endian(static_cast<std::uint32_t>(body.size() + 2), 2) + body;
   std::string file(jpeg.begin(), jpeg.end());
   std::ofstream(path, std::ios::binary) << file.insert(2, segment);
 }

@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <map>
 
 #include "support/clips.hpp"
 #include "support/ffmpeg.hpp"
@@ -99,9 +96,9 @@ TEST(VideoColour, IsWhatTheFileSaysAndBeforeThatWhatWasStated) {
 TEST(VideoColour, OfEightBitsIsBelievedButForTheCurveOfCameras) {
   NEEDS_FFMPEG();
   const Scratch scratch;
-  for (const auto& [named, taken] :
-       {std::pair("iec61966-2-1", "transfer srgb, from the file"), {"linear", "transfer linear, from the file"},
-        {"bt709", "transfer srgb, assumed; the file names bt709"}}) {
+  for (const auto& [named, taken] : {std::pair("iec61966-2-1", "transfer srgb, from the file"),
+                                     {"linear", "transfer linear, from the file"},
+                                     {"bt709", "transfer srgb, assumed; the file names bt709"}}) {
     test::make(scratch, test_picture("64x48") + "-color_trc " + std::string(named) + " -y clip.mkv");
     EXPECT_EQ(facts_of(*open_test_clip(scratch / "clip.mkv")).at(Setting::transfer).line(), taken) << named;
   }

@@ -32,10 +32,8 @@ TEST(MatrixOfYuv, OfAMatrixThatIsNotKnownIsRefused) {
     const auto error = error_of<InputError>([&] { return open_test_clip(scratch / "clip.mkv"); });
     ASSERT_TRUE(error) << named << " was read";
     const std::string message = error->what(), words = named;
-    EXPECT_NE(message.find("clip.mkv names a matrix by which no RGB is made here, " +
-                           words.substr(0, words.find(' ')) + ":"),
-              std::string::npos)
-        << message;
+    expect_says(message,
+                "clip.mkv names a matrix by which no RGB is made here, " + words.substr(0, words.find(' ')) + ":");
     EXPECT_EQ(error->settings(), std::vector{Setting::matrix});
     EXPECT_EQ(matrix_of(*open_test_clip(scratch / "clip.mkv", {.matrix = YuvMatrix::bt709})),
               "matrix bt709, as stated");

@@ -15,27 +15,10 @@
 namespace nutik::test {
 namespace {
 
-NoiseEstimator::ReadSample reader_of(const Rasters& rasters) {
-  return [&rasters, next = std::size_t{0}](std::span<std::byte> raster) mutable {
-    if (next == rasters.size()) return false;
-    std::ranges::copy(rasters[next++], raster.begin());
-    return true;
-  };
-}
-
 NoiseEstimate estimate(const NoisyCamera& camera, const Rasters& rasters) {
   NoiseEstimator estimator(camera.format);
   estimator.add_clip("clip", reader_of(rasters));
   return estimator.estimate();
-}
-
-NoisyCamera camera_of(std::uint32_t channels, std::uint32_t white, Transfer transfer) {
-  NoisyCamera camera;
-  camera.format.shape = {240, 160, channels};
-  camera.format.code_bytes = white > 255 ? 2 : 1;
-  camera.format.white_code = white;
-  camera.format.transfer = transfer;
-  return camera;
 }
 
 // What is promised: sd within 3 % of the camera's own wherever noise is not cut off at black or white.
@@ -77,9 +60,7 @@ TEST(NoiseEstimator, FindsReadAndShotNoiseOfAnyCamera) {
         Case{1, 4095, Transfer::linear(), 0.001, 0.0001}, Case{3, 65'535, Transfer::srgb(), 0.002, 0.0003},
         Case{1, 65'535, Transfer::linear(), 0.0001, 0.00002},
         Case{1, 65'535, Transfer::linear(), 0.004, 0}}) {
-    NoisyCamera camera = camera_of(each.channels, each.white, each.transfer);
-    camera.read = each.read;
-    camera.shot = each.shot;
+    const NoisyCamera camera = camera_of({240, 160, each.channels}, each.white, each.transfer, each.read, each.shot);
     const Rasters rasters = film(camera, 32, ++seed, still_wedge(camera, 0.0, 1.0));
     const NoiseEstimate estimated = estimate(camera, rasters);
     const std::string what =
@@ -96,7 +77,7 @@ TEST(NoiseEstimator, FindsReadAndShotNoiseOfAnyCamera) {
 }
 
 TEST(NoiseEstimator, AFewPicturesAreEnough) {
-  const NoisyCamera camera = camera_of(1, 4095, Transfer::linear());
+  const NoisyCamera camera = camera_of({240, 160, 1}, 4095, Transfer::linear());
   for (const std::uint64_t samples : {3u, 5u, 15u}) {
     const Rasters rasters = film(camera, samples, 100 + samples, still_wedge(camera, 0.0, 1.0));
     expect_close(camera, estimate(camera, rasters), format("{} samples", samples));
@@ -104,7 +85,7 @@ TEST(NoiseEstimator, AFewPicturesAreEnough) {
 }
 
 TEST(NoiseEstimator, LeavesOutWhatMovesFlickersOrIsStuck) {
-  const NoisyCamera camera = camera_of(3, 255, Transfer::srgb());
+  const NoisyCamera camera = camera_of({240, 160, 3}, 255, Transfer::srgb());
   const Light wedge = still_wedge(camera, 0.0, 1.0);
   const Shape shape = camera.format.shape;
   const Light scene = [&](std::uint64_t value, std::uint64_t sample) {
@@ -127,24 +108,14 @@ TEST(NoiseEstimator, LeavesOutWhatMovesFlickersOrIsStuck) {
   }
 }
 
-// Waves of 16 to 40 pixels that pass through the whole picture, as in a liquid that is poured.
-double waves(double x, double y, double k) {
-  double sum = 0;
-  for (int j = 0; j < 7; ++j) {
-    const double length = 16 + 4 * j, angle = 0.9 * j;
-    const double along = (x * std::cos(angle) + y * std::sin(angle)) / length;
-    sum += std::sin(2 * std::numbers::pi * along + 1.7 * j + (0.7 + 0.3 * j) * k);
-  }
-  return sum;
-}
-
-// All pixels vary alike, so that nearly all of them count as still; but what they vary by is common to neighbours.
+// As in a liquid that is poured: all pixels vary alike, so that nearly all of them count as still; but what they vary
+// by is common to neighbours.
 TEST(NoiseEstimator, TellsWhatMovesFromNoise) {
-  const NoisyCamera camera = camera_of(1, 255, Transfer::srgb());
+  const NoisyCamera camera = camera_of({240, 160, 1}, 255, Transfer::srgb());
   const std::uint64_t width = camera.format.shape.width;
   const Light scene = [&](std::uint64_t value, std::uint64_t sample) {
     return 0.4 + 0.03 * waves(static_cast<double>(value % width), static_cast<double>(value / width),
-                              static_cast<double>(sample));
+                              static_cast<double>(sample), 7, 16);
   };
   const NoiseEstimate moving = estimate(camera, film(camera, 32, 3, scene));
   EXPECT_GT(moving.channels[0].still_share, 0.9);
@@ -154,7 +125,7 @@ TEST(NoiseEstimator, TellsWhatMovesFromNoise) {
 // A hand that holds the camera trembles: fine texture moves to and fro by a share of a pixel, so that neighbours have
 // nothing in common, and pixels stray by what lies beside them.
 TEST(NoiseEstimator, TellsTremblingFromNoise) {
-  const NoisyCamera camera = camera_of(1, 255, Transfer::srgb());
+  const NoisyCamera camera = camera_of({240, 160, 1}, 255, Transfer::srgb());
   Random random(8);
   std::vector<double> texture(camera.format.shape.value_count() + 1);
   for (double& light : texture) light = random.real(0.1, 0.6);
@@ -179,7 +150,7 @@ TEST(NoiseEstimator, TellsTremblingFromNoise) {
 // scene with a moving ball by a little more.
 TEST(NoiseEstimator, SharesNothingInNoise) {
   for (const std::uint32_t channels : {1u, 3u}) {
-    const NoisyCamera camera = camera_of(channels, 255, Transfer::srgb());
+    const NoisyCamera camera = camera_of({240, 160, channels}, 255, Transfer::srgb());
     const NoiseEstimate still = estimate(camera, film(camera, 32, 9, still_wedge(camera, 0.0, 1.0)));
     for (const NoiseEstimate::Channel& channel : still.channels) {
       EXPECT_LT(std::fabs(channel.shared), 0.02);
@@ -190,7 +161,7 @@ TEST(NoiseEstimator, SharesNothingInNoise) {
 
 // What a camera interpolates of a mosaic is common to pixels up to two apart, and is noise all the same.
 TEST(NoiseEstimator, SharesNothingInInterpolatedNoise) {
-  const NoisyCamera camera = camera_of(1, 65'535, Transfer::linear());
+  const NoisyCamera camera = camera_of({240, 160, 1}, 65'535, Transfer::linear());
   Rasters rasters = film(camera, 32, 11, still_wedge(camera, 0.1, 0.9));
   interpolate_mosaic(rasters, camera.format.shape);
   const NoiseEstimate::Channel measured = estimate(camera, rasters).channels[0];
@@ -199,7 +170,7 @@ TEST(NoiseEstimator, SharesNothingInInterpolatedNoise) {
 }
 
 TEST(NoiseEstimator, JoinsSeveralExposures) {
-  const NoisyCamera camera = camera_of(1, 65'535, Transfer::linear());
+  const NoisyCamera camera = camera_of({240, 160, 1}, 65'535, Transfer::linear());
   NoiseEstimator estimator(camera.format);
   for (const double exposure : {0.02, 0.1, 0.5}) {
     estimator.add_clip("clip", reader_of(film(camera, 16, static_cast<std::uint64_t>(exposure * 1000),
@@ -215,7 +186,7 @@ TEST(NoiseEstimator, JoinsSeveralExposures) {
 
 // No sensor's noise grows, shrinks and grows again with the light.
 TEST(NoiseEstimator, FollowsThePointsWhereNoSensorDoes) {
-  NoisyCamera camera = camera_of(1, 65'535, Transfer::linear());
+  NoisyCamera camera = camera_of({240, 160, 1}, 65'535, Transfer::linear());
   camera.read = camera.shot = 0;
   const Light wedge = still_wedge(camera, 0.1, 0.9);
   const auto sd_at = [](double light) { return 0.003 + 0.002 * std::sin(12 * light); };
@@ -232,7 +203,7 @@ TEST(NoiseEstimator, FollowsThePointsWhereNoSensorDoes) {
 }
 
 TEST(NoiseEstimator, RoundingIsTheLeastNoise) {
-  NoisyCamera camera = camera_of(3, 255, Transfer::srgb());
+  NoisyCamera camera = camera_of({240, 160, 3}, 255, Transfer::srgb());
   camera.read = camera.shot = 0;
   const NoiseEstimate estimated = estimate(camera, film(camera, 16, 1, still_wedge(camera, 0.1, 0.9)));
   for (std::uint32_t code = 0; code <= 255; ++code) {
@@ -241,7 +212,7 @@ TEST(NoiseEstimator, RoundingIsTheLeastNoise) {
 }
 
 TEST(NoiseEstimator, SaysWhyItCannot) {
-  const NoisyCamera camera = camera_of(1, 255, Transfer::srgb());
+  const NoisyCamera camera = camera_of({240, 160, 1}, 255, Transfer::srgb());
   const auto message = [&](const Rasters& rasters) {
     return message_of<InputError>([&] { return estimate(camera, rasters); });
   };

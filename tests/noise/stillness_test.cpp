@@ -14,22 +14,8 @@
 namespace nutik::test {
 namespace {
 
-NoisyCamera still_camera(std::uint32_t channels, std::uint32_t white, Transfer transfer) {
-  NoisyCamera camera;
-  camera.format.shape = {96, 64, channels};
-  camera.format.code_bytes = white > 255 ? 2 : 1;
-  camera.format.white_code = white;
-  camera.format.transfer = transfer;
-  return camera;
-}
-
-NoisyCamera grey_camera() { return still_camera(1, 255, Transfer::srgb()); }
-NoisyCamera deep_camera() {
-  NoisyCamera camera = still_camera(1, 4095, Transfer::linear());
-  camera.read = 0.002;
-  camera.shot = 0.0001;
-  return camera;
-}
+NoisyCamera grey_camera() { return camera_of({96, 64, 1}, 255, Transfer::srgb()); }
+NoisyCamera deep_camera() { return camera_of({96, 64, 1}, 4095, Transfer::linear(), 0.002, 0.0001); }
 
 // With the noise that is measured on the clip itself, as where a clip is encoded.
 Stillness judged(const NoisyCamera& camera, const Rasters& rasters) {
@@ -51,15 +37,7 @@ Stillness judged(const NoisyCamera& camera, std::uint64_t samples, std::uint64_t
 bool stands_still(const Stillness& found) { return found.stray <= found.limit; }
 
 // Waves of 12 to 40 pixels in several directions, between about -1 and 1: as they stand, or as they run at time k.
-double ripples(double x, double y, double k = 0) {
-  double sum = 0;
-  for (int j = 0; j < 8; ++j) {
-    const double length = 12 + 4 * j, angle = 0.9 * j;
-    const double along = (x * std::cos(angle) + y * std::sin(angle)) / length;
-    sum += std::sin(2 * std::numbers::pi * along + 1.7 * j + (0.7 + 0.3 * j) * k) / 2;
-  }
-  return sum / 2;
-}
+double ripples(double x, double y, double k = 0) { return waves(x, y, k, 8, 12) / 4; }
 
 struct Place {
   double x, y;
@@ -93,9 +71,7 @@ TEST(Stillness, IsSeenInEveryCamera) {
        {Case{3, 255, Transfer::srgb(), 0.004, 0.0004}, Case{1, 255, Transfer::linear(), 0.0005, 0.00001},
         Case{1, 255, Transfer::srgb(), 0, 0}, Case{1, 4095, Transfer::linear(), 0.001, 0.0001},
         Case{3, 65'535, Transfer::bt709(), 0.002, 0.0003}}) {
-    NoisyCamera camera = still_camera(each.channels, each.white, each.transfer);
-    camera.read = each.read;
-    camera.shot = each.shot;
+    const NoisyCamera camera = camera_of({96, 64, each.channels}, each.white, each.transfer, each.read, each.shot);
     for (const std::uint64_t samples : {3U, 4U, 5U, 17U, 64U, 100U}) {
       const Light still = scene(camera, [](Place at, double) { return textured(at); });
       const Stillness found = judged(camera, samples, ++seed, still);

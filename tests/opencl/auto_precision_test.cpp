@@ -5,6 +5,7 @@
 
 #include "render/reference_renderer.hpp"
 #include "render/renderer.hpp"
+#include "support/messages.hpp"
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
 
@@ -67,7 +68,7 @@ TEST(AutoPrecision, TakesMoreWhereSingleIsWrong) {
   ASSERT_FALSE(rendered.choice->rejected.empty());
   EXPECT_EQ(rendered.choice->rejected.front().precision, Precision::single_);
   const std::string report = rendering_report(rendered, codes);
-  EXPECT_NE(report.find("not single: only light within"), std::string::npos) << report;
+  expect_says(report, "not single: only light within");
 }
 
 // What costs more than the format can show is left out; what a finer format shows is not.
@@ -104,7 +105,7 @@ TEST(AutoPrecision, SaysWhereNoArithmeticIsRightEnough) {
     EXPECT_LE(rendered.choice->bound.worst.steps, bound.worst.steps) << to_text(bound.precision);
   }
   ASSERT_EQ(rendered.warnings.size(), 1u);
-  EXPECT_NE(rendered.warnings.front().find("is the closest"), std::string::npos) << rendered.warnings.front();
+  expect_says(rendered.warnings.front(), "is the closest");
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "capture/format.hpp"
+#include "support/messages.hpp"
 #include "support/scratch.hpp"
 
 namespace nutik::test {
@@ -128,7 +129,7 @@ TEST_F(DefaultCacheFolder, IsNotForPoclWhatOthersMayWriteTo) {
   std::filesystem::create_directories(scratch / "theirs/kcache");
   ASSERT_EQ(::chown((scratch / "theirs").c_str(), 12'345, 12'345), 0);
   std::filesystem::create_symlink(scratch / "theirs", own);
-  EXPECT_NE(flaw_of_pocl_cache().find("belongs to another user"), std::string::npos);
+  expect_says(flaw_of_pocl_cache(), "belongs to another user");
   ASSERT_EQ(::chown((scratch / "theirs").c_str(), 0, 0), 0);
   ASSERT_EQ(::lchown(own.c_str(), 12'345, 12'345), 0);
   EXPECT_NE(flaw_of_pocl_cache().find("belongs to another user"), std::string::npos) << "a link of theirs";

@@ -23,10 +23,7 @@ void check_random_case(PrecisionCheck& check, std::uint64_t seed) {
   options.live_all = draw.chance(0.1);
   options.delays = random_delays(draw, random.capture.shape, random.timeline.duration_ns());
   const RenderPlan plan = make_plan(capture, random.functions, random.mask, options);
-  check.check(
-      plan,
-      [&](Renderer& renderer, const OutputFormat& output) { return renderer.render(plan, capture, output).picture; },
-      format("Delays{}", seed), rerun(seed));
+  check.check(plan, capture, format("Delays{}", seed), rerun(seed));
   if (testing::Test::HasFailure()) FAIL() << random.text() << ", " << options.delays->delays_ns.size() << " delays";
 }
 

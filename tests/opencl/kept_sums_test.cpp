@@ -2,8 +2,6 @@
 // kept or are made.
 #include <gtest/gtest.h>
 
-#include <map>
-
 #include "capture/format.hpp"
 #include "render/picture_errors.hpp"
 #include "render/plan_cache.hpp"

@@ -20,16 +20,6 @@ class Precisions : public testing::Test {
  protected:
   ~Precisions() override { check_.print(); }
 
-  static void check(PrecisionCheck& check, const RenderPlan& plan, CaptureSource& capture, const std::string& what,
-                    const std::string& rerun = test::rerun()) {
-    check.check(
-        plan,
-        [&](Renderer& renderer, const OutputFormat& output) {
-          return renderer.render(plan, capture, output).picture;
-        },
-        what, rerun);
-  }
-
   PrecisionCheck check_;
 };
 
@@ -44,7 +34,7 @@ TEST_F(Precisions, StayWithinTheirBoundsOnRandomCases) {
     if (random.capture.shape.value_count() * random.timeline.sample_count() > largest) continue;
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
-    check(check_, plan, capture, format("Seed{}", seed), test::rerun(seed));
+    check_.check(plan, capture, format("Seed{}", seed), rerun(seed));
     if (HasFailure()) FAIL() << random.text();
   }
 }
@@ -72,9 +62,10 @@ TEST_F(Precisions, StayWithinTheirBoundsWhereSumsCancel) {
         for (const double gain : {1e3, 1e6, 1e9, 1e12}) {
           const RenderPlan plan =
               make_plan(capture, {{0, cancelling(gain, 1.0)}}, Mask::uniform(19, 9, 0), {});
-          check(check_, plan, capture,
-                format("gains of ±{}, {}, {}, tiles {}", gain, transfer.text(), is_still ? "still" : "moving",
-                       to_text(policy)));
+          check_.check(plan, capture,
+                       format("gains of ±{}, {}, {}, tiles {}", gain, transfer.text(), is_still ? "still" : "moving",
+                              to_text(policy)),
+                       rerun());
           if (HasFailure()) return;
         }
       }
@@ -88,7 +79,7 @@ TEST_F(Precisions, OfFloatsStayWithinTheirBoundsWithoutFusedProducts) {
   MemoryCapture capture = clip_of(Transfer::srgb(), false, TilePolicy::records);
   for (const double gain : {1.0, 1e6}) {
     const RenderPlan plan = make_plan(capture, {{0, cancelling(gain, 0.3)}}, Mask::uniform(19, 9, 0), {});
-    check(without_fma, plan, capture, format("gains of ±{} without fma", gain));
+    without_fma.check(plan, capture, format("gains of ±{} without fma", gain), rerun());
     if (HasFailure()) return;
   }
 }
@@ -107,7 +98,7 @@ TEST_F(Precisions, HoldGainsOfAnySize) {
     mask.tags[pixel] = static_cast<std::uint8_t>(pixel % tag);
   }
   const RenderPlan plan = make_plan(capture, functions, mask, {});
-  check(check_, plan, capture, "gains of all sizes");
+  check_.check(plan, capture, "gains of all sizes", rerun());
 }
 
 // A bound that is never nearly met would say nothing. Gains of one sign, up to 1000 samples.
@@ -225,11 +216,11 @@ TEST_F(Precisions, SingleErrsByTheLightItselfWithoutNegativeGain) {
     by_light.push_back(share_of_bound(plan, bound, kLight, light, expected).worst);
     of_codes.push_back(share_of_codes(plan, bound, light, expected));
     of_codes_before.push_back(of_codes.back() * bound.worst.steps / whole_steps(plan, whole, bright.output));
-    ASSERT_LE(of_light.back(), 1.0) << test::rerun(seed);
-    ASSERT_LE(by_light.back(), 1.0) << test::rerun(seed);
-    ASSERT_LE(of_codes.back(), 1.0) << test::rerun(seed);
-    ASSERT_LE(share_of_bound(plan, bound, bright.output, codes, expected).worst, 1.0) << test::rerun(seed);
-    ASSERT_LE(bound.worst.steps, whole_steps(plan, whole, bright.output)) << test::rerun(seed);
+    ASSERT_LE(of_light.back(), 1.0) << rerun(seed);
+    ASSERT_LE(by_light.back(), 1.0) << rerun(seed);
+    ASSERT_LE(of_codes.back(), 1.0) << rerun(seed);
+    ASSERT_LE(share_of_bound(plan, bound, bright.output, codes, expected).worst, 1.0) << rerun(seed);
+    ASSERT_LE(bound.worst.steps, whole_steps(plan, whole, bright.output)) << rerun(seed);
     chosen += bound.worst.steps <= kMaxSteps;
     chosen_before += whole_steps(plan, whole, bright.output) <= kMaxSteps;
   }

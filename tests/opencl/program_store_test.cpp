@@ -8,6 +8,7 @@
 #include "capture/error.hpp"
 #include "opencl/cache_folder.hpp"
 #include "support/messages.hpp"
+#include "support/running_program.hpp"
 #include "support/scratch.hpp"
 
 namespace nutik::test {
@@ -31,13 +32,7 @@ class ProgramStoreTest : public testing::Test {
     return value;
   }
 
-  [[nodiscard]] std::vector<std::filesystem::path> cached() const {
-    std::vector<std::filesystem::path> files;
-    for (const auto& file : std::filesystem::directory_iterator(scratch_.folder() / "cache")) {
-      files.push_back(file.path());
-    }
-    return files;
-  }
+  [[nodiscard]] std::vector<std::filesystem::path> cached() const { return files_with(scratch_ / "cache", ""); }
 
   cl::Device device_ = all_devices().front();
   cl::Context context_{device_};
@@ -99,7 +94,7 @@ TEST_F(ProgramStoreTest, LoadsNothingThatOthersMayWrite) {
     EXPECT_EQ(builds_, before + 1);
 
     fs::permissions(folder, others, fs::perm_options::add);
-    EXPECT_NE(flaw_of_cache(folder).find("other users may write to " + folder.string()), std::string::npos);
+    expect_says(flaw_of_cache(folder), "other users may write to " + folder.string());
     fs::permissions(folder, fs::perms::owner_all);
   }
   if (geteuid() != 0) GTEST_SKIP() << "only root can give a file to another user";
@@ -108,7 +103,7 @@ TEST_F(ProgramStoreTest, LoadsNothingThatOthersMayWrite) {
   EXPECT_EQ(run("7"), 7);
   EXPECT_EQ(builds_, before + 1);
   ASSERT_EQ(chown(folder.c_str(), 12345, 12345), 0);
-  EXPECT_NE(flaw_of_cache(folder).find("belongs to another user"), std::string::npos);
+  expect_says(flaw_of_cache(folder), "belongs to another user");
 }
 
 TEST_F(ProgramStoreTest, AFailureCarriesProgramOptionsAndLog) {

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <thread>
 
 #include "render/reference_renderer.hpp"
@@ -95,7 +94,7 @@ TEST(RenderControl, RefusesRectanglesThatAreNoPart) {
   for (const Rectangle& rectangle : {Rectangle{0, 0, 0, 1}, Rectangle{shape.width, 0, 1, 1},
                                      Rectangle{0, 0, 1, shape.height + 1}, Rectangle{~0u, 0, 2, 1}}) {
     const auto render = [&] {
-      static_cast<void>(reference.render(plan, capture, {ValueType::code8, 255}, {.rectangle = rectangle}));
+      return reference.render(plan, capture, {ValueType::code8, 255}, {.rectangle = rectangle});
     };
     expect_error<UsageError>(render, {"is no part of a picture of"});
   }

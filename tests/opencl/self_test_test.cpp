@@ -14,6 +14,7 @@
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
+#include "support/running_program.hpp"
 #include "support/scratch.hpp"
 
 namespace nutik::test {
@@ -50,11 +51,7 @@ class SelfTest : public testing::Test {
   }
 
   [[nodiscard]] std::vector<std::filesystem::path> cached(const std::string& extension) const {
-    std::vector<std::filesystem::path> files;
-    for (const auto& file : std::filesystem::directory_iterator(scratch_ / "cache")) {
-      if (file.path().extension() == extension) files.push_back(file.path());
-    }
-    return files;
+    return files_with(scratch_ / "cache", extension);
   }
 
   // Has every kept verdict say the contrary.
@@ -104,7 +101,7 @@ TEST_F(SelfTest, AutoTakesAnotherArithmetic) {
 TEST_F(SelfTest, AskingForAWrongOneIsRefusedUnlessItIsMeasured) {
   OpenClOptions asking = options({Precision::fixed});
   asking.precision = Precision::fixed;
-  expect_error<DeviceError>([&] { static_cast<void>(render(asking)); },
+  expect_error<DeviceError>([&] { return render(asking); },
                             {"this driver computes `fixed` wrongly (self-test: light is wrong by ",
                              "use auto or another arithmetic, another device or the reference"});
   const Rendered measured = render(asking, kMeasuring);

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "capture/error.hpp"
 #include "render/reference_renderer.hpp"
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"

@@ -2,14 +2,12 @@
 // they are defined.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 
 #include "capture/format.hpp"
 #include "opencl/kernel_constants.hpp"
 #include "opencl/kernel_layout.hpp"
 #include "render/fixed_scale.hpp"
-#include "render/reference_renderer.hpp"
 #include "support/precision_check.hpp"
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
@@ -27,10 +25,7 @@ TEST(SoftMasks, StayWithinTheirBoundsOnRandomCases) {
     soften(random.mask, random.functions, seed);
     MemoryCapture capture = random.encode();
     const RenderPlan plan = make_plan(capture, random.functions, random.mask, {});
-    check.check(
-        plan,
-        [&](Renderer& renderer, const OutputFormat& output) { return renderer.render(plan, capture, output).picture; },
-        format("Soft{}", seed), rerun(seed));
+    check.check(plan, capture, format("Soft{}", seed), rerun(seed));
     if (HasFailure()) FAIL() << random.text();
   }
   check.print();

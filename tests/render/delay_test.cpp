@@ -99,7 +99,7 @@ TEST_F(DelayedRows, AreWarnedOfWithNumbersOfPixels) {
   EXPECT_TRUE(plan(GainFunction::boxcar(0, 10 * kMs), {0, 70 * kMs}).warnings.empty());
   const RenderPlan held = plan(GainFunction({{10 * kMs, 0.0}, {10 * kMs, 1.0}}), {0, 30 * kMs});
   ASSERT_EQ(held.warnings.size(), 1u);
-  EXPECT_NE(held.warnings[0].find("its last gain is not 0"), std::string::npos) << held.warnings[0];
+  expect_says(held.warnings[0], "its last gain is not 0");
 }
 
 TEST_F(DelayedRows, AreWarnedOfOnceWhereItHoldsOfSeveralFunctions) {
@@ -129,11 +129,12 @@ TEST_F(DelayedRows, NeedTheSamplesOfAllDelays) {
 }
 
 TEST_F(DelayedRows, AreRefusedWhereTheirMapHasAnotherSize) {
-  EXPECT_NE(message_of<InputError>([&] {
-              static_cast<void>(make_plan(capture_, {{0, GainFunction({{0, 1.0}})}}, Mask::uniform(1, 4, 0),
-                                          delayed_by(DelayMap::by_rows({2, 4, 1}, {0, 1}))));
-            }).find("the map of delays is 2 x 4 pixels and the pictures are 1 x 4"),
-            std::string::npos);
+  expect_error<InputError>(
+      [&] {
+        return make_plan(capture_, {{0, GainFunction({{0, 1.0}})}}, Mask::uniform(1, 4, 0),
+                         delayed_by(DelayMap::by_rows({2, 4, 1}, {0, 1})));
+      },
+      {"the map of delays is 2 x 4 pixels and the pictures are 1 x 4"});
 }
 
 TEST(DelayedPlan, TellsRegionsByMaskValueAndDelay) {

@@ -58,17 +58,15 @@ TEST(RenderPlan, CountsTheSamplesThatAFunctionMeans) {
 TEST(RenderPlan, RefusesAMaskThatDoesNotFit) {
   const MemoryCapture capture = capture_of(10);
   const FunctionSet functions = functions_of("M0 [0:1]");
-  EXPECT_EQ(
-      message_of<InputError>([&] { static_cast<void>(make_plan(capture, functions, Mask::uniform(4, 3, 0), {})); }),
-      "the mask is 4 x 3 pixels, the capture 4 x 2; both must have the same size");
-  EXPECT_EQ(
-      message_of<InputError>([&] { static_cast<void>(make_plan(capture, functions, Mask::uniform(2, 4, 0), {})); }),
-      "the mask is 2 x 4 pixels, the capture 4 x 2; turn it by 90 degrees");
+  EXPECT_EQ(message_of<InputError>([&] { return make_plan(capture, functions, Mask::uniform(4, 3, 0), {}); }),
+            "the mask is 4 x 3 pixels, the capture 4 x 2; both must have the same size");
+  EXPECT_EQ(message_of<InputError>([&] { return make_plan(capture, functions, Mask::uniform(2, 4, 0), {}); }),
+            "the mask is 2 x 4 pixels, the capture 4 x 2; turn it by 90 degrees");
   Mask mask = Mask::uniform(4, 2, 0);
   mask.tags[1] = 7;
   mask.tags[5] = 9;
   mask.tags[6] = 9;
-  EXPECT_EQ(message_of<InputError>([&] { static_cast<void>(make_plan(capture, functions, mask, {})); }),
+  EXPECT_EQ(message_of<InputError>([&] { return make_plan(capture, functions, mask, {}); }),
             "mask values without a function: 7 (1 pixels), 9 (2 pixels); add a line M<value> for each, or "
             "expose them to black");
   EXPECT_EQ(make_plan(capture, functions, mask, {.unmapped_is_zero = true}).functions.size(), 3u);
@@ -82,7 +80,7 @@ TEST(RenderPlan, WarnsOfWhatDoesNotCount) {
   const auto only = [&](const std::string& text, const std::string& part) {
     const auto found = warnings(text);
     ASSERT_EQ(found.size(), 1u) << text;
-    EXPECT_NE(found[0].find(part), std::string::npos) << found[0];
+    expect_says(found[0], part);
   };
   only("M0 [0:0], [1:0]", "zero everywhere in the capture");
   only("M0 [-5:0], [-4:1], [10:1], [11:0]", "before the capture's start");

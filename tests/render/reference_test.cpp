@@ -1,8 +1,6 @@
 // The reference against exact rational arithmetic.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "capture/error.hpp"
 #include "render/reference_renderer.hpp"
 #include "support/bounds.hpp"

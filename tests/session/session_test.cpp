@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include "capture/format.hpp"
@@ -246,14 +245,14 @@ TEST_F(SessionOfClip, RefusesWhatNoRequestMayBe) {
   Session session(source_, reference());
   ExposureRequest functions = request_;
   functions.gains = Shared(FunctionSet{{7, GainFunction({{0, 1.0}})}, {9, GainFunction({{0, 1.0}})}});
-  EXPECT_EQ(message_of<UsageError>([&] { static_cast<void>(session.render(functions, kFloats)); }),
+  EXPECT_EQ(message_of<UsageError>([&] { return session.render(functions, kFloats); }),
             "there are 2 gain functions; a mask says where each applies");
   functions.gains = Shared(FunctionSet{});
-  EXPECT_EQ(message_of<UsageError>([&] { static_cast<void>(session.render(functions, kFloats)); }),
+  EXPECT_EQ(message_of<UsageError>([&] { return session.render(functions, kFloats); }),
             "an exposure needs a gain function");
   ExposureRequest masked = request_;
   masked.mask = Shared(MaskWithRegions(Mask{16, 16, {0, 0, 0}}));
-  EXPECT_EQ(message_of<InputError>([&] { static_cast<void>(session.render(masked, kFloats)); }),
+  EXPECT_EQ(message_of<InputError>([&] { return session.render(masked, kFloats); }),
             "the mask is 16 x 16 pixels and has 3 tags; each pixel needs one");
   for (const auto& [type, white] : {std::pair(ValueType::code8, 256u), std::pair(ValueType::code8, 0u),
                                     std::pair(ValueType::code16, 65'536u)}) {
@@ -269,7 +268,7 @@ TEST_F(SessionOfClip, RefusesWhatNoRequestMayBe) {
   SourceRequest noisy = source_;
   noisy.noise = NoiseOfClip();
   noisy.sigmas = -1;
-  EXPECT_EQ(message_of<UsageError>([&] { static_cast<void>(Session(noisy, reference())); }),
+  EXPECT_EQ(message_of<UsageError>([&] { return Session(noisy, reference()); }),
             "-1 standard deviations of noise are not within 0.1 … 100");
   const std::filesystem::path still = *std::filesystem::directory_iterator(scratch_ / "frames");
   const std::string bytes = read_file(still);

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <chrono>
 #include <optional>
-#include <string>
 #include <thread>
 #include <vector>
 

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/messages.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"
 
@@ -53,12 +54,6 @@ class AppTest : public testing::Test {
   // The same of a table of command lines, and what each is told.
   void expect_refused(int status, const std::vector<std::pair<Words, std::string>>& cases) const {
     for (const auto& [words, part] : cases) expect_refused(words, status, part);
-  }
-  static void expect_says(std::string_view text, std::string_view part) {
-    EXPECT_NE(text.find(part), std::string_view::npos) << "no '" << part << "' in: " << text;
-  }
-  static void expect_says(std::string_view text, std::initializer_list<std::string_view> parts) {
-    for (const std::string_view part : parts) expect_says(text, part);
   }
   // A command line of a shell, in a group, whose last command has no other input than the pipe's.
   ProgramResult shell(const std::string& command, int status = 0) const {

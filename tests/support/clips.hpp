@@ -2,6 +2,8 @@
 // not beside the tests.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -10,6 +12,7 @@
 #include <vector>
 
 #include "media/clip.hpp"
+#include "support/stills.hpp"
 
 namespace nutik::test {
 
@@ -42,6 +45,15 @@ inline std::vector<std::vector<std::byte>> read_all(Clip& clip) {
   std::vector<std::byte> raster(clip.info().format.sample_bytes());
   while (clip.read(raster)) rasters.push_back(raster);
   return rasters;
+}
+
+// The clip holds these pictures, code for code.
+inline void expect_codes(Clip& clip, const std::vector<Picture>& pictures) {
+  EXPECT_EQ(clip.info().format.shape, pictures[0].shape);
+  EXPECT_EQ(clip.info().sample_count, pictures.size());
+  const auto rasters = read_all(clip);
+  ASSERT_EQ(rasters.size(), pictures.size());
+  for (std::size_t k = 0; k < pictures.size(); ++k) EXPECT_EQ(difference(rasters[k], pictures[k]), "") << k;
 }
 
 }  // namespace nutik::test

@@ -3,11 +3,27 @@
 
 #include <gtest/gtest.h>
 
+#include <initializer_list>
 #include <optional>
+#include <source_location>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace nutik::test {
+
+// A text has all of these parts. What fails is told at the line of the test.
+inline void expect_says(std::string_view text, std::initializer_list<std::string_view> parts,
+                        const std::source_location& at = std::source_location::current()) {
+  for (const std::string_view part : parts) {
+    if (text.find(part) == text.npos)
+      ADD_FAILURE_AT(at.file_name(), static_cast<int>(at.line())) << "no '" << part << "' in: " << text;
+  }
+}
+inline void expect_says(std::string_view text, std::string_view part,
+                        const std::source_location& at = std::source_location::current()) {
+  expect_says(text, {part}, at);
+}
 
 // The `Error` that `act` throws; none where it throws none.
 template <typename Error, typename Act>
@@ -29,11 +45,14 @@ template <typename Error, typename Act>
 
 // `act` throws an `Error` whose message has all of these parts.
 template <typename Error, typename Act>
-void expect_error(Act act, const std::vector<std::string>& parts) {
+void expect_error(Act act, const std::vector<std::string>& parts,
+                  const std::source_location& at = std::source_location::current()) {
   const auto error = error_of<Error>(act);
-  if (!error) FAIL() << "nothing was thrown; expected: " << parts.front();
-  for (const std::string& part : parts)
-    EXPECT_NE(std::string(error->what()).find(part), std::string::npos) << error->what();
+  if (!error) {
+    ADD_FAILURE_AT(at.file_name(), static_cast<int>(at.line())) << "nothing was thrown; expected: " << parts.front();
+    return;
+  }
+  for (const std::string& part : parts) expect_says(error->what(), part, at);
 }
 
 }  // namespace nutik::test

@@ -2,7 +2,6 @@
 // right by two pixels a picture and then rests.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -40,6 +40,33 @@ NoisyCamera::Moments NoisyCamera::moments(double light) const {
   return {mean, std::sqrt(std::max(squares - mean * mean, 0.0))};
 }
 
+NoisyCamera camera_of(Shape shape, std::uint32_t white, Transfer transfer, double read, double shot) {
+  NoisyCamera camera{.format = {}, .read = read, .shot = shot};
+  camera.format.shape = shape;
+  camera.format.code_bytes = white > 255 ? 2 : 1;
+  camera.format.white_code = white;
+  camera.format.transfer = transfer;
+  return camera;
+}
+
+double waves(double x, double y, double k, int count, double shortest) {
+  double sum = 0;
+  for (int j = 0; j < count; ++j) {
+    const double length = shortest + 4 * j, angle = 0.9 * j;
+    const double along = (x * std::cos(angle) + y * std::sin(angle)) / length;
+    sum += std::sin(2 * std::numbers::pi * along + 1.7 * j + (0.7 + 0.3 * j) * k);
+  }
+  return sum;
+}
+
+NoiseEstimator::ReadSample reader_of(const Rasters& rasters) {
+  return [&rasters, next = std::size_t{0}](std::span<std::byte> raster) mutable {
+    if (next == rasters.size()) return false;
+    std::ranges::copy(rasters[next++], raster.begin());
+    return true;
+  };
+}
+
 Rasters film(const NoisyCamera& camera, std::uint64_t sample_count, std::uint64_t seed, const Light& light) {
   Normal normal(seed);
   Rasters rasters;

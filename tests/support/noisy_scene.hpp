@@ -3,9 +3,9 @@
 
 #include <cstdint>
 #include <functional>
-#include <vector>
 
 #include "capture/picture.hpp"
+#include "noise/noise_estimator.hpp"
 #include "support/random_case.hpp"
 
 namespace nutik::test {
@@ -39,6 +39,9 @@ struct NoisyCamera {
   [[nodiscard]] Moments moments(double light) const;
 };
 
+[[nodiscard]] NoisyCamera camera_of(Shape shape, std::uint32_t white, Transfer transfer, double read = 0.004,
+                                    double shot = 0.0004);
+
 // Light of a value (pixel and channel, as in a raster) at a sample, without noise.
 using Light = std::function<double(std::uint64_t value, std::uint64_t sample)>;
 
@@ -48,6 +51,13 @@ using Light = std::function<double(std::uint64_t value, std::uint64_t sample)>;
 // A still scene of all light from `darkest` to `brightest`, evenly in code, over the picture's width; channels
 // differ.
 [[nodiscard]] Light still_wedge(const NoisyCamera& camera, double darkest, double brightest);
+
+// The sum of `count` waves in several directions that pass through the picture: one of `shortest` pixels, and each four
+// longer than the one before.
+[[nodiscard]] double waves(double x, double y, double k, int count, double shortest);
+
+// One sample after the other; they must live as long.
+[[nodiscard]] NoiseEstimator::ReadSample reader_of(const Rasters& rasters);
 
 // Every other pixel of grey samples of 16 bits becomes the mean of the four beside it, as a camera makes of a mosaic.
 void interpolate_mosaic(Rasters& rasters, const Shape& shape);

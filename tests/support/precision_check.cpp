@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +10,7 @@
 #include "render/reference_renderer.hpp"
 #include "support/bound_share.hpp"
 #include "support/rendering.hpp"
+#include "support/stills.hpp"
 
 namespace nutik::test {
 namespace {
@@ -28,11 +28,6 @@ void keep(const Picture& picture, const std::string& name) {
   file.write(reinterpret_cast<const char*>(picture.bytes.data()),
              static_cast<std::streamsize>(picture.bytes.size()));
   ASSERT_TRUE(file.good()) << name << " cannot be written to " << folder;
-}
-
-double code_of(const Picture& picture, std::uint64_t i) {
-  return picture.type == ValueType::code8 ? picture.values<std::uint8_t>()[i]
-                                          : picture.values<std::uint16_t>()[i];
 }
 
 }  // namespace

@@ -6,11 +6,9 @@
 //   NUTIK_TEST_PICTURES=folder        keeps the pictures of `fixed`, to be compared with another device's
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -36,6 +34,14 @@ class PrecisionCheck {
   // program promises, or where codes are further from where the reference's light lies on their scale than half a
   // code and the bound in codes. `name` is that of the pictures that are kept; `rerun` says how to do it again.
   void check(const RenderPlan& plan, const Render& render, const std::string& name, const std::string& rerun);
+
+  // The same of the capture itself.
+  void check(const RenderPlan& plan, CaptureSource& capture, const std::string& name, const std::string& rerun) {
+    const auto render = [&](Renderer& renderer, const OutputFormat& output) {
+      return renderer.render(plan, capture, output).picture;
+    };
+    check(plan, render, name, rerun);
+  }
 
   // How much of its bound each arithmetic used, of light, and the worst difference.
   void print() const;

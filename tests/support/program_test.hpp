@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "support/messages.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"
 
@@ -22,7 +23,7 @@ class ProgramTest : public testing::Test {
   void expect_refused(const std::vector<std::string>& words, int status, std::string_view part) const {
     const ProgramResult result = run(words);
     EXPECT_EQ(result.status, status) << result.err;
-    EXPECT_NE(result.err.find(part), std::string::npos) << "no '" << part << "' in: " << result.err;
+    expect_says(result.err, part);
     EXPECT_EQ(result.out, "");
   }
 

@@ -1,7 +1,6 @@
 // A clip of stills for whole-program tests, and the light that was exposed from it.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>

@@ -3,12 +3,13 @@
 #include "support/random_case.hpp"
 
 namespace nutik::test {
-namespace {
 
-std::uint32_t still_code_of(const Picture& picture, std::uint64_t i) {
-  return picture.type == ValueType::code8 ? picture.values<std::uint8_t>()[i]
-                                          : picture.values<std::uint16_t>()[i];
+std::uint32_t code_of(const Picture& picture, std::uint64_t value) {
+  return picture.type == ValueType::code8 ? picture.values<std::uint8_t>()[value]
+                                          : picture.values<std::uint16_t>()[value];
 }
+
+namespace {
 
 // Bytes in one order or the other.
 class Bytes {
@@ -44,7 +45,7 @@ std::string tiff_values(const Picture& page, const TiffOptions& options, std::ui
     for (std::uint32_t i = 0; i < page.shape.width * channels; ++i) {
       const std::uint64_t at = (std::uint64_t{y} * page.shape.width + i / channels) * page.shape.channels +
                                first_channel + i % channels;
-      const std::uint32_t code = still_code_of(page, at);
+      const std::uint32_t code = code_of(page, at);
       const std::uint32_t value = options.inverted ? full - code : code;
       if (options.bits % 8 == 0) {
         bytes.add(value, options.bits / 8);
@@ -87,7 +88,7 @@ std::string netpbm_file(const Picture& picture, bool plain) {
   text += "\n# a comment\n" + std::to_string(picture.shape.width) + " " +
           std::to_string(picture.shape.height) + "\n" + std::to_string(picture.white_code) + "\n";
   for (std::uint64_t i = 0; i < picture.shape.value_count(); ++i) {
-    const std::uint32_t code = still_code_of(picture, i);
+    const std::uint32_t code = code_of(picture, i);
     if (plain) {
       text += std::to_string(code) + (i % 12 == 11 ? "\n" : " ");
     } else {
@@ -105,9 +106,9 @@ std::string difference(const std::vector<std::byte>& got, const Picture& want) {
   Picture read = want;
   read.bytes = got;
   for (std::uint64_t i = 0; i < want.shape.value_count(); ++i) {
-    if (still_code_of(read, i) == still_code_of(want, i)) continue;
-    return "value " + std::to_string(i) + ": " + std::to_string(still_code_of(read, i)) + ", expected " +
-           std::to_string(still_code_of(want, i));
+    if (code_of(read, i) == code_of(want, i)) continue;
+    return "value " + std::to_string(i) + ": " + std::to_string(code_of(read, i)) + ", expected " +
+           std::to_string(code_of(want, i));
   }
   return {};
 }

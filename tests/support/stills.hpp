@@ -13,6 +13,9 @@ namespace nutik::test {
 [[nodiscard]] std::vector<Picture> random_stills(Shape shape, std::uint32_t white_code, int count,
                                                  std::uint64_t seed);
 
+// The code of a picture of 8 or 16 bits.
+[[nodiscard]] std::uint32_t code_of(const Picture& picture, std::uint64_t value);
+
 // A PGM or PPM; plain ones are text.
 [[nodiscard]] std::string netpbm_file(const Picture& picture, bool plain);
 

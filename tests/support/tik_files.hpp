@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
-#include <vector>
 
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"

@@ -1,4 +1,5 @@
 #include "system/output_file.hpp"
+#include "support/messages.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -65,7 +66,7 @@ TEST(OutputFile, LeavesAnothersTemporaryFileAlone) {
       EXPECT_EQ(std::distance(fs::directory_iterator(scratch.folder()), fs::directory_iterator()), is_expected ? 2 : 1);
       if (!is_expected) continue;
       const std::string path = first.temporary_path().string();
-      EXPECT_NE(said.find("is not replaced; what was made is " + path), std::string::npos) << said;
+      expect_says(said, "is not replaced; what was made is " + path);
       EXPECT_EQ(read_file(path), "first, still being written");
     }
   }

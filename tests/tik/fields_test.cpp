@@ -152,9 +152,7 @@ TEST(TikFields, OfLaterProgramsArePassedOverUnlessTheyMustNotBe) {
   const ParsedHeader parsed = parse(passed);
   EXPECT_EQ(parsed.header.facts, (std::vector<std::string>{"one", "two"}));
   EXPECT_EQ(parsed.first_block_offset, passed.size());
-  const std::string message = test::message_of<InputError>([&] {
-    static_cast<void>(parse(file_with({{"late", true, ""}})));
-  });
+  const std::string message = test::message_of<InputError>([&] { return parse(file_with({{"late", true, ""}})); });
   EXPECT_NE(message.find("'late'"), std::string::npos) << message;
   EXPECT_NE(message.find("a later one"), std::string::npos) << message;
   EXPECT_THROW(static_cast<void>(parse(file_with({{"prim", true, "bt1886"}}))), InputError);
