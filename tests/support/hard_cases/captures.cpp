@@ -1,4 +1,7 @@
 // Hard cases of codes and storage: rounding edges, saturation, deep codes, tiles of all kinds.
+#include <algorithm>
+#include <array>
+
 #include "support/hard_cases/parts.hpp"
 
 namespace nutik::test {
@@ -8,16 +11,10 @@ namespace {
 HardCase on_rounding_edges() {
   const CaptureFormat capture = format_of({64, 64, 1}, Transfer::linear(), 4095);
   const Timeline timeline = Timeline::constant({50, 1}, Timeline::kFullShutter, 2);
-  FunctionSet functions = number({GainFunction::boxcar(0, timeline.duration_ns())});
-  const DrawSample sample = [capture](std::uint64_t k) {
-    std::vector<std::byte> raster(capture.sample_bytes());
-    for (std::uint32_t i = 0; i < 4096; ++i) {
-      set_code(capture, raster, i, std::min(capture.white_code, i + static_cast<std::uint32_t>(k)));
-    }
-    return raster;
+  const auto code_of = [white = capture.white_code](std::uint64_t i, std::uint64_t k) {
+    return std::min<std::uint64_t>(white, i + k);
   };
-  Mask mask = take_turns(capture.shape, functions);
-  return {capture, timeline, sample, std::move(functions), std::move(mask)};
+  return taking_turns(capture, timeline, drawn_by(capture, code_of), {GainFunction::boxcar(0, timeline.duration_ns())});
 }
 
 // Light exactly 0 and 1, just inside and outside, and far beyond.
@@ -29,15 +26,8 @@ HardCase saturates_at_both_ends() {
   for (const double gain : {1.0, -1.0, 1e4, -1e4, 1.0 + 1e-9, 1.0 - 1e-9, 3.9, -1e-12}) {
     functions.push_back(GainFunction::boxcar(0, end_ns, gain));
   }
-  FunctionSet set = number(std::move(functions));
-  Mask mask = take_turns(capture.shape, set);
-  const DrawSample sample = [capture](std::uint64_t) {
-    std::vector<std::byte> raster(capture.sample_bytes());
-    const std::uint32_t codes[] = {0, 1, 254, 255};
-    for (std::uint32_t i = 0; i < 256; ++i) set_code(capture, raster, i, codes[i / 8 % 4]);
-    return raster;
-  };
-  return {capture, timeline, sample, std::move(set), std::move(mask)};
+  const auto code_of = [](std::uint64_t i, std::uint64_t) { return std::array{0, 1, 254, 255}[i / 8 % 4]; };
+  return taking_turns(capture, timeline, drawn_by(capture, code_of), std::move(functions));
 }
 
 std::vector<GainFunction> some_functions(const Timeline& timeline) {
@@ -67,28 +57,17 @@ HardCase colour() {
 HardCase tiles_of_all_kinds() {
   const CaptureFormat capture = format_of({32, 8, 1}, Transfer::srgb());
   const Timeline timeline = Timeline::constant({30, 1}, kHalfShutter, 64);
-  std::vector<GainFunction> functions = some_functions(timeline);
-  const DrawSample sample = [capture](std::uint64_t k) {
-    std::vector<std::byte> raster(capture.sample_bytes());
-    for (std::uint32_t y = 0; y < 8; ++y) {
-      for (std::uint32_t x = 0; x < 32; ++x) {
-        const std::uint32_t lane = y * 8 + x % 8;
-        const auto step = static_cast<std::uint32_t>(x / 8 == 0   ? 0
-                                                     : x / 8 == 1 ? k / 10
-                                                     : x / 8 == 2 ? k
-                                                                  : (k + lane) / 64);
-        set_code(capture, raster, y * 32 + x, (lane * 5 + step * 97) % 256);
-      }
-    }
-    return raster;
+  const auto code_of = [](std::uint64_t i, std::uint64_t k) {
+    const std::uint64_t y = i / 32, x = i % 32, lane = y * 8 + x % 8;
+    const std::uint64_t step = x / 8 == 0 ? 0 : x / 8 == 1 ? k / 10 : x / 8 == 2 ? k : (k + lane) / 64;
+    return (lane * 5 + step * 97) % 256;
   };
-  FunctionSet set = number(std::move(functions));
-  Mask mask = take_turns(capture.shape, set);
+  HardCase hard = taking_turns(capture, timeline, drawn_by(capture, code_of), some_functions(timeline));
   // A tile of one function beside mixed ones, for kernels read it another way.
   for (std::uint32_t y = 0; y < 4; ++y) {
-    for (std::uint32_t x = 0; x < 16; ++x) mask.tags[y * 32 + x] = 1;
+    for (std::uint32_t x = 0; x < 16; ++x) hard.mask.tags[y * 32 + x] = 1;
   }
-  return {capture, timeline, sample, std::move(set), std::move(mask)};
+  return hard;
 }
 
 HardCase blocks_of_one_sample() {
@@ -101,18 +80,13 @@ HardCase blocks_of_one_sample() {
 HardCase larger_than_an_allocation() {
   const CaptureFormat capture = format_of({17, 75, 1}, Transfer::srgb());
   const Timeline timeline = Timeline::constant({30, 1}, kHalfShutter, 9);
-  const DrawSample sample = [capture](std::uint64_t k) {
-    std::vector<std::byte> raster(capture.sample_bytes());
-    for (std::uint32_t i = 0; i < capture.shape.pixel_count(); ++i) {
-      const bool changes = i % 17 / 8 == 1 && i / 17 / 8 % 4 == 2;
-      set_code(capture, raster, i, (i * 37 + static_cast<std::uint32_t>(changes ? k * 91 : 0)) % 256);
-    }
-    return raster;
+  const auto code_of = [](std::uint64_t i, std::uint64_t k) {
+    const bool changes = i % 17 / 8 == 1 && i / 17 / 8 % 4 == 2;
+    return (i * 37 + (changes ? k * 91 : 0)) % 256;
   };
-  FunctionSet set = number(some_functions(timeline));
-  Mask mask = take_turns(capture.shape, set);
-  for (std::size_t i = 0; i < mask.tags.size() / 2; ++i) mask.tags[i] = 3;
-  return {capture, timeline, sample, std::move(set), std::move(mask)};
+  HardCase hard = taking_turns(capture, timeline, drawn_by(capture, code_of), some_functions(timeline));
+  for (std::size_t i = 0; i < hard.mask.tags.size() / 2; ++i) hard.mask.tags[i] = 3;
+  return hard;
 }
 
 constexpr NamedHardCase kCases[] = {

@@ -44,9 +44,8 @@ HardCase cancels_to_a_billionth_on_a_still_scene() {
     return GainFunction({{0, plus}, {kSecondNs / 2, plus}, {kSecondNs / 2, minus}, {kSecondNs, minus}});
   };
   const CaptureFormat capture = format_of({16, 16, 1}, Transfer::srgb());
-  FunctionSet functions = number({difference(1.0, -(1.0 - 2e-9)), difference(1e9, -(1e9 - 2.0))});
-  Mask mask = take_turns(capture.shape, functions);
-  return {capture, timeline, still(capture), std::move(functions), std::move(mask)};
+  return taking_turns(capture, timeline, still(capture),
+                      {difference(1.0, -(1.0 - 2e-9)), difference(1e9, -(1e9 - 2.0))});
 }
 
 // The difference of two moments, over and over, of a scene of which hardly anything moves.
@@ -59,15 +58,13 @@ HardCase cancels_from_sample_to_sample() {
     points.push_back({timeline.end_ns(k), gain});
   }
   const CaptureFormat capture = format_of({9, 8, 1}, Transfer::gamma(2.2));
-  FunctionSet functions = number({GainFunction(std::move(points))});
-  Mask mask = take_turns(capture.shape, functions);
   const DrawSample scene = still(capture);
   const DrawSample moving = [=](std::uint64_t k) {
     std::vector<std::byte> raster = scene(k);
     set_code(capture, raster, k % capture.shape.value_count(), 255);
     return raster;
   };
-  return {capture, timeline, moving, std::move(functions), std::move(mask)};
+  return taking_turns(capture, timeline, moving, {GainFunction(std::move(points))});
 }
 
 HardCase a_million_and_a_millionth() {

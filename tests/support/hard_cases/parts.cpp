@@ -35,22 +35,6 @@ CaptureFormat format_of(Shape shape, Transfer transfer, std::uint32_t white_code
   return {.shape = shape, .code_bytes = white_code > 255 ? 2u : 1u, .white_code = white_code, .transfer = transfer};
 }
 
-FunctionSet number(std::vector<GainFunction> functions) {
-  FunctionSet set;
-  for (GainFunction& function : functions) {
-    set.emplace(static_cast<std::uint8_t>(set.size()), std::move(function));
-  }
-  return set;
-}
-
-Mask take_turns(const Shape& shape, const FunctionSet& functions) {
-  Mask mask = Mask::uniform(shape.width, shape.height, 0);
-  for (std::size_t i = 0; i < mask.tags.size(); ++i) {
-    mask.tags[i] = static_cast<std::uint8_t>(i % functions.size());
-  }
-  return mask;
-}
-
 namespace {
 
 // 64 bits without pattern for each number: SplitMix64's output function.
@@ -63,32 +47,36 @@ std::uint64_t scramble(std::uint64_t number) {
 
 }  // namespace
 
-DrawSample noise(const CaptureFormat& capture) {
-  return [capture](std::uint64_t k) {
-    const std::uint64_t values = capture.shape.value_count();
+DrawSample drawn_by(const CaptureFormat& capture,
+                    std::function<std::uint64_t(std::uint64_t i, std::uint64_t k)> code_of) {
+  return [capture, code_of = std::move(code_of)](std::uint64_t k) {
     std::vector<std::byte> raster(capture.sample_bytes());
-    for (std::uint64_t i = 0; i < values; ++i) {
-      const std::uint64_t bits = scramble(k * values + i);
-      set_code(capture, raster, i, static_cast<std::uint32_t>(bits % (capture.white_code + 1)));
-    }
+    for (std::uint64_t i = 0; i < capture.shape.value_count(); ++i)
+      set_code(capture, raster, i, static_cast<std::uint32_t>(code_of(i, k)));
     return raster;
   };
+}
+
+DrawSample noise(const CaptureFormat& capture) {
+  return drawn_by(capture, [values = capture.shape.value_count(), codes = capture.white_code + 1](
+                               std::uint64_t i, std::uint64_t k) { return scramble(k * values + i) % codes; });
 }
 
 DrawSample still(const CaptureFormat& capture) {
-  return [capture](std::uint64_t) {
-    std::vector<std::byte> raster(capture.sample_bytes());
-    for (std::uint64_t i = 0; i < capture.shape.value_count(); ++i) {
-      set_code(capture, raster, i, static_cast<std::uint32_t>(i * 37 % (capture.white_code + 1)));
-    }
-    return raster;
-  };
+  return drawn_by(capture, [codes = capture.white_code + 1](std::uint64_t i, std::uint64_t) { return i * 37 % codes; });
+}
+
+HardCase taking_turns(const CaptureFormat& capture, Timeline timeline, DrawSample sample,
+                      std::vector<GainFunction> functions) {
+  FunctionSet set;
+  for (GainFunction& function : functions) set.emplace(static_cast<std::uint8_t>(set.size()), std::move(function));
+  Mask mask = Mask::uniform(capture.shape.width, capture.shape.height, 0);
+  for (std::size_t i = 0; i < mask.tags.size(); ++i) mask.tags[i] = static_cast<std::uint8_t>(i % set.size());
+  return {capture, std::move(timeline), std::move(sample), std::move(set), std::move(mask)};
 }
 
 HardCase noisy_case(const CaptureFormat& capture, Timeline timeline, std::vector<GainFunction> functions) {
-  FunctionSet set = number(std::move(functions));
-  Mask mask = take_turns(capture.shape, set);
-  return {capture, std::move(timeline), noise(capture), std::move(set), std::move(mask)};
+  return taking_turns(capture, std::move(timeline), noise(capture), std::move(functions));
 }
 
 GainFunction pulse(std::int64_t time_ns, double gain) {
