@@ -21,8 +21,8 @@
 namespace nutik::test {
 
 inline bool has_ffmpeg() {
-  const Scratch scratch;
-  return test::run_shell("ffmpeg -version", scratch.folder()).status == 0;
+  static const bool is_there = run_shell("command -v ffmpeg", Scratch().folder()).status == 0;
+  return is_there;
 }
 
 #define NEEDS_FFMPEG() \
@@ -65,7 +65,7 @@ inline void make(const Scratch& scratch, const std::string& words) {
     command += " && mv " + output + " " + plain;
     command += " && ffmpeg -v error -y -i " + plain + " -c copy" + marks + " " + output;
   }
-  const auto made = test::run_shell(command, scratch.folder());
+  const auto made = run_shell(command, scratch.folder());
   ASSERT_EQ(made.status, 0) << words << "\n" << made.err;
 }
 
