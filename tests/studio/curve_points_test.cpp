@@ -126,8 +126,8 @@ TEST(Drags, LeaveEverythingWhereTheHandHasNotMoved) {
   const Timeline timeline = hundred_a_second();
   const Points points{{1'234'567, 0.123456789}, {5'000'000, 1.0}};
   const auto drag = drag_points(points, {0}, 0, Snapper(&timeline, {}, 0));
-  EXPECT_EQ(drag->by({0, 0, 1e6, 0.1, 0, 0, false}).points, points);
-  const Points after = drag->by({1.0e6, 0.2, 1e5, 0.01, 0, 0, false}).points;
+  EXPECT_EQ(drag.by({0, 0, 1e6, 0.1, 0, 0, false}).points, points);
+  const Points after = drag.by({1.0e6, 0.2, 1e5, 0.01, 0, 0, false}).points;
   EXPECT_EQ(after[0].time_ns, 2'200'000) << "dragged numbers are round";
   EXPECT_EQ(after[0].gain, 0.32);
 }

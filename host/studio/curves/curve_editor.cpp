@@ -19,7 +19,8 @@ Points points_of(const GainFunction& function) {
 }  // namespace
 
 CurveEditor::CurveEditor(Document& document, TimeAxis& axis, QWidget* parent)
-    : TimeView(document, axis, parent), numbers_(new NumberEditor(this)) {
+    : TimeView(document, axis, parent),
+      numbers_(new NumberEditor(this, [this](const ControlPoint& typed) { return set_current(typed); })) {
   setAccessibleName(tr("Gain curve"));
   setObjectName("curves");
   connect(&document_, &Document::capture_changed, this, [this] {
@@ -38,26 +39,24 @@ CurveEditor::CurveEditor(Document& document, TimeAxis& axis, QWidget* parent)
     waveform_ = document_.waveform() ? Series(document_.waveform()->light) : Series();
     refresh_backdrop();
   });
-  connect(numbers_, &NumberEditor::closed, this, [this] { setFocus(Qt::OtherFocusReason); });
-  connect(numbers_, &NumberEditor::entered, this, [this](const ControlPoint& typed) {
-    if (!current_ || *current_ >= points_.size()) return numbers_->close_editor();
-    const auto set = with_point_set(points_, *current_, typed);
-    if (!set) {
-      const QString before = *current_ == 0 ? QString() : exact_time_text(points_[*current_ - 1].time_ns);
-      const QString after =
-          *current_ + 1 == points_.size() ? QString() : exact_time_text(points_[*current_ + 1].time_ns);
-      return numbers_->refuse(before.isEmpty()  ? tr("Points keep their order: the time must be before %1").arg(after)
-                              : after.isEmpty() ? tr("Points keep their order: the time must be after %1").arg(before)
-                                                : tr("Points keep their order: the time must be after %1 and before %2")
-                                                      .arg(before, after));
-    }
-    numbers_->close_editor();
-    use(*set, tr("Set point"));
-  });
   follow_document();
 }
 
 CurveEditor::~CurveEditor() = default;
+
+QString CurveEditor::set_current(const ControlPoint& typed) {
+  if (!current_ || *current_ >= points_.size()) return {};
+  const auto set = with_point_set(points_, *current_, typed);
+  if (set) {
+    use(*set, tr("Set point"));
+    return {};
+  }
+  const QString before = *current_ == 0 ? QString() : exact_time_text(points_[*current_ - 1].time_ns);
+  const QString after = *current_ + 1 == points_.size() ? QString() : exact_time_text(points_[*current_ + 1].time_ns);
+  return before.isEmpty()  ? tr("Points keep their order: the time must be before %1").arg(after)
+         : after.isEmpty() ? tr("Points keep their order: the time must be after %1").arg(before)
+                           : tr("Points keep their order: the time must be after %1 and before %2").arg(before, after);
+}
 
 QRectF CurveEditor::plot_area() const {
   return QRectF(rect()).adjusted(TimeAxis::kLeft, kHeader, -TimeAxis::kRight, -(kLanePixels + kFoot));

@@ -12,7 +12,6 @@
 //   always:  edits go through the document, a drag as one step; Escape takes a drag back
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include "studio/curves/curve_paint.hpp"
@@ -62,9 +61,8 @@ class CurveEditor : public TimeView {
     QPointF at;    // where it went down
     QPointF last;  // where the pointer was last
     QPointF hand;  // how far the hand has come, slowly with Shift
-    std::unique_ptr<Drag> drag;
+    std::optional<Drag> drag;
     std::uint8_t tag = 0;       // whose points are dragged
-    DocumentState before = {};  // for Escape
     bool has_moved = false;
     bool adds_point = false;                  // a click on the curve
     std::optional<std::size_t> toggles = {};  // of a click: a point to leave out of the selection
@@ -87,7 +85,7 @@ class CurveEditor : public TimeView {
   // Mouse.
   void press_point(std::size_t point, const QMouseEvent& event);
   void press_curve(QPointF at);
-  void start(std::unique_ptr<Drag> drag, QPointF at);
+  void start(Drag drag, QPointF at);
   void drag_to(QPointF at, Qt::KeyboardModifiers modifiers);
   void cancel_press();
   void drop_press();
@@ -100,6 +98,7 @@ class CurveEditor : public TimeView {
   void remove_selected();
   void insert_point();
   void type_numbers();
+  QString set_current(const ControlPoint& typed);  // or what is wrong with it
   void step_to(std::size_t point);
   bool edit_by_key(const QKeyEvent& event);
   bool look_by_key(const QKeyEvent& event);

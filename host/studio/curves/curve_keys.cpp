@@ -165,7 +165,7 @@ void CurveEditor::insert_point() {
 
 void CurveEditor::type_numbers() {
   if (!current_ || *current_ >= points_.size()) return;
-  numbers_->open(points_[*current_], &document_.facts()->timeline, frame().place(points_[*current_]));
+  numbers_->open(points_[*current_], document_.facts()->timeline, frame().place(points_[*current_]));
 }
 
 QString CurveEditor::text_at(QPointF at) const {

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "studio/curves/curve_editor.hpp"
-#include "studio/curves/number_editor.hpp"
 
 namespace nutik::studio {
 namespace {
@@ -50,7 +49,7 @@ void CurveEditor::mousePressEvent(QMouseEvent* event) {
   const QPointF at = event->position();
   if (event->button() == Qt::RightButton) return remove_at(at);
   if (event->button() == Qt::MiddleButton) {
-    press_.emplace(Press{Press::Kind::pan, at, at, {}, nullptr});
+    press_.emplace(Press{Press::Kind::pan, at, at, {}, {}});
     setCursor(Qt::ClosedHandCursor);
     return;
   }
@@ -74,7 +73,7 @@ void CurveEditor::mousePressEvent(QMouseEvent* event) {
   }
   if (is_on_curve(frame, points_, at)) return press_curve(at);
   const bool adds = event->modifiers() & (Qt::ShiftModifier | Qt::ControlModifier);
-  press_.emplace(Press{Press::Kind::rubber_band, at, at, {}, nullptr});
+  press_.emplace(Press{Press::Kind::rubber_band, at, at, {}, {}});
   if (adds) press_->kept = selected();
 }
 
@@ -102,9 +101,8 @@ void CurveEditor::press_curve(QPointF at) {
     message_ = tr("There is a point at this time already");
     return update();
   }
-  Press press{Press::Kind::drag, at, at, {}, nullptr};
+  Press press{Press::Kind::drag, at, at, {}, {}};
   press.tag = document_.selected_tag();
-  press.before = document_.state();
   press.has_moved = true;
   press_ = std::move(press);
   document_.begin_drag();
@@ -113,10 +111,9 @@ void CurveEditor::press_curve(QPointF at) {
   press_->drag = drag_points(points_, {added->index}, added->index, snapper({added->index}));
 }
 
-void CurveEditor::start(std::unique_ptr<Drag> drag, QPointF at) {
+void CurveEditor::start(Drag drag, QPointF at) {
   press_.emplace(Press{Press::Kind::drag, at, at, {}, std::move(drag)});
   press_->tag = document_.selected_tag();
-  press_->before = document_.state();
 }
 
 void CurveEditor::drag_to(QPointF at, Qt::KeyboardModifiers modifiers) {
@@ -144,7 +141,7 @@ void CurveEditor::drag_to(QPointF at, Qt::KeyboardModifiers modifiers) {
   dragged_ = press_->drag->by(shift);
   if (is_free) dragged_->time_snap.reset(), dragged_->gain_snap.reset();
   if (dragged_->points == points_) return update();
-  use(dragged_->points, press_->drag->name());
+  use(dragged_->points, press_->drag->name);
 }
 
 void CurveEditor::mouseMoveEvent(QMouseEvent* event) {
@@ -223,10 +220,7 @@ void CurveEditor::cancel_press() {
   const Press press = std::move(*press_);
   press_.reset();
   dragged_.reset();
-  if (press.kind == Press::Kind::drag && press.has_moved && document_.is_dragging()) {
-    document_.apply(press.before, tr("Move point"));
-    document_.end_drag();
-  }
+  if (press.kind == Press::Kind::drag && press.has_moved) document_.give_up_drag(tr("Move point"));
   update();
 }
 

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plot/canvas.hpp"
 #include "plot/graph.hpp"
-#include "sheet/contact_sheet.hpp"
 
 namespace nutik::studio {
 namespace {

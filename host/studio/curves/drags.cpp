@@ -51,162 +51,66 @@ double higher(double gain, const HandShift& shift) {
 
 QString short_gain(double gain) { return QString::fromStdString(format("{:.4g}", gain)); }
 
-class PointDrag : public Drag {
- public:
-  PointDrag(Points points, PointIndices chosen, std::size_t pressed, Snapper snapper)
-      : Drag(std::move(points), std::move(snapper)), chosen_(std::move(chosen)), pressed_(pressed) {}
+// Selected points are spread by a side of the box round them.
+Dragged spread_by(const HandShift& shift, const Points& points, const PointIndices& chosen, bool is_left,
+                  const Snapper& snapper) {
+  // Steps are aligned by the points that stand for their moments.
+  const std::size_t begin = step_anchor(points, chosen.front()), end = step_anchor(points, chosen.back());
+  const std::int64_t held = points[is_left ? begin : end].time_ns;
+  const std::int64_t fixed = points[is_left ? end : begin].time_ns;
+  Dragged dragged;
+  std::int64_t at = later(held, shift);
+  dragged.time_snap = snapper.time(at, shift.time_reach_ns);
+  if (dragged.time_snap) at = dragged.time_snap->time_ns;
+  // It does not turn over.
+  constexpr double kMin = 1e-6;
+  const double factor = std::max(static_cast<double>(at - fixed) / static_cast<double>(held - fixed), kMin);
+  dragged.points = at == held ? points : spread(points, chosen, factor, fixed);
+  const std::int64_t length = dragged.points[end].time_ns - dragged.points[begin].time_ns;
+  const double times =
+      static_cast<double>(length) / static_cast<double>(points[end].time_ns - points[begin].time_ns);
+  dragged.text = Document::tr("%1 long, × %2").arg(exact_time_text(length), short_gain(times));
+  return dragged;
+}
 
-  Dragged by(const HandShift& shift) const override {
-    // A step is aligned by the point that stands for its moment.
-    const ControlPoint& anchor = points_[shift.alone ? pressed_ : step_anchor(points_, pressed_)];
-    const ControlPoint& pressed = points_[pressed_];
-    Dragged dragged;
-    PointShift by{later(anchor.time_ns, shift) - anchor.time_ns, higher(pressed.gain, shift) - pressed.gain};
-    dragged.time_snap = snapper_.time(anchor.time_ns + by.time_ns, shift.time_reach_ns);
-    if (dragged.time_snap) by.time_ns = dragged.time_snap->time_ns - anchor.time_ns;
-    dragged.gain_snap = snapper_.gain(pressed.gain + by.gain, shift.gain_reach);
-    if (dragged.gain_snap) by.gain = dragged.gain_snap->gain - pressed.gain;
-    dragged.points = moved(points_, chosen_, by, shift.alone ? Steps::ignored : Steps::kept);
-    // A sum of differences would have other last digits.
-    dragged.points[pressed_].gain = dragged.gain_snap ? dragged.gain_snap->gain : higher(pressed.gain, shift);
-    dragged.text = point_text(dragged.points[pressed_]);
-    return dragged;
+// Whatever their times are already.
+void amplify(Dragged& dragged, const HandShift& shift, const PointIndices& chosen, double held,
+             const Snapper& snapper) {
+  double to = higher(held, shift);
+  dragged.gain_snap = snapper.gain(to, shift.gain_reach);
+  if (dragged.gain_snap) to = dragged.gain_snap->gain;
+  if (to != held) dragged.points = amplified(dragged.points, chosen, to / held);
+  const QString text = Document::tr("gain %1, × %2").arg(short_gain(to), short_gain(to / held));
+  dragged.text = dragged.text.isEmpty() ? text : dragged.text + "; " + text;
+}
+
+// A whole boxcar snaps with its nearer end. Changes the shift.
+std::optional<TimeSnap> snap(const BoxcarHit& hit, const Snapper& snapper, std::int64_t& by_ns, double reach_ns) {
+  std::optional<TimeSnap> begin, end;
+  const std::int64_t begin_ns = hit.boxcar.begin_ns, end_ns = hit.boxcar.end_ns;
+  if (hit.part != BoxcarPart::end) begin = snapper.time(begin_ns + by_ns, reach_ns);
+  if (hit.part != BoxcarPart::begin) end = snapper.time(end_ns + by_ns, reach_ns);
+  const std::int64_t asked_ns = by_ns;
+  const auto distance = [&](const std::optional<TimeSnap>& to, std::int64_t from) {
+    return std::abs(to->time_ns - from - asked_ns);
+  };
+  if (begin && (!end || distance(begin, begin_ns) <= distance(end, end_ns))) {
+    by_ns = begin->time_ns - begin_ns;
+    return begin;
   }
-  QString name() const override {
-    return chosen_.size() == 1 ? Document::tr("Move point") : Document::tr("Move %1 points").arg(chosen_.size());
+  if (end) by_ns = end->time_ns - end_ns;
+  return end;
+}
+
+QString name_of(BoxcarPart part) {
+  switch (part) {
+    case BoxcarPart::whole: return Document::tr("Move boxcar");
+    case BoxcarPart::begin: return Document::tr("Move boxcar's begin");
+    case BoxcarPart::end: return Document::tr("Move boxcar's end");
+    case BoxcarPart::gain: return Document::tr("Change boxcar's gain");
   }
-
- private:
-  PointIndices chosen_;
-  std::size_t pressed_;
-};
-
-class BoxDrag : public Drag {
- public:
-  BoxDrag(Points points, PointIndices chosen, const TransformBox& box, BoxPart part, Snapper snapper)
-      : Drag(std::move(points), std::move(snapper)), chosen_(std::move(chosen)), box_(box), part_(part) {}
-
-  Dragged by(const HandShift& shift) const override {
-    if (part_ == BoxPart::inside) return PointDrag(points_, chosen_, chosen_.front(), snapper_).by(shift);
-    Dragged dragged{points_, {}, {}, {}};
-    if (moves_left(part_) || moves_right(part_)) dragged = spread_by(shift);
-    if (moves_top(part_) || moves_bottom(part_)) amplify(dragged, shift);
-    return dragged;
-  }
-  QString name() const override {
-    switch (part_) {
-      case BoxPart::inside: return Document::tr("Move %1 points").arg(chosen_.size());
-      case BoxPart::left:
-      case BoxPart::right: return Document::tr("Stretch points in time");
-      case BoxPart::top:
-      case BoxPart::bottom: return Document::tr("Multiply gains");
-      case BoxPart::top_left:
-      case BoxPart::top_right:
-      case BoxPart::bottom_left:
-      case BoxPart::bottom_right: return Document::tr("Stretch points in time and gain");
-    }
-    return {};
-  }
-
- private:
-  Dragged spread_by(const HandShift& shift) const {
-    const bool is_left = moves_left(part_);
-    // Steps are aligned by the points that stand for their moments.
-    const std::size_t begin = step_anchor(points_, chosen_.front()),
-                      end = step_anchor(points_, chosen_.back());
-    const std::int64_t held = points_[is_left ? begin : end].time_ns;
-    const std::int64_t fixed = points_[is_left ? end : begin].time_ns;
-    Dragged dragged;
-    std::int64_t at = later(held, shift);
-    dragged.time_snap = snapper_.time(at, shift.time_reach_ns);
-    if (dragged.time_snap) at = dragged.time_snap->time_ns;
-    // It does not turn over.
-    constexpr double kMin = 1e-6;
-    const double factor = std::max(static_cast<double>(at - fixed) / static_cast<double>(held - fixed), kMin);
-    dragged.points = at == held ? points_ : spread(points_, chosen_, factor, fixed);
-    const std::int64_t length = dragged.points[end].time_ns - dragged.points[begin].time_ns;
-    const double times =
-        static_cast<double>(length) / static_cast<double>(points_[end].time_ns - points_[begin].time_ns);
-    dragged.text = Document::tr("%1 long, × %2").arg(exact_time_text(length), short_gain(times));
-    return dragged;
-  }
-
-  // Whatever their times are already.
-  void amplify(Dragged& dragged, const HandShift& shift) const {
-    const double held = moves_top(part_) ? box_.high() : box_.low();
-    double to = higher(held, shift);
-    dragged.gain_snap = snapper_.gain(to, shift.gain_reach);
-    if (dragged.gain_snap) to = dragged.gain_snap->gain;
-    if (to != held) dragged.points = amplified(dragged.points, chosen_, to / held);
-    const QString text = Document::tr("gain %1, × %2").arg(short_gain(to), short_gain(to / held));
-    dragged.text = dragged.text.isEmpty() ? text : dragged.text + "; " + text;
-  }
-
-  PointIndices chosen_;
-  TransformBox box_;
-  BoxPart part_;
-};
-
-class BoxcarDrag : public Drag {
- public:
-  BoxcarDrag(Points points, const BoxcarHit& hit, Snapper snapper)
-      : Drag(std::move(points), std::move(snapper)), hit_(hit) {}
-
-  Dragged by(const HandShift& shift) const override {
-    const GainBoxcar& boxcar = hit_.boxcar;
-    Dragged dragged;
-    if (hit_.part == BoxcarPart::gain) {
-      double to = higher(boxcar.gain, shift);
-      dragged.gain_snap = snapper_.gain(to, shift.gain_reach);
-      if (dragged.gain_snap) to = dragged.gain_snap->gain;
-      dragged.text = Document::tr("gain %1").arg(short_gain(to));
-      dragged.points = points_;
-      for (const std::size_t i : {boxcar.first, boxcar.last}) dragged.points[i].gain = to;
-      return dragged;
-    }
-    const std::int64_t held = hit_.part == BoxcarPart::end ? boxcar.end_ns : boxcar.begin_ns;
-    std::int64_t by_ns = later(held, shift) - held;
-    dragged.time_snap = snap(by_ns, shift.time_reach_ns);
-    // Nothing is added to a boxcar that stays where it is.
-    dragged.points = by_ns == 0 ? points_ : with_boxcar_moved(points_, boxcar, hit_.part, by_ns);
-    const std::size_t added = dragged.points.size() - points_.size();
-    const std::int64_t begin = dragged.points[boxcar.first + added].time_ns;
-    const std::int64_t end = dragged.points[boxcar.last + added].time_ns;
-    dragged.text = Document::tr("%1 to %2, %3 long")
-                       .arg(exact_time_text(begin), exact_time_text(end), exact_time_text(end - begin));
-    return dragged;
-  }
-  QString name() const override {
-    switch (hit_.part) {
-      case BoxcarPart::whole: return Document::tr("Move boxcar");
-      case BoxcarPart::begin: return Document::tr("Move boxcar's begin");
-      case BoxcarPart::end: return Document::tr("Move boxcar's end");
-      case BoxcarPart::gain: return Document::tr("Change boxcar's gain");
-    }
-    return {};
-  }
-
- private:
-  // A whole boxcar snaps with its nearer end. Changes the shift.
-  std::optional<TimeSnap> snap(std::int64_t& by_ns, double reach_ns) const {
-    std::optional<TimeSnap> begin, end;
-    const std::int64_t begin_ns = hit_.boxcar.begin_ns, end_ns = hit_.boxcar.end_ns;
-    if (hit_.part != BoxcarPart::end) begin = snapper_.time(begin_ns + by_ns, reach_ns);
-    if (hit_.part != BoxcarPart::begin) end = snapper_.time(end_ns + by_ns, reach_ns);
-    const std::int64_t asked_ns = by_ns;
-    const auto distance = [&](const std::optional<TimeSnap>& to, std::int64_t from) {
-      return std::abs(to->time_ns - from - asked_ns);
-    };
-    if (begin && (!end || distance(begin, begin_ns) <= distance(end, end_ns))) {
-      by_ns = begin->time_ns - begin_ns;
-      return begin;
-    }
-    if (end) by_ns = end->time_ns - end_ns;
-    return end;
-  }
-
-  BoxcarHit hit_;
-};
+  return {};
+}
 
 }  // namespace
 
@@ -257,17 +161,69 @@ std::optional<GainSnap> Snapper::gain(double gain, double reach) const {
   return nearest;
 }
 
-std::unique_ptr<Drag> drag_points(Points points, PointIndices chosen, std::size_t pressed, Snapper snapper) {
-  return std::make_unique<PointDrag>(std::move(points), std::move(chosen), pressed, std::move(snapper));
+Drag drag_points(Points points, PointIndices chosen, std::size_t pressed_index, Snapper snapper) {
+  const QString name =
+      chosen.size() == 1 ? Document::tr("Move point") : Document::tr("Move %1 points").arg(chosen.size());
+  return {name, [=](const HandShift& shift) {
+            // A step is aligned by the point that stands for its moment.
+            const ControlPoint& anchor = points[shift.alone ? pressed_index : step_anchor(points, pressed_index)];
+            const ControlPoint& pressed = points[pressed_index];
+            Dragged dragged;
+            PointShift by{later(anchor.time_ns, shift) - anchor.time_ns, higher(pressed.gain, shift) - pressed.gain};
+            dragged.time_snap = snapper.time(anchor.time_ns + by.time_ns, shift.time_reach_ns);
+            if (dragged.time_snap) by.time_ns = dragged.time_snap->time_ns - anchor.time_ns;
+            dragged.gain_snap = snapper.gain(pressed.gain + by.gain, shift.gain_reach);
+            if (dragged.gain_snap) by.gain = dragged.gain_snap->gain - pressed.gain;
+            dragged.points = moved(points, chosen, by, shift.alone ? Steps::ignored : Steps::kept);
+            // A sum of differences would have other last digits.
+            ControlPoint& to = dragged.points[pressed_index];
+            to.gain = dragged.gain_snap ? dragged.gain_snap->gain : higher(pressed.gain, shift);
+            dragged.text = point_text(to);
+            return dragged;
+          }};
 }
 
-std::unique_ptr<Drag> drag_box(Points points, PointIndices chosen, const TransformBox& box, BoxPart part,
-                               Snapper snapper) {
-  return std::make_unique<BoxDrag>(std::move(points), std::move(chosen), box, part, std::move(snapper));
+Drag drag_box(Points points, PointIndices chosen, const TransformBox& box, BoxPart part, Snapper snapper) {
+  if (part == BoxPart::inside)
+    return drag_points(std::move(points), chosen, chosen.front(), std::move(snapper));
+  const bool has_time = moves_left(part) || moves_right(part), has_gain = moves_top(part) || moves_bottom(part);
+  const QString name = !has_gain   ? Document::tr("Stretch points in time")
+                       : !has_time ? Document::tr("Multiply gains")
+                                   : Document::tr("Stretch points in time and gain");
+  const double held = moves_top(part) ? box.high() : box.low();
+  return {name, [=](const HandShift& shift) {
+            Dragged dragged{points, {}, {}, {}};
+            if (has_time) dragged = spread_by(shift, points, chosen, moves_left(part), snapper);
+            if (has_gain) amplify(dragged, shift, chosen, held, snapper);
+            return dragged;
+          }};
 }
 
-std::unique_ptr<Drag> drag_boxcar(Points points, const BoxcarHit& hit, Snapper snapper) {
-  return std::make_unique<BoxcarDrag>(std::move(points), hit, std::move(snapper));
+Drag drag_boxcar(Points points, const BoxcarHit& hit, Snapper snapper) {
+  return {name_of(hit.part), [=](const HandShift& shift) {
+            const GainBoxcar& boxcar = hit.boxcar;
+            Dragged dragged;
+            if (hit.part == BoxcarPart::gain) {
+              double to = higher(boxcar.gain, shift);
+              dragged.gain_snap = snapper.gain(to, shift.gain_reach);
+              if (dragged.gain_snap) to = dragged.gain_snap->gain;
+              dragged.text = Document::tr("gain %1").arg(short_gain(to));
+              dragged.points = points;
+              for (const std::size_t i : {boxcar.first, boxcar.last}) dragged.points[i].gain = to;
+              return dragged;
+            }
+            const std::int64_t held = hit.part == BoxcarPart::end ? boxcar.end_ns : boxcar.begin_ns;
+            std::int64_t by_ns = later(held, shift) - held;
+            dragged.time_snap = snap(hit, snapper, by_ns, shift.time_reach_ns);
+            // Nothing is added to a boxcar that stays where it is.
+            dragged.points = by_ns == 0 ? points : with_boxcar_moved(points, boxcar, hit.part, by_ns);
+            const std::size_t added = dragged.points.size() - points.size();
+            const std::int64_t begin = dragged.points[boxcar.first + added].time_ns;
+            const std::int64_t end = dragged.points[boxcar.last + added].time_ns;
+            dragged.text = Document::tr("%1 to %2, %3 long")
+                               .arg(exact_time_text(begin), exact_time_text(end), exact_time_text(end - begin));
+            return dragged;
+          }};
 }
 
 QString point_text(const ControlPoint& point) {

@@ -8,7 +8,7 @@
 #include <QPointF>
 #include <QString>
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -70,27 +70,17 @@ struct Dragged {
   std::optional<GainSnap> gain_snap;
 };
 
-class Drag {
- public:
-  virtual ~Drag() = default;
-  [[nodiscard]] virtual Dragged by(const HandShift& shift) const = 0;
-  // For the undo menu.
-  [[nodiscard]] virtual QString name() const = 0;
-
- protected:
-  Drag(Points points, Snapper snapper) : points_(std::move(points)), snapper_(std::move(snapper)) {}
-
-  Points points_;
-  Snapper snapper_;
+struct Drag {
+  QString name;  // for the undo menu
+  std::function<Dragged(const HandShift&)> by;
 };
 
 // Selected points, drawn to targets by the one that was pressed.
-[[nodiscard]] std::unique_ptr<Drag> drag_points(Points points, PointIndices chosen, std::size_t pressed,
-                                                Snapper snapper);
+[[nodiscard]] Drag drag_points(Points points, PointIndices chosen, std::size_t pressed, Snapper snapper);
 // Selected points by a part of the box round them.
-[[nodiscard]] std::unique_ptr<Drag> drag_box(Points points, PointIndices chosen, const TransformBox& box,
-                                             BoxPart part, Snapper snapper);
-[[nodiscard]] std::unique_ptr<Drag> drag_boxcar(Points points, const BoxcarHit& hit, Snapper snapper);
+[[nodiscard]] Drag drag_box(Points points, PointIndices chosen, const TransformBox& box, BoxPart part,
+                            Snapper snapper);
+[[nodiscard]] Drag drag_boxcar(Points points, const BoxcarHit& hit, Snapper snapper);
 
 // `400 ms, gain 0.5`: the digits that a hand can choose.
 [[nodiscard]] QString point_text(const ControlPoint& point);

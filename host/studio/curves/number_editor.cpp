@@ -10,8 +10,12 @@
 
 namespace nutik::studio {
 
-NumberEditor::NumberEditor(QWidget* parent)
-    : QFrame(parent), time_(new QLineEdit(this)), gain_(new QLineEdit(this)), mistake_(new QLabel(this)) {
+NumberEditor::NumberEditor(QWidget* parent, Use use)
+    : QFrame(parent),
+      use_(std::move(use)),
+      time_(new QLineEdit(this)),
+      gain_(new QLineEdit(this)),
+      mistake_(new QLabel(this)) {
   setFrameStyle(QFrame::StyledPanel | QFrame::Raised);
   setAutoFillBackground(true);
   auto* form = new QFormLayout(this);
@@ -37,9 +41,9 @@ NumberEditor::NumberEditor(QWidget* parent)
   hide();
 }
 
-void NumberEditor::open(const ControlPoint& point, const Timeline* timeline, QPointF at) {
+void NumberEditor::open(const ControlPoint& point, const Timeline& timeline, QPointF at) {
   point_ = point;
-  timeline_ = timeline;
+  timeline_ = &timeline;
   time_->setText(exact_time_text(point.time_ns));
   gain_->setText(gain_text(point.gain));
   time_->setModified(false);
@@ -48,11 +52,9 @@ void NumberEditor::open(const ControlPoint& point, const Timeline* timeline, QPo
   mistake_->setFixedWidth(std::min(240, parentWidget()->width() - 20));
   adjustSize();
   constexpr int kBeside = 14;
-  const QRect area = parentWidget()->rect();
   QPoint place = at.toPoint() + QPoint(kBeside, -height() / 2);
-  if (place.x() + width() > area.right()) place.setX(at.toPoint().x() - kBeside - width());
-  move(std::clamp(place.x(), 0, std::max(0, area.width() - width())),
-       std::clamp(place.y(), 0, std::max(0, area.height() - height())));
+  if (place.x() + width() > parentWidget()->rect().right()) place.setX(at.toPoint().x() - kBeside - width());
+  move_within_parent(place);
   show();
   raise();
   time_->setFocus(Qt::PopupFocusReason);
@@ -63,15 +65,18 @@ void NumberEditor::refuse(const QString& why) {
   mistake_->setText(why);
   mistake_->show();
   adjustSize();
-  const QRect area = parentWidget()->rect();
-  move(std::clamp(x(), 0, std::max(0, area.width() - width())),
-       std::clamp(y(), 0, std::max(0, area.height() - height())));
+  move_within_parent(pos());
+}
+
+void NumberEditor::move_within_parent(QPoint place) {
+  const QSize room = parentWidget()->size() - size();
+  move(std::clamp(place.x(), 0, std::max(0, room.width())), std::clamp(place.y(), 0, std::max(0, room.height())));
 }
 
 void NumberEditor::close_editor() {
   if (!isVisible()) return;
   hide();
-  Q_EMIT closed();
+  parentWidget()->setFocus(Qt::OtherFocusReason);
 }
 
 void NumberEditor::keyPressEvent(QKeyEvent* event) {
@@ -82,24 +87,22 @@ void NumberEditor::keyPressEvent(QKeyEvent* event) {
 
 void NumberEditor::enter() {
   ControlPoint typed = point_;
-  if (time_->isModified()) {
-    if (timeline_ == nullptr) return refuse(tr("Open a capture first"));
-    const auto time = read_typed_time(time_->text(), *timeline_);
-    if (!time.value) {
-      time_->setFocus();
-      return refuse(time.mistake);
+  // False: it cannot be read, which was said.
+  const auto take = [this](QLineEdit& field, auto& number, const auto& read) {
+    if (!field.isModified()) return true;
+    const auto found = read(field.text());
+    if (found.value) {
+      number = *found.value;
+      return true;
     }
-    typed.time_ns = *time.value;
-  }
-  if (gain_->isModified()) {
-    const auto gain = read_typed_gain(gain_->text());
-    if (!gain.value) {
-      gain_->setFocus();
-      return refuse(gain.mistake);
-    }
-    typed.gain = *gain.value;
-  }
-  Q_EMIT entered(typed);
+    field.setFocus();
+    refuse(found.mistake);
+    return false;
+  };
+  const auto read_time = [this](const QString& text) { return read_typed_time(text, *timeline_); };
+  if (!take(*time_, typed.time_ns, read_time) || !take(*gain_, typed.gain, read_typed_gain)) return;
+  const QString mistake = use_(typed);
+  mistake.isEmpty() ? close_editor() : refuse(mistake);
 }
 
 }  // namespace nutik::studio

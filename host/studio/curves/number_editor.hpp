@@ -5,7 +5,7 @@
 #pragma once
 
 #include <QFrame>
-#include <optional>
+#include <functional>
 
 #include "capture/timeline.hpp"
 #include "exposure/gain_function.hpp"
@@ -16,27 +16,26 @@ class QLineEdit;
 namespace nutik::studio {
 
 class NumberEditor : public QFrame {
-  Q_OBJECT
+  Q_OBJECT  // for tr()
 
  public:
-  explicit NumberEditor(QWidget* parent);
+  // What was typed is right: uses it, or returns why it cannot be used.
+  using Use = std::function<QString(const ControlPoint& typed)>;
+  NumberEditor(QWidget* parent, Use use);
 
-  // Shows a point near a place in the parent.
-  void open(const ControlPoint& point, const Timeline* timeline, QPointF at);
-  // The numbers were right, but could not be used.
-  void refuse(const QString& why);
+  // Shows a point near a place in the parent, which has the focus again once this is closed.
+  void open(const ControlPoint& point, const Timeline& timeline, QPointF at);
   void close_editor();
-
- Q_SIGNALS:
-  void entered(ControlPoint point);  // whoever can use it calls close_editor()
-  void closed();
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;
 
  private:
   void enter();
+  void refuse(const QString& why);
+  void move_within_parent(QPoint place);
 
+  Use use_;
   ControlPoint point_;
   const Timeline* timeline_ = nullptr;
   QLineEdit* time_;

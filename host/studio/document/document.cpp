@@ -1,7 +1,6 @@
 #include "studio/document/document.hpp"
 
 #include "capture/format.hpp"
-#include "exposure/function_numbers.hpp"
 #include "exposure/function_text.hpp"
 
 #include <QUndoCommand>
@@ -154,12 +153,18 @@ void Document::apply(DocumentState state, const QString& what) {
 void Document::begin_drag() {
   is_dragging_ = true;
   ++drag_;
+  before_drag_ = state_;
 }
 
 void Document::end_drag() {
   if (!is_dragging_) return;
   is_dragging_ = false;
   Q_EMIT released();
+}
+
+void Document::give_up_drag(const QString& what) {
+  if (is_dragging_) apply(before_drag_, what);
+  end_drag();
 }
 
 void Document::select_tag(std::uint8_t tag) {

@@ -156,6 +156,7 @@ class Document : public QObject {
   // While the mouse is down. Drags do not nest.
   void begin_drag();
   void end_drag();
+  void give_up_drag(const QString& what);  // ends it with what was there before
   [[nodiscard]] bool is_dragging() const { return is_dragging_; }
 
   [[nodiscard]] QUndoStack& undo_stack() { return undo_; }
@@ -218,6 +219,7 @@ class Document : public QObject {
   QUndoStack undo_;
   bool is_dragging_ = false;
   std::uint64_t drag_ = 0;  // counts them: edits of one merge
+  DocumentState before_drag_;
   std::uint8_t selected_tag_ = 0;
   std::set<std::size_t> selected_points_;
   std::optional<std::uint8_t> solo_;

@@ -67,12 +67,11 @@ void TimeStrip::mousePressEvent(QMouseEvent* event) {
     return;
   }
   if (event->button() == Qt::MiddleButton) {
-    press_.emplace(Press{Part::pan, at, at, 0.0, document_.boxcar(), {}, {}, {}});
+    press_.emplace(Press{Part::pan, at, at, 0.0, document_.boxcar(), {}, {}});
     return;
   }
   if (event->button() != Qt::LeftButton || part == Part::none) return;
-  press_.emplace(Press{part, at, at, 0.0, document_.boxcar(), document_.state(), document_.mark_in(),
-                       document_.mark_out()});
+  press_.emplace(Press{part, at, at, 0.0, document_.boxcar(), document_.mark_in(), document_.mark_out()});
   if (part == Part::mark_in || part == Part::mark_out) return;
   document_.begin_drag();
   press_->edits = true;
@@ -145,10 +144,7 @@ void TimeStrip::cancel_press() {
   if (!press_) return;
   const Press press = std::move(*press_);
   press_.reset();
-  if (press.edits && document_.is_dragging()) {
-    document_.apply(press.before, tr("Scrub"));
-    document_.end_drag();
-  }
+  if (press.edits) document_.give_up_drag(tr("Scrub"));
   if (press.part == Part::mark_in || press.part == Part::mark_out) {
     document_.set_mark_in(press.mark_in);
     document_.set_mark_out(press.mark_out);

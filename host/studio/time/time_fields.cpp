@@ -35,11 +35,13 @@ TimeFields::TimeFields(Document& document, QWidget* parent)
       tr("A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for the start of sample 37");
   const QString length = tr("A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for 37 samples");
   start_ = add_field("start", tr("S&tart"), tr("Where the exposed interval begins. %1").arg(time),
-                     &TimeFields::enter_start);
+                     [this](const QString& text) { return take_start(text); });
   length_ = add_field("width", tr("&Width"), tr("How long the exposed interval is. %1").arg(length),
-                      &TimeFields::enter_length);
-  in_ = add_field("in", tr("&In"), tr("Where work begins, or nothing. %1").arg(time), &TimeFields::enter_in);
-  out_ = add_field("out", tr("&Out"), tr("Where work ends, or nothing. %1").arg(time), &TimeFields::enter_out);
+                      [this](const QString& text) { return take_length(text); });
+  in_ = add_field("in", tr("&In"), tr("Where work begins, or nothing. %1").arg(time),
+                  [this](const QString& text) { return take_mark(text, &Document::set_mark_in); });
+  out_ = add_field("out", tr("&Out"), tr("Where work ends, or nothing. %1").arg(time),
+                   [this](const QString& text) { return take_mark(text, &Document::set_mark_out); });
   said_->setObjectName("said");
   said_->setAccessibleName(tr("Exposed samples"));
   said_->setTextFormat(Qt::PlainText);
@@ -62,8 +64,7 @@ void TimeFields::changeEvent(QEvent* event) {
 
 void TimeFields::resizeEvent(QResizeEvent*) { show_values(); }
 
-QLineEdit* TimeFields::add_field(const char* object, const QString& name, const QString& help,
-                                 void (TimeFields::*enter)()) {
+QLineEdit* TimeFields::add_field(const char* object, const QString& name, const QString& help, Take take) {
   auto* label = new QLabel(name, this);
   auto* field = new QLineEdit(this);
   label->setBuddy(field);
@@ -75,7 +76,11 @@ QLineEdit* TimeFields::add_field(const char* object, const QString& name, const 
   layout()->addWidget(label);
   layout()->addWidget(field);
   // Pressed Return or left: both mean it.
-  connect(field, &QLineEdit::editingFinished, this, enter);
+  connect(field, &QLineEdit::editingFinished, this, [this, field, take = std::move(take)] {
+    if (!field->isModified()) return;
+    const QString mistake = take(field->text());
+    mistake.isEmpty() ? accept(*field) : refuse(*field, mistake);
+  });
   return field;
 }
 
@@ -117,46 +122,37 @@ void TimeFields::accept(QLineEdit& field) {
   show_values();
 }
 
-void TimeFields::enter_start() {
-  if (!start_->isModified()) return;
-  const auto typed = read_typed_time(start_->text(), document_.facts()->timeline);
-  if (!typed.value) return refuse(*start_, typed.mistake);
+QString TimeFields::take_start(const QString& text) {
+  const auto typed = read_typed_time(text, document_.facts()->timeline);
+  if (!typed.value) return typed.mistake;
   const std::int64_t last_ns = document_.duration_ns() - document_.boxcar().length_ns;
   if (*typed.value < 0 || *typed.value > last_ns)
-    return refuse(*start_,
-                  tr("An interval of this width lies within the capture if it starts between 0 s and %1")
-                      .arg(exact_time_text(last_ns)));
+    return tr("An interval of this width lies within the capture if it starts between 0 s and %1")
+        .arg(exact_time_text(last_ns));
   document_.set_boxcar({*typed.value, document_.boxcar().length_ns}, tr("Set start"));
-  accept(*start_);
+  return {};
 }
 
-void TimeFields::enter_length() {
-  if (!length_->isModified()) return;
-  const auto typed = read_typed_length(length_->text(), document_.facts()->timeline);
-  if (!typed.value) return refuse(*length_, typed.mistake);
+QString TimeFields::take_length(const QString& text) {
+  const auto typed = read_typed_length(text, document_.facts()->timeline);
+  if (!typed.value) return typed.mistake;
   if (*typed.value > document_.duration_ns())
-    return refuse(*length_, tr("The capture lasts %1: the width can be no more")
-                                .arg(exact_time_text(document_.duration_ns())));
+    return tr("The capture lasts %1: the width can be no more").arg(exact_time_text(document_.duration_ns()));
   document_.set_boxcar({document_.boxcar().start_ns, *typed.value}, tr("Set width"));
-  accept(*length_);
+  return {};
 }
 
-void TimeFields::enter_in() { enter_mark(*in_, &Document::set_mark_in); }
-void TimeFields::enter_out() { enter_mark(*out_, &Document::set_mark_out); }
-
-void TimeFields::enter_mark(QLineEdit& field, void (Document::*set)(std::optional<std::int64_t>)) {
-  if (!field.isModified()) return;
-  if (field.text().trimmed().isEmpty()) {
-    (document_.*set)(std::nullopt);
-    return accept(field);
+QString TimeFields::take_mark(const QString& text, void (Document::*set)(std::optional<std::int64_t>)) {
+  std::optional<std::int64_t> time_ns;
+  if (!text.trimmed().isEmpty()) {
+    const auto typed = read_typed_time(text, document_.facts()->timeline);
+    if (!typed.value) return typed.mistake;
+    if (*typed.value < 0 || *typed.value > document_.duration_ns())
+      return tr("Marks lie within the capture, between 0 s and %1").arg(exact_time_text(document_.duration_ns()));
+    time_ns = typed.value;
   }
-  const auto typed = read_typed_time(field.text(), document_.facts()->timeline);
-  if (!typed.value) return refuse(field, typed.mistake);
-  if (*typed.value < 0 || *typed.value > document_.duration_ns())
-    return refuse(field, tr("Marks lie within the capture, between 0 s and %1")
-                             .arg(exact_time_text(document_.duration_ns())));
-  (document_.*set)(*typed.value);
-  accept(field);
+  (document_.*set)(time_ns);
+  return {};
 }
 
 }  // namespace nutik::studio

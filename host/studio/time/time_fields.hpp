@@ -25,13 +25,13 @@ class TimeFields : public QWidget {
   void resizeEvent(QResizeEvent* event) override;
 
  private:
-  QLineEdit* add_field(const char* object, const QString& name, const QString& help, void (TimeFields::*enter)());
+  // `take` uses what was typed; returns what is wrong with it, empty where nothing is.
+  using Take = std::function<QString(const QString& text)>;
+  QLineEdit* add_field(const char* object, const QString& name, const QString& help, Take take);
   void show_values();
-  void enter_start();
-  void enter_length();
-  void enter_in();
-  void enter_out();
-  void enter_mark(QLineEdit& field, void (Document::*set)(std::optional<std::int64_t>));
+  QString take_start(const QString& text);
+  QString take_length(const QString& text);
+  QString take_mark(const QString& text, void (Document::*set)(std::optional<std::int64_t>));
   void refuse(QLineEdit& field, const QString& mistake);
   void accept(QLineEdit& field);
 

@@ -50,7 +50,6 @@ class TimeStrip : public TimeView {
     QPointF at, last;
     double hand_ns = 0.0;  // how far the hand has come, slowly with Shift
     Boxcar from;           // the boxcar that it began with
-    DocumentState before;  // for Escape
     std::optional<std::int64_t> mark_in, mark_out;
     bool edits = false;  // the document has been told of a drag
   };

@@ -1506,10 +1506,6 @@ Trotzdem verwenden? Funktionen und Marken behalten ihre Zeiten.</translation>
         <source>Any number, also below 0: what the light of this moment is multiplied by</source>
         <translation>Jede Zahl, auch unter 0: womit das Licht dieses Augenblicks multipliziert wird</translation>
     </message>
-    <message>
-        <source>Open a capture first</source>
-        <translation>Öffnen Sie erst eine Aufnahme</translation>
-    </message>
 </context>
 <context>
     <name>nutik::studio::RegionList</name>
