@@ -15,7 +15,6 @@
 #include "app/output/output_name.hpp"
 #include "capture/error.hpp"
 #include "features/schema/option.hpp"
-#include "session/devices.hpp"
 #include "system/interruption.hpp"
 #include "system/mapped_file.hpp"
 #include "system/output_file.hpp"

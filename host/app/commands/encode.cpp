@@ -8,7 +8,6 @@
 #include "capture/format.hpp"
 #include "features/schema/options.hpp"
 #include "media/writers/picture_writer.hpp"
-#include "media/writers/recipe.hpp"
 #include "session/clips/encoding.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"

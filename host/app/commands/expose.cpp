@@ -8,7 +8,6 @@
 #include "app/words/stated_requests.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "features/schema/option.hpp"
 #include "features/schema/options.hpp"
 #include "features/series/series_making.hpp"
 #include "media/events/event_clip.hpp"

@@ -14,8 +14,6 @@
 #include "features/schema/options.hpp"
 #include "imev/expected_values.hpp"
 #include "media/writers/picture_writer.hpp"
-#include "media/writers/recipe.hpp"
-#include "session/clips/clip_source.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"
 #include "sheet/drawings.hpp"

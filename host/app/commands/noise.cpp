@@ -5,7 +5,6 @@
 #include "capture/format.hpp"
 #include "features/schema/options.hpp"
 #include "media/stills/still_sequence.hpp"
-#include "session/clips/clip_source.hpp"
 #include "session/clips/measured_noise.hpp"
 #include "system/output_file.hpp"
 

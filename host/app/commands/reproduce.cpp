@@ -8,14 +8,10 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/noise_file.hpp"
-#include "capture/picture.hpp"
 #include "capture/source_text.hpp"
 #include "capture/text.hpp"
-#include "exposure/function_check.hpp"
-#include "exposure/mask.hpp"
 #include "features/schema/option.hpp"
 #include "features/schema/options.hpp"
-#include "imev/expected_values.hpp"
 #include "media/input_checksum.hpp"
 #include "media/stills/still_sequence.hpp"
 #include "media/writers/recipe.hpp"
@@ -24,7 +20,6 @@
 #include "session/text/shell_text.hpp"
 #include "system/mapped_file.hpp"
 #include "system/output_file.hpp"
-#include "tik/reader.hpp"
 
 namespace nutik::app {
 namespace {

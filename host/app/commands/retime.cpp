@@ -5,7 +5,6 @@
 #include "capture/format.hpp"
 #include "features/captures/retiming.hpp"
 #include "features/schema/options.hpp"
-#include "session/clips/clip_source.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"
 

@@ -5,15 +5,12 @@
 #include "app/words/stated_requests.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "exposure/function_diagnostics.hpp"
 #include "exposure/function_text.hpp"
-#include "exposure/normalization.hpp"
 #include "exposure/shutter_shape.hpp"
 #include "features/schema/option.hpp"
 #include "features/schema/options.hpp"
 #include "session/clips/clip_source.hpp"
 #include "session/requests/stated_moments.hpp"
-#include "session/text/number_text.hpp"
 
 namespace nutik::app {
 namespace {

@@ -6,8 +6,6 @@
 #include "capture/picture.hpp"
 #include "features/schema/options.hpp"
 #include "media/writers/picture_writer.hpp"
-#include "plot/canvas.hpp"
-#include "plot/graph.hpp"
 #include "session/session.hpp"
 #include "session/text/number_text.hpp"
 #include "sheet/drawings.hpp"

@@ -14,7 +14,6 @@
 #include "capture/format.hpp"
 #include "features/schema/options.hpp"
 #include "media/writers/picture_writer.hpp"
-#include "media/writers/recipe.hpp"
 #include "session/session.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/text_table.hpp"

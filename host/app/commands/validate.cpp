@@ -9,7 +9,6 @@
 #include "capture/format.hpp"
 #include "features/schema/option.hpp"
 #include "features/schema/options.hpp"
-#include "session/clips/clip_source.hpp"
 #include "session/clips/source_check.hpp"
 #include "session/session.hpp"
 #include "session/text/number_text.hpp"

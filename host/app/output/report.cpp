@@ -7,13 +7,8 @@
 
 #include "capture/format.hpp"
 #include "capture/source_text.hpp"
-#include "exposure/function_check.hpp"
-#include "exposure/function_diagnostics.hpp"
-#include "exposure/mask.hpp"
-#include "exposure/shutter_shape.hpp"
 #include "features/captures/retiming.hpp"
 #include "features/schema/option.hpp"
-#include "mask/feather.hpp"
 #include "render/render_plan.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/text_table.hpp"

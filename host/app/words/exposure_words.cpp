@@ -7,12 +7,10 @@
 #include "app/output/console.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "exposure/function_diagnostics.hpp"
 #include "exposure/mask.hpp"
 #include "mask/feather.hpp"
 #include "render/render_plan.hpp"
 #include "session/requests/named_inputs.hpp"
-#include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"
 #include "system/input_bytes.hpp"
 

@@ -10,7 +10,6 @@
 #include "capture/format.hpp"
 #include "features/schema/option.hpp"
 #include "features/schema/requests.hpp"
-#include "session/clips/clip_source.hpp"
 #include "system/input_bytes.hpp"
 
 namespace nutik::app {

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "exposure/function_check.hpp"
 #include "exposure/mask.hpp"
 #include "exposure/shutter_shape.hpp"
 #include "mask/feather.hpp"

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plot/canvas.hpp"
 #include "plot/graph.hpp"
 #include "session/requests/stated_moments.hpp"
-#include "sheet/drawings.hpp"
 #include "studio/time/times.hpp"
 
 namespace nutik::studio {

@@ -8,9 +8,6 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "exposure/function_numbers.hpp"
-#include "exposure/gain_function.hpp"
-#include "exposure/normalization.hpp"
-#include "exposure/shutter_shape.hpp"
 #include "session/requests/stated_moments.hpp"
 #include "studio/time/time_axis.hpp"
 

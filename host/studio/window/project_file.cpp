@@ -18,7 +18,6 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "features/schema/option.hpp"
-#include "media/formats/numbered_name.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "media/writers/recipe.hpp"
 #include "session/requests/named_inputs.hpp"
