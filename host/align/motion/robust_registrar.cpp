@@ -9,7 +9,9 @@
 #include <cstring>
 #include <memory>
 #include <mutex>
+#include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
+#include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <span>
@@ -18,7 +20,6 @@
 #include <vector>
 
 #include "align/flow.hpp"
-#include "align/motion/feature_start.hpp"
 #include "align/motion/grey_pyramid.hpp"
 #include "align/registrar.hpp"
 #include "capture/error.hpp"
@@ -185,6 +186,60 @@ struct Sampled {
 };
 
 using Parts = std::array<std::vector<double>, kPartsToASide * kPartsToASide>;
+
+// About where a picture lies, by matched features: from any distance, to a pixel or so.
+class FeatureStart {
+ public:
+  // A pixel of `reference` is `scale` pixels of the original.
+  FeatureStart(const cv::Mat& reference, double scale) : scale_(scale) {
+    detector_->detectAndCompute(reference, cv::noArray(), points_, descriptors_);
+  }
+
+  // Finds a picture of the same size that was moved and turned, not scaled. Nothing where too few features agree.
+  [[nodiscard]] std::optional<Warp> find(const cv::Mat& picture) {
+    constexpr float kMaxAlike = 0.8F;
+    constexpr int kMinAgreeing = 12;
+    constexpr double kAgreeingPixels = 3;
+    std::vector<cv::KeyPoint> points;
+    cv::Mat descriptors;
+    detector_->detectAndCompute(picture, cv::noArray(), points, descriptors);
+    if (descriptors.empty() || descriptors_.empty()) return std::nullopt;
+    std::vector<std::vector<cv::DMatch>> matches;
+    cv::BFMatcher(cv::NORM_L2).knnMatch(descriptors_, descriptors, matches, 2);
+    std::vector<cv::Point2d> from, to;
+    for (const std::vector<cv::DMatch>& two : matches) {
+      // Only what looks like nothing else nearly as much.
+      if (two.size() < 2 || two[0].distance > kMaxAlike * two[1].distance) continue;
+      const cv::DMatch& match = two[0];
+      from.push_back(scale_ * cv::Point2d(points_[static_cast<std::size_t>(match.queryIdx)].pt));
+      to.push_back(scale_ * cv::Point2d(points[static_cast<std::size_t>(match.trainIdx)].pt));
+    }
+    if (from.size() < kMinAgreeing) return std::nullopt;
+    std::vector<unsigned char> agrees;
+    const cv::Mat similar = cv::estimateAffinePartial2D(from, to, agrees, cv::RANSAC, scale_ * kAgreeingPixels);
+    if (similar.empty() || cv::countNonZero(agrees) < kMinAgreeing) return std::nullopt;
+    // Its scale is left out, about the middle of what agrees.
+    const double a = similar.at<double>(0, 0), b = similar.at<double>(1, 0), size = std::hypot(a, b);
+    cv::Point2d from_middle, to_middle;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      if (agrees[i] == 0) continue;
+      from_middle += from[i];
+      to_middle += to[i];
+    }
+    from_middle *= 1.0 / cv::countNonZero(agrees);
+    to_middle *= 1.0 / cv::countNonZero(agrees);
+    const double c = a / size, s = b / size;
+    return Warp{{c, -s, to_middle.x - c * from_middle.x + s * from_middle.y, s, c,
+                 to_middle.y - s * from_middle.x - c * from_middle.y, 0, 0, 1}};
+  }
+
+ private:
+  static constexpr int kFeatures = 1500;
+  cv::Ptr<cv::SIFT> detector_ = cv::SIFT::create(kFeatures);
+  std::vector<cv::KeyPoint> points_;
+  cv::Mat descriptors_;
+  double scale_;
+};
 
 class RobustRegistrar final : public Registrar {
  public:
