@@ -16,7 +16,7 @@ import numpy as np
 
 # The table that a format prescribes is no computation to be compared: what it is made from is asserted in
 # tests/media/phantom_clip_test.cpp.
-PHANTOM_TABLE = Path(__file__).parents[2] / "host" / "media" / "videos" / "phantom_packing.cpp"
+PHANTOM_TABLE = Path(__file__).parents[2] / "host" / "media" / "videos" / "phantom_file.cpp"
 
 
 def read_cine(path):

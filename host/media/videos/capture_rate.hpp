@@ -25,7 +25,7 @@ struct NamedCurve {
 };
 
 // What Sony's cameras write in their XML, which is a box of an MP4 or lies beside the clip (C0001.MXF: C0001M01.XML),
-// or without it in an MXF's labels (mxf_unit.hpp), DJI's and ARRI's as ColorGammaSxS, and Apple's as
+// or without it in an MXF's labels, DJI's and ARRI's as ColorGammaSxS, and Apple's as
 // com.apple.proapps.customgamma or in a track's box `logs`. Says in `notes` which curve of theirs is not known here.
 [[nodiscard]] std::optional<NamedCurve> named_curve(const AVFormatContext& format, const std::filesystem::path& path,
                                                     std::vector<Note>& notes);

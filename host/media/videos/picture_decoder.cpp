@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "media/videos/phantom_packing.hpp"
+#include "media/videos/phantom_file.hpp"
 
 namespace nutik::videos {
 

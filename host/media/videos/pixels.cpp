@@ -8,7 +8,7 @@
 
 #include "capture/turned.hpp"
 #include "media/videos/eight_bit_yuv.hpp"
-#include "media/videos/phantom_packing.hpp"
+#include "media/videos/phantom_file.hpp"
 
 namespace nutik::videos {
 namespace {
