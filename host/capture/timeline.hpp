@@ -8,6 +8,7 @@
 // 1000 samples a second costs nothing.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,6 +24,11 @@ struct SampleRange {
 
   [[nodiscard]] std::uint64_t size() const { return last - first; }
   [[nodiscard]] bool empty() const { return first == last; }
+  // Reaches over another one, too, and over what lies between.
+  void cover(const SampleRange& other) {
+    if (other.empty()) return;
+    *this = empty() ? other : SampleRange{std::min(first, other.first), std::max(last, other.last)};
+  }
   friend bool operator==(const SampleRange&, const SampleRange&) = default;
 };
 

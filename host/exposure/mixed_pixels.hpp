@@ -61,12 +61,12 @@ class MixedPixels {
     max_functions_ = std::max(max_functions_, shares.size());
   }
 
-  // The same mixtures of things with other names, which must be in the same order. Names before are mask values or as
-  // few.
+  // The same mixtures of things with other names, name(name before, pixel), which must be in the same order.
   template <typename Name>
   [[nodiscard]] MixedPixels renamed(Name name) const {
     MixedPixels renamed = *this;
-    for (Share& share : renamed.shares_) share.of = name(static_cast<std::uint8_t>(share.of));
+    for (std::size_t i = 0, share = 0; i < pixels_.size(); ++i)
+      for (; share < ends_[i]; ++share) renamed.shares_[share].of = name(shares_[share].of, pixels_[i]);
     return renamed;
   }
 

@@ -12,6 +12,21 @@
 namespace nutik {
 namespace {
 
+// Where the numbers of one function go: boundaries a row after another, `stride` bytes apart; weights in groups of
+// rows, whose own lie side by side (kernels/row_groups.clh).
+struct TableColumn {
+  std::byte* weights;
+  std::byte* boundaries;
+  std::size_t stride;
+  std::size_t number_bytes;
+  std::uint32_t group_rows;
+
+  [[nodiscard]] std::byte* weight(std::uint64_t row) const {
+    return weights + row / group_rows * group_rows * stride + row % group_rows * number_bytes;
+  }
+  [[nodiscard]] std::byte* boundary(std::uint64_t row) const { return boundaries + row * stride; }
+};
+
 // A block's rows of one column, from `block_row` on: the numbers of the samples from `first` on, 0 and flat boundaries
 // round them.
 template <typename Number, typename Values, typename Convert>
@@ -65,8 +80,8 @@ void write_in_order(const cl::CommandQueue& queue, Writes writes) {
   }
 }
 
-}  // namespace
-
+// Writes a function's numbers for the rows of a slice, every byte of them: in steady blocks those of light · ns, unless
+// numbers are whole. `exponent` is the function's of FixedScale, for whole numbers.
 void pack_column(const GainTable& table, const RenderPlan& plan, const TableSlice& slice, Precision precision,
                  int exponent, const TableColumn& column) {
   GainTable::Reader reader(table);
@@ -119,6 +134,11 @@ void pack_column(const GainTable& table, const RenderPlan& plan, const TableSlic
   }
 }
 
+// What a function makes of the blocks of a slice, and the gains of those that are steady, 1 of all others.
+struct PartColumn {
+  std::vector<BlockPart> parts;
+  Bytes gains;
+};
 PartColumn part_column(const GainTable& table, const RenderPlan& plan, const TableSlice& slice,
                        Precision precision) {
   PartColumn column;
@@ -146,6 +166,8 @@ PartColumn part_column(const GainTable& table, const RenderPlan& plan, const Tab
   for (const std::size_t b : slice.corrected) add({table.steady_in(plan.blocks[b].block).corrected, 0}, one);
   return column;
 }
+
+}  // namespace
 
 std::vector<TableColumnSource> column_sources(const RenderPlan& plan, Precision precision) {
   std::vector<TableColumnSource> columns;

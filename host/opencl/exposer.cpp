@@ -11,18 +11,6 @@
 namespace nutik {
 namespace {
 
-// Nothing is read from a capture any more when its exposure ends, however it does.
-class StoppedAtEnd {
- public:
-  explicit StoppedAtEnd(BlockFeed& feed) : feed_(feed) {}
-  ~StoppedAtEnd() { feed_.stop(); }
-  StoppedAtEnd(const StoppedAtEnd&) = delete;
-  StoppedAtEnd& operator=(const StoppedAtEnd&) = delete;
-
- private:
-  BlockFeed& feed_;
-};
-
 // A chunk's blocks, cut so that no launch reads more samples, but one block at least.
 std::vector<std::span<const BlockEntry>> launches_of(std::span<const BlockEntry> entries,
                                                      std::uint64_t max_samples) {
@@ -117,7 +105,8 @@ SumsInUse IncrementalExposer::sums_in_use(const Means& means, const RenderPlan& 
 void Exposer::expose(std::span<ExposedBand> bands, const RenderControl& control, const Develop& develop) {
   const NeededTiles tiles(plan_, bands);
   device_.feed.start(plan_, kernel_.slices, source_, tiles, shares_.feed, kept_.skipped);
-  const StoppedAtEnd stopped(device_.feed);
+  // Nothing is read from a capture any more when its exposure ends, however it does.
+  const std::unique_ptr<BlockFeed, decltype([](BlockFeed* feed) { feed->stop(); })> stopped(&device_.feed);
   const DeviceMemory::Scope scope(memory_);
   const bool has_bundles =
       work_.precision != Precision::fixed && plan_.combine == Combine::integral && plan_.has_bundles();

@@ -138,10 +138,6 @@ std::optional<CodeTables> fixed_code_tables(const CodeKey& key) {
                     std::move(search->guesses)};
 }
 
-FixedScale scale_of(const RenderPlan& plan, Precision precision) {
-  return precision == Precision::fixed ? fixed_scale(plan) : FixedScale{};
-}
-
 // light = sum · factor · first · second
 struct Factors {
   double factor;
@@ -149,7 +145,7 @@ struct Factors {
 };
 
 std::vector<Factors> factors_of(const RenderPlan& plan, Precision precision) {
-  const FixedScale scale = scale_of(plan, precision);
+  const FixedScale scale = precision == Precision::fixed ? fixed_scale(plan) : FixedScale{};
   std::vector<Factors> factors;
   for (std::size_t f = 0; f < plan.functions.size(); ++f) {
     factors.push_back({precision == Precision::fixed

@@ -17,15 +17,6 @@ namespace nutik {
 
 inline constexpr std::uint32_t kLightPieces = 16;
 
-// light(c) = a_0[p] + a_1[p] c + a_2[p] c² + a_3[p] c³,   p = ⌊scale · c + offset⌋
-//
-// Piece 0 is the toe; the others cut the rest into equal parts, half way between codes. As the kernel reads
-// it: scale, offset, then a_0[16], a_1[16], a_2[16], a_3[16]. Light errs by less than 2.7e-7, measured
-// 1.3e-7 (docs/explanation/accuracy.md).
-// Nothing where the function has no straight toe, or where the white code is below 255.
-[[nodiscard]] std::optional<std::vector<double>> light_pieces(const Transfer& transfer,
-                                                              std::uint32_t white_code);
-
 struct LightSource {
   const char* kind;            // the kernels' NUTIK_LIGHT
   std::vector<double> values;  // a table, a curve or pieces, to be rounded to the kernel's precision

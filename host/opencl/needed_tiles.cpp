@@ -33,12 +33,7 @@ bool NeededTiles::is_exposed(std::uint64_t tile, const SampleRange& samples) con
     needs_.resize(grid.tile_count());
     for (std::uint64_t each = 0; each < needs_.size(); ++each) {
       SampleRange& needed = needs_[each];
-      const auto add = [&](std::uint16_t function) {
-        const SampleRange& live = plan_.functions[function].live;
-        if (live.empty()) return;
-        needed.first = needed.empty() ? live.first : std::min(needed.first, live.first);
-        needed.last = std::max(needed.last, live.last);
-      };
+      const auto add = [&](std::uint16_t function) { needed.cover(plan_.functions[function].live); };
       grid.for_each_lane(each, [&](std::uint32_t, std::uint64_t pixel) {
         const std::span<const Share> shares = plan_.shares_of(pixel);
         if (shares.empty()) add(plan_.function_of(pixel));
@@ -72,15 +67,11 @@ WantsTiles NeededTiles::of(const PlannedBlock& planned) const {
 }
 
 bool NeededTiles::are_among(const std::vector<bool>& there, const PlannedBlock& planned) const {
-  if (plan_.map->has_delays()) {
-    for (std::uint64_t tile = 0; tile < there.size(); ++tile) {
-      if (!there[tile] && is_exposed(tile, planned.extent.range())) return false;
-    }
-    return true;
-  }
-  const std::vector<bool> live = live_in(planned);
+  const bool has_delays = plan_.map->has_delays();
+  const std::vector<bool> live = has_delays ? std::vector<bool>() : live_in(planned);
   for (std::uint64_t tile = 0; tile < there.size(); ++tile) {
-    if (!there[tile] && is_read(functions()[tile], live)) return false;
+    if (there[tile]) continue;
+    if (has_delays ? is_exposed(tile, planned.extent.range()) : is_read(functions()[tile], live)) return false;
   }
   return true;
 }

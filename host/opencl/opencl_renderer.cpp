@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <mutex>
+#include <type_traits>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -89,7 +90,6 @@ class OpenClRenderer::Implementation {
     });
   }
 
-  [[nodiscard]] std::span<const Precision> precisions() const { return precisions_of(info_); }
   [[nodiscard]] const DeviceInfo& info() const { return info_; }
 
   void keep_resident(const CaptureSource* source) {
@@ -100,23 +100,15 @@ class OpenClRenderer::Implementation {
   }
 
   void prepare(const RenderPlan& plan, const OutputFormat& output) {
-    const std::scoped_lock turn(turn_);
-    try {
+    in_turn([&] {
       Rendered ignored;
       choose(plan, output, options_.precision, {}, ignored);
-    } catch (const cl::Error& error) {
-      throw device_failed(error, format("{} failed", info_.name));
-    }
+    });
   }
 
   std::string fault_in(Precision precision, const RenderPlan& plan, const OutputFormat& output) {
     check_precision(precision);
-    const std::scoped_lock turn(turn_);
-    try {
-      return fault_text_of(precision, plan, output);
-    } catch (const cl::Error& error) {
-      throw device_failed(error, format("{} failed", info_.name));
-    }
+    return in_turn([&] { return fault_text_of(precision, plan, output); });
   }
 
   Rendered render(const Request& request) {
@@ -124,20 +116,27 @@ class OpenClRenderer::Implementation {
     const std::optional<Precision> asked =
         request.control.precision ? request.control.precision : options_.precision;
     if (asked) check_precision(*asked);
-    const std::scoped_lock turn(turn_);
-    try {
+    return in_turn([&] {
       Rendered rendered;
       choose(request.plan, request.output, asked, request.control, rendered);
       const Work work = work_for(rendered.precision);
       expose_and_develop(work, request, develop_program(work, request.plan, request.output), rendered);
       programs_->save_new_binaries();
       return rendered;
+    });
+  }
+
+ private:
+  template <typename Use>
+  std::invoke_result_t<Use> in_turn(Use use) {
+    const std::scoped_lock turn(turn_);
+    try {
+      return use();
     } catch (const cl::Error& error) {
       throw device_failed(error, format("{} failed", info_.name));
     }
   }
 
- private:
   static cl::Device pick_device(const OpenClOptions& options) {
     const std::vector<cl::Device> devices = all_devices();
     if (options.device >= devices.size()) {
@@ -183,7 +182,7 @@ class OpenClRenderer::Implementation {
   void choose(const RenderPlan& plan, const OutputFormat& output, std::optional<Precision> asked,
               const RenderControl& control, Rendered& rendered) {
     choose_arithmetic(
-        plan, output, precisions(), asked, info_.name, control,
+        plan, output, precisions_of(info_), asked, info_.name, control,
         [&](Precision precision) { return fault_text_of(precision, plan, output); }, rendered);
   }
 
@@ -241,8 +240,7 @@ class OpenClRenderer::Implementation {
       return CombiningRenderer().render(request.plan, request.source, request.output, control);
     };
     if (request.plan.combine == Combine::median || request.plan.blocks.empty()) return by_processor();
-    const std::scoped_lock turn(turn_);
-    try {
+    return in_turn([&] {
       const SampleCombiner combining(request.plan, sample_gains(request.plan, request.source.timeline()));
       if (combining.scales() && !info_.has_double && !combining.has_normal_products()) return by_processor();
       const Verdict verdict = verdict_on(combining, request.plan);
@@ -258,9 +256,7 @@ class OpenClRenderer::Implementation {
       combine(combining, request, rendered);
       programs_->save_new_binaries();
       return rendered;
-    } catch (const cl::Error& error) {
-      throw device_failed(error, format("{} failed", info_.name));
-    }
+    });
   }
 
   [[nodiscard]] Work work_for(const SampleCombiner& combining) const {
@@ -478,7 +474,7 @@ Rendered OpenClRenderer::render_part(const RenderPlan& plan, CaptureSource& sour
   return implementation_->render({plan, source, output, rectangle, control});
 }
 
-std::span<const Precision> OpenClRenderer::precisions() const { return implementation_->precisions(); }
+std::span<const Precision> OpenClRenderer::precisions() const { return precisions_of(info()); }
 
 void OpenClRenderer::keep_resident(const CaptureSource* source) { implementation_->keep_resident(source); }
 

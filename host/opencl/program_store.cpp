@@ -76,6 +76,18 @@ bool take_number(std::string_view& from, std::uint64_t& number) {
   return true;
 }
 
+// A device with its driver, in lines: what a binary was built for.
+std::string identity_of(const cl::Device& device) {
+  const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
+  std::string identity;
+  for (const std::string& part : {device.getInfo<CL_DEVICE_NAME>(), device.getInfo<CL_DEVICE_VENDOR>(),
+                                  device.getInfo<CL_DEVICE_VERSION>(), device.getInfo<CL_DRIVER_VERSION>(),
+                                  platform.getInfo<CL_PLATFORM_VERSION>()}) {
+    identity += part + '\n';
+  }
+  return identity;
+}
+
 }  // namespace
 
 VerdictStore::VerdictStore(const cl::Device& device, std::filesystem::path folder)
@@ -114,17 +126,6 @@ std::map<Precision, Verdict> VerdictStore::all() const {
     if (!is_first && is_worse(kept->verdict, known->second)) known->second = kept->verdict;
   }
   return worst;
-}
-
-std::string identity_of(const cl::Device& device) {
-  const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
-  std::string identity;
-  for (const std::string& part : {device.getInfo<CL_DEVICE_NAME>(), device.getInfo<CL_DEVICE_VENDOR>(),
-                                  device.getInfo<CL_DEVICE_VERSION>(), device.getInfo<CL_DRIVER_VERSION>(),
-                                  platform.getInfo<CL_PLATFORM_VERSION>()}) {
-    identity += part + '\n';
-  }
-  return identity;
 }
 
 ProgramStore::ProgramStore(cl::Context context, cl::Device device, std::filesystem::path cache_folder,

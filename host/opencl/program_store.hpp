@@ -96,7 +96,4 @@ class ProgramStore {
   std::map<std::string, Entry> entries_;  // by key
 };
 
-// A device with its driver, in lines: what a binary was built for.
-[[nodiscard]] std::string identity_of(const cl::Device& device);
-
 }  // namespace nutik

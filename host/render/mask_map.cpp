@@ -45,51 +45,34 @@ std::vector<MaskRegion> regions_of(const Mask& mask) {
   return regions;
 }
 
-std::shared_ptr<const MaskMap> MaskMap::of(const Mask& mask) {
-  auto map = std::make_shared<MaskMap>();
-  map->width = mask.width;
-  map->height = mask.height;
-  map->regions = regions_of(mask);
-  std::array<std::uint8_t, kMaskValues> region_of_tag{};
-  for (std::size_t r = 0; r < map->regions.size(); ++r) {
-    region_of_tag[map->regions[r].tag] = static_cast<std::uint8_t>(r);
-  }
-  map->region_of_pixel.resize(mask.tags.size());
-  std::ranges::transform(mask.tags, map->region_of_pixel.begin(),
-                         [&](std::uint8_t tag) { return region_of_tag[tag]; });
-  if (mask.is_soft()) {
-    map->mixed = mask.mixed.renamed([&](std::uint8_t tag) { return region_of_tag[tag]; });
-    map->mixed_tiles = mixed_tiles_of(mask);
-  }
-  return map;
-}
-
 std::shared_ptr<const MaskMap> MaskMap::of(const Mask& mask, std::shared_ptr<const DelayMap> delays) {
-  if (!delays) return of(mask);
-  const DelayedPairs pairs(mask, *delays);
   auto map = std::make_shared<MaskMap>();
   map->width = mask.width;
   map->height = mask.height;
-  map->regions.resize(pairs.count());
-  for_each_share(mask, [&](std::uint64_t pixel, std::uint8_t tag) {
-    const std::uint16_t delay = delays->delay_of_pixel[pixel];
-    MaskRegion& region = map->regions[pairs.number_of(tag, delay)];
-    region = {tag, region.pixel_count + 1, delays->delays_ns[delay]};
-  });
-  const auto region_of = [&](std::uint8_t tag, std::uint64_t pixel) {
-    return pairs.number_of(tag, delays->delay_of_pixel[pixel]);
-  };
-  map->delayed_region_of_pixel.resize(mask.tags.size());
-  for (std::uint64_t pixel = 0; pixel < mask.tags.size(); ++pixel) {
-    map->delayed_region_of_pixel[pixel] = region_of(mask.tags[pixel], pixel);
-  }
-  for (std::size_t i = 0; i < mask.mixed.pixels().size(); ++i) {
-    const std::span<const Share> shares = mask.mixed.shares(i);
-    std::vector<Share> renamed(shares.begin(), shares.end());
-    for (Share& share : renamed) {
-      share.of = region_of(static_cast<std::uint8_t>(share.of), mask.mixed.pixels()[i]);
-    }
-    map->mixed.add(mask.mixed.pixels()[i], renamed);
+  if (delays) {
+    const DelayedPairs pairs(mask, *delays);
+    map->regions.resize(pairs.count());
+    for_each_share(mask, [&](std::uint64_t pixel, std::uint8_t tag) {
+      const std::uint16_t delay = delays->delay_of_pixel[pixel];
+      MaskRegion& region = map->regions[pairs.number_of(tag, delay)];
+      region = {tag, region.pixel_count + 1, delays->delays_ns[delay]};
+    });
+    const auto region_of = [&](std::uint16_t tag, std::uint64_t pixel) {
+      return pairs.number_of(static_cast<std::uint8_t>(tag), delays->delay_of_pixel[pixel]);
+    };
+    map->delayed_region_of_pixel.reserve(mask.tags.size());
+    for (std::uint64_t pixel = 0; pixel < mask.tags.size(); ++pixel)
+      map->delayed_region_of_pixel.push_back(region_of(mask.tags[pixel], pixel));
+    map->mixed = mask.mixed.renamed(region_of);
+  } else {
+    map->regions = regions_of(mask);
+    std::array<std::uint8_t, kMaskValues> region_of_tag{};
+    for (std::size_t r = 0; r < map->regions.size(); ++r)
+      region_of_tag[map->regions[r].tag] = static_cast<std::uint8_t>(r);
+    map->region_of_pixel.resize(mask.tags.size());
+    std::ranges::transform(mask.tags, map->region_of_pixel.begin(),
+                           [&](std::uint8_t tag) { return region_of_tag[tag]; });
+    map->mixed = mask.mixed.renamed([&](std::uint16_t tag, std::uint64_t) { return region_of_tag[tag]; });
   }
   if (mask.is_soft()) map->mixed_tiles = mixed_tiles_of(mask);
   map->delays = std::move(delays);
@@ -100,22 +83,13 @@ bool MaskMap::is_of(const Mask& mask, const DelayMap* its_delays) const {
   if (mask.width != width || mask.height != height) return false;
   if (mask.is_soft() != !mixed.empty()) return false;
   if ((its_delays != nullptr) != has_delays()) return false;
-  const auto tag_of = [&](std::uint16_t region) { return regions[region].tag; };
+  const auto tag_of = [&](std::uint16_t region, std::uint64_t = 0) { return regions[region].tag; };
+  if (has_delays() && its_delays != delays.get() && *its_delays != *delays) return false;
+  if (mask.is_soft() && mixed.renamed(tag_of) != mask.mixed) return false;
   if (has_delays()) {
-    if (its_delays != delays.get() && *its_delays != *delays) return false;
-    for (std::size_t i = 0; i < mixed.pixels().size(); ++i) {
-      const bool is_same = i < mask.mixed.pixels().size() && mixed.pixels()[i] == mask.mixed.pixels()[i] &&
-                           std::ranges::equal(mixed.shares(i), mask.mixed.shares(i),
-                                              [&](const Share& here, const Share& there) {
-                                                return here.size == there.size && tag_of(here.of) == there.of;
-                                              });
-      if (!is_same) return false;
-    }
-    return mixed.pixels().size() == mask.mixed.pixels().size() &&
-           std::ranges::equal(mask.tags, delayed_region_of_pixel,
+    return std::ranges::equal(mask.tags, delayed_region_of_pixel,
                               [&](std::uint8_t tag, std::uint16_t region) { return tag == tag_of(region); });
   }
-  if (mask.is_soft() && mixed.renamed(tag_of) != mask.mixed) return false;
   // Masks whose values count from 0 are their own maps, which are compared many pixels at a time.
   if (std::size_t{regions.back().tag} + 1 == regions.size()) return mask.tags == region_of_pixel;
   return std::ranges::equal(mask.tags, region_of_pixel,

@@ -47,11 +47,10 @@ struct MaskMap {
   std::shared_ptr<const DelayMap> delays;
   std::vector<std::uint16_t> delayed_region_of_pixel;
 
-  [[nodiscard]] static std::shared_ptr<const MaskMap> of(const Mask& mask);
   // Throws InputError where mask and delays have different sizes, or more pairs of both occur than there can be
   // regions.
   [[nodiscard]] static std::shared_ptr<const MaskMap> of(const Mask& mask,
-                                                         std::shared_ptr<const DelayMap> delays);
+                                                         std::shared_ptr<const DelayMap> delays = nullptr);
   [[nodiscard]] bool is_of(const Mask& mask, const DelayMap* delays) const;
 
   [[nodiscard]] bool has_delays() const { return delays != nullptr; }

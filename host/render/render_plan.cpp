@@ -87,10 +87,7 @@ SampleRange needed_samples(const Timeline& timeline, const FunctionSet& function
     static const std::vector<std::int64_t> kNone{0};
     for (const std::int64_t delay_ns : options.delays ? options.delays->delays_ns : kNone) {
       const GainSummary summary = summarize(found->second.shifted(delay_ns), timeline.duration_ns());
-      const SampleRange live = live_samples(summary, timeline, options.live_all);
-      if (live.empty()) continue;
-      needed.first = needed.empty() ? live.first : std::min(needed.first, live.first);
-      needed.last = std::max(needed.last, live.last);
+      needed.cover(live_samples(summary, timeline, options.live_all));
     }
   }
   return needed;

@@ -21,10 +21,7 @@ std::vector<PlannedFunction> by_mask_value(const RenderPlan& plan) {
     }
     PlannedFunction& function = functions.back();
     function.pixel_count += delayed.pixel_count;
-    if (delayed.live.empty()) continue;
-    function.live.first =
-        function.live.empty() ? delayed.live.first : std::min(function.live.first, delayed.live.first);
-    function.live.last = std::max(function.live.last, delayed.live.last);
+    function.live.cover(delayed.live);
   }
   return functions;
 }
