@@ -208,12 +208,16 @@ class PathParser {
         format("{}:{}: {}; the path of a camera is written when a clip is aligned", name_, line_, why));
   }
 
+  // What stands before the first of these letters, or all; both are left out of `text`.
+  static std::string_view cut(std::string_view& text, char letter) {
+    const std::string_view front = text.substr(0, text.find(letter));
+    text.remove_prefix(std::min(front.size() + 1, text.size()));
+    return front;
+  }
+
   std::string_view next_line() {
-    const std::size_t end = rest_.find('\n');
-    const std::string_view line = rest_.substr(0, end);
-    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
     ++line_;
-    return line;
+    return cut(rest_, '\n');
   }
 
   // `# nutik camera path,rigid,reference 12,640 x 480`, with commas between, as spreadsheets leave it.
@@ -258,12 +262,7 @@ class PathParser {
     if (!(m[0] * m[4] - m[1] * m[3] > 1e-6)) fail("the warp makes the picture flat, or a mirror picture");
   }
 
-  std::string_view next_word() {
-    const std::size_t end = line_left_.find(',');
-    const std::string_view word = line_left_.substr(0, end);
-    line_left_.remove_prefix(end == std::string_view::npos ? line_left_.size() : end + 1);
-    return word;
-  }
+  std::string_view next_word() { return cut(line_left_, ','); }
 
   template <typename Number>
   Number take(std::string_view what) {

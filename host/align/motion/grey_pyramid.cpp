@@ -55,12 +55,10 @@ void write_grey(const CaptureFormat& format, const Code* codes, std::uint32_t si
 void GreyPyramid::take(const CaptureFormat& format, std::span<const std::byte> raster) {
   finest = registered_halvings(format.shape);
   const std::uint32_t side = 1U << finest;
-  const auto write = [&]<typename Code>(const Code* codes) {
+  with_codes(format.code_bytes, raster.data(), [&](const auto* codes) {
     format.shape.channels == 1 ? write_grey<1>(format, codes, side, greys_[0])
                                : write_grey<3>(format, codes, side, greys_[0]);
-  };
-  format.code_bytes == 1 ? write(reinterpret_cast<const std::uint8_t*>(raster.data()))
-                         : write(reinterpret_cast<const std::uint16_t*>(raster.data()));
+  });
   for (std::size_t level = 0;; ++level) {
     const cv::Mat& grey = greys_[level];
     if (level == levels.size()) levels.emplace_back();

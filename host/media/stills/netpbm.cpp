@@ -209,9 +209,7 @@ std::vector<std::size_t> netpbm_starts(std::span<const std::byte> file, const st
       at += NetpbmReader(file.subspan(at), name).pass();
       while (at < file.size() && file[at] == std::byte{'\n'}) ++at;
       if (at >= file.size()) return starts;  // the last one may be cut short
-      const std::string_view rest(reinterpret_cast<const char*>(file.data()) + at,
-                                  std::min<std::size_t>(file.size() - at, 3));
-      if (!begins_as_netpbm(rest)) return starts;
+      if (!begins_as_netpbm(as_text(file.subspan(at)))) return starts;
       starts.push_back(at);
     }
   } catch (const InputError&) {  // it is said when that picture is read
@@ -225,16 +223,15 @@ std::string netpbm_text(const Picture& picture, const std::string& comment) {
   if (picture.type == ValueType::light32) {
     std::string text = format("{}\n{} {}\n-1.0\n", colour ? "PF" : "Pf", shape.width, shape.height);
     const std::size_t row_bytes = std::size_t{shape.width} * shape.channels * sizeof(float);
-    for (std::uint32_t y = shape.height; y-- > 0;) {
-      text.append(reinterpret_cast<const char*>(picture.bytes.data()) + y * row_bytes, row_bytes);
-    }
+    for (std::uint32_t y = shape.height; y-- > 0;)
+      text += as_text(picture.bytes).substr(y * row_bytes, row_bytes);
     return text;
   }
   std::string text =
       format("{}\n{}{}{} {}\n{}\n", colour ? "P6" : "P5", comment.empty() ? "" : "# " + comment,
              comment.empty() ? "" : "\n", shape.width, shape.height, picture.white_code);
   if (picture.type == ValueType::code8) {
-    text.append(reinterpret_cast<const char*>(picture.bytes.data()), picture.bytes.size());
+    text += as_text(picture.bytes);
   } else {
     for (const std::uint16_t code : picture.values<std::uint16_t>()) {
       if (picture.white_code > 255) text.push_back(static_cast<char>(code >> 8));

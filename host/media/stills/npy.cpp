@@ -74,10 +74,6 @@ std::string front_text(const Picture& picture, const std::string& axes) {
   return text + front;
 }
 
-void append_values(std::string& text, const Picture& picture) {
-  text.append(reinterpret_cast<const char*>(picture.bytes.data()), picture.bytes.size());
-}
-
 }  // namespace
 
 NpyFront read_npy_front(std::span<const std::byte> file, const std::string& name) {
@@ -128,14 +124,12 @@ Picture read_npy(std::span<const std::byte> file, const std::string& name, std::
 }
 
 std::string npy_text(const Picture& picture) {
-  std::string text = front_text(picture, "");
-  append_values(text, picture);
-  return text;
+  return front_text(picture, "").append(as_text(picture.bytes));
 }
 
 std::string npy_text(std::span<const PictureLayer> layers) {
   std::string text = front_text(layers.front().values, format("{}, ", layers.size()));
-  for (const PictureLayer& layer : layers) append_values(text, layer.values);
+  for (const PictureLayer& layer : layers) text += as_text(layer.values.bytes);
   return text;
 }
 

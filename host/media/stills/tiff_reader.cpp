@@ -279,13 +279,12 @@ class PageReader {
     if (TIFFReadRGBAImageOriented(file_, shape_.width, shape_.height, pixels.data(), orientation(), 1) == 0) {
       fail("it is damaged or was cut off");
     }
-    const bool grey = photometric_ == PHOTOMETRIC_MINISBLACK || photometric_ == PHOTOMETRIC_MINISWHITE;
-    shape_.channels = grey ? 1 : 3;
+    shape_.channels = is_grey() ? 1 : 3;
     Picture picture(shape_, ValueType::code8, 255);
     std::size_t at = 0;
     for (const std::uint32_t pixel : pixels) {
       picture.bytes[at++] = static_cast<std::byte>(TIFFGetR(pixel));
-      if (grey) continue;
+      if (is_grey()) continue;
       picture.bytes[at++] = static_cast<std::byte>(TIFFGetG(pixel));
       picture.bytes[at++] = static_cast<std::byte>(TIFFGetB(pixel));
     }

@@ -42,23 +42,19 @@ struct FreeFormat {
     avio_closep(&bytes);
   }
 };
-struct FreeCodec {
-  void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
-};
-struct FreePacket {
-  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-};
-struct FreeFrame {
-  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+// By FFmpeg's function, which takes where the pointer is.
+template <auto kFree>
+struct Free {
+  void operator()(auto* owned) const { kFree(&owned); }
 };
 struct FreeScaler {
   void operator()(SwsContext* context) const { sws_freeContext(context); }
 };
 
 using FormatPointer = std::unique_ptr<AVFormatContext, FreeFormat>;
-using CodecPointer = std::unique_ptr<AVCodecContext, FreeCodec>;
-using PacketPointer = std::unique_ptr<AVPacket, FreePacket>;
-using FramePointer = std::unique_ptr<AVFrame, FreeFrame>;
+using CodecPointer = std::unique_ptr<AVCodecContext, Free<avcodec_free_context>>;
+using PacketPointer = std::unique_ptr<AVPacket, Free<av_packet_free>>;
+using FramePointer = std::unique_ptr<AVFrame, Free<av_frame_free>>;
 using ScalerPointer = std::unique_ptr<SwsContext, FreeScaler>;
 
 // What FFmpeg is told to take where a stream does not say how fast its pictures follow each other: nobody films so.

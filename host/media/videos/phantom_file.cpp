@@ -13,6 +13,7 @@
 #include "media/videos/phantom_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <span>
 #include <string_view>
@@ -44,56 +45,12 @@ std::int64_t nanoseconds(std::uint64_t fixed_point) {
   return round_half_up(static_cast<int128>(fixed_point) * 1'000'000'000, int128{1} << 32);
 }
 
-}  // namespace
-
-std::optional<CineHeader> read_cine_header(const std::filesystem::path& path) {
-  const MappedFile mapped(path);
-  const auto file = mapped.bytes();
-  const std::string_view start = as_text(file);
-  if (file.size() < kFileHeaderBytes || !inputs::kPhantom.begins(start)) return std::nullopt;
-  const std::uint64_t count = number<std::uint32_t>(file, 20);
-  const std::uint64_t setup = number<std::uint32_t>(file, 28);
-  const std::uint64_t tags_end = std::min<std::uint64_t>(number<std::uint32_t>(file, 32), file.size());
-  CineHeader header;
-  header.is_packed_12 =
-      number<std::uint32_t>(file, std::uint64_t{number<std::uint32_t>(file, 24)} + 16) == kPacked12;
-  if (setup + 144 > file.size() || std::memcmp(file.data() + setup + 140, "ST", 2) != 0) return header;
-  std::uint64_t tag = setup + number<std::uint16_t>(file, setup + 142);
-  constexpr std::uint64_t kShutter = 772;
-  constexpr std::int64_t kNsInUs = 1000;
-  if (const auto shutter_us = number<std::uint32_t>(file, setup + kShutter);
-      shutter_us > 0 && tag >= setup + kShutter + 4) {
-    header.exposed_ns = shutter_us * kNsInUs;
-  }
-  constexpr std::uint64_t kBlack = 5732;
-  if (tag >= setup + kBlack + 4) header.black_code = number<std::uint32_t>(file, setup + kBlack);
-  while (tag + kTagHeaderBytes <= tags_end) {
-    const std::uint64_t size = number<std::uint32_t>(file, tag), data = tag + kTagHeaderBytes;
-    const auto type = number<std::uint16_t>(file, tag + 4);
-    if (size < kTagHeaderBytes || size > tags_end - tag) break;
-    if (type == kTimes && count > 0 && size - kTagHeaderBytes >= count * 8) {
-      const auto first = number<std::uint64_t>(file, data);
-      for (std::uint64_t k = 0; k < count; ++k) {
-        const auto time = number<std::uint64_t>(file, data + k * 8);
-        header.starts_ns.push_back(time < first ? -nanoseconds(first - time) : nanoseconds(time - first));
-      }
-    }
-    if (type == kExposures && count > 0 && size - kTagHeaderBytes >= count * 4) {
-      const auto exposed = number<std::uint32_t>(file, data);
-      bool alike = exposed > 0;
-      for (std::uint64_t k = 1; k < count; ++k) alike &= number<std::uint32_t>(file, data + k * 4) == exposed;
-      if (alike) header.exposed_ns = nanoseconds(exposed);
-    }
-    tag += size;
-  }
-  return header;
-}
-
+// What each code of 10 bits stands for: values of 12 bits, proportional to light but for black, which is 64.
 // The table is the one that the makers' own decoder applies, as published by the readers of the format that compared
 // themselves with it (pycine's pycine/linLUT.py, https://github.com/ottomatic-io/pycine). It is BT.709's curve between
 // black and white to within one value of 12 bits; the highest codes are all white.
 // clang-format off
-const std::array<std::uint16_t, 1024> kPhantomLight = {
+constexpr std::array<std::uint16_t, 1024> kPhantomLight = {
     2, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30,
     31, 32, 33, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46, 47, 48, 48, 49, 50, 51, 52, 53, 54, 55,
     56, 57, 58, 59, 60, 61, 62, 63, 63, 64, 65, 66, 67, 68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 79, 79, 80,
@@ -148,6 +105,51 @@ const std::array<std::uint16_t, 1024> kPhantomLight = {
     4039, 4048, 4056, 4064, 4095, 4095, 4095, 4095, 4095, 4095, 4095, 4095, 4095,
 };
 // clang-format on
+
+}  // namespace
+
+std::optional<CineHeader> read_cine_header(const std::filesystem::path& path) {
+  const MappedFile mapped(path);
+  const auto file = mapped.bytes();
+  const std::string_view start = as_text(file);
+  if (file.size() < kFileHeaderBytes || !inputs::kPhantom.begins(start)) return std::nullopt;
+  const std::uint64_t count = number<std::uint32_t>(file, 20);
+  const std::uint64_t setup = number<std::uint32_t>(file, 28);
+  const std::uint64_t tags_end = std::min<std::uint64_t>(number<std::uint32_t>(file, 32), file.size());
+  CineHeader header;
+  header.is_packed_12 =
+      number<std::uint32_t>(file, std::uint64_t{number<std::uint32_t>(file, 24)} + 16) == kPacked12;
+  if (setup + 144 > file.size() || std::memcmp(file.data() + setup + 140, "ST", 2) != 0) return header;
+  std::uint64_t tag = setup + number<std::uint16_t>(file, setup + 142);
+  constexpr std::uint64_t kShutter = 772;
+  constexpr std::int64_t kNsInUs = 1000;
+  if (const auto shutter_us = number<std::uint32_t>(file, setup + kShutter);
+      shutter_us > 0 && tag >= setup + kShutter + 4) {
+    header.exposed_ns = shutter_us * kNsInUs;
+  }
+  constexpr std::uint64_t kBlack = 5732;
+  if (tag >= setup + kBlack + 4) header.black_code = number<std::uint32_t>(file, setup + kBlack);
+  while (tag + kTagHeaderBytes <= tags_end) {
+    const std::uint64_t size = number<std::uint32_t>(file, tag), data = tag + kTagHeaderBytes;
+    const auto type = number<std::uint16_t>(file, tag + 4);
+    if (size < kTagHeaderBytes || size > tags_end - tag) break;
+    if (type == kTimes && count > 0 && size - kTagHeaderBytes >= count * 8) {
+      const auto first = number<std::uint64_t>(file, data);
+      for (std::uint64_t k = 0; k < count; ++k) {
+        const auto time = number<std::uint64_t>(file, data + k * 8);
+        header.starts_ns.push_back(time < first ? -nanoseconds(first - time) : nanoseconds(time - first));
+      }
+    }
+    if (type == kExposures && count > 0 && size - kTagHeaderBytes >= count * 4) {
+      const auto exposed = number<std::uint32_t>(file, data);
+      bool alike = exposed > 0;
+      for (std::uint64_t k = 1; k < count; ++k) alike &= number<std::uint32_t>(file, data + k * 4) == exposed;
+      if (alike) header.exposed_ns = nanoseconds(exposed);
+    }
+    tag += size;
+  }
+  return header;
+}
 
 bool is_phantom_packed(const AVCodecParameters& codec) {
   return codec.codec_id == AV_CODEC_ID_RAWVIDEO && codec.codec_tag == MKTAG('B', 'I', 'T', 0);

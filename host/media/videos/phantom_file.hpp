@@ -2,7 +2,6 @@
 // they make of 12-bit light in 10 bits.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -28,9 +27,6 @@ struct CineHeader {
 // all cameras.
 inline constexpr std::uint32_t kPhantomPackedBits = 10;  // of a code in the file
 inline constexpr std::uint32_t kPhantomBits = 12;        // of what the table gives
-
-// What each code of 10 bits stands for: values of 12 bits, proportional to light but for black, which is 64.
-extern const std::array<std::uint16_t, 1024> kPhantomLight;
 
 // Whether FFmpeg unpacks the stream's pictures from 10 bits.
 [[nodiscard]] bool is_phantom_packed(const AVCodecParameters& codec);

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "capture/median.hpp"
 #include "capture/text.hpp"
 #include "media/videos/containers.hpp"
 
@@ -73,9 +74,7 @@ std::int64_t usual_step(const std::vector<PacketTimes>& packets) {
   for (std::size_t i = 1; i < packets.size(); ++i)
     steps.push_back(static_cast<int128>(packets[i].decoded) - packets[i - 1].decoded);
   if (steps.empty()) return std::max<std::int64_t>(packets.back().duration, 1);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::ranges::nth_element(steps, middle);
-  return static_cast<std::int64_t>(std::clamp<int128>(*middle, 1, INT64_MAX));
+  return static_cast<std::int64_t>(std::clamp<int128>(median(std::move(steps)), 1, INT64_MAX));
 }
 
 bool is_timed(const std::vector<PacketTimes>& packets, std::int64_t PacketTimes::*time) {

@@ -100,7 +100,7 @@ bool is_unpacked_here(AVPixelFormat format) {
 
 // Null where such pixels cannot be converted.
 SwsContext* new_scaler(const AVFrame& frame, AVPixelFormat wanted, ChromaPlace at) {
-  std::unique_ptr<SwsContext, decltype(&sws_freeContext)> scaler(sws_alloc_context(), &sws_freeContext);
+  ScalerPointer scaler(sws_alloc_context());
   if (!scaler) return nullptr;
   const auto from = static_cast<AVPixelFormat>(frame.format);
   const auto set = [&](const char* option, std::int64_t value) {
