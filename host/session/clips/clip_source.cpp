@@ -1,6 +1,8 @@
 #include "session/clips/clip_source.hpp"
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 #include "capture/format.hpp"
 #include "media/deflicker.hpp"
@@ -17,6 +19,16 @@ namespace {
 // Rates from the one to the other are what players show; a clip filmed faster often says one of them.
 constexpr double kLowestPlaybackRate = 1.0;
 constexpr double kHighestPlaybackRate = 60.0;
+
+bool seeks_path(const SourceRequest& source) { return source.align && !source.align->path; }
+bool seeks_motion(const SourceRequest& source) { return source.between && !source.between->made; }
+
+// The progress of what is done twice: both times in one.
+std::pair<ReportedProgress, ReportedProgress> halves(const ReportedProgress& progress, bool is_twofold) {
+  if (!progress || !is_twofold) return {progress, progress};
+  return {[progress](std::uint64_t done, std::uint64_t total) { progress(done, 2 * total); },
+          [progress](std::uint64_t done, std::uint64_t total) { progress(total + done, 2 * total); }};
+}
 
 // The file is read once to count and once to decode.
 void refuse_streams(const std::filesystem::path& path) {
@@ -292,31 +304,19 @@ ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& me
       source.notes.push_back(std::move(*note));
   }
   // Each look for something reads the clip.
-  const bool is_twofold =
-      progress && request.align && !request.align->path && request.between && !request.between->made;
-  const auto half = [&](bool is_second) -> ReportedProgress {
-    if (!is_twofold) return progress;
-    return [&progress, is_second](std::uint64_t done, std::uint64_t total) {
-      progress((is_second ? total : 0) + done, 2 * total);
-    };
-  };
-  if (request.align) align(source, open, memory, half(false), stop);
+  const auto [seeking_path, seeking_motion] = halves(progress, seeks_path(request) && seeks_motion(request));
+  if (request.align) align(source, open, memory, seeking_path, stop);
   if (request.deflickered) {
     source.clip = deflicker(std::move(source.clip));
     open = [bare = std::move(open)] { return deflicker(bare()); };
   }
   source.capture.noise = noise_model(source, open, memory, stop);
-  if (request.between) fill(source, open, memory, half(true), stop);
+  if (request.between) fill(source, open, memory, seeking_motion, stop);
   return source;
 }
 
-TwofoldProgress::TwofoldProgress(const SourceRequest& source, const ReportedProgress& progress)
-    : reading(progress) {
-  const bool is_path_sought = source.align && !source.align->path;
-  const bool is_motion_sought = source.between && !source.between->made;
-  if (!progress || !(is_path_sought || is_motion_sought)) return;
-  finding = [progress](std::uint64_t done, std::uint64_t total) { progress(done, 2 * total); };
-  reading = [progress](std::uint64_t done, std::uint64_t total) { progress(total + done, 2 * total); };
+TwofoldProgress::TwofoldProgress(const SourceRequest& source, const ReportedProgress& progress) {
+  std::tie(finding, reading) = halves(progress, seeks_path(source) || seeks_motion(source));
 }
 
 Timeline known_timeline(const SourceRequest& request, const MemoryBudget& memory) {

@@ -12,7 +12,8 @@
 namespace nutik {
 namespace {
 
-// A capture as a clip again: its samples, one after another, with their times.
+// A capture, which outlives it, as a clip again: its samples, one after another, with their times. Where exposures
+// follow each other evenly it tells their rate; how long each lasts is the capture's shutter angle, which no clip tells.
 class CaptureClip final : public Clip {
  public:
   explicit CaptureClip(CaptureSource& capture) : capture_(capture), blocks_(capture) {
@@ -56,12 +57,6 @@ class CaptureClip final : public Clip {
   std::uint64_t next_block_ = 0, first_ = 0, next_ = 0, end_ = 0;
 };
 
-// The capture outlives the clip. Where exposures follow each other evenly the clip tells their rate; how long each
-// lasts is the capture's shutter angle, which no clip tells.
-std::unique_ptr<Clip> open_capture_clip(CaptureSource& capture) {
-  return std::make_unique<CaptureClip>(capture);
-}
-
 }  // namespace
 
 std::shared_ptr<Session> session_of_part(Session& whole, const ClipOptions& part,
@@ -74,7 +69,7 @@ std::shared_ptr<Session> session_of_part(Session& whole, const ClipOptions& part
   auto devices = std::make_shared<Devices>(computing);
   devices->start();
   const auto open = [&whole, &part] {
-    return take_part(open_capture_clip(whole.capture()), whole.source().path, part);
+    return take_part(std::make_unique<CaptureClip>(whole.capture()), whole.source().path, part);
   };
   return std::make_shared<Session>(
       source, std::move(devices),
