@@ -318,8 +318,16 @@ class Follower {
   std::vector<Followed> followed_;
 };
 
+// Who walks past slowly stays near a place for a while, but covers other cells: legs part.
+bool stays_at(const SubjectPlace& place, const SubjectPlace& later) {
+  std::vector<std::size_t> both;
+  std::ranges::set_intersection(place.cells, later.cells, std::back_inserter(both));
+  const auto all = static_cast<double>(place.cells.size() + later.cells.size());
+  return 2 * static_cast<double>(both.size()) >= (1 - kMaxStir) * all;
+}
+
 // From one place that it stays at to the last there. None where hardly anything would be left of its way.
-std::vector<SampleRange> rests_of(const std::vector<SubjectPlace>& places, std::uint32_t side) {
+std::vector<SampleRange> rests_of(const std::vector<SubjectPlace>& places) {
   constexpr std::uint64_t kMinLooks = 4;
   constexpr std::uint64_t kMinOfWay = 8;  // one of so many parts of the time
   std::vector<SampleRange> rests;
@@ -327,12 +335,8 @@ std::vector<SampleRange> rests_of(const std::vector<SubjectPlace>& places, std::
   const std::uint64_t way = places.back().sample - places.front().sample + 1;
   std::uint64_t resting = 0;
   for (std::size_t first = 0, last = 0; first < places.size(); first = last + 1) {
-    const double size = side * std::sqrt(static_cast<double>(places[first].cells.size()));
     last = first;
-    while (last + 1 < places.size() &&
-           distance(places[last + 1].centre, places[first].centre) <= kMaxStir * size) {
-      ++last;
-    }
+    while (last + 1 < places.size() && stays_at(places[first], places[last + 1])) ++last;
     const SampleRange rest{places[first].sample, places[last].sample + 1};
     if (last - first + 1 < kMinLooks || kMinOfWay * rest.size() < way) continue;
     // As one where it only shifted.
@@ -413,7 +417,7 @@ class Tracker {
 
   static void measure(SubjectTrack& track) {
     trim(track.places);
-    track.rests = rests_of(track.places, track.cell_side);
+    track.rests = rests_of(track.places);
     const Way way(track.places);
     track.extent = way.extent();
     // A pendulum turns often on its long way; who stands for a while stirs, and yet goes somewhere.
@@ -495,7 +499,8 @@ std::vector<std::vector<std::size_t>> SubjectTrack::changed_for_good() const {
   return parts_of(changed, kMinCells);
 }
 
-SampleRange SubjectTrack::free_time(const SubjectPlace& place, std::uint32_t pixels) const {
+SubjectTrack::BareGround SubjectTrack::bare_ground(const SubjectPlace& place, std::uint32_t pixels) const {
+  constexpr std::size_t kLongEnough = 8;  // looks: the average of more has hardly less noise
   const std::size_t around = (pixels + cell_side - 1) / cell_side;
   std::vector<bool> is_of_place(differing->front().size());
   for (const std::size_t cell : place.cells) {
@@ -514,15 +519,23 @@ SampleRange SubjectTrack::free_time(const SubjectPlace& place, std::uint32_t pix
     if (std::ranges::binary_search(bare, cell)) return {};
     cells.push_back(cell);
   }
-  SampleRange free, longest;
-  for (std::size_t look = 0; look < looked_at.size(); ++look) {
-    const std::vector<bool>& at_look = (*differing)[look];
-    const bool is_free = std::ranges::none_of(cells, [&](std::size_t cell) { return at_look[cell]; });
-    const std::uint64_t sample = looked_at[look];
-    free = is_free ? SampleRange{free.empty() ? sample : free.first, sample + 1} : SampleRange();
-    if (free.size() > longest.size()) longest = free;
+  const auto is_free = [&](std::size_t look) {
+    return std::ranges::none_of(cells, [&](std::size_t cell) { return (*differing)[look][cell]; });
+  };
+  BareGround ground;
+  for (std::size_t first = 0, last = 0; first < looked_at.size(); first = last + 1) {
+    for (last = first; last < looked_at.size() && last < first + kLongEnough && is_free(last);) ++last;
+    if (first < last) ground.times.push_back({looked_at[first], looked_at[last - 1] + 1});
   }
-  return longest;
+  const auto away = [&](SampleRange time) {
+    return time.first > place.sample ? time.first - place.sample : place.sample - time.last;
+  };
+  std::ranges::stable_sort(ground.times, {}, away);
+  std::ranges::stable_sort(ground.times, std::ranges::greater(), &SampleRange::size);
+  const auto look = static_cast<std::size_t>(std::ranges::lower_bound(looked_at, place.sample) - looked_at.begin());
+  std::erase_if(cells, [&](std::size_t cell) { return (*differing)[look][cell]; });
+  ground.cells = std::move(cells);
+  return ground;
 }
 
 std::vector<SubjectTrack> track_subjects(CaptureSource& capture, const Picture& plate, std::uint32_t by_codes,

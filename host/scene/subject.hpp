@@ -66,9 +66,13 @@ struct SubjectTrack {
   // Cells that differ for nearly all of its way, each what hangs together: where the plate shows it, the ground that it
   // has left.
   [[nodiscard]] std::vector<std::vector<std::size_t>> changed_for_good() const;
-  // The longest time at which nothing differs at a place, nor so many pixels around it. None where ground was laid
-  // bare: the thing lay on it all that time.
-  [[nodiscard]] SampleRange free_time(const SubjectPlace& place, std::uint32_t pixels) const;
+  // A place with so many pixels around it, and times of a few looks at which nothing differs there: the longest first,
+  // then the nearest. None where ground was laid bare: the thing lay on it all that time.
+  struct BareGround {
+    std::vector<std::size_t> cells;   // that do not differ at the place's own sample, increasing
+    std::vector<SampleRange> times;
+  };
+  [[nodiscard]] BareGround bare_ground(const SubjectPlace& place, std::uint32_t pixels) const;
 };
 
 // Still things that lie so many pixels from where the plate has them, or more, are taken for what moves: half of a cell

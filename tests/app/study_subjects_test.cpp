@@ -206,6 +206,21 @@ TEST_F(StudySubjects, EndTheirTrailsWithoutHalo) {
   EXPECT_NEAR(dimmed(74), dimmed(66), 0.1);
 }
 
+// A camera brightens what lies around a dark thing: that is no part of the thing.
+TEST_F(StudySubjects, LeaveNoHaloWhereTheCameraBrightensTheirGround) {
+  draw("brightened", 24, [](cv::Mat& frame, int k) {
+    const cv::Rect square(4 + 6 * k, 36, 14, 14);
+    cv::Mat around = frame(cv::Rect(square.x - 4, 20, 40, 46) & cv::Rect(0, 0, frame.cols, frame.rows));
+    around += 6;
+    frame(square) = 5;
+  });
+  study("brightened", "--style frozen --moments 11f");
+  cv::Mat brighter;
+  cv::subtract(picture("study.png"), ground_of(7), brighter, {}, CV_32F);
+  const auto above = [&](int y) { return cv::mean(brighter(cv::Rect(70, y, 14, 3)))[0]; };
+  EXPECT_NEAR(above(32), above(24), 2);
+}
+
 // The region is empty while the square is elsewhere: no scene to be taken away.
 TEST_F(StudySubjects, LeaveNothingDarkOutsideOfTheirRegion) {
   draw("one", 40, [](cv::Mat& frame, int k) { frame(cv::Rect(4 + 7 * k / 2, 20, 12, 12)) = 250; });

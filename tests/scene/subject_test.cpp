@@ -73,6 +73,20 @@ TEST(Subject, IsFollowedWhereItGoes) {
                    static_cast<double>(sum) / static_cast<double>(swept.size() * kSceneSamples));
 }
 
+// Its legs part and close, and it goes slower in the end.
+TEST(Subject, DoesNotRestWhileItWalks) {
+  const auto tracks = tracked([](int x, int y, std::uint64_t sample) {
+    const auto k = static_cast<int>(sample);
+    const int middle = k < 20 ? 20 + 3 * k : 50 + 3 * k / 2;
+    const int apart = 5 + std::abs(k % 10 - 5) * 2;
+    const bool is_leg = std::abs(std::abs(x - middle) - apart) < 5 && y >= kBallTop && y < kBallTop + 40;
+    return is_leg || (std::abs(x - middle) <= apart && y >= kBallTop && y < kBallTop + 5);
+  });
+  ASSERT_EQ(tracks.size(), 1u);
+  EXPECT_EQ(tracks[0].places.size(), kSceneSamples);
+  EXPECT_TRUE(tracks[0].rests.empty());
+}
+
 TEST(Subject, IsCutOffAtTheBorder) {
   const auto tracks = tracked([](int x, int y, std::uint64_t sample) {
     return x >= left_at(sample) - 10 && x < left_at(sample) + kBallWidth && y >= 0 && y < kBallHeight;

@@ -27,16 +27,6 @@ struct Overloaded : Cases... {
 template <typename... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 
-// What a capture holds at a sample.
-Picture picture_of_sample(CaptureSource& source, std::uint64_t sample) {
-  const CaptureFormat& format = source.format();
-  Picture picture(format.shape, code_type(format), format.white_code);
-  for_each_block(source, {sample, sample + 1}, [&](const BlockView& block) {
-    block.read_sample(static_cast<std::uint32_t>(sample - block.extent().first_sample), picture.bytes);
-  });
-  return picture;
-}
-
 std::string text_of(const PictureSource& source) {
   const auto* picture = std::get_if<NamedPicture>(&source);
   return picture != nullptr ? picture->name : std::get<StatedTime>(source).text();
@@ -247,6 +237,15 @@ class MaskMaker {
 };
 
 }  // namespace
+
+Picture picture_of_sample(CaptureSource& source, std::uint64_t sample) {
+  const CaptureFormat& format = source.format();
+  Picture picture(format.shape, code_type(format), format.white_code);
+  for_each_block(source, {sample, sample + 1}, [&](const BlockView& block) {
+    block.read_sample(static_cast<std::uint32_t>(sample - block.extent().first_sample), picture.bytes);
+  });
+  return picture;
+}
 
 MemoryNeeds mask_making_needs(const CaptureFormat& capture) {
   const Shape& shape = capture.shape;

@@ -51,6 +51,9 @@ struct MadeMask {
 [[nodiscard]] MadeMask make_mask(const MaskRequest& request, CaptureSource* capture,
                                  const std::string& capture_name, const std::function<Picture()>& plate = {});
 
+// What a capture holds at a sample, in its codes. Throws InputError where the capture is damaged.
+[[nodiscard]] Picture picture_of_sample(CaptureSource& source, std::uint64_t sample);
+
 // Warns of steps that select no pixel, and of tags that later steps cover.
 [[nodiscard]] std::vector<std::string> warnings_of(const MadeMask& made);
 

@@ -42,6 +42,9 @@ constexpr std::uint64_t kMinTelling = 144;  // pixels: the border of fewer is to
 constexpr double kSmoothRadius = 1, kCloseRadius = 7;
 // How far beyond that what lies around a subject reaches: a shadow ends as softly as no threshold shows.
 constexpr double kAroundPixels = 6;
+// By how much of the codes by which it differs the ground around it may be brighter then than where it is bare: more
+// would be a halo.
+constexpr double kMaxBrightened = 0.25;
 
 Feather feather_of(const StudyRequest& request) {
   return request.feather.value_or(Feather{request.style == StudyStyle::slit ? 0 : kStudyFeatherCentipixels, {}});
@@ -259,7 +262,8 @@ class StudyPlanner {
         (kAround.size() + 1) * study.moments.size() > kMaxTags) {
       return {};
     }
-    return track.free_time(place_at(track, study.moments[moment]), static_cast<std::uint32_t>(kAroundPixels));
+    return bare_time(capture_, track, place_at(track, study.moments[moment]),
+                     static_cast<std::uint32_t>(kAroundPixels), kMaxBrightened * by_codes_);
   }
 
   // The scene as it is on average, without moments.

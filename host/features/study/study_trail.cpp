@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <ranges>
 #include <set>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "capture/made_samples.hpp"
 #include "exposure/function_text.hpp"
 #include "exposure/gain_function.hpp"
+#include "features/masks/mask_making.hpp"
 
 namespace nutik {
 namespace {
@@ -237,6 +239,22 @@ class StudyFunctions {
   TrailShape shape_;
 };
 
+// Of the first pixel of each cell.
+double mean_code(const Picture& picture, const SubjectTrack& track, const std::vector<std::size_t>& cells) {
+  const Shape& shape = picture.shape;
+  const auto mean = [&](const auto& codes) {
+    double sum = 0;
+    for (const std::size_t cell : cells) {
+      const std::size_t x = cell % track.cell_columns, y = cell / track.cell_columns;
+      const auto* const pixel = &codes[(y * shape.width + x) * track.cell_side * shape.channels];
+      sum += std::accumulate(pixel, pixel + shape.channels, 0.0);
+    }
+    return sum / static_cast<double>(std::max(cells.size(), std::size_t{1}) * shape.channels);
+  };
+  return picture.type == ValueType::code8 ? mean(picture.values<std::uint8_t>())
+                                          : mean(picture.values<std::uint16_t>());
+}
+
 }  // namespace
 
 Study slit_study(CaptureSource& capture, const std::string& name, std::uint32_t wanted, SlitFrom from) {
@@ -282,6 +300,20 @@ TrailShape trail_shape(const StudyRequest& request) {
 
 FunctionSet whole_time(const Timeline& timeline) {
   return {{std::uint8_t{0}, exposing({{timeline.start_ns(0), timeline.end_ns(timeline.sample_count() - 1)}})}};
+}
+
+SampleRange bare_time(CaptureSource& capture, const SubjectTrack& track, const SubjectPlace& place,
+                      std::uint32_t pixels, double most_codes) {
+  constexpr std::size_t kMaxTried = 8;
+  const auto [cells, times] = track.bare_ground(place, pixels);
+  const double code = mean_code(picture_of_sample(capture, place.sample), track, cells);
+  const auto is_as_bright = [&](SampleRange time) {
+    const Picture picture = picture_of_sample(capture, std::midpoint(time.first, time.last));
+    return code - mean_code(picture, track, cells) <= most_codes;
+  };
+  const auto tried = times | std::views::take(kMaxTried);
+  const auto found = std::ranges::find_if(tried, is_as_bright);
+  return found == tried.end() ? SampleRange() : *found;
 }
 
 void add_functions(Study& study, const StudyRequest& request, const Timeline& timeline,
