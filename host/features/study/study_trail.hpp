@@ -23,8 +23,8 @@ namespace nutik {
 // What is shown between moments: as stated, or as the style has it.
 [[nodiscard]] TrailShape trail_shape(const StudyRequest& request);
 
-// When the ground of a place, and of so many pixels around it, is seen bare, and at most so many codes darker than it is
-// there at the place's own sample: cameras change their exposure. Empty where there is no such time.
+// When the ground of a place, and of so many pixels around it, is seen bare, and at most so many codes darker than at
+// the place's own sample: cameras change their exposure. Empty where there is no such time.
 [[nodiscard]] SampleRange bare_time(CaptureSource& capture, const SubjectTrack& track, const SubjectPlace& place,
                                     std::uint32_t pixels, double most_codes);
 

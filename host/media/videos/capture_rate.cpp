@@ -205,9 +205,9 @@ std::string unit_items(std::string_view ancillary) {
   return items;
 }
 
-// An MXF's labels that describe the pictures, and those of the first ancillary data beside them (SMPTE RDD 18), which stay
-// where the description was written anew. All is empty in a file of another kind. The rate of interlaced files is not
-// read, for they may count fields.
+// An MXF's labels that describe the pictures, and those of the first ancillary data beside them (SMPTE RDD 18), which
+// stay where the description was written anew. All is empty in a file of another kind. The rate of interlaced files is
+// not read, for they may count fields.
 CameraUnit mxf_unit(std::string_view file) {
   constexpr std::string_view kFile = "\x06\x0E\x2B\x34\x02\x05\x01\x01\x0D\x01\x02"sv,
                              kDescriptions = "\x06\x0E\x2B\x34\x02\x53\x01\x01\x0D"sv,

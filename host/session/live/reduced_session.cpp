@@ -13,7 +13,8 @@ namespace nutik {
 namespace {
 
 // A capture, which outlives it, as a clip again: its samples, one after another, with their times. Where exposures
-// follow each other evenly it tells their rate; how long each lasts is the capture's shutter angle, which no clip tells.
+// follow each other evenly it tells their rate; how long each lasts is the capture's shutter angle, which no clip
+// tells.
 class CaptureClip final : public Clip {
  public:
   explicit CaptureClip(CaptureSource& capture) : capture_(capture), blocks_(capture) {
