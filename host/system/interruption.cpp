@@ -34,16 +34,20 @@ void set_timer(long milliseconds) {
   setitimer(ITIMER_REAL, &after, nullptr);  // in a handler, too: here it only calls the system
 }
 
+// In a handler, too; below a progress bar.
+void tell(const char* text) {
+  for (const char* const part : {isatty(STDERR_FILENO) == 1 ? "\n" : "", text, "\n"})
+    [[maybe_unused]] const auto told = write(STDERR_FILENO, part, std::strlen(part));
+}
+
 // Nobody has looked. What a signal handler may do is little, and enough.
 void end_now(int) {
   const int number = shared_state().noted_signal.load();
-  if (number == 0 || shared_state().takes_its_time.load() > 0) return;
+  if (number == 0) return;
+  if (shared_state().takes_its_time.load() > 0)
+    return tell("what is done is kept, which takes a while; again: end now");
   remove_temporary_files();
-  char line[32] = "";
-  if (isatty(STDERR_FILENO) == 1) std::strcat(line, "\n");  // below a progress bar
-  std::strcat(line, name_of(number));
-  std::strcat(line, "\n");
-  [[maybe_unused]] const auto told = write(STDERR_FILENO, line, std::strlen(line));
+  tell(name_of(number));
   constexpr int kSignalStatus = 128;
   _exit(kSignalStatus + number);
 }

@@ -28,5 +28,17 @@ TEST(Interruption, LeavesIgnoredSignalsIgnoredAfterAnother) {
   EXPECT_EXIT(interrupted_under_nohup(), testing::ExitedWithCode(0), "");
 }
 
+// Nobody looks while an encoder finishes a film.
+TEST(Interruption, SaysThatItTakesAWhile) {
+  const auto interrupted_while_busy = [] {
+    catch_interruptions();
+    const TimeToEnd is_kept;
+    std::raise(SIGINT);
+    pause();  // until the timer is up
+    _exit(0);
+  };
+  EXPECT_EXIT(interrupted_while_busy(), testing::ExitedWithCode(0), "^what is done is kept.*again: end now\n$");
+}
+
 }  // namespace
 }  // namespace nutik
