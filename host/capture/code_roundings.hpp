@@ -12,6 +12,9 @@
 
 namespace nutik {
 
+// Among what has no bound: YUV whose pixels share chroma became RGB.
+inline constexpr std::string_view kSharedChroma = "chroma";
+
 struct CodeRoundings {
   double codes = 0.0;  // no code is further off by all of them that have a bound, one after another
   // What has none, by names that scripts know (docs/explanation/uncertainty.md).

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace nutik {
 
@@ -61,6 +62,23 @@ template <typename Parts, typename TextOf = std::identity>
   bool is_first = true;
   for (const auto& part : parts) (text += std::exchange(is_first, false) ? "" : between) += std::invoke(text_of, part);
   return text;
+}
+
+// `a, b or c`
+[[nodiscard]] inline std::string alternatives(std::span<const std::string> parts) {
+  if (parts.size() < 2) return joined(parts);
+  return joined(parts.first(parts.size() - 1)) + " or " + parts.back();
+}
+
+// What stands between separators: lines, words. joined() puts it together again.
+[[nodiscard]] inline std::vector<std::string> parts_of(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  while (!text.empty()) {
+    const std::string_view part = text.substr(0, text.find(separator));
+    parts.emplace_back(part);
+    text.remove_prefix(std::min(part.size() + 1, text.size()));
+  }
+  return parts;
 }
 
 }  // namespace nutik

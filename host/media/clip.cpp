@@ -33,7 +33,7 @@ void describe_stored_codes(ClipInfo& info, const ClipOptions& options, const Sto
                             [](const Transfer& transfer) { return "transfer " + transfer.text(); });
   const auto add_origin = [&](const std::string& unread) {
     Fact& fact = info.facts.back();
-    if (fact.origin == Origin::file) fact.source = codes.colours_from;
+    if (fact.origin == Origin::file && !codes.colours_from.empty()) fact.source = codes.colours_from;
     if (fact.origin == Origin::assumed && !unread.empty()) fact.remark = format("the file names {}", unread);
   };
   add_origin(codes.unread_transfer);

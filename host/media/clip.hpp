@@ -32,7 +32,8 @@ struct ClipTiming {
   std::vector<Exposure> exposures;      // in order, without overlaps
   // How long each sample was exposed, beside rate or starts, where the camera wrote it down.
   std::optional<std::int64_t> exposed_ns;
-  std::string rate_from = "the file";  // what tells the times, for people
+  std::string exposed_from = "the file";  // what tells that, for people
+  std::string rate_from = {};  // what tells the times; empty: the file as it is played
   std::string rate_doubt = {};         // why a rate that it states is none, where nothing else tells the times
 
   [[nodiscard]] bool is_known() const { return rate || !starts_ns.empty() || !exposures.empty(); }
@@ -205,7 +206,7 @@ struct StoredCodes {
   Transfer usual;
   std::optional<Transfer> transfer = std::nullopt;
   std::optional<Primaries> primaries = std::nullopt;
-  std::string colours_from = "the file";  // what of it says these, for people
+  std::string colours_from = {};  // what of the file says these, for people; empty: the file itself
   // What they name besides that is none of those known here, for people.
   std::string unread_transfer = {}, unread_primaries = {};
   std::optional<Rational> pixel_aspect = std::nullopt;

@@ -29,6 +29,7 @@ struct ClipFormat {
   std::unique_ptr<Clip> (*open)(const std::filesystem::path& path, const Files& files, const ClipOptions& options);
   // Adds what there is to tell besides what its module knows.
   void (*describe)(ClipInfo& info, const std::filesystem::path& path, const Files& files) = nullptr;
+  bool has_events = false;
 };
 
 std::unique_ptr<Clip> open_table(const std::filesystem::path& path, const Files& files, const ClipOptions& options) {
@@ -112,7 +113,7 @@ void add_photron_header(ClipInfo& info, const std::filesystem::path& pictures, c
   if (!header) return;
   info.timing.rate = header->rate;
   info.timing.exposed_ns = header->exposed_ns;
-  info.timing.rate_from = header->file.filename().string();
+  info.timing.exposed_from = info.timing.rate_from = header->file.filename().string();
 }
 
 std::unique_ptr<Clip> open_stills(const std::filesystem::path&, const Files& stills, const ClipOptions& options) {
@@ -171,7 +172,7 @@ std::unique_ptr<Clip> open_video(const std::filesystem::path& path, const Files&
 // The first that takes a name has it; what nothing takes is perhaps a video.
 constexpr ClipFormat kFormats[] = {
     {&inputs::kPhotron, photron_files, open_photron_clip},
-    {&inputs::kProphesee, files_of_events, open_events},
+    {&inputs::kProphesee, files_of_events, open_events, nullptr, true},
     {&inputs::kTable, files_of_table, open_table},
     {&inputs::kSequence, list_stills, open_stills, describe_stills},
 };
@@ -210,7 +211,7 @@ std::unique_ptr<Clip> open_clip(const std::filesystem::path& name, const ClipOpt
   const std::filesystem::path& path = is_standard_input(name.string()) ? standard_input_file() : name;
   if (!options.raw) refuse_unsupported_kind(path);
   const auto [format, files] = format_of(path, options.raw.has_value());
-  if (format.open != open_events) refuse_event_options(path, options.events);
+  if (!format.has_events) refuse_event_options(path, options.events);
   std::unique_ptr<Clip> clip = format.open(path, files, options);
   ClipInfo info = clip->info();
   if (format.describe != nullptr) format.describe(info, path, files);

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 
+#include "capture/median.hpp"
 #include "render/reference_renderer.hpp"
 
 namespace nutik {
@@ -15,12 +16,6 @@ using Clock = std::chrono::steady_clock;
 
 double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
 struct Times {

@@ -9,6 +9,7 @@
 #include "capture/format.hpp"
 #include "capture/text.hpp"
 #include "exposure/function_file.hpp"
+#include "media/formats/input_kinds.hpp"
 #include "media/stills/picture_text.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "media/writers/recipe.hpp"
@@ -22,15 +23,9 @@ namespace {
 
 bool is_tik_content(const std::string& bytes) { return tik::looks_like_tik(std::as_bytes(std::span(bytes))); }
 
-bool is_picture_content(std::string_view bytes) {
-  if (bytes.starts_with("\x89PNG") || bytes.starts_with(std::string_view("II*\0", 4)) ||
-      bytes.starts_with(std::string_view("MM\0*", 4)) || bytes.starts_with("II+") ||
-      bytes.starts_with("\xFF\xD8\xFF") || bytes.starts_with("\x76\x2f\x31\x01") || bytes.starts_with("\x93NUMPY")) {
-    return true;
-  }
-  return bytes.size() > 2 && bytes[0] == 'P' &&
-         std::string_view("123456fF").find(bytes[1]) != std::string_view::npos &&
-         !is_tik_content(std::string(bytes));
+bool is_picture_content(const std::string& bytes) {
+  const auto begins = [&](const inputs::InputKind* kind) { return kind->begins(bytes); };
+  return std::ranges::any_of(inputs::kStills, begins) && !is_tik_content(bytes);
 }
 
 // Tells it of any file. What is damaged carries none.
@@ -49,7 +44,7 @@ bool is_mask_content(const std::filesystem::path& file) {
   const std::string_view bytes = as_text(mapped.bytes());
   const bool is_pgm = bytes.starts_with("P2") || bytes.starts_with("P5");
   const bool is_grey_png =
-      bytes.starts_with("\x89PNG") && bytes.size() > kPngColourType && bytes[kPngColourType] == 0;
+      inputs::kPng.begins(bytes) && bytes.size() > kPngColourType && bytes[kPngColourType] == 0;
   return (is_pgm || is_grey_png) && !carries_recipe(file);
 }
 

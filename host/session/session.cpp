@@ -350,7 +350,7 @@ const CaptureFormat& Session::format() const { return state_->format_; }
 const Timeline& Session::timeline() const { return state_->timeline(); }
 const std::vector<Fact>& Session::facts() const { return state_->facts_; }
 bool Session::repeats_chroma() const {
-  return state_->format_.code_bytes == 1 && std::ranges::count(state_->roundings_.unbounded, "chroma") > 0;
+  return state_->format_.code_bytes == 1 && std::ranges::count(state_->roundings_.unbounded, kSharedChroma) > 0;
 }
 const std::optional<ClipSound>& Session::sound() const { return state_->sound_; }
 const std::vector<Note>& Session::notes() const { return state_->notes_; }
@@ -421,9 +421,8 @@ void Session::render_many(std::span<const ExposureRequest> requests, const Outpu
       Rendered rendered;
       rendered.renderer = "the processor";
       rendered.warnings = planned.warnings;
-      if (suits_one_pass(planned) &&
-          (rendered.choice = PrecisionChoice{error_bound(planned, Precision::double_, output), {}})
-              ->is_right_enough()) {
+      if (suits_one_pass(planned)) rendered.choice = {error_bound(planned, Precision::double_, output), {}};
+      if (rendered.choice && rendered.choice->is_right_enough()) {
         if (!plans.empty() && plans.front().capture != planned.capture) expose_waiting();
         plans.push_back(std::move(planned));
         waiting.push_back(std::move(rendered));

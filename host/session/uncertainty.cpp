@@ -223,34 +223,36 @@ Uncertainty Uncertainty::of(const ExposedPicture& exposed, const CaptureErrors& 
   const ExposureFigures& figures = exposed.figures;
   const bool adds_up = figures.combine == Combine::integral;
   const double scale = uncertainty.scale = figures.error_scale;
-  const auto add = [&](std::string_view name, Is is, const PictureError& error) {
-    if (error.light > 0.0) uncertainty.terms.push_back({name, is, error});
+  const auto add = [&](UncertaintyTerm::Known which, const PictureError& error, std::string text = {}) {
+    const auto& [name, is, covers] = UncertaintyTerm::kKinds[which];
+    if (error.light > 0.0) uncertainty.terms.push_back({name, is, error, {}, std::move(text)});
     return error.light;
   };
   double others = 0.0;  // light that is off wherever it lies
-  others += add("arithmetic", Is::bound,
+  others += add(UncertaintyTerm::kArithmetic,
                 exposed.choice && adds_up ? exposed.choice->bound.worst
-                                          : error_of(exposed, scale, scale * kReferenceError));
-  if (const auto rounding = rounding_of(exposed, scale)) add("rounding", Is::bound, *rounding);
+                                          : error_of(exposed, scale, scale * kReferenceError),
+                to_text(exposed.precision));
+  if (const auto rounding = rounding_of(exposed, scale)) add(UncertaintyTerm::kRounding, *rounding);
   // The dark is closer to what it was than the bright, in light.
   const CodeErrors codes(figures.capture, exposed.output);
   const bool by_light = holds_codes(exposed.output.type) && !codes.making().conversion &&
                         !(capture.held.is_zero() && capture.rounded.is_zero()) &&
                         std::ranges::all_of(figures.functions, is_mean);
-  const auto add_by_light = [&](std::string_view name, const LightCurve& curve, auto off_of) {
+  const auto add_by_light = [&](UncertaintyTerm::Known which, const LightCurve& curve, auto off_of) {
     PictureError error = error_of(exposed, scale, scale * curve.most());
     if (by_light && error.light > 0.0)
       error.steps = std::min(error.steps, largest_codes(codes, figures.capture.transfer, scale, off_of));
-    add(name, Is::bound, error);
+    add(which, error);
   };
   const auto held = [&](double from, double to) { return scale * capture.held.most(from, to); };
   const auto rounded = [&](double from, double to) {
     const double before = capture.held.most(from, to);  // light that was rounded, and held after that
     return scale * capture.rounded.most(from - before, to + before);
   };
-  add_by_light("rounded_codes", capture.rounded, rounded);
-  add_by_light("held_samples", capture.held, held);
-  if (adds_up) others += add("times", Is::bound, error_of(exposed, scale, figures.times_error));
+  add_by_light(UncertaintyTerm::kRoundedCodes, capture.rounded, rounded);
+  add_by_light(UncertaintyTerm::kHeldSamples, capture.held, held);
+  if (adds_up) others += add(UncertaintyTerm::kTimes, error_of(exposed, scale, figures.times_error));
   PictureError sum;
   for (const UncertaintyTerm& term : uncertainty.terms) {
     sum.light += term.error->light;
@@ -262,21 +264,21 @@ Uncertainty Uncertainty::of(const ExposedPicture& exposed, const CaptureErrors& 
     sum.steps = std::min(sum.steps, largest_codes(codes, figures.capture.transfer, scale, all) + 0.5);
   }
   if (holds_codes(exposed.output.type)) sum.steps = std::min<double>(sum.steps, exposed.output.white_code);
-  uncertainty.bounds = {"all_bounds", Is::bound, sum};
+  uncertainty.bounds = {UncertaintyTerm::kKinds[UncertaintyTerm::kAllBounds].name, Is::bound, sum};
   for (UncertaintyTerm& term : uncertainty.terms) {
     term.figures = {{"share_of_bounds", std::isfinite(sum.light) ? term.error->light / sum.light : 1.0}};
-    if (term.name == "arithmetic") term.text = to_text(exposed.precision);
   }
-  add("noise", Is::deviation, error_of(exposed, scale, scale * capture.noise.most()));
+  add(UncertaintyTerm::kNoise, error_of(exposed, scale, scale * capture.noise.most()));
   if (const auto pixels = capture.alignment_pixels) {
-    uncertainty.terms.push_back({"alignment", Is::deviation, {}, {{"residual_pixels", *pixels}},
+    uncertainty.terms.push_back({UncertaintyTerm::kKinds[UncertaintyTerm::kAlignment].name, Is::deviation, {},
+                                 {{"residual_pixels", *pixels}},
                                  format("half of the texture lies within {:.2g} pixels of its place", *pixels)});
   }
   for (const std::string& name : capture.unbounded) uncertainty.terms.push_back(without_bound(name));
   if (capture.made) {
     const std::uint64_t made = made_of(figures, *capture.made), of = figures.live_samples;
     uncertainty.terms.push_back(
-        {"made_samples", Is::count, {},
+        {UncertaintyTerm::kKinds[UncertaintyTerm::kMadeSamples].name, Is::count, {},
          {{"made_samples", static_cast<double>(made)}, {"exposed_samples", static_cast<double>(of)}},
          format("{} of {} samples were not filmed", made, of)});
   }

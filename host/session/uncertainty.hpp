@@ -82,6 +82,28 @@ class CodeErrors {
 
 struct UncertaintyTerm {
   enum class Is { bound, deviation, count, no_bound };
+  // Those of which a map has a layer, in its order; how codes were made is told by name alone.
+  enum Known : std::size_t {
+    kAllBounds, kArithmetic, kRounding, kRoundedCodes, kHeldSamples, kTimes, kNoise, kAlignment, kMadeSamples, kTerms
+  };
+  struct Kind {
+    std::string_view name;
+    Is is;
+    std::string_view covers;  // of a pixel
+  };
+  static constexpr Kind kKinds[kTerms] = {
+      {"all_bounds", Is::bound, "no pixel is further off by all bounds together"},
+      {"arithmetic", Is::bound, "no pixel is further off"},
+      {"rounding", Is::bound, "no pixel is further off"},
+      {"rounded_codes", Is::bound, "no pixel is further off"},
+      {"held_samples", Is::bound, "no pixel is further off"},
+      {"times", Is::bound, "no pixel is further off"},
+      {"noise", Is::deviation,
+       "one standard deviation (k = 1) of a sample as bright as the pixel, 68 % if it is normal"},
+      {"alignment", Is::deviation,
+       "half of the texture is no further off: the residual times the slope of the picture"},
+      {"made_samples", Is::count, "the share of exposed samples that nobody filmed"},
+  };
 
   std::string_view name;  // as scripts know it
   Is is = Is::bound;

@@ -16,25 +16,6 @@
 namespace nutik {
 namespace {
 
-struct TermText {
-  std::string_view name;
-  std::string_view kind;
-  std::string_view covers;
-};
-
-// By term.
-constexpr TermText kTexts[] = {
-    {"all_bounds", "bound", "no pixel is further off by all bounds together"},
-    {"arithmetic", "bound", "no pixel is further off"},
-    {"rounding", "bound", "no pixel is further off"},
-    {"rounded_codes", "bound", "no pixel is further off"},
-    {"held_samples", "bound", "no pixel is further off"},
-    {"times", "bound", "no pixel is further off"},
-    {"noise", "deviation", "one standard deviation (k = 1) of a sample as bright as the pixel, 68 % if it is normal"},
-    {"alignment", "deviation", "half of the texture is no further off: the residual times the slope of the picture"},
-    {"made_samples", "count", "the share of exposed samples that nobody filmed"},
-};
-
 double value_of(const Picture& picture, std::uint64_t at) {
   switch (picture.type) {
     case ValueType::code8: return picture.values<std::uint8_t>()[at];
@@ -249,7 +230,7 @@ std::vector<PictureLayer> UncertaintyMap::layers(const Picture& exposed, const R
   std::array<float*, kTerms> values{};
   for (std::size_t term = kAllBounds; term < kTerms; ++term) {
     if (!has(static_cast<Term>(term))) continue;
-    PictureLayer layer{std::string(kTexts[term].name), text_of(static_cast<Term>(term)),
+    PictureLayer layer{std::string(UncertaintyTerm::kKinds[term].name), text_of(static_cast<Term>(term)),
                        Picture({part.width, part.height, 1}, ValueType::light32, 0)};
     layer.values.pixel_aspect = exposed.pixel_aspect;
     values[term] = layer.values.values<float>().data();  // which stay in place
@@ -317,11 +298,11 @@ void UncertaintyMap::limit(std::vector<PictureLayer>& layers, const PictureError
 }
 
 std::string UncertaintyMap::text_of(Term term) const {
-  const TermText& text = kTexts[term];
+  const UncertaintyTerm::Kind& kind = UncertaintyTerm::kKinds[term];
   const std::string unit = term == kMadeSamples         ? "samples"
                            : !holds_codes(output_.type) ? "light, of which 1 is white"
                                                        : format("codes, of which {} is white", output_.white_code);
-  return format("{}: a {}, in {}: {}", text.name, text.kind, unit, text.covers);
+  return format("{}: a {}, in {}: {}", kind.name, to_text(kind.is), unit, kind.covers);
 }
 
 }  // namespace nutik

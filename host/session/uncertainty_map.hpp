@@ -38,9 +38,8 @@ class UncertaintyMap {
   static void limit(std::vector<PictureLayer>& layers, const PictureError& bounds);
 
  private:
-  enum Term : std::size_t {
-    kAllBounds, kArithmetic, kRounding, kRoundedCodes, kHeldSamples, kTimes, kNoise, kAlignment, kMadeSamples, kTerms
-  };
+  using Term = UncertaintyTerm::Known;
+  using enum UncertaintyTerm::Known;
   // What a function gives its pixels; a pixel that several share has its shares of theirs.
   struct Function {
     double scale = 0.0, times = 0.0, made = 0.0;

@@ -127,6 +127,7 @@ TEST_F(UncertaintyOf, CombinedLightIsAsLargeAsTheLargestGain) {
   EXPECT_NEAR(std::ranges::max(layers[3]), 2.0f, 0.8f);
   expect_refused("--start 0s --exposure 0.1s --bounds tif:- clip.tik b.png", 2, "standard output has one picture");
   expect_refused("--start 0s --exposure 0.1s --bounds m.npy clip.tik b.jpg", 2, "b.jpg loses more than a map counts");
+  expect_refused("--start 0s --exposure 0.1s --bounds m.npy clip.tik jpg:-", 2, "jpg:- loses more than a map counts");
   expect_refused("--start 0s --exposure 0.1s --bounds m.npy --depth half clip.tik b.exr", 2, "--depth half loses more");
   expect_refused("video --bounds m%d.npy clip.tik v.mp4", 2, "h264 loses more than a map counts; write ffv1");
   expect_refused("--start 0s --exposure 4f --every 4f --bounds m.npy clip.tik s%d.png", 2,

@@ -6,6 +6,7 @@
 
 #include "capture/error.hpp"
 #include "features/schema/option.hpp"
+#include "features/schema/requests.hpp"
 #include "support/messages.hpp"
 
 namespace nutik::test {
@@ -38,6 +39,18 @@ TEST(Schema, WritesAdviceAsTheClientStatesIt) {
             "no pixel is left; keep the size (--unseen hold), or begin later with --from");
   EXPECT_EQ(message_text(error, Dialect::python),
             "no pixel is left; keep the size (unseen='hold'), or begin later with begin=");
+}
+
+TEST(Schema, SaysWhatNumberIsNoneAsTheClientStatesIt) {
+  Options options;
+  option_of(CommandId::study, "region")->state(options, "region", {"1,x"});
+  try {
+    static_cast<void>(study_request(options));
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_TRUE(message_text(error, Dialect::python).starts_with("region=: 'x' is no number"));
+    EXPECT_TRUE(message_text(error, Dialect::command_line).starts_with("--region: 'x' is no number"));
+  }
 }
 
 TEST(Schema, LeavesBackquotesThatNameNoOption) {

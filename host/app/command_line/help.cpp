@@ -15,6 +15,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/source_text.hpp"
+#include "capture/text.hpp"
 #include "session/text/text_table.hpp"
 
 namespace nutik::app {

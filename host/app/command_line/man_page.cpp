@@ -8,7 +8,7 @@
 #include "app/output/console.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "session/text/text_table.hpp"
+#include "capture/text.hpp"
 
 namespace nutik::app {
 namespace {

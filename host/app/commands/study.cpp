@@ -24,7 +24,6 @@
 #include "session/output_check.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"
-#include "session/text/text_table.hpp"
 #include "system/checksum.hpp"
 #include "system/input_bytes.hpp"
 #include "system/is_absent.hpp"

@@ -22,7 +22,7 @@ static Json sound_json(const ClipSound& of_clip, const FilmSound& of_film) {
 // `options` and the session get the samples of joining_samples(), unless they state some; returns what is said of it.
 static std::string join_pictures(Options& options, Session& session, const Session::Terms& terms,
                                  const FramesRequest& request, const Frames& frames) {
-  const auto between = options.has("between") ? std::nullopt : joining_samples(request, frames, session);
+  const auto between = options.joins_by_itself() ? joining_samples(request, frames, session) : std::nullopt;
   if (!between) return {};
   const auto say = [&](std::string text) {
     if (!options.quiet && !options.json) print_note("note: " + text);

@@ -5,9 +5,7 @@
 #include "app/output/report.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "capture/text.hpp"
 #include "features/schema/option.hpp"
-#include "media/formats/extension.hpp"
 #include "media/formats/numbered_name.hpp"
 #include "media/input_checksum.hpp"
 #include "media/stills/still_sequence.hpp"
@@ -107,7 +105,7 @@ BoundsMaps::BoundsMaps(const Options& options, bool has_many, std::string_view w
 void BoundsMaps::check(std::uint64_t number, std::vector<std::string> inputs, const std::filesystem::path& picture,
                        Replacing replacing) const {
   if (!stated_) return;
-  if (const std::string kind = extension_of(picture); is_half_ || kind == ".jpg" || kind == ".jpeg") {
+  if (is_half_ || is_lossy_name(picture)) {
     throw UsageError(format("--bounds: {} loses more than a map counts; write a .png, a .tif, or floats of 32 bits",
                             is_half_ ? "--depth half" : picture.string()));
   }
@@ -165,8 +163,7 @@ void require_recipes(const Options& options, const std::filesystem::path& pictur
   if (options.no_recipe) {
     throw UsageError("--skip-existing knows pictures by their recipes, and --no-recipe makes them without; use one");
   }
-  const std::string ending = in_small_letters(picture.extension().string());
-  if (names_standard_output(picture) || !is_picture_name(picture) || ending == ".pfm" || ending == ".npy") {
+  if (names_standard_output(picture) || !has_text_by_name(picture)) {
     throw UsageError(
         format("--skip-existing knows pictures by their recipes, and {} has no place for one; write pictures, for a "
                "video numbered ones: frame-%05d.png, .tif, .exr, …",

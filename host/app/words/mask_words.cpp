@@ -21,7 +21,7 @@ constexpr double kLargestRadius = 10'000.0;
 
 // The numbers of a list, as many as `count`, each of which `names` has a letter for.
 std::vector<double> numbers_of(const Said& said, std::size_t count, std::string_view names) {
-  std::vector<double> numbers = parse_numbers(said.words.front(), "--" + std::string(said.option));
+  std::vector<double> numbers = parse_numbers(said.words.front(), said.option);
   if (numbers.size() != count) {
     throw UsageError(format("--{} needs {} numbers, {}: '{}' has {}", said.option, count, names,
                             said.words.front(), numbers.size()));
@@ -47,7 +47,7 @@ Selection ellipse_of(const Said& said) {
 }
 
 Selection polygon_of(const Said& said) {
-  const std::vector<double> n = parse_numbers(said.words.front(), "--polygon");
+  const std::vector<double> n = parse_numbers(said.words.front(), "polygon");
   if (n.size() < 6 || n.size() % 2 != 0) {
     throw UsageError(format("--polygon needs three corners or more, X,Y,X,Y,X,Y: '{}' has {} numbers",
                             said.words.front(), n.size()));

@@ -9,7 +9,6 @@
 #include "capture/text.hpp"
 #include "exposure/key_frame_values.hpp"
 #include "session/text/number_text.hpp"
-#include "session/text/text_table.hpp"
 
 namespace nutik {
 namespace {

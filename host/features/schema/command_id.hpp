@@ -35,6 +35,7 @@ enum class CommandId {
 
 // A bit for each.
 using CommandSet = std::uint32_t;
+static_assert(static_cast<unsigned>(CommandId::man) < 32, "the last one has a bit");
 [[nodiscard]] constexpr CommandSet bit(CommandId id) { return 1u << static_cast<unsigned>(id); }
 
 template <typename... Ids>

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "session/text/shell_text.hpp"
-#include "session/text/text_table.hpp"
 #include "tik/reader.hpp"
 
 namespace nutik {

@@ -114,6 +114,8 @@ struct Options {
     return found == said.end() ? nullptr : &*found;
   }
   [[nodiscard]] bool has(std::string_view option) const { return find(option) != nullptr; }
+  // Whether it is left to a command where samples are made between pictures: nobody said so, nor `off`.
+  [[nodiscard]] bool joins_by_itself() const { return !has("between"); }
   // The first word of its value; `otherwise` where nothing was said.
   [[nodiscard]] std::string text(std::string_view option, std::string_view otherwise = {}) const {
     const Said* const found = find(option);

@@ -57,7 +57,7 @@ void read_noise(SourceRequest& request, const Options& options) {
 }
 
 Rectangle region_of(const std::string& text) {
-  const std::vector<double> n = parse_numbers(text, "--region");
+  const std::vector<double> n = parse_numbers(text, "region");
   const auto is_whole = [](double each) { return each >= 0 && each <= 65'535 && each == std::floor(each); };
   if (n.size() != 4 || !std::ranges::all_of(n, is_whole) || n[2] == 0 || n[3] == 0) {
     throw UsageError(
@@ -180,7 +180,7 @@ StudyRequest study_request(const Options& options) {
   for (const Said& said : options.said) {
     if (said.option == "region") request.regions.push_back(region_of(said.words.front()));
   }
-  request.joins_trail = !options.has("between");
+  request.joins_trail = options.joins_by_itself();
   request.by_codes = options.by;
   request.feather = options.feather;
   if (!options.has("moments")) request.moments = usual_moments(request.style);

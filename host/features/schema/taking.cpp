@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "capture/format.hpp"
-#include "session/text/text_table.hpp"
+#include "capture/text.hpp"
 
 namespace nutik {
 namespace {

@@ -150,7 +150,7 @@ class PhotronClip final : public Clip {
     describe_stored_codes(info_, options, {Transfer::linear()});
     info_.timing.rate = header_.rate;
     info_.timing.exposed_ns = header_.exposed_ns;
-    info_.timing.rate_from = header_.file.filename().string();
+    info_.timing.exposed_from = info_.timing.rate_from = header_.file.filename().string();
     info_.sample_count = count_;
     add_notes();
   }

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "capture/capture_mark.hpp"
 #include "capture/error.hpp"
@@ -175,10 +176,12 @@ const inputs::InputKind* kind_named_by(const std::filesystem::path& file) {
   return named == std::end(inputs::kStills) ? nullptr : *named;
 }
 
-std::string still_kinds_text() {
-  std::string text;
-  for (const inputs::InputKind* kind : inputs::kStills) text += (text.empty() ? "" : ", ") + std::string(kind->name);
-  return text;
+std::string still_kinds_text(bool inputs::InputKind::*which) {
+  std::vector<std::string_view> names;
+  for (const inputs::InputKind* kind : inputs::kStills) {
+    if (which == nullptr || kind->*which) names.push_back(kind->name);
+  }
+  return joined(names);
 }
 
 bool holds_several_pictures(const std::filesystem::path& file) {

@@ -27,8 +27,8 @@ void refuse_text(const std::filesystem::path& file);
 [[nodiscard]] const inputs::InputKind* still_kind(const std::filesystem::path& file);
 // By its name alone.
 [[nodiscard]] const inputs::InputKind* kind_named_by(const std::filesystem::path& file);
-// `PNG, JPEG, …`: all of them.
-[[nodiscard]] std::string still_kinds_text();
+// `PNG, JPEG, …`: all of them, or those of which this is so.
+[[nodiscard]] std::string still_kinds_text(bool inputs::InputKind::*which = nullptr);
 
 // Whether PNGs or JPEGs stand in it one behind the other, or an animated PNG: a video, whatever its name ends with.
 [[nodiscard]] bool holds_several_pictures(const std::filesystem::path& file);

@@ -26,6 +26,7 @@ struct InputKind {
   std::string_view alpha;              // what becomes of transparency
   std::string_view order;              // in which order pictures are read
   std::string_view behind_start = {};  // one of these characters follows the first bytes; empty: any
+  bool has_tags = false;               // whole numbers in it may be a mask's, besides those in a PNG and a PGM
 
   [[nodiscard]] constexpr bool begins(std::string_view bytes) const {
     for (const std::string_view start : starts) {
@@ -61,7 +62,7 @@ inline constexpr InputKind kJpeg{
 inline constexpr InputKind kTiff{
     "TIFF", {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv}, " .tif .tiff ", {}, "ImageJ's or OME's description", "none",
     "as stored, white by its bits; of 16 `MaxSampleValue` if all ones, else 65535 with a note; floats as of OpenEXR",
-    "`Orientation`", "refused", "its pages"};
+    "`Orientation`", "refused", "its pages", {}, true};
 inline constexpr InputKind kDng{
     "DNG", {}, " .dng ", "a TIFF's `DNGVersion`", "the first one's `FrameRate`; EXIF, in a table",
     "`ExposureTime`, if alike; EXIF, in a table",
@@ -72,13 +73,14 @@ inline constexpr InputKind kNetpbm{
     "as stored, white is its maximum", "none", "none", "one behind the other", " \t\r\n"};
 inline constexpr InputKind kExr{
     "OpenEXR", {"\x76\x2F\x31\x01"}, " .exr ", {}, "none", "none",
-    "floating-point light, over 16 bits by the white that you state", "as it lies", "refused", "one picture"};
+    "floating-point light, over 16 bits by the white that you state", "as it lies", "refused", "one picture", {}, true};
 inline constexpr InputKind kPfm{
-    "PFM", {"PF", "Pf"}, " .pfm ", {}, "none", "none", "as of OpenEXR", "none", "none", "one picture", " \t\r\n"};
+    "PFM", {"PF", "Pf"}, " .pfm ", {}, "none", "none", "as of OpenEXR", "none", "none", "one picture", " \t\r\n",
+    true};
 inline constexpr InputKind kNumpy{
     "NumPy", {"\x93NUMPY"}, " .npy ", {}, "none", "none",
     "integers as stored, white 255 or 65535; floats as of OpenEXR", "none", "none",
-    "its first axis, if it has three, or four with colour"};
+    "its first axis, if it has three, or four with colour", {}, true};
 inline constexpr InputKind kSequence{
     "several stills", {}, {}, "a folder, `'frames/*.png'`, `frame%04d.tif`",
     "the first one's, else a folder's only Photron header", "as the times", "alike in all", "each one's",

@@ -6,6 +6,7 @@
 #include "capture/format.hpp"
 #include "capture/text.hpp"
 #include "capture/turned.hpp"
+#include "media/formats/file_kinds.hpp"
 #include "media/formats/input_kinds.hpp"
 #include "media/stills/netpbm.hpp"
 #include "media/stills/picture_files.hpp"
@@ -57,9 +58,10 @@ Picture read_mask(std::span<const std::byte> bytes, const std::string& name,
     const bool is_functions = bytes.size() > 1 && bytes[0] == std::byte{'M'} && bytes[1] >= std::byte{'0'} &&
                               bytes[1] <= std::byte{'9'};
     throw InputError(
-        format("{} is neither a PGM nor a PNG; masks are 8-bit grey pictures of these kinds, or "
-               ".tif, .npy, .exr and .pfm with whole numbers (JPEG would change their values){}",
-               name, is_functions ? ". It looks like gain functions; were mask and functions swapped?" : ""));
+        format("{} is neither a PGM nor a PNG; masks are 8-bit grey pictures of these kinds, or of whole numbers: {} "
+               "(JPEG would change their values){}",
+               name, still_kinds_text(&inputs::InputKind::has_tags),
+               is_functions ? ". It looks like gain functions; were mask and functions swapped?" : ""));
   }
   if (netpbm_starts(bytes, name).size() > 1) throw InputError(format("{} holds several pictures; a mask is one", name));
   Picture picture = read_netpbm(bytes, name);

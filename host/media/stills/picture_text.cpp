@@ -2,6 +2,7 @@
 
 #include <libdeflate.h>
 
+#include <algorithm>
 #include <array>
 
 #include "capture/error.hpp"
@@ -17,8 +18,12 @@
 namespace nutik {
 namespace {
 
-// The comments behind the first line of a PGM or PPM.
-std::optional<std::string> netpbm_comment(std::string_view file) {
+using Text = std::optional<std::string>;
+using Bytes = std::span<const std::byte>;
+
+// The comments behind the first line.
+Text netpbm_comment(const std::filesystem::path&, Bytes bytes) {
+  const std::string_view file = as_text(bytes);
   auto at = file.find('\n');
   while (at != std::string_view::npos && at + 1 < file.size() && file[at + 1] == '#') {
     const auto end = file.find('\n', at + 1);
@@ -30,6 +35,19 @@ std::optional<std::string> netpbm_comment(std::string_view file) {
   }
   return std::nullopt;
 }
+
+// What has a place for a text.
+struct Carrier {
+  const inputs::InputKind* kind;
+  Text (*read)(const std::filesystem::path& path, Bytes bytes);
+};
+constexpr Carrier kCarriers[] = {
+    {&inputs::kPng, [](auto& path, Bytes bytes) { return read_png_text(bytes, kPictureTextKeyword, path.string()); }},
+    {&inputs::kJpeg, [](auto& path, Bytes bytes) { return read_jpeg_comments(bytes, path.string()); }},
+    {&inputs::kTiff, [](auto& path, Bytes) { return read_tiff_description(path); }},
+    {&inputs::kExr, [](auto& path, Bytes) { return still_module().read_exr_text(path, kPictureTextKeyword); }},
+    {&inputs::kNetpbm, netpbm_comment},
+};
 
 constexpr std::string_view kPngText = "tEXt";
 constexpr std::size_t kPngSumBytes = 4;
@@ -75,22 +93,14 @@ std::optional<Seal> find_seal(std::string_view file) {
 
 std::optional<std::string> read_picture_text(const std::filesystem::path& path) {
   const MappedFile file(path);
-  const std::string_view bytes = as_text(file.bytes());
-  std::optional<std::string> text;
-  if (inputs::kPng.begins(bytes)) {
-    text = read_png_text(file.bytes(), kPictureTextKeyword, path.string());
-  } else if (inputs::kJpeg.begins(bytes)) {
-    text = read_jpeg_comments(file.bytes(), path.string());
-  } else if (inputs::kExr.begins(bytes)) {
-    text = still_module().read_exr_text(path, kPictureTextKeyword);
-  } else if (bytes.starts_with("II") || bytes.starts_with("MM")) {
-    text = read_tiff_description(path);
-  } else if (bytes.size() > 2 && bytes[0] == 'P' && (bytes[1] == '5' || bytes[1] == '6')) {
-    text = netpbm_comment(bytes);
-  } else if (!bytes.starts_with("PF") && !bytes.starts_with("Pf")) {
-    throw InputError(
-        format("{} is no PNG, TIFF, JPEG, OpenEXR, PGM or PPM: it can carry no recipe", path.string()));
+  if (inputs::kPfm.begins(as_text(file.bytes()))) return std::nullopt;
+  const auto begins = [&](const Carrier& each) { return each.kind->begins(as_text(file.bytes())); };
+  const auto* const carrier = std::ranges::find_if(kCarriers, begins);
+  if (carrier == std::end(kCarriers)) {
+    throw InputError(format("{} is no {}: it can carry no recipe", path.string(),
+                            joined(kCarriers, ", ", [](const Carrier& each) { return each.kind->name; })));
   }
+  std::optional<std::string> text = carrier->read(path, file.bytes());
   if (text && !text->starts_with(kPictureTextStart)) text.reset();
   return text;
 }

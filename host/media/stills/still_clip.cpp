@@ -45,7 +45,7 @@ struct Still {
   std::optional<Rational> pixel_aspect = std::nullopt;
   std::optional<Transfer> transfer = std::nullopt;  // that the file names
   std::optional<Primaries> primaries = std::nullopt;
-  std::string colours_from = "the file";                    // what of it names these
+  std::string profile = {};                                 // whose colours these are; empty: the file's own
   std::string unread_transfer = {}, unread_primaries = {};  // that it names and that are not believed
   bool holds_light = false;
 };
@@ -107,16 +107,47 @@ Picture codes_of_light(const Picture& light, std::optional<double> white, const 
   return codes;
 }
 
-Still still_of_light(const Picture& light, std::optional<double> white, const std::optional<LightCodes>& curve,
-                     const std::string& name) {
-  Still still = still_of(light.type == ValueType::light64 ? codes_of_light<double>(light, white, curve, name)
-                                                          : codes_of_light<float>(light, white, curve, name),
+// What pages are read with, one after the other.
+struct Reading {
+  std::optional<double> white;      // stated, of light
+  std::optional<LightCodes> curve;  // likewise
+  RawDeveloper raws = {};
+  std::optional<TiffReader> tiff = std::nullopt;  // of the page read last
+  TiffStory story = {};                           // of the first file
+};
+
+Still still_of_light(const Picture& light, const Reading& reading, const Page& page) {
+  Still still = still_of(light.type == ValueType::light64
+                             ? codes_of_light<double>(light, reading.white, reading.curve, page.name())
+                             : codes_of_light<float>(light, reading.white, reading.curve, page.name()),
                          kLightSteps);
   still.holds_light = true;
   return still;
 }
 
-Still read_netpbm_still(const Page& page) {
+void add_pages(std::vector<Page>& pages, const std::filesystem::path& file, const inputs::InputKind& kind,
+               std::uint64_t count) {
+  for (std::uint64_t number = 1; number <= count; ++number) pages.push_back({file, &kind, number, count});
+}
+
+void add_netpbm(std::vector<Page>& pages, const std::filesystem::path& file, Reading&) {
+  const std::vector<std::size_t> starts = netpbm_starts(MappedFile(file).bytes(), file.string());
+  for (std::size_t i = 0; i < starts.size(); ++i)
+    pages.push_back({file, &inputs::kNetpbm, i + 1, starts.size(), starts[i]});
+}
+
+void add_npy(std::vector<Page>& pages, const std::filesystem::path& file, Reading&) {
+  add_pages(pages, file, inputs::kNumpy, read_npy_front(MappedFile(file).bytes(), file.string()).pictures);
+}
+
+void add_tiff(std::vector<Page>& pages, const std::filesystem::path& file, Reading& reading) {
+  const TiffReader tiff(file);
+  if (tiff.is_dng()) return add_pages(pages, file, inputs::kDng, 1);  // whose pages show one picture
+  if (pages.empty()) reading.story = tiff.story();
+  add_pages(pages, file, inputs::kTiff, tiff.page_count());
+}
+
+Still read_netpbm_still(const Page& page, Reading&) {
   const MappedFile mapped(page.file);
   Picture picture = read_netpbm(mapped.bytes().subspan(std::min(page.begin, mapped.bytes().size())), page.name());
   const std::uint32_t maximum = picture.white_code;
@@ -127,7 +158,7 @@ void follow_profile(Still& still, std::span<const std::byte> profile) {
   const ProfiledColours colours = read_colour_profile(profile);
   still.transfer = colours.transfer;
   still.primaries = colours.primaries;
-  still.colours_from = colours.name;
+  still.profile = colours.name;
   if (!colours.transfer) still.unread_transfer = colours.name;
   if (!colours.primaries) still.unread_primaries = colours.name;
 }
@@ -145,7 +176,8 @@ void check_front(std::string_view bytes, const std::string& name) {
       format("{} cannot be read: it is damaged or no picture: neither a PNG nor a JPEG begins like that", name));
 }
 
-Still read_jpeg_still(const std::filesystem::path& file) {
+Still read_jpeg_still(const Page& page, Reading&) {
+  const std::filesystem::path& file = page.file;
   const MappedFile mapped(file);
   check_front(as_text(mapped.bytes()), file.string());
   if (holds_several_pictures(file))
@@ -158,12 +190,12 @@ Still read_jpeg_still(const std::filesystem::path& file) {
   return still;
 }
 
-Still read_png_still(const std::filesystem::path& file) {
-  const MappedFile mapped(file);
-  const std::string name = file.string();
+Still read_png_still(const Page& page, Reading&) {
+  const MappedFile mapped(page.file);
+  const std::string name = page.file.string();
   check_front(as_text(mapped.bytes()), name);
   const PngTags tags = read_png_tags(mapped.bytes(), name);
-  if (holds_several_pictures(file)) {
+  if (holds_several_pictures(page.file)) {
     throw InputError(format("{} holds several pictures, as an animated PNG does: name it alone, as a video is", name));
   }
   PngPicture read = read_png(mapped.bytes(), name, PngUse::still);
@@ -178,42 +210,89 @@ Still read_png_still(const std::filesystem::path& file) {
   return still;
 }
 
+Still read_dng_still(const Page& page, Reading& reading) {
+  Still still = still_of(reading.raws.develop(page.file), 65'535);
+  still.transfer = Transfer::linear();
+  still.primaries = Primaries::bt709;
+  return still;
+}
+
+Still read_exr_still(const Page& page, Reading& reading) {
+  const ExrPicture read = read_exr(page.file);
+  Still still = still_of_light(read.light, reading, page);
+  still.primaries = read.primaries;
+  if (read.names_others) still.unread_primaries = kOtherPrimaries;
+  still.pixel_aspect = aspect_of(1, read.pixel_aspect);
+  return still;
+}
+
+Still read_pfm_still(const Page& page, Reading& reading) {
+  return still_of_light(read_pfm(MappedFile(page.file).bytes(), page.name()), reading, page);
+}
+
+Still read_npy_still(const Page& page, Reading& reading) {
+  Picture picture = read_npy(MappedFile(page.file).bytes(), page.name(), page.number - 1);
+  return holds_codes(picture.type) ? still_of(std::move(picture), {}) : still_of_light(picture, reading, page);
+}
+
+Still read_tiff_still(const Page& page, Reading& reading) {
+  if (page.number == 1) reading.tiff.emplace(page.file);
+  std::optional<TiffPage> read = reading.tiff->next();
+  if (!read) throw InputError(format("{} cannot be read: the file was cut off", page.name()));
+  Still still = holds_codes(read->picture.type) ? still_of(std::move(read->picture), read->maximum)
+                                                : still_of_light(read->picture, reading, page);
+  if (!read->profile.empty()) follow_profile(still, read->profile);
+  if (read->resolution) still.pixel_aspect = aspect_of(read->resolution->first, read->resolution->second);
+  turn_upright(still, read->orientation);
+  return still;
+}
+
+// How each kind is read.
+struct StillFormat {
+  const inputs::InputKind* kind;
+  Still (*read)(const Page& page, Reading& reading);
+  // Adds the pages of a file, and what is known of them; null: it is one.
+  void (*add)(std::vector<Page>& pages, const std::filesystem::path& file, Reading& reading) = nullptr;
+};
+constexpr StillFormat kFormats[] = {
+    {&inputs::kPng, read_png_still},
+    {&inputs::kJpeg, read_jpeg_still},
+    {&inputs::kTiff, read_tiff_still, add_tiff},
+    {&inputs::kDng, read_dng_still},
+    {&inputs::kNetpbm, read_netpbm_still, add_netpbm},
+    {&inputs::kExr, read_exr_still},
+    {&inputs::kPfm, read_pfm_still},
+    {&inputs::kNumpy, read_npy_still, add_npy},
+};
+static_assert(std::ranges::equal(inputs::kStills, kFormats, {}, {}, &StillFormat::kind));
+
+const StillFormat& format_of(const inputs::InputKind& kind) {
+  return *std::ranges::find(kFormats, kind, [](const StillFormat& each) { return *each.kind; });
+}
+
 class StillClip final : public Clip {
  public:
   StillClip(std::span<const std::filesystem::path> files, const ClipTiming& timing,
-            const ClipOptions& options) {
+            const ClipOptions& options)
+      : stated_(options) {
     for (const std::filesystem::path& file : files) {
       refuse_unsupported_kind(file);
       const inputs::InputKind* kind = still_kind(file);
       if (kind == nullptr) kind = &inputs::kPng;  // which says that it is none
-      std::uint64_t count = 1;
-      std::vector<std::size_t> starts{0};  // of the pictures of a Netpbm file
-      if (*kind == inputs::kTiff) {
-        const TiffReader tiff(file);
-        if (tiff.is_dng()) {  // whose pages show one picture
-          kind = &inputs::kDng;
-        } else {
-          count = tiff.page_count();
-          if (pages_.empty()) story_ = tiff.story();
-        }
-      } else if (*kind == inputs::kNetpbm) {
-        starts = netpbm_starts(MappedFile(file).bytes(), file.string());
-        count = starts.size();
-      } else if (*kind == inputs::kNumpy) {
-        count = read_npy_front(MappedFile(file).bytes(), file.string()).pictures;
+      if (const auto add = format_of(*kind).add) {
+        add(pages_, file, reading_);
+      } else {
+        add_pages(pages_, file, *kind, 1);
       }
-      if (count > 1 && timing.is_known()) {
+      if (const std::uint64_t count = pages_.back().count; count > 1 && timing.is_known()) {
         throw InputError(format("{} has {} pages; in a table with times each picture is a file of its own",
                                 file.string(), count));
       }
-      for (std::uint64_t number = 1; number <= count; ++number) {
-        pages_.push_back({file, kind, number, count, starts[starts.size() > 1 ? number - 1 : 0]});
-      }
     }
-    stated_ = options;
+    reading_.white = options.white_light;
     if (options.white_light && options.transfer && !options.transfer->is_linear())
-      curve_.emplace(*options.transfer, kLightSteps);
-    first_ = read_page(pages_.front());
+      reading_.curve.emplace(*options.transfer, kLightSteps);
+    first_ = read(pages_.front());
     first_maximum_ = first_.maximum;
     unread_transfer_ = first_.unread_transfer;
     unread_primaries_ = first_.unread_primaries;
@@ -229,7 +308,7 @@ class StillClip final : public Clip {
     }
     const bool is_developed = *pages_.front().kind == inputs::kDng;
     describe_stored_codes(info_, options,
-                          {default_transfer(first_), first_.transfer, first_.primaries, first_.colours_from,
+                          {default_transfer(first_), first_.transfer, first_.primaries, first_.profile,
                            first_.unread_transfer, first_.unread_primaries, first_.pixel_aspect});
     add_unread_colours(options);
     if (is_developed && pages_.size() > 1) {
@@ -248,7 +327,7 @@ class StillClip final : public Clip {
   bool read(std::span<std::byte> raster) override {
     if (next_ == pages_.size()) return false;
     const Page& page = pages_[next_];
-    const Still still = next_ == 0 ? std::move(first_) : read_page(page);
+    const Still still = next_ == 0 ? std::move(first_) : read(page);
     check_like_first(still, page);
     check_colours(still, page);
     check_pixel_aspect(still, page);
@@ -267,10 +346,12 @@ class StillClip final : public Clip {
   }
 
  private:
+  Still read(const Page& page) { return format_of(*page.kind).read(page, reading_); }
+
   // A profile was made for these codes: what it says and is not known here would be right.
   void add_unread_colours(const ClipOptions& options) {
     const bool is_colour = first_.shape.channels > 1;
-    if (first_.colours_from == Still().colours_from) return;
+    if (first_.profile.empty()) return;
     std::vector<Setting> open;
     if (!first_.transfer && !options.transfer) open.push_back(Setting::transfer);
     if (is_colour && !first_.primaries && !options.primaries) open.push_back(Setting::primaries);
@@ -279,7 +360,7 @@ class StillClip final : public Clip {
     info_.notes.emplace_back(
         format("{} says what the codes stand for, and its {} known here: what is usual "
                "is taken, and colours are wrong by what it differs; state what comes nearest",
-               first_.colours_from,
+               first_.profile,
                are_both      ? "curves and primaries are none that are"
                : is_transfer ? "curves are none that are"
                              : "primaries are none that are"),
@@ -288,13 +369,14 @@ class StillClip final : public Clip {
 
   // What the description of the first TIFF says of times, and of pictures that are not there.
   void add_story(std::size_t files) {
-    if (story_.rate) {
-      info_.timing.rate = story_.rate;
-      info_.timing.rate_from = format("{}'s description in the file", story_.who);
+    const TiffStory& story = reading_.story;
+    if (story.rate) {
+      info_.timing.rate = story.rate;
+      info_.timing.rate_from = format("{}'s description in the file", story.who);
     }
-    if (files > 1 || story_.pictures <= pages_.size()) return;
+    if (files > 1 || story.pictures <= pages_.size()) return;
     info_.notes.emplace_back(format("{}'s description says that there are {} pictures, and the file holds {}",
-                                    story_.who, story_.pictures, pages_.size()));
+                                    story.who, story.pictures, pages_.size()));
   }
 
   // The rate that the first picture states, and the exposure, where it was the same for all.
@@ -302,7 +384,7 @@ class StillClip final : public Clip {
     const std::filesystem::path& file = pages_.front().file;
     const RawTags first = read_raw_tags(file);
     info_.timing.rate = first.rate;
-    info_.timing.rate_from = file.filename().string();
+    info_.timing.exposed_from = info_.timing.rate_from = file.filename().string();
     if (!first.exposure_ns) return;
     for (const Page& page : pages_) {
       const RawTags tags = read_raw_tags(page.file);
@@ -317,44 +399,6 @@ class StillClip final : public Clip {
       return;
     }
     info_.timing.exposed_ns = first.exposure_ns;
-  }
-
-  Still read_page(const Page& page) {
-    if (*page.kind == inputs::kDng) {
-      Still still = still_of(raws_.develop(page.file), 65'535);
-      still.transfer = Transfer::linear();
-      still.primaries = Primaries::bt709;
-      return still;
-    }
-    if (*page.kind == inputs::kNetpbm) return read_netpbm_still(page);
-    const std::optional<double>& white = stated_.white_light;
-    if (*page.kind == inputs::kExr) {
-      const ExrPicture read = read_exr(page.file);
-      Still still = still_of_light(read.light, white, curve_, page.name());
-      still.primaries = read.primaries;
-      if (read.names_others) still.unread_primaries = kOtherPrimaries;
-      still.pixel_aspect = aspect_of(1, read.pixel_aspect);
-      return still;
-    }
-    if (*page.kind == inputs::kPfm || *page.kind == inputs::kNumpy) {
-      const MappedFile mapped(page.file);
-      Picture picture = *page.kind == inputs::kPfm ? read_pfm(mapped.bytes(), page.name())
-                                                    : read_npy(mapped.bytes(), page.name(), page.number - 1);
-      if (!holds_codes(picture.type)) return still_of_light(picture, white, curve_, page.name());
-      return still_of(std::move(picture), std::nullopt);
-    }
-    if (*page.kind == inputs::kJpeg) return read_jpeg_still(page.file);
-    if (*page.kind == inputs::kPng) return read_png_still(page.file);
-    if (*page.kind != inputs::kTiff) throw std::logic_error(format("nothing here reads a {}", page.kind->name));
-    if (page.number == 1) tiff_.emplace(page.file);
-    std::optional<TiffPage> read = tiff_->next();
-    if (!read) throw InputError(format("{} cannot be read: the file was cut off", page.name()));
-    Still still = holds_codes(read->picture.type) ? still_of(std::move(read->picture), read->maximum)
-                                                  : still_of_light(read->picture, white, curve_, page.name());
-    if (!read->profile.empty()) follow_profile(still, read->profile);
-    if (read->resolution) still.pixel_aspect = aspect_of(read->resolution->first, read->resolution->second);
-    turn_upright(still, read->orientation);
-    return still;
   }
 
   // Deep stills come from scientific cameras, whose codes are linear; shallow ones are made to be seen.
@@ -414,14 +458,11 @@ class StillClip final : public Clip {
   }
 
   std::vector<Page> pages_;
-  RawDeveloper raws_;
-  std::optional<TiffReader> tiff_;  // of the page read last
-  TiffStory story_;                 // of the first file
+  Reading reading_;
   Still first_;
   std::optional<std::uint32_t> first_maximum_;
   std::string unread_transfer_, unread_primaries_;  // of the first
   ClipOptions stated_;
-  std::optional<LightCodes> curve_;  // stated, of light
   std::size_t next_ = 0;
   ClipInfo info_;
 };

@@ -84,7 +84,7 @@ void describe(ClipInfo& info, const Probe& probe, const ClipOptions& options) {
     settle(facts, options.matrix, probe.matrix, usual_matrix(probe.shape.height), Setting::matrix,
            [](YuvMatrix matrix) { return format("matrix {}", to_text(matrix)); });
     info.roundings.add(pixels.is_everyday() ? kMostOff : 0.5, 1.0,
-                       shares_chroma(probe.pixel_format) ? "chroma" : "");
+                       shares_chroma(probe.pixel_format) ? kSharedChroma : "");
   }
   if (pixels.is_limited) info.roundings.add(0.5, 1.0, "");
   if (is_colour_yuv(probe) || pixels.is_limited || options.range) {

@@ -50,7 +50,7 @@ const AVInputFormat& kind_of(AVIOContext& bytes, const std::filesystem::path& pa
   const AVInputFormat* kind = nullptr;
   // FFmpeg knows a bitmap only if a new line follows its first letters, and takes others for a sequence by their name.
   const std::string start = first_bytes(path);
-  if (begins_as_netpbm(start) && (start[1] == '1' || start[1] == '4')) kind = av_find_input_format("pbm_pipe");
+  if (begins_as_netpbm(start) && !inputs::kNetpbm.begins(start)) kind = av_find_input_format("pbm_pipe");
   if (kind != nullptr) return *kind;
   // A name of stills would have the next ones read as well.
   const char* const name = holds_several_pictures(path) ? "" : path.c_str();

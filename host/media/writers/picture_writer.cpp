@@ -5,6 +5,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "media/formats/extension.hpp"
 #include "media/stills/picture_files.hpp"
 #include "media/module.hpp"
@@ -27,6 +28,7 @@ struct WrittenFormat {
   bool is_lossy = false;            // codes
   bool is_for_eyes = false;         // shown by viewers that take pixels for square ones
   std::uint32_t only_channels = 0;  // 0: any
+  bool has_text = true;             // a place for a line of it
   void (*write)(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes& wishes);
   void (*write_layers)(OutputFile& file, std::span<const PictureLayer> layers) = nullptr;  // null: it holds one picture
 };
@@ -65,8 +67,8 @@ constexpr WrittenFormat kWrittenFormats[] = {
     {.extension = ".ppm", .code_bits = 16, .only_channels = 3, .write = write_netpbm},
     {.extension = ".pgm", .code_bits = 16, .only_channels = 1, .write = write_netpbm},
     {.extension = ".pnm", .is_preferred = false, .code_bits = 16, .write = write_netpbm},
-    {.extension = ".pfm", .holds_light = true, .write = write_netpbm},
-    {.extension = ".npy", .holds_light = true, .holds_double = true, .write = write_npy,
+    {.extension = ".pfm", .holds_light = true, .has_text = false, .write = write_netpbm},
+    {.extension = ".npy", .holds_light = true, .holds_double = true, .has_text = false, .write = write_npy,
      .write_layers = write_npy_layers},
 };
 
@@ -92,11 +94,7 @@ std::string extensions_of(Wanted wanted) {
   for (const WrittenFormat& kind : kWrittenFormats) {
     if (kind.is_preferred && wanted(kind)) names.emplace_back(kind.extension);
   }
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
-  }
-  return text;
+  return alternatives(names);
 }
 
 }  // namespace
@@ -151,6 +149,11 @@ bool is_picture_name(const std::filesystem::path& path) { return find_format(pat
 bool is_lossy_name(const std::filesystem::path& path) {
   const WrittenFormat* kind = find_format(path);
   return kind != nullptr && kind->is_lossy;
+}
+
+bool has_text_by_name(const std::filesystem::path& path) {
+  const WrittenFormat* kind = find_format(path);
+  return kind != nullptr && kind->has_text;
 }
 
 std::string picture_extensions() {

@@ -217,7 +217,7 @@ std::vector<Fact> ClipSource::facts(std::uint64_t sample_count) const {
   const Timeline timeline = filmed(sample_count);
   const bool is_stated = request.clip.rate.has_value();
   Fact rate{rate_text(timeline), is_stated ? Origin::stated : Origin::file, Setting::frame_rate};
-  if (!is_stated) rate.source = timing.rate_from;
+  if (!is_stated && !timing.rate_from.empty()) rate.source = timing.rate_from;
   const bool is_written_down = timing.exposed_ns || !timing.exposures.empty();
   Fact angle{format("shutter {} degrees", timeline.shutter_angle().text()),
              request.shutter_angle ? Origin::stated
@@ -225,8 +225,7 @@ std::vector<Fact> ClipSource::facts(std::uint64_t sample_count) const {
                                    : Origin::assumed,
              Setting::shutter_angle};
   if (!request.shutter_angle && timing.exposed_ns) {
-    angle.source = format("{}: {} ns", timing.rate_from.starts_with("the ") ? "the file" : timing.rate_from,
-                          *timing.exposed_ns);
+    angle.source = format("{}: {} ns", timing.exposed_from, *timing.exposed_ns);
   } else if (!request.shutter_angle && !timing.exposures.empty()) {
     angle.source = "the mean of the listed exposures";
   }
@@ -257,7 +256,7 @@ std::vector<Note> ClipSource::all_notes(std::uint64_t sample_count) const {
   const auto is_of_rate = [](const Note& note) {
     return std::ranges::find(note.settings, Setting::frame_rate) != note.settings.end();
   };
-  const bool may_be_of_playing = !request.clip.rate && timing.rate_from == ClipTiming().rate_from &&
+  const bool may_be_of_playing = !request.clip.rate && timing.rate_from.empty() &&
                                  std::ranges::none_of(notes, is_of_rate);
   if (may_be_of_playing && rate >= kLowestPlaybackRate && rate <= kHighestPlaybackRate) {
     all.emplace_back(format("the rate of {} a second comes from the file; slow-motion files state their "

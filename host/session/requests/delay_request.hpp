@@ -39,10 +39,7 @@ struct DelayRequest {
   // Reads the picture, if there is one. Throws as read_picture() does, UsageError if it is no single picture.
   void read();
 
-  friend bool operator==(const DelayRequest& a, const DelayRequest& b) {
-    return a.course == b.course && a.from == b.from && a.to == b.to && a.picture == b.picture &&
-           a.map == b.map;
-  }
+  friend bool operator==(const DelayRequest&, const DelayRequest&) = default;
 };
 
 // For pictures of this shape. Throws InputError if it has another size, UsageError if its picture was not read.

@@ -91,9 +91,8 @@ Picture read_tags(const std::string& name) {
 Mask read_mask_input(const std::string& name, const std::optional<std::string>& capture) {
   const InputBytes input(name, kMaxPipedMask);
   const auto shape = capture ? known_shape(*capture) : std::nullopt;
-  constexpr const inputs::InputKind* kAlsoRead[] = {&inputs::kTiff, &inputs::kExr, &inputs::kPfm, &inputs::kNumpy};
   const inputs::InputKind* const kind = is_standard_input(name) ? nullptr : still_kind(name);
-  if (std::ranges::count(kAlsoRead, kind) > 0) return Mask::from_picture(read_tags(name));
+  if (kind != nullptr && kind->has_tags) return Mask::from_picture(read_tags(name));
   return Mask::from_picture(
       read_mask(input.bytes(), input_title(name), [&](std::uint32_t width, std::uint32_t height) {
         const std::string mistake = shape ? size_mistake({width, height, {}}, *shape) : std::string();

@@ -60,7 +60,7 @@ struct SourceRequest {
   std::optional<BetweenRequest> between = std::nullopt;  // of these
 
   // What counts as no change.
-  std::uint32_t tolerance = 0;  // codes
+  std::uint32_t tolerance = NoiseModel().tolerance;  // codes
   std::variant<NoNoise, NoiseOfClip, StatedNoise> noise = {};
   static constexpr double kMinSigmas = 0.1, kMaxSigmas = 100;
   double sigmas = NoiseModel::kDefaultSigmas;  // of the camera's noise

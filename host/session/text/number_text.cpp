@@ -5,7 +5,6 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/text.hpp"
-#include "session/text/text_table.hpp"
 
 namespace nutik {
 
@@ -53,14 +52,14 @@ std::optional<std::uint64_t> parse_bytes(std::string_view text) {
   return static_cast<std::uint64_t>(bytes);
 }
 
-std::vector<double> parse_numbers(std::string_view text, std::string_view what) {
+std::vector<double> parse_numbers(std::string_view text, std::string_view option) {
   std::vector<double> numbers;
   // Behind the last comma stands a number, too.
   for (const std::string& part : parts_of(std::string(text) + ",", ',')) {
     const auto number = parse_number(part);
     if (!number)
       throw UsageError(
-          format("{}: '{}' is no number; write numbers with commas between: 10,20,30", what, part));
+          Advice{format("`{}`: '{}' is no number; write numbers with commas between: 10,20,30", option, part)});
     numbers.push_back(*number);
   }
   return numbers;

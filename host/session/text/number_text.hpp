@@ -37,8 +37,8 @@ struct WholeNumber {
 // A number of bytes: 3, 500MB, 2g, 1GiB. Empty where the text is none, or more than 64 bits hold.
 [[nodiscard]] std::optional<std::uint64_t> parse_bytes(std::string_view text);
 
-// Numbers between commas: `10,20.5,-3`. Throws UsageError naming `what` and the part that is none.
-[[nodiscard]] std::vector<double> parse_numbers(std::string_view text, std::string_view what);
+// Numbers between commas: `10,20.5,-3`. Throws UsageError naming the option and the part that is none.
+[[nodiscard]] std::vector<double> parse_numbers(std::string_view text, std::string_view option);
 
 // Sizes for people.
 

@@ -58,23 +58,6 @@ std::size_t columns(std::string_view text) {
   return count;
 }
 
-std::vector<std::string> parts_of(std::string_view text, char separator) {
-  std::vector<std::string> parts;
-  while (!text.empty()) {
-    const std::string_view part = text.substr(0, text.find(separator));
-    parts.emplace_back(part);
-    text.remove_prefix(std::min(part.size() + 1, text.size()));
-  }
-  return parts;
-}
-
-std::string alternatives(const std::vector<std::string>& parts) {
-  std::string text;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == parts.size() ? " or " : ", ") + parts[i];
-  return text;
-}
-
 std::string did_you_mean(std::string_view word, std::span<const std::string> known) {
   constexpr std::size_t kLongest = 100;  // characters; what is longer was not mistyped
   if (word.size() > kLongest) return {};

@@ -14,11 +14,6 @@ namespace nutik {
 // How many columns of a terminal a text takes: bytes that continue a UTF-8 character take none.
 [[nodiscard]] std::size_t columns(std::string_view text);
 
-// What stands between separators: lines, words. joined() puts it together again.
-[[nodiscard]] std::vector<std::string> parts_of(std::string_view text, char separator);
-// `a, b or c`
-[[nodiscard]] std::string alternatives(const std::vector<std::string>& parts);
-
 // `; did you mean --exposure?` for the known words that `word` is the beginning of (at most four), else the
 // nearest one where it is near enough, else nothing.
 [[nodiscard]] std::string did_you_mean(std::string_view word, std::span<const std::string> known);
