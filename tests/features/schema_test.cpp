@@ -60,6 +60,37 @@ TEST(Schema, LeavesBackquotesThatNameNoOption) {
   }
 }
 
+// Fields that are not empty until their option is stated; what is empty has its default where it is used.
+TEST(Schema, StatesTheDefaultsThatFieldsHave) {
+  const auto expect = [](CommandId command, std::string_view name, auto field) {
+    const Option& option = *option_of(command, name);
+    constexpr std::string_view kBefore = "(default: ";
+    const std::string_view text = option.help.substr(option.help.find(kBefore) + kBefore.size());
+    const std::string word(text.substr(0, text.find_first_of(" ,;)")));
+    Options options;
+    option.state(options, option.name(), {word});
+    EXPECT_TRUE(field(options) == field(Options())) << option.name() << ' ' << word;
+  };
+  expect(CommandId::encode, "tolerance", [](const Options& of) { return of.source.tolerance; });
+  expect(CommandId::encode, "sigmas", [](const Options& of) { return of.source.sigmas; });
+  expect(CommandId::encode, "tiles", [](const Options& of) { return of.source.tiles; });
+  expect(CommandId::encode, "codec", [](const Options& of) { return of.codec; });
+  expect(CommandId::expose, "normalize", [](const Options& of) { return of.normalization; });
+  expect(CommandId::expose, "combine", [](const Options& of) { return of.combining.how; });
+  expect(CommandId::expose, "negative", [](const Options& of) { return of.picture.negative; });
+  expect(CommandId::video, "out-fps", [](const Options& of) { return of.film.rate; });
+  expect(CommandId::video, "out-angle", [](const Options& of) { return of.film.angle; });
+  expect(CommandId::video, "speed", [](const Options& of) { return of.film.speed; });
+  expect(CommandId::study, "style", [](const Options& of) { return of.study.style; });
+  expect(CommandId::study, "spacing", [](const Options& of) { return of.study.spacing; });
+  expect(CommandId::study, "slit-from", [](const Options& of) { return of.study.slit_from; });
+  expect(CommandId::validate, "runs", [](const Options& of) { return of.runs; });
+  // These have no word of their own until they are stated.
+  expect(CommandId::expose, "gain", [](const Options& of) { return of.gain.value_or(ExposureRequest().gain); });
+  expect(CommandId::expose, "shutter-error",
+         [](const Options& of) { return of.shutter_error.value_or(ShutterShape::kDefaultError); });
+}
+
 // A row with more choices than values, or fewer, is a mistake of the table.
 TEST(Schema, TakesEveryChoiceAndNoOther) {
   int rows = 0;

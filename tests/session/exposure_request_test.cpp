@@ -41,6 +41,8 @@ TEST(ExposureRequest, IsEqualToOneThatMeansTheSame) {
   ExposureRequest brighter = plain("0s", "10ms");
   brighter.gain = 2.0;
   EXPECT_NE(plain("0s", "10ms"), brighter);
+  EXPECT_EQ(DelayRequest::parse("a.tif:0s..1s", "delay"), DelayRequest::parse("a.tif:1000ms", "delay"));
+  EXPECT_NE(DelayRequest::parse("a.tif:0s..1s", "delay"), DelayRequest::parse("b.tif:0s..1s", "delay"));
 }
 
 TEST(ExposureRequest, IsEqualToOneWithFunctionsAndMaskThatHoldTheSame) {

@@ -138,7 +138,7 @@ Shutter stated_shutter(const Options& options) {
 }
 
 double brightening(const Options& options) {
-  const double gain = options.gain.value_or(1.0) * (options.ev ? std::exp2(*options.ev) : 1.0);
+  const double gain = options.gain.value_or(ExposureRequest().gain) * (options.ev ? std::exp2(*options.ev) : 1.0);
   if (!std::isfinite(gain) || gain == 0.0) {
     std::vector<std::string> stated;
     for (const char* name : {"gain", "ev"}) {

@@ -226,12 +226,10 @@ Still read_exr_still(const Page& page, Reading& reading) {
   return still;
 }
 
-Still read_pfm_still(const Page& page, Reading& reading) {
-  return still_of_light(read_pfm(MappedFile(page.file).bytes(), page.name()), reading, page);
-}
-
-Still read_npy_still(const Page& page, Reading& reading) {
-  Picture picture = read_npy(MappedFile(page.file).bytes(), page.name(), page.number - 1);
+Still read_array_still(const Page& page, Reading& reading) {
+  const MappedFile mapped(page.file);
+  Picture picture = *page.kind == inputs::kPfm ? read_pfm(mapped.bytes(), page.name())
+                                               : read_npy(mapped.bytes(), page.name(), page.number - 1);
   return holds_codes(picture.type) ? still_of(std::move(picture), {}) : still_of_light(picture, reading, page);
 }
 
@@ -261,8 +259,8 @@ constexpr StillFormat kFormats[] = {
     {&inputs::kDng, read_dng_still},
     {&inputs::kNetpbm, read_netpbm_still, add_netpbm},
     {&inputs::kExr, read_exr_still},
-    {&inputs::kPfm, read_pfm_still},
-    {&inputs::kNumpy, read_npy_still, add_npy},
+    {&inputs::kPfm, read_array_still},
+    {&inputs::kNumpy, read_array_still, add_npy},
 };
 static_assert(std::ranges::equal(inputs::kStills, kFormats, {}, {}, &StillFormat::kind));
 
@@ -279,11 +277,8 @@ class StillClip final : public Clip {
       refuse_unsupported_kind(file);
       const inputs::InputKind* kind = still_kind(file);
       if (kind == nullptr) kind = &inputs::kPng;  // which says that it is none
-      if (const auto add = format_of(*kind).add) {
-        add(pages_, file, reading_);
-      } else {
-        add_pages(pages_, file, *kind, 1);
-      }
+      const auto add = format_of(*kind).add;
+      add != nullptr ? add(pages_, file, reading_) : add_pages(pages_, file, *kind, 1);
       if (const std::uint64_t count = pages_.back().count; count > 1 && timing.is_known()) {
         throw InputError(format("{} has {} pages; in a table with times each picture is a file of its own",
                                 file.string(), count));
