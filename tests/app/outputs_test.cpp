@@ -3,6 +3,8 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "capture/text.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "support/app_test.hpp"
 
 namespace nutik::test {
@@ -28,6 +30,17 @@ TEST_F(Outputs, ReplaceNoStillOfTheClip) {
         "activity --map frames/1.png -o chart.png"}) {
     expect_refused(words + " -f 100 frames", 2, "the output frames/1.png is also an input");
     EXPECT_TRUE(read_file(scratch_ / "frames/1.png") == still) << words;
+  }
+}
+
+TEST_F(Outputs, ReplaceWhateverTheyWriteIfAsked) {
+  std::string extensions = picture_extensions();
+  extensions.replace(extensions.find(" or "), 4, ", ");
+  for (const std::string& part : parts_of(extensions, ' ')) {
+    const std::string extension = part.substr(0, part.find(','));
+    if (extension == ".ppm") continue;  // of colour
+    for (int i = 0; i < 2; ++i)
+      make("expose --start 0s --exposure 1f --no-recipe --overwrite -f 100 frames picture" + extension);
   }
 }
 

@@ -77,7 +77,6 @@ TEST(Schema, StatesTheDefaultsThatFieldsHave) {
   expect(CommandId::encode, "codec", [](const Options& of) { return of.codec; });
   expect(CommandId::expose, "normalize", [](const Options& of) { return of.normalization; });
   expect(CommandId::expose, "combine", [](const Options& of) { return of.combining.how; });
-  expect(CommandId::expose, "negative", [](const Options& of) { return of.picture.negative; });
   expect(CommandId::video, "out-fps", [](const Options& of) { return of.film.rate; });
   expect(CommandId::video, "out-angle", [](const Options& of) { return of.film.angle; });
   expect(CommandId::video, "speed", [](const Options& of) { return of.film.speed; });

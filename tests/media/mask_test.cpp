@@ -84,7 +84,7 @@ TEST(Mask, SaysWhatIsWrong) {
   expect_says(message_of(scratch / "deep-clear.png"),
               "is a PNG of 16 bits, RGB with transparency; it must be 8 bits, grey");
   expect_says(message_of(scratch / "mask.jpg"), "neither a PGM nor a PNG");
-  expect_says(message_of(scratch / "mask.jpg"), ".tif, .npy, .exr and .pfm");
+  expect_says(message_of(scratch / "mask.jpg"), "of whole numbers: TIFF, OpenEXR, PFM, NumPy");
   expect_says(message_of(scratch / "absent.pgm"), "cannot be read: No such file");
   expect_says(message_of(scratch.write("rgb.ppm", "P3 1 1 255 1 2 3")),
               "is a colour picture, and its pixel 0,0 is no grey: red 1, green 2, blue 3");

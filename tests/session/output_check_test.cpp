@@ -4,8 +4,6 @@
 #include <unistd.h>
 
 #include "capture/error.hpp"
-#include "capture/text.hpp"
-#include "media/writers/picture_writer.hpp"
 #include "session/output_check.hpp"
 #include "support/scratch.hpp"
 #include "system/is_absent.hpp"
@@ -34,25 +32,6 @@ TEST_F(OutputCheck, PicturesOfEveryKindAreReplaced) {
   using namespace std::string_literals;
   for (const std::string& bytes : {"MM\0*...."s, "II+\0...."s, "MM\0+...."s, "P2 1 1"s, "P3 1 1"s, "P7\n"s, ""s}) {
     EXPECT_TRUE(replaces("picture.tif", bytes)) << testing::PrintToString(bytes);
-  }
-}
-
-TEST_F(OutputCheck, WhateverIsWrittenIsReplaced) {
-  std::string extensions = picture_extensions();
-  extensions.replace(extensions.find(" or "), 4, ", ");
-  for (const std::string& extension : parts_of(extensions, ' ')) {
-    const auto path = scratch_ / ("picture" + extension.substr(0, extension.find(',')));
-    for (const std::uint32_t channels : {1u, 3u}) {
-      ValueType type{};
-      try {
-        type = value_type_for(path, std::nullopt, ValueType::code8, channels);
-      } catch (const UsageError&) {  // of the other number of channels
-        continue;
-      }
-      write_picture(path, Picture({2, 2, channels}, type, 255));
-      EXPECT_NO_THROW(check_output(path, OutputKind::picture, {})) << path;
-    }
-    EXPECT_FALSE(is_absent(path)) << path;
   }
 }
 
