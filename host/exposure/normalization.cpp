@@ -39,7 +39,7 @@ std::string Normalization::text() const {
   return format("seconds:{}", seconds_.text());
 }
 
-double Normalization::divided_by(const GainSummary& summary, const std::string& name) const {
+double Normalization::factor_of(const GainSummary& summary, const std::string& name) const {
   const auto support_ns = static_cast<double>(summary.support_ns);
   switch (divisor_) {
     case Divisor::support: return 1.0;
@@ -65,7 +65,7 @@ GainFunction Normalization::normalized(const GainFunction& function, std::int64_
   const GainSummary summary =
       has_delays ? summarize_course(function, duration_ns) : summarize(function, duration_ns);
   if (summary.support_ns == 0) return function;
-  const double factor = gain * divided_by(summary, name);
+  const double factor = gain * factor_of(summary, name);
   try {
     return function.scaled(factor);
   } catch (const InputError& error) {

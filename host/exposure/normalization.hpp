@@ -45,7 +45,7 @@ class Normalization {
                                         const std::string& name, bool has_delays = false) const;
 
   // D / X of such a function, whose D is not 0. Throws as above.
-  [[nodiscard]] double divided_by(const GainSummary& summary, const std::string& name) const;
+  [[nodiscard]] double factor_of(const GainSummary& summary, const std::string& name) const;
 
   friend bool operator==(const Normalization&, const Normalization&) = default;
 

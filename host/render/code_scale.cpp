@@ -17,7 +17,7 @@ constexpr std::uint64_t kPart = 1u << 16;
 
 // Where few lights differ, finding a code again takes less time than a power; where all do, an eighth is lost.
 template <typename Code>
-void encode(const Picture& light, const CodeScale& scale, bool has_few, Picture& codes) {
+void encode(const Picture& light, const CodeScale& scale, bool has_few_lights, Picture& codes) {
   struct Known {
     double light = std::numeric_limits<double>::quiet_NaN();
     Code code = 0;
@@ -26,7 +26,7 @@ void encode(const Picture& light, const CodeScale& scale, bool has_few, Picture&
   const auto from = light.values<double>();
   const auto to = codes.values<Code>();
   parallel_for_parts(from.size(), kPart, [&](std::uint64_t first, std::uint64_t last) {
-    if (!has_few) {
+    if (!has_few_lights) {
       for (std::uint64_t i = first; i < last; ++i) to[i] = static_cast<Code>(scale.code_of(from[i]));
       return;
     }
@@ -113,10 +113,10 @@ Saturation count_saturated(const Picture& light, const CodeScale& scale) {
   return {below, above};
 }
 
-Picture encoded(const Picture& light, const CodeScale& scale, const OutputFormat& output, bool has_few) {
+Picture encoded(const Picture& light, const CodeScale& scale, const OutputFormat& output, bool has_few_lights) {
   Picture codes(light.shape, output.type, output.white_code);
-  output.type == ValueType::code8 ? encode<std::uint8_t>(light, scale, has_few, codes)
-                                  : encode<std::uint16_t>(light, scale, has_few, codes);
+  output.type == ValueType::code8 ? encode<std::uint8_t>(light, scale, has_few_lights, codes)
+                                  : encode<std::uint16_t>(light, scale, has_few_lights, codes);
   return codes;
 }
 

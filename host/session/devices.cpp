@@ -46,14 +46,15 @@ std::vector<std::size_t> chosen(const std::vector<DeviceInfo>& devices, const st
   }
 }
 
-// Drivers work on threads of their own, which a forked process does not have: it would wait for them for ever.
-bool is_foreign() {
+// The first process to ask has the drivers, and true. They work on threads of their own, which a forked process does not
+// have: it would wait for them for ever.
+bool claim_process() {
   static std::atomic<pid_t> user = 0;
   pid_t first = 0;
-  return !user.compare_exchange_strong(first, getpid()) && first != getpid();
+  return user.compare_exchange_strong(first, getpid()) || first == getpid();
 }
 void check_process() {
-  if (!is_foreign()) return;
+  if (claim_process()) return;
   throw DeviceError("this process was forked from one that had used the device, and a driver does not live in both; "
                     "spawn processes instead, or fork them before the device is used");
 }
@@ -132,15 +133,15 @@ bool Devices::is_ready() {
 
 void Devices::keep_resident(const CaptureSource* source) {
   Renderer& named = renderer();
-  const std::lock_guard lock(naming_);
+  const std::lock_guard lock(keeping_);
   if (std::exchange(resident_, source) != source) named.keep_resident(source);
 }
 
 void Devices::release(const CaptureSource* source) {
-  const std::lock_guard lock(naming_);
+  const std::lock_guard lock(keeping_);
   if (resident_ != source || source == nullptr) return;
   resident_ = nullptr;
-  if (request_.renderer == RendererKind::reference || !is_foreign()) renderer().keep_resident(nullptr);
+  if (request_.renderer == RendererKind::reference || claim_process()) renderer().keep_resident(nullptr);
 }
 
 }  // namespace nutik

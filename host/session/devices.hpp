@@ -84,7 +84,7 @@ class Devices {
   Announce announce_;
   std::once_flag started_;
   std::shared_future<std::shared_ptr<Renderer>> starting_;
-  std::mutex naming_;
+  std::mutex keeping_;  // guards the resident capture
   const CaptureSource* resident_ = nullptr;
 };
 

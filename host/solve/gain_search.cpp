@@ -101,8 +101,7 @@ double GainSearch::scale_of(std::uint8_t tag, const std::vector<double>& gains) 
       summarize(GainFunction(with_gains(parts_.at(tag).points, gain_of)), exposure_.duration_ns);
   if (summary.support_ns == 0) return 0.0;
   const std::string name = format("M{}", tag);
-  return exposure_.gain * exposure_.normalization.divided_by(summary, name) /
-         static_cast<double>(summary.support_ns);
+  return exposure_.gain * exposure_.normalization.factor_of(summary, name) / static_cast<double>(summary.support_ns);
 }
 
 GainSearch::Light GainSearch::light_of(const std::vector<double>& gains) const {
