@@ -16,7 +16,7 @@ namespace nutik {
 inline constexpr std::uint32_t kWholeShare = 65'535;
 
 struct Share {
-  std::uint16_t of = 0;    // a mask value; in a plan's map (render/mask_map.hpp) a region
+  std::uint16_t of = 0;    // a region: its tag in a mask, its index in a plan's map (render/mask_map.hpp)
   std::uint16_t size = 0;  // of kWholeShare
 
   friend bool operator==(const Share&, const Share&) = default;

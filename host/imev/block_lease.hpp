@@ -1,7 +1,4 @@
-// A block's payload on loan from its source.
-//
-//   always:  the payload stays where it is and as it is while the lease lives, whatever else is acquired meanwhile.
-//            The source must outlive its leases; any thread may end one, in any order
+// A block's payload as files hold it, and on loan from its source.
 #pragma once
 
 #include <cstddef>
@@ -58,6 +55,10 @@ struct LeaseTerms {
   WantsTiles wants = {};
 };
 
+// A payload on loan.
+//
+//   always:  the payload stays where it is and as it is while the lease lives, whatever else is acquired meanwhile.
+//            The source must outlive its leases; any thread may end one, in any order
 class BlockLease {
  public:
   // An empty one: what a source returns when there was no room.

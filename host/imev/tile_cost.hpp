@@ -1,4 +1,4 @@
-// The one place that decides how a tile of a block is stored.
+// How tiles of a block may be stored, and what reading them costs: TileLog chooses by it.
 #pragma once
 
 #include <cstdint>

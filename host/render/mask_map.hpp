@@ -40,7 +40,7 @@ struct MaskMap {
   std::uint32_t height = 0;
   std::vector<MaskRegion> regions;            // by tag, then delay
   std::vector<std::uint8_t> region_of_pixel;  // index into regions, row by row; of a mixed pixel its tag's
-  MixedPixels mixed;                          // with regions for tags
+  MixedPixels mixed;                          // by index of region
   std::vector<MixedTile> mixed_tiles;         // by increasing number
 
   // Where pixels have delays, in the place of region_of_pixel, which is empty then.

@@ -75,7 +75,7 @@ struct RenderPlan {
   CaptureFormat capture;
   std::int64_t duration_ns = 0;
   std::shared_ptr<const CaptureLayout> layout;
-  std::vector<PlannedFunction> functions;  // by increasing tag, then delay: those of the map's regions
+  std::vector<PlannedFunction> functions;  // one for each of the map's regions, by the same index
   std::shared_ptr<const MaskMap> map;
   std::vector<PlannedBlock> blocks;   // in time order
   std::vector<std::string> warnings;  // whole sentences
@@ -86,7 +86,7 @@ struct RenderPlan {
   std::optional<Halves> sums_light;
 
   [[nodiscard]] std::uint64_t function_count() const { return functions.size(); }
-  // Index into functions; of a mixed pixel the one with the largest share.
+  // Index into functions, which is its region's; of a mixed pixel the one with the largest share.
   [[nodiscard]] std::uint16_t function_of(std::uint64_t pixel) const { return map->region_at(pixel); }
   // The functions of a mixed pixel with their shares; none where it has one function alone.
   [[nodiscard]] std::span<const Share> shares_of(std::uint64_t pixel) const { return map->mixed.of(pixel); }
