@@ -69,7 +69,7 @@ typedef struct {
 typedef struct {
   bool is_start;                  // nothing was added to the picture before
   bool is_kept;
-  uint kept;                      // BlockEntry.kept
+  uint kept;                      // BlockEntry.kept_bits
   ulong kept_at;                  // of a kept sum its place
   Block block;
   global const uchar* payload;    // the block's
@@ -94,7 +94,7 @@ NUTIK_INLINE void expose_block(const Entry* entry, const Tile tile, const Block*
 NUTIK_INLINE void expose_one(const Entry* entry, const Tile tile, const uint function,
                              LightTable transfer, const BandSums band) {
   const BlockPart part = entry->parts[function];
-  const uint kept_as = part.steady ? 1u << (part.steady >> NUTIK_SUM_SHIFT) : 0;
+  const uint kept_as = part.bits ? 1u << (part.bits >> NUTIK_SUM_SHIFT) : 0;
   const bool is_of_kept = entry->kept & kept_as;
   bool adds = part.first < part.last && entry->is_kept == is_of_kept;
   Sums sums[NUTIK_ITEM_VECTORS];
@@ -109,15 +109,15 @@ NUTIK_INLINE void expose_one(const Entry* entry, const Tile tile, const uint fun
     region.is_uniform = true;
     region.function = function;
     expose_block(entry, tile, &block, &region, transfer, sums);
-    if (part.steady & NUTIK_IN_BUNDLE) {
-      add_sums(band.bundles, tile.in_band, tile.lane, sums, part.steady & NUTIK_BUNDLE_START);
-      adds = part.steady & NUTIK_BUNDLE_END;
+    if (part.bits & NUTIK_IN_BUNDLE) {
+      add_sums(band.bundles, tile.in_band, tile.lane, sums, part.bits & NUTIK_BUNDLE_START);
+      adds = part.bits & NUTIK_BUNDLE_END;
       if (adds) load_tile(band.bundles, tile.in_band, tile.lane, sums);
       else clear(sums);
     }
   }
   if (!adds && !entry->is_start) return;
-  if (part.steady) scale(entry->gains[function], sums);
+  if (part.bits) scale(entry->gains[function], sums);
   add_sums(band.picture, tile.in_band, tile.lane, sums, entry->is_start);
 }
 
@@ -203,7 +203,7 @@ kernel void expose(global const uchar* restrict chunk, global const BlockEntry* 
     Entry entry;
     entry.is_start = launch.is_first && b == 0;
     entry.is_kept = of_host.sample_count == 0;
-    entry.kept = of_host.kept;
+    entry.kept = of_host.kept_bits;
     entry.kept_at = of_host.payload_offset;
     entry.payload = chunk + (entry.is_kept ? 0 : of_host.payload_offset);
     entry.parts = parts + of_host.part_row * launch.function_count;

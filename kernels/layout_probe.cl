@@ -12,13 +12,13 @@ kernel void layout_probe(global uint* restrict sizes) {
   sizes[i++] = sizeof(BlockPart);
   sizes[i++] = NUTIK_OFFSET(BlockPart, first);
   sizes[i++] = NUTIK_OFFSET(BlockPart, last);
-  sizes[i++] = NUTIK_OFFSET(BlockPart, steady);
+  sizes[i++] = NUTIK_OFFSET(BlockPart, bits);
   sizes[i++] = sizeof(BlockEntry);
   sizes[i++] = NUTIK_OFFSET(BlockEntry, payload_offset);
   sizes[i++] = NUTIK_OFFSET(BlockEntry, table_row);
   sizes[i++] = NUTIK_OFFSET(BlockEntry, part_row);
   sizes[i++] = NUTIK_OFFSET(BlockEntry, sample_count);
-  sizes[i++] = NUTIK_OFFSET(BlockEntry, kept);
+  sizes[i++] = NUTIK_OFFSET(BlockEntry, kept_bits);
   sizes[i++] = sizeof(ExposeLaunch);
   sizes[i++] = NUTIK_OFFSET(ExposeLaunch, tile_count);
   sizes[i++] = NUTIK_OFFSET(ExposeLaunch, block_count);

@@ -5,7 +5,7 @@
 
 #include "capture/format.hpp"
 #include "opencl/kernel_layout.hpp"
-#include "opencl/kernel_tables.hpp"
+#include "opencl/kernel_numbers.hpp"
 #include "opencl/work_shape.hpp"
 
 namespace nutik {
@@ -15,8 +15,7 @@ std::uint64_t sums_bytes(std::uint64_t tile_count, std::uint32_t channels, Preci
 }
 
 std::vector<Band> cut_picture(const Shape& shape, const Rectangle& rectangle, Precision precision,
-                              const DeviceInfo& device, std::uint64_t max_bytes,
-                              std::span<const MixedTile> mixed) {
+                              const DeviceInfo& device, std::uint64_t max_bytes, std::span<const MixedTile> mixed) {
   const TileGrid grid(shape);
   const std::uint32_t left = rectangle.x / kTileSide;
   const std::uint32_t top = rectangle.y / kTileSide;
@@ -48,27 +47,29 @@ std::vector<Band> cut_picture(const Shape& shape, const Rectangle& rectangle, Pr
     const std::uint32_t count = std::min(band_rows, top + rows - row);
     const std::uint32_t first_row = row * kTileSide;
     const std::uint32_t height = std::min(count * kTileSide, shape.height - first_row);
-    bands.push_back({std::uint64_t{row} * grid.columns() + left,
-                     std::uint64_t{count} * columns,
-                     columns,
-                     grid.columns() - columns,
-                     first_row,
-                     first_column,
-                     {width, height, shape.channels},
-                     std::accumulate(sum_tiles.begin() + (row - top), sum_tiles.begin() + (row - top + count),
-                                     std::uint64_t{0})});
+    bands.push_back(
+        {std::uint64_t{row} * grid.columns() + left,
+         std::uint64_t{count} * columns,
+         columns,
+         grid.columns() - columns,
+         first_row,
+         first_column,
+         {width, height, shape.channels},
+         std::accumulate(sum_tiles.begin() + (row - top), sum_tiles.begin() + (row - top + count), std::uint64_t{0})});
   }
   return bands;
 }
 
-std::vector<TableSlice> cut_tables(const RenderPlan& plan, Precision precision, const DeviceInfo& device,
+TableNumbers TableNumbers::of(Precision precision) { return {weight_bytes(precision), precision != Precision::fixed}; }
+
+std::vector<TableSlice> cut_tables(const RenderPlan& plan, const TableNumbers& numbers, const DeviceInfo& device,
                                    std::uint64_t max_bytes) {
-  const std::uint64_t row_bytes = plan.function_count() * weight_bytes(precision);
+  const std::uint64_t row_bytes = plan.function_count() * numbers.levels * numbers.bytes;
   // Spans never decide: a block has one row of them, no wider than its rows of weights, of which it has two or more.
   const std::uint64_t max_blocks = device.largest_allocation_bytes / sizeof(BlockEntry);
   // Kernels count the elements of a block's tables in 32 bits.
   const std::uint64_t max_bytes_of_block =
-      std::min(device.largest_allocation_bytes, std::uint64_t{0xFFFF'FFFF} * weight_bytes(precision));
+      std::min(device.largest_allocation_bytes, std::uint64_t{0xFFFF'FFFF} * numbers.bytes);
   const auto fits = [&](std::uint64_t rows) {
     return align_up(rows, WorkShape::kMaxTableRows) * row_bytes <= max_bytes_of_block;
   };
@@ -76,18 +77,16 @@ std::vector<TableSlice> cut_tables(const RenderPlan& plan, Precision precision, 
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
     const PlannedBlock& block = plan.blocks[b];
     const std::uint64_t last_row = block.table_row + block.row_count();
-    const bool is_corrected = precision != Precision::fixed && plan.is_corrected(block);
+    const bool is_corrected = numbers.has_corrections && plan.is_corrected(block);
     const std::uint64_t rows = (is_corrected ? 2 : 1) * block.row_count();
     if (!fits(rows)) {
-      throw too_large(device, rows * row_bytes,
-                      format("a table of {} functions for a block of {} samples", plan.function_count(),
-                             block.extent.sample_count),
-                      "use fewer functions at a time, or encode with fewer samples a block",
-                      {Setting::block_samples});
+      throw too_large(
+          device, rows * row_bytes,
+          format("a table of {} functions for a block of {} samples", plan.function_count(), block.extent.sample_count),
+          "use fewer functions at a time, or encode with fewer samples a block", {Setting::block_samples});
     }
     if (slices.empty() || !fits(slices.back().row_count() + rows) ||
-        (slices.back().row_count() + rows) * row_bytes > max_bytes ||
-        b - slices.back().first_block == max_blocks) {
+        (slices.back().row_count() + rows) * row_bytes > max_bytes || b - slices.back().first_block == max_blocks) {
       slices.push_back({b, b, block.table_row, block.table_row});
     }
     slices.back().last_block = b + 1;
@@ -99,13 +98,12 @@ std::vector<TableSlice> cut_tables(const RenderPlan& plan, Precision precision, 
   return slices;
 }
 
-DeviceError too_large(const DeviceInfo& device, std::uint64_t bytes, std::string_view what,
-                      std::string_view way_out, std::vector<Setting> settings) {
+DeviceError too_large(const DeviceInfo& device, std::uint64_t bytes, std::string_view what, std::string_view way_out,
+                      std::vector<Setting> settings) {
   const auto megabytes = [](std::uint64_t size) { return static_cast<double>(size) * 1e-6; };
-  return DeviceError(
-      format("{} takes {:.1f} MB and {} allocates at most {:.1f} MB at a time; {}", what, megabytes(bytes),
-             device.name, megabytes(device.largest_allocation_bytes), way_out),
-      std::move(settings));
+  return DeviceError(format("{} takes {:.1f} MB and {} allocates at most {:.1f} MB at a time; {}", what,
+                            megabytes(bytes), device.name, megabytes(device.largest_allocation_bytes), way_out),
+                     std::move(settings));
 }
 
 }  // namespace nutik

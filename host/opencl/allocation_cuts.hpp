@@ -69,16 +69,24 @@ struct TableSlice {
 // The bands of the tiles that a rectangle of a picture meets, from top to bottom, all but the last of the same
 // height. A band's sums take no less than its raster, or its function or share of each pixel; they take at most
 // `max_bytes`, or are of one row of tiles. Throws DeviceError where not even one row fits.
-[[nodiscard]] std::vector<Band> cut_picture(const Shape& shape, const Rectangle& rectangle,
-                                            Precision precision, const DeviceInfo& device,
-                                            std::uint64_t max_bytes = ~std::uint64_t{0},
+[[nodiscard]] std::vector<Band> cut_picture(const Shape& shape, const Rectangle& rectangle, Precision precision,
+                                            const DeviceInfo& device, std::uint64_t max_bytes = ~std::uint64_t{0},
                                             std::span<const MixedTile> mixed = {});
 
-// The slices of a plan in time order; none of a plan without blocks. Weights and boundaries of a slice take at most
-// `max_bytes` each, or are of one block. Throws DeviceError where the table of a single block does not fit.
-[[nodiscard]] std::vector<TableSlice> cut_tables(const RenderPlan& plan, Precision precision,
-                                                 const DeviceInfo& device,
-                                                 std::uint64_t max_bytes = ~std::uint64_t{0});
+// What a table has in each of its rows for every function.
+struct TableNumbers {
+  std::size_t bytes;       // of a number
+  bool has_corrections;    // rows of corrections lie behind a slice's own
+  std::size_t levels = 1;  // numbers, each in a part of the table by itself (sample_combiner.hpp)
+
+  // Weights or boundaries.
+  [[nodiscard]] static TableNumbers of(Precision precision);
+};
+
+// The slices of a plan in time order; none of a plan without blocks. A table of a slice takes at most `max_bytes`, or
+// is of one block. Throws DeviceError where the table of a single block does not fit.
+[[nodiscard]] std::vector<TableSlice> cut_tables(const RenderPlan& plan, const TableNumbers& numbers,
+                                                 const DeviceInfo& device, std::uint64_t max_bytes = ~std::uint64_t{0});
 
 // That `what` takes more than the device allocates at a time, and the way out by other settings.
 [[nodiscard]] DeviceError too_large(const DeviceInfo& device, std::uint64_t bytes, std::string_view what,

@@ -205,7 +205,7 @@ BlockFeed::Chunk BlockFeed::uncopied_chunk(BlockLease lease) {
   chunk.host_bytes = lease.payload().size();
   chunk.payload = cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, chunk.host_bytes,
                              const_cast<std::byte*>(lease.payload().data()));
-  chunk.leases.push_back(std::move(lease));
+  chunk.lease = std::move(lease);
   advance();
   return chunk;
 }
@@ -224,7 +224,7 @@ BlockFeed::Chunk BlockFeed::filled_chunk() {
       if (is_first && is_in_mapped_file(lease)) return mapped_chunk(std::move(lease));
       if (is_first && is_used_uncopied(lease)) return uncopied_chunk(std::move(lease));
       check_size(planned, lease.bytes());
-      if (is_in_mapped_file(lease) || is_used_uncopied(lease) || !has_room(filling, lease.bytes())) {
+      if (is_in_mapped_file(lease) || is_used_uncopied(lease) || !take_room(filling, lease.bytes())) {
         pending_ = std::move(lease);
         break;
       }
@@ -247,7 +247,7 @@ BlockLease BlockFeed::lease_next(Filling& filling) {
   const PlannedBlock& planned = plan_->blocks[next_];
   return source_->acquire(planned.block, {[&](std::uint64_t bytes) -> std::span<std::byte> {
                                             check_size(planned, bytes);
-                                            if (!has_room(filling, bytes)) return {};
+                                            if (!take_room(filling, bytes)) return {};
                                             if (!info_.shares_host_memory) upload_memory_.reserve(bytes);
                                             return {unpacking_place(filling), bytes};
                                           },
@@ -290,7 +290,7 @@ bool BlockFeed::is_used_uncopied(const BlockLease& lease) const {
          lease.payload().size() <= std::min(info_.largest_allocation_bytes, kMaxSpread * lease.bytes());
 }
 
-bool BlockFeed::has_room(Filling& filling, std::uint64_t bytes) {
+bool BlockFeed::take_room(Filling& filling, std::uint64_t bytes) {
   if (filling.slab != nullptr) return filling.slab->used + bytes <= filling.slab->capacity;
   filling.slab = &slab_for(bytes, filling.stays);
   return true;

@@ -100,7 +100,7 @@ struct FeedLimits {
 class BlockFeed {
  public:
   struct Chunk {
-    std::vector<BlockLease> leases;  // of what lies in other memory than the feed's
+    BlockLease lease;  // of what lies in other memory than the feed's
     cl::Buffer payload;
     std::vector<BlockEntry> entries;
     std::uint64_t payload_bytes = 0;  // of the blocks, without what lies between them
@@ -157,7 +157,8 @@ class BlockFeed {
   BlockLease lease_next(Filling& filling);
   [[nodiscard]] std::byte* unpacking_place(const Filling& filling);
   [[nodiscard]] bool was_unpacked(const Filling& filling, const BlockLease& lease);
-  bool has_room(Filling& filling, std::uint64_t bytes);
+  // A place for so many bytes more, in a slab that the first block chooses; false where that is full.
+  bool take_room(Filling& filling, std::uint64_t bytes);
   Slab& slab_for(std::uint64_t bytes, bool& stays);
   void make_room(Slab& slab, std::uint64_t bytes);
   BlockPlace store(Slab& slab, const BlockLease& lease);

@@ -2,23 +2,25 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 
-#include "opencl/kernel_tables.hpp"
+#include "opencl/kernel_numbers.hpp"
 #include "opencl/opencl_api.hpp"
+#include "system/parallel.hpp"
 
 namespace nutik {
 namespace {
 
 using DevelopSumsKernel = cl::KernelFunctor<cl::Buffer, cl_uint, cl_uint, cl_ulong, cl::Buffer>;
-using DevelopCodesKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint, cl_ulong,
-                                             cl::Buffer, cl::Buffer, cl_uint, cl::Buffer>;
+using DevelopCodesKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint, cl_ulong, cl::Buffer,
+                                             cl::Buffer, cl_uint, cl::Buffer>;
 
 using BlendCodesKernel =
-    cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_uint,
-                      cl_uint, cl_uint, cl_ulong, cl::Buffer, cl::Buffer, cl_uint, cl::Buffer>;
+    cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint, cl_uint,
+                      cl_ulong, cl::Buffer, cl::Buffer, cl_uint, cl::Buffer>;
 
-using CountSaturatedKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint, cl_ulong,
-                                               cl_uint, cl_uint, cl_uint, cl_uint, cl::Buffer, cl::Buffer>;
+using CountSaturatedKernel = cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_uint, cl_uint, cl_ulong, cl_uint,
+                                               cl_uint, cl_uint, cl_uint, cl::Buffer, cl::Buffer>;
 
 // Sums that are developed at a time where they become light. So many rows of tiles begin where devices let a part of a
 // buffer begin: at a multiple of 4096 bytes.
@@ -34,17 +36,124 @@ std::uint64_t first_tile_of(const Band& band, const Band& rows) {
 bool has_end_code(std::span<const std::byte> codes, ValueType type, std::uint32_t white_code) {
   const auto is_end = [&](std::uint32_t code) { return code == 0 || code == white_code; };
   if (type == ValueType::code8) {
-    return std::ranges::any_of(codes, is_end,
-                               [](std::byte code) { return std::to_integer<std::uint32_t>(code); });
+    return std::ranges::any_of(codes, is_end, [](std::byte code) { return std::to_integer<std::uint32_t>(code); });
   }
   const std::span wide(reinterpret_cast<const std::uint16_t*>(codes.data()), codes.size() / 2);
   return std::ranges::any_of(wide, is_end);
 }
 
+double sum_at(std::span<const std::byte> raster, Precision precision, std::uint64_t value) {
+  const auto read = [&]<typename T>(T number) {
+    std::memcpy(&number, raster.data() + value * sizeof number, sizeof number);
+    return number;
+  };
+  switch (precision) {
+    case Precision::single_: return read(float{});
+    case Precision::compensated: return value_of(read(FloatPair{}));
+    case Precision::double_: return read(double{});
+    case Precision::fixed: return static_cast<double>(read(std::int64_t{}));
+  }
+  return 0.0;
+}
+
+// Value `at` of the first plane of sums by tiles, whose planes lie one behind the other.
+double tile_sum(std::span<const std::byte> sums, Precision precision, std::uint64_t at) {
+  if (precision != Precision::compensated) return sum_at(sums, precision, at);
+  return sum_at(sums, Precision::single_, at) + sum_at(sums, Precision::single_, at + kTilePixels);
+}
+
+template <typename Value>
+void store_as(const RenderPlan& plan, const Rectangle& rectangle, Precision precision,
+              std::span<const std::byte> raster, std::span<Value> values) {
+  const std::vector<LightFactors> factors = light_factors(plan, precision);
+  const std::uint32_t channels = plan.capture.shape.channels;
+  parallel_for(rectangle.height, [&](std::uint64_t row) {
+    const std::uint64_t first_pixel = (rectangle.y + row) * plan.capture.shape.width + rectangle.x;
+    std::uint64_t i = row * rectangle.width * channels;
+    for (std::uint32_t column = 0; column < rectangle.width; ++column) {
+      const LightFactors& light = factors[plan.map->region_at(first_pixel + column)];
+      for (std::uint32_t channel = 0; channel < channels; ++channel, ++i) {
+        values[i] = static_cast<Value>(sum_at(raster, precision, i) * light.factor * light.exponent.first *
+                                       light.exponent.second);
+      }
+    }
+  });
+}
+
+// Tiles [first, last) of a band.
+struct TilesOfBand {
+  std::size_t first;
+  std::size_t last;
+};
+
+template <typename Value>
+void blend_as(const RenderPlan& plan, const FunctionMap& map, const TilesOfBand& tiles, Precision precision,
+              std::span<const std::byte> sums, const Rectangle& part, std::span<Value> values) {
+  constexpr std::size_t kTilesAtOnce = 64;
+  const std::vector<LightFactors> factors = light_factors(plan, precision);
+  const std::uint32_t channels = plan.capture.shape.channels;
+  const std::uint32_t plane_values = (precision == Precision::compensated ? 2 : 1) * kTilePixels;
+  const TileGrid grid(plan.capture.shape);
+  const std::uint32_t first_sums = map.first_of[tiles.first];
+  // A channel of a pixel, from the sums of one function.
+  const auto light_of = [&](std::uint32_t tile, std::uint32_t lane, std::uint32_t channel) {
+    const LightFactors& light = factors[map.of_lane[std::size_t{tile} * kTilePixels + lane]];
+    const std::uint64_t at = (std::uint64_t{tile - first_sums} * channels + channel) * plane_values + lane;
+    return tile_sum(sums, precision, at) * light.factor * light.exponent.first * light.exponent.second;
+  };
+  const auto blended = [&](std::uint32_t first, std::uint32_t last, std::uint32_t lane, std::uint32_t channel) {
+    if (last == first + 1) return light_of(first, lane, channel);
+    double sum = 0.0;
+    for (std::uint32_t tile = first; tile < last; ++tile) {
+      const std::uint16_t share = map.shares[std::size_t{tile} * kTilePixels + lane];
+      if (share == kWholeShare) return light_of(tile, lane, channel);
+      if (share != 0) sum += share * light_of(tile, lane, channel);
+    }
+    return sum / kWholeShare;
+  };
+  parallel_for_parts(tiles.last - tiles.first, kTilesAtOnce, [&](std::uint64_t from, std::uint64_t to) {
+    for (std::size_t tile = tiles.first + from; tile < tiles.first + to; ++tile) {
+      const std::uint32_t first = map.first_of[tile], last = map.first_of[tile + 1];
+      const std::uint32_t left = map.tiles[first] % grid.columns() * kTileSide;
+      const std::uint32_t top = map.tiles[first] / grid.columns() * kTileSide;
+      for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
+        const std::uint32_t x = left + lane % kTileSide - part.x, y = top + lane / kTileSide - part.y;
+        if (x >= part.width || y >= part.height) continue;  // unsigned: also what lies before it
+        Value* const pixel = &values[(std::uint64_t{y} * part.width + x) * channels];
+        for (std::uint32_t channel = 0; channel < channels; ++channel) {
+          pixel[channel] = static_cast<Value>(blended(first, last, lane, channel));
+        }
+      }
+    }
+  });
+}
+
+// The light of `raster`, sums [pixel][channel][plane] of a rectangle as develop_sums writes them, into a picture of
+// light32 or light64: in double, so that it is the same for every device.
+void store_light(const RenderPlan& plan, const Rectangle& rectangle, Precision precision,
+                 std::span<const std::byte> raster, Picture& picture) {
+  if (picture.type == ValueType::light32) {
+    store_as(plan, rectangle, precision, raster, picture.values<float>());
+  } else {
+    store_as(plan, rectangle, precision, raster, picture.values<double>());
+  }
+}
+
+// The light of what `part` of the picture has of some tiles, from their sums as expose.cl writes them: of a mixed pixel
+// by its shares. In double, as above.
+void blend_light(const RenderPlan& plan, const FunctionMap& map, const TilesOfBand& tiles, Precision precision,
+                 std::span<const std::byte> sums, const Rectangle& part, Picture& picture) {
+  if (picture.type == ValueType::light32) {
+    blend_as(plan, map, tiles, precision, sums, part, picture.values<float>());
+  } else {
+    blend_as(plan, map, tiles, precision, sums, part, picture.values<double>());
+  }
+}
+
 }  // namespace
 
 void Developer::develop(const ExposedBand& exposed) {
-  if (holds_codes(output_.type)) return counted_codes(exposed);
+  if (holds_codes(output_.type)) return make_counted_codes(exposed);
   for_each_part(exposed, output_.type, [&](const Rectangle& part, const Picture& of_part) {
     std::ranges::copy(of_part.bytes, rows_of(part).begin());
   });
@@ -53,19 +162,17 @@ void Developer::develop(const ExposedBand& exposed) {
 // Codes, and how many pixels saturate. The kernels know neither negative codes nor primaries, and do not count what is
 // blended: where these are asked for, codes lie too close together to be searched, or mixed pixels can saturate, the
 // sums are read and turned into light here.
-void Developer::counted_codes(const ExposedBand& exposed) {
+void Developer::make_counted_codes(const ExposedBand& exposed) {
   const CodeMaking making = CodeMaking::of(plan_.capture, output_);
   const CodeScale scale(making.transfer, output_);
   const DeviceMemory::Scope scope(memory_);
-  const DeviceCodes* const tables =
-      kernels_make_codes(plan_.capture, output_)
-          ? constants_.codes(CodeKey::of(plan_, work_.precision, output_), memory_)
-          : nullptr;
+  const DeviceCodes* const tables = kernels_make_codes(plan_.capture, output_)
+                                        ? lookups_.codes(CodeKey::of(plan_, work_.precision, output_), memory_)
+                                        : nullptr;
   if (tables != nullptr) {
-    codes(exposed, *tables);
+    make_codes(exposed, *tables);
     const auto of_band = rows_of(part_in(exposed.band));
-    if (!can_saturate(plan_, making, scale) || !has_end_code(of_band, output_.type, output_.white_code))
-      return;
+    if (!can_saturate(plan_, making, scale) || !has_end_code(of_band, output_.type, output_.white_code)) return;
     if (!exposed.map.host->is_mixed()) {
       saturation_ += saturated(exposed, scale);
       return;
@@ -104,8 +211,7 @@ void Developer::for_each_part(const ExposedBand& exposed, ValueType type, Visit 
 }
 
 // The light of some rows of tiles of a band: sums become a raster on the device, and light here.
-void Developer::develop_rows(const ExposedBand& exposed, const Band& rows, const Rectangle& part,
-                             Picture& picture) {
+void Developer::develop_rows(const ExposedBand& exposed, const Band& rows, const Rectangle& part, Picture& picture) {
   DevelopSumsKernel kernel(program_, "develop_sums");
   const std::uint64_t tile_bytes = sums_bytes(1, shape_.channels, work_.precision);
   const std::uint64_t first_tile = first_tile_of(exposed.band, rows);
@@ -123,8 +229,7 @@ void Developer::develop_rows(const ExposedBand& exposed, const Band& rows, const
 }
 
 // The same where tiles are mixed: what comes from the device are sums of tiles.
-void Developer::blend_rows(const ExposedBand& exposed, const Band& rows, const Rectangle& part,
-                           Picture& picture) {
+void Developer::blend_rows(const ExposedBand& exposed, const Band& rows, const Rectangle& part, Picture& picture) {
   const FunctionMap& map = *exposed.map.host;
   const std::uint64_t first_tile = first_tile_of(exposed.band, rows);
   const TilesOfBand tiles{first_tile, first_tile + rows.tile_count};
@@ -135,7 +240,7 @@ void Developer::blend_rows(const ExposedBand& exposed, const Band& rows, const R
   blend_light(plan_, map, tiles, work_.precision, sums, part, picture);
 }
 
-void Developer::codes(const ExposedBand& exposed, const DeviceCodes& tables) {
+void Developer::make_codes(const ExposedBand& exposed, const DeviceCodes& tables) {
   const cl::Buffer scales = memory_.upload(light_scales(plan_, work_.precision));
   const Band& band = exposed.band;
   const Rectangle part = part_in(band);
@@ -144,18 +249,17 @@ void Developer::codes(const ExposedBand& exposed, const DeviceCodes& tables) {
     const cl::Buffer where_blended = memory_.upload(blend_scales(plan_, work_.precision));
     develop_band(band, part, rows_of(part), [&](const cl::Buffer& raster) {
       return kernel(items(kernel, queue_, work_.shape, band.tile_count), exposed.sums, scales, where_blended,
-                    exposed.map.of_lane, exposed.map.first_of,
-                    exposed.map.shares, blend_shift(plan_, work_.precision), band.shape.width,
-                    band.shape.height, band.tile_count, tables.thresholds, tables.guesses, tables.guess_count,
-                    raster);
+                    exposed.map.of_lane, exposed.map.first_of, exposed.map.shares, blend_shift(plan_, work_.precision),
+                    band.shape.width, band.shape.height, band.tile_count, tables.thresholds, tables.guesses,
+                    tables.guess_count, raster);
     });
     return;
   }
   DevelopCodesKernel kernel(program_, "develop_codes");
   develop_band(band, part, rows_of(part), [&](const cl::Buffer& raster) {
-    return kernel(items(kernel, queue_, work_.shape, band.tile_count), exposed.sums, scales,
-                  exposed.map.of_lane, band.shape.width, band.shape.height,
-                  band.tile_count, tables.thresholds, tables.guesses, tables.guess_count, raster);
+    return kernel(items(kernel, queue_, work_.shape, band.tile_count), exposed.sums, scales, exposed.map.of_lane,
+                  band.shape.width, band.shape.height, band.tile_count, tables.thresholds, tables.guesses,
+                  tables.guess_count, raster);
   });
 }
 
@@ -164,16 +268,14 @@ Saturation Developer::saturated(const ExposedBand& exposed, const CodeScale& sca
   const Band& band = exposed.band;
   const Rectangle part = part_in(band);
   const std::uint32_t left = part.x - band.first_column, top = part.y - band.first_row;
-  const cl::Buffer limits =
-      memory_.upload(code_limits(CodeKey::of(plan_, work_.precision, output_), scale, plan_));
+  const cl::Buffer limits = memory_.upload(code_limits(CodeKey::of(plan_, work_.precision, output_), scale, plan_));
   std::array<cl_uint, 2> found{};
-  const cl::Buffer counts =
-      memory_.allocate(sizeof found, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, found.data());
+  const cl::Buffer counts = memory_.allocate(sizeof found, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, found.data());
   CountSaturatedKernel kernel(program_, "count_saturated");
-  const cl::Event event = kernel(items(kernel, queue_, work_.shape, band.tile_count), exposed.sums,
-                                 memory_.upload(blend_scales(plan_, work_.precision)), exposed.map.of_lane,
-                                 band.shape.width, band.shape.height, band.tile_count, left, top,
-                                 left + part.width, top + part.height, limits, counts);
+  const cl::Event event =
+      kernel(items(kernel, queue_, work_.shape, band.tile_count), exposed.sums,
+             memory_.upload(blend_scales(plan_, work_.precision)), exposed.map.of_lane, band.shape.width,
+             band.shape.height, band.tile_count, left, top, left + part.width, top + part.height, limits, counts);
   queue_.enqueueReadBuffer(counts, CL_TRUE, 0, sizeof found, found.data());
   develop_ms_ += milliseconds(event).value_or(0.0);
   return {found[0], found[1]};
@@ -194,8 +296,7 @@ Rectangle Developer::part_in(const Band& band) const {
 
 // Has `launch` fill a band's own raster, and copies what belongs to a part of the rectangle to that part's.
 template <typename Launch>
-void Developer::develop_band(const Band& band, const Rectangle& part, std::span<std::byte> raster,
-                             Launch launch) {
+void Developer::develop_band(const Band& band, const Rectangle& part, std::span<std::byte> raster, Launch launch) {
   const DeviceMemory::Scope scope(memory_);
   const std::uint64_t pixel_bytes = raster.size() / part.width / part.height;
   const cl::Buffer of_band = memory_.allocate(band.shape.pixel_count() * pixel_bytes, CL_MEM_WRITE_ONLY);
@@ -213,8 +314,7 @@ void Developer::read_band(const cl::Buffer& of_band, const Band& band, const Rec
     queue_.enqueueReadBuffer(of_band, CL_TRUE, (part.y - band.first_row) * row, raster.size(), raster.data());
     return;
   }
-  const cl::array<cl::size_type, 3> from{(part.x - band.first_column) * pixel_bytes, part.y - band.first_row,
-                                         0};
+  const cl::array<cl::size_type, 3> from{(part.x - band.first_column) * pixel_bytes, part.y - band.first_row, 0};
   queue_.enqueueReadBufferRect(of_band, CL_TRUE, from, {0, 0, 0}, {row, part.height, 1}, band_row, 0, row, 0,
                                raster.data());
 }

@@ -11,8 +11,9 @@
 #include <vector>
 
 #include "opencl/allocation_cuts.hpp"
+#include "opencl/build_options.hpp"
+#include "opencl/device_lookups.hpp"
 #include "opencl/device_memory.hpp"
-#include "opencl/kernel_constants.hpp"
 #include "opencl/opencl_api.hpp"
 #include "render/code_scale.hpp"
 #include "render/renderer.hpp"
@@ -32,7 +33,7 @@ class Developer {
   // `program` is kernels/develop.cl built for the picture: with blending if the plan's mask is soft. All that is given
   // must live as long.
   Developer(const Work& work, const RenderPlan& plan, const OutputFormat& output, const Rectangle& rectangle,
-            cl::Program program, cl::CommandQueue queue, KernelConstants& constants, DeviceMemory& memory)
+            cl::Program program, cl::CommandQueue queue, DeviceLookups& lookups, DeviceMemory& memory)
       : work_(work),
         plan_(plan),
         output_(output),
@@ -40,7 +41,7 @@ class Developer {
         shape_{rectangle.width, rectangle.height, plan.capture.shape.channels},
         program_(std::move(program)),
         queue_(std::move(queue)),
-        constants_(constants),
+        lookups_(lookups),
         memory_(memory),
         picture_(shape_, output.type, output.white_code) {}
 
@@ -54,8 +55,8 @@ class Developer {
   [[nodiscard]] double develop_ms() const { return develop_ms_; }
 
  private:
-  void counted_codes(const ExposedBand& exposed);
-  void codes(const ExposedBand& exposed, const DeviceCodes& tables);
+  void make_counted_codes(const ExposedBand& exposed);
+  void make_codes(const ExposedBand& exposed, const DeviceCodes& tables);
   [[nodiscard]] Saturation saturated(const ExposedBand& exposed, const CodeScale& scale);
   template <typename Visit>
   void for_each_part(const ExposedBand& exposed, ValueType type, Visit visit);
@@ -75,7 +76,7 @@ class Developer {
   Shape shape_;  // of what is developed
   cl::Program program_;
   cl::CommandQueue queue_;
-  KernelConstants& constants_;
+  DeviceLookups& lookups_;
   DeviceMemory& memory_;
   Picture picture_;
   Saturation saturation_;

@@ -105,11 +105,10 @@ DeviceTeam::DeviceTeam(std::span<const std::size_t> devices, const OpenClOptions
   free_.insert(all_.begin(), all_.end());
 }
 
-// Calls work(member, stop) for each, one on this thread and the others on their own. The first error is thrown when all
+// Calls task(member, stop) for each, one on this thread and the others on their own. The first error is thrown when all
 // have ended; it stops the others.
-template <typename Work>
-void DeviceTeam::on_each(std::span<const std::size_t> members, const std::stop_token& outer,
-                         Work work) const {
+template <typename Task>
+void DeviceTeam::on_each(std::span<const std::size_t> members, const std::stop_token& outer, Task task) const {
   std::stop_source stop;
   const std::stop_callback passed_on(outer, [&stop] { stop.request_stop(); });
   std::exception_ptr failure;
@@ -122,7 +121,7 @@ void DeviceTeam::on_each(std::span<const std::size_t> members, const std::stop_t
   const auto run = [&](std::size_t member) {
     try {
       try {
-        work(member, stop.get_token());
+        task(member, stop.get_token());
       } catch (const DeviceError& error) {
         throw_numbered(members_[member].device, error);
       }

@@ -54,8 +54,8 @@ class DeviceTeam final : public Renderer {
   [[nodiscard]] std::unique_lock<std::shared_mutex> turn_of_all();
   [[nodiscard]] std::shared_lock<std::shared_mutex> turn_of_one();
   // What is done on several of them at once; `outer` ends it.
-  template <typename Work>
-  void on_each(std::span<const std::size_t> members, const std::stop_token& outer, Work work) const;
+  template <typename Task>
+  void on_each(std::span<const std::size_t> members, const std::stop_token& outer, Task task) const;
   [[nodiscard]] std::string names_of(std::span<const std::size_t> members) const;
   void choose(const RenderPlan& plan, const OutputFormat& output, std::optional<Precision> asked,
               const RenderControl& control, Rendered& rendered);

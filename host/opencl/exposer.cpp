@@ -67,14 +67,14 @@ void IncrementalExposer::expose(const Means& means, const RenderPlan& plan, cons
                                 const Exposer::Develop& develop) {
   const std::vector<std::uint8_t> exposes = last_.take(plan, precision, bands);
   means.statistics.exposed_functions = static_cast<std::uint64_t>(std::ranges::count(exposes, 1));
-  const SumsInUse kept = sums_in_use(means, plan, source, precision, shares.kept_bytes, exposes, bands);
+  SumsInUse kept = sums_in_use(means, plan, source, precision, shares.kept_bytes, exposes, bands);
   means.statistics.kept_sums += kept.entries.size();
   std::uint64_t bytes = 0;
   for (const ExposedBand& each : bands) {
     bytes += sums_bytes(each.band.sum_tiles, plan.capture.shape.channels, precision);
   }
   const bool holds = bytes <= shares.held_bytes;
-  means.expose({plan, kept, exposes}, bands, [&](const ExposedBand& exposed) {
+  means.expose({plan, std::move(kept), exposes}, bands, [&](const ExposedBand& exposed) {
     develop(exposed);
     if (holds) last_.hold(exposed);
   });
@@ -87,7 +87,7 @@ SumsInUse IncrementalExposer::sums_in_use(const Means& means, const RenderPlan& 
                                           std::uint64_t max_bytes, std::span<const std::uint8_t> exposes,
                                           std::span<const ExposedBand> bands) {
   KeptSums& kept = kept_[precision];
-  for (const SummedBlocks& blocks : kept.worth_making(plan, exposes, precision, max_bytes, means.info)) {
+  for (const SummedBlocks& blocks : kept.begin_exposure(plan, exposes, precision, max_bytes, means.info)) {
     const RenderPlan& of_light = kept.plan_for(blocks, plan, source);
     const std::size_t slot = kept.slot_for(means.memory);
     const DeviceMemory::Scope scope(means.memory);
@@ -163,7 +163,7 @@ void Exposer::add_kept(const TableSlice& slice, std::size_t last, std::size_t& n
                        std::vector<BlockEntry>& entries) const {
   for (; next < kept_.entries.size() && kept_.entries[next].planned <= last; ++next) {
     const SumsInUse::Entry& kept = kept_.entries[next];
-    entries.push_back({kept.offset, 0, kept.planned - slice.first_block, 0, kept.kept});
+    entries.push_back({kept.offset, 0, kept.planned - slice.first_block, 0, kept.kept_bits});
   }
 }
 
@@ -173,7 +173,7 @@ void Exposer::add_correction(const TableSlice& slice, std::size_t planned,
   const auto found = std::ranges::lower_bound(slice.corrected, planned);
   if (found == slice.corrected.end() || *found != planned) return;
   BlockEntry entry = entries.back();
-  entry.kept = 0;
+  entry.kept_bits = 0;
   entry.table_row = slice.last_row - slice.first_row;
   for (auto before = slice.corrected.begin(); before != found; ++before) {
     entry.table_row += plan_.blocks[*before].row_count();
@@ -206,7 +206,7 @@ void Exposer::sum_up(std::span<const ExposedBand> bands, const RenderControl& co
       for (BlockEntry entry : chunk.entries) {
         const std::size_t planned = slice.first_block + entry.part_row;
         add_kept(slice, planned, next_kept, entries);
-        if (!kept_.kept.empty()) entry.kept = kept_.kept[planned];
+        if (!kept_.kept_bits.empty()) entry.kept_bits = kept_.kept_bits[planned];
         entries.push_back(entry);
         add_correction(slice, planned, entries);
       }

@@ -14,11 +14,12 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "opencl/block_feed.hpp"
 #include "opencl/developer.hpp"
-#include "opencl/device_tables.hpp"
+#include "opencl/gain_columns.hpp"
 #include "opencl/kept_sums.hpp"
 #include "opencl/render_memory.hpp"
 #include "render/render_plan.hpp"
@@ -36,33 +37,33 @@ struct ExposingDevice {
 // A kernel that goes over blocks, with what it reads beside them.
 struct BlockKernel {
   std::vector<TableSlice> slices;
-  std::function<SliceTables(const TableSlice& slice)> tables;
+  std::function<SliceTables(const TableSlice& slice)> tables = {};
   // Over entries of a chunk, into the sums of a band.
   std::function<cl::Event(const cl::Buffer& chunk, const cl::Buffer& entries, const SliceTables& tables,
                           const ExposedBand& exposed, const ExposeLaunch& launch)>
-      launch;
+      launch = {};
 };
 
 // What is exposed: of a plan the pixels of some functions (of others the bands have the sums), and what need not be
 // read.
 struct ExposedPlan {
   const RenderPlan& plan;
-  const SumsInUse& kept;
-  std::span<const std::uint8_t> exposes;  // by function
+  SumsInUse kept;
+  std::vector<std::uint8_t> exposes;  // by function
 };
 
 class Exposer {
  public:
-  // The plan has blocks. All that is given must live as long.
+  // The plan has blocks. It, the capture, memory and statistics must live as long.
   Exposer(const ExposingDevice& device, const Work& work, const ExposedPlan& what, CaptureSource& source,
-          const RenderMemory& shares, const BlockKernel& kernel, DeviceMemory& memory, RenderStatistics& statistics)
+          const RenderMemory& shares, BlockKernel kernel, DeviceMemory& memory, RenderStatistics& statistics)
       : device_(device),
         work_(work),
         plan_(what.plan),
         source_(source),
         shares_(shares),
         kept_(what.kept),
-        kernel_(kernel),
+        kernel_(std::move(kernel)),
         memory_(memory),
         statistics_(statistics) {}
 
@@ -80,18 +81,17 @@ class Exposer {
   // Planned blocks [first, last) that are read.
   [[nodiscard]] std::size_t read_blocks(std::size_t first, std::size_t last) const;
   // Those of a slice whose blocks are not behind planned block `last`, from `next` on.
-  void add_kept(const TableSlice& slice, std::size_t last, std::size_t& next,
-                std::vector<BlockEntry>& entries) const;
+  void add_kept(const TableSlice& slice, std::size_t last, std::size_t& next, std::vector<BlockEntry>& entries) const;
   void add_correction(const TableSlice& slice, std::size_t planned, std::vector<BlockEntry>& entries) const;
   BlockFeed::Chunk next_chunk();
 
-  const ExposingDevice& device_;
-  const Work& work_;
+  ExposingDevice device_;
+  Work work_;
   const RenderPlan& plan_;
   CaptureSource& source_;
-  const RenderMemory& shares_;
-  const SumsInUse& kept_;
-  const BlockKernel& kernel_;
+  RenderMemory shares_;
+  SumsInUse kept_;
+  BlockKernel kernel_;
   DeviceMemory& memory_;
   RenderStatistics& statistics_;
   std::size_t read_ = 0, to_read_ = 0;     // blocks, each as often as bands are exposed
@@ -138,8 +138,7 @@ class IncrementalExposer {
  public:
   // What one exposure is made with.
   struct Means {
-    std::function<void(const ExposedPlan& what, std::span<ExposedBand> bands, const Exposer::Develop& done)>
-        expose;
+    std::function<void(const ExposedPlan& what, std::span<ExposedBand> bands, const Exposer::Develop& done)> expose;
     std::function<std::vector<ExposedBand>(const RenderPlan& plan)> whole_picture;  // its bands
     const DeviceInfo& info;
     cl::CommandQueue& queue;
@@ -154,8 +153,8 @@ class IncrementalExposer {
               const RenderMemory& shares, std::span<ExposedBand> bands, const Exposer::Develop& develop);
 
  private:
-  SumsInUse sums_in_use(const Means& means, const RenderPlan& plan, const CaptureSource& source,
-                        Precision precision, std::uint64_t max_bytes, std::span<const std::uint8_t> exposes,
+  SumsInUse sums_in_use(const Means& means, const RenderPlan& plan, const CaptureSource& source, Precision precision,
+                        std::uint64_t max_bytes, std::span<const std::uint8_t> exposes,
                         std::span<const ExposedBand> bands);
 
   std::map<Precision, KeptSums> kept_;

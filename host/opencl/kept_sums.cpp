@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "opencl/kernel_tables.hpp"
+#include "opencl/kernel_numbers.hpp"
 
 namespace nutik {
 namespace {
@@ -11,8 +11,8 @@ namespace {
 // A sum is of the whole picture. Where most of it is exposed with a steady gain there, making it takes as long as
 // reading rows; it is worth it at once, but for the first exposure, which may be the last. Where less is, it is worth
 // it when it is wanted again.
-constexpr double kMax = 0.75;
-constexpr double kMin = 0.25;
+constexpr double kShareAtOnce = 0.75;
+constexpr double kShareAgain = 0.25;
 
 // Exposures for which a sum that nobody wants stays all the same: where more are wanted than there is room for, some
 // stay rather than all go by turns. A half, or a bundle of some of its group's blocks, is soon made again.
@@ -52,9 +52,9 @@ bool has_mixed_tiles(std::span<const ExposedBand> bands) {
 
 void KeptSums::clear() { *this = KeptSums(); }
 
-std::vector<SummedBlocks> KeptSums::worth_making(const RenderPlan& plan,
-                                                 std::span<const std::uint8_t> exposes, Precision precision,
-                                                 std::uint64_t max_bytes, const DeviceInfo& device) {
+std::vector<SummedBlocks> KeptSums::begin_exposure(const RenderPlan& plan, std::span<const std::uint8_t> exposes,
+                                                   Precision precision, std::uint64_t max_bytes,
+                                                   const DeviceInfo& device) {
   const std::uint64_t tile_bytes = sums_bytes(1, plan.capture.shape.channels, precision);
   const std::uint64_t slot_bytes = TileGrid(plan.capture.shape).tile_count() * tile_bytes;
   const std::uint64_t room = std::min(max_bytes, device.largest_allocation_bytes) / slot_bytes;
@@ -88,7 +88,7 @@ std::vector<SummedBlocks> KeptSums::worth_making(const RenderPlan& plan,
     }
     const double share = static_cast<double>(count) / all;
     const bool was_wanted = !was_wanted_.insert(sum).second;
-    if (share >= (was_wanted ? kMin : kMax) && exposure_ > 1) worth.push_back(sum);
+    if (share >= (was_wanted ? kShareAgain : kShareAtOnce) && exposure_ > 1) worth.push_back(sum);
   }
   std::uint64_t rooms = capacity_ - slots_.size();
   for (const Slot& slot : slots_) rooms += is_idle(slot);
@@ -206,10 +206,10 @@ SumsInUse KeptSums::in_use(const RenderPlan& plan, std::span<const std::uint8_t>
         continue;
       }
       const std::uint32_t as = kept_as(*part.sum);
-      if ((used.kept[b] & as) == 0 && part.sum->last() == plan.blocks[b].block) {
+      if ((used.kept_bits[b] & as) == 0 && part.sum->last() == plan.blocks[b].block) {
         used.entries.push_back({b, as, slot->second * slot_sums()});
       }
-      used.kept[b] |= as;
+      used.kept_bits[b] |= as;
     }
     used.skipped[b] = !is_read;
   }

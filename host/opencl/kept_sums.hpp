@@ -24,14 +24,14 @@ namespace nutik {
 // What an exposure need not read.
 struct SumsInUse {
   struct Entry {
-    std::size_t planned;   // its block in the plan, of a bundle the last
-    std::uint32_t kept;    // as in BlockEntry
-    std::uint64_t offset;  // in sums
+    std::size_t planned;      // its block in the plan, of a bundle the last
+    std::uint32_t kept_bits;  // as in BlockEntry
+    std::uint64_t offset;     // in sums
   };
   cl::Buffer sums;
-  std::vector<Entry> entries;       // in time order
-  std::vector<std::uint32_t> kept;  // by planned block, as in BlockEntry; empty: nothing is
-  std::vector<bool> skipped;        // planned blocks of which nothing is read; empty: none
+  std::vector<Entry> entries;            // in time order
+  std::vector<std::uint32_t> kept_bits;  // by planned block, as in BlockEntry; empty: nothing is kept
+  std::vector<bool> skipped;             // planned blocks of which nothing is read; empty: none
 };
 
 class KeptSums {
@@ -39,12 +39,11 @@ class KeptSums {
   // Forgets what is kept: of another capture nothing is right.
   void clear();
 
-  // An exposure of the resident capture begins. The sums that it is worth to make before it, for which there is room
-  // within `max_bytes`.
-  [[nodiscard]] std::vector<SummedBlocks> worth_making(const RenderPlan& plan,
-                                                       std::span<const std::uint8_t> exposes,
-                                                       Precision precision, std::uint64_t max_bytes,
-                                                       const DeviceInfo& device);
+  // The next exposure of the resident capture begins. The sums that it is worth to make before it, for which there is
+  // room within `max_bytes`.
+  [[nodiscard]] std::vector<SummedBlocks> begin_exposure(const RenderPlan& plan, std::span<const std::uint8_t> exposes,
+                                                         Precision precision, std::uint64_t max_bytes,
+                                                         const DeviceInfo& device);
 
   // Makes room for one of them. It is kept once all bands of the picture are stored, whole rows of it.
   [[nodiscard]] std::size_t slot_for(DeviceMemory& memory);
@@ -55,7 +54,7 @@ class KeptSums {
   [[nodiscard]] const RenderPlan& plan_for(const SummedBlocks& blocks, const RenderPlan& plan,
                                            const CaptureSource& source);
 
-  // For an exposure whose worth_making() was asked for: the sums of the functions that it exposes.
+  // For the exposure that has begun: the sums of the functions that it exposes.
   [[nodiscard]] SumsInUse in_use(const RenderPlan& plan, std::span<const std::uint8_t> exposes,
                                  std::span<const ExposedBand> bands) const;
 

@@ -15,9 +15,9 @@ struct BlockPart {
   static constexpr std::uint32_t kSumShift = 8;
 
   SampleSpan span;
-  std::uint32_t steady;
+  std::uint32_t bits;
 };
-static_assert(sizeof(BlockPart) == 8 && offsetof(BlockPart, steady) == 4);
+static_assert(sizeof(BlockPart) == 8 && offsetof(BlockPart, bits) == 4);
 
 // A block within a chunk, or kept sums. Mirrors BlockEntry in kernels/layout.clh.
 struct BlockEntry {
@@ -25,9 +25,9 @@ struct BlockEntry {
   std::uint64_t table_row;       // of its first sample in the tables of its slice
   std::uint64_t part_row;        // in the parts of its slice
   std::uint32_t sample_count;    // of kept sums 0
-  std::uint32_t kept;
+  std::uint32_t kept_bits;
 };
-static_assert(sizeof(BlockEntry) == 32 && offsetof(BlockEntry, kept) == 28);
+static_assert(sizeof(BlockEntry) == 32 && offsetof(BlockEntry, kept_bits) == 28);
 
 // What one launch of kernels/expose.cl is, beside its buffers. Mirrors ExposeLaunch in kernels/layout.clh.
 struct ExposeLaunch {
@@ -44,8 +44,8 @@ static_assert(kBlockAlignment == 64 && kTilePixels == 64);
 // In function_of_tile: the tile's pixels have several functions.
 inline constexpr std::uint16_t kMixedFunctions = 0xFFFF;
 
-// What brings the sums of one function onto the scale of the thresholds. Mirrors LightScale in
-// kernels/floating.clh and kernels/compensated.clh …
+// What brings the sums of one function onto the scale of the thresholds. Mirrors LightScale in kernels/floating.clh and
+// kernels/compensated.clh.
 template <typename Real>
 struct LightScale {
   Real first;
@@ -54,7 +54,7 @@ struct LightScale {
 static_assert(sizeof(LightScale<float>) == 2 * sizeof(float) &&
               sizeof(LightScale<double>) == 2 * sizeof(double));
 
-// … and in kernels/fixed.clh.
+// The same of whole numbers. Mirrors LightScale in kernels/fixed.clh.
 struct FixedLightScale {
   std::uint32_t left;
   std::uint32_t right;

@@ -7,7 +7,7 @@
 
 #include "capture/picture.hpp"
 #include "capture/transfer.hpp"
-#include "opencl/opencl_renderer.hpp"
+#include "render/precision.hpp"
 
 namespace nutik {
 

@@ -62,7 +62,7 @@ WantsTiles NeededTiles::of(const PlannedBlock& planned) const {
   }
   return [this, live = live_in(planned)](std::uint64_t first, std::uint64_t last) {
     const auto tiles = std::span(functions()).subspan(first, last - first);
-    return std::ranges::any_of(tiles, [&](std::uint16_t function) { return is_read(function, live); });
+    return std::ranges::any_of(tiles, [&](std::uint32_t function) { return is_read(function, live); });
   };
 }
 

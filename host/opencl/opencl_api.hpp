@@ -1,4 +1,5 @@
-// The OpenCL C++ bindings, included the same way everywhere in this room and nowhere else.
+// The OpenCL C++ bindings, included the same way everywhere in this room and nowhere else, with what the room says
+// through them: errors as sentences, devices, the arguments of kernels, work-items, times.
 #pragma once
 
 #define CL_HPP_ENABLE_EXCEPTIONS

@@ -12,17 +12,17 @@
 #include "opencl/arithmetic_choice.hpp"
 #include "opencl/block_feed.hpp"
 #include "opencl/cache_folder.hpp"
-#include "opencl/sample_combiner.hpp"
 #include "opencl/developer.hpp"
+#include "opencl/device_lookups.hpp"
 #include "opencl/device_memory.hpp"
-#include "opencl/device_tables.hpp"
 #include "opencl/exposer.hpp"
-#include "opencl/kernel_constants.hpp"
+#include "opencl/gain_columns.hpp"
 #include "opencl/kernel_sources.hpp"
 #include "opencl/light_source.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/program_store.hpp"
 #include "opencl/render_memory.hpp"
+#include "opencl/sample_combiner.hpp"
 #include "opencl/self_test.hpp"
 #include "render/combining_renderer.hpp"
 
@@ -80,8 +80,8 @@ class OpenClRenderer::Implementation {
     context_ = cl::Context(device_);
     queue_ = cl::CommandQueue(context_, device_, CL_QUEUE_PROFILING_ENABLE);
     feed_ = std::make_unique<BlockFeed>(context_, device_, info_);
-    tables_ = std::make_unique<DeviceTables>(queue_, table_bytes());
-    constants_ = std::make_unique<KernelConstants>(table_bytes());
+    columns_ = std::make_unique<GainColumns>(queue_, table_bytes());
+    lookups_ = std::make_unique<DeviceLookups>(table_bytes());
     programs_ = std::make_unique<ProgramStore>(context_, device_, options.cache_folder, [this](auto&) {
       if (announced_ || !options_.announce) return;
       announced_ = true;
@@ -113,8 +113,7 @@ class OpenClRenderer::Implementation {
 
   Rendered render(const Request& request) {
     if (request.plan.combine != Combine::integral) return combine(request);
-    const std::optional<Precision> asked =
-        request.control.precision ? request.control.precision : options_.precision;
+    const std::optional<Precision> asked = request.control.precision ? request.control.precision : options_.precision;
     if (asked) check_precision(*asked);
     return in_turn([&] {
       Rendered rendered;
@@ -155,8 +154,7 @@ class OpenClRenderer::Implementation {
   }
 
   [[nodiscard]] std::uint64_t memory_bytes() const {
-    return std::min(options_.memory_bytes != 0 ? options_.memory_bytes : kDefaultMemoryBytes,
-                    info_.memory_bytes / 2);
+    return std::min(options_.memory_bytes != 0 ? options_.memory_bytes : kDefaultMemoryBytes, info_.memory_bytes / 2);
   }
   // What tables may take on the device between renders, and maps as much.
   [[nodiscard]] std::uint64_t table_bytes() const { return memory_bytes() / 16; }
@@ -164,10 +162,10 @@ class OpenClRenderer::Implementation {
   [[nodiscard]] RenderMemory memory_for(const Request& request, Precision precision) const {
     const Shape shape{request.rectangle.width, request.rectangle.height, request.plan.capture.shape.channels};
     const std::uint64_t allowed = request.control.memory_bytes;
-    RenderMemory memory =
-        allowed == 0 ? memory_for_blocks(memory_bytes())
-                     : memory_for_render(std::min(allowed, std::max(memory_bytes(), info_.memory_bytes / 2)),
-                                         request.plan, request.source, shape, request.output.type, precision);
+    RenderMemory memory = allowed == 0
+                              ? memory_for_blocks(memory_bytes())
+                              : memory_for_render(std::min(allowed, std::max(memory_bytes(), info_.memory_bytes / 2)),
+                                                  request.plan, request.source, shape, request.output.type, precision);
     if (options_.chunk_bytes != 0) memory.feed.chunk_bytes = options_.chunk_bytes;
     return memory;
   }
@@ -187,12 +185,12 @@ class OpenClRenderer::Implementation {
   }
 
   std::string fault_text_of(Precision precision, const RenderPlan& plan, const OutputFormat& output) {
-    const Verdict verdict = verdict_on(precision, plan, output);
+    const Verdict verdict = verdict_of_exposing(precision, plan, output);
     return verdict.is_right ? std::string() : fault_text(verdict);
   }
 
   // On the programs that a picture is made with, which are built here if need be.
-  Verdict verdict_on(Precision precision, const RenderPlan& plan, const OutputFormat& output) {
+  Verdict verdict_of_exposing(Precision precision, const RenderPlan& plan, const OutputFormat& output) {
     const Work work = work_for(precision);
     const cl::Program develop = develop_program(work, plan, output);
     if (plan.blocks.empty()) return {};  // nothing is computed
@@ -200,10 +198,11 @@ class OpenClRenderer::Implementation {
     const DeviceLight& light = light_of(work, plan, memory);
     expose_program(work, plan, light);
     if (!options_.tests_itself) return {};
-    const TestedPrograms programs{precision, options_of_exposing(work, plan, light),
-                                  options_of_developing(work, plan, output),
-                                  kernels_make_codes(plan.capture, output)};
-    return verdict_on(programs, [&] {
+    const TestedPrograms tested{
+        precision,
+        {{"expose", options_of_exposing(work, plan, light)}, {"develop", options_of_developing(work, plan, output)}},
+        kernels_make_codes(plan.capture, output) ? "codes" : "light"};
+    return known_or_tested(tested, [&] {
       return self_test(plan.capture, precision, output, {!plan.map->mixed.empty(), plan.map->has_delays()},
                        [&](const RenderPlan& scene, CaptureSource& source, const OutputFormat& format) {
                          const Rectangle whole = Rectangle::whole(scene.capture.shape);
@@ -215,21 +214,18 @@ class OpenClRenderer::Implementation {
   }
 
   template <typename Test>
-  Verdict verdict_on(const TestedPrograms& programs, Test test) {
-    const std::string key = programs.text();
-    if (const auto known = verdict_on_.find(key); known != verdict_on_.end()) return known->second;
+  Verdict known_or_tested(const TestedPrograms& tested, Test test) {
+    const std::string key = tested.text();
+    if (const auto known = known_verdicts_.find(key); known != known_verdicts_.end()) return known->second;
+    const auto was_built = [&](const auto& each) { return programs_->was_built(each.name, each.options); };
     std::optional<Verdict> verdict;
-    if (!programs_->was_built("expose", programs.expose_options) &&
-        !programs_->was_built("combine", programs.expose_options) &&
-        !programs_->was_built("develop", programs.develop_options)) {
-      verdict = verdicts_.find(programs);
-    }
+    if (std::ranges::none_of(tested.programs, was_built)) verdict = verdicts_.find(tested);
     if (!verdict) {
       verdict = test();
       programs_->save_new_binaries();
-      verdicts_.keep(programs, *verdict);
+      verdicts_.keep(tested, *verdict);
     }
-    return verdict_on_.emplace(key, *verdict).first->second;
+    return known_verdicts_.emplace(key, *verdict).first->second;
   }
 
   // The middle one needs all samples of a pixel side by side: the processor has them there.
@@ -243,25 +239,20 @@ class OpenClRenderer::Implementation {
     return in_turn([&] {
       const SampleCombiner combining(request.plan, sample_gains(request.plan, request.source.timeline()));
       if (combining.scales() && !info_.has_double && !combining.has_normal_products()) return by_processor();
-      const Verdict verdict = verdict_on(combining, request.plan);
+      const Verdict verdict = verdict_of_combining(combining, request.plan);
       if (!verdict.is_right && !request.control.takes_wrong) {
         Rendered rendered = by_processor();
-        rendered.warnings.push_back(format("{} combines light wrongly (self-test: {}): the processor did it",
-                                           info_.name, fault_text(verdict)));
+        rendered.warnings.push_back(
+            format("{} combines light wrongly (self-test: {}): the processor did it", info_.name, fault_text(verdict)));
         return rendered;
       }
       Rendered rendered;
       rendered.precision = Precision::double_;
       rendered.passed_self_test = verdict.is_right;
-      combine(combining, request, rendered);
+      combine_and_develop(combining, request, rendered);
       programs_->save_new_binaries();
       return rendered;
     });
-  }
-
-  [[nodiscard]] Work work_for(const SampleCombiner& combining) const {
-    if (!combining.scales()) return work_for(Precision::single_);
-    return work_for(info_.has_double ? Precision::double_ : Precision::fixed);
   }
 
   [[nodiscard]] std::string options_of_combining(const Work& work, const RenderPlan& plan,
@@ -270,100 +261,107 @@ class OpenClRenderer::Implementation {
            fault_of(work.precision);
   }
 
-  Verdict verdict_on(const SampleCombiner& combining, const RenderPlan& plan) {
+  Verdict verdict_of_combining(const SampleCombiner& combining, const RenderPlan& plan) {
     if (!options_.tests_itself) return {};
-    const Work work = work_for(combining);
-    return verdict_on({work.precision, options_of_combining(work, plan, combining), "combine", false}, [&] {
-      return self_test_combining(plan, combining.scales(), [&](const RenderPlan& scene, CaptureSource& source,
-                                                               const OutputFormat& format) {
-        const Rectangle whole = Rectangle::whole(scene.capture.shape);
-        Rendered rendered;
-        combine(SampleCombiner(scene, sample_gains(scene, source.timeline())), {scene, source, format, whole, {}},
-                rendered);
-        return std::move(rendered.picture);
-      });
+    const Work work = work_for(combining.precision_on(info_));
+    const TestedPrograms tested{
+        work.precision, {{"combine", options_of_combining(work, plan, combining)}}, "combined light"};
+    return known_or_tested(tested, [&] {
+      return self_test_combining(plan, combining.scales(),
+                                 [&](const RenderPlan& scene, CaptureSource& source, const OutputFormat& format) {
+                                   const Rectangle whole = Rectangle::whole(scene.capture.shape);
+                                   Rendered rendered;
+                                   combine_and_develop(SampleCombiner(scene, sample_gains(scene, source.timeline())),
+                                                       {scene, source, format, whole, {}}, rendered);
+                                   return std::move(rendered.picture);
+                                 });
     });
   }
 
-  void combine(const SampleCombiner& combining, const Request& request, Rendered& rendered) {
+  void combine_and_develop(const SampleCombiner& combining, const Request& request, Rendered& rendered) {
     const RenderPlan& plan = request.plan;
-    const Work work = work_for(combining);
+    const Work work = work_for(combining.precision_on(info_));
     DeviceMemory memory(context_, info_);
     std::vector<ExposedBand> bands = bands_of(work, request, memory, rendered.statistics);
     const RenderMemory shares = memory_for(request, work.precision);
     const cl::Buffer light = memory.upload(combining.light());
-    CombineKernel kernel(
-        cl::Kernel(programs_->get("combine", kernel_source("combine"), options_of_combining(work, plan, combining)),
-                   "combine"));
-    std::uint32_t rows = 0;
-    const BlockKernel over_blocks{
-        combining.slices(info_, shares.slice_bytes),
-        [&](const TableSlice& slice) {
-          rows = combining.rows(slice);
-          return combining.tables(slice, memory);
-        },
-        [&](const cl::Buffer& chunk, const cl::Buffer& entries, const SliceTables& tables, const ExposedBand& band,
-            const ExposeLaunch& launch) {
-          return kernel(items(kernel, queue_, work.shape, launch.tile_count), chunk, entries, tables.parts,
-                        tables.gains, light, band.map.tiles, band.map.of_tile, band.map.of_lane, band.sums, rows,
-                        launch);
-        }};
-    const std::vector<std::uint8_t> every = every_function(plan);
+    CombineKernel kernel(cl::Kernel(
+        programs_->get("combine", kernel_source("combine"), options_of_combining(work, plan, combining)), "combine"));
+    BlockKernel over_blocks{combining.slices(info_, shares.slice_bytes)};
+    over_blocks.tables = [&](const TableSlice& slice) { return combining.tables(slice, memory); };
+    over_blocks.launch = [&](const cl::Buffer& chunk, const cl::Buffer& entries, const SliceTables& tables,
+                             const ExposedBand& band, const ExposeLaunch& launch) {
+      return kernel(items(kernel, queue_, work.shape, launch.tile_count), chunk, entries, tables.parts, tables.gains,
+                    light, band.map.tiles, band.map.of_tile, band.map.of_lane, band.sums, tables.gain_rows, launch);
+    };
     rendered.picture = Picture({request.rectangle.width, request.rectangle.height, plan.capture.shape.channels},
                                request.output.type, request.output.white_code);
     const CombinedPicture to{request.output, request.rectangle, rendered.picture, rendered.saturation};
-    Exposer({info_, queue_, *feed_, options_.last_block_first}, work, {plan, {}, every}, request.source, shares,
-            over_blocks, memory, rendered.statistics)
-        .expose(bands, request.control, [&](const ExposedBand& band) { combining.develop(band, queue_, to); });
+    Exposer exposer(device(), work, {plan, {}, every_function(plan)}, request.source, shares, std::move(over_blocks),
+                    memory, rendered.statistics);
+    exposer.expose(bands, request.control, [&](const ExposedBand& band) { combining.develop(band, queue_, to); });
     rendered.statistics.device_bytes = memory.max_bytes();
   }
 
-  void expose_and_develop(const Work& work, const Request& request, const cl::Program& develop,
-                          Rendered& rendered) {
+  [[nodiscard]] ExposingDevice device() { return {info_, queue_, *feed_, options_.last_block_first}; }
+
+  // What the exposures for a picture have in common: of its plan, and of light that is kept for it.
+  struct Exposing {
+    const Work& work;
+    const Request& request;
+    const DeviceLight& light;
+    const RenderMemory& shares;
+    DeviceMemory& memory;
+    RenderStatistics& statistics;
+  };
+
+  void expose(const Exposing& in, const ExposedPlan& what, std::span<ExposedBand> bands,
+              const Exposer::Develop& develop) {
+    RenderControl control = in.request.control;
+    if (&what.plan != &in.request.plan) control.progress = {};  // sums that are made to be kept
+    ExposeKernel kernel(cl::Kernel(expose_program(in.work, what.plan, in.light), "expose"));
+    // Every argument is a buffer, though it may not be read.
+    const cl::Buffer exposes = in.memory.upload(what.exposes);
+    const cl::Buffer& kept = what.kept.entries.empty() ? in.light.values : what.kept.sums;
+    BlockKernel over_blocks{cut_tables(what.plan, TableNumbers::of(in.work.precision), info_, in.shares.slice_bytes)};
+    over_blocks.tables = [&](const TableSlice& slice) {
+      return columns_->slice(what.plan, slice, in.work.precision, in.work.shape.table_rows(), in.memory,
+                             in.statistics.table_bytes_written, control.stop);
+    };
+    over_blocks.launch = [&](const cl::Buffer& chunk, const cl::Buffer& entries, const SliceTables& tables,
+                             const ExposedBand& band, const ExposeLaunch& launch) {
+      return kernel(items(kernel, queue_, in.work.shape, launch.tile_count), chunk, entries, tables.parts, tables.gains,
+                    tables.weights, tables.boundaries, band.map.tiles, band.map.of_tile, band.map.of_lane, exposes,
+                    in.light.values, kept, band.bundles, band.sums, launch);
+    };
+    Exposer exposer(device(), in.work, what, in.request.source, in.shares, std::move(over_blocks), in.memory,
+                    in.statistics);
+    exposer.expose(bands, control, develop);
+  }
+
+  void expose_and_develop(const Work& work, const Request& request, const cl::Program& develop, Rendered& rendered) {
     const RenderPlan& plan = request.plan;
     DeviceMemory memory(context_, info_);
     std::vector<ExposedBand> bands = bands_of(work, request, memory, rendered.statistics);
-    Developer developer(work, plan, request.output, request.rectangle, develop, queue_, *constants_, memory);
+    Developer developer(work, plan, request.output, request.rectangle, develop, queue_, *lookups_, memory);
     const auto develop_band = [&](const ExposedBand& exposed) { developer.develop(exposed); };
     if (plan.blocks.empty()) {
       develop_dark(work, plan, bands, memory, develop_band);
     } else {
-      const DeviceLight& light = light_of(work, plan, memory);
       const RenderMemory shares = memory_for(request, work.precision);
-      const ExposingDevice device{info_, queue_, *feed_, options_.last_block_first};
-      const auto expose = [&](const ExposedPlan& what, std::span<ExposedBand> exposed,
-                              const Exposer::Develop& done) {
-        RenderControl control = request.control;
-        if (&what.plan != &plan) control.progress = {};  // sums that are made to be kept
-        ExposeKernel kernel(cl::Kernel(expose_program(work, what.plan, light), "expose"));
-        // Every argument is a buffer, though it may not be read.
-        const cl::Buffer exposes = memory.upload(what.exposes);
-        const cl::Buffer& kept = what.kept.entries.empty() ? light.values : what.kept.sums;
-        const BlockKernel over_blocks{
-            cut_tables(what.plan, work.precision, info_, shares.slice_bytes),
-            [&](const TableSlice& slice) {
-              return tables_->slice(what.plan, slice, work.precision, work.shape.table_rows(), memory,
-                                    rendered.statistics.table_bytes_written, control.stop);
-            },
-            [&](const cl::Buffer& chunk, const cl::Buffer& entries, const SliceTables& tables,
-                const ExposedBand& band, const ExposeLaunch& launch) {
-              return kernel(items(kernel, queue_, work.shape, launch.tile_count), chunk, entries, tables.parts,
-                            tables.gains, tables.weights, tables.boundaries, band.map.tiles, band.map.of_tile,
-                            band.map.of_lane, exposes, light.values, kept, band.bundles, band.sums, launch);
-            }};
-        Exposer(device, work, what, request.source, shares, over_blocks, memory, rendered.statistics)
-            .expose(exposed, control, done);
-      };
+      const Exposing in{work, request, light_of(work, plan, memory), shares, memory, rendered.statistics};
+      const auto expose_in = [&](const ExposedPlan& what, std::span<ExposedBand> exposed,
+                                 const Exposer::Develop& done) { expose(in, what, exposed, done); };
       if (&request.source == resident_) {
         const auto whole_picture = [&](const RenderPlan& of_light) {
           const Rectangle whole = Rectangle::whole(of_light.capture.shape);
           return bands_of(work, {of_light, request.source, request.output, whole, request.control}, memory,
                           rendered.statistics);
         };
-        incremental_.expose({expose, whole_picture, info_, queue_, memory, rendered.statistics}, plan,
+        incremental_.expose({expose_in, whole_picture, info_, queue_, memory, rendered.statistics}, plan,
                             request.source, work.precision, shares, bands, develop_band);
       } else {
-        expose({plan, {}, every_function(plan)}, bands, develop_band);
+        expose_in({plan, {}, every_function(plan)}, bands, develop_band);
       }
     }
     rendered.picture = developer.take_picture();
@@ -373,12 +371,11 @@ class OpenClRenderer::Implementation {
   }
 
   // Sums of nothing are 0 in every arithmetic.
-  void develop_dark(const Work& work, const RenderPlan& plan, std::span<ExposedBand> bands,
-                    DeviceMemory& memory, const Exposer::Develop& develop) {
+  void develop_dark(const Work& work, const RenderPlan& plan, std::span<ExposedBand> bands, DeviceMemory& memory,
+                    const Exposer::Develop& develop) {
     for (ExposedBand& each : bands) {
       const DeviceMemory::Scope scope(memory);
-      const std::uint64_t bytes =
-          sums_bytes(each.band.sum_tiles, plan.capture.shape.channels, work.precision);
+      const std::uint64_t bytes = sums_bytes(each.band.sum_tiles, plan.capture.shape.channels, work.precision);
       each.sums = memory.allocate(bytes, CL_MEM_READ_WRITE);
       queue_.enqueueFillBuffer(each.sums, std::uint8_t{0}, 0, bytes);
       develop(each);
@@ -387,17 +384,16 @@ class OpenClRenderer::Implementation {
   }
 
   [[nodiscard]] Work work_for(Precision precision) const {
-    return {precision, work_shape(options_, precision, info_),
-            options_.use_fma && has_fma(device_, precision)};
+    return {precision, work_shape(options_, precision, info_), options_.use_fma && has_fma(device_, precision)};
   }
 
   const DeviceLight& light_of(const Work& work, const RenderPlan& plan, DeviceMemory& memory) {
-    const bool permutes = work.shape.lanes == kLightPieces &&
-                          options_.permutes_pieces.value_or(info_.native_float_lanes >= kLightPieces);
+    const bool permutes =
+        work.shape.lanes == kLightPieces && options_.permutes_pieces.value_or(info_.native_float_lanes >= kLightPieces);
     const bool has_copies = work.shape.table_copies > 0;
     const bool looks_up_bytes = options_.looks_up_bytes.value_or(info_.permutes_bytes) && work.has_fma &&
                                 work.shape.lanes == 16 && work.shape.item_pixels == kTilePixels && !has_copies;
-    return constants_->light(plan, work.precision, {permutes, has_copies, looks_up_bytes}, memory);
+    return lookups_->light(plan, work.precision, {permutes, has_copies, looks_up_bytes}, memory);
   }
 
   [[nodiscard]] std::string fault_of(Precision precision) const {
@@ -431,7 +427,7 @@ class OpenClRenderer::Implementation {
     std::vector<ExposedBand> bands;
     for (const Band& band : cut_picture(request.plan.capture.shape, request.rectangle, work.precision, info_,
                                         kBandBytes, request.plan.map->mixed_tiles)) {
-      const DeviceMap& map = constants_->map(request.plan.map, band, memory, statistics.map_bytes_written);
+      const DeviceMap& map = lookups_->map(request.plan.map, band, memory, statistics.map_bytes_written);
       bands.push_back({band, map, {}, {}});
     }
     return bands;
@@ -444,13 +440,13 @@ class OpenClRenderer::Implementation {
   cl::CommandQueue queue_;
   std::unique_ptr<ProgramStore> programs_;
   VerdictStore verdicts_;
-  std::map<std::string, Verdict> verdict_on_;  // by TestedPrograms::text()
+  std::map<std::string, Verdict> known_verdicts_;  // by TestedPrograms::text()
   bool announced_ = false;
   std::unique_ptr<BlockFeed> feed_;
   const CaptureSource* resident_ = nullptr;
   IncrementalExposer incremental_;
-  std::unique_ptr<DeviceTables> tables_;
-  std::unique_ptr<KernelConstants> constants_;
+  std::unique_ptr<GainColumns> columns_;
+  std::unique_ptr<DeviceLookups> lookups_;
   std::mutex turn_;  // at the device: all that follows from a plan's choice of arithmetic on
 };
 
@@ -468,9 +464,8 @@ void OpenClRenderer::prepare(const RenderPlan& plan, const OutputFormat& output)
   implementation_->prepare(plan, output);
 }
 
-Rendered OpenClRenderer::render_part(const RenderPlan& plan, CaptureSource& source,
-                                     const OutputFormat& output, const Rectangle& rectangle,
-                                     const RenderControl& control) {
+Rendered OpenClRenderer::render_part(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output,
+                                     const Rectangle& rectangle, const RenderControl& control) {
   return implementation_->render({plan, source, output, rectangle, control});
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <sstream>
+#include <string_view>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -13,9 +14,9 @@
 namespace nutik {
 namespace {
 
-// Counts the scenes: what they hold is part of what was tested.
+// The first line of a verdict's file, which counts the scenes: what they hold is part of what was tested.
 constexpr std::string_view kVerdictMagic = "nutik-cl self-test 1\n";
-constexpr std::string_view kPrefix = "self-test-";
+constexpr std::string_view kPrefix = "self-test-";  // of its name
 
 std::string verdict_line(Precision precision, const Verdict& verdict) {
   return format("{} {} {:.17g} {:.17g} {} {}\n", to_text(precision), verdict.is_right ? "right" : "wrong",

@@ -1,7 +1,4 @@
-// Builds OpenCL programs and keeps their binaries, so that a kernel is compiled once on a machine.
-//
-// A cached binary is used only where source, options, device and driver are the very ones it was built
-// with: its file holds them in full and they are compared. A damaged or foreign file is rebuilt.
+// The kernels' programs: each is compiled once on a machine, and tested once.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include "opencl/opencl_api.hpp"
 #include "opencl/self_test.hpp"
@@ -19,20 +16,24 @@ namespace nutik {
 
 // What a picture is made with.
 struct TestedPrograms {
+  struct Program {
+    std::string name, options;
+  };
   Precision precision;
-  std::string expose_options;
-  std::string develop_options;
-  bool make_codes;  // else light only
+  std::vector<Program> programs;
+  std::string made;  // by them: `codes`, `light`, `combined light`
 
   [[nodiscard]] std::string text() const {
-    return expose_options + '\n' + develop_options + (make_codes ? "\ncodes\n" : "\nlight\n");
+    std::string text;
+    for (const Program& each : programs) text += each.options + '\n';
+    return text + made + '\n';
   }
 };
 
 // Keeps the verdicts of self-tests beside the binaries of kernels.
 //
-//   in:      a device, the folder of its binaries, the options that a pair of programs was built with
-//   out:     the verdict on this pair, if it was tested before
+//   in:      a device, the folder of its binaries, the options that programs were built with
+//   out:     the verdict on them, if they were tested before
 //   always:  a verdict is used only if device, driver, sources and options are the very ones that were tested. It is
 //            as old as the binaries: whoever builds one of them anew does not ask for it, and replaces it
 class VerdictStore {
@@ -54,6 +55,10 @@ class VerdictStore {
   std::filesystem::path folder_;
 };
 
+// Builds programs and keeps their binaries.
+//
+//   always:  a cached binary is used only where source, options, device and driver are the very ones it was built with:
+//            its file holds them in full and they are compared. A damaged or foreign file is rebuilt
 class ProgramStore {
  public:
   using Announce = std::function<void(const std::string&)>;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "imev/tile.hpp"
-#include "opencl/kernel_tables.hpp"
+#include "opencl/kernel_numbers.hpp"
 #include "opencl/work_shape.hpp"
 #include "render/picture_memory.hpp"
 

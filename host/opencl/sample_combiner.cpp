@@ -77,14 +77,14 @@ std::string SampleCombiner::options() const {
   return format(" -DNUTIK_DARKENS={:d} -DNUTIK_SCALES={:d}", plan_.combine == Combine::darken, scales_);
 }
 
-std::vector<TableSlice> SampleCombiner::slices(DeviceInfo device, std::uint64_t max_bytes) const {
-  device.largest_allocation_bytes /= levels_;
-  return cut_tables(plan_, Precision::fixed, device, std::min(max_bytes, kMaxTableBytes) / levels_);
+std::vector<TableSlice> SampleCombiner::slices(const DeviceInfo& device, std::uint64_t max_bytes) const {
+  return cut_tables(plan_, {sizeof(double), false, levels_}, device, std::min(max_bytes, kMaxTableBytes));
 }
 
 SliceTables SampleCombiner::tables(const TableSlice& slice, DeviceMemory& memory) const {
   const std::size_t functions = gains_.size();
-  const std::size_t level_size = scales_ ? rows(slice) * functions : 1;
+  const auto rows = static_cast<std::uint32_t>(slice.last_row - slice.first_row);
+  const std::size_t level_size = scales_ ? rows * functions : 1;
   std::vector<BlockPart> parts;
   std::vector<double> gains(levels_ * level_size, nothing(plan_));
   for (std::size_t b = slice.first_block; b < slice.last_block; ++b) {
@@ -111,7 +111,7 @@ SliceTables SampleCombiner::tables(const TableSlice& slice, DeviceMemory& memory
       gains[level * level_size + i] = darkens ? std::min(first, second) : std::max(first, second);
     }
   }
-  return {{}, {}, memory.upload(parts), memory.upload(gains)};
+  return {{}, {}, memory.upload(parts), memory.upload(gains), rows};
 }
 
 // The light of a part of the picture.

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "opencl/developer.hpp"
-#include "opencl/device_tables.hpp"
+#include "opencl/gain_columns.hpp"
 #include "render/combining_renderer.hpp"
 
 namespace nutik {
@@ -35,15 +35,17 @@ class SampleCombiner {
   // Whether products are right without double, too: none is subnormal.
   [[nodiscard]] bool has_normal_products() const;
 
+  // What a device compares in: codes, doubles, or the bits of doubles as whole numbers.
+  [[nodiscard]] Precision precision_on(const DeviceInfo& device) const {
+    if (!scales_) return Precision::single_;
+    return device.has_double ? Precision::double_ : Precision::fixed;
+  }
+
   // Beside expose_options().
   [[nodiscard]] std::string options() const;
-  [[nodiscard]] std::vector<TableSlice> slices(DeviceInfo device, std::uint64_t max_bytes) const;
+  [[nodiscard]] std::vector<TableSlice> slices(const DeviceInfo& device, std::uint64_t max_bytes) const;
   // Without weights and boundaries.
   [[nodiscard]] SliceTables tables(const TableSlice& slice, DeviceMemory& memory) const;
-  // Rows of gains of a slice, in each level.
-  [[nodiscard]] std::uint32_t rows(const TableSlice& slice) const {
-    return static_cast<std::uint32_t>(slice.last_row - slice.first_row);
-  }
   // The light of each code; where nothing is scaled, one that is not read.
   [[nodiscard]] std::span<const double> light() const { return std::span(light_).first(scales_ ? light_.size() : 1); }
 

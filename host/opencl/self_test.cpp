@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "capture/format.hpp"
-#include "opencl/kernel_tables.hpp"
+#include "opencl/kernel_numbers.hpp"
 #include "render/combining_renderer.hpp"
 #include "render/picture_errors.hpp"
 #include "render/reference_renderer.hpp"

@@ -5,6 +5,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "opencl/opencl_renderer.hpp"
 
 namespace nutik {
 namespace {

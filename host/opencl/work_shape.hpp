@@ -9,9 +9,11 @@
 
 #include "imev/tile.hpp"
 #include "opencl/device.hpp"
-#include "opencl/opencl_renderer.hpp"
+#include "render/precision.hpp"
 
 namespace nutik {
+
+struct OpenClOptions;
 
 struct WorkShape {
   std::uint32_t item_pixels;  // of a tile

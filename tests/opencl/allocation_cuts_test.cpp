@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "opencl/kernel_layout.hpp"
-#include "opencl/kernel_tables.hpp"
+#include "opencl/kernel_numbers.hpp"
 #include "opencl/work_shape.hpp"
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
@@ -94,7 +94,7 @@ TEST(AllocationCuts, SlicesHoldEveryBlockOnce) {
       for (const std::uint64_t limit : {smallest, 2 * smallest + 1, 5 * smallest, std::uint64_t{1} << 40}) {
         std::size_t block = 0;
         std::uint64_t row = 0;
-        for (const TableSlice& slice : cut_tables(plan, precision, device_allocating(limit))) {
+        for (const TableSlice& slice : cut_tables(plan, TableNumbers::of(precision), device_allocating(limit))) {
           ASSERT_EQ(slice.first_block, block) << random.text();
           ASSERT_EQ(slice.first_row, row) << random.text();
           ASSERT_LT(slice.first_block, slice.last_block) << random.text();

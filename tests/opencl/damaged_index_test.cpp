@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "opencl/kernel_constants.hpp"
+#include "opencl/build_options.hpp"
 #include "opencl/kernel_layout.hpp"
 #include "opencl/kernel_sources.hpp"
 #include "opencl/opencl_api.hpp"

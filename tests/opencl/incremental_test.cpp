@@ -1,7 +1,7 @@
 // What is on the device from the render before is not written again, and no picture shows that it was not.
 #include <gtest/gtest.h>
 
-#include "opencl/kernel_tables.hpp"
+#include "opencl/kernel_numbers.hpp"
 #include "opencl/work_shape.hpp"
 #include "render/plan_cache.hpp"
 #include "support/random_case.hpp"

@@ -9,7 +9,7 @@
 
 #include "capture/memory_needs.hpp"
 #include "opencl/band_split.hpp"
-#include "opencl/kernel_tables.hpp"
+#include "opencl/kernel_numbers.hpp"
 #include "support/random_case.hpp"
 
 namespace nutik::test {

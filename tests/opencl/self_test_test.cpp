@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "opencl/kernel_constants.hpp"
+#include "opencl/build_options.hpp"
 #include "opencl/opencl_renderer.hpp"
 #include "render/reference_renderer.hpp"
 #include "support/messages.hpp"

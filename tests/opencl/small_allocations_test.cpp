@@ -6,7 +6,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "opencl/allocation_cuts.hpp"
-#include "opencl/kernel_tables.hpp"
+#include "opencl/kernel_numbers.hpp"
 #include "opencl/opencl_renderer.hpp"
 #include "opencl/work_shape.hpp"
 #include "support/messages.hpp"
@@ -140,7 +140,7 @@ TEST_P(SmallAllocations, GiveTheSamePictures) {
       const std::uint64_t bands =
           cut_picture(plan.capture.shape, Rectangle::whole(plan.capture.shape), GetParam(), device_allocating(limit))
               .size();
-      const std::uint64_t slices = cut_tables(plan, GetParam(), device_allocating(limit)).size();
+      const std::uint64_t slices = cut_tables(plan, TableNumbers::of(GetParam()), device_allocating(limit)).size();
       const std::string what = nutik::format("{}, blocks of {}, {} bytes at a time, {} bands, {} slices",
                                              to_text(policy), block_samples, limit, bands, slices);
       SCOPED_TRACE(what);

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "capture/format.hpp"
-#include "opencl/kernel_constants.hpp"
+#include "opencl/build_options.hpp"
 #include "opencl/kernel_layout.hpp"
 #include "render/fixed_scale.hpp"
 #include "support/precision_check.hpp"

@@ -6,41 +6,18 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "opencl/allocation_cuts.hpp"
 #include "opencl/device_memory.hpp"
 #include "opencl/function_map.hpp"
-#include "opencl/kernel_tables.hpp"
+#include "opencl/kernel_numbers.hpp"
 #include "opencl/light_source.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/recent.hpp"
-#include "opencl/work_shape.hpp"
 #include "render/mask_map.hpp"
-#include "render/output_format.hpp"
 
 namespace nutik {
-
-// How one picture is computed.
-struct Work {
-  Precision precision;
-  WorkShape shape;
-  bool has_fma;  // in the reals of the precision
-};
-
-// The build-time constants of the kernels (kernels/*.cl) for one picture.
-//
-//   in:      how and from what a picture is computed
-//   out:     `-D NAME=value …`
-//   always:  all that the kernels need: one that is missing stops their build (#error)
-//
-// `has_delays`: where pixels have delays, so that there may be more functions than a byte counts.
-[[nodiscard]] std::string expose_options(const Work& work, const CaptureFormat& capture, const char* light_kind,
-                                         bool has_delays, bool has_byte_tables = false);
-// `blends`: where functions share pixels.
-[[nodiscard]] std::string develop_options(const Work& work, const CaptureFormat& capture,
-                                          const OutputFormat& output, bool blends, bool has_delays);
 
 // Light of a capture's codes.
 struct LightKey {
@@ -83,16 +60,15 @@ struct DeviceMap {
   [[nodiscard]] std::uint64_t bytes() const { return device_bytes; }
 };
 
-class KernelConstants {
+class DeviceLookups {
  public:
   // Maps of `max_map_bytes` are kept.
-  explicit KernelConstants(std::uint64_t max_map_bytes) : maps_(max_map_bytes) {}
+  explicit DeviceLookups(std::uint64_t max_map_bytes) : maps_(max_map_bytes) {}
 
   // `means` as for light_source(). What is returned counts in `memory`; it stays until the next of its kind
   // is asked for.
-  const DeviceLight& light(const RenderPlan& plan, Precision precision, const LightLookup& means,
-                           DeviceMemory& memory);
-  // Null where the codes lie too close together (code_search() in kernel_tables.cpp).
+  const DeviceLight& light(const RenderPlan& plan, Precision precision, const LightLookup& means, DeviceMemory& memory);
+  // Null where the codes lie too close together (code_search() in kernel_numbers.cpp).
   const DeviceCodes* codes(const CodeKey& key, DeviceMemory& memory);
   // Adds to `written_bytes` what had to be written.
   const DeviceMap& map(const std::shared_ptr<const MaskMap>& map, const Band& band, DeviceMemory& memory,

@@ -1,15 +1,11 @@
-#include "opencl/kernel_tables.hpp"
+#include "opencl/kernel_numbers.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
-#include <functional>
 #include <limits>
 
-#include "capture/picture.hpp"
 #include "render/fixed_scale.hpp"
-#include "system/parallel.hpp"
 
 namespace nutik {
 namespace {
@@ -47,9 +43,7 @@ std::optional<CodeSearch> code_search(std::vector<double> thresholds, double whi
     std::size_t code = 0;
     bool fits = true;
     for (std::uint32_t i = 0; i < steps && fits; ++i) {
-      const auto root_before = [&](std::size_t c) {
-        return std::sqrt(search.thresholds[c] / white_light) * steps;
-      };
+      const auto root_before = [&](std::size_t c) { return std::sqrt(search.thresholds[c] / white_light) * steps; };
       const double begin = i - slack * steps;
       const double end = i + 1 + slack * steps;
       while (code < white_code && root_before(code + 1) <= begin) ++code;
@@ -76,8 +70,6 @@ Bytes converted(const Values& values, Convert convert) {
   return bytes_of(result);
 }
 
-double value_of(const FloatPair& pair) { return static_cast<double>(pair.high) + pair.low; }
-
 // 2^exponent as two factors that are finite and not 0, each a number of `Real`. Exponents beyond what two hold
 // are cut: sums are scaled by them only to codes, which are black or white long before.
 template <typename Real>
@@ -94,9 +86,8 @@ double white_light_of(const Transfer& transfer, std::uint32_t white_code) {
 
 template <typename Real>
 Bytes floating_scales(const RenderPlan& plan) {
-  return converted<LightScale<Real>>(plan.functions, [](const PlannedFunction& function) {
-    return power_of_two<Real>(function.summary.exponent);
-  });
+  return converted<LightScale<Real>>(
+      plan.functions, [](const PlannedFunction& function) { return power_of_two<Real>(function.summary.exponent); });
 }
 
 // Onto the scale of the thresholds, or so many bits below it.
@@ -105,8 +96,8 @@ Bytes fixed_scales(const RenderPlan& plan, const FixedScale& scale, int bits_bel
   for (std::size_t f = 0; f < plan.functions.size(); ++f) {
     const int left =
         plan.functions[f].summary.exponent - scale.exponents[f] + kCodeBits - scale.light_bits - bits_below;
-    scales.push_back({static_cast<std::uint32_t>(std::clamp(left, 0, 63)),
-                      static_cast<std::uint32_t>(std::clamp(-left, 0, 63))});
+    scales.push_back(
+        {static_cast<std::uint32_t>(std::clamp(left, 0, 63)), static_cast<std::uint32_t>(std::clamp(-left, 0, 63))});
   }
   return bytes_of(scales);
 }
@@ -133,108 +124,9 @@ std::optional<CodeTables> fixed_code_tables(const CodeKey& key) {
   if (!search) return std::nullopt;
   search->thresholds.front() = key.white_light;
   search->thresholds.push_back(0x1p63);
-  return CodeTables{converted<std::uint64_t>(search->thresholds,
-                                             [](double value) { return static_cast<std::uint64_t>(value); }),
-                    std::move(search->guesses)};
-}
-
-// light = sum · factor · first · second
-struct Factors {
-  double factor;
-  LightScale<double> exponent;
-};
-
-std::vector<Factors> factors_of(const RenderPlan& plan, Precision precision) {
-  const FixedScale scale = precision == Precision::fixed ? fixed_scale(plan) : FixedScale{};
-  std::vector<Factors> factors;
-  for (std::size_t f = 0; f < plan.functions.size(); ++f) {
-    factors.push_back({precision == Precision::fixed
-                           ? scale.light_factor(f)
-                           : 1.0 / white_light_of(plan.capture.transfer, plan.capture.white_code),
-                       power_of_two<double>(plan.functions[f].summary.exponent)});
-  }
-  return factors;
-}
-
-double sum_at(std::span<const std::byte> raster, Precision precision, std::uint64_t value) {
-  const auto read = [&]<typename T>(T number) {
-    std::memcpy(&number, raster.data() + value * sizeof number, sizeof number);
-    return number;
-  };
-  switch (precision) {
-    case Precision::single_: return read(float{});
-    case Precision::compensated: return value_of(read(FloatPair{}));
-    case Precision::double_: return read(double{});
-    case Precision::fixed: return static_cast<double>(read(std::int64_t{}));
-  }
-  return 0.0;
-}
-
-// Value `at` of the first plane of sums by tiles, whose planes lie one behind the other.
-double tile_sum(std::span<const std::byte> sums, Precision precision, std::uint64_t at) {
-  if (precision != Precision::compensated) return sum_at(sums, precision, at);
-  return sum_at(sums, Precision::single_, at) + sum_at(sums, Precision::single_, at + kTilePixels);
-}
-
-template <typename Value>
-void store_as(const RenderPlan& plan, const Rectangle& rectangle, Precision precision,
-              std::span<const std::byte> raster, std::span<Value> values) {
-  const std::vector<Factors> factors = factors_of(plan, precision);
-  const std::uint32_t channels = plan.capture.shape.channels;
-  parallel_for(rectangle.height, [&](std::uint64_t row) {
-    const std::uint64_t first_pixel = (rectangle.y + row) * plan.capture.shape.width + rectangle.x;
-    std::uint64_t i = row * rectangle.width * channels;
-    for (std::uint32_t column = 0; column < rectangle.width; ++column) {
-      const Factors& light = factors[plan.map->region_at(first_pixel + column)];
-      for (std::uint32_t channel = 0; channel < channels; ++channel, ++i) {
-        values[i] = static_cast<Value>(sum_at(raster, precision, i) * light.factor * light.exponent.first *
-                                       light.exponent.second);
-      }
-    }
-  });
-}
-
-template <typename Value>
-void blend_as(const RenderPlan& plan, const FunctionMap& map, const TilesOfBand& tiles, Precision precision,
-              std::span<const std::byte> sums, const Rectangle& part, std::span<Value> values) {
-  constexpr std::size_t kTilesAtOnce = 64;
-  const std::vector<Factors> factors = factors_of(plan, precision);
-  const std::uint32_t channels = plan.capture.shape.channels;
-  const std::uint32_t plane_values = (precision == Precision::compensated ? 2 : 1) * kTilePixels;
-  const TileGrid grid(plan.capture.shape);
-  const std::uint32_t first_sums = map.first_of[tiles.first];
-  // A channel of a pixel, from the sums of one function.
-  const auto light_of = [&](std::uint32_t tile, std::uint32_t lane, std::uint32_t channel) {
-    const Factors& light = factors[map.of_lane[std::size_t{tile} * kTilePixels + lane]];
-    const std::uint64_t at = (std::uint64_t{tile - first_sums} * channels + channel) * plane_values + lane;
-    return tile_sum(sums, precision, at) * light.factor * light.exponent.first * light.exponent.second;
-  };
-  const auto blended = [&](std::uint32_t first, std::uint32_t last, std::uint32_t lane,
-                           std::uint32_t channel) {
-    if (last == first + 1) return light_of(first, lane, channel);
-    double sum = 0.0;
-    for (std::uint32_t tile = first; tile < last; ++tile) {
-      const std::uint16_t share = map.shares[std::size_t{tile} * kTilePixels + lane];
-      if (share == kWholeShare) return light_of(tile, lane, channel);
-      if (share != 0) sum += share * light_of(tile, lane, channel);
-    }
-    return sum / kWholeShare;
-  };
-  parallel_for_parts(tiles.last - tiles.first, kTilesAtOnce, [&](std::uint64_t from, std::uint64_t to) {
-    for (std::size_t tile = tiles.first + from; tile < tiles.first + to; ++tile) {
-      const std::uint32_t first = map.first_of[tile], last = map.first_of[tile + 1];
-      const std::uint32_t left = map.tiles[first] % grid.columns() * kTileSide;
-      const std::uint32_t top = map.tiles[first] / grid.columns() * kTileSide;
-      for (std::uint32_t lane = 0; lane < kTilePixels; ++lane) {
-        const std::uint32_t x = left + lane % kTileSide - part.x, y = top + lane / kTileSide - part.y;
-        if (x >= part.width || y >= part.height) continue;  // unsigned: also what lies before it
-        Value* const pixel = &values[(std::uint64_t{y} * part.width + x) * channels];
-        for (std::uint32_t channel = 0; channel < channels; ++channel) {
-          pixel[channel] = static_cast<Value>(blended(first, last, lane, channel));
-        }
-      }
-    }
-  });
+  return CodeTables{
+      converted<std::uint64_t>(search->thresholds, [](double value) { return static_cast<std::uint64_t>(value); }),
+      std::move(search->guesses)};
 }
 
 }  // namespace
@@ -246,8 +138,7 @@ FloatPair pair_of(double number) {
 
 Bytes numbers_of(std::span<const double> values, Precision precision) {
   switch (precision) {
-    case Precision::single_:
-      return converted<float>(values, [](double value) { return static_cast<float>(value); });
+    case Precision::single_: return converted<float>(values, [](double value) { return static_cast<float>(value); });
     case Precision::compensated: return converted<FloatPair>(values, pair_of);
     case Precision::double_:
     case Precision::fixed: break;
@@ -265,8 +156,8 @@ Bytes light_values(const LightSource& light, Precision precision, std::uint64_t 
     return bytes;
   }
   const auto white = static_cast<double>(white_light);
-  return converted<std::uint32_t>(
-      light.values, [&](double value) { return static_cast<std::uint32_t>(std::llrint(value * white)); });
+  return converted<std::uint32_t>(light.values,
+                                  [&](double value) { return static_cast<std::uint32_t>(std::llrint(value * white)); });
 }
 
 Bytes light_scales(const RenderPlan& plan, Precision precision) {
@@ -277,6 +168,18 @@ Bytes light_scales(const RenderPlan& plan, Precision precision) {
     case Precision::fixed: break;
   }
   return fixed_scales(plan, fixed_scale(plan), 0);
+}
+
+std::vector<LightFactors> light_factors(const RenderPlan& plan, Precision precision) {
+  const FixedScale scale = precision == Precision::fixed ? fixed_scale(plan) : FixedScale{};
+  std::vector<LightFactors> factors;
+  for (std::size_t f = 0; f < plan.functions.size(); ++f) {
+    factors.push_back({precision == Precision::fixed
+                           ? scale.light_factor(f)
+                           : 1.0 / white_light_of(plan.capture.transfer, plan.capture.white_code),
+                       power_of_two<double>(plan.functions[f].summary.exponent)});
+  }
+  return factors;
 }
 
 Bytes blend_scales(const RenderPlan& plan, Precision precision) {
@@ -322,25 +225,6 @@ Bytes code_limits(const CodeKey& key, const CodeScale& scale, const RenderPlan& 
     }
   }
   return numbers_of(limits, key.precision);
-}
-
-void store_light(const RenderPlan& plan, const Rectangle& rectangle, Precision precision,
-                 std::span<const std::byte> raster, Picture& picture) {
-  if (picture.type == ValueType::light32) {
-    store_as(plan, rectangle, precision, raster, picture.values<float>());
-  } else {
-    store_as(plan, rectangle, precision, raster, picture.values<double>());
-  }
-}
-
-void blend_light(const RenderPlan& plan, const FunctionMap& map, const TilesOfBand& tiles,
-                 Precision precision, std::span<const std::byte> sums, const Rectangle& part,
-                 Picture& picture) {
-  if (picture.type == ValueType::light32) {
-    blend_as(plan, map, tiles, precision, sums, part, picture.values<float>());
-  } else {
-    blend_as(plan, map, tiles, precision, sums, part, picture.values<double>());
-  }
 }
 
 }  // namespace nutik

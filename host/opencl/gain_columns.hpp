@@ -19,7 +19,7 @@
 
 #include "opencl/allocation_cuts.hpp"
 #include "opencl/device_memory.hpp"
-#include "opencl/kernel_tables.hpp"
+#include "opencl/kernel_numbers.hpp"
 #include "opencl/opencl_api.hpp"
 #include "opencl/recent.hpp"
 
@@ -30,6 +30,7 @@ struct SliceTables {
   cl::Buffer boundaries;
   cl::Buffer parts;
   cl::Buffer gains;
+  std::uint32_t gain_rows = 0;  // of each level of a SampleCombiner's
 };
 
 // What the numbers of a function were made from: where it is the same, so are they, and sums of them.
@@ -42,11 +43,10 @@ struct TableColumnSource {
 // By function of a plan.
 [[nodiscard]] std::vector<TableColumnSource> column_sources(const RenderPlan& plan, Precision precision);
 
-class DeviceTables {
+class GainColumns {
  public:
   // `max_bytes` are kept; a slice that is in use counts as one of them.
-  DeviceTables(cl::CommandQueue queue, std::uint64_t max_bytes)
-      : queue_(std::move(queue)), recent_(max_bytes) {}
+  GainColumns(cl::CommandQueue queue, std::uint64_t max_bytes) : queue_(std::move(queue)), recent_(max_bytes) {}
 
   // A slice's tables, which no kernel may read any more when the next slice is asked for. What it takes is counted in
   // `memory`, what had to be written is added to `written_bytes`. Throws Cancelled at a stop.
@@ -73,8 +73,8 @@ class DeviceTables {
 
   Slice& slice_for(const RenderPlan& plan, const TableSlice& slice, Precision precision, std::uint32_t group_rows,
                    DeviceMemory& memory);
-  void write_all(const RenderPlan& plan, const TableSlice& slice, std::span<const TableColumnSource> columns,
-                 Slice& to, const std::stop_token& stop);
+  void write_all(const RenderPlan& plan, const TableSlice& slice, std::span<const TableColumnSource> columns, Slice& to,
+                 const std::stop_token& stop);
   void write_column(const RenderPlan& plan, const TableSlice& slice, std::size_t function,
                     const TableColumnSource& column, Slice& to);
 

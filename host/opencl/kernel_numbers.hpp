@@ -8,8 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "opencl/allocation_cuts.hpp"
-#include "opencl/function_map.hpp"
 #include "opencl/kernel_layout.hpp"
 #include "opencl/light_source.hpp"
 #include "render/code_scale.hpp"
@@ -22,15 +20,14 @@ namespace nutik {
 using Bytes = std::vector<std::byte>;
 
 // A pixel's sum in one channel, all its planes.
-inline constexpr std::size_t sum_bytes(Precision precision) {
-  return precision == Precision::single_ ? 4 : 8;
-}
+inline constexpr std::size_t sum_bytes(Precision precision) { return precision == Precision::single_ ? 4 : 8; }
 
 // One weight or boundary: as wide as the sums that it goes into.
 inline constexpr std::size_t weight_bytes(Precision precision) { return sum_bytes(precision); }
 
 // A number as two floats, and numbers as an arithmetic in floating point holds them (doubles if it is of whole ones).
 [[nodiscard]] FloatPair pair_of(double number);
+[[nodiscard]] inline double value_of(const FloatPair& pair) { return static_cast<double>(pair.high) + pair.low; }
 [[nodiscard]] Bytes numbers_of(std::span<const double> values, Precision precision);
 
 // Light of every code, or a curve. `white_light` is FixedScale's, for whole numbers.
@@ -42,6 +39,13 @@ inline constexpr std::size_t weight_bytes(Precision precision) { return sum_byte
 // The same where lights are blended, and by how many bits to the left that scale is brought onto the thresholds'.
 [[nodiscard]] Bytes blend_scales(const RenderPlan& plan, Precision precision);
 [[nodiscard]] std::uint32_t blend_shift(const RenderPlan& plan, Precision precision);
+
+// By function, how the host brings its sums to light: light = sum · factor · first · second.
+struct LightFactors {
+  double factor;
+  LightScale<double> exponent;
+};
+[[nodiscard]] std::vector<LightFactors> light_factors(const RenderPlan& plan, Precision precision);
 
 // Whether kernels make the codes of a picture. The host makes those that show light below 0, or that have other
 // primaries than the capture.
@@ -61,31 +65,13 @@ struct CodeKey {
   friend bool operator==(const CodeKey&, const CodeKey&) = default;
 };
 struct CodeTables {
-  Bytes
-      thresholds;  // Threshold: what white is, the least light of code 1 … white code, then more than any light
+  Bytes thresholds;  // Threshold: what white is, the least light of code 1 … white code, then more than any light
   std::vector<std::uint32_t> guesses;
 };
-// None where the codes lie too close together (code_search() in kernel_tables.cpp).
+// None where the codes lie too close together (code_search() in kernel_numbers.cpp).
 [[nodiscard]] std::optional<CodeTables> code_tables(const CodeKey& key);
 
 // The two limits of light between which it has a code, on the scale on which kernels blend: Threshold [2].
 [[nodiscard]] Bytes code_limits(const CodeKey& key, const CodeScale& scale, const RenderPlan& plan);
-
-// The light of `raster`, sums [pixel][channel][plane] of a rectangle as develop_sums writes them, into a picture of
-// light32 or light64. Done by the host in double, so that it is the same for every device.
-void store_light(const RenderPlan& plan, const Rectangle& rectangle, Precision precision,
-                 std::span<const std::byte> raster, Picture& picture);
-
-// Tiles [first, last) of a band.
-struct TilesOfBand {
-  std::size_t first;
-  std::size_t last;
-};
-
-// The light of what `part` of the picture has of these tiles, from their sums as expose.cl writes them: of a mixed
-// pixel by its shares. In double, as above.
-void blend_light(const RenderPlan& plan, const FunctionMap& map, const TilesOfBand& tiles,
-                 Precision precision, std::span<const std::byte> sums, const Rectangle& part,
-                 Picture& picture);
 
 }  // namespace nutik

@@ -1,4 +1,4 @@
-#include "opencl/device_tables.hpp"
+#include "opencl/gain_columns.hpp"
 
 #include <algorithm>
 #include <array>
@@ -30,8 +30,8 @@ struct TableColumn {
 // A block's rows of one column, from `block_row` on: the numbers of the samples from `first` on, 0 and flat boundaries
 // round them.
 template <typename Number, typename Values, typename Convert>
-void write_block(const Values& weights, const Values& boundaries, std::uint32_t first,
-                 std::uint32_t sample_count, const TableColumn& column, std::uint64_t block_row, Convert convert) {
+void write_block(const Values& weights, const Values& boundaries, std::uint32_t first, std::uint32_t sample_count,
+                 const TableColumn& column, std::uint64_t block_row, Convert convert) {
   const auto count = static_cast<std::uint32_t>(weights.size());
   const auto put = [](std::byte* to, const Number& number) { std::memcpy(to, &number, sizeof number); };
   for (std::uint32_t row = 0; row <= sample_count; ++row) {
@@ -62,8 +62,7 @@ Bytes one_in(Precision precision) {
 constexpr std::uint64_t kManyNumbers = 1u << 17;
 
 bool is_of(const std::vector<std::uint64_t>& blocks, const RenderPlan& plan, const TableSlice& slice) {
-  return std::equal(blocks.begin(), blocks.end(),
-                    plan.blocks.begin() + static_cast<std::ptrdiff_t>(slice.first_block),
+  return std::equal(blocks.begin(), blocks.end(), plan.blocks.begin() + static_cast<std::ptrdiff_t>(slice.first_block),
                     plan.blocks.begin() + static_cast<std::ptrdiff_t>(slice.last_block),
                     [](std::uint64_t block, const PlannedBlock& planned) { return block == planned.block; });
 }
@@ -128,8 +127,7 @@ void pack_column(const GainTable& table, const RenderPlan& plan, const TableSlic
       const HatNumbers hats = hats_of(planned.extent, plan.layout->timeline, steady.bundle.halves);
       correction = correction_of(steady, hats, from.span, from.weights);
     }
-    write(row, planned.extent.sample_count, correction.weights, correction.boundaries,
-          steady.corrected.first);
+    write(row, planned.extent.sample_count, correction.weights, correction.boundaries, steady.corrected.first);
     row += planned.row_count();
   }
 }
@@ -139,8 +137,7 @@ struct PartColumn {
   std::vector<BlockPart> parts;
   Bytes gains;
 };
-PartColumn part_column(const GainTable& table, const RenderPlan& plan, const TableSlice& slice,
-                       Precision precision) {
+PartColumn part_column(const GainTable& table, const RenderPlan& plan, const TableSlice& slice, Precision precision) {
   PartColumn column;
   const Bytes one = one_in(precision);
   const auto add = [&](const BlockPart& part, const Bytes& gain) {
@@ -157,9 +154,9 @@ PartColumn part_column(const GainTable& table, const RenderPlan& plan, const Tab
     BlockPart part{samples_of(steady.bundle.halves, planned.extent),
                    BlockPart::kSteady | steady.bundle.index() << BlockPart::kSumShift};
     if (steady.bundle.is_bundle()) {
-      part.steady |= BlockPart::kInBundle;
-      if (planned.block == steady.bundle.first) part.steady |= BlockPart::kBundleStart;
-      if (planned.block == steady.bundle.last()) part.steady |= BlockPart::kBundleEnd;
+      part.bits |= BlockPart::kInBundle;
+      if (planned.block == steady.bundle.first) part.bits |= BlockPart::kBundleStart;
+      if (planned.block == steady.bundle.last()) part.bits |= BlockPart::kBundleEnd;
     }
     add(part, plan.sums_light ? one : numbers_of(std::array{steady.per_ns}, precision));
   }
@@ -182,14 +179,14 @@ std::vector<TableColumnSource> column_sources(const RenderPlan& plan, Precision 
   return columns;
 }
 
-std::uint64_t DeviceTables::Slice::bytes() const {
+std::uint64_t GainColumns::Slice::bytes() const {
   return columns.size() * ((weight_rows() + row_count) * weight_bytes(precision) +
                            part_count() * (sizeof(BlockPart) + weight_bytes(precision)));
 }
 
-SliceTables DeviceTables::slice(const RenderPlan& plan, const TableSlice& slice, Precision precision,
-                                std::uint32_t group_rows, DeviceMemory& memory, std::uint64_t& written_bytes,
-                                const std::stop_token& stop) {
+SliceTables GainColumns::slice(const RenderPlan& plan, const TableSlice& slice, Precision precision,
+                               std::uint32_t group_rows, DeviceMemory& memory, std::uint64_t& written_bytes,
+                               const std::stop_token& stop) {
   Slice& kept = slice_for(plan, slice, precision, group_rows, memory);
   std::vector<TableColumnSource> wanted = column_sources(plan, precision);
   std::vector<std::size_t> stale;
@@ -211,9 +208,8 @@ SliceTables DeviceTables::slice(const RenderPlan& plan, const TableSlice& slice,
   return kept.tables;
 }
 
-DeviceTables::Slice& DeviceTables::slice_for(const RenderPlan& plan, const TableSlice& slice,
-                                             Precision precision, std::uint32_t group_rows,
-                                             DeviceMemory& memory) {
+GainColumns::Slice& GainColumns::slice_for(const RenderPlan& plan, const TableSlice& slice, Precision precision,
+                                           std::uint32_t group_rows, DeviceMemory& memory) {
   const std::uint64_t functions = plan.function_count();
   const std::uint64_t row_count = slice.row_count();
   Slice* const kept = recent_.find([&](const Slice& each) {
@@ -225,20 +221,18 @@ DeviceTables::Slice& DeviceTables::slice_for(const RenderPlan& plan, const Table
     return *kept;
   }
   Slice made{precision, group_rows, {}, slice.corrected, row_count, {}, {}};
-  for (std::size_t b = slice.first_block; b < slice.last_block; ++b)
-    made.blocks.push_back(plan.blocks[b].block);
+  for (std::size_t b = slice.first_block; b < slice.last_block; ++b) made.blocks.push_back(plan.blocks[b].block);
   made.columns.resize(functions);
   const std::uint64_t row_bytes = functions * weight_bytes(precision);
   made.tables.weights = memory.allocate(made.weight_rows() * row_bytes, CL_MEM_READ_ONLY);
   made.tables.boundaries = memory.allocate(row_count * row_bytes, CL_MEM_READ_ONLY);
   made.tables.parts = memory.allocate(made.part_count() * functions * sizeof(BlockPart), CL_MEM_READ_ONLY);
-  made.tables.gains =
-      memory.allocate(made.part_count() * functions * weight_bytes(precision), CL_MEM_READ_ONLY);
+  made.tables.gains = memory.allocate(made.part_count() * functions * weight_bytes(precision), CL_MEM_READ_ONLY);
   return recent_.keep(std::move(made));
 }
 
-void DeviceTables::write_all(const RenderPlan& plan, const TableSlice& slice,
-                             std::span<const TableColumnSource> columns, Slice& to, const std::stop_token& stop) {
+void GainColumns::write_all(const RenderPlan& plan, const TableSlice& slice, std::span<const TableColumnSource> columns,
+                            Slice& to, const std::stop_token& stop) {
   const std::uint64_t functions = plan.function_count();
   const std::size_t number = weight_bytes(to.precision);
   Bytes weights(to.weight_rows() * functions * number), boundaries(to.row_count * functions * number);
@@ -268,8 +262,8 @@ void DeviceTables::write_all(const RenderPlan& plan, const TableSlice& slice,
   });
 }
 
-void DeviceTables::write_column(const RenderPlan& plan, const TableSlice& slice, std::size_t function,
-                                const TableColumnSource& column, Slice& to) {
+void GainColumns::write_column(const RenderPlan& plan, const TableSlice& slice, std::size_t function,
+                               const TableColumnSource& column, Slice& to) {
   const std::size_t number = weight_bytes(to.precision);
   Bytes weights(to.weight_rows() * number), boundaries(to.row_count * number);
   pack_column(*column.table, plan, slice, to.precision, column.exponent,
