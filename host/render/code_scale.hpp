@@ -47,8 +47,8 @@ void to_shown_light(Picture& light, const CodeMaking& making);
 // How many pixels of shown light (light64) saturate. A pixel counts once at an end, whatever its channels are.
 [[nodiscard]] Saturation count_saturated(const Picture& light, const CodeScale& scale);
 
-// The codes of a picture of shown light (light64), in the format asked for. `has_few_lights`: most of its lights occur again
-// and again, as where samples are combined.
+// The codes of a picture of shown light (light64), in the format asked for. `has_few_lights`: most of its lights occur
+// again and again, as where samples are combined.
 [[nodiscard]] Picture encoded(const Picture& light, const CodeScale& scale, const OutputFormat& output,
                               bool has_few_lights = false);
 

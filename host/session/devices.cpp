@@ -46,8 +46,8 @@ std::vector<std::size_t> chosen(const std::vector<DeviceInfo>& devices, const st
   }
 }
 
-// The first process to ask has the drivers, and true. They work on threads of their own, which a forked process does not
-// have: it would wait for them for ever.
+// The first process to ask has the drivers, and true. They work on threads of their own, which a forked process does
+// not have: it would wait for them for ever.
 bool claim_process() {
   static std::atomic<pid_t> user = 0;
   pid_t first = 0;
