@@ -33,8 +33,8 @@ struct ClipTiming {
   // How long each sample was exposed, beside rate or starts, where the camera wrote it down.
   std::optional<std::int64_t> exposed_ns;
   std::string exposed_from = "the file";  // what tells that, for people
-  std::string rate_from = {};  // what tells the times; empty: the file as it is played
-  std::string rate_doubt = {};         // why a rate that it states is none, where nothing else tells the times
+  std::string rate_from = {};             // what tells the times; empty: the file as it is played
+  std::string rate_doubt = {};            // why a rate that it states is none, where nothing else tells the times
 
   [[nodiscard]] bool is_known() const { return rate || !starts_ns.empty() || !exposures.empty(); }
 };

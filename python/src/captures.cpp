@@ -203,7 +203,7 @@ py::tuple encode_pictures(const py::object& pictures, const py::array& first, st
   info.format.code_bytes = static_cast<std::uint32_t>(first.itemsize());
   const bool is_short = info.format.code_bytes == 1;
   const std::optional<std::uint32_t>& white = terms.source.clip.white_code;
-  info.timing.rate_from = "what the caller said";
+  info.timing.exposed_from = info.timing.rate_from = "what the caller said";
   info.timing.starts_ns = starts_ns;
   for (const auto& [start_ns, end_ns] : exposures_ns) info.timing.exposures.push_back({start_ns, end_ns});
   info.timing.exposed_ns = exposed_ns;
