@@ -305,14 +305,15 @@ FunctionSet whole_time(const Timeline& timeline) {
 SampleRange bare_time(CaptureSource& capture, const SubjectTrack& track, const SubjectPlace& place,
                       std::uint32_t pixels, double most_codes) {
   constexpr std::size_t kMaxTried = 8;
-  const auto [cells, times] = track.bare_ground(place, pixels);
-  const double code = mean_code(picture_of_sample(capture, place.sample), track, cells);
-  const auto is_as_bright = [&](SampleRange time) {
-    const Picture picture = picture_of_sample(capture, std::midpoint(time.first, time.last));
-    return code - mean_code(picture, track, cells) <= most_codes;
+  const SubjectTrack::BareGround bare = track.bare_ground(place, pixels);
+  const auto code_at = [&](std::uint64_t sample) {
+    return mean_code(picture_of_sample(capture, sample), track, bare.cells);
   };
-  const auto tried = times | std::views::take(kMaxTried);
-  const auto found = std::ranges::find_if(tried, is_as_bright);
+  const double code = code_at(place.sample);
+  const auto tried = bare.times | std::views::take(kMaxTried);
+  const auto found = std::ranges::find_if(tried, [&](SampleRange time) {
+    return code - code_at(std::midpoint(time.first, time.last)) <= most_codes;
+  });
   return found == tried.end() ? SampleRange() : *found;
 }
 
