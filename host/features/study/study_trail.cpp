@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
-#include <ranges>
 #include <set>
 #include <utility>
 
@@ -305,16 +304,16 @@ FunctionSet whole_time(const Timeline& timeline) {
 SampleRange bare_time(CaptureSource& capture, const SubjectTrack& track, const SubjectPlace& place,
                       std::uint32_t pixels, double most_codes) {
   constexpr std::size_t kMaxTried = 8;
-  const SubjectTrack::BareGround bare = track.bare_ground(place, pixels);
+  SubjectTrack::BareGround bare = track.bare_ground(place, pixels);
+  bare.times.resize(std::min(bare.times.size(), kMaxTried));
   const auto code_at = [&](std::uint64_t sample) {
     return mean_code(picture_of_sample(capture, sample), track, bare.cells);
   };
   const double code = code_at(place.sample);
-  const auto tried = bare.times | std::views::take(kMaxTried);
-  const auto found = std::ranges::find_if(tried, [&](SampleRange time) {
+  const auto found = std::ranges::find_if(bare.times, [&](SampleRange time) {
     return code - code_at(std::midpoint(time.first, time.last)) <= most_codes;
   });
-  return found == tried.end() ? SampleRange() : *found;
+  return found == bare.times.end() ? SampleRange() : *found;
 }
 
 void add_functions(Study& study, const StudyRequest& request, const Timeline& timeline,
