@@ -91,7 +91,7 @@ class TilesOfAllKinds {
     return mask;
   }
 
-  // Of the same times, with gains that differ, or with one gain each.
+  // They have the same times, and gains that differ or one gain each.
   [[nodiscard]] static FunctionSet functions_to_combine(bool scale) {
     if (scale) {
       FunctionSet differing = functions(0.25);

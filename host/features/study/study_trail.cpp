@@ -238,7 +238,7 @@ class StudyFunctions {
   TrailShape shape_;
 };
 
-// Of the first pixel of each cell.
+// The mean of each cell's first pixel.
 double mean_code(const Picture& picture, const SubjectTrack& track, const std::vector<std::size_t>& cells) {
   const Shape& shape = picture.shape;
   const auto mean = [&](const auto& codes) {
