@@ -293,8 +293,7 @@ void DissolveFinder::test(std::size_t first) {
                     static_cast<std::uint64_t>(std::min(number + std::ceil(begin + 1 / slope + beyond),
                                                         number + static_cast<double>(end - first)))};
   while (!found_.empty() && found_.back().last >= range.first) {
-    range.first = std::min(range.first, found_.back().first);
-    range.last = std::max(range.last, found_.back().last);
+    range.cover(found_.back());
     found_.pop_back();
   }
   found_.push_back(range);

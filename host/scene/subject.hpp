@@ -69,7 +69,7 @@ struct SubjectTrack {
   // A place with so many pixels around it, and times of a few looks at which nothing differs there: the longest first,
   // then the nearest. None where ground was laid bare: the thing lay on it all that time.
   struct BareGround {
-    std::vector<std::size_t> cells;   // that do not differ at the place's own sample, increasing
+    std::vector<std::size_t> cells;  // that do not differ at the place's own sample, increasing
     std::vector<SampleRange> times;
   };
   [[nodiscard]] BareGround bare_ground(const SubjectPlace& place, std::uint32_t pixels) const;

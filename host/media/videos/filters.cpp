@@ -4,6 +4,7 @@
 
 namespace nutik::videos {
 namespace {
+
 // Whether pixels are the same but for where their components lie.
 bool is_alike(AVPixelFormat a, AVPixelFormat b) {
   const AVPixFmtDescriptor &x = *av_pix_fmt_desc_get(a), &y = *av_pix_fmt_desc_get(b);
