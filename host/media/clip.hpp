@@ -186,7 +186,7 @@ class Clip {
 };
 
 // Opens a video (`-` is one from standard input), a sequence of stills (media/stills/still_sequence.hpp), a table of
-// stills (media/stills/stills_table.hpp), a Photron camera's pictures (media/cameras/photron_clip.hpp), or a recording
+// stills (media/stills/stills_table.hpp), a Photron camera's pictures (media/cameras/photron_clip.cpp), or a recording
 // without pictures (media/events/event_clip.hpp). Their times do not count where a rate is stated. Throws InputError
 // where there is none, or none that can be read.
 [[nodiscard]] std::unique_ptr<Clip> open_clip(const std::filesystem::path& path, const ClipOptions& options);

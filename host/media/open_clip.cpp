@@ -3,11 +3,9 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
-#include "media/cameras/photron_clip.hpp"
 #include "media/cameras/photron_header.hpp"
 #include "media/cameras/sony_file.hpp"
 #include "media/clip_part.hpp"
-#include "media/events/event_clip.hpp"
 #include "media/formats/file_kinds.hpp"
 #include "media/formats/input_kinds.hpp"
 #include "media/module.hpp"
@@ -19,18 +17,7 @@
 namespace nutik {
 namespace {
 
-using Files = std::vector<std::filesystem::path>;
-
-// Which files are of a format, and how they are opened.
-struct ClipFormat {
-  const inputs::InputKind* kind;  // of events the first of their kinds
-  // What a name stands for if it is of this format. Throws InputError if that is damaged or not all there.
-  std::optional<Files> (*files)(const std::filesystem::path& path);
-  std::unique_ptr<Clip> (*open)(const std::filesystem::path& path, const Files& files, const ClipOptions& options);
-  // Adds what there is to tell besides what its module knows.
-  void (*describe)(ClipInfo& info, const std::filesystem::path& path, const Files& files) = nullptr;
-  bool has_events = false;
-};
+using inputs::Files, inputs::InputKind;
 
 std::unique_ptr<Clip> open_table(const std::filesystem::path& path, const Files& files, const ClipOptions& options) {
   const StillModule& module = still_module();
@@ -155,52 +142,57 @@ std::optional<Files> files_of_table(const std::filesystem::path& path) {
   return files;
 }
 
-std::optional<Files> files_of_events(const std::filesystem::path& path) {
-  return is_event_recording(path) ? std::optional(Files{path}) : std::nullopt;
-}
-
-std::unique_ptr<Clip> open_events(const std::filesystem::path& path, const Files&, const ClipOptions& options) {
-  return open_event_clip(path, options);
-}
-
 std::unique_ptr<Clip> open_video(const std::filesystem::path& path, const Files&, const ClipOptions& options) {
   refuse_absent(path);
   if (!options.raw) refuse_text(path);
   return video_module().open(path, options);
 }
 
-// The first that takes a name has it; what nothing takes is perhaps a video.
-constexpr ClipFormat kFormats[] = {
-    {&inputs::kPhotron, photron_files, open_photron_clip},
-    {&inputs::kProphesee, files_of_events, open_events, nullptr, true},
-    {&inputs::kTable, files_of_table, open_table},
-    {&inputs::kSequence, list_stills, open_stills, describe_stills},
-};
-constexpr ClipFormat kVideos{&inputs::kVideo, nullptr, open_video},
-    kDescribed{&inputs::kRawVideo, nullptr, open_video, add_photron_header};
-
-struct FormatOf {
-  const ClipFormat& format;
+struct KindOf {
+  const InputKind& kind;
   Files files;
 };
 
-FormatOf format_of(const std::filesystem::path& path, bool is_raw) {
-  if (is_raw) return {kDescribed, {path}};
-  for (const ClipFormat& format : kFormats) {
-    if (auto files = format.files(path)) return {format, std::move(*files)};
+KindOf kind_of(const std::filesystem::path& path, bool is_raw) {
+  if (is_raw) return {inputs::kRawVideo, {path}};
+  const std::filesystem::path& file = is_standard_input(path.string()) ? standard_input_file() : path;
+  for (const InputKind* kind : inputs::kClips) {
+    if (kind->files == nullptr && kind->begins(telling_bytes(file))) return {*kind, {path}};
+    if (auto files = kind->files == nullptr ? std::nullopt : kind->files(path)) return {*kind, std::move(*files)};
   }
-  return {kVideos, {path}};
+  return {inputs::kVideo, {path}};
 }
 
 }  // namespace
 
+constinit const InputKind inputs::kVideo{
+    .name = "video", .otherwise = "what FFmpeg takes it for",
+    .said = {"its pictures' times; filming rates of Android, Samsung and Sony", "none",
+             "colour: RGB of 8 bits, or over 16, by matrix and range; grey: as stored, white by its bits; or by range",
+             "display matrix, by quarter turns", "left out, with a note", "as shown"},
+    .open = open_video};
+constinit const InputKind inputs::kRawVideo{
+    .name = "raw video", .otherwise = "your description",
+    .said = {"Photron's header beside it", "that header", "as of a video", "none", "left out, with a note",
+             "as stored"},
+    .open = open_video, .describe = add_photron_header};
+constinit const InputKind inputs::kSequence{
+    .name = "several stills", .otherwise = "a folder, `'frames/*.png'`, `frame%04d.tif`",
+    .said = {"the first one's, else a folder's only Photron header", "as the times", "alike in all", "each one's",
+             "as of one", "as a person counts, 2 before 10"},
+    .files = list_stills, .open = open_stills, .describe = describe_stills};
+constinit const InputKind inputs::kTable{
+    .name = "table of stills", .extensions = " .csv ",
+    .said = {"its column, else EXIF", "its column, else EXIF", "alike in all", "each one's", "as of one", "its rows"},
+    .files = files_of_table, .open = open_table};
+
 std::vector<std::filesystem::path> files_of_clip(const std::filesystem::path& path, bool is_raw) {
-  auto [format, files] = format_of(path, is_raw);
+  auto [kind, files] = kind_of(path, is_raw);
   std::error_code error;
-  const bool is_folder = *format.kind == inputs::kSequence && std::filesystem::is_directory(path, error);
+  const bool is_folder = kind == inputs::kSequence && std::filesystem::is_directory(path, error);
   if (is_raw || is_folder) {
     if (const auto header = photron_header_of(path)) files.push_back(header->file);
-  } else if (*format.kind == inputs::kVideo && !is_absent(sony_file_of(path))) {
+  } else if (kind == inputs::kVideo && !is_absent(sony_file_of(path))) {
     const std::filesystem::path story = video_module().story_beside(path);
     if (!story.empty()) files.push_back(story);
   }
@@ -210,11 +202,11 @@ std::vector<std::filesystem::path> files_of_clip(const std::filesystem::path& pa
 std::unique_ptr<Clip> open_clip(const std::filesystem::path& name, const ClipOptions& options) {
   const std::filesystem::path& path = is_standard_input(name.string()) ? standard_input_file() : name;
   if (!options.raw) refuse_unsupported_kind(path);
-  const auto [format, files] = format_of(path, options.raw.has_value());
-  if (!format.has_events) refuse_event_options(path, options.events);
-  std::unique_ptr<Clip> clip = format.open(path, files, options);
+  const auto [kind, files] = kind_of(path, options.raw.has_value());
+  if (!kind.has_events) refuse_event_options(path, options.events);
+  std::unique_ptr<Clip> clip = kind.open(path, files, options);
   ClipInfo info = clip->info();
-  if (format.describe != nullptr) format.describe(info, path, files);
+  if (kind.describe != nullptr) kind.describe(info, path, files);
   return take_part(
       std::make_unique<PerhapsDamaged>(std::move(clip), std::move(info), path, options.ends_at_damage), path, options);
 }

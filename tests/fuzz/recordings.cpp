@@ -3,7 +3,8 @@
 #include <vector>
 
 #include "fuzz/target.hpp"
-#include "media/cameras/photron_clip.hpp"
+#include "media/clip.hpp"
+#include "media/formats/input_kinds.hpp"
 
 namespace nutik::fuzz {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 void read(Bytes input) {
   as_file(input, "a.cihx");
   const std::vector<std::byte> pictures(240, std::byte{1});
-  const auto clip = open_photron_clip(as_file(pictures, "a.mraw"), {}, {});
+  const auto clip = inputs::kPhotron.open(as_file(pictures, "a.mraw"), {}, {});
   std::vector<std::byte> raster(clip->info().format.sample_bytes());
   while (clip->read(raster)) {
   }

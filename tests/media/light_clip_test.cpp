@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "capture/error.hpp"
-#include "media/stills/npy.hpp"
+#include "media/formats/input_kinds.hpp"
 #include "media/stills/tiff_reader.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "support/clips.hpp"
@@ -101,7 +101,7 @@ TEST(LightClip, DoublesAreWrittenToTheLastBit) {
   EXPECT_EQ(bytes.substr(0, 10), std::string("\x93NUMPY\1\0\x76\0", 10)) << "128 bytes in front, 118 of them text";
   expect_says(bytes, "{'descr': '<f8', 'fortran_order': False, 'shape': (21, 13, 3), }");
   EXPECT_EQ(bytes.size(), 128 + light.bytes.size());
-  EXPECT_EQ(read_npy(std::as_bytes(std::span(bytes)), "a.npy", 0).bytes, light.bytes);
+  EXPECT_EQ(inputs::kNumpy.read(std::as_bytes(std::span(bytes)), "a.npy", 0).picture.bytes, light.bytes);
   expect_error<UsageError>([&] { write_picture(scratch / "a.exr", light); }, {"cannot hold the values"});
 }
 

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "capture/error.hpp"
-#include "media/cameras/photron_clip.hpp"
+#include "media/clip.hpp"
 #include "media/input_checksum.hpp"
 #include "support/clips.hpp"
 #include "support/messages.hpp"

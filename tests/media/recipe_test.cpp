@@ -162,7 +162,7 @@ TEST(PictureText, IsOurOwnOnly) {
       "{\"nutik-cl\":1}");
   EXPECT_FALSE(read_picture_text(scratch.write("c.pfm", "Pf\n1 1\n-1.0\n1234")));
   expect_error<InputError>([&] { return read_picture_text(scratch.write("a.txt", "notes of mine")); },
-                           {"is no PNG, JPEG, TIFF, OpenEXR, Netpbm: it can carry no recipe"});
+                           {"is no PNG, JPEG, TIFF, Netpbm, OpenEXR: it can carry no recipe"});
   expect_error<InputError>([&] { return read_picture_text(scratch.write("cut.png", "\x89PNG\r\n\x1a\n")); },
                            {"it was cut off"});
   expect_error<InputError>([&] { return read_picture_text(scratch.write("cut.tif", {"II*\0", 4})); },

@@ -88,7 +88,7 @@ TEST_P(TiffKinds, GiveTheCodesThatTheyHold) {
   write(scratch / "a.tif", GetParam());
   TiffReader reader(scratch / "a.tif");
   ASSERT_EQ(reader.page_count(), 1u);
-  const TiffPage page = *reader.next();
+  const FilePicture page = *reader.next();
   EXPECT_FALSE(reader.next());
   const Shape& shape = page.picture.shape;
   ASSERT_EQ(shape, (Shape{kPageWidth, kPageHeight, GetParam().channels}));

@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 # Files that CONTRIBUTING.md has somebody add.
-EXAMPLES = {"host/app/commands/times.cpp", "kernels/tile_kinds.cl"}
+EXAMPLES = {"host/app/commands/times.cpp", "host/media/stills/farbfeld.cpp", "kernels/tile_kinds.cl"}
 
 
 def without_code(page):

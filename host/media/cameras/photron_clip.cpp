@@ -1,5 +1,8 @@
-#include "media/cameras/photron_clip.hpp"
-
+// Recordings of Photron's cameras: a .mraw, and the header beside it (photron_header.hpp).
+//
+// Codes are as stored: values of 8 and 16 bits, the latter with their low byte first, and packed ones of 9 to 15 bits,
+// the highest bit first; where a header says that only some bits of a value count, those. Colour is red, green, blue.
+// What has no header, or one that lacks what is needed or tells of other pictures than the file has, is refused.
 #include <cstring>
 #include <string>
 #include <string_view>
@@ -8,6 +11,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/cameras/photron_header.hpp"
+#include "media/clip.hpp"
 #include "media/formats/input_kinds.hpp"
 #include "media/settled_fact.hpp"
 #include "system/is_absent.hpp"
@@ -269,11 +273,10 @@ class PhotronClip final : public Clip {
   ClipInfo info_;
 };
 
-}  // namespace
-
-std::optional<std::vector<fs::path>> photron_files(const fs::path& path) {
+// The pictures, then the header, which is the one that was named, else what lies beside.
+std::optional<inputs::Files> files_of(const fs::path& path) {
   if (!inputs::kPhotron.is_named(path) || is_absent(path)) return std::nullopt;
-  std::vector<fs::path> files{pictures_of(path)};
+  inputs::Files files{pictures_of(path)};
   if (is_photron_header(path)) files.push_back(path);
   std::error_code error;
   for (const fs::path& header : headers_beside(path)) {
@@ -282,9 +285,14 @@ std::optional<std::vector<fs::path>> photron_files(const fs::path& path) {
   return files;
 }
 
-std::unique_ptr<Clip> open_photron_clip(const fs::path& path, const std::vector<fs::path>&,
-                                        const ClipOptions& options) {
-  return std::make_unique<PhotronClip>(path, options);
-}
+}  // namespace
+
+constinit const inputs::InputKind inputs::kPhotron{
+    .name = "Photron", .extensions = " .mraw .cih .cihx ",
+    .said = {"the header", "the header", "as stored, linear, white by the header's bits", "none", "none", "as stored"},
+    .has_front = false, .files = files_of,
+    .open = [](const fs::path& path, const Files&, const ClipOptions& options) -> std::unique_ptr<Clip> {
+      return std::make_unique<PhotronClip>(path, options);
+    }};
 
 }  // namespace nutik

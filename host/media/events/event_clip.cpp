@@ -81,4 +81,15 @@ std::unique_ptr<Clip> open_event_clip(const std::filesystem::path& path, const C
   return std::make_unique<EventClip>(std::move(info), std::move(light));
 }
 
+constexpr inputs::InputKind inputs::kProphesee{
+    .name = "Prophesee", .starts = {"% "},
+    .said = {"each event's", "until the next moment", "light from steps: 16 bits, linear", "none", "none", "by time"},
+    .open = [](const auto& path, const auto&, const auto& options) { return open_event_clip(path, options); },
+    .has_events = true};
+constexpr inputs::InputKind inputs::kAdder{
+    .name = "ADΔER", .starts = {"adder"},
+    .said = {"each event's", "until the next moment", "light as told: 16 bits, linear, white by its source", "none",
+             "none", "by time"},
+    .open = kProphesee.open, .has_events = true};
+
 }  // namespace nutik

@@ -120,7 +120,8 @@ bool is_jpeg_of_several(std::string_view bytes) {
 }  // namespace
 
 std::string telling_bytes(const std::filesystem::path& file) {
-  return inputs::kPhotron.is_named(file) ? std::string() : first_bytes(file);
+  const auto is_of = [&](const inputs::InputKind* kind) { return !kind->has_front && kind->is_named(file); };
+  return std::ranges::any_of(inputs::kClips, is_of) ? std::string() : first_bytes(file);
 }
 
 std::optional<std::string> unsupported_kind_text(const std::filesystem::path& file) {
@@ -182,6 +183,14 @@ std::string still_kinds_text(bool inputs::InputKind::*which) {
     if (which == nullptr || kind->*which) names.push_back(kind->name);
   }
   return joined(names);
+}
+
+std::string clip_patterns() {
+  std::string text;
+  for (const inputs::InputKind* kind : inputs::kClips)
+    for (const std::string& extension : parts_of(kind->extensions, ' '))
+      if (!extension.empty()) (text += text.empty() ? "*" : " *") += extension;
+  return text;
 }
 
 bool holds_several_pictures(const std::filesystem::path& file) {

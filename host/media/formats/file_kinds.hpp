@@ -9,8 +9,8 @@
 
 namespace nutik {
 
-// The first bytes of a file, by which its kind is told. None of Photron's, which have no header in front: their pixels
-// may look like any other kind.
+// The first bytes of a file, by which its kind is told; none where its name says that nothing stands in front of its
+// pixels, as of Photron's.
 [[nodiscard]] std::string telling_bytes(const std::filesystem::path& file);
 
 // What a file is and what can be done about it, as a sentence that begins with its name. Empty where it may be
@@ -29,6 +29,9 @@ void refuse_text(const std::filesystem::path& file);
 [[nodiscard]] const inputs::InputKind* kind_named_by(const std::filesystem::path& file);
 // `PNG, JPEG, …`: all of them, or those of which this is so.
 [[nodiscard]] std::string still_kinds_text(bool inputs::InputKind::*which = nullptr);
+
+// `*.mraw *.cih …`: names of clips that are no videos, as dialogs have them.
+[[nodiscard]] std::string clip_patterns();
 
 // Whether PNGs or JPEGs stand in it one behind the other, or an animated PNG: a video, whatever its name ends with.
 [[nodiscard]] bool holds_several_pictures(const std::filesystem::path& file);

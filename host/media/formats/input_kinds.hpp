@@ -1,32 +1,67 @@
-// What each kind of input is recognized by, and where its times and codes come from. docs/reference/input.md has the
-// same table, which a test compares. What is refused by name stands in file_kinds.cpp, and of FFmpeg's containers in
-// videos/containers.hpp.
+// Kinds of input: what each is recognized by, where its times and codes come from, how it is read, and written. A kind
+// has a row, which stands with what reads it, and is named here, once below and in the list that it belongs to.
+// docs/reference/input.md has a table of them, which a test compares. What is refused by name stands in file_kinds.cpp,
+// and of FFmpeg's containers in videos/containers.hpp.
 #pragma once
 
-#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "media/formats/extension.hpp"
+#include "media/formats/picture_format.hpp"
+
+namespace nutik {
+class Clip;
+struct ClipInfo;
+struct ClipOptions;
+}  // namespace nutik
 
 namespace nutik::inputs {
 
+using Bytes = std::span<const std::byte>;
+using Files = std::vector<std::filesystem::path>;
+
 struct InputKind {
   std::string_view name;
-  std::array<std::string_view, 5> starts;  // a file of this kind begins with one of them
-  std::string_view extensions;             // or its name ends with one of them, each between blanks
-  std::string_view otherwise;              // or this is so, in words
+  std::array<std::string_view, 5> starts = {};  // a file of this kind begins with one of them
+  std::string_view extensions = {};             // or its name ends with one of them, each between blanks
+  std::string_view otherwise = {};              // or this is so, in words
   // What the page says; `none`: nothing in such files tells it.
-  std::string_view times;              // where rate and times of the pictures come from
-  std::string_view shutter;            // where their exposure comes from
-  std::string_view codes;              // what codes are kept, and which are black and white
-  std::string_view orientation;        // what turns pictures upright
-  std::string_view alpha;              // what becomes of transparency
-  std::string_view order;              // in which order pictures are read
+  struct Said {
+    std::string_view times;        // where rate and times of the pictures come from
+    std::string_view shutter;      // where their exposure comes from
+    std::string_view codes;        // what codes are kept, and which are black and white
+    std::string_view orientation;  // what turns pictures upright
+    std::string_view alpha;        // what becomes of transparency
+    std::string_view order;        // in which order pictures are read
+  } said;
   std::string_view behind_start = {};  // one of these characters follows the first bytes; empty: any
-  bool has_tags = false;               // whole numbers in it may be a mask's, besides those in a PNG and a PGM
+  bool has_front = true;               // without one, pixels may begin as any other file does: its name goes first
+
+  // Of a picture's file.
+  bool has_tags = false;  // whole numbers in it may be a mask's, besides those in a PNG and a PGM
+  // Null where the module for stills has a reader of its own for it. Throws InputError naming `name`.
+  FilePicture (*read)(Bytes file, const std::string& name, std::size_t place) = nullptr;
+  std::vector<std::size_t> (*places)(Bytes file, const std::string& name) = nullptr;  // of pictures; null: there is one
+  // The line that it carries (stills/picture_text.hpp). Null where it has no place for one.
+  std::optional<std::string> (*text)(Bytes file, const std::filesystem::path& path) = nullptr;
+  WrittenFormat written[3] = {};
+
+  // Of a clip: what a name stands for if it is of this kind; null where that is the file itself, which begins so.
+  // Throws InputError if that is damaged or not all there.
+  std::optional<Files> (*files)(const std::filesystem::path& path) = nullptr;
+  std::unique_ptr<Clip> (*open)(const std::filesystem::path& path, const Files& files,
+                                const ClipOptions& options) = nullptr;
+  // Adds what there is to tell besides what its module knows.
+  void (*describe)(ClipInfo& info, const std::filesystem::path& path, const Files& files) = nullptr;
+  bool has_events = false;
 
   [[nodiscard]] constexpr bool begins(std::string_view bytes) const {
     for (const std::string_view start : starts) {
@@ -44,72 +79,27 @@ struct InputKind {
   }
 };
 
-using std::literals::operator""sv;
+extern const InputKind kVideo, kRawVideo, kPng, kJpeg, kTiff, kNetpbm, kExr, kPfm, kNumpy, kSequence, kTable, kPhotron,
+    kProphesee, kAdder;
 
-inline constexpr InputKind kVideo{
-    "video", {}, {}, "what FFmpeg takes it for", "its pictures' times; filming rates of Android, Samsung and Sony",
-    "none", "colour: RGB of 8 bits, or over 16, by matrix and range; grey: as stored, white by its bits; or by range",
-    "display matrix, by quarter turns", "left out, with a note", "as shown"};
-inline constexpr InputKind kRawVideo{
-    "raw video", {}, {}, "your description", "Photron's header beside it", "that header", "as of a video", "none",
-    "left out, with a note", "as stored"};
-inline constexpr InputKind kPng{
-    "PNG", {"\x89PNG\r\n\x1a\n"}, " .png ", {}, "none", "none", "as stored, white 255, or 65535 with a note",
-    "EXIF", "refused", "one picture"};
-inline constexpr InputKind kJpeg{
-    "JPEG", {"\xFF\xD8\xFF"}, " .jpg .jpeg ", {}, "EXIF, in a table", "EXIF, in a table", "as stored, white 255",
-    "EXIF", "none", "one picture"};
-inline constexpr InputKind kTiff{
-    "TIFF", {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv}, " .tif .tiff ", {}, "ImageJ's or OME's description", "none",
-    "as stored, white by its bits; of 16 `MaxSampleValue` if all ones, else 65535 with a note; floats as of OpenEXR",
-    "`Orientation`", "refused", "its pages", {}, true};
 inline constexpr InputKind kDng{
-    "DNG", {}, " .dng ", "a TIFF's `DNGVersion`", "the first one's `FrameRate`; EXIF, in a table",
-    "`ExposureTime`, if alike; EXIF, in a table",
-    "developed by the first one's black, white and colours: RGB over 16 bits, linear", "`Orientation`", "none",
-    "one picture"};
-inline constexpr InputKind kNetpbm{
-    "Netpbm", {"P2", "P3", "P5", "P6", "P7"}, " .pgm .ppm .pnm .pam ", {}, "none", "none",
-    "as stored, white is its maximum", "none", "none", "one behind the other", " \t\r\n"};
-inline constexpr InputKind kExr{
-    "OpenEXR", {"\x76\x2F\x31\x01"}, " .exr ", {}, "none", "none",
-    "floating-point light, over 16 bits by the white that you state", "as it lies", "refused", "one picture", {}, true};
-inline constexpr InputKind kPfm{
-    "PFM", {"PF", "Pf"}, " .pfm ", {}, "none", "none", "as of OpenEXR", "none", "none", "one picture", " \t\r\n",
-    true};
-inline constexpr InputKind kNumpy{
-    "NumPy", {"\x93NUMPY"}, " .npy ", {}, "none", "none",
-    "integers as stored, white 255 or 65535; floats as of OpenEXR", "none", "none",
-    "its first axis, if it has three, or four with colour", {}, true};
-inline constexpr InputKind kSequence{
-    "several stills", {}, {}, "a folder, `'frames/*.png'`, `frame%04d.tif`",
-    "the first one's, else a folder's only Photron header", "as the times", "alike in all", "each one's",
-    "as of one", "as a person counts, 2 before 10"};
-inline constexpr InputKind kTable{
-    "table of stills", {}, " .csv ", {}, "its column, else EXIF", "its column, else EXIF", "alike in all", "each one's",
-    "as of one", "its rows"};
-// Pixels without a header in front may begin as any other file does: its name goes before all bytes.
-inline constexpr InputKind kPhotron{
-    "Photron", {}, " .mraw .cih .cihx ", {}, "the header", "the header",
-    "as stored, linear, white by the header's bits", "none", "none", "as stored"};
+    "DNG", {}, " .dng ", "a TIFF's `DNGVersion`",
+    {"the first one's `FrameRate`; EXIF, in a table", "`ExposureTime`, if alike; EXIF, in a table",
+     "developed by the first one's black, white and colours: RGB over 16 bits, linear", "`Orientation`", "none",
+     "one picture"}};
 inline constexpr InputKind kPhantom{
-    "Phantom", {"CI"}, {}, {}, "the camera's times, else its nominal rate",
-    "its exposures, if alike, else its shutter time",
-    "as of a video; packed 10 bits by the format's table, linear, white 4095; black stays, with a note",
-    "`bFlipV`", "none", "as stored"};
-inline constexpr InputKind kProphesee{
-    "Prophesee", {"% "}, {}, {}, "each event's", "until the next moment", "light from steps: 16 bits, linear", "none",
-    "none", "by time"};
-inline constexpr InputKind kAdder{
-    "ADΔER", {"adder"}, {}, {}, "each event's", "until the next moment",
-    "light as told: 16 bits, linear, white by its source", "none", "none", "by time"};
+    "Phantom", {"CI"}, {}, {},
+    {"the camera's times, else its nominal rate", "its exposures, if alike, else its shutter time",
+     "as of a video; packed 10 bits by the format's table, linear, white 4095; black stays, with a note",
+     "`bFlipV`", "none", "as stored"}};
 inline constexpr InputKind kCapture{
-    "capture (no clip)", {}, {}, "first bytes", "its own", "its own", "its own", "upright", "none", "by time"};
+    "capture (no clip)", {}, {}, "first bytes", {"its own", "its own", "its own", "upright", "none", "by time"}};
 
 // Pictures of one file each, of which sequences are made.
 inline constexpr const InputKind* kStills[] = {&kPng, &kJpeg, &kTiff, &kDng, &kNetpbm, &kExr, &kPfm, &kNumpy};
-inline constexpr const InputKind* kAll[] = {&kVideo,  &kRawVideo, &kPng,   &kJpeg,     &kTiff,  &kDng,
-                                         &kNetpbm, &kExr,      &kPfm,   &kNumpy,    &kSequence, &kTable,
-                                         &kPhotron, &kPhantom, &kProphesee, &kAdder, &kCapture};
+// Those that are written, in the order in which messages name their extensions.
+inline constexpr const InputKind* kWritten[] = {&kPng, &kTiff, &kJpeg, &kExr, &kNetpbm, &kPfm, &kNumpy};
+// The first that takes a name has it; what nothing takes is perhaps a video.
+inline constexpr const InputKind* kClips[] = {&kPhotron, &kProphesee, &kAdder, &kTable, &kSequence};
 
 }  // namespace nutik::inputs

@@ -16,6 +16,8 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/formats/colour_profile.hpp"
+#include "media/formats/input_kinds.hpp"
+#include "system/output_file.hpp"
 
 namespace nutik {
 namespace {
@@ -112,7 +114,11 @@ void check_stated_size(const std::string& name, std::uint64_t width, std::uint64
                           name, width, height, file_bytes));
 }
 
-void write_jpeg(OutputFile& file, const Picture& picture, const std::string& text, int quality) {
+namespace {
+
+// 8-bit codes in full colour resolution. What they stand for is in an ICC profile, their pixel aspect in the density of
+// the JFIF header, `text` in comments.
+void write_jpeg(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes& wishes) {
   const Shape& shape = picture.shape;
   if (std::max(shape.width, shape.height) > JPEG_MAX_DIMENSION) {
     throw UsageError(
@@ -128,7 +134,7 @@ void write_jpeg(OutputFile& file, const Picture& picture, const std::string& tex
   jpeg.input_components = static_cast<int>(shape.channels);
   jpeg.in_color_space = shape.channels == 1 ? JCS_GRAYSCALE : JCS_RGB;
   jpeg_set_defaults(&jpeg);
-  jpeg_set_quality(&jpeg, quality, TRUE);
+  jpeg_set_quality(&jpeg, wishes.quality, TRUE);
   jpeg.optimize_coding = TRUE;
   for (int component = 0; component < jpeg.num_components; ++component) {
     jpeg.comp_info[component].h_samp_factor = jpeg.comp_info[component].v_samp_factor = 1;
@@ -154,8 +160,9 @@ void write_jpeg(OutputFile& file, const Picture& picture, const std::string& tex
   jpeg_finish_compress(&jpeg);
 }
 
-std::optional<std::string> read_jpeg_comments(std::span<const std::byte> file, const std::string& name) {
-  std::string title = format("{} cannot be read", name);
+// The comments before the picture, one behind the other.
+std::optional<std::string> read_comments(std::span<const std::byte> file, const std::filesystem::path& path) {
+  std::string title = format("{} cannot be read", path.string());
   Decompressor jpeg(title);
   jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(file.data()), file.size());
   jpeg_save_markers(&jpeg, JPEG_COM, 0xFFFF);
@@ -168,7 +175,9 @@ std::optional<std::string> read_jpeg_comments(std::span<const std::byte> file, c
   return text;
 }
 
-JpegPicture read_jpeg(std::span<const std::byte> file, const std::string& name) {
+}  // namespace
+
+FilePicture read_jpeg(std::span<const std::byte> file, const std::string& name) {
   std::string title = format("{} cannot be read: it is damaged or no picture", name);
   Decompressor jpeg(title);
   // libjpeg goes on behind damage, with whatever comes: in front of a picture, also behind bytes of no segment.
@@ -187,7 +196,7 @@ JpegPicture read_jpeg(std::span<const std::byte> file, const std::string& name) 
     throw InputError(format("{} cannot be read: its colours are {}; grey and RGB are read", name,
                             jpeg.num_components == 4 ? "CMYK" : "of no known kind"));
   }
-  JpegPicture read;
+  FilePicture read;
   if (jpeg.saw_JFIF_marker) read.density = {jpeg.X_density, jpeg.Y_density};
   JOCTET* profile = nullptr;
   unsigned profile_bytes = 0;
@@ -209,5 +218,12 @@ JpegPicture read_jpeg(std::span<const std::byte> file, const std::string& name) 
   jpeg_finish_decompress(&jpeg);
   return read;
 }
+
+constinit const inputs::InputKind inputs::kJpeg{
+    .name = "JPEG", .starts = {"\xFF\xD8\xFF"}, .extensions = " .jpg .jpeg ",
+    .said = {"EXIF, in a table", "EXIF, in a table", "as stored, white 255", "EXIF", "none", "one picture"},
+    .text = read_comments,
+    .written = {{.extension = ".jpg", .also = ".jpeg", .code_bits = 8, .is_lossy = true, .is_for_eyes = true,
+                 .write = write_jpeg}}};
 
 }  // namespace nutik

@@ -10,7 +10,10 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/text.hpp"
+#include "media/formats/input_kinds.hpp"
+#include "media/stills/picture_text.hpp"
 #include "system/interruption.hpp"
+#include "system/output_file.hpp"
 
 namespace nutik {
 namespace {
@@ -198,10 +201,6 @@ Picture read_netpbm(std::span<const std::byte> file, const std::string& name) {
   return NetpbmReader(file, name).read();
 }
 
-Picture read_pfm(std::span<const std::byte> file, const std::string& name) {
-  return NetpbmReader(file, name).read_light();
-}
-
 std::vector<std::size_t> netpbm_starts(std::span<const std::byte> file, const std::string& name) {
   std::vector<std::size_t> starts{0};
   try {
@@ -240,5 +239,53 @@ std::string netpbm_text(const Picture& picture, const std::string& comment) {
   }
   return text;
 }
+
+namespace {
+
+FilePicture read_codes(std::span<const std::byte> file, const std::string& name, std::size_t begin) {
+  Picture picture = read_netpbm(file.subspan(std::min(begin, file.size())), name);
+  const std::uint32_t maximum = picture.white_code;
+  return {std::move(picture), maximum};
+}
+
+// Light as it stands, whatever its scale.
+FilePicture read_pfm(std::span<const std::byte> file, const std::string& name, std::size_t) {
+  return {NetpbmReader(file, name).read_light()};
+}
+
+// The comments behind the first line.
+std::optional<std::string> netpbm_comment(std::span<const std::byte> bytes, const std::filesystem::path&) {
+  const std::string_view file = as_text(bytes);
+  auto at = file.find('\n');
+  while (at != std::string_view::npos && at + 1 < file.size() && file[at + 1] == '#') {
+    const auto end = file.find('\n', at + 1);
+    if (end == std::string_view::npos) break;
+    std::string_view comment = file.substr(at + 2, end - at - 2);
+    if (comment.starts_with(' ')) comment.remove_prefix(1);
+    if (comment.starts_with(kPictureTextStart)) return std::string(comment);
+    at = end;
+  }
+  return std::nullopt;
+}
+
+void write_netpbm(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
+  file.write(netpbm_text(picture, text));
+}
+
+}  // namespace
+
+constinit const inputs::InputKind inputs::kNetpbm{
+    .name = "Netpbm", .starts = {"P2", "P3", "P5", "P6", "P7"}, .extensions = " .pgm .ppm .pnm .pam ",
+    .said = {"none", "none", "as stored, white is its maximum", "none", "none", "one behind the other"},
+    .behind_start = " \t\r\n", .read = read_codes, .places = netpbm_starts, .text = netpbm_comment,
+    .written = {{.extension = ".ppm", .code_bits = 16, .only_channels = 3, .write = write_netpbm},
+                {.extension = ".pgm", .code_bits = 16, .only_channels = 1, .write = write_netpbm},
+                {.also = ".pnm", .code_bits = 16, .write = write_netpbm}}};
+
+constinit const inputs::InputKind inputs::kPfm{
+    .name = "PFM", .starts = {"PF", "Pf"}, .extensions = " .pfm ",
+    .said = {"none", "none", "as of OpenEXR", "none", "none", "one picture"},
+    .behind_start = " \t\r\n", .has_tags = true, .read = read_pfm,
+    .written = {{.extension = ".pfm", .holds_light = true, .write = write_netpbm}}};
 
 }  // namespace nutik

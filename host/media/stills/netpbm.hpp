@@ -14,9 +14,6 @@ namespace nutik {
 // file's maxval. Throws InputError naming `name` where the file is damaged, cut off, or of another kind.
 [[nodiscard]] Picture read_netpbm(std::span<const std::byte> file, const std::string& name);
 
-// Reads a PFM: light32 as it stands, whatever its scale. Throws InputError likewise.
-[[nodiscard]] Picture read_pfm(std::span<const std::byte> file, const std::string& name);
-
 // Where the pictures begin of a file that holds one behind the other; the first at 0, whatever it is.
 [[nodiscard]] std::vector<std::size_t> netpbm_starts(std::span<const std::byte> file, const std::string& name);
 

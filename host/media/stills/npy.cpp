@@ -1,13 +1,17 @@
-#include "media/stills/npy.hpp"
+// NumPy's arrays in files (.npy), as pictures: [height, width], [height, width, 3], or several of them behind one
+// another, with an axis in front. https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html has the bytes.
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 #include <string_view>
 #include <vector>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/text.hpp"
+#include "media/formats/input_kinds.hpp"
+#include "system/output_file.hpp"
 
 namespace nutik {
 namespace {
@@ -74,8 +78,16 @@ std::string front_text(const Picture& picture, const std::string& axes) {
   return text + front;
 }
 
-}  // namespace
+// What an array holds: pictures of a shape and type, and where the first one's bytes begin.
+struct NpyFront {
+  Shape shape;
+  ValueType type = ValueType::light32;
+  std::uint64_t pictures = 1;
+  std::size_t begin = 0;
+};
 
+// Arrays of uint8 and uint16 are codes, of float32 and float64 light. Throws InputError naming `name` where it is of
+// another type or order, has other axes, was cut off, or goes on behind it.
 NpyFront read_npy_front(std::span<const std::byte> file, const std::string& name) {
   const std::string_view text = as_text(file);
   if (!text.starts_with(kMagic) || text.size() < kLengthAt + 4) fail(name, "it is no array of NumPy's, or was cut off");
@@ -114,23 +126,41 @@ NpyFront read_npy_front(std::span<const std::byte> file, const std::string& name
   return front;
 }
 
-Picture read_npy(std::span<const std::byte> file, const std::string& name, std::uint64_t number) {
+// From 0 on.
+std::vector<std::size_t> numbers_of_pictures(std::span<const std::byte> file, const std::string& name) {
+  std::vector<std::size_t> numbers(read_npy_front(file, name).pictures);
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  return numbers;
+}
+
+FilePicture read_npy(std::span<const std::byte> file, const std::string& name, std::size_t number) {
   const NpyFront front = read_npy_front(file, name);
   if (number >= front.pictures) fail(name, "it was cut off");
   Picture picture(front.shape, front.type, front.type == ValueType::code8 ? 255 : 65'535);
   const auto bytes = file.subspan(front.begin + number * picture.bytes.size(), picture.bytes.size());
   std::ranges::copy(bytes, picture.bytes.begin());
-  return picture;
+  return {std::move(picture)};
 }
 
-std::string npy_text(const Picture& picture) {
-  return front_text(picture, "").append(as_text(picture.bytes));
+void write_npy(OutputFile& file, const Picture& picture, const std::string&, const FileWishes&) {
+  file.write(front_text(picture, "").append(as_text(picture.bytes)));
 }
 
-std::string npy_text(std::span<const PictureLayer> layers) {
+// Several as [layers, height, width].
+void write_npy_layers(OutputFile& file, std::span<const PictureLayer> layers) {
   std::string text = front_text(layers.front().values, format("{}, ", layers.size()));
   for (const PictureLayer& layer : layers) text += as_text(layer.values.bytes);
-  return text;
+  file.write(text);
 }
+
+}  // namespace
+
+constinit const inputs::InputKind inputs::kNumpy{
+    .name = "NumPy", .starts = {kMagic}, .extensions = " .npy ",
+    .said = {"none", "none", "integers as stored, white 255 or 65535; floats as of OpenEXR", "none", "none",
+             "its first axis, if it has three, or four with colour"},
+    .has_tags = true, .read = read_npy, .places = numbers_of_pictures,
+    .written = {{.extension = ".npy", .holds_light = true, .holds_double = true, .write = write_npy,
+                 .write_layers = write_npy_layers}}};
 
 }  // namespace nutik

@@ -2,52 +2,19 @@
 
 #include <libdeflate.h>
 
-#include <algorithm>
 #include <array>
+#include <vector>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "capture/text.hpp"
 #include "media/formats/input_kinds.hpp"
-#include "media/module.hpp"
-#include "media/stills/picture_files.hpp"
 #include "system/checksum.hpp"
 #include "system/mapped_file.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik {
 namespace {
-
-using Text = std::optional<std::string>;
-using Bytes = std::span<const std::byte>;
-
-// The comments behind the first line.
-Text netpbm_comment(const std::filesystem::path&, Bytes bytes) {
-  const std::string_view file = as_text(bytes);
-  auto at = file.find('\n');
-  while (at != std::string_view::npos && at + 1 < file.size() && file[at + 1] == '#') {
-    const auto end = file.find('\n', at + 1);
-    if (end == std::string_view::npos) break;
-    std::string_view comment = file.substr(at + 2, end - at - 2);
-    if (comment.starts_with(' ')) comment.remove_prefix(1);
-    if (comment.starts_with(kPictureTextStart)) return std::string(comment);
-    at = end;
-  }
-  return std::nullopt;
-}
-
-// What has a place for a text.
-struct Carrier {
-  const inputs::InputKind* kind;
-  Text (*read)(const std::filesystem::path& path, Bytes bytes);
-};
-constexpr Carrier kCarriers[] = {
-    {&inputs::kPng, [](auto& path, Bytes bytes) { return read_png_text(bytes, kPictureTextKeyword, path.string()); }},
-    {&inputs::kJpeg, [](auto& path, Bytes bytes) { return read_jpeg_comments(bytes, path.string()); }},
-    {&inputs::kTiff, [](auto& path, Bytes) { return read_tiff_description(path); }},
-    {&inputs::kExr, [](auto& path, Bytes) { return still_module().read_exr_text(path, kPictureTextKeyword); }},
-    {&inputs::kNetpbm, netpbm_comment},
-};
 
 constexpr std::string_view kPngText = "tEXt";
 constexpr std::size_t kPngSumBytes = 4;
@@ -94,15 +61,16 @@ std::optional<Seal> find_seal(std::string_view file) {
 std::optional<std::string> read_picture_text(const std::filesystem::path& path) {
   const MappedFile file(path);
   if (inputs::kPfm.begins(as_text(file.bytes()))) return std::nullopt;
-  const auto begins = [&](const Carrier& each) { return each.kind->begins(as_text(file.bytes())); };
-  const auto* const carrier = std::ranges::find_if(kCarriers, begins);
-  if (carrier == std::end(kCarriers)) {
-    throw InputError(format("{} is no {}: it can carry no recipe", path.string(),
-                            joined(kCarriers, ", ", [](const Carrier& each) { return each.kind->name; })));
+  std::vector<std::string_view> carriers;
+  for (const inputs::InputKind* kind : inputs::kStills) {
+    if (kind->text == nullptr) continue;
+    carriers.push_back(kind->name);
+    if (!kind->begins(as_text(file.bytes()))) continue;
+    std::optional<std::string> text = kind->text(file.bytes(), path);
+    if (text && !text->starts_with(kPictureTextStart)) text.reset();
+    return text;
   }
-  std::optional<std::string> text = carrier->read(path, file.bytes());
-  if (text && !text->starts_with(kPictureTextStart)) text.reset();
-  return text;
+  throw InputError(format("{} is no {}: it can carry no recipe", path.string(), joined(carriers)));
 }
 
 void seal_picture(OutputFile& file) {

@@ -17,8 +17,10 @@
 #include "capture/text.hpp"
 #include "media/formats/coding_points.hpp"
 #include "media/formats/colour_profile.hpp"
+#include "media/formats/input_kinds.hpp"
 #include "media/stills/picture_text.hpp"
 #include "system/interruption.hpp"
+#include "system/output_file.hpp"
 
 namespace nutik {
 namespace {
@@ -210,8 +212,8 @@ void read_info(const ReadStructure& read, ByteReader& reader) {
 
 }  // namespace
 
-PngPicture read_png(std::span<const std::byte> file, const std::string& name, PngUse use,
-                    const std::function<void(std::uint32_t, std::uint32_t)>& check_size) {
+FilePicture read_png(std::span<const std::byte> file, const std::string& name, PngUse use,
+                     const std::function<void(std::uint32_t, std::uint32_t)>& check_size) {
   constexpr std::uint64_t kMostPixels = 1 << 30;
   std::string error_name = name;
   ReadStructure read(error_name);
@@ -260,7 +262,7 @@ PngPicture read_png(std::span<const std::byte> file, const std::string& name, Pn
   int compression = 0;
   png_get_iCCP(read.png, read.info, &title, &compression, &profile, &size);
   const auto* const bytes = reinterpret_cast<const std::byte*>(profile);
-  return {std::move(picture), {bytes, bytes + size}};
+  return {.picture = std::move(picture), .profile = {bytes, bytes + size}};
 }
 
 // Chunks: u32 length, four letters, so many bytes, a checksum. EXIF is a TIFF: its first directory is looked at.
@@ -291,20 +293,24 @@ unsigned png_orientation(std::span<const std::byte> file) {
   return 1;
 }
 
-std::optional<std::string> read_png_text(std::span<const std::byte> file, const char* keyword,
-                                         const std::string& name) {
-  std::string error_name = name;
+namespace {
+
+// In Latin-1.
+std::optional<std::string> read_text(std::span<const std::byte> file, const std::filesystem::path& path) {
+  std::string error_name = path.string();
   ReadStructure read(error_name, refuse_lost_text);
   ByteReader reader{file};
   read_info(read, reader);
   png_textp texts = nullptr;
   const int count = png_get_text(read.png, read.info, &texts, nullptr);
   for (int i = 0; i < count; ++i) {
-    if (std::strcmp(texts[i].key, keyword) == 0) return std::string(texts[i].text, texts[i].text_length);
+    if (std::strcmp(texts[i].key, kPictureTextKeyword) == 0) return std::string(texts[i].text, texts[i].text_length);
   }
   return std::nullopt;
 }
 
+// What codes mean in the chunks cICP, sRGB or gAMA and cHRM, and in iCCP what cICP has no number for; pixels that are
+// not square in pHYs. `text` is kept as picture_text.hpp says; none where it is empty.
 void write_png(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
   const Shape& shape = picture.shape;
   const std::size_t bytes = value_bytes(picture.type);
@@ -335,5 +341,13 @@ void write_png(OutputFile& file, const Picture& picture, const std::string& text
   }
   png_write_end(write.png, nullptr);
 }
+
+}  // namespace
+
+constinit const inputs::InputKind inputs::kPng{
+    .name = "PNG", .starts = {"\x89PNG\r\n\x1a\n"}, .extensions = " .png ",
+    .said = {"none", "none", "as stored, white 255, or 65535 with a note", "EXIF", "refused", "one picture"},
+    .text = read_text,
+    .written = {{.extension = ".png", .code_bits = 16, .is_for_eyes = true, .write = write_png}}};
 
 }  // namespace nutik

@@ -11,8 +11,6 @@
 #include "media/formats/colour_profile.hpp"
 #include "media/formats/file_kinds.hpp"
 #include "media/stills/picture_files.hpp"
-#include "media/stills/netpbm.hpp"
-#include "media/stills/npy.hpp"
 #include "media/formats/input_kinds.hpp"
 #include "media/module.hpp"
 #include "media/settled_fact.hpp"
@@ -30,7 +28,7 @@ struct Page {
   const inputs::InputKind* kind = nullptr;
   std::uint64_t number = 1;
   std::uint64_t count = 1;  // of the file's pages
-  std::size_t begin = 0;    // of a Netpbm file's, in bytes
+  std::size_t place = 0;    // as the kind's reader takes it
 
   [[nodiscard]] std::string name() const {
     return count == 1 ? file.string() : format("page {} of {}", number, file.string());
@@ -130,28 +128,11 @@ void add_pages(std::vector<Page>& pages, const std::filesystem::path& file, cons
   for (std::uint64_t number = 1; number <= count; ++number) pages.push_back({file, &kind, number, count});
 }
 
-void add_netpbm(std::vector<Page>& pages, const std::filesystem::path& file, Reading&) {
-  const std::vector<std::size_t> starts = netpbm_starts(MappedFile(file).bytes(), file.string());
-  for (std::size_t i = 0; i < starts.size(); ++i)
-    pages.push_back({file, &inputs::kNetpbm, i + 1, starts.size(), starts[i]});
-}
-
-void add_npy(std::vector<Page>& pages, const std::filesystem::path& file, Reading&) {
-  add_pages(pages, file, inputs::kNumpy, read_npy_front(MappedFile(file).bytes(), file.string()).pictures);
-}
-
 void add_tiff(std::vector<Page>& pages, const std::filesystem::path& file, Reading& reading) {
   const TiffReader tiff(file);
   if (tiff.is_dng()) return add_pages(pages, file, inputs::kDng, 1);  // whose pages show one picture
   if (pages.empty()) reading.story = tiff.story();
   add_pages(pages, file, inputs::kTiff, tiff.page_count());
-}
-
-Still read_netpbm_still(const Page& page, Reading&) {
-  const MappedFile mapped(page.file);
-  Picture picture = read_netpbm(mapped.bytes().subspan(std::min(page.begin, mapped.bytes().size())), page.name());
-  const std::uint32_t maximum = picture.white_code;
-  return still_of(std::move(picture), maximum);
 }
 
 void follow_profile(Still& still, std::span<const std::byte> profile) {
@@ -170,27 +151,34 @@ void turn_upright(Still& still, unsigned orientation) {
     still.pixel_aspect = Rational::of(still.pixel_aspect->denominator, still.pixel_aspect->numerator);
 }
 
+// What the file says of its pixels is followed, too.
+Still still_of(FilePicture&& read, const Reading& reading, const Page& page) {
+  Still still = holds_codes(read.picture.type) ? still_of(std::move(read.picture), read.maximum)
+                                               : still_of_light(read.picture, reading, page);
+  if (!read.profile.empty()) follow_profile(still, read.profile);
+  if (read.density) still.pixel_aspect = aspect_of(read.density->first, read.density->second);
+  turn_upright(still, read.orientation);
+  return still;
+}
+
 void check_front(std::string_view bytes, const std::string& name) {
   if (inputs::kPng.begins(bytes) || inputs::kJpeg.begins(bytes)) return;
   throw InputError(
       format("{} cannot be read: it is damaged or no picture: neither a PNG nor a JPEG begins like that", name));
 }
 
-Still read_jpeg_still(const Page& page, Reading&) {
+Still read_jpeg_still(const Page& page, Reading& reading) {
   const std::filesystem::path& file = page.file;
   const MappedFile mapped(file);
   check_front(as_text(mapped.bytes()), file.string());
   if (holds_several_pictures(file))
     throw InputError(format("{} holds several pictures: name it alone, as a video is", file.string()));
-  JpegPicture read = read_jpeg(mapped.bytes(), file.string());
-  Still still = still_of(std::move(read.picture), {});
-  if (read.density) still.pixel_aspect = aspect_of(read.density->first, read.density->second);
-  if (!read.profile.empty()) follow_profile(still, read.profile);
-  turn_upright(still, exif_orientation(file));
-  return still;
+  FilePicture read = read_jpeg(mapped.bytes(), file.string());
+  read.orientation = exif_orientation(file);
+  return still_of(std::move(read), reading, page);
 }
 
-Still read_png_still(const Page& page, Reading&) {
+Still read_png_still(const Page& page, Reading& reading) {
   const MappedFile mapped(page.file);
   const std::string name = page.file.string();
   check_front(as_text(mapped.bytes()), name);
@@ -198,15 +186,16 @@ Still read_png_still(const Page& page, Reading&) {
   if (holds_several_pictures(page.file)) {
     throw InputError(format("{} holds several pictures, as an animated PNG does: name it alone, as a video is", name));
   }
-  PngPicture read = read_png(mapped.bytes(), name, PngUse::still);
-  Still still = still_of(std::move(read.picture), {});
+  FilePicture read = read_png(mapped.bytes(), name, PngUse::still);
+  const std::vector<std::byte> profile = std::exchange(read.profile, {});
+  read.density = tags.density;
+  read.orientation = png_orientation(mapped.bytes());
+  Still still = still_of(std::move(read), reading, page);
   still.transfer = tags.transfer;
   still.primaries = tags.primaries;
   if (!tags.transfer) still.unread_transfer = tags.unread_transfer;
   if (!tags.primaries) still.unread_primaries = tags.unread_primaries;
-  if (tags.density) still.pixel_aspect = aspect_of(tags.density->first, tags.density->second);
-  if (tags.has_profile) follow_profile(still, read.profile);
-  turn_upright(still, png_orientation(mapped.bytes()));
+  if (tags.has_profile) follow_profile(still, profile);
   return still;
 }
 
@@ -226,26 +215,14 @@ Still read_exr_still(const Page& page, Reading& reading) {
   return still;
 }
 
-Still read_array_still(const Page& page, Reading& reading) {
-  const MappedFile mapped(page.file);
-  Picture picture = *page.kind == inputs::kPfm ? read_pfm(mapped.bytes(), page.name())
-                                               : read_npy(mapped.bytes(), page.name(), page.number - 1);
-  return holds_codes(picture.type) ? still_of(std::move(picture), {}) : still_of_light(picture, reading, page);
-}
-
 Still read_tiff_still(const Page& page, Reading& reading) {
   if (page.number == 1) reading.tiff.emplace(page.file);
-  std::optional<TiffPage> read = reading.tiff->next();
+  std::optional<FilePicture> read = reading.tiff->next();
   if (!read) throw InputError(format("{} cannot be read: the file was cut off", page.name()));
-  Still still = holds_codes(read->picture.type) ? still_of(std::move(read->picture), read->maximum)
-                                                : still_of_light(read->picture, reading, page);
-  if (!read->profile.empty()) follow_profile(still, read->profile);
-  if (read->resolution) still.pixel_aspect = aspect_of(read->resolution->first, read->resolution->second);
-  turn_upright(still, read->orientation);
-  return still;
+  return still_of(std::move(*read), reading, page);
 }
 
-// How each kind is read.
+// Kinds of which more is read than a picture's bytes tell.
 struct StillFormat {
   const inputs::InputKind* kind;
   Still (*read)(const Page& page, Reading& reading);
@@ -257,15 +234,28 @@ constexpr StillFormat kFormats[] = {
     {&inputs::kJpeg, read_jpeg_still},
     {&inputs::kTiff, read_tiff_still, add_tiff},
     {&inputs::kDng, read_dng_still},
-    {&inputs::kNetpbm, read_netpbm_still, add_netpbm},
     {&inputs::kExr, read_exr_still},
-    {&inputs::kPfm, read_array_still},
-    {&inputs::kNumpy, read_array_still, add_npy},
 };
-static_assert(std::ranges::equal(inputs::kStills, kFormats, {}, {}, &StillFormat::kind));
 
-const StillFormat& format_of(const inputs::InputKind& kind) {
-  return *std::ranges::find(kFormats, kind, [](const StillFormat& each) { return *each.kind; });
+// Null of the others.
+const StillFormat* format_of(const inputs::InputKind& kind) {
+  const auto* const found = std::ranges::find(kFormats, kind, [](const StillFormat& each) { return *each.kind; });
+  return found == std::end(kFormats) ? nullptr : found;
+}
+
+Still read_still(const Page& page, Reading& reading) {
+  if (page.kind->read == nullptr) return format_of(*page.kind)->read(page, reading);
+  return still_of(page.kind->read(MappedFile(page.file).bytes(), page.name(), page.place), reading, page);
+}
+
+void add_file(std::vector<Page>& pages, const std::filesystem::path& file, const inputs::InputKind& kind,
+              Reading& reading) {
+  if (const StillFormat* const format = format_of(kind); format != nullptr && format->add != nullptr)
+    return format->add(pages, file, reading);
+  if (kind.places == nullptr) return add_pages(pages, file, kind, 1);
+  const std::vector<std::size_t> places = kind.places(MappedFile(file).bytes(), file.string());
+  for (const std::size_t& place : places)
+    pages.push_back({file, &kind, static_cast<std::uint64_t>(&place - places.data()) + 1, places.size(), place});
 }
 
 class StillClip final : public Clip {
@@ -277,8 +267,7 @@ class StillClip final : public Clip {
       refuse_unsupported_kind(file);
       const inputs::InputKind* kind = still_kind(file);
       if (kind == nullptr) kind = &inputs::kPng;  // which says that it is none
-      const auto add = format_of(*kind).add;
-      add != nullptr ? add(pages_, file, reading_) : add_pages(pages_, file, *kind, 1);
+      add_file(pages_, file, *kind, reading_);
       if (const std::uint64_t count = pages_.back().count; count > 1 && timing.is_known()) {
         throw InputError(format("{} has {} pages; in a table with times each picture is a file of its own",
                                 file.string(), count));
@@ -341,7 +330,7 @@ class StillClip final : public Clip {
   }
 
  private:
-  Still read(const Page& page) { return format_of(*page.kind).read(page, reading_); }
+  Still read(const Page& page) { return read_still(page, reading_); }
 
   // A profile was made for these codes: what it says and is not known here would be right.
   void add_unread_colours(const ClipOptions& options) {

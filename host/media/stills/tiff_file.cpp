@@ -1,5 +1,4 @@
-#include "media/stills/picture_files.hpp"
-
+// TIFF through libtiff: written uncompressed, so that every program reads it bit for bit.
 #include <tiffio.h>
 
 #include <algorithm>
@@ -10,8 +9,13 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "media/formats/colour_profile.hpp"
+#include "media/formats/input_kinds.hpp"
+#include "system/output_file.hpp"
 
 namespace nutik {
+
+using std::literals::operator""sv;
+
 namespace {
 
 constexpr std::uint64_t kLargestClassicTiff = 4'000'000'000;
@@ -73,9 +77,8 @@ void write_pages(const OutputFile& file, std::uint64_t bytes, std::size_t pages,
   throw OutputError("the TIFF cannot be written, and libtiff does not say why");
 }
 
-}  // namespace
-
-std::optional<std::string> read_tiff_description(const std::filesystem::path& path) {
+// The first picture's.
+std::optional<std::string> read_description(std::span<const std::byte>, const std::filesystem::path& path) {
   TIFFSetErrorHandler(nullptr);
   TIFFSetWarningHandler(nullptr);
   const std::unique_ptr<TIFF, CloseTiff> tiff(TIFFOpen(path.c_str(), "rm"));
@@ -85,15 +88,29 @@ std::optional<std::string> read_tiff_description(const std::filesystem::path& pa
   return text;
 }
 
+// What values mean as an ICC profile, pixels that are not square as resolution, `text` as ImageDescription.
 void write_tiff(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
   write_pages(file, picture.bytes.size(), 1,
               [&](TIFF* tiff, std::size_t) { return write_page(tiff, file, picture, text); });
 }
 
-void write_tiff(OutputFile& file, std::span<const PictureLayer> layers) {
+// Each is a page, described by its text.
+void write_tiff_layers(OutputFile& file, std::span<const PictureLayer> layers) {
   write_pages(file, layers.front().values.bytes.size(), layers.size(), [&](TIFF* tiff, std::size_t page) {
     return write_page(tiff, file, layers[page].values, layers[page].text);
   });
 }
+
+}  // namespace
+
+constinit const inputs::InputKind inputs::kTiff{
+    .name = "TIFF", .starts = {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv}, .extensions = " .tif .tiff ",
+    .said = {"ImageJ's or OME's description", "none",
+             "as stored, white by its bits; of 16 `MaxSampleValue` if all ones, else 65535 with a note; floats as of "
+             "OpenEXR",
+             "`Orientation`", "refused", "its pages"},
+    .has_tags = true, .text = read_description,
+    .written = {{.extension = ".tif", .also = ".tiff", .code_bits = 16, .holds_light = true, .holds_double = true,
+                 .write = write_tiff, .write_layers = write_tiff_layers}}};
 
 }  // namespace nutik

@@ -40,10 +40,10 @@ class PageReader {
   }
 
   // Where a page has no directory of its own, its bytes lie so many behind the first one's.
-  TiffPage read(std::uint64_t bytes_behind = 0) {
+  FilePicture read(std::uint64_t bytes_behind = 0) {
     bytes_behind_ = bytes_behind;
     read_layout();
-    TiffPage page;
+    FilePicture page;
     if (is_plain()) {
       page.maximum = stated_maximum();
       page.picture = Picture(shape_, value_type(), is_light_ ? 0 : (1u << std::max<std::uint32_t>(bits_, 8)) - 1);
@@ -53,7 +53,7 @@ class PageReader {
     } else {
       page.picture = read_shown();
     }
-    page.resolution = resolution();
+    page.density = resolution();
     page.profile = profile();
     page.orientation = orientation();
     return page;
@@ -429,13 +429,13 @@ void TiffReader::follow_story() {
   page_count_ = story_.pictures;
 }
 
-std::optional<TiffPage> TiffReader::next() {
+std::optional<FilePicture> TiffReader::next() {
   if (pages_read_ == page_count_) return std::nullopt;
   const std::string page_name = format("page {} of {}", pages_read_ + 1, name_);
   TIFF* const handle = file_->handle.get();
   bool found = pages_read_ == 0 || is_in_one_ || TIFFReadDirectory(handle) != 0;
   while (found && !is_in_one_ && !is_moment_[TIFFCurrentDirectory(handle)]) found = TIFFReadDirectory(handle) != 0;
-  std::optional<TiffPage> page;
+  std::optional<FilePicture> page;
   if (found) page = PageReader(handle, page_name).read(is_in_one_ ? pages_read_ * bytes_in_one_piece(handle) : 0);
   if (!found || !file_->trouble.empty()) {
     throw InputError(format("{} cannot be read: it is damaged ({})", page_name, file_->trouble));

@@ -12,23 +12,9 @@
 
 #include "capture/picture.hpp"
 #include "capture/rational.hpp"
+#include "media/formats/picture_format.hpp"
 
 namespace nutik {
-
-// One page's values as stored: code8 up to 8 bits a value, else code16. Values of 9 to 15 bits are
-// unpacked and not scaled. Floating point is light32 or light64.
-struct TiffPage {
-  Picture picture;
-  // The largest code there can be, where the file tells: fewer than 16 bits a value, or the tag
-  // MaxSampleValue. That tag may also be the largest value that happens to occur; so it counts only
-  // where it is 2^n - 1, all that n bits can hold.
-  std::optional<std::uint32_t> maximum;
-  // How many of its pixels are as long as one and the same length, along a row and along a column, of no unit; where it
-  // has a resolution.
-  std::optional<std::pair<double, double>> resolution;
-  std::vector<std::byte> profile;  // ICC; empty where it has none
-  unsigned orientation = 1;        // as it lies, by TIFF's numbers, which are EXIF's
-};
 
 // What the description of a TIFF says of its pages beside what their directories do: ImageJ, tifffile and OME write
 // there how many pictures there are, of how many channels and slices, and how fast they were taken.
@@ -58,7 +44,11 @@ class TiffReader {
 
   // The next page, in time proportional to its size. Empty after the last one. Throws InputError
   // naming file and page where it is damaged, as far as libtiff notices, or of a kind that is not read.
-  [[nodiscard]] std::optional<TiffPage> next();
+  // Values are as stored: code8 up to 8 bits a value, else code16. Those of 9 to 15 bits are unpacked and not scaled.
+  // Floating point is light32 or light64. Its maximum is told by fewer than 16 bits a value, or the tag MaxSampleValue.
+  // That tag may also be the largest value that happens to occur; so it counts only where it is 2^n - 1, all that n
+  // bits can hold.
+  [[nodiscard]] std::optional<FilePicture> next();
 
  private:
   struct File;

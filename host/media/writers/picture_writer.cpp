@@ -7,10 +7,8 @@
 #include "capture/format.hpp"
 #include "capture/text.hpp"
 #include "media/formats/extension.hpp"
-#include "media/stills/picture_files.hpp"
+#include "media/formats/input_kinds.hpp"
 #include "media/module.hpp"
-#include "media/stills/netpbm.hpp"
-#include "media/stills/npy.hpp"
 #include "media/stills/picture_text.hpp"
 #include "system/output_file.hpp"
 #include "system/temporary_folder.hpp"
@@ -18,67 +16,21 @@
 namespace nutik {
 namespace {
 
-struct WrittenFormat {
-  const char* extension;
-  bool is_preferred = true;             // of several extensions
-  std::uint32_t code_bits = 0;      // that it holds at most; 0: no codes
-  bool holds_light = false;         // in 32 bits
-  bool holds_half = false;          // in 16
-  bool holds_double = false;        // in 64
-  bool is_lossy = false;            // codes
-  bool is_for_eyes = false;         // shown by viewers that take pixels for square ones
-  std::uint32_t only_channels = 0;  // 0: any
-  bool has_text = true;             // a place for a line of it
-  void (*write)(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes& wishes);
-  void (*write_layers)(OutputFile& file, std::span<const PictureLayer> layers) = nullptr;  // null: it holds one picture
-};
-
-void write_netpbm(OutputFile& file, const Picture& picture, const std::string& text, const FileWishes&) {
-  file.write(netpbm_text(picture, text));
-}
-void write_npy(OutputFile& file, const Picture& picture, const std::string&, const FileWishes&) {
-  file.write(npy_text(picture));
-}
-void write_jpeg_file(OutputFile& file, const Picture& picture, const std::string& text,
-                     const FileWishes& wishes) {
-  write_jpeg(file, picture, text, wishes.quality);
-}
-void write_exr_file(OutputFile& file, const Picture& picture, const std::string& text,
-                    const FileWishes& wishes) {
-  still_module().write_exr(file, picture, text, wishes.as_half);
-}
-
-void write_npy_layers(OutputFile& file, std::span<const PictureLayer> layers) { file.write(npy_text(layers)); }
-void write_exr_layers(OutputFile& file, std::span<const PictureLayer> layers) {
-  still_module().write_exr_layers(file, layers);
-}
-
-constexpr WrittenFormat kWrittenFormats[] = {
-    {.extension = ".png", .code_bits = 16, .is_for_eyes = true, .write = write_png},
-    {.extension = ".tif", .code_bits = 16, .holds_light = true, .holds_double = true, .write = write_tiff,
-     .write_layers = write_tiff},
-    {.extension = ".tiff", .is_preferred = false, .code_bits = 16, .holds_light = true, .holds_double = true,
-     .write = write_tiff, .write_layers = write_tiff},
-    {.extension = ".jpg", .code_bits = 8, .is_lossy = true, .is_for_eyes = true, .write = write_jpeg_file},
-    {.extension = ".jpeg", .is_preferred = false, .code_bits = 8, .is_lossy = true, .is_for_eyes = true,
-     .write = write_jpeg_file},
-    {.extension = ".exr", .holds_light = true, .holds_half = true, .write = write_exr_file,
-     .write_layers = write_exr_layers},
-    {.extension = ".ppm", .code_bits = 16, .only_channels = 3, .write = write_netpbm},
-    {.extension = ".pgm", .code_bits = 16, .only_channels = 1, .write = write_netpbm},
-    {.extension = ".pnm", .is_preferred = false, .code_bits = 16, .write = write_netpbm},
-    {.extension = ".pfm", .holds_light = true, .has_text = false, .write = write_netpbm},
-    {.extension = ".npy", .holds_light = true, .holds_double = true, .has_text = false, .write = write_npy,
-     .write_layers = write_npy_layers},
-};
-
 constexpr std::string_view kStandardOutput = "-", kBehindKind = ":-";
+
+// Null where no kind has it.
+const WrittenFormat* format_with(const inputs::InputKind& kind, std::string_view extension) {
+  const auto* const found = std::ranges::find_if(kind.written, [&](const WrittenFormat& each) {
+    return !extension.empty() && (extension == each.extension || extension == each.also);
+  });
+  return found == std::end(kind.written) ? nullptr : found;
+}
 
 const WrittenFormat* find_format(const std::filesystem::path& path) {
   const std::string extension = picture_extension(path);
-  const auto* found = std::ranges::find_if(
-      kWrittenFormats, [&](const WrittenFormat& kind) { return extension == kind.extension; });
-  return found == std::end(kWrittenFormats) ? nullptr : found;
+  for (const inputs::InputKind* kind : inputs::kWritten)
+    if (const WrittenFormat* const found = format_with(*kind, extension)) return found;
+  return nullptr;
 }
 
 const WrittenFormat& written_format_of(const std::filesystem::path& path) {
@@ -87,14 +39,19 @@ const WrittenFormat& written_format_of(const std::filesystem::path& path) {
                           path.extension().string()));
 }
 
-// `.tif, .exr or .pfm`: the extensions of the kinds that are wanted.
+// The extensions of those that are wanted.
+template <typename Wanted>
+std::vector<std::string> names_of(Wanted wanted) {
+  std::vector<std::string> names;
+  for (const inputs::InputKind* kind : inputs::kWritten)
+    for (const WrittenFormat& each : kind->written)
+      if (!each.extension.empty() && wanted(each)) names.emplace_back(each.extension);
+  return names;
+}
+// `.tif, .exr or .pfm`
 template <typename Wanted>
 std::string extensions_of(Wanted wanted) {
-  std::vector<std::string> names;
-  for (const WrittenFormat& kind : kWrittenFormats) {
-    if (kind.is_preferred && wanted(kind)) names.emplace_back(kind.extension);
-  }
-  return alternatives(names);
+  return alternatives(names_of(wanted));
 }
 
 }  // namespace
@@ -152,12 +109,18 @@ bool is_lossy_name(const std::filesystem::path& path) {
 }
 
 bool has_text_by_name(const std::filesystem::path& path) {
-  const WrittenFormat* kind = find_format(path);
-  return kind != nullptr && kind->has_text;
+  const std::string extension = picture_extension(path);
+  return std::ranges::any_of(inputs::kWritten, [&](const inputs::InputKind* kind) {
+    return kind->text != nullptr && format_with(*kind, extension) != nullptr;
+  });
 }
 
 std::string picture_extensions() {
   return extensions_of([](const WrittenFormat&) { return true; });
+}
+
+std::string picture_patterns() {
+  return "*" + joined(names_of([](const WrittenFormat&) { return true; }), " *");
 }
 
 Shape written_shape(const std::filesystem::path& path, const Shape& shape, const Rational& aspect,
@@ -206,5 +169,18 @@ void write_layers(const std::filesystem::path& path, std::span<const PictureLaye
   kind.write_layers(file, layers);
   file.commit();
 }
+
+// Read and written by a module.
+constinit const inputs::InputKind inputs::kExr{
+    .name = "OpenEXR", .starts = {"\x76\x2F\x31\x01"}, .extensions = " .exr ",
+    .said = {"none", "none", "floating-point light, over 16 bits by the white that you state", "as it lies", "refused",
+             "one picture"},
+    .has_tags = true,
+    .text = [](Bytes, const auto& path) { return still_module().read_exr_text(path, kPictureTextKeyword); },
+    .written = {{.extension = ".exr", .holds_light = true, .holds_half = true,
+                 .write = [](auto& file, auto& picture, auto& text, auto& wishes) {
+                   still_module().write_exr(file, picture, text, wishes.as_half);
+                 },
+                 .write_layers = [](auto& file, auto layers) { still_module().write_exr_layers(file, layers); }}}};
 
 }  // namespace nutik

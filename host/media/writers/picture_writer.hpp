@@ -3,14 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "capture/picture.hpp"
-#include "system/interruption.hpp"
+#include "media/formats/picture_format.hpp"
 
 namespace nutik {
 
@@ -35,16 +34,8 @@ enum class Depth { bits8, bits16, half, floating, doubled };
 [[nodiscard]] bool has_text_by_name(const std::filesystem::path& path);
 // `.png, .tif, … or .npy`: those extensions.
 [[nodiscard]] std::string picture_extensions();
-
-// What a person asked of a file beside its values.
-struct FileWishes {
-  static constexpr int kDefaultQuality = 90;
-  int quality = kDefaultQuality;  // 1 … 100, of lossy files
-  bool as_half = false;         // light in 16 bits
-  bool square_pixels = false;   // of files that people look at: .png and .jpg
-  // Called often while a file is written: what it throws leaves no file. Empty where a signal must not lose a picture.
-  std::function<void()> check = check_interruption;
-};
+// `*.png *.tif …`: the same, as dialogs have them.
+[[nodiscard]] std::string picture_patterns();
 
 // That files hold where pixels are made square.
 inline constexpr std::uint32_t kLargestSquaredSide = 65'500;
