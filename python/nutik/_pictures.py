@@ -190,8 +190,8 @@ class Picture(_HasArray):
 
     def write(self, path: Union[Path, BinaryIO], *, kind: Optional[str] = None, quality: Optional[int] = None,
               keep_pixels: bool = False) -> None:
-        """Writes a file: .png, .tif, .jpg, .ppm, .pgm of codes, .exr, .tif, .pfm of light, .npy of any; float64 as .tif
-        or .npy.
+        """Writes a file of the kind that its name says: .png of codes, .exr of light, or another of
+        docs/reference/picture.md; float64 as .tif or .npy.
 
         Parameters:
         path : or a file that is open for bytes, as io.BytesIO.

@@ -1153,8 +1153,8 @@ Zeit und Gain nach dem Filmen: Gain-Funktionen und Masken werden gezeichnet, und
         <translation>Leere Szene schreiben</translation>
     </message>
     <message>
-        <source>Pictures (*.png *.tif *.jpg *.exr)</source>
-        <translation>Bilder (*.png *.tif *.jpg *.exr)</translation>
+        <source>Pictures (%1)</source>
+        <translation>Bilder (%1)</translation>
     </message>
     <message>
         <source>&amp;View</source>
@@ -1333,8 +1333,8 @@ Zeit und Gain nach dem Filmen: Gain-Funktionen und Masken werden gezeichnet, und
         <translation>Öffnen</translation>
     </message>
     <message>
-        <source>Clips, captures and projects (*.tik *.nutik *.mp4 *.mov *.mkv *.avi *.cine *.cihx *.csv);;All files (*)</source>
-        <translation>Clips, Aufnahmen und Projekte (*.tik *.nutik *.mp4 *.mov *.mkv *.avi *.cine *.cihx *.csv);;Alle Dateien (*)</translation>
+        <source>Clips, captures and projects (*.tik *.nutik *.mp4 *.mov *.mkv *.avi *.cine %1);;All files (*)</source>
+        <translation>Clips, Aufnahmen und Projekte (*.tik *.nutik *.mp4 *.mov *.mkv *.avi *.cine %1);;Alle Dateien (*)</translation>
     </message>
     <message>
         <source>Long exposure</source>

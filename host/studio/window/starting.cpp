@@ -6,6 +6,8 @@
 #include "features/film/film_making.hpp"
 #include "features/schema/requests.hpp"
 #include "features/study/study_shot.hpp"
+#include "media/formats/file_kinds.hpp"
+#include "media/writers/picture_writer.hpp"
 #include "session/requests/output_request.hpp"
 #include "studio/window/main_window.hpp"
 #include "studio/window/options_dialog.hpp"
@@ -22,8 +24,8 @@ const StartingPoint& point_of(StudyStyle style) {
 
 void MainWindow::choose_file(const StartingPoint* then) {
   ask_for_file(tr("Open"),
-               tr("Clips, captures and projects (*.tik *.nutik *.mp4 *.mov *.mkv *.avi "
-                  "*.cine *.cihx *.csv);;All files (*)"),
+               tr("Clips, captures and projects (*.tik *.nutik *.mp4 *.mov *.mkv *.avi *.cine %1);;All files (*)")
+                   .arg(QString::fromStdString(clip_patterns())),
                [this, then](const QString& path) { open(path, {}, then); });
 }
 
@@ -100,7 +102,8 @@ void MainWindow::show_plate(const QImage& plate, const Marks& marks) {
 }
 
 void MainWindow::save_plate(const Marks& marks) {
-  ask_for_name(tr("Write the empty scene"), "-empty.png", tr("Pictures (*.png *.tif *.jpg *.exr)"),
+  ask_for_name(tr("Write the empty scene"), "-empty.png",
+               tr("Pictures (%1)").arg(QString::fromStdString(picture_patterns())),
                [this, marks](const QString& path) { write_plate(path, marks); });
 }
 
@@ -201,7 +204,7 @@ void MainWindow::choose_export() {
              tr("Export the picture"),
              {"depth", "quality", "out-transfer", "negative", "keep-pixels", "no-recipe"},
              {suggested_picture(), written_},
-             tr("Pictures (*.png *.tif *.jpg *.exr *.pfm *.ppm)"),
+             tr("Pictures (%1)").arg(QString::fromStdString(picture_patterns())),
              [&](const Wanted& asked, const Options& options) {
                static_cast<void>(output_format(options.picture, asked.path.toStdString(), session_->format()));
                static_cast<void>(exporting(document_, session_, files_, asked.path, asked.options, {}));
