@@ -96,6 +96,14 @@ class Way {
   double extent_ = 0, length_ = 0, turns_ = 0;
 };
 
+// But for a share of the cells: who walks past slowly stays near a place for a while, but covers others, for legs part.
+bool stays_at(const SubjectPlace& place, const SubjectPlace& later, double stir = kMaxStir) {
+  std::vector<std::size_t> both;
+  std::ranges::set_intersection(place.cells, later.cells, std::back_inserter(both));
+  const auto all = static_cast<double>(place.cells.size() + later.cells.size());
+  return 2 * static_cast<double>(both.size()) >= (1 - stir) * all;
+}
+
 // What was followed from one look to the next.
 class Followed {
  public:
@@ -143,6 +151,16 @@ class Followed {
       const auto same = std::ranges::lower_bound(other.places_, place.sample, {}, &SubjectPlace::sample);
       return same != other.places_.end() && same->sample == place.sample &&
              distance(place.centre, same->centre) > length(place) + length(*same);
+    });
+  }
+
+  // What comes into the picture is not taken for what stays, which is there, too: a hole, where the plate has a thing.
+  [[nodiscard]] bool stays_beside(const SubjectPlace& place, const std::vector<SubjectPlace>& places) const {
+    constexpr double kNoise = 0.1;  // of its cells
+    if (places_.size() < kMinPlaces || stays_at(places_.back(), place)) return false;
+    const SubjectPlace& earlier = places_[places_.size() - kMinPlaces];
+    return std::ranges::any_of(places, [&](const SubjectPlace& other) {
+      return &other != &place && stays_at(earlier, other, kNoise);
     });
   }
 
@@ -245,7 +263,7 @@ class Follower {
       for (Followed& each : followed_) {
         if (each.is_lost(look_) || each.was_seen(look_)) continue;
         const double strays = each.strays(place, look_);
-        if (strays > least) continue;
+        if (strays > least || each.stays_beside(place, places)) continue;
         least = strays;
         nearest = &each;
       }
@@ -317,14 +335,6 @@ class Follower {
   std::size_t look_ = 0;
   std::vector<Followed> followed_;
 };
-
-// Who walks past slowly stays near a place for a while, but covers other cells: legs part.
-bool stays_at(const SubjectPlace& place, const SubjectPlace& later) {
-  std::vector<std::size_t> both;
-  std::ranges::set_intersection(place.cells, later.cells, std::back_inserter(both));
-  const auto all = static_cast<double>(place.cells.size() + later.cells.size());
-  return 2 * static_cast<double>(both.size()) >= (1 - kMaxStir) * all;
-}
 
 // From one place that it stays at to the last there. None where hardly anything would be left of its way.
 std::vector<SampleRange> rests_of(const std::vector<SubjectPlace>& places) {
@@ -497,6 +507,28 @@ std::vector<std::vector<std::size_t>> SubjectTrack::changed_for_good() const {
   Region changed = Region::none(cell_columns, static_cast<std::uint32_t>(all / cell_columns));
   for (std::size_t cell = 0; cell < all; ++cell) changed.inside[cell] = 4 * counts[cell] > 3 * looks ? 1 : 0;
   return parts_of(changed, kMinCells);
+}
+
+SubjectTrack::Exchange SubjectTrack::exchanged() const {
+  constexpr std::size_t kLooks = 4;
+  const auto look_of = [&](const SubjectPlace& place) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(looked_at, place.sample) - looked_at.begin());
+  };
+  const std::size_t first = look_of(places.front()), last = look_of(places.back());
+  if (first < kLooks || last + kLooks >= looked_at.size()) return {};
+  const auto differs_throughout = [&](std::size_t from, std::size_t cell, bool differs) {
+    return std::all_of(differing->begin() + static_cast<std::ptrdiff_t>(from),
+                       differing->begin() + static_cast<std::ptrdiff_t>(from + kLooks),
+                       [&](const std::vector<bool>& cells) { return cells[cell] == differs; });
+  };
+  const std::size_t all = differing->front().size();
+  Region changed = Region::none(cell_columns, static_cast<std::uint32_t>(all / cell_columns));
+  for (std::size_t cell = 0; cell < all; ++cell) {
+    const bool differed = (*differing)[first - 1][cell];
+    changed.inside[cell] =
+        differs_throughout(first - kLooks, cell, differed) && differs_throughout(last + 1, cell, !differed) ? 1 : 0;
+  }
+  return {parts_of(changed, kMinCells), looked_at[first - kLooks], looked_at[last + kLooks]};
 }
 
 SubjectTrack::BareGround SubjectTrack::bare_ground(const SubjectPlace& place, std::uint32_t pixels) const {

@@ -249,6 +249,18 @@ TEST_F(StudySubjects, AreNotShownWithHolesOfThePlate) {
   expect_says(study("slow", "--moments 0f,9f").err, "note: " + why);
 }
 
+// An arm puts a block down, and leaves it for the rest of the time: the plate has it, and the trail for a part of its time.
+TEST_F(StudySubjects, ShowWhatTheyPutDown) {
+  const cv::Rect block(71, 56, 20, 18);
+  draw("put", 60, [&](cv::Mat& frame, int k) {
+    const int tip = 8 * std::min(k - 17, 33 - k);
+    if (tip > 0) frame(cv::Rect(70, 0, 22, std::min(tip, block.y))) = 10;
+    if (k > 17) frame(k < 24 ? block + cv::Point(0, tip - block.y) : block) = 250;
+  });
+  study("put", "--moments 26f");
+  EXPECT_GE(cv::mean(picture("study.png")(block))[0], 249.5);
+}
+
 // A square that is there for a third of the time.
 TEST_F(StudySubjects, MayBeShownStillWhereTheyGoNowhere) {
   draw("comes", 30, [](cv::Mat& frame, int k) {

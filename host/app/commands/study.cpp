@@ -244,9 +244,14 @@ std::string commands_text(const Options& options, const StudyFiles& files, const
     } else if (pixels[step.tag] == 0) {
       continue;  // later ones cover it
     } else {
-      const bool is_body = std::get<select::Subject>(step.selection).is_without_shadow;
-      regions += format(" \\\n  --tag {} --{} {}f", step.tag, is_body ? "body" : "subject",
-                        study.moments[(step.tag - 1U) % study.moments.size()]);
+      regions += format(" \\\n  --tag {}", step.tag);
+      if (const auto* both = std::get_if<select::Difference>(&step.selection)) {
+        regions += format(" --difference {} {}", std::get<StatedTime>(both->before).text(),
+                          std::get<StatedTime>(both->after).text());
+      } else {
+        const auto& subject = std::get<select::Subject>(step.selection);
+        regions += format(" --{} {}", subject.is_without_shadow ? "body" : "subject", subject.at.text());
+      }
       if (step.by_codes) regions += format(" --by {}", *step.by_codes);
     }
     for (const RegionChange& change : step.changes) regions += " " + change_words(change);

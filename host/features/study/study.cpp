@@ -95,6 +95,42 @@ bool covers_half(const SubjectPlace& place, const SubjectPlace& other) {
   return 2 * both.size() >= std::min(place.cells.size(), other.cells.size());
 }
 
+// Whether one of the cells, which increase, lies at the place or beside it.
+bool touches(const SubjectPlace& place, const std::vector<std::size_t>& cells, std::size_t columns) {
+  const auto is_one = [&](std::size_t cell) { return std::ranges::binary_search(cells, cell); };
+  return std::ranges::any_of(place.cells, [&](std::size_t cell) {
+    return is_one(cell) || is_one(cell - 1) || is_one(cell + 1) || is_one(cell - columns) || is_one(cell + columns);
+  });
+}
+
+// In pixels, with a cell around them.
+select::Rectangle box_round(const std::vector<std::size_t>& cells, const SubjectTrack& track) {
+  double left = HUGE_VAL, top = HUGE_VAL, right = 0, bottom = 0;
+  for (const std::size_t cell : cells) {
+    const auto x = static_cast<double>(cell % track.cell_columns);
+    const auto y = static_cast<double>(cell / track.cell_columns);
+    left = std::min(left, x - 1);
+    right = std::max(right, x + 2);
+    top = std::min(top, y - 1);
+    bottom = std::max(bottom, y + 2);
+  }
+  const double side = track.cell_side;
+  return {{side * left, side * top}, side * (right - left), side * (bottom - top)};
+}
+
+// Whether a region within a box lies at its border.
+bool reaches_border(const Mask& mask, const select::Rectangle& box) {
+  for (std::size_t pixel = 0; pixel < mask.tags.size(); ++pixel) {
+    if (mask.tags[pixel] == 0) continue;
+    const auto x = static_cast<double>(pixel % mask.width), y = static_cast<double>(pixel / mask.width);
+    if (x < box.corner.x + 1 || y < box.corner.y + 1 || x >= box.corner.x + box.width - 1 ||
+        y >= box.corner.y + box.height - 1) {
+      return true;
+    }
+  }
+  return false;
+}
+
 class StudyPlanner {
  public:
   StudyPlanner(const StudyRequest& request, CaptureSource& capture, const std::string& name, Picture plate,
@@ -112,13 +148,8 @@ class StudyPlanner {
     for (FollowedSubject& each : followed_) {
       each.track.bare = ground_laid_bare(each.track);
       // A thing that lies on such ground in part is seen in part, beside it.
-      const std::size_t columns = each.track.cell_columns;
-      const auto is_bare = [&](std::size_t cell) { return std::ranges::binary_search(each.track.bare, cell); };
       const auto is_whole = [&](const SubjectPlace& place) {
-        return std::ranges::none_of(place.cells, [&](std::size_t cell) {
-          return is_bare(cell) || is_bare(cell - 1) || is_bare(cell + 1) || is_bare(cell - columns) ||
-                 is_bare(cell + columns);
-        });
+        return !touches(place, each.track.bare, each.track.cell_columns);
       };
       if (std::ranges::count_if(each.track.places, is_whole) > 1) set_aside(each, is_whole);
     }
@@ -163,17 +194,8 @@ class StudyPlanner {
     const double least = kMinBare * std::pow(track.size() / track.cell_side, 2);
     for (const std::vector<std::size_t>& part : track.changed_for_good()) {
       if (static_cast<double>(part.size()) < least) continue;
-      double left = HUGE_VAL, top = HUGE_VAL, right = 0, bottom = 0;
-      for (const std::size_t cell : part) {
-        const auto x = static_cast<double>(cell % track.cell_columns);
-        const auto y = static_cast<double>(cell / track.cell_columns);
-        left = std::min(left, x - 1);
-        right = std::max(right, x + 2);
-        top = std::min(top, y - 1);
-        bottom = std::max(bottom, y + 2);
-      }
-      const double side = track.cell_side;
-      const Point middle{side * (left + right) / 2, side * (top + bottom) / 2};
+      const select::Rectangle box = box_round(part, track);
+      const Point middle{box.corner.x + box.width / 2, box.corner.y + box.height / 2};
       const auto away = [&](const SubjectPlace& place) { return distance(place.centre, middle); };
       const std::uint64_t sample = std::ranges::max_element(track.places, {}, away)->sample;
       MaskStep step;
@@ -181,8 +203,7 @@ class StudyPlanner {
       step.tag = 1;
       step.selection = select::Subject{StatedTime::of_pictures(static_cast<std::int64_t>(sample))};
       step.by_codes = by_codes_;
-      step.changes = {{RegionChange::Kind::within, 0.0,
-                       select::Rectangle{{side * left, side * top}, side * (right - left), side * (bottom - top)}}};
+      step.changes = {{RegionChange::Kind::within, 0.0, box}};
       MaskRequest request;
       request.steps = {std::move(step)};
       const MadeMask made = make_mask(request, &capture_, name_, [&] { return plate_; });
@@ -212,7 +233,7 @@ class StudyPlanner {
   }
 
   void add_regions(Study& study) const {
-    std::vector<MaskStep> around;
+    std::vector<MaskStep> around, exchanged;
     study.mask.steps.clear();
     study.grounds.assign(study.moments.size(), {});
     const std::uint32_t border = border_pixels(request_);
@@ -248,10 +269,37 @@ class StudyPlanner {
         }
         std::get<select::Subject>(step.selection).is_without_shadow = true;
       }
+      add_exchanged(track, study.moments[i], step, exchanged);
       study.mask.steps.push_back(std::move(step));
     }
     std::ranges::stable_sort(around, {}, [&](const MaskStep& step) { return (step.tag - 1U) / study.moments.size(); });
+    study.mask.steps.insert(study.mask.steps.begin(), exchanged.begin(), exchanged.end());
     study.mask.steps.insert(study.mask.steps.begin(), around.begin(), around.end());
+  }
+
+  // What it puts down or takes away then belongs to the moment, of which it touches the subject: a trail shows it for a
+  // share of the time, and the plate has it for good, or never. It is a good part of the subject's size, no larger, and
+  // ends within its cells: what goes on beyond them is light, or the scene's.
+  void add_exchanged(const SubjectTrack& track, std::uint64_t moment, const MaskStep& subject,
+                     std::vector<MaskStep>& steps) const {
+    if (!is_seen_at(track, moment)) return;
+    const SubjectPlace& place = place_at(track, moment);
+    const SubjectTrack::Exchange exchange = track.exchanged();
+    for (const std::vector<std::size_t>& part : exchange.parts) {
+      const auto size = static_cast<double>(part.size()), most = static_cast<double>(place.cells.size());
+      if (size > most || size < kMinBare * most || !touches(place, part, track.cell_columns)) continue;
+      MaskStep step = subject;
+      step.selection = select::Difference{StatedTime::of_pictures(static_cast<std::int64_t>(exchange.before)),
+                                          StatedTime::of_pictures(static_cast<std::int64_t>(exchange.after))};
+      step.by_codes = by_codes_;
+      step.changes.front().rectangle = box_round(part, track);
+      step.changes.back().radius = kCloseRadius;  // no trail ends at it
+      MaskRequest alone;
+      alone.steps = {step};
+      alone.steps.front().changes.resize(3);
+      if (!reaches_border(make_mask(alone, &capture_, name_).mask, step.changes.front().rectangle))
+        steps.push_back(std::move(step));
+    }
   }
 
   // When the ground of a moment is seen bare, so that its trail may lie on it, and its shadow on both. Nothing where
