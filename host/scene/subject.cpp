@@ -158,9 +158,8 @@ class Followed {
   [[nodiscard]] bool stays_beside(const SubjectPlace& place, const std::vector<SubjectPlace>& places) const {
     constexpr double kNoise = 0.1;  // of its cells
     if (places_.size() < kMinPlaces || stays_at(places_.back(), place)) return false;
-    const SubjectPlace& earlier = places_[places_.size() - kMinPlaces];
     return std::ranges::any_of(places, [&](const SubjectPlace& other) {
-      return &other != &place && stays_at(earlier, other, kNoise);
+      return &other != &place && stays_at(places_.front(), other, kNoise);
     });
   }
 
