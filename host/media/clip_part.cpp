@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <numeric>
 #include <utility>
@@ -15,6 +16,22 @@
 #include "system/input_bytes.hpp"
 
 namespace nutik {
+
+// `640 x 360 from 100,50 of 1920 x 1080`; crop_told() reads it.
+static std::string crop_fact(const Rectangle& crop, const Shape& whole) {
+  return format("{} x {} from {},{} of {} x {}", crop.width, crop.height, crop.x, crop.y, whole.width, whole.height);
+}
+std::optional<Rectangle> crop_told(const std::vector<std::string>& facts) {
+  for (const std::string& fact : facts) {
+    Rectangle crop;
+    int length = 0;
+    std::sscanf(fact.c_str(), "%u x %u from %u,%u of %*u x %*u%n", &crop.width, &crop.height, &crop.x, &crop.y,
+                &length);
+    if (length > 0) return crop;
+  }
+  return std::nullopt;
+}
+
 namespace {
 
 // A clip without an announced end may go on for so long.
@@ -221,9 +238,7 @@ class ClipPart final : public Clip {
     }
     info_.format.shape.width = wanted.width;
     info_.format.shape.height = wanted.height;
-    info_.facts.push_back({format("{} x {} from {},{} of {} x {}", wanted.width, wanted.height, wanted.x,
-                                  wanted.y, shape.width, shape.height),
-                           Origin::stated, Setting::crop});
+    info_.facts.push_back({crop_fact(wanted, shape), Origin::stated, Setting::crop});
   }
 
   void scale(const ClipScale& wanted) {

@@ -5,9 +5,11 @@
 //   always:  what pictures begin at, from or before a moment, counts; what they were exposed for stays as it was
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "media/clip.hpp"
 
@@ -19,5 +21,8 @@ namespace nutik {
 // nothing tells how fast the clip was taken.
 [[nodiscard]] std::unique_ptr<Clip> take_part(std::unique_ptr<Clip> clip, const std::filesystem::path& path,
                                               const ClipOptions& options);
+
+// The rectangle that facts of a part tell; none where it is of whole pictures.
+[[nodiscard]] std::optional<Rectangle> crop_told(const std::vector<std::string>& facts);
 
 }  // namespace nutik

@@ -32,6 +32,7 @@
 #include "session/clips/measured_noise.hpp"
 #include "session/devices.hpp"
 #include "session/live/live_pictures.hpp"
+#include "session/live/session_of_part.hpp"
 #include "session/output_check.hpp"
 #include "session/requests/exposure_request.hpp"
 #include "session/requests/named_inputs.hpp"
@@ -42,4 +43,4 @@
 #include "session/text/number_text.hpp"
 #include "session/text/shared_warnings.hpp"
 #include "session/text/shell_text.hpp"
-#include "session/text/trace_picture.hpp"
+#include "session/trace_picture.hpp"

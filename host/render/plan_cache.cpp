@@ -174,9 +174,4 @@ std::shared_ptr<const GainTable> PlanCache::table_of(const GainFunction& functio
   return keep(tables_, make(), kKeptTables);
 }
 
-RenderPlan make_plan(const CaptureSource& source, const FunctionSet& functions, const Mask& mask,
-                     const PlanOptions& options) {
-  return PlanCache().plan(source, functions, mask, options);
-}
-
 }  // namespace nutik

@@ -4,6 +4,7 @@
 
 #include "capture/error.hpp"
 #include "exposure/function_check.hpp"
+#include "render/plan_cache.hpp"
 #include "system/parallel.hpp"
 
 namespace nutik {
@@ -91,6 +92,11 @@ SampleRange needed_samples(const Timeline& timeline, const FunctionSet& function
     }
   }
   return needed;
+}
+
+RenderPlan make_plan(const CaptureSource& source, const FunctionSet& functions, const Mask& mask,
+                     const PlanOptions& options) {
+  return PlanCache().plan(source, functions, mask, options);
 }
 
 }  // namespace nutik

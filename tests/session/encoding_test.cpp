@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "capture/error.hpp"
+#include "session/clips/evened_times.hpp"
 #include "session/made_clip.hpp"
 #include "session/output_check.hpp"
 #include "support/messages.hpp"

@@ -6,6 +6,7 @@
 #include "capture/light_means.hpp"
 #include "imev/each_block.hpp"
 #include "imev/sample_cursor.hpp"
+#include "session/live/session_of_part.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 #include "support/tik_files.hpp"
@@ -25,7 +26,7 @@ TEST_P(ReducedSession, HasTheSamplesAndTimesOfTheWholeOne) {
   SourceRequest source;
   source.path = write_tik(random, {tik::CodecId::zstd, 0}, scratch);
   Session session(source);
-  const auto reduced = reduced_session(session, 2);
+  const auto reduced = session_of_part(session, {.scale = ClipScale{2}});
   EXPECT_EQ(reduced->format().shape, shape);
   EXPECT_EQ(reduced->format().white_code, random.capture.white_code);
   EXPECT_EQ(reduced->format().transfer, random.capture.transfer);

@@ -3,6 +3,7 @@
 
 #include <QPainter>
 
+#include "session/live/session_of_part.hpp"
 #include "studio/live/changed_pixels.hpp"
 #include "studio/regions/region_edits.hpp"
 #include "studio_test.hpp"
@@ -139,7 +140,7 @@ TEST_F(LiveViewTest, WhatIsSeenSmallIsExposedSmall) {
   document().end_drag();
   ASSERT_TRUE(answered());
   const QRect everything(0, 0, kWidth, kHeight);
-  const auto reduced = reduced_session(*session_, 2);
+  const auto reduced = session_of_part(*session_, {.scale = ClipScale{2}});
   live_.add_reduced(reduced, 2);
   std::vector<ShownPicture> pictures;
   QObject::connect(&live_, &LiveView::pictured,
@@ -184,7 +185,7 @@ TEST_F(LiveViewTest, ADragThatIsNotPromptIsExposedCoarser) {
   document().end_drag();
   ASSERT_TRUE(answered());
   for (const int divisor : {2, 4})
-    live_.add_reduced(reduced_session(*session_, static_cast<std::uint32_t>(divisor)), divisor);
+    live_.add_reduced(session_of_part(*session_, {.scale = ClipScale{static_cast<std::uint32_t>(divisor)}}), divisor);
   int shown_divisor = 0;
   QObject::connect(&live_, &LiveView::pictured, [&](const ShownPicture& picture) { shown_divisor = picture.divisor; });
   const auto divisor_at = [&](double gain) {

@@ -17,7 +17,7 @@
 #include "session/session.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/text_table.hpp"
-#include "session/text/trace_picture.hpp"
+#include "session/trace_picture.hpp"
 #include "system/output_file.hpp"
 
 namespace nutik::app {

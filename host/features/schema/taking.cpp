@@ -59,7 +59,9 @@ MemoryBudget parse_memory(std::string_view word, std::string_view what) {
 }
 
 std::int64_t parse_tick(std::string_view word, std::string_view what) {
-  return tick_ns(StatedTime::parse(word, what), what);
+  const StatedTime time = StatedTime::parse(word, what);
+  if (!time.counts_samples() && time.nanoseconds() > 0) return time.nanoseconds();
+  throw UsageError(format("{} {} is no length of time of 1 ns or more: 100us, 1ms", what, time.text()));
 }
 
 double parse_sigmas(std::string_view word, std::string_view what) {

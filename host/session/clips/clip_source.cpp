@@ -7,6 +7,7 @@
 #include "capture/format.hpp"
 #include "media/deflicker.hpp"
 #include "media/events/event_clip.hpp"
+#include "session/clips/evened_times.hpp"
 #include "session/clips/measured_noise.hpp"
 #include "session/text/number_text.hpp"
 #include "system/mapped_file.hpp"

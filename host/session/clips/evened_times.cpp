@@ -1,6 +1,4 @@
-// What is made of times that are not those of any rate: what a stated rate does to them, and what is taken for exposed
-// where pictures are missing.
-#include "session/clips/clip_source.hpp"
+#include "session/clips/evened_times.hpp"
 
 #include <algorithm>
 #include <span>

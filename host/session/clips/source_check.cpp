@@ -1,12 +1,12 @@
 #include "session/clips/source_check.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "imev/each_block.hpp"
 #include "imev/expected_values.hpp"
+#include "media/clip_part.hpp"
 #include "session/clips/clip_source.hpp"
 #include "session/text/number_text.hpp"
 
@@ -37,18 +37,6 @@ AlignRequest same_alignment(const tik::Alignment& aligned) {
   return request;
 }
 
-// As a clip's part tells it (media/clip_part.hpp): `640 x 360 from 100,50 of 1920 x 1080`.
-std::optional<Rectangle> same_crop(const std::vector<std::string>& facts) {
-  for (const std::string& fact : facts) {
-    Rectangle crop;
-    int length = 0;
-    std::sscanf(fact.c_str(), "%u x %u from %u,%u of %*u x %*u%n", &crop.width, &crop.height, &crop.x, &crop.y,
-                &length);
-    if (length > 0) return crop;
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 SourceCheck compare_with_source(tik::Reader& capture, SourceRequest clip, const MemoryBudget& memory,
@@ -61,7 +49,7 @@ SourceCheck compare_with_source(tik::Reader& capture, SourceRequest clip, const 
     clip.align = same_alignment(*aligned);
   if (const auto& part = capture.header().part; part && !clip.clip.from)
     clip.clip.from = ClipMoment{static_cast<std::int64_t>(part->first), true};
-  if (!clip.clip.crop) clip.clip.crop = same_crop(capture.header().facts);
+  if (!clip.clip.crop) clip.clip.crop = crop_told(capture.header().facts);
   const ClipSource source = open_clip_source(clip, memory);
   if (source.capture.shape != wanted.shape || source.capture.code_bytes != wanted.code_bytes ||
       source.capture.white_code != wanted.white_code) {
@@ -94,6 +82,23 @@ SourceCheck compare_with_source(tik::Reader& capture, SourceRequest clip, const 
   });
   check.clip_goes_on = source.clip->read(raster);
   return check;
+}
+
+void check_stated_transfer(const tik::Header& header, const std::string& name,
+                           const std::optional<Transfer>& stated) {
+  const Transfer& held = header.capture.transfer;
+  if (!stated || Transfer::restated(held, *stated) == held) return;
+  const char* const why = header.capture.noise.camera ? "what a camera's noise explains was held as its mean"
+                          : header.is_scaled          ? "pictures were scaled"
+                          : header.alignment          ? "pictures were moved by fractions of a pixel"
+                          : header.made               ? "samples were made between pictures, in light"
+                                                      : nullptr;
+  if (why == nullptr) return;
+  throw UsageError(
+      format("{} holds codes that are means of light by {}: {}. By {} that light has other means, and "
+             "no code says which; encode the clip again with it",
+             name, held.text(), why, stated->text()),
+      {Setting::transfer});
 }
 
 }  // namespace nutik

@@ -25,4 +25,9 @@ struct SourceCheck {
                                               const MemoryBudget& memory,
                                               const ReportedProgress& progress = {});
 
+// Throws UsageError where codes of a capture `name` are means of light by its own transfer function and another is
+// stated, by which the same light has another mean: they were scaled, aligned or held within a camera's noise.
+void check_stated_transfer(const tik::Header& header, const std::string& name,
+                           const std::optional<Transfer>& stated);
+
 }  // namespace nutik

@@ -95,21 +95,4 @@ class LivePictures {
   std::jthread worker_;  // last: it uses everything else
 };
 
-// A capture of some pictures of a capture, or of fewer pixels. It has devices of its own, with a quarter of the memory
-// besides, so that exposures of the whole capture lose nothing that is kept for them. `whole` was read whole, and is
-// needed until this returns. Throws as Session's constructor does.
-[[nodiscard]] std::shared_ptr<Session> session_of_part(Session& whole, const ClipOptions& part,
-                                                       const ReportedProgress& progress = {},
-                                                       std::stop_token stop = {});
-
-// For previews that are zoomed out: one pixel for each square of `divisor`; what is left over at the right and at the
-// bottom is dropped.
-[[nodiscard]] inline std::shared_ptr<Session> reduced_session(Session& whole, std::uint32_t divisor,
-                                                              const ReportedProgress& progress = {},
-                                                              std::stop_token stop = {}) {
-  ClipOptions reduced;
-  reduced.scale = ClipScale{divisor};
-  return session_of_part(whole, reduced, progress, std::move(stop));
-}
-
 }  // namespace nutik

@@ -21,6 +21,8 @@
 #include "session/requests/source_request.hpp"
 #include "system/input_bytes.hpp"
 #include "system/is_absent.hpp"
+#include "system/mapped_file.hpp"
+#include "tik/header.hpp"
 
 namespace nutik {
 namespace {
@@ -86,11 +88,22 @@ Picture read_tags(const std::string& name) {
   return tags;
 }
 
+// The size of a .tik's pictures, from its first bytes; none of a clip, a damaged file or standard input.
+std::optional<Shape> known_shape(const std::optional<std::string>& path) {
+  if (!path || is_standard_input(*path) || !is_tik(*path)) return std::nullopt;
+  try {
+    const MappedFile file(*path);
+    return tik::parse_header(file.bytes(), *path).header.capture.shape;
+  } catch (const InputError&) {  // it is said when it is opened
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 Mask read_mask_input(const std::string& name, const std::optional<std::string>& capture) {
   const InputBytes input(name, kMaxPipedMask);
-  const auto shape = capture ? known_shape(*capture) : std::nullopt;
+  const auto shape = known_shape(capture);
   const inputs::InputKind* const kind = is_standard_input(name) ? nullptr : still_kind(name);
   if (kind != nullptr && kind->has_tags) return Mask::from_picture(read_tags(name));
   return Mask::from_picture(
@@ -132,7 +145,7 @@ Mask read_layered_mask_input(const std::string& name, std::uint8_t rest,
                             (path.parent_path() / numbered.with(0)).string(),
                             (path.parent_path() / numbered.with(kMaskValues - 1)).string()));
   }
-  const auto shape = capture ? known_shape(*capture) : std::nullopt;
+  const auto shape = known_shape(capture);
   std::vector<MaskLayer> layers;
   for (const auto& [tag, file] : files) {
     layers.push_back({tag, file.string(), read_picture(file.string())});

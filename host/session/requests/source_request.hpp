@@ -17,12 +17,8 @@
 #include "media/clip.hpp"
 #include "session/requests/stated_moments.hpp"
 #include "system/shared.hpp"
-#include "tik/header.hpp"
 
 namespace nutik {
-
-// The length of a tick. Throws UsageError naming `what` if it is a number of pictures, or shorter than 1 ns.
-[[nodiscard]] std::int64_t tick_ns(const StatedTime& time, std::string_view what);
 
 // The camera's noise: unknown, measured on the clip itself, or stated.
 struct NoNoise {
@@ -77,13 +73,5 @@ struct SourceRequest {
 // Whether a file is read as a .tik: told from its content, else from its name. Of standard input it is told once all of
 // it is there.
 [[nodiscard]] bool is_tik(const std::filesystem::path& path);
-
-// The size of a .tik's pictures, from its first bytes; none of a clip, a damaged file or standard input.
-[[nodiscard]] std::optional<Shape> known_shape(const std::filesystem::path& path);
-
-// Throws UsageError where codes of a capture `name` are means of light by its own transfer function and another is
-// stated, by which the same light has another mean: they were scaled, aligned or held within a camera's noise.
-void check_stated_transfer(const tik::Header& header, const std::string& name,
-                           const std::optional<Transfer>& stated);
 
 }  // namespace nutik

@@ -10,6 +10,7 @@
 #include "features/schema/option.hpp"
 #include "features/schema/requests.hpp"
 #include "session/live/live_pictures.hpp"
+#include "session/live/session_of_part.hpp"
 #include "session/text/number_text.hpp"
 #include "studio/live/live_view.hpp"
 #include "system/temporary_folder.hpp"

@@ -20,6 +20,7 @@
 
 #include "capture/error.hpp"
 #include "session/live/live_pictures.hpp"
+#include "session/live/session_of_part.hpp"
 #include "studio/curves/curve_editor.hpp"
 #include "studio/live/opening.hpp"
 #include "studio/regions/difference_dialog.hpp"
@@ -450,7 +451,7 @@ void MainWindow::add_reduced(std::shared_ptr<Session> from, std::uint32_t by, in
   jobs_.start(tr("Making smaller pictures for the screen"),
               [this, of = session_, from = std::move(from), by, divisor](const Job& job) -> Jobs::Finish {
                 try {
-                  const auto reduced = reduced_session(*from, by, job.progress, job.stop);
+                  const auto reduced = session_of_part(*from, {.scale = ClipScale{by}}, job.progress, job.stop);
                   return [this, of, from, reduced, divisor] {
                     if (of != session_) return;
                     live_.add_reduced(reduced, divisor);

@@ -1,4 +1,4 @@
-#include "session/live/live_pictures.hpp"
+#include "session/live/session_of_part.hpp"
 
 #include <optional>
 #include <utility>

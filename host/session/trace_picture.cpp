@@ -1,4 +1,4 @@
-#include "session/text/trace_picture.hpp"
+#include "session/trace_picture.hpp"
 
 #include <algorithm>
 #include <array>
