@@ -19,16 +19,16 @@ PAGE = Path(__file__).resolve().parents[1] / "docs" / "reference" / "commands.md
 USUAL = 4  # commands that take the same options of a heading
 EXAMPLES = 2  # of a command; its help has three, and its page others
 
-# The page that goes on where a command's help ends.
+# The page that goes on where a command's help ends, where it is not one of the command's name, ../how-to/NAME.md.
 FURTHER = {
-    "activity": "../how-to/find-the-moment.md", "background": "../how-to/background.md", "batch": "../how-to/many-pictures.md",
+    "activity": "../how-to/find-the-moment.md", "batch": "../how-to/many-pictures.md",
     "check": "../how-to/check-a-picture.md#checking-before-exposing", "contact": "../how-to/find-the-moment.md",
     "devices": "environment.md#devices", "info": "input.md#colour-shape-and-rate", "encode": "input.md", "expose": "picture.md", "mask": "masks.md",
     "noise": "../how-to/reduce-noise.md", "recover": "tik-format.md#damage", "reproduce": "recipes.md",
-    "join": "../how-to/farm.md#encoding-in-parts", "retime": "input.md#colour-shape-and-rate", "shutter": "shutters.md", "solve": "../how-to/solve.md",
-    "study": "../how-to/study.md", "sweep": "../how-to/find-the-moment.md", "thumbnail": "../how-to/install.md#file-managers", "completion": "environment.md#shells",
+    "join": "../how-to/farm.md#encoding-in-parts", "retime": "input.md#colour-shape-and-rate", "shutter": "shutters.md",
+    "sweep": "../how-to/find-the-moment.md", "thumbnail": "../how-to/install.md#file-managers", "completion": "environment.md#shells",
     "trace": "../how-to/check-a-picture.md#following-a-pixel", "man": "environment.md#shells",
-    "validate": "../how-to/check-a-picture.md#how-right-a-picture-is", "video": "../how-to/video.md",
+    "validate": "../how-to/check-a-picture.md#how-right-a-picture-is",
 }
 
 PREFACE = """\
@@ -174,10 +174,11 @@ def page_of(man):
         text += f"\n## {title}\n"
         for term, summary in commands:
             name, _, operands = term.partition(" ")
-            if name not in FURTHER:
-                sys.exit(f"which page goes on with {name}? Name it in FURTHER of tools/commands_page.py")
+            further = FURTHER.get(name, f"../how-to/{name}.md")
+            if not (PAGE.parent / further.split("#")[0]).exists():
+                sys.exit(f"which page goes on with {name}? {further}, or one that is named in FURTHER")
             text += f"\n### {name}\n\n`{f'nutik-cl {name} {operands}'.strip()}`\n\n"
-            text += folded(f"{summary} ([more]({FURTHER[name]}))") + "\n"
+            text += folded(f"{summary} ([more]({further}))") + "\n"
             text += "\n```sh\n" + "".join(examples[name].splitlines(keepends=True)[:EXAMPLES]) + "```\n"
             text += "\n" + folded(f"Options: {'; '.join(options_of(name, option_groups, usual))}.") + "\n"
     text += "\n## Options\n"
