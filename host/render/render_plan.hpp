@@ -43,6 +43,8 @@ struct PlanOptions {
 
   // By how much each pixel's function comes later; null: by nothing (docs/explanation/model.md, "Time maps").
   std::shared_ptr<const DelayMap> delays = nullptr;
+
+  friend bool operator==(const PlanOptions&, const PlanOptions&) = default;
 };
 
 struct PlannedFunction {

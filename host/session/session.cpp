@@ -212,7 +212,7 @@ class Session::State {
   }
 
   [[nodiscard]] RenderPlan plan(const ExposureRequest& request) {
-    check_transfer(request.transfer);
+    check_transfer(request.plan.transfer);
     return plans_.plan(capture(), functions_of(request, timeline()), mask_of(request, format_.shape),
                        plan_options_of(request, format_.shape));
   }

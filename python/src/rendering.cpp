@@ -253,8 +253,10 @@ DelayRequest delay_of(const DelayTimes& times_ns) {
 OutputFormat output_of(const Settings& settings, const CaptureFormat& capture) {
   Options options;
   for (const auto& [argument, word] : settings) {
-    const std::string_view name = argument == "dtype" ? "depth" : argument == "transfer" ? "out-transfer" : "negative";
-    option_of(CommandId::expose, name)->state(options, argument, {word});
+    // That of a clip, `transfer` too, is known here.
+    const Option* const option = argument == "transfer" ? option_of(CommandId::expose, "out-transfer")
+                                                        : option_of_argument(CommandId::expose, argument);
+    option->state(options, argument, {word});
   }
   return output_format(options.picture, capture);
 }
@@ -313,7 +315,7 @@ void bind_rendering(py::module_& module) {
                        const Settings& settings, const std::optional<DelayTimes>& delays_ns,
                        const std::optional<std::array<std::uint32_t, 4>>& region) {
              Options options = stated_options(CommandId::expose, settings);
-             if (delays_ns) options.delay = delay_of(*delays_ns);
+             if (delays_ns) options.asked.delay = delay_of(*delays_ns);
              ExposureRequest request = exposure_without_gains(options);
              request.start = options.start.value_or(StatedTime());
              request.gains = PlainInterval{options.exposure.value_or(StatedTime()), stated_shutter(options)};

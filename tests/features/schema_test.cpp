@@ -75,7 +75,7 @@ TEST(Schema, StatesTheDefaultsThatFieldsHave) {
   expect(CommandId::encode, "sigmas", [](const Options& of) { return of.source.sigmas; });
   expect(CommandId::encode, "tiles", [](const Options& of) { return of.source.tiles; });
   expect(CommandId::encode, "codec", [](const Options& of) { return of.codec; });
-  expect(CommandId::expose, "normalize", [](const Options& of) { return of.normalization; });
+  expect(CommandId::expose, "normalize", [](const Options& of) { return of.asked.normalization; });
   expect(CommandId::expose, "combine", [](const Options& of) { return of.combining.how; });
   expect(CommandId::video, "out-fps", [](const Options& of) { return of.film.rate; });
   expect(CommandId::video, "out-angle", [](const Options& of) { return of.film.angle; });

@@ -259,7 +259,7 @@ void read_capture(InputCheck& check, const std::string& name, const Options& opt
 InputCheck checked_inputs(const Options& options) {
   refuse_without_mask(options);
   InputCheck check;
-  check.normalization = options.normalization;
+  check.normalization = options.asked.normalization;
   check.gain = brightening(options);
   if (options.functions) {
     const std::string name = input_title(*options.functions);
@@ -283,14 +283,14 @@ InputCheck checked_inputs(const Options& options) {
     const std::string& name = options.operands.front();
     attempt(check, input_title(name), "capture", [&] { read_capture(check, name, options); });
   }
-  if (options.delay) {
-    DelayRequest delay = *options.delay;
+  if (options.asked.delay) {
+    DelayRequest delay = *options.asked.delay;
     attempt(check, delay.file.empty() ? "delays" : delay.file, "delay_map", [&] {
       delay.read();
       check.delay = std::move(delay);
     });
   }
-  check.finish(options.unmapped_is_zero);
+  check.finish(options.asked.plan.unmapped_is_zero);
   return check;
 }
 

@@ -135,11 +135,9 @@ Json json_of(const std::filesystem::path& output, const SolveRequest& request, c
 std::string next_command(const Options& options, const std::filesystem::path& output) {
   std::string words;
   for (const Option& option : schema()) {
-    if (!option.is_of(CommandId::expose) || !option.makes_picture() || option.long_name == "functions")
-      continue;
-    const std::string* const value = option.stated(options);
-    if (value != nullptr) words += format(" {} {}", option.display_name(), shell_word(*value));
-    if (value == nullptr && option.is_flag() && option.is_in(options)) words += " " + option.display_name();
+    if (!option.is_of(CommandId::expose) || !option.makes_picture() || option.long_name == "functions") continue;
+    if (option.is_in(options)) words += " " + option.display_name();
+    if (const std::string* const value = option.stated(options)) words += " " + shell_word(*value);
   }
   return format("nutik-cl{} -k {} {} picture.png", words, shell_word(output.string()),
                 shell_word(options.operands.front()));

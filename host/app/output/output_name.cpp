@@ -155,7 +155,7 @@ std::vector<std::string> input_files(const Options& options) {
   for (const Said& said : options.said) {  // key frames, which may be given again and again
     if (said.row->take == nullptr && said.row->reads_standard_input() && said.words.size() > 1) add(said.words.back());
   }
-  if (options.delay && !options.delay->file.empty()) inputs.push_back(options.delay->file);
+  if (options.asked.delay && !options.asked.delay->file.empty()) inputs.push_back(options.asked.delay->file);
   return inputs;
 }
 

@@ -58,7 +58,7 @@ ExposureRequest timeless_request(const Options& options,
 
 // A value that only a later mask has would end the film in the middle.
 void check_mapped(const FramesRequest& request) {
-  if (request.keys.masks.empty() || request.exposure.unmapped_is_zero) return;
+  if (request.keys.masks.empty() || request.exposure.plan.unmapped_is_zero) return;
   const FunctionSet& functions = *std::get<Shared<FunctionSet>>(request.exposure.gains);
   for (const MaskKey& key : request.keys.masks) {
     for (const MaskRegion& region : regions_of(*key.mask)) {
@@ -92,7 +92,7 @@ void refuse_without_mask(const Options& options) {
     throw UsageError("--mask-share says how far it is to a second mask: add --mask-to");
   if (options.mask_blend && !options.mask_to && !options.has("mask-key"))
     throw UsageError("--mask-blend says how the mask turns into a second one: add --mask-to");
-  if (options.unmapped_is_zero && !options.mask)
+  if (options.asked.plan.unmapped_is_zero && !options.mask)
     throw UsageError("--unmapped says what values of a mask show that have no function: add -m mask.pgm");
 }
 

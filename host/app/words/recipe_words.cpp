@@ -57,7 +57,7 @@ std::optional<RecipeSources> recipe_sources(const Options& options, RecipeOf of)
     if (value != nullptr && is_stated(option, *value, of))
       recipe.options.emplace_back(option.long_name, *value);
   }
-  if (const auto& delay = options.delay; delay && !delay->file.empty()) {
+  if (const auto& delay = options.asked.delay; delay && !delay->file.empty()) {
     recipe.delay_map = Recipe::Input{input_name(delay->file), input_checksum(delay->file)};
     std::ranges::find(recipe.options, "delay", &std::pair<std::string, std::string>::first)->second =
         delay->range_text();

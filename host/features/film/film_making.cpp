@@ -19,7 +19,7 @@ namespace nutik {
 std::optional<BetweenRequest> joining_samples(const FramesRequest& request, const Frames& frames,
                                               const Session& session) {
   const std::string clip = session.source().path.string();
-  if (!session.is_clip() || request.exposure.combine != Combine::integral) return {};
+  if (!session.is_clip() || request.exposure.plan.combine != Combine::integral) return {};
   if (is_event_recording(clip)) return {};
   const auto seen = seen_together(frames, session.timeline());
   if (!seen) return {};

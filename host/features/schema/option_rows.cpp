@@ -191,7 +191,7 @@ constexpr Option kRows[] = {
     {0, "feather", "PIXELS", exposure, kTakesFunctions, take<In<&Options::feather>>,
      "blend the mask's functions along its edges: so far to either side, 6px, M255=6px for one mask value; "
      "several with commas between: 2px,M255=6px"},
-    {0, "delay", "WHERE:TIMES", exposure, kShapesExposures | bit(Id::check), take<In<&Options::delay>>,
+    {0, "delay", "WHERE:TIMES", exposure, kShapesExposures | bit(Id::check), take<InExposure<&ExposureRequest::delay>>,
      "expose each pixel later: rows:15ms (from the first row to the last), columns:0s..0.5s, radial:-20ms..20ms "
      "(from the centre to the corners), map.tif:0s..1s (from black to white of a grey picture)",
      "rows: columns: radial:"},
@@ -217,7 +217,8 @@ constexpr Option kRows[] = {
      "how the shutter opens and closes: box, trapezoid:R, triangle, gaussian, hann, strobe:N[,R] or "
      "spline:0=G,…,1=G (default: box)",
      "box trapezoid: triangle gaussian hann strobe: spline:"},
-    known(Setting::normalization, {0, "normalize", "BY", exposure, kTakesFunctions, take<In<&Options::normalization>>,
+    known(Setting::normalization, {0, "normalize", "BY", exposure, kTakesFunctions,
+     take<InExposure<&ExposureRequest::normalization>>,
      "divide by the time with a gain (support), by its integral (integral: a still scene keeps its "
      "brightness), by that of its magnitude (absolute), or by seconds:S (default: support)",
      "support integral absolute seconds:"}),
@@ -452,8 +453,8 @@ constexpr Option kRows[] = {
      "keep pixels that are not square: to measure in them (default: .png, .jpg and films of lossy codecs come in "
      "square ones, unless --depth 16 or --out-transfer source is stated; other files as they are)"}),
     {0, "negative", "HOW", exposure, kExposesFreely,
-     take_choice<InPicture<&OutputRequest::negative>, NegativeLight::saturate, NegativeLight::offset,
-     NegativeLight::absolute>,
+     take_choice<InPicture<&OutputRequest::format, &OutputFormat::negative>, NegativeLight::saturate,
+     NegativeLight::offset, NegativeLight::absolute>,
      "what codes make of light below 0: saturate (black), offset (light 0 is mid-grey, light below it "
      "darker), abs (as bright as light above it) (default: saturate)",
      "saturate offset abs"},
@@ -503,7 +504,7 @@ constexpr Option kRows[] = {
     {0, "coverage", "MAP.png", output, bit(Id::encode), take<In<&Options::coverage>>,
      "also write how many pictures saw each place: as a grey picture, white all of them"},
     known(Setting::unmapped, {0, "unmapped", "zero", exposure, kTakesFunctions,
-     take_by<In<&Options::unmapped_is_zero>, parse_zero>,
+     take_choice<InExposure<&ExposureRequest::plan, &PlanOptions::unmapped_is_zero>, true>,
      "expose mask values without a function to black (default: an error)", "zero"}),
     known(Setting::count_redrawn, {0, "count-redrawn", "", subject, bit(Id::activity),
      take<In<&Options::counts_redrawn>>,
@@ -513,7 +514,8 @@ constexpr Option kRows[] = {
      "renders that are timed: in each arithmetic, in turns (default: 5)"},
     {0, "progress", "", output, kMakesMany | set_of(Id::encode, Id::join), take<In<&Options::progress>>,
      "print progress where stderr is no terminal: a line a second, Progress: 45% …"},
-    {0, "live", "all", exposure, kShapesExposures, take_by<In<&Options::live_all>, parse_all>,
+    {0, "live", "all", exposure, kShapesExposures,
+     take_choice<InExposure<&ExposureRequest::plan, &PlanOptions::live_all>, true>,
      "visit every sample, also if no gain needs it (the picture is the same)", "all"},
     {0, "shutter-error", "E", exposure, kShapesExposures | bit(Id::shutter),
      take_by<In<&Options::shutter_error>, parse_shutter_error>,

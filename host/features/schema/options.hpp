@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "align/registrar.hpp"
-#include "exposure/normalization.hpp"
 #include "exposure/shutter_shape.hpp"
 #include "features/film/film_request.hpp"
 #include "features/masks/mask_request.hpp"
@@ -22,7 +21,7 @@
 #include "mask/feather.hpp"
 #include "mask/mask_between.hpp"
 #include "session/devices.hpp"
-#include "session/requests/delay_request.hpp"
+#include "session/requests/exposure_request.hpp"
 #include "session/requests/output_request.hpp"
 #include "session/requests/source_request.hpp"
 #include "tik/codec.hpp"
@@ -58,15 +57,13 @@ struct Options {
   // The exposure, and what is followed or counted: a pixel, or a tag of the mask.
   Text mask, functions, mask_to;
   std::optional<Feather> feather;
-  std::optional<DelayRequest> delay;  // its picture is not read
   Time start, exposure;
-  bool unmapped_is_zero = false, live_all = false;
   std::optional<std::pair<std::uint32_t, std::uint32_t>> pixel;
   std::optional<std::uint8_t> tag;
   bool each_tag = false;
   std::optional<ShutterShape> shutter;
   std::optional<double> shutter_error, gain, ev;
-  Normalization normalization;
+  ExposureRequest asked;  // its delay, whose picture is not read, its normalization and its plan
   Combining combining;
   std::optional<std::uint32_t> mask_way;  // of kWholeWay
   std::optional<MaskBlend> mask_blend;

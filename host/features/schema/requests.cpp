@@ -114,20 +114,17 @@ ComputingRequest computing_request(const Options& options) {
 }
 
 ExposureRequest exposure_without_gains(const Options& options) {
-  ExposureRequest request;
-  request.unmapped_is_zero = options.unmapped_is_zero;
-  request.live_all = options.live_all;
-  request.transfer = options.source.clip.transfer;
-  request.normalization = options.combining.is_mean ? Normalization::parse("integral") : options.normalization;
+  ExposureRequest request = options.asked;
+  request.plan.transfer = options.source.clip.transfer;
+  if (options.combining.is_mean) request.normalization = Normalization::parse("integral");
   if (options.combining.is_mean && options.has("normalize"))
     throw UsageError(Advice{"`combine mean` divides by the gain's integral, and so says `normalize`; use one"});
-  request.combine = options.combining.how;
-  if (request.combine != Combine::integral && request.normalization.text() != Normalization().text())
+  request.plan.combine = options.combining.how;
+  if (request.plan.combine != Combine::integral && request.normalization.text() != Normalization().text())
     throw UsageError(Advice{"`normalize` divides an integral, and `combine` takes single samples here; leave one out"});
-  if (request.combine != Combine::integral && options.delay)
+  if (request.plan.combine != Combine::integral && request.delay)
     throw UsageError(Advice{"`combine` goes with one time for all pixels, and `delay` has one for each; use one"});
   request.gain = brightening(options);
-  request.delay = options.delay;
   if (request.delay) request.delay->read();
   return request;
 }

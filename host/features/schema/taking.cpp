@@ -7,18 +7,12 @@
 #include "capture/text.hpp"
 
 namespace nutik {
-namespace {
-
-bool parse_only(std::string_view word, std::string_view what, std::string_view only) {
-  if (word == only) return true;
-  throw UsageError(format("{} {} is not known; the only choice is {} {}", what, word, what, only));
-}
-
-}  // namespace
 
 std::size_t choice_of(const Option& row, std::string_view what, std::string_view word) {
   const std::vector<std::string> choices = row.choices();
   const auto found = std::ranges::find(choices, word);
+  if (found == choices.end() && choices.size() == 1)
+    throw UsageError(format("{0} {1} is not known; the only choice is {0} {2}", what, word, choices.front()));
   if (found == choices.end())
     throw UsageError(format("{} '{}' is not known; choose {}", what, word, alternatives(choices)));
   return static_cast<std::size_t>(found - choices.begin());
@@ -74,9 +68,6 @@ std::uint32_t parse_share(std::string_view word, std::string_view what) {
     throw UsageError(format("{} {} is no share of 0 to 1", what, word));
   return static_cast<std::uint32_t>(round_half_up(int128{share.numerator} * kWholeWay, share.denominator));
 }
-
-bool parse_zero(std::string_view word, std::string_view what) { return parse_only(word, what, "zero"); }
-bool parse_all(std::string_view word, std::string_view what) { return parse_only(word, what, "all"); }
 
 std::pair<std::uint32_t, std::uint32_t> parse_pixel(std::string_view word, std::string_view what) {
   constexpr std::uint32_t kLast = 65'535;

@@ -28,8 +28,6 @@ namespace nutik {
 [[nodiscard]] std::int64_t parse_tick(std::string_view word, std::string_view what);
 [[nodiscard]] double parse_sigmas(std::string_view word, std::string_view what);
 [[nodiscard]] std::uint32_t parse_share(std::string_view word, std::string_view what);  // of kWholeWay
-[[nodiscard]] bool parse_zero(std::string_view word, std::string_view what);  // the only word there is
-[[nodiscard]] bool parse_all(std::string_view word, std::string_view what);
 [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> parse_pixel(std::string_view word,
                                                                   std::string_view what);
 [[nodiscard]] double parse_shutter_error(std::string_view word, std::string_view what);
@@ -50,12 +48,14 @@ template <auto member>
 using InClip = In<&Options::source, &SourceRequest::clip, member>;
 template <auto member>
 using InEvents = In<&Options::source, &SourceRequest::clip, &ClipOptions::events, member>;
+template <auto... path>
+using InExposure = In<&Options::asked, path...>;
 template <auto member>
 using InFilm = In<&Options::film, member>;
 template <auto member>
 using InStudy = In<&Options::study, member>;
-template <auto member>
-using InPicture = In<&Options::picture, member>;
+template <auto... path>
+using InPicture = In<&Options::picture, path...>;
 
 // What a field holds, be it optional or not.
 template <typename Held>

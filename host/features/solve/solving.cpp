@@ -76,8 +76,8 @@ class Solver {
       }
     }
     const bool is_light_restated =
-        request_.exposure.transfer &&
-        Transfer::restated(session_.format().transfer, *request_.exposure.transfer) != session_.format().transfer;
+        request_.exposure.plan.transfer &&
+        Transfer::restated(session_.format().transfer, *request_.exposure.plan.transfer) != session_.format().transfer;
     for (const StatedWish& wish : request_.wishes) {
       const auto fail = [&](const char* why) {
         throw UsageError(format("the wish {}: {}", nutik::quoted(wish.text), why));
@@ -213,7 +213,7 @@ class Solver {
       plate = make_plate(session_.capture(), name_, {}, light, session_.devices().request().memory, reading)
                   .picture;
     }
-    wished.regions = measure_regions(session_.capture(), request_.exposure.transfer.value_or(format.transfer),
+    wished.regions = measure_regions(session_.capture(), request_.exposure.plan.transfer.value_or(format.transfer),
                                      mask_, marks(), regions_, plate ? &*plate : nullptr, samples, reading);
     for (std::size_t i = 0; i < wished.wishes.size(); ++i) {
       set_rest(request_.wishes[i], wished.regions[wished.wishes[i].region], wished.wishes[i]);

@@ -91,11 +91,7 @@ Mask mask_of(const ExposureRequest& request, const Shape& shape) {
 }
 
 PlanOptions plan_options_of(const ExposureRequest& request, const Shape& shape) {
-  PlanOptions options;
-  options.unmapped_is_zero = request.unmapped_is_zero;
-  options.live_all = request.live_all;
-  options.combine = request.combine;
-  options.transfer = request.transfer;
+  PlanOptions options = request.plan;
   if (request.is_plain()) options.function_name = kPlainName;
   if (request.delay) options.delays = delays_of(*request.delay, shape);
   return options;

@@ -13,7 +13,6 @@
 #include <variant>
 #include <vector>
 
-#include "capture/transfer.hpp"
 #include "exposure/mask.hpp"
 #include "exposure/normalization.hpp"
 #include "exposure/shutter_shape.hpp"
@@ -61,10 +60,7 @@ struct ExposureRequest {
   std::optional<DelayRequest> delay;  // of each pixel; its picture, if it is one, has been read
   Normalization normalization;
   double gain = 1.0;  // multiplies the light
-  Combine combine = Combine::integral;
-  bool unmapped_is_zero = false;
-  bool live_all = false;
-  std::optional<Transfer> transfer;  // instead of the capture's own
+  PlanOptions plan;   // without its delays and its functions' name, which follow from the above
 
   [[nodiscard]] bool is_plain() const { return std::holds_alternative<PlainInterval>(gains); }
   friend bool operator==(const ExposureRequest&, const ExposureRequest&) = default;
