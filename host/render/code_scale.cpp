@@ -44,9 +44,9 @@ void encode(const Picture& light, const CodeScale& scale, bool has_few_lights, P
 CodeScale::CodeScale(const Transfer& transfer, const OutputFormat& output)
     : transfer_(transfer),
       white_code_(output.white_code),
-      negative_(output.negative.value_or(NegativeLight::saturate)),
+      negative_(output.negative),
       half_(std::max(output.white_code / 2, 1u)),
-      folds_(negative_ == NegativeLight::absolute) {
+      folds_(output.negative == NegativeLight::absolute) {
   const double step = 1.0 / output.white_code;
   switch (negative_) {
     case NegativeLight::saturate:

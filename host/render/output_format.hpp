@@ -17,7 +17,7 @@ enum class NegativeLight { saturate, offset, absolute };
 struct OutputFormat {
   ValueType type = ValueType::code8;
   std::uint32_t white_code = 255;
-  std::optional<NegativeLight> negative = NegativeLight::saturate;  // of codes; none: not asked for
+  NegativeLight negative = NegativeLight::saturate;  // of codes
   // Codes that are made to be seen have this function and BT.709's primaries, white being the capture's reference
   // white. None: the capture's own function and primaries, and white the light of its white code.
   std::optional<Transfer> transfer = std::nullopt;

@@ -11,7 +11,7 @@ CaptureFormat twelve_bits() {
   return {.shape = {2, 1, 3}, .code_bytes = 2, .white_code = 4095, .transfer = Transfer::linear()};
 }
 
-OutputRequest of_transfer(const char* text) { return {{}, parse_out_transfer(text)}; }
+OutputRequest of_transfer(const char* text) { return {{}, {}, parse_out_transfer(text)}; }
 
 TEST(OutputRequest, IsShownOverTheFullRangeUnlessAskedForOtherwise) {
   const OutputFormat own = output_format({}, "picture.png", twelve_bits());
@@ -68,8 +68,7 @@ TEST(OutputRequest, SaysHowCodesDifferFromTheCaptures) {
 }
 
 TEST(OutputRequest, AsksWhatBecomesOfLightBelowZeroOfCodesOnly) {
-  OutputRequest offset;
-  offset.format.negative = NegativeLight::offset;
+  const OutputRequest offset{{}, NegativeLight::offset};
   EXPECT_EQ(output_format(offset, "picture.png", twelve_bits()).negative, NegativeLight::offset);
   EXPECT_THROW(static_cast<void>(output_format(offset, "picture.pfm", twelve_bits())), UsageError);
 }

@@ -24,7 +24,7 @@ double value_of(const Picture& picture, std::uint64_t i) {
 double place_of(const Transfer& transfer, const OutputFormat& output, double light) {
   const double white = output.white_code;
   const double magnitude = transfer.fraction_of(std::min(std::fabs(light), 1.0));
-  switch (*output.negative) {
+  switch (output.negative) {
     case NegativeLight::saturate: return light < 0.0 ? 0.0 : magnitude * white;
     case NegativeLight::absolute: return magnitude * white;
     case NegativeLight::offset: break;

@@ -453,8 +453,8 @@ constexpr Option kRows[] = {
      "keep pixels that are not square: to measure in them (default: .png, .jpg and films of lossy codecs come in "
      "square ones, unless --depth 16 or --out-transfer source is stated; other files as they are)"}),
     {0, "negative", "HOW", exposure, kExposesFreely,
-     take_choice<InPicture<&OutputRequest::format, &OutputFormat::negative>, NegativeLight::saturate,
-     NegativeLight::offset, NegativeLight::absolute>,
+     take_choice<InPicture<&OutputRequest::negative>, NegativeLight::saturate, NegativeLight::offset,
+     NegativeLight::absolute>,
      "what codes make of light below 0: saturate (black), offset (light 0 is mid-grey, light below it "
      "darker), abs (as bright as light above it) (default: saturate)",
      "saturate offset abs"},

@@ -54,8 +54,8 @@ template <auto member>
 using InFilm = In<&Options::film, member>;
 template <auto member>
 using InStudy = In<&Options::study, member>;
-template <auto... path>
-using InPicture = In<&Options::picture, path...>;
+template <auto member>
+using InPicture = In<&Options::picture, member>;
 
 // What a field holds, be it optional or not.
 template <typename Held>

@@ -7,7 +7,7 @@ namespace {
 
 // Throws UsageError where codes were asked for that such values are not.
 OutputFormat format_of(const OutputRequest& request, ValueType type, const CaptureFormat& capture) {
-  OutputFormat format = request.format;
+  OutputFormat format;
   format.type = type;
   format.white_code = type == ValueType::code16 ? 65'535 : 255;
   const auto* const stated = request.transfer ? std::get_if<Transfer>(&*request.transfer) : nullptr;
@@ -57,13 +57,13 @@ OutputFormat output_format(const OutputRequest& request, const std::filesystem::
                            const CaptureFormat& capture) {
   check_quality(request, output);
   OutputFormat chosen = format_of(request, type, capture);
-  if (request.format.negative && !holds_codes(type)) {
+  if (request.negative && !holds_codes(type)) {
     throw UsageError(
         Advice{format("`negative` says what codes make of light below 0, and {} holds floating point, which "
                       "keeps it; leave it out",
                       output.string())});
   }
-  chosen.negative = request.format.negative.value_or(NegativeLight::saturate);
+  chosen.negative = request.negative.value_or(NegativeLight::saturate);
   chosen.is_half = request.depth == Depth::half;
   chosen.maps_bounds = request.bounds.has_value();
   return chosen;

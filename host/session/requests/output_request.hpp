@@ -17,14 +17,13 @@ namespace nutik {
 struct SourceCodes {};
 
 struct OutputRequest {
-  std::optional<Depth> depth;  // none: the capture's own, light where the file holds no codes
+  std::optional<Depth> depth;             // none: the capture's own, light where the file holds no codes
+  std::optional<NegativeLight> negative;  // none: black
   // How light becomes codes, whose white is the last one that their type holds. None: sRGB, which screens show.
   std::optional<std::variant<Transfer, SourceCodes>> transfer = std::nullopt;
   std::optional<int> quality = std::nullopt;  // of lossy files, 1 … 100
   std::optional<std::uint32_t> crf = std::nullopt;  // of films, on their codec's own scale
   std::optional<std::string> bounds = std::nullopt;  // the file of a map of what each pixel may be off by
-  // As stated; its type, its white code and its transfer function follow from the others and from the capture.
-  OutputFormat format = {.negative = std::nullopt};
   bool keep_pixels = false;  // in files that people look at, too, whose pixels are made square otherwise
 };
 
