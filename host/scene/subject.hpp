@@ -66,9 +66,9 @@ struct SubjectTrack {
   // Cells that differ for nearly all of its way, each what hangs together: where the plate shows it, the ground that it
   // has left.
   [[nodiscard]] std::vector<std::vector<std::size_t>> changed_for_good() const;
-  // What it put down or took away: cells that differ at a few looks before its way and at none of a few behind it, or the
-  // other way round; each what hangs together. And a sample on either side. None where it was there from the first on, or
-  // to the last.
+  // What it put down or took away: cells that differ at a few looks before its way and at none of a few behind it, or
+  // the other way round; each what hangs together. And a sample on either side. None where it was there from the first
+  // on, or to the last.
   struct Exchange {
     std::vector<std::vector<std::size_t>> parts;
     std::uint64_t before = 0, after = 0;

@@ -249,7 +249,8 @@ TEST_F(StudySubjects, AreNotShownWithHolesOfThePlate) {
   expect_says(study("slow", "--moments 0f,9f").err, "note: " + why);
 }
 
-// An arm puts a block down, and leaves it for the rest of the time: the plate has it, and the trail for a part of its time.
+// An arm puts a block down, and leaves it for the rest of the time: the plate has it, and the trail for a part of its
+// time. A hole is where it will lie, and not taken for the arm that comes.
 TEST_F(StudySubjects, ShowWhatTheyPutDown) {
   const cv::Rect block(71, 56, 20, 18);
   draw("put", 60, [&](cv::Mat& frame, int k) {
