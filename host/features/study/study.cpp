@@ -31,6 +31,8 @@ constexpr double kMinCoveredInPlate = 0.4, kHoleEdges = 0.5;
 // Ground that it laid bare for good is such a hole, of a quarter of its size or more. Measured: 0.96 to 1 of balls that
 // rested for half of the time, 0.42 of what stands for most of its way.
 constexpr double kMinBare = 0.25;
+// What it puts down or takes away is so much of its size, or light at an edge.
+constexpr double kMinExchanged = 1.0 / 16;
 // The share of a single moment's border, where that stands for what makes no study, at which there is an edge or light
 // changed.
 constexpr double kMinOwnEdges = 0.4;
@@ -278,8 +280,8 @@ class StudyPlanner {
   }
 
   // What it puts down or takes away then belongs to the moment, of which it touches the subject: a trail shows it for a
-  // share of the time, and the plate has it for good, or never. It is a good part of the subject's size, no larger, and
-  // ends within its cells: what goes on beyond them is light, or the scene's.
+  // share of the time, and the plate has it for good, or never. It is no larger than the subject, and ends within its
+  // cells: what goes on beyond them is light, or the scene's.
   void add_exchanged(const SubjectTrack& track, std::uint64_t moment, const MaskStep& subject,
                      std::vector<MaskStep>& steps) const {
     if (!is_seen_at(track, moment)) return;
@@ -287,7 +289,7 @@ class StudyPlanner {
     const SubjectTrack::Exchange exchange = track.exchanged();
     for (const std::vector<std::size_t>& part : exchange.parts) {
       const auto size = static_cast<double>(part.size()), most = static_cast<double>(place.cells.size());
-      if (size > most || size < kMinBare * most || !touches(place, part, track.cell_columns)) continue;
+      if (size > most || size < kMinExchanged * most || !touches(place, part, track.cell_columns)) continue;
       MaskStep step = subject;
       step.selection = select::Difference{StatedTime::of_pictures(static_cast<std::int64_t>(exchange.before)),
                                           StatedTime::of_pictures(static_cast<std::int64_t>(exchange.after))};
