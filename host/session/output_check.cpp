@@ -11,6 +11,7 @@
 #include "exposure/function_file.hpp"
 #include "media/formats/input_kinds.hpp"
 #include "media/stills/picture_text.hpp"
+#include "media/stills/still_sequence.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "media/writers/recipe.hpp"
 #include "media/writers/video_writer.hpp"
@@ -116,6 +117,20 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
   return std::filesystem::equivalent(a, b, error) || led_to(a) == led_to(b);
 }
 
+// Of a picture or a mask that is not there yet.
+void refuse_among_stills(const std::filesystem::path& output, std::span<const std::string> inputs) {
+  const std::filesystem::path folder = output.has_parent_path() ? output.parent_path() : ".";
+  std::error_code error;
+  for (const std::string& input : inputs) {
+    if (!std::filesystem::is_directory(input, error) || !is_same_file(folder, input)) continue;
+    if (joins_stills(input, folder / output.filename())) {
+      throw UsageError(format("{} would lie among the stills of {}, and be taken for one or keep them from being read; "
+                              "choose another folder",
+                              output.string(), input));
+    }
+  }
+}
+
 }  // namespace
 
 void check_output(const std::filesystem::path& output, OutputKind kind, std::span<const std::string> inputs,
@@ -164,7 +179,10 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
   }
   if (replacing != Replacing::all) expect_as_it_is(output);
   std::error_code error;
-  if (is_absent(output)) return check_folder_of(output);
+  if (is_absent(output)) {
+    if (is_picture) refuse_among_stills(output, inputs);
+    return check_folder_of(output);
+  }
   if (std::filesystem::is_directory(output, error)) {
     throw UsageError(format("{} is a folder; name a file in it", name));
   }

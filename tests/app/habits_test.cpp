@@ -51,6 +51,15 @@ TEST_F(Habits, ReadsFunctionsAndMasksFromStandardInput) {
   expect_says(run("reproduce e.png").out, "-k e-again/standard-input.fn");
 }
 
+// A picture beside the stills that it was made of is none of them; one that would be is not made there.
+TEST_F(Habits, WritesBesideStillsWhatIsNoneOfThem) {
+  const std::string refusal = " would lie among the stills of frames, and be taken for one or keep them from being read";
+  expect_refused("-f 25 --start 0f --exposure 1f frames frames/103.pgm", 2, "frames/103.pgm" + refusal);
+  expect_refused("-f 25 --start 0f --exposure 1f frames frames/out.png", 2, "frames/out.png" + refusal);
+  make("-f 25 --start 0f --exposure 1f frames frames/out.pgm");
+  EXPECT_EQ(answer("encode -f 25 frames again.tik")["samples"], 3);
+}
+
 TEST_F(Habits, NamesStandardInput) {
   expect_refused("-k - -m - clip.tik", 2, "-k - and -m - would both read standard input");
   expect_refused("-k - clip.tik", 3, "standard input is empty");

@@ -128,11 +128,13 @@ std::optional<Selection> selection_of(const Said& said) {
   return std::nullopt;
 }
 
+constexpr std::string_view kHoles = "holes";  // of --smooth
+
 double radius_of(const Said& said) {
   const auto radius = parse_number(said.words.front());
   if (!radius || *radius < 0.0 || *radius > kLargestRadius) {
-    throw UsageError(format("--{} '{}' is no number of pixels of 0 … {}", said.option, said.words.front(),
-                            kLargestRadius));
+    throw UsageError(format("--{} '{}' is no number of pixels of 0 … {}{}", said.option, said.words.front(), kLargestRadius,
+                            said.option == "smooth" ? format(", nor {}", kHoles) : ""));
   }
   return *radius;
 }
@@ -141,7 +143,6 @@ constexpr std::pair<std::string_view, RegionChange::Kind> kChanges[] = {
     {"largest", RegionChange::Kind::largest}, {"invert", RegionChange::Kind::invert},
     {"within", RegionChange::Kind::within},   {"grow", RegionChange::Kind::grow},
     {"shrink", RegionChange::Kind::shrink},   {"smooth", RegionChange::Kind::smooth}};
-constexpr std::string_view kHoles = "holes";  // of --smooth
 
 // The change of a step that changes a region; none for another step.
 std::optional<RegionChange> change_of(const Said& said) {

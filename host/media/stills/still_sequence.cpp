@@ -306,6 +306,19 @@ std::optional<std::string> left_out_note(const fs::path& folder, std::span<const
                 (folder / ("*" + files.front().extension().string())).string());
 }
 
+bool joins_stills(const fs::path& folder, const fs::path& file) {
+  std::vector<fs::path> files = all_pictures_in(folder);
+  const inputs::InputKind* const kind = kind_named_by(file);
+  if (kind == nullptr || files.empty()) return false;
+  if (kind_named_by(files.front()) != kind) return true;
+  files.push_back(file);
+  try {
+    return std::ranges::count(main_sequence(folder, files), file) > 0;
+  } catch (const InputError&) {  // there would be two
+    return true;
+  }
+}
+
 std::string sequence_name(const fs::path& path) {
   if (is_standard_input(path.string())) return "standard-input";
   std::error_code error;
