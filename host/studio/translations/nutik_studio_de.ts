@@ -1373,10 +1373,6 @@ Zeit und Gain nach dem Filmen: Gain-Funktionen und Masken werden gezeichnet, und
         <translation>Bild exportieren</translation>
     </message>
     <message>
-        <source>Pictures (*.png *.tif *.jpg *.exr *.pfm *.ppm)</source>
-        <translation>Bilder (*.png *.tif *.jpg *.exr *.pfm *.ppm)</translation>
-    </message>
-    <message>
         <source>Writing %1</source>
         <translation>%1 wird geschrieben</translation>
     </message>
