@@ -90,8 +90,7 @@ ColourNumbers named_colours(const OpenedVideo& opened, const ColourNumbers& code
 std::optional<Rational> pixel_aspect(AVFormatContext* format, AVStream& stream, const Upright& upright) {
   const AVRational stored = av_guess_sample_aspect_ratio(format, &stream, nullptr);
   if (stored.num <= 0 || stored.den <= 0) return std::nullopt;
-  return upright.quarter_turns % 2 == 0 ? Rational::of(stored.num, stored.den)
-                                        : Rational::of(stored.den, stored.num);
+  return upright.quarter_turns % 2 == 0 ? Rational::of(stored.num, stored.den) : Rational::of(stored.den, stored.num);
 }
 
 // The first picture whose time cannot be meant: not after the one before, or so long after it that
@@ -372,6 +371,174 @@ Upright upright_of_first(const AVPacket& packet, const AVCodecParameters& codec)
   return data == nullptr ? Upright{} : upright_of(std::span(data->data, data->size));
 }
 
+void name_colours(const OpenedVideo& opened, const std::filesystem::path& path, bool is_raw, Probe& result) {
+  const AVCodecParameters& codec = *opened.format->streams[opened.stream]->codecpar;
+  const auto& [range, matrix, curve, primaries] = named_colours(opened, colours_of(codec), result.notes);
+  result.transfer = is_phantom_packed(codec) ? Transfer::linear() : transfer_of_coding_point(curve);
+  result.transfer_name = transfer_name(curve);
+  result.matrix = named_matrix(matrix, primaries);
+  result.range = named_range(range, result.pixel_format);
+  result.chroma_at = named_chroma_place(codec);
+  result.primaries = primaries_of_coding_point(primaries);
+  if (const auto named = is_raw ? std::nullopt : named_curve(*opened.format, path, result.notes)) {
+    result.transfer = named->transfer;
+    result.primaries = named->primaries;
+    result.curve_from = named->from;
+  }
+  if (result.primaries == Primaries::bt709 && primaries != AVCOL_PRI_BT709)
+    result.near_primaries = primaries_name(primaries);
+  const auto note_unknown = [&](bool is_known, const char* what, const std::string& name, Setting setting) {
+    if (is_known || name.empty()) return;
+    result.notes.emplace_back(
+        format("the file's {}, {}, is not known here and another is taken; state which", what, name),
+        std::vector{setting});
+  };
+  note_unknown(result.transfer.has_value(), "transfer function", result.transfer_name, Setting::transfer);
+  if (matrix != AVCOL_SPC_UNSPECIFIED && matrix != AVCOL_SPC_RESERVED && is_yuv(result.pixel_format) &&
+      !result.pixels.is_grey && !result.matrix) {
+    result.unread_matrix = matrix_name(matrix);
+  }
+  if (primaries != AVCOL_PRI_UNSPECIFIED && primaries != AVCOL_PRI_RESERVED &&
+      primaries != AVCOL_PRI_RESERVED0 && !(result.transfer && result.transfer->usual_primaries())) {
+    note_unknown(result.primaries.has_value(), "set of primaries", primaries_name(primaries), Setting::primaries);
+  }
+  AVDOVIDecoderConfigurationRecord vision;
+  const auto dolby = side_data(*opened.format->streams[opened.stream], AV_PKT_DATA_DOVI_CONF);
+  if (dolby.size() < sizeof vision) return;
+  std::memcpy(&vision, dolby.data(), sizeof vision);
+  if (vision.dv_profile == 5 || (vision.dv_profile == 10 && vision.dv_bl_signal_compatibility_id == 0)) {
+    result.unread_matrix = format("IPT of Dolby Vision's profile {}", vision.dv_profile);
+    result.matrix_filter = "libplacebo=colorspace=bt709:color_primaries=bt709:color_trc=bt709:format=yuv420p10";
+  }
+}
+
+// How many of the file's first streams hold this.
+int count_streams(const OpenedVideo& opened, AVMediaType type, std::size_t first) {
+  return static_cast<int>(std::ranges::count(std::span(opened.format->streams, first), type,
+                                             [](const AVStream* each) { return each->codecpar->codec_type; }));
+}
+
+// Edits, other streams and transparency.
+void note_left_out(const OpenedVideo& opened, const std::filesystem::path& path, bool is_raw, Probe& result) {
+  const AVStream& stream = *opened.format->streams[opened.stream];
+  if (!is_raw && has_edits(path)) {
+    result.notes.emplace_back(
+        "the file's edit list plays parts of it again, in another order, or at another speed: its pictures are taken "
+        "once each, in the order and at the times in which they were filmed");
+  }
+  if (const int films = count_streams(opened, AVMEDIA_TYPE_VIDEO, opened.format->nb_streams); films > 1) {
+    result.notes.emplace_back(
+        format("the file has {} streams of pictures, and stream {} is taken: ffmpeg -i CLIP -map 0:N -c copy film.mkv "
+               "makes a clip of another",
+               films, opened.stream));
+  }
+  // Every GIF is decoded with transparency, whether its pictures have any, and no VP9.
+  const bool has_alpha = (av_pix_fmt_desc_get(result.pixel_format)->flags & AV_PIX_FMT_FLAG_ALPHA) != 0;
+  const AVDictionaryEntry* const mode = av_dict_get(stream.metadata, "alpha_mode", nullptr, 0);
+  const bool says_so = mode != nullptr && mode->value == std::string_view("1");
+  if ((has_alpha && stream.codecpar->codec_id != AV_CODEC_ID_GIF) || says_so)
+    result.notes.emplace_back(kNoTransparency);
+}
+
+// Of the stream of pictures, up to the file's end or to where it cannot be read.
+struct ReadPackets {
+  std::vector<PacketTimes> shown;
+  std::uint64_t count = 0;  // those that are not shown, too
+  std::int64_t last_end = INT64_MIN, last_byte = 0;
+  bool is_last_whole = true, has_damaged_start = false;
+  int end = 0;  // FFmpeg's code
+};
+
+ReadPackets read_packets(const OpenedVideo& opened, const std::filesystem::path& path, bool tells_upright,
+                         Upright& upright) {
+  ReadPackets read;
+  const auto file_bytes = static_cast<std::int64_t>(std::filesystem::file_size(path));
+  const PacketPointer packet(allocated(av_packet_alloc()));
+  while ((read.end = av_read_frame(opened.format.get(), packet.get())) >= 0) {
+    if (read.shown.empty()) {
+      read.has_damaged_start = opened.log->said().has_value();
+      opened.log->forget();
+    }
+    if (packet->stream_index == opened.stream) {
+      ++read.count;
+      read.is_last_whole = is_whole(*opened.format, *packet, file_bytes);
+    }
+    if (packet->stream_index == opened.stream && (packet->flags & AV_PKT_FLAG_DISCARD) == 0) {
+      if (read.shown.empty() && !tells_upright)
+        upright = upright_of_first(*packet, *opened.format->streams[opened.stream]->codecpar);
+      read.shown.push_back({packet->pts, packet->dts, packet->duration, (packet->flags & AV_PKT_FLAG_KEY) != 0});
+      read.last_byte = packet->pos + packet->size;
+      const std::int64_t time = packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts;
+      if (time != AV_NOPTS_VALUE && time < INT64_MAX - packet->duration)
+        read.last_end = std::max(read.last_end, time + packet->duration);
+    }
+    av_packet_unref(packet.get());
+  }
+  if (!read.is_last_whole && opened.format->iformat == av_find_input_format("nut"))
+    read.is_last_whole = has_all_of_last(*opened.format->iformat, MappedFile(path).bytes());
+  return read;
+}
+
+// Leaves out a last picture that is not whole, and tells of what is missing.
+void note_damage(const OpenedVideo& opened, const std::filesystem::path& path, ReadPackets& packets, Probe& result) {
+  std::vector<PacketTimes>& shown = packets.shown;
+  if (packets.end != AVERROR_EOF) {
+    result.notes.push_back(warning_of(
+        format("the file is damaged or was cut off behind picture {}: {}", shown.size(), error_text(packets.end))));
+  }
+  if (!packets.is_last_whole && shown.size() == 1)
+    throw InputError(format("{} was cut off within its first picture", input_title(path.string())));
+  if (!packets.is_last_whole && !shown.empty()) {
+    result.packets.end = packets.count - 1;
+    shown.pop_back();
+    result.notes.push_back(
+        warning_of(format("the file was cut off within picture {}, which is left out", shown.size())));
+  }
+  auto cut = cut_picture_note(*opened.format, MappedFile(path).bytes(), packets.last_byte, shown.size());
+  auto lost = missing_part_note(*opened.format, *opened.format->streams[opened.stream], packets.last_end, shown.size(),
+                                cut || packets.has_damaged_start);
+  if (!lost) lost = std::move(cut);
+  if (!lost && opened.log->said()) {
+    lost = format("the file was cut off, or is damaged so that pictures may be missing (FFmpeg says: {})",
+                  *opened.log->said());
+  }
+  if (lost) result.notes.push_back(warning_of(std::move(*lost)));
+}
+
+std::optional<ClipSound> sound_beside(const OpenedVideo& opened, const std::vector<std::int64_t>& times) {
+  const int stream = best_sound(*opened.format);
+  if (times.size() < 2 || stream < 0) return std::nullopt;
+  const double tick_s = av_q2d(opened.format->streams[opened.stream]->time_base);
+  ClipSound sound{static_cast<double>(times.front()) * tick_s, static_cast<double>(times.back()) * tick_s,
+                  0.0, avcodec_get_name(opened.format->streams[stream]->codecpar->codec_id),
+                  count_streams(opened, AVMEDIA_TYPE_AUDIO, static_cast<std::size_t>(stream) + 1),
+                  count_streams(opened, AVMEDIA_TYPE_AUDIO, opened.format->nb_streams)};
+  const double period_s = (sound.last_s - sound.first_s) / static_cast<double>(times.size() - 1);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const double even_s = sound.first_s + static_cast<double>(k) * period_s;
+    sound.uneven_s = std::max(sound.uneven_s, std::abs(static_cast<double>(times[k]) * tick_s - even_s));
+  }
+  return sound;
+}
+
+ClipTiming timing_beside(const OpenedVideo& opened, const std::filesystem::path& path,
+                         const std::vector<PacketTimes>& packets, const std::vector<std::int64_t>& times) {
+  const AVStream& stream = *opened.format->streams[opened.stream];
+  auto doubt = doubt_about_rate(*opened.format, stream, MappedFile(path).bytes());
+  ClipTiming timing = doubt ? ClipTiming() : timing_of(*opened.format, stream, times, input_title(path.string()));
+  if (doubt) timing.rate_doubt = std::move(*doubt);
+  const auto back = std::ranges::adjacent_find(packets, [](const PacketTimes& one, const PacketTimes& next) {
+    return next.is_key && next.decoded != AV_NOPTS_VALUE && next.decoded < one.decoded;
+  });
+  const auto& starts = timing.starts_ns;
+  if (back == packets.end() || std::ranges::adjacent_find(starts, std::greater_equal<>()) == starts.end())
+    return timing;
+  timing = {};
+  timing.rate_doubt = format("its times run back at picture {}, as if it were two clips, one behind the other",
+                             back + 1 - packets.begin());
+  return timing;
+}
+
 }  // namespace
 
 Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& raw) {
@@ -396,169 +563,34 @@ Probe probe(const std::filesystem::path& path, const std::optional<RawVideo>& ra
                input_title(path.string())));
   }
   result.pixel_format = static_cast<AVPixelFormat>(codec.format);
+  name_colours(opened, path, raw.has_value(), result);
+  note_left_out(opened, path, raw.has_value(), result);
   const auto display_matrix = side_data(stream, AV_PKT_DATA_DISPLAYMATRIX);
   result.upright = upright_of(display_matrix);
-  const ColourNumbers coded = colours_of(codec);
-  const auto& [range, matrix, curve, primaries] = named_colours(opened, coded, result.notes);
-  result.transfer = is_phantom_packed(codec) ? Transfer::linear() : transfer_of_coding_point(curve);
-  result.transfer_name = transfer_name(curve);
-  result.matrix = named_matrix(matrix, primaries);
-  result.range = named_range(range, result.pixel_format);
-  result.chroma_at = named_chroma_place(codec);
-  result.primaries = primaries_of_coding_point(primaries);
-  if (const auto named = raw ? std::nullopt : named_curve(*opened.format, path, result.notes)) {
-    result.transfer = named->transfer;
-    result.primaries = named->primaries;
-    result.curve_from = named->from;
-  }
-  if (result.primaries == Primaries::bt709 && primaries != AVCOL_PRI_BT709)
-    result.near_primaries = primaries_name(primaries);
-  if (!raw && has_edits(path)) {
-    result.notes.emplace_back(
-        "the file's edit list plays parts of it again, in another order, or at another speed: its pictures are taken "
-        "once each, in the order and at the times in which they were filmed");
-  }
-  unsigned films = 0;
-  for (unsigned i = 0; i < opened.format->nb_streams; ++i) {
-    films += opened.format->streams[i]->codecpar->codec_type == AVMEDIA_TYPE_VIDEO;
-  }
-  if (films > 1) {
-    result.notes.emplace_back(
-        format("the file has {} streams of pictures, and stream {} is taken: ffmpeg -i CLIP -map 0:N -c copy film.mkv "
-               "makes a clip of another",
-               films, opened.stream));
-  }
-  const auto note_unknown = [&](bool is_known, const char* what, const std::string& name, Setting setting) {
-    if (is_known || name.empty()) return;
-    result.notes.emplace_back(
-        format("the file's {}, {}, is not known here and another is taken; state which", what, name),
-        std::vector{setting});
-  };
-  note_unknown(result.transfer.has_value(), "transfer function", result.transfer_name, Setting::transfer);
-  if (matrix != AVCOL_SPC_UNSPECIFIED && matrix != AVCOL_SPC_RESERVED && is_yuv(result.pixel_format) &&
-      !result.pixels.is_grey && !result.matrix) {
-    result.unread_matrix = matrix_name(matrix);
-  }
-  AVDOVIDecoderConfigurationRecord vision;
-  if (const auto dolby = side_data(stream, AV_PKT_DATA_DOVI_CONF); dolby.size() >= sizeof vision) {
-    std::memcpy(&vision, dolby.data(), sizeof vision);
-    if (vision.dv_profile == 5 || (vision.dv_profile == 10 && vision.dv_bl_signal_compatibility_id == 0)) {
-      result.unread_matrix = format("IPT of Dolby Vision's profile {}", vision.dv_profile);
-      result.matrix_filter = "libplacebo=colorspace=bt709:color_primaries=bt709:color_trc=bt709:format=yuv420p10";
-    }
-  }
-  if (primaries != AVCOL_PRI_UNSPECIFIED && primaries != AVCOL_PRI_RESERVED &&
-      primaries != AVCOL_PRI_RESERVED0 && !(result.transfer && result.transfer->usual_primaries())) {
-    note_unknown(result.primaries.has_value(), "set of primaries", primaries_name(primaries), Setting::primaries);
-  }
-  // Every GIF is decoded with transparency, whether its pictures have any, and no VP9.
-  const bool has_alpha = (av_pix_fmt_desc_get(result.pixel_format)->flags & AV_PIX_FMT_FLAG_ALPHA) != 0;
-  const AVDictionaryEntry* const mode = av_dict_get(stream.metadata, "alpha_mode", nullptr, 0);
-  if ((has_alpha && codec.codec_id != AV_CODEC_ID_GIF) || (mode != nullptr && mode->value == std::string_view("1")))
-    result.notes.emplace_back(kNoTransparency);
   if (raw) {
     result.sample_count = count_raw_pictures(path, *raw);
     return result;
   }
 
-  std::vector<PacketTimes> packets;
-  std::int64_t last_end = INT64_MIN, last_byte = 0;
-  std::uint64_t packets_read = 0;
-  bool is_last_whole = true, has_damaged_start = false;
-  const auto file_bytes = static_cast<std::int64_t>(std::filesystem::file_size(path));
-  const PacketPointer packet(allocated(av_packet_alloc()));
-  int code = 0;
-  while ((code = av_read_frame(opened.format.get(), packet.get())) >= 0) {
-    const bool counts = packet->stream_index == opened.stream && (packet->flags & AV_PKT_FLAG_DISCARD) == 0;
-    if (packets.empty()) {
-      has_damaged_start = opened.log->said().has_value();
-      opened.log->forget();
-    }
-    if (packet->stream_index == opened.stream) {
-      ++packets_read;
-      is_last_whole = is_whole(*opened.format, *packet, file_bytes);
-    }
-    if (counts) {
-      if (packets.empty() && display_matrix.empty()) result.upright = upright_of_first(*packet, codec);
-      packets.push_back({packet->pts, packet->dts, packet->duration, (packet->flags & AV_PKT_FLAG_KEY) != 0});
-      last_byte = packet->pos + packet->size;
-      const std::int64_t time = packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts;
-      if (time != AV_NOPTS_VALUE && time < INT64_MAX - packet->duration) {
-        last_end = std::max(last_end, time + packet->duration);
-      }
-    }
-    av_packet_unref(packet.get());
-  }
+  ReadPackets packets = read_packets(opened, path, !display_matrix.empty(), result.upright);
   result.pixel_aspect = pixel_aspect(opened.format.get(), stream, result.upright);
   if (!result.upright.left_out.empty()) {
     result.notes.emplace_back(
         format("the file's display matrix {}, and only quarter turns are made: they are turned by {} degrees",
                result.upright.left_out, 90 * result.upright.quarter_turns));
   }
-  if (code != AVERROR_EOF) {
-    result.notes.push_back(warning_of(
-        format("the file is damaged or was cut off behind picture {}: {}", packets.size(), error_text(code))));
-  }
-  if (!is_last_whole && opened.format->iformat == av_find_input_format("nut"))
-    is_last_whole = has_all_of_last(*opened.format->iformat, MappedFile(path).bytes());
-  if (!is_last_whole && packets.size() == 1)
-    throw InputError(format("{} was cut off within its first picture", input_title(path.string())));
-  if (!is_last_whole && !packets.empty()) {
-    result.packets.end = packets_read - 1;
-    packets.pop_back();
-    result.notes.push_back(warning_of(format(
-        "the file was cut off within picture {}, which is left out", packets.size())));
-  }
-  result.sample_count = packets.size();
-  auto cut = cut_picture_note(*opened.format, MappedFile(path).bytes(), last_byte, packets.size());
-  auto lost = missing_part_note(*opened.format, stream, last_end, packets.size(), cut || has_damaged_start);
-  if (!lost) lost = std::move(cut);
-  if (!lost && opened.log->said()) {
-    lost = format("the file was cut off, or is damaged so that pictures may be missing (FFmpeg says: {})",
-                  *opened.log->said());
-  }
-  if (lost) result.notes.push_back(warning_of(std::move(*lost)));
-  const std::vector<std::int64_t> times = picture_times(path, opened, packets, result);
-  if (const int sound = best_sound(*opened.format); times.size() > 1 && sound >= 0) {
-    const double tick_s = av_q2d(stream.time_base);
-    const std::span streams(opened.format->streams, opened.format->nb_streams);
-    const auto tracks = [](std::span<AVStream* const> some) {
-      const auto type = [](const AVStream* each) { return each->codecpar->codec_type; };
-      return static_cast<int>(std::ranges::count(some, AVMEDIA_TYPE_AUDIO, type));
-    };
-    const auto first = streams.first(static_cast<std::size_t>(sound) + 1);
-    result.sound = ClipSound{static_cast<double>(times.front()) * tick_s, static_cast<double>(times.back()) * tick_s,
-                             0.0, avcodec_get_name(first.back()->codecpar->codec_id), tracks(first), tracks(streams)};
-    const double period_s = (result.sound->last_s - result.sound->first_s) / static_cast<double>(times.size() - 1);
-    for (std::size_t k = 0; k < times.size(); ++k) {
-      const double even_s = result.sound->first_s + static_cast<double>(k) * period_s;
-      result.sound->uneven_s =
-          std::max(result.sound->uneven_s, std::abs(static_cast<double>(times[k]) * tick_s - even_s));
-    }
-  }
-  if (auto doubt = doubt_about_rate(*opened.format, stream, MappedFile(path).bytes())) {
-    result.timing.rate_doubt = std::move(*doubt);
-  } else {
-    result.timing = timing_of(*opened.format, stream, times, input_title(path.string()));
-  }
-  const auto back = std::ranges::adjacent_find(packets, [](const PacketTimes& one, const PacketTimes& next) {
-    return next.is_key && next.decoded != AV_NOPTS_VALUE && next.decoded < one.decoded;
-  });
-  const bool increases = std::ranges::adjacent_find(result.timing.starts_ns, std::greater_equal<>()) ==
-                         result.timing.starts_ns.end();
-  if (back != packets.end() && !increases) {
-    result.timing = {};
-    result.timing.rate_doubt = format("its times run back at picture {}, as if it were two clips, one behind the other",
-                                      back + 1 - packets.begin());
-  }
+  note_damage(opened, path, packets, result);
+  result.sample_count = packets.shown.size();
+  const std::vector<std::int64_t> times = picture_times(path, opened, packets.shown, result);
+  result.sound = sound_beside(opened, times);
+  result.timing = timing_beside(opened, path, packets.shown, times);
   if (cine) add_cine_header(*cine, opened, input_title(path.string()), result);
   if (const auto filmed = capture_rate(*opened.format, path, result.notes)) {
     apply_capture_rate(*filmed, result.timing, result.notes);
   } else if (has_slow_parts(path)) {
     result.notes.emplace_back(
-        "Samsung's camera names parts of the file that are slow motion: they may have been filmed faster "
-        "than "
-        "the file plays; state the rate of the part that you use",
+        "Samsung's camera names parts of the file that are slow motion: they may have been filmed faster than the file "
+        "plays; state the rate of the part that you use",
         std::vector{Setting::frame_rate});
   }
   return result;
