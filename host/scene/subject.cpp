@@ -96,12 +96,18 @@ class Way {
   double extent_ = 0, length_ = 0, turns_ = 0;
 };
 
-// But for a share of the cells: who walks past slowly stays near a place for a while, but covers others, for legs part.
-bool stays_at(const SubjectPlace& place, const SubjectPlace& later, double stir = kMaxStir) {
+// How many cells both cover.
+std::size_t common_cells(const SubjectPlace& place, const SubjectPlace& other) {
   std::vector<std::size_t> both;
-  std::ranges::set_intersection(place.cells, later.cells, std::back_inserter(both));
+  std::ranges::set_intersection(place.cells, other.cells, std::back_inserter(both));
+  return both.size();
+}
+
+// Whether both cover the same cells, but for a share. Who walks past slowly stays near a place for a while, but covers
+// other cells: legs part.
+bool stays_at(const SubjectPlace& place, const SubjectPlace& later, double stir = kMaxStir) {
   const auto all = static_cast<double>(place.cells.size() + later.cells.size());
-  return 2 * static_cast<double>(both.size()) >= (1 - stir) * all;
+  return 2 * static_cast<double>(common_cells(place, later)) >= (1 - stir) * all;
 }
 
 // What was followed from one look to the next.
@@ -154,10 +160,12 @@ class Followed {
     });
   }
 
-  // What comes into the picture is not taken for what stays, which is there, too: a hole, where the plate has a thing.
+  // Whether it is still where it was first seen, as a hole is where the plate has a thing, and so the place is another
+  // thing's. Who passes may have hung together with it for a while.
   [[nodiscard]] bool stays_beside(const SubjectPlace& place, const std::vector<SubjectPlace>& places) const {
     constexpr double kNoise = 0.1;  // of its cells
     if (places_.size() < kMinPlaces || stays_at(places_.back(), place)) return false;
+    if (2 * common_cells(places_.front(), places_.back()) < places_.front().cells.size()) return false;
     return std::ranges::any_of(places, [&](const SubjectPlace& other) {
       return &other != &place && stays_at(places_.front(), other, kNoise);
     });
@@ -256,7 +264,7 @@ class Follower {
       places.push_back(place_of(std::move(part), sample, cells, side_, shape_, field_));
     }
     std::erase_if(places, [&](const SubjectPlace& place) { return hides_several(place, cells.region.width); });
-    for (SubjectPlace& place : places) {
+    for (const SubjectPlace& place : places) {
       Followed* nearest = nullptr;
       double least = kMaxStray;
       for (Followed& each : followed_) {
@@ -267,9 +275,9 @@ class Follower {
         nearest = &each;
       }
       if (nearest != nullptr) {
-        nearest->add(std::move(place), look_);
+        nearest->add(place, look_);
       } else {
-        followed_.emplace_back(std::move(place), look_, side_);
+        followed_.emplace_back(place, look_, side_);
       }
     }
     ++look_;
@@ -506,28 +514,6 @@ std::vector<std::vector<std::size_t>> SubjectTrack::changed_for_good() const {
   Region changed = Region::none(cell_columns, static_cast<std::uint32_t>(all / cell_columns));
   for (std::size_t cell = 0; cell < all; ++cell) changed.inside[cell] = 4 * counts[cell] > 3 * looks ? 1 : 0;
   return parts_of(changed, kMinCells);
-}
-
-SubjectTrack::Exchange SubjectTrack::exchanged() const {
-  constexpr std::size_t kLooks = 4;
-  const auto look_of = [&](const SubjectPlace& place) {
-    return static_cast<std::size_t>(std::ranges::lower_bound(looked_at, place.sample) - looked_at.begin());
-  };
-  const std::size_t first = look_of(places.front()), last = look_of(places.back());
-  if (first < kLooks || last + kLooks >= looked_at.size()) return {};
-  const auto differs_throughout = [&](std::size_t from, std::size_t cell, bool differs) {
-    return std::all_of(differing->begin() + static_cast<std::ptrdiff_t>(from),
-                       differing->begin() + static_cast<std::ptrdiff_t>(from + kLooks),
-                       [&](const std::vector<bool>& cells) { return cells[cell] == differs; });
-  };
-  const std::size_t all = differing->front().size();
-  Region changed = Region::none(cell_columns, static_cast<std::uint32_t>(all / cell_columns));
-  for (std::size_t cell = 0; cell < all; ++cell) {
-    const bool differed = (*differing)[first - 1][cell];
-    changed.inside[cell] =
-        differs_throughout(first - kLooks, cell, differed) && differs_throughout(last + 1, cell, !differed) ? 1 : 0;
-  }
-  return {parts_of(changed, kMinCells), looked_at[first - kLooks], looked_at[last + kLooks]};
 }
 
 SubjectTrack::BareGround SubjectTrack::bare_ground(const SubjectPlace& place, std::uint32_t pixels) const {

@@ -66,14 +66,6 @@ struct SubjectTrack {
   // Cells that differ for nearly all of its way, each what hangs together: where the plate shows it, the ground that it
   // has left.
   [[nodiscard]] std::vector<std::vector<std::size_t>> changed_for_good() const;
-  // What it put down or took away: cells that differ at a few looks before its way and at none of a few behind it, or
-  // the other way round; each what hangs together. And a sample on either side. None where it was there from the first
-  // on, or to the last.
-  struct Exchange {
-    std::vector<std::vector<std::size_t>> parts;
-    std::uint64_t before = 0, after = 0;
-  };
-  [[nodiscard]] Exchange exchanged() const;
   // A place with so many pixels around it, and times of a few looks at which nothing differs there: the longest first,
   // then the nearest. None where ground was laid bare: the thing lay on it all that time.
   struct BareGround {

@@ -117,18 +117,17 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
   return std::filesystem::equivalent(a, b, error) || led_to(a) == led_to(b);
 }
 
-// Of a picture or a mask that is not there yet.
+// Of a picture or a mask that is not there yet, in the folder that the first input is. Of what matches a pattern
+// mixed_note() tells.
 void refuse_among_stills(const std::filesystem::path& output, std::span<const std::string> inputs) {
   const std::filesystem::path folder = output.has_parent_path() ? output.parent_path() : ".";
   std::error_code error;
-  for (const std::string& input : inputs) {
-    if (!std::filesystem::is_directory(input, error) || !is_same_file(folder, input)) continue;
-    if (joins_stills(input, folder / output.filename())) {
-      throw UsageError(format("{} would lie among the stills of {}, and be taken for one or keep them from being read; "
-                              "choose another folder",
-                              output.string(), input));
-    }
-  }
+  if (inputs.empty() || !std::filesystem::is_directory(inputs.front(), error)) return;
+  if (!is_same_file(folder, inputs.front()) || !joins_stills(inputs.front(), folder / output.filename())) return;
+  throw UsageError(
+      format("{} would lie among the stills of {}, and be taken for one or keep them from being read; choose another "
+             "folder",
+             output.string(), inputs.front()));
 }
 
 }  // namespace

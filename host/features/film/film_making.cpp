@@ -220,8 +220,9 @@ void VideoOutput::check(std::span<const std::uint64_t> frames, std::span<const s
     return;
   }
   for (const std::uint64_t frame : frames) {
-    // What is not there yet can be no input.
-    if (!is_absent(still(frame))) check_output(still(frame), OutputKind::picture, inputs, replacing);
+    // What is not there yet can be no input; the first tells whether they may be there.
+    if (frame == frames.front() || !is_absent(still(frame)))
+      check_output(still(frame), OutputKind::picture, inputs, replacing);
   }
 }
 

@@ -63,7 +63,8 @@ struct Options {
   bool each_tag = false;
   std::optional<ShutterShape> shutter;
   std::optional<double> shutter_error, gain, ev;
-  ExposureRequest asked;  // its delay, whose picture is not read, its normalization and its plan
+  // Its delay, whose picture is not read, its normalization, and of its plan what no other field here says.
+  ExposureRequest asked;
   Combining combining;
   std::optional<std::uint32_t> mask_way;  // of kWholeWay
   std::optional<MaskBlend> mask_blend;

@@ -10,6 +10,7 @@
 #include "capture/median.hpp"
 #include "features/masks/mask_making.hpp"
 #include "features/plate/plate.hpp"
+#include "features/study/study_regions.hpp"
 #include "features/study/study_subjects.hpp"
 #include "features/study/study_trail.hpp"
 #include "mask/feather.hpp"
@@ -31,8 +32,6 @@ constexpr double kMinCoveredInPlate = 0.4, kHoleEdges = 0.5;
 // Ground that it laid bare for good is such a hole, of a quarter of its size or more. Measured: 0.96 to 1 of balls that
 // rested for half of the time, 0.42 of what stands for most of its way.
 constexpr double kMinBare = 0.25;
-// What it puts down or takes away is so much of its size, or light at an edge.
-constexpr double kMinExchanged = 1.0 / 16;
 // The share of a single moment's border, where that stands for what makes no study, at which there is an edge or light
 // changed.
 constexpr double kMinOwnEdges = 0.4;
@@ -40,8 +39,6 @@ constexpr double kMinOwnEdges = 0.4;
 // light on a wall.
 constexpr double kMinEdgesOfWhole = 0.1;
 constexpr std::uint64_t kMinTelling = 144;  // pixels: the border of fewer is too short to tell its edges
-// In pixels: without specks and without holes.
-constexpr double kSmoothRadius = 1, kCloseRadius = 7;
 // How far beyond that what lies around a subject reaches: a shadow ends as softly as no threshold shows.
 constexpr double kAroundPixels = 6;
 // By how much of the codes by which it differs the ground around it may be brighter then than where it is bare: more
@@ -97,42 +94,6 @@ bool covers_half(const SubjectPlace& place, const SubjectPlace& other) {
   return 2 * both.size() >= std::min(place.cells.size(), other.cells.size());
 }
 
-// Whether one of the cells, which increase, lies at the place or beside it.
-bool touches(const SubjectPlace& place, const std::vector<std::size_t>& cells, std::size_t columns) {
-  const auto is_one = [&](std::size_t cell) { return std::ranges::binary_search(cells, cell); };
-  return std::ranges::any_of(place.cells, [&](std::size_t cell) {
-    return is_one(cell) || is_one(cell - 1) || is_one(cell + 1) || is_one(cell - columns) || is_one(cell + columns);
-  });
-}
-
-// In pixels, with a cell around them.
-select::Rectangle box_round(const std::vector<std::size_t>& cells, const SubjectTrack& track) {
-  double left = HUGE_VAL, top = HUGE_VAL, right = 0, bottom = 0;
-  for (const std::size_t cell : cells) {
-    const auto x = static_cast<double>(cell % track.cell_columns);
-    const auto y = static_cast<double>(cell / track.cell_columns);
-    left = std::min(left, x - 1);
-    right = std::max(right, x + 2);
-    top = std::min(top, y - 1);
-    bottom = std::max(bottom, y + 2);
-  }
-  const double side = track.cell_side;
-  return {{side * left, side * top}, side * (right - left), side * (bottom - top)};
-}
-
-// Whether a region within a box lies at its border.
-bool reaches_border(const Mask& mask, const select::Rectangle& box) {
-  for (std::size_t pixel = 0; pixel < mask.tags.size(); ++pixel) {
-    if (mask.tags[pixel] == 0) continue;
-    const auto x = static_cast<double>(pixel % mask.width), y = static_cast<double>(pixel / mask.width);
-    if (x < box.corner.x + 1 || y < box.corner.y + 1 || x >= box.corner.x + box.width - 1 ||
-        y >= box.corner.y + box.height - 1) {
-      return true;
-    }
-  }
-  return false;
-}
-
 class StudyPlanner {
  public:
   StudyPlanner(const StudyRequest& request, CaptureSource& capture, const std::string& name, Picture plate,
@@ -149,6 +110,7 @@ class StudyPlanner {
   void plan(Study& study) {
     for (FollowedSubject& each : followed_) {
       each.track.bare = ground_laid_bare(each.track);
+      each.exchange = exchanged_by(each.track, capture_, name_, by_codes_);
       // A thing that lies on such ground in part is seen in part, beside it.
       const auto is_whole = [&](const SubjectPlace& place) {
         return !touches(place, each.track.bare, each.track.cell_columns);
@@ -256,12 +218,7 @@ class StudyPlanner {
       study.grounds[i] = ground_of(study, i);
       // Where a trail ends at the subject itself, ground of its moment between the two would be a halo.
       const std::uint32_t within = has_trail(request_) && study.grounds[i].empty() ? kStudyFeatherCentipixels / 100 : 0;
-      step.changes = {{RegionChange::Kind::within, 0.0, box_at(study.subjects[i], study.moments[i])},
-                      {RegionChange::Kind::largest, 0.0, {}},
-                      {RegionChange::Kind::smooth, kSmoothRadius, {}},
-                      {RegionChange::Kind::grow, kCloseRadius + border, {}},
-                      {RegionChange::Kind::fill_holes, 0.0, {}},
-                      {RegionChange::Kind::shrink, kCloseRadius + within, {}}};
+      step.changes = whole_within(box_at(study.subjects[i], study.moments[i]), border, within);
       if (!study.grounds[i].empty()) {
         for (std::size_t level = 0; level < kAround.size(); ++level) {
           MaskStep& all = around.emplace_back(step);
@@ -271,37 +228,16 @@ class StudyPlanner {
         }
         std::get<select::Subject>(step.selection).is_without_shadow = true;
       }
-      add_exchanged(track, study.moments[i], step, exchanged);
+      if (is_seen_at(track, study.moments[i])) {
+        std::ranges::move(exchange_steps(followed_[study.subjects[i]].exchange, place_at(track, study.moments[i]),
+                                         step.tag, border),
+                          std::back_inserter(exchanged));
+      }
       study.mask.steps.push_back(std::move(step));
     }
     std::ranges::stable_sort(around, {}, [&](const MaskStep& step) { return (step.tag - 1U) / study.moments.size(); });
     study.mask.steps.insert(study.mask.steps.begin(), exchanged.begin(), exchanged.end());
     study.mask.steps.insert(study.mask.steps.begin(), around.begin(), around.end());
-  }
-
-  // What it puts down or takes away then belongs to the moment, of which it touches the subject: a trail shows it for a
-  // share of the time, and the plate has it for good, or never. It is no larger than the subject, and ends within its
-  // cells: what goes on beyond them is light, or the scene's.
-  void add_exchanged(const SubjectTrack& track, std::uint64_t moment, const MaskStep& subject,
-                     std::vector<MaskStep>& steps) const {
-    if (!is_seen_at(track, moment)) return;
-    const SubjectPlace& place = place_at(track, moment);
-    const SubjectTrack::Exchange exchange = track.exchanged();
-    for (const std::vector<std::size_t>& part : exchange.parts) {
-      const auto size = static_cast<double>(part.size()), most = static_cast<double>(place.cells.size());
-      if (size > most || size < kMinExchanged * most || !touches(place, part, track.cell_columns)) continue;
-      MaskStep step = subject;
-      step.selection = select::Difference{StatedTime::of_pictures(static_cast<std::int64_t>(exchange.before)),
-                                          StatedTime::of_pictures(static_cast<std::int64_t>(exchange.after))};
-      step.by_codes = by_codes_;
-      step.changes.front().rectangle = box_round(part, track);
-      step.changes.back().radius = kCloseRadius;  // no trail ends at it
-      MaskRequest alone;
-      alone.steps = {step};
-      alone.steps.front().changes.resize(3);
-      if (!reaches_border(make_mask(alone, &capture_, name_).mask, step.changes.front().rectangle))
-        steps.push_back(std::move(step));
-    }
   }
 
   // When the ground of a moment is seen bare, so that its trail may lie on it, and its shadow on both. Nothing where
@@ -339,7 +275,7 @@ class StudyPlanner {
 
   [[nodiscard]] std::vector<std::uint64_t> moments_of(std::size_t subject, std::vector<SubjectPlace>& taken,
                                                       Study& study) {
-    const auto& [track, region, verdict, refused] = followed_[subject];
+    const auto& [track, region, verdict, refused, exchange] = followed_[subject];
     if (const auto* times = std::get_if<std::vector<StatedTime>>(&request_.moments)) {
       return stated_moments(*times, timeline_);
     }
@@ -487,11 +423,8 @@ class StudyPlanner {
 
   // The box that it was found in then; all that is looked at if it was not.
   [[nodiscard]] select::Rectangle box_at(std::size_t subject, std::uint64_t sample) const {
-    const auto& [track, region, verdict, refused] = followed_[subject];
-    Rectangle box = region;
-    if (is_seen_at(track, sample)) {
-      box = place_at(track, sample).box;
-    }
+    const SubjectTrack& track = followed_[subject].track;
+    const Rectangle box = is_seen_at(track, sample) ? place_at(track, sample).box : followed_[subject].region;
     return {{double(box.x), double(box.y)}, double(box.width), double(box.height)};
   }
 

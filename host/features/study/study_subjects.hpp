@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "features/study/study.hpp"
+#include "features/study/study_regions.hpp"
 #include "scene/subject.hpp"
 
 namespace nutik {
@@ -27,6 +28,7 @@ struct FollowedSubject {
   Rectangle region;
   SubjectVerdict verdict = {};
   std::vector<SubjectPlace> refused = {};  // of its places: not to be chosen
+  Exchange exchange = {};                  // on its whole way
 };
 
 // Subjects in the order of regions. Where no region is stated, what goes its way beside the subject is one, too; what

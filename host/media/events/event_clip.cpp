@@ -1,5 +1,6 @@
 #include "media/events/event_clip.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <string>
@@ -59,7 +60,7 @@ class EventClip final : public Clip {
 
 bool is_event_recording(const std::filesystem::path& path) {
   const std::string start = telling_bytes(is_standard_input(path.string()) ? standard_input_file() : path);
-  return inputs::kProphesee.begins(start) || inputs::kAdder.begins(start);
+  return std::ranges::any_of(inputs::kClips, [&](const auto* kind) { return kind->has_events && kind->begins(start); });
 }
 
 std::unique_ptr<Clip> open_event_clip(const std::filesystem::path& path, const ClipOptions& options) {

@@ -1,7 +1,9 @@
 // Sequences of stills. Pages of a TIFF are read in one go; light of floating-point pictures becomes codes of 16 bits.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"

@@ -311,7 +311,7 @@ bool joins_stills(const fs::path& folder, const fs::path& file) {
   const inputs::InputKind* const kind = kind_named_by(file);
   if (kind == nullptr || files.empty()) return false;
   if (kind_named_by(files.front()) != kind) return true;
-  files.push_back(file);
+  files.insert(files.end(), 2, file);  // where names are numbered, more will come
   try {
     return std::ranges::count(main_sequence(folder, files), file) > 0;
   } catch (const InputError&) {  // there would be two

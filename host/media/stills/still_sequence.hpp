@@ -37,7 +37,8 @@ namespace nutik {
 [[nodiscard]] std::optional<std::string> left_out_note(const std::filesystem::path& folder,
                                                        std::span<const std::filesystem::path> files);
 
-// Whether a new file in a folder would be read as one of its stills, or would keep them from being read.
+// Whether a new file in a folder would be read as one of its stills, or would, with another of its kind, keep them from
+// being read.
 [[nodiscard]] bool joins_stills(const std::filesystem::path& folder, const std::filesystem::path& file);
 
 // What to call that which is made from a clip: `clip` for clip.mp4, `frames` for the folder frames/

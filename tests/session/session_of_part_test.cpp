@@ -1,12 +1,11 @@
 // A capture with fewer pixels has the samples and times of the whole one.
-#include "session/live/live_pictures.hpp"
+#include "session/live/session_of_part.hpp"
 
 #include <gtest/gtest.h>
 
 #include "capture/light_means.hpp"
 #include "imev/each_block.hpp"
 #include "imev/sample_cursor.hpp"
-#include "session/live/session_of_part.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 #include "support/tik_files.hpp"
@@ -14,9 +13,9 @@
 namespace nutik::test {
 namespace {
 
-class ReducedSession : public ::testing::TestWithParam<std::uint64_t> {};
+class SessionOfPart : public ::testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(ReducedSession, HasTheSamplesAndTimesOfTheWholeOne) {
+TEST_P(SessionOfPart, HasTheSamplesAndTimesOfTheWholeOne) {
   RandomCase random(GetParam());
   // What was kept is shown, not what was filmed.
   random.capture.noise = {};
@@ -53,7 +52,7 @@ TEST_P(ReducedSession, HasTheSamplesAndTimesOfTheWholeOne) {
   });
 }
 
-TEST_P(ReducedSession, OfSomePicturesHasThoseThatBeginBetweenTwoMoments) {
+TEST_P(SessionOfPart, OfSomePicturesHasThoseThatBeginBetweenTwoMoments) {
   RandomCase random(GetParam());
   random.capture.noise = {};
   const Scratch scratch;
@@ -82,7 +81,7 @@ TEST_P(ReducedSession, OfSomePicturesHasThoseThatBeginBetweenTwoMoments) {
 }
 
 // Captures with two rows or more.
-INSTANTIATE_TEST_SUITE_P(Captures, ReducedSession, testing::Values(0, 1, 2, 3, 4, 6, 8, 9, 10, 11));
+INSTANTIATE_TEST_SUITE_P(Captures, SessionOfPart, testing::Values(0, 1, 2, 3, 4, 6, 8, 9, 10, 11));
 
 }  // namespace
 }  // namespace nutik::test
