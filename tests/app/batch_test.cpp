@@ -160,6 +160,18 @@ TEST_F(Batch, ReportsBadLinesAndGoesOn) {
   EXPECT_FALSE(file("g.png").empty());
 }
 
+TEST_F(Batch, GivesNoPictureOfAnotherLineToOneThatItsFormatCannotHold) {
+  scratch_.write("list.txt",
+                 "--start 0f --exposure 1f --depth float scene.tik bad.png\n"
+                 "--start 1f --exposure 2f scene.tik good.png\n"
+                 "--start 2f --exposure 1f scene.tik last.png\n");
+  expect_says(make("batch list.txt", 1).err, "list.txt:1: bad.png cannot hold floating point");
+  EXPECT_FALSE(exists("bad.png"));
+  make("--start 1f --exposure 2f scene.tik single.png");
+  EXPECT_EQ(file("good.png"), file("single.png"));
+  EXPECT_TRUE(exists("last.png"));
+}
+
 // Also where another line reads it, and where its name is one of several.
 TEST_F(Batch, ReplacesNoInputAndNoPictureOfAnotherLine) {
   const std::string mask = "P5\n9 7\n255\n" + std::string(9 * 7, '\0');

@@ -167,9 +167,9 @@ class Batch {
       const auto check_map = [&] { maps.check(0, input_files(line), output, replacing(line)); };
       if (!is_writable(listed.line, check_map)) return;
       Session& session = session_of(line.operands.front());
+      const OutputFormat format = output_format(line.picture, output, session.format());
       waiting_.push_back({listed.line, line, output, maps});
-      line_->add([&session, request, format = output_format(line.picture, output, session.format())](
-                     const RenderControl& control) {
+      line_->add([&session, request, format](const RenderControl& control) {
         Made made;
         unless_wrong([&] { made.exposed = session.render(request, format, control); },
                      [&](const Error&) { made.error = std::current_exception(); });

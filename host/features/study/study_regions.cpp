@@ -84,11 +84,15 @@ Exchange exchanged_by(const SubjectTrack& track, CaptureSource& capture, const s
                       std::uint32_t by_codes) {
   constexpr std::size_t kLooks = 4;  // what something else covers is seldom covered at all of them
   if (track.places.empty()) return {};
-  const auto look_of = [&](const SubjectPlace& place) {
-    return static_cast<std::size_t>(std::ranges::lower_bound(track.looked_at, place.sample) - track.looked_at.begin());
+  const auto look_of = [&](std::uint64_t sample) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(track.looked_at, sample) - track.looked_at.begin());
   };
-  const std::size_t first = look_of(track.places.front()), last = look_of(track.places.back());
-  if (first < kLooks || last + kLooks >= track.looked_at.size()) return {};
+  std::size_t first = look_of(track.places.front().sample), last = look_of(track.places.back().sample);
+  for (const SampleRange& rest : track.rests) {  // what rests at an end is what was put down, or will be taken away
+    if (rest.first == track.places.front().sample) first = look_of(rest.last);
+    if (rest.last == track.places.back().sample + 1) last = look_of(rest.first) - 1;
+  }
+  if (first < kLooks || last < first || last + kLooks >= track.looked_at.size()) return {};
   const auto picture_at = [&](std::size_t look) {
     return StatedTime::of_pictures(static_cast<std::int64_t>(track.looked_at[look]));
   };

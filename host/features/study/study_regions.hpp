@@ -33,7 +33,7 @@ struct Exchange {
 
 // Things whose cells differ from the plate at a few looks before the subject's way and at none of a few behind, or
 // the other way round, and whose regions end within these cells: what goes on beyond is light, or the scene's. None
-// where the subject was there from the first on, or to the last. Throws InputError where the capture is damaged.
+// where the subject goes on its way from the first on, or to the last. Throws InputError where the capture is damaged.
 [[nodiscard]] Exchange exchanged_by(const SubjectTrack& track, CaptureSource& capture, const std::string& name,
                                     std::uint32_t by_codes);
 
