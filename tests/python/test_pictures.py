@@ -204,6 +204,7 @@ class Pictures(support.TestCase):
         picture.write(self.path("ours.ppm"))
         self.assert_same(support.read_netpbm(self.path("ours.ppm")), picture.array)
         self.assert_raises(nutik.UsageError, ".pfm", picture.write, self.path("codes.pfm"))
+        self.assert_raises(nutik.UsageError, "grey pictures only", picture.write, self.path("codes.pgm"))
         for wrong in (-5, 0, 101, 2 ** 31, 5.5):
             self.assert_raises(nutik.UsageError, f"quality '{wrong}'", picture.write, self.path("q.jpg"), quality=wrong)
         with self.assertRaisesRegex(TypeError, "keep_pixels= is 'no'"):

@@ -54,15 +54,18 @@ std::string extensions_of(Wanted wanted) {
   return alternatives(names_of(wanted));
 }
 
+void check_channels(const WrittenFormat& kind, const std::filesystem::path& path, std::uint32_t channels) {
+  if (kind.only_channels == 0 || kind.only_channels == channels) return;
+  throw UsageError(format("{} holds {} pictures only and this one {}; write a .png or .tif", path.string(),
+                          channels == 1 ? "colour" : "grey", channels == 1 ? "is grey" : "has colour"));
+}
+
 }  // namespace
 
 ValueType value_type_for(const std::filesystem::path& path, std::optional<Depth> wish, ValueType usual,
                          std::uint32_t channels) {
   const WrittenFormat& kind = written_format_of(path);
-  if (kind.only_channels != 0 && kind.only_channels != channels) {
-    throw UsageError(format("{} holds {} pictures only and this one {}; write a .png or .tif", path.string(),
-                            channels == 1 ? "colour" : "grey", channels == 1 ? "is grey" : "has colour"));
-  }
+  check_channels(kind, path, channels);
   const bool light = wish ? *wish != Depth::bits8 && *wish != Depth::bits16 : kind.code_bits == 0;
   if (light && !kind.holds_light) {
     throw UsageError(format("{} cannot hold floating point; write a {}", path.string(),
@@ -140,6 +143,7 @@ void write_picture(const std::filesystem::path& path, const Picture& picture, co
   const Shape shape = written_shape(path, picture.shape, picture.pixel_aspect, wishes);
   if (shape != picture.shape) return write_picture(path, in_square_pixels(picture, shape), text, wishes);
   const WrittenFormat& kind = written_format_of(path);
+  check_channels(kind, path, shape.channels);
   const bool fits = holds_codes(picture.type) ? value_bytes(picture.type) * 8 <= kind.code_bits
                     : picture.type == ValueType::light64 ? kind.holds_double
                                                          : kind.holds_light;
