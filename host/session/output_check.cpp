@@ -117,8 +117,8 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
   return std::filesystem::equivalent(a, b, error) || led_to(a) == led_to(b);
 }
 
-// Of a picture or a mask that is not there yet, in the folder that the first input is. Of what matches a pattern
-// mixed_note() tells.
+// A picture or a mask that is not there yet joins no stills of a folder, the first input. mixed_note() tells of what
+// matches a pattern.
 void refuse_among_stills(const std::filesystem::path& output, std::span<const std::string> inputs) {
   const std::filesystem::path folder = output.has_parent_path() ? output.parent_path() : ".";
   std::error_code error;

@@ -11,7 +11,7 @@ namespace {
 
 // In pixels: without specks and without holes.
 constexpr double kSmoothRadius = 1, kCloseRadius = 7;
-// Of its subject's size, in cells. Measured: a bag is 1/6 of who carries it; less is often light at an edge.
+// The least share of its subject's cells. A drawn bag is 1/6 of who carries it; less is often light at an edge.
 constexpr double kMinExchanged = 1.0 / 16;
 constexpr std::size_t kMinCells = 6;  // fewer are noise
 
@@ -89,8 +89,11 @@ Exchange exchanged_by(const SubjectTrack& track, CaptureSource& capture, const s
   };
   std::size_t first = look_of(track.places.front().sample), last = look_of(track.places.back().sample);
   for (const SampleRange& rest : track.rests) {  // what rests at an end is what was put down, or will be taken away
-    if (rest.first == track.places.front().sample) first = look_of(rest.last);
-    if (rest.last == track.places.back().sample + 1) last = look_of(rest.first) - 1;
+    if (rest.first == track.places.front().sample) {
+      first = look_of(rest.last);
+    } else if (rest.last == track.places.back().sample + 1) {
+      last = look_of(rest.first) - 1;
+    }
   }
   if (first < kLooks || last < first || last + kLooks >= track.looked_at.size()) return {};
   const auto picture_at = [&](std::size_t look) {

@@ -45,7 +45,7 @@ struct InputKind {
   std::string_view behind_start = {};  // one of these characters follows the first bytes; empty: any
   bool has_front = true;               // without one, pixels may begin as any other file does: its name goes first
 
-  // Of a picture's file.
+  // What a file of a picture has.
   bool has_tags = false;  // whole numbers in it may be a mask's, besides those in a PNG and a PGM
   // Null where the module for stills has a reader of its own for it. Throws InputError naming `name`.
   FilePicture (*read)(Bytes file, const std::string& name, std::size_t place) = nullptr;
@@ -54,7 +54,7 @@ struct InputKind {
   std::optional<std::string> (*text)(Bytes file, const std::filesystem::path& path) = nullptr;
   WrittenFormat written[3] = {};
 
-  // Of a clip: what a name stands for if it is of this kind; null where that is the file itself, which begins so.
+  // What a name stands for if it is a clip of this kind; null where that is the file itself, which begins so.
   // Throws InputError if that is damaged or not all there.
   std::optional<Files> (*files)(const std::filesystem::path& path) = nullptr;
   std::unique_ptr<Clip> (*open)(const std::filesystem::path& path, const Files& files,

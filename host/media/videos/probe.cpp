@@ -440,7 +440,7 @@ void note_left_out(const OpenedVideo& opened, const std::filesystem::path& path,
     result.notes.emplace_back(kNoTransparency);
 }
 
-// Of the stream of pictures, up to the file's end or to where it cannot be read.
+// Packets of the stream of pictures, up to the file's end or to where it cannot be read.
 struct ReadPackets {
   std::vector<PacketTimes> shown;
   std::uint64_t count = 0;  // those that are not shown, too
