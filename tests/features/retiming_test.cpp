@@ -6,6 +6,7 @@
 #include "capture/error.hpp"
 #include "session/clips/clip_source.hpp"
 #include "session/clips/evened_times.hpp"
+#include "session/clips/source_check.hpp"
 #include "session/requests/source_request.hpp"
 #include "support/messages.hpp"
 #include "support/payloads.hpp"
