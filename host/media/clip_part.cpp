@@ -21,6 +21,7 @@ namespace nutik {
 static std::string crop_fact(const Rectangle& crop, const Shape& whole) {
   return format("{} x {} from {},{} of {} x {}", crop.width, crop.height, crop.x, crop.y, whole.width, whole.height);
 }
+
 std::optional<Rectangle> crop_told(const std::vector<std::string>& facts) {
   for (const std::string& fact : facts) {
     Rectangle crop;

@@ -117,8 +117,8 @@ void measure_tables(const RenderPlan& plan, const std::stop_token& stop = {});
 [[nodiscard]] SampleRange needed_samples(const Timeline& timeline, const FunctionSet& functions,
                                          const Mask& mask, const PlanOptions& options);
 
-// What an empty PlanCache makes. Throws InputError where the mask has another size than the
-// capture, or mask values have no function (listing the values and how many pixels each has).
+// What an empty PlanCache makes. Throws InputError where the mask has another size than the capture, or mask values
+// have no function (listing the values and how many pixels each has).
 [[nodiscard]] RenderPlan make_plan(const CaptureSource& source, const FunctionSet& functions,
                                    const Mask& mask, const PlanOptions& options);
 

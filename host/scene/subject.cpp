@@ -14,7 +14,6 @@
 namespace nutik {
 namespace {
 
-constexpr std::uint64_t kMinCells = 6;  // fewer are noise
 constexpr double kMaxStir = 0.25;       // of its size: what moves by no more stays in its place
 
 // The cells in which a subject is looked for, the last ones included.
@@ -95,13 +94,6 @@ class Way {
  private:
   double extent_ = 0, length_ = 0, turns_ = 0;
 };
-
-// How many cells both cover.
-std::size_t common_cells(const SubjectPlace& place, const SubjectPlace& other) {
-  std::vector<std::size_t> both;
-  std::ranges::set_intersection(place.cells, other.cells, std::back_inserter(both));
-  return both.size();
-}
 
 // Whether both cover the same cells, but for a share. Who walks past slowly stays near a place for a while, but covers
 // other cells: legs part.
@@ -452,6 +444,12 @@ class Tracker {
 };
 
 }  // namespace
+
+std::size_t common_cells(const SubjectPlace& place, const SubjectPlace& other) {
+  std::vector<std::size_t> both;
+  std::ranges::set_intersection(place.cells, other.cells, std::back_inserter(both));
+  return both.size();
+}
 
 double min_misplaced_pixels(const Shape& shape) { return Difference::side(shape) / 2.0; }
 

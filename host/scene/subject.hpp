@@ -29,6 +29,11 @@ struct SubjectPlace {
   std::size_t solid = 0;           // how many of them are no shadow
 };
 
+// How many cells both cover.
+[[nodiscard]] std::size_t common_cells(const SubjectPlace& place, const SubjectPlace& other);
+
+inline constexpr std::size_t kMinCells = 6;  // that hang together: fewer are noise
+
 struct SubjectTrack {
   std::uint32_t cell_side = 1;           // in pixels
   std::uint32_t cell_columns = 0;        // in a row

@@ -56,6 +56,7 @@ TEST_F(Habits, WritesBesideStillsWhatIsNoneOfThem) {
   const std::string refusal = " would lie among the stills of frames, and be taken for one or keep them from being";
   expect_refused("-f 25 --start 0f --exposure 1f frames frames/103.pgm", 2, "frames/103.pgm" + refusal);
   expect_refused("-f 25 --start 0f --exposure 1f frames frames/out.png", 2, "frames/out.png" + refusal);
+  expect_refused("video -f 25 frames frames/2%02d.pgm", 2, "frames/200.pgm" + refusal);
   make("-f 25 --start 0f --exposure 1f frames frames/out.pgm");
   EXPECT_EQ(answer("encode -f 25 frames again.tik")["samples"], 3);
 }

@@ -61,18 +61,18 @@ TEST(InputKindTable, IsThatOfThePageCellByCell) {
       "| kind | recognized by | rate and times | shutter | codes, black and white | orientation | alpha | order |");
   const std::vector<const inputs::InputKind*> kinds = all_kinds();
   ASSERT_EQ(page.size(), kinds.size());
-  for (std::size_t i = 0; i < page.size(); ++i) {
-    const auto found = std::ranges::find(kinds, page[i].front(), &inputs::InputKind::name);
-    ASSERT_NE(found, kinds.end()) << page[i].front();
-    const inputs::InputKind& kind = **found;
+  for (const inputs::InputKind* each : kinds) {
+    const inputs::InputKind& kind = *each;
+    const auto row = std::ranges::find(page, kind.name, [](const auto& cells) { return cells.front(); });
+    ASSERT_NE(row, page.end()) << kind.name;
     const auto& [times, shutter, codes, orientation, alpha, order] = kind.said;
     const std::vector<std::string> cells{std::string(kind.name),  recognized(kind),   std::string(times),
                                          std::string(shutter),    std::string(codes), std::string(orientation),
                                          std::string(alpha),      std::string(order)};
-    ASSERT_EQ(page[i].size(), cells.size()) << kind.name;
+    ASSERT_EQ(row->size(), cells.size()) << kind.name;
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
       EXPECT_NE(cells[cell], "") << kind.name << ", cell " << cell;
-      EXPECT_EQ(page[i][cell], cells[cell]) << kind.name << ", cell " << cell;
+      EXPECT_EQ((*row)[cell], cells[cell]) << kind.name << ", cell " << cell;
     }
   }
 }

@@ -89,9 +89,7 @@ const SubjectPlace& strongest_of(const std::vector<SubjectPlace>& places) {
 
 // Whether a place covers half or more of the smaller of the two.
 bool covers_half(const SubjectPlace& place, const SubjectPlace& other) {
-  std::vector<std::size_t> both;
-  std::ranges::set_intersection(place.cells, other.cells, std::back_inserter(both));
-  return 2 * both.size() >= std::min(place.cells.size(), other.cells.size());
+  return 2 * common_cells(place, other) >= std::min(place.cells.size(), other.cells.size());
 }
 
 class StudyPlanner {

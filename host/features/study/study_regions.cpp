@@ -13,7 +13,6 @@ namespace {
 constexpr double kSmoothRadius = 1, kCloseRadius = 7;
 // The least share of its subject's cells. A drawn bag is 1/6 of who carries it; less is often light at an edge.
 constexpr double kMinExchanged = 1.0 / 16;
-constexpr std::size_t kMinCells = 6;  // fewer are noise
 
 // Whether a region within a box lies at its border.
 bool reaches_border(const Mask& mask, const select::Rectangle& box) {

@@ -256,8 +256,8 @@ void add_file(std::vector<Page>& pages, const std::filesystem::path& file, const
     return format->add(pages, file, reading);
   if (kind.places == nullptr) return add_pages(pages, file, kind, 1);
   const std::vector<std::size_t> places = kind.places(MappedFile(file).bytes(), file.string());
-  for (const std::size_t& place : places)
-    pages.push_back({file, &kind, static_cast<std::uint64_t>(&place - places.data()) + 1, places.size(), place});
+  for (std::size_t i = 0; i < places.size(); ++i)
+    pages.push_back({file, &kind, i + 1, places.size(), places[i]});
 }
 
 class StillClip final : public Clip {
