@@ -10,6 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "capture/error.hpp"
+#include "media/formats/colour_profile.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "support/clips.hpp"
 #include "support/messages.hpp"
@@ -52,6 +53,24 @@ TEST(ColourProfile, OfWhatIsWrittenHereIsBelieved) {
       }
     }
   }
+}
+
+// White is that of the profile's own space, or absolute intents tint grey; and both say what it was adapted from.
+TEST(ColourProfile, OfGreyHasTheWhiteOfColour) {
+  Picture picture({1, 1, 3}, ValueType::code8, 255);
+  picture.transfer = Transfer::srgb();
+  std::string tags[2];
+  for (const std::uint32_t channels : {1u, 3u}) {
+    picture.shape.channels = channels;
+    const auto bytes = colour_profile(picture);
+    const auto profile = cmsOpenProfileFromMem(bytes.data(), static_cast<cmsUInt32Number>(bytes.size()));
+    for (const auto tag : {cmsSigMediaWhitePointTag, cmsSigChromaticAdaptationTag}) {
+      std::string& value = tags[channels / 2] += std::string(44, '\0');
+      EXPECT_GT(cmsReadRawTag(profile, tag, &value[value.size() - 44], 44), 0u);
+    }
+    cmsCloseProfile(profile);
+  }
+  EXPECT_EQ(tags[0], tags[1]);
 }
 
 using Curve = std::unique_ptr<cmsToneCurve, decltype(&cmsFreeToneCurve)>;

@@ -57,10 +57,15 @@ Profile profile_of(const Picture& picture, cmsToneCurve* curve) {
   const auto& xy = chromaticities(picture.primaries);
   const auto point = [&](std::size_t i) { return cmsCIExyY{xy[i][0], xy[i][1], 1.0}; };
   const cmsCIExyY white = point(3);
-  if (picture.shape.channels == 1) return Profile(cmsCreateGrayProfile(&white, curve));
   const cmsCIExyYTRIPLE primaries{point(0), point(1), point(2)};
   cmsToneCurve* const curves[]{curve, curve, curve};
-  return Profile(cmsCreateRGBProfile(&white, &primaries, curves));
+  Profile colour(cmsCreateRGBProfile(&white, &primaries, curves));
+  if (picture.shape.channels != 1 || !colour) return colour;
+  // Grey is that of the profile's own space, D50, and says what it was, too.
+  Profile grey(cmsCreateGrayProfile(cmsD50_xyY(), curve));
+  const auto adapted = cmsSigChromaticAdaptationTag;
+  if (!grey || !cmsWriteTag(grey.get(), adapted, cmsReadTag(colour.get(), adapted))) return nullptr;
+  return grey;
 }
 
 void describe(cmsHPROFILE profile, const std::string& words) {
