@@ -76,7 +76,7 @@ TEST(VideoWriter, Ffv1GivesEveryCodeBack) {
   for (const char* name : {"v.mkv", "v.avi"}) {
     for (const std::uint32_t channels : {1u, 3u}) {
       for (const std::uint32_t white : {255u, 65'535u}) {
-        for (const auto& [width, height] : {std::pair{17u, 9u}, std::pair{64u, 48u}}) {
+        for (const auto& [width, height] : {std::pair{17u, 9u}, {64u, 48u}, {1u, 9u}, {33u, 1u}, {2u, 2u}}) {
           SCOPED_TRACE(std::string(name) + ", " + std::to_string(channels) + " channels, white " +
                        std::to_string(white) + ", width " + std::to_string(width));
           const Scratch scratch;

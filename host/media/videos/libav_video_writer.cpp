@@ -246,7 +246,11 @@ class LibavVideoWriter final : public VideoWriter {
 
     const int quality = video_.codec_setting.value_or(codec.scale.usual);
     Settings settings(codec.settings);
-    if (codec.name == "ffv1") context.gop_size = 1;
+    if (codec.name == "ffv1") {
+      context.gop_size = 1;
+      // FFmpeg's slices of level 3 come back as other pixels where there are so few.
+      if (std::min(width_, height_) < 3) settings.set("level", "1"), settings.set("slicecrc", "0");
+    }
     if (codec.scale.key == "qscale") {
       context.flags |= AV_CODEC_FLAG_QSCALE;
       context.global_quality = quality * FF_QP2LAMBDA;
