@@ -257,7 +257,12 @@ TEST_F(FilmKinds, KeepWhatIsSaidOfTheScreen) {
   const std::string source = "--out-transfer source --video-codec h265-10 ";
   expect_says(told(source, "screen.mp4", "a.mkv"), {"red_x=17/25\n", "max_luminance=1000/1\n", "max_content=900\n"});
   expect_says(told(source, "a.mkv", "b.mp4"), {"red_x=34000/50000\n", "max_content=900\n", "max_average=400\n"});
-  EXPECT_EQ(told("", "screen.mp4", "c.mp4").find("side_data_type"), std::string::npos);
+  expect_says(told(source + "--shutter hann --normalize integral ", "screen.mp4", "c.mkv"), "max_content=900\n");
+  // That light has become another, or brighter.
+  for (const std::string& other :
+       {std::string(), source + "--ev 0.1 ", source + "--gain 2 --combine lighten ",
+        source + "--shutter spline:0=0,0.5=3,1=0 "})
+    EXPECT_EQ(told("--overwrite " + other, "screen.mp4", "d.mp4").find("side_data_type"), std::string::npos) << other;
 }
 
 // What a reader has to be told of a film, for no number says it; and what editors would read in another way.

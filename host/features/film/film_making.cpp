@@ -96,6 +96,20 @@ std::optional<FilmSound> film_sound(const Session& session, const FramesRequest&
   return sound;
 }
 
+// Whether no light becomes more than it was: what the clip says of its brightest then holds for the film.
+bool is_nowhere_brighter(const FramesRequest& request, const Frames& frames, const Timeline& timeline) {
+  constexpr double kRounding = 1e-9;
+  return std::ranges::all_of(frames.numbers, [&](std::uint64_t frame) {
+    const ExposureRequest wanted = exposure_of(request, frames, frame);
+    const bool is_sum = wanted.plan.combine == Combine::integral && !wanted.delay;
+    return std::ranges::all_of(functions_of(wanted, frames.exposure(frame), timeline), [&](const auto& each) {
+      const GainFunction& function = each.second;
+      return (is_sum ? summarize(function, timeline.duration_ns()).error_scale() : function.largest_gain()) <=
+             1 + kRounding;
+    });
+  });
+}
+
 }  // namespace
 
 MadeVideo make_video(Session& session, const FramesRequest& request, const Frames& frames,
@@ -116,7 +130,9 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
   video.sound = film_sound(session, request, frames, output, wish, sound_notes);
   video.repeats_chroma = session.repeats_chroma();
   const Transfer curve = CodeMaking::of(capture, frame_format).transfer;
-  if (session.is_clip() && curve == session.format().transfer && (curve == Transfer::pq() || curve == Transfer::hlg()))
+  if (session.is_clip() && curve == session.format().transfer &&
+      (curve == Transfer::pq() || curve == Transfer::hlg()) &&
+      is_nowhere_brighter(request, frames, session.timeline()))
     video.graded = file_of(session);
   const TimeToEnd is_kept;  // the frames so far, whatever a frame takes
   std::unique_ptr<VideoWriter> writer;  // none of stills

@@ -292,8 +292,8 @@ class LibavVideoWriter final : public VideoWriter {
 
   [[nodiscard]] bool is_in(std::string_view container) const { return muxer_->oformat->name == container; }
 
-  // What the clip says of the screen that it was graded on, and of its brightest light, is true of the same codes. Its
-  // container says it, or its first picture.
+  // What the clip says of the screen that it was graded on, and of its brightest light. Its container says it, or its
+  // first picture.
   void copy_screen() {
     try {
       PictureDecoder clip(open_video(video_.graded, std::nullopt), name_, PictureDecoder::Wanted::times, {}, 1);

@@ -77,7 +77,7 @@ struct VideoFormat {
   std::optional<int> codec_setting = {};  // codec_setting(); none: what is usual
   std::optional<FilmSound> sound = {};
   bool repeats_chroma = false;        // Session::repeats_chroma()
-  std::filesystem::path graded = {};  // a clip in HDR whose curve it keeps
+  std::filesystem::path graded = {};  // a clip in HDR whose curve it keeps, and is nowhere brighter
 };
 
 class VideoWriter {
