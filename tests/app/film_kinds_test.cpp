@@ -278,6 +278,10 @@ TEST_F(FilmKinds, TellWhatTheyDoNotName) {
               "does not name the transfer function slog3:video and the primaries sgamut3: state");
   const std::string hlg = "25 --transfer hlg --primaries bt2020 ";
   expect_says(notes(hlg, "a.avi"), "does not name the transfer function hlg and the primaries bt2020: state");
+  for (const auto& [depth, said] : {std::pair{"16", true}, {"8", false}}) {
+    const std::string film = answer("video --overwrite --out-fps 25 clip.mkv a.avi --depth " + Words(depth)).dump();
+    EXPECT_EQ(film.find("does not name the transfer function srgb: state") != std::string::npos, said) << depth;
+  }
   EXPECT_EQ(notes(hlg + "--video-codec dnxhr-hqx", "a.mov").find("does not name"), std::string::npos);
   // Apple has a key for its curve.
   const std::string apples = "25 --video-codec dnxhr-hqx --transfer applelog --primaries ";

@@ -320,7 +320,9 @@ class LibavVideoWriter final : public VideoWriter {
                                  (names_curve || !is_in("mov") || encoder_->codec_id != AV_CODEC_ID_DNXHD);
     if (name_apple_log()) return;
     std::string left;
-    if (!names_curve && video_.transfer != Transfer::srgb()) left = "the transfer function " + video_.transfer.text();
+    // Deep frames of FFV1 are taken for linear.
+    if (!names_curve && (video_.type == ValueType::code16 || video_.transfer != Transfer::srgb()))
+      left = "the transfer function " + video_.transfer.text();
     if (!names_primaries && video_.shape.channels == 3 && video_.primaries != usual.value_or(Primaries::bt709))
       left += format("{}the primaries {}", left.empty() ? "" : " and ", to_text(video_.primaries));
     if (!left.empty()) notes_.push_back(format("the film does not name {}: state that when it is read", left));
