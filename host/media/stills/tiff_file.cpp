@@ -32,6 +32,8 @@ bool write_page(TIFF* tiff, const OutputFile& file, const Picture& picture, cons
   TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, shape.height);
   TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, shape.channels);
   TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, static_cast<int>(bytes * 8));
+  if (picture.type == ValueType::code16 && picture.white_code < 65'535)
+    TIFFSetField(tiff, TIFFTAG_MAXSAMPLEVALUE, static_cast<int>(picture.white_code));
   TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT,
                holds_codes(picture.type) ? SAMPLEFORMAT_UINT : SAMPLEFORMAT_IEEEFP);
   TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC,

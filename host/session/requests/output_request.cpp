@@ -86,16 +86,17 @@ OutputFormat output_format(const OutputRequest& request, const CaptureFormat& ca
 }
 
 std::string codes_text(const CaptureFormat& capture, const OutputFormat& output) {
-  if (!holds_codes(output.type) || !output.transfer) return {};
+  if (!holds_codes(output.type)) return {};
+  const Transfer& transfer = output.transfer ? *output.transfer : capture.transfer;
   const bool is_scaled = output.type == code_type(capture) && output.white_code != capture.white_code;
   const Primaries shown = CodeMaking::of(capture, output).primaries;
   const bool is_converted = capture.shape.channels == 3 && shown != capture.primaries;
-  if (*output.transfer == capture.transfer && !is_scaled && !is_converted) return {};
-  const auto codes = [&](const Transfer& transfer, std::uint32_t white_code, Primaries primaries) {
-    return transfer.text() + (is_converted ? format(" in {}", to_text(primaries)) : std::string()) +
+  if (transfer == capture.transfer && !is_scaled && !is_converted) return {};
+  const auto codes = [&](const Transfer& by, std::uint32_t white_code, Primaries primaries) {
+    return by.text() + (is_converted ? format(" in {}", to_text(primaries)) : std::string()) +
            (is_scaled ? format(" with white {}", white_code) : std::string());
   };
-  return format(", codes {} (the capture's: {})", codes(*output.transfer, output.white_code, shown),
+  return format(", codes {} (the capture's: {})", codes(transfer, output.white_code, shown),
                 codes(capture.transfer, capture.white_code, capture.primaries));
 }
 
