@@ -221,10 +221,12 @@ class Picture(_HasArray):
         try:
             self._held.write(name, settings_of({"quality": quality, "keep_pixels": keep_pixels}))
         except UsageError as error:
-            if is_light and "cannot hold the values" in str(error):
-                raise UsageError(f"{error}, {self.dtype} light: expose it with codes=True, or write .tif or .npy, of "
-                                 "float32 also .exr or .pfm") from None
-            raise
+            if "cannot hold the values" not in str(error):
+                raise
+            way = ("light: expose it with codes=True, or write .tif or .npy, of float32 also .exr or .pfm" if is_light
+                   else "codes: write .png, .tif or .npy; a .jpg holds those of dtype=np.uint8, and light comes without "
+                        "codes=True")
+            raise UsageError(f"{error}, {self.dtype} {way}") from None
 
     def _repr_png_(self) -> bytes:
         """As notebooks show it: light as sRGB codes of 8 bits."""

@@ -203,7 +203,9 @@ class Pictures(support.TestCase):
         picture = self.capture.render(start=0, exposure="10ms", codes=True)
         picture.write(self.path("ours.ppm"))
         self.assert_same(support.read_netpbm(self.path("ours.ppm")), picture.array)
-        self.assert_raises(nutik.UsageError, ".pfm", picture.write, self.path("codes.pfm"))
+        self.assert_raises(nutik.UsageError, "light comes without codes=True", picture.write, self.path("codes.pfm"))
+        deep = self.capture.render(start=0, exposure="10ms", codes=True, dtype=np.uint16)
+        self.assert_raises(nutik.UsageError, "those of dtype=np.uint8", deep.write, self.path("codes.jpg"))
         self.assert_raises(nutik.UsageError, "grey pictures only", picture.write, self.path("codes.pgm"))
         for wrong in (-5, 0, 101, 2 ** 31, 5.5):
             self.assert_raises(nutik.UsageError, f"quality '{wrong}'", picture.write, self.path("q.jpg"), quality=wrong)
