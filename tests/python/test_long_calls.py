@@ -3,6 +3,7 @@ threads side by side, daemon threads at the interpreter's end, spawned and forke
 found."""
 
 import inspect
+import os
 import re
 import subprocess
 import sys
@@ -93,8 +94,6 @@ PARTS = {"study", "solve"}  # do several things one after another, each with ste
 SILENT = {"codes", "contact", "noise", "recover", "retime", "check", "validate", "encode_with_noise"}
 
 INTERRUPTED = SCENE + """
-import atexit, shutil
-atexit.register(shutil.rmtree, folder, True)
 prepare()
 for name, work in WORKS.items():
     begin = time.monotonic()
@@ -236,7 +235,8 @@ class LongCalls(support.TestCase):
     def run_script(self, text, size=1, timeout=280, **named):
         script = self.folder / "script.py"
         script.write_text(text.format(size=size, **named))
-        done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=timeout)
+        done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=timeout,
+                              env={**os.environ, "TMPDIR": str(self.folder)})
         self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
         return done.stdout.splitlines()
 
