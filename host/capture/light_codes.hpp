@@ -2,8 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
+#include <bit>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -21,10 +22,12 @@ class LightCodes {
  public:
   LightCodes(const Transfer& transfer, std::uint32_t white_code)
       : light_(transfer.light_of_codes(white_code)), thresholds_(transfer.code_thresholds(white_code)) {
-    std::uint32_t code = 0;
-    for (std::size_t step = 0; step <= kSteps; ++step) {
-      const double light = static_cast<double>(step) / static_cast<double>(kSteps - 1);
-      while (code < white_code && thresholds_[code + 1] <= light) ++code;
+    while (black_ + 1 < white_code && thresholds_[black_ + 1] <= 0) ++black_;
+    thresholds_.push_back(std::numeric_limits<double>::infinity());
+    first_cell_ = cell_of(thresholds_[black_ + 1]);
+    std::uint32_t code = black_;
+    for (std::uint64_t cell = first_cell_; cell <= cell_of(1.0); ++cell) {
+      while (thresholds_[code + 1] <= std::bit_cast<double>(cell << kPlaceBits)) ++code;
       first_code_.push_back(code);
     }
   }
@@ -35,20 +38,25 @@ class LightCodes {
     return light_[code];
   }
 
-  // The last code that begins no later.
+  // The last code that begins no later; that of black for less light.
   [[nodiscard]] std::uint32_t code_of(double light) const {
-    const auto step = static_cast<std::size_t>(std::clamp(light, 0.0, 1.0) * static_cast<double>(kSteps - 1));
-    const auto begin = thresholds_.begin() + 1;
-    const auto after = std::upper_bound(begin + first_code_[step], begin + first_code_[step + 1], light);
-    return static_cast<std::uint32_t>(after - begin);
+    if (!(light >= thresholds_[black_ + 1])) return black_;
+    const double* next = thresholds_.data() + first_code_[cell_of(std::min(light, 1.0)) - first_cell_] + 1;
+    while (*next <= light) ++next;
+    return static_cast<std::uint32_t>(next - thresholds_.data()) - 1;
   }
 
  private:
-  static constexpr std::size_t kSteps = std::size_t{1} << 16;
+  // A cell holds the light whose doubles share all bits but so many last ones: 8192 cells from a light to its double,
+  // with four codes at most.
+  static constexpr int kPlaceBits = 52 - 13;
+  static std::uint64_t cell_of(double light) { return std::bit_cast<std::uint64_t>(light) >> kPlaceBits; }
 
   std::vector<double> light_;              // of each code
-  std::vector<double> thresholds_;         // the least light of each
-  std::vector<std::uint32_t> first_code_;  // at the start of each of many equal steps of light
+  std::vector<double> thresholds_;         // the least light of each, and none behind white
+  std::uint32_t black_ = 0;                // the last code without light
+  std::uint64_t first_cell_ = 0;           // has the first code with light
+  std::vector<std::uint32_t> first_code_;  // at the start of each cell
 };
 
 }  // namespace nutik

@@ -1,5 +1,9 @@
 #include "capture/light_means.hpp"
 
+#include <algorithm>
+
+#include "system/parallel.hpp"
+
 namespace nutik {
 
 std::vector<LightMeans::Span> LightMeans::spans(std::uint32_t length, std::uint32_t parts) {
@@ -17,12 +21,66 @@ std::vector<LightMeans::Span> LightMeans::spans(std::uint32_t length, std::uint3
   return spans;
 }
 
-LightMeans::LightMeans(const Shape& shape, const Rectangle& area, const Shape& scaled)
+LightMeans::LightMeans(const Shape& shape, const Rectangle& area, const Shape& scaled, std::vector<double> light,
+                       LightCodes codes)
     : channels_(shape.channels),
       row_values_(std::size_t{shape.width} * channels_),
       first_(area.y * row_values_ + std::size_t{area.x} * channels_),
+      area_values_(std::size_t{area.width} * channels_),
       columns_(spans(area.width, scaled.width)),
       rows_(spans(area.height, scaled.height)),
-      sums_(std::size_t{scaled.width} * channels_) {}
+      light_(std::move(light)),
+      codes_(std::move(codes)) {}
+
+void LightMeans::check(std::span<const std::byte> raster, std::uint32_t code_bytes) const {
+  if (light_.size() >> 8 * code_bytes > 0) return;
+  for (const Span& span : rows_) {
+    for (std::size_t row = span.first; row < span.first + span.shares.size(); ++row) {
+      const std::uint32_t most = largest_code(
+          raster.subspan((first_ + row * row_values_) * code_bytes, area_values_ * code_bytes), code_bytes);
+      if (most >= light_.size()) throw CodeAboveWhite(most);
+    }
+  }
+}
+
+template <std::uint32_t kChannels, typename Code>
+void LightMeans::add_row(const Code* row, double share_of_row, double* sums) const {
+  const double* const light = light_.data();
+  for (const Span& column : columns_) {
+    const Code* const first = row + std::size_t{column.first} * kChannels;
+    for (std::uint32_t channel = 0; channel < kChannels; ++channel) {
+      const Code* value = first + channel;
+      double sum = 0;
+      for (const double share : column.shares) {
+        sum += share * light[*value];
+        value += kChannels;
+      }
+      *sums++ += share_of_row * sum;
+    }
+  }
+}
+
+void LightMeans::take(std::span<const std::byte> raster, std::uint32_t code_bytes, std::span<std::byte> scaled,
+                      std::uint32_t scaled_code_bytes) const {
+  check(raster, code_bytes);
+  const std::size_t row_sums = columns_.size() * channels_;
+  const auto row_of = [&]<typename Code, typename NewCode>(const Code* from, NewCode* to, std::uint64_t y,
+                                                           std::vector<double>& sums) {
+    std::ranges::fill(sums, 0.0);
+    const Code* row = from + first_ + rows_[y].first * row_values_;
+    for (const double share : rows_[y].shares) {
+      channels_ == 1 ? add_row<1>(row, share, sums.data()) : add_row<3>(row, share, sums.data());
+      row += row_values_;
+    }
+    for (const double light : sums) *to++ = static_cast<NewCode>(codes_.code_of(light));
+  };
+  parallel_for_with(
+      rows_.size(), [&] { return std::vector<double>(row_sums); },
+      [&](std::uint64_t y, std::vector<double>& sums) {
+        with_codes(code_bytes, raster.data(), [&](const auto* from) {
+          with_codes(scaled_code_bytes, scaled.data(), [&](auto* to) { row_of(from, to + y * row_sums, y, sums); });
+        });
+      });
+}
 
 }  // namespace nutik

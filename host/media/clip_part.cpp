@@ -134,7 +134,7 @@ class ClipPart final : public Clip {
     if (is_whole) return true;
     if (means_) {
       try {
-        means_->take(raster_, whole_.code_bytes, *codes_, raster);
+        means_->take(raster_, whole_.code_bytes, raster, whole_.code_bytes);
       } catch (const CodeAboveWhite& error) {
         throw InputError(format("{}: picture {} has the code {}, and white is {}", name_, next_ - 1,
                                 error.code, whole_.white_code),
@@ -270,8 +270,8 @@ class ClipPart final : public Clip {
         {format("{} x {} as means of light", scaled.width, scaled.height), Origin::stated, Setting::scale});
     info_.format.shape = scaled;
     info_.roundings.add();
-    means_.emplace(whole_.shape, crop_, scaled);
-    codes_.emplace(whole_.transfer, whole_.white_code);
+    means_.emplace(whole_.shape, crop_, scaled, whole_.transfer.light_of_codes(whole_.white_code),
+                   LightCodes(whole_.transfer, whole_.white_code));
   }
 
   // Close to that of two fractions that are too long for the header of a capture.
@@ -294,7 +294,6 @@ class ClipPart final : public Clip {
   std::uint64_t first_ = 0, end_ = kMaxSamples, next_ = 0;  // of the clip's pictures
   std::vector<std::byte> raster_;                            // one of them, unless it is taken as it is
   std::optional<LightMeans> means_;
-  std::optional<LightCodes> codes_;  // of which it makes means
   std::vector<PixelChange> changes_;  // within the rectangle
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "capture/light_means.hpp"
 
@@ -10,15 +9,12 @@ namespace nutik::sheet {
 
 Picture thumbnail(const Picture& picture, std::uint32_t width, std::uint32_t height) {
   const auto code_bytes = static_cast<std::uint32_t>(value_bytes(picture.type));
-  const std::vector<double> light =
-      picture.transfer.value_or(Transfer::srgb()).light_of_all_codes(picture.white_code, code_bytes);
   Picture small({width, height, picture.shape.channels}, ValueType::code8, 255);
   small.transfer = Transfer::srgb();
-  LightMeans means(picture.shape, Rectangle::whole(picture.shape), small.shape);
-  with_codes(code_bytes, picture.bytes.data(), [&](const auto* codes) {
-    means.take(codes, [&](auto code) { return light[code]; }, LightCodes(*small.transfer, small.white_code),
-               small.values<std::uint8_t>().data());
-  });
+  LightMeans(picture.shape, Rectangle::whole(picture.shape), small.shape,
+             picture.transfer.value_or(Transfer::srgb()).light_of_all_codes(picture.white_code, code_bytes),
+             LightCodes(*small.transfer, small.white_code))
+      .take(picture.bytes, code_bytes, small.bytes, 1);
   return small;
 }
 

@@ -37,8 +37,10 @@ TEST_P(SessionOfPart, HasTheSamplesAndTimesOfTheWholeOne) {
     ASSERT_EQ(is.end_ns(sample), should.end_ns(sample)) << "sample " << sample;
   }
 
-  LightMeans means(random.capture.shape, {0, 0, 2 * shape.width, 2 * shape.height}, shape);
-  const LightCodes codes(random.capture.transfer, random.capture.white_code);
+  const Transfer& transfer = random.capture.transfer;
+  const std::uint32_t white = random.capture.white_code;
+  const LightMeans means(random.capture.shape, {0, 0, 2 * shape.width, 2 * shape.height}, shape,
+                         transfer.light_of_codes(white), LightCodes(transfer, white));
   std::vector<std::byte> wanted(reduced->format().sample_bytes()), read(wanted.size());
   for_each_block(reduced->capture(), [&](const BlockView& block) {
     SampleCursor cursor(shape, block);
@@ -46,7 +48,7 @@ TEST_P(SessionOfPart, HasTheSamplesAndTimesOfTheWholeOne) {
     for (std::uint64_t sample = samples.first; sample < samples.last; ++sample) {
       cursor.go_to(static_cast<std::uint32_t>(sample - samples.first));
       cursor.read(read);
-      means.take(random.rasters[sample], random.capture.code_bytes, codes, wanted);
+      means.take(random.rasters[sample], random.capture.code_bytes, wanted, random.capture.code_bytes);
       ASSERT_EQ(read, wanted) << random.text() << ", sample " << sample;
     }
   });
