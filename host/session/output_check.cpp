@@ -30,11 +30,11 @@ bool is_picture_content(const std::string& bytes) {
 }
 
 // Tells it of any file. What is damaged carries none.
-bool carries_recipe(const std::filesystem::path& file) {
+std::optional<Recipe> recipe_in(const std::filesystem::path& file) {
   try {
-    return is_picture_name(file) && read_recipe(file).has_value();
+    return is_picture_name(file) ? read_recipe(file) : std::nullopt;
   } catch (const InputError&) {
-    return false;
+    return std::nullopt;
   }
 }
 
@@ -46,7 +46,7 @@ bool is_mask_content(const std::filesystem::path& file) {
   const bool is_pgm = bytes.starts_with("P2") || bytes.starts_with("P5");
   const bool is_grey_png =
       inputs::kPng.begins(bytes) && bytes.size() > kPngColourType && bytes[kPngColourType] == 0;
-  return (is_pgm || is_grey_png) && !carries_recipe(file);
+  return (is_pgm || is_grey_png) && !recipe_in(file);
 }
 
 // Text with a comma in its first line, or a camera's path.
@@ -193,10 +193,14 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
   check_folder_of(output);
   if (replacing == Replacing::all) return;
   if (std::filesystem::file_size(output, error) == 0) return;
-  const bool has_recipe = carries_recipe(output);
-  if (has_recipe && is_as_sealed(output)) return;
+  const auto recipe = recipe_in(output);
+  if (recipe && is_as_sealed(output)) return;
   throw UsageError(format("{} is there already and is not replaced{}", name,
-                          has_recipe ? ": its recipe does not know it as it is now, so it was changed since" : ""),
+                          !recipe                ? ""
+                          : recipe->file.empty() ? ": an earlier version wrote it, and whether it was changed since "
+                                                   "its recipe does not tell"
+                                                 : ": its recipe does not know it as it is now, so it was changed "
+                                                   "since"),
                    Advice{"; choose another name, or replace it with `overwrite`"});
 }
 

@@ -288,6 +288,25 @@ x)");
   EXPECT_FALSE(std::filesystem::exists(folder / ".profile"));
 }
 
+TEST_F(Reproduce, TellsOfPicturesOfEarlierVersions) {
+  make("--exposure 0.3s clip.tik a.pgm");
+  std::string picture = file("a.pgm");
+  const std::size_t seal = picture.find("\"file\":"), options = picture.find("\"options\":{");
+  ASSERT_TRUE(seal < options && options != std::string::npos);
+  const std::string no_effect = "\"unmapped\":\"zero\",\"shutter-error\":\"0.01\",\"mask-blend\":\"alpha\",";
+  scratch_.write("b.pgm", std::string(picture).insert(options + 11, no_effect).erase(seal, 34));
+  const ProgramResult told = make("reproduce b.pgm");
+  expect_says(told.err, "note: an earlier nutik-cl made the picture");
+  EXPECT_EQ(told.out.substr(told.out.find(" expose ")),
+            " expose --exposure 0.3s --precision single clip.tik -o b.pgm\n");
+  expect_refused(Words{"--exposure", "0.3s", "clip.tik", "b.pgm"}, 2,
+                 "b.pgm is there already and is not replaced: an earlier version wrote it");
+  scratch_.write("c.pgm", picture.erase(seal, 34));
+  const std::string whole = file("c.pgm");
+  make("--exposure 0.3s --skip-existing --overwrite clip.tik c.pgm");
+  EXPECT_EQ(file("c.pgm"), whole);
+}
+
 TEST_F(Reproduce, KeepsTheNoiseOfAClip) {
   const std::string noise =
       "nutik noise 0\nwhite 255\ntransfer srgb\nchannel grey\nread 0.002\nshot 0.0001\n"

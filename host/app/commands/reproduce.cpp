@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <span>
 
@@ -151,6 +152,23 @@ void check_options(const Recipe& recipe, const std::string& picture) {
   }
 }
 
+// What earlier versions took though it changed nothing, and commands refuse now.
+bool has_no_effect(const Recipe& recipe, std::string_view name) {
+  const auto states = [&](std::string_view wanted) {
+    return std::ranges::any_of(recipe.options, [&](const auto& option) { return option.first == wanted; });
+  };
+  return (name == "unmapped" && !recipe.mask) || (name == "shutter-error" && !states("shutter")) ||
+         (name == "mask-blend" && !recipe.mask_to && !states("mask-key"));
+}
+
+// Of earlier recipes, which tell nothing of their file, also that of a video without what lies beside it.
+std::string checksum_of_capture(const std::string& capture, const Recipe& recipe) {
+  std::string checksum = capture_checksum(capture, recipe);
+  if (checksum == recipe.capture.checksum || !recipe.file.empty() || !fs::is_regular_file(capture)) return checksum;
+  std::string alone = files_checksum(std::array{fs::path(capture)});
+  return alone == recipe.capture.checksum ? alone : checksum;
+}
+
 std::string text_title(const Recipe::Text& text, const fs::path& picture) {
   return format("{} in the recipe of {}", shown(text.name), picture.string());
 }
@@ -173,6 +191,9 @@ int run_reproduce(const Options& options) {
   if (recipe->version != NUTIK_VERSION) {
     print_note(format("note: the picture was made by nutik-cl {}, this is {}", shown(recipe->version),
                       NUTIK_VERSION));
+  } else if (recipe->file.empty()) {
+    print_note("note: an earlier nutik-cl made the picture; where the clip is aligned, evened, scaled, rounded "
+               "(--tolerance) or filled (--between), this one may make other codes of it");
   }
   check_options(*recipe, picture.string());
   const fs::path folder = picture.stem().string() + "-again";
@@ -190,6 +211,7 @@ int run_reproduce(const Options& options) {
   if (recipe->mask_to)
     command += " --mask-to " + operand(files.find(*recipe->mask_to, "second mask", mask_checksum));
   for (const auto& [name, value] : recipe->options) {
+    if (has_no_effect(*recipe, name)) continue;
     command += " " + shell_word("--" + name);
     if (name == "delay" && recipe->delay_map) {
       const auto of_map = [](const std::string& file) { return input_checksum(file); };
@@ -202,7 +224,7 @@ int run_reproduce(const Options& options) {
   command += recipe->renderer == "opencl" ? " --precision " + shell_word(recipe->precision)
                                           : " --renderer " + shell_word(recipe->renderer);
   if (recipe->bounds_map) command += " --bounds " + operand(picture.parent_path() / recipe->bounds_map->name);
-  const auto checksum = [&](const std::string& capture) { return capture_checksum(capture, *recipe); };
+  const auto checksum = [&](const std::string& capture) { return checksum_of_capture(capture, *recipe); };
   command += " " + operand(files.find(recipe->capture, "capture", checksum));
   command += " -o " + operand(picture);
   print_line(command);
