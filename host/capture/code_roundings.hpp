@@ -14,6 +14,8 @@ namespace nutik {
 
 // Among what has no bound: YUV whose pixels share chroma became RGB.
 inline constexpr std::string_view kSharedChroma = "chroma";
+// Captures of earlier programs do not tell all that was rounded.
+inline constexpr std::string_view kUnknown = "unknown";
 
 struct CodeRoundings {
   double codes = 0.0;  // no code is further off by all of them that have a bound, one after another
@@ -27,7 +29,14 @@ struct CodeRoundings {
       unbounded.emplace_back(without_bound);
   }
 
+  // Some codes were made by these, some by others.
+  void take_worst(const CodeRoundings& others) {
+    codes = std::max(codes, others.codes);
+    for (const std::string& name : others.unbounded) add(0.0, 1.0, name);
+  }
+
   [[nodiscard]] bool are_none() const { return codes == 0.0; }
+  [[nodiscard]] bool are_known() const { return std::ranges::count(unbounded, kUnknown) == 0; }
 
   // `0.525000 interpolation deflicker`, rounded up.
   [[nodiscard]] std::string text() const {
@@ -35,11 +44,11 @@ struct CodeRoundings {
     for (const std::string& name : unbounded) text += " " + name;
     return text;
   }
-  // Captures had `1` before: light that was rounded once. Throws UsageError.
+  // Captures had `1` before: light that was rounded once, and perhaps more. Throws UsageError.
   [[nodiscard]] static CodeRoundings parse(std::string_view text) {
     constexpr std::size_t kLongest = 256;
     CodeRoundings roundings;
-    if (text == "1") return {0.5};
+    if (text == "1") return {0.5, {std::string(kUnknown)}};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), roundings.codes);
     const bool is_whole = error == std::errc() && (end == text.data() + text.size() || *end == ' ');
     if (!is_whole || text.size() > kLongest || !(roundings.codes >= 0.0 && roundings.codes <= 65'535.0))

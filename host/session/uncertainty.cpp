@@ -67,6 +67,7 @@ UncertaintyTerm without_bound(std::string_view name) {
       {"events", "light between two of a pixel's events, and how true the contrast is"},
       {"fields", "lines between those of an interlaced clip's fields"},
       {"interpolation", "light between pixels of aligned pictures, and what their codes were rounded by before"},
+      {kUnknown, "how codes were made: an earlier version encoded this capture, or a part of it"},
   };
   for (const auto& [known, text] : kTexts) {
     if (known == name) return {known, Is::no_bound, {}, {}, std::string(text)};
@@ -138,7 +139,7 @@ double LightCurve::most(double from, double to) const {
 
 CaptureErrors CaptureErrors::of(const CaptureFormat& capture, const CodeRoundings& roundings) {
   CaptureErrors errors;
-  errors.unbounded = roundings.unbounded;
+  for (const std::string& name : roundings.unbounded) errors.unbounded.emplace_back(without_bound(name).name);
   const NoiseModel& noise = capture.noise;
   const double white = capture.white_code;
   if (roundings.are_none() && noise.tolerance == 0 && !noise.camera) return errors;

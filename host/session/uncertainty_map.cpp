@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "system/parallel.hpp"
 
 namespace nutik {
@@ -302,7 +303,9 @@ std::string UncertaintyMap::text_of(Term term) const {
   const std::string unit = term == kMadeSamples         ? "samples"
                            : !holds_codes(output_.type) ? "light, of which 1 is white"
                                                        : format("codes, of which {} is white", output_.white_code);
-  return format("{}: a {}, in {}: {}", kind.name, to_text(kind.is), unit, kind.covers);
+  const bool is_short = term == kAllBounds && !capture_.unbounded.empty();
+  return format("{}: a {}, in {}: {}{}", kind.name, to_text(kind.is), unit, kind.covers,
+                is_short ? "; without a bound: " + joined(capture_.unbounded) : "");
 }
 
 }  // namespace nutik

@@ -45,6 +45,7 @@ class HeaderParser {
     std::map<std::string, std::string, std::less<>> words = take_comments();
     ParsedHeader parsed;
     parsed.header.version = version_;
+    parsed.header.roundings.add(0.0, 1.0, kUnknown);  // unless a field tells
     CaptureFormat& capture = parsed.header.capture;
     capture.shape.width = take_number();
     capture.shape.height = take_number();
@@ -347,7 +348,7 @@ std::vector<Field> Header::fields() const {
   if (!lines.empty()) fields.push_back({std::string(kFacts), false, lines});
   if (alignment) fields.push_back({std::string(kAligned), false, text_of(*alignment)});
   if (is_scaled) fields.push_back({std::string(kMeans), false, "scaled"});
-  if (!roundings.are_none()) fields.push_back({std::string(kRounded), false, roundings.text()});
+  fields.push_back({std::string(kRounded), false, roundings.text()});
   // Where codes move by steps, every codec may leave blocks to Rice's.
   const bool counts_steps = capture.noise.tolerance > 0 && !codec.empty() && codec != Codec().text();
   if (codec == kRice || counts_steps) fields.push_back({std::string(kRice), true, "1"});

@@ -10,6 +10,7 @@
 
 #include "support/app_test.hpp"
 #include "support/still_clip.hpp"
+#include "support/tik_files.hpp"
 
 namespace nutik::test {
 namespace {
@@ -282,6 +283,13 @@ TEST_F(UncertaintyOf, RoundingsOfTheProgramAreTold) {
     EXPECT_EQ(term_of(told, "deflicker")["is"], "no_bound") << how << told;
     expect_says(make("-v " + picture).out, "\n  deflicker     no bound");
   }
+  // Nor is how codes of earlier versions' captures were made.
+  write_saying(tik::Reader(scratch_ / "clip.tik"), scratch_ / "old.tik",
+               [](tik::Header& header) { header.roundings.add(0.0, 1.0, kUnknown); });
+  const std::string picture = "--start 0s --exposure 1f --overwrite --bounds map.exr old.tik a.png";
+  EXPECT_EQ(term_of(answer("--json " + picture)["uncertainty"], "unknown")["is"], "no_bound");
+  expect_says(make("-v " + picture).out, "\n  unknown       no bound   how codes were made: an earlier version");
+  expect_says(file("map.exr"), "no pixel is further off by all bounds together; without a bound: unknown");
 }
 
 // A function of gain 1e30 spoils its own pixels alone.

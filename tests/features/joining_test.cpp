@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "features/captures/retiming.hpp"
 #include "imev/sample_cursor.hpp"
@@ -11,8 +12,8 @@
 #include "support/clips.hpp"
 #include "support/messages.hpp"
 #include "support/still_clip.hpp"
+#include "support/tik_files.hpp"
 #include "tik/reader.hpp"
-#include "tik/writer.hpp"
 
 namespace nutik::test {
 namespace {
@@ -91,21 +92,8 @@ class Joining : public testing::Test {
   }
 
   // A copy of a capture whose header says something else.
-  template <typename Change>
-  Path saying(const Path& path, Change change) const {
-    const tik::Reader plain(path);
-    tik::Header header = plain.header();
-    change(header);
-    auto writer = tik::Writer::from_raster(scratch_ / "saying.tik", header, plain.first_sample());
-    for (std::uint64_t block = 0; block < plain.block_count(); ++block) {
-      const auto [stored, payload] = plain.stored(block);
-      std::span<const Exposure> exposures;
-      if (!plain.timeline().is_constant())
-        exposures = plain.timeline().table().subspan(stored.first_sample, stored.sample_count);
-      writer.append(stored, payload, exposures);
-    }
-    writer.finish(plain.timeline());
-    return scratch_ / "saying.tik";
+  Path saying(const Path& path, const std::function<void(tik::Header&)>& change) const {
+    return write_saying(tik::Reader(path), scratch_ / "saying.tik", change);
   }
 
   Scratch scratch_;
@@ -341,10 +329,26 @@ TEST_F(Joining, RefusesWhatDoesNotFollow) {
                         std::filesystem::copy_options::overwrite_existing);
   expect_says(refusal({a, part(8, 20, night)}), "parts of two clips named frames, whose content differs");
   const Path silent = saying(copied, [](tik::Header& header) { header.part->checksum.clear(); });
-  static_cast<void>(join({{a, silent}, scratch_ / "joined.tik"}));
+  const std::vector<Note> notes = join({{a, silent}, scratch_ / "joined.tik"}).notes;
+  ASSERT_FALSE(notes.empty());
+  expect_says(notes.back().text, "saying.tik: whether its frames is the clip of the others is not known");
+  EXPECT_EQ(tik::Reader(scratch_ / "joined.tik").header().part->checksum, "");
+  const Path middle = saying(part(8, 12), [](tik::Header& header) { header.part->checksum.clear(); });
+  expect_says(refusal({a, middle, part(12, 20, night)}),
+              "part0-8.tik and " + folder + "part12-20.tik are parts of two");
   // Or with fewer.
   std::filesystem::remove(night.path / "025.pgm");
   expect_says(refusal({a, part(8, 20, night)}), "is a part of a clip frames with 26 pictures, and ");
+}
+
+TEST_F(Joining, IsOffByWhatTheWorstPartIs) {
+  const Path worse = saying(part(8, 12), [](tik::Header& header) { header.roundings.add(2.0, 1.0, kUnknown); });
+  static_cast<void>(join({{part(0, 8), worse, part(12, 20)}, scratch_ / "joined.tik"}));
+  const CodeRoundings roundings = tik::Reader(scratch_ / "joined.tik").header().roundings;
+  EXPECT_NEAR(roundings.codes, 2.0, 1e-5);
+  EXPECT_FALSE(roundings.are_known());
+  static_cast<void>(join({{part(0, 8), part(8, 12)}, scratch_ / "joined.tik"}));
+  EXPECT_TRUE(tik::Reader(scratch_ / "joined.tik").header().roundings.are_known());
 }
 
 TEST_F(Joining, RefusesTimesThatOverlap) {

@@ -14,7 +14,6 @@
 #include "support/scratch.hpp"
 #include "support/tik_files.hpp"
 #include "tik/reader.hpp"
-#include "tik/writer.hpp"
 
 namespace nutik::test {
 namespace {
@@ -129,19 +128,7 @@ TEST(EvenedTimes, CountForWhatClocksDoNotRound) {
 // A copy of a capture that tells these facts.
 std::filesystem::path telling(const Scratch& scratch, const tik::Reader& plain,
                               std::vector<std::string> facts) {
-  tik::Header header = plain.header();
-  header.facts = std::move(facts);
-  auto writer = tik::Writer::from_raster(scratch / "told.tik", header, plain.first_sample());
-  for (std::uint64_t block = 0; block < plain.block_count(); ++block) {
-    const auto [stored, payload] = plain.stored(block);
-    std::span<const Exposure> exposures;
-    if (!plain.timeline().is_constant()) {
-      exposures = plain.timeline().table().subspan(stored.first_sample, stored.sample_count);
-    }
-    writer.append(stored, payload, exposures);
-  }
-  writer.finish(plain.timeline());
-  return scratch / "told.tik";
+  return write_saying(plain, scratch / "told.tik", [&](tik::Header& header) { header.facts = std::move(facts); });
 }
 
 // In its place; what one fact says beside another stays with it.

@@ -295,7 +295,7 @@ TEST_F(Scaled, LightThatWasRoundedIsBoundByItsOwn) {
   EXPECT_GT(of_light, 0.9);
 }
 
-// As a capture's file keeps it; `1` is what older ones say of light that was rounded once.
+// As a capture's file keeps it; `1` is what older ones say, if anything.
 TEST(CodeRoundings, ComeBackFromTheirText) {
   CodeRoundings roundings;
   roundings.add(0.525, 1.0, "chroma");
@@ -305,7 +305,7 @@ TEST(CodeRoundings, ComeBackFromTheirText) {
   EXPECT_GE(read.codes, roundings.codes);
   EXPECT_NEAR(read.codes, roundings.codes, 1e-6);
   EXPECT_EQ(read.unbounded, (std::vector<std::string>{"chroma", "deflicker"}));
-  EXPECT_EQ(CodeRoundings::parse("1"), CodeRoundings{0.5});
+  EXPECT_EQ(CodeRoundings::parse("1"), (CodeRoundings{0.5, {"unknown"}}));
   for (const char* damaged : {"", "x", "0,525000", "70000 x", "-1", "nan", "0.5x"})
     EXPECT_THROW(static_cast<void>(CodeRoundings::parse(damaged)), UsageError) << damaged;
 }

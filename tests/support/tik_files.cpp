@@ -33,6 +33,22 @@ std::filesystem::path write_tik(const RandomCase& random, const tik::Codec& code
   return write_tik(random.encode(), to_held_codes(random.capture, random.rasters.front()), codec, scratch);
 }
 
+std::filesystem::path write_saying(const tik::Reader& plain, const std::filesystem::path& copy,
+                                   const std::function<void(tik::Header&)>& change) {
+  tik::Header header = plain.header();
+  change(header);
+  auto writer = tik::Writer::from_raster(copy, header, plain.first_sample());
+  for (std::uint64_t block = 0; block < plain.block_count(); ++block) {
+    const auto [stored, payload] = plain.stored(block);
+    std::span<const Exposure> exposures;
+    if (!plain.timeline().is_constant())
+      exposures = plain.timeline().table().subspan(stored.first_sample, stored.sample_count);
+    writer.append(stored, payload, exposures);
+  }
+  writer.finish(plain.timeline());
+  return copy;
+}
+
 RandomCase noisy_case(std::uint64_t seed) {
   RandomCase random(seed);
   CaptureFormat& capture = random.capture;

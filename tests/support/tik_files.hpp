@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 
 #include "support/random_case.hpp"
@@ -17,6 +18,10 @@ namespace nutik::test {
 std::filesystem::path write_tik(const MemoryCapture& capture, std::span<const std::byte> first, const tik::Codec& codec,
                                 const Scratch& scratch);
 std::filesystem::path write_tik(const RandomCase& random, const tik::Codec& codec, const Scratch& scratch);
+
+// Writes a copy of a capture whose header says something else, and returns its path.
+std::filesystem::path write_saying(const tik::Reader& plain, const std::filesystem::path& copy,
+                                   const std::function<void(tik::Header&)>& change);
 
 // A random case whose camera's noise is known: points or a sensor, with as many digits as doubles have.
 [[nodiscard]] RandomCase noisy_case(std::uint64_t seed);

@@ -79,7 +79,7 @@ TEST(TikFields, OfACaptureSayHowItIsShown) {
   if (random.timeline.is_constant()) header.rate = random.timeline.rate();
   header.shutter_angle = random.timeline.shutter_angle();
   header.facts = {"240 pictures a second, from the file's com.android.capture.fps", "matrix bt2020, assumed"};
-  EXPECT_EQ(header.fields().size(), 3u);
+  EXPECT_EQ(header.fields().size(), 4u);
   const auto path = test::write_tik(random, {CodecId::zstd, 0}, scratch);
   Reader reader(path);
   EXPECT_EQ(reader.header().version, 1u);
@@ -138,10 +138,23 @@ TEST(TikFields, SayThatPicturesWereScaled) {
     return parse_header(std::as_bytes(std::span(bytes)), "x.tik").header.is_scaled;
   };
   Header header;
-  EXPECT_TRUE(header.fields().empty());
   header.is_scaled = true;
   EXPECT_TRUE(parse(file_with(header.fields())));
   EXPECT_FALSE(parse(file_with({})));
+}
+
+// Earlier programs did not.
+TEST(TikFields, SayHowCodesWereMade) {
+  const auto parse = [](const std::vector<Field>& fields) {
+    const std::string file = file_with(fields);
+    return parse_header(std::as_bytes(std::span(file)), "x.tik").header.roundings;
+  };
+  Header header;
+  EXPECT_EQ(parse(header.fields()), CodeRoundings{});
+  header.roundings.add(0.0, 1.0, "fields");
+  EXPECT_EQ(parse(header.fields()), header.roundings);
+  EXPECT_FALSE(parse({}).are_known());
+  EXPECT_FALSE(parse({{"rond", false, "1"}}).are_known());
 }
 
 TEST(TikFields, OfLaterProgramsArePassedOverUnlessTheyMustNotBe) {

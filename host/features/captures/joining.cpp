@@ -154,7 +154,8 @@ std::string pictures_text(std::uint64_t first, std::uint64_t end) {
   return end - first == 1 ? format("picture {}", first) : format("pictures {} … {}", first, end - 1);
 }
 
-void check_seam(const Piece& before, const Piece& piece) {
+// `known`: the last one before that tells its clip's content, if any does.
+void check_seam(const Piece& before, const Piece& piece, const Piece& known) {
   const PartOfClip &a = *before.header.part, &b = *piece.header.part;
   if (a.clip != b.clip) {
     throw InputError(format("{} is a part of {}, and {} of {}; join parts of one clip", before.name, a.clip,
@@ -165,9 +166,10 @@ void check_seam(const Piece& before, const Piece& piece) {
         format("{} is a part of a clip {} with {} pictures, and {} of one with {}; join parts of one clip",
                before.name, a.clip, a.pictures, piece.name, b.pictures));
   }
-  if (a.checksum != b.checksum && !a.checksum.empty() && !b.checksum.empty()) {
+  const std::string& content = known.header.part->checksum;
+  if (content != b.checksum && !content.empty() && !b.checksum.empty()) {
     throw InputError(format("{} and {} are parts of two clips named {}, whose content differs; join parts of one clip",
-                            before.name, piece.name, b.clip));
+                            known.name, piece.name, b.clip));
   }
   const std::vector settings{Setting::from, Setting::to};
   if (before.end() < b.first) {
@@ -225,8 +227,19 @@ std::vector<Note> put_in_order(std::vector<Piece>& pieces) {
         pieces.front().name))};
   }
   std::ranges::stable_sort(pieces, {}, [](const Piece& piece) { return piece.header.part->first; });
-  for (std::size_t i = 1; i < pieces.size(); ++i) check_seam(pieces[i - 1], pieces[i]);
-  return missing_notes(pieces.front(), pieces.back());
+  const auto knows = [](const Piece& piece) { return !piece.header.part->checksum.empty(); };
+  const Piece* known = &pieces.front();
+  for (std::size_t i = 1; i < pieces.size(); ++i) {
+    check_seam(pieces[i - 1], pieces[i], *known);
+    if (knows(pieces[i])) known = &pieces[i];
+  }
+  std::vector<Note> notes = missing_notes(pieces.front(), pieces.back());
+  for (const Piece& piece : pieces) {
+    if (knows(*known) && !knows(piece))
+      notes.emplace_back(format("an earlier version encoded {}: whether its {} is the clip of the others is not known",
+                                piece.name, piece.header.part->clip));
+  }
+  return notes;
 }
 
 Timeline joined_timeline(const std::vector<Piece>& pieces) {
@@ -256,6 +269,8 @@ tik::Header joined_header(const std::vector<Piece>& pieces, const Timeline& time
   for (const Piece& piece : pieces) {
     const std::string& codec = piece.header.codec;
     if (codec == packed || header.codec == tik::Codec().text()) header.codec = codec;
+    header.roundings.take_worst(piece.header.roundings);
+    if (header.part && piece.header.part->checksum.empty()) header.part->checksum.clear();
   }
   std::erase_if(header.facts, [](std::string_view fact) { return fact.starts_with(kJoined); });
   for (std::string& fact : header.facts) {
