@@ -8,6 +8,7 @@
 
 #include "support/app_test.hpp"
 #include "support/still_clip.hpp"
+#include "support/tik_files.hpp"
 
 namespace nutik::test {
 namespace {
@@ -145,6 +146,9 @@ TEST_F(Validate, AnotherSourceIsNoSource) {
   std::ofstream(scratch_ / "frames/005.pgm", std::ios::binary) << "P5 24 24 255\n"
                                                                << std::string(24 * 24, 'x');
   expect_refused({"clip.tik", "--source", "frames"}, 1, "the capture is not true to frames");
+  write_saying(tik::Reader(scratch_ / "clip.tik"), scratch_ / "old.tik",
+               [](tik::Header& header) { header.roundings.add(0.0, 1.0, kUnknown); });
+  expect_refused({"old.tik", "--source", "frames"}, 1, "An earlier version encoded it");
   expect_refused({"clip.tik", "--source", "missing"}, 3, "missing");
 }
 

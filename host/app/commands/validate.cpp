@@ -199,8 +199,11 @@ int run_validate(const Options& options) {
   tell(options, input, answer, true);
   const bool is_true = !source || source->comparison.values_beyond() == 0;
   if (!is_true) {
-    print_error(format("the capture is not true to {}: was it made from it, with the same options?",
-                       *options.source_clip));
+    print_error(format("the capture is not true to {}: was it made from it, with the same options?{}",
+                       *options.source_clip,
+                       session.capture().header().roundings.are_known()
+                           ? ""
+                           : " An earlier version encoded it, and may have decoded, aligned or deflickered otherwise"));
   }
   if (!validation.is_within_bounds()) {
     print_error("an arithmetic exceeds its bound: the device computes wrongly, or there is a fault here");
