@@ -49,10 +49,8 @@ void choose_arithmetic(const RenderPlan& plan, const OutputFormat& output,
     faults += format("\n  {}: {}", to_text(rendered.precision), fault);
     std::erase(left, rendered.precision);
   }
-  throw DeviceError(
-      format("{} computes every arithmetic wrongly (self-test):{}\nuse another device or the reference",
-             device, faults),
-      {Setting::renderer});
+  throw DeviceError(format("{} computes every arithmetic wrongly (self-test):{}", device, faults),
+                    Advice{"\nuse another device or the reference (`renderer`)"});
 }
 
 }  // namespace nutik

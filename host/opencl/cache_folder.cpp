@@ -121,6 +121,11 @@ void choose_cache_of_pocl() {
   ::setenv(kPoclVariable, own_cache_of_pocl().c_str(), 0);
 }
 
+std::filesystem::path cache_of_pocl() {
+  const char* const stated = std::getenv(kPoclVariable);
+  return stated == nullptr ? default_cache_folder().parent_path() / "pocl" / "kcache" : stated;
+}
+
 std::string flaw_of_pocl_cache() {
   const char* const stated = std::getenv(kPoclVariable);
   if (stated == nullptr) return {};  // the usual one
@@ -162,6 +167,8 @@ void write_to_cache(const std::filesystem::path& path, std::string_view bytes) {
   std::ofstream out(unfinished, std::ios::binary);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();
+  // Whatever the umask is: what others may write to is not read.
+  chmod(unfinished.c_str(), S_IRUSR | S_IWUSR);
   if (out) std::filesystem::rename(unfinished, path, error);
   if (!out || error) std::filesystem::remove(unfinished, error);
 }

@@ -24,6 +24,8 @@ namespace nutik {
 // have put theirs. Where the first two are not this user's alone, cannot be written or have no room, POCL_CACHE_DIR is
 // set to a folder of this user's among the temporary files. What the variable says already stays.
 void choose_cache_of_pocl();
+// Where it keeps it then.
+[[nodiscard]] std::filesystem::path cache_of_pocl();
 // Why the folder in POCL_CACHE_DIR is not to be used, a clause; empty where it can. Makes the one that was chosen
 // above.
 [[nodiscard]] std::string flaw_of_pocl_cache();

@@ -80,6 +80,7 @@ std::string error_name(cl_int code) {
     case CL_INVALID_VALUE: return "CL_INVALID_VALUE";
     case CL_INVALID_BUFFER_SIZE: return "CL_INVALID_BUFFER_SIZE";
     case CL_INVALID_BINARY: return "CL_INVALID_BINARY";
+    case CL_INVALID_KERNEL_NAME: return "CL_INVALID_KERNEL_NAME";
     case CL_INVALID_KERNEL_ARGS: return "CL_INVALID_KERNEL_ARGS";
     case CL_INVALID_WORK_GROUP_SIZE: return "CL_INVALID_WORK_GROUP_SIZE";
     case -1001: return "CL_PLATFORM_NOT_FOUND_KHR";
@@ -137,7 +138,12 @@ std::string to_text(DeviceKind kind) {
 }
 
 std::string describe(const cl::Error& error, const std::string& doing) {
-  return format("{}: {} in {}", doing, error_name(error.err()), error.what());
+  const bool may_be_cache = error.err() == CL_BUILD_PROGRAM_FAILURE || error.err() == CL_INVALID_KERNEL_NAME;
+  return format("{}: {} in {}{}", doing, error_name(error.err()), error.what(),
+                may_be_cache ? format("; if this is PoCL, its cache may be damaged or not writable: delete {}, or set "
+                                      "POCL_CACHE_DIR to a folder of yours",
+                                      cache_of_pocl().string())
+                             : "");
 }
 
 DeviceError device_failed(const cl::Error& error, const std::string& doing) {
@@ -148,9 +154,9 @@ std::vector<cl::Device> all_devices() {
   choose_cache_of_pocl();
   if (const std::string flaw = flaw_of_pocl_cache(); !flaw.empty()) {
     throw DeviceError(format("PoCL has no folder to build kernels in: {}; set POCL_CACHE_DIR to a folder of yours "
-                             "alone with room, or use the reference",
+                             "alone with room",
                              flaw),
-                      {Setting::renderer});
+                      Advice{", or use the reference (`renderer`)"});
   }
   std::vector<cl::Platform> platforms;
   try {
@@ -169,8 +175,8 @@ std::vector<cl::Device> all_devices() {
     throw DeviceError(
         "no OpenCL device was found; install a driver (on Debian: apt install pocl-opencl-icd for the "
         "processor, or the graphics card's OpenCL package). If one is installed: PoCL starts only if it may "
-        "write its cache (set POCL_CACHE_DIR to such a folder). Or use the reference",
-        {Setting::renderer});
+        "write its cache (set POCL_CACHE_DIR to such a folder)",
+        Advice{". Or use the reference (`renderer`)"});
   }
   std::ranges::stable_sort(devices, {}, [](const cl::Device& device) {
     const DeviceInfo info = describe_device(device);
@@ -203,6 +209,9 @@ DeviceInfo describe_device(const cl::Device& device) {
 }
 
 void prepare_for_pocl() {
+  const char* const path = std::getenv("PATH");
+  const std::string others = path == nullptr || *path == '\0' ? "" : std::string(path) + ":";
+  ::setenv("PATH", (others + "/usr/bin").c_str(), 1);
   ::setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
   ::setenv("HWLOC_PLUGINS_PATH", "/dev/null", 0);
   choose_cache_of_pocl();

@@ -32,6 +32,7 @@ struct DeviceInfo {
 
 // For an application, before it has a second thread: sets variables of the environment, where they are not set.
 //
+//   PATH                               has /usr/bin at its end: PoCL ends the process where it finds no linker
 //   POCL_WORK_GROUP_SPECIALIZATION=0   PoCL builds each kernel once, for groups of any size. It would build it for the
 //                                      size at hand, and again for the binary that is kept; neither runs faster
 //   HWLOC_PLUGINS_PATH=/dev/null       PoCL sets this itself, on the thread that looks for devices. Where the variable

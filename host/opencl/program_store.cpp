@@ -176,13 +176,13 @@ cl::Program ProgramStore::build(const std::string& name, const std::string& sour
       return program;
     } catch (const cl::Error& error) {
       if (attempts_left > 0 && error.err() == CL_BUILD_PROGRAM_FAILURE) continue;
-      std::string log;
-      if (program() != nullptr) log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_);
-      if (!log.empty() && log.back() != '\n') log += '\n';
-      throw DeviceError(format("{}\n  options: {}\n  device: {}\n{}use another device or the reference",
+      std::string log = "\n";
+      if (program() != nullptr) log += program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_);
+      while (log.ends_with('\n')) log.pop_back();
+      throw DeviceError(format("{}\n  options: {}\n  device: {}{}",
                                describe(error, format("kernels/{}.cl does not build", name)), options,
                                device_.getInfo<CL_DEVICE_NAME>(), log),
-                        {Setting::renderer});
+                        Advice{"\nuse another device or the reference (`renderer`)"});
     }
   }
 }

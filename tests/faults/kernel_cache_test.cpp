@@ -77,6 +77,17 @@ TEST_F(KernelCache, ThatIsNowhereIsNotPromised) {
   expect_says(result.err, kept);
 }
 
+TEST_F(KernelCache, OfPoclIsNamedWhereItIsDamaged) {
+  ASSERT_EQ(expose("p.png", {"PATH="}).status, 0) << "PoCL ends the program where it finds no linker";
+  fs::remove_all(cache_);
+  const fs::path of_pocl = scratch_ / "home/pocl/kcache";
+  for (const auto& each : fs::recursive_directory_iterator(of_pocl))
+    if (each.path().filename() == "program.bc") fs::resize_file(each, 0);
+  const auto result = expose();
+  EXPECT_EQ(result.status, 4);
+  expect_says(result.err, "its cache may be damaged or not writable: delete " + of_pocl.string());
+}
+
 TEST_F(KernelCache, ThatIsStatedEmptyIsNoneThatIsStated) {
   EXPECT_EQ(run_shell(format("POCL_CACHE_DIR= '{}' devices", NUTIK_TEST_PROGRAM), scratch_.folder()).status, 0);
 }
