@@ -66,6 +66,10 @@ Link read_link(const std::filesystem::path& path) {
   return link;
 }
 
+bool is_running_program(const std::filesystem::path& name) {
+  return !name.has_parent_path() || name == program_invocation_name;
+}
+
 std::filesystem::path running_program(const std::filesystem::path&) {
   std::error_code error;
   return std::filesystem::read_symlink("/proc/self/exe", error);
@@ -99,6 +103,8 @@ Link read_link(const std::filesystem::path& path) {
   }
   return link;
 }
+
+bool is_running_program(const std::filesystem::path& name) { return !name.has_parent_path(); }
 
 // As the shell found it.
 std::filesystem::path running_program(const std::filesystem::path& name) {

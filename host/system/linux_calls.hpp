@@ -31,6 +31,8 @@ struct Link {
 };
 [[nodiscard]] Link read_link(const std::filesystem::path& path);
 
+// Whether what was loaded as `name` is the running program, as far as that can be told.
+[[nodiscard]] bool is_running_program(const std::filesystem::path& name);
 // The file of the running program, which was called `name`. Empty where it cannot be told.
 [[nodiscard]] std::filesystem::path running_program(const std::filesystem::path& name);
 

@@ -15,21 +15,30 @@ namespace nutik {
 namespace {
 
 // The file that this code was linked into: a program, or a library that another program has loaded.
-std::filesystem::path own_file() {
+std::vector<std::filesystem::path> own_files() {
   Dl_info info{};
   std::error_code error;
-  if (dladdr(reinterpret_cast<const void*>(&own_file), &info) == 0 || info.dli_fname == nullptr) return {};
-  // A program is named as it was called, which may be by a name in PATH: a file of that name here is another.
+  if (dladdr(reinterpret_cast<const void*>(&own_files), &info) == 0 || info.dli_fname == nullptr) return {};
+  // A program is named as it was called, by a name in PATH or by any other, which another file here may have. It runs
+  // in another where a loader was called to run it.
   const std::filesystem::path named = info.dli_fname;
-  return named.has_parent_path() ? std::filesystem::canonical(named, error) : running_program(named);
+  std::vector<std::filesystem::path> files;
+  if (is_running_program(named)) files.push_back(running_program(named));
+  if (named.has_parent_path()) files.push_back(std::filesystem::canonical(named, error));
+  if (files.front() == files.back()) files.resize(1);
+  std::erase(files, std::filesystem::path());
+  return files;
 }
 
 }  // namespace
 
 std::vector<std::filesystem::path> own_folders() {
-  const std::filesystem::path own = own_file();
-  if (own.empty()) return {};
-  return {own.parent_path(), own.parent_path() / NUTIK_INSTALLED_MODULES};
+  std::vector<std::filesystem::path> folders;
+  for (const std::filesystem::path& own : own_files()) {
+    folders.push_back(own.parent_path());
+    folders.push_back(own.parent_path() / NUTIK_INSTALLED_MODULES);
+  }
+  return folders;
 }
 
 void use_own_fonts() {

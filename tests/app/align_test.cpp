@@ -238,6 +238,9 @@ TEST_F(Aligning, IsNotLookedForWithoutItsModule) {
   expect_says(shell(alone + "check plain.tik").out, "plain.tik: warning: " + why);
   expect_says(shell(alone + "mask --moving plain.tik -o m.pgm", 3).err, why);
   EXPECT_FALSE(exists("m.pgm"));
+  const auto called_so =
+      shell("env -u NUTIK_MODULES bash -c 'exec -a ./alone \"" NUTIK_TEST_PROGRAM "\" check plain.tik'");
+  EXPECT_EQ(called_so.out.find(why), std::string::npos) << "its modules are beside it, not beside ./alone";
 }
 
 TEST_F(Aligning, RefusesAModuleOfAnotherVersion) {
