@@ -159,7 +159,10 @@ std::filesystem::path led_to(std::filesystem::path name) {
     name = name.parent_path() / fs::read_symlink(name, unknown);
   }
   const fs::path folder = fs::canonical(name.has_parent_path() ? name.parent_path() : ".", unknown);
-  return unknown ? fs::absolute(name).lexically_normal() : folder / name.filename();
+  if (!unknown) return folder / name.filename();
+  const fs::path whole = fs::absolute(name, unknown);
+  if (unknown) throw OutputError("the current folder is no longer there; go to another one");
+  return whole.lexically_normal();
 }
 
 void expect_as_it_is(const std::filesystem::path& output) {

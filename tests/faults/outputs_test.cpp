@@ -19,5 +19,13 @@ TEST_F(OwnOutputs, OfASweepAreNotTheSheet) {
   }
 }
 
+TEST_F(OwnOutputs, AreNotMadeInAFolderThatIsGone) {
+  write_made_up_tik(scratch_ / "c.tik", MadeUpTile::rows({0, 3, 9}), {tik::CodecId::none, 0});
+  const auto result = run_shell("c=$PWD/c.tik; mkdir gone; cd gone; rmdir ../gone; \"" NUTIK_TEST_PROGRAM
+                                "\" --renderer reference --start 0s --exposure 1f \"$c\"", scratch_.folder());
+  EXPECT_EQ(result.status, 5);
+  expect_says(result.err, "the current folder is no longer there; go to another one");
+}
+
 }  // namespace
 }  // namespace nutik::test

@@ -16,6 +16,7 @@
 #include "media/writers/recipe.hpp"
 #include "session/text/number_text.hpp"
 #include "sheet/contact_sheet.hpp"
+#include "system/output_file.hpp"
 
 namespace nutik::app {
 namespace {
@@ -130,8 +131,7 @@ std::vector<std::filesystem::path> single_names(const Options& options, std::siz
   for (std::size_t i = 0; i < count; ++i) {
     names.push_back(numbered[i]);
     check_output(names.back(), OutputKind::picture, inputs, replacing(options));
-    if (std::filesystem::absolute(names.back()).lexically_normal() ==
-        std::filesystem::absolute(sheet).lexically_normal()) {
+    if (led_to(names.back()) == led_to(sheet)) {
       throw UsageError(
           format("--each names a picture {} and the sheet is {}; choose another name for one of them",
                  names.back().string(), sheet.string()));
