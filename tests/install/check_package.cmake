@@ -14,7 +14,7 @@ endfunction()
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed)
 foreach(file share/bash-completion/completions/nutik-cl share/zsh/site-functions/_nutik-cl
-             share/fish/vendor_completions.d/nutik-cl.fish share/man/man1/nutik-cl.1)
+             share/fish/vendor_completions.d/nutik-cl.fish share/man/man1/nutik-cl.1 share/doc/nutik-cl/LICENSE)
   file(READ ${WORK}/installed/${file} text)
   if(NOT text MATCHES "nutik-cl")
     message(FATAL_ERROR "${file} was installed without its text:\n${text}")
