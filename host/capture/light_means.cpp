@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "system/parallel.hpp"
-
 namespace nutik {
 
 std::vector<LightMeans::Span> LightMeans::spans(std::uint32_t length, std::uint32_t parts) {
@@ -61,26 +59,22 @@ void LightMeans::add_row(const Code* row, double share_of_row, double* sums) con
 }
 
 void LightMeans::take(std::span<const std::byte> raster, std::uint32_t code_bytes, std::span<std::byte> scaled,
-                      std::uint32_t scaled_code_bytes) const {
-  check(raster, code_bytes);
-  const std::size_t row_sums = columns_.size() * channels_;
-  const auto row_of = [&]<typename Code, typename NewCode>(const Code* from, NewCode* to, std::uint64_t y,
-                                                           std::vector<double>& sums) {
+                      std::uint32_t scaled_code_bytes, std::uint64_t first, std::uint64_t last) const {
+  std::vector<double> sums(columns_.size() * channels_);
+  const auto row_of = [&]<typename Code, typename NewCode>(const Code* from, NewCode* to, const Span& rows) {
     std::ranges::fill(sums, 0.0);
-    const Code* row = from + first_ + rows_[y].first * row_values_;
-    for (const double share : rows_[y].shares) {
+    const Code* row = from + first_ + rows.first * row_values_;
+    for (const double share : rows.shares) {
       channels_ == 1 ? add_row<1>(row, share, sums.data()) : add_row<3>(row, share, sums.data());
       row += row_values_;
     }
     for (const double light : sums) *to++ = static_cast<NewCode>(codes_.code_of(light));
   };
-  parallel_for_with(
-      rows_.size(), [&] { return std::vector<double>(row_sums); },
-      [&](std::uint64_t y, std::vector<double>& sums) {
-        with_codes(code_bytes, raster.data(), [&](const auto* from) {
-          with_codes(scaled_code_bytes, scaled.data(), [&](auto* to) { row_of(from, to + y * row_sums, y, sums); });
-        });
-      });
+  with_codes(code_bytes, raster.data(), [&](const auto* from) {
+    with_codes(scaled_code_bytes, scaled.data(), [&](auto* to) {
+      for (std::uint64_t y = first; y < last; ++y) row_of(from, to + y * sums.size(), rows_[y]);
+    });
+  });
 }
 
 }  // namespace nutik

@@ -17,9 +17,11 @@ class LightMeans {
   LightMeans(const Shape& shape, const Rectangle& area, const Shape& scaled, std::vector<double> light,
              LightCodes codes);
 
-  // Throws CodeAboveWhite for a code in the rectangle that has no light. Uses all cores.
+  // Throws CodeAboveWhite for a code in the rectangle that has no light.
+  void check(std::span<const std::byte> raster, std::uint32_t code_bytes) const;
+  // Makes rows [first, last) of the new picture. Several threads may call it for others.
   void take(std::span<const std::byte> raster, std::uint32_t code_bytes, std::span<std::byte> scaled,
-            std::uint32_t scaled_code_bytes) const;
+            std::uint32_t scaled_code_bytes, std::uint64_t first, std::uint64_t last) const;
 
  private:
   // What a new pixel covers along a side: pixels from `first` on, each by its share of the length.
@@ -28,7 +30,6 @@ class LightMeans {
     std::vector<double> shares;
   };
   static std::vector<Span> spans(std::uint32_t length, std::uint32_t parts);
-  void check(std::span<const std::byte> raster, std::uint32_t code_bytes) const;
   template <std::uint32_t kChannels, typename Code>
   void add_row(const Code* row, double share_of_row, double* sums) const;
 

@@ -14,6 +14,7 @@
 #include "capture/seconds_text.hpp"
 #include "capture/text.hpp"
 #include "system/input_bytes.hpp"
+#include "system/parallel.hpp"
 
 namespace nutik {
 
@@ -134,12 +135,16 @@ class ClipPart final : public Clip {
     if (is_whole) return true;
     if (means_) {
       try {
-        means_->take(raster_, whole_.code_bytes, raster, whole_.code_bytes);
+        means_->check(raster_, whole_.code_bytes);
       } catch (const CodeAboveWhite& error) {
         throw InputError(format("{}: picture {} has the code {}, and white is {}", name_, next_ - 1,
                                 error.code, whole_.white_code),
                          {Setting::white_code});
       }
+      constexpr std::uint64_t kRowsAtOnce = 16;
+      parallel_for_parts(info_.format.shape.height, kRowsAtOnce, [&](std::uint64_t begin, std::uint64_t end) {
+        means_->take(raster_, whole_.code_bytes, raster, whole_.code_bytes, begin, end);
+      });
       return true;
     }
     const std::size_t pixel = std::size_t{whole_.shape.channels} * whole_.code_bytes;

@@ -14,7 +14,7 @@ Picture thumbnail(const Picture& picture, std::uint32_t width, std::uint32_t hei
   LightMeans(picture.shape, Rectangle::whole(picture.shape), small.shape,
              picture.transfer.value_or(Transfer::srgb()).light_of_all_codes(picture.white_code, code_bytes),
              LightCodes(*small.transfer, small.white_code))
-      .take(picture.bytes, code_bytes, small.bytes, 1);
+      .take(picture.bytes, code_bytes, small.bytes, 1, 0, height);
   return small;
 }
 

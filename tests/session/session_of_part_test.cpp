@@ -48,7 +48,7 @@ TEST_P(SessionOfPart, HasTheSamplesAndTimesOfTheWholeOne) {
     for (std::uint64_t sample = samples.first; sample < samples.last; ++sample) {
       cursor.go_to(static_cast<std::uint32_t>(sample - samples.first));
       cursor.read(read);
-      means.take(random.rasters[sample], random.capture.code_bytes, wanted, random.capture.code_bytes);
+      means.take(random.rasters[sample], random.capture.code_bytes, wanted, random.capture.code_bytes, 0, shape.height);
       ASSERT_EQ(read, wanted) << random.text() << ", sample " << sample;
     }
   });

@@ -196,11 +196,10 @@ Jobs::Work exporting(const Document& document, std::shared_ptr<Session> session,
     const std::string text = recipe.text(to_text(exposed.precision), {}, exposed.error_bound());
     const FileWishes wishes = file_wishes(options.picture);
     write_picture(path, exposed.picture, options.no_recipe ? std::string() : text, wishes);
+    const Shape shape = written_shape(path, exposed.picture.shape, exposed.picture.pixel_aspect, wishes);
     const bool is_within = exposed.saturation.below + exposed.saturation.above == 0;
     const QString line = Jobs::tr("%1 was written: %2, %3")
-                             .arg(QString::fromStdString(path.string()),
-                                  QString::fromStdString(shape_text(
-                                      written_shape(path, exposed.picture.shape, exposed.picture.pixel_aspect, wishes))),
+                             .arg(QString::fromStdString(path.string()), QString::fromStdString(shape_text(shape)),
                                   is_within ? Jobs::tr("no pixel is clipped")
                                             : QString::fromStdString(saturated_text(exposed.saturation)));
     return [told, line] { told(line); };
