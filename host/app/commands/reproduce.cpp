@@ -192,7 +192,7 @@ int run_reproduce(const Options& options) {
     print_note(format("note: the picture was made by nutik-cl {}, this is {}", shown(recipe->version),
                       NUTIK_VERSION));
   } else if (recipe->file.empty()) {
-    print_note("note: an earlier nutik-cl made the picture; where the clip is aligned, evened, scaled, rounded "
+    print_note("note: an earlier nutik-cl made the picture; where the clip is aligned, deflickered, scaled, rounded "
                "(--tolerance) or filled (--between), this one may make other codes of it");
   }
   check_options(*recipe, picture.string());
