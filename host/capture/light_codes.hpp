@@ -41,14 +41,15 @@ class LightCodes {
   // The last code that begins no later; that of black for less light.
   [[nodiscard]] std::uint32_t code_of(double light) const {
     if (!(light >= thresholds_[black_ + 1])) return black_;
-    const double* next = thresholds_.data() + first_code_[cell_of(std::min(light, 1.0)) - first_cell_] + 1;
+    light = std::min(light, 1.0);
+    const double* next = thresholds_.data() + first_code_[cell_of(light) - first_cell_] + 1;
     while (*next <= light) ++next;
     return static_cast<std::uint32_t>(next - thresholds_.data()) - 1;
   }
 
  private:
-  // A cell holds the light whose doubles share all bits but so many last ones: 8192 cells from a light to its double,
-  // with four codes at most.
+  // A cell holds the light whose doubles share all bits but so many last ones: 8192 cells from a light to its double.
+  // Four codes at most begin in one, or more by a gamma below 1.
   static constexpr int kPlaceBits = 52 - 13;
   static std::uint64_t cell_of(double light) { return std::bit_cast<std::uint64_t>(light) >> kPlaceBits; }
 

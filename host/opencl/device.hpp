@@ -30,7 +30,8 @@ struct DeviceInfo {
   bool permutes_bytes = false;  // kernels may use vpermi2b, which looks 64 bytes up in a table of 128, and gain by it
 };
 
-// For an application, before it has a second thread: sets variables of the environment, where they are not set.
+// For an application, before it has a second thread: sets variables of the environment, but for PATH where they are not
+// set.
 //
 //   PATH                               has /usr/bin at its end: PoCL ends the process where it finds no linker
 //   POCL_WORK_GROUP_SPECIALIZATION=0   PoCL builds each kernel once, for groups of any size. It would build it for the

@@ -197,8 +197,8 @@ void check_output(const std::filesystem::path& output, OutputKind kind, std::spa
   if (recipe && is_as_sealed(output)) return;
   throw UsageError(format("{} is there already and is not replaced{}", name,
                           !recipe                ? ""
-                          : recipe->file.empty() ? ": an earlier version wrote it, and whether it was changed since "
-                                                   "its recipe does not tell"
+                          : recipe->file.empty() ? ": an earlier version wrote it, and its recipe does not tell "
+                                                   "whether it was changed since"
                                                  : ": its recipe does not know it as it is now, so it was changed "
                                                    "since"),
                    Advice{"; choose another name, or replace it with `overwrite`"});

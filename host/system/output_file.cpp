@@ -161,7 +161,9 @@ std::filesystem::path led_to(std::filesystem::path name) {
   const fs::path folder = fs::canonical(name.has_parent_path() ? name.parent_path() : ".", unknown);
   if (!unknown) return folder / name.filename();
   const fs::path whole = fs::absolute(name, unknown);
-  if (unknown) throw OutputError("the current folder is no longer there; go to another one");
+  if (unknown == std::errc::no_such_file_or_directory)
+    throw OutputError("the current folder is no longer there; go to another one");
+  if (unknown) throw OutputError(format("{}: {}", name.string(), unknown.message()));
   return whole.lexically_normal();
 }
 

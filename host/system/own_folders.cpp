@@ -19,8 +19,8 @@ std::vector<std::filesystem::path> own_files() {
   Dl_info info{};
   std::error_code error;
   if (dladdr(reinterpret_cast<const void*>(&own_files), &info) == 0 || info.dli_fname == nullptr) return {};
-  // A program is named as it was called, by a name in PATH or by any other, which another file here may have. It runs
-  // in another where a loader was called to run it.
+  // A program is named as it was called, by a name in PATH or by any other, which another file here may have. Where a
+  // dynamic loader was called with it, the running program is that.
   const std::filesystem::path named = info.dli_fname;
   std::vector<std::filesystem::path> files;
   if (is_running_program(named)) files.push_back(running_program(named));

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "capture/error.hpp"
+#include "capture/light_codes.hpp"
 #include "support/messages.hpp"
 
 namespace nutik::test {
@@ -21,6 +23,24 @@ const std::vector<Transfer> kAllTransfers = [] {
   }
   return all;
 }();
+
+TEST(LightCodes, FindTheLastCodeThatBeginsNoLater) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const Transfer& transfer : kAllTransfers) {
+    for (const std::uint32_t white : {1u, 100u, 255u, 4095u, 65'535u}) {
+      const LightCodes codes(transfer, white);
+      const std::vector<double> begins = transfer.code_thresholds(white);
+      std::vector<double> lights{-kInfinity, -1, 0, 1, 1.5, kInfinity};
+      for (std::size_t code = 1; code <= white; code += 1 + code / 64)
+        for (const double towards : {0.0, 1.0, begins[code]}) lights.push_back(std::nextafter(begins[code], towards));
+      for (const double light : lights) {
+        const auto after = std::upper_bound(begins.begin() + 1, begins.end(), std::max(light, 0.0));
+        ASSERT_EQ(codes.code_of(light), after - begins.begin() - 1) << transfer.text() << ' ' << white << ' ' << light;
+      }
+      EXPECT_EQ(codes.code_of(std::nan("")), codes.code_of(0)) << transfer.text();
+    }
+  }
+}
 
 // Values of the standards, from their own formulas worked out by hand.
 TEST(Transfer, HasTheStandardsValues) {

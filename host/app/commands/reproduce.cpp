@@ -152,7 +152,7 @@ void check_options(const Recipe& recipe, const std::string& picture) {
   }
 }
 
-// What earlier versions took though it changed nothing, and commands refuse now.
+// Options that earlier versions took, though they changed nothing, and that commands refuse now.
 bool has_no_effect(const Recipe& recipe, std::string_view name) {
   const auto states = [&](std::string_view wanted) {
     return std::ranges::any_of(recipe.options, [&](const auto& option) { return option.first == wanted; });

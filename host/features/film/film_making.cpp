@@ -96,7 +96,8 @@ std::optional<FilmSound> film_sound(const Session& session, const FramesRequest&
   return sound;
 }
 
-// Whether no light becomes more than it was: what the clip says of its brightest then holds for the film.
+// Whether no light becomes more than it was: what the clip says of its brightest then holds for the film. Masks that
+// change are not looked at: each would have to be made.
 bool is_nowhere_brighter(const FramesRequest& request, const Frames& frames, const Timeline& timeline) {
   constexpr double kRounding = 1e-9;
   return std::ranges::all_of(frames.numbers, [&](std::uint64_t frame) {
@@ -131,8 +132,8 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
   video.repeats_chroma = session.repeats_chroma();
   const Transfer curve = CodeMaking::of(capture, frame_format).transfer;
   if (session.is_clip() && curve == session.format().transfer &&
-      (curve == Transfer::pq() || curve == Transfer::hlg()) &&
-      is_nowhere_brighter(request, frames, session.timeline()))
+      (curve == Transfer::pq() || curve == Transfer::hlg()) && frame_format.negative != NegativeLight::offset &&
+      !mask_changes && is_nowhere_brighter(request, frames, session.timeline()))
     video.graded = file_of(session);
   const TimeToEnd is_kept;  // the frames so far, whatever a frame takes
   std::unique_ptr<VideoWriter> writer;  // none of stills

@@ -89,7 +89,7 @@ Picture codes_of_light(const Picture& light, std::optional<double> white, const 
   const auto most = static_cast<Value>(*white);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double value = values[i];
-    if (value >= 0 && values[i] <= most) {
+    if (value >= 0 && values[i] <= most && std::isfinite(value)) {
       const double share = value / *white;
       *code++ = static_cast<std::uint16_t>(curve ? curve->code_of(share) : std::floor(share * kLightSteps + 0.5));
       continue;

@@ -9,10 +9,10 @@
 // converting a picture takes three times as long. Sanitizers are not ready when that choice is made.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
-#define NUTIK_YUV_CLONES \
+#define NUTIK_BYTE_CLONES \
   __attribute__((target_clones("arch=x86-64-v4", "avx2", "ssse3", "default"), optimize("O3")))
 #else
-#define NUTIK_YUV_CLONES
+#define NUTIK_BYTE_CLONES
 #endif
 
 namespace nutik::videos {
@@ -93,7 +93,7 @@ inline __attribute__((always_inline)) void add_chroma(const std::uint8_t* __rest
 }
 
 #define NUTIK_ADD_CHROMA(name, shift)                                                             \
-  NUTIK_YUV_CLONES void name(const std::uint8_t* __restrict u, const std::uint8_t* __restrict v, \
+  NUTIK_BYTE_CLONES void name(const std::uint8_t* __restrict u, const std::uint8_t* __restrict v, \
                               std::size_t count, const Weights& w, std::int16_t* __restrict red,  \
                               std::int16_t* __restrict green, std::int16_t* __restrict blue) {    \
     add_chroma<shift, false>(u, v, count, w, red, green, blue);                                   \
@@ -148,7 +148,7 @@ inline __attribute__((always_inline)) void interleave(const std::uint8_t* red, c
 
 // A row's pixels, some at a time: their codes stay close by until they are written, and memory is not left waiting
 // while a whole row is computed (15 % of the time).
-NUTIK_YUV_CLONES void add_luma(const std::uint8_t* __restrict luma, std::size_t width, std::uint16_t weight,
+NUTIK_BYTE_CLONES void add_luma(const std::uint8_t* __restrict luma, std::size_t width, std::uint16_t weight,
                                 const std::int16_t* __restrict red_part,
                                 const std::int16_t* __restrict green_part,
                                 const std::int16_t* __restrict blue_part, std::uint8_t* __restrict rgb) {

@@ -249,7 +249,10 @@ class LibavVideoWriter final : public VideoWriter {
     if (codec.name == "ffv1") {
       context.gop_size = 1;
       // FFmpeg's slices of level 3 come back as other pixels where there are so few.
-      if (std::min(width_, height_) < 3) settings.set("level", "1"), settings.set("slicecrc", "0");
+      if (std::min(width_, height_) < 3) {
+        settings.set("level", "1");
+        settings.set("slicecrc", "0");
+      }
     }
     if (codec.scale.key == "qscale") {
       context.flags |= AV_CODEC_FLAG_QSCALE;
@@ -321,7 +324,7 @@ class LibavVideoWriter final : public VideoWriter {
     if (name_apple_log()) return;
     std::string left;
     // Deep frames of FFV1 are taken for linear.
-    if (!names_curve && (video_.type == ValueType::code16 || video_.transfer != Transfer::srgb()))
+    if (!names_curve && video_.transfer != (video_.type == ValueType::code16 ? Transfer::linear() : Transfer::srgb()))
       left = "the transfer function " + video_.transfer.text();
     if (!names_primaries && video_.shape.channels == 3 && video_.primaries != usual.value_or(Primaries::bt709))
       left += format("{}the primaries {}", left.empty() ? "" : " and ", to_text(video_.primaries));

@@ -87,16 +87,15 @@ OutputFormat output_format(const OutputRequest& request, const CaptureFormat& ca
 
 std::string codes_text(const CaptureFormat& capture, const OutputFormat& output) {
   if (!holds_codes(output.type)) return {};
-  const Transfer& transfer = output.transfer ? *output.transfer : capture.transfer;
   const bool is_scaled = output.type == code_type(capture) && output.white_code != capture.white_code;
-  const Primaries shown = CodeMaking::of(capture, output).primaries;
-  const bool is_converted = capture.shape.channels == 3 && shown != capture.primaries;
-  if (transfer == capture.transfer && !is_scaled && !is_converted) return {};
-  const auto codes = [&](const Transfer& by, std::uint32_t white_code, Primaries primaries) {
-    return by.text() + (is_converted ? format(" in {}", to_text(primaries)) : std::string()) +
+  const CodeMaking shown = CodeMaking::of(capture, output);
+  const bool is_converted = capture.shape.channels == 3 && shown.primaries != capture.primaries;
+  if (shown.transfer == capture.transfer && !is_scaled && !is_converted) return {};
+  const auto codes = [&](const Transfer& transfer, std::uint32_t white_code, Primaries primaries) {
+    return transfer.text() + (is_converted ? format(" in {}", to_text(primaries)) : std::string()) +
            (is_scaled ? format(" with white {}", white_code) : std::string());
   };
-  return format(", codes {} (the capture's: {})", codes(transfer, output.white_code, shown),
+  return format(", codes {} (the capture's: {})", codes(shown.transfer, output.white_code, shown.primaries),
                 codes(capture.transfer, capture.white_code, capture.primaries));
 }
 
