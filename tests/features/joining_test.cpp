@@ -331,7 +331,8 @@ TEST_F(Joining, RefusesWhatDoesNotFollow) {
   const Path silent = saying(copied, [](tik::Header& header) { header.part->checksum.clear(); });
   const std::vector<Note> notes = join({{a, silent}, scratch_ / "joined.tik"}).notes;
   ASSERT_FALSE(notes.empty());
-  expect_says(notes.back().text, "saying.tik does not tell its clip's content: whether its frames is the clip of the others is not known");
+  expect_says(notes.back().text,
+              "saying.tik does not tell its clip's content: whether its frames is the clip of the others is not known");
   EXPECT_EQ(tik::Reader(scratch_ / "joined.tik").header().part->checksum, "");
   const Path middle = saying(part(8, 12), [](tik::Header& header) { header.part->checksum.clear(); });
   expect_says(refusal({a, middle, part(12, 20, night)}),

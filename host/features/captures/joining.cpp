@@ -236,8 +236,8 @@ std::vector<Note> put_in_order(std::vector<Piece>& pieces) {
   std::vector<Note> notes = missing_notes(pieces.front(), pieces.back());
   for (const Piece& piece : pieces) {
     if (knows(*known) && !knows(piece))
-      notes.emplace_back(format("{} does not tell its clip's content: whether its {} is the clip of the others is not known",
-                                piece.name, piece.header.part->clip));
+      notes.emplace_back(format("{} does not tell its clip's content: whether its {} is the clip of the others is not "
+                                "known", piece.name, piece.header.part->clip));
   }
   return notes;
 }
