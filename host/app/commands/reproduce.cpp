@@ -161,7 +161,7 @@ bool has_no_effect(const Recipe& recipe, std::string_view name) {
          (name == "mask-blend" && !recipe.mask_to && !states("mask-key"));
 }
 
-// Of earlier recipes, which tell nothing of their file, also that of a video without what lies beside it.
+// An earlier recipe, which tells nothing of its file, may have that of a video without what lies beside it.
 std::string checksum_of_capture(const std::string& capture, const Recipe& recipe) {
   std::string checksum = capture_checksum(capture, recipe);
   if (checksum == recipe.capture.checksum || !recipe.file.empty() || !fs::is_regular_file(capture)) return checksum;
