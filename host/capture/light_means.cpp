@@ -1,6 +1,7 @@
 #include "capture/light_means.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace nutik {
 

@@ -29,7 +29,7 @@ bool is_picture_content(const std::string& bytes) {
   return std::ranges::any_of(inputs::kStills, begins) && !is_tik_content(bytes);
 }
 
-// Tells it of any file. What is damaged carries none.
+// Takes any file. What is damaged carries none.
 std::optional<Recipe> recipe_in(const std::filesystem::path& file) {
   try {
     return is_picture_name(file) ? read_recipe(file) : std::nullopt;

@@ -96,8 +96,8 @@ std::optional<FilmSound> film_sound(const Session& session, const FramesRequest&
   return sound;
 }
 
-// Whether no light becomes more than it was: what the clip says of its brightest then holds for the film. Masks that
-// change are not looked at: each would have to be made.
+// Whether no light becomes more than it was: what the clip says of its brightest then holds for the film. The request
+// has no keys of masks, for each mask would have to be made.
 bool is_nowhere_brighter(const FramesRequest& request, const Frames& frames, const Timeline& timeline) {
   constexpr double kRounding = 1e-9;
   return std::ranges::all_of(frames.numbers, [&](std::uint64_t frame) {

@@ -49,9 +49,8 @@ constexpr int kPixelsAtOnce = 64;
 
 // Compilers make vectors of the first loop, but of none that also writes codes beside each other.
 NUTIK_SIMD_CLONES void row_to_rgb(const std::uint16_t* __restrict y, const std::uint16_t* __restrict u,
-                                  const std::uint16_t* __restrict v, int width, const DeepRgb& how,
+                                  const std::uint16_t* __restrict v, int width, const DeepRgb how,
                                   std::uint16_t* __restrict rgb) {
-  const DeepRgb is = how;
   std::int32_t red[kPixelsAtOnce], green[kPixelsAtOnce], blue[kPixelsAtOnce];
   const auto nearest = [](double value) {
     const double positive = value > 0 ? value : 0;
@@ -60,12 +59,12 @@ NUTIK_SIMD_CLONES void row_to_rgb(const std::uint16_t* __restrict y, const std::
   for (int begin = 0; begin < width; begin += kPixelsAtOnce) {
     const int count = width - begin < kPixelsAtOnce ? width - begin : kPixelsAtOnce;
     for (int x = 0; x < count; ++x) {
-      const double luma = (y[begin + x] - is.black) * is.luma_scale;
-      const double from_u = (u[begin + x] - is.grey) * is.chroma_scale;
-      const double from_v = (v[begin + x] - is.grey) * is.chroma_scale;
-      red[x] = nearest(luma + is.weights.red_of_u * from_u + is.weights.red_of_v * from_v);
-      green[x] = nearest(luma + is.weights.green_of_u * from_u + is.weights.green_of_v * from_v);
-      blue[x] = nearest(luma + is.weights.blue_of_u * from_u + is.weights.blue_of_v * from_v);
+      const double luma = (y[begin + x] - how.black) * how.luma_scale;
+      const double from_u = (u[begin + x] - how.grey) * how.chroma_scale;
+      const double from_v = (v[begin + x] - how.grey) * how.chroma_scale;
+      red[x] = nearest(luma + how.weights.red_of_u * from_u + how.weights.red_of_v * from_v);
+      green[x] = nearest(luma + how.weights.green_of_u * from_u + how.weights.green_of_v * from_v);
+      blue[x] = nearest(luma + how.weights.blue_of_u * from_u + how.weights.blue_of_v * from_v);
     }
     for (int x = 0; x < count; ++x) {
       *rgb++ = static_cast<std::uint16_t>(red[x]);
@@ -75,8 +74,8 @@ NUTIK_SIMD_CLONES void row_to_rgb(const std::uint16_t* __restrict y, const std::
   }
 }
 
-// libswscale would do it, too, but its white is 65280 for limited range and 65472 for full range of 10 bits: off by up
-// to 4 codes of the source.
+// Planes of Y, U and V become RGB. libswscale would do it, too, but its white is 65280 for limited range and 65472 for
+// full range of 10 bits: off by up to 4 codes of the source.
 void yuv_to_rgb(const AVFrame& planes, std::uint32_t bits, const YuvCoding& coding, AVFrame& rgb) {
   const DeepRgb how = DeepRgb::of(bits, coding);
   for (int row = 0; row < planes.height; ++row) {
