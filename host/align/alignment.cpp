@@ -237,46 +237,55 @@ MemoryNeeds camera_check_needs(const CaptureFormat& capture) {
   return needs;
 }
 
+const std::optional<MovedCamera>& CameraLooks::look(std::uint64_t sample, std::span<const std::byte> raster) {
+  if (looks_++ == 0) {
+    try {
+      registrar_ = open_registrar(format_, CameraMotion::rigid, raster);
+    } catch (const TooLittleTexture&) {
+      return moved_;
+    }
+  } else if (registrar_) {
+    // From where it lay at first: what stands still is found there.
+    const Registered found = registrar_->find(raster, Warp(), Reach::near);
+    const Place way = furthest_way(found.warp, format_.shape);
+    const double corner = std::hypot(way.x, way.y);
+    if (!is_sure(found)) {
+      ++unsure_;
+      seemingly_ = std::max(seemingly_, corner);
+    } else if (corner >= (moved_ ? moved_->pixels : kMinPixels)) {
+      const double degrees =
+          found.warp.degrees_at((format_.shape.width - 1) / 2.0, (format_.shape.height - 1) / 2.0);
+      moved_ = {.pixels = corner, .degrees = std::abs(degrees), .sample = sample};
+    }
+  }
+  return moved_;
+}
+
+std::optional<MovedCamera> CameraLooks::moved() const {
+  std::optional<MovedCamera> moved = moved_;
+  if (!moved && registrar_ && 2 * unsure_ >= looks_ && registrar_->sees_much())
+    moved = {.seemingly_pixels = seemingly_};
+  if (moved) {
+    moved->looks = looks_;
+    moved->unsure = unsure_;
+  }
+  return moved;
+}
+
 std::optional<MovedCamera> moved_camera(tik::Reader& capture) {
   if (capture.header().alignment) return std::nullopt;
-  const CaptureFormat& format = capture.format();
   const std::uint64_t count = capture.timeline().sample_count();
-  std::vector<std::byte> raster(format.sample_bytes());
-  std::unique_ptr<Registrar> registrar;
-  std::optional<MovedCamera> moved;
-  double most = kMinPixels, seemingly = 0;
+  std::vector<std::byte> raster(capture.format().sample_bytes());
+  CameraLooks camera(capture.format());
   const std::uint64_t looks = std::min(count, kLooks);
-  std::uint64_t unsure = 0;
   for (std::uint64_t look = 0; look < looks; ++look) {
     const std::uint64_t sample = count <= kLooks ? look : look * (count - 1) / (kLooks - 1);
     for_each_block(capture, {sample, sample + 1}, [&](const BlockView& block) {
       block.read_sample(static_cast<std::uint32_t>(sample - block.extent().first_sample), raster);
     });
-    if (!registrar) {
-      try {
-        registrar = open_registrar(format, CameraMotion::rigid, raster);
-      } catch (const TooLittleTexture&) {
-        return std::nullopt;
-      }
-      continue;
-    }
-    // From where it lay at first: what stands still is found there.
-    const Registered found = registrar->find(raster, Warp(), Reach::near);
-    const Place way = furthest_way(found.warp, format.shape);
-    const double corner = std::hypot(way.x, way.y);
-    if (!is_sure(found)) {
-      ++unsure;
-      seemingly = std::max(seemingly, corner);
-    }
-    if (!is_sure(found) || corner < most) continue;
-    most = corner;
-    const double degrees =
-        found.warp.degrees_at((format.shape.width - 1) / 2.0, (format.shape.height - 1) / 2.0);
-    moved = {.pixels = corner, .degrees = std::abs(degrees), .sample = sample, .looks = looks};
+    camera.look(sample, raster);
   }
-  if (!moved && 2 * unsure >= looks && registrar->sees_much()) moved = {.looks = looks, .seemingly_pixels = seemingly};
-  if (moved) moved->unsure = unsure;
-  return moved;
+  return camera.moved();
 }
 
 }  // namespace nutik

@@ -72,12 +72,29 @@ struct MovedCamera {
   [[nodiscard]] std::string text() const;
 };
 
+// Compares a few pictures with the first of them. Nothing where little of that has texture; untold where half of them or
+// more follow no motion of a camera.
+class CameraLooks {
+ public:
+  explicit CameraLooks(const CaptureFormat& format) : format_(format) {}
+
+  // How the camera surely moved so far.
+  const std::optional<MovedCamera>& look(std::uint64_t sample, std::span<const std::byte> raster);
+  [[nodiscard]] std::optional<MovedCamera> moved() const;
+
+ private:
+  CaptureFormat format_;
+  std::unique_ptr<Registrar> registrar_;
+  std::optional<MovedCamera> moved_;
+  double seemingly_ = 0;
+  std::uint64_t looks_ = 0, unsure_ = 0;
+};
+
 // What a look takes, beside blocks of the capture.
 [[nodiscard]] MemoryNeeds camera_check_needs(const CaptureFormat& capture);
 
-// Looks at a few samples. Nothing of a capture whose pictures were aligned, nor where it stands still, nor where little
-// has texture; untold where half of them or more follow no motion of a camera. Throws InputError where the capture is
-// damaged.
+// CameraLooks of samples all along; nothing of a capture whose pictures were aligned. Throws InputError where the capture
+// is damaged.
 [[nodiscard]] std::optional<MovedCamera> moved_camera(tik::Reader& capture);
 
 }  // namespace nutik

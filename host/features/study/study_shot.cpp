@@ -35,27 +35,36 @@ MemoryNeeds study_needs(const CaptureFormat& capture) {
 
 ClipMoment picture(std::uint64_t number) { return {static_cast<std::int64_t>(number), true}; }
 
-// How many pictures at the beginning are darker than those behind them. All are exposed as the first one, which shall
-// be none of these.
-std::uint64_t dark_pictures(const SourceRequest& shot) {
-  constexpr std::size_t kLookedAt = 96;
+// What the first pictures of a clip tell before all of it is read.
+struct Beginning {
+  // So many are darker than those behind them. All are exposed as the first one, which shall be none of these.
+  std::uint64_t dark = 0;
+  bool moves = false;  // the camera surely moves
+};
+
+Beginning beginning_of(const SourceRequest& source) {
+  constexpr std::uint64_t kLookedAt = 96, kCompared = 24;
   constexpr double kDark = 0.75, kBright = 0.97;  // of the mean code of most
-  const std::unique_ptr<Clip> clip = open_clip(shot.path, shot.clip);
-  std::vector<std::byte> raster(clip->info().format.sample_bytes());
+  Beginning beginning;
+  const std::unique_ptr<Clip> clip = open_clip(source.path, source.clip);
+  const CaptureFormat& format = clip->info().format;
+  std::vector<std::byte> raster(format.sample_bytes());
   std::vector<double> means;
-  const auto mean_of = [&](const auto* codes) {
-    const std::size_t count = clip->info().format.shape.value_count();
-    return std::accumulate(codes, codes + count, 0.0) / static_cast<double>(count);
-  };
+  CameraLooks camera(format);
   while (means.size() < kLookedAt && clip->read(raster)) {
-    const bool is_byte = clip->info().format.code_bytes == 1;
-    means.push_back(is_byte ? mean_of(reinterpret_cast<const std::uint8_t*>(raster.data()))
-                            : mean_of(reinterpret_cast<const std::uint16_t*>(raster.data())));
+    if (!beginning.moves && !source.align && means.size() % kCompared == 0) {
+      const std::optional<MovedCamera>& moved = camera.look(means.size(), raster);
+      beginning.moves = moved && moved->pixels > kMaxCameraPixels;
+    }
+    means.push_back(with_codes(format.code_bytes, raster.data(), [&](const auto* codes) {
+      return static_cast<double>(std::accumulate(codes, codes + format.shape.value_count(), std::uint64_t{0}));
+    }));
   }
-  const double usual = means.empty() ? 0 : median(means);
-  if (means.empty() || means.front() >= kDark * usual) return 0;
+  const double usual = means.empty() || !source.deflickered ? 0 : median(means);
+  if (means.empty() || means.front() >= kDark * usual) return beginning;
   const auto bright = std::ranges::find_if(means, [&](double mean) { return mean >= kBright * usual; });
-  return static_cast<std::uint64_t>(bright - means.begin());
+  beginning.dark = static_cast<std::uint64_t>(bright - means.begin());
+  return beginning;
 }
 
 class ShotPlanner {
@@ -83,10 +92,11 @@ class ShotPlanner {
       source.clip.to = picture(shot.last);
     };
     is_part_of(shot.first);
-    const std::uint64_t dark = source.deflickered ? dark_pictures(source) : 0;
+    const auto [dark, moves] = beginning_of(source);
     const bool is_without = dark > 0 && shot.size() >= dark + kMinSamples;
     if (is_without) is_part_of(shot.first + dark);
-    PlannedStudy planned = plan(source, open(source));
+    std::optional<PlannedStudy> moved = moves ? plan_moved(source) : std::nullopt;
+    PlannedStudy planned = moved ? std::move(*moved) : plan(source, open(source));
     if (!planned.part) planned.part = SampleRange{shot.first + (is_without ? dark : 0), shot.last};
     if (is_without) {
       planned.notes.emplace_back(format("the first pictures are darker than most behind them, and those before {} were "
@@ -95,6 +105,18 @@ class ShotPlanner {
                                  std::vector{Setting::from});
     }
     return planned;
+  }
+
+  // Plans what the camera moved in, without reading it as it was filmed. Nothing where it is no single shot that can be
+  // moved onto the first picture.
+  [[nodiscard]] std::optional<PlannedStudy> plan_moved(const SourceRequest& source) const {
+    try {
+      Session session = open(aligned_to(0, source));
+      if (shots_of(session.capture()).size() != 1) return std::nullopt;
+      return planned(std::move(session), 0);
+    } catch (const CannotAlign&) {
+      return std::nullopt;
+    }
   }
 
   // Plans a single shot. Where the camera moved or seems to, a clip is read once more; also where everything seems to
@@ -188,6 +210,24 @@ class ShotPlanner {
                       progress("looking for the subject"), unrest);
   }
 
+  [[nodiscard]] static SourceRequest aligned_to(std::uint64_t reference, SourceRequest source) {
+    source.align.emplace();
+    source.align->motion = kStudyMotion;
+    source.align->reference = StatedTime::of_pictures(static_cast<std::int64_t>(reference));
+    return source;
+  }
+
+  // Of aligned pictures.
+  [[nodiscard]] PlannedStudy planned(Session session, std::uint64_t reference) const {
+    check_regions(session.format().shape);
+    Study study = study_of(session, Unrest::shown);
+    PlannedStudy planned{std::move(session), std::move(study), {}};
+    if (std::optional<Note> note = unexplained(planned.session.capture())) planned.notes.push_back(std::move(*note));
+    planned.study.falls_short = planned.study.falls_short || !planned.notes.empty();
+    planned.aligned_to = reference;
+    return planned;
+  }
+
   // Moves the pictures onto the first one; onto the one in the middle if the first shows too little of what the others
   // show. If a picture cannot be moved, those before it or behind it are taken, whichever are more. Nothing if most
   // cannot be moved: `reason` says why.
@@ -200,31 +240,22 @@ class ShotPlanner {
     SampleRange part{0, samples};
     std::uint64_t reference = 0;
     for (int tries = 0; tries < kMaxTries; ++tries) {
-      SourceRequest aligned = source;
-      aligned.align.emplace();
-      aligned.align->motion = kStudyMotion;
-      aligned.align->reference = StatedTime::of_pictures(static_cast<std::int64_t>(reference - part.first));
+      SourceRequest aligned = aligned_to(reference - part.first, source);
       const bool is_part = part.size() < samples;
       if (is_part) {
         aligned.clip.from = picture(first + part.first);
         aligned.clip.to = picture(first + part.last);
       }
       try {
-        Session session = open(aligned);
-        check_regions(session.format().shape);
-        Study study = study_of(session, Unrest::shown);
-        std::vector<Note> notes;
-        if (std::optional<Note> note = unexplained(session.capture())) notes.push_back(std::move(*note));
+        PlannedStudy study = planned(open(aligned), reference - part.first);
         if (is_part) {
-          notes.emplace_back(format("pictures {} … {} were taken, for others cannot be moved onto these: {}",
-                                    first + part.first, first + part.last - 1, reason),
-                             std::vector{Setting::from, Setting::to});
+          study.notes.emplace_back(format("pictures {} … {} were taken, for others cannot be moved onto these: {}",
+                                          first + part.first, first + part.last - 1, reason),
+                                   std::vector{Setting::from, Setting::to});
+          study.study.falls_short = true;
+          study.part = SampleRange{first + part.first, first + part.last};
         }
-        study.falls_short = study.falls_short || !notes.empty();
-        PlannedStudy planned{std::move(session), std::move(study), {}, std::move(notes)};
-        if (is_part) planned.part = SampleRange{first + part.first, first + part.last};
-        planned.aligned_to = reference - part.first;
-        return planned;
+        return study;
       } catch (const CannotAlign& error) {
         if (reason.empty()) reason = error.what();
         const std::uint64_t failed = part.first + error.picture.value_or(0);
@@ -256,15 +287,18 @@ class ShotPlanner {
 PlannedStudy plan_filmed(const SourceRequest& source, const StudyRequest& request, const StudyTerms& terms) {
   const std::string name = source.path.string();
   const ShotPlanner planner(request, terms, name);
+  const bool is_part = source.clip.from || source.clip.to;
+  const Beginning beginning = is_tik(source.path) ? Beginning() : beginning_of(source);
+  const bool may_be_whole = beginning.dark == 0 || is_part;
+  if (beginning.moves && may_be_whole) {
+    if (std::optional<PlannedStudy> moved = planner.plan_moved(source)) return std::move(*moved);
+  }
   std::vector<SampleRange> shots;
   {
     Session session = planner.open(source);
     shots = shots_of(session.capture());
-    if (shots.size() == 1) {
-      const bool may_begin_dark = session.is_clip() && source.deflickered && !source.clip.from && !source.clip.to;
-      if (!may_begin_dark || dark_pictures(source) == 0) return planner.plan(source, std::move(session));
-    }
-    if (shots.size() > 1 && (!session.is_clip() || source.clip.from || source.clip.to)) {
+    if (shots.size() == 1 && may_be_whole) return planner.plan(source, std::move(session));
+    if (shots.size() > 1 && (!session.is_clip() || is_part)) {
       const bool is_numbered = source.clip.from && source.clip.from->is_picture;
       const std::uint64_t part = is_numbered ? static_cast<std::uint64_t>(source.clip.from->value) : 0;
       throw InputError(
