@@ -47,6 +47,42 @@ TEST_F(Plates, AreTheSameOfAClipAPackedCaptureAndWithLittleMemory) {
                      {"background --memory 1kB clip.tik -o d.pfm", "uncertain places"}});
 }
 
+// Its written pictures hold light in other codes than a linear capture of 12 bits: masks by them are those by the plate.
+TEST_F(Plates, AreComparedWithTheCaptureInAnyWrittenCodes) {
+  std::filesystem::create_directory(scratch_ / "deep");
+  for (int k = 0; k < 12; ++k) {
+    cv::Mat still(48, 64, CV_16UC3);
+    for (int y = 0; y < still.rows; ++y) still.row(y) = cv::Scalar(100 + 40 * y, 300 + 20 * y, 2000);
+    still(cv::Rect(4 + 4 * k, 20, 4, 4)) = cv::Scalar(4000, 3900, 100);
+    cv::imwrite((scratch_ / "deep" / format("{:02}.png", k)).string(), still);
+  }
+  make("-f 100 --white 4095 deep deep.tik");
+  make("-f 100 --white 4095 --transfer hlg --primaries bt2020 deep hlg.tik");
+  for (const std::string capture : {"deep", "hlg"}) {
+    make("mask --subject 5f " + capture + ".tik " + capture + ".pgm");
+    int number = 0;
+    for (const std::string output :
+         {"a.png", "a.png --depth 8", "a.tif", "a.exr", "a.npy", "a.png --out-transfer source"}) {
+      const std::string name = format("{}{}{}", capture, number++, output);
+      make("background " + capture + ".tik " + name);
+      const std::string picture = name.substr(0, name.find(' '));
+      const auto json = answer("mask --difference " + picture + " 5f " + capture + ".tik " + picture + ".pgm");
+      EXPECT_EQ(file(picture + ".pgm"), file(capture + ".pgm")) << output;
+      EXPECT_EQ(json["notes"].size(), 0u) << json["notes"];
+    }
+  }
+  make("background deep.tik a.ppm");
+  expect_says(answer("mask --difference a.ppm 5f deep.tik a.pgm")["notes"].dump(),
+              "a.ppm does not say what its codes stand for: they are taken for linear, as the capture's");
+  make("mask --difference deep0a.png deep1a.png -o b.pgm");
+  EXPECT_EQ(cv::countNonZero(picture("b.pgm")), 0);
+  make("-f 100 --white 4095 --primaries p3 deep p3.tik");
+  make("background p3.tik p3.exr");
+  expect_refused("mask --difference p3.exr 5f deep.tik c.pgm", 3,
+                 "p3.exr holds linear in p3, the capture linear in bt709, and nothing tells how the one was made of the "
+                 "other; write it in the capture's own codes: --out-transfer source");
+}
+
 TEST_F(Plates, SayWhatTheyCannotBeMadeOf) {
   make("-f 100 frames/00.pgm one.tik");
   expect_refused("background one.tik", 3, "one.tik: a single sample does not tell what moves");

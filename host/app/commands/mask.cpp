@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 
 #include "app/output/output_name.hpp"
 #include "app/output/progress.hpp"
@@ -98,7 +99,7 @@ std::string pixels_text(std::uint64_t pixels, const Mask& mask) {
 }
 
 Answer answer_of(const MaskJob& job, const MadeMask& made) {
-  const auto& [mask, steps] = made;
+  const Mask& mask = made.mask;
   const std::filesystem::path& output = job.output;
   const auto counts = mask.pixels_per_tag();
   const auto tag_count = kMaskValues - std::count(counts.begin(), counts.end(), 0u);
@@ -106,7 +107,7 @@ Answer answer_of(const MaskJob& job, const MadeMask& made) {
   answer.line = format("{}: {} x {}, {}", output.string(), mask.width, mask.height,
                        counted(static_cast<std::uint64_t>(tag_count), "tag"));
   answer.json["steps"] = Json::array();
-  for (const StepReport& step : steps) {
+  for (const StepReport& step : made.steps) {
     Json& entry = answer.json["steps"].emplace_back(
         Json{{"step", step.name}, {"tag", step.tag}, {"pixel_count", step.pixel_count}});
     std::string tags = format("M{}", step.tag), by_codes;
@@ -177,6 +178,7 @@ int run_mask(const Options& options) {
   }
   Answer answer = answer_of(job, made);
   answer.notes = camera_notes(moved);
+  std::ranges::copy(made.notes, std::back_inserter(answer.notes));
   if (session) answer.tell_source(*session);
   return tell(options, job.output, answer);
 }

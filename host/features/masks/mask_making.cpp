@@ -7,6 +7,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "features/masks/comparable_codes.hpp"
 #include "imev/each_block.hpp"
 #include "mask/code_span.hpp"
 #include "mask/distance.hpp"
@@ -88,7 +89,7 @@ MaskSize size_of(const MaskRequest& request, const CaptureSource* capture, const
 class MaskMaker {
  public:
   MaskMaker(Mask base, CaptureSource* capture, const std::function<Picture()>& plate)
-      : made_{std::move(base), {}}, capture_(capture), make_plate_(plate) {}
+      : made_{std::move(base), {}, {}}, capture_(capture), make_plate_(plate) {}
 
   void add(const MaskStep& step) {
     StepReport report{step.name, step.tag, step.last_tag(), 0, std::nullopt, std::nullopt, std::nullopt, {}};
@@ -154,14 +155,7 @@ class MaskMaker {
               return between(*picture, threshold.low * unit, threshold.high * unit);
             },
             [&](const select::Difference& difference) {
-              const Shared<Picture> before = picture_of(difference.before, step);
-              const Shared<Picture> after = picture_of(difference.after, step);
-              if (before->shape != after->shape || before->white_code != after->white_code) {
-                throw InputError(format("{} {} {}: the pictures differ in {}", step.name,
-                                        text_of(difference.before), text_of(difference.after),
-                                        before->shape != after->shape ? "kind, one is grey and one colour"
-                                                                      : "depth or white code"));
-              }
+              const auto [before, after] = compared(difference, step);
               return changed(differences(*before, *after), before->white_code, step, report);
             },
             [&](const select::Motion& motion) { return moving(samples_of(motion, step), step, report); },
@@ -177,6 +171,31 @@ class MaskMaker {
             },
         },
         step.selection);
+  }
+
+  // Of a picture from a file and one of the capture, in codes of the capture; of two from files, of the first.
+  std::pair<Shared<Picture>, Shared<Picture>> compared(const select::Difference& difference, const MaskStep& step) {
+    Shared<Picture> before = picture_of(difference.before, step), after = picture_of(difference.after, step);
+    if (before->shape != after->shape) {
+      throw InputError(format("{} {} {}: the pictures differ in kind, one is grey and one colour", step.name,
+                              text_of(difference.before), text_of(difference.after)));
+    }
+    const auto* const first = std::get_if<NamedPicture>(&difference.before);
+    const auto* const second = std::get_if<NamedPicture>(&difference.after);
+    const NamedPicture* const named = second != nullptr ? second : first;
+    if (named == nullptr) return {before, after};
+    CaptureFormat like = first == nullptr || second == nullptr ? capture_->format() : CaptureFormat();
+    if (first != nullptr && second != nullptr) {
+      like.code_bytes = static_cast<std::uint32_t>(value_bytes(before->type));
+      like.white_code = before->white_code;
+      like.transfer = before->transfer.value_or(after->transfer.value_or(Transfer::srgb()));
+      like.primaries = before->primaries;
+    }
+    for (const NamedPicture* each : step.pictures()) {
+      std::string note = silence_note(like, *each);
+      if (!note.empty() && !std::ranges::count(made_.notes, note)) made_.notes.push_back(std::move(note));
+    }
+    return comparable_codes(named == first ? after : before, like, *named);
   }
 
   [[nodiscard]] SampleRange samples_of(const select::Motion& motion, const MaskStep& step) const {
@@ -218,7 +237,8 @@ class MaskMaker {
     if (const auto* time = std::get_if<StatedTime>(&source)) {
       return Shared(picture_of_sample(*capture_, sample_at(*time, step.name, capture_->timeline())));
     }
-    const auto& [name, picture] = std::get<NamedPicture>(source);
+    const std::string& name = std::get<NamedPicture>(source).name;
+    const Shared<Picture>& picture = std::get<NamedPicture>(source).picture;
     if (picture->shape.width != mask().width || picture->shape.height != mask().height) {
       throw InputError(format("{} {}: the picture is {} x {}, the mask {} x {}; they must be of one size",
                               step.name, name, picture->shape.width, picture->shape.height,

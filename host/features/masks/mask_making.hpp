@@ -38,6 +38,7 @@ struct StepReport {
 struct MadeMask {
   Mask mask;
   std::vector<StepReport> steps;
+  std::vector<std::string> notes;  // whole sentences
 };
 
 // What making a mask of a capture takes, beside a block of it: two codes of each value, or two pictures, and of each

@@ -44,8 +44,12 @@ std::vector<const NamedPicture*> MaskStep::pictures() const {
 
 void read_named_pictures(MaskRequest& request) {
   const auto read = [](PictureSource& source) {
-    if (auto* picture = std::get_if<NamedPicture>(&source))
-      picture->picture = Shared(read_picture(picture->name));
+    auto* picture = std::get_if<NamedPicture>(&source);
+    if (picture == nullptr) return;
+    ReadPicture read_in = read_picture(picture->name);
+    picture->picture = Shared(std::move(read_in.codes));
+    picture->holds_light = read_in.holds_light;
+    picture->says_primaries = read_in.says_primaries;
   };
   for (MaskStep& step : request.steps) {
     if (auto* threshold = std::get_if<select::Threshold>(&step.selection)) read(threshold->picture);

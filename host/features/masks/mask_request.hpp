@@ -19,6 +19,8 @@ namespace nutik {
 struct NamedPicture {
   std::string name;
   Shared<Picture> picture;
+  bool holds_light = false;  // its file does
+  bool says_primaries = false;
 };
 // The capture's picture at a time, or one from elsewhere.
 using PictureSource = std::variant<StatedTime, NamedPicture>;

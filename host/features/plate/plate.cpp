@@ -112,8 +112,12 @@ MadePlate make_rough_plate(CaptureSource& capture, const std::string& capture_na
 
 NeedsOfFormat mask_needs_of(const MaskRequest& request) {
   const bool needs_plate = std::ranges::any_of(request.steps, &MaskStep::needs_plate);
-  return [needs_plate, looks_at_camera = request.tells_by_rest()](const CaptureFormat& capture) {
+  const bool reads_pictures = std::ranges::any_of(request.steps, [](const MaskStep& step) {
+    return step.compares() && !step.pictures().empty();
+  });
+  return [needs_plate, reads_pictures, looks_at_camera = request.tells_by_rest()](const CaptureFormat& capture) {
     MemoryNeeds needs = mask_making_needs(capture);
+    if (reads_pictures) needs.add("light of a picture", capture.shape.value_count() * sizeof(double));
     if (looks_at_camera) needs.add(camera_check_needs(capture));
     if (needs_plate) needs.add(plate_making_needs(capture));
     return needs;

@@ -14,29 +14,26 @@
 
 namespace nutik {
 
-namespace {
-
-// What painting programs save as colour: all three channels are the tag.
 Picture grey_of(Picture&& picture, const std::string& name) {
   if (picture.shape.channels == 1) return std::move(picture);
   Shape shape = picture.shape;
   shape.channels = 1;
-  Picture grey(shape, ValueType::code8, picture.white_code);
-  const auto colours = picture.values<std::uint8_t>();
-  for (std::uint64_t i = 0; i < shape.pixel_count(); ++i) {
-    const int red = colours[3 * i], green = colours[3 * i + 1], blue = colours[3 * i + 2];
-    if (red != green || red != blue) {
-      throw InputError(format(
-          "{} is a colour picture, and its pixel {},{} is no grey: red {}, green {}, blue {}. A mask has one "
-          "value for each pixel; save it as grey",
-          name, i % shape.width, i / shape.width, red, green, blue));
+  Picture grey(shape, picture.type, picture.white_code);
+  with_codes(static_cast<std::uint32_t>(value_bytes(picture.type)), grey.bytes.data(), [&]<typename Code>(Code* greys) {
+    const auto colours = picture.values<Code>();
+    for (std::uint64_t i = 0; i < shape.pixel_count(); ++i) {
+      const int red = colours[3 * i], green = colours[3 * i + 1], blue = colours[3 * i + 2];
+      if (red != green || red != blue) {
+        throw InputError(format(
+            "{} is a colour picture, and its pixel {},{} is no grey: red {}, green {}, blue {}. A mask has one "
+            "value for each pixel; save it as grey",
+            name, i % shape.width, i / shape.width, red, green, blue));
+      }
+      greys[i] = colours[3 * i];
     }
-    grey.bytes[i] = picture.bytes[3 * i];
-  }
+  });
   return grey;
 }
-
-}  // namespace
 
 Picture read_mask(const std::filesystem::path& path) {
   const MappedFile file(path);

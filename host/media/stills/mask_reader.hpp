@@ -23,4 +23,8 @@ using CheckMaskSize = std::function<void(std::uint32_t width, std::uint32_t heig
 [[nodiscard]] Picture read_mask(std::span<const std::byte> bytes, const std::string& name,
                                 const CheckMaskSize& check_size = {});
 
+// What painting programs save as colour, all three channels being the tag, as grey of as many bits. Throws InputError
+// naming `name` where they differ.
+[[nodiscard]] Picture grey_of(Picture&& picture, const std::string& name);
+
 }  // namespace nutik

@@ -78,7 +78,7 @@ std::string DelayRequest::range_text() const { return format("{}{}{}", from.text
 void DelayRequest::read() {
   if (course != Course::picture) return;
   try {
-    picture = Shared(read_picture(file));
+    picture = Shared(read_picture(file).codes);
   } catch (const InputError& error) {
     if (file.find('.') != std::string::npos) throw;
     throw UsageError(format("{}; or, without a picture, rows:, columns: or radial:", error.what()));

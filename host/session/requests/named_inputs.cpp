@@ -54,8 +54,8 @@ FunctionInput read_function_input(const std::string& name) {
 
 namespace {
 
-// A picture file as it stands, light of `white` having the last code, and whether it held light. `thing` is one.
-std::pair<Picture, bool> read_still(const std::string& name, double white, std::string_view thing) {
+// A picture file as it stands, light of `white` having the last code. `thing` is one.
+ReadPicture read_still(const std::string& name, double white, std::string_view thing) {
   ClipOptions options;
   options.white_light = white;
   const auto clip = open_clip(name, options);
@@ -64,16 +64,23 @@ std::pair<Picture, bool> read_still(const std::string& name, double white, std::
   if (!clip->read(picture.bytes)) throw InputError(format("{} has no picture", name));
   if (std::vector<std::byte> next(picture.bytes.size()); clip->read(next))
     throw InputError(format("{} holds several pictures; {} is one", name, thing));
-  return {std::move(picture), clip->info().holds_light};
+  const auto says = [&](Setting setting) {
+    return std::ranges::any_of(clip->info().facts, [&](const Fact& fact) {
+      return fact.setting == setting && fact.origin == Origin::file;
+    });
+  };
+  const bool holds_light = clip->info().holds_light;
+  if (holds_light || says(Setting::transfer)) picture.transfer = kind.transfer;
+  picture.primaries = kind.primaries;
+  return {std::move(picture), holds_light, says(Setting::primaries)};
 }
 
 // Values of a TIFF, or of floating point, as tags: whole numbers from 0 to 255.
 Picture read_tags(const std::string& name) {
   constexpr double kLast = 255;
-  const auto [read, holds_light] = read_still(name, kLast, "a mask");
+  auto [codes_read, holds_light, _] = read_still(name, kLast, "a mask");
+  const Picture read = grey_of(std::move(codes_read), name);
   const std::uint32_t steps = holds_light ? 257 : 1;  // of 65535 codes, to the next tag
-  if (read.shape.channels != 1)
-    throw InputError(format("{} has colour; a mask has one value for each pixel: save it as grey", name));
   if (read.type == ValueType::code8) return read;
   Picture tags(read.shape, ValueType::code8, 255);
   const auto codes = read.values<std::uint16_t>();
@@ -148,7 +155,7 @@ Mask read_layered_mask_input(const std::string& name, std::uint8_t rest,
   const auto shape = known_shape(capture);
   std::vector<MaskLayer> layers;
   for (const auto& [tag, file] : files) {
-    layers.push_back({tag, file.string(), read_picture(file.string())});
+    layers.push_back({tag, file.string(), read_picture(file.string()).codes});
     const Shape& found = layers.back().picture.shape;
     const std::string mistake = shape ? size_mistake({found.width, found.height, {}}, *shape) : std::string();
     if (!mistake.empty()) throw InputError(format("{}: {}", file.string(), mistake));
@@ -163,7 +170,7 @@ std::string mask_checksum(const std::string& name) {
   return files_checksum(files);
 }
 
-Picture read_picture(const std::string& name) {
+ReadPicture read_picture(const std::string& name) {
   if (is_absent(name)) {
     throw InputError(format("{} cannot be read: no such file", name));
   }
@@ -173,7 +180,8 @@ Picture read_picture(const std::string& name) {
                             stills ? format("a sequence of {}", stills->size()) : "no picture", still_kinds_text()),
                      Advice{", or a time of the capture: 0.3s, 12f"});
   }
-  Picture picture = read_still(name, 1.0, "what is needed").first;
+  ReadPicture read = read_still(name, 1.0, "what is needed");
+  const Picture& picture = read.codes;
   const std::uint32_t largest = largest_code(picture.bytes, static_cast<std::uint32_t>(value_bytes(picture.type)));
   if (largest > picture.white_code) {
     throw InputError(
@@ -181,7 +189,7 @@ Picture read_picture(const std::string& name) {
                "again with the right one",
                name, largest, picture.white_code));
   }
-  return picture;
+  return read;
 }
 
 }  // namespace nutik

@@ -38,8 +38,14 @@ struct FunctionInput {
 // The checksum that recipes know a mask by: that of its files.
 [[nodiscard]] std::string mask_checksum(const std::string& name);
 
-// A picture file, codes as they stand; floating-point light, from 0 to 1, in 65535 steps. Throws UsageError where it is
-// no picture, or many; InputError where it cannot be read.
-[[nodiscard]] Picture read_picture(const std::string& name);
+struct ReadPicture {
+  Picture codes;
+  bool holds_light = false;  // its file does
+  bool says_primaries = false;
+};
+
+// A picture file, codes as they stand, with their transfer function if the file says it; floating-point light, from 0
+// to 1, in 65535 steps. Throws UsageError where it is no picture, or many; InputError where it cannot be read.
+[[nodiscard]] ReadPicture read_picture(const std::string& name);
 
 }  // namespace nutik
