@@ -89,6 +89,9 @@ TEST_F(Series, HasAsManyAsFit) {
   EXPECT_EQ(written("a"), 40);
   run("--exposure 26ms --every 25ms clip.tik b-%d.pfm");
   EXPECT_EQ(written("b"), 39);
+  scratch_.write("step.fn", "M0 [0:1], [25ms:1], [25000001:0]\n");  // steps down as the clip ends
+  run("-k step.fn --every 25ms clip.tik d-%d.pfm");
+  EXPECT_EQ(written("d"), 40);
   const auto result = run("--exposure 100ms --every 300ms clip.tik");
   for (const char* name : {"clip-0s-100ms-0000.png", "clip-0s-100ms-0003.png"}) {
     EXPECT_TRUE(exists(name)) << name;
@@ -151,6 +154,7 @@ TEST_F(Series, SaysWhatIsWrongBeforeItWrites) {
   const Words plain("--exposure 25ms clip.tik");
   expect_refused(
       2, {{plain + "--every 1s -o out.pfm", "needs a number in its pictures' name, as in out-%03d.pfm"},
+          {plain + "--every 1s -o o-%d-%d.pfm", "o-%d-%d.pfm has a place for two numbers"},
           {plain + "--every 0s -o o%d.pfm", "every '0s' is not longer than nothing"},
           {plain + "--every 1.5f -o o%d.pfm", "is not a whole number of pictures"},
           {plain + "--every 40 -o o%d.pfm", "every '40' is no time"},

@@ -132,6 +132,7 @@ PictureNames::PictureNames(const std::filesystem::path& pattern, std::string_vie
                (folder_ / (pattern.stem().string() + "-%03d" + pattern.extension().string())).string(),
                pattern.string()));
   }
+  name->expect_one(pattern.string());
   name_ = *name;
 }
 

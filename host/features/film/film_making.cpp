@@ -196,7 +196,9 @@ VideoOutput::VideoOutput(std::filesystem::path path, Rational rate, const std::o
   }
   if (request.crf && is_picture_name(path_))
     throw UsageError("that is a film's quality, on its codec's scale; pictures have none", {Setting::crf});
-  const bool is_numbered = NumberedName::parse(path_.filename().string()).has_value();
+  const auto numbered = NumberedName::parse(path_.filename().string());
+  const bool is_numbered = numbered.has_value();
+  if (numbered) numbered->expect_one(path_.string());
   if (is_picture_name(path_) && is_numbered) {
     if (codec) {
       throw UsageError(format("a video's codec goes with a video in one file; {} are stills", path_.string()),

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "capture/error.hpp"
+#include "capture/format.hpp"
+
 namespace nutik {
 
 std::optional<NumberedName> NumberedName::parse(const std::string& name) {
@@ -19,6 +22,10 @@ std::optional<NumberedName> NumberedName::parse(const std::string& name) {
   if (at >= name.size() || (name[at] != 'd' && name[at] != 'i' && name[at] != 'u')) return std::nullopt;
   numbered.after = name.substr(at + 1);
   return numbered;
+}
+
+void NumberedName::expect_one(const std::string& name) const {
+  if (parse(after)) throw UsageError(format("{} has a place for two numbers, and pictures are numbered once", name));
 }
 
 std::string NumberedName::with(const std::string& digits) const {

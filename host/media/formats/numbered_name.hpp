@@ -19,6 +19,9 @@ struct NumberedName {
   // none.
   static std::optional<NumberedName> parse(const std::string& name);
 
+  // Throws UsageError where another number follows, which no one number gives.
+  void expect_one(const std::string& name) const;
+
   // The name with this number, given as its digits or as such.
   [[nodiscard]] std::string with(const std::string& digits) const;
   [[nodiscard]] std::string with(std::uint64_t number) const { return with(std::to_string(number)); }
