@@ -63,6 +63,12 @@ TEST_F(CommandLine, ReportsHowAnExposureWasComputed) {
               {", still gain 1,", "1 block of ", " MB on the device"});
 }
 
+TEST_F(CommandLine, KnowsProjectsOfTheStudio) {
+  scratch_.write("work.nutik", "{\"nutik-studio\": 1}\n");
+  for (const char* words : {"work.nutik", "--start 0s --exposure 1f work.nutik out.png"})
+    expect_refused(words, 3, "work.nutik is a project of nutik-studio, which opens it, and no clip");
+}
+
 TEST_F(CommandLine, SaysWhatACaptureHolds) {
   const ProgramResult info = make("info clip.tik --activity map.png");
   expect_says(info.out, {"16 x 16 colour, 8 bits, white code 255, transfer srgb", "6 in 1 block",

@@ -7,6 +7,7 @@
 #include "app/command_line/words.hpp"
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "media/formats/file_kinds.hpp"
 #include "session/text/shell_text.hpp"
 #include "session/text/text_table.hpp"
 #include "system/input_bytes.hpp"
@@ -48,6 +49,7 @@ const Command& shorthand(const Words& words) {
   };
   if (words.operands.size() > 1 || is_given("output")) return command(CommandId::encode);
   if (!first.ends_with(".tik")) {
+    refuse_project(first);
     const std::string stem = first == "-" ? "clip" : std::filesystem::path(first).stem().string();
     throw UsageError(
         format("the output is missing: nutik-cl {} {}", shell_word(first), shell_word(stem + ".tik")));

@@ -142,7 +142,13 @@ void refuse_unsupported_kind(const std::filesystem::path& file) {
   if (const auto text = unsupported_kind_text(file)) throw InputError(*text);
 }
 
+void refuse_project(const std::filesystem::path& file) {
+  if (extension_of(file) != kProjectExtension) return;
+  throw InputError(format("{} is a project of nutik-studio, which opens it, and no clip", input_title(file.string())));
+}
+
 void refuse_text(const std::filesystem::path& file) {
+  refuse_project(file);
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return;
   std::array<char, 512> bytes{};

@@ -13,6 +13,7 @@
 
 #include "features/recipe/picture_recipe.hpp"
 #include "features/schema/command_id.hpp"
+#include "media/formats/file_kinds.hpp"
 #include "studio/document/document.hpp"
 
 namespace nutik::studio {
@@ -40,8 +41,6 @@ struct Project {
   std::int64_t duration_ns = 0;  // of the capture; 0: earlier versions do not say
   bool is_unwritten = false;  // functions and mask are not what its files hold
 };
-
-inline constexpr const char* kProjectExtension = ".nutik";
 
 // Whether a path has no file of its own and stands for those of a folder: `frames/%04d.png`, `frames/*.png`.
 [[nodiscard]] bool is_pattern(const QString& path);
