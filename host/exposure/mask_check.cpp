@@ -142,6 +142,15 @@ std::string size_mistake(const Mask& mask, const Shape& capture) {
                 capture.height, way_out);
 }
 
+Advice size_advice(std::uint32_t width, std::uint32_t height, const CaptureFormat& capture) {
+  const Shape &own = capture.shape, shown = capture.shown_shape();
+  if (shown != own && width == shown.width && height == shown.height)
+    return {"; these are the picture's square pixels: draw on one that is written with `keep-pixels`"};
+  const bool is_part = (width <= own.width && height <= own.height) || (width >= own.width && height >= own.height);
+  if (!is_part || is_scaled(width, height, own.width, own.height)) return {};
+  return {"; draw on a picture of the same part (`crop`), and keep the size of what is aligned with `unseen hold`"};
+}
+
 std::string unmapped_mistake(const std::array<std::uint64_t, kMaskValues>& pixels_per_tag,
                              const std::array<bool, kMaskValues>& is_mapped) {
   constexpr std::size_t kMaxShown = 20;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/error.hpp"
 #include "capture/picture.hpp"
 #include "exposure/mask.hpp"
 
@@ -14,6 +15,9 @@ namespace nutik {
 
 // Both sizes and the way out where the mask does not have the capture's; else empty.
 [[nodiscard]] std::string size_mistake(const Mask& mask, const Shape& capture);
+// What ends the message about pixels of another number than the capture's where the program itself makes such pictures
+// of it: in square pixels, or of a part; else empty.
+[[nodiscard]] Advice size_advice(std::uint32_t width, std::uint32_t height, const CaptureFormat& capture);
 
 // The values that pixels have and no function, with their numbers of pixels and the way out; else empty.
 [[nodiscard]] std::string unmapped_mistake(const std::array<std::uint64_t, kMaskValues>& pixels_per_tag,

@@ -217,6 +217,13 @@ void refuse_yuv_options(const ClipOptions& options);
 
 // Codes of light of floating point: the nearest ones of equal steps up to `white`.
 inline constexpr std::uint32_t kLightSteps = 65'535;
+// That light of a pixel has none of them.
+struct LightOutside : InputError {
+  LightOutside(const std::string& message, std::vector<Setting> settings, std::string where, double light)
+      : InputError(message, std::move(settings)), pixel(std::move(where)), value(light) {}
+  std::string pixel;  // `3,0`
+  double value;
+};
 // Describes a clip of such codes.
 void describe_light(ClipInfo& info, double white);
 

@@ -113,7 +113,10 @@ TEST_F(MaskCommand, TakesFloatingPointPicturesAndTiff) {
   expect_refused("mask --base m.npy -o x.pgm", 3,
                  "m.npy: pixel 3,0 has no value of a mask, a whole number from 0 to 255");
   mask_of(256);
-  expect_refused("mask --base m.exr -o x.pgm", 3, "m.exr: pixel 3,0 has light 256");
+  expect_refused("mask --base m.exr -o x.pgm", 3, "m.exr: pixel 3,0 has the value 256, no value of a mask");
+  mask_of(-1);
+  expect_refused("mask --base m.npy -o x.pgm", 3,
+                 "m.npy: pixel 3,0 has the value -1, no value of a mask, a whole number from 0 to 255");
   Picture deep({MovingSquare::kWidth, MovingSquare::kHeight, 1}, ValueType::code16, 65'535);
   deep.values<std::uint16_t>()[3] = 1;
   write_picture(scratch_ / "m.tif", deep);
@@ -121,6 +124,14 @@ TEST_F(MaskCommand, TakesFloatingPointPicturesAndTiff) {
   deep.values<std::uint16_t>()[3] = 257;
   write_picture(scratch_ / "m.tif", deep);
   expect_refused("mask --base m.tif -o x.pgm", 3, "m.tif: pixel 3,0 has the value 257, no value of a mask");
+  // All three channels are the tag, as painting programs save it.
+  Picture painted({MovingSquare::kWidth, MovingSquare::kHeight, 3}, ValueType::code8, 255);
+  std::fill_n(painted.bytes.begin() + 9, 3, std::byte{4});
+  write_picture(scratch_ / "m.tif", painted);
+  EXPECT_EQ(tags("--base m.tif"), boxes({{3, 0, 1, 1, 4}}));
+  painted.bytes[9] = std::byte{5};
+  write_picture(scratch_ / "m.tif", painted);
+  expect_refused("mask --base m.tif -o x.pgm", 3, "pixel 3,0 is no grey: red 5, green 4, blue 4");
   // None of several is meant more than another.
   const Picture page({MovingSquare::kWidth, MovingSquare::kHeight, 1}, ValueType::light32, 0);
   const std::vector<PictureLayer> pages{{"a", "", page}, {"b", "", page}};
@@ -283,6 +294,7 @@ TEST_F(MaskCommand, RefusesWhatMakesNoSense) {
   expect_refused("mask --threshold absent.png 1..2 clip.tik", 3, "absent.png");
   expect_refused("mask --threshold frames 1..2 clip.tik", 2, "frames is a sequence of 20");
   scratch_.write("small.pgm", "P2 2 1 255 0 1");
+  expect_refused("mask --base small-%d.pgm --moving clip.tik", 3, "small-%d.pgm stands for the layers of a soft mask");
   expect_refused("mask --threshold small.pgm 1..2 clip.tik", 3, "the picture is 2 x 1, the mask 96 x 48");
   expect_refused(2, {{"mask --base small.pgm --moving clip.tik", "the sizes must agree"},
                      {"mask --threshold small.pgm 1..2 -o small.pgm", "is also an input"}});

@@ -146,6 +146,17 @@ TEST(MaskCheck, Sizes) {
   expect_says(mistake(640, 480), "; both must have the same size");
 }
 
+TEST(MaskCheck, TellsTheWayOutOfSizesThatTheProgramMakes) {
+  CaptureFormat capture{{96, 64, 3}};
+  const auto advice = [&](std::uint32_t width, std::uint32_t height) { return size_advice(width, height, capture).text; };
+  EXPECT_EQ(advice(192, 128), "");
+  EXPECT_EQ(advice(80, 100), "");
+  expect_says(advice(90, 62), "`unseen hold`");
+  expect_says(advice(120, 70), "(`crop`)");
+  capture.pixel_aspect = {2, 1};
+  expect_says(advice(192, 64), "`keep-pixels`");
+}
+
 TEST(MaskCheck, ValuesWithoutAFunction) {
   Mask mask = Mask::uniform(10, 10, 3);
   fill(mask, 0, 0, 4, 1, 7);

@@ -7,6 +7,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "exposure/mask_check.hpp"
 #include "features/masks/comparable_codes.hpp"
 #include "imev/each_block.hpp"
 #include "mask/code_span.hpp"
@@ -58,6 +59,10 @@ std::uint32_t margin_of(const MaskStep& step) {
   return static_cast<std::uint32_t>(std::max(margin, 0.0));
 }
 
+Advice advice_of(std::uint32_t width, std::uint32_t height, const CaptureSource* capture) {
+  return capture == nullptr ? Advice{} : size_advice(width, height, capture->format());
+}
+
 MaskSize size_of(const MaskRequest& request, const CaptureSource* capture, const std::string& capture_name) {
   std::vector<NamedSize> sizes;
   if (request.size) sizes.push_back(*request.size);
@@ -79,9 +84,9 @@ MaskSize size_of(const MaskRequest& request, const CaptureSource* capture, const
   const NamedSize& first = sizes.front();
   for (const NamedSize& other : sizes) {
     if (other.size == first.size) continue;
-    throw UsageError(format("{} is {} x {}, {} is {} x {}: the sizes must agree", first.name,
-                            first.size.width, first.size.height, other.name, other.size.width,
-                            other.size.height));
+    throw UsageError(format("{} is {} x {}, {} is {} x {}: the sizes must agree", first.name, first.size.width,
+                            first.size.height, other.name, other.size.width, other.size.height),
+                     advice_of(other.size.width, other.size.height, capture));
   }
   return first.size;
 }
@@ -240,9 +245,9 @@ class MaskMaker {
     const std::string& name = std::get<NamedPicture>(source).name;
     const Shared<Picture>& picture = std::get<NamedPicture>(source).picture;
     if (picture->shape.width != mask().width || picture->shape.height != mask().height) {
-      throw InputError(format("{} {}: the picture is {} x {}, the mask {} x {}; they must be of one size",
-                              step.name, name, picture->shape.width, picture->shape.height,
-                              mask().width, mask().height));
+      throw InputError(format("{} {}: the picture is {} x {}, the mask {} x {}; they must be of one size", step.name,
+                              name, picture->shape.width, picture->shape.height, mask().width, mask().height),
+                       advice_of(picture->shape.width, picture->shape.height, capture_));
     }
     return picture;
   }
@@ -336,7 +341,10 @@ Picture backdrop_of(const MaskRequest& request, const Mask& mask) {
 namespace {
 
 NumberedName numbered(const std::filesystem::path& name) {
-  if (const auto parsed = NumberedName::parse(name.filename().string())) return *parsed;
+  if (const auto parsed = NumberedName::parse(name.filename().string())) {
+    parsed->expect_one(name.string());
+    return *parsed;
+  }
   throw UsageError(
       format("a soft mask is written as layers, one for each tag, so its name needs a number, as in {}",
              (name.parent_path() / (name.stem().string() + "-%d.png")).string()));

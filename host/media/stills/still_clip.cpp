@@ -96,13 +96,15 @@ Picture codes_of_light(const Picture& light, std::optional<double> white, const 
     }
     const std::size_t pixel = i / light.shape.channels;
     const bool is_bright = value > most && std::isfinite(value);
-    throw InputError(format("{}: pixel {},{} has light {:.6g}, and a capture holds what lies between 0 and white, "
-                            "{:.6g}; {}",
-                            name, pixel % light.shape.width, pixel / light.shape.width, value, *white,
-                            is_bright                           ? "state a larger white"
-                            : value < 0 && std::isfinite(value) ? "add as much to all of its light as the darkest lacks"
-                                                                : "it is no light"),
-                     is_bright ? std::vector{Setting::white_code} : std::vector<Setting>{});
+    const std::string where = format("{},{}", pixel % light.shape.width, pixel / light.shape.width);
+    throw LightOutside(format("{}: pixel {} has light {:.6g}, and a capture holds what lies between 0 and white, "
+                              "{:.6g}; {}",
+                              name, where, value, *white,
+                              is_bright ? "state a larger white"
+                              : value < 0 && std::isfinite(value)
+                                  ? "add as much to all of its light as the darkest lacks"
+                                  : "it is no light"),
+                       is_bright ? std::vector{Setting::white_code} : std::vector<Setting>{}, where, value);
   }
   return codes;
 }

@@ -12,6 +12,7 @@
 #include "exposure/mask_check.hpp"
 #include "mask/layers.hpp"
 #include "media/clip.hpp"
+#include "media/formats/extension.hpp"
 #include "media/formats/file_kinds.hpp"
 #include "media/formats/input_kinds.hpp"
 #include "media/formats/numbered_name.hpp"
@@ -63,7 +64,8 @@ ReadPicture read_still(const std::string& name, double white, std::string_view t
   Picture picture(kind.shape, code_type(kind), kind.white_code);
   if (!clip->read(picture.bytes)) throw InputError(format("{} has no picture", name));
   if (std::vector<std::byte> next(picture.bytes.size()); clip->read(next))
-    throw InputError(format("{} holds several pictures; {} is one", name, thing));
+    throw InputError(format("{} holds several pictures; {} is one{}", name, thing,
+                            extension_of(name) == ".npy" ? ", an array [height, width]" : ""));
   const auto says = [&](Setting setting) {
     return std::ranges::any_of(clip->info().facts, [&](const Fact& fact) {
       return fact.setting == setting && fact.origin == Origin::file;
@@ -78,56 +80,67 @@ ReadPicture read_still(const std::string& name, double white, std::string_view t
 // Values of a TIFF, or of floating point, as tags: whole numbers from 0 to 255.
 Picture read_tags(const std::string& name) {
   constexpr double kLast = 255;
-  auto [codes_read, holds_light, _] = read_still(name, kLast, "a mask");
-  const Picture read = grey_of(std::move(codes_read), name);
-  const std::uint32_t steps = holds_light ? 257 : 1;  // of 65535 codes, to the next tag
+  const auto refusal = [&](const std::string& pixel, const std::string& value) {
+    return InputError(format("{}: pixel {} has {}no value of a mask, a whole number from 0 to 255", name, pixel, value));
+  };
+  ReadPicture still;
+  try {
+    still = read_still(name, kLast, "a mask");
+  } catch (const LightOutside& error) {
+    throw refusal(error.pixel, format("the value {:.6g}, ", error.value));
+  }
+  const Picture read = grey_of(std::move(still.codes), name);
+  const std::uint32_t steps = still.holds_light ? 257 : 1;  // of 65535 codes, to the next tag
   if (read.type == ValueType::code8) return read;
   Picture tags(read.shape, ValueType::code8, 255);
   const auto codes = read.values<std::uint16_t>();
   for (std::size_t i = 0; i < codes.size(); ++i) {
     if (codes[i] % steps != 0 || codes[i] / steps > kLast) {
-      throw InputError(format("{}: pixel {},{} has {}no value of a mask, a whole number from 0 to 255", name,
-                              i % read.shape.width, i / read.shape.width,
-                              holds_light ? "" : format("the value {}, ", codes[i])));
+      throw refusal(format("{},{}", i % read.shape.width, i / read.shape.width),
+                    still.holds_light ? "" : format("the value {}, ", codes[i]));
     }
     tags.bytes[i] = static_cast<std::byte>(codes[i] / steps);
   }
   return tags;
 }
 
-// The size of a .tik's pictures, from its first bytes; none of a clip, a damaged file or standard input.
-std::optional<Shape> known_shape(const std::optional<std::string>& path) {
+// What a .tik's pictures are, from its first bytes; none of a clip, a damaged file or standard input.
+std::optional<CaptureFormat> known_format(const std::optional<std::string>& path) {
   if (!path || is_standard_input(*path) || !is_tik(*path)) return std::nullopt;
   try {
     const MappedFile file(*path);
-    return tik::parse_header(file.bytes(), *path).header.capture.shape;
+    return tik::parse_header(file.bytes(), *path).header.capture;
   } catch (const InputError&) {  // it is said when it is opened
     return std::nullopt;
   }
 }
-
-}  // namespace
-
-Mask read_mask_input(const std::string& name, const std::optional<std::string>& capture) {
-  const InputBytes input(name, kMaxPipedMask);
-  const auto shape = known_shape(capture);
-  const inputs::InputKind* const kind = is_standard_input(name) ? nullptr : still_kind(name);
-  if (kind != nullptr && kind->has_tags) return Mask::from_picture(read_tags(name));
-  return Mask::from_picture(
-      read_mask(input.bytes(), input_title(name), [&](std::uint32_t width, std::uint32_t height) {
-        const std::string mistake = shape ? size_mistake({width, height, {}}, *shape) : std::string();
-        if (!mistake.empty()) throw InputError(mistake);
-      }));
-}
-
-namespace {
 
 std::optional<NumberedName> layers_name(const std::filesystem::path& path) {
   if (!is_absent(path)) return std::nullopt;  // a file of that very name
   return NumberedName::parse(path.filename().string());
 }
 
+// Throws InputError, `title` first, where a mask of this size does not fit.
+void check_size(std::uint32_t width, std::uint32_t height, const std::optional<CaptureFormat>& capture,
+                const std::string& title) {
+  const std::string mistake = capture ? size_mistake({width, height, {}}, capture->shape) : std::string();
+  if (!mistake.empty()) throw InputError(title + mistake, size_advice(width, height, *capture));
+}
+
 }  // namespace
+
+Mask read_mask_input(const std::string& name, const std::optional<std::string>& capture) {
+  if (!is_standard_input(name) && layers_name(name))
+    throw InputError(format("{} stands for the layers of a soft mask, and a hard one is needed here: one file", name));
+  const InputBytes input(name, kMaxPipedMask);
+  const auto format_known = known_format(capture);
+  const inputs::InputKind* const kind = is_standard_input(name) ? nullptr : still_kind(name);
+  if (kind != nullptr && kind->has_tags) return Mask::from_picture(read_tags(name));
+  return Mask::from_picture(
+      read_mask(input.bytes(), input_title(name), [&](std::uint32_t width, std::uint32_t height) {
+        check_size(width, height, format_known, {});
+      }));
+}
 
 std::map<std::uint8_t, std::filesystem::path> layer_files(const std::string& name) {
   const std::filesystem::path path = name;
@@ -152,13 +165,12 @@ Mask read_layered_mask_input(const std::string& name, std::uint8_t rest,
                             (path.parent_path() / numbered.with(0)).string(),
                             (path.parent_path() / numbered.with(kMaskValues - 1)).string()));
   }
-  const auto shape = known_shape(capture);
+  const auto format_known = known_format(capture);
   std::vector<MaskLayer> layers;
   for (const auto& [tag, file] : files) {
     layers.push_back({tag, file.string(), read_picture(file.string()).codes});
     const Shape& found = layers.back().picture.shape;
-    const std::string mistake = shape ? size_mistake({found.width, found.height, {}}, *shape) : std::string();
-    if (!mistake.empty()) throw InputError(format("{}: {}", file.string(), mistake));
+    check_size(found.width, found.height, format_known, file.string() + ": ");
   }
   return mask_of_layers(layers, rest);
 }
