@@ -37,8 +37,9 @@ bool starts_within(const StatedTime& start, const Timeline& timeline) {
 bool ends_within(const ExposureRequest& request, const StatedTime& start, const Timeline& timeline) {
   if (!starts_within(start, timeline)) return false;
   const auto* plain = std::get_if<PlainInterval>(&request.gains);
+  // Functions end with the capture: their last step down may lie 1 ns behind it.
   if (plain == nullptr)
-    return moment_ns(start, timeline) + functions_end_ns(request) <= timeline.duration_ns();
+    return moment_ns(start, timeline) + functions_end_ns(request) <= timeline.duration_ns() + 1;
   if (!plain->length.counts_samples())
     return plain_interval(start, plain->length, timeline).end_ns <= timeline.duration_ns();
   // plain_interval() throws where pictures are counted that are not there.

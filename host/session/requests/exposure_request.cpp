@@ -70,9 +70,7 @@ std::int64_t functions_end_ns(const ExposureRequest& request) {
     const auto dark =
         std::find_if(points.rbegin(), points.rend(), is_live).base();  // behind the last live one
     if (dark == points.begin()) continue;
-    const std::int64_t live_ns = (dark - 1)->time_ns;
-    const bool steps_down = dark == points.end() || dark->time_ns == live_ns + 1;
-    end_ns = std::max(end_ns, steps_down ? live_ns : dark->time_ns);
+    end_ns = std::max(end_ns, dark == points.end() ? points.back().time_ns : dark->time_ns);
   }
   return end_ns;
 }

@@ -75,7 +75,7 @@ struct ExposureRequest {
 [[nodiscard]] FunctionSet functions_of(const ExposureRequest& request, const Exposure& interval,
                                        const Timeline& timeline);
 
-// The last time at which functions gather light, counted from their time 0, without the nanosecond of a step down.
+// The last time at which functions gather light, counted from their time 0.
 [[nodiscard]] std::int64_t functions_end_ns(const ExposureRequest& request);
 
 // The mask for a picture of this shape; without a stated one, tag 0 everywhere.
