@@ -47,7 +47,7 @@ TEST_F(Plates, AreTheSameOfAClipAPackedCaptureAndWithLittleMemory) {
                      {"background --memory 1kB clip.tik -o d.pfm", "uncertain places"}});
 }
 
-// Its written pictures hold light in other codes than a linear capture of 12 bits: masks by them are those by the plate.
+// Its written pictures hold light in other codes than a linear capture of 12 bits: masks by them are as by the plate.
 TEST_F(Plates, AreComparedWithTheCaptureInAnyWrittenCodes) {
   std::filesystem::create_directory(scratch_ / "deep");
   for (int k = 0; k < 12; ++k) {
@@ -79,8 +79,8 @@ TEST_F(Plates, AreComparedWithTheCaptureInAnyWrittenCodes) {
   make("-f 100 --white 4095 --primaries p3 deep p3.tik");
   make("background p3.tik p3.exr");
   expect_refused("mask --difference p3.exr 5f deep.tik c.pgm", 3,
-                 "p3.exr holds linear in p3, the capture linear in bt709, and nothing tells how the one was made of the "
-                 "other; write it in the capture's own codes: --out-transfer source");
+                 "p3.exr holds linear in p3, the capture linear in bt709, and nothing tells how the one was made of "
+                 "the other; write it in the capture's own codes: --out-transfer source");
 }
 
 TEST_F(Plates, SayWhatTheyCannotBeMadeOf) {

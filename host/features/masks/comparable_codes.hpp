@@ -1,7 +1,7 @@
 // Pictures from files beside those of a capture, in codes that can be compared.
 //
-//   in:      a picture of the capture, in its codes; one from a file, in codes of any transfer function, depth and white
-//            code, or light
+//   in:      a picture of the capture, in its codes; one from a file, in codes of any transfer function, depth and
+//            white code, or light
 //   out:     both in codes of the capture's transfer function, depth and white code, after the same losses: the
 //            capture's picture went through the codes of the file, made of light as the program makes them
 //   always:  codes of the capture's own kind stay as they are. Those of which their file says nothing are of its

@@ -25,7 +25,8 @@ inline constexpr const char* kProjectExtension = ".nutik";
 // Throws InputError where a file's name says that it is one.
 void refuse_project(const std::filesystem::path& file);
 
-// Throws InputError where a file is a project, or holds nothing but text, which some video readers would draw as a screen of letters.
+// Throws InputError where a file is a project, or holds nothing but text, which some video readers would draw as a
+// screen of letters.
 void refuse_text(const std::filesystem::path& file);
 
 // The kind of still that a file is: by its first bytes, else by its name. Null if neither tells one.

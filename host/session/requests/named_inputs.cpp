@@ -81,7 +81,8 @@ ReadPicture read_still(const std::string& name, double white, std::string_view t
 Picture read_tags(const std::string& name) {
   constexpr double kLast = 255;
   const auto refusal = [&](const std::string& pixel, const std::string& value) {
-    return InputError(format("{}: pixel {} has {}no value of a mask, a whole number from 0 to 255", name, pixel, value));
+    return InputError(
+        format("{}: pixel {} has {}no value of a mask, a whole number from 0 to 255", name, pixel, value));
   };
   ReadPicture still;
   try {
