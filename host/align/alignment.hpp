@@ -72,8 +72,8 @@ struct MovedCamera {
   [[nodiscard]] std::string text() const;
 };
 
-// Compares a few pictures with the first of them. Nothing where little of that has texture; untold where half of them or
-// more follow no motion of a camera.
+// Compares a few pictures with the first of them. Nothing where little of that has texture; untold where half of them
+// or more follow no motion of a camera.
 class CameraLooks {
  public:
   explicit CameraLooks(const CaptureFormat& format) : format_(format) {}
@@ -93,8 +93,8 @@ class CameraLooks {
 // What a look takes, beside blocks of the capture.
 [[nodiscard]] MemoryNeeds camera_check_needs(const CaptureFormat& capture);
 
-// CameraLooks of samples all along; nothing of a capture whose pictures were aligned. Throws InputError where the capture
-// is damaged.
+// CameraLooks of samples all along; nothing of a capture whose pictures were aligned. Throws InputError where the
+// capture is damaged.
 [[nodiscard]] std::optional<MovedCamera> moved_camera(tik::Reader& capture);
 
 }  // namespace nutik

@@ -148,7 +148,9 @@ TEST(MaskCheck, Sizes) {
 
 TEST(MaskCheck, TellsTheWayOutOfSizesThatTheProgramMakes) {
   CaptureFormat capture{{96, 64, 3}};
-  const auto advice = [&](std::uint32_t width, std::uint32_t height) { return size_advice(width, height, capture).text; };
+  const auto advice = [&](std::uint32_t width, std::uint32_t height) {
+    return size_advice(width, height, capture).text;
+  };
   EXPECT_EQ(advice(192, 128), "");
   EXPECT_EQ(advice(80, 100), "");
   expect_says(advice(90, 62), "`unseen hold`");
