@@ -275,7 +275,8 @@ def seconds_of(time: Time, what: str) -> Fraction:
         refuse(unit not in _UNITS_S, f"{what} {time!r} has no unit of a fixed length; say numpy.timedelta64(10, 'ms')")
         return int(time.astype(np.int64)) * count * _UNITS_S[unit]
     if isinstance(time, datetime.timedelta):
-        return Fraction(time // datetime.timedelta(microseconds=1), 10 ** 6)
+        finer = getattr(time, "nanoseconds", 0)  # which pandas' have, besides
+        return (time.days * 86_400 + time.seconds) + Fraction(time.microseconds * 1000 + finer, _SECOND_NS)
     if isinstance(time, str):
         return Fraction(_nutik.nanoseconds(time, what), _SECOND_NS)
     return exact(time, what)

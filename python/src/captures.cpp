@@ -381,6 +381,11 @@ std::optional<std::string> moved_camera_text(const OpenCapture& capture) {
 void bind_captures(py::module_& module) {
   using Held = std::shared_ptr<OpenCapture>;
   py::class_<OpenCapture, Held>(module, "Capture")
+      .def("__reduce__",
+           [](const OpenCapture& capture) -> py::object {
+             throw py::type_error(capture.name + ": a capture is an open file, which cannot be pickled; hand over its "
+                                  "path, and open it there with nutik.open()");
+           })
       .def_readonly("name", &OpenCapture::name)
       .def_property_readonly("shape", [](const OpenCapture& it) { return py::tuple(py::cast(axes_of(it.shape()))); })
       .def_property_readonly("code_bytes", [](const OpenCapture& held) { return held.session->format().code_bytes; })

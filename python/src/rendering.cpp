@@ -303,7 +303,11 @@ py::list devices() {
 
 void bind_rendering(py::module_& module) {
   py::class_<HeldPicture>(module, "Picture")
-      .def(py::pickle(&state_of, &unpickled))
+      .def(py::init(&unpickled))
+      .def("__reduce__",  // py::pickle() ends the process in protocols 0 and 1
+           [](const py::object& held) {
+             return py::make_tuple(py::type::of(held), py::make_tuple(state_of(held.cast<const HeldPicture&>())));
+           })
       .def("values", &values)
       .def("write", &write, "path"_a, "settings"_a)
       .def("for_eyes", &for_eyes)

@@ -428,12 +428,18 @@ class Times(support.TestCase):
         for start, wanted in ((0.1, 100_000_000), (0.1 + 0.2, 300_000_000), (1e-9, 1), (Fraction(1, 3), 333_333_333),
                               (np.float64(0.25), 250_000_000), (np.timedelta64(2, "ms"), 2_000_000),
                               (datetime.timedelta(microseconds=7), 7000), ("1/300s", 3_333_333),
-                              (Decimal("0.07"), 70_000_000)):
+                              (Decimal("0.07"), 70_000_000), (Finer(microseconds=2), 2999)):
             plan = capture.render(start=start, exposure="100ms").plan
             self.assertEqual(plan["functions"][0]["live_ns"][0], wanted, start)
         for wrong in (float("nan"), None, True, np.timedelta64("NaT"), np.timedelta64(1, "Y"), "soon", [1]):
             with self.assertRaises(nutik.UsageError, msg=repr(wrong)):
                 capture.render(start=0, exposure=wrong)
+
+
+class Finer(datetime.timedelta):
+    """As pandas' Timedelta, which has nanoseconds besides."""
+
+    nanoseconds = 999
 
 
 class Between(support.TestCase):

@@ -240,7 +240,8 @@ class Copies(support.TestCase):
                 capture.render(exposure="3f", codes=True), capture.render(exposure="3f", dtype=np.float64),
                 capture.background()]
         for given in made:
-            for copied in (pickle.loads(pickle.dumps(given)), copy.deepcopy(given), copy.copy(given)):
+            pickled = (pickle.loads(pickle.dumps(given, way)) for way in range(pickle.HIGHEST_PROTOCOL + 1))
+            for copied in (*pickled, copy.deepcopy(given), copy.copy(given)):
                 self.assertIs(type(copied), type(given))
                 if isinstance(given, nutik.Mask):
                     self.assert_same(copied.tags, given.tags)
@@ -252,6 +253,12 @@ class Copies(support.TestCase):
                                                                                          given.error_bound))
                 elif isinstance(given, nutik.Function):
                     self.assertEqual(copied, given)
+
+    def test_a_capture_is_opened_anew(self):
+        capture = nutik.encode(support.moving_box(), self.path("box.tik"), rate=960)
+        for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
+            with self.assertRaisesRegex(TypeError, "box.tik.*path.*nutik.open"):
+                pickle.dumps(capture, protocol)
 
     def test_a_copied_picture_writes_the_same_file(self):
         capture = nutik.encode(support.moving_box(dtype=np.uint16), rate=960, white=65535, primaries="bt2020")
