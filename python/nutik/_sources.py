@@ -84,9 +84,9 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
 
     Parameters:
     source : [samples, height, width] or [samples, height, width, 3] (red, green, blue) of uint8 or uint16 codes,
-        however it is strided, or of floats that are light; or an iterable of such pictures; or the path of a clip, or
-        one that is open for bytes (nutik.open() says more of these). Codes in the machine's order of bytes are read
-        where they lie. What has __dlpack__ is an array.
+        however it is strided, or of floats that are light; or an iterable of such pictures, which this thread asks; or
+        the path of a clip, or one that is open for bytes (nutik.open() says more of these). Codes in the machine's
+        order of bytes are read where they lie. What has __dlpack__ is an array.
     output : a .tik to write; a capture that is there is replaced. None: a temporary one, gone when it is closed.
     rate : pictures a second.
     times : or when each picture's exposure begins, in seconds; of dates what lies between them counts.

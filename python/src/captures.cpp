@@ -38,15 +38,15 @@ std::shared_ptr<Devices> devices_of(const Settings& computing) {
   return known.back();
 }
 
-// How a clip is read, and by what; `open` makes one that its owner has.
+// How a clip is read, and by what; `open` is of a clip that its owner makes, while the thread that asked waits.
 struct Opening {
   SourceRequest source;
   std::shared_ptr<Devices> devices;
-  OpenClip open;
+  std::function<OpenClip(const Stopping&)> open = [](const Stopping&) { return OpenClip(); };
 };
 
 Opening opening_of(const std::string& path, const Settings& settings, const Settings& computing) {
-  return {clip_request(stated_options(CommandId::encode, settings), path), devices_of(computing), {}};
+  return {clip_request(stated_options(CommandId::encode, settings), path), devices_of(computing)};
 }
 
 // A capture, what is doubtful about it, and what a person should know of the clip.
@@ -55,7 +55,7 @@ py::tuple opened(const Opening& terms, const py::object& progress) {
     Session::Terms how;
     how.progress = stopping.progress();
     how.stop = stopping.stop;
-    how.open_clip = terms.open;
+    how.open_clip = terms.open(stopping);
     auto session = std::make_unique<Session>(terms.source, terms.devices, how);
     return std::make_shared<OpenCapture>(OpenCapture{terms.source.path.string(), std::move(session)});
   }, progress);
@@ -77,7 +77,7 @@ py::tuple open(const std::string& path, const Settings& settings, const Settings
 
 // The capture that a file now holds.
 py::object opened_file(const std::string& path, std::shared_ptr<Devices> devices) {
-  Opening terms{{}, std::move(devices), {}};
+  Opening terms{{}, std::move(devices)};
   terms.source.path = path;
   return opened(terms, py::none())[0];
 }
@@ -92,7 +92,7 @@ py::tuple encoded(const Opening& terms, const std::optional<std::string>& output
   const EncodeRequest request{*output, packed};
   const EncodedCapture made = without_lock([&](const Stopping& stopping) {
     const MemoryBudget& memory = terms.devices->request().memory;
-    return encode(terms.source, request, memory, stopping.progress(), stopping.stop, terms.open);
+    return encode(terms.source, request, memory, stopping.progress(), stopping.stop, terms.open(stopping));
   }, progress);
   return py::make_tuple(opened_file(*output, terms.devices), made.warnings, note_texts(made.notes, Dialect::python));
 }
@@ -122,14 +122,17 @@ std::shared_ptr<Objects> held(Objects objects) {
 
 class PicturesClip final : public Clip {
  public:
-  PicturesClip(ClipInfo info, std::string name, py::object given, bool is_array)
-      : info_(std::move(info)), name_(std::move(name)), iterator_(held(std::move(given))), most_(is_array ? 64 : 1) {}
+  PicturesClip(ClipInfo info, std::string name, py::object given, bool is_array, Stopping work)
+      : info_(std::move(info)), name_(std::move(name)), iterator_(held(std::move(given))), is_array_(is_array),
+        work_(std::move(work)) {}
 
   [[nodiscard]] const ClipInfo& info() const override { return info_; }
 
   bool read(std::span<std::byte> raster) override {
     if (!arrays_ || next_ == arrays_->size()) take();
     if (arrays_->empty()) return false;
+    if (info_.sample_count != 0 && taken_ == info_.sample_count)
+      throw InputError(format("{} has more pictures, but only {} times; give one of each", name_, taken_));
     std::memcpy(raster.data(), (*arrays_)[next_++].data(), raster.size());
     const std::uint32_t white = info_.format.white_code, last = info_.format.code_bytes == 1 ? 255 : 65'535;
     if (white != last || (last != 255 && largest_ <= kLeast))
@@ -139,6 +142,11 @@ class PicturesClip final : public Clip {
                        {Setting::white_code});
     ++taken_;
     return true;
+  }
+
+  [[nodiscard]] std::optional<std::string> ended_early() const override {
+    if (taken_ >= info_.sample_count) return std::nullopt;
+    return format("{} has {} pictures and {} times; those left over are of none", name_, taken_, info_.sample_count);
   }
 
   [[nodiscard]] std::vector<std::string> remarks() const override {
@@ -152,12 +160,18 @@ class PicturesClip final : public Clip {
  private:
   static constexpr std::uint32_t kLeast = 32'767;  // largest code that leaves no bit unused
 
-  // The next arrays without gaps, which are copies only where they have some: none at the end; one, or several views of
-  // a whole array, for Python's other threads may keep its lock for 5 ms each time.
+  // One, or several views of a whole array, for Python's other threads may keep its lock for 5 ms each time.
   void take() {
+    constexpr std::size_t kViews = 64;
+    if (!is_array_) return work_.calls->make([&] { ask(1); }, work_.stop);
     const py::gil_scoped_acquire locked;
+    ask(kViews);
+  }
+
+  // The next arrays without gaps, which are copies only where they have some: none at the end.
+  void ask(std::size_t most) {
     arrays_ = held(std::vector<py::array>());
-    for (next_ = 0; arrays_->size() < most_;) {
+    for (next_ = 0; arrays_->size() < most;) {
       const auto given = py::reinterpret_steal<py::object>(PyIter_Next(iterator_->ptr()));
       if (!given && PyErr_Occurred() != nullptr) throw py::error_already_set();
       if (!given) return;
@@ -171,21 +185,23 @@ class PicturesClip final : public Clip {
   std::string name_;
   std::shared_ptr<py::object> iterator_;
   std::shared_ptr<std::vector<py::array>> arrays_;
-  std::size_t most_, next_ = 0;
+  bool is_array_;
+  Stopping work_;
+  std::size_t next_ = 0;
   std::uint64_t taken_ = 0;
   std::uint32_t largest_ = 0;  // code so far, where it matters
 };
 
-// Pictures of uint8 or uint16, all of one shape: arrays that are read where they lie, of an iterable that is asked with
-// Python's lock held, on the thread that reads; what it raises comes back to the caller. An iterator is opened once.
-OpenClip open_pictures(const py::object& pictures, ClipInfo info, std::string name) {
+// Pictures of uint8 or uint16, all of one shape: arrays that are read where they lie, of an iterable that the caller's
+// thread asks. An iterator is opened once.
+OpenClip open_pictures(const py::object& pictures, ClipInfo info, std::string name, const Stopping& work) {
   return [pictures = held(pictures), was_open = std::make_shared<std::atomic_flag>(), info = std::move(info),
-          name = std::move(name)] {
+          name = std::move(name), work] {
     const py::gil_scoped_acquire locked;
     py::object iterator = py::iter(*pictures);
     if (was_open->test_and_set() && iterator.is(*pictures))
       throw UsageError(format("{} can be read once, and what is asked for reads it twice; pass an array", name));
-    return std::make_unique<PicturesClip>(info, name, std::move(iterator), py::isinstance<py::array>(*pictures));
+    return std::make_unique<PicturesClip>(info, name, std::move(iterator), py::isinstance<py::array>(*pictures), work);
   };
 }
 
@@ -212,7 +228,7 @@ py::tuple encode_pictures(const py::object& pictures, const py::array& first, st
   if (white_light) describe_light(info, *white_light);
   describe_stored_codes(info, terms.source.clip, {is_short ? Transfer::srgb() : Transfer::linear()});
   if (!is_short && !white_light) info.format.white_code = settle_white(info, white, {}, false);
-  terms.open = open_pictures(pictures, std::move(info), name);
+  terms.open = [&](const Stopping& work) { return open_pictures(pictures, info, name, work); };
   return encoded(terms, output, codec, progress);
 }
 

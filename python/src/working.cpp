@@ -2,8 +2,7 @@
 
 #include <unistd.h>
 
-#include <condition_variable>
-#include <mutex>
+#include <exception>
 #include <thread>
 
 namespace nutik::python {
@@ -68,42 +67,76 @@ ReportedProgress Stopping::progress() const {
   };
 }
 
-void wait_for(const std::function<bool()>& is_done, std::stop_source& stopping, const Steps& steps,
-              const py::object& told) {
-  std::optional<py::error_already_set> raised;
-  std::uint64_t last = 0;
-  const auto tell = [&] {
-    const std::uint64_t done = steps.done;
-    if (raised || told.is_none() || done == last) return;
-    last = done;
+void Calls::make(const std::function<void()>& call, const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, stop, [&] { return wanted_ == nullptr; });
+  if (stop.stop_requested()) throw Cancelled();
+  wanted_ = &call;
+  changed_.notify_all();
+  changed_.wait(lock, stop, [&] { return wanted_ != &call; });
+  if (stop.stop_requested()) throw Cancelled();
+}
+
+bool Calls::serve(std::stop_source& stopping) {
+  constexpr std::chrono::milliseconds kAtOnce(50);
+  const auto until = std::chrono::steady_clock::now() + kAtOnce;
+  const auto is_wanted = [&] { return wanted_ != nullptr && !stopping.stop_requested(); };
+  std::unique_lock lock(mutex_);
+  while (std::chrono::steady_clock::now() < until && !is_over() &&
+         changed_.wait_until(lock, until, [&] { return is_closed_ || is_wanted(); }) && !is_closed_) {
+    lock.unlock();
     try {
-      told(done, steps.total.load());
-    } catch (py::error_already_set& error) {
-      raised.emplace(std::move(error));
+      const py::gil_scoped_acquire locked;
+      (*wanted_)();
+    } catch (...) {
+      stopping.request_stop();
+      throw;
+    }
+    lock.lock();
+    wanted_ = nullptr;
+    changed_.notify_all();
+  }
+  return is_closed_;
+}
+
+void Calls::close() {
+  const std::scoped_lock lock(mutex_);
+  is_closed_ = true;
+  changed_.notify_all();
+}
+
+void wait_for(const Stopping& work, std::stop_source& stopping, const py::object& told) {
+  std::exception_ptr raised;
+  const auto guarded = [&](const auto& call) {
+    try {
+      call();
+    } catch (...) {
+      raised = std::current_exception();
       stopping.request_stop();
     }
   };
+  std::uint64_t last = 0;
+  const auto tell = [&] {
+    const std::uint64_t done = work.steps->done;
+    if (raised || told.is_none() || done == last) return;
+    last = done;
+    guarded([&] { told(done, work.steps->total.load()); });
+  };
   {
     const Unlocked released;
-    while (!is_done()) {
+    for (bool has_ended = false; !has_ended;) {
+      guarded([&] { has_ended = work.calls->serve(stopping); });
+      // While the end waits for this thread: Python would end it within what it calls, and our frames with it.
       if (is_over()) {
         stopping.request_stop();
         continue;
       }
       const py::gil_scoped_acquire locked;
-      if (!raised && PyErr_CheckSignals() != 0) {
-        raised.emplace();
-        stopping.request_stop();
-      }
-      tell();
-    }
-    // While the end waits for this thread: Python would end it within what it calls, and our frames with it.
-    if (!is_over()) {
-      const py::gil_scoped_acquire locked;
+      if (!raised && !has_ended) guarded([] { if (PyErr_CheckSignals() != 0) throw py::error_already_set(); });
       tell();
     }
   }
-  if (raised) throw *raised;
+  if (raised) std::rethrow_exception(raised);
 }
 
 }  // namespace nutik::python

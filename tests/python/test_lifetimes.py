@@ -1,5 +1,6 @@
 """What lives how long: views of pictures, arrays that are read, work that Ctrl-C ends, Python's lock, memory."""
 
+import contextvars
 import gc
 import itertools
 import os
@@ -96,6 +97,20 @@ class Interruptions(support.TestCase):
                 nutik.encode(endless(), output, rate=1e5)
         self.assertEqual(list(self.folder.iterdir()), [], "it left a file behind")
         nutik.encode(support.moving_box(), rate=1).render(exposure="1f")  # and all works on
+
+    def test_an_iterable_that_waits_is_left(self):
+        def waiting():
+            yield np.zeros((8, 8), np.uint8)
+            signal.setitimer(signal.ITIMER_REAL, 0.2)
+            threading.Event().wait(30)
+            yield np.zeros((8, 8), np.uint8)
+
+        before = signal.signal(signal.SIGALRM, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGALRM, before)
+        begin = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            nutik.encode(waiting(), rate=1)
+        self.assertLess(time.monotonic() - begin, 10)
 
     def test_a_rendering_ends_while_other_threads_go_on(self):
         """The scalar reference would take minutes for this. Another thread ends it, which waits for Python's lock;
@@ -228,6 +243,18 @@ class Progress(support.TestCase):
 
 
 class Threads(support.TestCase):
+    def test_an_iterable_is_asked_by_the_caller(self):
+        place, seen = contextvars.ContextVar("place"), []
+
+        def pictures():
+            for k in range(5):
+                seen.append((threading.get_ident(), place.get("lost")))
+                yield np.full((8, 8), k, np.uint8)
+
+        place.set("here")
+        nutik.encode(pictures(), rate=1)
+        self.assertEqual(seen, [(threading.get_ident(), "here")] * 5)
+
     def test_an_iterable_may_wait_for_another_thread(self):
         first, second = threading.Event(), threading.Event()
 
