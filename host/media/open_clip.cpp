@@ -118,7 +118,7 @@ void describe_stills(ClipInfo& info, const std::filesystem::path& path, const Fi
 }
 
 void refuse_absent(const std::filesystem::path& path) {
-  if (is_absent(path)) throw InputError(format("{} cannot be read: no such file", input_title(path.string())));
+  if (is_absent(path)) throw FileMissing(path, format("{} cannot be read: no such file", path.string()));
   std::error_code error;
   if (std::filesystem::is_regular_file(path, error) && std::filesystem::is_empty(path, error))
     throw InputError(format("{} is empty; was it copied, or recorded, to its end?", input_title(path.string())));

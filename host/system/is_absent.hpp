@@ -1,8 +1,11 @@
-// Whether nothing stands under a name.
+// Whether nothing stands under a name, and what is thrown where a file was to be read there.
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <system_error>
+
+#include "capture/error.hpp"
 
 namespace nutik {
 
@@ -12,5 +15,12 @@ namespace nutik {
   std::error_code reason;
   return std::filesystem::status(path, reason).type() == std::filesystem::file_type::not_found;
 }
+
+struct FileMissing : InputError {
+  FileMissing(const std::filesystem::path& name, const std::string& message)
+      : InputError(message), file(name.string()) {}
+
+  std::string file;
+};
 
 }  // namespace nutik

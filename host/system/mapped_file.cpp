@@ -19,6 +19,7 @@
 #include "capture/error.hpp"
 #include "capture/format.hpp"
 #include "system/interruption.hpp"
+#include "system/is_absent.hpp"
 #include "system/reused_entries.hpp"
 #include "system/shared_state.hpp"
 
@@ -141,6 +142,8 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
     throw InputError(format("{} cannot be read: {}", path.string(), reason));
   };
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0 && (errno == ENOENT || errno == ENOTDIR))
+    throw FileMissing(path, format("{} cannot be read: {}", path.string(), std::strerror(errno)));
   if (descriptor < 0) fail(std::strerror(errno));
   struct stat status {};
   const bool known = fstat(descriptor, &status) == 0;

@@ -10,11 +10,12 @@ import signal
 import subprocess
 import sys
 from collections.abc import Mapping, Sequence
+from errno import ENOENT
 from fractions import Fraction
 from functools import cache
 from keyword import iskeyword
 from os import PathLike
-from os.path import dirname
+from os.path import dirname, exists
 from threading import Event, current_thread, main_thread
 from time import sleep
 from typing import Any, Protocol, Union
@@ -23,7 +24,8 @@ from . import _nutik
 from ._docs import joined
 from ._nutik import DeviceError, Error, ImpreciseError, InputError, MemoryTooLittle, OutputError, UsageError
 from ._told import Json
-from ._words import NutikNote, Path, Progress, check_progress, in_python, is_list, is_stated, path_of, warn, word_of
+from ._words import (FileMissing, NutikNote, Path, Progress, WrongType, check_progress, in_python, is_list, is_stated,
+                     path_of, refuse, shortened, warn, word_of)
 
 # A value, several, or of a command's option that takes two words a list of pairs.
 Value = Union[str, int, float, Fraction, "PathLike[str]"]
@@ -81,6 +83,8 @@ def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Map
     if progress is not None and "progress" in arguments:
         said["progress"] = [[]]
     for argument, value in stated.items():
+        refuse(isinstance(value, Mapping), f"{argument}= is {shortened(value)}; of a command it is a word, or names a "
+               "file", WrongType)
         name = _nutik.argument_now(argument[:-1] if iskeyword(argument[:-1]) else argument)
         kind, _, is_repeated, _ = arguments.get(name, ("", "", False, False))
         if not is_stated(name, kind if name in arguments else None, value):
@@ -90,7 +94,8 @@ def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Map
     words = _nutik.command_words(command, said)
     _sleep_at_the_end()
     _end_at_exit()
-    process = subprocess.Popen([sys.executable, "-c", _MAIN, dirname(__file__), *words, "--", *map(path_of, operands)],
+    words += ["--", *map(path_of, operands)]
+    process = subprocess.Popen([sys.executable, "-c", _MAIN, dirname(__file__), *words],
                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     _running.add(process)
     seen = 0
@@ -118,18 +123,23 @@ def _run(command: str, operands: Sequence[Path], progress: Progress, stated: Map
     finally:
         _running.discard(process)
     _sleep_at_the_end()
-    return _answer(command, process.returncode, answer, [line for line in told.splitlines()
-                                                         if not line.startswith("Progress:")])
+    return _answer(words, process.returncode, answer, [line for line in told.splitlines()
+                                                       if not line.startswith("Progress:")])
 
 
-def _answer(command: str, status: int, text: str, told: Sequence[str]) -> dict[str, Json]:
+def _answer(words: Sequence[str], status: int, text: str, told: Sequence[str]) -> dict[str, Json]:
     if status and not (text and status in _ANSWERED):
         message = in_python("\n".join(told).strip()).removeprefix("nutik-cl: ")
-        raise _ERRORS.get(status, Error)(message or f"{command} ended with status {status}")
+        missing = [word for word in words if message.startswith(f"{word} cannot be ") and not exists(word)]
+        if status == 3 and missing:
+            absent = FileMissing(message)
+            absent.errno, absent.filename = ENOENT, missing[0]
+            raise absent
+        raise _ERRORS.get(status, Error)(message or f"{words[0]} ended with status {status}")
     found: dict[str, Any] = json.loads(text)
     warn(in_python(line.strip()) for line in told if status)  # what was wrong with a line of a list
-    warn(found.get("warnings", []))
-    warn(found.get("notes", []), NutikNote)
+    warn(map(in_python, found.get("warnings", [])))
+    warn(map(in_python, found.get("notes", [])), NutikNote)
     return found
 
 

@@ -9,8 +9,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import (LARGEST_NS, Axes, HasArray, Path, Time, array_ns, axes_of, listed, nanoseconds_of, path_of,
-                     reading, real, refuse, shortened, tag_of, text_of, time_ns, time_word, times_ns, warn, whole)
+from ._words import (LARGEST_NS, Axes, HasArray, Path, Time, WrongType, array_ns, axes_of, listed, nanoseconds_of,
+                     path_of, real, refuse, scalar, shortened, tag_of, text_of, time_ns, time_word, times_ns, warn,
+                     whole)
 
 _MIN_SAMPLES = 1024  # of a callable, evenly, before it is looked at more closely where it bends
 _PROBES = 64         # in each stretch of these, unevenly: what repeats evenly may hide from even samples
@@ -322,8 +323,7 @@ def read_functions(path: Path) -> dict[int, Function]:
     >>> nutik.read_functions("ramp.fn")
     {0: <nutik.Function [0:0], [100000000:1]>}
     """
-    with reading(path_of(path)):
-        return _told(_nutik.read_functions(path_of(path)))
+    return _told(_nutik.read_functions(path_of(path)))
 
 
 def _told(read: tuple[dict[int, _nutik.Function], str]) -> dict[int, Function]:

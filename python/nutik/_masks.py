@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _nutik
 from ._nutik import UsageError
-from ._words import Array, Path, Progress, feather_word, path_of, reading, tag_of, whole
+from ._words import Array, Path, Progress, feather_word, path_of, tag_of, whole
 
 
 class Mask:
@@ -119,8 +119,7 @@ def read_mask(path: Path, *, rest: int = 0) -> Mask:
     >>> nutik.read_mask("tags.png").tags.shape
     (24, 32)
     """
-    with reading(path_of(path)):
-        return Mask._of(_nutik.Mask.read(path_of(path), tag_of(rest)))
+    return Mask._of(_nutik.Mask.read(path_of(path), tag_of(rest)))
 
 
 def mask_of(given: Optional[MaskLike], rest: int = 0) -> Optional[Mask]:

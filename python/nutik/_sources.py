@@ -17,7 +17,7 @@ from . import _nutik
 from ._captures import Capture
 from ._nutik import InputError, UsageError
 from ._words import (Array, HasArray, NutikNote, Number, Path, Progress, Time, WrongType, as_file, half_up, is_list,
-                     listed, path_of, reading, refuse, scalar, seconds_of, settings_of, text_of, time_ns, times_ns,
+                     listed, path_of, refuse, scalar, seconds_of, settings_of, shortened, text_of, time_ns, times_ns,
                      warn, whole)
 
 
@@ -65,7 +65,7 @@ def open(path: Union[Path, BinaryIO], *, rate: Optional[Number] = None, shutter_
     """
     stated = {name: value for name, value in locals().items() if name not in (*_COMPUTING, "path", "progress")}
     computing = _computing(device, memory, renderer)
-    with as_file(path, "clip") as name, reading(name):
+    with as_file(path, "clip") as name:
         return _told(_nutik.open(name, settings_of(stated), computing, progress))
 
 
@@ -124,7 +124,7 @@ def encode(source: Source, output: Optional[Path] = None, *, rate: Optional[Numb
         if times is not None or exposures is not None:
             raise UsageError("times= and exposures= are those of arrays; a table of stills lists those of files")
         refuse(name is not None, "name= is what pictures in memory are called; a clip has its own")
-        with as_file(source, "clip") as clip_name, reading(clip_name):
+        with as_file(source, "clip") as clip_name:
             return _told(_nutik.encode_clip(clip_name, path, codec, settings_of(stated), computing, progress))
     name, white = text_of(name or "array", "name"), scalar(white)
     pictures, first, length, is_light = _pictures_of(source, white, transfer, name)
@@ -156,8 +156,7 @@ def join(captures: Iterable[Path], output: Path, *, device: Optional[str] = None
     """
     refuse(isinstance(captures, (str, PathLike)), f"captures= is {captures!r}: give a list of two captures or more")
     paths = [path_of(each) for each in captures]
-    with reading(*paths):
-        return _told(_nutik.join(paths, path_of(output), _computing(device, memory, renderer), progress))
+    return _told(_nutik.join(paths, path_of(output), _computing(device, memory, renderer), progress))
 
 
 @dataclass(frozen=True)

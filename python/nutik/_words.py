@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import datetime
-import errno
 import re
 import shutil
 import sys
@@ -14,7 +13,7 @@ from decimal import Decimal
 from fractions import Fraction
 from functools import cache
 from os import PathLike, fsdecode
-from os.path import dirname, exists, join
+from os.path import dirname, join
 from importlib import import_module
 from inspect import signature
 from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, Optional, Protocol, Union, cast
@@ -84,20 +83,6 @@ def check_progress(progress: Any) -> None:
         raise WrongType(f"progress= is {shortened(progress)}, which does not take (done, total)") from None
     except ValueError:
         pass  # some of C's functions do not tell what they take
-
-
-@contextmanager
-def reading(*paths: str) -> Iterator[None]:
-    """What is wrong with files that are not there is that."""
-    try:
-        yield
-    except InputError as error:
-        missing = [path for path in paths if not exists(path) and not any(sign in path for sign in "%*?")]
-        if type(error) is not InputError or not missing:
-            raise
-        raised = FileMissing(str(error))
-        raised.settings, raised.errno, raised.filename = error.settings, errno.ENOENT, missing[0]
-        raise raised from None
 
 
 def labelled(values: NDArray[np.generic], first: Mapping[str, Any], attributes: Mapping[str, object],

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <exception>
 #include <ranges>
@@ -14,6 +15,7 @@
 #include "capture/memory_needs.hpp"
 #include "features/schema/option.hpp"
 #include "parts.hpp"
+#include "system/is_absent.hpp"
 #include "system/mapped_file.hpp"
 
 namespace nutik::python {
@@ -73,9 +75,15 @@ void translate(std::exception_ptr thrown) {
     for (const Setting setting : error.settings()) settings.append(written(setting, Dialect::python));
     const auto kinds = types() | std::views::reverse;
     const auto is_of = [&](const ErrorType& kind) { return kind.is_of(error); };
-    const py::handle type = std::ranges::find_if(kinds, is_of)->type;
+    const auto* const missing = dynamic_cast<const FileMissing*>(&error);
+    auto type = py::reinterpret_borrow<py::object>(std::ranges::find_if(kinds, is_of)->type);
+    if (missing != nullptr) type = py::module_::import("nutik._words").attr("FileMissing");
     const py::object raised = type(text_of(message_text(error, Dialect::python)));
     raised.attr("settings") = py::tuple(settings);
+    if (missing != nullptr) {
+      raised.attr("errno") = ENOENT;
+      raised.attr("filename") = text_of(missing->file);
+    }
     PyErr_SetObject(type.ptr(), raised.ptr());
   }
 }

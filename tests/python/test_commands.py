@@ -116,7 +116,7 @@ class Commands(support.TestCase):
         self.assert_raises(nutik.UsageError, "columns 'many'", nutik.contact, self.clip, self.path("x.png"),
                            columns="many")
         self.assert_raises(nutik.UsageError, "in_place=", nutik.retime, self.clip)
-        self.assert_raises(nutik.InputError, "absent.tik", nutik.contact, self.path("absent.tik"), self.path("x.png"))
+        self.assert_raises(nutik.FileMissing, "absent.tik", nutik.contact, self.path("absent.tik"), self.path("x.png"))
         self.assert_raises(nutik.OutputError, "absent", nutik.contact, self.clip, self.path("absent/x.png"),
                            exposure=0.01)
 
@@ -151,6 +151,9 @@ class Commands(support.TestCase):
         self.assertEqual(said("--polygon needs --tag. 3 or --ev"), "polygon= needs tag=. 3 or ev=")
         told = self.assert_raises(nutik.UsageError, "start='0.4s', exposure='10ms'", nutik.validate, self.clip)
         self.assertNotIn("= 0", str(told))
+        nutik.encode(np.zeros((3, 8, 8), np.uint8), self.path("wide.tik"), rate=3, pixel_aspect=2)
+        with self.assertWarnsRegex(nutik.NutikNote, "made square.*[(]keep_pixels="):
+            nutik.video(self.path("wide.tik"), self.path("wide.mp4"), out_fps=3)
 
     def test_ctrl_c_ends_it(self):
         """Noise that is made a long film of: tens of seconds."""

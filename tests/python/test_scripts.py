@@ -301,13 +301,21 @@ class Labelled:
 
 class Errors(support.TestCase):
     def test_a_missing_file_is_an_oserror_too(self):
+        black = np.zeros((2, 8, 8), np.uint8)
         for call in (lambda: nutik.open(self.path("none.tik")), lambda: nutik.encode(Path(self.path("none.mp4"))),
                      lambda: nutik.read_functions(self.path("none.fn")), lambda: nutik.read_mask(self.path("none.pgm")),
-                     lambda: nutik.join([self.path("a.tik"), self.path("b.tik")], self.path("c.tik"))):
+                     lambda: nutik.join([self.path("a.tik"), self.path("b.tik")], self.path("c.tik")),
+                     lambda: nutik.encode(black, rate=1, noise=self.path("none.noise")),
+                     lambda: nutik.encode(black, rate=1, align_along=self.path("none.csv")),
+                     lambda: nutik.encode(black, rate=1).render(exposure=1, delay=self.path("none.tif") + ":0s..1s"),
+                     lambda: nutik.open(self.path("*.png"), rate=1), lambda: nutik.open(self.path("%d.png"), rate=1),
+                     lambda: nutik.retime(self.path("none.tik"), rate=1, in_place=True),
+                     lambda: nutik.batch(self.path("none.txt"), self.path("a.tik"))):
             with self.assertRaises(FileNotFoundError) as raised:
                 call()
             self.assertIsInstance(raised.exception, nutik.InputError)
-            self.assertIn(self.path(""), str(raised.exception))
+            self.assertIn(raised.exception.filename, str(raised.exception))
+            self.assertEqual(os.path.dirname(raised.exception.filename), str(self.folder))
         Path(self.path("broken.tik")).write_bytes(b"nothing")
         self.assert_raises(nutik.InputError, "broken.tik", nutik.open, self.path("broken.tik"))
 

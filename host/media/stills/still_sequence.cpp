@@ -167,7 +167,7 @@ std::vector<fs::path> matching_files(const fs::path& pattern) {
     if (fs::is_regular_file(found.gl_pathv[i], error)) files.emplace_back(found.gl_pathv[i]);
   }
   globfree(&found);
-  if (files.empty()) throw InputError(format("{}: no file matches", pattern.string()));
+  if (files.empty()) throw FileMissing(pattern, format("{}: no file matches", pattern.string()));
   sort_by_count(files);
   return files;
 }
@@ -201,10 +201,10 @@ std::vector<fs::path> numbered_files(const fs::path& path, const NumberedName& n
     }
   }
   if (by_number.empty()) {
-    throw InputError(format("{}: no file has such a name, {} for one{}", path.string(), name.with("1"),
-                            other.empty() ? ""
-                                          : format("; {} is there: its zeros are written %0{}d", other,
-                                                   other.size() - name.before.size() - name.after.size())));
+    throw FileMissing(
+        path, format("{}: no file has such a name, {} for one{}", path.string(), name.with("1"),
+                     other.empty() ? "" : format("; {} is there: its zeros are written %0{}d", other,
+                                                 other.size() - name.before.size() - name.after.size())));
   }
   std::vector<fs::path> files;
   for (const auto& [number, file] : by_number) {

@@ -184,9 +184,7 @@ std::string mask_checksum(const std::string& name) {
 }
 
 ReadPicture read_picture(const std::string& name) {
-  if (is_absent(name)) {
-    throw InputError(format("{} cannot be read: no such file", name));
-  }
+  if (is_absent(name)) throw FileMissing(name, format("{} cannot be read: no such file", name));
   const auto stills = list_stills(name);
   if (!stills || stills->size() != 1) {
     throw UsageError(format("{} is {}; a picture is needed ({})", name,
