@@ -473,9 +473,11 @@ class Capture:
         (True, True)
         """
         asked = self._asked(None, locals())
+        functions = text_of(functions, "functions")
+        refuse(not isinstance(free, Mapping), f"free= is {shortened(free)}; give a dict of names", WrongType)
         words = [freedom_word(name, each, functions) for name, each in free.items()]
         region_mask = mask_of(regions)
-        told: dict[str, Any] = _nutik.solve(self._held, text_of(functions, "functions"),
+        told: dict[str, Any] = _nutik.solve(self._held, functions,
                                             [text_of(wish, "a wish") for wish in listed(wishes, "wishes")], words,
                                             asked, None if region_mask is None else region_mask._held, progress)
         told["wishes"] = [SolvedWish(**wish) for wish in told["wishes"]]
@@ -553,6 +555,7 @@ class Capture:
 
     def _output(self, codes: bool, dtype: DTypeLike, transfer: Optional[str], negative: Optional[str] = None, *,
                 is_plate: bool = False) -> dict[str, str]:
+        codes = flag_of(codes, "codes=")
         kinds = {"uint8": "8", "uint16": "16"} if codes else {"float32": "float", "float64": "double"}
         try:
             kind = np.dtype(dtype).name if dtype is not None else self.dtype.name if codes else "float32"

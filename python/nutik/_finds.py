@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ._functions import Function
 from ._masks import Mask
 from ._pictures import Picture
-from ._words import Axes, axes_of, refuse, time_word
+from ._words import Axes, axes_of, exact, is_list, refuse, time_word
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,11 +92,12 @@ def freedom_word(name: str, free: Any, functions: str) -> str:
     """`rest=-100..0`, `when=0.6s..0.8s/1f`."""
     if isinstance(free, str):
         return f"{name}={free}"
-    refuse(len(free) not in (2, 3), f"free[{name!r}] is {free!r}; give (least, most) of a gain, (from, to) or (from, "
-           "to, step) of a time")
+    is_range = is_list(free) and len(free) in (2, 3) and all(each is not None for each in free)
+    refuse(not is_range, f"free[{name!r}] is {free!r}; give (least, most) of a gain, (from, to) or (from, to, step) of "
+           "a time")
     refuse(type(free[0]) is type(free[1]) and not isinstance(free[0], str) and free[0] > free[1],
            f"free[{name!r}] is {free!r}: the first is above the second")
     if re.search(rf"\[\s*{re.escape(name)}\b", functions):  # in the place of a time
         words = [time_word(each, f"free[{name!r}]") for each in free]
         return f"{name}={words[0]}..{words[1]}" + (f"/{words[2]}" if len(words) == 3 else "")
-    return f"{name}={float(free[0])!r}..{float(free[1])!r}"
+    return f"{name}=" + "..".join(repr(float(exact(each, f"free[{name!r}]"))) for each in free[:2])

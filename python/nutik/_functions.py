@@ -131,6 +131,7 @@ class Function:
         return self + other * -1 if isinstance(other, Function) else NotImplemented
 
     def __mul__(self, factor: float) -> Function:
+        factor = scalar(factor)
         return self.scaled(factor) if isinstance(factor, (int, float, np.number)) else NotImplemented
 
     __rmul__ = __mul__
@@ -235,6 +236,7 @@ def fit(gain: Gain, start: Time, end: Time, *, error: float = 1e-3) -> Function:
     >>> bool(abs(wave(0.1) - np.sin(4.0) ** 2) <= 1e-3)
     True
     """
+    refuse(not callable(gain), f"the function is {shortened(gain)}, which takes no times", WrongType)
     begin_ns, end_ns = time_ns(start, "start"), time_ns(end, "end")
     refuse(end_ns - begin_ns < 1, f"the function ends at {end!r}, which is not after its start at {start!r}")
     refuse(not 0 < error < 1, f"error={error} is no share between 0 and 1")

@@ -151,8 +151,8 @@ class Picture(_HasArray):
 
     @property
     def error_bound_in_codes(self) -> Optional[float]:
-        """How far they may lie from it on the scale of the picture's codes, before they are rounded; of light in steps
-        of its floating point."""
+        """How far they may lie from it on the scale of the picture's codes, before they are rounded; of light in the
+        steps that docs/explanation/uncertainty.md has."""
         bound = self._held.figures.get("error_bound")
         return None if bound is None else bound["steps"]
 

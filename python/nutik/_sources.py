@@ -261,6 +261,8 @@ def _pictures_of(source: Any, white: Optional[float], transfer: Optional[str],
         given = next(iterator)
     except StopIteration:
         raise InputError("the iterable holds no picture") from None
+    refuse(isinstance(given, (str, bytes, PathLike)), f"{shortened(given)} is a file's name: encode() takes one path, "
+           "of a folder, 'frames/*.png', or a table of stills (.csv) that lists files", WrongType)
     first = codes_of(given, "the first picture")
 
     def alike(number: int, picture: Array) -> Array:

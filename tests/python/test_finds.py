@@ -139,6 +139,9 @@ class Finds(support.TestCase):
         self.assertGreater(solution.wishes[0].reached[0], 0.4)
         self.assert_raises(nutik.UsageError, "free['when'] is (0.2, 0.1)", self.capture.solve, timed, ["all = 1"],
                            free={"when": (0.2, 0.1)})
+        for ends in (5, (0, None), (None, None)):
+            self.assert_raises(nutik.UsageError, f"free['rest'] is {ends!r}", self.capture.solve, text, ["all = 1"],
+                               free={"rest": ends})
         self.assert_raises(nutik.UsageError, "free={'when': (0.6, 0.8)}", self.capture.solve, timed, ["all = 1"])
         self.assert_raises(nutik.InputError, "the functions:1", self.capture.solve, "M0 [x", ["all = 1"])
         self.assert_raises(nutik.UsageError, "nothing is wished", self.capture.solve, text, [])

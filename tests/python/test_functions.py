@@ -22,7 +22,8 @@ class Functions(support.TestCase):
         self.assertEqual((nutik.Function([0, 1], [0, 49]) / 49).gains[1], 1)
         self.assertLess(abs(nutik.Function([0, 1], [-1.7e308, 1.7e308])(0.5)), 1e294)
         self.assertRaises(ZeroDivisionError, lambda: function / 0)
-        self.assertEqual(function.scaled(2).gains.tolist(), [0, 2, -5, 0])
+        for double in (function.scaled(2), function * np.array(2.0), np.array(2) * function):
+            self.assertEqual(double.gains.tolist(), [0, 2, -5, 0])
         self.assertEqual(function.shifted("1ms").times_ns.tolist(), [1_000_000, 11_000_000, 11_000_000, 501_000_000])
         self.assertEqual(function, nutik.Function.from_ns(function.times_ns, function.gains))
         self.assertNotEqual(function, function.scaled(2))

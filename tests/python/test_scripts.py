@@ -324,7 +324,10 @@ class Errors(support.TestCase):
         for call in (lambda: nutik.encode(3, rate=1), lambda: nutik.encode(support.moving_box(), rate=[1]),
                      lambda: capture.render(start=object(), exposure="1f"),
                      lambda: capture.trace("x", "y", exposure="1f"),
-                     lambda: capture.background(by=1.5)):
+                     lambda: capture.background(by=1.5), lambda: capture.background(codes="no"),
+                     lambda: nutik.encode(["a.png", "b.png"], rate=1), lambda: nutik.fit(3, 0, 1),
+                     lambda: nutik.check("a.tik", functions={0: nutik.boxcar(0, 1)}),
+                     lambda: capture.solve({0: nutik.boxcar(0, 1)}, []), lambda: capture.solve("", [], free=["g"])):
             with self.assertRaises(TypeError) as raised:
                 call()
             self.assertIsInstance(raised.exception, nutik.UsageError)
