@@ -34,6 +34,15 @@ TEST_F(PartOfAClip, IsExposedAsThatPartOfTheWhole) {
   EXPECT_EQ(cv::norm(whole, part, cv::NORM_INF), 0.0);
 }
 
+// The moment that activity names counts in the part, which its words state for another command. The mask is activity's.
+TEST_F(PartOfAClip, IsStatedWithItsQuietestMoment) {
+  scratch_.write("all.pgm", "P5 30 20 255\n" + std::string(600, '\1'));
+  const Words activity("activity -f 100 --from 2f --to 5f --crop 30x20+4+3 --transfer linear -m all.pgm frames");
+  const std::string words = "--fps 100 --from 2f --to 5f --crop 30x20+4+3 --transfer linear --start 1f --exposure 1f";
+  EXPECT_EQ(run(activity + Words("--moment quietest")).out, words + "\n");
+  expect_says(run(activity).out, "try: nutik-cl " + words + " frames quiet.png");
+}
+
 // Light adds up whichever comes first. A mean is off by half a code of 65535 at most, in every picture and so in what
 // is exposed; beside it stand the roundings of a float.
 TEST_F(PartOfAClip, IsAsBrightScaledBeforeAsAfter) {

@@ -96,7 +96,16 @@ Json activity_json(const std::string& name, const MeasuredActivity& measured) {
   return json;
 }
 
-void report_text(const std::string& name, const MeasuredActivity& measured) {
+// A stretch of the capture that this command saw, as words of another.
+std::string stretch_words(const Options& options, const SampleRange& samples) {
+  Options of_source = options;
+  std::erase_if(of_source.said, [](const Said& said) { return said.option == "mask"; });  // it says what counts
+  return format("{} --start {}f --exposure {}f", stated_words(of_source, CommandId::expose), samples.first,
+                samples.size());
+}
+
+void report_text(const Options& options, const MeasuredActivity& measured) {
+  const std::string& name = options.operands.front();
   const Timeline& timeline = measured.timeline;
   print_line(format("{}: {} samples in {}, {:.3g} % of {} pixels change at a sample, on average", name,
                     timeline.sample_count(), duration_text(timeline.duration_ns()),
@@ -119,19 +128,17 @@ void report_text(const std::string& name, const MeasuredActivity& measured) {
     print_line(format("  M{}: {}, quietest {}f to {}f", each.tag, counted(each.pixel_count, "pixel"),
                       quiet.first, quiet.last - 1));
   }
-  print_line(format("try: nutik-cl --start {}f --exposure {}f {} quiet.png", quietest.samples.first,
-                    quietest.samples.size(), shell_word(name)));
+  print_line(format("try: nutik-cl{} {} quiet.png", stretch_words(options, quietest.samples), shell_word(name)));
 }
 
 // The stretches that --moment asks for, as options of another command: of all pixels, or a line for each tag.
-std::string moments_text(const std::string& name, bool quietest, const MeasuredActivity& measured) {
-  const auto options_of = [](const SampleRange& samples) {
-    return format("--start {}f --exposure {}f", samples.first, samples.size());
-  };
-  if (measured.tags.empty()) return options_of(measured.moment(name, quietest));
+std::string moments_text(const Options& options, const MeasuredActivity& measured) {
+  const std::string& name = options.operands.front();
+  const bool quietest = *options.moment == "quietest";
+  if (measured.tags.empty()) return stretch_words(options, measured.moment(name, quietest)).substr(1);
   std::vector<std::string> lines;
   for (const TagActivity& each : measured.tags)
-    lines.push_back(format("--tag {} {}", each.tag, options_of(measured.moment(name, quietest, each))));
+    lines.push_back(format("--tag {}{}", each.tag, stretch_words(options, measured.moment(name, quietest, each))));
   return joined(lines, "\n");
 }
 
@@ -156,13 +163,13 @@ int run_activity(const Options& options) {
   if (outputs.table) write_text(*outputs.table, measured.table());
   Answer answer;
   if (options.moment) {
-    print_line(moments_text(name, *options.moment == "quietest", measured));
+    print_line(moments_text(options, measured));
   } else if (outputs.prints_table) {
     print_text(measured.table());
   } else if (options.json) {
     answer.json = activity_json(name, measured);
   } else if (!options.quiet) {
-    report_text(name, measured);
+    report_text(options, measured);
   }
   answer.tell_source(session);
   for (std::string& note : note_texts(measured.notes(), Dialect::command_line)) answer.notes.push_back(std::move(note));
