@@ -16,6 +16,12 @@ FunctionSet box(std::int64_t from_ns, std::int64_t to_ns) {
   return functions;
 }
 
+ExposureRequest exposing_box(std::int64_t from_ns, std::int64_t to_ns) {
+  ExposureRequest request;
+  request.gains = Shared(box(from_ns, to_ns));
+  return request;
+}
+
 TEST(SweepRequest, VariesTheFirstRangeFastest) {
   const SweepRange shift{SweepParameter::shift, {0, 1}, {20, 1}, {10, 1}, false};
   const SweepRange gain{SweepParameter::gain, {1, 2}, {1, 1}, {1, 2}, false};
@@ -29,9 +35,26 @@ TEST(SweepRequest, VariesTheFirstRangeFastest) {
 
 TEST(SweepRequest, AppliesItsValues) {
   const SweepRequest pictures{{{SweepParameter::shift, {-1, 1}, {1, 1}, {1, 1}, true}}};
-  EXPECT_EQ(pictures.varied(box(20'000'000, 30'000'000), {2}, kSheetTimeline), box(30'000'000, 40'000'000));
+  EXPECT_EQ(pictures.varied(exposing_box(20'000'000, 30'000'000), {2}, kSheetTimeline), box(30'000'000, 40'000'000));
   const SweepRequest stretch{{{SweepParameter::stretch, {1, 1}, {2, 1}, {1, 1}, false}}};
-  EXPECT_EQ(stretch.varied(box(20'000'000, 30'000'000), {1}, kSheetTimeline), box(20'000'000, 40'000'000));
+  EXPECT_EQ(stretch.varied(exposing_box(20'000'000, 30'000'000), {1}, kSheetTimeline), box(20'000'000, 40'000'000));
+}
+
+TEST(SweepRequest, GoesFromPictureToPictureWhereTimesAreIrregular) {
+  const Timeline timeline = Timeline::irregular({0, 10, 40, 60, 100}, {180, 1});
+  const SweepRequest shifts{{SweepRange::parse(SweepParameter::shift, "-1f..3f/1f", "shift")}};
+  ExposureRequest plain;
+  plain.start = stated("1f");
+  plain.gains = PlainInterval{stated("1f"), Shutter()};
+  EXPECT_EQ(shifts.varied(plain, {0}, timeline), box(0, 5));
+  EXPECT_EQ(shifts.varied(plain, {3}, timeline), box(60, 80));
+  // From a time of picture 1, and of functions; behind the end by the mean period.
+  plain.start = stated("12ns");
+  plain.gains = PlainInterval{stated("4ns"), Shutter()};
+  EXPECT_EQ(shifts.varied(plain, {2}, timeline), box(42, 46));
+  EXPECT_EQ(shifts.varied(exposing_box(3, 8), {2}, timeline), box(13, 18));
+  plain.start = stated("3f");
+  EXPECT_EQ(shifts.varied(plain, {4}, timeline), box(168, 172));
 }
 
 TEST(SweepRequest, OfTimesInThirdsOfNanosecondsNeverDrifts) {
@@ -44,7 +67,7 @@ TEST(SweepRequest, OfTimesInThirdsOfNanosecondsNeverDrifts) {
   EXPECT_EQ(range.label(150), "+500 ms");
   EXPECT_EQ(stated("1/999999999999999ns").modest_nanoseconds(), (Rational{0, 1})) << "rounded";
   const SweepRequest sweep{{range}};
-  EXPECT_EQ(sweep.varied(box(0, 10), {300}, kSheetTimeline), box(1'000'000'000, 1'000'000'010));
+  EXPECT_EQ(sweep.varied(exposing_box(0, 10), {300}, kSheetTimeline), box(1'000'000'000, 1'000'000'010));
 }
 
 TEST(ContactRequest, CountsPicturesOrTimes) {

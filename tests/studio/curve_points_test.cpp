@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "session/requests/stated_moments.hpp"
 #include "studio/curves/drags.hpp"
 #include "studio/curves/handles.hpp"
 #include "studio/curves/points.hpp"

@@ -207,10 +207,9 @@ int run_sweep(const Options& options) {
   sheet.heading = job.heading(format("{}, {}", label, what));
   sheet.mask = mask_of(request, shape);
   sheet.plan = plan_options_of(request, shape);
-  const FunctionSet functions = functions_of(request, timeline);
   Json json = Json::array();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    sheet.exposures.push_back({sweep.label(points[i]), sweep.varied(functions, points[i], timeline)});
+    sheet.exposures.push_back({sweep.label(points[i]), sweep.varied(request, points[i], timeline)});
     Json& picture = json.emplace_back(Json::object());
     for (std::size_t r = 0; r < sweep.ranges.size(); ++r) {
       const auto [key, value] = varied_json(sweep.ranges[r], points[i][r]);

@@ -117,15 +117,25 @@ std::vector<std::string> labels_of(const std::vector<Exposure>& exposures, const
 
 namespace {
 
-// So many periods of a clip: its mean ones where its times are irregular.
-std::int64_t periods_ns(const Rational& count, const Timeline& timeline) {
+// The functions so many pictures later: from one to the next where times are irregular.
+FunctionSet pictures_later(ExposureRequest request, std::int64_t pictures, const Timeline& timeline) {
+  const std::int64_t start_ns = moment_ns(request.start, timeline);
   const Rational rate = timeline.rate();
-  return timeline.is_constant()
-             ? round_half_up(static_cast<int128>(count.numerator) * rate.denominator * kSecondNs,
-                             static_cast<int128>(count.denominator) * rate.numerator)
-             : round_half_up(
-                   static_cast<int128>(count.numerator) * timeline.duration_ns(),
-                   static_cast<int128>(count.denominator) * static_cast<int128>(timeline.sample_count()));
+  const std::int64_t by_ns =
+      timeline.is_constant() ? round_half_up(int128{pictures} * rate.denominator * kSecondNs, rate.numerator)
+                             : samples_later(start_ns, pictures, timeline) - start_ns;
+  const auto* const plain = std::get_if<PlainInterval>(&request.gains);
+  if (plain != nullptr && !timeline.is_constant() && request.start.counts_samples() && plain->length.counts_samples()) {
+    const std::int64_t first = request.start.number.numerator + pictures;
+    const std::int64_t last = first + plain->length.number.numerator - 1;
+    if (first >= 0 && last < static_cast<std::int64_t>(timeline.sample_count())) {
+      request.start = StatedTime::of_pictures(first);
+      return functions_of(request, timeline);
+    }
+  }
+  FunctionSet functions = functions_of(request, timeline);
+  for (auto& [tag, function] : functions) function = function.shifted(by_ns);
+  return functions;
 }
 
 // from + number · step, exactly.
@@ -144,11 +154,8 @@ FunctionSet with_value(const FunctionSet& functions, const SweepRange& range, st
     for (const auto& [tag, function] : functions) changed.emplace(tag, change(function));
     return changed;
   };
-  if (range.parameter == SweepParameter::shift) {
-    const std::int64_t by_ns =
-        range.counts_pictures ? periods_ns(range.value(number), timeline) : range.shift_ns(number);
-    return each([&](const GainFunction& function) { return function.shifted(by_ns); });
-  }
+  if (range.parameter == SweepParameter::shift)
+    return each([&](const GainFunction& function) { return function.shifted(range.shift_ns(number)); });
   const Rational value = range.value(number);
   if (range.parameter == SweepParameter::gain) {
     return each([&](const GainFunction& function) { return function.scaled(value.value()); });
@@ -289,11 +296,14 @@ std::string SweepRequest::label(const SweepPoint& point) const {
   return label;
 }
 
-FunctionSet SweepRequest::varied(FunctionSet functions, const SweepPoint& point,
+FunctionSet SweepRequest::varied(const ExposureRequest& request, const SweepPoint& point,
                                  const Timeline& timeline) const {
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    functions = with_value(functions, ranges[i], point[i], timeline);
-  }
+  std::int64_t pictures = 0;
+  for (std::size_t i = 0; i < ranges.size(); ++i)
+    if (ranges[i].counts_pictures) pictures += ranges[i].value(point[i]).numerator;
+  FunctionSet functions = pictures_later(request, pictures, timeline);
+  for (std::size_t i = 0; i < ranges.size(); ++i)
+    if (!ranges[i].counts_pictures) functions = with_value(functions, ranges[i], point[i], timeline);
   return functions;
 }
 

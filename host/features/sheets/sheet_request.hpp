@@ -66,9 +66,10 @@ struct SweepRequest {
   // Every combination of values; those of the first range run fastest.
   [[nodiscard]] std::vector<SweepPoint> points() const;
   [[nodiscard]] std::string label(const SweepPoint& point) const;
-  // The functions with a point's values applied, range by range. Stretches keep the place at which the first of the
-  // functions as they are given begins to expose; pictures of the clip are periods of its mean rate.
-  [[nodiscard]] FunctionSet varied(FunctionSet functions, const SweepPoint& point,
+  // The functions with a point's values applied: first pictures of the clip, which lead from one to the next (beyond
+  // the capture by its mean rate), then range by range. Stretches keep the place at which the first of the functions
+  // begins to expose.
+  [[nodiscard]] FunctionSet varied(const ExposureRequest& request, const SweepPoint& point,
                                    const Timeline& timeline) const;
 };
 

@@ -35,4 +35,8 @@ namespace nutik {
 // A moment on a timeline; that of a picture is the start of its exposure.
 [[nodiscard]] std::int64_t moment_ns(const StatedTime& time, const Timeline& timeline);
 
+// The time that lies as far behind the start of a sample as `time_ns` behind the start of its own, `steps` samples
+// later or earlier; beyond the capture samples go on at its mean rate.
+[[nodiscard]] std::int64_t samples_later(std::int64_t time_ns, std::int64_t steps, const Timeline& timeline);
+
 }  // namespace nutik

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "session/requests/stated_moments.hpp"
 #include "studio/curves/curve_editor.hpp"
 #include "studio/curves/number_editor.hpp"
 #include "studio/time/times.hpp"
