@@ -50,7 +50,7 @@ Timeline MadeSamples::times(const Timeline& filmed) const {
     }
     begin = std::max(next_start, border(steps - 1));
   }
-  return Timeline::stored(std::move(exposures), filmed.duration_ns(), filmed.shutter_angle());
+  return Timeline::stored(std::move(exposures), filmed.duration_ns(), filmed.shutter_angle()).with_pictures(filmed);
 }
 
 bool MadeSamples::cut_to(std::uint64_t samples) {

@@ -3,7 +3,7 @@
 //   0.4s  10ms  250us  1/30s  -2e-3s  2min    a number and its unit
 //   1/100                                     a fraction of a second
 //   0:01.5  1:02:03                           minutes or hours before the seconds
-//   37f                                       pictures of the clip
+//   37f                                       pictures of the clip, as they were filmed
 #pragma once
 
 #include <cstdint>

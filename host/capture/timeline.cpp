@@ -1,6 +1,9 @@
 #include "capture/timeline.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
@@ -196,6 +199,34 @@ SampleRange Timeline::samples_reaching(std::int64_t begin_ns, std::int64_t end_n
   const std::uint64_t first = first_where([&](std::uint64_t k) { return reach_end_ns(k) > begin_ns; });
   const std::uint64_t last = first_where([&](std::uint64_t k) { return reach_begin_ns(k) >= end_ns; });
   return first < last ? SampleRange{first, last} : SampleRange{};
+}
+
+Timeline Timeline::with_pictures(Timeline filmed) const {
+  Timeline timeline = *this;
+  timeline.filmed_ = std::make_shared<const Timeline>(std::move(filmed));
+  return timeline;
+}
+
+std::uint64_t Timeline::sample_of(std::uint64_t picture) const {
+  if (!filmed_) return picture;
+  // What is left of its exposure lies round the middle.
+  const std::int64_t middle_ns = std::midpoint(filmed_->start_ns(picture), filmed_->end_ns(picture));
+  return samples_reaching(middle_ns, middle_ns + 1).first;
+}
+
+std::optional<std::uint64_t> Timeline::picture_of(std::uint64_t sample) const {
+  if (!filmed_) return sample;
+  const std::int64_t middle_ns = std::midpoint(start_ns(sample), end_ns(sample));
+  const std::uint64_t picture = filmed_->samples_reaching(middle_ns, middle_ns + 1).first;
+  return sample_of(picture) == sample ? std::optional(picture) : std::nullopt;
+}
+
+bool operator==(const Timeline& a, const Timeline& b) {
+  const auto times = [](const Timeline& of) {
+    return std::tie(of.rate_, of.shutter_angle_, of.sample_count_, of.duration_ns_, of.exposures_);
+  };
+  if (times(a) != times(b) || !a.filmed_ != !b.filmed_) return false;
+  return a.filmed_ == b.filmed_ || *a.filmed_ == *b.filmed_;
 }
 
 }  // namespace nutik

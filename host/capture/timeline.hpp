@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -99,7 +101,16 @@ class Timeline {
   [[nodiscard]] Rational rate() const { return rate_; }
   [[nodiscard]] Rational shutter_angle() const { return shutter_angle_; }
 
-  friend bool operator==(const Timeline&, const Timeline&) = default;
+  // These times, of samples that were made between pictures and of the pictures that were filmed, whose own times have
+  // no regard to what was made.
+  [[nodiscard]] Timeline with_pictures(Timeline filmed) const;
+  // Times of the pictures that were filmed, which `12f` counts: these, where no samples were made between them.
+  [[nodiscard]] const Timeline& pictures() const { return filmed_ ? *filmed_ : *this; }
+  // The sample that a picture is; the picture that a sample is, none where it was made.
+  [[nodiscard]] std::uint64_t sample_of(std::uint64_t picture) const;
+  [[nodiscard]] std::optional<std::uint64_t> picture_of(std::uint64_t sample) const;
+
+  friend bool operator==(const Timeline& a, const Timeline& b);
 
  private:
   Timeline() = default;
@@ -109,6 +120,7 @@ class Timeline {
   std::uint64_t sample_count_ = 0;
   std::int64_t duration_ns_ = 0;
   std::vector<Exposure> exposures_;
+  std::shared_ptr<const Timeline> filmed_;  // null: all samples were
 };
 
 }  // namespace nutik

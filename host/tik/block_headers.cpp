@@ -1,5 +1,6 @@
 #include "tik/block_headers.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "capture/error.hpp"
@@ -58,12 +59,39 @@ std::vector<Exposure> load_exposures(std::span<const std::byte> bytes) {
   return exposures;
 }
 
+namespace {
+
+// The same with the times of what was filmed. Of a file of earlier programs these are what made samples left of them.
+Timeline with_pictures(const Timeline& timeline, const Header& header) {
+  MadeSamples made = *header.made;
+  if (!made.cut_to(timeline.sample_count())) return timeline;
+  const std::size_t count = made.after.size();
+  if (const auto* const rate = header.filmed ? std::get_if<Rational>(&*header.filmed) : nullptr)
+    return timeline.with_pictures(Timeline::constant(*rate, header.shutter_angle, count));
+  std::vector<Exposure> exposures;
+  if (header.filmed) {
+    exposures = std::get<std::vector<Exposure>>(*header.filmed);
+    if (exposures.size() < count) throw InputError("not every picture has one");
+    exposures.resize(count);
+  } else {
+    const std::vector<bool> is_made = made.marks();
+    for (std::uint64_t k = 0; k < is_made.size(); ++k)
+      if (!is_made[k]) exposures.push_back({timeline.start_ns(k), timeline.end_ns(k)});
+  }
+  const std::int64_t duration_ns = std::max(timeline.duration_ns(), exposures.back().end_ns);
+  return timeline.with_pictures(Timeline::stored(std::move(exposures), duration_ns, header.shutter_angle));
+}
+
+}  // namespace
+
 Timeline timeline_of(const Header& header, std::uint64_t samples, std::vector<Exposure> exposures,
                      std::optional<std::int64_t> duration_ns, const std::string& name) {
   try {
     if (header.rate) return Timeline::constant(*header.rate, header.shutter_angle, samples);
-    return duration_ns ? Timeline::stored(std::move(exposures), *duration_ns, header.shutter_angle)
-                       : Timeline::explicit_exposures(std::move(exposures));
+    const Timeline timeline = duration_ns
+                                  ? Timeline::stored(std::move(exposures), *duration_ns, header.shutter_angle)
+                                  : Timeline::explicit_exposures(std::move(exposures));
+    return header.made ? with_pictures(timeline, header) : timeline;
   } catch (const Error& error) {
     throw InputError(nutik::format("{}: its times are damaged: {}", name, error.what()));
   }

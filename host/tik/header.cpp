@@ -15,6 +15,7 @@
 #include "capture/text.hpp"
 #include "imev/block.hpp"
 #include "imev/expected_values.hpp"
+#include "tik/block_headers.hpp"
 #include "tik/codec.hpp"
 #include "tik/file_layout.hpp"
 
@@ -31,9 +32,9 @@ constexpr std::size_t kLongestHeader = 65'536;
 // not know: with a tolerance whatever codec was asked for.
 constexpr std::string_view kPixelAspect = "aspc", kPrimaries = "prim", kFacts = "fact", kAligned = "algn",
                            kMeans = "mean", kRounded = "rond", kRice = "rice", kSteps = "step", kPart = "part",
-                           kClip = "clip", kMade = "made";
+                           kClip = "clip", kMade = "made", kFilmed = "film";
 constexpr std::array kKnownFields{kPixelAspect, kPrimaries, kFacts, kAligned, kMeans, kRounded,
-                                  kRice,        kSteps,     kPart,  kClip,    kMade};
+                                  kRice,        kSteps,     kPart,  kClip,    kMade,  kFilmed};
 
 class HeaderParser {
  public:
@@ -277,6 +278,10 @@ void take_fields(std::span<const Field> fields, Header& header) {
       header.part->checksum = printable(field.data);
     } else if (field.tag == kMade) {
       header.made = MadeSamples::parse(field.data);
+    } else if (field.tag == kFilmed && field.data.starts_with('\0')) {  // the first exposure starts at 0
+      header.filmed = load_exposures(std::as_bytes(std::span(field.data)));
+    } else if (field.tag == kFilmed) {
+      header.filmed = Rational::parse(field.data, "rate of what was filmed");
     } else if (field.tag == kFacts) {
       for (std::size_t at = 0; at < field.data.size();) {
         const std::size_t end = std::min(field.data.find('\n', at), field.data.size());
@@ -304,6 +309,11 @@ void check_raster(const ParsedHeader& parsed, std::uint64_t file_bytes, const st
 }
 
 }  // namespace
+
+FilmedTimes filmed_times(const Timeline& filmed) {
+  if (filmed.is_constant()) return filmed.rate();
+  return std::vector(filmed.table().begin(), filmed.table().end());
+}
 
 std::string Header::text() const {
   const Shape& shape = capture.shape;
@@ -356,6 +366,11 @@ std::vector<Field> Header::fields() const {
   if (part) fields.push_back({std::string(kPart), false, text_of(*part)});
   if (part && !part->checksum.empty()) fields.push_back({std::string(kClip), false, part->checksum});
   if (made) fields.push_back({std::string(kMade), false, made->kept_text()});
+  if (filmed) {
+    const auto* const rate = std::get_if<Rational>(&*filmed);
+    fields.push_back({std::string(kFilmed), false,
+                      rate ? rate->text() : std::string(as_text(std::as_bytes(std::span(std::get<1>(*filmed)))))});
+  }
   return fields;
 }
 

@@ -29,6 +29,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "capture/code_roundings.hpp"
@@ -52,6 +53,10 @@ struct Alignment {
   friend bool operator==(const Alignment&, const Alignment&) = default;
 };
 
+// Of pictures between which samples were made, as if none had been: samples a second, or exposures.
+using FilmedTimes = std::variant<Rational, std::vector<Exposure>>;
+[[nodiscard]] FilmedTimes filmed_times(const Timeline& filmed);
+
 struct Header {
   std::uint32_t version = kVersion;
   CaptureFormat capture;  // of what is held
@@ -66,6 +71,7 @@ struct Header {
   CodeRoundings roundings = {};  // by which codes were made of a clip
   std::optional<PartOfClip> part = std::nullopt;  // where samples are not all of a clip's pictures
   std::optional<MadeSamples> made = std::nullopt;  // where some were filmed and some made
+  std::optional<FilmedTimes> filmed = std::nullopt;  // earlier programs did not say
 
   // The header as text, up to and including the line end before the raster.
   [[nodiscard]] std::string text() const;

@@ -101,6 +101,37 @@ TEST_F(BetweenPictures, AreMadeOnlyWhereAnIntervalInSecondsLies) {
   make("-f 20 --between 3 --to 1f --start 0s --exposure 30ms frames single.png");
 }
 
+TEST_F(BetweenPictures, AreCountedByNoTime) {
+  const Words clip("-f 20 --transfer srgb --between 3 frames");
+  make("encode" + clip + "-o all.tik");
+  make("encode -f 20 --transfer srgb frames filmed.tik");
+  const std::vector<Words> sources{clip, Words("all.tik")};
+  for (const Words& source : sources) {
+    const auto same = [&](const Words& command, const Words& pictures, const Words& seconds, const std::string& name) {
+      make(command + pictures + source + "-o" + name + "--overwrite");
+      const std::string made = file(name);
+      make(command + seconds + source + "-o" + name + "--overwrite");
+      EXPECT_TRUE(made == file(name));
+    };
+    const Words expose("expose --renderer reference --no-recipe");
+    same(expose, "--start 1f --exposure 2f", "--start 50ms --exposure 100ms", "p.pfm");
+    same(expose, "--start 20ms --exposure 2f", "--start 20ms --exposure 100ms", "p.pfm");
+    same("mask", "--subject 2f", "--subject 125ms", "m.pgm");
+    same("mask", "--changed-between 1f 2f", "--changed-between 75ms 125ms", "m.pgm");
+    EXPECT_EQ(answer("video --from 1f --to 3f --out-fps 20 --overwrite" + source + "-o f%d.png")["frames"], 2);
+    EXPECT_EQ(answer("contact --overwrite" + source + "-o sheet.png")["exposures"],
+              answer("contact --overwrite filmed.tik sheet.png")["exposures"]);
+    EXPECT_EQ(answer("expose --every 2f --exposure 1f --overwrite" + source + "-o s%d.png")["pictures"].size(), 2u);
+    const std::string moment = run("activity --moment busiest" + source).out;
+    EXPECT_EQ(moment.find("f "), std::string::npos) << "stretches of samples are told in seconds: " << moment;
+  }
+  expect_says(run("info all.tik").out, "--start 2f --exposure 1f all.tik");
+  scratch_.write("curve.csv", "0s,1f\n100ms,3f\n");
+  const Words film("video --curve curve.csv --out-fps 20 --out-angle 360 all.tik c%d.png");
+  EXPECT_EQ(answer(film)["end_ns"], 150'000'000);
+  expect_refused("--start 4f --exposure 1f all.tik x.png", 2, "picture 4 is outside the capture, which has 4");
+}
+
 TEST_F(BetweenPictures, AreMadeAgainByARecipe) {
   const Words source("-f 20 --transfer srgb --between 3 --renderer reference frames");
   make("expose --start 10ms --exposure 150ms" + source + "-o p.png");

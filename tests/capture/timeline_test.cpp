@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "capture/error.hpp"
+#include "capture/made_samples.hpp"
 #include "support/exact.hpp"
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
@@ -164,6 +165,29 @@ TEST(Timeline, RefusesTimesThatNoCaptureLasts) {
   expect_says(refusal([&] { return Timeline::stored({{0, 1}}, kLongest + 1, {360, 1}); }), "146 years");
   EXPECT_EQ(Timeline::stored({{0, 1}}, kLongest, {360, 1}).duration_ns(), kLongest);
   EXPECT_EQ(Timeline::irregular({kMin, kMin + kLongest / 2}, {360, 1}).duration_ns(), kLongest);
+}
+
+// Of any shutter and of even and uneven times: what is left of a picture's exposure lies round its middle.
+TEST(Timeline, OfMadeSamplesKnowsWhichArePictures) {
+  const MadeSamples made{{3, 0, 1, 63, 2, 0}};
+  for (const Rational angle : {Rational{360, 1}, Rational{180, 1}, Rational{1, 1}}) {
+    for (const Timeline& filmed : {Timeline::constant({30'000, 1001}, angle, 6),
+                                   Timeline::irregular({0, 1000, 1700, 20'000, 20'300, 90'000}, angle)}) {
+      const Timeline all = made.times(filmed);
+      EXPECT_EQ(all.pictures(), filmed);
+      const std::vector<bool> is_made = made.marks();
+      std::uint64_t picture = 0;
+      for (std::uint64_t sample = 0; sample < all.sample_count(); ++sample) {
+        const auto expected = is_made[sample] ? std::nullopt : std::optional(picture++);
+        EXPECT_EQ(all.picture_of(sample), expected) << sample;
+        if (expected) {
+          EXPECT_EQ(all.sample_of(*expected), sample);
+        }
+      }
+      EXPECT_EQ(filmed.sample_of(4), 4u);
+      EXPECT_EQ(filmed.picture_of(4), 4u);
+    }
+  }
 }
 
 }  // namespace

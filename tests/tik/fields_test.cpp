@@ -11,6 +11,7 @@
 #include "support/scratch.hpp"
 #include "support/tik_files.hpp"
 #include "system/checksum.hpp"
+#include "tik/block_headers.hpp"
 #include "tik/header.hpp"
 #include "tik/reader.hpp"
 #include "tik/writer.hpp"
@@ -155,6 +156,37 @@ TEST(TikFields, SayHowCodesWereMade) {
   EXPECT_EQ(parse(header.fields()), header.roundings);
   EXPECT_FALSE(parse({}).are_known());
   EXPECT_FALSE(parse({{"rond", false, "1"}}).are_known());
+}
+
+// Earlier programs kept of a picture's times what made samples left.
+TEST(TikFields, SayWhenPicturesWereFilmed) {
+  const MadeSamples made{{1, 2, 0}};
+  for (const Timeline& filmed : {Timeline::constant({30'000, 1001}, Timeline::kFullShutter, 3),
+                                 Timeline::irregular({0, 500, 2000}, Timeline::kFullShutter)}) {
+    const Timeline all = made.times(filmed);
+    const auto read = [&](const Header& header, std::uint64_t samples) {
+      const std::string file = file_with(header.fields());
+      const std::vector<Exposure> exposures(all.table().begin(), all.table().begin() + static_cast<int>(samples));
+      Header parsed = parse_header(std::as_bytes(std::span(file)), "x.tik").header;
+      parsed.rate.reset();  // the file's text has one
+      return timeline_of(parsed, samples, exposures, {}, "x.tik");
+    };
+    Header header;
+    header.made = made;
+    EXPECT_EQ(read(header, 6).pictures().start_ns(1), all.start_ns(2));
+    header.filmed = filmed_times(filmed);
+    const Timeline whole = read(header, 6).pictures(), cut = read(header, 4).pictures();
+    EXPECT_EQ(whole.sample_count(), 3u);
+    EXPECT_EQ(cut.sample_count(), 2u);
+    EXPECT_EQ(whole.is_constant(), filmed.is_constant());
+    for (const std::uint64_t k : {0, 1}) {
+      EXPECT_EQ(whole.times(k).start_ns, filmed.start_ns(k));
+      EXPECT_EQ(cut.end_ns(k), filmed.end_ns(k));
+    }
+    EXPECT_EQ(whole.end_ns(2), filmed.end_ns(2));
+    header.filmed = std::vector<Exposure>{{0, 10}};
+    test::expect_error<InputError>([&] { return read(header, 6); }, {"not every picture has one"});
+  }
 }
 
 TEST(TikFields, OfLaterProgramsArePassedOverUnlessTheyMustNotBe) {

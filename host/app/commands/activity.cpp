@@ -9,6 +9,7 @@
 #include "features/schema/option.hpp"
 #include "features/schema/options.hpp"
 #include "media/writers/picture_writer.hpp"
+#include "session/requests/stated_moments.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"
 #include "session/text/text_table.hpp"
@@ -97,11 +98,16 @@ Json activity_json(const std::string& name, const MeasuredActivity& measured) {
 }
 
 // A stretch of the capture that this command saw, as words of another.
-std::string stretch_words(const Options& options, const SampleRange& samples) {
+std::string stretch_words(const Options& options, const SampleRange& samples, const Timeline& timeline) {
   Options of_source = options;
   std::erase_if(of_source.said, [](const Said& said) { return said.option == "mask"; });  // it says what counts
-  return format("{} --start {}f --exposure {}f", stated_words(of_source, CommandId::expose), samples.first,
-                samples.size());
+  StatedTime start = stated_sample(samples.first, timeline);
+  auto length = StatedTime::of_pictures(static_cast<std::int64_t>(samples.size()));
+  if (timeline.pictures().sample_count() < timeline.sample_count()) {  // no pictures, of which some were made
+    start = StatedTime::of_nanoseconds(timeline.start_ns(samples.first));
+    length = StatedTime::of_nanoseconds(timeline.end_ns(samples.last - 1) - timeline.start_ns(samples.first));
+  }
+  return format("{} --start {} --exposure {}", stated_words(of_source, CommandId::expose), start.text(), length.text());
 }
 
 void report_text(const Options& options, const MeasuredActivity& measured) {
@@ -115,30 +121,32 @@ void report_text(const Options& options, const MeasuredActivity& measured) {
     return;
   }
   const auto& [busiest_sample, busiest, quietest] = *measured.moments;
-  print_line(format("  most at once  {} ({}f), {:.3g} %", duration_text(timeline.start_ns(busiest_sample)),
-                    busiest_sample, 100 * measured.changed_share(busiest_sample)));
+  const auto stated = [&](std::uint64_t sample) { return stated_sample(sample, timeline).text(); };
+  print_line(format("  most at once  {} ({}), {:.3g} %", duration_text(timeline.start_ns(busiest_sample)),
+                    stated(busiest_sample), 100 * measured.changed_share(busiest_sample)));
   for (const auto& [what, stretch] : {std::pair("busiest ", busiest), std::pair("quietest", quietest)}) {
     const std::uint64_t first = stretch.samples.first, last = stretch.samples.last - 1;
-    print_line(format("  {}      {} to {} ({}f to {}f), {:.3g} % of pixels change at a sample", what,
+    print_line(format("  {}      {} to {} ({} to {}), {:.3g} % of pixels change at a sample", what,
                       duration_text(timeline.start_ns(first)), duration_text(timeline.reach_end_ns(last)),
-                      first, last, 100 * stretch.mean_share(measured.activity.pixel_count())));
+                      stated(first), stated(last), 100 * stretch.mean_share(measured.activity.pixel_count())));
   }
   for (const TagActivity& each : measured.tags) {
     const SampleRange quiet = measured.moment(name, true, each);
-    print_line(format("  M{}: {}, quietest {}f to {}f", each.tag, counted(each.pixel_count, "pixel"),
-                      quiet.first, quiet.last - 1));
+    print_line(format("  M{}: {}, quietest {} to {}", each.tag, counted(each.pixel_count, "pixel"),
+                      stated(quiet.first), stated(quiet.last - 1)));
   }
-  print_line(format("try: nutik-cl{} {} quiet.png", stretch_words(options, quietest.samples), shell_word(name)));
+  print_line(format("try: nutik-cl{} {} quiet.png", stretch_words(options, quietest.samples, timeline), shell_word(name)));
 }
 
 // The stretches that --moment asks for, as options of another command: of all pixels, or a line for each tag.
 std::string moments_text(const Options& options, const MeasuredActivity& measured) {
   const std::string& name = options.operands.front();
   const bool quietest = *options.moment == "quietest";
-  if (measured.tags.empty()) return stretch_words(options, measured.moment(name, quietest)).substr(1);
+  const auto words = [&](const SampleRange& samples) { return stretch_words(options, samples, measured.timeline); };
+  if (measured.tags.empty()) return words(measured.moment(name, quietest)).substr(1);
   std::vector<std::string> lines;
   for (const TagActivity& each : measured.tags)
-    lines.push_back(format("--tag {}{}", each.tag, stretch_words(options, measured.moment(name, quietest, each))));
+    lines.push_back(format("--tag {}{}", each.tag, words(measured.moment(name, quietest, each))));
   return joined(lines, "\n");
 }
 

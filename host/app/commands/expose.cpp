@@ -14,6 +14,7 @@
 #include "media/formats/numbered_name.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "session/clips/clip_source.hpp"
+#include "session/requests/stated_moments.hpp"
 #include "session/text/number_text.hpp"
 #include "system/input_bytes.hpp"
 
@@ -22,13 +23,13 @@ namespace nutik::app {
 // A series (series.cpp).
 int run_series(const Options& options);
 
-// A plain interval stated in seconds sees no picture but those that it reaches: samples are made between these and
+// A plain interval sees no picture but those that it reaches: samples are made between these and
 // their neighbours alone. The recipe has what was stated, as those of series and films have.
 static void make_between_seen(Options& options, const ExposureRequest& request) {
   const std::string& clip = options.operands.front();
   const auto* plain = std::get_if<PlainInterval>(&request.gains);
-  if (!options.source.between || plain == nullptr || request.delay || request.start.counts_samples() ||
-      plain->length.counts_samples() || is_standard_input(clip) || is_event_recording(clip) || is_tik(clip))
+  if (!options.source.between || plain == nullptr || request.delay || is_standard_input(clip) ||
+      is_event_recording(clip) || is_tik(clip))
     return;
   BetweenRequest between = *options.source.between;
   if (between.first != 0 || between.last != UINT64_MAX) return;
@@ -38,8 +39,8 @@ static void make_between_seen(Options& options, const ExposureRequest& request) 
   filmed.shutter_angle = options.source.shutter_angle;
   try {
     const Timeline timeline = known_timeline(filmed, memory_budget(options));
-    const std::int64_t start_ns = request.start.nanoseconds();
-    const SampleRange seen = timeline.samples_reaching(start_ns, start_ns + plain->length.nanoseconds());
+    const auto [start_ns, end_ns] = plain_interval(request.start, plain->length, timeline);
+    const SampleRange seen = timeline.samples_reaching(start_ns, end_ns);
     if (seen.empty()) return;
     between.first = seen.first - std::min<std::uint64_t>(seen.first, 1);
     between.last = std::min(seen.last, timeline.sample_count() - 1);

@@ -165,7 +165,7 @@ int run_info(const Options& options) {
     const std::uint64_t most = write_activity(reader, *options.activity);
     print_line(format("  activity    {}: black never changes, white {} times", *options.activity, most));
   }
-  print_line(format("try: nutik-cl --start {}f --exposure 1f {} picture.png", timeline.sample_count() / 2,
+  print_line(format("try: nutik-cl --start {}f --exposure 1f {} picture.png", timeline.pictures().sample_count() / 2,
                     shell_word(name)));
   return status;
 }

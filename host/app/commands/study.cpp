@@ -22,6 +22,7 @@
 #include "media/writers/recipe.hpp"
 #include "render/render_plan.hpp"
 #include "session/output_check.hpp"
+#include "session/requests/stated_moments.hpp"
 #include "session/text/number_text.hpp"
 #include "session/text/shell_text.hpp"
 #include "system/checksum.hpp"
@@ -294,7 +295,7 @@ std::string moments_text(const Study& study, const Timeline& timeline) {
       text += is_single ? "the subject at "
                         : format("{}subject {} at ", i == 0 ? "" : "; ", study.subjects[i] + 1);
     }
-    text += format("{} ({}f)", duration_text(timeline.start_ns(sample)), sample);
+    text += format("{} ({})", duration_text(timeline.start_ns(sample)), stated_sample(sample, timeline).text());
   }
   return text;
 }
@@ -327,7 +328,7 @@ PlannedStudy planned_study(Options& options, const StudyRequest& request) {
     if (*planned.aligned_to > 0) state("align-to", format("{}f", *planned.aligned_to));
   }
   if (planned.between) state("between", *planned.between);
-  if (!planned.filmed) take_back_between(options);
+  if (!planned.session.source().between) take_back_between(options);
   return planned;
 }
 

@@ -11,6 +11,7 @@
 #include "imev/activity.hpp"
 #include "imev/each_block.hpp"
 #include "session/requests/named_inputs.hpp"
+#include "session/requests/stated_moments.hpp"
 #include "session/text/number_text.hpp"
 #include "system/input_bytes.hpp"
 
@@ -110,10 +111,11 @@ bool MeasuredActivity::is_redrawn(std::uint64_t sample) const {
 
 std::vector<Note> MeasuredActivity::notes() const {
   if (redrawn.empty()) return {};
-  return {{format("at {} ({}f{}) the whole picture changed a little at once, as with a codec's key frame or a camera's "
+  const auto stated = [&](std::uint64_t sample) { return stated_sample(sample, timeline).text(); };
+  return {{format("at {} ({}{}) the whole picture changed a little at once, as with a codec's key frame or a camera's "
                   "new exposure; each counts as its neighbours do",
-                  counted(redrawn.size(), "sample"), redrawn.front(),
-                  redrawn.size() > 1 ? format(" … {}f", redrawn.back()) : ""),
+                  counted(redrawn.size(), "sample"), stated(redrawn.front()),
+                  redrawn.size() > 1 ? " … " + stated(redrawn.back()) : ""),
            {Setting::count_redrawn}}};
 }
 

@@ -50,7 +50,8 @@ bool ends_within(const ExposureRequest& request, const StatedTime& start, const 
 }  // namespace
 
 std::vector<StatedTime> starts_of(const SeriesRequest& series, const ExposureRequest& request,
-                                  const Timeline& timeline) {
+                                  const Timeline& of_capture) {
+  const Timeline& timeline = of_capture.pictures();
   if (const std::int64_t first_ns = moment_ns(request.start, timeline); first_ns >= timeline.duration_ns()) {
     throw UsageError(format("the series starts at {}, behind the end of the capture at {}",
                             duration_text(first_ns), duration_text(timeline.duration_ns())));

@@ -74,7 +74,8 @@ Exposure interval_from(const ExactTime& start, const StatedTime& length, const T
 
 }  // namespace
 
-std::vector<Exposure> exposures_of(const ContactRequest& request, const Timeline& timeline) {
+std::vector<Exposure> exposures_of(const ContactRequest& request, const Timeline& of_capture) {
+  const Timeline& timeline = of_capture.pictures();
   std::vector<Exposure> exposures;
   for (const ExactTime& start : starts_of(request, timeline)) {
     if (request.length) {
@@ -110,7 +111,7 @@ std::vector<std::string> labels_of(const std::vector<Exposure>& exposures, const
   labels.reserve(exposures.size());
   for (const Exposure& exposure : exposures) {
     labels.push_back(format("{:.{}f} {}   {}f", static_cast<double>(exposure.start_ns) / unit.nanoseconds,
-                            decimals, unit.name, sample_at(exposure.start_ns, timeline)));
+                            decimals, unit.name, sample_at(exposure.start_ns, timeline.pictures())));
   }
   return labels;
 }
@@ -118,7 +119,8 @@ std::vector<std::string> labels_of(const std::vector<Exposure>& exposures, const
 namespace {
 
 // The functions so many pictures later: from one to the next where times are irregular.
-FunctionSet pictures_later(ExposureRequest request, std::int64_t pictures, const Timeline& timeline) {
+FunctionSet pictures_later(ExposureRequest request, std::int64_t pictures, const Timeline& of_capture) {
+  const Timeline& timeline = of_capture.pictures();
   const std::int64_t start_ns = moment_ns(request.start, timeline);
   const Rational rate = timeline.rate();
   const std::int64_t by_ns =

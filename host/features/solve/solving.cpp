@@ -160,8 +160,9 @@ class Solver {
 
   [[nodiscard]] Exposure interval_of(const StatedWish::Moment& moment) const {
     if (!moment.to) {
-      const std::uint64_t sample = sample_at(moment.from, "the time", timeline_);
-      return {timeline_.start_ns(sample), timeline_.end_ns(sample)};
+      const Timeline& pictures = timeline_.pictures();
+      const std::uint64_t picture = sample_at(moment.from, "the time", pictures);
+      return {pictures.start_ns(picture), pictures.end_ns(picture)};
     }
     const Exposure interval{moment_ns(moment.from, timeline_), moment_ns(*moment.to, timeline_)};
     if (interval.start_ns < 0 || interval.end_ns > timeline_.duration_ns() ||

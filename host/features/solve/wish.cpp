@@ -306,11 +306,12 @@ FreeRange range_of(const TimeFreedom& free, const std::string& name, const Timel
 std::vector<std::int64_t> stepped(const TimeFreedom& free, const FreeRange& range, const Timeline& timeline) {
   std::vector<std::int64_t> times_ns;
   if (free.step->counts_samples()) {
-    std::uint64_t sample = sample_at(range.from_ns, timeline);
-    if (timeline.start_ns(sample) < range.from_ns) ++sample;
-    for (; sample < timeline.sample_count() && timeline.start_ns(sample) <= range.to_ns;
-         sample += static_cast<std::uint64_t>(free.step->number.numerator)) {
-      times_ns.push_back(timeline.start_ns(sample));
+    const Timeline& pictures = timeline.pictures();
+    std::uint64_t picture = sample_at(range.from_ns, pictures);
+    if (pictures.start_ns(picture) < range.from_ns) ++picture;
+    for (; picture < pictures.sample_count() && pictures.start_ns(picture) <= range.to_ns;
+         picture += static_cast<std::uint64_t>(free.step->number.numerator)) {
+      times_ns.push_back(pictures.start_ns(picture));
     }
     return times_ns;
   }

@@ -16,6 +16,7 @@
 #include "mask/feather.hpp"
 #include "scene/moments.hpp"
 #include "scene/place_times.hpp"
+#include "session/requests/stated_moments.hpp"
 #include "session/text/number_text.hpp"
 
 namespace nutik {
@@ -163,7 +164,7 @@ class StudyPlanner {
       MaskStep step;
       step.name = {"what changed for good"};
       step.tag = 1;
-      step.selection = select::Subject{StatedTime::of_pictures(static_cast<std::int64_t>(sample))};
+      step.selection = select::Subject{stated_sample(sample, timeline_)};
       step.by_codes = by_codes_;
       step.changes = {{RegionChange::Kind::within, 0.0, box}};
       MaskRequest request;
@@ -203,13 +204,13 @@ class StudyPlanner {
       MaskStep step;
       step.name = {nutik::format("subject {}", i + 1)};
       step.tag = static_cast<std::uint8_t>(i + 1);
-      step.selection = select::Subject{StatedTime::of_pictures(static_cast<std::int64_t>(study.moments[i]))};
+      step.selection = select::Subject{stated_sample(study.moments[i], timeline_)};
       const SubjectTrack& track = followed_[study.subjects[i]].track;
       if (!is_seen_at(track, study.moments[i])) {
         study.notes.push_back(format(
-            "at {} ({}f) the subject that was followed{} is not seen: what differs most from the empty scene "
+            "at {} ({}) the subject that was followed{} is not seen: what differs most from the empty scene "
             "then, if anything, is shown in its place",
-            duration_text(timeline_.start_ns(study.moments[i])), study.moments[i],
+            duration_text(timeline_.start_ns(study.moments[i])), stated_sample(study.moments[i], timeline_).text(),
             followed_.size() > 1 ? " in " + text_of(followed_[study.subjects[i]].region) : ""));
       }
       step.by_codes = request_.by_codes;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "features/masks/mask_making.hpp"
+#include "session/requests/stated_moments.hpp"
 
 namespace nutik {
 namespace {
@@ -95,9 +96,7 @@ Exchange exchanged_by(const SubjectTrack& track, CaptureSource& capture, const s
     }
   }
   if (first < kLooks || last < first || last + kLooks >= track.looked_at.size()) return {};
-  const auto picture_at = [&](std::size_t look) {
-    return StatedTime::of_pictures(static_cast<std::int64_t>(track.looked_at[look]));
-  };
+  const auto picture_at = [&](std::size_t look) { return stated_sample(track.looked_at[look], capture.timeline()); };
   MaskStep step;
   step.name = "what is put down or taken away";
   step.selection = select::Difference{picture_at(first - kLooks), picture_at(last + kLooks)};

@@ -359,7 +359,6 @@ PlannedStudy plan_study(const SourceRequest& source, const StudyRequest& request
     SourceRequest made = planned.session.source();
     made.between = between;
     Session session = ShotPlanner(request, terms, source.path.string()).open(made);
-    planned.filmed = planned.session.timeline();
     planned.session = std::move(session);
     planned.study.functions = std::move(planned.study.functions_between);
   };

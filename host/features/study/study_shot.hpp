@@ -32,10 +32,10 @@ struct PlannedStudy {
   std::optional<SampleRange> part = {};          // pictures that were taken of it
   std::optional<std::uint64_t> aligned_to = {};  // the picture of them that the others were moved onto
   std::optional<std::string> between = {};       // which samples were made, where nobody stated that
-  // Times of the pictures that were filmed, which the study counts, where the session's capture has samples made
-  // between them.
-  std::optional<Timeline> filmed = {};
-  [[nodiscard]] const Timeline& timeline() const { return filmed ? *filmed : session.timeline(); }
+  // What the study counts: pictures of a clip, whatever was made between them, and all samples of a capture.
+  [[nodiscard]] const Timeline& timeline() const {
+    return session.is_clip() ? session.timeline().pictures() : session.timeline();
+  }
 };
 
 // How pictures are moved where nobody stated that.

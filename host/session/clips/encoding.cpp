@@ -56,7 +56,10 @@ class Encoding {
     if (header.part && request.lasting != OutputFile::Lasting::no)
       header.part->checksum = input_checksum(source_.request.path, source_.request.clip.raw.has_value());
     if (source_.camera) header.alignment = kept_alignment(**source_.camera, source_.request.align->unseen);
-    if (source_.made) header.made = **source_.made;
+    if (source_.made) {
+      header.made = **source_.made;
+      header.filmed = tik::filmed_times(source_.filmed(0));
+    }
     writer_.emplace(request.output, header, request.codec, to_held_codes(source_.capture, first_.front()),
                     memory.threads, request.lasting);
     for (std::size_t i = 0; i < kPayloads; ++i) spare_payloads_.push(PageBuffer());

@@ -10,17 +10,17 @@
 namespace nutik {
 namespace {
 
-// The number of a picture that the timeline has.
-std::uint64_t existing_sample(std::int64_t sample, const Timeline& timeline) {
-  const auto count = static_cast<std::int64_t>(timeline.sample_count());
-  if (sample < 0 || sample >= count) {
+// The number of a picture that was filmed.
+std::uint64_t existing_picture(std::int64_t picture, const Timeline& pictures) {
+  const auto count = static_cast<std::int64_t>(pictures.sample_count());
+  if (picture < 0 || picture >= count) {
     throw UsageError(
-        format("picture {} is outside the capture, which has {} (0f … {}f)", sample, count, count - 1));
+        format("picture {} is outside the capture, which has {} (0f … {}f)", picture, count, count - 1));
   }
-  return static_cast<std::uint64_t>(sample);
+  return static_cast<std::uint64_t>(picture);
 }
 
-std::int64_t whole_samples(const StatedTime& time, std::string_view what) {
+std::int64_t whole_pictures(const StatedTime& time, std::string_view what) {
   if (time.number.denominator != 1) {
     throw UsageError(format("{} {}f is not a whole number of pictures", what, time.number.text()));
   }
@@ -55,34 +55,37 @@ std::int64_t start_anywhere(std::int64_t sample, const Timeline& timeline) {
 }  // namespace
 
 ExactTime periods_from(std::int64_t time_ns, std::int64_t count, const Timeline& timeline) {
-  const std::uint64_t first = sample_at(time_ns, timeline);
-  const std::uint64_t last = existing_sample(static_cast<std::int64_t>(first) + count - 1, timeline);
-  if (timeline.is_constant()) return ExactTime::of_sample(timeline, static_cast<std::uint64_t>(count));
-  const bool at_end = last + 1 == timeline.sample_count();
-  return {(at_end ? timeline.duration_ns() : timeline.start_ns(last + 1)) - timeline.start_ns(first), 1};
+  const Timeline& pictures = timeline.pictures();
+  const std::uint64_t first = sample_at(time_ns, pictures);
+  const std::uint64_t last = existing_picture(static_cast<std::int64_t>(first) + count - 1, pictures);
+  if (pictures.is_constant()) return ExactTime::of_sample(pictures, static_cast<std::uint64_t>(count));
+  const bool at_end = last + 1 == pictures.sample_count();
+  return {(at_end ? pictures.duration_ns() : pictures.start_ns(last + 1)) - pictures.start_ns(first), 1};
 }
 
 std::int64_t moment_ns(const StatedTime& time, const Timeline& timeline) {
   if (!time.counts_samples()) return time.nanoseconds();
-  return timeline.start_ns(existing_sample(whole_samples(time, "start"), timeline));
+  const Timeline& pictures = timeline.pictures();
+  return pictures.start_ns(existing_picture(whole_pictures(time, "start"), pictures));
 }
 
 Exposure plain_interval(const StatedTime& start, const StatedTime& length, const Timeline& timeline) {
   if (!start.counts_samples()) return plain_interval(exact_time(start, "start", timeline), length, timeline);
   if (length.number.numerator <= 0) refuse_length(length, "not longer than nothing");
-  const std::int64_t first = whole_samples(start, "start");
-  const std::uint64_t sample = existing_sample(first, timeline);
+  const Timeline& pictures = timeline.pictures();
+  const std::int64_t first = whole_pictures(start, "start");
+  const std::uint64_t picture = existing_picture(first, pictures);
   if (!length.counts_samples())
-    return plain_interval(ExactTime::of_sample(timeline, sample), length, timeline);
-  const std::int64_t last = first + whole_samples(length, "exposure") - 1;
-  return checked({timeline.start_ns(sample), timeline.end_ns(existing_sample(last, timeline))}, length);
+    return plain_interval(ExactTime::of_sample(pictures, picture), length, pictures);
+  const std::int64_t last = first + whole_pictures(length, "exposure") - 1;
+  return checked({pictures.start_ns(picture), pictures.end_ns(existing_picture(last, pictures))}, length);
 }
 
 Exposure plain_interval(const ExactTime& start, const StatedTime& length, const Timeline& timeline) {
   if (length.number.numerator <= 0) refuse_length(length, "not longer than nothing");
   const std::int64_t start_ns = rounded(start);
   const ExactTime exact = length.counts_samples()
-                              ? periods_from(start_ns, whole_samples(length, "exposure"), timeline)
+                              ? periods_from(start_ns, whole_pictures(length, "exposure"), timeline)
                               : exact_time(length, "exposure", timeline);
   return checked({start_ns, rounded_sum(start, exact)}, length);
 }
@@ -93,7 +96,8 @@ std::uint64_t sample_at(std::int64_t time_ns, const Timeline& timeline) {
 }
 
 std::uint64_t sample_at(const StatedTime& time, std::string_view what, const Timeline& timeline) {
-  if (time.counts_samples()) return existing_sample(whole_samples(time, what), timeline);
+  if (time.counts_samples())
+    return timeline.sample_of(existing_picture(whole_pictures(time, what), timeline.pictures()));
   const std::int64_t time_ns = time.nanoseconds();
   if (time_ns < 0 || time_ns > timeline.duration_ns()) {
     throw UsageError(format("{} {} lies outside the capture, which lasts {}", what, time.text(),
@@ -104,9 +108,16 @@ std::uint64_t sample_at(const StatedTime& time, std::string_view what, const Tim
 
 ExactTime exact_time(const StatedTime& time, std::string_view what, const Timeline& timeline) {
   if (!time.counts_samples()) return time.exact_nanoseconds();
-  const std::int64_t sample = whole_samples(time, what);
-  if (sample == static_cast<std::int64_t>(timeline.sample_count())) return {timeline.duration_ns(), 1};
-  return ExactTime::of_sample(timeline, existing_sample(sample, timeline));
+  const Timeline& pictures = timeline.pictures();
+  const std::int64_t picture = whole_pictures(time, what);
+  if (picture == static_cast<std::int64_t>(pictures.sample_count())) return {pictures.duration_ns(), 1};
+  return ExactTime::of_sample(pictures, existing_picture(picture, pictures));
+}
+
+StatedTime stated_sample(std::uint64_t sample, const Timeline& timeline) {
+  const auto picture = timeline.picture_of(sample);
+  return picture ? StatedTime::of_pictures(static_cast<std::int64_t>(*picture))
+                 : StatedTime::of_nanoseconds(timeline.start_ns(sample));
 }
 
 std::int64_t samples_later(std::int64_t time_ns, std::int64_t steps, const Timeline& timeline) {

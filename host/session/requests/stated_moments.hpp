@@ -1,4 +1,5 @@
-// Stated times on a capture's timeline: moments, pictures, intervals.
+// Stated times on a capture's timeline: moments, pictures, intervals. `37f` counts the pictures that were filmed
+// (Timeline::pictures()), whatever samples were made between them.
 #pragma once
 
 #include <cstdint>
@@ -22,12 +23,14 @@ namespace nutik {
 // How long `count` periods are from the picture at a time, within the capture. Throws UsageError where it ends before.
 [[nodiscard]] ExactTime periods_from(std::int64_t time_ns, std::int64_t count, const Timeline& timeline);
 
-// The picture at a time: `37f`, or the last whose exposure begins no later than the time. Throws UsageError
+// The sample at a time: that of `37f`, or the last whose exposure begins no later than the time. Throws UsageError
 // naming `what` where the time lies outside the capture.
 [[nodiscard]] std::uint64_t sample_at(const StatedTime& time, std::string_view what,
                                       const Timeline& timeline);
-// The last picture whose exposure begins no later than that, within the capture.
+// The last sample whose exposure begins no later than that, within the capture.
 [[nodiscard]] std::uint64_t sample_at(std::int64_t time_ns, const Timeline& timeline);
+// What states a sample: `37f`, or its start where it was made.
+[[nodiscard]] StatedTime stated_sample(std::uint64_t sample, const Timeline& timeline);
 
 // A moment on a timeline, exactly: `0.4s`, or `37f` for the start of picture 37 (as many as there are: the
 // capture's end). Throws UsageError naming `what`.

@@ -27,9 +27,9 @@ std::uint64_t left_in(const std::filesystem::path& folder) {
   return error ? std::numeric_limits<std::uint64_t>::max() : space.available;
 }
 
-QImage image_at(Session& session, std::uint64_t sample, std::optional<Precision> precision, const Job& job) {
+QImage image_at(Session& session, std::uint64_t picture, std::optional<Precision> precision, const Job& job) {
   ExposureRequest exposure;
-  exposure.start = StatedTime::of_pictures(static_cast<std::int64_t>(sample));
+  exposure.start = StatedTime::of_pictures(static_cast<std::int64_t>(picture));
   exposure.gains = PlainInterval{StatedTime::of_pictures(1), Shutter()};
   RenderControl control;
   control.stop = job.stop;
@@ -119,15 +119,15 @@ constexpr int kThumbnailHeight = 90;  // twice what the strip is high, for scree
 }  // namespace
 
 CaptureOverview thumbnails_of(Session& session, const Job& job) {
-  const Timeline& timeline = session.timeline();
+  const Timeline& timeline = session.timeline().pictures();
   const std::uint64_t count = std::min(kThumbnails, timeline.sample_count());
   CaptureOverview overview;
   for (std::uint64_t k = 0; k < count; ++k) {
     job.progress(k, count);
-    const std::uint64_t sample = (2 * k + 1) * timeline.sample_count() / (2 * count);
-    const QImage image = image_at(session, sample, {}, job);
+    const std::uint64_t picture = (2 * k + 1) * timeline.sample_count() / (2 * count);
+    const QImage image = image_at(session, picture, {}, job);
     overview.thumbnails.push_back(
-        {timeline.start_ns(sample), image.scaledToHeight(kThumbnailHeight, Qt::SmoothTransformation)});
+        {timeline.start_ns(picture), image.scaledToHeight(kThumbnailHeight, Qt::SmoothTransformation)});
   }
   return overview;
 }

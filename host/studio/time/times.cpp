@@ -37,7 +37,7 @@ Typed<std::int64_t> read_typed(const QString& text, const Timeline& timeline,
   }
   if (time && time->counts_samples())
     return {std::nullopt, TimeAxis::tr("'%1' is outside the capture, which has %2 samples, or is no whole number")
-                              .arg(text.trimmed()).arg(timeline.sample_count())};
+                              .arg(text.trimmed()).arg(timeline.pictures().sample_count())};
   return {std::nullopt, TimeAxis::tr("'%1' is no time of up to 126 years; write a number and a unit: 0.4 s, 10 ms, "
                                      "1/100 s or 37f").arg(text.trimmed())};
 }
