@@ -135,7 +135,8 @@ void report_text(const Options& options, const MeasuredActivity& measured) {
     print_line(format("  M{}: {}, quietest {} to {}", each.tag, counted(each.pixel_count, "pixel"),
                       stated(quiet.first), stated(quiet.last - 1)));
   }
-  print_line(format("try: nutik-cl{} {} quiet.png", stretch_words(options, quietest.samples, timeline), shell_word(name)));
+  print_line(format("try: nutik-cl{} {} quiet.png", stretch_words(options, quietest.samples, timeline),
+                    shell_word(name)));
 }
 
 // The stretches that --moment asks for, as options of another command: of all pixels, or a line for each tag.
