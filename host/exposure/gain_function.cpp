@@ -9,6 +9,11 @@
 #include "exposure/compensated_sum.hpp"
 
 namespace nutik {
+namespace {
+
+bool lies_outside(int128 time_ns) { return time_ns > kLargestTimeNs || time_ns < -kLargestTimeNs; }
+
+}  // namespace
 
 double GainPiece::at(std::int64_t time_ns) const {
   if (begin_gain == end_gain) return begin_gain;
@@ -22,7 +27,7 @@ GainFunction::GainFunction(std::vector<ControlPoint> points) : points_(std::move
   if (points_.empty()) throw std::logic_error("a gain function needs a control point");
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (!std::isfinite(points_[i].gain)) throw std::logic_error("a gain is not finite");
-    if (std::abs(points_[i].time_ns) > kLargestTimeNs) throw std::logic_error("a time is too large");
+    if (lies_outside(points_[i].time_ns)) throw std::logic_error("a time is too large");
     if (i >= 1 && points_[i].time_ns < points_[i - 1].time_ns) {
       throw std::logic_error("control points are not in time order");
     }
@@ -93,8 +98,7 @@ Interval live_interval(const GainFunction& function, std::int64_t duration_ns) {
 GainFunction GainFunction::shifted(std::int64_t by_ns) const {
   std::vector<ControlPoint> points = points_;
   for (ControlPoint& point : points) {
-    // Twice the largest time still fits.
-    if (std::abs(by_ns) > kLargestTimeNs || std::abs(point.time_ns + by_ns) > kLargestTimeNs) {
+    if (lies_outside(static_cast<int128>(point.time_ns) + by_ns)) {
       throw InputError(
           format("a control point at {} ns moved by {} ns lies outside what times can be (±{} ns)",
                  point.time_ns, by_ns, kLargestTimeNs));
@@ -126,7 +130,6 @@ GainFunction GainFunction::stretched(Rational factor, std::int64_t fixed_ns) con
   for (const ControlPoint& point : points_) {
     // The product fits 128 bits; that its quotient fits 64 has to be seen before it is rounded to them.
     const int128 product = (static_cast<int128>(point.time_ns) - fixed_ns) * factor.numerator;
-    const auto lies_outside = [](int128 time) { return time > kLargestTimeNs || time < -kLargestTimeNs; };
     const bool is_outside = lies_outside(product / factor.denominator + fixed_ns);
     const std::int64_t time_ns = is_outside ? 0 : round_half_up(product, factor.denominator) + fixed_ns;
     if (is_outside || lies_outside(time_ns)) {

@@ -139,7 +139,9 @@ TEST(GainFunction, RefusesToLeaveTheRangeOfNumbers) {
   const GainFunction function({{-5, 1e300}, {kLargestTimeNs, 0.0}});
   EXPECT_NO_THROW(static_cast<void>(function.shifted(-kLargestTimeNs + 5)));
   EXPECT_THROW(static_cast<void>(function.shifted(1)), InputError);
-  EXPECT_THROW(static_cast<void>(function.shifted(INT64_MIN + 1)), InputError);
+  for (const std::int64_t by_ns : {INT64_MIN, INT64_MIN + 1})
+    EXPECT_THROW(static_cast<void>(function.shifted(by_ns)), InputError);
+  EXPECT_THROW(GainFunction({{INT64_MIN, 0.0}, {0, 1.0}}), std::logic_error);
   EXPECT_THROW(static_cast<void>(function.scaled(1e10)), InputError);
 }
 
