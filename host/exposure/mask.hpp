@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "capture/error.hpp"
+#include "capture/format.hpp"
 #include "capture/picture.hpp"
 #include "exposure/mixed_pixels.hpp"
 
@@ -40,7 +42,7 @@ struct Mask {
 
   [[nodiscard]] bool is_soft() const { return !mixed.empty(); }
 
-  // How many pixels have each tag, or a share of it.
+  // How many pixels have each tag, or a share of it. Throws InputError where a mixed pixel or its tag is no mask's.
   [[nodiscard]] std::array<std::uint64_t, kMaskValues> pixels_per_tag() const {
     std::array<std::uint64_t, kMaskValues> counts{};
     // Neighbours have the same tag, mostly: a run is counted at once.
@@ -50,7 +52,12 @@ struct Mask {
       run = end;
     }
     for (std::size_t i = 0; i < mixed.pixels().size(); ++i) {
-      const std::uint8_t counted = tags[mixed.pixels()[i]];
+      const std::uint64_t pixel = mixed.pixels()[i];
+      if (pixel >= tags.size() || mixed.shares(i).back().of >= kMaskValues) {
+        throw InputError(format("pixel {} shares value {}, and the mask has {} pixels and values up to {}", pixel,
+                                mixed.shares(i).back().of, tags.size(), kMaskValues - 1));
+      }
+      const std::uint8_t counted = tags[pixel];
       for (const Share& share : mixed.shares(i)) counts[share.of] += share.of != counted;
     }
     return counts;

@@ -9,6 +9,7 @@
 #include "render/reference_renderer.hpp"
 #include "support/bounds.hpp"
 #include "support/exact_exposure.hpp"
+#include "support/messages.hpp"
 #include "support/random_case.hpp"
 #include "support/seeds.hpp"
 #include "support/soft_mask.hpp"
@@ -90,6 +91,12 @@ TEST(SoftMask, SharesAddUpOrAreRefused) {
   EXPECT_THROW(mixed.add(3, std::array<Share, 2>{{{1, 65'534}, {2, 1}}}), std::logic_error);
   EXPECT_TRUE(mixed.of(2).empty());
   EXPECT_EQ(mixed.of(3)[0], (Share{1, 65'534}));
+  Mask mask{3, 1, {0, 0, 0}, mixed};
+  EXPECT_EQ(message_of<InputError>([&] { return regions_of(mask); }),
+            "pixel 3 shares value 2, and the mask has 3 pixels and values up to 255");
+  mask.mixed = {};
+  mask.mixed.add(2, std::array<Share, 2>{{{1, 65'534}, {256, 1}}});
+  EXPECT_THROW(static_cast<void>(regions_of(mask)), InputError);
 }
 
 // What no mixture passes: the bound of the whole plan.
