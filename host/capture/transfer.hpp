@@ -45,6 +45,7 @@ class Transfer {
 
   [[nodiscard]] Kind kind() const { return kind_; }
   [[nodiscard]] bool is_linear() const { return kind_ == Kind::linear; }
+  [[nodiscard]] double exponent() const { return exponent_; }  // of gamma
   // That a camera's curve is stored with; none for other functions.
   [[nodiscard]] std::optional<Primaries> usual_primaries() const;
   // The function of codes that were scaled from video of limited range: a curve that counts whole codes becomes

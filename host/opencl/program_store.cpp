@@ -7,6 +7,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "opencl/cache_folder.hpp"
 #include "opencl/kernel_sources.hpp"
 #include "system/checksum.hpp"
@@ -31,15 +32,16 @@ struct KeptVerdict {
 // What the last line of a file says; none if it is damaged.
 std::optional<KeptVerdict> parse_verdict(const std::string& line) {
   std::istringstream words(line);
-  std::string precision, is_right, error, allowed;  // errors may be infinite, which streams do not read
+  std::string precision, is_right, light, most;  // errors may be infinite, which streams do not read
   Verdict verdict;
-  if (!(words >> precision >> is_right >> error >> allowed >> verdict.wrong_codes >> verdict.codes))
+  if (!(words >> precision >> is_right >> light >> most >> verdict.wrong_codes >> verdict.codes))
     return {};
-  if (is_right != "right" && is_right != "wrong") return {};
+  const auto error = parsed<double>(light), allowed = parsed<double>(most);
+  if (!error || !allowed || (is_right != "right" && is_right != "wrong")) return {};
+  verdict.is_right = is_right == "right";
+  verdict.light_error = *error;
+  verdict.allowed_error = *allowed;
   try {
-    verdict.is_right = is_right == "right";
-    verdict.light_error = std::stod(error);
-    verdict.allowed_error = std::stod(allowed);
     return KeptVerdict{parse_precision(precision), verdict};
   } catch (const std::exception&) {
     return {};

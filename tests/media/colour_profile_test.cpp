@@ -13,6 +13,7 @@
 #include "media/formats/colour_profile.hpp"
 #include "media/writers/picture_writer.hpp"
 #include "support/clips.hpp"
+#include "support/comma_locale.hpp"
 #include "support/messages.hpp"
 #include "support/scratch.hpp"
 #include "support/stills.hpp"
@@ -53,6 +54,15 @@ TEST(ColourProfile, OfWhatIsWrittenHereIsBelieved) {
       }
     }
   }
+}
+
+TEST(ColourProfile, IsTheSameWhereNumbersHaveAComma) {
+  Picture picture({1, 1, 3}, ValueType::code8, 255);
+  picture.transfer = Transfer::gamma(2.6);
+  const auto usual = colour_profile(picture);
+  const CommaLocale locale;
+  if (!locale.is_set()) GTEST_SKIP() << "localedef makes no locale with a decimal comma here";
+  EXPECT_EQ(colour_profile(picture), usual);
 }
 
 // White is that of the profile's own space, or absolute intents tint grey; and both say what it was adapted from.

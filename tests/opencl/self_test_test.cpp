@@ -11,6 +11,7 @@
 #include "opencl/build_options.hpp"
 #include "opencl/opencl_renderer.hpp"
 #include "render/reference_renderer.hpp"
+#include "support/comma_locale.hpp"
 #include "support/messages.hpp"
 #include "support/random_case.hpp"
 #include "support/rendering.hpp"
@@ -127,7 +128,10 @@ TEST_F(SelfTest, VerdictsAreKeptAndRenewedWithTheBinaries) {
 
   for (const auto& file : cached(".bin")) std::filesystem::remove(file);
   EXPECT_EQ(render(options()).precision, Precision::single_) << "a verdict outlived its binaries";
-  EXPECT_TRUE(kept_verdicts(0, scratch_ / "cache").at(Precision::single_).is_right);
+  const Verdict kept = kept_verdicts(0, scratch_ / "cache").at(Precision::single_);
+  EXPECT_TRUE(kept.is_right);
+  const CommaLocale locale;  // without one, once more the same
+  EXPECT_EQ(kept_verdicts(0, scratch_ / "cache").at(Precision::single_).light_error, kept.light_error);
 
   std::ofstream(cached(".txt").front(), std::ios::binary) << "nonsense";
   EXPECT_EQ(render(options()).precision, Precision::single_);

@@ -41,7 +41,7 @@ Curve curve_of(const Transfer& transfer) {
   }
   if (transfer.is_linear()) return Curve(cmsBuildGamma(nullptr, 1.0));
   if (transfer.kind() == Transfer::Kind::gamma) {
-    const double exponent = std::stod(transfer.text().substr(transfer.text().find(':') + 1));
+    const double exponent = transfer.exponent();
     return Curve(cmsBuildParametricToneCurve(nullptr, kPower, &exponent));
   }
   constexpr std::uint32_t kEntries = 4096;
