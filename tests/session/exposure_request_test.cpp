@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "capture/error.hpp"
 #include "features/film/film_request.hpp"
 #include "features/series/series_request.hpp"
@@ -43,6 +45,8 @@ TEST(ExposureRequest, IsEqualToOneThatMeansTheSame) {
   EXPECT_NE(plain("0s", "10ms"), brighter);
   EXPECT_EQ(DelayRequest::parse("a.tif:0s..1s", "delay"), DelayRequest::parse("a.tif:1000ms", "delay"));
   EXPECT_NE(DelayRequest::parse("a.tif:0s..1s", "delay"), DelayRequest::parse("b.tif:0s..1s", "delay"));
+  EXPECT_EQ(message_of<UsageError>([] { return DelayRequest::of_times(2, 2, std::array<std::int64_t, 3>{0, 1, 2}); }),
+            "there are 3 delays for 2 x 2 pixels; each pixel needs one");
 }
 
 TEST(ExposureRequest, IsEqualToOneWithFunctionsAndMaskThatHoldTheSame) {

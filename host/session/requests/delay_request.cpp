@@ -55,6 +55,10 @@ DelayRequest DelayRequest::parse(std::string_view text, std::string_view what) {
 
 DelayRequest DelayRequest::of_times(std::uint32_t width, std::uint32_t height,
                                     std::span<const std::int64_t> times_ns) {
+  if (times_ns.size() != std::uint64_t{width} * height) {
+    throw UsageError(format("there are {} delays for {} x {} pixels; each pixel needs one", times_ns.size(), width,
+                            height));
+  }
   DelayMap map{width, height, {times_ns.begin(), times_ns.end()}, {}};
   std::ranges::sort(map.delays_ns);
   map.delays_ns.erase(std::unique(map.delays_ns.begin(), map.delays_ns.end()), map.delays_ns.end());

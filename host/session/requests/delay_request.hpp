@@ -32,7 +32,8 @@ struct DelayRequest {
 
   // Throws UsageError naming `what` for anything else. Reads nothing.
   static DelayRequest parse(std::string_view text, std::string_view what);
-  // Times are whole nanoseconds, row by row. Throws UsageError where they are more than there can be different delays.
+  // Times are whole nanoseconds, row by row. Throws UsageError where they are not one for each pixel, or more than
+  // there can be different delays.
   static DelayRequest of_times(std::uint32_t width, std::uint32_t height, std::span<const std::int64_t> times_ns);
   // `0s..15ms`
   [[nodiscard]] std::string range_text() const;
