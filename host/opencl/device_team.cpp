@@ -51,29 +51,6 @@ std::vector<Precision> common_precisions(std::span<const Precision> of_first, co
   return common;
 }
 
-// Adds a band that was made at the same time as others. Each read the same blocks, and times run side by side; what is
-// held and written adds up.
-void add(RenderStatistics& all, const RenderStatistics& band) {
-  all.read_ms = std::max(all.read_ms, band.read_ms);
-  all.expose_ms = std::max(all.expose_ms, band.expose_ms);
-  all.develop_ms = std::max(all.develop_ms, band.develop_ms);
-  all.is_timed &= band.is_timed;
-  all.payload_bytes = std::max(all.payload_bytes, band.payload_bytes);
-  all.blocks = std::max(all.blocks, band.blocks);
-  all.device_bytes += band.device_bytes;
-  all.table_bytes_written += band.table_bytes_written;
-  all.map_bytes_written += band.map_bytes_written;
-  all.exposed_functions = std::max(all.exposed_functions, band.exposed_functions);
-  all.kept_sums = std::max(all.kept_sums, band.kept_sums);
-  all.made_sums = std::max(all.made_sums, band.made_sums);
-  all.launches += band.launches;
-}
-
-void add_new(std::vector<std::string>& to, const std::vector<std::string>& texts) {
-  std::ranges::copy_if(texts, std::back_inserter(to),
-                       [&](const std::string& text) { return std::ranges::count(to, text) == 0; });
-}
-
 [[noreturn]] void throw_numbered(std::size_t device, const DeviceError& error) {
   const std::string text = format("device {}: {}", device, error.what());
   if (!error.advice().empty()) throw DeviceError(text, Advice{error.advice()});
@@ -327,13 +304,7 @@ Rendered DeviceTeam::render_bands(const RenderPlan& plan, CaptureSource& source,
                 band.bytes.size());
   });
   split_->took(bands, seconds);
-  for (const std::size_t member : at_work) {
-    const Rendered& band = made[member];
-    whole.saturation += band.saturation;
-    whole.passed_self_test &= band.passed_self_test;
-    add(whole.statistics, band.statistics);
-    add_new(whole.warnings, band.warnings);
-  }
+  for (const std::size_t member : at_work) add_part(whole, made[member], true);
   return whole;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 #include <utility>
 
 #include "capture/format.hpp"
@@ -66,6 +67,30 @@ std::string error_text(const PictureError& error, const OutputFormat& output) {
   const std::string_view article = step.starts_with('8') || step.starts_with("11-") ? "of an " : "of a ";
   return is_one ? format("{}, {:.2g} {}{}", light, error.steps, article, step)
                 : format("{}, {:.3g} {}", light, error.steps, step);
+}
+
+void add_part(Rendered& whole, const Rendered& part, bool is_made_beside) {
+  whole.saturation += part.saturation;
+  whole.passed_self_test &= part.passed_self_test;
+  std::ranges::copy_if(part.warnings, std::back_inserter(whole.warnings), [&](const std::string& text) {
+    return std::ranges::count(whole.warnings, text) == 0;
+  });
+  RenderStatistics& all = whole.statistics;
+  const RenderStatistics& took = part.statistics;
+  // Times run side by side or add up; what is held, the other way round.
+  const auto add = [](auto& to, auto more, bool adds_up) { to = adds_up ? to + more : std::max(to, more); };
+  for (const auto time : {&RenderStatistics::read_ms, &RenderStatistics::expose_ms, &RenderStatistics::develop_ms})
+    add(all.*time, took.*time, !is_made_beside);
+  all.is_timed &= took.is_timed;
+  add(all.device_bytes, took.device_bytes, is_made_beside);
+  all.table_bytes_written += took.table_bytes_written;
+  all.map_bytes_written += took.map_bytes_written;
+  all.launches += took.launches;
+  // Each reads the same blocks.
+  add(all.payload_bytes, took.payload_bytes, !is_made_beside);
+  for (const auto of_blocks : {&RenderStatistics::blocks, &RenderStatistics::exposed_functions,
+                               &RenderStatistics::kept_sums, &RenderStatistics::made_sums})
+    add(all.*of_blocks, took.*of_blocks, false);
 }
 
 Rendered Renderer::render(const RenderPlan& plan, CaptureSource& source, const OutputFormat& output,

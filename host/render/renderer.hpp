@@ -100,6 +100,9 @@ struct Rendered {
   std::vector<std::string> warnings;  // what is doubtful about the picture, whole sentences
 };
 
+// Adds what there is to say of a part of the same picture, made beside the others or after them; not its pixels.
+void add_part(Rendered& whole, const Rendered& part, bool is_made_beside);
+
 class Renderer {
  public:
   virtual ~Renderer() = default;

@@ -1,8 +1,10 @@
 #include "session/exposed_picture.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "capture/format.hpp"
 #include "exposure/gain_function.hpp"
 
 namespace nutik {
@@ -27,6 +29,21 @@ std::vector<PlannedFunction> by_mask_value(const RenderPlan& plan) {
 }
 
 }  // namespace
+
+std::uint64_t infinite_values(const Picture& picture) {
+  if (picture.type != ValueType::light32) return 0;
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(picture.values<float>(), [](float value) { return !std::isfinite(value); }));
+}
+
+std::optional<std::string> infinity_warning(const Picture& picture) {
+  const std::uint64_t count = infinite_values(picture);
+  if (count == 0) return std::nullopt;
+  return format(
+      "{} of {} values are beyond floating point of 32 bits, which ends at 3.4e38, and infinite; "
+      "expose with smaller gains",
+      count, picture.shape.value_count());
+}
 
 ExposureFigures ExposureFigures::of(RenderPlan&& plan, const Timeline& timeline,
                                     std::optional<std::uint64_t> block_count) {

@@ -36,6 +36,10 @@ struct ExposureFigures {
                             std::optional<std::uint64_t> block_count);
 };
 
+// Values that became infinite when light was added up: how many, and a whole sentence of those of a picture.
+[[nodiscard]] std::uint64_t infinite_values(const Picture& picture);
+[[nodiscard]] std::optional<std::string> infinity_warning(const Picture& picture);
+
 // `warnings` are those of the plan and of the renderer.
 struct ExposedPicture : Rendered {
   ExposureFigures figures;

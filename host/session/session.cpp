@@ -51,22 +51,6 @@ void preload_until(const std::future<void>& ready, CaptureSource& source, const 
   }
 }
 
-std::uint64_t infinite_values(const Picture& picture) {
-  if (picture.type != ValueType::light32) return 0;
-  return static_cast<std::uint64_t>(
-      std::ranges::count_if(picture.values<float>(), [](float value) { return !std::isfinite(value); }));
-}
-
-// Warns of light that became infinite when it was added up.
-void warn_of_infinite(Rendered& rendered) {
-  const std::uint64_t count = infinite_values(rendered.picture);
-  if (count == 0) return;
-  rendered.warnings.push_back(
-      format("{} of {} values are beyond floating point of 32 bits, which ends at 3.4e38, and infinite; "
-             "expose with smaller gains",
-             count, rendered.picture.shape.value_count()));
-}
-
 // Keeps those of a plan's functions with delays that are traced, each where its pixel has it.
 void keep_traced(RenderPlan& plan, std::vector<Trace>& traces) {
   if (!plan.map->has_delays()) return;
@@ -255,7 +239,7 @@ class Session::State {
           return devices_->renderer().render(plan, source, output, limited);
         });
     rendered.warnings.insert(rendered.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
-    warn_of_infinite(rendered);
+    if (auto infinite = infinity_warning(rendered.picture)) rendered.warnings.push_back(std::move(*infinite));
     std::vector<PictureLayer> bounds;
     if (output.maps_bounds) {
       const Rectangle part = control.rectangle.value_or(Rectangle::whole(format_.shape));
@@ -408,7 +392,7 @@ void Session::render_many(std::span<const ExposureRequest> requests, const Outpu
       Rendered& rendered = waiting[i];
       rendered.picture = stored(std::move(light[i]), plans[i].capture, output, rendered.saturation);
       state_values(rendered.picture, plans[i].capture, output);
-      warn_of_infinite(rendered);
+      if (auto infinite = infinity_warning(rendered.picture)) rendered.warnings.push_back(std::move(*infinite));
       done(next++, state_->exposed_of(std::move(rendered), std::move(plans[i]), timeline(), output));
     }
     plans.clear();

@@ -102,6 +102,47 @@ TEST_F(LivePicturesTest, AnswersTheLatestRequestOnly) {
   EXPECT_EQ(all[2].exposed->warnings, full.warnings);
 }
 
+// Many of whose values are infinite, which each strip has some of.
+TEST_F(LivePicturesTest, AFullPictureIsThatOfTheSession) {
+  for (const bool maps_bounds : {false, true}) {
+    LiveRequest asked = request(1);
+    asked.full->output = {ValueType::light32, 0};
+    asked.full->output.maps_bounds = maps_bounds;
+    asked.full->exposure.gain = 1e39;
+    std::optional<ExposedPicture> found;
+    LivePictures live([&](LiveAnswer answer) { found = std::move(answer.exposed); });
+    live.ask(asked);
+    live.wait();
+    const ExposedPicture full = alone(*asked.full, {});
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->picture, full.picture);
+    EXPECT_FALSE(full.warnings.empty());
+    EXPECT_EQ(found->warnings, full.warnings);
+    ASSERT_EQ(found->bounds.size(), full.bounds.size());
+    EXPECT_NE(full.bounds.empty(), maps_bounds);
+    for (std::size_t i = 0; i < full.bounds.size(); ++i) EXPECT_EQ(found->bounds[i].values, full.bounds[i].values) << i;
+  }
+}
+
+TEST_F(LivePicturesTest, PartsAddUpWhatTheyTook) {
+  Rendered part;
+  part.saturation = {1, 2};
+  part.statistics = {.read_ms = 3, .payload_bytes = 4, .device_bytes = 5, .blocks = 6, .launches = 7};
+  part.warnings = {"a", "b"};
+  for (const bool is_made_beside : {false, true}) {
+    Rendered whole = part;
+    whole.warnings = {"b"};
+    add_part(whole, part, is_made_beside);
+    EXPECT_EQ(whole.saturation, (Saturation{2, 4}));
+    EXPECT_EQ(whole.warnings, (std::vector<std::string>{"b", "a"}));
+    EXPECT_EQ(whole.statistics.read_ms, is_made_beside ? 3 : 6);
+    EXPECT_EQ(whole.statistics.payload_bytes, is_made_beside ? 4u : 8u);
+    EXPECT_EQ(whole.statistics.device_bytes, is_made_beside ? 10u : 5u);
+    EXPECT_EQ(whole.statistics.blocks, 6u);
+    EXPECT_EQ(whole.statistics.launches, 14u);
+  }
+}
+
 // Whatever is asked while a full picture is on its way: previews come first, and what is old is given up.
 TEST_F(LivePicturesTest, GivesUpFullPicturesThatNobodyWaitsFor) {
   std::vector<LiveAnswer> answers;

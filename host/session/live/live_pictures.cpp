@@ -19,17 +19,19 @@ ExposedPicture expose(const LivePart& part, const Rectangle& rectangle, bool in_
   return part.session->render(part.exposure, part.output, control);
 }
 
-// Adds the rows below.
+// Adds the rows below; what is said of infinite values is said of all of them once they are there.
 void append(ExposedPicture& exposed, const ExposedPicture& below) {
   exposed.picture.shape.height += below.picture.shape.height;
   exposed.picture.bytes.insert(exposed.picture.bytes.end(), below.picture.bytes.begin(),
                                below.picture.bytes.end());
-  exposed.saturation += below.saturation;
+  add_part(exposed, below, false);
 }
 
 // Rows of a full picture that take about as long as a preview of so many pixels; a small one's would be lost in what
-// each strip takes by itself.
-std::uint32_t strip_rows(const Rectangle& preview, const Rectangle& full) {
+// each strip takes by itself. All rows where bounds are mapped, which depend on the rows beside a pixel's.
+std::uint32_t strip_rows(const Rectangle& preview, const LivePart& part) {
+  const Rectangle& full = part.rectangle;
+  if (part.output.maps_bounds) return std::max(full.height, 1u);
   constexpr std::uint64_t kMinPixels = 1 << 17;
   const std::uint64_t pixels = std::max(std::uint64_t{preview.width} * preview.height, kMinPixels);
   const std::uint64_t rows = pixels / std::max(full.width, 1u);
@@ -88,7 +90,7 @@ void LivePictures::preview(Asked asked, const std::stop_token& stop) {
       found.exposed = expose(part, part.rectangle, false, stop);
     }
     if (asked.request.full) {
-      const std::uint32_t rows = strip_rows(part.rectangle, asked.request.full->rectangle);
+      const std::uint32_t rows = strip_rows(part.rectangle, *asked.request.full);
       strips_ = Strips{asked.number, std::move(*asked.request.full), rows};
     }
   } catch (...) {
@@ -107,6 +109,9 @@ void LivePictures::expose_strip(const std::stop_token& stop) {
     strip.y += strips.next_row;
     strip.height = std::min(strips.rows_at_once, whole.height - strips.next_row);
     ExposedPicture exposed = expose(strips.part, strip, false, stop);
+    const bool is_whole = strip.height == whole.height;
+    if (const auto infinite = infinity_warning(exposed.picture); infinite && !is_whole)
+      std::erase(exposed.warnings, *infinite);
     if (strips.exposed) {
       append(*strips.exposed, exposed);
     } else {
@@ -114,6 +119,8 @@ void LivePictures::expose_strip(const std::stop_token& stop) {
     }
     strips.next_row += strip.height;
     if (strips.next_row < whole.height) return;
+    if (auto infinite = infinity_warning(strips.exposed->picture); infinite && !is_whole)
+      strips.exposed->warnings.push_back(std::move(*infinite));
     found.exposed = std::move(strips.exposed);
   } catch (...) {
     found.error = std::current_exception();

@@ -5,8 +5,8 @@
 //   out:     previews and full pictures, in the order in which they were asked for
 //   always:  one preview is in flight and one waits: a newer request takes the place of the one that waits and stops
 //            none in flight, so that pictures come as long as requests do. A full picture is exposed strip by strip
-//            while no preview waits, and is given up between two strips when there is a newer request. Nothing is
-//            delivered that is older than what was delivered before
+//            while no preview waits, one with a map of bounds at once, and is given up between two strips when there is
+//            a newer request. Nothing is delivered that is older than what was delivered before
 //   threads: any number may ask. Answers come from a thread of this object's own, one at a time
 #pragma once
 
@@ -42,7 +42,7 @@ struct LiveAnswer {
   std::uint64_t request = 0;  // as ask() numbered it
   bool is_preview = false;
   Rectangle rectangle;  // that was asked for
-  // Its picture: a full one has the bytes of Session::render(). Or what that threw.
+  // Its picture: a full one is that of Session::render(), times and launches aside. Or what that threw.
   std::optional<ExposedPicture> exposed;
   std::exception_ptr error;
 };
