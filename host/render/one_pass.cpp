@@ -109,6 +109,7 @@ std::vector<Picture> expose_in_one_pass(std::span<const RenderPlan> plans, Captu
   Rows rows(capture, rectangle);
   std::vector<double> light;
   BlockCursor blocks(source);
+  std::uint64_t read = 0;
   for (const auto& entry : wanting) {
     const std::uint64_t number = entry.first;
     const std::vector<std::size_t>& wanted = entry.second;
@@ -133,6 +134,7 @@ std::vector<Picture> expose_in_one_pass(std::span<const RenderPlan> plans, Captu
       parallel_for(wanted.size(), [&](std::uint64_t i) { sums[wanted[i]].add(first, count, light.data()); });
     }
     for (const std::size_t i : wanted) sums[i].end();
+    if (control.progress) control.progress(++read, wanting.size());
   }
   source.check_unchanged();
   std::vector<Picture> pictures;

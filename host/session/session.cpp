@@ -389,6 +389,7 @@ void Session::render_many(std::span<const ExposureRequest> requests, const Outpu
     if (plans.empty()) return;
     std::vector<Picture> light = expose_in_one_pass(plans, *state_->reader_, rectangle, control);
     for (std::size_t i = 0; i < plans.size(); ++i) {
+      throw_if_cancelled(control);
       Rendered& rendered = waiting[i];
       rendered.picture = stored(std::move(light[i]), plans[i].capture, output, rendered.saturation);
       state_values(rendered.picture, plans[i].capture, output);

@@ -293,6 +293,22 @@ TEST_F(SessionOfClip, IsNotOpenedWhenNobodyWantsItAnyMore) {
   EXPECT_LT(told, 24u);
 }
 
+TEST_F(SessionOfClip, StopsBetweenPicturesOfOnePass) {
+  Session session(source_);
+  std::stop_source stop;
+  std::uint64_t told = 0;
+  std::size_t made = 0;
+  RenderControl control{.stop = stop.get_token(), .progress = [&](std::uint64_t done, std::uint64_t) { told = done; }};
+  EXPECT_THROW(session.render_many(std::vector(5, request_), kFloats, control,
+                                   [&](std::size_t, const ExposedPicture&) {
+                                     ++made;
+                                     stop.request_stop();
+                                   }),
+               Cancelled);
+  EXPECT_EQ(made, 1u);
+  EXPECT_GT(told, 0u);
+}
+
 TEST_F(SessionOfClip, TracesAPixelToItsLight) {
   Session session(source_, reference());
   const ExposedPicture exposed = session.render(request_, {ValueType::light64, 0});
