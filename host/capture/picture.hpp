@@ -14,6 +14,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "capture/format.hpp"
 #include "capture/noise_model.hpp"
 #include "capture/primaries.hpp"
 #include "capture/rational.hpp"
@@ -81,6 +82,21 @@ struct CaptureFormat {
   [[nodiscard]] Shape shown_shape() const { return in_square_pixels(shape, pixel_aspect); }
   friend bool operator==(const CaptureFormat&, const CaptureFormat&) = default;
 };
+
+// What no capture has, behind `a clip `: `has 1 or 3 channels, not 2`; empty of a format that is right.
+[[nodiscard]] inline std::string mistake_in(const CaptureFormat& of) {
+  const std::uint32_t last = of.code_bytes == 1 ? 255 : 65'535;
+  if (of.shape.width == 0 || of.shape.height == 0)
+    return format("has pixels, not {} x {} of them", of.shape.width, of.shape.height);
+  if (of.shape.channels != 1 && of.shape.channels != 3)
+    return format("has 1 or 3 channels, not {}", of.shape.channels);
+  if (of.code_bytes != 1 && of.code_bytes != 2) return format("has codes of 1 or 2 bytes, not of {}", of.code_bytes);
+  if (of.white_code == 0 || of.white_code > last)
+    return format("whose codes end at {} has a white code of 1 … {}, not {}", last, last, of.white_code);
+  if (of.pixel_aspect.numerator <= 0 || of.pixel_aspect.denominator <= 0)
+    return format("has pixels of some width and height, not {}", of.pixel_aspect.text());
+  return {};
+}
 
 enum class ValueType { code8, code16, light32, light64 };
 

@@ -100,7 +100,7 @@ std::string_view decimal_mark_hint(std::string_view text) {
 std::string Rational::text() const {
   if (denominator == 1) return format("{}", numerator);
   std::int64_t scale = 1;
-  for (int places = 1; places <= 6; ++places) {
+  for (int places = 1; places <= 6 && denominator > 0; ++places) {
     scale *= 10;
     if (scale % denominator != 0) continue;
     const int128 scaled = static_cast<int128>(numerator) * (scale / denominator);

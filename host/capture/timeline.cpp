@@ -50,7 +50,7 @@ std::int64_t time_from(std::int64_t origin, std::int64_t time_ns, std::uint64_t 
 }  // namespace
 
 Timeline Timeline::constant(Rational rate, Rational shutter_angle, std::uint64_t sample_count) {
-  if (rate.numerator <= 0) {
+  if (rate.numerator <= 0 || rate.denominator <= 0) {
     throw UsageError(format("frame rate {} is not positive", rate.text()));
   }
   if (rate.numerator > kLargestTerm || rate.denominator > kLargestTerm) {

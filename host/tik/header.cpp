@@ -58,11 +58,8 @@ class HeaderParser {
     const std::uint32_t depth = number_of(words, "depth");
     capture.code_bytes = depth / 8;
     capture.white_code = number_of(words, "white code");
-    if ((depth != 8 && depth != 16) || (depth == 8 && maximum > 255) || maximum > 65'535 ||
-        capture.shape.width == 0 || capture.shape.height == 0 || capture.white_code != maximum ||
-        maximum == 0) {
+    if ((depth != 8 && depth != 16) || capture.white_code != maximum || !mistake_in(capture).empty())
       fail("its comments contradict its picture");
-    }
     try {
       capture.transfer = Transfer::parse(words["transfer"]);
       if (noise_.empty()) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "capture/error.hpp"
 #include "session/clips/evened_times.hpp"
@@ -62,6 +63,47 @@ TEST(Encoding, SaysThatThereAreMorePicturesThanAnnounced) {
 TEST(Encoding, SaysNothingOfAClipThatIsWholeOrAnnouncesNothing) {
   EXPECT_EQ(warnings_of(7, 7), std::vector<std::string>{});
   EXPECT_EQ(warnings_of(7, 0), std::vector<std::string>{});
+}
+
+// Clips that a program makes may say anything.
+TEST(Encoding, RefusesAClipThatNoCaptureHolds) {
+  const Scratch scratch;
+  struct Odd final : test::MadeClip {
+    explicit Odd(const std::function<void(ClipInfo&)>& change) : MadeClip(7, 7) { change(info_); }
+  };
+  const auto encoded = [&](const SourceRequest& source, const OpenClip& open) {
+    return encode(source, {scratch / "c.tik"}, MemoryBudget::of_machine(), {}, {}, open);
+  };
+  const auto refused = [&](const std::function<void(ClipInfo&)>& change) {
+    const auto open = [&] { return std::make_unique<Odd>(change); };
+    return message_of<InputError>([&] { return encoded({.path = "x"}, open); });
+  };
+  EXPECT_EQ(refused([](ClipInfo& info) { info.format.shape.channels = 2; }), "x: a clip has 1 or 3 channels, not 2");
+  EXPECT_EQ(refused([](ClipInfo& info) { info.format.shape.width = 0; }), "x: a clip has pixels, not 0 x 8 of them");
+  EXPECT_EQ(refused([](ClipInfo& info) { info.format.code_bytes = 3; }),
+            "x: a clip has codes of 1 or 2 bytes, not of 3");
+  for (const std::uint32_t white : {0u, 256u}) {
+    EXPECT_EQ(refused([=](ClipInfo& info) { info.format.white_code = white; }),
+              "x: a clip whose codes end at 255 has a white code of 1 … 255, not " + std::to_string(white));
+  }
+  EXPECT_EQ(refused([](ClipInfo& info) { info.format.pixel_aspect = {1, 0}; }),
+            "x: a clip has pixels of some width and height, not 1/0");
+  for (const Rational rate : {Rational{0, 0}, Rational{30, 0}}) {
+    EXPECT_EQ(refused([=](ClipInfo& info) { info.timing.rate = rate; }),
+              "x: the rate in the file cannot be: frame rate " + rate.text() + " is not positive; state another");
+  }
+  EXPECT_EQ(message_of<UsageError>([&] { return encoded({.path = "x"}, [] { return nullptr; }); }),
+            "'x': no clip was opened");
+  EXPECT_THROW(static_cast<void>(encode(ClipSource{}, {scratch / "c.tik"}, ClipMemory{})), UsageError);
+
+  const auto open = [] { return std::make_unique<test::MadeClip>(7, 7); };
+  EXPECT_EQ(message_of<UsageError>([&] { return encoded({.path = "x", .shutter_angle = Rational{0, 0}}, open); }),
+            "shutter angle 0/0 is outside 0 < angle <= 360 degrees");
+  SourceRequest part{.path = "x"};
+  part.clip.crop = Rectangle{0, 0, 1, 1};
+  part.clip.to = ClipMoment{3, true};
+  EXPECT_EQ(message_of<UsageError>([&] { return encoded(part, open); }),
+            "x: to, crop can be stated of files alone, and its owner makes this clip");
 }
 
 // Also where encoding itself checks the name once more, which may replace captures.

@@ -22,8 +22,10 @@ class MadeClip : public Clip {
     return true;
   }
 
- private:
+ protected:
   ClipInfo info_;
+
+ private:
   std::uint64_t pictures_;
   std::uint64_t read_ = 0;
 };

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "capture/format.hpp"
+#include "capture/text.hpp"
 #include "media/deflicker.hpp"
 #include "media/events/event_clip.hpp"
 #include "session/clips/evened_times.hpp"
@@ -40,6 +41,24 @@ void refuse_streams(const std::filesystem::path& path) {
       format("{} is no regular file: a clip is read more than once; name standard input as -, or save the stream to a "
              "file first",
              path.string()));
+}
+
+// A clip that its owner makes is what it is.
+void refuse_what_files_have(const SourceRequest& source) {
+  const ClipOptions& clip = source.clip;
+  std::vector<std::string_view> stated;
+  for (const auto& [is_stated, name] :
+       {std::pair(clip.raw.has_value(), "raw"), std::pair(clip.matrix.has_value(), "matrix"),
+        std::pair(clip.range.has_value(), "range"), std::pair(clip.chroma_at.has_value(), "chroma_at"),
+        std::pair(clip.from.has_value(), "from"), std::pair(clip.to.has_value(), "to"),
+        std::pair(clip.crop.has_value(), "crop"), std::pair(clip.scale.has_value(), "scale"),
+        std::pair(clip.interlaced != Interlaced::refused, "interlaced"),
+        std::pair(clip.ends_at_damage, "ends_at_damage"), std::pair(clip.events != EventOptions(), "events")}) {
+    if (is_stated) stated.emplace_back(name);
+  }
+  if (stated.empty()) return;
+  throw UsageError(format("{}: {} can be stated of files alone, and its owner makes this clip",
+                          input_title(source.path.string()), joined(stated)));
 }
 
 // On the clip itself, which is then opened again. Throws MemoryTooLittle with the least that does for encoding, too.
@@ -203,6 +222,12 @@ CaptureFormat clip_format(const Clip& clip, const ClipOptions& options) {
   return capture;
 }
 
+void ClipSource::check() const {
+  if (!clip) throw UsageError(format("'{}': no clip was opened", name()));
+  if (const std::string mistake = mistake_in(clip->info().format); !mistake.empty())
+    throw InputError(format("{}: a clip {}", name(), mistake));
+}
+
 Timeline ClipSource::filmed(std::uint64_t sample_count) const {
   const std::uint64_t count = made ? (*made)->after.size() : sample_count;
   return request.shutter_angle ? timeline_of(name(), clip->info(), request.clip, *request.shutter_angle, count)
@@ -275,7 +300,8 @@ ClipToRead ClipSource::clip_to_read() const {
 
 ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory, const ReportedProgress& progress,
                             const std::stop_token& stop, OpenClip open) {
-  if (!open) {
+  const bool is_made = static_cast<bool>(open);
+  if (!is_made) {
     refuse_streams(request.path);
     ClipOptions options = request.clip;
     // Pictures are decoded beside much else; a recording of events is held whole before anything else is allocated.
@@ -283,6 +309,7 @@ ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& me
     open = [path = request.path, options] { return open_clip(path, options); };
   }
   if (request.path.empty()) throw UsageError("no clip is named");
+  if (is_made) refuse_what_files_have(request);
   if (!(request.sigmas >= SourceRequest::kMinSigmas && request.sigmas <= SourceRequest::kMaxSigmas)) {
     throw UsageError(format("{} standard deviations of noise are not within {} … {}", request.sigmas,
                             SourceRequest::kMinSigmas, SourceRequest::kMaxSigmas));
@@ -290,6 +317,7 @@ ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& me
   ClipSource source;
   source.request = request;
   source.clip = open();
+  source.check();
   if (request.shutter_angle && !request.clip.rate && !source.clip->info().timing.exposures.empty()) {
     throw UsageError(source.name() + " says how long each picture was exposed",
                      Advice{"; leave `shutter-angle` out, or the exposure_ns column empty"});

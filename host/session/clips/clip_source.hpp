@@ -44,6 +44,9 @@ struct ClipSource {
   // `notes`, and that the rate may be one of playing: slow-motion files state that.
   [[nodiscard]] std::vector<Note> all_notes(std::uint64_t sample_count) const;
 
+  // Throws UsageError where there is no clip, InputError where it has what no capture has.
+  void check() const;
+
   // For messages.
   [[nodiscard]] std::string name() const { return input_title(request.path.string()); }
   // As the files announce it; 0: they do not.
@@ -61,8 +64,7 @@ struct ClipSource {
 // counts pictures while that reads the clip; the source's own request knows the path then.
 //
 // `open` is of a clip that its owner makes: it does so from the start, as often as the clip is read. The request's path
-// is its name in messages then; what of the request only files have, the part of the clip for example, is the owner's
-// business.
+// is its name in messages then; UsageError where the request states what only files have, a part for example.
 [[nodiscard]] ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& memory,
                                           const ReportedProgress& progress = {}, const std::stop_token& stop = {},
                                           OpenClip open = {});

@@ -201,6 +201,7 @@ class Encoding {
 
 EncodedCapture encode(ClipSource source, const EncodeRequest& request, const ClipMemory& memory,
                       const ReportedProgress& progress, std::stop_token stop) {
+  source.check();
   return Encoding(std::move(source), request, memory).run(progress, stop);
 }
 

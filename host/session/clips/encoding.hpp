@@ -33,7 +33,7 @@ struct EncodedCapture {
 };
 
 // Reads the whole clip; `progress` counts samples. Throws InputError if the clip has no sample or unusable times,
-// OutputError if the file cannot be written, Cancelled.
+// OutputError if the file cannot be written, Cancelled, what ClipSource::check() throws.
 [[nodiscard]] EncodedCapture encode(ClipSource source, const EncodeRequest& request, const ClipMemory& memory,
                                     const ReportedProgress& progress = {}, std::stop_token stop = {});
 
