@@ -4,6 +4,7 @@
 //   out:     pictures and what is to be said of them, as values. Nothing is printed
 //   threads: any number may ask one session. Requests that share a device take turns at it. A session that is moved or
 //            destroyed is asked by nobody
+//   files:   a .tik that is made shorter while it is open ends the program (SIGBUS), but after watch_mapped_files()
 //
 // A .tik is read where it lies. A clip is read in one of two ways, and that says what can be asked:
 //
@@ -76,7 +77,7 @@ class Session {
     std::stop_token stop = {};       // ends that: Cancelled
 
     // Makes the clip, in place of the one at the source's path, which is its name in messages. Such a
-    // clip is read whole.
+    // clip is read whole; UsageError where the source states what only files have.
     OpenClip open_clip = {};
 
     // The part of the budget that the caller uses beside the session: for pictures that wait to be written, say.

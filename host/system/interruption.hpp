@@ -15,7 +15,8 @@
 namespace nutik {
 
 // Called with how many steps are done of how many, 0 where that is not known, on any of the threads that do the work,
-// never on two at once. May be empty. What it throws ends the work and comes back to the caller.
+// never on two at once. May be empty. What it throws ends the work and comes back to the caller. Must not ask the
+// devices that do the work: they wait for it.
 using ReportedProgress = std::function<void(std::uint64_t done, std::uint64_t total)>;
 
 struct Interrupted : Error {
