@@ -53,7 +53,7 @@ function(nutik_room name)
   set_target_properties(nutik_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(
     nutik_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/host>
-                         $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/nutik>)
+                         $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(nutik_${name} PUBLIC cxx_std_20)
   list(TRANSFORM ROOM_USES PREPEND nutik::)
   target_link_libraries(nutik_${name} PUBLIC ${ROOM_USES} ${ROOM_LINKS}

@@ -11,7 +11,7 @@ from functools import cache
 from pathlib import Path
 
 folder, sources = (Path(text) for text in sys.argv[1:])
-headers = sorted(str(path.relative_to(folder)) for path in folder.rglob("*.hpp"))
+headers = sorted(str(path.relative_to(folder)) for path in (folder / "nutik").rglob("*.hpp"))
 if not headers:
     sys.exit(f"no header is installed in {folder}")
 
@@ -21,7 +21,7 @@ def included_by(header):
     """All that it includes, before anything else, and what those include."""
     top = re.match(r"(?:(?://|#).*\n|\s)*", (folder / header).read_text())[0]
     named = re.findall(r'^#include [<"](.+?)[>"]', top, re.MULTILINE)
-    direct = {name.removeprefix("nutik/") for name in named} & set(headers)
+    direct = set(named) & set(headers)
     return direct.union(*(included_by(name) for name in direct))
 
 
