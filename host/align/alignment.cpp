@@ -203,7 +203,7 @@ std::string alignment_text(const tik::Alignment& aligned) {
                                  ? std::string()
                                  : format(" and turned by up to {:.3f} degrees", aligned.turned_degrees);
   return format(
-      "to sample {} ({}), from which others were moved by up to {:.2f} pixels{}; what a sample did not see "
+      "to picture {} ({}), from which others were moved by up to {:.2f} pixels{}; what a picture did not see "
       "{}",
       aligned.reference, aligned.motion, aligned.moved_pixels, turned,
       aligned.holds_unseen ? "holds what was seen before" : "was cut away");

@@ -166,7 +166,7 @@ TEST_F(Aligning, IsToldByInfo) {
   EXPECT_EQ(aligned["alignment"]["reference_sample"], 0);
   EXPECT_FALSE(aligned["alignment"]["holds_unseen"]);
   EXPECT_NEAR(aligned["alignment"]["moved_pixels"], 4.1, 0.3);
-  expect_says(run("info a.tik").out, "  aligned     to sample 0 (rigid)");
+  expect_says(run("info a.tik").out, "  aligned     to picture 0 (rigid)");
   EXPECT_TRUE(answer("info plain.tik")["alignment"].is_null());
   // It stays when the capture is written again.
   make("retime -f 50 a.tik b.tik");

@@ -38,6 +38,7 @@ TEST_F(InputKinds, ACaptureIsOneThroughAPipe) {
   expect_shell_refused("mkfifo pipe; cat clip.tik > pipe & " + program_ + wanted +
                            "pipe x.pgm; status=$?; kill $!; exit $status",
                        "pipe is no regular file");
+  expect_shell_refused(program_ + " study pipe x.pgm", "save the stream to a file first");
 }
 
 TEST_F(InputKinds, ACaptureIsNoPicture) {

@@ -73,7 +73,7 @@ TEST_F(Plates, AreComparedWithTheCaptureInAnyWrittenCodes) {
   }
   make("background deep.tik a.ppm");
   expect_says(answer("mask --difference a.ppm 5f deep.tik a.pgm")["notes"].dump(),
-              "a.ppm does not say what its codes stand for: they are taken for linear, as the capture's");
+              "a.ppm does not say what its codes stand for: they are taken for linear, as what is beside it");
   make("mask --difference deep0a.png deep1a.png -o b.pgm");
   EXPECT_EQ(cv::countNonZero(picture("b.pgm")), 0);
   make("-f 100 --white 4095 --primaries p3 deep p3.tik");

@@ -49,7 +49,7 @@ const Command& shorthand(const Words& words) {
   };
   if (words.operands.size() > 1 || is_given("output")) return command(CommandId::encode);
   if (!first.ends_with(".tik")) {
-    refuse_project(first);
+    if (!is_absent(first)) refuse_project(first);
     const std::string stem = first == "-" ? "clip" : std::filesystem::path(first).stem().string();
     throw UsageError(
         format("the output is missing: nutik-cl {} {}", shell_word(first), shell_word(stem + ".tik")));

@@ -39,10 +39,11 @@ Json made_json(const std::optional<MadeSamples>& made) {
           {"unfollowed_blocks", made->unfollowed}};
 }
 
-Json alignment_json(const std::optional<tik::Alignment>& aligned) {
+Json alignment_json(const std::optional<tik::Alignment>& aligned, const Timeline& timeline) {
   if (!aligned) return nullptr;
+  const bool is_there = aligned->reference < timeline.pictures().sample_count();
   return {{"motion", aligned->motion},
-          {"reference_sample", aligned->reference},
+          {"reference_sample", is_there ? Json(timeline.sample_of(aligned->reference)) : Json()},
           {"holds_unseen", aligned->holds_unseen},
           {"moved_pixels", aligned->moved_pixels},
           {"turned_degrees", aligned->turned_degrees},
@@ -103,7 +104,7 @@ int run_info(const Options& options) {
                  {"primaries", to_text(capture.primaries)},
                  {"pixel_aspect", aspect_text(capture.pixel_aspect)},
                  {"facts", facts_json(reader.header().facts)},
-                 {"alignment", alignment_json(reader.header().alignment)},
+                 {"alignment", alignment_json(reader.header().alignment, reader.timeline())},
                  {"part", part_json(reader.header().part)},
                  {"made_samples", made_json(reader.header().made)},
                  {"tolerance_codes", capture.noise.tolerance},

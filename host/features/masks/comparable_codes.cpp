@@ -65,7 +65,7 @@ std::pair<Shared<Picture>, Shared<Picture>> comparable_codes(Shared<Picture> cap
 
 std::string silence_note(const CaptureFormat& capture, const NamedPicture& named) {
   if (named.picture->transfer || capture.transfer == Transfer::srgb()) return {};
-  return format("{} does not say what its codes stand for: they are taken for {}, as the capture's; a PNG, TIFF or "
+  return format("{} does not say what its codes stand for: they are taken for {}, as what is beside it; a PNG, TIFF or "
                 "OpenEXR says it",
                 named.name, capture.transfer.text());
 }

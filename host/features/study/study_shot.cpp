@@ -12,6 +12,7 @@
 #include "features/plate/plate.hpp"
 #include "imev/each_block.hpp"
 #include "media/clip.hpp"
+#include "session/clips/clip_source.hpp"
 
 namespace nutik {
 namespace {
@@ -46,6 +47,7 @@ Beginning beginning_of(const SourceRequest& source) {
   constexpr std::uint64_t kLookedAt = 96, kCompared = 24;
   constexpr double kDark = 0.75, kBright = 0.97;  // of the mean code of most
   Beginning beginning;
+  refuse_streams(source.path);
   const std::unique_ptr<Clip> clip = open_clip(source.path, source.clip);
   const CaptureFormat& format = clip->info().format;
   std::vector<std::byte> raster(format.sample_bytes());

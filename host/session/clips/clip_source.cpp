@@ -32,17 +32,6 @@ std::pair<ReportedProgress, ReportedProgress> halves(const ReportedProgress& pro
           [progress](std::uint64_t done, std::uint64_t total) { progress(total + done, 2 * total); }};
 }
 
-// The file is read once to count and once to decode.
-void refuse_streams(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status) || !std::filesystem::is_other(status)) return;
-  throw InputError(
-      format("{} is no regular file: a clip is read more than once; name standard input as -, or save the stream to a "
-             "file first",
-             path.string()));
-}
-
 // A clip that its owner makes is what it is.
 void refuse_what_files_have(const SourceRequest& source) {
   const ClipOptions& clip = source.clip;
@@ -220,6 +209,17 @@ CaptureFormat clip_format(const Clip& clip, const ClipOptions& options) {
     capture.white_code = *options.white_code;
   }
   return capture;
+}
+
+// It is read once to count and once to decode.
+void refuse_streams(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status) || !std::filesystem::is_other(status)) return;
+  throw InputError(
+      format("{} is no regular file: a clip is read more than once; name standard input as -, or save the stream to a "
+             "file first",
+             path.string()));
 }
 
 void ClipSource::check() const {

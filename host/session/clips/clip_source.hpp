@@ -26,6 +26,9 @@ namespace nutik {
 // white code does not fit its codes.
 [[nodiscard]] CaptureFormat clip_format(const Clip& clip, const ClipOptions& options);
 
+// Throws InputError where a path names what can be read only once.
+void refuse_streams(const std::filesystem::path& path);
+
 // A clip and how it is to be encoded.
 struct ClipSource {
   SourceRequest request;

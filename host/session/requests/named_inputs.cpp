@@ -191,7 +191,14 @@ ReadPicture read_picture(const std::string& name) {
                             stills ? format("a sequence of {}", stills->size()) : "no picture", still_kinds_text()),
                      Advice{", or a time of the capture: 0.3s, 12f"});
   }
-  ReadPicture read = read_still(name, 1.0, "what is needed");
+  ReadPicture read;
+  try {
+    read = read_still(name, 1.0, "what is needed");
+  } catch (const LightOutside& error) {
+    throw InputError(format("{}: pixel {} has the value {:.6g}; floating point is read from 0 to 1 here: make it with "
+                            "a smaller gain, or of codes",
+                            name, error.pixel, error.value));
+  }
   const Picture& picture = read.codes;
   const std::uint32_t largest = largest_code(picture.bytes, static_cast<std::uint32_t>(value_bytes(picture.type)));
   if (largest > picture.white_code) {
