@@ -53,7 +53,7 @@ struct Alignment {
   friend bool operator==(const Alignment&, const Alignment&) = default;
 };
 
-// Of pictures between which samples were made, as if none had been: samples a second, or exposures.
+// The times of pictures between which samples were made, as if none had been: samples a second, or exposures.
 using FilmedTimes = std::variant<Rational, std::vector<Exposure>>;
 [[nodiscard]] FilmedTimes filmed_times(const Timeline& filmed);
 

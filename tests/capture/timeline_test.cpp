@@ -167,7 +167,7 @@ TEST(Timeline, RefusesTimesThatNoCaptureLasts) {
   EXPECT_EQ(Timeline::irregular({kMin, kMin + kLongest / 2}, {360, 1}).duration_ns(), kLongest);
 }
 
-// Of any shutter and of even and uneven times: what is left of a picture's exposure lies round its middle.
+// Whatever the shutter and the times are, what is left of a picture's exposure lies round its middle.
 TEST(Timeline, OfMadeSamplesKnowsWhichArePictures) {
   const MadeSamples made{{3, 0, 1, 63, 2, 0}};
   for (const Rational angle : {Rational{360, 1}, Rational{180, 1}, Rational{1, 1}}) {

@@ -178,7 +178,7 @@ class MaskMaker {
         step.selection);
   }
 
-  // Of a picture from a file and one of the capture, in codes of the capture; of two from files, of the first.
+  // A picture from a file and one of the capture are seen in the codes of the capture, two from files in the first's.
   std::pair<Shared<Picture>, Shared<Picture>> compared(const select::Difference& difference, const MaskStep& step) {
     Shared<Picture> before = picture_of(difference.before, step), after = picture_of(difference.after, step);
     if (before->shape != after->shape) {

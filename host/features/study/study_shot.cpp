@@ -219,7 +219,7 @@ class ShotPlanner {
     return source;
   }
 
-  // Of aligned pictures.
+  // Plans aligned pictures.
   [[nodiscard]] PlannedStudy planned(Session session, std::uint64_t reference) const {
     check_regions(session.format().shape);
     Study study = study_of(session, Unrest::shown);

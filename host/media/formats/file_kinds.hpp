@@ -20,7 +20,7 @@ namespace nutik {
 // Throws InputError with that.
 void refuse_unsupported_kind(const std::filesystem::path& file);
 
-// Of the studio's projects.
+// What the studio's projects are named by.
 inline constexpr const char* kProjectExtension = ".nutik";
 // Throws InputError where a file's name says that it is one.
 void refuse_project(const std::filesystem::path& file);
