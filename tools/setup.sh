@@ -22,8 +22,8 @@ script_packages=(python3 python3-numpy python3-opencv python3-matplotlib)
 # driver for the processor, which shows itself where RUSTICL_ENABLE=llvmpipe is set.
 test_packages=(clang clang-tidy libclang-rt-dev llvm mesa-opencl-icd libgtest-dev libboost-dev zlib1g-dev netpbm time
   ffmpeg python3-mpmath zsh fish groff)
-# The website.
-test_packages+=(mkdocs)
+# The website; and what locales with a decimal comma are made of.
+test_packages+=(mkdocs locales)
 # Schedulers that the job files of tools/farm are run by.
 test_packages+=(slurmctld slurmd slurm-client munge parallel)
 # The Python package, its wheel and its notebooks.

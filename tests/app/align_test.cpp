@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/format.hpp"
 #include "support/app_test.hpp"
 
 namespace nutik::test {
@@ -223,6 +224,14 @@ TEST_F(Aligning, IsMissedWhereTheCameraMoved) {
   expect_says(file("s2.txt"), " --align homography ");
   EXPECT_FALSE(says({"study", "-f", "100", "--align", "rigid", "far", "-o", "s2.png"}));
   expect_says(file("s2.txt"), " --align rigid ");
+  // Long enough that its first pictures tell: it is aligned at once.
+  std::filesystem::create_directory(scratch_ / "long");
+  for (int k = 0; k < 3 * kPictures; ++k)
+    cv::imwrite((scratch_ / format("long/{:02}.pgm", k)).string(), drawn({2 * hand(k).x, 2 * hand(k).y}, k / 3, true));
+  EXPECT_FALSE(says({"study", "-f", "100", "long", "-o", "s4.png"}));
+  expect_says(file("s4.txt"), " --align homography ");
+  make("study -f 100 --align homography long -o s5.png");
+  for (const std::string extension : {".pgm", ".fn"}) EXPECT_EQ(file("s4" + extension), file("s5" + extension));
   make(encoding("far far.tik"));
   expect_refused(
       "study far.tik -o s3.png", 3,

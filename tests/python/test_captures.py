@@ -455,7 +455,8 @@ class Between(support.TestCase):
         self.assertEqual(capture.shape, (9, 80, 128))
         for k, picture in enumerate(pictures):
             self.assert_same(capture[4 * k], picture)
-        self.assert_same(capture.render(start="1f", exposure="2f").array, capture.render(start=0.05, exposure=0.1).array)
+        self.assert_same(capture.render(start="1f", exposure="2f").array,
+                         capture.render(start=0.05, exposure=0.1).array)
         made = capture.trace(50, 40, start=0, exposure=0.15)[0].made
         self.assertTrue(made.any() and not made.all())
         with self.assertRaises(nutik.UsageError):

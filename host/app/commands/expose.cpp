@@ -23,8 +23,8 @@ namespace nutik::app {
 // A series (series.cpp).
 int run_series(const Options& options);
 
-// A plain interval sees no picture but those that it reaches: samples are made between these and
-// their neighbours alone. The recipe has what was stated, as those of series and films have.
+// A plain interval sees no picture but those that it reaches: samples are made between these and their neighbours
+// alone. The recipe has what was stated, as those of series and films have.
 static void make_between_seen(Options& options, const ExposureRequest& request) {
   const std::string& clip = options.operands.front();
   const auto* plain = std::get_if<PlainInterval>(&request.gains);

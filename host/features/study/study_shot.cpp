@@ -43,7 +43,7 @@ struct Beginning {
   bool moves = false;  // the camera surely moves
 };
 
-Beginning beginning_of(const SourceRequest& source) {
+Beginning beginning_of(const SourceRequest& source, bool looks_for_dark) {
   constexpr std::uint64_t kLookedAt = 96, kCompared = 24;
   constexpr double kDark = 0.75, kBright = 0.97;  // of the mean code of most
   Beginning beginning;
@@ -53,8 +53,9 @@ Beginning beginning_of(const SourceRequest& source) {
   std::vector<std::byte> raster(format.sample_bytes());
   std::vector<double> means;
   CameraLooks camera(format);
-  while (means.size() < kLookedAt && clip->read(raster)) {
-    if (!beginning.moves && !source.align && means.size() % kCompared == 0) {
+  const auto looks_for_motion = [&] { return !beginning.moves && !source.align; };
+  while (means.size() < kLookedAt && (looks_for_dark || looks_for_motion()) && clip->read(raster)) {
+    if (looks_for_motion() && means.size() % kCompared == 0) {
       const std::optional<MovedCamera>& moved = camera.look(means.size(), raster);
       beginning.moves = moved && moved->pixels > kMaxCameraPixels;
     }
@@ -62,8 +63,9 @@ Beginning beginning_of(const SourceRequest& source) {
       return static_cast<double>(std::accumulate(codes, codes + format.shape.value_count(), std::uint64_t{0}));
     }));
   }
-  const double usual = means.empty() || !source.deflickered ? 0 : median(means);
-  if (means.empty() || means.front() >= kDark * usual) return beginning;
+  if (means.empty() || !looks_for_dark) return beginning;
+  const double usual = median(means);
+  if (means.front() >= kDark * usual) return beginning;
   const auto bright = std::ranges::find_if(means, [&](double mean) { return mean >= kBright * usual; });
   beginning.dark = static_cast<std::uint64_t>(bright - means.begin());
   return beginning;
@@ -94,7 +96,7 @@ class ShotPlanner {
       source.clip.to = picture(shot.last);
     };
     is_part_of(shot.first);
-    const auto [dark, moves] = beginning_of(source);
+    const auto [dark, moves] = beginning_of(source, source.deflickered);
     const bool is_without = dark > 0 && shot.size() >= dark + kMinSamples;
     if (is_without) is_part_of(shot.first + dark);
     std::optional<PlannedStudy> moved = moves ? plan_moved(source) : std::nullopt;
@@ -290,16 +292,16 @@ PlannedStudy plan_filmed(const SourceRequest& source, const StudyRequest& reques
   const std::string name = source.path.string();
   const ShotPlanner planner(request, terms, name);
   const bool is_part = source.clip.from || source.clip.to;
-  const Beginning beginning = is_tik(source.path) ? Beginning() : beginning_of(source);
-  const bool may_be_whole = beginning.dark == 0 || is_part;
-  if (beginning.moves && may_be_whole) {
+  const Beginning beginning =
+      is_tik(source.path) ? Beginning() : beginning_of(source, source.deflickered && !is_part);
+  if (beginning.moves && beginning.dark == 0) {
     if (std::optional<PlannedStudy> moved = planner.plan_moved(source)) return std::move(*moved);
   }
   std::vector<SampleRange> shots;
   {
     Session session = planner.open(source);
     shots = shots_of(session.capture());
-    if (shots.size() == 1 && may_be_whole) return planner.plan(source, std::move(session));
+    if (shots.size() == 1 && beginning.dark == 0) return planner.plan(source, std::move(session));
     if (shots.size() > 1 && (!session.is_clip() || is_part)) {
       const bool is_numbered = source.clip.from && source.clip.from->is_picture;
       const std::uint64_t part = is_numbered ? static_cast<std::uint64_t>(source.clip.from->value) : 0;
