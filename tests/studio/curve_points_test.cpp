@@ -112,10 +112,10 @@ TEST(Snapping, PrefersPointsOfFunctionsToSamples) {
     const auto snap = snapper.time(time_ns, reach);
     return snap ? snap->time_ns : -1;
   };
-  EXPECT_EQ(at(14'900'000, 1e6), 14'000'000) << "the end of sample 1 at 15 ms is nearer";
+  EXPECT_EQ(at(14'900'000, 1e6), 14'000'000) << "the end of picture 1 at 15 ms is nearer";
   EXPECT_EQ(snapper.time(14'900'000, 1e6)->what, "point of M7");
   EXPECT_EQ(at(14'900'000, 5e5), 15'000'000);
-  EXPECT_EQ(snapper.time(14'900'000, 5e5)->what, "end of sample 1");
+  EXPECT_EQ(snapper.time(14'900'000, 5e5)->what, "end of picture 1");
   EXPECT_EQ(at(12'100'000, 1e5), -1) << "the moved function's own points are no targets";
   EXPECT_EQ(at(999'990'000, 1e5), 1'000'000'000);
   EXPECT_EQ(snapper.gain(0.97, 0.05)->gain, 1.0);

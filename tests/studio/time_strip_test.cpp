@@ -7,7 +7,9 @@
 #include <QTest>
 #include <QWheelEvent>
 
+#include "capture/made_samples.hpp"
 #include "hand.hpp"
+#include "studio/curves/drags.hpp"
 #include "studio/time/time_fields.hpp"
 #include "studio/time/time_strip.hpp"
 
@@ -186,6 +188,33 @@ TEST_F(TimeStripTest, TakesTypedTimesExactly) {
   EXPECT_EQ(document_.mark_out(), 800 * kStripMs);
   type("in", "");
   EXPECT_FALSE(document_.mark_in());
+}
+
+// Three samples were made between pictures 1 and 2, which begin at 10 and 20 ms as before.
+TEST_F(TimeStripTest, CountsThePicturesThatWereFilmedAsTypedTimesDo) {
+  const Timeline filmed = Timeline::constant({100, 1}, Timeline::kFullShutter, 4);
+  const Timeline timeline = MadeSamples{.after = {0, 3, 0, 0}}.times(filmed);
+  document_.start({"clip.tik", {.shape = {8, 6, 3}}, timeline});
+  axis_.set_duration(document_.duration_ns());
+  type("width", "1f");
+  type("start", "2f");
+  EXPECT_EQ(document_.boxcar(), (Boxcar{20 * kStripMs, 10 * kStripMs}));
+  EXPECT_EQ(fields_.findChild<QLabel*>("said")->text(), "picture 2");
+  type("start", "4f");
+  EXPECT_TRUE(fields_.findChild<QLabel*>("said")->text().contains("has 4 pictures"));
+  EXPECT_EQ(interval_text({0, 40 * kStripMs}, timeline), "0 s to 40 ms, pictures 0 to 3");
+  EXPECT_EQ(interval_text({10 * kStripMs, 8 * kStripMs}, timeline),
+            "10 ms to 18 ms, picture 1 to made sample at 16.25 ms");
+  EXPECT_EQ(interval_text({17 * kStripMs, 1}, timeline), "17 ms to 17.000001 ms, made sample at 16.25 ms");
+  document_.set_boxcar({0, kStripMs}, "Away");
+  EXPECT_TRUE(strip_.text_at(at(17 * kStripMs)).startsWith("Made sample, from 16.25 ms"));
+  EXPECT_TRUE(strip_.text_at(at(26 * kStripMs)).startsWith("Picture 2, from 20 ms"));
+  const Snapper snapper(&timeline, {}, 0);
+  for (const auto& [time_ns, what] :
+       {std::pair(10'000'000, "start of picture 1"), std::pair(16'250'000, "start of made sample at 16.25 ms"),
+        std::pair(20'000'000, "start of picture 2"), std::pair(23'750'000, "end of made sample at 21.25 ms"),
+        std::pair(30'000'000, "start of picture 3")})
+    EXPECT_EQ(snapper.time(time_ns + 1, 2)->what, what);
 }
 
 TEST_F(TimeStripTest, SaysWhatIsWrongWithATypedTimeAndKeepsIt) {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "capture/format.hpp"
-#include "session/requests/stated_moments.hpp"
 #include "studio/document/document.hpp"
 #include "studio/time/times.hpp"
 
@@ -15,13 +14,6 @@ namespace {
 constexpr std::size_t kMaxPoints = 10'000;
 
 bool is_earlier(const TimeSnap& a, const TimeSnap& b) { return a.time_ns < b.time_ns; }
-
-QString sample_text(std::int64_t time_ns, const Timeline& timeline) {
-  if (time_ns >= timeline.duration_ns()) return Document::tr("end of the capture");
-  const std::uint64_t sample = sample_at(time_ns, timeline);
-  if (timeline.start_ns(sample) == time_ns) return Document::tr("start of sample %1").arg(sample);
-  return Document::tr("end of sample %1").arg(sample);
-}
 
 std::int64_t whole(double ns) {
   constexpr auto kMax = static_cast<double>(kLargestTimeNs);
@@ -149,7 +141,7 @@ std::optional<TimeSnap> Snapper::time(std::int64_t time_ns, double reach_ns) con
   if (timeline_ == nullptr) return std::nullopt;
   const std::int64_t edge = nearest_sample_edge(time_ns, *timeline_);
   if (distance(edge) > reach_ns) return std::nullopt;
-  return TimeSnap{edge, sample_text(edge, *timeline_)};
+  return TimeSnap{edge, edge_text(edge, *timeline_)};
 }
 
 std::optional<GainSnap> Snapper::gain(double gain, double reach) const {

@@ -26,7 +26,7 @@ namespace nutik::studio {
 //            leave anything else a chance
 struct TimeSnap {
   std::int64_t time_ns = 0;
-  QString what;  // `M128's point`, `start of sample 37`
+  QString what;  // `M128's point`, `start of picture 37`
 };
 struct GainSnap {
   double gain = 0.0;

@@ -25,8 +25,7 @@ NumberEditor::NumberEditor(QWidget* parent, Use use)
   form->addRow(tr("&Gain"), gain_);
   form->addRow(mistake_);
   time_->setAccessibleName(tr("Time of the point"));
-  time_->setToolTip(
-      tr("A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for the start of sample 37"));
+  time_->setToolTip(typed_time_help());
   gain_->setAccessibleName(tr("Gain of the point"));
   gain_->setToolTip(tr("Any number, also below 0: what the light of this moment is multiplied by"));
   mistake_->setWordWrap(true);

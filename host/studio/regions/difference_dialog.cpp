@@ -88,8 +88,7 @@ void ask_difference(QWidget* parent, const Timeline& timeline, const Difference&
     form->addRow(label, field);
     return field;
   };
-  const QString times =
-      Document::tr("A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for the start of sample 37");
+  const QString times = typed_time_help();
   auto* from = add(Document::tr("&From"), new QLineEdit(exact_time_text(first.from_ns)), "difference_from",
                    Document::tr("The one moment"), times);
   auto* to = add(Document::tr("&To"), new QLineEdit(exact_time_text(first.to_ns)), "difference_to",

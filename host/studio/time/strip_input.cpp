@@ -228,8 +228,10 @@ QString TimeStrip::text_at(QPointF at) const {
       const std::int64_t time_ns = axis_.to_time(at.x(), width());
       if (time_ns < 0 || time_ns >= timeline.duration_ns()) return tr("Outside the capture");
       const std::uint64_t sample = sample_at(time_ns, timeline);
+      const auto picture = timeline.picture_of(sample);
       QString text =
-          tr("Sample %1, from %2").arg(sample).arg(exact_time_text(timeline.start_ns(sample)));
+          picture ? tr("Picture %1, from %2").arg(*picture).arg(exact_time_text(timeline.pictures().start_ns(*picture)))
+                  : tr("Made sample, from %1").arg(exact_time_text(timeline.start_ns(sample)));
       if (!activity_.empty())
         text += tr("\n%1 % of the pixels change").arg(100 * activity_.values()[sample], 0, 'g', 3);
       return text + tr("\nClick to bring the interval here");

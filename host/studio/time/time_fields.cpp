@@ -31,9 +31,8 @@ TimeFields::TimeFields(Document& document, QWidget* parent)
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(8, 2, TimeAxis::kRight, 2);
   row->setSpacing(6);
-  const QString time =
-      tr("A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for the start of sample 37");
-  const QString length = tr("A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for 37 samples");
+  const QString time = typed_time_help();
+  const QString length = tr("A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for 37 pictures");
   start_ = add_field("start", tr("S&tart"), tr("Where the exposed interval begins. %1").arg(time),
                      [this](const QString& text) { return take_start(text); });
   length_ = add_field("width", tr("&Width"), tr("How long the exposed interval is. %1").arg(length),
@@ -43,7 +42,7 @@ TimeFields::TimeFields(Document& document, QWidget* parent)
   out_ = add_field("out", tr("&Out"), tr("Where work ends, or nothing. %1").arg(time),
                    [this](const QString& text) { return take_mark(text, &Document::set_mark_out); });
   said_->setObjectName("said");
-  said_->setAccessibleName(tr("Exposed samples"));
+  said_->setAccessibleName(tr("Exposed pictures"));
   said_->setTextFormat(Qt::PlainText);
   said_->setMinimumWidth(0);
   said_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "plot/graph.hpp"
-#include "session/requests/stated_moments.hpp"
 #include "studio/time/times.hpp"
 
 namespace nutik::studio {
@@ -19,9 +18,11 @@ constexpr double kThumbnailShare = 0.58;  // of the track's height
 
 QString interval_text(const Boxcar& boxcar, const Timeline& timeline) {
   const std::int64_t end_ns = boxcar.start_ns + boxcar.length_ns;
-  const std::uint64_t first = sample_at(boxcar.start_ns, timeline), last = sample_at(end_ns - 1, timeline);
-  const QString samples =
-      first == last ? TimeStrip::tr("sample %1").arg(first) : TimeStrip::tr("samples %1 to %2").arg(first).arg(last);
+  const auto first = picture_at(boxcar.start_ns, timeline), last = picture_at(end_ns - 1, timeline);
+  const QString begin = sample_text(boxcar.start_ns, timeline), end = sample_text(end_ns - 1, timeline);
+  const QString samples = begin == end    ? begin
+                          : first && last ? TimeStrip::tr("pictures %1 to %2").arg(*first).arg(*last)
+                                          : TimeStrip::tr("%1 to %2").arg(begin, end);
   return TimeStrip::tr("%1 to %2, %3").arg(exact_time_text(boxcar.start_ns), exact_time_text(end_ns), samples);
 }
 

@@ -70,7 +70,7 @@ class TimeStrip : public TimeView {
   std::optional<Press> press_;
 };
 
-// `100 ms to 110 ms, samples 100 to 109`: an interval, for people.
+// `100 ms to 110 ms, pictures 100 to 109`: an interval, for people.
 [[nodiscard]] QString interval_text(const Boxcar& boxcar, const Timeline& timeline);
 
 }  // namespace nutik::studio

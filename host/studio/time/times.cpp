@@ -25,7 +25,7 @@ std::string typed_number(QString text) {
       .toStdString();
 }
 
-// What the engine refuses is said in the window's language. `time_of` throws UsageError for samples that are not there.
+// What the engine refuses is said in the window's language. `time_of` throws UsageError for pictures that are absent.
 Typed<std::int64_t> read_typed(const QString& text, const Timeline& timeline,
                                std::int64_t (*time_of)(const StatedTime&, const Timeline&)) {
   std::optional<StatedTime> time;
@@ -36,7 +36,7 @@ Typed<std::int64_t> read_typed(const QString& text, const Timeline& timeline,
   } catch (const UsageError&) {
   }
   if (time && time->counts_samples())
-    return {std::nullopt, TimeAxis::tr("'%1' is outside the capture, which has %2 samples, or is no whole number")
+    return {std::nullopt, TimeAxis::tr("'%1' is outside the capture, which has %2 pictures, or is no whole number")
                               .arg(text.trimmed()).arg(timeline.pictures().sample_count())};
   return {std::nullopt, TimeAxis::tr("'%1' is no time of up to 126 years; write a number and a unit: 0.4 s, 10 ms, "
                                      "1/100 s or 37f").arg(text.trimmed())};
@@ -88,13 +88,37 @@ Typed<double> read_typed_gain(const QString& text) {
   return {read.value, {}};
 }
 
+QString typed_time_help() {
+  return TimeAxis::tr("A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for the start of picture 37");
+}
+
 std::int64_t nearest_sample_edge(std::int64_t time_ns, const Timeline& timeline) {
-  const std::uint64_t sample = sample_at(time_ns, timeline);
-  const SampleTimes times = timeline.times(sample);
-  const std::array<std::int64_t, 4> edges{times.before_ns, times.start_ns, times.end_ns, times.after_ns};
-  return *std::min_element(edges.begin(), edges.end(), [&](std::int64_t a, std::int64_t b) {
-    return std::abs(a - time_ns) < std::abs(b - time_ns);
-  });
+  const Timeline& pictures = timeline.pictures();
+  const SampleTimes a = pictures.times(sample_at(time_ns, pictures));
+  const SampleTimes b = timeline.times(sample_at(time_ns, timeline));
+  return std::min({a.before_ns, a.start_ns, a.end_ns, a.after_ns, b.before_ns, b.start_ns, b.end_ns, b.after_ns},
+                  [&](std::int64_t x, std::int64_t y) { return std::abs(x - time_ns) < std::abs(y - time_ns); });
+}
+
+std::optional<std::uint64_t> picture_at(std::int64_t time_ns, const Timeline& timeline) {
+  const Timeline& pictures = timeline.pictures();
+  const std::uint64_t picture = sample_at(time_ns, pictures);
+  if (pictures.start_ns(picture) == time_ns || pictures.end_ns(picture) == time_ns + 1) return picture;
+  return timeline.picture_of(sample_at(time_ns, timeline));
+}
+
+QString sample_text(std::int64_t time_ns, const Timeline& timeline) {
+  if (const auto picture = picture_at(time_ns, timeline)) return TimeAxis::tr("picture %1").arg(*picture);
+  return TimeAxis::tr("made sample at %1").arg(exact_time_text(timeline.start_ns(sample_at(time_ns, timeline))));
+}
+
+QString edge_text(std::int64_t edge_ns, const Timeline& timeline) {
+  const Timeline& pictures = timeline.pictures();
+  const std::uint64_t sample = sample_at(edge_ns, timeline);
+  const bool begins = pictures.start_ns(sample_at(edge_ns, pictures)) == edge_ns ||
+                      (timeline.start_ns(sample) == edge_ns && !timeline.picture_of(sample));
+  return begins ? TimeAxis::tr("start of %1").arg(sample_text(edge_ns, timeline))
+                : TimeAxis::tr("end of %1").arg(sample_text(edge_ns - 1, timeline));
 }
 
 }  // namespace nutik::studio

@@ -28,7 +28,17 @@ struct Typed {
 [[nodiscard]] QString gain_text(double gain);
 [[nodiscard]] Typed<double> read_typed_gain(const QString& text);
 
-// The begin or end of an exposure that is nearest to a time, or the capture's end.
+// What can be typed where a time is asked for.
+[[nodiscard]] QString typed_time_help();
+
+// The begin or end of a sample or of a picture that was filmed that is nearest to a time, or the capture's end.
 [[nodiscard]] std::int64_t nearest_sample_edge(std::int64_t time_ns, const Timeline& timeline);
+// The picture whose own exposure begins at a time or ends behind it, as `37f` counts, else that of the sample at that
+// time; none where that was made.
+[[nodiscard]] std::optional<std::uint64_t> picture_at(std::int64_t time_ns, const Timeline& timeline);
+// `picture 37`, `made sample at 405 ms`.
+[[nodiscard]] QString sample_text(std::int64_t time_ns, const Timeline& timeline);
+// `start of picture 37`, of a nearest_sample_edge() before the capture's end.
+[[nodiscard]] QString edge_text(std::int64_t edge_ns, const Timeline& timeline);
 
 }  // namespace nutik::studio

@@ -329,14 +329,6 @@
         <translation>Ende der Aufnahme</translation>
     </message>
     <message>
-        <source>start of sample %1</source>
-        <translation>Anfang von Sample %1</translation>
-    </message>
-    <message>
-        <source>end of sample %1</source>
-        <translation>Ende von Sample %1</translation>
-    </message>
-    <message>
         <source>Move point</source>
         <translation>Punkt verschieben</translation>
     </message>
@@ -632,10 +624,6 @@ Zeiten und Bilder zählen ab In.</translation>
     <message>
         <source>The selected region gets the pixels in which the capture&apos;s pictures at two moments differ.</source>
         <translation>Die ausgewählte Region erhält die Pixel, in denen sich die Bilder der Aufnahme zu zwei Zeitpunkten unterscheiden.</translation>
-    </message>
-    <message>
-        <source>A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for the start of sample 37</source>
-        <translation>Eine Zahl mit Einheit: 0.4 s, 10 ms, 250 us, 1/100 s, oder 37f für den Anfang von Sample 37</translation>
     </message>
     <message>
         <source>&amp;From</source>
@@ -1491,10 +1479,6 @@ Trotzdem verwenden? Funktionen und Marken behalten ihre Zeiten.</translation>
         <translation>Zeit des Punktes</translation>
     </message>
     <message>
-        <source>A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for the start of sample 37</source>
-        <translation>Eine Zahl mit Einheit: 0.4 s, 10 ms, 250 us, 1/100 s, oder 37f für den Anfang von Sample 37</translation>
-    </message>
-    <message>
         <source>Gain of the point</source>
         <translation>Gain des Punktes</translation>
     </message>
@@ -1735,8 +1719,28 @@ Trotzdem verwenden? Funktionen und Marken behalten ihre Zeiten.</translation>
 <context>
     <name>nutik::studio::TimeAxis</name>
     <message>
-        <source>&apos;%1&apos; is outside the capture, which has %2 samples, or is no whole number</source>
-        <translation>&apos;%1&apos; liegt außerhalb der Aufnahme, die %2 Samples hat, oder ist keine ganze Zahl</translation>
+        <source>&apos;%1&apos; is outside the capture, which has %2 pictures, or is no whole number</source>
+        <translation>&apos;%1&apos; liegt außerhalb der Aufnahme, die %2 Bilder hat, oder ist keine ganze Zahl</translation>
+    </message>
+    <message>
+        <source>A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for the start of picture 37</source>
+        <translation>Eine Zahl mit Einheit: 0.4 s, 10 ms, 250 us, 1/100 s, oder 37f für den Anfang von Bild 37</translation>
+    </message>
+    <message>
+        <source>picture %1</source>
+        <translation>Bild %1</translation>
+    </message>
+    <message>
+        <source>made sample at %1</source>
+        <translation>Sample (erzeugt) bei %1</translation>
+    </message>
+    <message>
+        <source>start of %1</source>
+        <translation>Anfang von %1</translation>
+    </message>
+    <message>
+        <source>end of %1</source>
+        <translation>Ende von %1</translation>
     </message>
     <message>
         <source>&apos;%1&apos; is not longer than nothing</source>
@@ -1754,12 +1758,8 @@ Trotzdem verwenden? Funktionen und Marken behalten ihre Zeiten.</translation>
 <context>
     <name>nutik::studio::TimeFields</name>
     <message>
-        <source>A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for the start of sample 37</source>
-        <translation>Eine Zahl mit Einheit: 0.4 s, 10 ms, 250 us, 1/100 s, oder 37f für den Anfang von Sample 37</translation>
-    </message>
-    <message>
-        <source>A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for 37 samples</source>
-        <translation>Eine Zahl mit Einheit: 0.4 s, 10 ms, 250 us, 1/100 s, oder 37f für 37 Samples</translation>
+        <source>A number and its unit: 0.4 s, 10 ms, 250 us, 1/100 s, or 37f for 37 pictures</source>
+        <translation>Eine Zahl mit Einheit: 0.4 s, 10 ms, 250 us, 1/100 s, oder 37f für 37 Bilder</translation>
     </message>
     <message>
         <source>S&amp;tart</source>
@@ -1794,8 +1794,8 @@ Trotzdem verwenden? Funktionen und Marken behalten ihre Zeiten.</translation>
         <translation>Wo die Arbeit endet, oder nichts. %1</translation>
     </message>
     <message>
-        <source>Exposed samples</source>
-        <translation>Belichtete Samples</translation>
+        <source>Exposed pictures</source>
+        <translation>Belichtete Bilder</translation>
     </message>
     <message>
         <source>An interval of this width lies within the capture if it starts between 0 s and %1</source>
@@ -1861,8 +1861,12 @@ Ziehen verschiebt die Marke, Rechtsklick entfernt sie</translation>
         <translation>Außerhalb der Aufnahme</translation>
     </message>
     <message>
-        <source>Sample %1, from %2</source>
-        <translation>Sample %1, ab %2</translation>
+        <source>Picture %1, from %2</source>
+        <translation>Bild %1, ab %2</translation>
+    </message>
+    <message>
+        <source>Made sample, from %1</source>
+        <translation>Erzeugtes Sample, ab %1</translation>
     </message>
     <message>
         <source>
@@ -1871,12 +1875,12 @@ Ziehen verschiebt die Marke, Rechtsklick entfernt sie</translation>
 %1 % der Pixel ändern sich</translation>
     </message>
     <message>
-        <source>sample %1</source>
-        <translation>Sample %1</translation>
+        <source>pictures %1 to %2</source>
+        <translation>Bilder %1–%2</translation>
     </message>
     <message>
-        <source>samples %1 to %2</source>
-        <translation>Samples %1–%2</translation>
+        <source>%1 to %2</source>
+        <translation>%1 bis %2</translation>
     </message>
     <message>
         <source>%1 to %2, %3</source>
