@@ -16,10 +16,12 @@
 #include "capture/code_roundings.hpp"
 #include "capture/error.hpp"
 #include "capture/fact.hpp"
+#include "capture/made_samples.hpp"
 #include "capture/part_of_clip.hpp"
 #include "capture/picture.hpp"
 #include "capture/pixel_change.hpp"
 #include "capture/timeline.hpp"
+#include "system/shared.hpp"
 
 namespace nutik {
 
@@ -61,6 +63,11 @@ struct ClipInfo {
   std::optional<ClipSound> sound = std::nullopt;  // none: it has none
   bool holds_light = false;  // its files do: codes are the nearest ones
   CodeRoundings roundings = {};  // by which codes were made
+  // Of a capture that is read as a clip: samples between its pictures, which are read like them. Times, and what a part
+  // counts, are those of the pictures.
+  std::optional<Shared<MadeSamples>> made = std::nullopt;
+
+  [[nodiscard]] std::uint64_t picture_count() const { return made ? (*made)->after.size() : sample_count; }
 };
 
 // How YUV becomes RGB, which codes stand for black and white, and where samples of chroma lie that pixels share, among

@@ -50,13 +50,13 @@ class Starts {
  public:
   Starts(const std::string& name, const ClipInfo& info, const ClipOptions& options)
       : timeline_(timeline_of(name, info, options, Timeline::kFullShutter,
-                              std::max<std::uint64_t>(info.sample_count, 1))),
-        count_(info.sample_count == 0 ? kMaxSamples : info.sample_count) {}
+                              std::max<std::uint64_t>(info.picture_count(), 1))),
+        count_(info.sample_count == 0 ? kMaxSamples : info.picture_count()) {}
 
-  [[nodiscard]] std::int64_t of(std::uint64_t sample) const {
-    if (!timeline_.is_constant()) return timeline_.start_ns(sample);
+  [[nodiscard]] std::int64_t of(std::uint64_t picture) const {
+    if (!timeline_.is_constant()) return timeline_.start_ns(picture);
     const Rational rate = timeline_.rate();
-    return round_half_up(static_cast<int128>(sample) * rate.denominator * kSecondNs, rate.numerator);
+    return round_half_up(static_cast<int128>(picture) * rate.denominator * kSecondNs, rate.numerator);
   }
 
   // The same of the first of a part. Throws UsageError where it is later than a capture can last.
@@ -85,8 +85,8 @@ class Starts {
   std::uint64_t count_;
 };
 
-std::uint64_t sample_of(const ClipMoment& moment, const std::string& name, const ClipInfo& info,
-                        const ClipOptions& options) {
+std::uint64_t picture_at(const ClipMoment& moment, const std::string& name, const ClipInfo& info,
+                         const ClipOptions& options) {
   if (moment.value < 0) {
     throw UsageError(format("{}: a part of a clip begins at its start or later", name),
                      {Setting::from, Setting::to});
@@ -190,9 +190,9 @@ class ClipPart final : public Clip {
   void choose_samples(const ClipOptions& options) {
     if (!options.from && !options.to) return;
     const ClipInfo& info = clip_->info();
-    const std::uint64_t count = info.sample_count;
-    if (options.from) first_ = sample_of(*options.from, name_, info, options);
-    if (options.to) end_ = sample_of(*options.to, name_, info, options);
+    const std::uint64_t count = info.picture_count();
+    if (options.from) first_ = picture_at(*options.from, name_, info, options);
+    if (options.to) end_ = picture_at(*options.to, name_, info, options);
     std::string pictures = count == 0 ? "" : format(", which has {} pictures (0f … {}f", count, count - 1);
     if (count > 0 && (options.rate || info.timing.is_known()))
       pictures += format(", the last from {} on", seconds_text(Starts(name_, info, options).of(count - 1)));
@@ -215,9 +215,21 @@ class ClipPart final : public Clip {
       info_.part->start_ns = Starts(name_, info, options).of_part(first_);
     keep_times();
     info_.sound.reset();  // of the whole clip
-    if (count > 0) info_.sample_count = end_ - first_;
     info_.facts.push_back({info_.part->text(end_ == kMaxSamples ? std::nullopt : std::optional(end_)),
                            Origin::stated, options.from ? Setting::from : Setting::to});
+    if (info.made) keep_made(**info.made);
+    if (count > 0) info_.sample_count = end_ - first_;
+  }
+
+  // Of samples that were made those between two pictures of the part; from here on it counts both.
+  void keep_made(MadeSamples made) {
+    made.after.resize(end_);
+    made.after.back() = 0;
+    end_ = made.total();
+    made.after.erase(made.after.begin(), made.after.begin() + static_cast<std::ptrdiff_t>(first_));
+    first_ = end_ - made.total();
+    info_.made.reset();
+    if (made.count() > 0) info_.made.emplace(std::move(made));
   }
 
   // Each picture is exposed, and holds, for as long as it does in the clip.
@@ -296,7 +308,7 @@ class ClipPart final : public Clip {
   ClipInfo info_;
   CaptureFormat whole_;  // of the clip's pictures
   Rectangle crop_;
-  std::uint64_t first_ = 0, end_ = kMaxSamples, next_ = 0;  // of the clip's pictures
+  std::uint64_t first_ = 0, end_ = kMaxSamples, next_ = 0;  // of what the clip reads
   std::vector<std::byte> raster_;                            // one of them, unless it is taken as it is
   std::optional<LightMeans> means_;
   std::vector<PixelChange> changes_;  // within the rectangle

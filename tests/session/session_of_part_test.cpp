@@ -6,12 +6,27 @@
 #include "capture/light_means.hpp"
 #include "imev/each_block.hpp"
 #include "imev/sample_cursor.hpp"
+#include "support/messages.hpp"
 #include "support/random_case.hpp"
 #include "support/scratch.hpp"
 #include "support/tik_files.hpp"
 
 namespace nutik::test {
 namespace {
+
+// What a part has are the samples of a case from one on.
+void expect_samples_from(std::uint64_t first, const RandomCase& random, Session& part) {
+  std::vector<std::byte> read(part.format().sample_bytes());
+  for_each_block(part.capture(), [&](const BlockView& block) {
+    SampleCursor cursor(part.format().shape, block);
+    const SampleRange samples = block.extent().range();
+    for (std::uint64_t sample = samples.first; sample < samples.last; ++sample) {
+      cursor.go_to(static_cast<std::uint32_t>(sample - samples.first));
+      cursor.read(read);
+      ASSERT_EQ(read, random.rasters[first + sample]) << random.text() << ", sample " << sample;
+    }
+  });
+}
 
 class SessionOfPart : public ::testing::TestWithParam<std::uint64_t> {};
 
@@ -70,16 +85,48 @@ TEST_P(SessionOfPart, OfSomePicturesHasThoseThatBeginBetweenTwoMoments) {
   const auto& of_clip = taken->capture().header().part;
   ASSERT_TRUE(of_clip);
   EXPECT_EQ(of_clip->start_ns, whole.start_ns(1));
-  std::vector<std::byte> read(taken->format().sample_bytes());
-  for_each_block(taken->capture(), [&](const BlockView& block) {
-    SampleCursor cursor(taken->format().shape, block);
-    const SampleRange samples = block.extent().range();
-    for (std::uint64_t sample = samples.first; sample < samples.last; ++sample) {
-      cursor.go_to(static_cast<std::uint32_t>(sample - samples.first));
-      cursor.read(read);
-      ASSERT_EQ(read, random.rasters[sample + 1]) << random.text() << ", sample " << sample;
-    }
-  });
+  expect_samples_from(1, random, *taken);
+}
+
+// Samples 2, 3 and 4 were made between pictures 1 and 2, samples 7 and 8 between pictures 3 and 4.
+TEST(SessionOfPartWithMadeSamples, CountsThePicturesThatWereFilmed) {
+  RandomCase random(2);
+  random.capture.noise = {};
+  const MadeSamples made{.after = {0, 3, 0, 2, 0, 0}};
+  const auto filmed = [](std::uint64_t count) { return Timeline::constant({100, 1}, {180, 1}, count); };
+  random.timeline = made.times(filmed(6));
+  const std::size_t count = random.rasters.size();
+  ASSERT_GE(count, 2u);
+  while (random.rasters.size() < made.total()) random.rasters.push_back(random.rasters[random.rasters.size() - count]);
+  random.rasters.resize(made.total());
+  const Scratch scratch;
+  SourceRequest source;
+  source.path = write_saying(tik::Reader(write_tik(random, {tik::CodecId::zstd, 0}, scratch)), scratch / "made.tik",
+                             [&](tik::Header& header) {
+                               header.made = made;
+                               header.filmed = tik::filmed_times(filmed(6));
+                             });
+  Session session(source);
+  ASSERT_EQ(session.timeline(), random.timeline);
+  const auto reduced = session_of_part(session, {.scale = ClipScale{2}});
+  EXPECT_EQ(reduced->timeline(), random.timeline);
+  EXPECT_EQ(reduced->capture().header().made, made);
+
+  const auto expect_part = [&](ClipMoment from, ClipMoment to, std::uint64_t sample, const MadeSamples& its) {
+    const auto part = session_of_part(session, {.from = from, .to = to});
+    EXPECT_EQ(part->timeline(), its.times(filmed(its.after.size())));
+    EXPECT_EQ(part->capture().header().made, its);
+    EXPECT_EQ(part->capture().header().part->start_ns,
+              session.timeline().pictures().start_ns(part->capture().header().part->first));
+    expect_samples_from(sample, random, *part);
+  };
+  expect_part({1, true}, {4, true}, 1, {.after = {3, 0, 0}});
+  expect_part({15'000'000}, {40'000'001}, 5, {.after = {0, 2, 0}});
+  const auto refused = [&](ClipMoment from, ClipMoment to) {
+    return message_of<UsageError>([&] { static_cast<void>(session_of_part(session, {.from = from, .to = to})); });
+  };
+  expect_says(refused({11'000'000}, {19'000'000}), "no picture begins between the two");
+  expect_says(refused({6, true}, {7, true}), "has 6 pictures (0f … 5f");
 }
 
 // Captures with two rows or more.

@@ -323,6 +323,7 @@ ClipSource open_clip_source(const SourceRequest& request, const MemoryBudget& me
                      Advice{"; leave `shutter-angle` out, or the exposure_ns column empty"});
   }
   source.capture = clip_format(*source.clip, request.clip);
+  source.made = source.clip->info().made;
   source.notes = source.clip->info().notes;
   if (request.clip.rate) {
     // What a stated rate was to help with is settled.

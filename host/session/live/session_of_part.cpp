@@ -3,24 +3,24 @@
 #include <optional>
 #include <utility>
 
-#include "imev/capture_source.hpp"
 #include "imev/each_block.hpp"
 #include "imev/sample_cursor.hpp"
 #include "media/clip.hpp"
 #include "media/clip_part.hpp"
+#include "tik/reader.hpp"
 
 namespace nutik {
 namespace {
 
-// A capture, which outlives it, as a clip again: its samples, one after another, with their times. Where exposures
-// follow each other evenly it tells their rate; how long each lasts is the capture's shutter angle, which no clip
-// tells.
+// A capture, which outlives it, as a clip again: its samples, one after another, with the times of those that were
+// filmed. Where exposures follow each other evenly it tells their rate; how long each lasts is the capture's shutter
+// angle, which no clip tells.
 class CaptureClip final : public Clip {
  public:
-  explicit CaptureClip(CaptureSource& capture) : capture_(capture), blocks_(capture) {
+  explicit CaptureClip(tik::Reader& capture) : capture_(capture), blocks_(capture) {
     info_.format = capture.format();
     info_.format.noise = {};
-    const Timeline& timeline = capture.timeline();
+    const Timeline& timeline = capture.timeline().pictures();
     if (timeline.is_constant()) {
       info_.timing.rate = timeline.rate();
     } else {
@@ -28,7 +28,8 @@ class CaptureClip final : public Clip {
       info_.timing.exposures.assign(exposures.begin(), exposures.end());
     }
     info_.timing.rate_from = "the capture";
-    info_.sample_count = timeline.sample_count();
+    info_.sample_count = capture.timeline().sample_count();
+    if (const auto& made = capture.header().made) info_.made.emplace(*made);
     info_.decoder_bytes = largest_block(capture);
   }
 
@@ -50,7 +51,7 @@ class CaptureClip final : public Clip {
   }
 
  private:
-  CaptureSource& capture_;
+  tik::Reader& capture_;
   ClipInfo info_;
   BlockCursor blocks_;
   std::optional<BlockView> block_;
@@ -64,7 +65,8 @@ std::shared_ptr<Session> session_of_part(Session& whole, const ClipOptions& part
                                          const ReportedProgress& progress, std::stop_token stop) {
   SourceRequest source;
   source.path = whole.source().path;
-  if (whole.timeline().is_constant()) source.shutter_angle = whole.timeline().shutter_angle();
+  const Timeline& pictures = whole.timeline().pictures();
+  if (pictures.is_constant()) source.shutter_angle = pictures.shutter_angle();
   ComputingRequest computing = whole.devices().request();
   computing.memory.bytes /= 4;
   auto devices = std::make_shared<Devices>(computing);
