@@ -126,8 +126,9 @@ bool is_scaled(std::uint64_t width, std::uint64_t height, std::uint64_t other_wi
 
 }  // namespace
 
-std::string size_mistake(const Mask& mask, const Shape& capture) {
-  if (mask.width == capture.width && mask.height == capture.height) return {};
+void check_size(const Mask& mask, const CaptureFormat& format_known, const std::string& title) {
+  const Shape& capture = format_known.shape;
+  if (mask.width == capture.width && mask.height == capture.height) return;
   const bool is_upright = is_scaled(mask.width, mask.height, capture.width, capture.height);
   const bool is_turned = !is_upright && is_scaled(mask.width, mask.height, capture.height, capture.width);
   std::string way_out = "both must have the same size";
@@ -138,8 +139,9 @@ std::string size_mistake(const Mask& mask, const Shape& capture) {
                      capture.height,
                      mask.is_soft() ? "" : " without smoothing (nearest neighbour), which would make new values");
   }
-  return format("the mask is {} x {} pixels, the capture {} x {}; {}", mask.width, mask.height, capture.width,
-                capture.height, way_out);
+  throw InputError(title + format("the mask is {} x {} pixels, the capture {} x {}; {}", mask.width, mask.height,
+                                  capture.width, capture.height, way_out),
+                   size_advice(mask.width, mask.height, format_known));
 }
 
 Advice size_advice(std::uint32_t width, std::uint32_t height, const CaptureFormat& capture) {

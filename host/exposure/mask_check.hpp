@@ -13,10 +13,10 @@
 
 namespace nutik {
 
-// Both sizes and the way out where the mask does not have the capture's; else empty.
-[[nodiscard]] std::string size_mistake(const Mask& mask, const Shape& capture);
-// What ends the message about pixels of another number than the capture's where the program itself makes such pictures
-// of it: in square pixels, or of a part; else empty.
+// Throws InputError, `title` first, with both sizes and the way out where the mask does not have the capture's.
+void check_size(const Mask& mask, const CaptureFormat& capture, const std::string& title = {});
+// What ends such a message where the program itself makes pictures of that size of the capture: in square pixels, or of
+// a part; else empty.
 [[nodiscard]] Advice size_advice(std::uint32_t width, std::uint32_t height, const CaptureFormat& capture);
 
 // The values that pixels have and no function, with their numbers of pixels and the way out; else empty.

@@ -89,9 +89,7 @@ RenderPlan PlanCache::plan(const CaptureSource& source, const FunctionSet& funct
   plan.combine = options.combine;
   plan.capture = source.format();
   if (options.transfer) plan.capture.transfer = Transfer::restated(plan.capture.transfer, *options.transfer);
-  if (const std::string mistake = size_mistake(mask, plan.capture.shape); !mistake.empty()) {
-    throw InputError(mistake, size_advice(mask.width, mask.height, plan.capture));
-  }
+  check_size(mask, plan.capture);
   if (mask.tags.size() != std::size_t{mask.width} * mask.height) {
     throw InputError(format("the mask is {} x {} pixels and has {} tags; each pixel needs one", mask.width,
                             mask.height, mask.tags.size()));

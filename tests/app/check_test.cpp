@@ -201,7 +201,8 @@ TEST_F(Check, MasksOfOtherSizes) {
   cv::resize(mask_, scaled, {}, 2, 2, cv::INTER_NEAREST);
   expect_says(message(turned), "80 x 120 pixels, the capture 120 x 80; turn it by 90 degrees");
   expect_says(message(scaled), "; scale it to 120 x 80 without smoothing");
-  expect_says(message(mask_.colRange(0, 100)), "; both must have the same size");
+  expect_says(message(mask_.colRange(0, 100)),
+              "; both must have the same size; draw on a picture of the same part (--crop)");
 }
 
 TEST_F(Check, SpecksOfTheBrush) {

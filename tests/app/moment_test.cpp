@@ -252,6 +252,9 @@ TEST_F(Moment, ActivityOfARegion) {
   EXPECT_EQ(answer("activity -m mask.pgm clip.tik")["counted_pixels"], 260);  // every tag but 0
   expect_refused("activity -m mask.pgm --tag 8 clip.tik", 3, "mask.pgm has no pixel with tag 8");
   expect_refused("activity --tag 8 clip.tik", 2, "add -m mask.pgm");
+  make("mask --size 30x20 --tag 7 --rectangle 0,0,5,5 -o small.pgm");
+  expect_refused("activity -m small.pgm clip.tik", 3, "small.pgm: the mask is 30 x 20 pixels, the capture");
+  expect_refused("activity -m small.pgm clip.tik", 3, "draw on a picture of the same part (--crop)");
 }
 
 TEST_F(Moment, ActivityWritesTableChartAndMap) {

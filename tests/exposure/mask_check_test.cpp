@@ -127,21 +127,24 @@ TEST(MaskCheck, InSmallMasksNothingIsTooSmall) {
 }
 
 TEST(MaskCheck, Sizes) {
-  const Shape capture{640, 360, 3};
-  const auto mistake = [&](std::uint32_t width, std::uint32_t height) {
-    return size_mistake(Mask::uniform(width, height, 0), capture);
+  const CaptureFormat capture{{640, 360, 3}};
+  const auto mistake_of = [](const Mask& mask, const CaptureFormat& of) {
+    return message_of<InputError>([&] { check_size(mask, of); });
   };
-  EXPECT_EQ(mistake(640, 360), "");
+  const auto mistake = [&](std::uint32_t width, std::uint32_t height) {
+    return mistake_of(Mask::uniform(width, height, 0), capture);
+  };
+  check_size(Mask::uniform(640, 360, 0), capture);
   EXPECT_EQ(mistake(360, 640), "the mask is 360 x 640 pixels, the capture 640 x 360; turn it by 90 degrees");
   EXPECT_EQ(mistake(1280, 720),
             "the mask is 1280 x 720 pixels, the capture 640 x 360; scale it to 640 x 360 without smoothing "
             "(nearest neighbour), which would make new values");
   expect_says(mistake(213, 120), "; scale it to 640 x 360");  // a third, rounded
-  EXPECT_EQ(size_mistake(Mask::uniform(5, 5, 0), {4, 4, 1}).find("turn"), std::string::npos);
+  EXPECT_EQ(mistake_of(Mask::uniform(5, 5, 0), {{4, 4, 1}}).find("turn"), std::string::npos);
   expect_says(mistake(180, 320), "; turn it by 90 degrees and scale it to 640 x 360");
   Mask soft = Mask::uniform(1280, 720, 0);
   soft.mixed.add(0, std::vector<Share>{{0, 30000}, {1, 35535}});
-  EXPECT_EQ(size_mistake(soft, capture),
+  EXPECT_EQ(mistake_of(soft, capture),
             "the mask is 1280 x 720 pixels, the capture 640 x 360; scale it to 640 x 360");
   expect_says(mistake(640, 480), "; both must have the same size");
 }

@@ -36,12 +36,17 @@ using Severity = Finding::Severity;
 
 constexpr std::size_t kMaxOfAKind = 20;
 
+std::string message_of(const Finding& finding) {
+  return finding.message + in_words(finding.advice, Dialect::command_line) +
+         written(finding.settings, Dialect::command_line);
+}
+
 std::string text_of(const Finding& finding) {
   if (finding.place) {
     return Diagnostic{finding.severity, *finding.place, finding.message, finding.excerpt}.text(finding.file);
   }
-  return format("{}: {}{}{}", finding.file, finding.severity == Severity::warning ? "warning: " : "",
-                finding.message, written(finding.settings, Dialect::command_line));
+  return format("{}: {}{}", finding.file, finding.severity == Severity::warning ? "warning: " : "",
+                message_of(finding));
 }
 
 Json details_json(const std::vector<BlendedValue>& blended) {
@@ -68,7 +73,7 @@ Json json_of(const Finding& finding) {
   Json json{{"severity", finding.severity == Severity::warning ? "warning" : "error"},
             {"kind", finding.kind},
             {"file", finding.file},
-            {"message", finding.message + written(finding.settings, Dialect::command_line)}};
+            {"message", message_of(finding)}};
   if (finding.place) {
     json["line"] = finding.place->line;
     json["column"] = finding.place->column;

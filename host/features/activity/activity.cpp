@@ -8,6 +8,7 @@
 
 #include "capture/error.hpp"
 #include "capture/format.hpp"
+#include "exposure/mask_check.hpp"
 #include "imev/activity.hpp"
 #include "imev/each_block.hpp"
 #include "session/requests/named_inputs.hpp"
@@ -18,16 +19,13 @@
 namespace nutik {
 namespace {
 
-ActivityOptions options_of(const ActivityRequest& request, const Shape& shape) {
+ActivityOptions options_of(const ActivityRequest& request, const CaptureFormat& capture) {
   ActivityOptions options{request.ignored_codes, {}, {}, {}};
   if (std::holds_alternative<std::monostate>(request.mask)) return options;
   const auto* const file = std::get_if<std::string>(&request.mask);
   const std::string name = file != nullptr ? input_title(*file) : "the mask";
   Mask mask = file != nullptr ? read_mask_input(*file) : *std::get<Shared<Mask>>(request.mask);
-  if (mask.width != shape.width || mask.height != shape.height) {
-    throw InputError(format("{} is {} x {}, the capture {} x {}; they must be of one size", name, mask.width,
-                            mask.height, shape.width, shape.height));
-  }
+  check_size(mask, capture, file != nullptr ? name + ": " : std::string());
   if (request.each_tag) {
     options.tags = std::move(mask.tags);
     return options;
@@ -142,12 +140,12 @@ std::string MeasuredActivity::table() const {
 
 MeasuredActivity measure_activity(CaptureSource& capture, const ActivityRequest& request,
                                   const ReportedProgress& progress) {
-  return measured(capture, options_of(request, capture.format().shape), request.counts_redrawn, progress);
+  return measured(capture, options_of(request, capture.format()), request.counts_redrawn, progress);
 }
 
 MeasuredActivity measure_activity(Session& session, const ActivityRequest& request,
                                   const ReportedProgress& progress) {
-  ActivityOptions options = options_of(request, session.format().shape);
+  ActivityOptions options = options_of(request, session.format());
   const std::set<std::uint8_t> tags(options.tags.begin(), options.tags.end());
   MemoryNeeds needs = Activity::needs(session.format());
   std::uint64_t block_samples = 0;

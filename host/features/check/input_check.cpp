@@ -169,7 +169,7 @@ void InputCheck::check_delay() {
     if (!functions || functions->file.functions.empty() || !capture || !capture->timeline) return;
     FunctionSet delayed;
     for (const auto& [tag, read] : functions->file.functions) delayed.emplace(tag, read.function);
-    if (mask && !size_mistake(mask->mask, shape).empty()) return;
+    if (mask && (mask->mask.width != shape.width || mask->mask.height != shape.height)) return;
     const auto map = MaskMap::of(
         mask ? mask->mask : Mask::uniform(shape.width, shape.height, delayed.begin()->first), delays);
     for (const std::string& warning : delay_warnings(*map, delayed, capture->timeline->duration_ns())) {
@@ -184,9 +184,10 @@ void InputCheck::check_delay() {
 
 void InputCheck::check_mask(bool unmapped_is_zero) {
   const auto& [name, tags, pixels] = *mask;
-  if (capture) {
-    const std::string mistake = size_mistake(tags, capture->format.shape);
-    if (!mistake.empty()) findings.push_back({Severity::error, "mask_size", name, mistake});
+  try {
+    if (capture) check_size(tags, capture->format);
+  } catch (const InputError& mistake) {
+    findings.push_back({Severity::error, "mask_size", name, mistake.what(), {}, {}, {}, {}, mistake.advice()});
   }
   std::array<bool, kMaskValues> is_mapped{};
   if (functions) {

@@ -40,6 +40,7 @@ struct Finding {
   Excerpt excerpt = {};
   Details details = {};
   std::vector<Setting> settings = {};  // that would help
+  std::string advice = {};             // Error::advice()
 };
 
 // A function file and its text, which findings show.

@@ -133,7 +133,9 @@ std::string written(std::string_view stated, Dialect dialect) {
              : option->written(dialect, stated.substr(std::min(blank + 1, stated.size())));
 }
 
-// Advice, with the options that stand in it between backquotes. A backquote may also be part of a file's name.
+}  // namespace
+
+// A backquote may also be part of a file's name.
 std::string in_words(std::string_view advice, Dialect dialect) {
   std::string text;
   while (true) {
@@ -146,8 +148,6 @@ std::string in_words(std::string_view advice, Dialect dialect) {
     advice.remove_prefix(taken);
   }
 }
-
-}  // namespace
 
 std::string written(Setting setting, Dialect dialect) {
   if (setting == Setting::automatic_noise) return written("noise auto", dialect);

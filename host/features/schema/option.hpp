@@ -126,6 +126,8 @@ struct Option {
 [[nodiscard]] std::string written(Setting setting, Dialect dialect);
 // ` (--depth, --renderer)`: what settings are called; empty if there are none.
 [[nodiscard]] std::string written(const std::vector<Setting>& settings, Dialect dialect);
+// Advice (capture/error.hpp), with the options that stand in it between backquotes.
+[[nodiscard]] std::string in_words(std::string_view advice, Dialect dialect);
 // An error's message with its advice, a note with what would change it.
 [[nodiscard]] std::string message_text(const std::exception& error, Dialect dialect);
 [[nodiscard]] std::vector<std::string> note_texts(const std::vector<Note>& notes, Dialect dialect);

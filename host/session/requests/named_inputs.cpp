@@ -121,13 +121,6 @@ std::optional<NumberedName> layers_name(const std::filesystem::path& path) {
   return NumberedName::parse(path.filename().string());
 }
 
-// Throws InputError, `title` first, where a mask of this size does not fit.
-void check_size(std::uint32_t width, std::uint32_t height, const std::optional<CaptureFormat>& capture,
-                const std::string& title) {
-  const std::string mistake = capture ? size_mistake({width, height, {}}, capture->shape) : std::string();
-  if (!mistake.empty()) throw InputError(title + mistake, size_advice(width, height, *capture));
-}
-
 }  // namespace
 
 Mask read_mask_input(const std::string& name, const std::optional<std::string>& capture) {
@@ -139,7 +132,7 @@ Mask read_mask_input(const std::string& name, const std::optional<std::string>& 
   if (kind != nullptr && kind->has_tags) return Mask::from_picture(read_tags(name));
   return Mask::from_picture(
       read_mask(input.bytes(), input_title(name), [&](std::uint32_t width, std::uint32_t height) {
-        check_size(width, height, format_known, {});
+        if (format_known) check_size({width, height, {}}, *format_known);
       }));
 }
 
@@ -171,7 +164,7 @@ Mask read_layered_mask_input(const std::string& name, std::uint8_t rest,
   for (const auto& [tag, file] : files) {
     layers.push_back({tag, file.string(), read_picture(file.string()).codes});
     const Shape& found = layers.back().picture.shape;
-    check_size(found.width, found.height, format_known, file.string() + ": ");
+    if (format_known) check_size({found.width, found.height, {}}, *format_known, file.string() + ": ");
   }
   return mask_of_layers(layers, rest);
 }
