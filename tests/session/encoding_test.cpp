@@ -45,6 +45,7 @@ TEST(Encoding, NamesTheRateOfAFilmThatPlaysSlowerInAPart) {
       << said(ramp);
   expect_says(said(ramp), "state the rate, 240");
   expect_says(said(dropped), "longer than the usual");
+  EXPECT_EQ(said(dropped).find('='), std::string::npos) << "a client's own names are its own";
 }
 
 TEST(Encoding, SaysThatPicturesAreMissing) {

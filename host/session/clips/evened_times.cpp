@@ -82,7 +82,7 @@ std::optional<Note> gap_note(const Timeline& timeline) {
   return Note(format(
       "{} of the clip's {} steps from one picture to the next {} longer than the usual {}, up to {}, as "
       "where pictures are missing: a picture before such a step counts as exposed for {} of 360 degrees "
-      "of all of it; its own exposure can be stated, in a table of stills (exposure_ns) or with an array (exposures=)",
+      "of all of it; its own exposure can be stated, in a table of stills (exposure_ns) or with an array",
       gaps, steps.size(), gaps == 1 ? "is" : "are", duration_text(usual),
       duration_text(*std::ranges::max_element(steps)), timeline.shutter_angle().text()));
 }
