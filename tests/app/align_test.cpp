@@ -113,7 +113,10 @@ TEST_F(Aligning, WritesThePathThatMakesTheSameAgain) {
   EXPECT_EQ(encoded["camera"]["path"], "path.csv");
   const cv::Mat plot = cv::imread((scratch_ / "plot.png").string());
   EXPECT_EQ(plot.cols, 1200);
-  make(encoding("--align rigid --align-report seen frames b.tik"));
+  make(encoding("--align rigid --align-report seen absent b.tik"), 3);
+  expect_refused(encoding("--align rigid --align-report no/seen frames b.tik"), 5, "no/seen");
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "seen")) << "nothing was written there";
+  make(encoding("--align rigid --align-report seen/ frames b.tik"));
   EXPECT_EQ(file("seen/path.csv"), file("path.csv"));
   EXPECT_EQ(file("seen/plot.png"), file("plot.png"));
   EXPECT_FALSE(file("seen/coverage.png").empty());
