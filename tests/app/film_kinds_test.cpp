@@ -251,16 +251,22 @@ TEST_F(FilmKinds, KeepWhatIsSaidOfTheScreen) {
                        "master-display=G(13250,34500)B(7500,3000)R(34000,16000)WP(15635,16450)L(10000000,1)\" "
                        "screen.mp4");
   const auto told = [&](const std::string& words, const std::string& clip, const std::string& film) {
-    make("video --out-fps 25 --out-angle 360 " + words + clip + " " + film);
+    make("video --out-fps 25 " + words + clip + " " + film);
     return shell("ffprobe -v error -show_streams " + film).out;
   };
-  const std::string source = "--out-transfer source --video-codec h265-10 ";
+  const std::string kept = "--out-transfer source --video-codec h265-10 ", source = kept + "--out-angle 360 ";
   expect_says(told(source, "screen.mp4", "a.mkv"), {"red_x=17/25\n", "max_luminance=1000/1\n", "max_content=900\n"});
   expect_says(told(source, "a.mkv", "b.mp4"), {"red_x=34000/50000\n", "max_content=900\n", "max_average=400\n"});
   expect_says(told(source + "--shutter hann --normalize integral ", "screen.mp4", "c.mkv"), "max_content=900\n");
+  scratch_.write("two.fn", "M0 [0:1], [40000000:1], [40000001:0]\nM1 [0:0.5], [40000000:0.5], [40000001:0]\n");
+  scratch_.write("bright.fn", "M0 [0:1], [40000000:1], [40000001:0]\nM1 [0:3], [40000000:3], [40000001:0]\n");
+  make("mask --tag 0 --rectangle 0,0,64,64 --size 64x64 -o 0.pgm");
+  make("mask --tag 1 --rectangle 0,0,64,64 --size 64x64 -o 1.pgm");
+  const std::string keys = kept + "--mask-blend alpha --mask-key 0s 0.pgm --mask-key 0.1s 1.pgm -k ";
+  expect_says(told(keys + "two.fn ", "screen.mp4", "e.mkv"), "max_content=900\n");
   // That light has become another, or brighter.
   for (const std::string& other :
-       {std::string(), source + "--ev 0.1 ", source + "--gain 2 --combine lighten ",
+       {std::string(), keys + "bright.fn ", source + "--ev 0.1 ", source + "--gain 2 --combine lighten ",
         source + "--shutter spline:0=0,0.5=3,1=0 ", source + "--negative offset "})
     EXPECT_EQ(told("--overwrite " + other, "screen.mp4", "d.mp4").find("side_data_type"), std::string::npos) << other;
 }

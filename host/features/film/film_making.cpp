@@ -96,11 +96,12 @@ std::optional<FilmSound> film_sound(const Session& session, const FramesRequest&
   return sound;
 }
 
-// Whether no light becomes more than it was: what the clip says of its brightest then holds for the film. The request
-// has no keys of masks, for each mask would have to be made.
-bool is_nowhere_brighter(const FramesRequest& request, const Frames& frames, const Timeline& timeline) {
+// Whether no light becomes more than it was: what the clip says of its brightest then holds for the film. Between keys
+// of masks a pixel has a function that one of both gives it, or shares of several.
+bool is_nowhere_brighter(FramesRequest request, const Frames& frames, const Timeline& timeline) {
   constexpr double kRounding = 1e-9;
-  return std::ranges::all_of(frames.numbers, [&](std::uint64_t frame) {
+  const auto masks = std::exchange(request.keys.masks, {});
+  const auto is_no_brighter = [&](std::uint64_t frame) {
     const ExposureRequest wanted = exposure_of(request, frames, frame);
     const bool is_sum = wanted.plan.combine == Combine::integral && !wanted.delay;
     return std::ranges::all_of(functions_of(wanted, frames.exposure(frame), timeline), [&](const auto& each) {
@@ -108,6 +109,11 @@ bool is_nowhere_brighter(const FramesRequest& request, const Frames& frames, con
       return (is_sum ? summarize(function, timeline.duration_ns()).error_scale() : function.largest_gain()) <=
              1 + kRounding;
     });
+  };
+  if (masks.empty()) return std::ranges::all_of(frames.numbers, is_no_brighter);
+  return std::ranges::all_of(masks, [&](const auto& key) {
+    request.exposure.mask.emplace(MaskWithRegions(*key.mask));
+    return std::ranges::all_of(frames.numbers, is_no_brighter);
   });
 }
 
@@ -133,7 +139,7 @@ MadeVideo make_video(Session& session, const FramesRequest& request, const Frame
   const Transfer curve = CodeMaking::of(capture, frame_format).transfer;
   if (session.is_clip() && curve == session.format().transfer &&
       (curve == Transfer::pq() || curve == Transfer::hlg()) && frame_format.negative != NegativeLight::offset &&
-      !mask_changes && is_nowhere_brighter(request, frames, session.timeline()))
+      is_nowhere_brighter(request, frames, session.timeline()))
     video.graded = file_of(session);
   const TimeToEnd is_kept;  // the frames so far, whatever a frame takes
   std::unique_ptr<VideoWriter> writer;  // none of stills
