@@ -11,6 +11,7 @@ import argparse
 import json
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import cv2
@@ -46,7 +47,7 @@ class Demo:
     def __init__(self, program, scene, folder):
         self.program, self.folder = program, folder
         folder.mkdir(parents=True, exist_ok=True)
-        run(sys.executable, scene, folder)
+        run(sys.executable, scene, folder, "--size", "320x180")
         self.truth = json.loads((folder / "truth.json").read_text())
         self.background = np.load(folder / "background.npy").astype(np.float64)
         self.regions = cv2.imread(str(folder / "regions.pgm"), cv2.IMREAD_UNCHANGED)
@@ -75,6 +76,7 @@ class Demo:
     def interval(self, name, start_s, length_s):
         return self.expose(name, "--start", f"{start_s}s", "--exposure", f"{length_s}s")
 
+    @cache
     def expose(self, name, *options):
         """[height, width, 3], RGB: codes of a .png, light of a .pfm."""
         path = self.folder / name
