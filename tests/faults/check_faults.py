@@ -49,9 +49,7 @@ DEVICE_ERRORS = {"start": [OUT_OF_RESOURCES, OUT_OF_HOST_MEMORY], "build": [NO_B
                  "enqueue": [OUT_OF_RESOURCES, OUT_OF_HOST_MEMORY, NO_ALLOCATION],
                  "wait": [LOST_EVENT, OUT_OF_RESOURCES]}
 DEVICE_STATUS, INPUT_STATUS = 4, 3
-# What other tests have compiled.
-CACHES = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-COMPILED = {"POCL_CACHE_DIR": str(CACHES / "pocl/kcache")}
+COMPILED = {"POCL_CACHE_DIR": f"{os.environ.get('XDG_CACHE_HOME') or Path.home() / '.cache'}/pocl/kcache"}  # by other tests
 
 # Command lines without the program, and what each writes: the same bytes whenever it is run.
 COMMANDS = {

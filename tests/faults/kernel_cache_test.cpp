@@ -24,9 +24,8 @@ struct KernelCache : ProgramTest {
   }
   [[nodiscard]] ProgramResult expose(const std::string& picture = "p.png",
                                      std::vector<std::string> settings = {}) const {
-    // What other tests have compiled need not be compiled again.
-    settings.insert(settings.begin(), {"XDG_CACHE_HOME=" + (scratch_ / "home").string(),
-                                       "POCL_CACHE_DIR=" + cache_of_pocl().string()});
+    settings.insert(settings.begin(), "POCL_CACHE_DIR=" + cache_of_pocl().string());  // of other tests
+    settings.push_back("XDG_CACHE_HOME=" + (scratch_ / "home").string());
     return run_program({"--start", "0s", "--exposure", "1s", "--no-recipe", "--overwrite", "c.tik", picture},
                        scratch_.folder(), settings);
   }
@@ -140,10 +139,9 @@ TEST_F(KernelCache, WithFoldersForFilesFailsNoExposure) {
   EXPECT_EQ(devices.status, 0) << devices.err;
 }
 
-// PoCL's, too.
 TEST_F(KernelCache, ThatIsEmptyServesFourPrograms) {
   fs::remove_all(scratch_ / "home");
-  expect_right(4, {}, {"POCL_CACHE_DIR="});
+  expect_right(4, {}, {"POCL_CACHE_DIR="});  // PoCL's is empty, too
   EXPECT_EQ(fs::status(cache_).permissions(), fs::perms::owner_all);
   for (const fs::path& file : kept()) {
     EXPECT_TRUE(file.extension() == ".bin" || file.extension() == ".txt") << file << " was left unfinished";

@@ -65,17 +65,12 @@ def _sum_light(samples, shares, mask, table, tolerance):
         flat = codes.reshape(-1, channels)
         for m, share in shares.items():
             if k in share:
-                of_mask = flat if len(shares) == 1 else flat.take(pixels[m], axis=0)
-                sums[m] += _looked_up(table * share[k], of_mask)
+                of_mask, scaled = flat if len(shares) == 1 else flat.take(pixels[m], axis=0), table * share[k]
+                # OpenCV is quicker where it can.
+                sums[m] += cv2.LUT(of_mask, scaled) if codes.dtype == np.uint8 and len(table) == 256 else scaled[of_mask]
     picture = np.empty((height * width, channels))
-    for m in shares:
-        picture[pixels[m]] = sums[m]
+    picture[np.concatenate([*pixels.values()])] = np.concatenate([*sums.values()])
     return picture.reshape(height, width, channels)
-
-
-def _looked_up(table, codes):
-    """table[codes], in which OpenCV is quicker where it can."""
-    return cv2.LUT(codes, table) if codes.dtype == np.uint8 and len(table) == 256 else table[codes]
 
 
 def _needed_codes(samples, needed, tolerance, white):

@@ -40,6 +40,4 @@ string(REPEAT "x" 61440 samples)
 file(WRITE ${WORK}/clip.raw "${samples}")
 run(${WORK}/installed/bin/nutik-cl -q --raw 8x8:gray -f 960 ${WORK}/clip.raw ${WORK}/clip.tik)
 run(${CMAKE_COMMAND} -E chdir ${WORK} ${WORK}/example)
-if(NOT EXISTS ${WORK}/picture.png)
-  message(FATAL_ERROR "the example made no picture")
-endif()
+file(SIZE ${WORK}/picture.png bytes)  # an error where the example made none

@@ -125,9 +125,8 @@ class Cases:
         if case.quarter_turns:
             stored = cv2.imread(str(self.cases / case.clip), cv2.IMREAD_UNCHANGED | cv2.IMREAD_IGNORE_ORIENTATION)
             self.report.hold(np.array_equal(pictures[0], np.rot90(stored, case.quarter_turns)), f"{title}: is upright")
-        worst = 0
-        for found, right in zip(pictures, case.codes):
-            worst = max(worst, 65535 if found is None else abs(int(np.ravel(found)[0]) - right))
+        worst = max((65535 if found is None else abs(int(np.ravel(found)[0]) - right)
+                     for found, right in zip(pictures, case.codes)), default=0)
         if case.codes:
             self.report.hold(worst <= case.within,
                              f"{title}: {len(case.codes)} pictures, {worst} codes away at most, {case.within} allowed")

@@ -189,8 +189,7 @@ def check_negative_end(demo, report):
     alone = demo.expose("m0.pfm", "-k", demo.folder / "m0.fn")
     roll, end = demo.interval("roll.pfm", 0, 1.0), demo.interval("end.pfm", 1.0, 0.01)
     expected = (1.0 * roll - 0.25 * end) / 1.01
-    everywhere = np.ones(demo.regions.shape, bool)
-    pixel = worst_pixel(alone - expected, everywhere)
+    pixel = worst_pixel(alone - expected, np.ones(demo.regions.shape, bool))
     report.hold(abs(alone[pixel] - expected[pixel]) <= FLOAT_LIGHT,
                 f"Figure 14, M0 alone: the roll less its end; worst {at(pixel)}: {alone[pixel]:.7f} against "
                 f"{expected[pixel]:.7f}")

@@ -93,8 +93,6 @@ class Plots(unittest.TestCase):
             self.plot(source, "seventeen.png", "--per-page", per_page)
             self.assertEqual(sorted(path.name for path in paths.work.glob("seventeen*.png")), expected)
         self.assertEqual(pdf_contents(self.plot(source, "seventeen.pdf"))[0], 3)
-
-    def test_eight_functions_are_one_page(self):
         self.plot(write("eight.fn", many_functions(8)), "eight.png")
         self.assertEqual([path.name for path in paths.work.glob("eight*.png")], ["eight.png"])
 

@@ -21,12 +21,10 @@ needs_matplotlib = unittest.skipUnless(importlib.util.find_spec("matplotlib"), "
 
 def run(*arguments, stdin=None, **environment):
     """FnPlotter.py with arguments, as a user would run it, without a display."""
-    displays = ("DISPLAY", "WAYLAND_DISPLAY")
-    variables = {name: value for name, value in os.environ.items() if name not in displays}
-    variables |= {"PYTHONIOENCODING": "utf-8"} | environment
+    absent = dict.fromkeys(("DISPLAY", "WAYLAND_DISPLAY"), "")
     command = [sys.executable, str(paths.plotter), *map(str, arguments)]
     how = {"capture_output": True, "encoding": "utf-8", "timeout": 300, "check": False, "input": stdin}
-    return subprocess.run(command, env=variables, **how)
+    return subprocess.run(command, env=os.environ | absent | {"PYTHONIOENCODING": "utf-8"} | environment, **how)
 
 
 def draw(*arguments):
