@@ -49,7 +49,8 @@ DEVICE_ERRORS = {"start": [OUT_OF_RESOURCES, OUT_OF_HOST_MEMORY], "build": [NO_B
                  "enqueue": [OUT_OF_RESOURCES, OUT_OF_HOST_MEMORY, NO_ALLOCATION],
                  "wait": [LOST_EVENT, OUT_OF_RESOURCES]}
 DEVICE_STATUS, INPUT_STATUS = 4, 3
-COMPILED = {"POCL_CACHE_DIR": f"{os.environ.get('XDG_CACHE_HOME') or Path.home() / '.cache'}/pocl/kcache"}  # by other tests
+# Other tests have compiled kernels there.
+COMPILED = {"POCL_CACHE_DIR": f"{os.environ.get('XDG_CACHE_HOME') or Path.home() / '.cache'}/pocl/kcache"}
 
 # Command lines without the program, and what each writes: the same bytes whenever it is run.
 COMMANDS = {
