@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include "opencl/cache_folder.hpp"
 #include "support/messages.hpp"
 #include "support/program.hpp"
 #include "support/scratch.hpp"
@@ -18,9 +19,10 @@ class Drivers : public testing::Test {
     ASSERT_EQ(run({"-q", "encode", "-f", "100", "--tolerance", "4", "frames", "clip.tik"}).status, 0);
   }
 
-  // With kernels of its own.
+  // With kernels of its own, which PoCL need not compile again.
   ProgramResult run(const std::vector<std::string>& words) const {
-    std::vector<std::string> settings{"XDG_CACHE_HOME=" + (scratch_ / "cache").string()};
+    std::vector<std::string> settings{"XDG_CACHE_HOME=" + (scratch_ / "cache").string(),
+                                      "POCL_CACHE_DIR=" + cache_of_pocl().string()};
     if (on_mesa_) settings.insert(settings.end(), {"RUSTICL_ENABLE=llvmpipe", "NUTIK_DEVICE=rusticl"});
     return run_program(words, scratch_.folder(), settings);
   }

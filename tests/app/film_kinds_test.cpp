@@ -320,9 +320,8 @@ class FilmSoundTest : public FilmKinds {
   }
   // The frame that is bright, and when the sound begins, in frames.
   [[nodiscard]] std::pair<double, double> clap(const std::string& name, double rate) const {
-    test::make(scratch_, "-i " + name + " -vsync 0 -f rawvideo -pix_fmt gray frames");
-    test::make(scratch_,
-               "-copyts -i " + name + " -vn -af aresample=async=1:first_pts=0 -f f32le -ac 1 -ar 48000 sound");
+    test::make(scratch_, "-copyts -i " + name + " -an -vsync 0 -f rawvideo -pix_fmt gray frames -vn -af "
+                         "aresample=async=1:first_pts=0 -f f32le -ac 1 -ar 48000 sound");
     const std::string frames = file("frames"), sound = file("sound");
     std::size_t frame = 0;
     while (frame * 256 * 128 < frames.size() &&

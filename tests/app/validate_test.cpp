@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "opencl/cache_folder.hpp"
 #include "support/app_test.hpp"
 #include "support/still_clip.hpp"
 #include "support/tik_files.hpp"
@@ -179,20 +180,12 @@ std::filesystem::path kept_kernel(const std::filesystem::path& cache) {
   return {};
 }
 
-// Where kernels are kept by default: what other tests have built need not be built again.
-std::filesystem::path default_cache() {
-  const char* cache = std::getenv("XDG_CACHE_HOME");
-  if (cache != nullptr && *cache != '\0') return cache;
-  const char* home = std::getenv("HOME");
-  return std::filesystem::path(home == nullptr ? "/" : home) / ".cache";
-}
-
 // The kernel of `single` for codes that are sRGB is replaced by the one that takes them for linear light: a device
 // that computes wrongly.
 TEST_F(Validate, ExitsWithOneWhereADeviceComputesWrongly) {
   validate("clip.tik");
   const std::filesystem::path cache = scratch_ / "cache", other = scratch_ / "other-cache";
-  const std::string of_pocl = "POCL_CACHE_DIR=" + (default_cache() / "pocl" / "kcache").string();
+  const std::string of_pocl = "POCL_CACHE_DIR=" + cache_of_pocl().string();
   const auto expose = [&](const std::filesystem::path& folder, const Words& more) {
     run("expose --precision single clip.tik picture.png" + kInterval + more, 0,
         {"XDG_CACHE_HOME=" + folder.string(), of_pocl});
@@ -202,7 +195,7 @@ TEST_F(Validate, ExitsWithOneWhereADeviceComputesWrongly) {
   const std::filesystem::path kept = kept_kernel(cache);
   const std::string wrong = split(read_file(kept)).key + split(read_file(kept_kernel(other))).binary;
   std::ofstream(kept, std::ios::binary) << wrong;
-  std::filesystem::copy(default_cache() / "nutik-cl", cache / "nutik-cl",
+  std::filesystem::copy(default_cache_folder(), cache / "nutik-cl",
                         std::filesystem::copy_options::skip_existing);
   const ProgramResult result = validate("clip.tik", 1, {"XDG_CACHE_HOME=" + cache.string(), of_pocl});
   expect_says(result.out, "EXCEEDED");

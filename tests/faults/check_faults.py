@@ -49,6 +49,8 @@ DEVICE_ERRORS = {"start": [OUT_OF_RESOURCES, OUT_OF_HOST_MEMORY], "build": [NO_B
                  "enqueue": [OUT_OF_RESOURCES, OUT_OF_HOST_MEMORY, NO_ALLOCATION],
                  "wait": [LOST_EVENT, OUT_OF_RESOURCES]}
 DEVICE_STATUS, INPUT_STATUS = 4, 3
+# Other tests have compiled kernels there.
+COMPILED = {"POCL_CACHE_DIR": f"{os.environ.get('XDG_CACHE_HOME') or Path.home() / '.cache'}/pocl/kcache"}
 
 # Command lines without the program, and what each writes: the same bytes whenever it is run.
 COMMANDS = {
@@ -135,9 +137,10 @@ class Bench:
         words, outputs = self.command(line)
         for output in outputs:
             output.unlink(missing_ok=True)
-        status, err = self.run(words, {})
-        if status != 0:
-            sys.exit(f"{line[0]} fails without any fault: {err}")
+        for settings in COMPILED, {}:
+            status, err = self.run(words, settings)
+            if status != 0:
+                sys.exit(f"{line[0]} fails without any fault: {err}")
         return [output.read_bytes() for output in outputs]
 
     def parts(self):

@@ -54,8 +54,8 @@ def held_codes(samples, tolerance, white=255):
         if held is None or tolerance == 0:
             held = codes
         else:
-            difference = codes.astype(np.int64) - held.astype(np.int64)
+            difference = codes.astype(np.int32) - held
             step = 2 * tolerance + 1
-            moved = np.clip(held + (difference + tolerance) // step * step, 0, white)
+            moved = np.clip(held + (difference + tolerance) // step * step, 0, white).astype(codes.dtype)
             held = np.where((np.abs(difference) > tolerance).any(axis=2, keepdims=True), moved, held)
         yield held

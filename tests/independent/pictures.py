@@ -73,9 +73,9 @@ def rgb_of_yuv(y, u, v, matrix, is_full):
     luma, chroma = (1, 1) if is_full else (255 / 219, 255 / 224)
     whole = lambda weight, bits: int(np.floor(weight * 2**bits + 0.5))
     of_chroma = lambda weight: whole(weight * chroma, 16)
-    light = 64 * whole(luma, 14) * y.astype(np.int64) >> 14
+    light = 64 * whole(luma, 14) * y.astype(np.int32) >> 14  # below 2^31, as all below
     black = 0 if is_full else 16 * 4 * whole(luma, 14)
-    u, v = u.astype(np.int64) - 128, v.astype(np.int64) - 128
+    u, v = u.astype(np.int32) - 128, v.astype(np.int32) - 128
     parts = (v * of_chroma(2 * (1 - red)),
              -u * of_chroma(blue / green * 2 * (1 - blue)) - v * of_chroma(red / green * 2 * (1 - red)),
              u * of_chroma(2 * (1 - blue)))

@@ -27,22 +27,17 @@ endforeach()
 run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -G ${GENERATOR}
     -DPAGE=${PAGE} -DCMAKE_PREFIX_PATH=${WORK}/installed -DCMAKE_CXX_COMPILER=${COMPILER}
     -DCMAKE_CXX_FLAGS=${FLAGS} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
-run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${CMAKE_COMMAND} --build ${WORK}/build --target consumer headers)
 run(${WORK}/build/consumer)
-# The page's example once more, by pkg-config, which knows what the build folder holds only where it is installed.
+# The page's example, by pkg-config, which knows what the build folder holds only where it is installed.
 file(GLOB_RECURSE description ${WORK}/installed/nutik.pc)
 cmake_path(GET description PARENT_PATH descriptions)
-run(sh -c "'${COMPILER}' '${WORK}/build/example.cpp' -o '${WORK}/by-pkg-config' \
+run(sh -c "'${COMPILER}' '${WORK}/build/example.cpp' -o '${WORK}/example' \
 $(PKG_CONFIG_PATH='${descriptions}' pkg-config --cflags --libs nutik)")
 
 # A second of nothing, for the page's example.
 string(REPEAT "x" 61440 samples)
 file(WRITE ${WORK}/clip.raw "${samples}")
 run(${WORK}/installed/bin/nutik-cl -q --raw 8x8:gray -f 960 ${WORK}/clip.raw ${WORK}/clip.tik)
-foreach(example build/example by-pkg-config)
-  file(REMOVE ${WORK}/picture.png)
-  run(${CMAKE_COMMAND} -E chdir ${WORK} ${WORK}/${example})
-  if(NOT EXISTS ${WORK}/picture.png)
-    message(FATAL_ERROR "the example made no picture: ${example}")
-  endif()
-endforeach()
+run(${CMAKE_COMMAND} -E chdir ${WORK} ${WORK}/example)
+file(SIZE ${WORK}/picture.png bytes)  # an error where the example made none

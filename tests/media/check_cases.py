@@ -97,15 +97,14 @@ class Cases:
     def run(self, *words):
         return subprocess.run([self.program, *words], cwd=self.work, capture_output=True, text=True, timeout=60)
 
-    def picture(self, sample):
-        file = self.work / "picture.png"
-        ran = self.run("expose", "clip.tik", file, "--start", f"{sample}f", "--exposure", "1f", "--out-transfer",
-                       "source", "--renderer", "reference", "--no-recipe")
-        found = cv2.imread(str(file), cv2.IMREAD_UNCHANGED) if ran.returncode == 0 else None
-        file.unlink(missing_ok=True)
-        if found is not None and found.ndim == 3:
-            found = found[..., ::-1]
-        return found
+    def pictures(self, count):
+        files = [self.work / f"picture-{sample}.png" for sample in range(count)]
+        for file in files:
+            file.unlink(missing_ok=True)
+        self.run("expose", "clip.tik", "-o", "picture-%d.png", "--start", "0f", "--exposure", "1f", "--every", "1f",
+                 "--count", str(count), "--out-transfer", "source", "--renderer", "reference", "--no-recipe")
+        found = [cv2.imread(str(file), cv2.IMREAD_UNCHANGED) for file in files]
+        return [each[..., ::-1] if each is not None and each.ndim == 3 else each for each in found]
 
     def check(self, case):
         title = f"{case.clip} {case.options}".strip()
@@ -116,19 +115,18 @@ class Cases:
         self.report.hold(not missing, f"{title}: says what it is" + f", but not {missing}: {printed}" * bool(missing))
         if ran.returncode != 0:
             return
+        pictures = self.pictures(max(1, len(case.codes)))
         if case.size:
-            height, width = self.picture(0).shape[:2]
+            height, width = pictures[0].shape[:2]
             self.report.hold((width, height) == case.size, f"{title}: {width} x {height}")
         if case.values:
-            values = np.unique(self.picture(0)).tolist()
+            values = np.unique(pictures[0]).tolist()
             self.report.hold(tuple(values) == case.values, f"{title}: codes {values}")
         if case.quarter_turns:
             stored = cv2.imread(str(self.cases / case.clip), cv2.IMREAD_UNCHANGED | cv2.IMREAD_IGNORE_ORIENTATION)
-            self.report.hold(np.array_equal(self.picture(0), np.rot90(stored, case.quarter_turns)), f"{title}: is upright")
-        worst = 0
-        for k, right in enumerate(case.codes):
-            found = self.picture(k)
-            worst = max(worst, 65535 if found is None else abs(int(np.ravel(found)[0]) - right))
+            self.report.hold(np.array_equal(pictures[0], np.rot90(stored, case.quarter_turns)), f"{title}: is upright")
+        worst = max((65535 if found is None else abs(int(np.ravel(found)[0]) - right)
+                     for found, right in zip(pictures, case.codes)), default=0)
         if case.codes:
             self.report.hold(worst <= case.within,
                              f"{title}: {len(case.codes)} pictures, {worst} codes away at most, {case.within} allowed")

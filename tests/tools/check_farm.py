@@ -283,14 +283,14 @@ def check_slurm(scene, farm, report):
                     f"task {task} came back and made what was missing:\n{log}")
         scene.compare(report, kills=1)
 
-        check_encoding_by_slurm(scene, farm, report, slurm)
-
         # A setting that no other run mends fails at once; a device that is not there, after three more tries.
-        for words, setting, exit_code, restarts in ((["--out-angle", "0"], {}, 2, 0),
-                                                    ([], {"OCL_ICD_VENDORS": "/nowhere"}, 4, 3)):
-            job = run("sbatch", "--parsable", "--array=0", "--export", "ALL", farm / "film.sbatch", *FILM, *words,
-                      "film/again-%05d.png", cwd=scene.folder, env=slurm.environment | setting,
-                      capture_output=True).stdout.strip()
+        failing = [(run("sbatch", "--parsable", "--array=0", "--export", "ALL", farm / "film.sbatch", *FILM, *words,
+                        "film/again-%05d.png", cwd=scene.folder, env=slurm.environment | setting,
+                        capture_output=True).stdout.strip(), exit_code, restarts)
+                   for words, setting, exit_code, restarts in ((["--out-angle", "0"], {}, 2, 0),
+                                                               ([], {"OCL_ICD_VENDORS": "/nowhere"}, 4, 3))]
+        check_encoding_by_slurm(scene, farm, report, slurm)
+        for job, exit_code, restarts in failing:
             state = wait_for(lambda: ended(slurm, job), "end of a film that fails")
             report.hold(f"ExitCode={exit_code}:0" in state and f"Restarts={restarts} " in state,
                         f"exit status {exit_code} after {restarts} restarts")

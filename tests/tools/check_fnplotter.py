@@ -32,6 +32,7 @@ def main():
     paths.work = options.work.resolve() / (options.only or "all")
     paths.work.mkdir(parents=True, exist_ok=True)
     os.environ.setdefault("MPLCONFIGDIR", str(paths.work / "matplotlib"))
+    os.environ["PATH"] = f"{paths.program.parent}{os.pathsep}{os.environ['PATH']}"
     sys.path.insert(0, str(paths.plotter.parent))
     names = [f"fnplotter.{name}_test" for name in ([options.only] if options.only else TESTS)]
     result = unittest.TextTestRunner().run(unittest.defaultTestLoader.loadTestsFromNames(names))

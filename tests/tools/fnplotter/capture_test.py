@@ -10,7 +10,7 @@ import subprocess
 import sys
 import unittest
 
-from fnplotter.setting import CAPTURE_NS, colour_count, needs_matplotlib, paths, run, write
+from fnplotter.setting import CAPTURE_NS, draw, colour_count, needs_matplotlib, paths, run, write
 
 EXPOSURE = (0xFB, 0xF7, 0xCF)  # as palette.py has it
 
@@ -51,7 +51,7 @@ class Captures(unittest.TestCase):
         clip, program = write_capture(count), stand_in(count, **exposure)
         output = paths.work / output
         capture = ("--capture", clip, "--program", program)
-        result = run(paths.corpus / "figure04.fn", "-o", output, *capture, *options)
+        result = draw(paths.corpus / "figure04.fn", "-o", output, *capture, *options)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         return output
 

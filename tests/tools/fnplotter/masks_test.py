@@ -3,7 +3,7 @@
 import re
 import unittest
 
-from fnplotter.setting import needs_matplotlib, paths, run, write
+from fnplotter.setting import draw, needs_matplotlib, paths, run, write
 
 
 @needs_matplotlib
@@ -14,7 +14,7 @@ class Masks(unittest.TestCase):
 
     def check_plot(self, mask):
         output = paths.work / "masked.svg"
-        result = run(paths.corpus / "figure14.fn", "--mask", mask, "-o", output)
+        result = draw(paths.corpus / "figure14.fn", "--mask", mask, "-o", output)
         self.assertEqual(result.returncode, 0, result.stderr)
         unmapped = "mask values without a function: 7…9, 200 (4 pixels)"
         self.assertIn(f"warning: {mask}: {unmapped}\n", result.stderr)

@@ -1,6 +1,7 @@
 """What the tests share: where things are, running the plotter, and looking at what it drew."""
 
 import importlib.util
+import io
 import json
 import os
 import re
@@ -8,6 +9,7 @@ import subprocess
 import sys
 import unittest
 import zlib
+from contextlib import redirect_stderr, redirect_stdout
 from types import SimpleNamespace
 
 paths = SimpleNamespace(plotter=None, corpus=None, work=None, program=None)  # set by check_fnplotter.py
@@ -19,13 +21,19 @@ needs_matplotlib = unittest.skipUnless(importlib.util.find_spec("matplotlib"), "
 
 def run(*arguments, stdin=None, **environment):
     """FnPlotter.py with arguments, as a user would run it, without a display."""
-    displays = ("DISPLAY", "WAYLAND_DISPLAY")
-    variables = {name: value for name, value in os.environ.items() if name not in displays}
-    variables["PATH"] = f"{paths.program.parent}{os.pathsep}{os.environ['PATH']}"
-    variables |= {"MPLCONFIGDIR": str(paths.work / "matplotlib"), "PYTHONIOENCODING": "utf-8"} | environment
+    absent = dict.fromkeys(("DISPLAY", "WAYLAND_DISPLAY"), "")
     command = [sys.executable, str(paths.plotter), *map(str, arguments)]
     how = {"capture_output": True, "encoding": "utf-8", "timeout": 300, "check": False, "input": stdin}
-    return subprocess.run(command, env=variables, **how)
+    return subprocess.run(command, env=os.environ | absent | {"PYTHONIOENCODING": "utf-8"} | environment, **how)
+
+
+def draw(*arguments):
+    """The same in this process, which loads Matplotlib once."""
+    from FnPlotter import command_line, plot, status_of
+
+    with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as err:
+        status = status_of("FnPlotter.py", plot, command_line().parse_args([*map(str, arguments)]))
+    return SimpleNamespace(returncode=status, stdout=out.getvalue(), stderr=err.getvalue())
 
 
 def write(name, content):
