@@ -31,10 +31,10 @@ class CameraFiles {
     inputs.push_back(capture.string());  // no two outputs of one name either
     // What lies in a folder that is not there yet replaces nothing.
     const auto take = [&](std::optional<std::string>& file, const char* name, const auto& check) {
-      const bool is_stated = file.has_value();
-      if (!is_stated && folder_) file = (std::filesystem::path(*folder_) / name).string();
+      if (!file && folder_) file = (std::filesystem::path(*folder_) / name).string();
       if (!file) return;
-      if (is_stated || !is_new) check(*file);
+      const bool is_there = is_new && std::filesystem::path(*file).parent_path() == std::filesystem::path(*folder_);
+      if (!is_there) check(*file);
       inputs.push_back(*file);
     };
     take(table_, "path.csv",
