@@ -53,6 +53,88 @@ CannotAlign not_alike(const ClipToAlign& clip, CameraMotion motion, std::uint64_
   return error;
 }
 
+// Looks for a camera's path by the motion that is wanted, or by two, each until a picture does not follow it.
+class PathSearch {
+ public:
+  PathSearch(const ClipToAlign& clip, CameraMotion motion) : clip_(clip), tried_{{.path = path_of(motion)}} {
+    if (motion != CameraMotion::automatic) return;
+    tried_ = {{.path = path_of(CameraMotion::rigid)}, {.path = path_of(CameraMotion::homography)}};
+  }
+
+  [[nodiscard]] std::uint64_t picture_count() const { return tried_.front().path.pictures.size(); }
+
+  // Finds the next pictures. Throws CannotAlign where no motion is left that all pictures follow.
+  void add(Registrar& registrar, std::span<const std::span<const std::byte>> rasters) {
+    std::vector<Registrar::Compared> compared(rasters.size());
+    const bool are_two = tried_.size() == 2;
+    parallel_for(rasters.size(), [&](std::uint64_t i) {
+      if (are_two) {
+        compared[i] = registrar.compare(rasters[i], {tried_[0].path.motion, tried_[1].path.motion},
+                                        {tried_[0].guess, tried_[1].guess});
+      } else {
+        compared[i].found[0] = registrar.find(rasters[i], tried_[0].path.motion, tried_[0].guess);
+      }
+    });
+    std::optional<CannotAlign> failed;
+    std::vector<Tried> left;
+    for (std::size_t which = 0; which < tried_.size(); ++which) {
+      try {
+        for (std::size_t i = 0; i < rasters.size(); ++i)
+          add(tried_[which], registrar, rasters[i], compared[i].found[which]);
+        left.push_back(std::move(tried_[which]));
+      } catch (const CannotAlign& error) {
+        if (!failed || error.picture >= failed->picture) failed = error;
+      }
+    }
+    if (left.empty()) throw std::move(*failed);
+    tried_ = std::move(left);
+    for (const Registrar::Compared& each : compared) {
+      for (std::size_t part = 0; part < better_.size(); ++part) better_[part] += each.better[part];
+    }
+    constexpr std::uint64_t kMany = 32;  // fewer are alike by chance, as pictures that follow each other are
+    constexpr double kSurely = 4;        // asked after each group
+    if (picture_count() >= kMany && second_gains(kSurely)) tried_.erase(tried_.begin());
+  }
+
+  [[nodiscard]] CameraPath best() && {
+    constexpr double kOnceInTwenty = 1.64;  // by chance
+    return std::move(second_gains(kOnceInTwenty) ? tried_.back().path : tried_.front().path);
+  }
+
+ private:
+  struct Tried {
+    CameraPath path;
+    Warp guess = {};
+  };
+
+  // Whether there is a second motion that says more than the first. It can do more, and so it follows noise and what
+  // moves, too: in so many standard deviations more parts of the picture than chance would it must say better.
+  [[nodiscard]] bool second_gains(double sigmas) const {
+    const auto better = static_cast<double>(std::ranges::count_if(better_, [](int each) { return each > 0; }));
+    const auto worse = static_cast<double>(std::ranges::count_if(better_, [](int each) { return each < 0; }));
+    return tried_.size() == 2 && better - worse > sigmas * std::sqrt(better + worse);
+  }
+
+  [[nodiscard]] CameraPath path_of(CameraMotion motion) const {
+    return {motion, clip_.format.shape, clip_.reference, {}};
+  }
+
+  void add(Tried& tried, Registrar& registrar, std::span<const std::byte> raster, Registered picture) const {
+    CameraPath& path = tried.path;
+    const std::uint64_t number = path.pictures.size();
+    // A fast camera is nearer to where it was just before.
+    if (!is_sure(picture) && number > 0) picture = registrar.find(raster, path.motion, path.pictures.back().warp);
+    if (!is_sure(picture)) throw not_alike(clip_, path.motion, number, picture);
+    if ((number + 1) % kPicturesAtOnce == 0) tried.guess = picture.warp;
+    if (number == clip_.reference) picture.warp = Warp();  // itself
+    path.pictures.push_back(picture);
+  }
+
+  const ClipToAlign& clip_;
+  std::vector<Tried> tried_;
+  std::array<int, std::tuple_size_v<BetterParts>> better_{};  // in how many pictures the second one is, by part
+};
+
 class AlignedClip final : public Clip {
  public:
   AlignedClip(const ClipToAlign& clip, Shared<CameraPath> path, const Rectangle& area, Unseen unseen)
@@ -124,35 +206,22 @@ CameraPath find_camera_path(const ClipToAlign& clip, CameraMotion motion, std::u
 
   std::unique_ptr<Registrar> registrar;
   try {
-    registrar = open_registrar(clip.format, motion, reference_raster(clip));
+    registrar = open_registrar(clip.format, reference_raster(clip));
   } catch (const TooLittleTexture& error) {
     throw CannotAlign(
         format("{}: no picture can be aligned to picture {}: {}", clip.name, clip.reference, error.what()),
         kOtherReference);
   }
-  CameraPath path{motion, clip.format.shape, clip.reference, {}};
-  Warp guess;
+  PathSearch search(clip, motion);
   const std::unique_ptr<Clip> pictures = clip.open();
   ReadAhead ahead(*pictures, 2 * at_once * sample_bytes);
-  std::vector<Registered> found;
   for (auto rasters = ahead.next(at_once); !rasters.empty(); rasters = ahead.next(at_once)) {
     check_interruption();
     if (stop.stop_requested()) throw Cancelled();
-    if (progress) progress(path.pictures.size(), clip.announced_samples);
-    found.resize(rasters.size());
-    parallel_for(rasters.size(), [&](std::uint64_t i) { found[i] = registrar->find(rasters[i], guess); });
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      Registered& picture = found[i];
-      const std::uint64_t number = path.pictures.size();
-      // A fast camera is nearer to where it was just before.
-      if (!is_sure(picture) && number > 0) picture = registrar->find(rasters[i], path.pictures.back().warp);
-      if (!is_sure(picture)) throw not_alike(clip, motion, number, picture);
-      if ((number + 1) % kPicturesAtOnce == 0) guess = picture.warp;
-      if (number == clip.reference) picture.warp = Warp();  // itself
-      path.pictures.push_back(picture);
-    }
+    if (progress) progress(search.picture_count(), clip.announced_samples);
+    search.add(*registrar, rasters);
   }
-  return path;
+  return std::move(search).best();
 }
 
 Rectangle shown_area(const std::string& name, const CameraPath& path, Unseen unseen) {
@@ -240,13 +309,13 @@ MemoryNeeds camera_check_needs(const CaptureFormat& capture) {
 const std::optional<MovedCamera>& CameraLooks::look(std::uint64_t sample, std::span<const std::byte> raster) {
   if (looks_++ == 0) {
     try {
-      registrar_ = open_registrar(format_, CameraMotion::rigid, raster);
+      registrar_ = open_registrar(format_, raster);
     } catch (const TooLittleTexture&) {
       return moved_;
     }
   } else if (registrar_) {
     // From where it lay at first: what stands still is found there.
-    const Registered found = registrar_->find(raster, Warp(), Reach::near);
+    const Registered found = registrar_->find(raster, CameraMotion::rigid, Warp(), Reach::near);
     const Place way = furthest_way(found.warp, format_.shape);
     const double corner = std::hypot(way.x, way.y);
     if (!is_sure(found)) {

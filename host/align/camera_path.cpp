@@ -16,10 +16,11 @@
 namespace nutik {
 namespace {
 
-constexpr std::array<std::pair<CameraMotion, std::string_view>, 3> kMotions{
+constexpr std::array<std::pair<CameraMotion, std::string_view>, 4> kMotions{
     {{CameraMotion::translation, "translation"},
      {CameraMotion::rigid, "rigid"},
-     {CameraMotion::homography, "homography"}}};
+     {CameraMotion::homography, "homography"},
+     {CameraMotion::automatic, "auto"}}};
 
 }  // namespace
 
@@ -32,9 +33,8 @@ std::optional<CameraMotion> camera_motion_of(std::string_view text) {
   return found == kMotions.end() ? std::nullopt : std::optional(found->first);
 }
 
-std::unique_ptr<Registrar> open_registrar(const CaptureFormat& format, CameraMotion motion,
-                                          std::span<const std::byte> reference) {
-  return module<MotionModule>().open(format, motion, reference);
+std::unique_ptr<Registrar> open_registrar(const CaptureFormat& format, std::span<const std::byte> reference) {
+  return module<MotionModule>().open(format, reference);
 }
 
 std::uint64_t registered_bytes(const CaptureFormat& format) {
@@ -225,7 +225,7 @@ class PathParser {
     line_left_ = next_line();
     if (next_word() != kTitle) fail("this is no camera's path");
     const auto motion = camera_motion_of(next_word());
-    if (!motion) fail("it names no motion: translation, rigid or homography");
+    if (!motion || *motion == CameraMotion::automatic) fail("it names no motion: translation, rigid or homography");
     path_.motion = *motion;
     path_.reference = take<std::uint64_t>("the reference");
     path_.is_stated = true;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -26,7 +27,8 @@ namespace nutik {
 enum class CameraMotion {
   translation,  // along the picture's sides
   rigid,        // and turning about the axis of sight
-  homography    // whatever a camera on the spot does, and whatever it does before a plane
+  homography,   // whatever a camera on the spot does, and whatever it does before a plane
+  automatic     // rigid, where a homography says no more; of a path that was found it is one of these two
 };
 [[nodiscard]] std::string_view to_text(CameraMotion motion);
 // Nothing where it is none of these.
@@ -63,6 +65,10 @@ enum class Reach {
   anywhere  // as long as it shows much of the same
 };
 
+// Parts of a picture: 1 where the second of two motions is better, -1 where the first is, 0 where neither is.
+inline constexpr std::size_t kPartsToASide = 8;
+using BetterParts = std::array<std::int8_t, kPartsToASide * kPartsToASide>;
+
 class Registrar {
  public:
   virtual ~Registrar() = default;
@@ -70,8 +76,17 @@ class Registrar {
   // Registers a raster of the same format, expected to lie about where `guess` says. Returns the best that was found,
   // good or not: ask is_sure(). Nearby that is another place only where much of the picture lies there. Several threads
   // may ask at once.
-  [[nodiscard]] virtual Registered find(std::span<const std::byte> raster, const Warp& guess,
+  [[nodiscard]] virtual Registered find(std::span<const std::byte> raster, CameraMotion motion, const Warp& guess,
                                         Reach reach = Reach::anywhere) = 0;
+
+  // By two motions, of which the second can do what the first does: the same as both times find(), and where what is
+  // fitted to one half of the parts says better what the others show.
+  struct Compared {
+    std::array<Registered, 2> found;
+    BetterParts better{};
+  };
+  [[nodiscard]] virtual Compared compare(std::span<const std::byte> raster, const std::array<CameraMotion, 2>& motions,
+                                         const std::array<Warp, 2>& guesses) = 0;
 
   // Whether a quarter of the reference or more has texture: it is no thing before a bare wall.
   [[nodiscard]] virtual bool sees_much() const = 0;
@@ -79,7 +94,7 @@ class Registrar {
 
 // Registers other pictures to `reference`, a raster of that format. Throws TooLittleTexture, InputError where
 // nutik-motion.so is not found (media/module.hpp).
-[[nodiscard]] std::unique_ptr<Registrar> open_registrar(const CaptureFormat& format, CameraMotion motion,
+[[nodiscard]] std::unique_ptr<Registrar> open_registrar(const CaptureFormat& format,
                                                         std::span<const std::byte> reference);
 
 // What nutik-motion.so gives the program.

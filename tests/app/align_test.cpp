@@ -8,6 +8,7 @@
 #include <fstream>
 #include <functional>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
@@ -128,6 +129,23 @@ TEST_F(Aligning, WritesThePathThatMakesTheSameAgain) {
   EXPECT_EQ(file("a.pfm"), file("c.pfm"));
 }
 
+TEST_F(Aligning, AutoMovesByAsLittleAsExplainsThePictures) {
+  EXPECT_EQ(answer(encoding("--align auto frames a.tik"))["camera"]["motion"], "rigid");
+  make(encoding("--align rigid frames b.tik"));
+  EXPECT_EQ(file("a.tik"), file("b.tik"));
+  std::filesystem::create_directory(scratch_ / "tilted");
+  for (int k = 0; k < kPictures; ++k) {
+    const Shift tilt = hand(k);
+    const cv::Matx33d warp(1, 0, 0, 0, 1, 0, 3e-5 * tilt.x, 3e-5 * tilt.y, 1);
+    cv::Mat seen;
+    cv::warpPerspective(drawn(tilt, k, true), seen, warp, {}, cv::INTER_CUBIC, cv::BORDER_REFLECT);
+    cv::imwrite((scratch_ / format("tilted/{:02}.pgm", k)).string(), seen);
+  }
+  EXPECT_EQ(answer(encoding("--align auto tilted c.tik"))["camera"]["motion"], "homography");
+  make(encoding("--align homography tilted d.tik"));
+  EXPECT_EQ(file("c.tik"), file("d.tik"));
+}
+
 TEST_F(Aligning, KeepsThePictureAndSaysWhatWasSeenWhenAskedTo) {
   const json encoded =
       answer(encoding("--align translation --align-to 60ms --unseen hold --coverage seen.png frames a.tik"));
@@ -224,7 +242,7 @@ TEST_F(Aligning, IsMissedWhereTheCameraMoved) {
   write("far", [](int picture) { return Shift{2 * hand(picture).x, 2 * hand(picture).y}; });
   // A clip is read again; a capture cannot be.
   EXPECT_FALSE(says({"study", "-f", "100", "far", "-o", "s2.png"}));
-  expect_says(file("s2.txt"), " --align homography ");
+  expect_says(file("s2.txt"), " --align rigid ");
   EXPECT_FALSE(says({"study", "-f", "100", "--align", "rigid", "far", "-o", "s2.png"}));
   expect_says(file("s2.txt"), " --align rigid ");
   // Long enough that its first pictures tell: it is aligned at once.
@@ -232,8 +250,8 @@ TEST_F(Aligning, IsMissedWhereTheCameraMoved) {
   for (int k = 0; k < 3 * kPictures; ++k)
     cv::imwrite((scratch_ / format("long/{:02}.pgm", k)).string(), drawn({2 * hand(k).x, 2 * hand(k).y}, k / 3, true));
   EXPECT_FALSE(says({"study", "-f", "100", "long", "-o", "s4.png"}));
-  expect_says(file("s4.txt"), " --align homography ");
-  make("study -f 100 --align homography long -o s5.png");
+  expect_says(file("s4.txt"), " --align rigid ");
+  make("study -f 100 --align rigid long -o s5.png");
   for (const std::string extension : {".pgm", ".fn"}) EXPECT_EQ(file("s4" + extension), file("s5" + extension));
   make(encoding("far far.tik"));
   expect_refused(

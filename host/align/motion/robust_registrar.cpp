@@ -7,8 +7,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <numbers>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
@@ -43,10 +45,10 @@ constexpr double kMinAcross = 0.01;           // of the texture's strength along
 constexpr std::size_t kFineLevels = 3;        // that a start from close by needs
 constexpr double kClearlyBetter = 2;          // of residuals
 constexpr double kClearlyMost = 0.7;          // of the texture
-constexpr std::size_t kPartsToASide = 8;
 constexpr std::size_t kMinOfPart = 8;  // places of texture: fewer tell little
 constexpr double kTukey = 4.685;       // 95 % as efficient as least squares where all errors are normal
 constexpr double kMinSigma = 0.3;      // codes
+constexpr double kSigmaOfMedian = 1.4826;  // a normal deviation, of the median of sizes
 constexpr int kFirstSteps = 3;  // of a fit, in which nothing is excluded yet; a finer level has one of them
 constexpr int kMaxSteps = 25;
 constexpr double kSettledPixels = 0.002;
@@ -243,8 +245,7 @@ class FeatureStart {
 
 class RobustRegistrar final : public Registrar {
  public:
-  RobustRegistrar(const CaptureFormat& format, CameraMotion motion, std::span<const std::byte> reference)
-      : format_(format), frame_(format.shape, motion), coarse_(format.shape, coarse_motion(motion)) {
+  RobustRegistrar(const CaptureFormat& format, std::span<const std::byte> reference) : format_(format) {
     GreyPyramid pyramid;
     pyramid.take(format, reference);
     for (std::size_t i = 0; i < pyramid.levels.size(); ++i) {
@@ -252,27 +253,38 @@ class RobustRegistrar final : public Registrar {
       Level level{pyramid.finest + static_cast<int>(i), (std::ldexp(1.0, pyramid.finest) - 1) / 2, grey.size(),
                   textured_points(grey, i > 0 ? kLeadingPoints : pyramid.finest > 0 ? kMeanPoints : kPoints)};
       if (i > 0 && level.points.size() < kMinPoints) break;
-      if (i == 0) check_texture(level.points);
+      if (i == 0) {
+        check_texture(level.points);
+        flat_ = {level.number, level.offset, level.size, flat_pairs(grey)};
+      }
       levels_.push_back(std::move(level));
     }
     reference_ = pyramid.of_features();
+    const Level& finest = levels_.front();
+    halves_.fill({finest.number, finest.offset, finest.size, {}});
+    for (const Point& point : finest.points) {
+      const std::size_t part = part_of(finest, point);
+      halves_[(part + part / kPartsToASide) % 2].points.push_back(point);
+    }
   }
 
-  Registered find(std::span<const std::byte> raster, const Warp& guess, Reach reach) override {
-    std::unique_ptr<GreyPyramid> pyramid = spare_pyramid();
-    pyramid->take(format_, raster);
-    const Registered found = found_in(*pyramid, guess, reach);
-    const std::scoped_lock lock(pyramids_mutex_);
-    pyramids_.push_back(std::move(pyramid));
-    return found;
+  Registered find(std::span<const std::byte> raster, CameraMotion motion, const Warp& guess, Reach reach) override {
+    return with_pyramid(raster, [&](const GreyPyramid& pyramid) { return found_in(pyramid, guess, reach, motion); });
   }
 
-  [[nodiscard]] bool sees_much() const override {
-    std::array<std::size_t, std::tuple_size_v<Parts>> counts{};
-    for (const Point& point : levels_.front().points) ++counts[part_of(levels_.front(), point)];
-    const auto textured = std::ranges::count_if(counts, [](std::size_t count) { return count >= kMinOfPart; });
-    return 4 * static_cast<std::size_t>(textured) >= counts.size();
+  Compared compare(std::span<const std::byte> raster, const std::array<CameraMotion, 2>& motions,
+                   const std::array<Warp, 2>& guesses) override {
+    return with_pyramid(raster, [&](const GreyPyramid& pyramid) {
+      Compared compared;
+      for (std::size_t i = 0; i < 2; ++i)
+        compared.found[i] = found_in(pyramid, guesses[i], Reach::anywhere, motions[i]);
+      if (is_sure(compared.found[0]) && is_sure(compared.found[1]))
+        compared.better = better_parts(pyramid.levels.front(), motions, compared.found);
+      return compared;
+    });
   }
+
+  [[nodiscard]] bool sees_much() const override { return are_in_much(levels_.front().points); }
 
  private:
   [[nodiscard]] static std::size_t part_of(const Level& level, const Point& point) {
@@ -282,36 +294,81 @@ class RobustRegistrar final : public Registrar {
     return part(point.y, level.size.height) * kPartsToASide + part(point.x, level.size.width);
   }
 
-  // As many come to be as searches run at the same time.
-  [[nodiscard]] std::unique_ptr<GreyPyramid> spare_pyramid() {
+  // Whether a quarter of the picture's parts or more have several of them.
+  template <typename Places, typename PointOf = std::identity>
+  [[nodiscard]] bool are_in_much(const Places& places, PointOf point_of = {}) const {
+    std::array<std::size_t, std::tuple_size_v<Parts>> counts{};
+    for (const auto& place : places) ++counts[part_of(levels_.front(), std::invoke(point_of, place))];
+    const auto parts = std::ranges::count_if(counts, [](std::size_t count) { return count >= kMinOfPart; });
+    return 4 * static_cast<std::size_t>(parts) >= counts.size();
+  }
+
+  // As many pyramids come to be as searches run at the same time.
+  template <typename Search>
+  [[nodiscard]] std::invoke_result_t<Search, const GreyPyramid&> with_pyramid(std::span<const std::byte> raster,
+                                                                              const Search& search) {
+    std::unique_ptr<GreyPyramid> pyramid;
+    {
+      const std::scoped_lock lock(pyramids_mutex_);
+      if (!pyramids_.empty()) {
+        pyramid = std::move(pyramids_.back());
+        pyramids_.pop_back();
+      }
+    }
+    if (!pyramid) pyramid = std::make_unique<GreyPyramid>();
+    pyramid->take(format_, raster);
+    auto found = search(*pyramid);
     const std::scoped_lock lock(pyramids_mutex_);
-    if (pyramids_.empty()) return std::make_unique<GreyPyramid>();
-    std::unique_ptr<GreyPyramid> pyramid = std::move(pyramids_.back());
-    pyramids_.pop_back();
-    return pyramid;
+    pyramids_.push_back(std::move(pyramid));
+    return found;
   }
 
-  [[nodiscard]] Registered found_in(const GreyPyramid& pyramid, const Warp& guess, Reach reach) {
-    Registered best = best_of(pyramid, guess, reach, frame_);
+  [[nodiscard]] Registered found_in(const GreyPyramid& pyramid, const Warp& guess, Reach reach,
+                                    CameraMotion motion) {
+    const Frame frame(format_.shape, motion), coarse(format_.shape, coarse_motion(motion));
+    Registered best = best_of(pyramid, guess, reach, frame, coarse);
     if (reach == Reach::near) return unless_it_rests(pyramid.levels.front(), guess, best);
-    if (best.agreeing >= kClearlyMost || frame_.count() == coarse_.count()) return best;
+    if (best.agreeing >= kClearlyMost || frame.count() == coarse.count()) return best;
     // Eight numbers may follow what moves from where three are led to what rests.
-    const Registered simpler = best_of(pyramid, guess, reach, coarse_);
+    const Registered simpler = best_of(pyramid, guess, reach, coarse, coarse);
     if (simpler.agreeing <= best.agreeing) return best;
-    return more_agreeing(simpler, fit(pyramid, simpler.warp, 1, frame_));
+    return more_agreeing(simpler, fit(pyramid, simpler.warp, 1, frame, coarse));
   }
 
-  [[nodiscard]] Registered best_of(const GreyPyramid& pyramid, const Warp& guess, Reach reach, const Frame& fine) {
-    Registered best = fit(pyramid, guess, levels_.size(), fine);
+  // In which of the picture's parts the second of two motions says better than the first what is there, each fitted to
+  // the other parts: in noise more numbers follow that, too.
+  [[nodiscard]] BetterParts better_parts(const cv::Mat& grey, std::span<const CameraMotion> motions,
+                                         std::span<const Registered> found) const {
+    BetterParts better{};
+    for (std::size_t half = 0; half < halves_.size(); ++half) {
+      std::array<Parts, 2> missed;
+      for (std::size_t i = 0; i < missed.size(); ++i) {
+        Fit fit{found[i].warp, 1, 0};
+        if (!settle(halves_[half], grey, Frame(format_.shape, motions[i]), 1, kSettledPixels, fit)) return {};
+        for (const Sampled& sample : sampled(halves_[1 - half], grey, fit.warp))
+          missed[i][part_of(levels_.front(), *sample.point)].push_back(std::abs(residual(sample, fit)));
+      }
+      for (std::size_t part = 0; part < better.size(); ++part) {
+        if (std::min(missed[0][part].size(), missed[1][part].size()) < kMinOfPart) continue;
+        const double first = median(missed[0][part]), second = median(missed[1][part]);
+        better[part] = static_cast<std::int8_t>((second < first) - (second > first));
+      }
+    }
+    return better;
+  }
+
+  [[nodiscard]] Registered best_of(const GreyPyramid& pyramid, const Warp& guess, Reach reach, const Frame& fine,
+                                   const Frame& coarse) {
+    Registered best = fit(pyramid, guess, levels_.size(), fine, coarse);
     // Fine texture is seen on no coarser level, where what moves may be all there is.
     for (const std::size_t levels : {kFineLevels, std::size_t{1}}) {
-      if (!is_sure(best)) best = more_agreeing(best, fit(pyramid, guess, levels, fine));
+      if (!is_sure(best)) best = more_agreeing(best, fit(pyramid, guess, levels, fine, coarse));
     }
     if (is_sure(best) || reach == Reach::near) return best;
     const std::scoped_lock lock(features_mutex_);
     if (!features_) features_.emplace(reference_, pyramid.feature_scale());
     const auto start = features_->find(pyramid.of_features());
-    return start ? more_agreeing(best, fit(pyramid, *start, kFineLevels, fine)) : best;
+    return start ? more_agreeing(best, fit(pyramid, *start, kFineLevels, fine, coarse)) : best;
   }
 
   static const Registered& more_agreeing(const Registered& first, const Registered& second) {
@@ -342,8 +399,8 @@ class RobustRegistrar final : public Registrar {
     }
   }
 
-  [[nodiscard]] Registered fit(const GreyPyramid& pyramid, const Warp& guess, std::size_t levels,
-                               const Frame& fine) const {
+  [[nodiscard]] Registered fit(const GreyPyramid& pyramid, const Warp& guess, std::size_t levels, const Frame& fine,
+                               const Frame& coarse) const {
     Fit fit{guess, 1, 0};
     bool is_first = true;
     for (std::size_t i = std::min(levels, levels_.size()); i-- > 0;) {
@@ -351,7 +408,7 @@ class RobustRegistrar final : public Registrar {
           i == 0 || (i == 1 && levels_[i].size.height >= 100 && levels_[i].size.width >= 100);
       Fit settled = fit;
       const double enough = i == 0 ? kSettledPixels : kRoughlySettled * levels_[i].scale();
-      if (settle(levels_[i], pyramid.levels[i], is_fine ? fine : coarse_, is_first ? kFirstSteps : 1,
+      if (settle(levels_[i], pyramid.levels[i], is_fine ? fine : coarse, is_first ? kFirstSteps : 1,
                  enough, settled)) {
         fit = settled;
         is_first = false;
@@ -359,46 +416,74 @@ class RobustRegistrar final : public Registrar {
         return {guess, 0, 0};
       }
     }
-    return judged(levels_.front(), pyramid.levels.front(), fit);
+    return judged(pyramid.levels.front(), fit);
   }
 
   // Near by, most pictures lie just where they are expected: that stands unless another place is clearly better, by
   // texture from much of the picture. A thing that moves over a bare wall is no camera's motion.
   [[nodiscard]] Registered unless_it_rests(const cv::Mat& grey, const Warp& guess,
                                            const Registered& best) const {
-    const Level& level = levels_.front();
-    const std::vector<Sampled> seen = sampled(level, grey, guess);
+    const std::vector<Sampled> seen = sampled(levels_.front(), grey, guess);
     if (seen.empty()) return best;
-    const Registered rests = judged(level, grey, {guess, 1, brighter_by(seen)});
+    const Registered rests = judged(grey, {guess, 1, brighter_by(seen)});
     if (rests.residual_pixels <= kClearlyBetter * best.residual_pixels) return rests;
-    if (!is_sure(best) || !is_spread(level, grey, guess, best.warp)) return {guess, 0, rests.residual_pixels};
+    if (!is_sure(best) || !is_spread(grey, guess, best.warp)) return {guess, 0, rests.residual_pixels};
     return best.agreeing >= kClearlyMost ? best : Registered{best.warp, 0, rests.residual_pixels};
   }
 
   // Whether a quarter of the picture's parts or more follow a warp, and clearly not what is expected: noise over a dark
   // wall is as near to any place.
-  [[nodiscard]] static bool is_spread(const Level& level, const cv::Mat& grey, const Warp& guess,
-                                      const Warp& warp) {
-    Parts expected = parts_of(level, grey, guess), followed = parts_of(level, grey, warp);
+  [[nodiscard]] bool is_spread(const cv::Mat& grey, const Warp& guess, const Warp& warp) const {
+    Parts expected = parts_of(grey, guess), followed = parts_of(grey, warp);
     std::size_t parts = 0;
     for (std::size_t i = 0; i < followed.size(); ++i) {
       if (std::min(expected[i].size(), followed[i].size()) < kMinOfPart) continue;
       const double away = median(followed[i]);
-      parts += away <= level.agreeing() && median(expected[i]) > kClearlyBetter * away ? 1 : 0;
+      parts += away <= levels_.front().agreeing() && median(expected[i]) > kClearlyBetter * away ? 1 : 0;
     }
     return 4 * parts >= followed.size();
   }
 
   // How far texture lies from where a warp says, in pixels of the level, for each part of the picture.
-  [[nodiscard]] static Parts parts_of(const Level& level, const cv::Mat& grey, const Warp& warp) {
+  [[nodiscard]] Parts parts_of(const cv::Mat& grey, const Warp& warp) const {
     Parts parts;
-    const std::vector<Sampled> seen = sampled(level, grey, warp);
+    const std::vector<Sampled> seen = sampled(levels_.front(), grey, warp);
     if (seen.empty()) return parts;
-    const Fit fit{warp, 1, brighter_by(seen)};
-    for (const Sampled& sample : seen) {
-      parts[part_of(level, *sample.point)].push_back(std::abs(residual(sample, fit)) / gradient_of(*sample.point));
-    }
+    for (const auto& [point, away] : distances(seen, grey, {warp, 1, brighter_by(seen)}))
+      parts[part_of(levels_.front(), point)].push_back(away);
     return parts;
+  }
+
+  struct Distance {
+    Point point;
+    double away;  // pixels of the finest level
+  };
+
+  // How far places of the finest level lie from where a fit says: of those that are told from noise, if these are in
+  // much of the picture, else of all. What stands still lies within agreeing() there in 95 of 100 cases.
+  [[nodiscard]] std::vector<Distance> distances(const std::vector<Sampled>& seen, const cv::Mat& grey,
+                                                const Fit& fit) const {
+    constexpr double kSigmas = 1.96;
+    const double weakest = kSigmas * noise_of(grey, fit) / (fit.gain * levels_.front().agreeing());
+    std::vector<Distance> telling, all;
+    for (const Sampled& sample : seen) {
+      const double gradient = gradient_of(*sample.point);
+      all.push_back({*sample.point, std::abs(residual(sample, fit)) / (fit.gain * gradient)});
+      if (gradient >= weakest) telling.push_back(all.back());
+    }
+    return are_in_much(telling, &Distance::point) ? telling : all;
+  }
+
+  // The deviation of differences where nothing is to be seen but noise, which hardly depends on the motion; between
+  // neighbours, so that light which changes counts for nothing. 0 where there are few such places.
+  [[nodiscard]] double noise_of(const cv::Mat& grey, const Fit& fit) const {
+    const std::vector<Sampled> seen = sampled(flat_, grey, fit.warp);
+    std::vector<double> sizes;
+    for (std::size_t i = 0; i + 1 < seen.size(); ++i) {
+      const bool are_pair = seen[i + 1].point == seen[i].point + 1 && (seen[i].point - flat_.points.data()) % 2 == 0;
+      if (are_pair) sizes.push_back(std::abs(residual(seen[i + 1], fit) - residual(seen[i], fit)));
+    }
+    return sizes.size() < kMinPoints ? 0 : kSigmaOfMedian / std::numbers::sqrt2 * median(sizes);
   }
 
   // The points that the picture shows, too. Empty where these are few.
@@ -446,7 +531,7 @@ class RobustRegistrar final : public Registrar {
       if (seen.empty()) return false;
       sizes.clear();
       for (const Sampled& sample : seen) sizes.push_back(std::abs(residual(sample, fit)));
-      const double limit = kTukey * std::max(kMinSigma, 1.4826 * median(sizes));
+      const double limit = kTukey * std::max(kMinSigma, kSigmaOfMedian * median(sizes));
       NormalEquations equations(count);
       Row slopes{};
       for (const Sampled& sample : seen) {
@@ -481,22 +566,21 @@ class RobustRegistrar final : public Registrar {
     return true;
   }
 
-  [[nodiscard]] static Registered judged(const Level& level, const cv::Mat& grey, const Fit& fit) {
+  [[nodiscard]] Registered judged(const cv::Mat& grey, const Fit& fit) const {
+    const Level& level = levels_.front();
     const std::vector<Sampled> seen = sampled(level, grey, fit.warp);
     if (seen.empty()) return {fit.warp, 0, 0};
     std::vector<double> away;
-    std::size_t agreeing = 0;
-    for (const Sampled& sample : seen) {
-      away.push_back(std::abs(residual(sample, fit)) / (fit.gain * gradient_of(*sample.point)));
-      agreeing += away.back() <= level.agreeing() ? 1 : 0;
-    }
-    const double share = static_cast<double>(agreeing) / static_cast<double>(seen.size());
+    for (const Distance& distance : distances(seen, grey, fit)) away.push_back(distance.away);
+    const auto agreeing = std::ranges::count_if(away, [&](double each) { return each <= level.agreeing(); });
+    const double share = static_cast<double>(agreeing) / static_cast<double>(away.size());
     return {fit.warp, share, level.scale() * median(away)};
   }
 
   CaptureFormat format_;
-  Frame frame_, coarse_;
-  std::vector<Level> levels_;  // the finest first
+  std::vector<Level> levels_;    // the finest first
+  std::array<Level, 2> halves_;  // that one, in every second of the picture's parts
+  Level flat_;                   // that one, where it shows nothing but noise
   cv::Mat reference_;          // for features, which are looked for when they are first needed
   std::optional<FeatureStart> features_;
   std::mutex features_mutex_;
@@ -504,9 +588,8 @@ class RobustRegistrar final : public Registrar {
   std::mutex pyramids_mutex_;
 };
 
-std::unique_ptr<Registrar> open_robust_registrar(const CaptureFormat& format, CameraMotion motion,
-                                                 std::span<const std::byte> reference) {
-  return std::make_unique<RobustRegistrar>(format, motion, reference);
+std::unique_ptr<Registrar> open_robust_registrar(const CaptureFormat& format, std::span<const std::byte> reference) {
+  return std::make_unique<RobustRegistrar>(format, reference);
 }
 
 // In nutik-cl, which does one work, OpenCV's threads would gain nothing beside its own, and oneTBB hangs where it finds

@@ -324,7 +324,7 @@ PlannedStudy planned_study(Options& options, const StudyRequest& request) {
     state("to", format("{}f", planned.part->last));
   }
   if (planned.aligned_to) {
-    state("align", std::string(to_text(kStudyMotion)));
+    state("align", planned.session.capture().header().alignment->motion);
     if (*planned.aligned_to > 0) state("align-to", format("{}f", *planned.aligned_to));
   }
   if (planned.between) state("between", *planned.between);

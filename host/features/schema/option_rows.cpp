@@ -170,10 +170,12 @@ constexpr Option kRows[] = {
 
     heading(kMovingCamera),
     {0, "align", "MOTION", encoding, kBuildsCaptures,
-     take_choice<In<&Options::align>, CameraMotion::translation, CameraMotion::rigid, CameraMotion::homography>,
-     "keep the camera still: move each picture onto the first one by translation, rigid (turning, too) or "
-     "homography (whatever a camera on the spot does); the clip is read twice",
-     "translation rigid homography"},
+     take_choice<In<&Options::align>, CameraMotion::translation, CameraMotion::rigid, CameraMotion::homography,
+                 CameraMotion::automatic>,
+     "keep the camera still: move each picture onto the first one by translation, rigid (turning, too), "
+     "homography (whatever a camera on the spot does) or auto (rigid, or homography where that says more); the clip "
+     "is read twice",
+     "translation rigid homography auto"},
     {0, "unseen", "HOW", encoding, kBuildsCaptures, take_choice<In<&Options::unseen>, Unseen::cropped, Unseen::held>,
      "places that some pictures did not see: crop cuts them away, hold shows what was seen there before "
      "(default: crop)",

@@ -39,7 +39,7 @@ struct PlannedStudy {
 };
 
 // How pictures are moved where nobody stated that.
-inline constexpr CameraMotion kStudyMotion = CameraMotion::homography;
+inline constexpr CameraMotion kStudyMotion = CameraMotion::automatic;
 
 // Subject and moments are looked for in the pictures that were filmed. Where the study has a trail, samples that are
 // made between them are part of the capture that is exposed: as the source asks, or along the subject's way.

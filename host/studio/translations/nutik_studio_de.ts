@@ -917,6 +917,10 @@ Mit wie vielen Bildern pro Sekunde wurde gefilmt?</translation>
         <translation>sie kippte auch</translation>
     </message>
     <message>
+        <source>find out</source>
+        <translation>herausfinden</translation>
+    </message>
+    <message>
         <source>The project&apos;s last save did not come to its end. It is shown as it was to be; its functions and mask may be as they were before. Saving it writes them.</source>
         <translation>Das Projekt wurde zuletzt nicht bis zum Ende gespeichert. Gezeigt wird, was gespeichert werden sollte; seine Dateien mit Funktionen und Maske können noch die vorherigen sein. Speichern schreibt sie.</translation>
     </message>

@@ -71,8 +71,8 @@
         <translation>Bilder pro Sekunde, mit denen der Clip gefilmt wurde: 120, 29.97, 30000/1001 (Standard: was die Datei sagt)</translation>
     </message>
     <message>
-        <source>keep the camera still: move each picture onto the first one by translation, rigid (turning, too) or homography (whatever a camera on the spot does); the clip is read twice</source>
-        <translation>die Kamera stillhalten: jedes Bild auf das erste schieben mit translation (Verschiebung), rigid (auch Drehung) oder homography (alles, was eine Kamera auf der Stelle tut); der Clip wird zweimal gelesen</translation>
+        <source>keep the camera still: move each picture onto the first one by translation, rigid (turning, too), homography (whatever a camera on the spot does) or auto (rigid, or homography where that says more); the clip is read twice</source>
+        <translation>die Kamera stillhalten: jedes Bild auf das erste schieben mit translation (Verschiebung), rigid (auch Drehung), homography (alles, was eine Kamera auf der Stelle tut) oder auto (rigid, oder homography, wo das mehr erklärt); der Clip wird zweimal gelesen</translation>
     </message>
     <message>
         <source>expose all pictures as the first one: undo a camera&apos;s automatic exposure and white balance</source>

@@ -350,7 +350,8 @@ void MainWindow::ask_how_to_read(const QString& path, const Stated& stated, cons
   asked.words = {{"align", tr("no: it stood still")},
                  {"translation", tr("it shifted")},
                  {"rigid", tr("it shifted and turned")},
-                 {"homography", tr("it tilted, too")}};
+                 {"homography", tr("it tilted, too")},
+                 {"auto", tr("find out")}};
   const auto wanted = ask_options(this, asked);
   if (!wanted) return;
   notice_->clear();
