@@ -215,6 +215,30 @@ TEST_F(Study, TakesAShotWithoutTheDissolveBeforeIt) {
                " of the longest that makes a study, pictures 2"});
 }
 
+// Two cameras that turn, and a dissolve from one to the other: no motion explains that, and no single cut is there.
+TEST_F(Study, TakesOneSceneOfADissolveBetweenCamerasThatMove) {
+  DrawnClip clip(scratch_ / "turned");
+  const auto wide = [](int number) {
+    cv::Mat both;
+    cv::hconcat(ground_of(number), ground_of(number + 1), both);
+    return both;
+  };
+  const cv::Mat first = wide(100), second = wide(7);
+  for (int k = 0; k < 60; ++k) {
+    cv::Mat frame = second(cv::Rect(2 * k, 0, 160, 96)).clone(), mixed;
+    frame(cv::Rect(140 - 3 * std::max(k - 34, 0), 40, 12, 12)) = 250;
+    const double way = std::clamp((k - 24) / 12.0, 0.0, 1.0);
+    cv::addWeighted(first(cv::Rect(120 - 2 * k, 0, 160, 96)), 1 - way, frame, way, 0, mixed);
+    clip.add(mixed);
+  }
+  const std::string said = make("study -f 100 turned -o turned.png").err;
+  const std::regex taken("pictures ([0-9]+) … ([0-9]+) were taken, the longest part that shows one scene");
+  std::smatch part;
+  ASSERT_TRUE(std::regex_search(said, part, taken)) << said;
+  EXPECT_GE(std::stoi(part[1]), 34) << "more of the first scene is left than a sixth: 16 codes, as a subject must differ by";
+  EXPECT_EQ(std::stoi(part[2]), 59);
+}
+
 TEST_F(Study, ShowsOneMomentOfWhatGoesLessThanItsOwnSize) {
   DrawnClip clip(scratch_ / "stirs");
   for (int k = 0; k < 20; ++k) {

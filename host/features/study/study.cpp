@@ -22,8 +22,7 @@
 namespace nutik {
 namespace {
 
-// A share of the picture, on average: more of it moves if the camera does, where still more moves is no scene.
-constexpr double kMaxMoving = 0.2, kMaxUnrest = 0.6;
+constexpr double kMaxUnrest = 0.6;  // of the picture, on average: where more moves is no scene
 // Largest share of a subject's border with an edge in the plate and none in the picture. Measured: at most 0.1 before
 // texture and 0.25 before large dark things where the plate does not show the subject; 0.2 where it shows a quarter of
 // it. The latter cover a place for nearly half of the time, hence kMinCoveredInPlate.

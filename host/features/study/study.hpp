@@ -67,6 +67,9 @@ struct NoSubject : InputError {
   using InputError::InputError;
 };
 
+// A share of the picture, on average: more of it moves if the camera does.
+inline constexpr double kMaxMoving = 0.2;
+
 // What becomes of a scene of which most moves: it is refused, for the camera may have moved, or shown, for nothing
 // helps against that.
 enum class Unrest { refused, shown };

@@ -1,6 +1,7 @@
 #include "features/study/study_shot.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "capture/median.hpp"
 #include "features/masks/mask_making.hpp"
 #include "features/plate/plate.hpp"
+#include "features/study/study_scenes.hpp"
 #include "imev/each_block.hpp"
 #include "media/clip.hpp"
 #include "session/clips/clip_source.hpp"
@@ -24,8 +26,6 @@ constexpr double kGhostPixels = 4;
 // Copies lie apart that are a subject's size from each other: worse than what is made between them may be, where ground
 // with texture goes along with what moves over it.
 constexpr double kApart = 1;
-// Shorter shots show nothing that goes anywhere.
-constexpr std::uint64_t kMinSamples = 8;
 
 MemoryNeeds study_needs(const CaptureFormat& capture) {
   MemoryNeeds needs = mask_making_needs(capture);
@@ -40,7 +40,8 @@ ClipMoment picture(std::uint64_t number) { return {static_cast<std::int64_t>(num
 struct Beginning {
   // So many are darker than those behind them. All are exposed as the first one, which shall be none of these.
   std::uint64_t dark = 0;
-  bool moves = false;  // the camera surely moves
+  bool moves = false;     // the camera surely moves
+  bool is_other = false;  // most of what they show is another scene than the first one's
 };
 
 Beginning beginning_of(const SourceRequest& source, bool looks_for_dark) {
@@ -68,6 +69,7 @@ Beginning beginning_of(const SourceRequest& source, bool looks_for_dark) {
   if (means.front() >= kDark * usual) return beginning;
   const auto bright = std::ranges::find_if(means, [&](double mean) { return mean >= kBright * usual; });
   beginning.dark = static_cast<std::uint64_t>(bright - means.begin());
+  beginning.is_other = camera.moved() && camera.moved()->is_untold();
   return beginning;
 }
 
@@ -89,28 +91,75 @@ class ShotPlanner {
     return session;
   }
 
-  // Plans one of the clip's shots, without the dark beginning that it may have.
-  [[nodiscard]] PlannedStudy plan(SourceRequest source, SampleRange shot) const {
-    const auto is_part_of = [&](std::uint64_t first) {
-      source.clip.from = picture(first);
-      source.clip.to = picture(shot.last);
+  // Plans one of the clip's shots, or a scene of it.
+  [[nodiscard]] PlannedStudy plan_shot(const SourceRequest& source, SampleRange shot) const {
+    const Beginning beginning = beginning_of(part_of(source, shot), source.deflickered);
+    return or_scene(source, shot, beginning.is_other, [&] { return plan_bright(source, shot, beginning); });
+  }
+
+  // What plan_all() makes of a shot. If nothing rests in that, or its dark beginning shows another scene, its pictures
+  // may be those of several scenes that no cut parts: then the longest of them that makes a study.
+  [[nodiscard]] PlannedStudy or_scene(const SourceRequest& source, SampleRange shot, bool has_several,
+                                      const std::function<PlannedStudy()>& plan_all) const {
+    std::optional<PlannedStudy> planned;
+    std::exception_ptr refusal;
+    const auto try_all = [&] {
+      try {
+        planned.emplace(plan_all());
+      } catch (const EverythingMoves&) {
+        refusal = std::current_exception();
+      }
     };
-    is_part_of(shot.first);
-    const auto [dark, moves] = beginning_of(source, source.deflickered);
-    const bool is_without = dark > 0 && shot.size() >= dark + kMinSamples;
-    if (is_without) is_part_of(shot.first + dark);
-    std::optional<PlannedStudy> moved = moves ? plan_moved(source) : std::nullopt;
+    if (!has_several) try_all();
+    if (planned && planned->study.moving_share <= kMaxMoving) return std::move(*planned);
+    std::optional<PlannedStudy> scene;
+    for (const SampleRange& each : scenes_of(source, shot)) {
+      if (scene && !scene->study.falls_short) break;
+      try {
+        PlannedStudy made = plan_bright(source, each, beginning_of(part_of(source, each), source.deflickered));
+        if (made.study.moving_share <= kMaxMoving && (!scene || !made.study.falls_short)) scene = std::move(made);
+      } catch (const EverythingMoves&) {
+      }
+    }
+    if (scene) {
+      scene->notes.emplace_back(
+          format("pictures {} … {} were taken, the longest part that shows one scene and makes a study: the others "
+                 "cannot be moved onto these, as behind or within a dissolve or a wipe",
+                 scene->part->first, scene->part->last - 1),
+          std::vector{Setting::from, Setting::to});
+      return std::move(*scene);
+    }
+    if (!planned && !refusal) try_all();
+    if (refusal) std::rethrow_exception(refusal);
+    return std::move(*planned);
+  }
+
+ private:
+  [[nodiscard]] static SourceRequest part_of(SourceRequest source, SampleRange part) {
+    source.clip.from = picture(part.first);
+    source.clip.to = picture(part.last);
+    return source;
+  }
+
+  // Plans a shot without the dark beginning that it may have.
+  [[nodiscard]] PlannedStudy plan_bright(const SourceRequest& clip, SampleRange shot,
+                                         const Beginning& beginning) const {
+    const bool is_without = beginning.dark > 0 && shot.size() >= beginning.dark + kMinSamples;
+    const SampleRange part{shot.first + (is_without ? beginning.dark : 0), shot.last};
+    const SourceRequest source = part_of(clip, part);
+    std::optional<PlannedStudy> moved = beginning.moves ? plan_moved(source) : std::nullopt;
     PlannedStudy planned = moved ? std::move(*moved) : plan(source, open(source));
-    if (!planned.part) planned.part = SampleRange{shot.first + (is_without ? dark : 0), shot.last};
+    if (!planned.part) planned.part = part;
     if (is_without) {
       planned.notes.emplace_back(format("the first pictures are darker than most behind them, and those before {} were "
                                         "left out: all others are exposed as the first one",
-                                        shot.first + dark),
+                                        part.first),
                                  std::vector{Setting::from});
     }
     return planned;
   }
 
+ public:
   // Plans what the camera moved in, without reading it as it was filmed. Nothing where it is no single shot that can be
   // moved onto the first picture.
   [[nodiscard]] std::optional<PlannedStudy> plan_moved(const SourceRequest& source) const {
@@ -301,7 +350,13 @@ PlannedStudy plan_filmed(const SourceRequest& source, const StudyRequest& reques
   {
     Session session = planner.open(source);
     shots = shots_of(session.capture());
-    if (shots.size() == 1 && beginning.dark == 0) return planner.plan(source, std::move(session));
+    if (shots.size() == 1 && beginning.dark == 0) {
+      const auto plan_all = [&] { return planner.plan(source, std::move(session)); };
+      const bool is_numbered = !source.clip.from || source.clip.from->is_picture;
+      if (!session.is_clip() || !is_numbered) return plan_all();
+      const std::uint64_t first = source.clip.from ? static_cast<std::uint64_t>(source.clip.from->value) : 0;
+      return planner.or_scene(source, {first, first + session.timeline().sample_count()}, false, plan_all);
+    }
     if (shots.size() > 1 && (!session.is_clip() || is_part)) {
       const bool is_numbered = source.clip.from && source.clip.from->is_picture;
       const std::uint64_t part = is_numbered ? static_cast<std::uint64_t>(source.clip.from->value) : 0;
@@ -313,7 +368,7 @@ PlannedStudy plan_filmed(const SourceRequest& source, const StudyRequest& reques
           {Setting::from, Setting::to});
     }
   }
-  if (shots.size() == 1) return planner.plan(source, shots.front());
+  if (shots.size() == 1) return planner.plan_shot(source, shots.front());
   const std::string starts = starts_of(shots);
   const std::size_t count = shots.size();
   std::erase_if(shots, [](const SampleRange& shot) { return shot.size() < kMinSamples; });
@@ -331,7 +386,7 @@ PlannedStudy plan_filmed(const SourceRequest& source, const StudyRequest& reques
   };
   for (const SampleRange& shot : shots) {
     try {
-      PlannedStudy planned = planner.plan(source, shot);
+      PlannedStudy planned = planner.plan_shot(source, shot);
       if (!planned.study.falls_short) return taken(std::move(planned));
       if (!fallback) fallback = std::move(planned);
     } catch (const InputError& reason) {

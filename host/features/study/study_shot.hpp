@@ -38,6 +38,9 @@ struct PlannedStudy {
   }
 };
 
+// Shorter shots show nothing that goes anywhere.
+inline constexpr std::uint64_t kMinSamples = 8;
+
 // How pictures are moved where nobody stated that.
 inline constexpr CameraMotion kStudyMotion = CameraMotion::automatic;
 
