@@ -27,13 +27,14 @@ class CameraFiles {
         plot_(options.camera_plot),
         coverage_(options.coverage) {
     const bool is_new = folder_ && is_absent(*folder_);
-    if (is_new) check_folder_of((std::filesystem::path(*folder_) / "").parent_path());
+    const auto folder = (std::filesystem::path(folder_.value_or("")) / "").parent_path();
+    if (is_new) check_folder_of(folder);
     inputs.push_back(capture.string());  // no two outputs of one name either
     // What lies in a folder that is not there yet replaces nothing.
     const auto take = [&](std::optional<std::string>& file, const char* name, const auto& check) {
       if (!file && folder_) file = (std::filesystem::path(*folder_) / name).string();
       if (!file) return;
-      const bool is_there = is_new && std::filesystem::path(*file).parent_path() == std::filesystem::path(*folder_);
+      const bool is_there = is_new && std::filesystem::path(*file).parent_path() == folder;
       if (!is_there) check(*file);
       inputs.push_back(*file);
     };

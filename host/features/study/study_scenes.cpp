@@ -32,7 +32,7 @@ std::vector<std::size_t> beginnings_of(const CaptureFormat& format, std::span<co
   Warp guess;
   for (std::size_t i = 0; i < rasters.size(); ++i) {
     if (registrar) {
-      const Registered found = registrar->find(*rasters[i], guess);
+      const Registered found = registrar->find(*rasters[i], CameraMotion::homography, guess);
       if (is_sure(found)) {
         guess = found.warp;
         beginnings.push_back(beginnings.back());
@@ -42,7 +42,7 @@ std::vector<std::size_t> beginnings_of(const CaptureFormat& format, std::span<co
     beginnings.push_back(i);
     guess = Warp();
     try {
-      registrar = open_registrar(format, kStudyMotion, *rasters[i]);
+      registrar = open_registrar(format, *rasters[i]);
     } catch (const TooLittleTexture&) {
       registrar.reset();
     }
