@@ -144,7 +144,8 @@ TEST_F(Habits, NoticesSwallowedWords) {
       2, {{"--start clip.tik a.png", "--start needs a value, --start TIME, and clip.tik behind it is a file"},
           {"-k clip.tik a.png", "-k needs a file of another kind, -k FILE.fn, and clip.tik is a capture"},
           {"--start --exposure 10ms clip.tik", "--start TIME, and --exposure behind it is an option"},
-          {"encode --align --start 0s clip.tik", "a value, translation, rigid, homography or auto, and --start behind it is"},
+          {"encode --align --start 0s clip.tik",
+           "a value, translation, rigid, homography or auto, and --start behind it is"},
           {"expose x.png frames", "there is no file x.png, and frames is one; the input comes first: nutik-cl expose "
                                   "frames x.png"}});
   // Patterns name no file.

@@ -235,7 +235,7 @@ TEST_F(Study, TakesOneSceneOfADissolveBetweenCamerasThatMove) {
   const std::regex taken("pictures ([0-9]+) … ([0-9]+) were taken, the longest part that shows one scene");
   std::smatch part;
   ASSERT_TRUE(std::regex_search(said, part, taken)) << said;
-  EXPECT_GE(std::stoi(part[1]), 34) << "more of the first scene is left than a sixth: 16 codes, as a subject must differ by";
+  EXPECT_GE(std::stoi(part[1]), 34) << "more than a sixth of the first scene is left, 16 codes: a subject's";
   EXPECT_EQ(std::stoi(part[2]), 59);
 }
 

@@ -79,7 +79,7 @@ TEST_F(KernelCache, ThatIsNowhereIsNotPromised) {
 }
 
 TEST_F(KernelCache, OfPoclIsNamedWhereItIsDamaged) {
-  ASSERT_EQ(expose("p.png", {"PATH=", "POCL_CACHE_DIR="}).status, 0) << "PoCL ends the program where it finds no linker";
+  ASSERT_EQ(expose("p.png", {"PATH=", "POCL_CACHE_DIR="}).status, 0) << "PoCL ends a program that has no linker";
   fs::remove_all(cache_);
   const fs::path of_pocl = scratch_ / "home/pocl/kcache";
   for (const auto& each : fs::recursive_directory_iterator(of_pocl))

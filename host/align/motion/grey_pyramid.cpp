@@ -91,7 +91,8 @@ constexpr int kMargin = 4;
 
 Point point_at(const cv::Mat& grey, int x, int y) {
   const auto *above = grey.ptr<float>(y - 1), *row = grey.ptr<float>(y), *below = grey.ptr<float>(y + 1);
-  return {static_cast<float>(x), static_cast<float>(y), row[x], (row[x + 1] - row[x - 1]) / 2, (below[x] - above[x]) / 2};
+  return {static_cast<float>(x), static_cast<float>(y), row[x], (row[x + 1] - row[x - 1]) / 2,
+          (below[x] - above[x]) / 2};
 }
 
 }  // namespace
