@@ -17,13 +17,13 @@ CAPTURE_NS = 3_000_000_000
 needs_matplotlib = unittest.skipUnless(importlib.util.find_spec("matplotlib"), "Matplotlib is missing")
 
 
-def run(*arguments, stdin=None, **environment):
-    """FnPlotter.py with arguments, as a user would run it, without a display."""
+def run(*arguments, stdin=None, overwrite=True, **environment):
+    """FnPlotter.py with arguments, as a user would run it, without a display; an earlier test's plots may be there."""
     displays = ("DISPLAY", "WAYLAND_DISPLAY")
     variables = {name: value for name, value in os.environ.items() if name not in displays}
     variables["PATH"] = f"{paths.program.parent}{os.pathsep}{os.environ['PATH']}"
     variables |= {"MPLCONFIGDIR": str(paths.work / "matplotlib"), "PYTHONIOENCODING": "utf-8"} | environment
-    command = [sys.executable, str(paths.plotter), *map(str, arguments)]
+    command = [sys.executable, str(paths.plotter), *map(str, arguments), *["--overwrite"] * overwrite]
     how = {"capture_output": True, "encoding": "utf-8", "timeout": 300, "check": False, "input": stdin}
     return subprocess.run(command, env=variables, **how)
 
