@@ -327,12 +327,14 @@ TEST_F(Colour, OfACaptureIsCorrectedWithoutItsClip) {
   expect_refused(
       2, {{"retime clip.tik --in-place", "what is to be corrected?"},
           {"retime clip.tik -f 9", "say where to write: nutik-cl retime … clip.tik NEW.tik"},
+          {"retime - -f 9 --in-place", "standard input cannot be changed in place; state --output NEW.tik"},
           {"retime clip.tik -f 9 new.tik --in-place", "two outputs: new.tik and the capture itself"}});
   expect_refused(3,
                  {{"retime clip.mkv -f 9 --in-place",
                    "clip.mkv is no .tik capture, and only those are corrected: state a clip's rate"},
                   {"retime clip.mkv --in-place", "(--fps, --shutter-angle, --transfer)"},
                   {"info clip.mkv", "clip.mkv is no .tik capture; a clip becomes one when it is encoded"}});
+  EXPECT_FALSE(exists("-"));
 }
 
 }  // namespace

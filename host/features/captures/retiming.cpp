@@ -16,6 +16,7 @@
 #include "session/clips/source_check.hpp"
 #include "session/requests/source_request.hpp"
 #include "session/text/number_text.hpp"
+#include "system/input_bytes.hpp"
 #include "system/interruption.hpp"
 #include "system/is_absent.hpp"
 #include "tik/reader.hpp"
@@ -112,6 +113,8 @@ std::vector<std::string> facts_of(const RetimeRequest& request, const tik::Heade
   if (request.rate) state(Setting::frame_rate, rate_text(*request.rate, "picture"));
   if (request.shutter_angle) state(Setting::shutter_angle, shutter);
   if (request.transfer) state(Setting::transfer, "transfer " + request.transfer->text());
+  if (is_standard_input(request.output.string()))
+    throw UsageError("standard input cannot be changed in place", Advice{"; state `output NEW.tik`"});
   if (request.primaries) state(Setting::primaries, format("primaries {}", to_text(*request.primaries)));
   if (request.pixel_aspect) state(Setting::pixel_aspect, pixel_aspect_text(*request.pixel_aspect));
   return facts;
