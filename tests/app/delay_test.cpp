@@ -112,6 +112,19 @@ TEST_F(DelayCommand, WarnsOfPixelsThatLeaveTheCapture) {
   EXPECT_EQ(make(exposing("rows:60ms", {"clip.tik", "out.pgm"})).err.find("warning"), std::string::npos);
 }
 
+TEST_F(DelayCommand, IsOfAnIntervalThatMayLieOutside) {
+  const std::string delay = "--exposure 10ms --out-transfer source --delay rows:-60ms..-30ms ";
+  make("--start 90ms " + delay + "clip.tik out.pgm");
+  EXPECT_EQ(column("out.pgm"), (std::vector<int>{30, 40, 50, 60}));
+  make("--start 90ms --every 10ms --count 2 " + delay + "clip.tik s%d.pgm");
+  EXPECT_EQ(column("s1.pgm"), (std::vector<int>{40, 50, 60, 70}));
+  const json all = answer("expose --overwrite --start 90ms --every 10ms " + delay + "clip.tik s%d.pgm");
+  EXPECT_EQ(all["pictures"].size(), 2u);
+  expect_refused(2, {{"--start 90ms --exposure 10ms --delay rows:-5ms clip.tik o.pgm",
+                      "the interval from 90 ms on with all its delays lies outside the capture"},
+                     {"--start=-20ms --exposure 10ms clip.tik o.pgm", "the interval from -20 ms on lies outside"}});
+}
+
 TEST_F(DelayCommand, IsTracedAndChecked) {
   const json trace = answer("trace" + exposing("rows:60ms", "--pixel 2,3 clip.tik"));
   EXPECT_NEAR(trace["light"][0].get<double>() * 255, 60, 1e-9);

@@ -80,6 +80,12 @@ DelayRequest DelayRequest::of_times(std::uint32_t width, std::uint32_t height,
 std::string DelayRequest::range_text() const { return format("{}{}{}", from.text(), kTo, to.text()); }
 
 void DelayRequest::read() {
+std::pair<std::int64_t, std::int64_t> delay_ends_ns(const std::optional<DelayRequest>& request) {
+  if (!request) return {};
+  if (request->map) return {request->map->delays_ns.front(), request->map->delays_ns.back()};
+  return std::minmax({request->from.nanoseconds(), request->to.nanoseconds()});
+}
+
   if (course != Course::picture) return;
   try {
     picture = Shared(read_picture(file).codes);
