@@ -132,7 +132,9 @@ TEST_F(DelayCommand, IsTracedAndChecked) {
   make("validate" + exposing("rows:60ms", "clip.tik"));
 
   scratch_.write("f.fn", "M0 [0:0], [1:1], [9999999:1], [10000000:0]\n");
-  EXPECT_EQ(make("check -k f.fn --delay rows:60ms clip.tik").out.find("delay"), std::string::npos);
+  const std::string checked = make("check -k f.fn --delay rows:60ms clip.tik").out;
+  EXPECT_EQ(checked.find("the delay moves"), std::string::npos);
+  expect_says(checked, "80 ms; figures are without the delay\n");
   expect_says(make("check -k f.fn --delay rows:90ms clip.tik").out,
               "for 6 of 24 pixels the delay moves the whole function outside");
 }
