@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "capture/fact.hpp"
 #include "capture/format.hpp"
 #include "capture/seconds_text.hpp"
 #include "imev/block_builder.hpp"
@@ -136,7 +137,14 @@ void Reader::read_footer() {
     samples += entry.sample_count;
   }
   if (samples != footer.sample_count || samples == 0) fail("its index contradicts its sample count");
+  const std::string told_made = header_.made ? header_.made->text() : "";
   if (header_.made && !header_.made->cut_to(samples)) fail("its made samples contradict its sample count");
+  // A capture that was cut off tells what was to be.
+  const std::uint64_t pictures = header_.made ? header_.made->after.size() : samples;
+  for (std::string& fact : header_.facts) {
+    if (header_.part && tells_part(fact)) restate(fact, header_.part->text(header_.part->first + pictures));
+    if (header_.made && fact.starts_with(told_made)) restate(fact, header_.made->text());
+  }
 
   if (header_.rate) {
     timeline_ = timeline_of(header_, samples, {}, {}, name_);

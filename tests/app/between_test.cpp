@@ -52,6 +52,17 @@ TEST_F(BetweenPictures, AreMarkedWhereverTheyAreTold) {
   EXPECT_TRUE(is_filmed && is_made);
 }
 
+TEST_F(BetweenPictures, AreCountedWhereTheyWereSaved) {
+  make("encode -f 20 --transfer srgb --from 1f --between 3 --block-samples 2 --codec none frames all.tik");
+  const std::string bytes = file("all.tik");
+  scratch_.write("cut.tik", std::string_view(bytes).substr(0, bytes.size() * 3 / 4));
+  const std::uint64_t samples = answer("recover cut.tik whole.tik")["samples"], filmed = (samples + 3) / 4;
+  EXPECT_LT(samples, 9u);
+  expect_says(make("info whole.tik").out, {format("{} samples made along the motion between {} filmed; ",
+                                                  samples - filmed, filmed),
+                                           format("taken for   pictures 1 … {} of 4, ", filmed)});
+}
+
 TEST_F(BetweenPictures, JoinWhatFramesOfAVideoWouldShowTwice) {
   const Words film("video -f 20 --transfer srgb --out-angle 360 --overwrite frames %d.png --out-fps 10");
   const std::string note = "samples are looked for between pictures 0 … 3, which takes most of the time; --between off";

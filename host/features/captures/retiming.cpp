@@ -24,13 +24,6 @@
 
 namespace nutik {
 
-std::string_view statement_of(std::string_view line) {
-  for (const std::string_view origin : {", from ", ", as stated", ", assumed"}) {
-    line = line.substr(0, line.find(origin));
-  }
-  return line;
-}
-
 std::optional<Setting> correction_of(std::string_view fact) {
   const std::string_view text = statement_of(fact);
   if (text.find("pictures a second") != text.npos || text.starts_with("a picture every "))
@@ -105,10 +98,9 @@ std::vector<std::string> facts_of(const RetimeRequest& request, const tik::Heade
   };
   const std::string shutter = format("shutter {} degrees", timeline.shutter_angle().text());
   for (std::string& fact : facts) {
-    if (is_timed_shutter(fact)) fact.replace(0, statement_of(fact).size(), shutter);
+    if (is_timed_shutter(fact)) restate(fact, shutter);
     if (before.part && tells_part(fact))
-      fact.replace(0, statement_of(fact).size(),
-                   before.part->text(before.part->first + timeline.sample_count()));
+      restate(fact, before.part->text(before.part->first + timeline.sample_count()));
   }
   if (request.rate) state(Setting::frame_rate, rate_text(*request.rate, "picture"));
   if (request.shutter_angle) state(Setting::shutter_angle, shutter);
