@@ -335,6 +335,11 @@ TEST_F(Colour, OfACaptureIsCorrectedWithoutItsClip) {
                   {"retime clip.mkv --in-place", "(--fps, --shutter-angle, --transfer)"},
                   {"info clip.mkv", "clip.mkv is no .tik capture; a clip becomes one when it is encoded"}});
   EXPECT_FALSE(exists("-"));
+  // As it is encoded by that curve.
+  succeed("-q --transfer slog3 clip.mkv slog3.tik");
+  expect_says(answer("info slog3.tik")["transfer"].get<std::string>(), "slog3:video");
+  expect_says(make("retime anew.tik --transfer slog3 -o log.tik").err, "them slog3:video; state that (--transfer)");
+  EXPECT_EQ(make("retime anew.tik --transfer slog3:video -o log.tik --overwrite").err, "");
 }
 
 }  // namespace

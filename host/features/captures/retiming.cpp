@@ -105,8 +105,6 @@ std::vector<std::string> facts_of(const RetimeRequest& request, const tik::Heade
   if (request.rate) state(Setting::frame_rate, rate_text(*request.rate, "picture"));
   if (request.shutter_angle) state(Setting::shutter_angle, shutter);
   if (request.transfer) state(Setting::transfer, "transfer " + request.transfer->text());
-  if (is_standard_input(request.output.string()))
-    throw UsageError("standard input cannot be changed in place", Advice{"; state `output NEW.tik`"});
   if (request.primaries) state(Setting::primaries, format("primaries {}", to_text(*request.primaries)));
   if (request.pixel_aspect) state(Setting::pixel_aspect, pixel_aspect_text(*request.pixel_aspect));
   return facts;
@@ -115,6 +113,8 @@ std::vector<std::string> facts_of(const RetimeRequest& request, const tik::Heade
 }  // namespace
 
 Retimed retime(const RetimeRequest& request) {
+  if (is_standard_input(request.output.string()))
+    throw UsageError("standard input cannot be changed in place", Advice{"; state `output NEW.tik`"});
   if (!is_absent(request.capture) && !is_tik(request.capture)) {
     throw InputError(
         format("{} is no .tik capture, and only those are corrected: state a clip's rate, angle and "
@@ -157,6 +157,14 @@ Retimed retime(const RetimeRequest& request) {
   }
   writer.finish(timeline);
   std::vector<Note> notes;
+  const bool is_limited = std::ranges::any_of(
+      header.facts, [](std::string_view fact) { return statement_of(fact) == "limited range"; });
+  if (const auto& stated = request.transfer; stated && is_limited && *stated != stated->scaled_from_video()) {
+    notes.emplace_back(format("codes of limited range were scaled to the full one, and {} holds for the former: "
+                              "encoding by it makes them {}; state that",
+                              stated->text(), stated->scaled_from_video().text()),
+                       std::vector{Setting::transfer});
+  }
   if (request.rate && !reader.timeline().is_constant()) {
     if (auto note = evened_note(starts_of(reader.timeline()))) notes.push_back(std::move(*note));
   }
