@@ -143,7 +143,8 @@ TEST_F(DelayCommand, SaysWhatIsWrong) {
   expect_refused(
       2, {{exposing("rows", {"clip.tik", "o.pgm"}), "--delay rows is not known; did you mean rows:?"},
           {exposing("15ms", {"clip.tik", "o.pgm"}), "--delay '15ms' does not say where and by how much"},
-          {exposing("rows:15", {"clip.tik", "o.pgm"}), "--delay '15' is no time"},
+          {exposing("rows:15", {"clip.tik", "o.pgm"}), "'15' is no time; write a number and a unit: 0.4s, 10ms, "
+                                                       "250us, 1/100s or 0:01.5\n"},
           {exposing("rows:0s..x", {"clip.tik", "o.pgm"}), "--delay 'x' is no time"},
           {exposing("rows:3f", {"clip.tik", "o.pgm"}), "counts pictures, which are no length of time"}});
   expect_refused(exposing("gone.tif:1s", {"clip.tik", "o.pgm"}), 3, "gone.tif cannot be read: no such file");
