@@ -30,8 +30,8 @@ bool is_readable(const std::filesystem::path& path) {
 }  // namespace
 
 Recovery recover(const std::filesystem::path& damaged, const std::filesystem::path& whole) {
-  const std::string name = damaged.string();
-  const MappedFile mapped(damaged);
+  const std::string name = input_title(damaged.string());
+  const MappedFile mapped(is_standard_input(damaged.string()) ? standard_input_file() : damaged);
   const std::span<const std::byte> file = mapped.bytes();
   const ParsedHeader parsed = parse_header(file, name);
   if (is_readable(damaged)) {
