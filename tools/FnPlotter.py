@@ -14,7 +14,7 @@ sys.path.append(str(Path(__file__).resolve().parent.parent / "share" / "nutik"))
 from fnplot.errors import InputError, UsageError, status_of  # noqa: E402
 from fnplot.input import STANDARD_INPUT, title_of  # noqa: E402
 from fnplot.mask import ranges_text, read_mask  # noqa: E402
-from fnplot.output import check_output, missing_matplotlib, put_out  # noqa: E402
+from fnplot.output import add_output, check_format, missing_matplotlib, put_out  # noqa: E402
 from fnplot.program import read_functions  # noqa: E402
 from fnplot.times import parse_time  # noqa: E402
 
@@ -54,7 +54,7 @@ def command_line():
         allow_abbrev=False,
     )
     parser.add_argument("file", metavar="FILE.fn", help="the function file; - is standard input")
-    parser.add_argument("-o", "--output", metavar="FILE", help="write a .png, .svg or .pdf, open no window")
+    add_output(parser)
     parser.add_argument("--duration", metavar="TIME", help="the capture's duration: 3s, 250ms, 1/100s")
     capture_help = "a capture: draw its samples and how much changes, count what counts in it"
     parser.add_argument("--capture", metavar="CLIP.tik", help=capture_help)
@@ -161,9 +161,7 @@ def plot(options):
     options.duration = parse_duration(options.duration) if options.duration else None
     options.zoom = parse_zoom(options.zoom) if options.zoom else None
     options.per_page = parse_per_page(options.per_page)
-    options.output = Path(options.output) if options.output else None
-    if options.output:
-        check_output(options.output, (options.file, options.mask, options.capture))
+    check_format(options.output)
     if STANDARD_INPUT in (options.mask, options.capture):
         raise UsageError("only the function file is read from standard input; name a file")
     options.program = options.program or find_program()
@@ -171,7 +169,7 @@ def plot(options):
     if warnings:
         print(warnings, file=sys.stderr)
     pixels = read_mask(options.mask) if options.mask else None
-    put_out(page_drawings(functions, pixels, options), options.output)
+    put_out(page_drawings(functions, pixels, options), options, (options.file, options.mask, options.capture))
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ sys.path.append(str(Path(__file__).resolve().parent.parent / "share" / "nutik"))
 
 from fnplot.errors import status_of  # noqa: E402
 from fnplot.input import title_of  # noqa: E402
-from fnplot.output import check_output, put_out  # noqa: E402
+from fnplot.output import add_output, check_format, put_out  # noqa: E402
 from noiseplot.noise_file import read_noise  # noqa: E402
 from noiseplot.page import draw  # noqa: E402
 
@@ -33,16 +33,14 @@ def command_line():
     parser = argparse.ArgumentParser(prog="NoisePlotter.py", description=DESCRIPTION, epilog=EXAMPLES,
                                      formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
     parser.add_argument("file", metavar="FILE.noise", help="the noise file; - is standard input")
-    parser.add_argument("-o", "--output", metavar="FILE", help="write a .png, .svg or .pdf, open no window")
+    add_output(parser)
     return parser
 
 
 def plot(options):
-    output = Path(options.output) if options.output else None
-    if output:
-        check_output(output, (options.file,))
+    check_format(options.output)
     title = Path(title_of(options.file)).name
-    put_out([partial(draw, noise=read_noise(options.file), title=title)], output)
+    put_out([partial(draw, noise=read_noise(options.file), title=title)], options, (options.file,))
 
 
 if __name__ == "__main__":

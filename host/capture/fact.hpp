@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "capture/error.hpp"
 
@@ -24,5 +25,15 @@ struct Fact {
     return text + ", " + from + (remark.empty() ? "" : "; ") + remark;
   }
 };
+
+// What a line states, without who said so and what else was said.
+[[nodiscard]] inline std::string_view statement_of(std::string_view line) {
+  for (const std::string_view by : {", from ", ", as stated", ", assumed"}) line = line.substr(0, line.find(by));
+  return line;
+}
+
+inline void restate(std::string& line, const std::string& statement) {
+  line.replace(0, statement_of(line).size(), statement);
+}
 
 }  // namespace nutik

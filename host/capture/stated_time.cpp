@@ -100,7 +100,7 @@ std::optional<StatedTime> StatedTime::read(std::string_view text) {
   return signed_by(Rational::read(number), unit->nanoseconds);
 }
 
-StatedTime StatedTime::parse(std::string_view text, std::string_view what) {
+StatedTime StatedTime::parse(std::string_view text, std::string_view what, bool may_count) {
   const std::optional<StatedTime> time = read(text);
   if (const std::string_view hint = decimal_mark_hint(text); !time && !hint.empty())
     throw UsageError(format("{} '{}' is no time{}", what, text, hint));
@@ -108,9 +108,12 @@ StatedTime StatedTime::parse(std::string_view text, std::string_view what) {
     throw UsageError(format("{} '{}' needs more than 15 digits; write fewer", what, text));
   if (!time) {
     throw UsageError(
-        format("{} '{}' is no time; write a number and a unit: 0.4s, 10ms, 250us, 1/100s, 0:01.5, or "
-               "37f for pictures of the clip",
-               what, text));
+        format("{} '{}' is no time; write a number and a unit: 0.4s, 10ms, 250us, 1/100s{}", what, text,
+               may_count ? ", 0:01.5, or 37f for pictures of the clip" : " or 0:01.5"));
+  }
+  if (time->counts_samples() && !may_count) {
+    throw UsageError(format("{} '{}' counts pictures, which are no length of time; write seconds, 15ms or 1/24s", what,
+                            text));
   }
   if (time->is_longest()) throw UsageError(format("{} '{}' is longer than 126 years", what, text));
   return *time;

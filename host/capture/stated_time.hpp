@@ -24,8 +24,8 @@ struct StatedTime {
 
   // Nothing where the text is none, or has more than 15 digits.
   static std::optional<StatedTime> read(std::string_view text);
-  // The same, at most 126 years. Throws UsageError naming `what`.
-  static StatedTime parse(std::string_view text, std::string_view what);
+  // The same, at most 126 years; of pictures only where `may_count`. Throws UsageError naming `what`.
+  static StatedTime parse(std::string_view text, std::string_view what, bool may_count = true);
   // In the coarsest unit that holds it in whole numbers.
   static StatedTime of_nanoseconds(std::int64_t nanoseconds);
   static StatedTime of_pictures(std::int64_t count) { return {{count, 1}, 0}; }

@@ -38,7 +38,7 @@ SourceComparison::SourceComparison(const CaptureFormat& source)
 }
 
 void SourceComparison::add(const BlockView& block, std::uint32_t sample, std::span<const std::byte> raster) {
-  if (raster.size() != source_.sample_bytes()) {
+  if (!raster.empty() && raster.size() != source_.sample_bytes()) {
     throw std::logic_error("a sample's raster has the wrong size");
   }
   std::swap(held_, before_);
@@ -46,6 +46,7 @@ void SourceComparison::add(const BlockView& block, std::uint32_t sample, std::sp
   const std::size_t pixel_bytes = held_.size() / source_.shape.pixel_count();
   for (std::size_t at = 0; sample != 0 && at < held_.size(); at += pixel_bytes)
     record_count_ += std::memcmp(held_.data() + at, before_.data() + at, pixel_bytes) != 0 ? 1 : 0;
+  if (raster.empty()) return;
   const std::uint32_t held_bytes = held_format(source_).code_bytes;
   for (std::uint64_t value = 0; value < source_.shape.value_count(); ++value) {
     const std::uint32_t held_code = code_at(held_, value, held_bytes);

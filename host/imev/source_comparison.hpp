@@ -18,7 +18,8 @@ class SourceComparison {
   // `source` is what was encoded, with its noise model.
   explicit SourceComparison(const CaptureFormat& source);
 
-  // In time order: sample `sample` of `block`, whose format is held_format(source), and the source's raster of it.
+  // In time order: sample `sample` of `block`, whose format is held_format(source), and the source's raster of it,
+  // empty where nobody filmed it.
   void add(const BlockView& block, std::uint32_t sample, std::span<const std::byte> raster);
 
   struct Worst {

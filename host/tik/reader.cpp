@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "capture/fact.hpp"
 #include "capture/format.hpp"
 #include "capture/seconds_text.hpp"
 #include "imev/block_builder.hpp"
@@ -29,8 +30,8 @@ bool is_readable(const std::filesystem::path& path) {
 }  // namespace
 
 Recovery recover(const std::filesystem::path& damaged, const std::filesystem::path& whole) {
-  const std::string name = damaged.string();
-  const MappedFile mapped(damaged);
+  const std::string name = input_title(damaged.string());
+  const MappedFile mapped(is_standard_input(damaged.string()) ? standard_input_file() : damaged);
   const std::span<const std::byte> file = mapped.bytes();
   const ParsedHeader parsed = parse_header(file, name);
   if (is_readable(damaged)) {
@@ -136,7 +137,14 @@ void Reader::read_footer() {
     samples += entry.sample_count;
   }
   if (samples != footer.sample_count || samples == 0) fail("its index contradicts its sample count");
+  const std::string told_made = header_.made ? header_.made->text() : "";
   if (header_.made && !header_.made->cut_to(samples)) fail("its made samples contradict its sample count");
+  // A capture that was cut off tells what was to be.
+  const std::uint64_t pictures = header_.made ? header_.made->after.size() : samples;
+  for (std::string& fact : header_.facts) {
+    if (header_.part && tells_part(fact)) restate(fact, header_.part->text(header_.part->first + pictures));
+    if (header_.made && fact.starts_with(told_made)) restate(fact, header_.made->text());
+  }
 
   if (header_.rate) {
     timeline_ = timeline_of(header_, samples, {}, {}, name_);

@@ -198,6 +198,8 @@ TEST_F(Aligning, IsToldByInfo) {
 TEST_F(Aligning, IsDoneToTheClipThatACaptureIsComparedWith) {
   make(encoding("--align rigid --align-to 2f --unseen hold frames a.tik"));
   make("validate --start 0f --exposure 2f --runs 1 --source frames a.tik");
+  make(encoding("--align rigid --from 1f --to 4f frames part.tik"));
+  make("validate --start 0f --exposure 2f --runs 1 --source frames part.tik");
 }
 
 TEST_F(Aligning, IsMissedWhereTheCameraMoved) {

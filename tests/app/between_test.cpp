@@ -39,6 +39,8 @@ TEST_F(BetweenPictures, AreMarkedWhereverTheyAreTold) {
   EXPECT_EQ(info["samples"], 25);
   EXPECT_EQ(info["made_samples"]["after"], (std::vector<int>{7, 7, 7, 0}));
   expect_says(run("info all.tik").out, "21 samples made along the motion between 4 filmed");
+  expect_says(make("validate --runs 1 --start 0f --exposure 1f --source frames all.tik").out,
+              {"frames: held exactly; ", "; 21 samples made between its pictures not compared"});
   const Words trace("trace --pixel 50,40 --start 0s --exposure 200ms all.tik");
   expect_says(run(trace).out, " made");
   make(trace + "steps.csv");
@@ -48,6 +50,17 @@ TEST_F(BetweenPictures, AreMarkedWhereverTheyAreTold) {
   const auto told = answer(trace);
   for (const auto& step : told["steps"]) (step.contains("is_made") ? is_made : is_filmed) = true;
   EXPECT_TRUE(is_filmed && is_made);
+}
+
+TEST_F(BetweenPictures, AreCountedWhereTheyWereSaved) {
+  make("encode -f 20 --transfer srgb --from 1f --between 3 --block-samples 2 --codec none frames all.tik");
+  const std::string bytes = file("all.tik");
+  scratch_.write("cut.tik", std::string_view(bytes).substr(0, bytes.size() * 3 / 4));
+  const std::uint64_t samples = answer("recover cut.tik whole.tik")["samples"], filmed = (samples + 3) / 4;
+  EXPECT_LT(samples, 9u);
+  expect_says(make("info whole.tik").out, {format("{} samples made along the motion between {} filmed; ",
+                                                  samples - filmed, filmed),
+                                           format("taken for   pictures 1 … {} of 4, ", filmed)});
 }
 
 TEST_F(BetweenPictures, JoinWhatFramesOfAVideoWouldShowTwice) {

@@ -67,6 +67,7 @@ def check_bash(program, work):
     offers("nutik-cl --precision ", {"auto", "single", "compensated", "double", "fixed"})
     offers("nutik-cl -k ", {"a b.fn", "masks"})
     offers("nutik-cl -m m", {"mask.pgm", "mask.png", "masks"})
+    offers("nutik-cl --delay ma", {"mask.pgm", "mask.png", "masks"})
     offers("nutik-cl info ", {"clip.tik", "masks"})
     offers("nutik-cl --start ", set())
     offers("nutik-cl -qo pic.png -k ", {"a b.fn", "masks"})

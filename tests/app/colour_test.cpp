@@ -327,12 +327,19 @@ TEST_F(Colour, OfACaptureIsCorrectedWithoutItsClip) {
   expect_refused(
       2, {{"retime clip.tik --in-place", "what is to be corrected?"},
           {"retime clip.tik -f 9", "say where to write: nutik-cl retime … clip.tik NEW.tik"},
+          {"retime - -f 9 --in-place", "standard input cannot be changed in place; state --output NEW.tik"},
           {"retime clip.tik -f 9 new.tik --in-place", "two outputs: new.tik and the capture itself"}});
   expect_refused(3,
                  {{"retime clip.mkv -f 9 --in-place",
                    "clip.mkv is no .tik capture, and only those are corrected: state a clip's rate"},
                   {"retime clip.mkv --in-place", "(--fps, --shutter-angle, --transfer)"},
                   {"info clip.mkv", "clip.mkv is no .tik capture; a clip becomes one when it is encoded"}});
+  EXPECT_FALSE(exists("-"));
+  // As it is encoded by that curve.
+  succeed("-q --transfer slog3 clip.mkv slog3.tik");
+  expect_says(answer("info slog3.tik")["transfer"].get<std::string>(), "slog3:video");
+  expect_says(make("retime anew.tik --transfer slog3 -o log.tik").err, "them slog3:video; state that (--transfer)");
+  EXPECT_EQ(make("retime anew.tik --transfer slog3:video -o log.tik --overwrite").err, "");
 }
 
 }  // namespace

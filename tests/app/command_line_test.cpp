@@ -282,6 +282,8 @@ TEST_F(CommandLine, RecoversACutOffCapture) {
   scratch_.write("cut.tik", std::string_view(bytes).substr(0, bytes.size() - 10));
   expect_refused("cut.tik", 3, "nutik-cl recover cut.tik -o recovered.tik");
   expect_says(make("recover cut.tik -o whole.tik").out, "6 samples in 1 block were saved");
+  shell(NUTIK_TEST_PROGRAM " recover - -o piped.tik < cut.tik");
+  EXPECT_TRUE(file("piped.tik") == file("whole.tik"));
   make("-k one.fn whole.tik a.png --no-recipe");
   make("-k one.fn clip.tik b.png --no-recipe");
   EXPECT_EQ(file("a.png"), file("b.png"));

@@ -112,6 +112,19 @@ TEST_F(DelayCommand, WarnsOfPixelsThatLeaveTheCapture) {
   EXPECT_EQ(make(exposing("rows:60ms", {"clip.tik", "out.pgm"})).err.find("warning"), std::string::npos);
 }
 
+TEST_F(DelayCommand, IsOfAnIntervalThatMayLieOutside) {
+  const std::string delay = "--exposure 10ms --out-transfer source --delay rows:-60ms..-30ms ";
+  make("--start 90ms " + delay + "clip.tik out.pgm");
+  EXPECT_EQ(column("out.pgm"), (std::vector<int>{30, 40, 50, 60}));
+  make("--start 90ms --every 10ms --count 2 " + delay + "clip.tik s%d.pgm");
+  EXPECT_EQ(column("s1.pgm"), (std::vector<int>{40, 50, 60, 70}));
+  const json all = answer("expose --overwrite --start 90ms --every 10ms " + delay + "clip.tik s%d.pgm");
+  EXPECT_EQ(all["pictures"].size(), 2u);
+  expect_refused(2, {{"--start 90ms --exposure 10ms --delay rows:-5ms clip.tik o.pgm",
+                      "the interval from 90 ms on with all its delays lies outside the capture"},
+                     {"--start=-20ms --exposure 10ms clip.tik o.pgm", "the interval from -20 ms on lies outside"}});
+}
+
 TEST_F(DelayCommand, IsTracedAndChecked) {
   const json trace = answer("trace" + exposing("rows:60ms", "--pixel 2,3 clip.tik"));
   EXPECT_NEAR(trace["light"][0].get<double>() * 255, 60, 1e-9);
@@ -119,7 +132,9 @@ TEST_F(DelayCommand, IsTracedAndChecked) {
   make("validate" + exposing("rows:60ms", "clip.tik"));
 
   scratch_.write("f.fn", "M0 [0:0], [1:1], [9999999:1], [10000000:0]\n");
-  EXPECT_EQ(make("check -k f.fn --delay rows:60ms clip.tik").out.find("delay"), std::string::npos);
+  const std::string checked = make("check -k f.fn --delay rows:60ms clip.tik").out;
+  EXPECT_EQ(checked.find("the delay moves"), std::string::npos);
+  expect_says(checked, "80 ms; figures are without the delay\n");
   expect_says(make("check -k f.fn --delay rows:90ms clip.tik").out,
               "for 6 of 24 pixels the delay moves the whole function outside");
 }
@@ -128,7 +143,8 @@ TEST_F(DelayCommand, SaysWhatIsWrong) {
   expect_refused(
       2, {{exposing("rows", {"clip.tik", "o.pgm"}), "--delay rows is not known; did you mean rows:?"},
           {exposing("15ms", {"clip.tik", "o.pgm"}), "--delay '15ms' does not say where and by how much"},
-          {exposing("rows:15", {"clip.tik", "o.pgm"}), "--delay '15' is no time"},
+          {exposing("rows:15", {"clip.tik", "o.pgm"}), "'15' is no time; write a number and a unit: 0.4s, 10ms, "
+                                                       "250us, 1/100s or 0:01.5\n"},
           {exposing("rows:0s..x", {"clip.tik", "o.pgm"}), "--delay 'x' is no time"},
           {exposing("rows:3f", {"clip.tik", "o.pgm"}), "counts pictures, which are no length of time"}});
   expect_refused(exposing("gone.tif:1s", {"clip.tik", "o.pgm"}), 3, "gone.tif cannot be read: no such file");

@@ -71,6 +71,11 @@ TEST_F(Noise, GivesTheSamePictureFromAClipAndFromItsCapture) {
   const tik::Reader reader(scratch_ / "clip.tik");
   EXPECT_EQ(reader.format().noise.camera, noise_in("camera.noise"));  // auto measures the same
   EXPECT_EQ(reader.format().noise.sigmas, 2.5);
+  const auto info = answer("info clip.tik");
+  EXPECT_EQ(info["noise"]["sigmas"], 2.5);
+  EXPECT_EQ(info["noise"]["codes_times"], 257);
+  EXPECT_EQ(info["noise"]["at_nine_tenths"][0], reader.format().noise.camera->sd(0, 0.9 * 255));
+  EXPECT_TRUE(info["is_damaged"].is_null()) << "no sample is looked at";
 }
 
 TEST_F(Noise, InfoTellsWhatIsHeld) {

@@ -29,10 +29,11 @@ class Checks(Report):
     def holds(self, name, true, said=""):
         self.hold(true, name if true or not said else f"{name}: {said}")
 
-    def run(self, text, *arguments):
+    def run(self, text, *arguments, overwrite=True):
         (self.work / "a.noise").write_text(text)
-        return subprocess.run([sys.executable, self.plotter, "a.noise", *arguments], cwd=self.work,
-                              capture_output=True, text=True)
+        words = [*arguments, *["--overwrite"] * overwrite]
+        return subprocess.run([sys.executable, self.plotter, "a.noise", *words], cwd=self.work, capture_output=True,
+                              text=True)
 
     def refuses(self, name, text, said):
         output = self.work / "refused.png"
@@ -50,6 +51,8 @@ def check_drawing(checks):
         run = checks.run(colour.replace("grey", "red"), "-o", path.name)
         drawn = run.returncode == 0 and path.read_bytes().startswith(start)
         checks.holds(f"draws {suffix}", drawn, run.stderr)
+    run = checks.run(GREY, "-o", "plot.png", overwrite=False)
+    checks.holds("replaces nothing unasked", run.returncode == 2 and "--overwrite" in run.stderr, run.stderr)
     checks.holds("refuses .jpg", checks.run(GREY, "-o", "a.jpg").returncode == 2)
     run = checks.run(GREY, "-o", "absent/a.png")
     checks.holds("says why it cannot write", run.returncode == 5 and "absent" in run.stderr, run.stderr)
@@ -74,8 +77,8 @@ def check_flat(checks):
 
 
 def check_standard_input(checks):
-    run = subprocess.run([sys.executable, checks.plotter, "-", "-o", "piped.svg"], cwd=checks.work, input=GREY,
-                         capture_output=True, text=True)
+    run = subprocess.run([sys.executable, checks.plotter, "-", "-o", "piped.svg", "--overwrite"], cwd=checks.work,
+                         input=GREY, capture_output=True, text=True)
     piped = run.returncode == 0 and "<!-- standard input -->" in (checks.work / "piped.svg").read_text()
     checks.holds("reads standard input", piped, run.stderr)
     run = subprocess.run([sys.executable, checks.plotter, "-"], cwd=checks.work, input="nutik", capture_output=True,

@@ -16,13 +16,25 @@ PNG_DOTS_PER_INCH = 120
 BACKENDS_WITHOUT_WINDOWS = {"agg", "cairo", "pdf", "pgf", "ps", "svg", "template"}
 
 
-def check_output(output, inputs):
-    """Refuses a name of no format that is written, or that of an input (those that are None are not there)."""
-    if output.suffix.lower() not in FORMATS:
+def add_output(parser):
+    """The options that say where pages go; check_format() and put_out() look at them."""
+    parser.add_argument("-o", "--output", metavar="FILE", type=Path, help="write a .png, .svg or .pdf, open no window")
+    parser.add_argument("--overwrite", action="store_true", help="replace files that are there already")
+
+
+def check_format(output):
+    if output and output.suffix.lower() not in FORMATS:
         raise UsageError(f"'{output}' is no .png, .svg or .pdf; these can be written")
-    for name in inputs:
-        if name and output.exists() and Path(name).exists() and output.samefile(name):
+
+
+def check_places(outputs, inputs, overwrite):
+    """Refuses the name of an input (those that are None are not there), and of what is there already, unless asked."""
+    for output in filter(os.path.lexists, outputs):
+        if any(name and output.exists() and Path(name).exists() and output.samefile(name) for name in inputs):
             raise UsageError(f"'{output}' is the input; write the plot to another file")
+        if not overwrite:
+            raise UsageError(f"{output} is there already and is not replaced; choose another name, or replace it with "
+                             "--overwrite")
 
 
 def missing_matplotlib(error):
@@ -31,25 +43,27 @@ def missing_matplotlib(error):
                        "Debian has it for /usr/bin/python3: apt install python3-matplotlib")
 
 
-def put_out(drawings, output):
-    """Writes pages to a file, or shows them where none is named."""
-    if output:
-        write_pages(drawings, output)
+def put_out(drawings, options, inputs):
+    """Writes pages to a file, which is none of these inputs, or shows them where none is named."""
+    if options.output:
+        names = page_names(options.output, len(drawings))
+        check_places(names, inputs, options.overwrite)
+        write_pages(drawings, options.output, names)
     else:
         show_pages(drawings)
 
 
 def page_names(output, count):
-    """plot.png, or plot-01.png, plot-02.png … where there are several pages."""
-    if count == 1:
+    """plot.png, or plot-01.png, plot-02.png … where there are several pages; a PDF holds all."""
+    if count == 1 or output.suffix.lower() == ".pdf":
         return [output]
     digits = len(str(count))
     pages = range(1, count + 1)
     return [output.with_name(f"{output.stem}-{page:0{digits}}{output.suffix}") for page in pages]
 
 
-def write_pages(drawings, output):
-    """One file for each page, or one PDF of them all."""
+def write_pages(drawings, output, names):
+    """A file of these names for each page, or one PDF of them all."""
     try:
         from matplotlib.backends.backend_pdf import PdfPages
         from matplotlib.figure import Figure
@@ -62,7 +76,6 @@ def write_pages(drawings, output):
         return figure
 
     kind = output.suffix.lower()
-    names = [output] if kind == ".pdf" else page_names(output, len(drawings))
     try:
         with TemporaryDirectory(prefix=".", dir=output.parent) as folder:
             written = [Path(folder) / f"{page}{kind}" for page in range(len(names))]

@@ -125,7 +125,7 @@ std::string choice_lines(const Option& option) {
 
 std::string value_lines(const Option& option) {
   const std::string lines = choice_lines(option);
-  if (!option.takes_file()) return lines;
+  if (!option.takes_file() && !option.value.starts_with("WHERE")) return lines;
   const std::string_view extension = option.file_extension();
   if (extension.empty()) return lines + std::string(kAnyFile);
   // Masks may be of either kind; a picture's name says only one of those that can be written.

@@ -150,6 +150,7 @@ std::string heading_text(const InputCheck& check) {
     append(format("figures are for 0 … {}, not for a capture",
                   integral_text(static_cast<double>(check.domain.duration_ns))));
   }
+  if (check.functions && check.delay) append("figures are without the delay");
   return text.empty() ? "nothing could be read" : text;
 }
 

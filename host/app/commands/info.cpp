@@ -62,14 +62,31 @@ std::string change_text(const NoiseModel& noise) {
   return format("tolerance {}{}", noise.tolerance, noise.is_lossless() ? " (lossless)" : "");
 }
 
+// Shares of white at which noise is told.
+constexpr double kDark = 0.1, kBright = 0.9;
+
 // `1.9 1.4 2.1 codes of the source at a tenth of white, 2.8 2.2 3.0 at nine tenths`
 std::string noise_summary(const CameraNoise& noise) {
   std::string dark, bright;
   for (std::uint32_t channel = 0; channel < noise.channels.size(); ++channel) {
-    dark += format("{:.3g} ", noise.sd(channel, 0.1 * noise.white_code));
-    bright += format("{:.3g} ", noise.sd(channel, 0.9 * noise.white_code));
+    dark += format("{:.3g} ", noise.sd(channel, kDark * noise.white_code));
+    bright += format("{:.3g} ", noise.sd(channel, kBright * noise.white_code));
   }
   return format("{}codes of the source at a tenth of white, {}at nine tenths", dark, bright);
+}
+
+// In codes of the source, for each channel.
+Json noise_json(const CaptureFormat& capture) {
+  if (!capture.noise.camera) return nullptr;
+  const CameraNoise& noise = *capture.noise.camera;
+  Json json{{"sigmas", capture.noise.sigmas},
+            {"source_white_code", noise.white_code},
+            {"codes_times", held_scale(capture)}};
+  for (std::uint32_t channel = 0; channel < noise.channels.size(); ++channel) {
+    json["at_a_tenth_of_white"].push_back(noise.sd(channel, kDark * noise.white_code));
+    json["at_nine_tenths"].push_back(noise.sd(channel, kBright * noise.white_code));
+  }
+  return json;
 }
 
 }  // namespace
@@ -109,6 +126,7 @@ int run_info(const Options& options) {
                  {"made_samples", made_json(reader.header().made)},
                  {"tolerance_codes", capture.noise.tolerance},
                  {"has_camera_noise", capture.noise.camera.has_value()},
+                 {"noise", noise_json(capture)},
                  {"samples", timeline.sample_count()},
                  {"blocks", reader.block_count()},
                  {"duration_ns", timeline.duration_ns()},
@@ -122,7 +140,7 @@ int run_info(const Options& options) {
                  {"raw_bytes", raw_bytes},
                  {"memory_bytes", figures.payload_bytes},
                  {"codec", reader.header().codec},
-                 {"is_damaged", status != 0}});
+                 {"is_damaged", status != 0 ? Json(true) : Json()}});  // samples are not looked at
     if (options.activity) {
       write_activity(reader, *options.activity);
       json["activity"] = *options.activity;

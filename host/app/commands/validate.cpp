@@ -115,6 +115,8 @@ std::string source_text(const SourceCheck& check, const Shape& shape, const std:
   text += format("; {:.2f} change records a pixel, {} of {}",
                  static_cast<double>(comparison.record_count()) / static_cast<double>(shape.pixel_count()),
                  bytes_text(check.file_bytes), bytes_text(check.source_bytes));
+  if (check.made_samples > 0)
+    text += format("; {} made between its pictures not compared", counted(check.made_samples, "sample"));
   return text;
 }
 
@@ -131,7 +133,8 @@ Json source_json(const SourceCheck& check, const Shape& shape, const std::string
                {"values_beyond", comparison.values_beyond()},
                {"records", comparison.record_count()},
                {"file_bytes", check.file_bytes},
-               {"source_bytes", check.source_bytes}});
+               {"source_bytes", check.source_bytes},
+               {"made_samples", check.made_samples}});
   return json;
 }
 

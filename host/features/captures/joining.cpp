@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "capture/fact.hpp"
 #include "capture/format.hpp"
 #include "capture/part_of_clip.hpp"
 #include "features/captures/retiming.hpp"
@@ -274,13 +275,12 @@ tik::Header joined_header(const std::vector<Piece>& pieces, const Timeline& time
   }
   std::erase_if(header.facts, [](std::string_view fact) { return fact.starts_with(kJoined); });
   for (std::string& fact : header.facts) {
-    const auto state = [&](const std::string& text) { fact.replace(0, statement_of(fact).size(), text); };
     if (header.part && tells_part(fact))
-      state(header.part->text(header.part->first + timeline.sample_count()));
+      restate(fact, header.part->text(header.part->first + timeline.sample_count()));
     if (header.rate) continue;
-    if (correction_of(fact) == Setting::frame_rate) state(rate_text(timeline));
+    if (correction_of(fact) == Setting::frame_rate) restate(fact, rate_text(timeline));
     if (correction_of(fact) == Setting::shutter_angle)
-      state(format("shutter {} degrees", timeline.shutter_angle().text()));
+      restate(fact, format("shutter {} degrees", timeline.shutter_angle().text()));
   }
   const auto file = [](const Piece& piece) { return std::filesystem::path(piece.name).filename().string(); };
   header.facts.push_back(

@@ -16,19 +16,13 @@
 #include "session/clips/source_check.hpp"
 #include "session/requests/source_request.hpp"
 #include "session/text/number_text.hpp"
+#include "system/input_bytes.hpp"
 #include "system/interruption.hpp"
 #include "system/is_absent.hpp"
 #include "tik/reader.hpp"
 #include "tik/writer.hpp"
 
 namespace nutik {
-
-std::string_view statement_of(std::string_view line) {
-  for (const std::string_view origin : {", from ", ", as stated", ", assumed"}) {
-    line = line.substr(0, line.find(origin));
-  }
-  return line;
-}
 
 std::optional<Setting> correction_of(std::string_view fact) {
   const std::string_view text = statement_of(fact);
@@ -104,10 +98,9 @@ std::vector<std::string> facts_of(const RetimeRequest& request, const tik::Heade
   };
   const std::string shutter = format("shutter {} degrees", timeline.shutter_angle().text());
   for (std::string& fact : facts) {
-    if (is_timed_shutter(fact)) fact.replace(0, statement_of(fact).size(), shutter);
+    if (is_timed_shutter(fact)) restate(fact, shutter);
     if (before.part && tells_part(fact))
-      fact.replace(0, statement_of(fact).size(),
-                   before.part->text(before.part->first + timeline.sample_count()));
+      restate(fact, before.part->text(before.part->first + timeline.sample_count()));
   }
   if (request.rate) state(Setting::frame_rate, rate_text(*request.rate, "picture"));
   if (request.shutter_angle) state(Setting::shutter_angle, shutter);
@@ -120,6 +113,8 @@ std::vector<std::string> facts_of(const RetimeRequest& request, const tik::Heade
 }  // namespace
 
 Retimed retime(const RetimeRequest& request) {
+  if (is_standard_input(request.output.string()))
+    throw UsageError("standard input cannot be changed in place", Advice{"; state `output NEW.tik`"});
   if (!is_absent(request.capture) && !is_tik(request.capture)) {
     throw InputError(
         format("{} is no .tik capture, and only those are corrected: state a clip's rate, angle and "
@@ -162,6 +157,14 @@ Retimed retime(const RetimeRequest& request) {
   }
   writer.finish(timeline);
   std::vector<Note> notes;
+  const bool is_limited = std::ranges::any_of(
+      header.facts, [](std::string_view fact) { return statement_of(fact) == "limited range"; });
+  if (const auto& stated = request.transfer; stated && is_limited && *stated != stated->scaled_from_video()) {
+    notes.emplace_back(format("codes of limited range were scaled to the full one, and {} holds for the former: "
+                              "encoding by it makes them {}; state that",
+                              stated->text(), stated->scaled_from_video().text()),
+                       std::vector{Setting::transfer});
+  }
   if (request.rate && !reader.timeline().is_constant()) {
     if (auto note = evened_note(starts_of(reader.timeline()))) notes.push_back(std::move(*note));
   }

@@ -37,9 +37,7 @@ struct Retimed {
   std::vector<Note> notes;         // on what was lost
 };
 
-// What a line of a header's facts states, without who said so and what else was said.
-[[nodiscard]] std::string_view statement_of(std::string_view line);
-// The setting by which retime corrects this fact; none where the clip has to be encoded again.
+// The setting by which retime corrects this line of a header's facts; none where the clip has to be encoded again.
 [[nodiscard]] std::optional<Setting> correction_of(std::string_view fact);
 
 // Whether a capture's exposures were listed: its shutter angle is then their mean.

@@ -53,8 +53,8 @@ MemoryBudget parse_memory(std::string_view word, std::string_view what) {
 }
 
 std::int64_t parse_tick(std::string_view word, std::string_view what) {
-  const StatedTime time = StatedTime::parse(word, what);
-  if (!time.counts_samples() && time.nanoseconds() > 0) return time.nanoseconds();
+  const StatedTime time = StatedTime::parse(word, what, false);
+  if (time.nanoseconds() > 0) return time.nanoseconds();
   throw UsageError(format("{} {} is no length of time of 1 ns or more: 100us, 1ms", what, time.text()));
 }
 

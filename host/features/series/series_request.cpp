@@ -29,19 +29,20 @@ StatedTime start_of(const StatedTime& every, const StatedTime& first, std::uint6
   return StatedTime::of(start + later);
 }
 
-bool starts_within(const StatedTime& start, const Timeline& timeline) {
-  return start.counts_samples() ? start.number.numerator < static_cast<std::int64_t>(timeline.sample_count())
-                                : start.nanoseconds() < timeline.duration_ns();
+bool starts_within(const StatedTime& start, const ExposureRequest& request, const Timeline& timeline) {
+  if (start.counts_samples()) return start.number.numerator < static_cast<std::int64_t>(timeline.sample_count());
+  return start.nanoseconds() < int128{timeline.duration_ns()} - delay_ends_ns(request.delay).first;
 }
 
 bool ends_within(const ExposureRequest& request, const StatedTime& start, const Timeline& timeline) {
-  if (!starts_within(start, timeline)) return false;
+  if (!starts_within(start, request, timeline)) return false;
+  const int128 end_ns = int128{timeline.duration_ns()} - delay_ends_ns(request.delay).second;
   const auto* plain = std::get_if<PlainInterval>(&request.gains);
   // Functions end with the capture: their last step down may lie 1 ns behind it.
   if (plain == nullptr)
-    return moment_ns(start, timeline) + functions_end_ns(request) <= timeline.duration_ns() + 1;
+    return moment_ns(start, timeline) + functions_end_ns(request) <= end_ns + 1;
   if (!plain->length.counts_samples())
-    return plain_interval(start, plain->length, timeline).end_ns <= timeline.duration_ns();
+    return plain_interval(start, plain->length, timeline).end_ns <= end_ns;
   // plain_interval() throws where pictures are counted that are not there.
   const std::uint64_t first = sample_at(moment_ns(start, timeline), timeline);
   return first + static_cast<std::uint64_t>(plain->length.number.numerator) <= timeline.sample_count();
@@ -52,9 +53,9 @@ bool ends_within(const ExposureRequest& request, const StatedTime& start, const 
 std::vector<StatedTime> starts_of(const SeriesRequest& series, const ExposureRequest& request,
                                   const Timeline& of_capture) {
   const Timeline& timeline = of_capture.pictures();
-  if (const std::int64_t first_ns = moment_ns(request.start, timeline); first_ns >= timeline.duration_ns()) {
+  if (!starts_within(request.start, request, timeline)) {
     throw UsageError(format("the series starts at {}, behind the end of the capture at {}",
-                            duration_text(first_ns), duration_text(timeline.duration_ns())));
+                            duration_text(moment_ns(request.start, timeline)), duration_text(timeline.duration_ns())));
   }
   if (series.every.number.numerator <= 0)
     throw UsageError(format("exposures that are {} apart are no series", series.every.text()));
@@ -62,7 +63,7 @@ std::vector<StatedTime> starts_of(const SeriesRequest& series, const ExposureReq
   for (std::uint64_t k = 0; !series.count || k < *series.count; ++k) {
     const StatedTime next = start_of(series.every, request.start, k, timeline);
     if (!series.count && !ends_within(request, next, timeline)) break;
-    if (series.count && !starts_within(next, timeline)) {
+    if (series.count && !starts_within(next, request, timeline)) {
       const bool counts = next.counts_samples();
       throw UsageError(
           format("exposure {} of the series would start at {}, behind the end of the capture{}", k,

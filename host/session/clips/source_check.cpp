@@ -43,12 +43,18 @@ SourceCheck compare_with_source(tik::Reader& capture, SourceRequest clip, const 
                                 const ReportedProgress& progress) {
   const CaptureFormat wanted = source_format(capture.format());
   const std::string name = input_title(clip.path.string());
+  const std::uint64_t sample_count = capture.timeline().sample_count();
+  const auto& made = capture.header().made;
   clip.noise = NoNoise{};  // the capture has its noise model
   if (!clip.clip.white_code && wanted.code_bytes == 2) clip.clip.white_code = wanted.white_code;
   if (const auto& aligned = capture.header().alignment; aligned && !clip.align)
     clip.align = same_alignment(*aligned);
-  if (const auto& part = capture.header().part; part && !clip.clip.from)
+  clip.between.reset();  // of what the capture has, filmed samples are compared
+  const std::uint64_t pictures = made ? made->after.size() : sample_count;
+  if (const auto& part = capture.header().part; part && !clip.clip.from) {
     clip.clip.from = ClipMoment{static_cast<std::int64_t>(part->first), true};
+    if (!clip.clip.to) clip.clip.to = ClipMoment{static_cast<std::int64_t>(part->first + pictures), true};
+  }
   if (!clip.clip.crop) clip.clip.crop = crop_told(capture.header().facts);
   const ClipSource source = open_clip_source(clip, memory);
   if (source.capture.shape != wanted.shape || source.capture.code_bytes != wanted.code_bytes ||
@@ -63,20 +69,21 @@ SourceCheck compare_with_source(tik::Reader& capture, SourceRequest clip, const 
                           {"two pictures of the capture", 2 * capture.format().sample_bytes()},
                           {"a block", largest_block(capture)}};
   needs.rest_of(memory.bytes);
-  SourceCheck check{SourceComparison(wanted), capture.file_bytes(), 0, false};
-  const std::uint64_t sample_count = capture.timeline().sample_count();
-  check.source_bytes = wanted.sample_bytes() * sample_count;
+  SourceCheck check{SourceComparison(wanted), capture.file_bytes(), wanted.sample_bytes() * pictures, false,
+                    sample_count - pictures};
+  const std::vector<bool> is_made = made ? made->marks() : std::vector<bool>(sample_count);
+  std::uint64_t picture = 0;
   std::vector<std::byte> raster(wanted.sample_bytes());
   for_each_block(capture, [&](const BlockView& block) {
     for (std::uint32_t k = 0; k < block.extent().sample_count; ++k) {
       const std::uint64_t sample = block.extent().first_sample + k;
-      if (!source.clip->read(raster)) {
-        throw InputError(
-            format("{} is not what the capture was made from: it has {} pictures, the capture {}", name,
-                   sample, sample_count),
-            {Setting::from});
+      if (!is_made[sample] && !source.clip->read(raster)) {
+        throw InputError(format("{} is not what the capture was made from: it has {} pictures, the capture {}", name,
+                                picture, pictures),
+                         {Setting::from});
       }
-      check.comparison.add(block, k, raster);
+      check.comparison.add(block, k, is_made[sample] ? std::span<const std::byte>() : raster);
+      if (!is_made[sample]) ++picture;
       if (progress) progress(sample, sample_count);
     }
   });

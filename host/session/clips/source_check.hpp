@@ -16,10 +16,11 @@ struct SourceCheck {
   std::uint64_t file_bytes = 0;    // of the capture
   std::uint64_t source_bytes = 0;  // of the samples, unpacked
   bool clip_goes_on = false;       // after the capture's last sample
+  std::uint64_t made_samples = 0;  // between pictures, which are not compared
 };
 
 // Reads both to the capture's end; the clip of a capture that was aligned is aligned alike. The white code of 16-bit
-// clips is taken from the capture unless it is stated, and so are its first picture and how it was cropped; the noise
+// clips is taken from the capture unless it is stated, and so are its pictures and how it was cropped; the noise
 // whatever is stated. Throws InputError where the clip's pictures are not those of the capture, or too few.
 [[nodiscard]] SourceCheck compare_with_source(tik::Reader& capture, SourceRequest clip,
                                               const MemoryBudget& memory,

@@ -12,15 +12,6 @@ namespace {
 
 constexpr std::string_view kTo = "..";
 
-StatedTime parse_delay(std::string_view text, std::string_view what) {
-  const StatedTime time = StatedTime::parse(text, what);
-  if (time.counts_samples()) {
-    throw UsageError(format(
-        "{} '{}' counts pictures, which are no length of time; write seconds, 15ms or 1/24s", what, text));
-  }
-  return time;
-}
-
 }  // namespace
 
 DelayRequest DelayRequest::parse(std::string_view text, std::string_view what) {
@@ -45,10 +36,10 @@ DelayRequest DelayRequest::parse(std::string_view text, std::string_view what) {
   }
   const auto to = range.find(kTo);
   if (to == std::string_view::npos) {
-    request.to = parse_delay(range, what);
+    request.to = StatedTime::parse(range, what, false);
   } else {
-    request.from = parse_delay(range.substr(0, to), what);
-    request.to = parse_delay(range.substr(to + kTo.size()), what);
+    request.from = StatedTime::parse(range.substr(0, to), what, false);
+    request.to = StatedTime::parse(range.substr(to + kTo.size()), what, false);
   }
   return request;
 }
@@ -87,6 +78,12 @@ void DelayRequest::read() {
     if (file.find('.') != std::string::npos) throw;
     throw UsageError(format("{}; or, without a picture, rows:, columns: or radial:", error.what()));
   }
+}
+
+std::pair<std::int64_t, std::int64_t> delay_ends_ns(const std::optional<DelayRequest>& request) {
+  if (!request) return {};
+  if (request->map) return {request->map->delays_ns.front(), request->map->delays_ns.back()};
+  return std::minmax({request->from.nanoseconds(), request->to.nanoseconds()});
 }
 
 std::shared_ptr<const DelayMap> delays_of(const DelayRequest& request, const Shape& shape) {

@@ -6,11 +6,13 @@
 // ends, and it starts at 0. Or the delay of each pixel, not written in words.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "capture/picture.hpp"
 #include "exposure/delay_map.hpp"
@@ -42,6 +44,9 @@ struct DelayRequest {
 
   friend bool operator==(const DelayRequest&, const DelayRequest&) = default;
 };
+
+// The least delay that a pixel can have, and the largest.
+[[nodiscard]] std::pair<std::int64_t, std::int64_t> delay_ends_ns(const std::optional<DelayRequest>& request);
 
 // For pictures of this shape. Throws InputError if it has another size, UsageError if its picture was not read.
 [[nodiscard]] std::shared_ptr<const DelayMap> delays_of(const DelayRequest& request, const Shape& shape);

@@ -26,10 +26,13 @@ bool is_used(const ExposureRequest& request, std::uint8_t tag) {
   return !request.mask || (*request.mask)->uses(tag);
 }
 
-GainFunction function_of(const PlainInterval& plain, const Exposure& interval, const Timeline& timeline) {
-  if (interval.start_ns >= timeline.duration_ns() || interval.end_ns <= 0) {
-    throw UsageError(format("the interval from {} on lies outside the capture, which lasts {}",
-                            duration_text(interval.start_ns), duration_text(timeline.duration_ns())));
+GainFunction function_of(const PlainInterval& plain, const Exposure& interval,
+                         const std::optional<DelayRequest>& delay, const Timeline& timeline) {
+  const auto [earlier, later] = delay_ends_ns(delay);
+  if (interval.start_ns >= int128{timeline.duration_ns()} - earlier || interval.end_ns <= -later) {
+    throw UsageError(format("the interval from {} on {}lies outside the capture, which lasts {}",
+                            duration_text(interval.start_ns), delay ? "with all its delays " : "",
+                            duration_text(timeline.duration_ns())));
   }
   return plain.shutter.function({interval.start_ns, interval.end_ns});
 }
@@ -51,7 +54,7 @@ FunctionSet functions_of(const ExposureRequest& request, const Exposure& interva
                                                             request.delay.has_value()));
   };
   if (const auto* plain = std::get_if<PlainInterval>(&request.gains)) {
-    add(0, function_of(*plain, interval, timeline), kPlainName);
+    add(0, function_of(*plain, interval, request.delay, timeline), kPlainName);
     return functions;
   }
   for (const auto& [tag, written] : functions_in(request)) {

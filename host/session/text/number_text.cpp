@@ -98,6 +98,7 @@ std::string aspect_text(const Rational& aspect) {
 }
 
 std::string duration_text(std::int64_t nanoseconds) {
+  if (nanoseconds < 0) return "-" + duration_text(-nanoseconds);
   const auto value = static_cast<double>(nanoseconds);
   if (nanoseconds < 1000) return format("{} ns", nanoseconds);
   if (nanoseconds < 1'000'000) return format("{:.4g} us", value * 1e-3);

@@ -3,7 +3,7 @@
 import sys
 import unittest
 
-from fnplotter.setting import expectations, needs_matplotlib, paths, run, write
+from fnplotter.setting import expectations, many_functions, needs_matplotlib, paths, run, write
 
 
 class Mistakes(unittest.TestCase):
@@ -65,10 +65,18 @@ class Mistakes(unittest.TestCase):
             self.check([figure, "--per-page", per_page], 2, f"'{per_page}' is no whole number 1 … 32")
         self.check([figure, "--duration", "3s", "--capture", "c.tik"], 2, "both say how long")
 
-    def test_output_over_the_input(self):
-        mask = write("both.png", b"a mask")
-        self.check([paths.corpus / "figure04.fn", "--mask", mask, "-o", mask], 2, "is the input")
-        self.assertEqual(mask.read_bytes(), b"a mask")
+    @needs_matplotlib
+    def test_no_page_replaces_an_input_or_anything_unasked(self):
+        mask, page = write("pages-1.png", b"P5 3 3 255\n" + bytes(range(9))), paths.work / "pages-2.png"
+        nine = [write("nine.fn", many_functions(9)), "-o", paths.work / "pages.png"]
+        page.unlink(missing_ok=True)
+        self.check([*nine, "--mask", mask], 2, f"'{mask}' is the input")
+        self.check(nine, 2, f"{mask} is there already and is not replaced", overwrite=False)
+        self.assertEqual((mask.stat().st_size, page.exists()), (20, False))
+        self.check(nine, 0, "")
+        mask.unlink()
+        self.check(nine, 2, f"{page} is there already", overwrite=False)
+        self.assertFalse(mask.exists())
 
     @needs_matplotlib
     def test_standard_input(self):

@@ -19,10 +19,10 @@ CAPTURE_NS = 3_000_000_000
 needs_matplotlib = unittest.skipUnless(importlib.util.find_spec("matplotlib"), "Matplotlib is missing")
 
 
-def run(*arguments, stdin=None, **environment):
-    """FnPlotter.py with arguments, as a user would run it, without a display."""
+def run(*arguments, stdin=None, overwrite=True, **environment):
+    """FnPlotter.py with arguments, as a user would run it, without a display; an earlier test's plots may be there."""
     absent = dict.fromkeys(("DISPLAY", "WAYLAND_DISPLAY"), "")
-    command = [sys.executable, str(paths.plotter), *map(str, arguments)]
+    command = [sys.executable, str(paths.plotter), *map(str, arguments), *["--overwrite"] * overwrite]
     how = {"capture_output": True, "encoding": "utf-8", "timeout": 300, "check": False, "input": stdin}
     return subprocess.run(command, env=os.environ | absent | {"PYTHONIOENCODING": "utf-8"} | environment, **how)
 
@@ -32,7 +32,7 @@ def draw(*arguments):
     from FnPlotter import command_line, plot, status_of
 
     with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as err:
-        status = status_of("FnPlotter.py", plot, command_line().parse_args([*map(str, arguments)]))
+        status = status_of("FnPlotter.py", plot, command_line().parse_args([*map(str, arguments), "--overwrite"]))
     return SimpleNamespace(returncode=status, stdout=out.getvalue(), stderr=err.getvalue())
 
 
