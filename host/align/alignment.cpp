@@ -50,6 +50,7 @@ CannotAlign not_alike(const ClipToAlign& clip, CameraMotion motion, std::uint64_
           : Advice{"; try `align homography`, another picture to align to (`align-to`), or a part of the clip "
                    "(`from`, `to`)"});
   error.picture = picture;
+  error.motion = motion;
   return error;
 }
 

@@ -26,6 +26,7 @@ namespace nutik {
 struct CannotAlign : InputError {
   using InputError::InputError;
   std::optional<std::uint64_t> picture = std::nullopt;  // the first that shows too little of what the reference does
+  CameraMotion motion = CameraMotion::automatic;        // by which all pictures before it were found
 };
 
 struct ClipToAlign {

@@ -112,10 +112,9 @@ std::vector<SampleRange> scenes_of(const SourceRequest& source, SampleRange shot
     scene = first < last ? SampleRange{first, last} : SampleRange{};
   }
   std::ranges::stable_sort(scenes, std::ranges::greater(), &SampleRange::size);
-  const std::uint64_t least = scenes.empty() ? 0 : std::max(kMinSamples, scenes.front().size() / 2);
-  std::erase_if(scenes, [&](const SampleRange& scene) {
-    return scene.size() < least;
-  });
+  if (scenes.empty()) return {};
+  const std::uint64_t least = std::max({kMinSamples, scenes.front().size() / 2, shot.size() / kMinOfSamples});
+  std::erase_if(scenes, [&](const SampleRange& scene) { return scene.size() < least; });
   return scenes;
 }
 

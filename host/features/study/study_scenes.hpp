@@ -9,7 +9,8 @@
 namespace nutik {
 
 // The pictures of a shot that each show one scene, apart from each other, the longest and those half as long or more.
-// None where all of the shot shows one, or too little of it has texture. `shot` counts the clip's pictures.
+// None where all of the shot shows one, too little of it has texture, or all are short. `shot` counts the clip's
+// pictures.
 [[nodiscard]] std::vector<SampleRange> scenes_of(const SourceRequest& source, SampleRange shot);
 
 }  // namespace nutik

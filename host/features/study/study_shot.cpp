@@ -263,9 +263,10 @@ class ShotPlanner {
                       progress("looking for the subject"), unrest);
   }
 
-  [[nodiscard]] static SourceRequest aligned_to(std::uint64_t reference, SourceRequest source) {
+  [[nodiscard]] static SourceRequest aligned_to(std::uint64_t reference, SourceRequest source,
+                                                CameraMotion motion = kStudyMotion) {
     source.align.emplace();
-    source.align->motion = kStudyMotion;
+    source.align->motion = motion;
     source.align->reference = StatedTime::of_pictures(static_cast<std::int64_t>(reference));
     return source;
   }
@@ -287,13 +288,13 @@ class ShotPlanner {
   [[nodiscard]] std::optional<PlannedStudy> plan_aligned(const SourceRequest& source, std::uint64_t samples,
                                                          std::string& reason) const {
     constexpr int kMaxTries = 6;
-    constexpr std::uint64_t kMinOfSamples = 4;  // one of so many
     const bool has_parts = !source.clip.from || source.clip.from->is_picture;
     const std::uint64_t first = source.clip.from ? static_cast<std::uint64_t>(source.clip.from->value) : 0;
     SampleRange part{0, samples};
     std::uint64_t reference = 0;
+    CameraMotion motion = kStudyMotion;
     for (int tries = 0; tries < kMaxTries; ++tries) {
-      SourceRequest aligned = aligned_to(reference - part.first, source);
+      SourceRequest aligned = aligned_to(reference - part.first, source, motion);
       const bool is_part = part.size() < samples;
       if (is_part) {
         aligned.clip.from = picture(first + part.first);
@@ -311,6 +312,7 @@ class ShotPlanner {
         return study;
       } catch (const CannotAlign& error) {
         if (reason.empty()) reason = error.what();
+        motion = error.motion;  // what no less explains
         const std::uint64_t failed = part.first + error.picture.value_or(0);
         if (error.picture && failed > reference && 2 * (failed - part.first) >= part.size()) {
           part.last = failed;

@@ -40,6 +40,8 @@ struct PlannedStudy {
 
 // Shorter shots show nothing that goes anywhere.
 inline constexpr std::uint64_t kMinSamples = 8;
+// And a part of a shot that is less than one of so many pictures is not what it shows.
+inline constexpr std::uint64_t kMinOfSamples = 4;
 
 // How pictures are moved where nobody stated that.
 inline constexpr CameraMotion kStudyMotion = CameraMotion::automatic;
