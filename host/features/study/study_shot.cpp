@@ -117,7 +117,9 @@ class ShotPlanner {
       if (scene && !scene->study.falls_short) break;
       try {
         PlannedStudy made = plan_bright(source, each, beginning_of(part_of(source, each), source.deflickered));
-        if (made.study.moving_share <= kMaxMoving && (!scene || !made.study.falls_short)) scene = std::move(made);
+        const bool is_enough = kMinOfSamples * made.part->size() >= shot.size();
+        if (is_enough && made.study.moving_share <= kMaxMoving && (!scene || !made.study.falls_short))
+          scene = std::move(made);
       } catch (const EverythingMoves&) {
       }
     }
