@@ -113,13 +113,10 @@ class ShotPlanner {
     if (!has_several) try_all();
     if (planned && planned->study.moving_share <= kMaxMoving) return std::move(*planned);
     std::optional<PlannedStudy> scene;
-    ShotPlanner of_scene = *this;
-    of_scene.max_tries_ = 2;  // its pictures lie on each other, or it is none
     for (const SampleRange& each : scenes_of(source, shot)) {
       if (scene && !scene->study.falls_short) break;
       try {
-        const Beginning beginning = beginning_of(part_of(source, each), source.deflickered);
-        PlannedStudy made = of_scene.plan_bright(source, each, beginning);
+        PlannedStudy made = plan_bright(source, each, beginning_of(part_of(source, each), source.deflickered));
         const bool is_enough = kMinOfSamples * made.part->size() >= shot.size();
         if (is_enough && made.study.moving_share <= kMaxMoving && (!scene || !made.study.falls_short))
           scene = std::move(made);
@@ -292,12 +289,13 @@ class ShotPlanner {
   // cannot be moved: `reason` says why.
   [[nodiscard]] std::optional<PlannedStudy> plan_aligned(const SourceRequest& source, std::uint64_t samples,
                                                          std::string& reason) const {
+    constexpr int kMaxTries = 6;
     const bool has_parts = !source.clip.from || source.clip.from->is_picture;
     const std::uint64_t first = source.clip.from ? static_cast<std::uint64_t>(source.clip.from->value) : 0;
     SampleRange part{0, samples};
     std::uint64_t reference = 0;
     CameraMotion motion = kStudyMotion;
-    for (int tries = 0; tries < max_tries_; ++tries) {
+    for (int tries = 0; tries < kMaxTries; ++tries) {
       SourceRequest aligned = aligned_to(reference - part.first, source, motion);
       const bool is_part = part.size() < samples;
       if (is_part) {
@@ -341,7 +339,6 @@ class ShotPlanner {
   const StudyRequest& request_;
   const StudyTerms& terms_;
   std::string name_;  // for messages
-  int max_tries_ = 6;  // to move pictures onto each other, all or a part of them
 };
 
 PlannedStudy plan_filmed(const SourceRequest& source, const StudyRequest& request, const StudyTerms& terms) {
