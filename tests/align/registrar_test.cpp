@@ -240,25 +240,6 @@ TEST(Registrar, FollowsTheRoomOfAPanAndNotWhatMovesAgainstIt) {
   }
 }
 
-// Texture in a sixth of the picture, and noise everywhere: of noise half lies within a pixel of anywhere.
-TEST(Registrar, CountsPlacesThatAreToldFromNoise) {
-  const Texture texture(31);
-  std::mt19937 random(32);
-  std::normal_distribution<double> noise(0, 6);
-  const auto seen = [&](const Warp& warp) {
-    const Warp back = inverse(warp);
-    return raster_of([&](int x, int y) {
-      const Place place = back.at(x, y);
-      return 100 + (place.x < kSceneWidth / 6.0 ? 80 : 1) * texture.at(place) + noise(random);
-    });
-  };
-  const Warp truth = moved(3, -2, 0.5);
-  const Registered found = registrar_of(format_of({}), seen(Warp()))->find(seen(truth), CameraMotion::rigid, Warp());
-  EXPECT_GT(found.agreeing, 0.95);
-  EXPECT_NEAR(found.warp.at(50, 120).x, truth.at(50, 120).x, 0.1);
-  EXPECT_NEAR(found.warp.at(50, 120).y, truth.at(50, 120).y, 0.1);
-}
-
 TEST(Registrar, GivesTheSameTwice) {
   const Look look;
   Scene scene(look);

@@ -87,13 +87,7 @@ namespace {
 constexpr std::uint32_t kCells = 32;  // along the longer side: the texture is taken from all over the picture
 constexpr double kMinGradient = kGreyWhite / 256;  // a pixel
 constexpr double kWeakGradient = 0.05;             // of the strongest: mostly noise
-constexpr int kMargin = 4;
-
-Point point_at(const cv::Mat& grey, int x, int y) {
-  const auto *above = grey.ptr<float>(y - 1), *row = grey.ptr<float>(y), *below = grey.ptr<float>(y + 1);
-  return {static_cast<float>(x), static_cast<float>(y), row[x], (row[x + 1] - row[x - 1]) / 2,
-          (below[x] - above[x]) / 2};
-}
+constexpr float kMargin = 4;
 
 }  // namespace
 
@@ -108,9 +102,11 @@ std::vector<Point> textured_points(const cv::Mat& grey, std::size_t count) {
                              gradient_of);
     cell.resize(most);
   };
-  for (int y = kMargin; y < grey.rows - kMargin; ++y) {
-    for (int x = kMargin; x < grey.cols - kMargin; ++x) {
-      const Point point = point_at(grey, x, y);
+  for (int y = static_cast<int>(kMargin); y < grey.rows - static_cast<int>(kMargin); ++y) {
+    const auto *above = grey.ptr<float>(y - 1), *row = grey.ptr<float>(y), *below = grey.ptr<float>(y + 1);
+    for (int x = static_cast<int>(kMargin); x < grey.cols - static_cast<int>(kMargin); ++x) {
+      const Point point{static_cast<float>(x), static_cast<float>(y), row[x], (row[x + 1] - row[x - 1]) / 2,
+                        (below[x] - above[x]) / 2};
       if (gradient_of(point) < kMinGradient) continue;
       std::vector<Point>& cell = cells[static_cast<std::size_t>(y / side * columns + x / side)];
       cell.push_back(point);
@@ -125,20 +121,6 @@ std::vector<Point> textured_points(const cv::Mat& grey, std::size_t count) {
   if (points.empty()) return points;
   const double weak = kWeakGradient * gradient_of(*std::ranges::max_element(points, {}, gradient_of));
   std::erase_if(points, [&](const Point& point) { return gradient_of(point) < weak; });
-  return points;
-}
-
-std::vector<Point> flat_pairs(const cv::Mat& grey) {
-  constexpr double kLooks = 4000;
-  constexpr int kApart = 16;  // blocks that videos are packed in, whose errors are one
-  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(grey.total()) / kLooks)));
-  std::vector<Point> points;
-  for (int y = kMargin; y < grey.rows - kMargin; y += step) {
-    for (int x = kMargin; x + kApart < grey.cols - kMargin; x += step) {
-      const Point one = point_at(grey, x, y), other = point_at(grey, x + kApart, y);
-      if (std::max(gradient_of(one), gradient_of(other)) < kMinGradient) points.insert(points.end(), {one, other});
-    }
-  }
   return points;
 }
 

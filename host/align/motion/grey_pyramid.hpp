@@ -42,7 +42,5 @@ struct Point {
 
 // The strongest edges of each part of a picture in grey, some `count` from all over it.
 [[nodiscard]] std::vector<Point> textured_points(const cv::Mat& grey, std::size_t count);
-// Some from all over it that lie on no edge: two beside each other, and two, and so on.
-[[nodiscard]] std::vector<Point> flat_pairs(const cv::Mat& grey);
 
 }  // namespace nutik::motion

@@ -7,10 +7,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <functional>
 #include <memory>
 #include <mutex>
-#include <numbers>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
@@ -18,6 +16,7 @@
 #include <optional>
 #include <span>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -48,7 +47,6 @@ constexpr double kClearlyMost = 0.7;          // of the texture
 constexpr std::size_t kMinOfPart = 8;  // places of texture: fewer tell little
 constexpr double kTukey = 4.685;       // 95 % as efficient as least squares where all errors are normal
 constexpr double kMinSigma = 0.3;      // codes
-constexpr double kSigmaOfMedian = 1.4826;  // a normal deviation, of the median of sizes
 constexpr int kFirstSteps = 3;  // of a fit, in which nothing is excluded yet; a finer level has one of them
 constexpr int kMaxSteps = 25;
 constexpr double kSettledPixels = 0.002;
@@ -253,10 +251,7 @@ class RobustRegistrar final : public Registrar {
       Level level{pyramid.finest + static_cast<int>(i), (std::ldexp(1.0, pyramid.finest) - 1) / 2, grey.size(),
                   textured_points(grey, i > 0 ? kLeadingPoints : pyramid.finest > 0 ? kMeanPoints : kPoints)};
       if (i > 0 && level.points.size() < kMinPoints) break;
-      if (i == 0) {
-        check_texture(level.points);
-        flat_ = {level.number, level.offset, level.size, flat_pairs(grey)};
-      }
+      if (i == 0) check_texture(level.points);
       levels_.push_back(std::move(level));
     }
     reference_ = pyramid.of_features();
@@ -284,7 +279,12 @@ class RobustRegistrar final : public Registrar {
     });
   }
 
-  [[nodiscard]] bool sees_much() const override { return are_in_much(levels_.front().points); }
+  [[nodiscard]] bool sees_much() const override {
+    std::array<std::size_t, std::tuple_size_v<Parts>> counts{};
+    for (const Point& point : levels_.front().points) ++counts[part_of(levels_.front(), point)];
+    const auto textured = std::ranges::count_if(counts, [](std::size_t count) { return count >= kMinOfPart; });
+    return 4 * static_cast<std::size_t>(textured) >= counts.size();
+  }
 
  private:
   [[nodiscard]] static std::size_t part_of(const Level& level, const Point& point) {
@@ -292,15 +292,6 @@ class RobustRegistrar final : public Registrar {
       return static_cast<std::size_t>(at) * kPartsToASide / static_cast<std::size_t>(size);
     };
     return part(point.y, level.size.height) * kPartsToASide + part(point.x, level.size.width);
-  }
-
-  // Whether a quarter of the picture's parts or more have several of them.
-  template <typename Places, typename PointOf = std::identity>
-  [[nodiscard]] bool are_in_much(const Places& places, PointOf point_of = {}) const {
-    std::array<std::size_t, std::tuple_size_v<Parts>> counts{};
-    for (const auto& place : places) ++counts[part_of(levels_.front(), std::invoke(point_of, place))];
-    const auto parts = std::ranges::count_if(counts, [](std::size_t count) { return count >= kMinOfPart; });
-    return 4 * static_cast<std::size_t>(parts) >= counts.size();
   }
 
   // As many pyramids come to be as searches run at the same time.
@@ -336,7 +327,7 @@ class RobustRegistrar final : public Registrar {
   }
 
   // In which of the picture's parts the second of two motions says better than the first what is there, each fitted to
-  // the other parts: in noise more numbers follow that, too.
+  // the other half of them: there it gains nothing by following noise.
   [[nodiscard]] BetterParts better_parts(const cv::Mat& grey, std::span<const CameraMotion> motions,
                                          std::span<const Registered> found) const {
     BetterParts better{};
@@ -416,74 +407,46 @@ class RobustRegistrar final : public Registrar {
         return {guess, 0, 0};
       }
     }
-    return judged(pyramid.levels.front(), fit);
+    return judged(levels_.front(), pyramid.levels.front(), fit);
   }
 
   // Near by, most pictures lie just where they are expected: that stands unless another place is clearly better, by
   // texture from much of the picture. A thing that moves over a bare wall is no camera's motion.
   [[nodiscard]] Registered unless_it_rests(const cv::Mat& grey, const Warp& guess,
                                            const Registered& best) const {
-    const std::vector<Sampled> seen = sampled(levels_.front(), grey, guess);
+    const Level& level = levels_.front();
+    const std::vector<Sampled> seen = sampled(level, grey, guess);
     if (seen.empty()) return best;
-    const Registered rests = judged(grey, {guess, 1, brighter_by(seen)});
+    const Registered rests = judged(level, grey, {guess, 1, brighter_by(seen)});
     if (rests.residual_pixels <= kClearlyBetter * best.residual_pixels) return rests;
-    if (!is_sure(best) || !is_spread(grey, guess, best.warp)) return {guess, 0, rests.residual_pixels};
+    if (!is_sure(best) || !is_spread(level, grey, guess, best.warp)) return {guess, 0, rests.residual_pixels};
     return best.agreeing >= kClearlyMost ? best : Registered{best.warp, 0, rests.residual_pixels};
   }
 
   // Whether a quarter of the picture's parts or more follow a warp, and clearly not what is expected: noise over a dark
   // wall is as near to any place.
-  [[nodiscard]] bool is_spread(const cv::Mat& grey, const Warp& guess, const Warp& warp) const {
-    Parts expected = parts_of(grey, guess), followed = parts_of(grey, warp);
+  [[nodiscard]] static bool is_spread(const Level& level, const cv::Mat& grey, const Warp& guess,
+                                      const Warp& warp) {
+    Parts expected = parts_of(level, grey, guess), followed = parts_of(level, grey, warp);
     std::size_t parts = 0;
     for (std::size_t i = 0; i < followed.size(); ++i) {
       if (std::min(expected[i].size(), followed[i].size()) < kMinOfPart) continue;
       const double away = median(followed[i]);
-      parts += away <= levels_.front().agreeing() && median(expected[i]) > kClearlyBetter * away ? 1 : 0;
+      parts += away <= level.agreeing() && median(expected[i]) > kClearlyBetter * away ? 1 : 0;
     }
     return 4 * parts >= followed.size();
   }
 
   // How far texture lies from where a warp says, in pixels of the level, for each part of the picture.
-  [[nodiscard]] Parts parts_of(const cv::Mat& grey, const Warp& warp) const {
+  [[nodiscard]] static Parts parts_of(const Level& level, const cv::Mat& grey, const Warp& warp) {
     Parts parts;
-    const std::vector<Sampled> seen = sampled(levels_.front(), grey, warp);
+    const std::vector<Sampled> seen = sampled(level, grey, warp);
     if (seen.empty()) return parts;
-    for (const auto& [point, away] : distances(seen, grey, {warp, 1, brighter_by(seen)}))
-      parts[part_of(levels_.front(), point)].push_back(away);
-    return parts;
-  }
-
-  struct Distance {
-    Point point;
-    double away;  // pixels of the finest level
-  };
-
-  // How far places of the finest level lie from where a fit says: of those that are told from noise, if these are in
-  // much of the picture, else of all. What stands still lies within agreeing() there in 95 of 100 cases.
-  [[nodiscard]] std::vector<Distance> distances(const std::vector<Sampled>& seen, const cv::Mat& grey,
-                                                const Fit& fit) const {
-    constexpr double kSigmas = 1.96;
-    const double weakest = kSigmas * noise_of(grey, fit) / (fit.gain * levels_.front().agreeing());
-    std::vector<Distance> telling, all;
+    const Fit fit{warp, 1, brighter_by(seen)};
     for (const Sampled& sample : seen) {
-      const double gradient = gradient_of(*sample.point);
-      all.push_back({*sample.point, std::abs(residual(sample, fit)) / (fit.gain * gradient)});
-      if (gradient >= weakest) telling.push_back(all.back());
+      parts[part_of(level, *sample.point)].push_back(std::abs(residual(sample, fit)) / gradient_of(*sample.point));
     }
-    return are_in_much(telling, &Distance::point) ? telling : all;
-  }
-
-  // The deviation of differences where nothing is to be seen but noise, which hardly depends on the motion; between
-  // neighbours, so that light which changes counts for nothing. 0 where there are few such places.
-  [[nodiscard]] double noise_of(const cv::Mat& grey, const Fit& fit) const {
-    const std::vector<Sampled> seen = sampled(flat_, grey, fit.warp);
-    std::vector<double> sizes;
-    for (std::size_t i = 0; i + 1 < seen.size(); ++i) {
-      const bool are_pair = seen[i + 1].point == seen[i].point + 1 && (seen[i].point - flat_.points.data()) % 2 == 0;
-      if (are_pair) sizes.push_back(std::abs(residual(seen[i + 1], fit) - residual(seen[i], fit)));
-    }
-    return sizes.size() < kMinPoints ? 0 : kSigmaOfMedian / std::numbers::sqrt2 * median(sizes);
+    return parts;
   }
 
   // The points that the picture shows, too. Empty where these are few.
@@ -531,7 +494,7 @@ class RobustRegistrar final : public Registrar {
       if (seen.empty()) return false;
       sizes.clear();
       for (const Sampled& sample : seen) sizes.push_back(std::abs(residual(sample, fit)));
-      const double limit = kTukey * std::max(kMinSigma, kSigmaOfMedian * median(sizes));
+      const double limit = kTukey * std::max(kMinSigma, 1.4826 * median(sizes));
       NormalEquations equations(count);
       Row slopes{};
       for (const Sampled& sample : seen) {
@@ -566,21 +529,22 @@ class RobustRegistrar final : public Registrar {
     return true;
   }
 
-  [[nodiscard]] Registered judged(const cv::Mat& grey, const Fit& fit) const {
-    const Level& level = levels_.front();
+  [[nodiscard]] static Registered judged(const Level& level, const cv::Mat& grey, const Fit& fit) {
     const std::vector<Sampled> seen = sampled(level, grey, fit.warp);
     if (seen.empty()) return {fit.warp, 0, 0};
     std::vector<double> away;
-    for (const Distance& distance : distances(seen, grey, fit)) away.push_back(distance.away);
-    const auto agreeing = std::ranges::count_if(away, [&](double each) { return each <= level.agreeing(); });
-    const double share = static_cast<double>(agreeing) / static_cast<double>(away.size());
+    std::size_t agreeing = 0;
+    for (const Sampled& sample : seen) {
+      away.push_back(std::abs(residual(sample, fit)) / (fit.gain * gradient_of(*sample.point)));
+      agreeing += away.back() <= level.agreeing() ? 1 : 0;
+    }
+    const double share = static_cast<double>(agreeing) / static_cast<double>(seen.size());
     return {fit.warp, share, level.scale() * median(away)};
   }
 
   CaptureFormat format_;
   std::vector<Level> levels_;    // the finest first
   std::array<Level, 2> halves_;  // that one, in every second of the picture's parts
-  Level flat_;                   // that one, where it shows nothing but noise
   cv::Mat reference_;          // for features, which are looked for when they are first needed
   std::optional<FeatureStart> features_;
   std::mutex features_mutex_;
