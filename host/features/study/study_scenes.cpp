@@ -1,4 +1,5 @@
-#include "features/study/study_scenes.hpp"
+// Scenes that no cut parts: one fades into another, or is wiped away.
+#include "features/study/study_shot.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +9,6 @@
 #include <span>
 
 #include "align/registrar.hpp"
-#include "features/study/study_shot.hpp"
 #include "media/clip.hpp"
 #include "system/parallel.hpp"
 

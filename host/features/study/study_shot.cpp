@@ -11,7 +11,6 @@
 #include "capture/median.hpp"
 #include "features/masks/mask_making.hpp"
 #include "features/plate/plate.hpp"
-#include "features/study/study_scenes.hpp"
 #include "imev/each_block.hpp"
 #include "media/clip.hpp"
 #include "session/clips/clip_source.hpp"

@@ -43,6 +43,11 @@ inline constexpr std::uint64_t kMinSamples = 8;
 // And a part of a shot that is less than one of so many pictures is not what it shows.
 inline constexpr std::uint64_t kMinOfSamples = 4;
 
+// The pictures of a shot that each show one scene, apart from each other, the longest and those half as long or more.
+// None where all of the shot shows one, too little of it has texture, or all are short. `shot` counts the clip's
+// pictures.
+[[nodiscard]] std::vector<SampleRange> scenes_of(const SourceRequest& source, SampleRange shot);
+
 // How pictures are moved where nobody stated that.
 inline constexpr CameraMotion kStudyMotion = CameraMotion::automatic;
 
