@@ -38,16 +38,16 @@ std::vector<std::byte> reference_raster(const ClipToAlign& clip) {
 
 const Advice kOtherReference{"; try another picture to align to (`align-to`), or a part of the clip (`from`, `to`)"};
 
-CannotAlign not_alike(const ClipToAlign& clip, CameraMotion motion, std::uint64_t picture,
+CannotAlign not_alike(const ClipToAlign& clip, CameraMotion asked, CameraMotion motion, std::uint64_t picture,
                       const Registered& found) {
   CannotAlign error(
       format("{}: picture {} cannot be aligned to picture {}: of what is seen in both {:.1f} % follow one "
              "{} motion, and half must. The camera moved too far or too fast, there is a cut or a dissolve between "
              "them, or what moves by itself fills most of the picture",
              clip.name, picture, clip.reference, 100 * found.agreeing, to_text(motion)),
-      motion == CameraMotion::homography
+      asked == CameraMotion::homography || asked == CameraMotion::automatic
           ? kOtherReference
-          : Advice{"; try `align homography`, another picture to align to (`align-to`), or a part of the clip "
+          : Advice{"; try `align auto`, another picture to align to (`align-to`), or a part of the clip "
                    "(`from`, `to`)"});
   error.picture = picture;
   error.motion = motion;
@@ -57,7 +57,8 @@ CannotAlign not_alike(const ClipToAlign& clip, CameraMotion motion, std::uint64_
 // Looks for a camera's path by the motion that is wanted, or by two, each until a picture does not follow it.
 class PathSearch {
  public:
-  PathSearch(const ClipToAlign& clip, CameraMotion motion) : clip_(clip), tried_{{.path = path_of(motion)}} {
+  PathSearch(const ClipToAlign& clip, CameraMotion motion)
+      : clip_(clip), asked_(motion), tried_{{.path = path_of(motion)}} {
     if (motion != CameraMotion::automatic) return;
     tried_ = {{.path = path_of(CameraMotion::rigid)}, {.path = path_of(CameraMotion::homography)}};
   }
@@ -94,7 +95,8 @@ class PathSearch {
     }
     constexpr std::uint64_t kMany = 32;  // fewer are alike by chance, as pictures that follow each other are
     constexpr double kSurely = 4;        // asked after each group
-    if (picture_count() >= kMany && second_gains(kSurely)) tried_.erase(tried_.begin());
+    const bool is_due = picture_count() >= kMany && picture_count() % kPicturesAtOnce == 0;  // in groups of one, too
+    if (is_due && second_gains(kSurely)) tried_.erase(tried_.begin());
   }
 
   [[nodiscard]] CameraPath best() && {
@@ -125,13 +127,14 @@ class PathSearch {
     const std::uint64_t number = path.pictures.size();
     // A fast camera is nearer to where it was just before.
     if (!is_sure(picture) && number > 0) picture = registrar.find(raster, path.motion, path.pictures.back().warp);
-    if (!is_sure(picture)) throw not_alike(clip_, path.motion, number, picture);
+    if (!is_sure(picture)) throw not_alike(clip_, asked_, path.motion, number, picture);
     if ((number + 1) % kPicturesAtOnce == 0) tried.guess = picture.warp;
     if (number == clip_.reference) picture.warp = Warp();  // itself
     path.pictures.push_back(picture);
   }
 
   const ClipToAlign& clip_;
+  CameraMotion asked_;
   std::vector<Tried> tried_;
   std::array<int, std::tuple_size_v<BetterParts>> better_{};  // in how many pictures the second one is, by part
 };

@@ -79,8 +79,8 @@ class Registrar {
   [[nodiscard]] virtual Registered find(std::span<const std::byte> raster, CameraMotion motion, const Warp& guess,
                                         Reach reach = Reach::anywhere) = 0;
 
-  // By two motions, of which the second can do what the first does: the same as both times find(), and where what is
-  // fitted to one half of the parts says better what the others show.
+  // Finds a picture by two motions, of which the second can do all that the first does. Each is then fitted to half of
+  // the picture's parts: `better` tells which of both predicts better what the other half shows.
   struct Compared {
     std::array<Registered, 2> found;
     BetterParts better{};

@@ -167,19 +167,12 @@ Trace trace_region(const RenderPlan& plan, CaptureSource& source, std::uint8_t t
     const auto found = std::ranges::find(shares, function, &Share::of);
     return found == shares.end() ? 0.0 : static_cast<double>(found->size) / kWholeShare;
   };
-  // Whether it is the one that the pixel's mask value names.
-  const auto is_own = [&](std::uint64_t pixel) {
-    const std::span<const Share> shares = plan.shares_of(pixel);
-    return shares.empty() || std::ranges::max_element(shares, {}, &Share::size)->of == function;
-  };
   CompensatedSum weights;
-  std::uint64_t pixels = 0;
   std::vector<bool> has_weight(grid.tile_count());
   for (std::uint64_t pixel = 0; pixel < shape.pixel_count(); ++pixel) {
     const double weight = weight_of(pixel);
     weights.add(weight);
     if (weight == 0.0) continue;
-    if (is_own(pixel)) ++pixels;
     has_weight[grid.tile_of(static_cast<std::uint32_t>(pixel % shape.width),
                             static_cast<std::uint32_t>(pixel / shape.width))] = true;
   }
@@ -209,7 +202,7 @@ Trace trace_region(const RenderPlan& plan, CaptureSource& source, std::uint8_t t
     }
     return sum.mean(weights.value());
   });
-  result.pixel_count = pixels;
+  result.pixel_count = planned->pixel_count;
   return result;
 }
 

@@ -39,7 +39,7 @@ struct TraceStep {
 
 struct Trace {
   std::uint32_t channels = 0;
-  std::uint64_t pixel_count = 0;      // whose mask value it is
+  std::uint64_t pixel_count = 0;      // whose mean it is
   std::size_t function = 0;           // the plan's
   std::uint32_t share = kWholeShare;  // of a pixel's light that it has
   std::vector<TraceStep> steps;       // of the blocks that the function needs, none where it is 0

@@ -327,7 +327,7 @@ TEST_F(Aligning, SaysWhichPictureCannotBeAlignedAndWhy) {
   expect_refused(encoding("--align rigid cut a.tik"), 3,
                  "picture 5 cannot be aligned to picture 0: of what is seen in both ");
   const std::string others = "try another picture to align to";
-  expect_refused(encoding("--align rigid cut a.tik"), 3, "try --align homography, another picture");
+  expect_refused(encoding("--align rigid cut a.tik"), 3, "try --align auto, another picture");
   expect_refused(encoding("--align homography cut a.tik"), 3, others);
   make(encoding("--align rigid --to 5f cut a.tik"));
   std::filesystem::create_directory(scratch_ / "blank");

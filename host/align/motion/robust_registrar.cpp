@@ -326,8 +326,8 @@ class RobustRegistrar final : public Registrar {
     return more_agreeing(simpler, fit(pyramid, simpler.warp, 1, frame, coarse));
   }
 
-  // In which of the picture's parts the second of two motions says better than the first what is there, each fitted to
-  // the other half of them: there it gains nothing by following noise.
+  // In which parts the second of two motions predicts better than the first what the picture shows, where each is
+  // fitted to the other half of the parts: following noise gains nothing there.
   [[nodiscard]] BetterParts better_parts(const cv::Mat& grey, std::span<const CameraMotion> motions,
                                          std::span<const Registered> found) const {
     BetterParts better{};

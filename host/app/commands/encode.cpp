@@ -17,6 +17,19 @@
 namespace nutik::app {
 namespace {
 
+// A folder that was made, and goes again if nothing is written to it.
+struct MadeFolder {
+  MadeFolder() = default;
+  MadeFolder(const MadeFolder&) = delete;
+  MadeFolder& operator=(const MadeFolder&) = delete;
+  ~MadeFolder() {
+    std::error_code error;
+    if (!folder.empty()) std::filesystem::remove(folder, error);
+  }
+
+  std::filesystem::path folder = {};
+};
+
 // What is written of a camera's path beside a capture.
 class CameraFiles {
  public:
@@ -26,31 +39,25 @@ class CameraFiles {
         table_(options.camera_path),
         plot_(options.camera_plot),
         coverage_(options.coverage) {
-    const bool is_new = folder_ && is_absent(*folder_);
-    const auto folder = (std::filesystem::path(folder_.value_or("")) / "").parent_path();
-    if (is_new) check_folder_of(folder);
-    inputs.push_back(capture.string());  // no two outputs of one name either
-    // What lies in a folder that is not there yet replaces nothing.
-    const auto take = [&](std::optional<std::string>& file, const char* name, const auto& check) {
-      if (!file && folder_) file = (std::filesystem::path(*folder_) / name).string();
-      if (!file) return;
-      const bool is_there = is_new && std::filesystem::path(*file).parent_path() == folder;
-      if (!is_there) check(*file);
-      inputs.push_back(*file);
-    };
-    take(table_, "path.csv",
-         [&](const auto& file) { check_output(file, OutputKind::table, inputs, replacing(options)); });
+    if (folder_) {
+      const std::filesystem::path folder = *folder_;
+      std::error_code error;
+      // What is written there says where it is not.
+      if (std::filesystem::create_directory(folder, error)) made_.folder = folder;
+      if (!table_) table_ = (folder / "path.csv").string();
+      if (!plot_) plot_ = (folder / "plot.png").string();
+      if (!coverage_) coverage_ = (folder / "coverage.png").string();
+    }
     constexpr std::uint32_t kColour = 3;
-    take(plot_, "plot.png",
-         [&](const auto& file) { check_picture_output(file, kColour, inputs, replacing(options)); });
-    take(coverage_, "coverage.png",
-         [&](const auto& file) { check_picture_output(file, 1, inputs, replacing(options)); });
+    inputs.push_back(capture.string());  // no two outputs of one name either
+    if (table_) check_output(*table_, OutputKind::table, inputs, replacing(options));
+    if (plot_) check_picture_output(*plot_, kColour, inputs, replacing(options));
+    if (plot_) inputs.push_back(*plot_);
+    if (coverage_) check_picture_output(*coverage_, 1, inputs, replacing(options));
   }
 
   // Writes what was asked for, and adds the path to an answer.
   void write(const CameraPath& path, const Timeline& timeline, const std::string& heading, Answer& answer) const {
-    std::error_code error;  // what is written there says where it is not
-    if (folder_) std::filesystem::create_directory(*folder_, error);
     const std::string named[] = {table_.value_or(""), plot_.value_or(""), coverage_.value_or("")};
     if (table_) write_text(*table_, camera_path_text(path));
     if (plot_) write_picture(*plot_, camera_chart(heading, path, timeline));
@@ -71,6 +78,7 @@ class CameraFiles {
 
  private:
   std::optional<std::string> folder_, table_, plot_, coverage_;
+  MadeFolder made_;
 };
 
 }  // namespace

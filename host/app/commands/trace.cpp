@@ -255,8 +255,8 @@ int run_trace(const Options& options) {
   const std::vector<Trace>& traces = exposure.traces;
   const bool is_plain = !options.functions;
   const std::string what = options.pixel ? format("pixel {},{}", options.pixel->first, options.pixel->second)
-                                         : format("mean of {} pixels with mask value {}", traces.front().pixel_count,
-                                                  *options.tag);
+                                         : format("mean of {} pixels with {}mask value {}", traces.front().pixel_count,
+                                                  options.feather ? "a share of " : "", *options.tag);
   const std::string title = format("{}, {}", input, what);
   if (output && is_table_name(*output)) {
     write_text(*output, steps_csv(exposure));

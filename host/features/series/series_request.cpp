@@ -41,11 +41,12 @@ bool ends_within(const ExposureRequest& request, const StatedTime& start, const 
   // Functions end with the capture: their last step down may lie 1 ns behind it.
   if (plain == nullptr)
     return moment_ns(start, timeline) + functions_end_ns(request) <= end_ns + 1;
-  if (!plain->length.counts_samples())
-    return plain_interval(start, plain->length, timeline).end_ns <= end_ns;
   // plain_interval() throws where pictures are counted that are not there.
-  const std::uint64_t first = sample_at(moment_ns(start, timeline), timeline);
-  return first + static_cast<std::uint64_t>(plain->length.number.numerator) <= timeline.sample_count();
+  if (plain->length.counts_samples()) {
+    const std::uint64_t first = sample_at(moment_ns(start, timeline), timeline);
+    if (first + static_cast<std::uint64_t>(plain->length.number.numerator) > timeline.sample_count()) return false;
+  }
+  return plain_interval(start, plain->length, timeline).end_ns <= end_ns;
 }
 
 }  // namespace
@@ -53,9 +54,11 @@ bool ends_within(const ExposureRequest& request, const StatedTime& start, const 
 std::vector<StatedTime> starts_of(const SeriesRequest& series, const ExposureRequest& request,
                                   const Timeline& of_capture) {
   const Timeline& timeline = of_capture.pictures();
+  const std::string_view delayed = request.delay ? "with all its delays " : "";
   if (!starts_within(request.start, request, timeline)) {
-    throw UsageError(format("the series starts at {}, behind the end of the capture at {}",
-                            duration_text(moment_ns(request.start, timeline)), duration_text(timeline.duration_ns())));
+    throw UsageError(format("the series starts at {}, {}behind the end of the capture at {}",
+                            duration_text(moment_ns(request.start, timeline)), delayed,
+                            duration_text(timeline.duration_ns())));
   }
   if (series.every.number.numerator <= 0)
     throw UsageError(format("exposures that are {} apart are no series", series.every.text()));
@@ -66,8 +69,8 @@ std::vector<StatedTime> starts_of(const SeriesRequest& series, const ExposureReq
     if (series.count && !starts_within(next, request, timeline)) {
       const bool counts = next.counts_samples();
       throw UsageError(
-          format("exposure {} of the series would start at {}, behind the end of the capture{}", k,
-                 counts ? next.text() : duration_text(next.nanoseconds()),
+          format("exposure {} of the series would start at {}, {}behind the end of the capture{}", k,
+                 counts ? next.text() : duration_text(next.nanoseconds()), counts ? "" : delayed,
                  counts ? format(", which has {} pictures", timeline.sample_count())
                         : format(" at {}", duration_text(timeline.duration_ns()))),
           Advice{format("; `count {}` at most", k)});

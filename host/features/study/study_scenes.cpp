@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::uint64_t kLooks = 48;
 constexpr std::uint32_t kMaxSide = 240;  // of what is looked at
-// An end of a dissolve is so many times shorter than its middle, where neither scene has most of the texture. Measured:
-// a fifth of its pictures or less before and behind the middle.
+// Between two scenes that were found lies the middle of a dissolve, where neither has most of the texture. Before and
+// behind it the dissolve goes on, for one in so many of the middle's pictures at most. Measured: a fifth or less of all.
 constexpr std::uint64_t kEndOfMiddle = 4;
 
 using Raster = std::vector<std::byte>;

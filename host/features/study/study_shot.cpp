@@ -97,9 +97,11 @@ class ShotPlanner {
   }
 
   // What plan_all() makes of a shot. If nothing rests in that, or its dark beginning shows another scene, its pictures
-  // may be those of several scenes that no cut parts: then the longest of them that makes a study.
+  // may be those of several scenes that no cut parts: then the longest of them that makes a study. Moments that were
+  // stated are those of all of it.
   [[nodiscard]] PlannedStudy or_scene(const SourceRequest& source, SampleRange shot, bool has_several,
                                       const std::function<PlannedStudy()>& plan_all) const {
+    if (!std::holds_alternative<std::uint32_t>(request_.moments)) return plan_all();
     std::optional<PlannedStudy> planned;
     std::exception_ptr refusal;
     const auto try_all = [&] {
@@ -119,7 +121,8 @@ class ShotPlanner {
         const bool is_enough = kMinOfSamples * made.part->size() >= shot.size();
         if (is_enough && made.study.moving_share <= kMaxMoving && (!scene || !made.study.falls_short))
           scene = std::move(made);
-      } catch (const EverythingMoves&) {
+      } catch (const Error& error) {
+        if (!is_refusal(error)) throw;
       }
     }
     if (scene) {
@@ -313,7 +316,7 @@ class ShotPlanner {
         return study;
       } catch (const CannotAlign& error) {
         if (reason.empty()) reason = error.what();
-        motion = error.motion;  // what no less explains
+        motion = error.motion;  // by which most pictures were found
         const std::uint64_t failed = part.first + error.picture.value_or(0);
         if (error.picture && failed > reference && 2 * (failed - part.first) >= part.size()) {
           part.last = failed;

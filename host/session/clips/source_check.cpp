@@ -49,14 +49,18 @@ SourceCheck compare_with_source(tik::Reader& capture, SourceRequest clip, const 
   if (!clip.clip.white_code && wanted.code_bytes == 2) clip.clip.white_code = wanted.white_code;
   if (const auto& aligned = capture.header().alignment; aligned && !clip.align)
     clip.align = same_alignment(*aligned);
-  clip.between.reset();  // of what the capture has, filmed samples are compared
+  clip.between.reset();  // only samples that were filmed are compared
   const std::uint64_t pictures = made ? made->after.size() : sample_count;
-  if (const auto& part = capture.header().part; part && !clip.clip.from) {
-    clip.clip.from = ClipMoment{static_cast<std::int64_t>(part->first), true};
-    if (!clip.clip.to) clip.clip.to = ClipMoment{static_cast<std::int64_t>(part->first + pictures), true};
-  }
+  const auto& part = capture.header().part;
+  const bool is_part = part && !clip.clip.from;
+  if (is_part) clip.clip.from = ClipMoment{static_cast<std::int64_t>(part->first), true};
   if (!clip.clip.crop) clip.clip.crop = crop_told(capture.header().facts);
-  const ClipSource source = open_clip_source(clip, memory);
+  ClipSource source = open_clip_source(clip, memory);
+  if (is_part && clip.align && !clip.clip.to && source.capture.shape != wanted.shape) {
+    // The crop of aligned pictures follows from where the part ends. One that was cut off ended later.
+    clip.clip.to = ClipMoment{static_cast<std::int64_t>(part->first + pictures), true};
+    source = open_clip_source(clip, memory);
+  }
   if (source.capture.shape != wanted.shape || source.capture.code_bytes != wanted.code_bytes ||
       source.capture.white_code != wanted.white_code) {
     throw InputError(format("{} is not what the capture was made from: it has {}, the capture {}", name,
