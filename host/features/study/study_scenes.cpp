@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint64_t kLooks = 48;
 constexpr std::uint32_t kMaxSide = 240;  // of what is looked at
 // Between two scenes that were found lies the middle of a dissolve, where neither has most of the texture. Before and
-// behind it the dissolve goes on, for one in so many of the middle's pictures at most. Measured: a fifth or less of all.
+// behind it the dissolve goes on, for one in so many of the middle's pictures at most. Measured: for a fifth of all.
 constexpr std::uint64_t kEndOfMiddle = 4;
 
 using Raster = std::vector<std::byte>;
