@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "opencl/cache_folder.hpp"
 #include "support/messages.hpp"
@@ -50,7 +51,7 @@ TEST_F(Drivers, VerdictsAreShown) {
   expect_says(run({"devices"}).out, "self-test: single not tested yet");
   ASSERT_EQ(expose({"clip.tik", "right.png"}).status, 0);
   expect_says(run({"devices"}).out, "self-test: single right");
-  const json right = json::parse(run({"devices", "--json"}).out)["devices"][0]["arithmetics"];
+  const auto right = nlohmann::json::parse(run({"devices", "--json"}).out)["devices"][0]["arithmetics"];
   EXPECT_EQ(right[0]["precision"], "single");
   EXPECT_EQ(right[0]["is_right"], true);
   EXPECT_EQ(right[1]["is_right"], nullptr);
