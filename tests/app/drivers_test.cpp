@@ -11,6 +11,8 @@
 #include "support/still_clip.hpp"
 
 namespace nutik::test {
+using nlohmann::json;
+
 namespace {
 
 class Drivers : public testing::Test {
@@ -51,7 +53,7 @@ TEST_F(Drivers, VerdictsAreShown) {
   expect_says(run({"devices"}).out, "self-test: single not tested yet");
   ASSERT_EQ(expose({"clip.tik", "right.png"}).status, 0);
   expect_says(run({"devices"}).out, "self-test: single right");
-  const auto right = nlohmann::json::parse(run({"devices", "--json"}).out)["devices"][0]["arithmetics"];
+  const json right = json::parse(run({"devices", "--json"}).out)["devices"][0]["arithmetics"];
   EXPECT_EQ(right[0]["precision"], "single");
   EXPECT_EQ(right[0]["is_right"], true);
   EXPECT_EQ(right[1]["is_right"], nullptr);
