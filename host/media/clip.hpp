@@ -63,8 +63,8 @@ struct ClipInfo {
   std::optional<ClipSound> sound = std::nullopt;  // none: it has none
   bool holds_light = false;  // its files do: codes are the nearest ones
   CodeRoundings roundings = {};  // by which codes were made
-  // Of a capture that is read as a clip: samples between its pictures, which are read like them. Times, and what a part
-  // counts, are those of the pictures.
+  // Samples between the pictures of a capture that is read as a clip; they are read like pictures. Times, and what a
+  // part counts, are those of the pictures.
   std::optional<Shared<MadeSamples>> made = std::nullopt;
 
   [[nodiscard]] std::uint64_t picture_count() const { return made ? (*made)->after.size() : sample_count; }

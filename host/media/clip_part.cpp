@@ -221,7 +221,7 @@ class ClipPart final : public Clip {
     if (count > 0) info_.sample_count = end_ - first_;
   }
 
-  // Of samples that were made those between two pictures of the part; from here on it counts both.
+  // Keeps the samples that were made between two pictures of the part; from here on it counts both.
   void keep_made(MadeSamples made) {
     made.after.resize(end_);
     made.after.back() = 0;
