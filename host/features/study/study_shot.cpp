@@ -138,32 +138,6 @@ class ShotPlanner {
     return std::move(*planned);
   }
 
- private:
-  [[nodiscard]] static SourceRequest part_of(SourceRequest source, SampleRange part) {
-    source.clip.from = picture(part.first);
-    source.clip.to = picture(part.last);
-    return source;
-  }
-
-  // Plans a shot without the dark beginning that it may have.
-  [[nodiscard]] PlannedStudy plan_bright(const SourceRequest& clip, SampleRange shot,
-                                         const Beginning& beginning) const {
-    const bool is_without = beginning.dark > 0 && shot.size() >= beginning.dark + kMinSamples;
-    const SampleRange part{shot.first + (is_without ? beginning.dark : 0), shot.last};
-    const SourceRequest source = part_of(clip, part);
-    std::optional<PlannedStudy> moved = beginning.moves ? plan_moved(source) : std::nullopt;
-    PlannedStudy planned = moved ? std::move(*moved) : plan(source, open(source));
-    if (!planned.part) planned.part = part;
-    if (is_without) {
-      planned.notes.emplace_back(format("the first pictures are darker than most behind them, and those before {} were "
-                                        "left out: all others are exposed as the first one",
-                                        part.first),
-                                 std::vector{Setting::from});
-    }
-    return planned;
-  }
-
- public:
   // Plans what the camera moved in, without reading it as it was filmed. Nothing where it is no single shot that can be
   // moved onto the first picture.
   [[nodiscard]] std::optional<PlannedStudy> plan_moved(const SourceRequest& source) const {
@@ -231,6 +205,30 @@ class ShotPlanner {
   }
 
  private:
+  [[nodiscard]] static SourceRequest part_of(SourceRequest source, SampleRange part) {
+    source.clip.from = picture(part.first);
+    source.clip.to = picture(part.last);
+    return source;
+  }
+
+  // Plans a shot without the dark beginning that it may have.
+  [[nodiscard]] PlannedStudy plan_bright(const SourceRequest& clip, SampleRange shot,
+                                         const Beginning& beginning) const {
+    const bool is_without = beginning.dark > 0 && shot.size() >= beginning.dark + kMinSamples;
+    const SampleRange part{shot.first + (is_without ? beginning.dark : 0), shot.last};
+    const SourceRequest source = part_of(clip, part);
+    std::optional<PlannedStudy> moved = beginning.moves ? plan_moved(source) : std::nullopt;
+    PlannedStudy planned = moved ? std::move(*moved) : plan(source, open(source));
+    if (!planned.part) planned.part = part;
+    if (is_without) {
+      planned.notes.emplace_back(format("the first pictures are darker than most behind them, and those before {} were "
+                                        "left out: all others are exposed as the first one",
+                                        part.first),
+                                 std::vector{Setting::from});
+    }
+    return planned;
+  }
+
   [[nodiscard]] ReportedProgress progress(const std::string& what) const {
     return terms_.progress ? terms_.progress(what) : ReportedProgress();
   }
