@@ -126,7 +126,8 @@ class PathSearch {
     CameraPath& path = tried.path;
     const std::uint64_t number = path.pictures.size();
     // A fast camera is nearer to where it was just before.
-    if (!is_sure(picture) && number > 0) picture = registrar.find(raster, path.motion, path.pictures.back().warp);
+    if (!is_sure(picture) && number > 0 && path.pictures.back().warp != tried.guess)
+      picture = registrar.find(raster, path.motion, path.pictures.back().warp);
     if (!is_sure(picture)) throw not_alike(clip_, asked_, path.motion, number, picture);
     if ((number + 1) % kPicturesAtOnce == 0) tried.guess = picture.warp;
     if (number == clip_.reference) picture.warp = Warp();  // itself

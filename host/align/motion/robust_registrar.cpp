@@ -9,9 +9,7 @@
 #include <cstring>
 #include <memory>
 #include <mutex>
-#include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
-#include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <span>
@@ -21,6 +19,7 @@
 #include <vector>
 
 #include "align/flow.hpp"
+#include "align/motion/feature_start.hpp"
 #include "align/motion/grey_pyramid.hpp"
 #include "align/registrar.hpp"
 #include "capture/error.hpp"
@@ -51,6 +50,8 @@ constexpr int kFirstSteps = 3;  // of a fit, in which nothing is excluded yet; a
 constexpr int kMaxSteps = 25;
 constexpr double kSettledPixels = 0.002;
 constexpr double kRoughlySettled = 0.05;  // pixels of a level that a finer one follows
+constexpr int kHopefulSteps = 8;          // after which a fit to the finest level has to promise as much as kHopeful
+constexpr double kHopeful = 0.4;          // of the texture
 
 struct Level {
   int number = 0;     // its pixels are 2^number of the picture's
@@ -187,60 +188,6 @@ struct Sampled {
 
 using Parts = std::array<std::vector<double>, kPartsToASide * kPartsToASide>;
 
-// About where a picture lies, by matched features: from any distance, to a pixel or so.
-class FeatureStart {
- public:
-  // A pixel of `reference` is `scale` pixels of the original.
-  FeatureStart(const cv::Mat& reference, double scale) : scale_(scale) {
-    detector_->detectAndCompute(reference, cv::noArray(), points_, descriptors_);
-  }
-
-  // Finds a picture of the same size that was moved and turned, not scaled. Nothing where too few features agree.
-  [[nodiscard]] std::optional<Warp> find(const cv::Mat& picture) {
-    constexpr float kMaxAlike = 0.8F;
-    constexpr int kMinAgreeing = 12;
-    constexpr double kAgreeingPixels = 3;
-    std::vector<cv::KeyPoint> points;
-    cv::Mat descriptors;
-    detector_->detectAndCompute(picture, cv::noArray(), points, descriptors);
-    if (descriptors.empty() || descriptors_.empty()) return std::nullopt;
-    std::vector<std::vector<cv::DMatch>> matches;
-    cv::BFMatcher(cv::NORM_L2).knnMatch(descriptors_, descriptors, matches, 2);
-    std::vector<cv::Point2d> from, to;
-    for (const std::vector<cv::DMatch>& two : matches) {
-      // Only what looks like nothing else nearly as much.
-      if (two.size() < 2 || two[0].distance > kMaxAlike * two[1].distance) continue;
-      const cv::DMatch& match = two[0];
-      from.push_back(scale_ * cv::Point2d(points_[static_cast<std::size_t>(match.queryIdx)].pt));
-      to.push_back(scale_ * cv::Point2d(points[static_cast<std::size_t>(match.trainIdx)].pt));
-    }
-    if (from.size() < kMinAgreeing) return std::nullopt;
-    std::vector<unsigned char> agrees;
-    const cv::Mat similar = cv::estimateAffinePartial2D(from, to, agrees, cv::RANSAC, scale_ * kAgreeingPixels);
-    if (similar.empty() || cv::countNonZero(agrees) < kMinAgreeing) return std::nullopt;
-    // Its scale is left out, about the middle of what agrees.
-    const double a = similar.at<double>(0, 0), b = similar.at<double>(1, 0), size = std::hypot(a, b);
-    cv::Point2d from_middle, to_middle;
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      if (agrees[i] == 0) continue;
-      from_middle += from[i];
-      to_middle += to[i];
-    }
-    from_middle *= 1.0 / cv::countNonZero(agrees);
-    to_middle *= 1.0 / cv::countNonZero(agrees);
-    const double c = a / size, s = b / size;
-    return Warp{{c, -s, to_middle.x - c * from_middle.x + s * from_middle.y, s, c,
-                 to_middle.y - s * from_middle.x - c * from_middle.y, 0, 0, 1}};
-  }
-
- private:
-  static constexpr int kFeatures = 1500;
-  cv::Ptr<cv::SIFT> detector_ = cv::SIFT::create(kFeatures);
-  std::vector<cv::KeyPoint> points_;
-  cv::Mat descriptors_;
-  double scale_;
-};
-
 class RobustRegistrar final : public Registrar {
  public:
   RobustRegistrar(const CaptureFormat& format, std::span<const std::byte> reference) : format_(format) {
@@ -323,7 +270,8 @@ class RobustRegistrar final : public Registrar {
     // Eight numbers may follow what moves from where three are led to what rests.
     const Registered simpler = best_of(pyramid, guess, reach, coarse, coarse);
     if (simpler.agreeing <= best.agreeing) return best;
-    return more_agreeing(simpler, fit(pyramid, simpler.warp, 1, frame, coarse));
+    std::vector<Entry> entries;
+    return more_agreeing(simpler, fit(pyramid, simpler.warp, 1, frame, coarse, entries));
   }
 
   // In which parts the second of two motions predicts better than the first what the picture shows, where each is
@@ -350,16 +298,17 @@ class RobustRegistrar final : public Registrar {
 
   [[nodiscard]] Registered best_of(const GreyPyramid& pyramid, const Warp& guess, Reach reach, const Frame& fine,
                                    const Frame& coarse) {
-    Registered best = fit(pyramid, guess, levels_.size(), fine, coarse);
+    std::vector<Entry> entries;
+    Registered best = fit(pyramid, guess, levels_.size(), fine, coarse, entries);
     // Fine texture is seen on no coarser level, where what moves may be all there is.
     for (const std::size_t levels : {kFineLevels, std::size_t{1}}) {
-      if (!is_sure(best)) best = more_agreeing(best, fit(pyramid, guess, levels, fine, coarse));
+      if (!is_sure(best)) best = more_agreeing(best, fit(pyramid, guess, levels, fine, coarse, entries));
     }
     if (is_sure(best) || reach == Reach::near) return best;
     const std::scoped_lock lock(features_mutex_);
     if (!features_) features_.emplace(reference_, pyramid.feature_scale());
     const auto start = features_->find(pyramid.of_features());
-    return start ? more_agreeing(best, fit(pyramid, *start, kFineLevels, fine, coarse)) : best;
+    return start ? more_agreeing(best, fit(pyramid, *start, kFineLevels, fine, coarse, entries)) : best;
   }
 
   static const Registered& more_agreeing(const Registered& first, const Registered& second) {
@@ -390,11 +339,36 @@ class RobustRegistrar final : public Registrar {
     }
   }
 
+  // By how many pixels two warps differ at the picture's corners.
+  [[nodiscard]] double apart(const Warp& a, const Warp& b) const {
+    const double right = format_.shape.width - 1.0, bottom = format_.shape.height - 1.0;
+    double most = 0;
+    for (const Place& corner : {Place{0, 0}, {right, 0}, {0, bottom}, {right, bottom}}) {
+      const Place one = a.at(corner.x, corner.y), other = b.at(corner.x, corner.y);
+      most = std::max(most, std::hypot(one.x - other.x, one.y - other.y));
+    }
+    return most;
+  }
+
+  // From where a fit came to a level, led by a coarser one.
+  struct Entry {
+    std::size_t level;
+    Warp warp;
+  };
+
+  // Where an earlier fit came from the same place, this one would go the same way: nothing agrees then.
   [[nodiscard]] Registered fit(const GreyPyramid& pyramid, const Warp& guess, std::size_t levels, const Frame& fine,
-                               const Frame& coarse) const {
+                               const Frame& coarse, std::vector<Entry>& entries) const {
     Fit fit{guess, 1, 0};
     bool is_first = true;
     for (std::size_t i = std::min(levels, levels_.size()); i-- > 0;) {
+      if (!is_first) {
+        const double alike = kRoughlySettled * levels_[i + 1].scale();
+        for (const Entry& entry : entries) {
+          if (entry.level == i && apart(entry.warp, fit.warp) <= alike) return {guess, 0, 0};
+        }
+        entries.push_back({i, fit.warp});
+      }
       const bool is_fine =
           i == 0 || (i == 1 && levels_[i].size.height >= 100 && levels_[i].size.width >= 100);
       Fit settled = fit;
@@ -482,18 +456,28 @@ class RobustRegistrar final : public Registrar {
     return median(brighter);
   }
 
-  // Until a step moves the corners by no more than `enough` pixels of the picture. False where the picture shows too
-  // little of the reference, or the fit leads nowhere.
-  static bool settle(const Level& level, const cv::Mat& grey, const Frame& frame, int first_steps,
-                     double enough, Fit& fit) {
+  // Whether enough of the texture may agree after some more steps. Each gains less than the one before it.
+  [[nodiscard]] static bool is_hopeful(std::span<const double> shares, int steps) {
+    const double last = shares.back(), gain = (last - shares[shares.size() - 3]) / 2;
+    return last + steps * std::max(gain, 0.0) >= kHopeful;
+  }
+
+  // Until a step moves the corners by no more than `enough` pixels of the picture, or hope is gone. False where the
+  // picture shows too little of the reference, or the fit leads nowhere.
+  bool settle(const Level& level, const cv::Mat& grey, const Frame& frame, int first_steps, double enough,
+              Fit& fit) const {
     const std::size_t motion = frame.count(), count = motion + 2;  // brightness has two numbers
     const double per_radius = frame.radius() / level.scale();
-    std::vector<double> sizes;
+    std::vector<double> sizes, shares;
     for (int step = 0; step < kMaxSteps; ++step) {
       const std::vector<Sampled> seen = sampled(level, grey, fit.warp);
       if (seen.empty()) return false;
       sizes.clear();
       for (const Sampled& sample : seen) sizes.push_back(std::abs(residual(sample, fit)));
+      if (&level == &levels_.front() && step >= kHopefulSteps - 2) {
+        shares.push_back(agreeing(level, away_from(seen, fit)));
+        if (step >= kHopefulSteps && !is_hopeful(shares, kMaxSteps - 1 - step)) break;
+      }
       const double limit = kTukey * std::max(kMinSigma, 1.4826 * median(sizes));
       NormalEquations equations(count);
       Row slopes{};
@@ -529,16 +513,24 @@ class RobustRegistrar final : public Registrar {
     return true;
   }
 
+  // How far each lies from where a fit says, in pixels of the level.
+  [[nodiscard]] static std::vector<double> away_from(const std::vector<Sampled>& seen, const Fit& fit) {
+    std::vector<double> away;
+    for (const Sampled& sample : seen)
+      away.push_back(std::abs(residual(sample, fit)) / (fit.gain * gradient_of(*sample.point)));
+    return away;
+  }
+
+  [[nodiscard]] static double agreeing(const Level& level, std::span<const double> away) {
+    const auto agree = std::ranges::count_if(away, [&](double each) { return each <= level.agreeing(); });
+    return static_cast<double>(agree) / static_cast<double>(away.size());
+  }
+
   [[nodiscard]] static Registered judged(const Level& level, const cv::Mat& grey, const Fit& fit) {
     const std::vector<Sampled> seen = sampled(level, grey, fit.warp);
     if (seen.empty()) return {fit.warp, 0, 0};
-    std::vector<double> away;
-    std::size_t agreeing = 0;
-    for (const Sampled& sample : seen) {
-      away.push_back(std::abs(residual(sample, fit)) / (fit.gain * gradient_of(*sample.point)));
-      agreeing += away.back() <= level.agreeing() ? 1 : 0;
-    }
-    const double share = static_cast<double>(agreeing) / static_cast<double>(seen.size());
+    std::vector<double> away = away_from(seen, fit);
+    const double share = agreeing(level, away);
     return {fit.warp, share, level.scale() * median(away)};
   }
 
