@@ -39,6 +39,8 @@ TEST_F(BetweenPictures, AreMarkedWhereverTheyAreTold) {
   EXPECT_EQ(info["samples"], 25);
   EXPECT_EQ(info["made_samples"]["after"], (std::vector<int>{7, 7, 7, 0}));
   expect_says(run("info all.tik").out, "21 samples made along the motion between 4 filmed");
+  make("--between off --start 0s --exposure 50ms all.tik off.png");  // which asks for nothing
+  expect_refused("--between auto --start 0s --exposure 50ms all.tik off.png", 2, "--between describes a clip");
   expect_says(make("validate --runs 1 --start 0f --exposure 1f --source frames all.tik").out,
               {"frames: held exactly; ", "; 21 samples made between its pictures not compared"});
   const Words trace("trace --pixel 50,40 --start 0s --exposure 200ms all.tik");

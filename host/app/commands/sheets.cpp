@@ -204,7 +204,9 @@ int run_sweep(const Options& options) {
   for (const std::filesystem::path& single : singles)
     check_picture_output(single, shape.channels, job.inputs(), replacing(options));
   const std::string what = counted(points.size(), "picture");
-  sheet.heading = job.heading(format("{}, {}", label, what));
+  const std::string shown =
+      options.functions ? label : format("{} from {} on", options.text("exposure"), options.text("start", "0s"));
+  sheet.heading = job.heading(format("{}, {}", shown, what));
   sheet.mask = mask_of(request, shape);
   sheet.plan = plan_options_of(request, shape);
   Json json = Json::array();

@@ -18,7 +18,8 @@ namespace {
 // A .tik was described when it was made.
 void refuse_source_options(const Options& options, const std::string& capture) {
   for (const Option& option : schema()) {
-    if (!option.describes_clip() || !option.is_in(options)) continue;
+    const bool is_off = option.setting == Setting::between && !options.source.between;
+    if (!option.describes_clip() || !option.is_in(options) || is_off) continue;
     throw UsageError(format("{} describes a clip that is encoded; {} was encoded already. {}", option.name(),
                             capture,
                             option.is_of(CommandId::retime)

@@ -337,7 +337,7 @@ constexpr Option kRows[] = {
      "pictures beside each other (default: as many as look well)"}),
     known(Setting::width, {0, "width", "PIXELS", series, kMakesSheets,
      take_whole<In<&Options::width>, 100, plot::kLargestSide>,
-     "width of the whole sheet (default: up to 1600, no picture enlarged)"}),
+     "width of the whole sheet (default: up to 1600, no picture enlarged beyond 96)"}),
     {0, "each", "NAME%02d.png", output, bit(Id::sweep), take<In<&Options::each>>,
      "also write every picture in full size: numbered from 0"},
 

@@ -158,7 +158,7 @@ void write_npy_layers(OutputFile& file, std::span<const PictureLayer> layers) {
 constinit const inputs::InputKind inputs::kNumpy{
     .name = "NumPy", .starts = {kMagic}, .extensions = " .npy ",
     .said = {"none", "none", "integers as stored, white 255 or 65535; floats as of OpenEXR", "none", "none",
-             "its first axis, if it has three, or four with colour"},
+             "its first axis of four, or of three whose last is not 3"},
     .has_tags = true, .read = read_npy, .places = numbers_of_pictures,
     .written = {{.extension = ".npy", .holds_light = true, .holds_double = true, .write = write_npy,
                  .write_layers = write_npy_layers}}};
