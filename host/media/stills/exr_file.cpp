@@ -219,8 +219,8 @@ std::vector<std::string> channels_of(const Imf::Header& header) {
   throw InputError(format("its channels are {}; R, G and B, or one of grey, are read, transparency is not", all));
 }
 
-std::optional<Primaries> named_primaries(const Imf::Header& header) {
-  if (!Imf::hasChromaticities(header)) return std::nullopt;
+NamedPrimaries named_primaries(const Imf::Header& header) {
+  if (!Imf::hasChromaticities(header)) return {};
   const Imf::Chromaticities& named = Imf::chromaticities(header);
   const auto at = [](const Imath::V2f& point) { return std::array{double{point.x}, double{point.y}}; };
   return primaries_at({at(named.red), at(named.green), at(named.blue), at(named.white)});
@@ -261,18 +261,22 @@ void write_exr_layers(OutputFile& file, std::span<const PictureLayer> layers) {
   write_file(file, header, buffer);
 }
 
-std::optional<Primaries> primaries_at(const std::array<std::array<double, 2>, 4>& points) {
+NamedPrimaries primaries_at(const std::array<std::array<double, 2>, 4>& points) {
   constexpr double kAgree = 5e-4;
-  for (int each = 0; each <= static_cast<int>(Primaries::ap1); ++each) {
-    const auto known = static_cast<Primaries>(each);
+  for (const Primaries known : all_primaries()) {
     double furthest = 0;
     for (std::size_t i = 0; i < 4; ++i) {
       const auto& [x, y] = chromaticities(known)[i];
       furthest = std::max({furthest, std::abs(x - points[i][0]), std::abs(y - points[i][1])});
     }
-    if (furthest < kAgree) return known;
+    if (furthest < kAgree) return {known, {}};
   }
-  return std::nullopt;
+  std::string at;
+  for (std::size_t i = 0; i < 4; ++i) {
+    constexpr const char* kNames[] = {"red", ", green", ", blue", ", white"};
+    at += format("{} at {:.6g} {:.6g}", kNames[i], points[i][0], points[i][1]);
+  }
+  return {std::nullopt, at};
 }
 
 ExrPicture read_exr(const std::filesystem::path& file) {
@@ -298,9 +302,8 @@ ExrPicture read_exr(const std::filesystem::path& file) {
       throw InputError(format("it states {} x {} pixels, which its {} bytes do not hold; it is damaged", width, height,
                               mapped.bytes().size()));
     }
-    ExrPicture read{Picture(shape, ValueType::light32, 0), named_primaries(header), false,
+    ExrPicture read{Picture(shape, ValueType::light32, 0), named_primaries(header),
                     double{header.pixelAspectRatio()}};
-    read.names_others = Imf::hasChromaticities(header) && !read.primaries;
     constexpr std::size_t kValue = sizeof(float);
     const std::size_t pixel = kValue * names.size(), row = pixel * shape.width;
     // OpenEXR counts from its own corner, and adds what is before it.

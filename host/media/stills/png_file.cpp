@@ -90,6 +90,12 @@ constexpr int kDeflateLevel = 1, kZlibLevel = 2;
 constexpr std::uint64_t kMostAtOnce = 64 << 20;
 
 // What codes stand for: in cICP, which this libpng has no function for, and in older chunks or a profile.
+// What cICP names it by, whose primaries go before those of other chunks.
+std::optional<std::uint8_t> named_transfer(const Picture& picture) {
+  const bool are_named = picture.shape.channels == 1 || coding_point(picture.primaries) != kUnnamedPrimaries;
+  return picture.transfer && are_named ? coding_point(*picture.transfer) : std::nullopt;
+}
+
 void set_meaning(png_structp png, png_infop info, const Picture& picture) {
   if (picture.pixel_aspect != Rational{1, 1}) {
     // Pixels for the same length, of no unit: the wider a pixel, the fewer.
@@ -103,17 +109,20 @@ void set_meaning(png_structp png, png_infop info, const Picture& picture) {
   } else if (transfer.is_linear() || transfer.kind() == Transfer::Kind::gamma) {
     png_set_gAMA(png, info, std::log(transfer.fraction_of(0.5)) / std::log(0.5));
     const auto& xy = chromaticities(picture.primaries);
-    png_set_cHRM(png, info, xy[3][0], xy[3][1], xy[0][0], xy[0][1], xy[1][0], xy[1][1], xy[2][0], xy[2][1]);
+    const auto is_seen = [](const auto& at) { return at[0] >= 0 && at[1] >= 0 && at[0] + at[1] <= 1; };
+    // Libpng refuses others.
+    if (std::ranges::all_of(xy, is_seen))
+      png_set_cHRM(png, info, xy[3][0], xy[3][1], xy[0][0], xy[0][1], xy[1][0], xy[1][1], xy[2][0], xy[2][1]);
   }
   const bool has_older_chunks = png_get_valid(png, info, PNG_INFO_cHRM) != 0;
-  if (coding_point(transfer) && has_older_chunks) return;
+  if (named_transfer(picture) && has_older_chunks) return;
   const std::vector<std::byte> profile = colour_profile(picture);
   png_set_iCCP(png, info, "ICC", PNG_COMPRESSION_TYPE_BASE, reinterpret_cast<png_const_bytep>(profile.data()),
                static_cast<png_uint_32>(profile.size()));
 }
 
 void write_coding_points(png_structp png, const Picture& picture) {
-  const auto transfer = picture.transfer ? coding_point(*picture.transfer) : std::nullopt;
+  const auto transfer = named_transfer(picture);
   if (!transfer) return;
   constexpr png_byte kRgb = 0, kFullRange = 1;
   const std::array<png_byte, 4> points{coding_point(picture.primaries), *transfer, kRgb, kFullRange};

@@ -213,8 +213,8 @@ Still read_dng_still(const Page& page, Reading& reading) {
 Still read_exr_still(const Page& page, Reading& reading) {
   const ExrPicture read = read_exr(page.file);
   Still still = still_of_light(read.light, reading, page);
-  still.primaries = read.primaries;
-  if (read.names_others) still.unread_primaries = kOtherPrimaries;
+  still.primaries = read.primaries.known;
+  still.unread_primaries = read.primaries.unread;
   still.pixel_aspect = aspect_of(1, read.pixel_aspect);
   return still;
 }
@@ -336,25 +336,26 @@ class StillClip final : public Clip {
  private:
   Still read(const Page& page) { return read_still(page, reading_); }
 
-  // A profile was made for these codes: what it says and is not known here would be right.
+  // A profile or primaries were meant for these codes: what they say and is not known here would be right.
   void add_unread_colours(const ClipOptions& options) {
-    const bool is_colour = first_.shape.channels > 1;
-    if (first_.profile.empty()) return;
+    const bool has_profile = !first_.profile.empty();
     std::vector<Setting> open;
-    if (!first_.transfer && !options.transfer) open.push_back(Setting::transfer);
-    if (is_colour && !first_.primaries && !options.primaries) open.push_back(Setting::primaries);
+    if (has_profile && !first_.transfer && !options.transfer) open.push_back(Setting::transfer);
+    if (first_.shape.channels > 1 && !first_.unread_primaries.empty() && !options.primaries)
+      open.push_back(Setting::primaries);
     if (open.empty()) return;
     const bool are_both = open.size() == 2, is_transfer = open.front() == Setting::transfer;
     info_.notes.emplace_back(
-        format("{} says what the codes stand for, and its {} known here: what is usual "
-               "is taken, and colours are wrong by what it differs; state what comes nearest",
-               first_.profile,
-               are_both      ? "curves and primaries are none that are"
-               : is_transfer ? "curves are none that are"
-                             : "primaries are none that are"),
+        format("{} are none that are known here: what is usual is taken, and colours are wrong by what it differs; {}"
+               "state what comes nearest",
+               what, has_profile ? "magick IN -profile sRGB.icc OUT makes pictures of known ones; or " : ""),
         std::move(open));
   }
 
+    const std::string what =
+        has_profile ? format("{} says what the codes stand for, and its {}", first_.profile,
+                             are_both ? "curves and primaries" : is_transfer ? "curves" : "primaries")
+                    : format("the file's primaries, {},", first_.unread_primaries);
   // What the description of the first TIFF says of times, and of pictures that are not there.
   void add_story(std::size_t files) {
     const TiffStory& story = reading_.story;
